@@ -1,0 +1,23 @@
+# The core: C++17 and Eigen, no ROS. Shared by the package and by the project in test/.
+set(HGRID_CORE_SOURCES
+  src/refusal.cpp
+  src/geometry/aabb.cpp
+  src/geometry/pose.cpp
+  src/geometry/segment.cpp
+  src/geometry/shape.cpp
+  src/geometry/sphere.cpp
+  src/broadphase/hgrid.cpp
+  src/scene/link_matrix.cpp
+  src/scene/name.cpp
+  src/scene/pair_filter.cpp
+  src/scene/pair_tracker.cpp
+  src/scene/robot_model.cpp
+  src/scene/scene.cpp
+  src/scene/snapshot.cpp
+)
+set(HGRID_ADAPTER_SOURCES
+  src/adapters/mesh.cpp
+  src/adapters/resource.cpp
+  src/adapters/srdf.cpp
+  src/adapters/urdf.cpp
+)

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <optional>
+
+#include "hgrid_proximity/geometry/aabb.h"
+
+namespace hgrid {
+
+/// A segment [m] in the coordinates of the boxes that it is asked about, swept by a ball of `radius`:
+/// 0 is a thin ray, equal ends are a ball.
+struct Segment {
+  Eigen::Vector3d from = Eigen::Vector3d::Zero();
+  Eigen::Vector3d to = Eigen::Vector3d::Zero();
+  double radius = 0.0;
+};
+
+/// How a segment meets a box.
+struct Meeting {
+  double along = 0.0;            ///< [m] from the segment's start to where its ball first touches the box
+  double axis_distance = 0.0;    ///< [m] least distance of the segment's axis from the box; 0: it goes through
+  Eigen::Vector3d point;         ///< [m] point of the box nearest to the axis
+};
+
+/// How the segment first touches the box, or nullopt if it does not.
+///
+/// Superset of the exact answer; an extra lies within 1e-9 * (|x| + r) of touching. The squared distance
+/// from a moving point to a box is a convex, piecewise quadratic function of the way; its at most six
+/// breaks are where the point crosses a face's plane, and each piece is solved in closed form.
+std::optional<Meeting> meet(const Segment& segment, const Aabb& box);
+
+}  // namespace hgrid

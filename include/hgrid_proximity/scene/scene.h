@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hgrid_proximity/scene/snapshot.h"
+
+namespace hgrid {
+
+/// All that a Scene can be told.
+struct SceneOptions {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m, world] boxes are stored relative to it
+  double margin = 0.10;                              ///< [m] boxes this close or closer are candidates, 0 .. 1e3
+  double finest_edge = 0.0;                          ///< [m] edge of the finest cells; 0: from the bodies
+  double world_limit = 1e6;                          ///< [m] poses beyond are refused, per axis
+  double growth_cap = 1.0;                           ///< [m] most that a stale body's margins are widened by
+  std::size_t max_bodies = 100000;
+  std::size_t max_reasons = 8;                       ///< reasons that a snapshot lists
+  std::uint64_t hash_seed = 0;
+  PairKinds pair_kinds;
+  std::vector<AllowedPattern> allowed_pairs;
+};
+
+/// Time a part of a tick took.
+struct TickTimes {
+  std::chrono::nanoseconds boxes{0}, grid{0}, pairs{0};
+};
+
+/// What the world consists of and where it is: the only writer. One thread at a time; the snapshots that it
+/// makes may be read by any.
+///
+/// Usage per tick: add, remove, place and setState as news come in, then commit().
+class Scene {
+ public:
+  explicit Scene(const SceneOptions& options);
+  ~Scene();
+  Scene(Scene&&) noexcept;
+
+  /// Takes in a body; it is unplaced until place() is called.
+  /// @throws Refusal dup_id, bad_id, limit, or out_of_range (padding, margin); then nothing has changed.
+  BodyId add(Body body);
+  /// @throws Refusal unknown_id if the handle is not (or no longer) valid.
+  void remove(BodyId id);
+  /// Handle of the body of this name, if there is one.
+  bool find(const std::string& name, BodyId& id) const;
+  /// @throws Refusal unknown_id
+  const Body& body(BodyId id) const;
+  std::size_t size() const;
+
+  /// Puts a body at a pose taken at `stamp`. Its state does not change.
+  /// @throws Refusal unknown_id, nonfinite, out_of_range; then it stays where it was.
+  void place(BodyId id, const Pose& world_from_body, Time stamp);
+  /// Says how far the body's pose can be trusted. `age` [s]; `cohort` as in BodyPose.
+  /// A body without a pose stays unplaced whatever is said.
+  void setState(BodyId id, Freshness state, double age, std::uint32_t cohort = 0);
+  /// Last known pose of a body.
+  const BodyPose& poseOf(BodyId id) const;
+
+  /// Makes the snapshot of now.
+  /// @param missing  sentences of what else is missing from the world (a robot without a model); each
+  ///                 makes it incomplete
+  std::shared_ptr<const Snapshot> commit(Time stamp, const std::vector<std::string>& missing);
+
+  /// A new epoch: sequence numbers start again and pairs forget since when they are near.
+  void beginEpoch(std::uint64_t epoch);
+
+  std::uint64_t revision() const;
+  const TickTimes& lastTimes() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace hgrid

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hgrid_proximity/broadphase/hgrid.h"
+#include "hgrid_proximity/scene/body.h"
+#include "hgrid_proximity/scene/pair_filter.h"
+#include "hgrid_proximity/scene/pair_tracker.h"
+
+namespace hgrid {
+
+/// What does not change while bodies move; snapshots of one revision share it.
+struct Structure {
+  std::uint64_t revision = 0;
+  std::vector<Body> bodies;                    ///< sorted by name
+  std::vector<BodyId> ids;                     ///< handle of each body
+  std::vector<std::uint32_t> first_proxy;      ///< proxies of body i: first_proxy[i] .. first_proxy[i + 1] - 1
+  std::vector<std::uint32_t> body_of_proxy;
+  std::vector<double> margin;                  ///< [m] of each body, at least the global one
+  double least_margin = 0.0;                   ///< [m] the global one
+  PairFilter filter;
+};
+
+/// Where a body is in a snapshot, and how far that can be trusted.
+struct BodyPose {
+  Pose world_from_body = Pose::Identity();     ///< meaningless while unplaced
+  Time stamp{0};                               ///< of the pose
+  Freshness state = Freshness::unplaced;
+  double age = 0.0;                            ///< [s] of the pose when the snapshot was made; 0 if fixed
+  double growth = 0.0;                         ///< [m] by which the body's margins are widened since it is stale
+  std::uint32_t cohort = 0;                    ///< bodies of one robot with equal numbers (not 0) are equally old
+};
+
+enum class Verdict : std::uint8_t { unknown = 0, clear = 1, hit = 2 };
+
+/// Which bodies a query is about, and how many hits it wants.
+struct QueryScope {
+  std::vector<std::string> include;            ///< globs over body names; empty: all
+  std::vector<std::string> exclude;            ///< globs over body names; beat include
+  std::uint32_t limit = 0;                     ///< most hits; 0: all
+};
+
+/// One body that a query met.
+struct QueryHit {
+  std::uint32_t body = 0;                      ///< index into Structure::bodies
+  std::uint32_t shape = 0;                     ///< index of the nearest (segment: first met) of its shapes
+  double distance = 0.0;                       ///< [m] from the query's surface to the body's box; 0 where they overlap
+  double center_distance = 0.0;                ///< [m] from the query's centre or axis to the body's box
+  double along = 0.0;                          ///< [m] segment only; NaN otherwise
+  Eigen::Vector3d point;                       ///< [m, world] point of the box nearest to centre or axis
+};
+
+/// What a query found. A verdict of unknown has a reason.
+struct QueryAnswer {
+  Verdict verdict = Verdict::unknown;
+  std::vector<QueryHit> hits;                  ///< by distance, center_distance, name; segment: by along, name
+  std::uint64_t total = 0;                     ///< bodies met; more than hits if there was a limit
+  std::string reason;                          ///< why nothing was found and it is still not clear
+};
+
+/// The world at one moment: immutable, read by any number of threads, alive as long as somebody holds it.
+/// Coordinates of queries are in the world frame [m].
+class Snapshot {
+ public:
+  const Structure& structure() const { return *structure_; }
+  Time stamp() const { return stamp_; }
+  std::uint64_t sequence() const { return sequence_; }
+  std::uint64_t epoch() const { return epoch_; }
+  /// Per body, in the order of structure().bodies.
+  const std::vector<BodyPose>& poses() const { return poses_; }
+  /// Per proxy, relative to origin(); meaningless for proxies of unplaced bodies.
+  const std::vector<Aabb>& boxes() const { return boxes_; }
+  const Eigen::Vector3d& origin() const { return origin_; }
+  /// Candidates after the filter, sorted by (first, second).
+  const std::vector<NearPair>& pairs() const { return pairs_; }
+  /// Whether every body is known, placed and covered, and none is lost, frozen or invalid.
+  bool complete() const { return reasons_total_ == 0; }
+  /// Why not, the worst first, at most as many as the scene was told to keep.
+  const std::vector<std::string>& reasons() const { return reasons_; }
+  std::uint32_t reasonsTotal() const { return reasons_total_; }
+  Freshness worstState() const { return worst_state_; }
+  /// [s] of the oldest pose of a moving body.
+  double maxAge() const { return max_age_; }
+  /// The broad phase; its boxes are those of the placed proxies, grown by their margins.
+  const HGrid& grid() const { return grid_; }
+
+  /// Bodies whose boxes the ball touches; the pair filter does not apply, padding counts, margins do not.
+  /// @throws Refusal nonfinite, bad_geometry (negative radius), out_of_range (beyond kQueryReach)
+  QueryAnswer query(const Sphere& sphere, const QueryScope& scope) const;
+  /// Bodies whose boxes the segment meets, in order along it; otherwise as above.
+  QueryAnswer query(const Segment& segment, const QueryScope& scope) const;
+
+  /// [m] queries may reach this far from the world's origin.
+  static constexpr double kQueryReach = 1e10;
+
+ private:
+  friend class Scene;
+  Snapshot() = default;
+  bool inScope(const QueryScope& scope, std::uint32_t body) const;
+  QueryAnswer finished(std::vector<QueryHit>& hits, const QueryScope& scope, bool by_along,
+                       const std::string& doubt) const;
+  std::string doubtOf(std::uint32_t body) const;
+
+  std::shared_ptr<const Structure> structure_;
+  Time stamp_{0};
+  std::uint64_t sequence_ = 0, epoch_ = 0;
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+  std::vector<BodyPose> poses_;
+  std::vector<Aabb> boxes_;
+  std::vector<NearPair> pairs_;
+  std::vector<std::string> reasons_;
+  std::uint32_t reasons_total_ = 0;
+  Freshness worst_state_ = Freshness::fresh;
+  double max_age_ = 0.0;
+  HGrid grid_;
+};
+
+}  // namespace hgrid
