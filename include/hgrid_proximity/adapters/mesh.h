@@ -14,11 +14,11 @@ namespace hgrid {
 
 /// How meshes are read.
 struct MeshPolicy {
-  std::string reader;                          ///< path of the helper executable proximity_mesh_reader
+  std::string reader;  ///< path of the helper executable proximity_mesh_reader
   ResourcePolicy resources;
   std::size_t max_triangles = 1000000;
-  std::chrono::milliseconds timeout{5000};     ///< per file; then the helper is killed
-  std::size_t max_memory = 512u << 20;         ///< [bytes] address space of the helper
+  std::chrono::milliseconds timeout{5000};  ///< per file; then the helper is killed
+  std::size_t max_memory = 512u << 20;      ///< [bytes] address space of the helper
 };
 
 /// Reads STL, DAE and OBJ files in a helper process, since the library that parses them may crash or hang

@@ -11,8 +11,8 @@ namespace hgrid {
 
 /// Bounds on what goes into the XML libraries.
 struct DescriptionLimits {
-  std::size_t max_bytes = 16u << 20;   ///< of the text
-  std::size_t max_depth = 256;         ///< of nested elements: the parsers recurse
+  std::size_t max_bytes = 16u << 20;  ///< of the text
+  std::size_t max_depth = 256;        ///< of nested elements: the parsers recurse
   std::size_t max_links = 2000;
 };
 

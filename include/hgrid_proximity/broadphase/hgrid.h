@@ -12,10 +12,10 @@ namespace hgrid {
 
 /// The sizes of an HGrid's cells.
 struct GridScale {
-  static constexpr int kLevels = 16;    ///< levels of a grid
-  static constexpr double kRatio = 4.0; ///< edge of a level's cells over that of the next finer level
+  static constexpr int kLevels = 16;     ///< levels of a grid
+  static constexpr double kRatio = 4.0;  ///< edge of a level's cells over that of the next finer level
 
-  double finest_edge = 0.0625;          ///< [m] edge of the smallest cells; 2^-30 .. 2^30, rounded down to a power of two
+  double finest_edge = 0.0625;  ///< [m] edge of the smallest cells; 2^-30 .. 2^30, rounded down to a power of two
 
   /// A scale whose finest cells fit the smallest of the boxes (1 m if there are none).
   static GridScale fitting(const std::vector<Aabb>& boxes);

@@ -18,9 +18,9 @@ struct Segment {
 
 /// How a segment meets a box.
 struct Meeting {
-  double along = 0.0;            ///< [m] from the segment's start to where its ball first touches the box
-  double axis_distance = 0.0;    ///< [m] least distance of the segment's axis from the box; 0: it goes through
-  Eigen::Vector3d point;         ///< [m] point of the box nearest to the axis
+  double along = 0.0;          ///< [m] from the segment's start to where its ball first touches the box
+  double axis_distance = 0.0;  ///< [m] least distance of the segment's axis from the box; 0: it goes through
+  Eigen::Vector3d point;       ///< [m] point of the box nearest to the axis
 };
 
 /// How the segment first touches the box, or nullopt if it does not.

@@ -26,9 +26,9 @@ struct TriangleMesh {
 
 /// What a shape may measure.
 struct ShapeLimits {
-  double min_size = 1e-4;     ///< [m] smallest radius, side or height
-  double max_size = 1e5;      ///< [m] largest radius, side, height or vertex coordinate
-  bool allow_flat = false;    ///< a box may have one side of 0 (a plate)
+  double min_size = 1e-4;   ///< [m] smallest radius, side or height
+  double max_size = 1e5;    ///< [m] largest radius, side, height or vertex coordinate
+  bool allow_flat = false;  ///< a box may have one side of 0 (a plate)
 };
 
 /// One collision shape in its own frame, immutable and cheap to copy (vertices are shared).

@@ -52,28 +52,28 @@ struct BodyId {
 struct BodyShape {
   Shape shape;
   Pose body_from_shape = Pose::Identity();
-  double padding = 0.0;                                  ///< [m] >= 0
-  std::string resource;                                  ///< URI of a mesh file; empty otherwise
-  Eigen::Vector3d scale = Eigen::Vector3d::Ones();       ///< of the mesh file
+  double padding = 0.0;                             ///< [m] >= 0
+  std::string resource;                             ///< URI of a mesh file; empty otherwise
+  Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< of the mesh file
 };
 
 /// What is known of a body and does not change while it moves.
 struct Body {
-  std::string name;                                      ///< source/local, unique
-  std::string frame;                                     ///< tf frame that it follows
+  std::string name;   ///< source/local, unique
+  std::string frame;  ///< tf frame that it follows
   BodyKind kind = BodyKind::obstacle;
   Mobility mobility = Mobility::moving;
-  std::vector<BodyShape> shapes;                         ///< may be empty: every shape was unreadable
-  double margin = 0.0;                                   ///< [m] its own margin; the global one where that is larger
+  std::vector<BodyShape> shapes;  ///< may be empty: every shape was unreadable
+  double margin = 0.0;            ///< [m] its own margin; the global one where that is larger
   double max_speed = std::numeric_limits<double>::infinity();  ///< [m/s] bound of the speed of its points
-  bool covered = true;                                   ///< every shape that its description has was read
-  bool waived = false;                                   ///< not covered, but accepted by the user
-  std::string note;                                      ///< why it is not covered, or the reason of the waiver
+  bool covered = true;                                         ///< every shape that its description has was read
+  bool waived = false;                                         ///< not covered, but accepted by the user
+  std::string note;                                            ///< why it is not covered, or the reason of the waiver
 
-  std::string robot;                                     ///< links: name of the robot
-  std::uint32_t link = 0;                                ///< links: index in the robot's model
-  std::uint32_t rigid_group = 0;                         ///< links: those with equal numbers move as one
-  std::shared_ptr<const LinkMatrix> links;               ///< links: the model's matrix; equal robots share it
+  std::string robot;                        ///< links: name of the robot
+  std::uint32_t link = 0;                   ///< links: index in the robot's model
+  std::uint32_t rigid_group = 0;            ///< links: those with equal numbers move as one
+  std::shared_ptr<const LinkMatrix> links;  ///< links: the model's matrix; equal robots share it
 };
 
 }  // namespace hgrid

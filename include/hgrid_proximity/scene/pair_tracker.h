@@ -11,11 +11,11 @@ namespace hgrid {
 
 /// A candidate: two bodies whose boxes come within their margin.
 struct NearPair {
-  std::uint32_t first = 0;   ///< index into Structure::bodies, first < second
+  std::uint32_t first = 0;  ///< index into Structure::bodies, first < second
   std::uint32_t second = 0;
-  double gap = 0.0;          ///< [m] least distance of their boxes
-  double margin = 0.0;       ///< [m] margin that selected the pair, growth of stale bodies included
-  Time since{0};             ///< stamp of the tick in which it was first seen without interruption
+  double gap = 0.0;     ///< [m] least distance of their boxes
+  double margin = 0.0;  ///< [m] margin that selected the pair, growth of stale bodies included
+  Time since{0};        ///< stamp of the tick in which it was first seen without interruption
 };
 
 /// Remembers since when each pair is near. Bodies are known by their handles, so that a new numbering of

@@ -17,8 +17,8 @@ enum class JointKind : std::uint8_t { fixed, revolute, prismatic, planar, floati
 /// One link of a robot with the joint that holds it.
 struct RobotLink {
   std::string name;
-  int parent = -1;                                  ///< index of the parent link; -1: the root
-  std::string joint;                                ///< name of the joint to the parent; empty for the root
+  int parent = -1;    ///< index of the parent link; -1: the root
+  std::string joint;  ///< name of the joint to the parent; empty for the root
   JointKind joint_kind = JointKind::fixed;
   Pose parent_from_joint = Pose::Identity();        ///< the link's pose in its parent at joint position 0
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< of the joint, unit vector in the link's frame
@@ -35,8 +35,8 @@ struct RobotLink {
 struct RobotModel {
   std::string name;
   std::vector<RobotLink> links;
-  std::vector<std::uint32_t> group_roots;           ///< per rigid group: its first link
-  std::vector<std::string> warnings;                ///< what is odd but was accepted
+  std::vector<std::uint32_t> group_roots;  ///< per rigid group: its first link
+  std::vector<std::string> warnings;       ///< what is odd but was accepted
 
   /// Index of a link, or -1.
   int find(const std::string& link) const;

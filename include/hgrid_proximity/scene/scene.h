@@ -19,7 +19,7 @@ struct SceneOptions {
   double world_limit = 1e6;                          ///< [m] poses beyond are refused, per axis
   double growth_cap = 1.0;                           ///< [m] most that a stale body's margins are widened by
   std::size_t max_bodies = 100000;
-  std::size_t max_reasons = 8;                       ///< reasons that a snapshot lists
+  std::size_t max_reasons = 8;  ///< reasons that a snapshot lists
   std::uint64_t hash_seed = 0;
   PairKinds pair_kinds;
   std::vector<AllowedPattern> allowed_pairs;

@@ -16,50 +16,50 @@ namespace hgrid {
 /// What does not change while bodies move; snapshots of one revision share it.
 struct Structure {
   std::uint64_t revision = 0;
-  std::vector<Body> bodies;                    ///< sorted by name
-  std::vector<BodyId> ids;                     ///< handle of each body
-  std::vector<std::uint32_t> first_proxy;      ///< proxies of body i: first_proxy[i] .. first_proxy[i + 1] - 1
+  std::vector<Body> bodies;                ///< sorted by name
+  std::vector<BodyId> ids;                 ///< handle of each body
+  std::vector<std::uint32_t> first_proxy;  ///< proxies of body i: first_proxy[i] .. first_proxy[i + 1] - 1
   std::vector<std::uint32_t> body_of_proxy;
-  std::vector<double> margin;                  ///< [m] of each body, at least the global one
-  double least_margin = 0.0;                   ///< [m] the global one
+  std::vector<double> margin;  ///< [m] of each body, at least the global one
+  double least_margin = 0.0;   ///< [m] the global one
   PairFilter filter;
 };
 
 /// Where a body is in a snapshot, and how far that can be trusted.
 struct BodyPose {
-  Pose world_from_body = Pose::Identity();     ///< meaningless while unplaced
-  Time stamp{0};                               ///< of the pose
+  Pose world_from_body = Pose::Identity();  ///< meaningless while unplaced
+  Time stamp{0};                            ///< of the pose
   Freshness state = Freshness::unplaced;
-  double age = 0.0;                            ///< [s] of the pose when the snapshot was made; 0 if fixed
-  double growth = 0.0;                         ///< [m] by which the body's margins are widened since it is stale
-  std::uint32_t cohort = 0;                    ///< bodies of one robot with equal numbers (not 0) are equally old
+  double age = 0.0;          ///< [s] of the pose when the snapshot was made; 0 if fixed
+  double growth = 0.0;       ///< [m] by which the body's margins are widened since it is stale
+  std::uint32_t cohort = 0;  ///< bodies of one robot with equal numbers (not 0) are equally old
 };
 
 enum class Verdict : std::uint8_t { unknown = 0, clear = 1, hit = 2 };
 
 /// Which bodies a query is about, and how many hits it wants.
 struct QueryScope {
-  std::vector<std::string> include;            ///< globs over body names; empty: all
-  std::vector<std::string> exclude;            ///< globs over body names; beat include
-  std::uint32_t limit = 0;                     ///< most hits; 0: all
+  std::vector<std::string> include;  ///< globs over body names; empty: all
+  std::vector<std::string> exclude;  ///< globs over body names; beat include
+  std::uint32_t limit = 0;           ///< most hits; 0: all
 };
 
 /// One body that a query met.
 struct QueryHit {
-  std::uint32_t body = 0;                      ///< index into Structure::bodies
-  std::uint32_t shape = 0;                     ///< index of the nearest (segment: first met) of its shapes
-  double distance = 0.0;                       ///< [m] from the query's surface to the body's box; 0 where they overlap
-  double center_distance = 0.0;                ///< [m] from the query's centre or axis to the body's box
-  double along = 0.0;                          ///< [m] segment only; NaN otherwise
-  Eigen::Vector3d point;                       ///< [m, world] point of the box nearest to centre or axis
+  std::uint32_t body = 0;        ///< index into Structure::bodies
+  std::uint32_t shape = 0;       ///< index of the nearest (segment: first met) of its shapes
+  double distance = 0.0;         ///< [m] from the query's surface to the body's box; 0 where they overlap
+  double center_distance = 0.0;  ///< [m] from the query's centre or axis to the body's box
+  double along = 0.0;            ///< [m] segment only; NaN otherwise
+  Eigen::Vector3d point;         ///< [m, world] point of the box nearest to centre or axis
 };
 
 /// What a query found. A verdict of unknown has a reason.
 struct QueryAnswer {
   Verdict verdict = Verdict::unknown;
-  std::vector<QueryHit> hits;                  ///< by distance, center_distance, name; segment: by along, name
-  std::uint64_t total = 0;                     ///< bodies met; more than hits if there was a limit
-  std::string reason;                          ///< why nothing was found and it is still not clear
+  std::vector<QueryHit> hits;  ///< by distance, center_distance, name; segment: by along, name
+  std::uint64_t total = 0;     ///< bodies met; more than hits if there was a limit
+  std::string reason;          ///< why nothing was found and it is still not clear
 };
 
 /// The world at one moment: immutable, read by any number of threads, alive as long as somebody holds it.

@@ -1,0 +1,47 @@
+# The foreign libraries behind the adapters. Shared by the package and by the project in test/. Sets
+#
+#   HGRID_ADAPTER_INCLUDE_DIRS   headers of all of them, Eigen's included
+#   HGRID_ADAPTER_LIBRARIES      urdfdom and tinyxml2: what HGRID_ADAPTER_SOURCES link
+#   HGRID_MESH_READER_LIBRARIES  assimp: linked by proximity_mesh_reader alone, never by the node
+#   HGRID_FCL_LIBRARIES          FCL by its 0.6 API, with libccd and OctoMap that its headers use
+#   HGRID_ADAPTERS_MISSING       names of what was not found; empty: all is there
+#
+# Headers and libraries are looked for by name: not every distribution that the package is built on has a
+# working config file for each of them (Ubuntu 20.04: none for tinyxml2, a broken one for assimp), and the
+# one of urdfdom keeps a cached result that differs between the first and the second configure run.
+find_package(Eigen3 REQUIRED)
+
+find_path(HGRID_URDF_PARSER_INCLUDE_DIR urdf_parser/urdf_parser.h PATH_SUFFIXES urdfdom)
+find_path(HGRID_URDF_MODEL_INCLUDE_DIR urdf_model/model.h PATH_SUFFIXES urdfdom_headers)
+find_path(HGRID_URDF_EXCEPTION_INCLUDE_DIR urdf_exception/exception.h PATH_SUFFIXES urdfdom_headers)
+find_library(HGRID_URDFDOM_MODEL_LIBRARY urdfdom_model)
+find_path(HGRID_TINYXML2_INCLUDE_DIR tinyxml2.h)
+find_library(HGRID_TINYXML2_LIBRARY tinyxml2)
+find_path(HGRID_ASSIMP_INCLUDE_DIR assimp/scene.h)
+find_library(HGRID_ASSIMP_LIBRARY assimp)
+find_path(HGRID_FCL_INCLUDE_DIR fcl/narrowphase/distance.h)  # not in FCL 0.5, which stands beside Noetic's 0.6
+find_library(HGRID_FCL_LIBRARY fcl)
+find_library(HGRID_CCD_LIBRARY ccd)
+find_library(HGRID_OCTOMAP_LIBRARY octomap)
+find_library(HGRID_OCTOMATH_LIBRARY octomath)
+
+set(HGRID_ADAPTERS_MISSING)
+foreach(library URDF_PARSER_INCLUDE_DIR URDF_MODEL_INCLUDE_DIR URDF_EXCEPTION_INCLUDE_DIR URDFDOM_MODEL_LIBRARY
+    TINYXML2_INCLUDE_DIR TINYXML2_LIBRARY ASSIMP_INCLUDE_DIR ASSIMP_LIBRARY
+    FCL_INCLUDE_DIR FCL_LIBRARY CCD_LIBRARY OCTOMAP_LIBRARY OCTOMATH_LIBRARY)
+  mark_as_advanced(HGRID_${library})
+  if(NOT HGRID_${library})
+    list(APPEND HGRID_ADAPTERS_MISSING ${library})
+  endif()
+endforeach()
+
+if(NOT HGRID_ADAPTERS_MISSING)
+  set(HGRID_ADAPTER_INCLUDE_DIRS ${EIGEN3_INCLUDE_DIRS} ${HGRID_URDF_PARSER_INCLUDE_DIR}
+    ${HGRID_URDF_MODEL_INCLUDE_DIR} ${HGRID_URDF_EXCEPTION_INCLUDE_DIR} ${HGRID_TINYXML2_INCLUDE_DIR}
+    ${HGRID_ASSIMP_INCLUDE_DIR} ${HGRID_FCL_INCLUDE_DIR})
+  list(REMOVE_DUPLICATES HGRID_ADAPTER_INCLUDE_DIRS)
+  list(REMOVE_ITEM HGRID_ADAPTER_INCLUDE_DIRS /usr/include)  # found anyway; named, it would break #include_next
+  set(HGRID_ADAPTER_LIBRARIES ${HGRID_URDFDOM_MODEL_LIBRARY} ${HGRID_TINYXML2_LIBRARY})
+  set(HGRID_MESH_READER_LIBRARIES ${HGRID_ASSIMP_LIBRARY})
+  set(HGRID_FCL_LIBRARIES ${HGRID_FCL_LIBRARY} ${HGRID_CCD_LIBRARY} ${HGRID_OCTOMAP_LIBRARY} ${HGRID_OCTOMATH_LIBRARY})
+endif()

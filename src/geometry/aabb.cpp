@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "hgrid_proximity/geometry/aabb.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace hgrid {
+namespace {
+
+/// A sum of doubles kept exactly, as a list of parts that do not overlap, the largest last
+/// (Shewchuk 1997, GROW-EXPANSION). The sign of the sum is that of its largest part.
+class ExactSum {
+ public:
+  void add(double value) {
+    int kept = 0;
+    for (int i = 0; i < size_; ++i) {
+      double large = value, small = parts_[static_cast<std::size_t>(i)];
+      if (std::abs(large) < std::abs(small)) std::swap(large, small);
+      const double sum = large + small;
+      const double error = small - (sum - large);
+      if (error != 0.0) parts_[static_cast<std::size_t>(kept++)] = error;
+      value = sum;
+    }
+    parts_[static_cast<std::size_t>(kept)] = value;
+    size_ = kept + 1;
+  }
+  void addProduct(double a, double b) {
+    const double product = a * b;
+    add(product);
+    add(std::fma(a, b, -product));
+  }
+  double sign() const { return parts_[static_cast<std::size_t>(size_ - 1)]; }
+
+ private:
+  std::array<double, 40> parts_{};
+  int size_ = 0;
+};
+
+/// How far apart the intervals are along one axis, as high - low; 0 - 0 if they overlap.
+struct AxisGap {
+  double high = 0.0, low = 0.0;
+};
+
+AxisGap axisGap(const Aabb& a, const Aabb& b, int axis) {
+  if (a.min[axis] > b.max[axis]) return {a.min[axis], b.max[axis]};
+  if (b.min[axis] > a.max[axis]) return {b.min[axis], a.max[axis]};
+  return {};
+}
+
+/// Sign of distance² - margin², without rounding: with the gap high - low = h + l exactly,
+/// its square is h² + 2hl + l².
+double exactComparison(const Aabb& a, const Aabb& b, double margin) {
+  ExactSum sum;
+  for (int axis = 0; axis < 3; ++axis) {
+    const AxisGap gap = axisGap(a, b, axis);
+    const double h = gap.high - gap.low;
+    const double part = h - gap.high;  // TWO-DIFF (Shewchuk 1997)
+    const double l = (gap.high - (h - part)) - (gap.low + part);
+    sum.addProduct(h, h);
+    sum.addProduct(2.0 * h, l);
+    sum.addProduct(l, l);
+  }
+  sum.addProduct(-margin, margin);
+  return sum.sign();
+}
+
+double squaredDistance(const Aabb& a, const Aabb& b) {
+  double sum = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const AxisGap gap = axisGap(a, b, axis);
+    sum += (gap.high - gap.low) * (gap.high - gap.low);
+  }
+  return sum;
+}
+
+}  // namespace
+
+bool isValid(const Aabb& box) {
+  return box.min.allFinite() && box.max.allFinite() && (box.min.array() <= box.max.array()).all();
+}
+
+float roundedDown(double value) {
+  const float nearest = static_cast<float>(value);
+  return static_cast<double>(nearest) > value ? std::nextafter(nearest, -std::numeric_limits<float>::infinity())
+                                              : nearest;
+}
+
+float roundedUp(double value) { return -roundedDown(-value); }
+
+double distance(const Aabb& a, const Aabb& b) { return std::sqrt(squaredDistance(a, b)); }
+
+bool withinDistance(const Aabb& a, const Aabb& b, double margin) {
+  const double squared = squaredDistance(a, b);
+  const double limit = margin * margin;
+  const double doubt = 1e-14 * limit + 1e-290;  // far above the rounding of both sides, and above underflow
+  if (squared < limit - doubt) return true;
+  if (squared > limit + doubt) return false;
+  return exactComparison(a, b, margin) <= 0.0;
+}
+
+Aabb grown(const Aabb& box, double by) {
+  Aabb result;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = box.min[axis], high = box.max[axis];
+    result.min[axis] = roundedDown(low - by - 1e-15 * (std::abs(low) + by));  // more than the subtraction rounds
+    result.max[axis] = roundedUp(high + by + 1e-15 * (std::abs(high) + by));
+  }
+  return result;
+}
+
+}  // namespace hgrid

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "hgrid_proximity/geometry/segment.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "hgrid_proximity/geometry/sphere.h"
+
+namespace hgrid {
+namespace {
+
+/// Ways in [0, 1] at which the point from + way * step crosses a plane of one of the box's faces, with 0 and 1.
+struct Breaks {
+  std::array<double, 8> way{};
+  std::size_t count = 0;
+};
+
+Breaks breaksOf(const Eigen::Vector3d& from, const Eigen::Vector3d& step, const Aabb& box) {
+  Breaks breaks;
+  breaks.way[breaks.count++] = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (step[axis] == 0.0) continue;
+    for (const double plane : {static_cast<double>(box.min[axis]), static_cast<double>(box.max[axis])}) {
+      const double way = (plane - from[axis]) / step[axis];
+      if (way > 0.0 && way < 1.0) breaks.way[breaks.count++] = way;
+    }
+  }
+  breaks.way[breaks.count++] = 1.0;
+  std::sort(breaks.way.begin(), breaks.way.begin() + static_cast<std::ptrdiff_t>(breaks.count));
+  return breaks;
+}
+
+/// The squared distance from the box between two breaks: a * way² + 2 * b * way + c.
+struct Piece {
+  double a = 0.0, b = 0.0, c = 0.0;
+};
+
+Piece pieceBetween(double begin, double end, const Eigen::Vector3d& from, const Eigen::Vector3d& step,
+                   const Aabb& box) {
+  const Eigen::Vector3d middle = from + 0.5 * (begin + end) * step;
+  Piece piece;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = box.min[axis], high = box.max[axis];
+    if (middle[axis] >= low && middle[axis] <= high) continue;
+    const double offset = from[axis] - (middle[axis] < low ? low : high);
+    piece.a += step[axis] * step[axis];
+    piece.b += step[axis] * offset;
+    piece.c += offset * offset;
+  }
+  return piece;
+}
+
+}  // namespace
+
+std::optional<Meeting> meet(const Segment& segment, const Aabb& box) {
+  const Eigen::Vector3d step = segment.to - segment.from;
+  const double reach = std::max(segment.from.cwiseAbs().maxCoeff(), segment.to.cwiseAbs().maxCoeff()) + segment.radius;
+  const double radius = segment.radius + roundingSlack(reach);
+  const auto distanceAt = [&](double way) { return distance(box, segment.from + way * step); };
+
+  const Breaks breaks = breaksOf(segment.from, step, box);
+  double best = distanceAt(0.0), best_way = 0.0;
+  std::optional<double> first;
+  if (best <= radius) first = 0.0;
+  for (std::size_t i = 0; i + 1 < breaks.count; ++i) {
+    const double begin = breaks.way[i], end = breaks.way[i + 1];
+    const Piece piece = pieceBetween(begin, end, segment.from, step, box);
+    const double lowest = piece.a > 0.0 ? std::clamp(-piece.b / piece.a, begin, end) : end;
+    for (const double way : {lowest, end}) {  // the end too: rounding may have moved the lowest point
+      const double here = distanceAt(way);
+      if (here <= radius && !first) {
+        // The smaller root of a * way² + 2 * b * way + c = radius².
+        const double discriminant = piece.b * piece.b - piece.a * (piece.c - radius * radius);
+        const double root = piece.a > 0.0 ? (-piece.b - std::sqrt(std::max(discriminant, 0.0))) / piece.a : begin;
+        first = std::clamp(root, begin, way);
+      }
+      if (here < best) best = here, best_way = way;
+    }
+  }
+  if (!first) return std::nullopt;
+  return Meeting{*first * step.norm(), best, nearestPoint(box, segment.from + best_way * step)};
+}
+
+}  // namespace hgrid

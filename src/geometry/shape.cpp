@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "hgrid_proximity/geometry/shape.h"
+
+#include <cmath>
+
+#include "hgrid_proximity/refusal.h"
+
+namespace hgrid {
+namespace {
+
+void checkSize(double value, const char* shape, const char* field, const ShapeLimits& limits,
+               bool may_be_flat = false) {
+  const std::string what = std::string(shape) + ": " + field + " is " + text(value) + " m; it must be ";
+  if (!std::isfinite(value)) throw Refusal(Code::bad_geometry, what + "finite");
+  if (may_be_flat && value == 0.0) return;
+  if (!(value >= limits.min_size && value <= limits.max_size)) {
+    throw Refusal(Code::bad_geometry, what + "within " + text(limits.min_size) + " .. " + text(limits.max_size) + " m");
+  }
+}
+
+void checkVertices(const TriangleMesh* mesh, std::size_t fewest, const char* shape, const ShapeLimits& limits) {
+  if (mesh == nullptr || mesh->vertices.size() < fewest) {
+    throw Refusal(Code::bad_geometry, std::string(shape) + ": it has " +
+                                          std::to_string(mesh == nullptr ? 0 : mesh->vertices.size()) +
+                                          " vertices; it must have at least " + std::to_string(fewest));
+  }
+  for (const Eigen::Vector3d& vertex : mesh->vertices) {
+    if (!vertex.allFinite()) {
+      throw Refusal(Code::nonfinite, std::string(shape) + ": a vertex is not finite; every coordinate must be");
+    }
+    checkWithin(vertex, limits.max_size, std::string(shape) + ": a vertex");
+  }
+}
+
+/// Half-widths of a disc of radius 1 whose axis is `axis` (Ericson 2005, section 4.2: the extent of a
+/// circle along a direction is the sine of the angle between them).
+Eigen::Vector3d discHalfWidths(const Eigen::Vector3d& axis) {
+  return (1.0 - axis.array().square()).max(0.0).sqrt().matrix();
+}
+
+}  // namespace
+
+const char* name(ShapeKind kind) {
+  static constexpr const char* kNames[] = {"none", "sphere", "box", "cylinder", "cone", "capsule", "hull", "mesh"};
+  return kNames[static_cast<int>(kind)];
+}
+
+Shape::Shape(ShapeKind kind, const Eigen::Vector3d& size, std::shared_ptr<const TriangleMesh> mesh)
+    : kind_(kind), size_(size), mesh_(std::move(mesh)) {
+  const double height = size_[0], radius = size_[1];
+  switch (kind_) {
+    case ShapeKind::sphere:
+      reach_ = size_[0];
+      break;
+    case ShapeKind::box:
+      reach_ = 0.5 * size_.norm();
+      break;
+    case ShapeKind::cylinder:
+    case ShapeKind::cone:
+      reach_ = std::hypot(0.5 * height, radius);
+      break;
+    case ShapeKind::capsule:
+      reach_ = 0.5 * height + radius;
+      break;
+    case ShapeKind::hull:
+    case ShapeKind::mesh:
+      for (const Eigen::Vector3d& vertex : mesh_->vertices) reach_ = std::max(reach_, vertex.norm());
+      break;
+  }
+}
+
+Shape Shape::sphere(double radius, const ShapeLimits& limits) {
+  checkSize(radius, "sphere", "radius", limits);
+  return Shape(ShapeKind::sphere, {radius, 0.0, 0.0}, nullptr);
+}
+
+Shape Shape::box(const Eigen::Vector3d& size, const ShapeLimits& limits) {
+  static constexpr const char* kSides[] = {"side x", "side y", "side z"};
+  const bool one_flat = limits.allow_flat && (size.array() == 0.0).count() == 1;
+  for (int axis = 0; axis < 3; ++axis) checkSize(size[axis], "box", kSides[axis], limits, one_flat);
+  return Shape(ShapeKind::box, size, nullptr);
+}
+
+Shape Shape::cylinder(double height, double radius, const ShapeLimits& limits) {
+  checkSize(height, "cylinder", "height", limits);
+  checkSize(radius, "cylinder", "radius", limits);
+  return Shape(ShapeKind::cylinder, {height, radius, 0.0}, nullptr);
+}
+
+Shape Shape::cone(double height, double radius, const ShapeLimits& limits) {
+  checkSize(height, "cone", "height", limits);
+  checkSize(radius, "cone", "radius", limits);
+  return Shape(ShapeKind::cone, {height, radius, 0.0}, nullptr);
+}
+
+Shape Shape::capsule(double height, double radius, const ShapeLimits& limits) {
+  checkSize(height, "capsule", "height", limits);
+  checkSize(radius, "capsule", "radius", limits);
+  return Shape(ShapeKind::capsule, {height, radius, 0.0}, nullptr);
+}
+
+Shape Shape::hull(std::shared_ptr<const TriangleMesh> vertices, const ShapeLimits& limits) {
+  checkVertices(vertices.get(), 1, "hull", limits);
+  return Shape(ShapeKind::hull, Eigen::Vector3d::Zero(), std::move(vertices));
+}
+
+Shape Shape::mesh(std::shared_ptr<const TriangleMesh> mesh, const ShapeLimits& limits) {
+  checkVertices(mesh.get(), 3, "mesh", limits);
+  if (mesh->triangles.empty()) {
+    throw Refusal(Code::bad_geometry, "mesh: it has 0 triangles; it must have at least 1");
+  }
+  for (const auto& triangle : mesh->triangles) {
+    for (const std::uint32_t index : triangle) {
+      if (index >= mesh->vertices.size()) {
+        throw Refusal(Code::bad_geometry, "mesh: a triangle names vertex " + std::to_string(index) + "; there are " +
+                                              std::to_string(mesh->vertices.size()) + ", counted from 0");
+      }
+    }
+  }
+  return Shape(ShapeKind::mesh, Eigen::Vector3d::Zero(), std::move(mesh));
+}
+
+Shape Shape::primitive(int kind, const std::vector<double>& dimensions, const ShapeLimits& limits) {
+  std::size_t expected = 0;
+  switch (kind) {
+    case static_cast<int>(ShapeKind::sphere):
+      expected = 1;
+      break;
+    case static_cast<int>(ShapeKind::box):
+      expected = 3;
+      break;
+    case static_cast<int>(ShapeKind::cylinder):
+    case static_cast<int>(ShapeKind::cone):
+    case static_cast<int>(ShapeKind::capsule):
+      expected = 2;
+      break;
+    default:
+      throw Refusal(Code::unsupported, "shape kind " + std::to_string(kind) + " is no primitive; it must be 1 .. 5");
+  }
+  if (dimensions.size() != expected) {
+    throw Refusal(Code::bad_geometry, std::string(name(static_cast<ShapeKind>(kind))) + ": it has " +
+                                          std::to_string(dimensions.size()) + " dimensions; it must have " +
+                                          std::to_string(expected));
+  }
+  switch (static_cast<ShapeKind>(kind)) {
+    case ShapeKind::sphere:
+      return sphere(dimensions[0], limits);
+    case ShapeKind::box:
+      return box({dimensions[0], dimensions[1], dimensions[2]}, limits);
+    case ShapeKind::cylinder:
+      return cylinder(dimensions[0], dimensions[1], limits);
+    case ShapeKind::cone:
+      return cone(dimensions[0], dimensions[1], limits);
+    default:
+      return capsule(dimensions[0], dimensions[1], limits);
+  }
+}
+
+std::vector<double> Shape::dimensions() const {
+  switch (kind_) {
+    case ShapeKind::sphere:
+      return {size_[0]};
+    case ShapeKind::box:
+      return {size_[0], size_[1], size_[2]};
+    case ShapeKind::cylinder:
+    case ShapeKind::cone:
+    case ShapeKind::capsule:
+      return {size_[0], size_[1]};
+    default:
+      return {};
+  }
+}
+
+double Shape::reach() const { return reach_; }
+
+Aabb boxOf(const Shape& shape, const Pose& world_from_shape, double padding, const Eigen::Vector3d& origin) {
+  const Eigen::Matrix3d rotation = world_from_shape.linear();
+  const Eigen::Vector3d center = world_from_shape.translation();
+  const Eigen::Vector3d axis = rotation.col(2);
+  const double height = shape.size_[0], radius = shape.size_[1];
+  Eigen::Vector3d low, high;
+  switch (shape.kind_) {
+    case ShapeKind::sphere:
+      high = center.array() + shape.size_[0];
+      low = center.array() - shape.size_[0];
+      break;
+    case ShapeKind::box: {
+      const Eigen::Vector3d half = rotation.cwiseAbs() * (0.5 * shape.size_);
+      high = center + half;
+      low = center - half;
+      break;
+    }
+    case ShapeKind::cylinder: {
+      const Eigen::Vector3d half = 0.5 * height * axis.cwiseAbs() + radius * discHalfWidths(axis);
+      high = center + half;
+      low = center - half;
+      break;
+    }
+    case ShapeKind::cone: {
+      const Eigen::Vector3d tip = center + 0.5 * height * axis, base = center - 0.5 * height * axis;
+      const Eigen::Vector3d disc = radius * discHalfWidths(axis);
+      high = tip.cwiseMax(base + disc);
+      low = tip.cwiseMin(base - disc);
+      break;
+    }
+    case ShapeKind::capsule: {
+      const Eigen::Vector3d half = (0.5 * height * axis.cwiseAbs()).array() + radius;
+      high = center + half;
+      low = center - half;
+      break;
+    }
+    case ShapeKind::hull:
+    case ShapeKind::mesh: {
+      const double infinity = std::numeric_limits<double>::infinity();
+      low.setConstant(infinity);
+      high.setConstant(-infinity);
+      for (const Eigen::Vector3d& vertex : shape.mesh_->vertices) {
+        const Eigen::Vector3d turned = rotation * vertex;
+        low = low.cwiseMin(turned);
+        high = high.cwiseMax(turned);
+      }
+      low += center;
+      high += center;
+      break;
+    }
+  }
+  // 64 units of rounding of all terms: the formulas above, the composition of poses and the shift by the
+  // origin need about a fifth of that.
+  Aabb box;
+  for (int i = 0; i < 3; ++i) {
+    const double slack = 64.0 * std::numeric_limits<double>::epsilon() *
+                         (std::abs(center[i]) + std::abs(origin[i]) + shape.reach_ + padding);
+    box.min[i] = roundedDown(low[i] - origin[i] - padding - slack);
+    box.max[i] = roundedUp(high[i] - origin[i] + padding + slack);
+  }
+  return box;
+}
+
+}  // namespace hgrid

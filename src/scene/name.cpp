@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "hgrid_proximity/scene/name.h"
+
+#include <algorithm>
+
+#include "../utf8.h"
+#include "hgrid_proximity/refusal.h"
+
+namespace hgrid {
+
+void checkLocal(const std::string& local, const std::string& what) {
+  const auto refuse = [&](const std::string& rule) {
+    throw Refusal(Code::bad_id, what + " is '" + printable(local, 48) + "'; " + rule);
+  };
+  if (local.empty()) refuse("it must not be empty");
+  if (local.size() > kLongestName) {
+    refuse("it has " + std::to_string(local.size()) + " bytes, at most " + std::to_string(kLongestName) +
+           " are allowed");
+  }
+  for (std::size_t i = 0; i < local.size();) {
+    const std::size_t length = utf8Length(local, i);
+    if (length == 0) refuse("it must be UTF-8 without control characters");
+    i += length;
+  }
+}
+
+void checkSource(const std::string& source, const std::string& what) {
+  checkLocal(source, what);
+  if (source.find('/') != std::string::npos) {
+    throw Refusal(Code::bad_id, what + " is '" + printable(source, 48) + "'; it must not contain a slash");
+  }
+}
+
+std::string joined(const std::string& source, const std::string& local) { return source + "/" + local; }
+
+bool matches(const std::string& glob, const std::string& name) {
+  // Only the last star ever needs another try: an earlier one could not match more than it already does.
+  std::size_t g = 0, n = 0, star = std::string::npos, resume = 0;
+  while (n < name.size()) {
+    if (g < glob.size() && glob[g] == '*') {
+      star = g++;
+      resume = n;
+    } else if (g < glob.size() && (glob[g] == '?' || glob[g] == name[n])) {
+      ++g;
+      ++n;
+    } else if (star != std::string::npos) {
+      g = star + 1;
+      n = ++resume;
+    } else {
+      return false;
+    }
+  }
+  while (g < glob.size() && glob[g] == '*') ++g;
+  return g == glob.size();
+}
+
+bool matchesAny(const std::vector<std::string>& globs, const std::string& name) {
+  return std::any_of(globs.begin(), globs.end(), [&](const std::string& glob) { return matches(glob, name); });
+}
+
+}  // namespace hgrid

@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "hgrid_proximity/scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <numeric>
+
+#include "hgrid_proximity/geometry/float_environment.h"
+#include "hgrid_proximity/refusal.h"
+#include "hgrid_proximity/scene/name.h"
+
+namespace hgrid {
+namespace {
+
+constexpr double kLargestMargin = 1e3;  // [m]
+
+void checkLength(double value, double limit, const std::string& what) {
+  if (!(value >= 0.0 && value <= limit)) {
+    throw Refusal(Code::out_of_range, what + " is " + text(value) + " m; it must be within 0 .. " + text(limit) + " m");
+  }
+}
+
+void checkBody(const Body& body) {
+  const std::size_t slash = body.name.find('/');
+  if (slash == std::string::npos) {
+    throw Refusal(Code::bad_id, "body name is '" + printable(body.name) + "'; it must be source/local");
+  }
+  checkSource(body.name.substr(0, slash), "source of body '" + printable(body.name) + "'");
+  checkLocal(body.name.substr(slash + 1), "local name of body '" + printable(body.name) + "'");
+  checkLength(body.margin, kLargestMargin, "margin of body '" + body.name + "'");
+  if (!(body.max_speed >= 0.0)) {
+    throw Refusal(Code::out_of_range,
+                  "max_speed of body '" + body.name + "' is " + text(body.max_speed) + " m/s; it must not be negative");
+  }
+  for (const BodyShape& shape : body.shapes) {
+    checkLength(shape.padding, kLargestMargin, "padding of a shape of body '" + body.name + "'");
+  }
+}
+
+/// Snapshots that nobody reads any more, to be filled again: a steady tick allocates nothing. The lock is
+/// held for a push or a pop only.
+class SnapshotPool {
+ public:
+  std::unique_ptr<Snapshot> take() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (free_.empty()) return nullptr;
+    std::unique_ptr<Snapshot> snapshot = std::move(free_.back());
+    free_.pop_back();
+    return snapshot;
+  }
+  void giveBack(std::unique_ptr<Snapshot> snapshot) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (free_.size() < kMostKept) free_.push_back(std::move(snapshot));
+  }
+
+ private:
+  static constexpr std::size_t kMostKept = 4;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Snapshot>> free_;
+};
+
+double growthOf(const BodyPose& pose, const Body& body, double cap) {
+  if (pose.state < Freshness::stale || pose.state == Freshness::unplaced || !(pose.age > 0.0)) return 0.0;
+  return std::min(body.max_speed * pose.age, cap);
+}
+
+/// Why a body makes the world incomplete; empty if it does not.
+std::string gapLeftBy(const Body& body, const BodyPose& pose) {
+  if (pose.state == Freshness::unplaced) {
+    return "UNPLACED " + body.name + ": it never had a pose (frame '" + printable(body.frame) + "')";
+  }
+  if (!body.covered && !body.waived) return "UNCOVERED " + body.name + ": " + body.note;
+  if (pose.state >= Freshness::lost) {
+    return std::string(name(pose.state)) + " " + body.name + ": its pose is " + text(pose.age) + " s old (frame '" +
+           printable(body.frame) + "')";
+  }
+  return {};
+}
+
+}  // namespace
+
+const char* name(Freshness state) {
+  static constexpr const char* kNames[] = {"FRESH", "LATE", "STALE", "LOST", "FROZEN", "INVALID", "UNPLACED"};
+  return kNames[static_cast<int>(state)];
+}
+
+struct Scene::State {
+  struct Slot {
+    bool used = false;
+    std::uint32_t generation = 0;
+    Body body;
+    BodyPose pose;
+    std::vector<Aabb> boxes;  // of its shapes at its pose
+  };
+
+  explicit State(const SceneOptions& scene_options) : options(scene_options) {}
+
+  Slot& at(BodyId id) {
+    if (id.slot >= slots.size() || !slots[id.slot].used || slots[id.slot].generation != id.generation) {
+      throw Refusal(Code::unknown_id, "body handle " + std::to_string(id.slot) + " (use " +
+                                          std::to_string(id.generation) + ") is not valid any more");
+    }
+    return slots[id.slot];
+  }
+  void rebuildStructure();
+  std::shared_ptr<Snapshot> freshSnapshot() const;
+  void fillBodies(Snapshot& snapshot) const;
+  void fillGrid(Snapshot& snapshot);
+  void fillPairs(Snapshot& snapshot);
+  void fillCompleteness(Snapshot& snapshot, const std::vector<std::string>& missing) const;
+  double pairMargin(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second) const;
+
+  SceneOptions options;
+  std::vector<Slot> slots;
+  std::vector<std::uint32_t> free_slots;
+  std::map<std::string, std::uint32_t> slot_of_name;  // ordered: the structure is sorted by name
+  bool structure_changed = true;
+  std::shared_ptr<const Structure> structure = std::make_shared<Structure>();
+  GridScale scale;
+  std::uint64_t sequence = 0, epoch = 0;
+  PairTracker tracker;
+  TickTimes times;
+  std::shared_ptr<SnapshotPool> pool = std::make_shared<SnapshotPool>();
+
+  // Scratch of a tick, kept to save allocations.
+  std::vector<ProxyId> ids;
+  std::vector<Aabb> grown_boxes;
+  std::vector<ProxyPair> proxy_pairs;
+};
+
+Scene::Scene(const SceneOptions& options) : state_(std::make_unique<State>(options)) {
+  checkLength(options.margin, kLargestMargin, "margin");
+}
+Scene::~Scene() = default;
+Scene::Scene(Scene&&) noexcept = default;
+
+BodyId Scene::add(Body body) {
+  State& s = *state_;
+  checkBody(body);
+  if (s.slot_of_name.count(body.name) != 0) {
+    throw Refusal(Code::dup_id, "body '" + body.name + "' is there already");
+  }
+  if (s.slot_of_name.size() >= s.options.max_bodies) {
+    throw Refusal(Code::limit, "body '" + body.name + "' would be one more than max_bodies, which is " +
+                                   std::to_string(s.options.max_bodies));
+  }
+  if (s.free_slots.empty()) {
+    s.free_slots.push_back(static_cast<std::uint32_t>(s.slots.size()));
+    s.slots.emplace_back();
+  }
+  const std::uint32_t number = s.free_slots.back();
+  s.slot_of_name.emplace(body.name, number);
+  s.free_slots.pop_back();
+  State::Slot& slot = s.slots[number];
+  slot.used = true;
+  slot.boxes.assign(body.shapes.size(), Aabb{});
+  slot.body = std::move(body);
+  slot.pose = BodyPose{};
+  s.structure_changed = true;
+  return {number, slot.generation};
+}
+
+void Scene::remove(BodyId id) {
+  State& s = *state_;
+  State::Slot& slot = s.at(id);
+  s.free_slots.push_back(id.slot);
+  s.slot_of_name.erase(slot.body.name);
+  slot.body = Body{};
+  slot.used = false;
+  ++slot.generation;
+  s.structure_changed = true;
+}
+
+bool Scene::find(const std::string& name, BodyId& id) const {
+  const auto found = state_->slot_of_name.find(name);
+  if (found == state_->slot_of_name.end()) return false;
+  id = {found->second, state_->slots[found->second].generation};
+  return true;
+}
+
+const Body& Scene::body(BodyId id) const { return state_->at(id).body; }
+std::size_t Scene::size() const { return state_->slot_of_name.size(); }
+const BodyPose& Scene::poseOf(BodyId id) const { return state_->at(id).pose; }
+
+void Scene::place(BodyId id, const Pose& world_from_body, Time stamp) {
+  const DefaultFloatEnvironment environment;
+  State::Slot& slot = state_->at(id);
+  if (!world_from_body.matrix().allFinite()) {
+    throw Refusal(Code::nonfinite, "pose of body '" + slot.body.name + "' is not finite; every number must be");
+  }
+  checkWithin(world_from_body.translation(), state_->options.world_limit, "pose of body '" + slot.body.name + "'");
+  const bool first = slot.pose.state == Freshness::unplaced;
+  slot.pose.stamp = stamp;
+  if (!first && slot.pose.world_from_body.matrix() == world_from_body.matrix()) return;  // never a tolerance
+  slot.pose.world_from_body = world_from_body;
+  if (first) slot.pose.state = Freshness::fresh;
+  for (std::size_t i = 0; i < slot.body.shapes.size(); ++i) {
+    const BodyShape& shape = slot.body.shapes[i];
+    slot.boxes[i] = boxOf(shape.shape, world_from_body * shape.body_from_shape, shape.padding, state_->options.origin);
+  }
+}
+
+void Scene::setState(BodyId id, Freshness state, double age, std::uint32_t cohort) {
+  BodyPose& pose = state_->at(id).pose;
+  if (pose.state == Freshness::unplaced) return;
+  pose.state = state == Freshness::unplaced ? Freshness::invalid : state;  // what had a pose keeps it
+  pose.age = age;
+  pose.cohort = cohort;
+}
+
+void Scene::State::rebuildStructure() {
+  auto next = std::make_shared<Structure>();
+  next->revision = structure->revision + 1;
+  next->least_margin = options.margin;
+  std::vector<Aabb> sizes;
+  for (const auto& named : slot_of_name) {
+    const Slot& slot = slots[named.second];
+    next->first_proxy.push_back(static_cast<std::uint32_t>(next->body_of_proxy.size()));
+    next->body_of_proxy.insert(next->body_of_proxy.end(), slot.body.shapes.size(),
+                               static_cast<std::uint32_t>(next->bodies.size()));
+    next->bodies.push_back(slot.body);
+    next->ids.push_back({named.second, slot.generation});
+    next->margin.push_back(std::max(options.margin, slot.body.margin));
+    for (const BodyShape& shape : slot.body.shapes) {
+      sizes.push_back(
+          grown(boxOf(shape.shape, Pose::Identity(), shape.padding, Eigen::Vector3d::Zero()), 0.5 * options.margin));
+    }
+  }
+  next->first_proxy.push_back(static_cast<std::uint32_t>(next->body_of_proxy.size()));
+  next->filter = PairFilter(next->bodies, options.pair_kinds, options.allowed_pairs);
+  structure = std::move(next);
+  scale = GridScale::fitting(sizes);
+  if (options.finest_edge > 0.0) scale.finest_edge = options.finest_edge;
+  structure_changed = false;
+}
+
+std::shared_ptr<Snapshot> Scene::State::freshSnapshot() const {
+  std::unique_ptr<Snapshot> snapshot = pool->take();
+  if (!snapshot) snapshot.reset(new Snapshot);
+  return {snapshot.release(), [kept = pool](Snapshot* used) { kept->giveBack(std::unique_ptr<Snapshot>(used)); }};
+}
+
+void Scene::State::fillBodies(Snapshot& snapshot) const {
+  snapshot.structure_ = structure;
+  snapshot.poses_.clear();
+  snapshot.boxes_.clear();
+  for (std::size_t i = 0; i < structure->ids.size(); ++i) {
+    const Slot& slot = slots[structure->ids[i].slot];
+    snapshot.poses_.push_back(slot.pose);
+    snapshot.poses_.back().growth = growthOf(slot.pose, slot.body, options.growth_cap);
+    snapshot.boxes_.insert(snapshot.boxes_.end(), slot.boxes.begin(), slot.boxes.end());
+  }
+}
+
+/// Stores the placed boxes, each grown by its share of the margins: half of the global one, and all by which its
+/// own is larger. So two that are within max(m_i, m_j) plus their growth overlap.
+void Scene::State::fillGrid(Snapshot& snapshot) {
+  ids.clear();
+  grown_boxes.clear();
+  for (ProxyId proxy = 0; proxy < snapshot.boxes_.size(); ++proxy) {
+    const std::uint32_t body = structure->body_of_proxy[proxy];
+    const BodyPose& pose = snapshot.poses_[body];
+    if (pose.state == Freshness::unplaced) continue;
+    ids.push_back(proxy);
+    grown_boxes.push_back(
+        grown(snapshot.boxes_[proxy], 0.5 * options.margin + (structure->margin[body] - options.margin) + pose.growth));
+  }
+  const HGrid empty(scale, options.hash_seed);
+  if (snapshot.grid_.edge(0) != empty.edge(0) || snapshot.sequence_ == 0) snapshot.grid_ = empty;
+  snapshot.grid_.update(ids, grown_boxes);
+}
+
+double Scene::State::pairMargin(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second) const {
+  const BodyPose &a = snapshot.poses_[first], &b = snapshot.poses_[second];
+  const double margin = std::max(structure->margin[first], structure->margin[second]);
+  const Body &body_a = structure->bodies[first], &body_b = structure->bodies[second];
+  const bool equally_old =
+      a.cohort != 0 && a.cohort == b.cohort && !body_a.robot.empty() && body_a.robot == body_b.robot;
+  return equally_old ? margin : margin + (a.growth + b.growth);
+}
+
+void Scene::State::fillPairs(Snapshot& snapshot) {
+  snapshot.grid_.overlappingPairs(proxy_pairs);
+  std::vector<NearPair>& pairs = snapshot.pairs_;
+  pairs.clear();
+  for (const ProxyPair& proxies : proxy_pairs) {
+    std::uint32_t first = structure->body_of_proxy[proxies.first], second = structure->body_of_proxy[proxies.second];
+    if (first > second) std::swap(first, second);
+    if (structure->filter.allowed(first, second)) continue;
+    const Aabb &a = snapshot.boxes_[proxies.first], &b = snapshot.boxes_[proxies.second];
+    const double margin = pairMargin(snapshot, first, second);
+    if (!withinDistance(a, b, margin)) continue;
+    pairs.push_back({first, second, std::min(distance(a, b), margin), margin, Time{0}});
+  }
+  // One entry per pair of bodies, that of the nearest boxes.
+  std::sort(pairs.begin(), pairs.end(), [](const NearPair& a, const NearPair& b) {
+    if (a.first != b.first) return a.first < b.first;
+    return a.second != b.second ? a.second < b.second : a.gap < b.gap;
+  });
+  pairs.erase(
+      std::unique(pairs.begin(), pairs.end(),
+                  [](const NearPair& a, const NearPair& b) { return a.first == b.first && a.second == b.second; }),
+      pairs.end());
+  tracker.update(structure->ids, snapshot.stamp_, pairs);
+}
+
+void Scene::State::fillCompleteness(Snapshot& snapshot, const std::vector<std::string>& missing) const {
+  snapshot.reasons_.clear();
+  snapshot.reasons_total_ = static_cast<std::uint32_t>(missing.size());
+  snapshot.worst_state_ = Freshness::fresh;
+  snapshot.max_age_ = 0.0;
+  for (const std::string& sentence : missing) {
+    if (snapshot.reasons_.size() < options.max_reasons) snapshot.reasons_.push_back(sentence);
+  }
+  std::vector<std::pair<int, std::uint32_t>> gaps;  // the worse the state, the smaller the number
+  for (std::uint32_t i = 0; i < snapshot.poses_.size(); ++i) {
+    const BodyPose& pose = snapshot.poses_[i];
+    const Body& body = structure->bodies[i];
+    snapshot.worst_state_ = std::max(snapshot.worst_state_, pose.state);
+    if (pose.state != Freshness::unplaced) snapshot.max_age_ = std::max(snapshot.max_age_, pose.age);
+    if (pose.state >= Freshness::lost || (!body.covered && !body.waived)) {
+      gaps.emplace_back(-static_cast<int>(pose.state), i);
+    }
+  }
+  snapshot.reasons_total_ += static_cast<std::uint32_t>(gaps.size());
+  const std::size_t listed = std::min(gaps.size(), options.max_reasons - snapshot.reasons_.size());
+  std::partial_sort(gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>(listed), gaps.end());
+  for (std::size_t i = 0; i < listed; ++i) {
+    const std::uint32_t body = gaps[i].second;
+    snapshot.reasons_.push_back(gapLeftBy(structure->bodies[body], snapshot.poses_[body]));
+  }
+}
+
+std::shared_ptr<const Snapshot> Scene::commit(Time stamp, const std::vector<std::string>& missing) {
+  const DefaultFloatEnvironment environment;
+  using Clock = std::chrono::steady_clock;
+  State& s = *state_;
+  const auto begin = Clock::now();
+  if (s.structure_changed) s.rebuildStructure();
+  std::shared_ptr<Snapshot> snapshot = s.freshSnapshot();
+  snapshot->origin_ = s.options.origin;
+  snapshot->stamp_ = stamp;
+  s.fillBodies(*snapshot);
+  const auto boxes_done = Clock::now();
+  s.fillGrid(*snapshot);
+  const auto grid_done = Clock::now();
+  s.fillPairs(*snapshot);
+  snapshot->sequence_ = ++s.sequence;
+  snapshot->epoch_ = s.epoch;
+  s.fillCompleteness(*snapshot, missing);
+  s.times = {boxes_done - begin, grid_done - boxes_done, Clock::now() - grid_done};
+  return snapshot;
+}
+
+void Scene::beginEpoch(std::uint64_t epoch) {
+  state_->epoch = epoch;
+  state_->sequence = 0;
+  state_->tracker.clear();
+}
+
+std::uint64_t Scene::revision() const { return state_->structure->revision; }
+const TickTimes& Scene::lastTimes() const { return state_->times; }
+
+}  // namespace hgrid
