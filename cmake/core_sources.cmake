@@ -20,4 +20,5 @@ set(HGRID_ADAPTER_SOURCES
   src/adapters/resource.cpp
   src/adapters/srdf.cpp
   src/adapters/urdf.cpp
+  src/adapters/xml.cpp
 )

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "hgrid_proximity/adapters/resource.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <climits>
+#include <cstdlib>
+#include <cstring>
+
+#include "hgrid_proximity/refusal.h"
+
+namespace hgrid {
+namespace {
+
+constexpr std::size_t kLongestUri = 4096;
+
+[[noreturn]] void deny(const std::string& uri, const std::string& rule) {
+  throw Refusal(Code::resource_denied, "resource '" + printable(uri) + "' is denied: " + rule);
+}
+
+/// The path with every link resolved; empty if there is no such folder.
+std::string realFolder(const std::string& path) {
+  char resolved[PATH_MAX];
+  return !path.empty() && realpath(path.c_str(), resolved) != nullptr ? resolved : "";
+}
+
+bool isBelow(const std::string& path, const std::string& real_folder) {
+  return !real_folder.empty() &&
+         (real_folder == "/" || path.compare(0, real_folder.size() + 1, real_folder + "/") == 0);
+}
+
+bool startsWith(const std::string& text, const char* prefix) {
+  return text.compare(0, std::strlen(prefix), prefix) == 0;
+}
+
+/// Whether the ".." in a relative path lead out of where it starts, whatever there is on the disk.
+bool leadsOut(const std::string& relative) {
+  int depth = 0;
+  for (std::size_t begin = 0; begin < relative.size();) {
+    std::size_t end = relative.find('/', begin);
+    if (end == std::string::npos) end = relative.size();
+    const std::string part = relative.substr(begin, end - begin);
+    if (part == "..") {
+      if (--depth < 0) return true;
+    } else if (!part.empty() && part != ".") {
+      ++depth;
+    }
+    begin = end + 1;
+  }
+  return false;
+}
+
+struct Place {
+  std::string path;                // to open
+  std::vector<std::string> roots;  // real folders, one of which must hold it
+};
+
+Place placeOf(const std::string& uri, const ResourcePolicy& policy) {
+  if (uri.size() > kLongestUri) deny(uri, "its name is longer than " + std::to_string(kLongestUri) + " bytes");
+  if (uri.find('\0') != std::string::npos) deny(uri, "its name has a zero byte");
+  if (startsWith(uri, "package://")) {
+    const std::string rest = uri.substr(std::strlen("package://"));
+    const std::size_t slash = rest.find('/');
+    const std::string package = rest.substr(0, slash);
+    if (slash == std::string::npos || package.empty() || package == "..") deny(uri, "it must be package://name/path");
+    const std::string relative = rest.substr(slash + 1);
+    if (leadsOut(relative)) deny(uri, "it leads out of package '" + printable(package) + "'");
+    const std::string folder = policy.package_path ? policy.package_path(package) : "";
+    const std::string real = realFolder(folder);
+    if (real.empty()) {
+      throw Refusal(Code::resource_missing,
+                    "resource '" + printable(uri) + "': there is no package '" + printable(package) + "'");
+    }
+    return {real + "/" + relative, {real}};
+  }
+  if (startsWith(uri, "file:///")) {
+    Place place{uri.substr(std::strlen("file://")), {}};
+    for (const std::string& root : policy.file_roots) place.roots.push_back(realFolder(root));
+    return place;
+  }
+  deny(uri, "only package:// and file:/// are read");
+}
+
+}  // namespace
+
+OpenResource::~OpenResource() {
+  if (fd_ >= 0) close(fd_);
+}
+
+OpenResource::OpenResource(OpenResource&& other) noexcept
+    : fd_(other.fd_), path_(std::move(other.path_)), bytes_(other.bytes_) {
+  other.fd_ = -1;
+}
+
+OpenResource openResource(const std::string& uri, const ResourcePolicy& policy) {
+  const Place place = placeOf(uri, policy);
+  // O_PATH looks without opening: no device is touched, no FIFO waited for. What is checked is what is
+  // opened afterwards, through /proc, whatever happens to the names meanwhile.
+  const OpenResource looked(open(place.path.c_str(), O_PATH | O_CLOEXEC), place.path, 0);
+  if (looked.fd() < 0) {
+    throw Refusal(Code::resource_missing,
+                  "resource '" + printable(uri) + "' cannot be opened: " + std::strerror(errno));
+  }
+  const std::string handle = "/proc/self/fd/" + std::to_string(looked.fd());
+  const std::string real = realFolder(handle);
+  bool below = false;
+  for (const std::string& root : place.roots) below = below || isBelow(real, root);
+  if (!below) deny(uri, "it lies outside the folders that may be read");
+  struct stat status {};
+  if (fstat(looked.fd(), &status) != 0 || !S_ISREG(status.st_mode)) deny(uri, "it is not a regular file");
+  const auto bytes = static_cast<std::size_t>(status.st_size);
+  if (bytes > policy.max_bytes) {
+    throw Refusal(Code::limit, "resource '" + printable(uri) + "' has " + std::to_string(bytes) + " bytes; at most " +
+                                   std::to_string(policy.max_bytes) + " are allowed");
+  }
+  const int fd = open(handle.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) {
+    throw Refusal(Code::resource_missing, "resource '" + printable(uri) + "' cannot be read: " + std::strerror(errno));
+  }
+  return OpenResource(fd, real, bytes);
+}
+
+}  // namespace hgrid

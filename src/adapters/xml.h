@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <tinyxml2.h>
+
+#include <string>
+
+#include "hgrid_proximity/adapters/urdf.h"
+
+namespace hgrid {
+
+/// Checks the text as checkXml() says and parses it into `document`; the root element must be `root`.
+/// @throws Refusal as checkXml(), parse if the root element is another
+const tinyxml2::XMLElement& parseXml(const std::string& xml, const DescriptionLimits& limits, const std::string& what,
+                                     const char* root, tinyxml2::XMLDocument& document);
+
+}  // namespace hgrid

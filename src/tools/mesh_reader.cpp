@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+// proximity_mesh_reader KIND MAX_TRIANGLES MAX_MEMORY CPU_SECONDS < file > mesh
+//
+// Reads a mesh of a kind (stl, dae, obj) from its standard input and writes it as mesh_stream.h says. Runs the
+// parser that may crash or hang on a broken file, away from the node, under limits that it sets itself first.
+
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <array>
+#include <assimp/Importer.hpp>
+#include <cerrno>
+#include <cstdlib>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "../adapters/mesh_stream.h"
+#include "hgrid_proximity/refusal.h"
+
+namespace {
+
+using hgrid::Code;
+using hgrid::Refusal;
+using hgrid::StreamHeader;
+
+struct Mesh {
+  std::vector<std::array<float, 3>> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+void limit(int resource, rlim_t value) {
+  const struct rlimit both { value, value };
+  setrlimit(static_cast<__rlimit_resource>(resource), &both);
+}
+
+void limitProcess(rlim_t memory, rlim_t cpu_seconds) {
+#if !defined(__SANITIZE_ADDRESS__)  // its shadow memory is larger than any sensible limit
+  limit(RLIMIT_AS, memory);
+#endif
+  static_cast<void>(memory);
+  limit(RLIMIT_CPU, cpu_seconds);
+  limit(RLIMIT_FSIZE, 0);
+  limit(RLIMIT_CORE, 0);
+  for (int fd = 3; fd < 1024; ++fd) close(fd);  // what the parent had open is not for a parser
+  limit(RLIMIT_NOFILE, 3);
+}
+
+std::string readAll() {
+  std::string data;
+  std::vector<char> chunk(1 << 16);
+  for (;;) {
+    const ssize_t got = read(0, chunk.data(), chunk.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return data;
+    data.append(chunk.data(), static_cast<std::size_t>(got));
+  }
+}
+
+void writeAll(const void* data, std::size_t bytes) {
+  const auto* at = static_cast<const char*>(data);
+  while (bytes > 0) {
+    const ssize_t written = write(1, at, bytes);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) std::_Exit(1);  // nobody listens any more
+    at += written;
+    bytes -= static_cast<std::size_t>(written);
+  }
+}
+
+void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent, Mesh& mesh,
+             std::size_t max_triangles) {
+  const aiMatrix4x4 transform = parent * node.mTransformation;
+  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+    const aiMesh& part = *scene.mMeshes[node.mMeshes[i]];
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (unsigned f = 0; f < part.mNumFaces; ++f) {
+      const aiFace& face = part.mFaces[f];
+      if (face.mNumIndices != 3) continue;  // points and lines: triangulation leaves nothing else
+      mesh.triangles.push_back({first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
+    }
+    for (unsigned v = 0; v < part.mNumVertices; ++v) {
+      const aiVector3D p = transform * part.mVertices[v];
+      mesh.vertices.push_back({p.x, p.y, p.z});
+    }
+    if (mesh.triangles.size() > max_triangles) {
+      throw Refusal(Code::limit, "it has more than " + std::to_string(max_triangles) + " triangles");
+    }
+  }
+  for (unsigned i = 0; i < node.mNumChildren; ++i) {
+    collect(scene, *node.mChildren[i], transform, mesh, max_triangles);
+  }
+}
+
+Mesh parse(const std::string& data, const std::string& kind, std::size_t max_triangles) {
+  Assimp::Importer importer;
+  // As RViz draws it: the unit of a COLLADA file counts, its up axis does not.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  const aiScene* scene = importer.ReadFileFromMemory(
+      data.data(), data.size(), aiProcess_Triangulate | aiProcess_JoinIdenticalVertices, kind.c_str());
+  if (scene == nullptr || scene->mRootNode == nullptr) {
+    throw Refusal(Code::parse, std::string("it cannot be read: ") + importer.GetErrorString());
+  }
+  Mesh mesh;
+  collect(*scene, *scene->mRootNode, aiMatrix4x4(), mesh, max_triangles);
+  return mesh;
+}
+
+void writeRefusal(Code code, const std::string& sentence) {
+  const std::string shown = sentence.substr(0, 1000);
+  const StreamHeader header{StreamHeader::kRefusal, static_cast<std::uint32_t>(code),
+                            static_cast<std::uint32_t>(shown.size())};
+  writeAll(&header, sizeof(header));
+  writeAll(shown.data(), shown.size());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 5) return 2;
+  const auto number = [&](int i) { return std::strtoull(argv[i], nullptr, 10); };
+  limitProcess(number(3), number(4));
+  try {
+    const Mesh mesh = parse(readAll(), argv[1], number(2));
+    const StreamHeader header{StreamHeader::kMesh, static_cast<std::uint32_t>(mesh.vertices.size()),
+                              static_cast<std::uint32_t>(mesh.triangles.size())};
+    writeAll(&header, sizeof(header));
+    writeAll(mesh.vertices.data(), mesh.vertices.size() * sizeof(mesh.vertices[0]));
+    writeAll(mesh.triangles.data(), mesh.triangles.size() * sizeof(mesh.triangles[0]));
+  } catch (const Refusal& refusal) {
+    writeRefusal(refusal.code(), refusal.what());
+  } catch (const std::bad_alloc&) {
+    writeRefusal(Code::limit, "reading it needs more memory than is allowed");
+  } catch (const std::exception& error) {
+    writeRefusal(Code::parse, error.what());
+  }
+  return 0;
+}
