@@ -3,8 +3,10 @@
 #   HGRID_ADAPTER_INCLUDE_DIRS   headers of all of them, Eigen's included
 #   HGRID_ADAPTER_LIBRARIES      urdfdom, its log and tinyxml2: what HGRID_ADAPTER_SOURCES link
 #   HGRID_MESH_READER_LIBRARIES  assimp: linked by proximity_mesh_reader alone, never by the node
+#   HGRID_ADAPTERS_MISSING       names of what was not found of these; empty: all is there
+#   HGRID_FCL_INCLUDE_DIRS       headers of FCL, which only tests use
 #   HGRID_FCL_LIBRARIES          FCL by its 0.6 API, with libccd and OctoMap that its headers use
-#   HGRID_ADAPTERS_MISSING       names of what was not found; empty: all is there
+#   HGRID_FCL_MISSING            names of what was not found of these
 #
 # Headers and libraries are looked for by name: not every distribution that the package is built on has a
 # working config file for each of them (Ubuntu 20.04: none for tinyxml2, a broken one for assimp), and the
@@ -27,24 +29,34 @@ find_library(HGRID_CCD_LIBRARY ccd)
 find_library(HGRID_OCTOMAP_LIBRARY octomap)
 find_library(HGRID_OCTOMATH_LIBRARY octomath)
 
+# hgrid_look(missing library...): appends to the list `missing` what was not found.
+macro(hgrid_look missing)
+  foreach(library ${ARGN})
+    mark_as_advanced(HGRID_${library})
+    if(NOT HGRID_${library})
+      list(APPEND ${missing} ${library})
+    endif()
+  endforeach()
+endmacro()
+
 set(HGRID_ADAPTERS_MISSING)
-foreach(library URDF_PARSER_INCLUDE_DIR URDF_MODEL_INCLUDE_DIR URDF_EXCEPTION_INCLUDE_DIR URDFDOM_MODEL_LIBRARY
-    CONSOLE_BRIDGE_INCLUDE_DIR CONSOLE_BRIDGE_LIBRARY
-    TINYXML2_INCLUDE_DIR TINYXML2_LIBRARY ASSIMP_INCLUDE_DIR ASSIMP_LIBRARY
-    FCL_INCLUDE_DIR FCL_LIBRARY CCD_LIBRARY OCTOMAP_LIBRARY OCTOMATH_LIBRARY)
-  mark_as_advanced(HGRID_${library})
-  if(NOT HGRID_${library})
-    list(APPEND HGRID_ADAPTERS_MISSING ${library})
-  endif()
-endforeach()
+set(HGRID_FCL_MISSING)
+hgrid_look(HGRID_ADAPTERS_MISSING URDF_PARSER_INCLUDE_DIR URDF_MODEL_INCLUDE_DIR URDF_EXCEPTION_INCLUDE_DIR
+  URDFDOM_MODEL_LIBRARY CONSOLE_BRIDGE_INCLUDE_DIR CONSOLE_BRIDGE_LIBRARY TINYXML2_INCLUDE_DIR TINYXML2_LIBRARY
+  ASSIMP_INCLUDE_DIR ASSIMP_LIBRARY)
+hgrid_look(HGRID_FCL_MISSING FCL_INCLUDE_DIR FCL_LIBRARY CCD_LIBRARY OCTOMAP_LIBRARY OCTOMATH_LIBRARY)
 
 if(NOT HGRID_ADAPTERS_MISSING)
   set(HGRID_ADAPTER_INCLUDE_DIRS ${EIGEN3_INCLUDE_DIRS} ${HGRID_URDF_PARSER_INCLUDE_DIR}
-    ${HGRID_URDF_MODEL_INCLUDE_DIR} ${HGRID_URDF_EXCEPTION_INCLUDE_DIR} ${HGRID_CONSOLE_BRIDGE_INCLUDE_DIR} ${HGRID_TINYXML2_INCLUDE_DIR}
-    ${HGRID_ASSIMP_INCLUDE_DIR} ${HGRID_FCL_INCLUDE_DIR})
+    ${HGRID_URDF_MODEL_INCLUDE_DIR} ${HGRID_URDF_EXCEPTION_INCLUDE_DIR} ${HGRID_CONSOLE_BRIDGE_INCLUDE_DIR}
+    ${HGRID_TINYXML2_INCLUDE_DIR} ${HGRID_ASSIMP_INCLUDE_DIR})
   list(REMOVE_DUPLICATES HGRID_ADAPTER_INCLUDE_DIRS)
   list(REMOVE_ITEM HGRID_ADAPTER_INCLUDE_DIRS /usr/include)  # found anyway; named, it would break #include_next
   set(HGRID_ADAPTER_LIBRARIES ${HGRID_URDFDOM_MODEL_LIBRARY} ${HGRID_CONSOLE_BRIDGE_LIBRARY} ${HGRID_TINYXML2_LIBRARY})
   set(HGRID_MESH_READER_LIBRARIES ${HGRID_ASSIMP_LIBRARY})
+endif()
+if(NOT HGRID_FCL_MISSING)
+  set(HGRID_FCL_INCLUDE_DIRS ${HGRID_FCL_INCLUDE_DIR})
+  list(REMOVE_ITEM HGRID_FCL_INCLUDE_DIRS /usr/include)
   set(HGRID_FCL_LIBRARIES ${HGRID_FCL_LIBRARY} ${HGRID_CCD_LIBRARY} ${HGRID_OCTOMAP_LIBRARY} ${HGRID_OCTOMATH_LIBRARY})
 endif()

@@ -58,6 +58,8 @@ class HGrid final : public BroadPhase {
   double edge(int level) const { return levels_.at(static_cast<std::size_t>(level)).edge; }
   /// Level on which this box would live: 0 .. kLevels - 1, or kLevels if it is too large for all.
   int levelFor(const Aabb& box) const;
+  /// Level on which a box lives, as levelFor(); -1 if it is not stored.
+  int levelOf(ProxyId id) const { return id < entries_.size() ? entries_[id].level : kAbsent; }
 
  private:
   using Cell = std::array<std::int32_t, 3>;

@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: the hgrid_proximity authors
+# shellcheck shell=bash
+#
+# What the scripts beside it share: install what is missing, build, run on a ROS master of their own, leave nothing behind.
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
+export PATH="/usr/bin:/usr/sbin:$PATH"  # ROS needs the system's python3; another one may stand first
+
+build_packages=(
+  catkin cmake g++ make ros-core-dev
+  libassimp-dev libdiagnostic-updater-dev libeigen3-dev libnodelet-dev libnodeletlib-dev libtf2-eigen-dev
+  libtf2-geometry-msgs-dev libtf2-ros-dev libtinyxml2-dev liburdfdom-dev liburdfdom-headers-dev pluginlib-dev
+)
+demo_packages=(
+  python3-geometry-msgs python3-roslaunch python3-rospy python3-sensor-msgs python3-shape-msgs python3-tf2-msgs
+  python3-visualization-msgs ros-robot-state-publisher
+)
+# shellcheck disable=SC2034  # read by scripts/test
+test_packages=(
+  "${demo_packages[@]}" catkin-lint libfcl-dev libgtest-dev python3-diagnostic-msgs python3-rostest python3-rostopic
+  rosbash
+)
+
+# What goes on in the background is stopped, and the scratch folder removed, when the script ends, however it ends.
+started=()
+scratch=$(mktemp -d -t hgrid_proximity.XXXXXX)
+trap end EXIT
+trap 'exit 129' HUP
+trap 'exit 130' INT
+trap 'exit 143' TERM
+
+say() { printf -- '-- %s\n' "$*"; }
+
+fail() {
+  printf -- '-- %s\n' "$*" >&2
+  exit 1
+}
+
+# Starts a command in the background; $! is its process.
+start() {
+  set -m  # a process group of its own: a Ctrl-C reaches it through end only, and is not ignored by it
+  "$@" </dev/null &
+  set +m
+  started+=($!)
+}
+
+# Runs a command; its output is shown only if it fails.
+quietly() {
+  local status=0
+  start "$@" >"$scratch/step.log" 2>&1
+  wait $! || status=$?
+  unset 'started[-1]'
+  ((status == 0)) || tail -n 60 "$scratch/step.log" >&2
+  return "$status"
+}
+
+as_root() {
+  if ((EUID == 0)); then "$@"; else sudo "$@"; fi
+}
+
+install_debian() {
+  local -A present=()
+  local -a missing=()
+  local package
+  command -v apt-get >/dev/null || fail "this script needs Debian 12, or a sourced ROS Noetic"
+  while read -r package; do present[$package]=1; done < <(
+    dpkg-query -W -f '${Package} ${db:Status-Status}\n' "$@" 2>/dev/null | sed -n 's/ installed$//p'
+  )
+  for package; do [[ -n ${present[$package]:-} ]] || missing+=("$package"); done
+  ((${#missing[@]})) || return 0
+  say "installing ${#missing[@]} packages: ${missing[*]}"
+  ((EUID == 0)) || sudo true || fail "installing needs root or sudo"
+  quietly as_root apt-get -o DPkg::Lock::Timeout=600 update || fail "apt-get update failed"
+  quietly as_root env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=600 install -y --no-install-recommends \
+    "${missing[@]}" || fail "apt-get install failed"
+}
+
+# Installs what building and the named Debian packages need; beside ROS Noetic what package.xml needs.
+install_missing() {
+  if [[ ${ROS_DISTRO:-} != noetic ]]; then
+    install_debian "${build_packages[@]}" "$@"
+  elif ! quietly rosdep check --from-paths "$root" --ignore-src; then
+    say "installing what package.xml names, through rosdep"
+    rosdep install --from-paths "$root" --ignore-src -y || fail "rosdep failed; is it initialised (rosdep update)?"
+  fi
+}
+
+# shellcheck disable=SC2120  # arguments are for callers that have some
+# Builds Release below build/; arguments go to cmake. Nothing is done again that was done before.
+build() {
+  local out=$root/build/release
+  local -a options=(
+    -DCMAKE_BUILD_TYPE=Release "-DCATKIN_DEVEL_PREFIX=$root/build/devel"
+    -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 "$@"
+  )
+  if [[ ! -f $out/Makefile || $(cat "$out/.options" 2>/dev/null) != "${options[*]}" ]]; then
+    say "configuring"
+    quietly cmake -S "$root" -B "$out" "${options[@]}" || fail "cmake failed"
+    printf '%s\n' "${options[*]}" >"$out/.options"
+  fi
+  say "building (Release; minutes the first time, a moment after that)"
+  quietly cmake --build "$out" -j"$(nproc)" || fail "the build failed"
+}
+
+# Puts the build on the paths of ROS.
+enter_build() {
+  set +u  # the generated file reads variables that may not be set
+  # shellcheck disable=SC1091
+  source "$root/build/devel/setup.bash"
+  set -u
+  [[ :$ROS_PACKAGE_PATH: == *:$root:* ]] || export ROS_PACKAGE_PATH=$root:$ROS_PACKAGE_PATH
+  export PATH="/usr/bin:$PATH"
+}
+
+# From here on ROS lives on a free port and in the scratch folder.
+begin_session() {
+  local port
+  port=$(python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])')
+  unset ROS_HOSTNAME ROS_NAMESPACE
+  export ROS_MASTER_URI=http://127.0.0.1:$port ROS_IP=127.0.0.1 ROS_HOME=$scratch/home ROS_LOG_DIR=$scratch/log
+  mkdir -p "$ROS_HOME" "$ROS_LOG_DIR"
+}
+
+# Starts master, cell and node; arguments go to the launch file.
+start_cell() {
+  start roslaunch -p "${ROS_MASTER_URI##*:}" hgrid_proximity demo.launch "$@" >"$scratch/launch.log" 2>&1
+}
+
+# What the cell and the node said before the first of them gave up.
+show_logs() { sed '/Initiating shutdown/q' "$scratch/launch.log" | tail -n 40 >&2; }
+
+# Every process that still runs: those started here, and of a session also those that lost their parent, by the log
+# folder in their environment.
+still_running() {
+  local pid
+  for pid in "${started[@]}"; do
+    ! kill -0 "$pid" 2>/dev/null || printf '%s\n' "$pid"
+  done
+  if [[ ${ROS_LOG_DIR:-} == "$scratch"/* ]]; then
+    env -u ROS_LOG_DIR grep -lsxzF "ROS_LOG_DIR=$ROS_LOG_DIR" /proc/[0-9]*/environ | cut -d/ -f3 || true
+  fi
+}
+
+gone_within() {
+  local tenths
+  for ((tenths = $1 * 10; tenths > 0; --tenths)); do
+    [[ -n $(still_running) ]] || return 0
+    sleep 0.1
+  done
+  return 1
+}
+
+end() {
+  local pid signal
+  trap '' HUP INT TERM
+  for pid in "${started[@]}"; do kill -INT -- "-$pid" 2>/dev/null || true; done
+  for signal in TERM KILL; do
+    if gone_within 8; then break; fi
+    for pid in $(still_running); do kill -"$signal" "$pid" 2>/dev/null || true; done
+  done
+  wait 2>/dev/null || true
+  rm -rf -- "$scratch"
+}

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "world.h"
+
+namespace hgrid {
+
+/// The last question of each kind, to be drawn. Any thread.
+class QuerySketch {
+ public:
+  void show(const Sphere& sphere, Verdict verdict);
+  void show(const Segment& segment, Verdict verdict);
+
+  template <class Geometry>
+  struct Drawn {
+    Geometry geometry;  // [m, world frame]
+    Verdict verdict;
+    std::chrono::steady_clock::time_point at;
+  };
+  std::optional<Drawn<Sphere>> sphere() const;
+  std::optional<Drawn<Segment>> segment() const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::optional<Drawn<Sphere>> sphere_;
+  std::optional<Drawn<Segment>> segment_;
+};
+
+/// What RViz draws of a tick, in the world frame: namespace "boxes" (one colour per grid level), "not_fresh" (boxes of
+/// bodies that are not, red), "pairs" (a line between the nearest points of each near pair's boxes), "queries".
+/// Every marker has a stable id and is replaced, or deleted where there is nothing to draw.
+visualization_msgs::MarkerArray markers(const Tick& tick, const QuerySketch& queries);
+
+/// Deletes all of them: for the first message to a new viewer.
+visualization_msgs::MarkerArray markersGone(const Tick& tick);
+
+}  // namespace hgrid

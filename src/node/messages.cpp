@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "messages.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hgrid {
+namespace {
+
+msg::Shape toMsg(const BodyShape& source) {
+  msg::Shape shape;
+  shape.kind = static_cast<std::uint8_t>(source.shape.kind());
+  shape.dimensions = source.shape.dimensions();
+  shape.pose = toPose(source.body_from_shape);
+  shape.padding = source.padding;
+  shape.resource = source.resource;
+  shape.scale.x = source.scale.x();
+  shape.scale.y = source.scale.y();
+  shape.scale.z = source.scale.z();
+  if (source.shape.mesh()) {
+    shape.vertex_count = static_cast<std::uint32_t>(source.shape.mesh()->vertices.size());
+    shape.triangle_count = static_cast<std::uint32_t>(source.shape.mesh()->triangles.size());
+  }
+  return shape;
+}
+
+msg::Body toMsg(const Body& source, double margin) {
+  msg::Body body;
+  body.name = source.name;
+  body.frame = source.frame;
+  body.mobility = static_cast<std::uint8_t>(source.mobility);
+  body.robot = source.robot;
+  body.rigid_group = source.rigid_group;
+  for (const BodyShape& shape : source.shapes) body.shapes.push_back(toMsg(shape));
+  body.covered = source.covered;
+  body.waived = source.waived;
+  body.note = source.note;
+  body.margin = margin;
+  body.max_speed = std::isfinite(source.max_speed) ? source.max_speed : std::nan("");
+  return body;
+}
+
+}  // namespace
+
+ros::Time toRos(Time time) {
+  return ros::Time().fromNSec(static_cast<std::uint64_t>(std::max<std::int64_t>(0, time.count())));
+}
+
+geometry_msgs::Point toPoint(const Eigen::Vector3d& point) {
+  geometry_msgs::Point result;
+  result.x = point.x();
+  result.y = point.y();
+  result.z = point.z();
+  return result;
+}
+
+geometry_msgs::Pose toPose(const Pose& pose) {
+  geometry_msgs::Pose result;
+  const Eigen::Quaterniond rotation(pose.linear());
+  result.position = toPoint(pose.translation());
+  result.orientation.x = rotation.x();
+  result.orientation.y = rotation.y();
+  result.orientation.z = rotation.z();
+  result.orientation.w = rotation.w();
+  return result;
+}
+
+msg::Code toMsg(Code code, const std::string& sentence) {
+  msg::Code result;
+  result.value = static_cast<std::uint16_t>(code);
+  result.name = name(code);
+  result.text = sentence;
+  return result;
+}
+
+std_msgs::Header headerOf(const Tick& tick) {
+  std_msgs::Header header;
+  header.frame_id = tick.world_frame;
+  if (tick.snapshot) header.stamp = toRos(tick.snapshot->stamp());
+  return header;
+}
+
+msg::WorldState worldState(const Tick& tick, const Params& params, std::uint64_t config_hash, double age_since) {
+  msg::WorldState world;
+  world.epoch = tick.epoch;
+  world.config_hash = config_hash;
+  world.valid_until = toRos(tick.made.ros + std::chrono::nanoseconds(std::llround(1e9 * params.valid_for)));
+  world.unknown_space = msg::WorldState::UNKNOWN_SPACE_IGNORE;
+  if (!tick.snapshot) {
+    world.reasons = tick.not_ready;
+    world.reasons_total = static_cast<std::uint32_t>(tick.not_ready.size());
+    world.worst_state = msg::WorldState::UNPLACED;
+    return world;
+  }
+  const Snapshot& snapshot = *tick.snapshot;
+  world.stamp = toRos(snapshot.stamp());
+  world.sequence = snapshot.sequence();
+  world.bodies_revision = snapshot.structure().revision;
+  world.complete = snapshot.complete();
+  world.reasons = snapshot.reasons();
+  world.reasons_total = snapshot.reasonsTotal();
+  world.worst_state = static_cast<std::uint8_t>(snapshot.worstState());
+  world.max_age = snapshot.maxAge() > 0.0 ? snapshot.maxAge() + age_since : 0.0;
+  return world;
+}
+
+msg::Pairs pairs(const Tick& tick, const msg::WorldState& world, const Params& params) {
+  msg::Pairs message;
+  message.header = headerOf(tick);
+  message.world = world;
+  if (!tick.snapshot) return message;
+  const Snapshot& snapshot = *tick.snapshot;
+  const std::vector<NearPair>& near = snapshot.pairs();
+  const std::size_t shown = std::min(near.size(), static_cast<std::size_t>(params.max_pairs));
+  message.total = static_cast<std::uint32_t>(near.size());
+  message.truncated = shown < near.size();
+
+  // Bodies are sorted by name, so numbering those in use in their order gives a sorted dictionary.
+  std::vector<std::uint32_t> number(snapshot.poses().size(), 0);
+  for (std::size_t i = 0; i < shown; ++i) number[near[i].first] = number[near[i].second] = 1;
+  for (std::size_t body = 0; body < number.size(); ++body) {
+    if (number[body] == 0) continue;
+    number[body] = static_cast<std::uint32_t>(message.names.size());
+    message.names.push_back(snapshot.structure().bodies[body].name);
+  }
+  for (std::size_t i = 0; i < shown; ++i) {
+    const NearPair& pair = near[i];
+    message.first.push_back(number[pair.first]);
+    message.second.push_back(number[pair.second]);
+    message.gap.push_back(pair.gap);
+    message.margin.push_back(pair.margin);
+    message.since.push_back(toRos(pair.since));
+    message.state.push_back(
+        static_cast<std::uint8_t>(std::max(snapshot.poses()[pair.first].state, snapshot.poses()[pair.second].state)));
+  }
+  return message;
+}
+
+msg::Bodies bodies(const Tick& tick) {
+  msg::Bodies message;
+  message.header = headerOf(tick);
+  message.epoch = tick.epoch;
+  message.without_collision = tick.models->without_collision;
+  if (!tick.snapshot) return message;
+  const Structure& structure = tick.snapshot->structure();
+  message.bodies_revision = structure.revision;
+  message.origin = toPoint(tick.snapshot->origin());
+  for (std::size_t i = 0; i < structure.bodies.size(); ++i) {
+    message.bodies.push_back(toMsg(structure.bodies[i], structure.margin[i]));
+  }
+  return message;
+}
+
+msg::Status status(const Tick& tick, const msg::WorldState& world, const Params& params, const Ledger& ledger,
+                   const Stopwatch& stopwatch) {
+  msg::Status message;
+  message.header = headerOf(tick);
+  message.world = world;
+  message.made = toRos(tick.made.ros);
+  message.not_ready = tick.not_ready;
+  message.bodies_total = static_cast<std::uint32_t>(tick.troubles.size());
+  for (const BodyTrouble& trouble : tick.troubles) {
+    if (message.bodies.size() >= static_cast<std::size_t>(params.max_listed)) break;
+    msg::BodyStatus body;
+    body.name = trouble.name;
+    body.frame = trouble.frame;
+    body.state = static_cast<std::uint8_t>(trouble.state);
+    body.age = trouble.age;
+    body.stamp = toRos(trouble.stamp);
+    body.code = toMsg(trouble.code, trouble.sentence);
+    message.bodies.push_back(body);
+  }
+  message.missing_frames = tick.missing_frames;
+  message.uncovered = tick.models->uncovered;
+  message.waived = tick.models->waived;
+  message.without_collision = tick.models->without_collision;
+  message.model_warnings = tick.models->warnings;
+  message.robots = static_cast<std::uint32_t>(tick.models->robots);
+  if (tick.snapshot) {
+    const Snapshot& snapshot = *tick.snapshot;
+    message.body_count = static_cast<std::uint32_t>(snapshot.poses().size());
+    message.shape_count = static_cast<std::uint32_t>(snapshot.boxes().size());
+    message.pair_count = static_cast<std::uint32_t>(snapshot.pairs().size());
+    for (int level = 0; level < GridScale::kLevels; ++level) {
+      message.level_count.push_back(static_cast<std::uint32_t>(snapshot.grid().count(level)));
+      message.level_edge.push_back(snapshot.grid().edge(level));
+    }
+    message.level_count.push_back(static_cast<std::uint32_t>(snapshot.grid().count(GridScale::kLevels)));
+  }
+  for (const auto& counter : ledger.counters()) {
+    message.counters.emplace_back();
+    message.counters.back().name = counter.first;
+    message.counters.back().value = counter.second;
+  }
+  for (const auto& part : stopwatch.summaries()) {
+    msg::Timing timing;
+    timing.name = part.first;
+    timing.last = part.second.last;
+    timing.median = part.second.median;
+    timing.p99 = part.second.p99;
+    timing.max = part.second.max;
+    message.timings.push_back(timing);
+  }
+  message.timing_ticks = static_cast<std::uint32_t>(stopwatch.ticks());
+  return message;
+}
+
+}  // namespace hgrid

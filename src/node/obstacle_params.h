@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "param_value.h"
+#include "params.h"
+
+namespace hgrid {
+
+/// Reads a pose {xyz: [m], rpy: [rad]}; both may be left out.
+Pose readPose(ParamValue value);
+
+/// Reads ~obstacles: a list of {name, frame, pose, shapes: [{type, ..., pose}]}. The frame of an obstacle that names
+/// none stays empty: the world frame.
+std::vector<ObstacleParams> readObstacles(ParamValue value, const ShapeLimits& limits);
+
+}  // namespace hgrid

@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "params.h"
+
+#include <sstream>
+#include <stdexcept>
+
+#include "frames.h"
+#include "hgrid_proximity/refusal.h"
+#include "hgrid_proximity/scene/name.h"
+#include "obstacle_params.h"
+#include "param_value.h"
+
+namespace hgrid {
+namespace {
+
+constexpr const char* kKinds[] = {"self", "robot_robot", "robot_obstacle", "robot_map", "moving_obstacle"};
+
+/// Shows every parameter to a visitor: name, value, unit and range, meaning. The one list of all of them.
+template <class Visitor>
+void visit(Visitor& v, Params& p) {
+  v.section("The world");
+  v.string("world_frame", p.world_frame,
+           "tf frame of every box and every answer; empty: the root link of the robot (required with several robots)");
+  v.vector("origin", p.origin, "m", 1e6,
+           "point of the world frame that boxes are stored relative to (as float32): near the robot where coordinates "
+           "are large");
+  v.number("rate", p.rate, "Hz", 1.0, 1000.0, "ticks per second");
+  v.number("margin", p.margin, "m", 0.0, 1000.0, "bodies whose boxes are this near or nearer are pairs");
+  v.number("finest_edge", p.finest_edge, "m", 0.0, 1000.0,
+           "edge of the grid's smallest cells, at least 0.001; 0: chosen from the bodies");
+
+  v.section("Robots");
+  v.robots("robots", p.robots,
+           "list of {name, description, semantic, tf_prefix}: description and semantic name the parameters with URDF "
+           "and SRDF; "
+           "empty: one robot named 'robot' from robot_description and robot_description_semantic");
+  v.waivers("accept_uncovered", p.accept_uncovered,
+            "list of {pattern, reason}: bodies with unreadable shapes that do not make the world incomplete");
+  v.strings("mesh_roots", p.mesh_roots,
+            "folders below which meshes may be read by file://; package:// is always allowed");
+
+  v.section("Obstacles");
+  v.obstacles(
+      "obstacles", p.obstacles,
+      "list of {name, frame, pose: {xyz: [m], rpy: [rad]}, shapes: [{type, pose, ...}]}; types: box (size: [x, y, z]), "
+      "sphere (radius), cylinder, cone, capsule (height, radius) [m]; frame empty: the world frame, and the obstacle "
+      "is fixed");
+
+  v.section("Which pairs");
+  v.kinds("pair_kinds", p.pair_kinds,
+          "kinds of pair that are reported: self, robot_robot, robot_obstacle, robot_map, moving_obstacle");
+  v.allowed("allowed_pairs", p.allowed_pairs,
+            "list of {first, second, reason}: globs over body names; pairs that match may touch and are not reported");
+  v.values(
+      "margins", p.margins, "margin", "m", 0.0, 1000.0,
+      "list of {pattern, margin}: bodies with a margin of their own; a pair has the larger one; the last match counts");
+  v.values("padding", p.padding, "padding", "m", 0.0, 1000.0,
+           "list of {pattern, padding}: bodies whose shapes are grown on all sides; the last match counts");
+
+  v.section("Time");
+  v.number("max_sync_wait", p.max_sync_wait, "s", 0.0, 10.0,
+           "most that the time of a tick stays behind the newest transform to wait for slower ones");
+  v.number("late_after", p.late_after, "s", 0.001, 3600.0,
+           "a pose older than this, and than 1.5 of its periods, is LATE");
+  v.number("stale_after", p.stale_after, "s", 0.001, 3600.0,
+           "a pose older than this is STALE: the body's margins widen");
+  v.number("lost_after", p.lost_after, "s", 0.001, 86400.0, "a pose older than this is LOST: the world is incomplete");
+  v.values("max_speed", p.max_speed, "speed", "m/s", 0.0, 1e6,
+           "list of {pattern, speed}: bound of the speed of any point of these bodies; the last match counts");
+  v.number("default_max_speed", p.default_max_speed, "m/s", 0.0, 1e6,
+           "speed bound where neither max_speed nor the robot's joint velocity limits give one");
+  v.number("growth_cap", p.growth_cap, "m", 0.0, 1000.0, "most that the margins of a stale body widen");
+  v.number("valid_for", p.valid_for, "s", 0.001, 3600.0, "valid_until of every message is this long after it was made");
+  v.number("max_future", p.max_future, "s", 0.0, 3600.0, "transforms stamped farther in the future are refused");
+  v.number("tf_cache", p.tf_cache, "s", 1.0, 3600.0, "how long transforms are kept");
+  v.number("clock_jump", p.clock_jump, "s", 0.1, 86400.0, "a ROS clock that runs ahead by more in one tick has jumped");
+
+  v.section("Limits");
+  v.number("world_limit", p.world_limit, "m", 1.0, 1e6, "poses beyond this are refused, per axis");
+  v.number("min_size", p.min_size, "m", 1e-6, 1.0, "smallest radius, side or height of a shape");
+  v.number("max_size", p.max_size, "m", 1.0, 1e5, "largest radius, side, height or vertex coordinate of a shape");
+  v.flag("allow_flat", p.allow_flat, "boxes may have one side of 0");
+  v.integer("max_bodies", p.max_bodies, 1, 1000000, "bodies");
+  v.integer("max_frames", p.max_frames, 1, 1000000, "tf frames that are kept");
+  v.integer("max_pairs", p.max_pairs, 1, 10000000, "pairs in one message; more: truncated");
+  v.integer("max_hits", p.max_hits, 1, 1000000, "hits in one answer; more: truncated");
+  v.integer("max_listed", p.max_listed, 1, 100000, "bodies that ~status lists");
+  v.integer("max_reasons", p.max_reasons, 1, 1000, "reasons for an incomplete world that a message lists");
+  v.integer("max_description_bytes", p.max_description_bytes, 1000, 256 << 20, "bytes of a URDF or SRDF");
+  v.integer("max_description_depth", p.max_description_depth, 8, 256, "nesting of elements in a URDF or SRDF");
+  v.integer("max_links", p.max_links, 1, 100000, "links of a robot");
+  v.integer("max_mesh_bytes", p.max_mesh_bytes, 1000, 1 << 30, "bytes of a mesh file");
+  v.integer("max_mesh_triangles", p.max_mesh_triangles, 1, 100000000, "triangles of a mesh");
+  v.integer("mesh_memory", p.mesh_memory, 64 << 20, 2147483647, "bytes of memory for reading a mesh");
+  v.number("mesh_timeout", p.mesh_timeout, "s", 0.1, 600.0, "time for reading a mesh");
+
+  v.section("The node");
+  v.integer("query_threads", p.query_threads, 1, 64, "threads that answer queries");
+  v.number("marker_rate", p.marker_rate, "Hz", 0.1, 100.0, "~markers per second while somebody looks");
+}
+
+/// Fills Params from the parameter server's values.
+class Reader {
+ public:
+  explicit Reader(ParamValue& root, const Params& params) : root_(root), params_(params) {}
+
+  void section(const char*) {}
+  void string(const char* name, std::string& value, const char*) {
+    if (auto given = root_.get(name)) given->string(value);
+  }
+  void vector(const char* name, Eigen::Vector3d& value, const char*, double limit, const char*) {
+    if (auto given = root_.get(name)) given->vector(value, limit);
+  }
+  void number(const char* name, double& value, const char* unit, double low, double high, const char*) {
+    if (auto given = root_.get(name)) given->number(value, low, high, unit);
+  }
+  void integer(const char* name, int& value, int low, int high, const char*) {
+    if (auto given = root_.get(name)) given->integer(value, low, high);
+  }
+  void flag(const char* name, bool& value, const char*) {
+    if (auto given = root_.get(name)) given->flag(value);
+  }
+  void strings(const char* name, std::vector<std::string>& value, const char*) {
+    if (auto given = root_.get(name)) given->strings(value);
+  }
+  void robots(const char* name, std::vector<RobotParams>& value, const char*) {
+    std::set<std::string> names;
+    forEach(name, "field of a robot (name, description, semantic, tf_prefix)", [&](ParamValue& element) {
+      RobotParams robot;
+      robot.semantic.clear();  // the default one may be another robot's
+      readString(element, "description", robot.description, true);
+      readString(element, "semantic", robot.semantic, false);
+      readString(element, "tf_prefix", robot.tf_prefix, false);
+      if (auto given = element.require("name")) {
+        given->string(robot.name);
+        try {
+          checkSource(robot.name, "it");
+        } catch (const Refusal& refusal) {
+          given->error(std::string("cannot be a name: ") + refusal.what());
+        }
+        if (robot.name == "obstacle" || robot.name == "map" || robot.name == "cloud") {
+          given->error("is '" + robot.name + "'; obstacle, map and cloud are reserved");
+        }
+        if (!names.insert(robot.name).second) given->error("is '" + printable(robot.name) + "' a second time");
+      }
+      value.push_back(robot);
+    });
+  }
+  void waivers(const char* name, std::vector<Waiver>& value, const char*) {
+    forEach(name, "field of a waiver (pattern, reason)", [&](ParamValue& element) {
+      value.emplace_back();
+      readString(element, "pattern", value.back().pattern, true);
+      readString(element, "reason", value.back().reason, true);
+    });
+  }
+  void allowed(const char* name, std::vector<AllowedPattern>& value, const char*) {
+    forEach(name, "field of an allowed pair (first, second, reason)", [&](ParamValue& element) {
+      value.emplace_back();
+      readString(element, "first", value.back().first, true);
+      readString(element, "second", value.back().second, true);
+      readString(element, "reason", value.back().reason, false);
+    });
+  }
+  void values(const char* name, std::vector<PatternValue>& value, const char* key, const char* unit, double low,
+              double high, const char*) {
+    forEach(name, "field of it", [&](ParamValue& element) {
+      value.emplace_back();
+      readString(element, "pattern", value.back().pattern, true);
+      if (auto number = element.require(key)) number->number(value.back().value, low, high, unit);
+    });
+  }
+  void kinds(const char* name, PairKinds& value, const char*) {
+    auto given = root_.get(name);
+    if (!given) return;
+    std::vector<std::string> names;
+    given->strings(names);
+    bool* const flags[] = {&value.self, &value.robot_robot, &value.robot_obstacle, &value.robot_map,
+                           &value.moving_obstacle};
+    for (bool* flag : flags) *flag = false;
+    for (const std::string& kind : names) {
+      bool known = false;
+      for (std::size_t i = 0; i < 5; ++i) {
+        if (kind == kKinds[i]) *flags[i] = known = true;
+      }
+      if (!known) {
+        given->error("names '" + printable(kind, 48) +
+                     "'; kinds are self, robot_robot, robot_obstacle, robot_map, moving_obstacle");
+      }
+    }
+  }
+  void obstacles(const char* name, std::vector<ObstacleParams>& value, const char*) {
+    obstacles_ = root_.get(name);  // read last: the limits on sizes are parameters too
+    obstacles_target_ = &value;
+  }
+  void finish() {
+    if (obstacles_) *obstacles_target_ = readObstacles(*obstacles_, params_.shapeLimits());
+  }
+
+ private:
+  template <class Read>
+  void forEach(const char* name, const char* noun, Read&& read) {
+    auto given = root_.get(name);
+    if (!given) return;
+    for (ParamValue& element : given->elements()) {
+      if (!element.requireStruct()) continue;
+      read(element);
+      element.finish(noun);
+    }
+  }
+  static void readString(ParamValue& element, const char* key, std::string& value, bool required) {
+    if (auto given = required ? element.require(key) : element.get(key)) given->string(value);
+  }
+
+  ParamValue& root_;
+  const Params& params_;
+  std::optional<ParamValue> obstacles_;
+  std::vector<ObstacleParams>* obstacles_target_ = nullptr;
+};
+
+/// Writes config/params.yaml.
+class Printer {
+ public:
+  void section(const char* title) { out_ << "\n# " << title << "\n"; }
+  void string(const char* name, const std::string& value, const char* meaning) {
+    line(meaning);
+    out_ << name << ": \"" << value << "\"\n";
+  }
+  void vector(const char* name, const Eigen::Vector3d& value, const char* unit, double limit, const char* meaning) {
+    line(std::string("[") + unit + "] " + meaning + "; each within " + text(-limit) + " .. " + text(limit));
+    out_ << name << ": [" << decimal(value[0]) << ", " << decimal(value[1]) << ", " << decimal(value[2]) << "]\n";
+  }
+  void number(const char* name, double value, const char* unit, double low, double high, const char* meaning) {
+    line(std::string("[") + unit + "] " + meaning + "; " + text(low) + " .. " + text(high));
+    out_ << name << ": " << decimal(value) << "\n";
+  }
+  void integer(const char* name, int value, int low, int high, const char* meaning) {
+    line(std::string(meaning) + "; " + std::to_string(low) + " .. " + std::to_string(high));
+    out_ << name << ": " << value << "\n";
+  }
+  void flag(const char* name, bool value, const char* meaning) {
+    line(meaning);
+    out_ << name << ": " << (value ? "true" : "false") << "\n";
+  }
+  void kinds(const char* name, const PairKinds&, const char* meaning) {
+    line(meaning);
+    out_ << name << ": [self, robot_robot, robot_obstacle, robot_map, moving_obstacle]\n";
+  }
+  void strings(const char* name, const std::vector<std::string>&, const char* meaning) { list(name, "", meaning); }
+  void robots(const char* name, const std::vector<RobotParams>&, const char* meaning) { list(name, "", meaning); }
+  void waivers(const char* name, const std::vector<Waiver>&, const char* meaning) { list(name, "", meaning); }
+  void allowed(const char* name, const std::vector<AllowedPattern>&, const char* meaning) { list(name, "", meaning); }
+  void obstacles(const char* name, const std::vector<ObstacleParams>&, const char* meaning) { list(name, "", meaning); }
+  void values(const char* name, const std::vector<PatternValue>&, const char*, const char* unit, double low,
+              double high, const char* meaning) {
+    list(name, std::string("[") + unit + "] ", std::string(meaning) + "; " + text(low) + " .. " + text(high));
+  }
+  std::string yaml() const { return out_.str(); }
+
+ private:
+  void list(const char* name, const std::string& unit, const std::string& meaning) {
+    line(unit + meaning);
+    out_ << name << ": []\n";
+  }
+  void line(std::string meaning) {  // wrapped for people
+    while (!meaning.empty()) {
+      std::size_t end = meaning.size();
+      if (end > 110) end = meaning.rfind(' ', 110);
+      out_ << "# " << meaning.substr(0, end) << "\n";
+      meaning.erase(0, end + 1);
+    }
+  }
+  static std::string decimal(double value) {  // YAML 1.1 reads 1e+06 as a string
+    std::string shown = text(value);
+    const std::size_t exponent = shown.find('e');
+    if (shown.find('.') == std::string::npos)
+      shown.insert(exponent == std::string::npos ? shown.size() : exponent, ".0");
+    return shown;
+  }
+
+  std::ostringstream out_;
+};
+
+}  // namespace
+
+Params readParams(XmlRpc::XmlRpcValue values) {
+  std::vector<std::string> errors;
+  Params params;
+  ParamValue root(std::move(values), "~", errors);
+  root.get("diagnostic_period");  // of diagnostic_updater
+  Reader reader(root, params);
+  visit(reader, params);
+  reader.finish();
+  root.finish("parameter of this node");
+
+  const auto require = [&](bool holds, const std::string& sentence) {
+    if (!holds) errors.push_back(sentence);
+  };
+  require(params.late_after <= params.stale_after && params.stale_after <= params.lost_after,
+          "~late_after is " + text(params.late_after) + " s, ~stale_after " + text(params.stale_after) +
+              " s, ~lost_after " + text(params.lost_after) + " s; they must not decrease in this order");
+  require(params.min_size < params.max_size,
+          "~min_size is " + text(params.min_size) + " m; it must be below ~max_size, " + text(params.max_size) + " m");
+  require(params.finest_edge == 0.0 || params.finest_edge >= 1e-3,
+          "~finest_edge is " + text(params.finest_edge) + " m; it must be 0 or at least 0.001 m");
+  params.world_frame = withoutSlash(params.world_frame);
+  require(params.robots.size() < 2 || !params.world_frame.empty(),
+          "~world_frame is empty; with several robots it must name the frame that all are known in");
+  if (params.robots.empty()) params.robots.push_back(RobotParams{});
+  if (errors.empty()) return params;
+  std::string message =
+      std::to_string(errors.size()) + (errors.size() == 1 ? " parameter is" : " parameters are") + " wrong:";
+  for (const std::string& error : errors) message += "\n  " + error;
+  throw std::invalid_argument(message);
+}
+
+std::string paramsAsYaml() {
+  Params defaults;
+  Printer printer;
+  visit(printer, defaults);
+  return "# All parameters of proximity_node with their defaults. In brackets the unit, at the end the range, both "
+         "ends\n"
+         "# allowed. Load what you change into the node's private namespace; unknown names stop the start.\n" +
+         printer.yaml();
+}
+
+}  // namespace hgrid

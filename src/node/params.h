@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <XmlRpcValue.h>
+
+#include <string>
+#include <vector>
+
+#include "hgrid_proximity/scene/body.h"
+#include "hgrid_proximity/scene/pair_filter.h"
+
+namespace hgrid {
+
+/// A robot to load, from ~robots.
+struct RobotParams {
+  std::string name = "robot";                           ///< source of its bodies' names
+  std::string description = "robot_description";        ///< parameter that holds the URDF; searched upwards
+  std::string semantic = "robot_description_semantic";  ///< parameter that holds the SRDF, if there is one
+  std::string tf_prefix;                                ///< its frames are tf_prefix/link; empty: link
+};
+
+/// A static obstacle, from ~obstacles: a body and its pose in its frame.
+struct ObstacleParams {
+  Body body;
+  Pose frame_from_body = Pose::Identity();
+};
+
+/// A value for all bodies whose name matches a glob.
+struct PatternValue {
+  std::string pattern;
+  double value = 0.0;
+};
+
+/// Bodies that may be uncovered, and why that is all right.
+struct Waiver {
+  std::string pattern, reason;
+};
+
+/// All the node can be told. Defaults, units, ranges and meanings stand once, in visit() in params.cpp, and are
+/// shown in config/params.yaml; a test holds the two together.
+struct Params {
+  std::string world_frame;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  double rate = 50.0;
+  double margin = 0.10;
+  double finest_edge = 0.0;
+
+  std::vector<RobotParams> robots;
+  std::vector<ObstacleParams> obstacles;
+  std::vector<AllowedPattern> allowed_pairs;
+  PairKinds pair_kinds;
+  std::vector<Waiver> accept_uncovered;
+  std::vector<PatternValue> margins, padding, max_speed;
+
+  double late_after = 0.1, stale_after = 0.25, lost_after = 2.0;
+  double growth_cap = 1.0, default_max_speed = 2.0;
+  double max_sync_wait = 0.1, max_future = 0.5, tf_cache = 10.0, clock_jump = 10.0, valid_for = 0.1;
+
+  double world_limit = 1e6, min_size = 1e-4, max_size = 1e5;
+  bool allow_flat = false;
+  int max_bodies = 100000, max_frames = 10000, max_pairs = 100000, max_hits = 10000, max_listed = 100, max_reasons = 8;
+  int max_description_bytes = 16 << 20, max_description_depth = 256, max_links = 2000;
+  std::vector<std::string> mesh_roots;
+  int max_mesh_bytes = 64 << 20, max_mesh_triangles = 1000000, mesh_memory = 512 << 20;
+  double mesh_timeout = 5.0;
+  int query_threads = 2;
+  double marker_rate = 5.0;
+
+  ShapeLimits shapeLimits() const { return {min_size, max_size, allow_flat}; }
+};
+
+/// Reads all parameters of the node's private namespace, given as one struct value.
+/// @throws std::invalid_argument with one message that lists every wrong, out-of-range and unknown parameter.
+Params readParams(XmlRpc::XmlRpcValue values);
+
+/// The text of config/params.yaml: every parameter with unit, default, range and meaning.
+std::string paramsAsYaml();
+
+}  // namespace hgrid

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "proximity_node.h"
+
+#include <ros/names.h>
+
+#include <future>
+
+#include "hgrid_proximity/scene/name.h"
+
+namespace hgrid {
+namespace {
+
+constexpr auto kJobPatience = std::chrono::seconds(10);  // a tick takes milliseconds; longer means that it hangs
+
+Moment thisMoment() {
+  Moment moment;
+  moment.ros = Time(static_cast<std::int64_t>(ros::Time::now().toNSec()));
+  moment.steady = std::chrono::steady_clock::now();
+  return moment;
+}
+
+XmlRpc::XmlRpcValue valuesOf(const ros::NodeHandle& node) {
+  XmlRpc::XmlRpcValue values;
+  if (!node.getParam(node.getNamespace(), values) || values.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
+    values = XmlRpc::XmlRpcValue();
+    values.begin();  // an empty dictionary: nothing was set
+  }
+  return values;
+}
+
+std::uint64_t fnv1a(const std::string& text) {
+  std::uint64_t hash = 0xcbf29ce484222325ull;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
+  return hash;
+}
+
+std::uint64_t newEpoch() {
+  return static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count());
+}
+
+ros::NodeHandle onQueue(ros::NodeHandle node, ros::CallbackQueue& queue) {
+  node.setCallbackQueue(&queue);
+  return node;
+}
+
+}  // namespace
+
+ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node)
+    : update_node_(onQueue(node, update_queue_)),
+      update_private_(onQueue(private_node, update_queue_)),
+      query_private_(onQueue(private_node, query_queue_)),
+      admin_node_(onQueue(node, admin_queue_)),
+      admin_private_(onQueue(private_node, admin_queue_)),
+      params_(readParams(valuesOf(private_node))),
+      config_hash_(fnv1a(valuesOf(private_node).toXml())),
+      robot_source_(private_node, params_),
+      world_(params_, ros::Time::isSimTime(), newEpoch(), ledger_) {
+  for (const RobotParams& robot : params_.robots) to_load_.push_back(robot.name);
+
+  pairs_ = update_private_.advertise<msg::Pairs>("pairs", 1);
+  status_ = update_private_.advertise<msg::Status>("status", 1);
+  bodies_ = update_private_.advertise<msg::Bodies>("bodies", 1, true);
+  markers_ = admin_private_.advertise<visualization_msgs::MarkerArray>("markers", 1);
+
+  const auto on_tf = [this](bool is_static) {
+    return boost::function<void(const ros::MessageEvent<tf2_msgs::TFMessage const>&)>(
+        [this, is_static](const ros::MessageEvent<tf2_msgs::TFMessage const>& event) {
+          onTransforms(event, is_static);
+        });
+  };
+  subscribers_.push_back(update_node_.subscribe<tf2_msgs::TFMessage>("/tf", 1000, on_tf(false), ros::VoidConstPtr(),
+                                                                     ros::TransportHints().tcpNoDelay()));
+  subscribers_.push_back(update_node_.subscribe<tf2_msgs::TFMessage>("/tf_static", 1000, on_tf(true)));
+
+  queries_ = std::make_unique<QueryServices>(
+      query_private_, params_, config_hash_, [this] { return newest(); }, world_.transforms().buffer(), sketch_,
+      ledger_);
+  servers_.push_back(admin_private_.advertiseService("reset", &ProximityNode::onReset, this));
+  servers_.push_back(admin_private_.advertiseService("reload_robot", &ProximityNode::onReload, this));
+  diagnostics_ = std::make_unique<NodeDiagnostics>(
+      admin_node_, admin_private_, private_node.getNamespace().substr(1), [this] { return newest(); },
+      [this] { return health(); });
+
+  tick_timer_ = update_node_.createSteadyTimer(ros::WallDuration(1.0 / params_.rate), &ProximityNode::onTick, this);
+  housekeeping_timer_ = admin_node_.createSteadyTimer(ros::WallDuration(std::min(0.25, 1.0 / params_.marker_rate)),
+                                                      [this](const ros::SteadyTimerEvent&) { onHousekeeping(); });
+
+  spinners_.push_back(std::make_unique<ros::AsyncSpinner>(1, &update_queue_));
+  spinners_.push_back(
+      std::make_unique<ros::AsyncSpinner>(static_cast<std::uint32_t>(params_.query_threads), &query_queue_));
+  spinners_.push_back(std::make_unique<ros::AsyncSpinner>(1, &admin_queue_));
+  for (const auto& spinner : spinners_) spinner->start();
+}
+
+ProximityNode::~ProximityNode() {
+  tick_timer_.stop();
+  housekeeping_timer_.stop();
+  for (const auto& spinner : spinners_) spinner->stop();
+}
+
+void ProximityNode::onTransforms(const ros::MessageEvent<tf2_msgs::TFMessage const>& event, bool is_static) {
+  world_.transforms().take(*event.getConstMessage(), is_static, event.getPublisherName(), thisMoment());
+}
+
+void ProximityNode::onTick(const ros::SteadyTimerEvent& event) {
+  try {
+    const auto begin = std::chrono::steady_clock::now();
+    std::vector<Job> jobs;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      jobs.swap(jobs_);
+      const bool late = event.current_real - event.current_expected > ros::WallDuration(1.0 / params_.rate);
+      health_.late_ticks_in_a_row = late ? health_.late_ticks_in_a_row + 1 : 0;
+      if (late) ledger_.count("tick.late");
+    }
+    for (const Job& job : jobs) job(world_);
+    const std::shared_ptr<const Tick> tick = world_.tick(thisMoment());
+    std::atomic_store(&newest_, tick);
+    publish(tick);
+    logChange(*tick);
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      health_.conflicts = world_.transforms().conflicts();
+    }
+    const auto end = std::chrono::steady_clock::now();
+    stopwatch_.add("tick", end - begin);
+    stopwatch_.add("tick.poses", tick->poses_time);
+    stopwatch_.add("tick.boxes", tick->times.boxes);
+    stopwatch_.add("tick.grid", tick->times.grid);
+    stopwatch_.add("tick.pairs", tick->times.pairs);
+    stopwatch_.summarise(end);
+  } catch (const std::exception& error) {  // the last tick goes on serving; its age shows that there is no newer one
+    ledger_.refuse("tick.failed", Refusal(Code::internal, error.what()));
+  }
+}
+
+void ProximityNode::publish(const std::shared_ptr<const Tick>& tick) {
+  const msg::WorldState world = worldState(*tick, params_, config_hash_, 0.0);
+  if (pairs_.getNumSubscribers() > 0) pairs_.publish(boost::make_shared<msg::Pairs>(pairs(*tick, world, params_)));
+  if (status_.getNumSubscribers() > 0) {
+    status_.publish(boost::make_shared<msg::Status>(status(*tick, world, params_, ledger_, stopwatch_)));
+  }
+  if (world.bodies_revision != published_revision_ || tick->epoch != published_epoch_) {
+    published_revision_ = world.bodies_revision;
+    published_epoch_ = tick->epoch;
+    bodies_.publish(boost::make_shared<msg::Bodies>(bodies(*tick)));
+  }
+}
+
+/// One line when the world becomes complete or stops being so, or for another reason; not one per tick.
+void ProximityNode::logChange(const Tick& tick) {
+  const bool complete = tick.snapshot && tick.snapshot->complete();
+  std::string reason;
+  if (!complete) reason = tick.snapshot ? tick.snapshot->reasons().front() : tick.not_ready.front();
+  // The age in a sentence changes every tick; what comes before it names the thing.
+  const std::string gist = reason.substr(0, reason.find(':'));
+  if (complete == was_complete_ && gist == last_reason_) return;
+  if (complete) {
+    ROS_INFO("The world is complete: %zu bodies in frame '%s'.", tick.snapshot->poses().size(),
+             tick.world_frame.c_str());
+  } else {
+    ROS_WARN_THROTTLE(1.0, "The world is not complete: %s", reason.c_str());
+  }
+  was_complete_ = complete;
+  last_reason_ = gist;
+}
+
+void ProximityNode::runInTick(const Job& job) {
+  const auto done = std::make_shared<std::promise<void>>();
+  std::future<void> result = done->get_future();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    jobs_.push_back([job, done](World& world) {
+      try {
+        job(world);
+        done->set_value();
+      } catch (...) {
+        done->set_exception(std::current_exception());
+      }
+    });
+  }
+  if (result.wait_for(kJobPatience) != std::future_status::ready) {
+    throw Refusal(Code::busy, "no tick took this up within " + std::to_string(kJobPatience.count()) + " s");
+  }
+  result.get();
+}
+
+Refusal ProximityNode::loadRobot(const RobotParams& robot) {
+  Refusal result(Code::ok, "");
+  try {
+    const auto loaded = std::make_shared<LoadedRobot>(robot_source_.load(robot));
+    runInTick([loaded](World& world) { world.setRobot(std::move(*loaded)); });
+  } catch (const Refusal& refusal) {
+    result = refusal;
+  } catch (const std::exception& error) {
+    result = Refusal(Code::internal, error.what());
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (result.code() == Code::ok) {
+    health_.failed_loads.erase(robot.name);
+    ROS_INFO("Robot '%s' is loaded.", robot.name.c_str());
+    return result;
+  }
+  const std::string sentence = std::string(name(result.code())) + " robot '" + robot.name + "': " + result.what();
+  if (health_.failed_loads[robot.name] != sentence) ROS_WARN("%s", sentence.c_str());
+  health_.failed_loads[robot.name] = sentence;
+  jobs_.push_back([robot, sentence](World& world) { world.setMissing(robot.name, sentence); });
+  return result;
+}
+
+/// Tries again the robots that have no model, at first often, then every ten seconds.
+void ProximityNode::loadMissing() {
+  const auto now = std::chrono::steady_clock::now();
+  if (to_load_.empty() || now < next_try_) return;
+  std::vector<std::string> left;
+  for (const RobotParams& robot : params_.robots) {
+    const bool wanted = std::find(to_load_.begin(), to_load_.end(), robot.name) != to_load_.end();
+    if (wanted && loadRobot(robot).code() != Code::ok) left.push_back(robot.name);
+  }
+  to_load_ = left;
+  retry_after_ = std::min(10.0, std::max(0.5, 2.0 * retry_after_));
+  next_try_ = now + std::chrono::milliseconds(static_cast<int>(1e3 * retry_after_));
+}
+
+void ProximityNode::onHousekeeping() {
+  loadMissing();
+  publishMarkers();
+  const auto now = std::chrono::steady_clock::now();
+  if (now < next_diagnostics_) return;
+  next_diagnostics_ = now + std::chrono::seconds(1);
+  diagnostics_->update();
+}
+
+void ProximityNode::publishMarkers() {
+  const std::size_t viewers = markers_.getNumSubscribers();
+  const std::shared_ptr<const Tick> tick = newest();
+  if (viewers > 0 && tick) {
+    if (viewers > viewers_) markers_.publish(markersGone(*tick));
+    markers_.publish(markers(*tick, sketch_));
+  }
+  viewers_ = viewers;
+}
+
+bool ProximityNode::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  try {
+    runInTick([](World& world) { world.reset(); });
+    response.success = true;
+    response.message = "obstacles as configured, counters at 0, a new epoch";
+  } catch (const std::exception& error) {
+    response.message = error.what();
+  }
+  return true;
+}
+
+bool ProximityNode::onReload(msg::ReloadRobot::Request& request, msg::ReloadRobot::Response& response) {
+  response.code = toMsg(Code::ok, "");
+  bool found = false;
+  for (const RobotParams& robot : params_.robots) {
+    if (!request.robot.empty() && robot.name != request.robot) continue;
+    found = true;
+    const Refusal result = loadRobot(robot);
+    if (result.code() != Code::ok) {
+      response.code = toMsg(result.code(), "robot '" + robot.name + "': " + result.what());
+    } else {
+      to_load_.erase(std::remove(to_load_.begin(), to_load_.end(), robot.name), to_load_.end());
+    }
+  }
+  if (!found) {
+    response.code = toMsg(Code::unknown_id, "there is no robot '" + printable(request.robot) + "' in ~robots");
+  }
+  response.success = response.code.value == msg::Code::OK;
+  try {
+    runInTick([](World&) {});  // until the tick that has the new model is out
+    runInTick([](World&) {});
+  } catch (const Refusal& refusal) {
+    ledger_.refuse("reload", refusal);
+  }
+  if (const auto tick = newest()) {
+    response.uncovered = tick->models->uncovered;
+    response.warnings = tick->models->warnings;
+    if (tick->snapshot) response.bodies_revision = tick->snapshot->structure().revision;
+  }
+  return true;
+}
+
+NodeHealth ProximityNode::health() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return health_;
+}
+
+}  // namespace hgrid

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <hgrid_proximity/ReloadRobot.h>
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+#include <ros/steady_timer.h>
+#include <std_srvs/Trigger.h>
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "markers.h"
+#include "messages.h"
+#include "node_diagnostics.h"
+#include "query_services.h"
+#include "robot_source.h"
+#include "stopwatch.h"
+#include "world.h"
+
+namespace hgrid {
+
+/// The node: three queues that do not wait for each other. On the first, one thread reads tf and ticks; on the
+/// second, ~query_threads threads answer queries from the newest tick; on the third, one thread reads robots, serves
+/// ~reset and ~reload_robot and publishes diagnostics and markers.
+class ProximityNode {
+ public:
+  /// @throws std::invalid_argument listing every wrong parameter
+  ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node);
+  ~ProximityNode();
+
+ private:
+  using Job = std::function<void(World&)>;
+
+  std::shared_ptr<const Tick> newest() const { return std::atomic_load(&newest_); }
+  void onTransforms(const ros::MessageEvent<tf2_msgs::TFMessage const>& event, bool is_static);
+  void onTick(const ros::SteadyTimerEvent& event);
+  void publish(const std::shared_ptr<const Tick>& tick);
+  void logChange(const Tick& tick);
+  void onHousekeeping();
+  void publishMarkers();
+  /// Reads a robot and puts it into the world; the sentence of the refusal, or an empty one.
+  Refusal loadRobot(const RobotParams& robot);
+  void loadMissing();
+  void runInTick(const Job& job);
+  bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool onReload(msg::ReloadRobot::Request& request, msg::ReloadRobot::Response& response);
+  NodeHealth health() const;
+
+  ros::CallbackQueue update_queue_, query_queue_, admin_queue_;  // first: what uses them goes before them
+  ros::NodeHandle update_node_, update_private_, query_private_, admin_node_, admin_private_;
+  Params params_;
+  std::uint64_t config_hash_;
+  Ledger ledger_;
+  QuerySketch sketch_;
+  RobotSource robot_source_;
+  World world_;  // of the update thread, see runInTick()
+  Stopwatch stopwatch_;
+  std::shared_ptr<const Tick> newest_;
+
+  mutable std::mutex mutex_;  // of what follows
+  std::vector<Job> jobs_;
+  NodeHealth health_;
+
+  // Of the update thread.
+  std::uint64_t published_revision_ = 0, published_epoch_ = 0;
+  bool was_complete_ = false;
+  std::string last_reason_;
+  // Of the admin thread.
+  std::vector<std::string> to_load_;
+  double retry_after_ = 0.0;
+  std::chrono::steady_clock::time_point next_try_{}, next_diagnostics_{};
+  std::size_t viewers_ = 0;
+
+  ros::Publisher pairs_, status_, bodies_, markers_;
+  std::vector<ros::Subscriber> subscribers_;
+  std::vector<ros::ServiceServer> servers_;
+  std::unique_ptr<QueryServices> queries_;
+  std::unique_ptr<NodeDiagnostics> diagnostics_;
+  ros::SteadyTimer tick_timer_, housekeeping_timer_;
+  std::vector<std::unique_ptr<ros::AsyncSpinner>> spinners_;
+};
+
+}  // namespace hgrid

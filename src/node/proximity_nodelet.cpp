@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <nodelet/nodelet.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include <memory>
+
+#include "proximity_node.h"
+
+namespace hgrid_proximity {
+
+/// The node in a nodelet manager; the same parameters, topics and services. It has its own threads.
+class ProximityNodelet : public nodelet::Nodelet {
+  void onInit() override {
+    try {
+      node_ = std::make_unique<hgrid::ProximityNode>(getNodeHandle(), getPrivateNodeHandle());
+    } catch (const std::exception& error) {
+      NODELET_FATAL("%s", error.what());
+      throw;
+    }
+  }
+
+  std::unique_ptr<hgrid::ProximityNode> node_;
+};
+
+}  // namespace hgrid_proximity
+
+PLUGINLIB_EXPORT_CLASS(hgrid_proximity::ProximityNodelet, nodelet::Nodelet)

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "query_services.h"
+
+#include <tf2/exceptions.h>
+
+#include <cmath>
+
+#include "frames.h"
+
+namespace hgrid {
+namespace {
+
+constexpr std::size_t kMostPatterns = 256, kLongestPattern = 512;  // bytes
+
+Eigen::Vector3d fromPoint(const geometry_msgs::Point& point) { return {point.x, point.y, point.z}; }
+
+/// Only "now" can be asked: the range of times that are available is the one stamp of the newest snapshot.
+void checkStamp(const ros::Time& stamp, const Snapshot& snapshot) {
+  const ros::Time available = toRos(snapshot.stamp());
+  if (stamp.isZero() || stamp == available) return;
+  throw Refusal(Code::extrapolation, "the query asks for time " + text(stamp.toSec()) + " s; available is " +
+                                         text(available.toSec()) + " .. " + text(available.toSec()) +
+                                         " s (stamp 0 asks for now)");
+}
+
+msg::Hit toMsg(const QueryHit& source, const Snapshot& snapshot, const Pose& frame_from_world, double age_since) {
+  msg::Hit hit;
+  hit.name = snapshot.structure().bodies[source.body].name;
+  hit.shape = source.shape;
+  hit.distance = source.distance;
+  hit.center_distance = source.center_distance;
+  hit.along = source.along;
+  hit.point = toPoint(frame_from_world * source.point);
+  hit.normal.x = hit.normal.y = hit.normal.z = std::nan("");
+  const BodyPose& pose = snapshot.poses()[source.body];
+  hit.state = static_cast<std::uint8_t>(pose.state);
+  hit.age = pose.age > 0.0 ? pose.age + age_since : 0.0;
+  return hit;
+}
+
+}  // namespace
+
+QueryServices::QueryServices(ros::NodeHandle& node, const Params& params, std::uint64_t config_hash, NewestTick newest,
+                             const tf2::BufferCore& transforms, QuerySketch& sketch, Ledger& ledger)
+    : params_(params),
+      config_hash_(config_hash),
+      newest_(std::move(newest)),
+      transforms_(transforms),
+      sketch_(sketch),
+      ledger_(ledger) {
+  servers_.push_back(node.advertiseService("query_sphere", &QueryServices::onSphere, this));
+  servers_.push_back(node.advertiseService("query_segment", &QueryServices::onSegment, this));
+}
+
+Pose QueryServices::worldFromFrame(const Tick& tick, const std::string& frame) const {
+  if (frame.empty() || frame == tick.world_frame) return Pose::Identity();
+  geometry_msgs::TransformStamped transform;
+  try {
+    const ros::Time stamp = toRos(tick.snapshot->stamp());
+    try {
+      transform = transforms_.lookupTransform(tick.world_frame, frame, stamp);
+    } catch (const tf2::ExtrapolationException&) {
+      // The frame keeps another pace than the robot: its newest pose will do while it would be fresh for a body.
+      transform = transforms_.lookupTransform(tick.world_frame, frame, ros::Time(0));
+      const double apart = std::abs((transform.header.stamp - stamp).toSec());
+      if (!transform.header.stamp.isZero() && apart > params_.stale_after) {
+        throw Refusal(Code::extrapolation, "the query's frame '" + printable(frame) + "' is known at " +
+                                               text(transform.header.stamp.toSec()) + " s, the world at " +
+                                               text(stamp.toSec()) + " s; they may be " + text(params_.stale_after) +
+                                               " s apart (~stale_after)");
+      }
+    }
+  } catch (const tf2::TransformException& error) {
+    throw Refusal(Code::unknown_frame, "the query's frame '" + printable(frame) + "' is not connected to '" +
+                                           tick.world_frame + "': " + printable(error.what(), 300));
+  }
+  const auto& t = transform.transform.translation;
+  const auto& q = transform.transform.rotation;
+  return checkedPose({t.x, t.y, t.z}, {q.x, q.y, q.z, q.w}, "the query's frame '" + printable(frame) + "'");
+}
+
+QueryScope QueryServices::scopeOf(const std::vector<std::string>& include, const std::vector<std::string>& exclude,
+                                  std::uint32_t limit) const {
+  for (const auto* patterns : {&include, &exclude}) {
+    if (patterns->size() > kMostPatterns) {
+      throw Refusal(Code::limit, "the query has " + std::to_string(patterns->size()) + " name patterns; at most " +
+                                     std::to_string(kMostPatterns) + " are allowed");
+    }
+    for (const std::string& pattern : *patterns) {
+      if (pattern.size() > kLongestPattern) {
+        throw Refusal(Code::bad_id, "name pattern '" + printable(pattern, 48) + "' has " +
+                                        std::to_string(pattern.size()) + " bytes; at most " +
+                                        std::to_string(kLongestPattern) + " are allowed");
+      }
+    }
+  }
+  const auto most = static_cast<std::uint32_t>(params_.max_hits);
+  return {include, exclude, limit == 0 ? most : std::min(limit, most)};
+}
+
+template <class Request, class Response, class Ask>
+bool QueryServices::answer(const Request& request, Response& response, Ask&& ask) {
+  const std::shared_ptr<const Tick> tick = newest_();
+  msg::Answer& result = response.answer;
+  ledger_.count("query.asked");
+  try {
+    if (!tick) throw Refusal(Code::not_ready, "there is no world yet: the first tick was not made");
+    const double age_since =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - tick->made.steady).count();
+    response.header = headerOf(*tick);
+    response.world = worldState(*tick, params_, config_hash_, age_since);
+    if (!tick->snapshot) throw Refusal(Code::not_ready, "there is no world yet: " + tick->not_ready.front());
+    const Snapshot& snapshot = *tick->snapshot;
+    const std::string frame = withoutSlash(request.header.frame_id);
+    checkStamp(request.header.stamp, snapshot);
+    if (request.exact) {
+      throw Refusal(Code::unsupported, "exact is true; this version answers by boxes, ask with exact = false");
+    }
+    const Pose world_from_frame = worldFromFrame(*tick, frame);
+    const QueryAnswer found = ask(snapshot, world_from_frame, scopeOf(request.include, request.exclude, request.limit));
+    const Pose frame_from_world = world_from_frame.inverse();
+    if (!frame.empty()) response.header.frame_id = frame;
+    for (const QueryHit& hit : found.hits) result.hits.push_back(toMsg(hit, snapshot, frame_from_world, age_since));
+    result.success = true;
+    result.code = toMsg(Code::ok, found.reason);
+    result.verdict = static_cast<std::uint8_t>(found.verdict);
+    result.total = static_cast<std::uint32_t>(found.total);
+    result.truncated = found.total > found.hits.size();
+  } catch (const Refusal& refusal) {
+    result = msg::Answer();
+    result.code = toMsg(refusal.code(), refusal.what());
+    ledger_.refuse("query.refused", refusal);
+  } catch (const std::exception& error) {  // a fault of ours: the caller hears of it, the node goes on
+    result = msg::Answer();
+    result.code = toMsg(Code::internal, error.what());
+    ledger_.refuse("query.failed", Refusal(Code::internal, error.what()));
+  }
+  return true;
+}
+
+bool QueryServices::onSphere(msg::QuerySphere::Request& request, msg::QuerySphere::Response& response) {
+  return answer(request, response,
+                [&](const Snapshot& snapshot, const Pose& world_from_frame, const QueryScope& scope) {
+                  const Sphere sphere{world_from_frame * fromPoint(request.center), request.radius};
+                  QueryAnswer found = snapshot.query(sphere, scope);
+                  sketch_.show(sphere, found.verdict);
+                  return found;
+                });
+}
+
+bool QueryServices::onSegment(msg::QuerySegment::Request& request, msg::QuerySegment::Response& response) {
+  return answer(request, response,
+                [&](const Snapshot& snapshot, const Pose& world_from_frame, const QueryScope& scope) {
+                  const Segment segment{world_from_frame * fromPoint(request.start),
+                                        world_from_frame * fromPoint(request.end), request.radius};
+                  QueryAnswer found = snapshot.query(segment, scope);
+                  sketch_.show(segment, found.verdict);
+                  return found;
+                });
+}
+
+}  // namespace hgrid

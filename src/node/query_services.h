@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <hgrid_proximity/QuerySegment.h>
+#include <hgrid_proximity/QuerySphere.h>
+#include <ros/node_handle.h>
+
+#include <functional>
+#include <memory>
+
+#include "markers.h"
+#include "messages.h"
+#include "params.h"
+#include "world.h"
+
+namespace hgrid {
+
+/// Answers ~query_sphere and ~query_segment from the newest tick. Callbacks run on the queue of the node handle,
+/// on as many threads as spin it, and wait for nobody.
+class QueryServices {
+ public:
+  using NewestTick = std::function<std::shared_ptr<const Tick>()>;
+
+  QueryServices(ros::NodeHandle& node, const Params& params, std::uint64_t config_hash, NewestTick newest,
+                const tf2::BufferCore& transforms, QuerySketch& sketch, Ledger& ledger);
+
+ private:
+  bool onSphere(msg::QuerySphere::Request& request, msg::QuerySphere::Response& response);
+  bool onSegment(msg::QuerySegment::Request& request, msg::QuerySegment::Response& response);
+  template <class Request, class Response, class Ask>
+  bool answer(const Request& request, Response& response, Ask&& ask);
+  Pose worldFromFrame(const Tick& tick, const std::string& frame) const;
+  QueryScope scopeOf(const std::vector<std::string>& include, const std::vector<std::string>& exclude,
+                     std::uint32_t limit) const;
+
+  const Params& params_;
+  std::uint64_t config_hash_;
+  NewestTick newest_;
+  const tf2::BufferCore& transforms_;
+  QuerySketch& sketch_;
+  Ledger& ledger_;
+  std::vector<ros::ServiceServer> servers_;
+};
+
+}  // namespace hgrid

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "robot_source.h"
+
+#include <dlfcn.h>
+#include <ros/package.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+
+#include "frames.h"
+#include "hgrid_proximity/adapters/mesh.h"
+#include "hgrid_proximity/adapters/srdf.h"
+#include "hgrid_proximity/adapters/urdf.h"
+#include "hgrid_proximity/scene/name.h"
+
+namespace hgrid {
+namespace {
+
+/// The helper executable lies in the package's folder beside this library: lib/hgrid_proximity below lib/.
+std::string meshReader() {
+  Dl_info info{};
+  const auto here = reinterpret_cast<void*>(&meshReader);
+  std::string library = dladdr(here, &info) != 0 && info.dli_fname != nullptr ? info.dli_fname : "";
+  if (char* resolved = realpath(library.c_str(), nullptr)) {
+    library = resolved;
+    std::free(resolved);
+  }
+  return library.substr(0, library.find_last_of('/')) + "/hgrid_proximity/proximity_mesh_reader";
+}
+
+/// file:// may read below package roots and below ~mesh_roots.
+std::vector<std::string> fileRoots(const Params& params) {
+  std::vector<std::string> roots = params.mesh_roots;
+  const char* path = std::getenv("ROS_PACKAGE_PATH");
+  std::istringstream folders(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    if (!folder.empty()) roots.push_back(folder);
+  }
+  return roots;
+}
+
+MeshPolicy meshPolicy(const Params& params) {
+  MeshPolicy policy;
+  policy.reader = meshReader();
+  policy.resources.package_path = [](const std::string& package) { return ros::package::getPath(package); };
+  policy.resources.file_roots = fileRoots(params);
+  policy.resources.max_bytes = static_cast<std::size_t>(params.max_mesh_bytes);
+  policy.max_triangles = static_cast<std::size_t>(params.max_mesh_triangles);
+  policy.timeout = std::chrono::milliseconds(std::llround(1e3 * params.mesh_timeout));
+  policy.max_memory = static_cast<std::size_t>(params.mesh_memory);
+  return policy;
+}
+
+std::string noteOf(const RobotLink& link) {
+  std::string note;
+  for (const Refusal& refusal : link.unreadable) {
+    note += (note.empty() ? "" : "; ") + std::string(name(refusal.code())) + ": " + refusal.what();
+  }
+  return note;
+}
+
+Body bodyOf(const LoadedRobot& robot, const RobotModel& model, std::uint32_t index, const Params& params) {
+  const RobotLink& link = model.links[index];
+  Body body;
+  body.name = joined(robot.name, link.name);
+  body.kind = BodyKind::link;
+  body.mobility = Mobility::moving;
+  body.robot = robot.name;
+  body.link = index;
+  body.rigid_group = link.rigid_group;
+  body.shapes = link.shapes;
+  body.covered = link.unreadable.empty();
+  body.note = noteOf(link);
+  for (const Waiver& waiver : params.accept_uncovered) {
+    if (!body.covered && matches(waiver.pattern, body.name)) {
+      body.waived = true;
+      body.note = waiver.reason + " (" + noteOf(link) + ")";
+    }
+  }
+  applyPatterns(params, body);
+  // A robot whose root is not the world may be carried about; that comes on top of its joints.
+  const double joints = speedBound(model, index);
+  const double carried =
+      robot.root_frame == params.world_frame || params.world_frame.empty() ? 0.0 : params.default_max_speed;
+  body.max_speed =
+      lastMatch(params.max_speed, body.name, std::isfinite(joints) ? joints + carried : params.default_max_speed);
+  return body;
+}
+
+}  // namespace
+
+double lastMatch(const std::vector<PatternValue>& values, const std::string& name, double otherwise) {
+  for (const PatternValue& value : values) {
+    if (matches(value.pattern, name)) otherwise = value.value;
+  }
+  return otherwise;
+}
+
+void applyPatterns(const Params& params, Body& body) {
+  body.margin = lastMatch(params.margins, body.name, 0.0);
+  const double padding = lastMatch(params.padding, body.name, 0.0);
+  for (BodyShape& shape : body.shapes) shape.padding = padding;
+}
+
+RobotSource::RobotSource(ros::NodeHandle node, const Params& params) : node_(std::move(node)), params_(params) {}
+
+std::string RobotSource::description(const std::string& name) const {
+  std::string key;
+  XmlRpc::XmlRpcValue value;
+  if (!node_.searchParam(name, key) || !node_.getParam(key, value)) {
+    throw Refusal(Code::not_ready, "parameter '" + printable(name) + "' is not set; it must hold a robot's URDF");
+  }
+  if (value.getType() != XmlRpc::XmlRpcValue::TypeString || static_cast<std::string&>(value).empty()) {
+    throw Refusal(Code::not_ready, "parameter '" + printable(key) + "' is empty or not a string; it must hold XML");
+  }
+  return value;
+}
+
+LoadedRobot RobotSource::load(const RobotParams& params) const {
+  const DescriptionLimits limits{static_cast<std::size_t>(params_.max_description_bytes),
+                                 static_cast<std::size_t>(params_.max_description_depth),
+                                 static_cast<std::size_t>(params_.max_links)};
+  const std::string urdf = description(params.description);
+  MeshLoader meshes(meshPolicy(params_));
+  RobotModel model = readUrdf(
+      urdf, [&](const std::string& uri, const Eigen::Vector3d& scale) { return meshes.load(uri, scale); }, limits,
+      params_.shapeLimits());
+  LinkRules rules;
+  std::string key;
+  if (!params.semantic.empty() && node_.searchParam(params.semantic, key)) {
+    rules = readSrdf(description(params.semantic), limits);
+  }
+
+  LoadedRobot robot;
+  robot.name = params.name;
+  robot.root_frame = prefixed(params.tf_prefix, model.links.front().name);
+  robot.warnings = model.warnings;
+  const auto links = std::make_shared<const LinkMatrix>(model, rules, robot.warnings);
+  robot.groups.resize(model.group_roots.size());
+  for (std::size_t group = 0; group < robot.groups.size(); ++group) {
+    robot.groups[group].frame = prefixed(params.tf_prefix, model.links[model.group_roots[group]].name);
+  }
+  for (std::uint32_t i = 0; i < model.links.size(); ++i) {
+    const RobotLink& link = model.links[i];
+    if (!link.has_collision) {
+      robot.without_collision.push_back(joined(robot.name, link.name));
+      continue;
+    }
+    robot.groups[link.rigid_group].members.emplace_back(robot.bodies.size(), link.group_from_link);
+    robot.bodies.push_back(bodyOf(robot, model, i, params_));
+    robot.bodies.back().links = links;
+    robot.bodies.back().frame = prefixed(params.tf_prefix, link.name);
+  }
+  return robot;
+}
+
+}  // namespace hgrid

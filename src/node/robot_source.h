@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hgrid_proximity/scene/robot_model.h"
+#include "params.h"
+
+namespace hgrid {
+
+/// A robot ready to be put into the world.
+struct LoadedRobot {
+  /// Links that move as one and the tf frame that places them all.
+  struct Group {
+    std::string frame;
+    std::vector<std::pair<std::size_t, Pose>> members;  // index into bodies, and its pose in the frame
+  };
+
+  std::string name;
+  std::string root_frame;
+  std::vector<Body> bodies;  // of the links that have <collision>
+  std::vector<Group> groups;
+  std::vector<std::string> without_collision;  // names of the other links
+  std::vector<std::string> warnings;
+};
+
+/// Reads robots from the parameter server: description, meshes, SRDF.
+class RobotSource {
+ public:
+  /// @param node  private node handle: parameters are searched from here upwards
+  RobotSource(ros::NodeHandle node, const Params& params);
+
+  /// Slow (it reads files and asks the master); any one thread.
+  /// @throws Refusal not_ready while there is no description, or as readUrdf() and readSrdf().
+  LoadedRobot load(const RobotParams& robot) const;
+
+ private:
+  std::string description(const std::string& name) const;
+
+  ros::NodeHandle node_;
+  const Params& params_;
+};
+
+/// The last value whose pattern matches the name, or `otherwise`.
+double lastMatch(const std::vector<PatternValue>& values, const std::string& name, double otherwise);
+
+/// Gives a body the margin and padding that parameters have for it.
+void applyPatterns(const Params& params, Body& body);
+
+}  // namespace hgrid

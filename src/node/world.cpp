@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "world.h"
+
+#include <tf2/exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+
+namespace hgrid {
+namespace {
+
+SceneOptions optionsOf(const Params& params) {
+  SceneOptions options;
+  options.origin = params.origin;
+  options.margin = params.margin;
+  options.finest_edge = params.finest_edge;
+  options.world_limit = params.world_limit;
+  options.growth_cap = params.growth_cap;
+  options.max_bodies = static_cast<std::size_t>(params.max_bodies);
+  options.max_reasons = static_cast<std::size_t>(params.max_reasons);
+  std::random_device device;  // kept from those who send obstacles, so that they cannot aim at one cell
+  options.hash_seed = (static_cast<std::uint64_t>(device()) << 32) | device();
+  options.pair_kinds = params.pair_kinds;
+  options.allowed_pairs = params.allowed_pairs;
+  return options;
+}
+
+double elapsed(std::chrono::steady_clock::time_point since, const Moment& now) {
+  return std::chrono::duration<double>(now.steady - since).count();
+}
+
+}  // namespace
+
+World::World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& ledger)
+    : params_(params),
+      ledger_(ledger),
+      intake_(params.max_future, params.tf_cache, static_cast<std::size_t>(params.max_frames), simulated, ledger),
+      watch_(simulated, params.clock_jump, params.stale_after),
+      scene_(optionsOf(params)),
+      world_frame_(params.world_frame),
+      epoch_(epoch) {
+  scene_.beginEpoch(epoch_);
+  for (const RobotParams& robot : params.robots) {
+    missing_[robot.name] = "NOT_READY robot '" + robot.name + "': its description was not read yet";
+  }
+}
+
+void World::beginEpoch() {
+  scene_.beginEpoch(++epoch_);
+  last_time_ = Time(0);
+}
+
+void World::removeMovers(const std::string& robot) {
+  const auto gone =
+      std::stable_partition(movers_.begin(), movers_.end(), [&](const Mover& mover) { return mover.robot != robot; });
+  for (auto mover = gone; mover != movers_.end(); ++mover) {
+    for (const auto& member : mover->members) scene_.remove(member.first);
+  }
+  movers_.erase(gone, movers_.end());
+}
+
+void World::setRobot(LoadedRobot robot) {
+  const auto known = robots_.find(robot.name);
+  const std::size_t before = known == robots_.end() ? 0 : known->second.bodies.size();
+  if (scene_.size() - before + robot.bodies.size() > static_cast<std::size_t>(params_.max_bodies)) {
+    throw Refusal(Code::limit, "robot '" + robot.name + "' has " + std::to_string(robot.bodies.size()) +
+                                   " bodies, which would be more than ~max_bodies, " +
+                                   std::to_string(params_.max_bodies));
+  }
+  removeMovers(robot.name);
+  for (const LoadedRobot::Group& group : robot.groups) {
+    Mover mover;
+    mover.frame = group.frame;
+    mover.robot = robot.name;
+    for (const auto& member : group.members) {
+      mover.members.emplace_back(scene_.add(robot.bodies[member.first]), member.second);
+    }
+    if (!mover.members.empty()) movers_.push_back(std::move(mover));
+  }
+  missing_.erase(robot.name);
+  const std::string name = robot.name;
+  robots_[name] = std::move(robot);
+  rebuildReport();
+}
+
+void World::setMissing(const std::string& robot, const std::string& sentence) {
+  if (robots_.count(robot) == 0) missing_[robot] = sentence;
+}
+
+void World::rebuildReport() {
+  auto report = std::make_shared<ModelReport>();
+  for (const auto& named : robots_) {
+    const LoadedRobot& robot = named.second;
+    for (const Body& body : robot.bodies) {
+      if (!body.covered) (body.waived ? report->waived : report->uncovered).push_back(body.name + ": " + body.note);
+    }
+    report->without_collision.insert(report->without_collision.end(), robot.without_collision.begin(),
+                                     robot.without_collision.end());
+    for (const std::string& warning : robot.warnings) report->warnings.push_back(robot.name + ": " + warning);
+  }
+  report->robots = robots_.size();
+  report_ = std::move(report);
+}
+
+void World::addObstacles() {
+  for (const ObstacleParams& configured : params_.obstacles) {
+    Body body = configured.body;
+    if (body.frame.empty()) body.frame = world_frame_;
+    body.mobility = body.frame == world_frame_ ? Mobility::fixed : Mobility::moving;
+    body.max_speed = lastMatch(params_.max_speed, body.name, params_.default_max_speed);
+    applyPatterns(params_, body);
+    Mover mover;
+    mover.frame = body.frame;
+    try {
+      mover.members.emplace_back(scene_.add(std::move(body)), configured.frame_from_body);
+      movers_.push_back(std::move(mover));
+    } catch (const Refusal& refusal) {
+      ledger_.refuse("obstacles.refused", refusal);
+      missing_["obstacle/" + configured.body.name] = std::string(name(refusal.code())) + " " + refusal.what();
+    }
+  }
+  obstacles_added_ = true;
+}
+
+void World::reset() {
+  removeMovers("");
+  obstacles_added_ = false;
+  ledger_.clear();
+  beginEpoch();
+}
+
+bool World::findWorldFrame() {
+  if (world_frame_.empty()) {
+    const auto first = robots_.find(params_.robots.front().name);
+    if (first != robots_.end()) world_frame_ = first->second.root_frame;
+  }
+  return !world_frame_.empty();
+}
+
+void World::handleClock(const Moment& now) {
+  const ClockWatch::Event event = watch_.look(now);
+  if (event == ClockWatch::Event::none) return;
+  ledger_.refuse("clock", Refusal(Code::clock, std::string("ROS time jumped ") +
+                                                   (event == ClockWatch::Event::jumped_back ? "back" : "ahead") +
+                                                   "; a new epoch begins"));
+  beginEpoch();
+  if (!watch_.simulated()) {
+    intake_.restamp();
+  } else if (event == ClockWatch::Event::jumped_back) {
+    intake_.forgetMoving();
+    for (Mover& mover : movers_) mover.jumped = mover.chain.moves;
+  }
+}
+
+/// The newest time at which every frame that keeps up is known; those that lag more do not count.
+Time World::chooseTime(const Moment& now) {
+  Time newest{0};
+  for (const Mover& mover : movers_) {
+    if (mover.chain.connected && mover.chain.moves) newest = std::max(newest, mover.chain.newest);
+  }
+  if (newest.count() == 0) return now.ros;
+  Time common = newest;
+  const auto wait = std::chrono::nanoseconds(std::llround(1e9 * params_.max_sync_wait));
+  for (const Mover& mover : movers_) {
+    if (mover.chain.connected && mover.chain.moves && newest - mover.chain.newest <= wait) {
+      common = std::min(common, mover.chain.newest);
+    }
+  }
+  last_time_ = std::max(last_time_, common);  // the time of the world does not run back when a laggard rejoins
+  return last_time_;
+}
+
+void World::place(Mover& mover, Time time, const Moment& now) {
+  mover.trouble = mover.chain.refused;
+  if (!mover.chain.connected) {
+    mover.trouble =
+        Refusal(Code::unknown_frame, "frame '" + mover.frame + "' is not connected to '" + world_frame_ + "'" +
+                                         (mover.chain.unknown_frame.empty()
+                                              ? std::string(": there is no way of transforms between them now")
+                                              : ": frame '" + mover.chain.unknown_frame + "' was never published"));
+    return;
+  }
+  Pose world_from_frame = Pose::Identity();
+  Time stamp = time;
+  if (mover.frame != world_frame_) {
+    stamp = mover.chain.moves ? std::min(time, mover.chain.newest) : time;
+    geometry_msgs::TransformStamped transform;
+    try {
+      const auto lookUp = [&](Time at) {
+        return intake_.buffer().lookupTransform(world_frame_, mover.frame,
+                                                ros::Time().fromNSec(static_cast<std::uint64_t>(at.count())));
+      };
+      try {
+        transform = mover.chain.moves ? lookUp(stamp) : lookUp(Time(0));
+      } catch (const tf2::ExtrapolationException&) {  // its first data is younger than the tick
+        stamp = mover.chain.newest;
+        transform = lookUp(stamp);
+      }
+    } catch (const tf2::TransformException& error) {
+      mover.trouble = Refusal(Code::unknown_frame, "frame '" + mover.frame + "': " + printable(error.what(), 300));
+      return;
+    }
+    const auto& t = transform.transform.translation;
+    const auto& q = transform.transform.rotation;
+    try {
+      world_from_frame = checkedPose({t.x, t.y, t.z}, {q.x, q.y, q.z, q.w}, "frame '" + mover.frame + "'");
+    } catch (const Refusal& refusal) {
+      mover.trouble = refusal;
+      return;
+    }
+  }
+  try {
+    for (const auto& member : mover.members) scene_.place(member.first, world_from_frame * member.second, stamp);
+    mover.placed = true;
+    mover.jumped = false;
+    mover.placed_at = now.steady;
+    mover.age_when_placed = mover.chain.moves ? mover.chain.age : 0.0;
+  } catch (const Refusal& refusal) {
+    ledger_.refuse("pose.refused", refusal);
+    mover.trouble = refusal;
+  }
+}
+
+/// How far the mover's pose can be trusted now, after place().
+Freshness World::judge(Mover& mover, Time time, const Moment& now, double& age) const {
+  age = 0.0;
+  const bool settled = mover.chain.connected && !mover.chain.moves && !mover.trouble;
+  if (settled) return Freshness::fresh;
+  age = mover.chain.connected && !watch_.frozen() ? mover.chain.age
+                                                  : mover.age_when_placed + elapsed(mover.placed_at, now);
+  if (mover.jumped || watch_.frozen()) return Freshness::frozen;
+  if (mover.trouble && mover.trouble->code() != Code::unknown_frame) return Freshness::invalid;
+  if (age > params_.lost_after) return Freshness::lost;
+  if (age > params_.stale_after) return Freshness::stale;
+  const bool behind = mover.chain.connected && mover.chain.newest < time;
+  return behind || age > std::max(params_.late_after, 1.5 * mover.chain.period) ? Freshness::late : Freshness::fresh;
+}
+
+void World::describeTrouble(const Mover& mover, Tick& tick) const {
+  for (const auto& member : mover.members) {
+    const BodyPose& pose = scene_.poseOf(member.first);
+    if (pose.state == Freshness::fresh && !mover.chain.conflict) continue;
+    const Body& body = scene_.body(member.first);
+    BodyTrouble trouble{body.name, body.frame, pose.state, pose.age, pose.stamp, Code::tf_timeout, {}};
+    if (mover.trouble) {
+      trouble.code = mover.trouble->code();
+      trouble.sentence = mover.trouble->what();
+    } else if (pose.state == Freshness::fresh) {
+      trouble.code = Code::dup_id;
+      trouble.sentence = "a frame between '" + mover.frame + "' and '" + world_frame_ +
+                         "' comes on /tf and on /tf_static; it must come on one of them";
+    } else if (pose.state == Freshness::frozen) {
+      trouble.code = Code::clock;
+      trouble.sentence = "the clock stands still or jumped; nothing new came since";
+    } else {
+      trouble.sentence = "frame '" + mover.frame + "' is " + text(pose.age) + " s old";
+    }
+    if (pose.state == Freshness::unplaced) trouble.age = std::numeric_limits<double>::quiet_NaN();
+    tick.troubles.push_back(std::move(trouble));
+  }
+}
+
+std::shared_ptr<const Tick> World::tick(const Moment& now) {
+  auto tick = std::make_shared<Tick>();
+  handleClock(now);
+  tick->made = now;
+  tick->epoch = epoch_;
+  const bool has_frame = findWorldFrame();
+  tick->world_frame = world_frame_;
+  for (const auto& robot : missing_) tick->not_ready.push_back(robot.second);
+  tick->models = report_;
+  if (!watch_.running())
+    tick->not_ready.push_back("NOT_READY: there is no time yet; /use_sim_time is set and /clock is silent");
+  if (!has_frame) tick->not_ready.push_back("NOT_READY: the world frame is the root of a robot that is not loaded yet");
+  if (!has_frame || !watch_.running()) return tick;
+  if (!obstacles_added_) addObstacles();
+
+  const auto begin = std::chrono::steady_clock::now();
+  for (Mover& mover : movers_) mover.chain = intake_.chain(world_frame_, mover.frame, now);
+  const Time time = chooseTime(now);
+  std::map<Time, std::uint32_t> cohorts;  // bodies of one stamp are equally old
+  std::set<std::string> missing;
+  for (Mover& mover : movers_) {
+    place(mover, time, now);
+    if (!mover.placed && !mover.chain.unknown_frame.empty()) missing.insert(mover.chain.unknown_frame);
+    double age = 0.0;
+    const Freshness state = judge(mover, time, now, age);
+    for (const auto& member : mover.members) {
+      const Time stamp = scene_.poseOf(member.first).stamp;
+      const auto cohort = cohorts.emplace(stamp, static_cast<std::uint32_t>(cohorts.size() + 1)).first->second;
+      scene_.setState(member.first, state, age, cohort);
+    }
+    describeTrouble(mover, *tick);
+  }
+  std::stable_sort(tick->troubles.begin(), tick->troubles.end(),
+                   [](const BodyTrouble& a, const BodyTrouble& b) { return a.state > b.state; });
+  tick->missing_frames.assign(missing.begin(), missing.end());
+  tick->poses_time = std::chrono::steady_clock::now() - begin;
+  tick->snapshot = scene_.commit(time, tick->not_ready);
+  tick->times = scene_.lastTimes();
+  return tick;
+}
+
+}  // namespace hgrid

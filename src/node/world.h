@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "clock_watch.h"
+#include "hgrid_proximity/scene/scene.h"
+#include "ledger.h"
+#include "params.h"
+#include "robot_source.h"
+#include "tf_intake.h"
+
+namespace hgrid {
+
+/// A body that is not as it should be.
+struct BodyTrouble {
+  std::string name, frame;
+  Freshness state;
+  double age;  // [s]; NaN if it never had a pose
+  Time stamp;
+  Code code;
+  std::string sentence;
+};
+
+/// What is odd in the descriptions; changes with the bodies only.
+struct ModelReport {
+  std::vector<std::string> uncovered, waived, without_collision, warnings;
+  std::size_t robots = 0;
+};
+
+/// The result of one tick: what every message and every answer is made from. Immutable.
+struct Tick {
+  std::shared_ptr<const Snapshot> snapshot;  // null: there is no world yet, not_ready says why
+  std::string world_frame;
+  Moment made;
+  std::uint64_t epoch = 0;
+  std::vector<std::string> not_ready;
+  std::vector<BodyTrouble> troubles;  // the worst first
+  std::vector<std::string> missing_frames;
+  std::shared_ptr<const ModelReport> models;
+  TickTimes times;
+  std::chrono::nanoseconds poses_time{0};
+};
+
+/// Keeps the Scene up to date from tf: decides the time of a tick, places every body at it, says how far each
+/// pose can be trusted. One thread; Ticks may be read by any.
+class World {
+ public:
+  World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& ledger);
+
+  TfIntake& transforms() { return intake_; }
+  const TfIntake& transforms() const { return intake_; }
+
+  /// Puts a robot in the place of the one of the same name; all of it or, with a Refusal, nothing.
+  void setRobot(LoadedRobot robot);
+  /// Says why a robot has no model (yet). It keeps the model it has.
+  void setMissing(const std::string& robot, const std::string& sentence);
+  /// Obstacles as configured, counters at 0, a new epoch.
+  void reset();
+
+  std::shared_ptr<const Tick> tick(const Moment& now);
+
+ private:
+  /// Bodies that one tf frame places.
+  struct Mover {
+    std::string frame;
+    std::string robot;                             // empty: an obstacle
+    std::vector<std::pair<BodyId, Pose>> members;  // pose in the frame
+    ChainState chain;
+    bool placed = false, jumped = false;
+    double age_when_placed = 0.0;
+    std::chrono::steady_clock::time_point placed_at{};
+    std::optional<Refusal> trouble;
+  };
+
+  void addObstacles();
+  void removeMovers(const std::string& robot);
+  void beginEpoch();
+  void rebuildReport();
+  bool findWorldFrame();
+  void handleClock(const Moment& now);
+  Time chooseTime(const Moment& now);
+  void place(Mover& mover, Time time, const Moment& now);
+  Freshness judge(Mover& mover, Time time, const Moment& now, double& age) const;
+  void describeTrouble(const Mover& mover, Tick& tick) const;
+
+  const Params& params_;
+  Ledger& ledger_;
+  TfIntake intake_;
+  ClockWatch watch_;
+  Scene scene_;
+  std::vector<Mover> movers_;
+  std::map<std::string, LoadedRobot> robots_;
+  std::map<std::string, std::string> missing_;  // sentence by robot
+  std::shared_ptr<const ModelReport> report_ = std::make_shared<ModelReport>();
+  std::string world_frame_;
+  bool obstacles_added_ = false;
+  std::uint64_t epoch_;
+  Time last_time_{0};
+};
+
+}  // namespace hgrid
