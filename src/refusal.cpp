@@ -23,6 +23,10 @@ const char* name(Code code) {
 std::string text(double value) {
   std::ostringstream out;
   out.imbue(std::locale::classic());
+  if (std::floor(value) == value && std::abs(value) < 1e9) {  // 1000000, not 1e+06
+    out << static_cast<long long>(value);
+    return out.str();
+  }
   for (int digits : {6, 9, 17}) {  // the shortest of these that reads back as the same number
     out.str("");
     out.precision(digits);
