@@ -94,6 +94,7 @@ ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node)
 }
 
 ProximityNode::~ProximityNode() {
+  stopping_ = true;
   tick_timer_.stop();
   housekeeping_timer_.stop();
   for (const auto& spinner : spinners_) spinner->stop();
@@ -180,8 +181,11 @@ void ProximityNode::runInTick(const Job& job) {
       }
     });
   }
-  if (result.wait_for(kJobPatience) != std::future_status::ready) {
-    throw Refusal(Code::busy, "no tick took this up within " + std::to_string(kJobPatience.count()) + " s");
+  const auto deadline = std::chrono::steady_clock::now() + kJobPatience;
+  while (result.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
+    if (stopping_ || std::chrono::steady_clock::now() > deadline) {
+      throw Refusal(Code::busy, "no tick took this up within " + std::to_string(kJobPatience.count()) + " s");
+    }
   }
   result.get();
 }

@@ -9,6 +9,7 @@
 #include <ros/steady_timer.h>
 #include <std_srvs/Trigger.h>
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -61,6 +62,7 @@ class ProximityNode {
   World world_;  // of the update thread, see runInTick()
   Stopwatch stopwatch_;
   std::shared_ptr<const Tick> newest_;
+  std::atomic<bool> stopping_{false};
 
   mutable std::mutex mutex_;  // of what follows
   std::vector<Job> jobs_;

@@ -39,6 +39,14 @@ msg::Hit toMsg(const QueryHit& source, const Snapshot& snapshot, const Pose& fra
   return hit;
 }
 
+std::string summaryOf(const QueryAnswer& found, const Snapshot& snapshot) {
+  if (found.verdict == Verdict::clear) return "CLEAR: nothing is there";
+  if (found.verdict == Verdict::unknown) return "UNKNOWN: " + found.reason;
+  const std::string first =
+      found.hits.empty() ? "" : ", first " + snapshot.structure().bodies[found.hits.front().body].name;
+  return "HIT: " + std::to_string(found.total) + (found.total == 1 ? " body" : " bodies") + first;
+}
+
 }  // namespace
 
 QueryServices::QueryServices(ros::NodeHandle& node, const Params& params, std::uint64_t config_hash, NewestTick newest,
@@ -118,18 +126,25 @@ bool QueryServices::answer(const Request& request, Response& response, Ask&& ask
       throw Refusal(Code::unsupported, "exact is true; this version answers by boxes, ask with exact = false");
     }
     const Pose world_from_frame = worldFromFrame(*tick, frame);
-    const QueryAnswer found = ask(snapshot, world_from_frame, scopeOf(request.include, request.exclude, request.limit));
+    QueryAnswer found = ask(snapshot, world_from_frame, scopeOf(request.include, request.exclude, request.limit));
+    if (found.verdict == Verdict::clear && age_since > params_.valid_for) {
+      found.verdict = Verdict::unknown;
+      found.reason = "the newest tick is " + text(age_since) + " s old; ticks are valid for " +
+                     text(params_.valid_for) + " s (~valid_for)";
+    }
     const Pose frame_from_world = world_from_frame.inverse();
     if (!frame.empty()) response.header.frame_id = frame;
     for (const QueryHit& hit : found.hits) result.hits.push_back(toMsg(hit, snapshot, frame_from_world, age_since));
     result.success = true;
     result.code = toMsg(Code::ok, found.reason);
     result.verdict = static_cast<std::uint8_t>(found.verdict);
+    result.summary = summaryOf(found, snapshot);
     result.total = static_cast<std::uint32_t>(found.total);
     result.truncated = found.total > found.hits.size();
   } catch (const Refusal& refusal) {
     result = msg::Answer();
     result.code = toMsg(refusal.code(), refusal.what());
+    result.summary = std::string("refused, so UNKNOWN: ") + refusal.what();
     ledger_.refuse("query.refused", refusal);
   } catch (const std::exception& error) {  // a fault of ours: the caller hears of it, the node goes on
     result = msg::Answer();
