@@ -27,7 +27,8 @@ std::string text(double value) {
     out << static_cast<long long>(value);
     return out.str();
   }
-  for (int digits : {6, 9, 17}) {  // the shortest of these that reads back as the same number
+  if (std::isnan(value)) return "nan";
+  for (int digits = 1; digits <= 17; ++digits) {  // the shortest that reads back as the same number
     out.str("");
     out.precision(digits);
     out << value;

@@ -158,29 +158,6 @@ void checkScale(const Eigen::Vector3d& scale, const std::string& what) {
 
 }  // namespace
 
-void checkMesh(const TriangleMesh& mesh, double max_size, const std::string& what) {
-  for (const Eigen::Vector3d& vertex : mesh.vertices) {
-    if (!vertex.allFinite()) throw Refusal(Code::nonfinite, what + " has a vertex that is not finite");
-    checkWithin(vertex, max_size, what + ": a vertex");
-  }
-  bool has_area = false;
-  for (const auto& triangle : mesh.triangles) {
-    for (const std::uint32_t index : triangle) {
-      if (index >= mesh.vertices.size()) {
-        throw Refusal(Code::bad_geometry, what + " has a triangle that names vertex " + std::to_string(index) +
-                                              "; there are " + std::to_string(mesh.vertices.size()));
-      }
-    }
-    const Eigen::Vector3d &a = mesh.vertices[triangle[0]], &b = mesh.vertices[triangle[1]],
-                          &c = mesh.vertices[triangle[2]];
-    has_area = has_area || (b - a).cross(c - a).squaredNorm() > 0.0;
-  }
-  if (!has_area) {
-    throw Refusal(Code::bad_geometry, what + " has " + std::to_string(mesh.triangles.size()) +
-                                          " triangles, none of which has an area; at least one must");
-  }
-}
-
 std::shared_ptr<const TriangleMesh> MeshLoader::load(const std::string& uri, const Eigen::Vector3d& scale) {
   const std::string what = "mesh '" + printable(uri) + "'";
   checkScale(scale, what);

@@ -76,9 +76,17 @@ BodyShape bodyShapeOf(const urdf::Collision& collision, const std::string& what,
   const urdf::Geometry& geometry = *collision.geometry;
   switch (geometry.type) {
     case urdf::Geometry::SPHERE:
-      return {Shape::sphere(dynamic_cast<const urdf::Sphere&>(geometry).radius, limits), origin, 0.0, {}, Eigen::Vector3d::Ones()};
+      return {Shape::sphere(dynamic_cast<const urdf::Sphere&>(geometry).radius, limits),
+              origin,
+              0.0,
+              {},
+              Eigen::Vector3d::Ones()};
     case urdf::Geometry::BOX:
-      return {Shape::box(vectorOf(dynamic_cast<const urdf::Box&>(geometry).dim), limits), origin, 0.0, {}, Eigen::Vector3d::Ones()};
+      return {Shape::box(vectorOf(dynamic_cast<const urdf::Box&>(geometry).dim), limits),
+              origin,
+              0.0,
+              {},
+              Eigen::Vector3d::Ones()};
     case urdf::Geometry::CYLINDER: {
       const auto& cylinder = dynamic_cast<const urdf::Cylinder&>(geometry);
       return {Shape::cylinder(cylinder.length, cylinder.radius, limits), origin, 0.0, {}, Eigen::Vector3d::Ones()};

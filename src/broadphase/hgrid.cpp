@@ -56,7 +56,7 @@ HGrid::HGrid(const GridScale& scale, std::uint64_t seed) {
     throw std::invalid_argument("HGrid: the finest edge is " + std::to_string(scale.finest_edge) +
                                 " m; it must be within 2^-30 .. 2^30");
   }
-  double edge = std::exp2(std::floor(std::log2(scale.finest_edge)));
+  double edge = std::ldexp(1.0, std::ilogb(scale.finest_edge));
   for (Level& level : levels_) {
     level.edge = edge;
     level.cells = CellMap(0, CellHash{seed});

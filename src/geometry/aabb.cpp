@@ -92,6 +92,7 @@ float roundedUp(double value) { return -roundedDown(-value); }
 double distance(const Aabb& a, const Aabb& b) { return std::sqrt(squaredDistance(a, b)); }
 
 bool withinDistance(const Aabb& a, const Aabb& b, double margin) {
+  if (margin > 1e40) return true;  // no two floats are that far apart, and its square might not be a number
   const double squared = squaredDistance(a, b);
   const double limit = margin * margin;
   const double doubt = 1e-14 * limit + 1e-290;  // far above the rounding of both sides, and above underflow

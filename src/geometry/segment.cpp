@@ -32,23 +32,26 @@ Breaks breaksOf(const Eigen::Vector3d& from, const Eigen::Vector3d& step, const 
   return breaks;
 }
 
-/// The squared distance from the box between two breaks: a * way² + 2 * b * way + c.
+/// The squared distance from the box between two breaks: least + a * (way - lowest)². Kept around its lowest
+/// point, which may lie outside of the piece, since a * way² + b * way + c loses digits from far away.
 struct Piece {
-  double a = 0.0, b = 0.0, c = 0.0;
+  double a = 0.0, lowest = 0.0, least = 0.0;
 };
 
 Piece pieceBetween(double begin, double end, const Eigen::Vector3d& from, const Eigen::Vector3d& step,
                    const Aabb& box) {
   const Eigen::Vector3d middle = from + 0.5 * (begin + end) * step;
-  Piece piece;
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero(), rate = Eigen::Vector3d::Zero();
   for (int axis = 0; axis < 3; ++axis) {
     const double low = box.min[axis], high = box.max[axis];
     if (middle[axis] >= low && middle[axis] <= high) continue;
-    const double offset = from[axis] - (middle[axis] < low ? low : high);
-    piece.a += step[axis] * step[axis];
-    piece.b += step[axis] * offset;
-    piece.c += offset * offset;
+    offset[axis] = from[axis] - (middle[axis] < low ? low : high);
+    rate[axis] = step[axis];
   }
+  Piece piece;
+  piece.a = rate.squaredNorm();
+  if (piece.a > 0.0) piece.lowest = -rate.dot(offset) / piece.a;
+  piece.least = (offset + piece.lowest * rate).squaredNorm();
   return piece;
 }
 
@@ -67,13 +70,13 @@ std::optional<Meeting> meet(const Segment& segment, const Aabb& box) {
   for (std::size_t i = 0; i + 1 < breaks.count; ++i) {
     const double begin = breaks.way[i], end = breaks.way[i + 1];
     const Piece piece = pieceBetween(begin, end, segment.from, step, box);
-    const double lowest = piece.a > 0.0 ? std::clamp(-piece.b / piece.a, begin, end) : end;
+    const double lowest = piece.a > 0.0 ? std::clamp(piece.lowest, begin, end) : end;
     for (const double way : {lowest, end}) {  // the end too: rounding may have moved the lowest point
       const double here = distanceAt(way);
       if (here <= radius && !first) {
-        // The smaller root of a * way² + 2 * b * way + c = radius².
-        const double discriminant = piece.b * piece.b - piece.a * (piece.c - radius * radius);
-        const double root = piece.a > 0.0 ? (-piece.b - std::sqrt(std::max(discriminant, 0.0))) / piece.a : begin;
+        // The smaller root of least + a * (way - lowest)² = radius².
+        const double rise = std::max(radius * radius - piece.least, 0.0);
+        const double root = piece.a > 0.0 ? piece.lowest - std::sqrt(rise / piece.a) : begin;
         first = std::clamp(root, begin, way);
       }
       if (here < best) best = here, best_way = way;

@@ -19,27 +19,43 @@ void checkSize(double value, const char* shape, const char* field, const ShapeLi
   }
 }
 
-void checkVertices(const TriangleMesh* mesh, std::size_t fewest, const char* shape, const ShapeLimits& limits) {
-  if (mesh == nullptr || mesh->vertices.size() < fewest) {
-    throw Refusal(Code::bad_geometry, std::string(shape) + ": it has " +
-                                          std::to_string(mesh == nullptr ? 0 : mesh->vertices.size()) +
-                                          " vertices; it must have at least " + std::to_string(fewest));
-  }
-  for (const Eigen::Vector3d& vertex : mesh->vertices) {
+void checkVertices(const TriangleMesh& mesh, double max_size, const std::string& what) {
+  for (const Eigen::Vector3d& vertex : mesh.vertices) {
     if (!vertex.allFinite()) {
-      throw Refusal(Code::nonfinite, std::string(shape) + ": a vertex is not finite; every coordinate must be");
+      throw Refusal(Code::nonfinite, what + " has a vertex that is not finite; every coordinate must be");
     }
-    checkWithin(vertex, limits.max_size, std::string(shape) + ": a vertex");
+    checkWithin(vertex, max_size, what + ": a vertex");
   }
 }
 
-/// Half-widths of a disc of radius 1 whose axis is `axis` (Ericson 2005, section 4.2: the extent of a
-/// circle along a direction is the sine of the angle between them).
+/// Half-widths of a disc of radius 1 whose axis is `axis` (Ericson 2005, section 4.2: the extent of a circle
+/// along a direction is the sine of the angle between them). The sine from the two other components: from
+/// 1 - cosine² it would lose all digits where the disc lies nearly flat.
 Eigen::Vector3d discHalfWidths(const Eigen::Vector3d& axis) {
-  return (1.0 - axis.array().square()).max(0.0).sqrt().matrix();
+  return {std::hypot(axis.y(), axis.z()), std::hypot(axis.x(), axis.z()), std::hypot(axis.x(), axis.y())};
 }
 
 }  // namespace
+
+void checkMesh(const TriangleMesh& mesh, double max_size, const std::string& what) {
+  checkVertices(mesh, max_size, what);
+  bool has_area = false;
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t index : triangle) {
+      if (index >= mesh.vertices.size()) {
+        throw Refusal(Code::bad_geometry, what + " has a triangle that names vertex " + std::to_string(index) +
+                                              "; there are " + std::to_string(mesh.vertices.size()));
+      }
+    }
+    const Eigen::Vector3d &a = mesh.vertices[triangle[0]], &b = mesh.vertices[triangle[1]],
+                          &c = mesh.vertices[triangle[2]];
+    has_area = has_area || (b - a).cross(c - a).squaredNorm() > 0.0;
+  }
+  if (!has_area) {
+    throw Refusal(Code::bad_geometry, what + " has " + std::to_string(mesh.triangles.size()) +
+                                          " triangles, none of which has an area; at least one must");
+  }
+}
 
 const char* name(ShapeKind kind) {
   static constexpr const char* kNames[] = {"none", "sphere", "box", "cylinder", "cone", "capsule", "hull", "mesh"};
@@ -101,23 +117,16 @@ Shape Shape::capsule(double height, double radius, const ShapeLimits& limits) {
 }
 
 Shape Shape::hull(std::shared_ptr<const TriangleMesh> vertices, const ShapeLimits& limits) {
-  checkVertices(vertices.get(), 1, "hull", limits);
+  if (vertices == nullptr || vertices->vertices.empty()) {
+    throw Refusal(Code::bad_geometry, "hull: it has 0 vertices; it must have at least 1");
+  }
+  checkVertices(*vertices, limits.max_size, "hull");
   return Shape(ShapeKind::hull, Eigen::Vector3d::Zero(), std::move(vertices));
 }
 
 Shape Shape::mesh(std::shared_ptr<const TriangleMesh> mesh, const ShapeLimits& limits) {
-  checkVertices(mesh.get(), 3, "mesh", limits);
-  if (mesh->triangles.empty()) {
-    throw Refusal(Code::bad_geometry, "mesh: it has 0 triangles; it must have at least 1");
-  }
-  for (const auto& triangle : mesh->triangles) {
-    for (const std::uint32_t index : triangle) {
-      if (index >= mesh->vertices.size()) {
-        throw Refusal(Code::bad_geometry, "mesh: a triangle names vertex " + std::to_string(index) + "; there are " +
-                                              std::to_string(mesh->vertices.size()) + ", counted from 0");
-      }
-    }
-  }
+  if (mesh == nullptr) throw Refusal(Code::bad_geometry, "mesh: there is none");
+  checkMesh(*mesh, limits.max_size, "mesh");
   return Shape(ShapeKind::mesh, Eigen::Vector3d::Zero(), std::move(mesh));
 }
 

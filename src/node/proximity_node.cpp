@@ -79,7 +79,7 @@ ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node)
   servers_.push_back(admin_private_.advertiseService("reset", &ProximityNode::onReset, this));
   servers_.push_back(admin_private_.advertiseService("reload_robot", &ProximityNode::onReload, this));
   diagnostics_ = std::make_unique<NodeDiagnostics>(
-      admin_node_, admin_private_, private_node.getNamespace().substr(1), [this] { return newest(); },
+      admin_node_, admin_private_, private_node.getNamespace(), [this] { return newest(); },
       [this] { return health(); });
 
   tick_timer_ = update_node_.createSteadyTimer(ros::WallDuration(1.0 / params_.rate), &ProximityNode::onTick, this);

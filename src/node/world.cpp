@@ -161,7 +161,7 @@ Time World::chooseTime(const Moment& now) {
   for (const Mover& mover : movers_) {
     if (mover.chain.connected && mover.chain.moves) newest = std::max(newest, mover.chain.newest);
   }
-  if (newest.count() == 0) return now.ros;
+  if (newest.count() == 0) return last_time_ = std::max(last_time_, now.ros);
   Time common = newest;
   const auto wait = std::chrono::nanoseconds(std::llround(1e9 * params_.max_sync_wait));
   for (const Mover& mover : movers_) {

@@ -34,13 +34,14 @@ PairFilter::PairFilter(const std::vector<Body>& bodies, PairKinds kinds, std::ve
 }
 
 bool PairFilter::kindExists(const Subject& a, const Subject& b) const {
+  if (a.mobility == Mobility::fixed && b.mobility == Mobility::fixed) return false;
   if (a.kind == BodyKind::link && b.kind == BodyKind::link)
     return a.robot == b.robot ? kinds_.self : kinds_.robot_robot;
   if (a.kind == BodyKind::link || b.kind == BodyKind::link) {
     const BodyKind other = a.kind == BodyKind::link ? b.kind : a.kind;
     return other == BodyKind::map ? kinds_.robot_map : kinds_.robot_obstacle;
   }
-  return kinds_.moving_obstacle && (a.mobility == Mobility::moving || b.mobility == Mobility::moving);
+  return kinds_.moving_obstacle;
 }
 
 bool PairFilter::patternMatches(std::uint32_t first, std::uint32_t second) const {

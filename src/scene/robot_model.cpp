@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "hgrid_proximity/scene/robot_model.h"
 
+#include <cmath>
 #include <limits>
 
 namespace hgrid {
@@ -35,18 +36,21 @@ double speedBound(const RobotModel& model, std::uint32_t link) {
   for (const BodyShape& shape : model.links[link].shapes) {
     reach = std::max(reach, shape.body_from_shape.translation().norm() + shape.shape.reach() + shape.padding);
   }
+  if (reach == 0.0) return 0.0;  // no shape, no point that could move
+  const auto limitOf = [&](const RobotLink& at) { return at.max_velocity > 0.0 ? at.max_velocity : infinity; };
   double speed = 0.0;
-  for (int at = static_cast<int>(link); at >= 0;) {
+  for (int at = static_cast<int>(link); model.links[static_cast<std::size_t>(at)].parent >= 0;) {
     const RobotLink& here = model.links[static_cast<std::size_t>(at)];
     switch (here.joint_kind) {
       case JointKind::fixed:
         break;
       case JointKind::revolute:
-        speed += (here.max_velocity > 0.0 ? here.max_velocity : infinity) * reach;
+        speed += limitOf(here) * reach;
         break;
       case JointKind::prismatic:
-        speed += here.max_velocity > 0.0 ? here.max_velocity : infinity;
-        reach += std::max(std::abs(here.lower), std::abs(here.upper));
+        speed += limitOf(here);
+        reach +=
+            here.lower == 0.0 && here.upper == 0.0 ? infinity : std::max(std::abs(here.lower), std::abs(here.upper));
         break;
       case JointKind::planar:
       case JointKind::floating:
@@ -55,7 +59,7 @@ double speedBound(const RobotModel& model, std::uint32_t link) {
     reach += here.parent_from_joint.translation().norm();
     at = here.parent;
   }
-  return reach == 0.0 ? 0.0 : speed;
+  return speed;
 }
 
 }  // namespace hgrid

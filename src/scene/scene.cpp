@@ -15,6 +15,7 @@ namespace hgrid {
 namespace {
 
 constexpr double kLargestMargin = 1e3;  // [m]
+constexpr double kFarthestShape = 1e6;  // [m] from its body's origin
 
 void checkLength(double value, double limit, const std::string& what) {
   if (!(value >= 0.0 && value <= limit)) {
@@ -35,6 +36,11 @@ void checkBody(const Body& body) {
                   "max_speed of body '" + body.name + "' is " + text(body.max_speed) + " m/s; it must not be negative");
   }
   for (const BodyShape& shape : body.shapes) {
+    const std::string what = "pose of a shape of body '" + body.name + "'";
+    if (!shape.body_from_shape.matrix().allFinite()) {
+      throw Refusal(Code::nonfinite, what + " is not finite; every number must be");
+    }
+    checkWithin(shape.body_from_shape.translation(), kFarthestShape, what);
     checkLength(shape.padding, kLargestMargin, "padding of a shape of body '" + body.name + "'");
   }
 }
@@ -206,7 +212,7 @@ void Scene::setState(BodyId id, Freshness state, double age, std::uint32_t cohor
   BodyPose& pose = state_->at(id).pose;
   if (pose.state == Freshness::unplaced) return;
   pose.state = state == Freshness::unplaced ? Freshness::invalid : state;  // what had a pose keeps it
-  pose.age = age;
+  pose.age = state_->at(id).body.mobility == Mobility::fixed ? 0.0 : age;
   pose.cohort = cohort;
 }
 

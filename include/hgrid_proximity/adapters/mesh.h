@@ -40,8 +40,4 @@ class MeshLoader {
   std::map<std::string, std::shared_ptr<const TriangleMesh>> read_;  // by real path, unscaled
 };
 
-/// Checks a mesh: finite vertices within max_size, indices in range, at least one triangle with an area.
-/// @throws Refusal nonfinite, out_of_range, bad_geometry
-void checkMesh(const TriangleMesh& mesh, double max_size, const std::string& what);
-
 }  // namespace hgrid

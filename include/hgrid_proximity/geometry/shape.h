@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "hgrid_proximity/geometry/aabb.h"
@@ -23,6 +24,10 @@ struct TriangleMesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
+
+/// Checks a mesh: finite vertices within max_size, indices in range, at least one triangle with an area.
+/// @throws Refusal nonfinite, out_of_range, bad_geometry
+void checkMesh(const TriangleMesh& mesh, double max_size, const std::string& what);
 
 /// What a shape may measure.
 struct ShapeLimits {
