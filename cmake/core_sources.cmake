@@ -1,12 +1,12 @@
 # The core: C++17 and Eigen, no ROS. Shared by the package and by the project in test/.
 set(HGRID_CORE_SOURCES
-  src/refusal.cpp
+  src/broadphase/hgrid.cpp
   src/geometry/aabb.cpp
   src/geometry/pose.cpp
   src/geometry/segment.cpp
   src/geometry/shape.cpp
   src/geometry/sphere.cpp
-  src/broadphase/hgrid.cpp
+  src/refusal.cpp
   src/scene/link_matrix.cpp
   src/scene/name.cpp
   src/scene/pair_filter.cpp
@@ -20,5 +20,6 @@ set(HGRID_ADAPTER_SOURCES
   src/adapters/resource.cpp
   src/adapters/srdf.cpp
   src/adapters/urdf.cpp
+  src/adapters/urdf_tree.cpp
   src/adapters/xml.cpp
 )

@@ -40,6 +40,8 @@ std::string text(double value) {
   return out.str();
 }
 
+std::string secondsText(double duration) { return text(std::round(duration * 1e3) / 1e3) + " s"; }
+
 std::string printable(const std::string& raw, std::size_t longest) {
   std::string out;
   for (std::size_t i = 0; i < raw.size();) {

@@ -53,6 +53,9 @@ class Refusal : public std::runtime_error {
 /// A number as people write it ("0.05", "1e-320", "nan"), independent of the locale.
 std::string text(double value);
 
+/// A duration [s] to the millisecond, as in "0.25 s".
+std::string secondsText(double duration);
+
 /// Text from outside made safe for logs and messages: control characters and broken UTF-8 become
 /// \xNN, and what is longer than `longest` bytes is cut with a "…".
 std::string printable(const std::string& raw, std::size_t longest = 128);

@@ -75,7 +75,9 @@ Place placeOf(const std::string& uri, const ResourcePolicy& policy) {
       throw Refusal(Code::resource_missing,
                     "resource '" + printable(uri) + "': there is no package '" + printable(package) + "'");
     }
-    return {real + "/" + relative, {real}};
+    Place place{real + "/" + relative, {real}};
+    for (const std::string& root : policy.file_roots) place.roots.push_back(realFolder(root));
+    return place;
   }
   if (startsWith(uri, "file:///")) {
     Place place{uri.substr(std::strlen("file://")), {}};

@@ -6,9 +6,11 @@
 #include <urdf_model/model.h>
 #include <urdf_parser/urdf_parser.h>
 
+#include <map>
 #include <mutex>
 
 #include "hgrid_proximity/scene/name.h"
+#include "urdf_tree.h"
 #include "xml.h"
 
 namespace hgrid {
@@ -53,7 +55,7 @@ Eigen::Vector3d vectorOf(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
 /// cannot go unnoticed, and does not spoil its neighbours.
 urdf::CollisionSharedPtr parseCollision(const tinyxml2::XMLElement& element, const std::string& what) {
   const tinyxml2::XMLElement* geometry = element.FirstChildElement("geometry");
-  const std::string shown = printable(printed(geometry == nullptr ? element : *geometry), 160);
+  const std::string shown = printable(printed(element), 200);
   const tinyxml2::XMLElement* shape = geometry == nullptr ? nullptr : geometry->FirstChildElement();
   if (shape == nullptr || shape->NextSiblingElement() != nullptr ||
       geometry->NextSiblingElement("geometry") != nullptr) {
@@ -116,8 +118,29 @@ void readCollisions(const tinyxml2::XMLElement& element, RobotLink& link, const 
   }
 }
 
+/// Finds the joint that urdfdom cannot read, by reading each alone: its own message does not always name it.
+[[noreturn]] void nameUnreadableJoint(const tinyxml2::XMLElement& robot) {
+  for (auto* joint = robot.FirstChildElement("joint"); joint != nullptr; joint = joint->NextSiblingElement("joint")) {
+    tinyxml2::XMLDocument alone;
+    tinyxml2::XMLElement* root = alone.NewElement("robot");
+    alone.InsertEndChild(root);
+    root->SetAttribute("name", "r");
+    for (const char* end : {"parent", "child"}) {
+      tinyxml2::XMLElement* link = alone.NewElement("link");
+      link->SetAttribute("name", joint->FirstChildElement(end)->Attribute("link"));
+      root->InsertEndChild(link);
+    }
+    root->InsertEndChild(joint->DeepClone(&alone));
+    if (urdf::parseURDF(printed(alone))) continue;
+    throw Refusal(Code::parse, "joint '" + printable(joint->Attribute("name")) +
+                                   "' cannot be read: " + printable(printed(*joint), 300));
+  }
+  throw Refusal(Code::parse, "the URDF's links and joints cannot be read");
+}
+
 /// The robot's links and joints as urdfdom has them, without anything that could not matter to them.
 urdf::ModelInterfaceSharedPtr parseTree(const tinyxml2::XMLElement& robot) {
+  const UrdfdomErrors errors;
   tinyxml2::XMLDocument bare;
   tinyxml2::XMLElement* root = robot.ShallowClone(&bare)->ToElement();
   bare.InsertEndChild(root);
@@ -126,13 +149,10 @@ urdf::ModelInterfaceSharedPtr parseTree(const tinyxml2::XMLElement& robot) {
     if (tag == "link") root->InsertEndChild(child->ShallowClone(&bare));
     if (tag == "joint") root->InsertEndChild(child->DeepClone(&bare));
   }
-  const UrdfdomErrors errors;
-  const auto model = urdf::parseURDF(printed(bare));
-  if (!model || !model->getRoot()) {
-    throw Refusal(Code::parse, "the URDF describes no robot: " +
-                                   (errors.first().empty() ? std::string("it has no root link") : errors.first()));
+  if (const auto model = urdf::parseURDF(printed(bare))) {
+    if (model->getRoot()) return model;
   }
-  return model;
+  nameUnreadableJoint(*root);
 }
 
 JointKind kindOf(const urdf::Joint& joint) {
@@ -164,10 +184,10 @@ RobotLink linkOf(const urdf::Link& source, int parent, const ShapeLimits& limits
   link.parent_from_joint = poseOf(joint.parent_to_joint_origin_transform, what + ": origin");
   checkWithin(link.parent_from_joint.translation(), limits.max_size, what + ": origin");
   const Eigen::Vector3d axis = vectorOf(joint.axis);
-  const bool turns = link.joint_kind == JointKind::revolute || link.joint_kind == JointKind::prismatic;
-  if (turns && axis.allFinite() && axis.norm() > 0.0) {
+  const bool has_axis = link.joint_kind != JointKind::fixed && link.joint_kind != JointKind::floating;
+  if (has_axis && axis.allFinite() && axis.norm() > 0.0) {
     link.axis = axis.normalized();
-  } else if (turns) {
+  } else if (has_axis) {
     warnings.push_back(what + " has an axis of length " + text(axis.norm()) + "; x is taken for it");
   }
   if (joint.limits) {
@@ -184,6 +204,7 @@ RobotModel readUrdf(const std::string& xml, const MeshSource& meshes, const Desc
                     const ShapeLimits& shape_limits) {
   tinyxml2::XMLDocument document;
   const tinyxml2::XMLElement& robot = parseXml(xml, limits, "the URDF", "robot", document);
+  checkTree(robot);
   const urdf::ModelInterfaceSharedPtr tree = parseTree(robot);
   if (tree->links_.size() > limits.max_links) {
     throw Refusal(Code::limit, "the URDF has " + std::to_string(tree->links_.size()) + " links; at most " +
@@ -201,16 +222,9 @@ RobotModel readUrdf(const std::string& xml, const MeshSource& meshes, const Desc
     model.links.push_back(linkOf(*link, parent, shape_limits, model.warnings));
     open.insert(open.end(), link->child_links.begin(), link->child_links.end());
   }
-  for (const auto& link : tree->links_) {  // urdfdom takes cycles that hang on nothing
-    if (index.count(link.first) == 0) {
-      throw Refusal(Code::parse, "link '" + printable(link.first) + "' is not reachable from the root link '" +
-                                     printable(tree->getRoot()->name) + "'; joints must form a tree");
-    }
-  }
   for (auto* element = robot.FirstChildElement("link"); element != nullptr;
        element = element->NextSiblingElement("link")) {
-    const char* name = element->Attribute("name");
-    readCollisions(*element, model.links[static_cast<std::size_t>(index.at(name == nullptr ? "" : name))], meshes,
+    readCollisions(*element, model.links[static_cast<std::size_t>(index.at(element->Attribute("name")))], meshes,
                    shape_limits);
   }
   findRigidGroups(model);

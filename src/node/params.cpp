@@ -92,7 +92,8 @@ void visit(Visitor& v, Params& p) {
   v.integer("max_links", p.max_links, 1, 100000, "links of a robot");
   v.integer("max_mesh_bytes", p.max_mesh_bytes, 1000, 1 << 30, "bytes of a mesh file");
   v.integer("max_mesh_triangles", p.max_mesh_triangles, 1, 100000000, "triangles of a mesh");
-  v.integer("mesh_memory", p.mesh_memory, 64 << 20, 2147483647, "bytes of memory for reading a mesh");
+  v.integer("mesh_memory", p.mesh_memory, 64 << 20, 2147483647,
+            "bytes of memory for reading a mesh; meshes near max_mesh_triangles need more than the default");
   v.number("mesh_timeout", p.mesh_timeout, "s", 0.1, 600.0, "time for reading a mesh");
 
   v.section("The node");

@@ -129,7 +129,7 @@ bool QueryServices::answer(const Request& request, Response& response, Ask&& ask
     QueryAnswer found = ask(snapshot, world_from_frame, scopeOf(request.include, request.exclude, request.limit));
     if (found.verdict == Verdict::clear && age_since > params_.valid_for) {
       found.verdict = Verdict::unknown;
-      found.reason = "the newest tick is " + text(age_since) + " s old; ticks are valid for " +
+      found.reason = "the newest tick is " + secondsText(age_since) + " old; ticks are valid for " +
                      text(params_.valid_for) + " s (~valid_for)";
     }
     const Pose frame_from_world = world_from_frame.inverse();

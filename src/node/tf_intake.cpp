@@ -63,7 +63,7 @@ void TfIntake::check(const geometry_msgs::TransformStamped& transform, const std
     const double ahead = seconds(timeOf(transform.header.stamp) - now.ros);
     if (now.ros.count() == 0) throw Refusal(Code::clock, what + " came before the clock; there is no time yet");
     if (ahead > max_future_) {
-      throw Refusal(Code::clock, what + " is stamped " + text(ahead) + " s in the future; at most " +
+      throw Refusal(Code::clock, what + " is stamped " + secondsText(ahead) + " in the future; at most " +
                                      text(max_future_) + " s are allowed");
     }
   }

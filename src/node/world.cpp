@@ -256,7 +256,7 @@ void World::describeTrouble(const Mover& mover, Tick& tick) const {
       trouble.code = Code::clock;
       trouble.sentence = "the clock stands still or jumped; nothing new came since";
     } else {
-      trouble.sentence = "frame '" + mover.frame + "' is " + text(pose.age) + " s old";
+      trouble.sentence = "frame '" + mover.frame + "' is " + secondsText(pose.age) + " old";
     }
     if (pose.state == Freshness::unplaced) trouble.age = std::numeric_limits<double>::quiet_NaN();
     tick.troubles.push_back(std::move(trouble));

@@ -79,8 +79,8 @@ std::string gapLeftBy(const Body& body, const BodyPose& pose) {
   }
   if (!body.covered && !body.waived) return "UNCOVERED " + body.name + ": " + body.note;
   if (pose.state >= Freshness::lost) {
-    return std::string(name(pose.state)) + " " + body.name + ": its pose is " + text(pose.age) + " s old (frame '" +
-           printable(body.frame) + "')";
+    return std::string(name(pose.state)) + " " + body.name + ": its pose is " + secondsText(pose.age) +
+           " old (frame '" + printable(body.frame) + "')";
   }
   return {};
 }

@@ -57,8 +57,8 @@ bool Snapshot::inScope(const QueryScope& scope, std::uint32_t body) const {
 
 std::string Snapshot::doubtOf(std::uint32_t body) const {
   const BodyPose& pose = poses_[body];
-  return std::string(name(pose.state)) + " " + structure_->bodies[body].name + ": its pose is " + text(pose.age) +
-         " s old, it may have come here since";
+  return std::string(name(pose.state)) + " " + structure_->bodies[body].name + ": its pose is " +
+         secondsText(pose.age) + " old, it may have come here since";
 }
 
 QueryAnswer Snapshot::finished(std::vector<QueryHit>& hits, const QueryScope& scope, bool by_along,

@@ -77,10 +77,12 @@ void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent
   for (unsigned i = 0; i < node.mNumMeshes; ++i) {
     const aiMesh& part = *scene.mMeshes[node.mMeshes[i]];
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    const unsigned second = transform.Determinant() < 0 ? 2 : 1;  // a mirror turns the inside out
     for (unsigned f = 0; f < part.mNumFaces; ++f) {
       const aiFace& face = part.mFaces[f];
       if (face.mNumIndices != 3) continue;  // points and lines: triangulation leaves nothing else
-      mesh.triangles.push_back({first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
+      mesh.triangles.push_back(
+          {first + face.mIndices[0], first + face.mIndices[second], first + face.mIndices[3 - second]});
     }
     for (unsigned v = 0; v < part.mNumVertices; ++v) {
       const aiVector3D p = transform * part.mVertices[v];
@@ -102,7 +104,9 @@ Mesh parse(const std::string& data, const std::string& kind, std::size_t max_tri
   const aiScene* scene = importer.ReadFileFromMemory(
       data.data(), data.size(), aiProcess_Triangulate | aiProcess_JoinIdenticalVertices, kind.c_str());
   if (scene == nullptr || scene->mRootNode == nullptr) {
-    throw Refusal(Code::parse, std::string("it cannot be read: ") + importer.GetErrorString());
+    const std::string error = importer.GetErrorString();
+    if (error.find("bad_alloc") != std::string::npos) throw std::bad_alloc();  // assimp catches it and makes it a text
+    throw Refusal(Code::parse, "it cannot be read: " + error);
   }
   Mesh mesh;
   collect(*scene, *scene->mRootNode, aiMatrix4x4(), mesh, max_triangles);

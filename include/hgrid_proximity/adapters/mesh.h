@@ -31,8 +31,8 @@ class MeshLoader {
 
   /// The triangles of a file, each coordinate times `scale`; a mirroring scale turns the triangles round, so
   /// that they still face outward.
-  /// @throws Refusal resource_denied, resource_missing, unsupported, limit, budget, parse, nonfinite,
-  /// out_of_range, bad_geometry
+  /// @throws Refusal resource_denied, resource_missing, unsupported, limit, budget, parse, truncated (the
+  /// helper died), nonfinite, out_of_range, bad_geometry, internal (the helper answered with something else)
   std::shared_ptr<const TriangleMesh> load(const std::string& uri, const Eigen::Vector3d& scale);
 
  private:

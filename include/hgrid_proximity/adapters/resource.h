@@ -12,7 +12,8 @@ namespace hgrid {
 struct ResourcePolicy {
   /// Folder of a package, empty if there is none of that name.
   std::function<std::string(const std::string& package)> package_path;
-  /// Folders below which file:// may read; links are resolved before comparing.
+  /// Folders below which file:// may read, and where links in a package may lead; links are resolved before
+  /// comparing.
   std::vector<std::string> file_roots;
   std::size_t max_bytes = 64u << 20;
 };

@@ -29,7 +29,8 @@ void checkXml(const std::string& xml, const DescriptionLimits& limits, const std
 ///
 /// A shape that cannot be read does not stop the robot: it stands in RobotLink::unreadable. Every
 /// `<collision>` element is accounted for, also those that urdfdom drops silently.
-/// @throws Refusal parse, limit, unsupported when there is no robot to be had from the text.
+/// @throws Refusal parse, limit, unsupported, bad_id (a link's name) or out_of_range (a joint's origin) when there
+/// is no robot to be had from the text.
 RobotModel readUrdf(const std::string& xml, const MeshSource& meshes, const DescriptionLimits& limits = {},
                     const ShapeLimits& shape_limits = {});
 
