@@ -2,15 +2,15 @@
 # SPDX-FileCopyrightText: the hgrid_proximity authors
 # shellcheck shell=bash
 #
-# What the scripts beside it share: install what is missing, build, run on a ROS master of their own, leave nothing behind.
+# What the scripts beside it share: installing, building, a ROS master of their own, and leaving nothing behind.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 export PATH="/usr/bin:/usr/sbin:$PATH"  # ROS needs the system's python3; another one may stand first
 
 build_packages=(
   catkin cmake g++ make ros-core-dev
-  libassimp-dev libdiagnostic-updater-dev libeigen3-dev libnodelet-dev libnodeletlib-dev libtf2-eigen-dev
-  libtf2-geometry-msgs-dev libtf2-ros-dev libtinyxml2-dev liburdfdom-dev liburdfdom-headers-dev pluginlib-dev
+  libassimp-dev libconsole-bridge-dev libdiagnostic-updater-dev libeigen3-dev libgtest-dev libnodelet-dev
+  libnodeletlib-dev libtf2-dev libtf2-msgs-dev libtinyxml2-dev liburdfdom-dev liburdfdom-headers-dev pluginlib-dev
 )
 demo_packages=(
   python3-geometry-msgs python3-roslaunch python3-rospy python3-sensor-msgs python3-shape-msgs python3-tf2-msgs
@@ -18,7 +18,7 @@ demo_packages=(
 )
 # shellcheck disable=SC2034  # read by scripts/test
 test_packages=(
-  "${demo_packages[@]}" catkin-lint libfcl-dev libgtest-dev python3-diagnostic-msgs python3-rostest python3-rostopic
+  "${demo_packages[@]}" catkin-lint libfcl-dev python3-diagnostic-msgs python3-rostest python3-rostopic
   rosbash
 )
 
@@ -72,8 +72,8 @@ install_debian() {
   say "installing ${#missing[@]} packages: ${missing[*]}"
   ((EUID == 0)) || sudo true || fail "installing needs root or sudo"
   quietly as_root apt-get -o DPkg::Lock::Timeout=600 update || fail "apt-get update failed"
-  quietly as_root env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=600 install -y --no-install-recommends \
-    "${missing[@]}" || fail "apt-get install failed"
+  quietly as_root env DEBIAN_FRONTEND=noninteractive \
+    apt-get -o DPkg::Lock::Timeout=600 install -y --no-install-recommends "${missing[@]}" || fail "apt-get install failed"
 }
 
 # Installs what building and the named Debian packages need; beside ROS Noetic what package.xml needs.
@@ -128,7 +128,7 @@ start_cell() {
 }
 
 # What the cell and the node said before the first of them gave up.
-show_logs() { sed '/Initiating shutdown/q' "$scratch/launch.log" | tail -n 40 >&2; }
+show_logs() { sed '/Initiating shutdown/q' "$scratch/launch.log" | tail -n 30 >&2; }
 
 # Every process that still runs: those started here, and of a session also those that lost their parent, by the log
 # folder in their environment.

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 // proximity_node: which robot links and obstacles are near each other? See README.md.
 
+#include <console_bridge/console.h>
 #include <ros/ros.h>
 
 #include <exception>
@@ -10,6 +11,8 @@
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "proximity");
+  // tf2 warns of every single transform that is old or comes twice; the node counts them.
+  console_bridge::setLogLevel(console_bridge::CONSOLE_BRIDGE_LOG_ERROR);
   ros::NodeHandle node, private_node("~");
   try {
     const hgrid::ProximityNode proximity(node, private_node);

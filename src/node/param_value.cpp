@@ -48,7 +48,8 @@ void ParamValue::number(double& result, double low, double high, const std::stri
     return wrongType("a number");
   }
   const std::string suffix = unit.empty() ? "" : " " + unit;
-  if (!(value >= low && value <= high)) {
+  const bool bounded = std::isfinite(high);  // otherwise what is wrong with a NaN is said by whoever takes it
+  if (value < low || value > high || (bounded && std::isnan(value))) {
     return error("is " + text(value) + suffix + "; it must be within " + text(low) + " .. " + text(high) + suffix);
   }
   result = value;

@@ -216,7 +216,7 @@ void World::place(Mover& mover, Time time, const Moment& now) {
     for (const auto& member : mover.members) scene_.place(member.first, world_from_frame * member.second, stamp);
     mover.placed = true;
     mover.jumped = false;
-    mover.placed_at = now.steady;
+    if (!watch_.frozen()) mover.placed_at = now.steady;  // under a frozen clock the same pose again is not newer
     mover.age_when_placed = mover.chain.moves ? mover.chain.age : 0.0;
   } catch (const Refusal& refusal) {
     ledger_.refuse("pose.refused", refusal);

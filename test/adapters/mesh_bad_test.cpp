@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// Files that are no mesh, and meshes that are none.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+#include "test/adapters/mutation.h"
+#include "test/adapters/temporary_folder.h"
+#include "test/adapters/urdf_texts.h"
+#include "test/support/refusals.h"
+#include "test/support/robots.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+using Triangle = std::array<std::array<float, 3>, 3>;
+
+/// A binary STL whose header says `count`.
+std::string stl(const std::vector<Triangle>& triangles, std::uint32_t count) {
+  std::string bytes(84, ' ');
+  std::memcpy(&bytes[80], &count, 4);
+  for (const Triangle& triangle : triangles) {
+    char record[50] = {};
+    std::memcpy(record + 12, triangle.data(), 36);
+    bytes.append(record, sizeof record);
+  }
+  return bytes;
+}
+std::string stl(const std::vector<Triangle>& triangles) {
+  return stl(triangles, static_cast<std::uint32_t>(triangles.size()));
+}
+
+class BadMesh : public ::testing::Test {
+ protected:
+  BadMesh() {
+    policy_.resources.file_roots = {folder_.path()};
+    policy_.timeout = std::chrono::seconds(60);
+  }
+  Code refusal(const std::string& name, const std::string& bytes, const Eigen::Vector3d& scale = {1, 1, 1}) {
+    const std::string uri = "file://" + folder_.write(name, bytes);
+    MeshLoader loader(policy_);
+    sentence_.clear();
+    return refusalOf([&] { mesh_ = loader.load(uri, scale); }, &sentence_);
+  }
+  TemporaryFolder folder_;
+  MeshPolicy policy_ = meshPolicy();
+  std::string sentence_;
+  std::shared_ptr<const TriangleMesh> mesh_;
+};
+
+const Triangle kFlat = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+const Triangle kPoint = {{{1, 2, 3}, {1, 2, 3}, {1, 2, 3}}};
+const Triangle kLine = {{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}};
+
+TEST_F(BadMesh, WithoutAnAreaIsRefused) {  // B10
+  EXPECT_EQ(refusal("points.stl", stl({kPoint, kPoint})), Code::bad_geometry) << sentence_;
+  EXPECT_EQ(refusal("lines.stl", stl({kLine, kPoint})), Code::bad_geometry) << sentence_;
+  EXPECT_TRUE(says(sentence_, "lines.stl"));
+  EXPECT_EQ(refusal("one.stl", stl({kPoint, kFlat})), Code::ok) << sentence_;
+  for (const Code code : {refusal("none.stl", stl({})), refusal("vertex.obj", "v 1 2 3\n"),
+                          refusal("edge.obj", "v 1 2 3\nv 2 2 3\nl 1 2\n")}) {
+    EXPECT_TRUE(code == Code::bad_geometry || code == Code::parse) << name(code);  // the parser may notice first
+  }
+}
+
+TEST_F(BadMesh, IndicesOutOfRangeAreRefused) {  // B11
+  const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (const char* face : {"f 1 2 4\n", "f 1 2 99999999\n", "f -1 -2 -9\n", "f 0 1 2\n", "f 1 2 4294967297\n"}) {
+    const Code code = refusal("a.obj", vertices + face);
+    EXPECT_TRUE(code == Code::bad_geometry || code == Code::parse) << face << name(code) << " " << sentence_;
+  }
+  EXPECT_EQ(refusal("a.obj", vertices + "f -1 -2 -3\n"), Code::ok) << "counted from the end";
+
+  TriangleMesh mesh = *tetrahedron();
+  for (const std::uint32_t index : {4u, 0x7fffffffu, 0xffffffffu}) {
+    mesh.triangles[2] = {0, index, 1};
+    std::string sentence;
+    EXPECT_EQ(refusalOf([&] { checkMesh(mesh, 1e5, "the mesh"); }, &sentence), Code::bad_geometry);
+    for (const std::string& word : {std::string("the mesh"), std::to_string(index), std::string("4")}) {
+      EXPECT_TRUE(says(sentence, word));
+    }
+  }
+}
+
+TEST_F(BadMesh, VerticesThatAreNoneAreRefused) {  // B12
+  const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    for (const float value : {nan, inf, -inf}) {
+      Triangle bad = kFlat;
+      bad[1][static_cast<std::size_t>(k)] = value;
+      EXPECT_EQ(refusal("a.stl", stl({kFlat, bad})), Code::nonfinite) << value << " " << sentence_;
+    }
+    for (const float value : {1e38f, -1e38f, 1.00001e5f}) {
+      Triangle bad = kFlat;
+      bad[2][static_cast<std::size_t>(k)] = value;
+      EXPECT_EQ(refusal("a.stl", stl({kFlat, bad})), Code::out_of_range) << value << " " << sentence_;
+    }
+  }
+  EXPECT_EQ(refusal("a.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n") == Code::ok, false);
+}
+
+TEST_F(BadMesh, TheCheckIsThatOfItsArguments) {
+  TriangleMesh mesh = *tetrahedron();
+  EXPECT_EQ(refusalOf([&] { checkMesh(mesh, 0.5, "m"); }), Code::ok) << "the limit itself is allowed";
+  EXPECT_EQ(refusalOf([&] { checkMesh(mesh, 0.49, "m"); }), Code::out_of_range);
+  mesh.vertices.push_back({0, std::nan(""), 0});
+  EXPECT_EQ(refusalOf([&] { checkMesh(mesh, 1, "m"); }), Code::nonfinite) << "also where no triangle uses it";
+  EXPECT_EQ(refusalOf([&] { checkMesh({}, 1, "m"); }), Code::bad_geometry);
+}
+
+TEST_F(BadMesh, TrianglesAreLimited) {  // B13
+  policy_.max_triangles = 3;
+  EXPECT_EQ(refusal("a.stl", stl({kFlat, kFlat, kFlat})), Code::ok) << sentence_;
+  EXPECT_EQ(refusal("b.stl", stl({kFlat, kFlat, kFlat, kFlat})), Code::limit);
+  for (const char* word : {"b.stl", "3"}) EXPECT_TRUE(says(sentence_, word));
+  EXPECT_EQ(refusal("c.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 3\nf 1 2 3\nf 1 2 3\n"), Code::limit)
+      << sentence_;
+}
+
+/// A square of `count` triangles side by side.
+std::vector<Triangle> square(int count) {
+  std::vector<Triangle> triangles;
+  triangles.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    const float x = static_cast<float>(i % 1000), y = static_cast<float>(i / 1000);
+    triangles.push_back({{{x, y, 0}, {x + 1, y, 0}, {x, y + 1, 0}}});
+  }
+  return triangles;
+}
+
+TEST_F(BadMesh, AMillionTrianglesAreTakenAndNoMore) {  // B13
+  policy_.max_memory = 4096u * (std::size_t{1} << 20);
+  ASSERT_EQ(refusal("a.stl", stl(square(1000000))), Code::ok) << sentence_;
+  EXPECT_EQ(mesh_->triangles.size(), 1000000u);
+  EXPECT_EQ(refusal("b.stl", stl(square(1000001))), Code::limit) << sentence_;
+}
+
+TEST_F(BadMesh, WhatNeedsMoreMemoryIsOverALimit) {  // F9: it is not the file that is wrong
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the helper does not limit its memory under the address sanitizer";
+#endif
+  const std::string bytes = stl(square(100000));
+  ASSERT_EQ(refusal("a.stl", bytes), Code::ok) << sentence_;
+  EXPECT_EQ(mesh_->triangles.size(), 100000u);
+  policy_.max_memory = 64u << 20;
+  EXPECT_EQ(refusal("a.stl", bytes), Code::limit) << sentence_;
+  EXPECT_TRUE(says(sentence_, "memory"));
+}
+
+TEST_F(BadMesh, CountsThatTheFileDoesNotHoldAreRefused) {
+  for (const std::uint32_t count : {2u, 1000000u, 0x7fffffffu, 0xffffffffu}) {
+    EXPECT_NE(refusal("a.stl", stl({kFlat}, count)), Code::ok) << count;
+  }
+}
+
+TEST_F(BadMesh, ScalesThatMakeNoMeshAreRefused) {  // B14
+  const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
+  const std::string solid = fileText(ownData() + "/meshes/corner.stl");
+  for (int k = 0; k < 3; ++k) {
+    for (const double factor : {0.0, -0.0, 1e-30, -1e-30, nan, inf, -inf}) {
+      Eigen::Vector3d scale(1, 1, 1);
+      scale[k] = factor;
+      const Code code = refusal("a.stl", solid, scale);
+      EXPECT_TRUE(code == Code::bad_geometry || (!std::isfinite(factor) && code == Code::nonfinite)) << factor;
+      EXPECT_TRUE(says(sentence_, "scale"));
+    }
+  }
+  EXPECT_EQ(refusal("a.stl", solid, {1e7, 1, 1}), Code::out_of_range) << sentence_;
+}
+
+TEST_F(BadMesh, OtherKindsOfFileAreUnsupported) {  // F7
+  const std::string solid = fileText(ownData() + "/meshes/corner.stl");
+  for (const char* name : {"a.ply", "a.fbx", "a.blend", "a.gltf", "a.PLY", "stl", "a.", "a.stl.gz", "a.stl/b"}) {
+    EXPECT_EQ(refusal(name, solid), Code::unsupported) << name;
+    EXPECT_TRUE(says(sentence_, name));
+  }
+}
+
+TEST_F(BadMesh, ContentOfAnotherKindIsRefused) {  // F8
+  const std::string zip = std::string("PK\x03\x04\x14\x00\x00\x00\x08\x00", 10) + std::string(200, '\x5a');
+  const std::string ply = "ply\nformat ascii 1.0\nelement vertex 0\nend_header\n";
+  for (const char* name : {"a.stl", "a.obj", "a.dae"}) {
+    for (const std::string& bytes : {zip, ply, std::string(), std::string(1, 'x'), std::string(1000, '\0')}) {
+      const Code code = refusal(name, bytes);
+      EXPECT_TRUE(code == Code::parse || code == Code::bad_geometry)
+          << name << " " << hgrid::name(code) << " " << sentence_;
+    }
+  }
+}
+
+TEST_F(BadMesh, AHarmedFileIsASoundMeshOrARefusal) {
+  int read_anyway = 0;
+  for (const char* file : {"corner.stl", "corner_ascii.stl", "corner.obj", "corner.dae"}) {
+    const std::string whole = fileText(ownData() + "/meshes/" + file);
+    for (int seed = 0; seed < 60; ++seed) {
+      Random random(static_cast<std::uint64_t>(seed));
+      const std::string harmed = mutated(whole, {"nan", "inf", "1e308", "-1", "99999999", "<", ">", "/"}, random);
+      const Code code = refusal(file, harmed);
+      ASSERT_NE(code, Code::budget) << file << ", seed " << seed << ": " << sentence_;
+      if (code != Code::ok) continue;
+      ++read_anyway;
+      EXPECT_EQ(refusalOf([&] { checkMesh(*mesh_, ShapeLimits().max_size, "it"); }), Code::ok)
+          << file << ", seed " << seed;
+    }
+  }
+  EXPECT_GT(read_anyway, 20);
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// The files of test/data/meshes show one and the same solid; what comes back is that solid, to the bit where
+// the file says it to the bit.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "test/adapters/temporary_folder.h"
+#include "test/adapters/urdf_texts.h"
+#include "test/support/refusals.h"
+#include "test/support/robots.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+using Corners = std::array<std::array<double, 3>, 3>;
+
+/// The triangles as points, each turned so that its least corner stands first; sorted.
+std::vector<Corners> trianglesOf(const TriangleMesh& mesh) {
+  std::vector<Corners> all;
+  for (const auto& triangle : mesh.triangles) {
+    Corners corners;
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector3d& v = mesh.vertices.at(triangle[i]);
+      corners[i] = {v.x() + 0.0, v.y() + 0.0, v.z() + 0.0};  // -0 becomes 0
+    }
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    all.push_back(corners);
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+/// [m^3] positive if the triangles of a closed mesh face outward.
+double signedVolume(const TriangleMesh& mesh) {
+  double volume = 0;
+  for (const auto& t : mesh.triangles) {
+    volume += mesh.vertices[t[0]].dot(mesh.vertices[t[1]].cross(mesh.vertices[t[2]])) / 6;
+  }
+  return volume;
+}
+
+const double kVolume = 0.5 * 0.25 * 0.125 / 6;
+const std::vector<std::string> kFiles = {"corner.stl", "corner_ascii.stl", "corner.obj", "corner.dae"};
+
+class MeshFormats : public ::testing::Test {
+ protected:
+  std::shared_ptr<const TriangleMesh> load(const std::string& file, const Eigen::Vector3d& scale = {1, 1, 1}) {
+    return loader_.load("package://hgrid_test/meshes/" + file, scale);
+  }
+  MeshLoader loader_{meshPolicy()};
+};
+
+TEST_F(MeshFormats, EveryFileShowsTheSameSolid) {
+  for (const char* file : {"corner.stl", "corner_ascii.stl", "corner.obj"}) {
+    EXPECT_EQ(trianglesOf(*load(file)), trianglesOf(*tetrahedron())) << file;
+  }
+}
+
+/// corner.dae with one of its parts replaced, from a loader of its own.
+std::shared_ptr<const TriangleMesh> loadCollada(const std::string& part, const std::string& instead) {
+  std::string text = fileText(ownData() + "/meshes/corner.dae");
+  text.replace(text.find(part), part.size(), instead);
+  TemporaryFolder folder;
+  MeshPolicy policy = meshPolicy();
+  policy.resources.file_roots = {folder.path()};
+  return MeshLoader(policy).load("file://" + folder.write("corner.dae", text), {1, 1, 1});
+}
+
+TEST_F(MeshFormats, ColladaCountsUnitsAndNodesButNotTheUpAxis) {  // as RViz shows it
+  const auto expected = tetrahedron();
+  for (const char* up : {"Y_UP", "Z_UP", "X_UP"}) {
+    SCOPED_TRACE(up);
+    const auto mesh = loadCollada("Y_UP", up);
+    ASSERT_EQ(mesh->triangles.size(), 4u);
+    EXPECT_NEAR(signedVolume(*mesh), kVolume, 1e-6 * kVolume);
+    for (const Eigen::Vector3d& corner : expected->vertices) {
+      double nearest = 1e9;
+      for (const Eigen::Vector3d& v : mesh->vertices) nearest = std::min(nearest, (v - corner).norm());
+      EXPECT_LT(nearest, 1e-7) << corner.transpose();
+    }
+  }
+}
+
+TEST_F(MeshFormats, ColladaWithoutAUnitIsInMetres) {
+  const auto mesh = loadCollada("<unit name=\"centimeter\" meter=\"0.01\"/>", "");
+  EXPECT_NEAR(signedVolume(*mesh), 1e6 * kVolume, kVolume);
+}
+
+TEST_F(MeshFormats, AMirroringNodeKeepsTheTrianglesOutward) {
+  const auto mesh = loadCollada("<scale>2 2 2</scale>", "<scale>2 -2 2</scale>");
+  EXPECT_NEAR(signedVolume(*mesh), kVolume, 1e-6 * kVolume);
+}
+
+TEST_F(MeshFormats, FacesOfFourCornersBecomeTriangles) {
+  const auto mesh = load("wedge.obj");
+  EXPECT_EQ(mesh->triangles.size(), 8u);
+  EXPECT_NEAR(signedVolume(*mesh), 0.25 * 0.5 / 2, 1e-12);
+}
+
+TEST_F(MeshFormats, ScaleMultipliesEachCoordinate) {
+  for (const std::string& file : kFiles) {
+    const Eigen::Vector3d scale(2, 0.5, 4);
+    const auto plain = load(file), scaled = load(file, scale);
+    ASSERT_EQ(plain->vertices.size(), scaled->vertices.size()) << file;
+    for (std::size_t i = 0; i < plain->vertices.size(); ++i) {
+      EXPECT_EQ(scaled->vertices[i], plain->vertices[i].cwiseProduct(scale)) << file;
+    }
+    EXPECT_EQ(scaled->triangles, plain->triangles) << file;
+    EXPECT_NEAR(signedVolume(*scaled), 4 * kVolume, 1e-6 * kVolume) << file;
+  }
+}
+
+TEST_F(MeshFormats, AMirroringScaleKeepsTheTrianglesOutward) {
+  for (const std::string& file : kFiles) {
+    for (const Eigen::Vector3d& scale :
+         {Eigen::Vector3d(-1, 1, 1), Eigen::Vector3d(1, -1, 1), Eigen::Vector3d(1, 1, -1), Eigen::Vector3d(-1, -1, 1),
+          Eigen::Vector3d(-1, -1, -1)}) {
+      const auto mesh = load(file, scale);
+      EXPECT_NEAR(signedVolume(*mesh), kVolume, 1e-6 * kVolume) << file << ", scale " << scale.transpose();
+    }
+    const auto plain = load(file), mirrored = load(file, {-1, 1, 1});
+    for (std::size_t i = 0; i < plain->vertices.size(); ++i) {
+      EXPECT_EQ(mirrored->vertices[i], plain->vertices[i].cwiseProduct(Eigen::Vector3d(-1, 1, 1))) << file;
+    }
+  }
+}
+
+TEST_F(MeshFormats, EndingsAreReadInAnyCase) {
+  TemporaryFolder folder;
+  MeshPolicy policy = meshPolicy();
+  policy.resources.file_roots = {folder.path()};
+  MeshLoader loader(policy);
+  const auto same = [&](const std::string& name, const std::string& bytes) {
+    folder.write(name, bytes);
+    EXPECT_EQ(trianglesOf(*loader.load("file://" + folder / name, {1, 1, 1})), trianglesOf(*tetrahedron())) << name;
+  };
+  std::string binary = fileText(ownData() + "/meshes/corner.stl");
+  same("A.STL", binary);
+  same("a.b.Stl", binary);
+  same("A.OBJ", fileText(ownData() + "/meshes/corner.obj"));
+  binary.replace(0, 5, "solid");
+  same("solid.stl", binary);  // binary, though it begins like text
+}
+
+TEST_F(MeshFormats, AFileIsReadOnceForEachLoader) {
+  TemporaryFolder folder;
+  const std::string path = folder.write("a.stl", fileText(ownData() + "/meshes/corner.stl"));
+  std::filesystem::create_symlink(path, folder / "b.stl");
+  MeshPolicy policy = meshPolicy();
+  policy.resources.file_roots = {folder.path()};
+  policy.reader = folder / "reader";
+  std::filesystem::create_symlink(HGRID_MESH_READER, policy.reader);
+  MeshLoader loader(policy);
+  loader.load("file://" + path, {1, 1, 1});
+  std::filesystem::remove(policy.reader);
+  EXPECT_EQ(trianglesOf(*loader.load("file://" + path, {1, 1, 1})), trianglesOf(*tetrahedron()));
+  EXPECT_EQ(trianglesOf(*loader.load("file://" + path, {1, 2, 1})), trianglesOf(*tetrahedron({1, 2, 1})));
+  EXPECT_EQ(trianglesOf(*loader.load("file://" + folder / "b.stl", {1, 1, 1})), trianglesOf(*tetrahedron()))
+      << "another name of the same file";
+  MeshLoader another(policy);
+  EXPECT_NE(refusalOf([&] { another.load("file://" + path, {1, 1, 1}); }), Code::ok) << "it has no reader";
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid

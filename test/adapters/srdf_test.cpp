@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "hgrid_proximity/adapters/srdf.h"
+
+#include <gtest/gtest.h>
+#include <tinyxml2.h>
+
+#include "test/support/refusals.h"
+#include "test/support/robots.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+std::string srdf(const std::string& content) { return "<robot name=\"r\">\n" + content + "\n</robot>"; }
+
+TEST(Srdf, AllThreeTagsAreRead) {
+  const LinkRules rules = readSrdf(fileText(ownData() + "/robots/traits.srdf"));
+  ASSERT_EQ(rules.disabled.size(), 3u);
+  EXPECT_EQ(rules.disabled[0].first, "base");
+  EXPECT_EQ(rules.disabled[0].second, "arm");
+  EXPECT_EQ(rules.disabled[0].reason, "Never");
+  EXPECT_EQ(rules.disabled[1].first, "finger_right");
+  EXPECT_EQ(rules.disabled[1].second, "finger_left");
+  EXPECT_EQ(rules.disabled[1].reason, "");
+  EXPECT_EQ(rules.disabled_default, std::vector<std::string>({"drone", "phantom"}));
+  ASSERT_EQ(rules.enabled.size(), 4u);
+  EXPECT_EQ(rules.enabled[0].first, "drone");
+  EXPECT_EQ(rules.enabled[0].second, "cart");
+}
+
+TEST(Srdf, RulesActOnTheModelAndUnknownLinksAreWarnings) {
+  MeshLoader loader(meshPolicy());
+  const RobotModel model = readWith(loader, fileText(ownData() + "/robots/traits.urdf"));
+  std::vector<std::string> warnings;
+  const LinkMatrix matrix(model, readSrdf(fileText(ownData() + "/robots/traits.srdf")), warnings);
+  const auto origin = [&](const char* a, const char* b) {
+    const auto i = static_cast<std::uint32_t>(model.find(a)), j = static_cast<std::uint32_t>(model.find(b));
+    EXPECT_EQ(matrix.origin(i, j), matrix.origin(j, i)) << a << ", " << b;
+    return matrix.origin(i, j);
+  };
+  EXPECT_EQ(origin("base", "arm"), Origin::srdf) << "an explicit disable beats an enable";
+  EXPECT_EQ(origin("finger_left", "finger_right"), Origin::srdf);
+  EXPECT_EQ(origin("drone", "arm"), Origin::srdf) << "disabled by default";
+  EXPECT_EQ(origin("drone", "cart"), Origin::none) << "an enable beats a default";
+  EXPECT_EQ(origin("arm", "turret"), Origin::none) << "an enable beats adjacency";
+  EXPECT_EQ(origin("base", "column"), Origin::none) << "an enable beats a rigid group";
+  EXPECT_EQ(origin("column", "arm"), Origin::adjacent);
+  EXPECT_EQ(origin("turret", "hand"), Origin::rigid);
+  EXPECT_EQ(origin("cart", "arm"), Origin::none);
+  EXPECT_EQ(origin("base", "base"), Origin::self);
+
+  ASSERT_EQ(warnings.size(), 2u);
+  std::string all = warnings[0] + warnings[1];
+  EXPECT_TRUE(says(all, "ghost"));
+  EXPECT_TRUE(says(all, "phantom"));
+}
+
+TEST(Srdf, NothingOfCollisionsIsNoRules) {
+  for (const char* content : {"", "<group name=\"g\"/>", "<!-- <disable_collisions link1=\"a\" link2=\"b\"/> -->"}) {
+    const LinkRules rules = readSrdf(srdf(content));
+    EXPECT_TRUE(rules.disabled.empty() && rules.disabled_default.empty() && rules.enabled.empty()) << content;
+  }
+}
+
+TEST(Srdf, TextThatIsNoneIsRefused) {
+  std::string deep;
+  for (int i = 0; i < 50000; ++i) deep += "<a>";
+  struct Bad {
+    std::string text;
+    Code code;
+  };
+  const std::vector<Bad> all = {{"", Code::parse},
+                                {"hello", Code::parse},
+                                {"<robot name=\"r\">\n<disable_collisions", Code::parse},
+                                {"<robot name=\"r\">\n<group>\n</robot>", Code::parse},
+                                {std::string(100, '\0'), Code::parse},
+                                {"<sdf/>", Code::parse},
+                                {srdf(deep), Code::limit},
+                                {std::string((16u << 20) + 1, ' '), Code::limit},
+                                {"<!DOCTYPE robot>" + srdf(""), Code::unsupported}};
+  for (const Bad& bad : all) EXPECT_EQ(refusalOf([&] { readSrdf(bad.text); }), bad.code) << bad.text.substr(0, 60);
+}
+
+TEST(Srdf, ARuleWithoutItsLinksIsRefusedByName) {
+  for (const char* rule :
+       {"<disable_collisions link1=\"a\"/>", "<disable_collisions link2=\"b\"/>", "<disable_collisions/>",
+        "<enable_collisions link1=\"a\"/>", "<disable_default_collisions/>"}) {
+    std::string sentence;
+    EXPECT_EQ(refusalOf([&] { readSrdf(srdf(rule)); }, &sentence), Code::parse) << rule;
+    EXPECT_TRUE(says(sentence, "collisions")) << rule;
+    EXPECT_TRUE(says(sentence, "link")) << rule;
+  }
+}
+
+TEST(Srdf, RealOnesAreReadWhole) {
+  HGRID_NEEDS_SHARED_DATA();
+  for (const char* name : {"ur5", "panda", "pr2"}) {
+    const RealRobot robot = realRobot(name);
+    tinyxml2::XMLDocument document;
+    ASSERT_EQ(document.Parse(robot.srdf.data(), robot.srdf.size()), tinyxml2::XML_SUCCESS);
+    std::size_t count = 0;
+    for (const auto* rule = document.RootElement()->FirstChildElement("disable_collisions"); rule;
+         rule = rule->NextSiblingElement("disable_collisions")) {
+      ++count;
+    }
+    const LinkRules rules = readSrdf(robot.srdf);
+    EXPECT_GT(count, 9u) << name;
+    EXPECT_EQ(rules.disabled.size(), count) << name;
+    EXPECT_TRUE(rules.enabled.empty()) << name;
+    EXPECT_TRUE(rules.disabled_default.empty()) << name;
+  }
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// Links and joints that do not make a tree are refused, naming the link.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "test/adapters/urdf_texts.h"
+#include "test/support/refusals.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+struct NoTree {
+  const char* what;
+  std::string content;
+  std::vector<std::string> one_of;  // names, one of which the sentence must say
+};
+
+const std::vector<NoTree>& noTrees() {
+  static const std::vector<NoTree> all = {
+      // E6
+      {"self-loop beside a root", link("base") + link("wheel") + joint("spin", "wheel", "wheel"), {"wheel"}},
+      {"self-loop alone", link("wheel") + joint("spin", "wheel", "wheel"), {"wheel"}},
+      {"cycle of two alone",
+       link("wheel") + link("axle") + joint("j1", "wheel", "axle") + joint("j2", "axle", "wheel"),
+       {"wheel", "axle"}},
+      {"detached cycle of two and a root",
+       link("base") + link("wheel") + link("axle") + joint("j1", "wheel", "axle") + joint("j2", "axle", "wheel"),
+       {"wheel", "axle"}},
+      {"detached cycle of three and a tree",
+       link("base") + link("arm") + joint("j0", "base", "arm") + link("wheel") + link("axle") + link("rim") +
+           joint("j1", "wheel", "axle") + joint("j2", "axle", "rim") + joint("j3", "rim", "wheel"),
+       {"wheel", "axle", "rim"}},
+      // E7
+      {"two parents",
+       link("base") + link("left") + link("hand") + joint("j1", "base", "left") + joint("j2", "base", "hand") +
+           joint("j3", "left", "hand"),
+       {"hand"}},
+      {"two roots", link("base") + link("island"), {"base", "island"}},
+      {"missing child", link("base") + joint("j1", "base", "ghost"), {"ghost"}},
+      {"missing parent", link("base") + joint("j1", "ghost", "base"), {"ghost"}},
+      {"duplicate link", link("base") + link("twin") + link("twin") + joint("j1", "base", "twin"), {"twin"}},
+      {"duplicate joint",
+       link("base") + link("left") + link("right") + joint("hinge", "base", "left") + joint("hinge", "base", "right"),
+       {"hinge"}},
+      // and what else makes no robot
+      {"unknown joint type", link("base") + link("arm") + joint("hinge", "base", "arm", "screwed"), {"hinge"}},
+      {"revolute without limits", link("base") + link("arm") + joint("hinge", "base", "arm", "revolute"), {"hinge"}},
+      {"joint origin that is no number",
+       link("base") + link("arm") + joint("hinge", "base", "arm", "fixed", "<origin xyz=\"0 nan 0\"/>"),
+       {"hinge", "arm"}},
+  };
+  return all;
+}
+
+TEST(UrdfStructure, WhatIsNoTreeIsRefusedByName) {
+  for (const NoTree& bad : noTrees()) {
+    SCOPED_TRACE(bad.what);
+    std::string sentence;
+    EXPECT_EQ(refusalOf([&] { read(robot(bad.content)); }, &sentence), Code::parse);
+    bool named = false;
+    for (const std::string& name : bad.one_of) named |= sentence.find(name) != std::string::npos;
+    EXPECT_TRUE(named) << sentence;
+  }
+}
+
+TEST(UrdfStructure, NoLinksAndNoNameAreRefused) {
+  EXPECT_EQ(refusalOf([] { read(robot("")); }), Code::parse);
+  EXPECT_EQ(refusalOf([] { read("<robot>" + link("a") + "</robot>"); }), Code::parse);
+}
+
+TEST(UrdfStructure, LinkNamesThatAreNoNamesAreRefused) {  // C1
+  for (const std::string& name : {std::string(), std::string("cl&#x1b;[31maw"), std::string("a&#10;b"),
+                                  std::string("\xff"), std::string(129, 'x')}) {
+    std::string sentence;
+    const Code code = refusalOf([&] { read(robot(link(name))); }, &sentence);
+    EXPECT_TRUE(code == Code::bad_id || code == Code::parse) << hgrid::name(code);
+    for (const char c : sentence) EXPECT_NE(c, '\x1b');
+  }
+  EXPECT_EQ(read(robot(link(std::string(128, 'x')))).links.size(), 1u);
+}
+
+TEST(UrdfStructure, AnAxisOfLengthZeroIsAWarningByName) {
+  const RobotModel model =
+      read(robot(link("base") + link("arm") + joint("hinge", "base", "arm", "continuous", "<axis xyz=\"0 0 0\"/>")));
+  EXPECT_EQ(model.links.at(1).axis.norm(), 1.0);
+  ASSERT_EQ(model.warnings.size(), 1u);
+  EXPECT_TRUE(says(model.warnings[0], "hinge"));
+}
+
+TEST(UrdfStructure, ARefusalIsNoHindranceToTheNextText) {
+  const std::string good = robot(link("base", collision("<sphere radius=\"1\"/>")));
+  for (const NoTree& bad : noTrees()) {
+    refusalOf([&] { read(robot(bad.content)); });
+    EXPECT_EQ(accountedFor(read(good)), 1u) << "after " << bad.what;
+  }
+}
+
+TEST(UrdfStructure, AFarJointIsRefusedOrFinite) {  // E14 at a joint: nothing infinite gets into a model
+  const std::string far = link("base") + link("arm") + link("hand", collision("<sphere radius=\"1\"/>"));
+  const std::string origin = "<origin xyz=\"1e300 0 0\"/>";
+  const std::string text =
+      robot(far + joint("j1", "base", "arm", "fixed", origin) + joint("j2", "arm", "hand", "fixed", origin));
+  std::string sentence;
+  const Code code = refusalOf([&] { read(text); }, &sentence);
+  EXPECT_TRUE(code == Code::out_of_range || code == Code::parse) << name(code) << ": " << sentence;
+  EXPECT_TRUE(says(sentence, "j1"));
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <numeric>
+#include <thread>
+
+#include "test/support/grids.h"
+
+namespace hgrid {
+namespace {
+
+using test::Family;
+using test::Random;
+
+/// What one grid says to a fixed set of questions.
+struct Answers {
+  test::Pairs pairs;
+  std::vector<std::vector<ProxyId>> found;
+  std::vector<std::vector<SegmentHit>> along;
+  bool operator==(const Answers& other) const {
+    return pairs == other.pairs && found == other.found && along == other.along;
+  }
+};
+
+Answers answersOf(const HGrid& grid, const std::vector<Aabb>& boxes) {
+  Answers answers;
+  answers.pairs = test::pairsOf(grid);
+  for (std::size_t i = 0; i < boxes.size(); i += 7) {
+    const Eigen::Vector3d a = boxes[i].min.cast<double>(), b = boxes[boxes.size() - 1 - i].max.cast<double>();
+    answers.found.push_back(test::foundBy(grid, boxes[i]));
+    answers.found.push_back(test::foundBy(grid, Sphere{a, 0.5}));
+    answers.along.push_back(test::alongOf(grid, Segment{a, b, 0.01}));
+  }
+  return answers;
+}
+
+std::vector<Aabb> someWorld(unsigned seed) { return test::worldOf(static_cast<Family>(seed % test::kFamilies), seed); }
+
+TEST(HGridInvariance, NeitherInsertionOrderNorHashSeedShow) {
+  for (unsigned seed = 1; seed <= 220; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const std::vector<Aabb> boxes = someWorld(seed);
+    const GridScale scale = test::scaleFor(boxes, random);
+    const Answers expected = answersOf(test::gridOf(boxes, scale), boxes);
+    std::vector<ProxyId> order(boxes.size());
+    std::iota(order.begin(), order.end(), 0u);
+    for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[std::size_t(random.below(int(i)))]);
+    for (const std::uint64_t hash_seed : {std::uint64_t{0}, std::uint64_t{1}, ~std::uint64_t{0}}) {
+      HGrid shuffled(scale, hash_seed);
+      for (const ProxyId id : order) shuffled.insert(id, boxes[id]);
+      ASSERT_TRUE(answersOf(shuffled, boxes) == expected);
+    }
+  }
+}
+
+TEST(HGridInvariance, TheSizeOfTheCellsDoesNotShow) {
+  for (unsigned seed = 1; seed <= 110; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const std::vector<Aabb> boxes = someWorld(seed);
+    const Answers expected = answersOf(test::gridOf(boxes, GridScale::fitting(boxes)), boxes);
+    for (int power = -30; power <= 30; power += 6) {
+      GridScale scale;
+      scale.finest_edge = std::ldexp(1.0, power);
+      ASSERT_TRUE(answersOf(test::gridOf(boxes, scale), boxes) == expected) << "edge 2^" << power;
+    }
+  }
+}
+
+TEST(HGridInvariance, ScaledByAPowerOfTwoTheSamePairsTouch) {
+  int compared = 0;
+  for (unsigned seed = 1; seed <= 110; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const std::vector<Aabb> boxes = someWorld(seed);
+    const test::Pairs expected = test::pairsOf(test::gridOf(boxes, GridScale{}));
+    for (const int power : {-20, -3, 1, 7, 40}) {
+      const float factor = std::ldexp(1.f, power);
+      std::vector<Aabb> scaled = boxes;
+      for (Aabb& box : scaled) box.min *= factor, box.max *= factor;
+      bool exact = true;  // denormals may have been rounded
+      for (std::size_t i = 0; i < boxes.size(); ++i) {
+        exact &= scaled[i].min / factor == boxes[i].min && scaled[i].max / factor == boxes[i].max;
+      }
+      if (!exact) continue;
+      ++compared;
+      ASSERT_EQ(test::pairsOf(test::gridOf(scaled, GridScale{})), expected) << "by 2^" << power;
+    }
+  }
+  EXPECT_GT(compared, 400);
+}
+
+TEST(HGridInvariance, ShiftedByWholeCellsTheSamePairsTouch) {
+  for (unsigned seed = 1; seed <= 200; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    std::vector<Aabb> boxes(100);  // whole multiples of 1/256 m, so that no sum is rounded
+    for (Aabb& box : boxes) {
+      for (int k = 0; k < 3; ++k) {
+        box.min[k] = float(random.between(-512, 512)) / 256.f;
+        box.max[k] = box.min[k] + float(random.between(0, 200)) / 256.f;
+      }
+    }
+    const test::Pairs expected = test::pairsOf(test::gridOf(boxes, GridScale{}));
+    for (const float shift : {0.0625f, -0.0625f, 64.f, -4096.f, 16384.f}) {
+      std::vector<Aabb> moved = boxes;
+      for (Aabb& box : moved) box.min.array() += shift, box.max.array() += shift;
+      ASSERT_EQ(test::pairsOf(test::gridOf(moved, GridScale{})), expected) << "by " << shift;
+    }
+  }
+}
+
+TEST(HGridInvariance, ABulkUpdateLeavesWhatInsertingWouldLeave) {
+  for (unsigned seed = 1; seed <= 110; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const std::vector<Aabb> before = someWorld(seed + 1000), boxes = someWorld(seed);
+    HGrid grid = test::gridOf(before, GridScale{});
+    std::vector<ProxyId> ids;
+    std::vector<Aabb> chosen;
+    HGrid expected;
+    for (ProxyId id = 0; id < boxes.size(); ++id) {
+      if (random.chance(0.3)) continue;
+      ids.push_back(id);
+      chosen.push_back(boxes[id]);
+      expected.insert(id, boxes[id]);
+    }
+    grid.update(ids, chosen);
+    grid.checkInvariants();
+    ASSERT_EQ(grid.size(), ids.size());
+    ASSERT_TRUE(answersOf(grid, boxes) == answersOf(expected, boxes));
+  }
+}
+
+TEST(HGridInvariance, FourThreadsAtOnceGetTheAnswersOfOne) {
+  std::vector<Aabb> boxes;
+  for (unsigned seed = 1; seed <= 11; ++seed) {
+    const std::vector<Aabb> world = someWorld(seed);
+    boxes.insert(boxes.end(), world.begin(), world.end());
+  }
+  const HGrid grid = test::gridOf(boxes, GridScale::fitting(boxes));
+  const Answers expected = answersOf(grid, boxes);
+  std::atomic<int> equal{0};
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i) {
+    threads.emplace_back([&] {
+      for (int round = 0; round < 5; ++round) equal += answersOf(grid, boxes) == expected;
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(equal, 20);
+}
+
+}  // namespace
+}  // namespace hgrid

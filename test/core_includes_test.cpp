@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace hgrid {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kRoot = HGRID_PROJECT_DIR;
+const std::vector<std::string> kRooms = {"geometry", "broadphase", "scene"};
+
+/// The header that a line includes, or nothing.
+std::string includedIn(const std::string& line) {
+  const auto next = [&](std::size_t from) { return std::min(line.find_first_not_of(" \t", from), line.size()); };
+  const std::size_t hash = next(0);
+  if (line.compare(hash, 1, "#") != 0) return {};
+  const std::size_t word = next(hash + 1);
+  if (line.compare(word, 7, "include") != 0) return {};
+  const std::size_t open = next(word + 7), close = line.find_first_of(">\"", open + 1);
+  return open < line.size() && close != std::string::npos ? line.substr(open + 1, close - open - 1) : std::string();
+}
+
+/// Whether it is a file of the core: refusal.h, utf8.h and the like, or one in a room of the core.
+bool isCore(const fs::path& file) {
+  for (const fs::path& side : {kRoot / "include/hgrid_proximity", kRoot / "src"}) {
+    const fs::path inside = file.lexically_normal().lexically_relative(side);
+    if (inside.empty() || *inside.begin() == "..") continue;
+    const bool in_room = std::count(kRooms.begin(), kRooms.end(), inside.begin()->string()) != 0;
+    return fs::is_regular_file(file) && (in_room || std::distance(inside.begin(), inside.end()) == 1);
+  }
+  return false;
+}
+
+/// The core is C++17 and Eigen: headers of the standard library (no slash, no dot), of Eigen, of the compiler's
+/// intrinsics, and its own.
+bool isForeign(const std::string& header, const fs::path& folder) {
+  const std::string intrinsics = "intrin.h";
+  const bool standard = header.find_first_of("/.") == std::string::npos;
+  const bool compiler = header.size() > intrinsics.size() && header.find('/') == std::string::npos &&
+                        header.compare(header.size() - intrinsics.size(), intrinsics.size(), intrinsics) == 0;
+  if (standard || compiler || header.compare(0, 6, "Eigen/") == 0) return false;
+  return !isCore(folder / header) && !isCore(kRoot / "include" / header) && !isCore(kRoot / "src" / header);
+}
+
+TEST(CoreIncludes, TheCheckKnowsForeignFromOwn) {
+  const fs::path folder = kRoot / "src/scene";
+  for (const char* foreign :
+       {"ros/ros.h", "tf2/buffer_core.h", "urdf/model.h", "urdf_model/model.h", "fcl/fcl.h", "octomap/octomap.h",
+        "tinyxml.h", "tinyxml2.h", "assimp/scene.h", "std_msgs/Header.h", "hgrid_proximity/Pairs.h",
+        "hgrid_proximity/adapters/urdf.h", "../adapters/xml.h", "../node/world.h", "geometry_msgs/Pose.h"}) {
+    EXPECT_TRUE(isForeign(foreign, folder)) << foreign;
+  }
+  for (const char* own : {"vector", "cstdint", "Eigen/Core", "immintrin.h", "hgrid_proximity/refusal.h", "../utf8.h",
+                          "utf8.h", "hgrid_proximity/scene/name.h"}) {
+    EXPECT_FALSE(isForeign(own, folder)) << own;
+  }
+  EXPECT_EQ(includedIn("  # include  <ros/ros.h>  // why"), "ros/ros.h");
+  EXPECT_EQ(includedIn("#include \"a/b.h\""), "a/b.h");
+  EXPECT_EQ(includedIn("// #include <ros/ros.h>"), "");
+  EXPECT_EQ(includedIn("#include"), "");
+  EXPECT_EQ(includedIn(""), "");
+}
+
+TEST(CoreIncludes, NoCoreFileIncludesAForeignHeader) {
+  std::vector<fs::path> files = {kRoot / "include/hgrid_proximity/refusal.h", kRoot / "src/refusal.cpp"};
+  for (const std::string& room : kRooms) {
+    for (const char* side : {"include/hgrid_proximity", "src"}) {
+      ASSERT_TRUE(fs::is_directory(kRoot / side / room)) << side << "/" << room;
+      for (const auto& entry : fs::recursive_directory_iterator(kRoot / side / room)) files.push_back(entry.path());
+    }
+  }
+  std::size_t includes = 0;
+  for (const fs::path& path : files) {
+    std::ifstream file(path);
+    int number = 0;
+    for (std::string line; std::getline(file, line);) {
+      ++number;
+      const std::string header = includedIn(line);
+      if (header.empty()) continue;
+      ++includes;
+      EXPECT_FALSE(isForeign(header, path.parent_path())) << path << ":" << number << " includes " << header;
+    }
+  }
+  EXPECT_GT(files.size(), 20u);
+  EXPECT_GT(includes, files.size()) << "a check that reads nothing finds nothing";
+}
+
+}  // namespace
+}  // namespace hgrid

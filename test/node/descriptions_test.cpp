@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "test/node/support/descriptions.h"
+
+#include "test/node/support/claims.h"
+#include "test/node/support/transform_source.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+NodeSetup besidePost() {
+  NodeSetup setup;
+  setup.params = dict({{"world_frame", "base"}, {"obstacles", list({ball("post", 2, 0, 0, 0.1)})}});
+  return setup;
+}
+
+void waitForDiagnostic(NodeUnderTest& node, const std::string& name, int level, const std::string& words) {
+  node.waitUntil(name + " says " + words, [&](const Heard& all) {
+    const auto found = all.diagnostics.find(name);
+    return found != all.diagnostics.end() && found->second.level == level &&
+           found->second.message.find(words) != std::string::npos;
+  });
+}
+
+void expectOnlyThePostServes(NodeUnderTest& node) {
+  EXPECT_EQ(namesOf(node.sphere(2, 0, 0, 0.05).answer), std::vector<std::string>({"obstacle/post"}));
+  EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Answer::UNKNOWN) << "the robot may be there";
+}
+
+TEST(Description, ThatIsAbsentOrEmptyOrNoTextIsWaitedForAndObstaclesServe) {
+  const std::vector<std::pair<Value, std::string>> cases = {
+      {Value(), "NOT_READY robot 'robot': parameter 'robot_description' is not set; it must hold a robot's URDF"},
+      {Value(""), "is empty or not a string; it must hold XML"},
+      {Value(7), "is empty or not a string; it must hold XML"}};
+  for (const auto& one : cases) {
+    SCOPED_TRACE(one.second);
+    TransformSource transforms;
+    NodeSetup setup = besidePost();
+    if (one.first.valid()) setup.beside["robot_description"] = one.first;
+    NodeUnderTest node(setup);
+    const auto status = node.waitForStatus("it was looked for", [&](const msg::Status& s) {
+      return !s.not_ready.empty() && s.not_ready[0].find(one.second) != std::string::npos;
+    });
+    EXPECT_EQ(status->not_ready.size(), 1u);
+    EXPECT_TRUE(oneSays(status->world.reasons, one.second));
+    EXPECT_FALSE(status->world.complete);
+    EXPECT_EQ(status->robots, 0u);
+    EXPECT_EQ(status->body_count, 1u);
+    expectOnlyThePostServes(node);
+    waitForDiagnostic(node, "robots", DiagnosticStatus::ERROR, one.second);
+
+    node.setBeside("robot_description", balls({"a"}));
+    transforms.stream("base", "a", at(0));
+    node.waitForComplete();
+    EXPECT_TRUE(node.heard().status.back()->not_ready.empty());
+    EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Answer::HIT);
+    waitForDiagnostic(node, "robots", DiagnosticStatus::OK, "");
+    EXPECT_LE(node.lines("NOT_READY robot 'robot'"), 4u) << "said when it changes, not at every try";
+  }
+}
+
+TEST(Description, ThatIsNoRobotIsRefusedWithItsPlace) {
+  std::string deep = "<robot name=\"r\">";
+  for (int i = 0; i < 50000; ++i) deep += "<a>";
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"this is no XML", "PARSE robot 'robot': the URDF is not well-formed XML"},
+      {"<robot name=\"r\"><link name=\"a\">", "PARSE robot 'robot': the URDF is not well-formed XML"},
+      {deep, "LIMIT robot 'robot': the URDF nests elements 257 deep at byte 781; at most 256 are allowed"},
+      {"<!DOCTYPE robot [<!ENTITY x \"y\">]><robot/>", "UNSUPPORTED robot 'robot': the URDF has a declaration"},
+      {urdf(link("a") + link("b")), "PARSE robot 'robot': "},
+      {urdf(link("a") + link("b") + link("c") + joint("b", "c") + joint("c", "b")), "is not reachable from the root"}};
+  for (const auto& one : cases) {
+    SCOPED_TRACE(one.second);
+    NodeSetup setup = besidePost();
+    setup.beside["robot_description"] = one.first;
+    NodeUnderTest node(setup);
+    const auto status = node.waitForStatus("it was refused", [&](const msg::Status& s) {
+      return !s.not_ready.empty() && s.not_ready[0].find(one.second) != std::string::npos;
+    });
+    EXPECT_FALSE(status->world.complete);
+    expectOnlyThePostServes(node);
+    EXPECT_TRUE(node.process().alive());
+  }
+}
+
+TEST(Reload, TakesTheNewModelAndKeepsTheOldOneWhereThatFails) {
+  TransformSource transforms;
+  transforms.fix({stamped("base", "a", at(0)), stamped("base", "b", at(0.25))});
+  NodeSetup setup = besidePost();
+  setup.beside["robot_description"] = balls({"a"});
+  NodeUnderTest node(setup);
+  node.waitForComplete();
+  const auto revision = node.heard().status.back()->world.bodies_revision;
+
+  node.setBeside("robot_description", "<robot>");
+  auto answer = node.reload("robot");
+  EXPECT_FALSE(answer.success);
+  EXPECT_EQ(answer.code.name, "PARSE");
+  EXPECT_TRUE(says(answer.code.text, "robot 'robot': the URDF is not well-formed XML"));
+  EXPECT_EQ(answer.bodies_revision, revision);
+  EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Answer::HIT) << "the old model serves";
+  EXPECT_TRUE(node.heard().status.back()->world.complete);
+  waitForDiagnostic(node, "robots", DiagnosticStatus::ERROR, "PARSE robot 'robot'");
+
+  node.setBeside("robot_description", balls({"a", "b"}));
+  answer = node.reload("");
+  EXPECT_TRUE(answer.success);
+  EXPECT_EQ(answer.code.name, "OK");
+  EXPECT_GT(answer.bodies_revision, revision);
+  node.waitForBodies("its structure",
+                     [&](const msg::Bodies& b) { return b.bodies_revision == answer.bodies_revision; });
+  const auto pairs = node.waitForPairs("its pairs", [](const msg::Pairs& p) { return p.total > 0; });
+  EXPECT_EQ(namesOf(*pairs), std::vector<std::string>({"robot/a|robot/b"}));
+  waitForDiagnostic(node, "robots", DiagnosticStatus::OK, "every shape was read");
+}
+
+TEST(Reload, OfARobotThatNobodyNamedIsRefused) {
+  NodeSetup setup = besidePost();
+  setup.beside["robot_description"] = balls({});
+  NodeUnderTest node(setup);
+  node.waitForComplete();
+  const auto answer = node.reload("robbie\n");
+  EXPECT_FALSE(answer.success);
+  EXPECT_EQ(answer.code.name, "UNKNOWN_ID");
+  EXPECT_TRUE(says(answer.code.text, "there is no robot 'robbie\\x0a' in ~robots"));
+  EXPECT_EQ(answer.bodies_revision, node.heard().status.back()->world.bodies_revision);
+}
+
+/// One ball that is read, one that is not, and a link whose mesh is missing.
+std::string holey() {
+  return urdf(link("base", sphereOf(0.1)) + link("torn", sphereOf(0.1) + collision("<sphere radius=\"nan\"/>")) +
+              link("meshless", collision("<mesh filename=\"package://hgrid_proximity/no/such.stl\"/>")) + link("bare") +
+              joint("base", "torn", "fixed") + joint("base", "meshless", "fixed") + joint("base", "bare", "fixed"));
+}
+
+TEST(Uncovered, ALinkWhoseShapeCannotBeReadIsNamedAndNothingIsClear) {
+  NodeSetup setup = besidePost();
+  setup.beside["robot_description"] = holey();
+  NodeUnderTest node(setup);
+  const auto status = node.waitForStatus("the robot", [](const msg::Status& s) { return s.robots == 1; });
+  EXPECT_FALSE(status->world.complete);
+  EXPECT_EQ(status->uncovered.size(), 2u);
+  EXPECT_TRUE(oneSays(status->uncovered, "robot/torn: PARSE: <collision> 2 of link 'torn'"));
+  EXPECT_TRUE(oneSays(status->uncovered, "robot/meshless: RESOURCE_MISSING: "));
+  EXPECT_TRUE(oneSays(status->uncovered, "no/such.stl"));
+  EXPECT_TRUE(oneSays(status->world.reasons, "UNCOVERED robot/torn"));
+  EXPECT_EQ(status->without_collision, std::vector<std::string>({"robot/bare"})) << "listed; no reason to doubt";
+  EXPECT_EQ(namesOf(node.sphere(0, 0, 0, 0.05).answer), std::vector<std::string>({"robot/base", "robot/torn"}))
+      << "what was read serves, the rest of a torn link too";
+  EXPECT_EQ(node.sphere(9, 0, 0, 0.05).answer.verdict, msg::Answer::UNKNOWN);
+  waitForDiagnostic(node, "robots", DiagnosticStatus::ERROR, "UNCOVERED robot/meshless");
+  const auto bodies = node.waitForBodies("structure", [](const msg::Bodies& b) { return b.bodies.size() == 4; });
+  EXPECT_EQ(bodies->without_collision, std::vector<std::string>({"robot/bare"}));
+  for (const msg::Body& body : bodies->bodies) {
+    EXPECT_EQ(body.covered, body.name == "robot/base" || body.name == "obstacle/post") << body.name;
+  }
+}
+
+TEST(Uncovered, AWaiverMakesTheWorldCompleteAndIsListed) {
+  NodeSetup setup = besidePost();
+  setup.params["accept_uncovered"] = list({dict({{"pattern", "robot/*"}, {"reason", "far from everything"}})});
+  setup.beside["robot_description"] = holey();
+  NodeUnderTest node(setup);
+  node.waitForComplete();
+  const auto status = node.heard().status.back();
+  EXPECT_TRUE(status->uncovered.empty());
+  EXPECT_EQ(status->waived.size(), 2u);
+  EXPECT_TRUE(oneSays(status->waived, "robot/torn: far from everything (PARSE: <collision> 2 of link 'torn'"));
+  EXPECT_EQ(node.sphere(9, 0, 0, 0.05).answer.verdict, msg::Answer::CLEAR);
+  const auto bodies = node.waitForBodies("structure", [](const msg::Bodies& b) { return b.bodies.size() == 4; });
+  for (const msg::Body& body : bodies->bodies) {
+    EXPECT_EQ(body.waived, body.name == "robot/torn" || body.name == "robot/meshless") << body.name;
+  }
+}
+
+TEST(TwoRobots, WithTheSameLinkNamesAreKeptApart) {
+  TransformSource transforms;
+  for (const std::string side : {"left", "right"}) {
+    const double y = side == "left" ? 0.0 : 0.25;
+    transforms.fix({stamped("world", side + "/base", at(0, y, 0)), stamped(side + "/base", side + "/a", at(0)),
+                    stamped(side + "/base", side + "/b", at(9))});
+  }
+  const auto robot = [](const char* name) {
+    return dict({{"name", name}, {"description", "robot_description"}, {"tf_prefix", name}});
+  };
+  NodeSetup setup;
+  setup.params = dict({{"world_frame", "world"}, {"robots", list({robot("right"), robot("left")})}});
+  setup.beside["robot_description"] = balls({"a", "b"});
+  NodeUnderTest node(setup);
+  node.waitForComplete();
+  const auto status = node.heard().status.back();
+  EXPECT_EQ(status->robots, 2u);
+  EXPECT_EQ(status->body_count, 6u);
+  const auto pairs = node.heard().pairs.back();
+  EXPECT_EQ(namesOf(*pairs), std::vector<std::string>({"left/a|right/a", "left/b|right/b", "left/base|right/base"}));
+  for (const double gap : pairs->gap) EXPECT_NEAR(gap, 0.05, 1e-6);
+  EXPECT_EQ(namesOf(node.sphere(0, 0, 0, 0.05).answer), std::vector<std::string>({"left/a"}));
+}
+
+TEST(Reset, BeginsAnEpochWithTheObstaclesAsConfiguredAndCountersAtZero) {
+  TransformSource transforms;
+  transforms.fix({stamped("base", "a", at(2.25))});
+  NodeSetup setup = besidePost();
+  setup.beside["robot_description"] = balls({"a"});
+  NodeUnderTest node(setup);
+  node.waitForComplete();
+  for (int i = 0; i < 5; ++i) node.sphere(0, 0, 0, -1);
+  const auto before = node.waitForStatus(
+      "counters", [](const msg::Status& s) { return counter(s, "query.refused.BAD_GEOMETRY") == 5; });
+  EXPECT_TRUE(node.reset().success);
+  const auto after =
+      node.waitForStatus("a new epoch", [&](const msg::Status& s) { return s.world.epoch != before->world.epoch; });
+  EXPECT_LE(after->world.sequence, 3u);
+  EXPECT_EQ(counter(*after, "query.refused.BAD_GEOMETRY"), 0u);
+  EXPECT_TRUE(after->world.complete);
+  EXPECT_EQ(after->body_count, before->body_count);
+  const auto pairs =
+      node.waitForPairs("the new epoch", [&](const msg::Pairs& p) { return p.world.epoch == after->world.epoch; });
+  EXPECT_EQ(namesOf(*pairs), std::vector<std::string>({"obstacle/post|robot/a"}));
+  node.waitForBodies("the new epoch", [&](const msg::Bodies& b) { return b.epoch == after->world.epoch; });
+  EXPECT_EQ(namesOf(node.sphere(2, 0, 0, 0.05).answer), std::vector<std::string>({"obstacle/post"}));
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <nodelet/loader.h>
+#include <ros/param.h>
+#include <ros/service.h>
+#include <ros/this_node.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <set>
+
+#include "test/node/support/claims.h"
+#include "test/node/support/descriptions.h"
+#include "test/node/support/transform_source.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+using visualization_msgs::Marker;
+using visualization_msgs::MarkerArray;
+
+/// What comes on a topic, kept in order.
+template <class Message>
+class Ear {
+ public:
+  explicit Ear(const std::string& topic)
+      : subscriber_(node_.subscribe<Message>(topic, 1000, [this](const boost::shared_ptr<const Message>& message) {
+          const std::lock_guard<std::mutex> lock(mutex_);
+          heard_.push_back(message);
+          news_.notify_all();
+        })) {}
+  /// Waits for a message that is as wanted and gives all up to it.
+  std::vector<boost::shared_ptr<const Message>> until(const std::function<bool(const Message&)>& wanted) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    const bool came = news_.wait_for(lock, std::chrono::seconds(20), [&] {
+      return std::any_of(heard_.begin(), heard_.end(), [&](const auto& message) { return wanted(*message); });
+    });
+    if (!came) throw std::runtime_error("the message that is waited for did not come within 20 s");
+    return heard_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable news_;
+  std::vector<boost::shared_ptr<const Message>> heard_;
+  ros::NodeHandle node_;
+  ros::Subscriber subscriber_;
+};
+
+bool draws(const MarkerArray& array, const std::string& layer) {
+  return std::any_of(array.markers.begin(), array.markers.end(),
+                     [&](const Marker& marker) { return marker.ns == layer && marker.action == Marker::ADD; });
+}
+
+TEST(Markers, ComeWhileSomebodyLooksAndBeginByClearing) {
+  TransformSource transforms;
+  NodeSetup setup;
+  setup.params = dict({{"marker_rate", 50.0}, {"late_after", 0.1}, {"stale_after", 0.2}});
+  setup.beside["robot_description"] = balls({"a", "b"});
+  NodeUnderTest node(setup);
+  transforms.stream("base", "a", at(0));
+  transforms.stream("base", "b", at(0.25));
+  node.waitForComplete();
+  for (int viewer = 0; viewer < 2; ++viewer) {
+    SCOPED_TRACE(viewer);
+    Ear<MarkerArray> eye(node.named("markers"));
+    const auto seen =
+        eye.until([](const MarkerArray& array) { return draws(array, "boxes") && draws(array, "pairs"); });
+    ASSERT_EQ(seen.front()->markers.size(), 1u);
+    EXPECT_EQ(seen.front()->markers[0].action, Marker::DELETEALL);
+    std::set<std::pair<std::string, int>> ids;
+    for (const Marker& marker : seen.back()->markers) {
+      EXPECT_EQ(marker.header.frame_id, "base");
+      EXPECT_TRUE(ids.insert({marker.ns, marker.id}).second);
+    }
+    EXPECT_EQ(ids, (std::set<std::pair<std::string, int>>{
+                       {"boxes", 0}, {"not_fresh", 0}, {"pairs", 0}, {"queries", 0}, {"queries", 1}}));
+    EXPECT_FALSE(draws(*seen.back(), "not_fresh"));
+    for (const Marker& marker : seen.back()->markers) {
+      const std::size_t points = marker.ns == "boxes" ? 3 * 24 : marker.ns == "pairs" ? 2 : 0;
+      EXPECT_EQ(marker.points.size(), points) << marker.ns << ": 12 edges of 3 boxes, one line per pair";
+    }
+  }
+  Ear<MarkerArray> eye(node.named("markers"));
+  node.sphere(0, 0, 3, 0.5);
+  node.segment(xyz(0, 0, 0), xyz(1, 0, 0), 0);
+  eye.until([](const MarkerArray& array) { return draws(array, "queries"); });
+  transforms.stop("b");
+  eye.until([](const MarkerArray& array) { return draws(array, "not_fresh"); });
+}
+
+TEST(Nodelet, ServesLikeTheNode) {
+  const std::string name = ros::this_node::getName() + "_proximity";
+  ros::param::set(name, dict({{"world_frame", "base"}, {"obstacles", list({ball("post", 2, 0, 0, 0.1)})}}));
+  ros::param::set("/robot_description", balls({}));
+  nodelet::Loader manager(false);
+  ASSERT_TRUE(manager.load(name, "hgrid_proximity/ProximityNodelet", {}, {}));
+  {
+    Ear<msg::Status> ear(name + "/status");
+    ear.until([](const msg::Status& status) { return status.world.complete && status.body_count == 2; });
+  }
+  msg::QuerySphere query;
+  query.request.center.x = 2;
+  ASSERT_TRUE(ros::service::call(name + "/query_sphere", query));
+  EXPECT_EQ(namesOf(query.response.answer), std::vector<std::string>({"obstacle/post"}));
+  EXPECT_TRUE(manager.unload(name));
+  ros::param::del(name);
+  ros::param::del("/robot_description");
+}
+
+TEST(Nodelet, RefusesWrongParametersAndTheManagerLives) {
+  const std::string name = ros::this_node::getName() + "_wrong";
+  ros::param::set(name, dict({{"rate", "fast"}}));
+  nodelet::Loader manager(false);
+  bool loaded = true;
+  try {
+    loaded = manager.load(name, "hgrid_proximity/ProximityNodelet", {}, {});
+  } catch (const std::exception& refusal) {
+    loaded = false;
+    EXPECT_TRUE(says(refusal.what(), "~rate is a string ('fast'); it must be a number"));
+  }
+  EXPECT_FALSE(loaded);
+  ros::param::del(name);
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid

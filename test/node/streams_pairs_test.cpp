@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "test/node/support/claims.h"
+#include "test/node/support/descriptions.h"
+#include "test/node/support/transform_source.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+/// Two balls of one robot 0.05 m apart, and posts: one 0.05 m from a, one 0.3 m from it and near nothing.
+NodeSetup nearBodies(std::initializer_list<std::pair<const char*, Value>> more = {}) {
+  NodeSetup setup;
+  setup.params = with(dict({{"obstacles", list({ball("far", 0, 0.5, 0, 0.1), ball("near", 0, -0.25, 0, 0.1)})}}), more);
+  setup.beside["robot_description"] = balls({"a", "b"});
+  return setup;
+}
+
+/// The pairs of that world with these parameters.
+msg::Pairs pairsWith(std::initializer_list<std::pair<const char*, Value>> more) {
+  TransformSource transforms;
+  transforms.fix({stamped("base", "a", at(0)), stamped("base", "b", at(0.25))});
+  NodeUnderTest node(nearBodies(more));
+  node.waitForComplete();
+  return *node.heard().pairs.back();
+}
+
+using Names = std::vector<std::string>;
+
+TEST(Pairs, AreThoseWithinTheMarginByNameWithGapMarginAndSince) {
+  TransformSource transforms;
+  transforms.fix({stamped("base", "a", at(0)), stamped("base", "b", at(0.25))});
+  NodeUnderTest node(nearBodies());
+  node.waitForComplete();
+  const auto pairs = node.heard().pairs.back();
+  EXPECT_EQ(namesOf(*pairs), Names({"obstacle/near|robot/a", "robot/a|robot/b"}));
+  EXPECT_EQ(pairs->names, Names({"obstacle/near", "robot/a", "robot/b"})) << "each name once, sorted";
+  EXPECT_EQ(pairs->total, 2u);
+  EXPECT_NEAR(pairs->gap[0], 0.05, 1e-6);
+  EXPECT_EQ(pairs->margin[0], 0.1);
+  node.waitForTicks(5);
+  const auto later = node.heard().pairs.back();
+  EXPECT_EQ(later->since, pairs->since) << "not interrupted";
+  EXPECT_GT(later->header.stamp, later->since[0]);
+}
+
+TEST(Pairs, AreCutAtTheLimitAndSaySo) {
+  const msg::Pairs pairs = pairsWith({{"max_pairs", 1}});
+  EXPECT_EQ(namesOf(pairs), Names({"obstacle/near|robot/a"}));
+  EXPECT_EQ(pairs.total, 2u);
+  EXPECT_TRUE(pairs.truncated);
+}
+
+TEST(Pairs, ThatAreAllowedAreNotReported) {
+  EXPECT_EQ(namesOf(pairsWith({{"allowed_pairs", list({dict({{"first", "robot/b"}, {"second", "*/a"}})})}})),
+            Names({"obstacle/near|robot/a"}));
+  EXPECT_EQ(namesOf(pairsWith({{"allowed_pairs", list({dict({{"first", "robot/*"}, {"second", "obstacle/*"}})})}})),
+            Names({"robot/a|robot/b"}));
+}
+
+TEST(Pairs, ExistByTheirKind) {
+  EXPECT_EQ(namesOf(pairsWith({{"pair_kinds", list({Value("self")})}})), Names({"robot/a|robot/b"}));
+  EXPECT_EQ(namesOf(pairsWith({{"pair_kinds", list({Value("robot_obstacle")})}})), Names({"obstacle/near|robot/a"}));
+  EXPECT_EQ(namesOf(pairsWith({{"pair_kinds", list({Value("robot_robot")})}})), Names());
+}
+
+TEST(Pairs, HaveTheLargerMarginOfTheTwo) {
+  EXPECT_EQ(namesOf(pairsWith({{"margin", 0.04}})), Names());
+  const msg::Pairs pairs = pairsWith({{"margin", 0.04},
+                                      {"margins", list({dict({{"pattern", "obstacle/*"}, {"margin", 0.01}}),
+                                                        dict({{"pattern", "*/far"}, {"margin", 0.35}})})}});
+  EXPECT_EQ(namesOf(pairs), Names({"obstacle/far|robot/a"})) << "no margin is below the global one";
+  EXPECT_EQ(pairs.margin.at(0), 0.35);
+  EXPECT_NEAR(pairs.gap.at(0), 0.3, 1e-6);
+}
+
+TEST(Pairs, CountPaddingAsPartOfTheShape) {
+  const msg::Pairs pairs = pairsWith({{"padding", list({dict({{"pattern", "robot/a"}, {"padding", 0.02}}),
+                                                        dict({{"pattern", "obstacle/near"}, {"padding", 0.01}})})}});
+  EXPECT_EQ(namesOf(pairs), Names({"obstacle/near|robot/a", "robot/a|robot/b"}));
+  EXPECT_NEAR(pairs.gap[0], 0.02, 1e-6);
+  EXPECT_NEAR(pairs.gap[1], 0.03, 1e-6);
+}
+
+TEST(Pairs, OfStaleBodiesWidenByTheSpeedThatIsSet) {
+  TransformSource transforms;
+  NodeSetup setup = nearBodies({{"max_speed", list({dict({{"pattern", "robot/*"}, {"speed", 50.0}}),
+                                                    dict({{"pattern", "robot/b"}, {"speed", 0.0}})})},
+                                {"late_after", 0.05},
+                                {"stale_after", 0.1},
+                                {"growth_cap", 0.35}});
+  NodeUnderTest node(setup);
+  transforms.stream("base", "a", at(0));
+  transforms.stream("base", "b", at(0.25));
+  node.waitForComplete();
+  transforms.stop("a");
+  transforms.stop("b");
+  const auto pairs = node.waitForPairs(
+      "a is stale", [](const msg::Pairs& p) { return p.world.worst_state == msg::WorldState::STALE && p.total == 3; });
+  EXPECT_EQ(namesOf(*pairs), Names({"obstacle/far|robot/a", "obstacle/near|robot/a", "robot/a|robot/b"}));
+  EXPECT_DOUBLE_EQ(pairs->margin[0], 0.45);
+  const auto bodies = node.heard().bodies.back();
+  const std::map<std::string, double> speeds = {
+      {"robot/a", 50.0}, {"robot/b", 0.0}, {"robot/base", 50.0}, {"obstacle/near", 2.0}, {"obstacle/far", 2.0}};
+  for (const msg::Body& body : bodies->bodies) EXPECT_EQ(body.max_speed, speeds.at(body.name)) << body.name;
+}
+
+TEST(Obstacles, OfEveryKindStandWhereTheirPosesSay) {
+  const auto shape = [](const char* type, double x) {
+    return dict({{"type", type}, {"height", 0.4}, {"radius", 0.1}, {"pose", dict({{"xyz", xyz(x, 0, 0)}})}});
+  };
+  const Value quarter = dict({{"xyz", xyz(0, 0, 1)}, {"rpy", xyz(0, 0, 1.5707963267948966)}});
+  NodeSetup setup;
+  setup.params =
+      dict({{"obstacles", list({dict({{"name", "all"},
+                                      {"pose", quarter},
+                                      {"shapes", list({shape("cylinder", 1), shape("cone", 2), shape("capsule", 3)})}}),
+                                box("box", xyz(5, 0, 0), xyz(1, 2, 3))})}});
+  setup.beside["robot_description"] = balls({});
+  NodeUnderTest node(setup);
+  node.waitForComplete();
+  const auto hit = [&](double x, double y, double z) {
+    const auto answer = node.sphere(x, y, z, 0.0).answer;
+    return answer.hits.size() == 1 ? answer.hits[0].name + "#" + std::to_string(answer.hits[0].shape) : "nothing";
+  };
+  EXPECT_EQ(hit(0, 1, 1.19), "obstacle/all#0");
+  EXPECT_EQ(hit(0, 2, 1.19), "obstacle/all#1");
+  EXPECT_EQ(hit(0, 3, 1.19), "obstacle/all#2");
+  EXPECT_EQ(hit(0, 3, 1.29), "obstacle/all#2") << "a capsule has round ends";
+  EXPECT_EQ(hit(0, 2, 1.21), "nothing");
+  EXPECT_EQ(hit(1, 0, 1), "nothing") << "turned by a quarter";
+  EXPECT_EQ(hit(5.49, 0.99, 1.49), "obstacle/box#0");
+  EXPECT_EQ(hit(5.51, 0.99, 1.49), "nothing");
+  EXPECT_EQ(node.heard().pairs.back()->total, 0u) << "fixed bodies make no pairs";
+}
+
+TEST(Obstacles, FollowTheirFrame) {
+  TransformSource transforms;
+  NodeSetup setup;
+  setup.params = dict({{"late_after", 3600.0},
+                       {"stale_after", 3600.0},
+                       {"lost_after", 3600.0},
+                       {"obstacles", list({ball("crate", 0, 0, 1, 0.1, "/cart"), ball("post", 5, 0, 1, 0.1)})}});
+  setup.beside["robot_description"] = balls({});
+  NodeUnderTest node(setup);
+  const auto status = node.waitForStatus("the robot", [](const msg::Status& s) { return s.robots == 1; });
+  EXPECT_EQ(status->missing_frames, Names({"cart"}));
+  EXPECT_TRUE(oneSays(status->world.reasons, "UNPLACED obstacle/crate"));
+  EXPECT_EQ(namesOf(node.sphere(5, 0, 1, 0.05).answer), Names({"obstacle/post"}));
+  for (const double x : {1.0, 4.85, 2.0}) {
+    SCOPED_TRACE(x);
+    transforms.send({stamped("base", "cart", at(x), transforms.now())});
+    node.waitForTransforms(transforms.sent());
+    EXPECT_NEAR(xOf(node, "obstacle/crate", 0.1, 0.0, 1.0), x, 1e-5);
+    const auto pairs =
+        node.waitForPairs("its pairs", [&](const msg::Pairs& p) { return p.total == (x > 4 ? 1u : 0u); });
+    EXPECT_EQ(namesOf(*pairs), x > 4 ? Names({"obstacle/crate|obstacle/post"}) : Names());
+  }
+  const msg::Body crate = node.heard().bodies.back()->bodies.at(0);
+  EXPECT_EQ(crate.name, "obstacle/crate");
+  EXPECT_EQ(crate.mobility, msg::Body::MOVING);
+  EXPECT_EQ(crate.frame, "cart");
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid

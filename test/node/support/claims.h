@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "test/node/support/node_under_test.h"
+#include "test/node/support/readings.h"
+
+namespace hgrid {
+namespace test {
+
+/// Holds if a sentence contains the words.
+inline ::testing::AssertionResult says(const std::string& sentence, const std::string& words) {
+  if (sentence.find(words) != std::string::npos) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << "'" << sentence << "' does not say '" << words << "'";
+}
+
+/// Holds if one of the sentences contains the words.
+inline ::testing::AssertionResult oneSays(const std::vector<std::string>& sentences, const std::string& words) {
+  for (const std::string& sentence : sentences) {
+    if (says(sentence, words)) return ::testing::AssertionSuccess();
+  }
+  return ::testing::AssertionFailure() << "none of " << sentences.size() << " sentences says '" << words << "'";
+}
+
+/// Holds if a cause was logged, and at most once per second.
+inline ::testing::AssertionResult throttled(const NodeUnderTest& node, const std::string& cause) {
+  const std::size_t lines = node.lines(cause);
+  const double seconds = node.uptime();
+  if (lines >= 1 && static_cast<double>(lines) <= 1.0 + seconds) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << lines << " lines with '" << cause << "' in " << seconds << " s";
+}
+
+inline std::vector<std::string> namesOf(const msg::Answer& answer) {
+  std::vector<std::string> names;
+  for (const msg::Hit& hit : answer.hits) names.push_back(hit.name);
+  return names;
+}
+
+/// x [m] of the centre of a ball-shaped body, found by a ray along the x axis through (y, z). NaN if it is not met.
+inline double xOf(NodeUnderTest& node, const std::string& body, double radius = 0.1, double y = 0.0, double z = 0.0) {
+  msg::QuerySegment::Request request;
+  request.start.x = -50.0;
+  request.end.x = 50.0;
+  request.start.y = request.end.y = y;
+  request.start.z = request.end.z = z;
+  request.include = {body};
+  const auto answer = node.ask(request).answer;
+  return answer.hits.size() == 1 ? answer.hits.front().along - 50.0 + radius : std::nan("");
+}
+
+}  // namespace test
+}  // namespace hgrid

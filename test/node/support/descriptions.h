@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace hgrid {
+namespace test {
+
+// Robots as small as a claim needs.
+
+inline std::string urdf(const std::string& content) { return "<robot name=\"r\">" + content + "</robot>"; }
+
+inline std::string link(const std::string& name, const std::string& content = "") {
+  return "<link name=\"" + name + "\">" + content + "</link>";
+}
+
+inline std::string collision(const std::string& geometry, const std::string& xyz = "0 0 0") {
+  return "<collision><origin xyz=\"" + xyz + "\"/><geometry>" + geometry + "</geometry></collision>";
+}
+
+inline std::string sphereOf(double radius, const std::string& xyz = "0 0 0") {
+  return collision("<sphere radius=\"" + std::to_string(radius) + "\"/>", xyz);
+}
+
+inline std::string joint(const std::string& parent, const std::string& child, const std::string& type = "floating",
+                         const std::string& content = "") {
+  return "<joint name=\"" + parent + "_" + child + "\" type=\"" + type + "\"><parent link=\"" + parent +
+         "\"/><child link=\"" + child + "\"/>" + content + "</joint>";
+}
+
+/// Links a, b, ... of one ball of radius 0.1 m each, which float freely about the root link "base". Its own ball is
+/// 5 m below, out of the way; it has one since links joined through a link without geometry count as adjacent.
+inline std::string balls(const std::vector<std::string>& names) {
+  std::string content = link("base", sphereOf(0.1, "0 0 -5"));
+  for (const std::string& name : names) content += link(name, sphereOf(0.1)) + joint("base", name);
+  return urdf(content);
+}
+
+}  // namespace test
+}  // namespace hgrid

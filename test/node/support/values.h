@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <XmlRpcValue.h>
+
+#include <initializer_list>
+#include <string>
+#include <utility>
+
+namespace hgrid {
+namespace test {
+
+// Parameters as they would stand in a YAML file.
+
+using Value = XmlRpc::XmlRpcValue;
+
+inline Value dict(std::initializer_list<std::pair<const char*, Value>> members = {}) {
+  Value value;
+  value.begin();  // a dictionary, also where nothing is in it
+  for (const auto& member : members) value[member.first] = member.second;
+  return value;
+}
+
+inline Value list(std::initializer_list<Value> elements = {}) {
+  Value value;
+  value.setSize(static_cast<int>(elements.size()));
+  int i = 0;
+  for (const Value& element : elements) value[i++] = element;
+  return value;
+}
+
+inline Value xyz(double x, double y, double z) { return list({Value(x), Value(y), Value(z)}); }
+
+/// An obstacle of one ball.
+inline Value ball(const std::string& name, double x, double y, double z, double radius, const std::string& frame = "") {
+  return dict({{"name", name},
+               {"frame", frame},
+               {"pose", dict({{"xyz", xyz(x, y, z)}})},
+               {"shapes", list({dict({{"type", "sphere"}, {"radius", radius}})})}});
+}
+
+/// An obstacle of one box that stands along the axes of its frame.
+inline Value box(const std::string& name, const Value& at, const Value& size, const std::string& frame = "") {
+  return dict({{"name", name},
+               {"frame", frame},
+               {"pose", dict({{"xyz", at}})},
+               {"shapes", list({dict({{"type", "box"}, {"size", size}})})}});
+}
+
+/// `params` with some of them changed or added.
+inline Value with(Value params, std::initializer_list<std::pair<const char*, Value>> members) {
+  for (const auto& member : members) params[member.first] = member.second;
+  return params;
+}
+
+}  // namespace test
+}  // namespace hgrid

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "test/node/support/claims.h"
+#include "test/node/support/descriptions.h"
+#include "test/node/support/transform_source.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+using msg::WorldState;
+
+NodeSetup threeBalls() {
+  NodeSetup setup;
+  setup.params = dict({{"late_after", 0.2}, {"stale_after", 0.5}});
+  setup.beside["robot_description"] = balls({"a", "b", "c"});
+  return setup;
+}
+
+void expectConflict(NodeUnderTest& node) {
+  const auto status = node.waitForStatus("the conflict is listed", [](const msg::Status& s) {
+    return entryOf(s, "robot/a") != nullptr && entryOf(s, "robot/a")->code.name == "DUP_ID";
+  });
+  EXPECT_TRUE(says(entryOf(*status, "robot/a")->code.text, "on /tf and on /tf_static; it must come on one of them"));
+  EXPECT_EQ(counter(*status, "tf.conflict.DUP_ID"), 1u);
+  EXPECT_EQ(node.lines("tf.conflict.DUP_ID"), 1u);
+  node.waitUntil("diagnostics warn", [](const Heard& all) {
+    const auto found = all.diagnostics.find("transforms");
+    return found != all.diagnostics.end() && found->second.level == diagnostic_msgs::DiagnosticStatus::WARN &&
+           found->second.message.find("'a'") != std::string::npos;
+  });
+}
+
+TEST(TransformTree, AFrameFirstFixedThenMovingIsAConflict) {
+  TransformSource transforms;
+  NodeUnderTest node(threeBalls());
+  transforms.fix({stamped("base", "a", at(0)), stamped("base", "b", at(0.25)), stamped("base", "c", at(9))});
+  node.waitForComplete();
+  transforms.stream("base", "a", at(0.01));
+  expectConflict(node);
+  transforms.stop("a");
+  node.waitForStatus("its age is that of what came last, not that of something fixed",
+                     [](const msg::Status& s) { return stateOf(s, "robot/a") == WorldState::STALE; });
+  EXPECT_EQ(stateOf(*node.heard().status.back(), "robot/b"), WorldState::FRESH);
+}
+
+TEST(TransformTree, AFrameFirstMovingThenFixedIsAConflict) {
+  TransformSource transforms;
+  NodeUnderTest node(threeBalls());
+  transforms.stream("base", "a", at(0));
+  transforms.fix({stamped("base", "b", at(0.25)), stamped("base", "c", at(9))});
+  node.waitForComplete();
+  transforms.fix({stamped("base", "a", at(0.01))});
+  expectConflict(node);
+}
+
+TEST(TransformTree, ALoopCostsItsLinksTheirWayAndNobodyElse) {
+  TransformSource transforms;
+  NodeUnderTest node(threeBalls());
+  transforms.stream("base", "a", at(0));
+  transforms.stream("base", "b", at(0.25));
+  transforms.stream("base", "c", at(9));
+  node.waitForComplete();
+  transforms.stream("c", "b", at(1));
+  transforms.stream("b", "c", at(1));
+  const auto status = node.waitForStatus("b and c are stale", [](const msg::Status& s) {
+    return stateOf(s, "robot/b") == WorldState::STALE && stateOf(s, "robot/c") == WorldState::STALE;
+  });
+  for (const char* body : {"robot/b", "robot/c"}) {
+    EXPECT_EQ(entryOf(*status, body)->code.name, "UNKNOWN_FRAME");
+    EXPECT_TRUE(says(entryOf(*status, body)->code.text, "is not connected to 'base'"));
+  }
+  EXPECT_EQ(stateOf(*status, "robot/a"), WorldState::FRESH);
+  EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Answer::HIT);
+  EXPECT_NEAR(xOf(node, "robot/b"), 0.25, 1e-6) << "the last pose is kept";
+  EXPECT_EQ(node.sphere(0, 0, 0, 0.05, "b").answer.code.name, "UNKNOWN_FRAME");
+  EXPECT_LE(node.lines(""), 10u + 3u * static_cast<std::size_t>(node.uptime()));
+
+  transforms.stream("base", "b", at(0.25));
+  transforms.stream("base", "c", at(9));
+  node.waitForComplete();
+  node.waitForStatus("all are fresh", [](const msg::Status& s) { return s.bodies_total == 0; });
+}
+
+TEST(TransformTree, AFrameMayChangeItsParentWithEveryMessage) {
+  TransformSource transforms;
+  NodeUnderTest node(threeBalls());
+  transforms.stream("base", "a", at(1));
+  transforms.stream("base", "c", at(9));
+  for (int i = 0; i < 40; ++i) {
+    const bool odd = i % 2 == 1;
+    transforms.send({stamped(odd ? "a" : "base", "b", at(odd ? 1.0 : 2.0), transforms.now())});
+    node.waitForTicks(1);
+  }
+  for (const auto& pairs : node.heard().pairs) EXPECT_EQ(indexOf(*pairs, "robot/a", "robot/b"), -1);
+  transforms.stream("a", "b", at(0.25));
+  const auto pairs = node.waitForPairs("b is beside a", [](const msg::Pairs& p) { return p.total > 0; });
+  EXPECT_EQ(namesOf(*pairs), std::vector<std::string>({"robot/a|robot/b"}));
+  EXPECT_TRUE(pairs->world.complete);
+  EXPECT_EQ(pairs->world.worst_state, WorldState::FRESH);
+}
+
+TEST(TransformTree, OneFrameTooManyIsRefused) {
+  TransformSource transforms;
+  NodeSetup setup = threeBalls();
+  setup.params = with(setup.params, {{"max_frames", 3}});
+  NodeUnderTest node(setup);
+  transforms.fix({stamped("base", "a", at(0)), stamped("base", "b", at(0.25)), stamped("base", "c", at(9)),
+                  stamped("base", "d", at(0))});
+  const auto status =
+      node.waitForStatus("one is refused", [](const msg::Status& s) { return counter(s, "tf.refused.LIMIT") > 0; });
+  EXPECT_TRUE(says(node.output(), "frame 'd' would be one more than ~max_frames, which is 3"));
+  node.waitForComplete();
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid

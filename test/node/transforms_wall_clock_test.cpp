@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <unistd.h>
+
+#include <cstdio>
+#include <fstream>
+
+#include "test/node/support/claims.h"
+#include "test/node/support/descriptions.h"
+#include "test/node/support/transform_source.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+/// A wall clock that can be set: for the node by libfaketime (package libfaketime), which reads the shift from a file
+/// at every look at the clock, and for the transforms by the test itself. The steady clock is nobody's to set.
+class WallClock : public ::testing::Test {
+ protected:
+  WallClock() : transforms_([this] { return wallTime() + ros::Duration(shift_); }) { write(0.0); }
+  ~WallClock() override { std::remove(file_.c_str()); }
+
+  static std::string library() {
+    for (const char* path : {"/usr/lib/x86_64-linux-gnu/faketime/libfaketimeMT.so.1",
+                             "/usr/lib/aarch64-linux-gnu/faketime/libfaketimeMT.so.1"}) {
+      if (access(path, R_OK) == 0) return path;
+    }
+    return {};
+  }
+  void write(double shift) {
+    shift_ = shift;
+    const std::string next = file_ + ".next";
+    std::ofstream(next) << (shift < 0.0 ? "" : "+") << shift << "\n";
+    std::rename(next.c_str(), file_.c_str());
+  }
+
+  double shift_ = 0.0;  // [s]
+  const std::string file_ = std::string(std::getenv("TMPDIR") ? std::getenv("TMPDIR") : "/tmp") + "/shifted_clock_" +
+                            std::to_string(getpid());
+  TransformSource transforms_;
+};
+
+TEST_F(WallClock, SettingItAgesNothing) {
+  if (library().empty()) GTEST_SKIP() << "libfaketime is not installed";
+  NodeSetup setup;
+  setup.params = dict({{"late_after", 1.0}, {"stale_after", 2.0}, {"lost_after", 4.0}});
+  setup.beside["robot_description"] = balls({"a", "b"});
+  setup.environment = {{"LD_PRELOAD", library()},
+                       {"FAKETIME_TIMESTAMP_FILE", file_},
+                       {"FAKETIME_NO_CACHE", "1"},
+                       {"DONT_FAKE_MONOTONIC", "1"},
+                       {"FAKETIME_DONT_FAKE_MONOTONIC", "1"}};
+  NodeUnderTest node(setup);
+  transforms_.stream("base", "a", at(0));
+  transforms_.stream("base", "b", at(0.25));
+  node.waitForComplete();
+  for (const double shift : {3600.0, 0.0, -3600.0}) {
+    SCOPED_TRACE(shift);
+    const auto epoch = node.heard().status.back()->world.epoch;
+    std::size_t begin = 0;
+    transforms_.pauseFor([&] {
+      node.waitForTicks(3);  // nothing stamped by the old clock is still under way
+      begin = node.heard().status.size();
+      write(shift);
+    });
+    const auto status = node.waitForStatus("fresh data by the new clock", [&](const msg::Status& s) {
+      return std::abs((s.header.stamp - transforms_.now()).toSec()) < 60.0 && s.world.epoch != epoch &&
+             s.world.sequence > 20;
+    });
+    EXPECT_LT((status->made - status->header.stamp).toSec(), 1.0);
+    const Heard all = node.heard();
+    for (std::size_t i = begin; i < all.status.size(); ++i) {
+      EXPECT_LE(all.status[i]->world.worst_state, msg::WorldState::LATE);
+      EXPECT_LT(all.status[i]->world.max_age, 1.0);
+      EXPECT_TRUE(all.status[i]->world.complete);
+    }
+    EXPECT_EQ(namesOf(*all.pairs.back()), std::vector<std::string>({"robot/a|robot/b"}));
+  }
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <gtest/gtest.h>
+
+#include "test/support/models.h"
+#include "test/support/scenes.h"
+
+namespace hgrid {
+namespace {
+
+/// Two balls whose boxes stand 1 m apart (to a few units of a float), with a margin of 1/8 m.
+class Growth : public ::testing::Test {
+ protected:
+  Growth() : scene_(optionsWithCap(2.0)) {}
+
+  static SceneOptions optionsWithCap(double cap) {
+    SceneOptions options;
+    options.margin = 0.125;
+    options.growth_cap = cap;
+    return options;
+  }
+  static Body slowBall(const std::string& name, double max_speed) {
+    Body body = test::ball(name);
+    body.max_speed = max_speed;
+    return body;
+  }
+  const Snapshot& now() {
+    snapshot_ = scene_.commit(Time{++tick_}, {});
+    return *snapshot_;
+  }
+
+  Scene scene_;
+  std::shared_ptr<const Snapshot> snapshot_;
+  int tick_ = 0;
+};
+
+TEST_F(Growth, WidensTheMarginBySpeedTimesAgeUpToTheCap) {
+  const BodyId id = test::put(scene_, slowBall("a", 0.5), test::at(0));
+  test::put(scene_, slowBall("b", 0.5), test::at(2));
+  for (const double age : {0.0, 1.0, 1.5, 2.0, 3.0, 4.0, 100.0}) {
+    scene_.setState(id, Freshness::stale, age);
+    const double growth = std::min(2.0, 0.5 * age);
+    const Snapshot& snapshot = now();
+    EXPECT_EQ(snapshot.poses()[0].growth, growth);
+    EXPECT_EQ(snapshot.poses()[1].growth, 0.0);
+    ASSERT_EQ(snapshot.pairs().size(), growth + 0.125 >= 1.0 ? 1u : 0u) << age;
+    if (snapshot.pairs().empty()) continue;
+    EXPECT_EQ(snapshot.pairs()[0].margin, 0.125 + growth);
+    EXPECT_NEAR(snapshot.pairs()[0].gap, 1.0, 1e-6) << "the gap is never falsified";
+  }
+}
+
+TEST_F(Growth, OfBothBodiesAddsUp) {
+  const BodyId a = test::put(scene_, slowBall("a", 0.5), test::at(0)),
+               b = test::put(scene_, slowBall("b", 0.25), test::at(2));
+  scene_.setState(a, Freshness::stale, 1.25);
+  scene_.setState(b, Freshness::lost, 1.25);
+  ASSERT_EQ(now().pairs().size(), 1u) << "1/8 + 5/8 + 5/16 m reach over 1 m";
+  EXPECT_EQ(snapshot_->pairs()[0].margin, 0.125 + 0.625 + 0.3125);
+  scene_.setState(b, Freshness::late, 1.25);
+  EXPECT_TRUE(now().pairs().empty()) << "late only flags";
+}
+
+TEST_F(Growth, WithoutASpeedLimitGoesToTheCapAtOnce) {
+  const BodyId id = test::put(scene_, test::ball("a"), test::at(0));
+  scene_.setState(id, Freshness::stale, 1e-6);
+  EXPECT_EQ(now().poses()[0].growth, 2.0);
+  scene_.setState(id, Freshness::stale, 0.0);
+  EXPECT_EQ(now().poses()[0].growth, 0.0) << "infinity times zero is not a number";
+  scene_.setState(id, Freshness::lost, 1e300);
+  EXPECT_EQ(now().poses()[0].growth, 2.0);
+}
+
+TEST_F(Growth, EndsWhenTheBodyIsFreshAgain) {
+  const BodyId id = test::put(scene_, slowBall("a", 1.0), test::at(0));
+  test::put(scene_, slowBall("b", 1.0), test::at(2));
+  scene_.setState(id, Freshness::lost, 9.0);
+  EXPECT_EQ(now().pairs().size(), 1u);
+  scene_.setState(id, Freshness::fresh, 0.0);
+  EXPECT_TRUE(now().pairs().empty());
+  EXPECT_EQ(snapshot_->poses()[0].growth, 0.0);
+}
+
+/// Links 0 and 2 of one arm, which no joint joins, and a link 2 of another.
+class RobotGrowth : public Growth {
+ protected:
+  RobotGrowth() {
+    RobotModel model;
+    for (int i = 0; i < 3; ++i) test::addLink(model, std::to_string(i), i - 1);
+    findRigidGroups(model);
+    matrix_ = std::make_shared<const LinkMatrix>(test::matrixOf(model));
+    first_ = test::put(scene_, linkOf("left", 0), test::at(0));
+    second_ = test::put(scene_, linkOf("left", 2), test::at(2));
+    stranger_ = test::put(scene_, linkOf("right", 2), test::at(0, 2));
+  }
+  Body linkOf(const std::string& robot, std::uint32_t link) const {
+    Body body = slowBall("", 1.0);
+    body.name = robot + "/" + std::to_string(link);
+    body.kind = BodyKind::link;
+    body.robot = robot;
+    body.link = link;
+    body.links = matrix_;
+    return body;
+  }
+  void allStale(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    scene_.setState(first_, Freshness::stale, 1.0, a);
+    scene_.setState(second_, Freshness::stale, 1.0, b);
+    scene_.setState(stranger_, Freshness::stale, 1.0, c);
+  }
+  std::shared_ptr<const LinkMatrix> matrix_;
+  BodyId first_, second_, stranger_;
+};
+
+TEST_F(RobotGrowth, LinksOfOneRobotThatAreEquallyOldDoNotGrowAgainstEachOther) {
+  allStale(7, 7, 7);
+  EXPECT_EQ(test::namedPairs(now()), test::NamePairs({{"left/0", "right/2"}, {"left/2", "right/2"}}))
+      << "equal numbers mean nothing between robots";
+  EXPECT_EQ(snapshot_->poses()[0].growth, 1.0) << "they have grown for others";
+}
+
+TEST_F(RobotGrowth, LinksThatAreNotEquallyOldDo) {
+  for (const auto& cohorts : {std::pair<std::uint32_t, std::uint32_t>{7, 8}, {0, 0}, {0, 7}, {7, 0}}) {
+    allStale(cohorts.first, cohorts.second, 9);
+    EXPECT_EQ(test::namedPairs(now()).count({"left/0", "left/2"}), 1u) << cohorts.first << " " << cohorts.second;
+  }
+}
+
+}  // namespace
+}  // namespace hgrid

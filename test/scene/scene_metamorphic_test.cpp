@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "test/support/scenes.h"
+
+namespace hgrid {
+namespace {
+
+using test::contains;
+using test::namedPairs;
+using test::NamePairs;
+using test::Random;
+
+/// The same random world again and again, but for what a test varies.
+struct Variation {
+  double margin = 0.125;
+  int count = 40;
+  double growth_cap = 1.0;
+  bool degraded = false;   ///< every body in some bad state
+  bool backwards = false;  ///< told in the opposite order
+  double finest_edge = 0.0;
+  std::uint64_t hash_seed = 0;
+};
+
+std::shared_ptr<const Snapshot> snapshotOf(unsigned seed, const Variation& variation) {
+  SceneOptions options;
+  options.margin = variation.margin;
+  options.growth_cap = variation.growth_cap;
+  options.finest_edge = variation.finest_edge;
+  options.hash_seed = variation.hash_seed;
+  Scene scene(options);
+  std::vector<int> order;
+  for (int i = 0; i < variation.count; ++i) order.push_back(i);
+  if (variation.backwards) std::reverse(order.begin(), order.end());
+  for (const int i : order) {
+    Random random(seed * 1000 + unsigned(i));
+    const BodyId id = test::putRandom(scene, random, "o" + std::to_string(i));
+    const auto state = static_cast<Freshness>(random.between(1, 5));
+    if (variation.degraded) scene.setState(id, state, random.uniform(0, 5), std::uint32_t(random.below(3)));
+  }
+  return scene.commit(Time{1}, {});
+}
+
+TEST(SceneMetamorphic, ALargerMarginFindsNoFewerPairs) {
+  std::size_t more = 0;
+  for (unsigned seed = 1; seed <= 30; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    NamePairs before;
+    for (const double margin : {0.0, 0.01, 0.125, 0.5, 2.0}) {
+      Variation variation;
+      variation.margin = margin;
+      const NamePairs pairs = namedPairs(*snapshotOf(seed, variation));
+      ASSERT_TRUE(contains(pairs, before)) << "margin " << margin;
+      more += pairs.size() > before.size();
+      before = pairs;
+    }
+  }
+  EXPECT_GT(more, 60u);
+}
+
+TEST(SceneMetamorphic, WorseDataNeverMeansFewerPairs) {
+  std::size_t more = 0;
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Variation variation;
+    const NamePairs fresh = namedPairs(*snapshotOf(seed, variation));
+    for (const double cap : {0.0, 0.25, 1.0}) {
+      variation.growth_cap = cap;
+      variation.degraded = true;
+      const NamePairs degraded = namedPairs(*snapshotOf(seed, variation));
+      ASSERT_TRUE(contains(degraded, fresh)) << "cap " << cap;
+      if (cap == 0.0) {
+        ASSERT_EQ(degraded, fresh);
+      }
+      more += degraded.size() > fresh.size();
+    }
+  }
+  EXPECT_GT(more, 60u) << "growth that changes nothing is not growth";
+}
+
+TEST(SceneMetamorphic, AddingABodyRemovesNoPairAndRemovingOneRemovesOnlyItsOwn) {
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Variation variation;
+    const NamePairs all = namedPairs(*snapshotOf(seed, variation));
+    variation.count -= 1;
+    const NamePairs without = namedPairs(*snapshotOf(seed, variation));
+    ASSERT_TRUE(contains(all, without));
+    const std::string last = "obstacle/o" + std::to_string(variation.count);
+    for (const auto& pair : all) {
+      ASSERT_TRUE(without.count(pair) != 0 || pair.first == last || pair.second == last);
+    }
+  }
+}
+
+TEST(SceneMetamorphic, OrderCellsAndHashSeedDoNotShow) {
+  for (unsigned seed = 1; seed <= 30; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const auto expected = snapshotOf(seed, {});
+    for (int i = 0; i < 4; ++i) {
+      Variation variation;
+      variation.backwards = i % 2 == 1;
+      variation.hash_seed = std::uint64_t(i) * 77;
+      variation.finest_edge = i < 2 ? 0.0 : std::ldexp(1.0, 10 * i - 30);
+      const auto snapshot = snapshotOf(seed, variation);
+      ASSERT_EQ(snapshot->boxes(), expected->boxes());
+      ASSERT_EQ(snapshot->pairs().size(), expected->pairs().size());
+      for (std::size_t k = 0; k < snapshot->pairs().size(); ++k) {
+        const NearPair &a = snapshot->pairs()[k], &b = expected->pairs()[k];
+        ASSERT_TRUE(a.first == b.first && a.second == b.second && a.gap == b.gap && a.margin == b.margin);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hgrid

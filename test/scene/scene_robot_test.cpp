@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <gtest/gtest.h>
+
+#include "test/support/models.h"
+#include "test/support/scenes.h"
+
+namespace hgrid {
+namespace {
+
+using test::Random;
+
+/// Bodies of a robot: one per link with geometry, as an importer would make them.
+std::vector<Body> bodiesOf(const RobotModel& model, const std::string& robot,
+                           const std::shared_ptr<const LinkMatrix>& matrix) {
+  std::vector<Body> bodies;
+  for (std::uint32_t i = 0; i < model.links.size(); ++i) {
+    if (!model.links[i].has_collision) continue;
+    Body body;
+    body.name = robot + "/" + model.links[i].name;
+    body.frame = model.links[i].name;
+    body.kind = BodyKind::link;
+    body.shapes = model.links[i].shapes;
+    body.robot = robot;
+    body.link = i;
+    body.rigid_group = model.links[i].rigid_group;
+    body.links = matrix;
+    body.max_speed = 0.5;
+    bodies.push_back(body);
+  }
+  return bodies;
+}
+
+TEST(SceneRobot, EqualRobotsShareTheirMatrixAndFindThePairsOfTheOracle) {
+  std::size_t within = 0, between = 0;
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const RobotModel model = test::randomModel(random, 15);
+    LinkRules rules;
+    for (int i = 0; i < 5; ++i) {
+      rules.disabled.push_back(
+          {"link" + std::to_string(random.below(15)), "link" + std::to_string(random.below(15)), ""});
+      rules.enabled.push_back(
+          {"link" + std::to_string(random.below(15)), "link" + std::to_string(random.below(15)), ""});
+    }
+    const auto matrix = std::make_shared<const LinkMatrix>(test::matrixOf(model, rules));
+    SceneOptions options;
+    options.margin = 0.25;
+    options.growth_cap = 0.5;
+    Scene scene(options);
+    std::vector<BodyId> ids;
+    for (const char* robot : {"left", "right"}) {
+      for (const Body& body : bodiesOf(model, robot, matrix)) ids.push_back(scene.add(body));
+    }
+    for (int i = 0; i < 10; ++i) test::putRandom(scene, random, "o" + std::to_string(i), 1.0);
+    for (int tick = 1; tick <= 10; ++tick) {
+      SCOPED_TRACE("tick " + std::to_string(tick));
+      for (const BodyId& id : ids) {
+        scene.place(id, test::randomPose(random, 1.0), Time{tick});
+        const Freshness state = random.chance(0.3) ? Freshness::stale : Freshness::fresh;
+        scene.setState(id, state, state == Freshness::stale ? 0.5 : 0.0, std::uint32_t(random.below(3)));
+      }
+      const auto snapshot = scene.commit(Time{tick}, {});
+      ASSERT_NO_FATAL_FAILURE(test::expectPairsOfTheOracle(*snapshot, options.margin));
+      for (const NearPair& pair : snapshot->pairs()) {
+        const Body &a = snapshot->structure().bodies[pair.first], &b = snapshot->structure().bodies[pair.second];
+        within += !a.robot.empty() && a.robot == b.robot;
+        between += !a.robot.empty() && !b.robot.empty() && a.robot != b.robot;
+      }
+    }
+  }
+  EXPECT_GT(within, 1000u);
+  EXPECT_GT(between, 1000u);
+}
+
+TEST(SceneRobot, AllowedPatternsAndKindsSwitchPairsOff) {
+  const auto pairsWith = [](const SceneOptions& options) {
+    Scene scene(options);
+    test::put(scene, test::ball("a"), test::at(0));
+    test::put(scene, test::ball("b"), test::at(0));
+    test::put(scene, test::ball("wall", 0.5, Mobility::fixed), test::at(0));
+    test::put(scene, test::ball("floor", 0.5, Mobility::fixed), test::at(0));
+    return test::namedPairs(*scene.commit(Time{1}, {}));
+  };
+  SceneOptions options;
+  const std::string a = "obstacle/a", b = "obstacle/b", wall = "obstacle/wall", floor = "obstacle/floor";
+  EXPECT_EQ(pairsWith(options), test::NamePairs({{a, b}, {a, wall}, {a, floor}, {b, wall}, {b, floor}}));
+  options.allowed_pairs = {{"*/wall", "*/a", "it leans there"}};
+  EXPECT_EQ(pairsWith(options), test::NamePairs({{a, b}, {a, floor}, {b, wall}, {b, floor}}));
+  options.pair_kinds.moving_obstacle = false;
+  EXPECT_TRUE(pairsWith(options).empty());
+}
+
+TEST(SceneRobot, SinceOutlivesOtherBodiesComingAndGoing) {
+  Scene scene{SceneOptions{}};
+  test::put(scene, test::ball("m"), test::at(0));
+  const BodyId n = test::put(scene, test::ball("n"), test::at(0.5));
+  EXPECT_EQ(scene.commit(Time{10}, {})->pairs().at(0).since, Time{10});
+  const BodyId a = test::put(scene, test::ball("a"), test::at(50));  // comes before them in the order of names
+  const auto later = scene.commit(Time{20}, {});
+  ASSERT_EQ(later->pairs().size(), 1u);
+  EXPECT_EQ(later->pairs()[0].first, 1u);
+  EXPECT_EQ(later->pairs()[0].since, Time{10});
+  scene.remove(a);
+  EXPECT_EQ(scene.commit(Time{30}, {})->pairs().at(0).since, Time{10});
+  scene.place(n, test::at(50), Time{40});
+  EXPECT_TRUE(scene.commit(Time{40}, {})->pairs().empty());
+  scene.place(n, test::at(0.5), Time{50});
+  EXPECT_EQ(scene.commit(Time{50}, {})->pairs().at(0).since, Time{50});
+  scene.remove(n);
+  test::put(scene, test::ball("n"), test::at(0.5));
+  EXPECT_EQ(scene.commit(Time{60}, {})->pairs().at(0).since, Time{60}) << "another body of the same name";
+}
+
+TEST(SceneRobot, TheGapIsThatOfTheNearestShapes) {
+  SceneOptions options;
+  options.margin = 10.0;
+  Scene scene(options);
+  Body fork = test::obstacle("fork");
+  for (const double x : {0.0, 3.0, 1.0}) {
+    fork.shapes.push_back(test::shapeOf(Shape::box({0.5, 0.5, 0.5})));
+    fork.shapes.back().body_from_shape.translation().x() = x;
+  }
+  test::put(scene, fork, test::at(0));
+  test::put(scene, fork.shapes.empty() ? fork : test::ball("pea", 0.25), test::at(5));
+  const auto snapshot = scene.commit(Time{1}, {});
+  ASSERT_EQ(snapshot->pairs().size(), 1u) << "once per pair of bodies";
+  EXPECT_NEAR(snapshot->pairs()[0].gap, 1.5, 1e-6);
+}
+
+TEST(SceneRobot, ALargerMarginOfOneBodyHoldsForItsPairs) {
+  SceneOptions options;
+  options.margin = 0.25;
+  Scene scene(options);
+  Body wary = test::ball("wary"), bold = test::ball("bold");
+  wary.margin = 2.0;
+  bold.margin = 0.125;  // less than the global one does not count
+  test::put(scene, wary, test::at(0));
+  test::put(scene, bold, test::at(2.5));
+  test::put(scene, test::ball("third"), test::at(3.75));
+  const auto snapshot = scene.commit(Time{1}, {});
+  EXPECT_EQ(test::namedPairs(*snapshot),
+            test::NamePairs({{"obstacle/bold", "obstacle/third"}, {"obstacle/bold", "obstacle/wary"}}));
+  EXPECT_EQ(snapshot->pairs()[0].margin, 0.25);
+  EXPECT_EQ(snapshot->pairs()[1].margin, 2.0) << "the larger of the two, in both orders";
+}
+
+}  // namespace
+}  // namespace hgrid

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include "hgrid_proximity/scene/body.h"
+
+namespace hgrid {
+namespace test {
+
+/// A body's shape in the body's own frame, without padding.
+inline BodyShape shapeOf(const Shape& shape) {
+  return {shape, Pose::Identity(), 0.0, std::string(), Eigen::Vector3d::Ones()};
+}
+
+}  // namespace test
+}  // namespace hgrid

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "hgrid_proximity/refusal.h"
+
+namespace hgrid {
+namespace test {
+
+/// The code with which `deed` is refused, Code::ok if it is not; its sentence goes to `*sentence`.
+template <class Deed>
+Code refusalOf(Deed&& deed, std::string* sentence = nullptr) {
+  try {
+    deed();
+  } catch (const Refusal& refusal) {
+    if (sentence) *sentence = refusal.what();
+    return refusal.code();
+  }
+  return Code::ok;
+}
+
+/// Whether one of the words stands in the sentence; a refusal must name the thing, the value and the rule.
+inline ::testing::AssertionResult says(const std::string& sentence, const std::string& word) {
+  if (sentence.find(word) != std::string::npos) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << "\"" << sentence << "\" does not say \"" << word << "\"";
+}
+
+}  // namespace test
+
+inline void PrintTo(Code code, std::ostream* out) { *out << name(code); }
+
+}  // namespace hgrid
