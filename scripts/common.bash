@@ -13,13 +13,13 @@ build_packages=(
   libnodeletlib-dev libtf2-dev libtf2-msgs-dev libtinyxml2-dev liburdfdom-dev liburdfdom-headers-dev pluginlib-dev
 )
 demo_packages=(
-  python3-geometry-msgs python3-roslaunch python3-rospy python3-sensor-msgs python3-shape-msgs python3-tf2-msgs
-  python3-visualization-msgs ros-robot-state-publisher
+  python3-diagnostic-msgs python3-geometry-msgs python3-roslaunch python3-rospy python3-rosservice python3-rostopic
+  python3-sensor-msgs python3-shape-msgs python3-std-srvs python3-tf2-msgs python3-visualization-msgs
+  ros-robot-state-publisher
 )
 # shellcheck disable=SC2034  # read by scripts/test
 test_packages=(
-  "${demo_packages[@]}" catkin-lint libfcl-dev python3-diagnostic-msgs python3-rostest python3-rostopic
-  rosbash
+  "${demo_packages[@]}" catkin-lint faketime libfcl-dev locales nodelet python3-rostest
 )
 
 # What goes on in the background is stopped, and the scratch folder removed, when the script ends, however it ends.

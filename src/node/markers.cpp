@@ -135,7 +135,7 @@ visualization_msgs::MarkerArray markers(const Tick& tick, const QuerySketch& que
          ray = marker(tick, "queries", 1, Marker::LINE_LIST);
   boxes.scale.x = 0.004;
   not_fresh.scale.x = 0.012;
-  pairs.scale.x = 0.012;
+  pairs.scale.x = 0.02;
   if (tick.snapshot) {
     const Snapshot& snapshot = *tick.snapshot;
     for (ProxyId proxy = 0; proxy < snapshot.boxes().size(); ++proxy) {

@@ -171,7 +171,7 @@ ChainState TfIntake::chain(const std::string& target, const std::string& source,
     met = std::find(above.begin(), above.end(), frame);
   }
   if (met == above.end()) {
-    for (const std::string& end : {source, target}) {
+    for (const std::string& end : {target, source}) {  // of two, the source is named
       if (records_.count(end) == 0 && parents_.count(end) == 0) state.unknown_frame = end;
     }
     return state;

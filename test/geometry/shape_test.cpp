@@ -131,6 +131,11 @@ TEST(Shape, RefusesMeshesWithoutSurface) {
   mesh = tetrahedron();
   mesh->triangles = {{0, 0, 1}, {1, 2, 2}, {3, 3, 3}};
   EXPECT_EQ(refusalOf([&] { Shape::mesh(mesh); }), Code::bad_geometry) << "all triangles are degenerate";
+  mesh->vertices[2] << 0.5, 0, 0;
+  mesh->triangles = {{0, 1, 2}};
+  EXPECT_EQ(refusalOf([&] { Shape::mesh(mesh); }), Code::bad_geometry) << "three corners on one line";
+  mesh->triangles = {{0, 1, 2}, {0, 1, 3}};
+  EXPECT_EQ(refusalOf([&] { Shape::mesh(mesh); }), Code::ok) << "one with an area is enough";
 }
 
 TEST(Shape, RefusesTrianglesThatNameNoVertex) {

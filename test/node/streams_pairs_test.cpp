@@ -11,7 +11,8 @@ namespace {
 /// Two balls of one robot 0.05 m apart, and posts: one 0.05 m from a, one 0.3 m from it and near nothing.
 NodeSetup nearBodies(std::initializer_list<std::pair<const char*, Value>> more = {}) {
   NodeSetup setup;
-  setup.params = with(dict({{"obstacles", list({ball("far", 0, 0.5, 0, 0.1), ball("near", 0, -0.25, 0, 0.1)})}}), more);
+  setup.params =
+      with(dict({{"obstacles", list({ball("far", -0.5, 0, 0, 0.1), ball("near", -0.25, 0, 0, 0.1)})}}), more);
   setup.beside["robot_description"] = balls({"a", "b"});
   return setup;
 }
