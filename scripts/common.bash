@@ -19,7 +19,7 @@ demo_packages=(
 )
 # shellcheck disable=SC2034  # read by scripts/test
 test_packages=(
-  "${demo_packages[@]}" catkin-lint libfaketime libfcl-dev libnodeletlib-tools locales python3-rostest
+  "${demo_packages[@]}" catkin-lint libfaketime libfcl-dev libnodeletlib-tools locales python3-rostest rosbash
 )
 
 # What goes on in the background is stopped, and the scratch folder removed, when the script ends, however it ends.

@@ -11,6 +11,7 @@
 namespace hgrid {
 namespace {
 
+constexpr auto kGrace = std::chrono::seconds(1);         // after the start
 constexpr auto kJobPatience = std::chrono::seconds(10);  // a tick takes milliseconds; longer means that it hangs
 
 Moment thisMoment() {
@@ -157,6 +158,7 @@ void ProximityNode::logChange(const Tick& tick) {
   // The age in a sentence changes every tick; what comes before it names the thing.
   const std::string gist = reason.substr(0, reason.find(':'));
   if (complete == was_complete_ && gist == last_reason_) return;
+  if (!complete && tick.made.steady - started_ < kGrace) return;  // what is not there yet may just be starting too
   if (complete) {
     ROS_INFO("The world is complete: %zu bodies in frame '%s'.", tick.snapshot->poses().size(),
              tick.world_frame.c_str());

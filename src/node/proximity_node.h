@@ -72,6 +72,7 @@ class ProximityNode {
   std::uint64_t published_revision_ = 0, published_epoch_ = 0;
   bool was_complete_ = false;
   std::string last_reason_;
+  const std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
   // Of the admin thread.
   std::vector<std::string> to_load_;
   double retry_after_ = 0.0;

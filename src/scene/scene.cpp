@@ -15,7 +15,7 @@ namespace hgrid {
 namespace {
 
 constexpr double kLargestMargin = 1e3;  // [m]
-constexpr double kFarthestShape = 1e6;  // [m] from its body's origin
+constexpr double kFarthestShape = 1e6;  // [m] from its body's origin, and of a body from the world's
 
 void checkLength(double value, double limit, const std::string& what) {
   if (!(value >= 0.0 && value <= limit)) {
@@ -34,6 +34,10 @@ void checkBody(const Body& body) {
   if (!(body.max_speed >= 0.0)) {
     throw Refusal(Code::out_of_range,
                   "max_speed of body '" + body.name + "' is " + text(body.max_speed) + " m/s; it must not be negative");
+  }
+  if (body.links && body.link >= body.links->size()) {
+    throw Refusal(Code::out_of_range, "body '" + body.name + "' is link " + std::to_string(body.link) +
+                                          " of a robot that has " + std::to_string(body.links->size()));
   }
   for (const BodyShape& shape : body.shapes) {
     const std::string what = "pose of a shape of body '" + body.name + "'";
@@ -138,6 +142,13 @@ struct Scene::State {
 
 Scene::Scene(const SceneOptions& options) : state_(std::make_unique<State>(options)) {
   checkLength(options.margin, kLargestMargin, "margin");
+  checkLength(options.growth_cap, kLargestMargin, "growth_cap");
+  checkLength(options.world_limit, kFarthestShape, "world_limit");
+  checkLength(options.finest_edge, kLargestMargin, "finest_edge");
+  if (options.finest_edge > 0.0 && options.finest_edge < 1e-6) {
+    throw Refusal(Code::out_of_range,
+                  "finest_edge is " + text(options.finest_edge) + " m; it must be 0 or at least 1e-06 m");
+  }
 }
 Scene::~Scene() = default;
 Scene::Scene(Scene&&) noexcept = default;

@@ -35,12 +35,12 @@ Cell::Cell() {
     ros::param::set("/" + robot.name + "/robot_description", real.urdf);
     ros::param::set("/" + robot.name + "/robot_description_semantic", real.srdf);
     publishers.push_back(std::make_unique<Child>(
-        std::vector<std::string>{"robot_state_publisher", "robot_state_publisher", "__ns:=/" + robot.name,
+        std::vector<std::string>{"rosrun", "robot_state_publisher", "robot_state_publisher", "__ns:=/" + robot.name,
                                  "_tf_prefix:=" + robot.name, "_publish_frequency:=200"}));
     puppets.push_back({robot.name, robot.witness.get()});
   }
   placeBases();
-  proximity = std::make_unique<Child>(std::vector<std::string>{"hgrid_proximity", "proximity_node"});
+  proximity = std::make_unique<Child>(std::vector<std::string>{HGRID_NODE});
   puppeteer = std::make_unique<Puppeteer>(node_, puppets, 7);
   pairs = std::make_unique<PairsListener>(node_);
 }

@@ -34,12 +34,11 @@ double triangle(double x) {
 }  // namespace
 
 Child::Child(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), "rosrun");
   std::vector<char*> argv;
   for (std::string& argument : arguments) argv.push_back(&argument[0]);
   argv.push_back(nullptr);
   if (posix_spawnp(&pid_, argv[0], nullptr, nullptr, argv.data(), environ) != 0) {
-    throw std::runtime_error("rosrun does not start");
+    throw std::runtime_error(arguments.front() + " does not start");
   }
 }
 

@@ -23,7 +23,7 @@
 namespace hgrid {
 namespace test {
 
-/// A program started with rosrun, stopped on destruction.
+/// A program started with its arguments, stopped on destruction.
 class Child {
  public:
   explicit Child(std::vector<std::string> arguments);
