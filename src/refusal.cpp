@@ -16,7 +16,7 @@ const char* name(Code code) {
       "OK",           "BAD_ID",       "DUP_ID",    "UNKNOWN_ID",    "NONFINITE",       "OUT_OF_RANGE",
       "BAD_GEOMETRY", "BAD_ROTATION", "LIMIT",     "UNKNOWN_FRAME", "TF_TIMEOUT",      "EXTRAPOLATION",
       "CLOCK",        "PARSE",        "TRUNCATED", "UNSUPPORTED",   "RESOURCE_DENIED", "RESOURCE_MISSING",
-      "BUDGET",       "BUSY",         "NOT_READY", "VERSION",       "CHECKSUM",        "INTERNAL"};
+      "BUDGET",       "BUSY",         "NOT_READY", "VERSION",       "CHECKSUM",        "INTERNAL", "CONFLICT", "NEEDS_FORCE", "FAILED"};
   return kNames[static_cast<std::uint16_t>(code)];
 }
 

@@ -27,7 +27,7 @@ TEST(Refusal, ItsCodesAreThoseOfTheMessage) {
     EXPECT_EQ(name(static_cast<Code>(number)), word);
     EXPECT_EQ(number, seen++);
   }
-  EXPECT_EQ(seen, int(Code::internal) + 1);
+  EXPECT_EQ(seen, int(Code::failed) + 1);
 }
 
 TEST(Text, IsShortAndReadsBackAsTheSameNumber) {

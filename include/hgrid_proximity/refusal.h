@@ -34,6 +34,9 @@ enum class Code : std::uint16_t {
   version = 21,
   checksum = 22,
   internal = 23,
+  conflict = 24,
+  needs_force = 25,
+  failed = 26,
 };
 
 /// The code as a word, as in "OUT_OF_RANGE".

@@ -29,6 +29,7 @@ msg::Body toMsg(const Body& source, double margin) {
   msg::Body body;
   body.name = source.name;
   body.frame = source.frame;
+  body.pose = toPose(source.frame_from_body);
   body.mobility = static_cast<std::uint8_t>(source.mobility);
   body.robot = source.robot;
   body.rigid_group = source.rigid_group;
@@ -94,7 +95,7 @@ msg::WorldState worldState(const Tick& tick, const Params& params, std::uint64_t
     return world;
   }
   const Snapshot& snapshot = *tick.snapshot;
-  world.stamp = toRos(snapshot.stamp());
+  world.stamp = world.history_begin = toRos(snapshot.stamp());
   world.sequence = snapshot.sequence();
   world.bodies_revision = snapshot.structure().revision;
   world.complete = snapshot.complete();
@@ -131,6 +132,8 @@ msg::Pairs pairs(const Tick& tick, const msg::WorldState& world, const Params& p
     message.gap.push_back(pair.gap);
     message.margin.push_back(pair.margin);
     message.since.push_back(toRos(pair.since));
+    message.no_contact_before.push_back(std::nan(""));
+    message.flags.push_back(0);
     message.state.push_back(
         static_cast<std::uint8_t>(std::max(snapshot.poses()[pair.first].state, snapshot.poses()[pair.second].state)));
   }
@@ -193,6 +196,9 @@ msg::Status status(const Tick& tick, const msg::WorldState& world, const Params&
     message.counters.back().name = counter.first;
     message.counters.back().value = counter.second;
   }
+  message.gauges.resize(1);
+  message.gauges.front().name = "tf.frames";
+  message.gauges.front().value = static_cast<double>(tick.frames);
   for (const auto& part : stopwatch.summaries()) {
     msg::Timing timing;
     timing.name = part.first;

@@ -53,7 +53,9 @@ void NodeDiagnostics::robots(DiagnosticStatusWrapper& status) {
     status.summary(DiagnosticStatus::ERROR, health.failed_loads.begin()->second);
   } else if (!report.uncovered.empty()) {
     status.summary(DiagnosticStatus::ERROR, "UNCOVERED " + report.uncovered.front());
-  } else if (!report.without_collision.empty() || !report.warnings.empty()) {
+  } else if (!report.warnings.empty()) {
+    status.summary(DiagnosticStatus::WARN, report.warnings.front());
+  } else if (!report.without_collision.empty()) {
     status.summary(DiagnosticStatus::WARN, std::to_string(report.without_collision.size()) +
                                                " links have no <collision>; nothing is known of their extent");
   } else {

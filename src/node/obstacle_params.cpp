@@ -89,7 +89,7 @@ std::vector<ObstacleParams> readObstacles(ParamValue value, const ShapeLimits& l
     obstacle.body.name = joined("obstacle", name);
     if (auto frame = element.get("frame")) frame->string(obstacle.body.frame);
     obstacle.body.frame = withoutSlash(obstacle.body.frame);
-    if (auto pose = element.get("pose")) obstacle.frame_from_body = readPose(*pose);
+    if (auto pose = element.get("pose")) obstacle.body.frame_from_body = readPose(*pose);
     if (auto shapes = element.require("shapes")) {
       const std::vector<ParamValue> list = shapes->elements();
       if (list.empty()) shapes->error("has no shape; it must have at least one");

@@ -33,8 +33,8 @@ void visit(Visitor& v, Params& p) {
   v.section("Robots");
   v.robots("robots", p.robots,
            "list of {name, description, semantic, tf_prefix}: description and semantic name the parameters with URDF "
-           "and SRDF; "
-           "empty: one robot named 'robot' from robot_description and robot_description_semantic");
+           "and SRDF; name and description are required, without semantic there is no SRDF; "
+           "empty list: one robot named 'robot' from robot_description and robot_description_semantic");
   v.waivers("accept_uncovered", p.accept_uncovered,
             "list of {pattern, reason}: bodies with unreadable shapes that do not make the world incomplete");
   v.strings("mesh_roots", p.mesh_roots,
@@ -292,6 +292,11 @@ Params readParams(XmlRpc::XmlRpcValue values) {
   Reader reader(root, params);
   visit(reader, params);
   reader.finish();
+  if (params.robots.empty()) params.robots.push_back(RobotParams{});
+  for (const RobotParams& robot : params.robots) {  // they may stand in the node's own namespace
+    root.get(robot.description);
+    root.get(robot.semantic);
+  }
   root.finish("parameter of this node");
 
   const auto require = [&](bool holds, const std::string& sentence) {
@@ -300,6 +305,9 @@ Params readParams(XmlRpc::XmlRpcValue values) {
   require(params.late_after <= params.stale_after && params.stale_after <= params.lost_after,
           "~late_after is " + text(params.late_after) + " s, ~stale_after " + text(params.stale_after) +
               " s, ~lost_after " + text(params.lost_after) + " s; they must not decrease in this order");
+  require(params.valid_for * params.rate >= 1.0, "~valid_for is " + text(params.valid_for) +
+                                                     " s; it must be at least one period of ~rate, " +
+                                                     text(1.0 / params.rate) + " s");
   require(params.min_size < params.max_size,
           "~min_size is " + text(params.min_size) + " m; it must be below ~max_size, " + text(params.max_size) + " m");
   require(params.finest_edge == 0.0 || params.finest_edge >= 1e-3,
@@ -307,7 +315,6 @@ Params readParams(XmlRpc::XmlRpcValue values) {
   params.world_frame = withoutSlash(params.world_frame);
   require(params.robots.size() < 2 || !params.world_frame.empty(),
           "~world_frame is empty; with several robots it must name the frame that all are known in");
-  if (params.robots.empty()) params.robots.push_back(RobotParams{});
   if (errors.empty()) return params;
   std::string message =
       std::to_string(errors.size()) + (errors.size() == 1 ? " parameter is" : " parameters are") + " wrong:";

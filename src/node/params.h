@@ -20,10 +20,9 @@ struct RobotParams {
   std::string tf_prefix;                                ///< its frames are tf_prefix/link; empty: link
 };
 
-/// A static obstacle, from ~obstacles: a body and its pose in its frame.
+/// A static obstacle, from ~obstacles; an empty frame stands for the world frame.
 struct ObstacleParams {
   Body body;
-  Pose frame_from_body = Pose::Identity();
 };
 
 /// A value for all bodies whose name matches a glob.

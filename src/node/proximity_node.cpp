@@ -248,9 +248,19 @@ void ProximityNode::publishMarkers() {
   viewers_ = viewers;
 }
 
+/// Waits until a tick is out that has all that was done before this call.
+void ProximityNode::waitForTick() {
+  runInTick([](World&) {});
+  runInTick([](World&) {});
+}
+
 bool ProximityNode::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   try {
-    runInTick([](World& world) { world.reset(); });
+    runInTick([this](World& world) {
+      world.reset();
+      stopwatch_ = Stopwatch();
+    });
+    waitForTick();
     response.success = true;
     response.message = "obstacles as configured, counters at 0, a new epoch";
   } catch (const std::exception& error) {
@@ -277,15 +287,14 @@ bool ProximityNode::onReload(msg::ReloadRobot::Request& request, msg::ReloadRobo
   }
   response.success = response.code.value == msg::Code::OK;
   try {
-    runInTick([](World&) {});  // until the tick that has the new model is out
-    runInTick([](World&) {});
+    waitForTick();
   } catch (const Refusal& refusal) {
     ledger_.refuse("reload", refusal);
   }
   if (const auto tick = newest()) {
+    response.world = worldState(*tick, params_, config_hash_, 0.0);
     response.uncovered = tick->models->uncovered;
     response.warnings = tick->models->warnings;
-    if (tick->snapshot) response.bodies_revision = tick->snapshot->structure().revision;
   }
   return true;
 }

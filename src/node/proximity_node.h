@@ -48,6 +48,7 @@ class ProximityNode {
   Refusal loadRobot(const RobotParams& robot);
   void loadMissing();
   void runInTick(const Job& job);
+  void waitForTick();
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool onReload(msg::ReloadRobot::Request& request, msg::ReloadRobot::Response& response);
   NodeHealth health() const;

@@ -28,6 +28,7 @@ msg::Hit toMsg(const QueryHit& source, const Snapshot& snapshot, const Pose& fra
   msg::Hit hit;
   hit.name = snapshot.structure().bodies[source.body].name;
   hit.shape = source.shape;
+  hit.cell_edge = hit.own_point.x = hit.own_point.y = hit.own_point.z = std::nan("");
   hit.distance = source.distance;
   hit.center_distance = source.center_distance;
   hit.along = source.along;
@@ -35,7 +36,8 @@ msg::Hit toMsg(const QueryHit& source, const Snapshot& snapshot, const Pose& fra
   hit.normal.x = hit.normal.y = hit.normal.z = std::nan("");
   const BodyPose& pose = snapshot.poses()[source.body];
   hit.state = static_cast<std::uint8_t>(pose.state);
-  hit.age = pose.age > 0.0 ? pose.age + age_since : 0.0;
+  const bool fixed = snapshot.structure().bodies[source.body].mobility == Mobility::fixed;
+  hit.age = fixed ? 0.0 : pose.age + age_since;
   return hit;
 }
 
@@ -113,7 +115,10 @@ bool QueryServices::answer(const Request& request, Response& response, Ask&& ask
   msg::Answer& result = response.answer;
   ledger_.count("query.asked");
   try {
-    if (!tick) throw Refusal(Code::not_ready, "there is no world yet: the first tick was not made");
+    if (!tick) {
+      response.world.worst_state = msg::WorldState::UNPLACED;
+      throw Refusal(Code::not_ready, "there is no world yet: the first tick was not made");
+    }
     const double age_since =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - tick->made.steady).count();
     response.header = headerOf(*tick);
@@ -129,6 +134,7 @@ bool QueryServices::answer(const Request& request, Response& response, Ask&& ask
     QueryAnswer found = ask(snapshot, world_from_frame, scopeOf(request.include, request.exclude, request.limit));
     if (found.verdict == Verdict::clear && age_since > params_.valid_for) {
       found.verdict = Verdict::unknown;
+      found.because = Unknown::outdated;
       found.reason = "the newest tick is " + secondsText(age_since) + " old; ticks are valid for " +
                      text(params_.valid_for) + " s (~valid_for)";
     }
@@ -138,17 +144,20 @@ bool QueryServices::answer(const Request& request, Response& response, Ask&& ask
     result.success = true;
     result.code = toMsg(Code::ok, found.reason);
     result.verdict = static_cast<std::uint8_t>(found.verdict);
+    result.unknown_because = static_cast<std::uint8_t>(found.because);
     result.summary = summaryOf(found, snapshot);
     result.total = static_cast<std::uint32_t>(found.total);
     result.truncated = found.total > found.hits.size();
   } catch (const Refusal& refusal) {
     result = msg::Answer();
     result.code = toMsg(refusal.code(), refusal.what());
+    result.unknown_because = msg::Answer::REFUSED;
     result.summary = std::string("refused, so UNKNOWN: ") + refusal.what();
     ledger_.refuse("query.refused", refusal);
   } catch (const std::exception& error) {  // a fault of ours: the caller hears of it, the node goes on
     result = msg::Answer();
     result.code = toMsg(Code::internal, error.what());
+    result.unknown_because = msg::Answer::REFUSED;
     ledger_.refuse("query.failed", Refusal(Code::internal, error.what()));
   }
   return true;

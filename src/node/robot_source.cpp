@@ -131,6 +131,8 @@ LoadedRobot RobotSource::load(const RobotParams& params) const {
   std::string key;
   if (!params.semantic.empty() && node_.searchParam(params.semantic, key)) {
     rules = readSrdf(description(params.semantic), limits);
+  } else if (!params.semantic.empty() && params.semantic != RobotParams{}.semantic) {
+    model.warnings.push_back("parameter '" + printable(params.semantic) + "' is not set; it was to hold the SRDF");
   }
 
   LoadedRobot robot;

@@ -120,9 +120,9 @@ void TfIntake::takeOne(const geometry_msgs::TransformStamped& transform, bool is
   parents_.insert(parent);
   record.refused.reset();
   record.parent = parent;
-  record.received = now.steady;
   ledger_.count("tf.accepted");
-  if (is_static || stamp < record.stamp) return;
+  if (is_static || stamp < record.stamp) return;  // what is not newer makes nothing fresh
+  record.received = now.steady;
   record.last = transform.transform;
   record.stamp = stamp;
   record.latency = std::max(0.0, seconds(now.ros - stamp));

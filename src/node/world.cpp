@@ -115,11 +115,12 @@ void World::addObstacles() {
     Mover mover;
     mover.frame = body.frame;
     try {
-      mover.members.emplace_back(scene_.add(std::move(body)), configured.frame_from_body);
+      const Pose frame_from_body = body.frame_from_body;
+      mover.members.emplace_back(scene_.add(std::move(body)), frame_from_body);
       movers_.push_back(std::move(mover));
     } catch (const Refusal& refusal) {
       ledger_.refuse("obstacles.refused", refusal);
-      missing_["obstacle/" + configured.body.name] = std::string(name(refusal.code())) + " " + refusal.what();
+      missing_[configured.body.name] = std::string(name(refusal.code())) + " " + refusal.what();
     }
   }
   obstacles_added_ = true;
@@ -128,6 +129,7 @@ void World::addObstacles() {
 void World::reset() {
   removeMovers("");
   obstacles_added_ = false;
+  for (const ObstacleParams& obstacle : params_.obstacles) missing_.erase(obstacle.body.name);
   ledger_.clear();
   beginEpoch();
 }
@@ -272,6 +274,7 @@ std::shared_ptr<const Tick> World::tick(const Moment& now) {
   tick->world_frame = world_frame_;
   for (const auto& robot : missing_) tick->not_ready.push_back(robot.second);
   tick->models = report_;
+  tick->frames = intake_.frames();
   if (!watch_.running())
     tick->not_ready.push_back("NOT_READY: there is no time yet; /use_sim_time is set and /clock is silent");
   if (!has_frame) tick->not_ready.push_back("NOT_READY: the world frame is the root of a robot that is not loaded yet");

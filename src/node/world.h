@@ -43,6 +43,7 @@ struct Tick {
   std::vector<std::string> missing_frames;
   std::shared_ptr<const ModelReport> models;
   TickTimes times;
+  std::size_t frames = 0;  // that tf knows
   std::chrono::nanoseconds poses_time{0};
 };
 

@@ -71,9 +71,11 @@ QueryAnswer Snapshot::finished(std::vector<QueryHit>& hits, const QueryScope& sc
   if (answer.total > 0) {
     answer.verdict = Verdict::hit;
   } else if (!complete()) {
+    answer.because = Unknown::incomplete;
     answer.reason =
         "the world is not complete: " + (reasons_.empty() ? std::string("see the status") : reasons_.front());
   } else if (!doubt.empty()) {
+    answer.because = Unknown::stale_body;
     answer.reason = doubt;
   } else {
     answer.verdict = Verdict::clear;

@@ -100,7 +100,7 @@ TEST(Reload, TakesTheNewModelAndKeepsTheOldOneWhereThatFails) {
   EXPECT_FALSE(answer.success);
   EXPECT_EQ(answer.code.name, "PARSE");
   EXPECT_TRUE(says(answer.code.text, "robot 'robot': the URDF is not well-formed XML"));
-  EXPECT_EQ(answer.bodies_revision, revision);
+  EXPECT_EQ(answer.world.bodies_revision, revision);
   EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Answer::HIT) << "the old model serves";
   EXPECT_TRUE(node.heard().status.back()->world.complete);
   waitForDiagnostic(node, "robots", DiagnosticStatus::ERROR, "PARSE robot 'robot'");
@@ -109,9 +109,9 @@ TEST(Reload, TakesTheNewModelAndKeepsTheOldOneWhereThatFails) {
   answer = node.reload("");
   EXPECT_TRUE(answer.success);
   EXPECT_EQ(answer.code.name, "OK");
-  EXPECT_GT(answer.bodies_revision, revision);
+  EXPECT_GT(answer.world.bodies_revision, revision);
   node.waitForBodies("its structure",
-                     [&](const msg::Bodies& b) { return b.bodies_revision == answer.bodies_revision; });
+                     [&](const msg::Bodies& b) { return b.bodies_revision == answer.world.bodies_revision; });
   const auto pairs = node.waitForPairs("its pairs", [](const msg::Pairs& p) { return p.total > 0; });
   EXPECT_EQ(namesOf(*pairs), std::vector<std::string>({"robot/a|robot/b"}));
   waitForDiagnostic(node, "robots", DiagnosticStatus::OK, "every shape was read");
@@ -126,7 +126,7 @@ TEST(Reload, OfARobotThatNobodyNamedIsRefused) {
   EXPECT_FALSE(answer.success);
   EXPECT_EQ(answer.code.name, "UNKNOWN_ID");
   EXPECT_TRUE(says(answer.code.text, "there is no robot 'robbie\\x0a' in ~robots"));
-  EXPECT_EQ(answer.bodies_revision, node.heard().status.back()->world.bodies_revision);
+  EXPECT_EQ(answer.world.bodies_revision, node.heard().status.back()->world.bodies_revision);
 }
 
 /// One ball that is read, one that is not, and a link whose mesh is missing.

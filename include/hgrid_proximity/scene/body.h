@@ -59,8 +59,9 @@ struct BodyShape {
 
 /// What is known of a body and does not change while it moves.
 struct Body {
-  std::string name;   ///< source/local, unique
-  std::string frame;  ///< tf frame that it follows
+  std::string name;                         ///< source/local, unique
+  std::string frame;                        ///< tf frame that it follows
+  Pose frame_from_body = Pose::Identity();  ///< in that frame; identity for links
   BodyKind kind = BodyKind::obstacle;
   Mobility mobility = Mobility::moving;
   std::vector<BodyShape> shapes;  ///< may be empty: every shape was unreadable

@@ -37,6 +37,9 @@ struct BodyPose {
 
 enum class Verdict : std::uint8_t { unknown = 0, clear = 1, hit = 2 };
 
+/// Why a verdict is unknown; the numbers are those of msg/Answer.msg.
+enum class Unknown : std::uint8_t { no = 0, refused = 1, incomplete = 2, stale_body = 3, outdated = 4 };
+
 /// Which bodies a query is about, and how many hits it wants.
 struct QueryScope {
   std::vector<std::string> include;  ///< globs over body names; empty: all
@@ -57,9 +60,10 @@ struct QueryHit {
 /// What a query found. A verdict of unknown has a reason.
 struct QueryAnswer {
   Verdict verdict = Verdict::unknown;
-  std::vector<QueryHit> hits;  ///< by distance, center_distance, name; segment: by along, name
-  std::uint64_t total = 0;     ///< bodies met; more than hits if there was a limit
-  std::string reason;          ///< why nothing was found and it is still not clear
+  std::vector<QueryHit> hits;     ///< by distance, center_distance, name; segment: by along, name
+  std::uint64_t total = 0;        ///< bodies met; more than hits if there was a limit
+  Unknown because = Unknown::no;  ///< why the verdict is unknown
+  std::string reason;             ///< why nothing was found and it is still not clear
 };
 
 /// The world at one moment: immutable, read by any number of threads, alive as long as somebody holds it.
