@@ -20,7 +20,7 @@ using Time = std::chrono::nanoseconds;
 
 inline double seconds(std::chrono::nanoseconds duration) { return std::chrono::duration<double>(duration).count(); }
 
-/// How far the pose of a body can be trusted; the numbers are those of msg/WorldState.msg, from good to bad.
+/// Whether the pose of a body can be trusted; the numbers are those of msg/WorldState.msg, from good to bad.
 enum class Freshness : std::uint8_t {
   fresh = 0,
   late = 1,
