@@ -63,7 +63,9 @@ TEST(ParamErrors, ANumberOutOfRangeIsNamedWithTheRange) {
                 "~late_after is 0.1 s, ~stale_after 5 s, ~lost_after 2 s; they must not decrease in this order");
   expectRefused(dict({{"margins", list({dict({{"pattern", "*"}, {"margin", -1}})})}}),
                 "~margins[0]/margin is -1 m; it must be within 0 .. 1000 m");
-  EXPECT_EQ(refusalOf(dict({{"rate", 1}, {"margin", 1000}, {"query_threads", 64}})), "") << "both ends are allowed";
+  EXPECT_EQ(refusalOf(dict({{"rate", 1}, {"valid_for", 1}, {"margin", 1000}, {"query_threads", 64}})), "")
+      << "both ends are allowed";
+  expectRefused(dict({{"rate", 5}}), "~valid_for is 0.1 s; it must be at least one period of ~rate, 0.2 s");
 }
 
 TEST(ParamErrors, AnUnknownNameIsRefusedWhereverItStands) {
