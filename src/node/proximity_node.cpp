@@ -5,6 +5,7 @@
 #include <ros/names.h>
 
 #include <future>
+#include <utility>
 
 #include "hgrid_proximity/scene/name.h"
 
@@ -102,7 +103,9 @@ ProximityNode::~ProximityNode() {
 }
 
 void ProximityNode::onTransforms(const ros::MessageEvent<tf2_msgs::TFMessage const>& event, bool is_static) {
-  world_.transforms().take(*event.getConstMessage(), is_static, event.getPublisherName(), thisMoment());
+  const Moment now = thisMoment();
+  world_.transforms().take(*event.getConstMessage(), is_static, event.getPublisherName(), now);
+  tf_time_ += std::chrono::steady_clock::now() - now.steady;
 }
 
 void ProximityNode::onTick(const ros::SteadyTimerEvent& event) {
@@ -119,7 +122,9 @@ void ProximityNode::onTick(const ros::SteadyTimerEvent& event) {
     for (const Job& job : jobs) job(world_);
     const std::shared_ptr<const Tick> tick = world_.tick(thisMoment());
     std::atomic_store(&newest_, tick);
+    const auto made = std::chrono::steady_clock::now();
     publish(tick);
+    const auto published = std::chrono::steady_clock::now();
     logChange(*tick);
     {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -131,6 +136,8 @@ void ProximityNode::onTick(const ros::SteadyTimerEvent& event) {
     stopwatch_.add("tick.boxes", tick->times.boxes);
     stopwatch_.add("tick.grid", tick->times.grid);
     stopwatch_.add("tick.pairs", tick->times.pairs);
+    stopwatch_.add("tick.publish", published - made);
+    stopwatch_.add("tf", std::exchange(tf_time_, std::chrono::nanoseconds(0)));
     stopwatch_.summarise(end);
   } catch (const std::exception& error) {  // the last tick goes on serving; its age shows that there is no newer one
     ledger_.refuse("tick.failed", Refusal(Code::internal, error.what()));

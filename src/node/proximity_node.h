@@ -71,6 +71,7 @@ class ProximityNode {
 
   // Of the update thread.
   std::uint64_t published_revision_ = 0, published_epoch_ = 0;
+  std::chrono::nanoseconds tf_time_{0};  // spent on transforms since the last tick
   bool was_complete_ = false;
   std::string last_reason_;
   const std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
