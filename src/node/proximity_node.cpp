@@ -126,10 +126,7 @@ void ProximityNode::onTick(const ros::SteadyTimerEvent& event) {
     publish(tick);
     const auto published = std::chrono::steady_clock::now();
     logChange(*tick);
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      health_.conflicts = world_.transforms().conflicts();
-    }
+    noteConflicts();
     const auto end = std::chrono::steady_clock::now();
     stopwatch_.add("tick", end - begin);
     stopwatch_.add("tick.poses", tick->poses_time);
@@ -142,6 +139,15 @@ void ProximityNode::onTick(const ros::SteadyTimerEvent& event) {
   } catch (const std::exception& error) {  // the last tick goes on serving; its age shows that there is no newer one
     ledger_.refuse("tick.failed", Refusal(Code::internal, error.what()));
   }
+}
+
+/// Conflicts never go away, so their number says whether there are new ones.
+void ProximityNode::noteConflicts() {
+  const std::vector<std::string>& conflicts = world_.transforms().conflicts();
+  if (conflicts.size() == known_conflicts_) return;
+  known_conflicts_ = conflicts.size();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  health_.conflicts = conflicts;
 }
 
 void ProximityNode::publish(const std::shared_ptr<const Tick>& tick) {

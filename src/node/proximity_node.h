@@ -40,6 +40,7 @@ class ProximityNode {
   std::shared_ptr<const Tick> newest() const { return std::atomic_load(&newest_); }
   void onTransforms(const ros::MessageEvent<tf2_msgs::TFMessage const>& event, bool is_static);
   void onTick(const ros::SteadyTimerEvent& event);
+  void noteConflicts();
   void publish(const std::shared_ptr<const Tick>& tick);
   void logChange(const Tick& tick);
   void onHousekeeping();
@@ -72,6 +73,7 @@ class ProximityNode {
   // Of the update thread.
   std::uint64_t published_revision_ = 0, published_epoch_ = 0;
   std::chrono::nanoseconds tf_time_{0};  // spent on transforms since the last tick
+  std::size_t known_conflicts_ = 0;
   bool was_complete_ = false;
   std::string last_reason_;
   const std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();

@@ -5,33 +5,48 @@
 #include <tf2/buffer_core.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include <map>
 #include <optional>
-#include <set>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "clock_watch.h"
+#include "frame_pose.h"
 #include "ledger.h"
 
 namespace hgrid {
 
-/// What is known of the way of transforms between two frames.
-struct ChainState {
-  bool connected = false;          ///< there is a way
-  std::string unknown_frame;       ///< not connected: a frame that was never heard of, empty if all were
-  bool moves = false;              ///< a transform on the way comes from /tf
-  Time newest{0};                  ///< moves: newest time at which all of the way is known
-  double age = 0.0;                ///< [s] moves: of the oldest of the newest transforms, now
-  double period = 0.0;             ///< [s] moves: longest of the measured periods on the way
-  bool conflict = false;           ///< a frame on the way comes on /tf and on /tf_static
-  std::optional<Refusal> refused;  ///< the newest transform of a frame on the way was refused
-};
-
 /// The node's own reading of /tf and /tf_static: checks every transform, remembers when it came and from whom,
 /// and feeds a tf2 buffer with what is good. One writer; buffer() may be asked from any thread.
+///
+/// Frames have numbers that stay, in the order in which they were first heard of.
 class TfIntake {
  public:
+  static constexpr std::uint32_t kNone = 0xffffffff;
+
+  /// What came at one time.
+  struct Sample {
+    Time stamp{0};  // 0: nothing came
+    std::uint32_t parent = kNone;
+    FramePose parent_from_frame;
+  };
+
+  /// What is known of a frame and of the transform that places it in its parent.
+  struct Frame {
+    std::string name;
+    std::uint32_t parent = kNone;  // of the transform that came last; none: only known as a parent of others
+    Sample newest, before;         // before: the one that was newest until then
+    std::chrono::steady_clock::time_point received;
+    double latency = 0.0;  // [s] age when it was received
+    double period = 0.0;   // [s] between stamps, smoothed
+    bool placed = false;   // something placed it in a parent
+    bool is_parent = false;
+    bool from_tf = false, from_static = false;
+    std::optional<Refusal> refused;
+    geometry_msgs::Transform last;  // newest as it came
+    std::uint32_t next = kNone;     // frame that came after it in a message
+  };
+
   TfIntake(double max_future, double cache, std::size_t max_frames, bool simulated, Ledger& ledger);
 
   /// Takes in the transforms of one message; what is refused is counted and logged, the rest is kept.
@@ -42,36 +57,45 @@ class TfIntake {
   void restamp();
 
   const tf2::BufferCore& buffer() const { return buffer_; }
-  ChainState chain(const std::string& target, const std::string& source, const Moment& now) const;
-  std::vector<std::string> conflicts() const;
-  std::size_t frames() const { return records_.size(); }
+  /// Number of a frame that was heard of, or kNone.
+  std::uint32_t find(const std::string& frame) const;
+  /// Frames that were heard of; their numbers are smaller.
+  std::size_t known() const { return frames_.size(); }
+  const Frame& frame(std::uint32_t number) const { return frames_[number]; }
+  /// [s] age of the newest transform of a frame that comes on /tf.
+  double ageOf(const Frame& frame, const Moment& now) const;
+  /// One more whenever a frame is new or has another parent.
+  std::uint64_t revision() const { return revision_; }
+  /// Frames that were placed in a parent.
+  std::size_t frames() const { return placed_count_; }
+  /// Names of the frames that come on /tf and on /tf_static, sorted.
+  const std::vector<std::string>& conflicts() const { return conflicts_; }
 
  private:
-  /// What is known of the transform that places one frame in its parent.
-  struct Record {
-    std::string parent;
-    geometry_msgs::Transform last;
-    Time stamp{0};
-    std::chrono::steady_clock::time_point received;
-    double latency = 0.0;  // [s] age when it was received
-    double period = 0.0;   // [s] between stamps, smoothed
-    bool from_tf = false, from_static = false;
-    std::optional<Refusal> refused;
-  };
-
   void takeOne(const geometry_msgs::TransformStamped& transform, bool is_static, const std::string& publisher,
                const Moment& now);
-  void check(const geometry_msgs::TransformStamped& transform, const std::string& parent, const std::string& child,
-             bool is_static, const Moment& now) const;
-  double ageOf(const Record& record, const Moment& now) const;
+  void check(const geometry_msgs::TransformStamped& transform, bool is_static, const Moment& now) const;
+  std::uint32_t admit(const geometry_msgs::TransformStamped& transform);
+  void checkRoom(std::uint32_t parent, std::uint32_t number, const std::string& child) const;
+  std::uint32_t guess(const std::string& child) const;
+  std::uint32_t add(const std::string& frame);
+  void noteSource(Frame& frame, bool is_static);
+  void hangOn(std::uint32_t number, const std::string& parent);
+  bool feed(const geometry_msgs::TransformStamped& transform, bool is_static, const std::string& publisher);
+  void forgetStamps();
 
   double max_future_;
   std::size_t max_frames_;
   bool simulated_;
   Ledger& ledger_;
   tf2::BufferCore buffer_;
-  std::map<std::string, Record> records_;  // by child frame
-  std::set<std::string> parents_;          // frames that something hangs on
+  std::vector<Frame> frames_;
+  std::unordered_map<std::string, std::uint32_t> numbers_;
+  std::size_t placed_count_ = 0, parent_count_ = 0;
+  std::uint64_t revision_ = 0;
+  std::vector<std::string> conflicts_;
+  std::uint32_t last_ = kNone;  // frame of the transform that came before this one
+  std::uint64_t accepted_ = 0;  // of this message
 };
 
 }  // namespace hgrid

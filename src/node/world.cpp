@@ -38,6 +38,7 @@ World::World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& 
     : params_(params),
       ledger_(ledger),
       intake_(params.max_future, params.tf_cache, static_cast<std::size_t>(params.max_frames), simulated, ledger),
+      ways_(intake_),
       watch_(simulated, params.clock_jump, params.stale_after),
       scene_(optionsOf(params)),
       world_frame_(params.world_frame),
@@ -60,6 +61,7 @@ void World::removeMovers(const std::string& robot) {
     for (const auto& member : mover->members) scene_.remove(member.first);
   }
   movers_.erase(gone, movers_.end());
+  movers_changed_ = true;
 }
 
 void World::setRobot(LoadedRobot robot) {
@@ -79,6 +81,7 @@ void World::setRobot(LoadedRobot robot) {
       mover.members.emplace_back(scene_.add(robot.bodies[member.first]), member.second);
     }
     if (!mover.members.empty()) movers_.push_back(std::move(mover));
+    movers_changed_ = true;
   }
   missing_.erase(robot.name);
   const std::string name = robot.name;
@@ -118,6 +121,7 @@ void World::addObstacles() {
       const Pose frame_from_body = body.frame_from_body;
       mover.members.emplace_back(scene_.add(std::move(body)), frame_from_body);
       movers_.push_back(std::move(mover));
+      movers_changed_ = true;
     } catch (const Refusal& refusal) {
       ledger_.refuse("obstacles.refused", refusal);
       missing_[configured.body.name] = std::string(name(refusal.code())) + " " + refusal.what();
@@ -175,51 +179,51 @@ Time World::chooseTime(const Moment& now) {
   return last_time_;
 }
 
-void World::place(Mover& mover, Time time, const Moment& now) {
-  mover.trouble = mover.chain.refused;
-  if (!mover.chain.connected) {
-    mover.trouble =
-        Refusal(Code::unknown_frame, "frame '" + mover.frame + "' is not connected to '" + world_frame_ + "'" +
-                                         (mover.chain.unknown_frame.empty()
-                                              ? std::string(": there is no way of transforms between them now")
-                                              : ": frame '" + mover.chain.unknown_frame + "' was never published"));
-    return;
-  }
-  Pose world_from_frame = Pose::Identity();
-  Time stamp = time;
-  if (mover.frame != world_frame_) {
-    stamp = mover.chain.moves ? std::min(time, mover.chain.newest) : time;
-    geometry_msgs::TransformStamped transform;
-    try {
-      const auto lookUp = [&](Time at) {
-        return intake_.buffer().lookupTransform(world_frame_, mover.frame,
-                                                ros::Time().fromNSec(static_cast<std::uint64_t>(at.count())));
-      };
-      try {
-        transform = mover.chain.moves ? lookUp(stamp) : lookUp(Time(0));
-      } catch (const tf2::ExtrapolationException&) {  // its first data is younger than the tick
-        stamp = mover.chain.newest;
-        transform = lookUp(stamp);
-      }
-    } catch (const tf2::TransformException& error) {
-      mover.trouble = Refusal(Code::unknown_frame, "frame '" + mover.frame + "': " + printable(error.what(), 300));
-      return;
-    }
-    const auto& t = transform.transform.translation;
-    const auto& q = transform.transform.rotation;
-    try {
-      world_from_frame = checkedPose({t.x, t.y, t.z}, {q.x, q.y, q.z, q.w}, "frame '" + mover.frame + "'");
-    } catch (const Refusal& refusal) {
-      mover.trouble = refusal;
-      return;
-    }
-  }
+Refusal World::noWay(const std::string& frame, const std::string& unknown) const {
+  return Refusal(Code::unknown_frame,
+                 "frame '" + frame + "' is not connected to '" + world_frame_ + "'" +
+                     (unknown.empty() ? std::string(": there is no way of transforms between them now")
+                                      : ": frame '" + unknown + "' was never published"));
+}
+
+void World::planWays() {
+  if (!movers_changed_ && !ways_.stale()) return;
+  std::vector<std::string> frames;
+  for (const Mover& mover : movers_) frames.push_back(mover.frame);
+  ways_.plan(world_frame_, frames);
+  movers_changed_ = false;
+}
+
+/// The pose of a frame that keeps a time of its own, from all of its way at that time.
+Pose World::lookUp(const Mover& mover, Time& stamp) const {
+  const auto at = [&](Time time) {
+    return intake_.buffer().lookupTransform(world_frame_, mover.frame,
+                                            ros::Time().fromNSec(static_cast<std::uint64_t>(time.count())));
+  };
+  geometry_msgs::TransformStamped transform;
   try {
-    for (const auto& member : mover.members) scene_.place(member.first, world_from_frame * member.second, stamp);
+    transform = mover.chain.moves ? at(stamp) : at(Time(0));
+  } catch (const tf2::ExtrapolationException&) {  // its first data is younger than the tick
+    stamp = mover.chain.newest;
+    transform = at(stamp);
+  }
+  const auto& t = transform.transform.translation;
+  const auto& q = transform.transform.rotation;
+  return checkedPose({t.x, t.y, t.z}, {q.x, q.y, q.z, q.w}, "frame '" + mover.frame + "'");
+}
+
+void World::place(Mover& mover, const FramePose* world_from_frame, Time time, const Moment& now) {
+  Time stamp = mover.chain.moves ? std::min(time, mover.chain.newest) : time;
+  try {
+    // What lags stays where it was as a whole: its way is taken at its own time, not at that of the others.
+    const Pose pose = world_from_frame != nullptr && stamp == time ? world_from_frame->pose() : lookUp(mover, stamp);
+    for (const auto& member : mover.members) scene_.place(member.first, pose * member.second, stamp);
     mover.placed = true;
     mover.jumped = false;
     if (!watch_.frozen()) mover.placed_at = now.steady;  // under a frozen clock the same pose again is not newer
     mover.age_when_placed = mover.chain.moves ? mover.chain.age : 0.0;
+  } catch (const tf2::TransformException& error) {
+    mover.trouble = Refusal(Code::unknown_frame, "frame '" + mover.frame + "': " + printable(error.what(), 300));
   } catch (const Refusal& refusal) {
     ledger_.refuse("pose.refused", refusal);
     mover.trouble = refusal;
@@ -241,6 +245,14 @@ Freshness World::judge(Mover& mover, Time time, const Moment& now, double& age) 
   return behind || age > std::max(params_.late_after, 1.5 * mover.chain.period) ? Freshness::late : Freshness::fresh;
 }
 
+void World::setState(const Mover& mover, Freshness state, double age) {
+  for (const auto& member : mover.members) {
+    const Time stamp = scene_.poseOf(member.first).stamp;
+    const auto cohort = cohorts_.emplace(stamp, static_cast<std::uint32_t>(cohorts_.size() + 1)).first->second;
+    scene_.setState(member.first, state, age, cohort);
+  }
+}
+
 void World::describeTrouble(const Mover& mover, Tick& tick) const {
   for (const auto& member : mover.members) {
     const BodyPose& pose = scene_.poseOf(member.first);
@@ -251,7 +263,7 @@ void World::describeTrouble(const Mover& mover, Tick& tick) const {
       trouble.code = mover.trouble->code();
       trouble.sentence = mover.trouble->what();
     } else if (pose.state == Freshness::fresh) {
-      trouble.code = Code::dup_id;
+      trouble.code = Code::conflict;
       trouble.sentence = "a frame between '" + mover.frame + "' and '" + world_frame_ +
                          "' comes on /tf and on /tf_static; it must come on one of them";
     } else if (pose.state == Freshness::frozen) {
@@ -282,20 +294,26 @@ std::shared_ptr<const Tick> World::tick(const Moment& now) {
   if (!obstacles_added_) addObstacles();
 
   const auto begin = std::chrono::steady_clock::now();
-  for (Mover& mover : movers_) mover.chain = intake_.chain(world_frame_, mover.frame, now);
+  planWays();
+  ways_.look(now);
+  for (std::size_t i = 0; i < movers_.size(); ++i) movers_[i].chain = ways_.state(i);
   const Time time = chooseTime(now);
-  std::map<Time, std::uint32_t> cohorts;  // bodies of one stamp are equally old
+  ways_.place(time);
+  cohorts_.clear();
   std::set<std::string> missing;
-  for (Mover& mover : movers_) {
-    place(mover, time, now);
-    if (!mover.placed && !mover.chain.unknown_frame.empty()) missing.insert(mover.chain.unknown_frame);
+  for (std::size_t i = 0; i < movers_.size(); ++i) {
+    Mover& mover = movers_[i];
+    mover.trouble.reset();
+    if (mover.chain.refused != nullptr) mover.trouble = *mover.chain.refused;
+    if (mover.chain.connected) {
+      place(mover, ways_.worldFrom(i), time, now);
+    } else {
+      mover.trouble = noWay(mover.frame, ways_.unknownFrame(i));
+      if (!mover.placed && !ways_.unknownFrame(i).empty()) missing.insert(ways_.unknownFrame(i));
+    }
     double age = 0.0;
     const Freshness state = judge(mover, time, now, age);
-    for (const auto& member : mover.members) {
-      const Time stamp = scene_.poseOf(member.first).stamp;
-      const auto cohort = cohorts.emplace(stamp, static_cast<std::uint32_t>(cohorts.size() + 1)).first->second;
-      scene_.setState(member.first, state, age, cohort);
-    }
+    setState(mover, state, age);
     describeTrouble(mover, *tick);
   }
   std::stable_sort(tick->troubles.begin(), tick->troubles.end(),

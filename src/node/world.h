@@ -13,6 +13,7 @@
 #include "params.h"
 #include "robot_source.h"
 #include "tf_intake.h"
+#include "tf_tree.h"
 
 namespace hgrid {
 
@@ -71,7 +72,7 @@ class World {
     std::string frame;
     std::string robot;                             // empty: an obstacle
     std::vector<std::pair<BodyId, Pose>> members;  // pose in the frame
-    ChainState chain;
+    ChainState chain;                              // of this tick
     bool placed = false, jumped = false;
     double age_when_placed = 0.0;
     std::chrono::steady_clock::time_point placed_at{};
@@ -85,16 +86,23 @@ class World {
   bool findWorldFrame();
   void handleClock(const Moment& now);
   Time chooseTime(const Moment& now);
-  void place(Mover& mover, Time time, const Moment& now);
+  void planWays();
+  void place(Mover& mover, const FramePose* world_from_frame, Time time, const Moment& now);
+  Refusal noWay(const std::string& frame, const std::string& unknown) const;
+  Pose lookUp(const Mover& mover, Time& stamp) const;
   Freshness judge(Mover& mover, Time time, const Moment& now, double& age) const;
+  void setState(const Mover& mover, Freshness state, double age);
   void describeTrouble(const Mover& mover, Tick& tick) const;
 
   const Params& params_;
   Ledger& ledger_;
   TfIntake intake_;
+  TfTree ways_;  // to the frames of movers_, in their order
   ClockWatch watch_;
   Scene scene_;
   std::vector<Mover> movers_;
+  bool movers_changed_ = true;
+  std::map<Time, std::uint32_t> cohorts_;  // of this tick: bodies of one stamp are equally old
   std::map<std::string, LoadedRobot> robots_;
   std::map<std::string, std::string> missing_;  // sentence by robot
   std::shared_ptr<const ModelReport> report_ = std::make_shared<ModelReport>();

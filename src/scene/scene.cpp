@@ -102,7 +102,8 @@ struct Scene::State {
     std::uint32_t generation = 0;
     Body body;
     BodyPose pose;
-    std::vector<Aabb> boxes;  // of its shapes at its pose
+    std::vector<Aabb> boxes;  // of its shapes at its pose, as of the last commit
+    bool moved = false;       // since then
   };
 
   explicit State(const SceneOptions& scene_options) : options(scene_options) {}
@@ -115,6 +116,7 @@ struct Scene::State {
     return slots[id.slot];
   }
   void rebuildStructure();
+  void placeBoxes();
   std::shared_ptr<Snapshot> freshSnapshot() const;
   void fillBodies(Snapshot& snapshot) const;
   void fillGrid(Snapshot& snapshot);
@@ -125,6 +127,8 @@ struct Scene::State {
   SceneOptions options;
   std::vector<Slot> slots;
   std::vector<std::uint32_t> free_slots;
+  std::vector<std::uint32_t> moved;      // slots whose boxes are not those of their pose
+  std::vector<std::uint32_t> uncovered;  // bodies of the structure that leave a gap wherever they are
   std::map<std::string, std::uint32_t> slot_of_name;  // ordered: the structure is sorted by name
   bool structure_changed = true;
   std::shared_ptr<const Structure> structure = std::make_shared<Structure>();
@@ -185,7 +189,7 @@ void Scene::remove(BodyId id) {
   s.free_slots.push_back(id.slot);
   s.slot_of_name.erase(slot.body.name);
   slot.body = Body{};
-  slot.used = false;
+  slot.used = slot.moved = false;
   ++slot.generation;
   s.structure_changed = true;
 }
@@ -202,21 +206,20 @@ std::size_t Scene::size() const { return state_->slot_of_name.size(); }
 const BodyPose& Scene::poseOf(BodyId id) const { return state_->at(id).pose; }
 
 void Scene::place(BodyId id, const Pose& world_from_body, Time stamp) {
-  const DefaultFloatEnvironment environment;
   State::Slot& slot = state_->at(id);
   if (!world_from_body.matrix().allFinite()) {
     throw Refusal(Code::nonfinite, "pose of body '" + slot.body.name + "' is not finite; every number must be");
   }
-  checkWithin(world_from_body.translation(), state_->options.world_limit, "pose of body '" + slot.body.name + "'");
+  if (!(world_from_body.translation().cwiseAbs().maxCoeff() <= state_->options.world_limit)) {
+    checkWithin(world_from_body.translation(), state_->options.world_limit, "pose of body '" + slot.body.name + "'");
+  }
   const bool first = slot.pose.state == Freshness::unplaced;
   slot.pose.stamp = stamp;
   if (!first && slot.pose.world_from_body.matrix() == world_from_body.matrix()) return;  // never a tolerance
   slot.pose.world_from_body = world_from_body;
   if (first) slot.pose.state = Freshness::fresh;
-  for (std::size_t i = 0; i < slot.body.shapes.size(); ++i) {
-    const BodyShape& shape = slot.body.shapes[i];
-    slot.boxes[i] = boxOf(shape.shape, world_from_body * shape.body_from_shape, shape.padding, state_->options.origin);
-  }
+  if (!slot.moved) state_->moved.push_back(id.slot);
+  slot.moved = true;
 }
 
 void Scene::setState(BodyId id, Freshness state, double age, std::uint32_t cohort) {
@@ -232,8 +235,10 @@ void Scene::State::rebuildStructure() {
   next->revision = structure->revision + 1;
   next->least_margin = options.margin;
   std::vector<Aabb> sizes;
+  uncovered.clear();
   for (const auto& named : slot_of_name) {
     const Slot& slot = slots[named.second];
+    if (!slot.body.covered && !slot.body.waived) uncovered.push_back(static_cast<std::uint32_t>(next->bodies.size()));
     next->first_proxy.push_back(static_cast<std::uint32_t>(next->body_of_proxy.size()));
     next->body_of_proxy.insert(next->body_of_proxy.end(), slot.body.shapes.size(),
                                static_cast<std::uint32_t>(next->bodies.size()));
@@ -253,6 +258,21 @@ void Scene::State::rebuildStructure() {
   structure_changed = false;
 }
 
+/// Boxes of what moved since the last commit; what stands still keeps its own.
+void Scene::State::placeBoxes() {
+  for (const std::uint32_t number : moved) {
+    Slot& slot = slots[number];
+    if (!slot.moved) continue;  // removed since
+    slot.moved = false;
+    for (std::size_t i = 0; i < slot.body.shapes.size(); ++i) {
+      const BodyShape& shape = slot.body.shapes[i];
+      slot.boxes[i] =
+          boxOf(shape.shape, slot.pose.world_from_body * shape.body_from_shape, shape.padding, options.origin);
+    }
+  }
+  moved.clear();
+}
+
 std::shared_ptr<Snapshot> Scene::State::freshSnapshot() const {
   std::unique_ptr<Snapshot> snapshot = pool->take();
   if (!snapshot) snapshot.reset(new Snapshot);
@@ -261,13 +281,19 @@ std::shared_ptr<Snapshot> Scene::State::freshSnapshot() const {
 
 void Scene::State::fillBodies(Snapshot& snapshot) const {
   snapshot.structure_ = structure;
-  snapshot.poses_.clear();
-  snapshot.boxes_.clear();
+  snapshot.poses_.resize(structure->ids.size());
+  snapshot.boxes_.resize(structure->body_of_proxy.size());
+  snapshot.worst_state_ = Freshness::fresh;
+  snapshot.max_age_ = 0.0;
+  auto box = snapshot.boxes_.begin();
   for (std::size_t i = 0; i < structure->ids.size(); ++i) {
     const Slot& slot = slots[structure->ids[i].slot];
-    snapshot.poses_.push_back(slot.pose);
-    snapshot.poses_.back().growth = growthOf(slot.pose, slot.body, options.growth_cap);
-    snapshot.boxes_.insert(snapshot.boxes_.end(), slot.boxes.begin(), slot.boxes.end());
+    BodyPose& pose = snapshot.poses_[i];
+    pose = slot.pose;
+    pose.growth = growthOf(slot.pose, slot.body, options.growth_cap);
+    box = std::copy(slot.boxes.begin(), slot.boxes.end(), box);
+    snapshot.worst_state_ = std::max(snapshot.worst_state_, pose.state);
+    if (pose.state != Freshness::unplaced) snapshot.max_age_ = std::max(snapshot.max_age_, pose.age);
   }
 }
 
@@ -326,20 +352,17 @@ void Scene::State::fillPairs(Snapshot& snapshot) {
 void Scene::State::fillCompleteness(Snapshot& snapshot, const std::vector<std::string>& missing) const {
   snapshot.reasons_.clear();
   snapshot.reasons_total_ = static_cast<std::uint32_t>(missing.size());
-  snapshot.worst_state_ = Freshness::fresh;
-  snapshot.max_age_ = 0.0;
   for (const std::string& sentence : missing) {
     if (snapshot.reasons_.size() < options.max_reasons) snapshot.reasons_.push_back(sentence);
   }
+  if (snapshot.worst_state_ < Freshness::lost && uncovered.empty()) return;  // nothing else leaves a gap
   std::vector<std::pair<int, std::uint32_t>> gaps;  // the worse the state, the smaller the number
   for (std::uint32_t i = 0; i < snapshot.poses_.size(); ++i) {
-    const BodyPose& pose = snapshot.poses_[i];
-    const Body& body = structure->bodies[i];
-    snapshot.worst_state_ = std::max(snapshot.worst_state_, pose.state);
-    if (pose.state != Freshness::unplaced) snapshot.max_age_ = std::max(snapshot.max_age_, pose.age);
-    if (pose.state >= Freshness::lost || (!body.covered && !body.waived)) {
-      gaps.emplace_back(-static_cast<int>(pose.state), i);
-    }
+    if (snapshot.poses_[i].state >= Freshness::lost) gaps.emplace_back(-static_cast<int>(snapshot.poses_[i].state), i);
+  }
+  for (const std::uint32_t i : uncovered) {
+    const Freshness state = snapshot.poses_[i].state;
+    if (state < Freshness::lost) gaps.emplace_back(-static_cast<int>(state), i);
   }
   snapshot.reasons_total_ += static_cast<std::uint32_t>(gaps.size());
   const std::size_t listed = std::min(gaps.size(), options.max_reasons - snapshot.reasons_.size());
@@ -359,6 +382,7 @@ std::shared_ptr<const Snapshot> Scene::commit(Time stamp, const std::vector<std:
   std::shared_ptr<Snapshot> snapshot = s.freshSnapshot();
   snapshot->origin_ = s.options.origin;
   snapshot->stamp_ = stamp;
+  s.placeBoxes();
   s.fillBodies(*snapshot);
   const auto boxes_done = Clock::now();
   s.fillGrid(*snapshot);

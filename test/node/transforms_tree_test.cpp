@@ -19,11 +19,11 @@ NodeSetup threeBalls() {
 
 void expectConflict(NodeUnderTest& node) {
   const auto status = node.waitForStatus("the conflict is listed", [](const msg::Status& s) {
-    return entryOf(s, "robot/a") != nullptr && entryOf(s, "robot/a")->code.name == "DUP_ID";
+    return entryOf(s, "robot/a") != nullptr && entryOf(s, "robot/a")->code.name == "CONFLICT";
   });
   EXPECT_TRUE(says(entryOf(*status, "robot/a")->code.text, "on /tf and on /tf_static; it must come on one of them"));
-  EXPECT_EQ(counter(*status, "tf.conflict.DUP_ID"), 1u);
-  EXPECT_EQ(node.lines("tf.conflict.DUP_ID"), 1u);
+  EXPECT_EQ(counter(*status, "tf.conflict.CONFLICT"), 1u);
+  EXPECT_EQ(node.lines("tf.conflict.CONFLICT"), 1u);
   node.waitUntil("diagnostics warn", [](const Heard& all) {
     const auto found = all.diagnostics.find("transforms");
     return found != all.diagnostics.end() && found->second.level == diagnostic_msgs::DiagnosticStatus::WARN &&

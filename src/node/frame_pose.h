@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <geometry_msgs/Transform.h>
+
+#include "hgrid_proximity/geometry/pose.h"
+
+namespace hgrid {
+
+/// A pose as tf has it, translation [m] and unit quaternion. Along a chain of many frames quaternions are multiplied,
+/// not matrices: one normalisation at the end makes a rotation of them again, however long the chain is.
+struct FramePose {
+  Eigen::Quaternion<double, Eigen::DontAlign> rotation = Eigen::Quaternion<double, Eigen::DontAlign>::Identity();
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+
+  FramePose operator*(const FramePose& next) const {
+    return {rotation * next.rotation, rotation * next.translation + translation};
+  }
+  FramePose inverse() const {
+    const auto back = rotation.conjugate();
+    return {back, back * -translation};
+  }
+  Pose pose() const {
+    Pose result = Pose::Identity();
+    result.linear() = rotation.normalized().toRotationMatrix();
+    result.translation() = translation;
+    return result;
+  }
+};
+
+/// @param transform  checked: finite, the quaternion nearly of length 1
+inline FramePose toFramePose(const geometry_msgs::Transform& transform) {
+  const auto &t = transform.translation;
+  const auto &q = transform.rotation;
+  FramePose result;
+  result.rotation = Eigen::Quaternion<double, Eigen::DontAlign>(q.w, q.x, q.y, q.z).normalized();
+  result.translation = {t.x, t.y, t.z};
+  return result;
+}
+
+}  // namespace hgrid
