@@ -134,7 +134,7 @@ void sleepFor(double duration) { std::this_thread::sleep_for(std::chrono::durati
 Measurement measure(const Workload& workload, double duration) {
   static int count = 0;
   const std::string space = "/bench_" + std::to_string(++count), node = space + "/proximity";
-  for (const auto& description : workload.descriptions) ros::param::set(space + "/" + description.first, description.second);
+  for (const auto& robot : workload.descriptions) ros::param::set(space + "/" + robot.first, robot.second);
   ros::param::set(node, workload.params);
 
   const double tick = 1.0 / workload.rate;

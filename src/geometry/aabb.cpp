@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 
 namespace hgrid {
@@ -66,6 +68,16 @@ double exactComparison(const Aabb& a, const Aabb& b, double margin) {
   return sum.sign();
 }
 
+/// std::nextafter towards minus infinity of a number that has one below, without a call: every box takes six.
+float nextBelow(float value) {
+  if (value == 0.0f) return -std::numeric_limits<float>::denorm_min();
+  std::int32_t bits;
+  std::memcpy(&bits, &value, sizeof bits);
+  bits += value > 0.0f ? -1 : 1;
+  std::memcpy(&value, &bits, sizeof bits);
+  return value;
+}
+
 double squaredDistance(const Aabb& a, const Aabb& b) {
   double sum = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -83,8 +95,7 @@ bool isValid(const Aabb& box) {
 
 float roundedDown(double value) {
   const float nearest = static_cast<float>(value);
-  return static_cast<double>(nearest) > value ? std::nextafter(nearest, -std::numeric_limits<float>::infinity())
-                                              : nearest;
+  return static_cast<double>(nearest) > value ? nextBelow(nearest) : nearest;
 }
 
 float roundedUp(double value) { return -roundedDown(-value); }

@@ -30,9 +30,12 @@ void checkVertices(const TriangleMesh& mesh, double max_size, const std::string&
 
 /// Half-widths of a disc of radius 1 whose axis is `axis` (Ericson 2005, section 4.2: the extent of a circle
 /// along a direction is the sine of the angle between them). The sine from the two other components: from
-/// 1 - cosine² it would lose all digits where the disc lies nearly flat.
+/// 1 - cosine² it would lose all digits where the disc lies nearly flat. Squares of components that underflow are
+/// far below the slack of a box, so no std::hypot is needed.
 Eigen::Vector3d discHalfWidths(const Eigen::Vector3d& axis) {
-  return {std::hypot(axis.y(), axis.z()), std::hypot(axis.x(), axis.z()), std::hypot(axis.x(), axis.y())};
+  const Eigen::Vector3d squares = axis.cwiseAbs2();
+  return {std::sqrt(squares.y() + squares.z()), std::sqrt(squares.x() + squares.z()),
+          std::sqrt(squares.x() + squares.y())};
 }
 
 }  // namespace

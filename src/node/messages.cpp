@@ -106,40 +106,6 @@ msg::WorldState worldState(const Tick& tick, const Params& params, std::uint64_t
   return world;
 }
 
-msg::Pairs pairs(const Tick& tick, const msg::WorldState& world, const Params& params) {
-  msg::Pairs message;
-  message.header = headerOf(tick);
-  message.world = world;
-  if (!tick.snapshot) return message;
-  const Snapshot& snapshot = *tick.snapshot;
-  const std::vector<NearPair>& near = snapshot.pairs();
-  const std::size_t shown = std::min(near.size(), static_cast<std::size_t>(params.max_pairs));
-  message.total = static_cast<std::uint32_t>(near.size());
-  message.truncated = shown < near.size();
-
-  // Bodies are sorted by name, so numbering those in use in their order gives a sorted dictionary.
-  std::vector<std::uint32_t> number(snapshot.poses().size(), 0);
-  for (std::size_t i = 0; i < shown; ++i) number[near[i].first] = number[near[i].second] = 1;
-  for (std::size_t body = 0; body < number.size(); ++body) {
-    if (number[body] == 0) continue;
-    number[body] = static_cast<std::uint32_t>(message.names.size());
-    message.names.push_back(snapshot.structure().bodies[body].name);
-  }
-  for (std::size_t i = 0; i < shown; ++i) {
-    const NearPair& pair = near[i];
-    message.first.push_back(number[pair.first]);
-    message.second.push_back(number[pair.second]);
-    message.gap.push_back(pair.gap);
-    message.margin.push_back(pair.margin);
-    message.since.push_back(toRos(pair.since));
-    message.no_contact_before.push_back(std::nan(""));
-    message.flags.push_back(0);
-    message.state.push_back(
-        static_cast<std::uint8_t>(std::max(snapshot.poses()[pair.first].state, snapshot.poses()[pair.second].state)));
-  }
-  return message;
-}
-
 msg::Bodies bodies(const Tick& tick) {
   msg::Bodies message;
   message.header = headerOf(tick);

@@ -4,7 +4,6 @@
 
 #include <hgrid_proximity/Bodies.h>
 #include <hgrid_proximity/Code.h>
-#include <hgrid_proximity/Pairs.h>
 #include <hgrid_proximity/Status.h>
 #include <hgrid_proximity/WorldState.h>
 
@@ -29,7 +28,6 @@ msg::Code toMsg(Code code, const std::string& sentence);
 std_msgs::Header headerOf(const Tick& tick);
 /// @param age_since  [s] that passed since the tick was made
 msg::WorldState worldState(const Tick& tick, const Params& params, std::uint64_t config_hash, double age_since);
-msg::Pairs pairs(const Tick& tick, const msg::WorldState& world, const Params& params);
 msg::Bodies bodies(const Tick& tick);
 msg::Status status(const Tick& tick, const msg::WorldState& world, const Params& params, const Ledger& ledger,
                    const Stopwatch& stopwatch);

@@ -152,7 +152,7 @@ void ProximityNode::noteConflicts() {
 
 void ProximityNode::publish(const std::shared_ptr<const Tick>& tick) {
   const msg::WorldState world = worldState(*tick, params_, config_hash_, 0.0);
-  if (pairs_.getNumSubscribers() > 0) pairs_.publish(boost::make_shared<msg::Pairs>(pairs(*tick, world, params_)));
+  if (pairs_.getNumSubscribers() > 0) pairs_.publish(pairs_messages_.of(*tick, world));
   if (status_.getNumSubscribers() > 0) {
     status_.publish(boost::make_shared<msg::Status>(status(*tick, world, params_, ledger_, stopwatch_)));
   }

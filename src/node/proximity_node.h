@@ -18,6 +18,7 @@
 #include "markers.h"
 #include "messages.h"
 #include "node_diagnostics.h"
+#include "pairs_messages.h"
 #include "query_services.h"
 #include "robot_source.h"
 #include "stopwatch.h"
@@ -71,6 +72,7 @@ class ProximityNode {
   NodeHealth health_;
 
   // Of the update thread.
+  PairsMessages pairs_messages_{params_};
   std::uint64_t published_revision_ = 0, published_epoch_ = 0;
   std::chrono::nanoseconds tf_time_{0};  // spent on transforms since the last tick
   std::size_t known_conflicts_ = 0;

@@ -9,6 +9,7 @@ namespace hgrid {
 void Stopwatch::add(const std::string& part, std::chrono::nanoseconds duration) {
   Ring& ring = parts_[part];
   const double value = std::chrono::duration<double>(duration).count();
+  if (ring.values.empty()) summaries_[part] = {value, value, value, value};
   if (ring.values.size() < kTicks) {
     ring.values.push_back(value);
   } else {
@@ -19,16 +20,18 @@ void Stopwatch::add(const std::string& part, std::chrono::nanoseconds duration) 
 }
 
 void Stopwatch::summarise(std::chrono::steady_clock::time_point now) {
-  if (now - summarised_ < std::chrono::seconds(1)) return;
+  const std::chrono::duration<double> pause(parts_.empty() ? 1.0 : 1.0 / static_cast<double>(parts_.size()));
+  if (parts_.empty() || now - summarised_ < pause) return;
   summarised_ = now;
-  for (const auto& part : parts_) {
-    std::vector<double> sorted = part.second.values;
-    std::sort(sorted.begin(), sorted.end());
-    Summary& summary = summaries_[part.first];
-    summary.median = sorted[sorted.size() / 2];
-    summary.p99 = sorted[sorted.size() * 99 / 100];
-    summary.max = sorted.back();
-  }
+  auto part = parts_.upper_bound(last_part_);
+  if (part == parts_.end()) part = parts_.begin();
+  last_part_ = part->first;
+  sorted_ = part->second.values;
+  std::sort(sorted_.begin(), sorted_.end());
+  Summary& summary = summaries_[part->first];
+  summary.median = sorted_[sorted_.size() / 2];
+  summary.p99 = sorted_[sorted_.size() * 99 / 100];
+  summary.max = sorted_.back();
 }
 
 std::size_t Stopwatch::ticks() const { return parts_.empty() ? 0 : parts_.begin()->second.values.size(); }

@@ -18,8 +18,9 @@ class Stopwatch {
   static constexpr std::size_t kTicks = 500;
 
   void add(const std::string& part, std::chrono::nanoseconds duration);
-  /// Medians and the like; sorted anew only once a second, since every message shows them.
+  /// Medians and the like, each made anew once a second, since every message shows them.
   const std::map<std::string, Summary>& summaries() const { return summaries_; }
+  /// Makes those of one part anew at most: sorting all in one tick would make that tick a slow one.
   void summarise(std::chrono::steady_clock::time_point now);
   std::size_t ticks() const;
 
@@ -30,6 +31,8 @@ class Stopwatch {
   };
   std::map<std::string, Ring> parts_;
   std::map<std::string, Summary> summaries_;
+  std::string last_part_;       // that was summarised
+  std::vector<double> sorted_;  // scratch
   std::chrono::steady_clock::time_point summarised_{};
 };
 

@@ -196,9 +196,10 @@ void TfIntake::takeOne(const geometry_msgs::TransformStamped& transform, bool is
     if (stamp == frame.newest.stamp && frame.parent != kNone &&
         frames_[frame.parent].name == transform.header.frame_id) {
       if (!equal(transform.transform, frame.last)) {
-        ledger_.refuse("tf.ignored", Refusal(Code::dup_id, "frame '" + printable(frame.name) + "' came twice with stamp " +
-                                                               text(seconds(stamp)) + " s and another pose (from " +
-                                                               printable(publisher) + "); the first is kept"));
+        ledger_.refuse("tf.ignored",
+                       Refusal(Code::dup_id, "frame '" + printable(frame.name) + "' came twice with stamp " +
+                                                 text(seconds(stamp)) + " s and another pose (from " +
+                                                 printable(publisher) + "); the first is kept"));
       }
       return;
     }

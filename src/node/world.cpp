@@ -34,6 +34,10 @@ double elapsed(std::chrono::steady_clock::time_point since, const Moment& now) {
 
 }  // namespace
 
+World::Member World::memberOf(BodyId body, const Pose& frame_from_body) {
+  return {body, frame_from_body.matrix() == Pose::Identity().matrix(), frame_from_body};
+}
+
 World::World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& ledger)
     : params_(params),
       ledger_(ledger),
@@ -54,13 +58,35 @@ void World::beginEpoch() {
   last_time_ = Time(0);
 }
 
+void World::addMover(const std::string& frame, const std::string& robot, const std::vector<Member>& members) {
+  if (members.empty()) return;
+  Mover mover;
+  mover.frame = frame;
+  mover.robot = robot;
+  mover.first = members_.size();
+  members_.insert(members_.end(), members.begin(), members.end());
+  mover.last = members_.size();
+  movers_.push_back(std::move(mover));
+  movers_changed_ = true;
+}
+
 void World::removeMovers(const std::string& robot) {
-  const auto gone =
-      std::stable_partition(movers_.begin(), movers_.end(), [&](const Mover& mover) { return mover.robot != robot; });
-  for (auto mover = gone; mover != movers_.end(); ++mover) {
-    for (const auto& member : mover->members) scene_.remove(member.first);
+  std::vector<Mover> movers;
+  std::vector<Member> members;
+  for (Mover& mover : movers_) {
+    const auto first = members_.begin() + static_cast<std::ptrdiff_t>(mover.first);
+    const auto last = members_.begin() + static_cast<std::ptrdiff_t>(mover.last);
+    if (mover.robot == robot) {
+      for (auto member = first; member != last; ++member) scene_.remove(member->body);
+      continue;
+    }
+    mover.first = members.size();
+    members.insert(members.end(), first, last);
+    mover.last = members.size();
+    movers.push_back(std::move(mover));
   }
-  movers_.erase(gone, movers_.end());
+  movers_ = std::move(movers);
+  members_ = std::move(members);
   movers_changed_ = true;
 }
 
@@ -74,14 +100,11 @@ void World::setRobot(LoadedRobot robot) {
   }
   removeMovers(robot.name);
   for (const LoadedRobot::Group& group : robot.groups) {
-    Mover mover;
-    mover.frame = group.frame;
-    mover.robot = robot.name;
+    std::vector<Member> members;
     for (const auto& member : group.members) {
-      mover.members.emplace_back(scene_.add(robot.bodies[member.first]), member.second);
+      members.push_back(memberOf(scene_.add(robot.bodies[member.first]), member.second));
     }
-    if (!mover.members.empty()) movers_.push_back(std::move(mover));
-    movers_changed_ = true;
+    addMover(group.frame, robot.name, members);
   }
   missing_.erase(robot.name);
   const std::string name = robot.name;
@@ -115,13 +138,10 @@ void World::addObstacles() {
     body.mobility = body.frame == world_frame_ ? Mobility::fixed : Mobility::moving;
     body.max_speed = lastMatch(params_.max_speed, body.name, params_.default_max_speed);
     applyPatterns(params_, body);
-    Mover mover;
-    mover.frame = body.frame;
     try {
+      const std::string frame = body.frame;
       const Pose frame_from_body = body.frame_from_body;
-      mover.members.emplace_back(scene_.add(std::move(body)), frame_from_body);
-      movers_.push_back(std::move(mover));
-      movers_changed_ = true;
+      addMover(frame, "", {memberOf(scene_.add(std::move(body)), frame_from_body)});
     } catch (const Refusal& refusal) {
       ledger_.refuse("obstacles.refused", refusal);
       missing_[configured.body.name] = std::string(name(refusal.code())) + " " + refusal.what();
@@ -217,7 +237,10 @@ void World::place(Mover& mover, const FramePose* world_from_frame, Time time, co
   try {
     // What lags stays where it was as a whole: its way is taken at its own time, not at that of the others.
     const Pose pose = world_from_frame != nullptr && stamp == time ? world_from_frame->pose() : lookUp(mover, stamp);
-    for (const auto& member : mover.members) scene_.place(member.first, pose * member.second, stamp);
+    for (std::size_t i = mover.first; i < mover.last; ++i) {
+      const Member& member = members_[i];
+      scene_.place(member.body, member.at_frame ? pose : pose * member.frame_from_body, stamp);
+    }
     mover.placed = true;
     mover.jumped = false;
     if (!watch_.frozen()) mover.placed_at = now.steady;  // under a frozen clock the same pose again is not newer
@@ -246,18 +269,18 @@ Freshness World::judge(Mover& mover, Time time, const Moment& now, double& age) 
 }
 
 void World::setState(const Mover& mover, Freshness state, double age) {
-  for (const auto& member : mover.members) {
-    const Time stamp = scene_.poseOf(member.first).stamp;
+  for (std::size_t i = mover.first; i < mover.last; ++i) {
+    const Time stamp = scene_.poseOf(members_[i].body).stamp;
     const auto cohort = cohorts_.emplace(stamp, static_cast<std::uint32_t>(cohorts_.size() + 1)).first->second;
-    scene_.setState(member.first, state, age, cohort);
+    scene_.setState(members_[i].body, state, age, cohort);
   }
 }
 
 void World::describeTrouble(const Mover& mover, Tick& tick) const {
-  for (const auto& member : mover.members) {
-    const BodyPose& pose = scene_.poseOf(member.first);
+  for (std::size_t i = mover.first; i < mover.last; ++i) {
+    const BodyPose& pose = scene_.poseOf(members_[i].body);
     if (pose.state == Freshness::fresh && !mover.chain.conflict) continue;
-    const Body& body = scene_.body(member.first);
+    const Body& body = scene_.body(members_[i].body);
     BodyTrouble trouble{body.name, body.frame, pose.state, pose.age, pose.stamp, Code::tf_timeout, {}};
     if (mover.trouble) {
       trouble.code = mover.trouble->code();

@@ -67,11 +67,17 @@ class World {
   std::shared_ptr<const Tick> tick(const Moment& now);
 
  private:
+  /// A body that follows a frame, and its pose in it.
+  struct Member {
+    BodyId body;
+    bool at_frame;  // the pose is the identity
+    Pose frame_from_body;
+  };
   /// Bodies that one tf frame places.
   struct Mover {
     std::string frame;
     std::string robot;                             // empty: an obstacle
-    std::vector<std::pair<BodyId, Pose>> members;  // pose in the frame
+    std::size_t first = 0, last = 0;               // its members in members_, last excluded
     ChainState chain;                              // of this tick
     bool placed = false, jumped = false;
     double age_when_placed = 0.0;
@@ -80,6 +86,8 @@ class World {
   };
 
   void addObstacles();
+  static Member memberOf(BodyId body, const Pose& frame_from_body);
+  void addMover(const std::string& frame, const std::string& robot, const std::vector<Member>& members);
   void removeMovers(const std::string& robot);
   void beginEpoch();
   void rebuildReport();
@@ -101,6 +109,7 @@ class World {
   ClockWatch watch_;
   Scene scene_;
   std::vector<Mover> movers_;
+  std::vector<Member> members_;  // of all movers, in their order: a tick runs through them
   bool movers_changed_ = true;
   std::map<Time, std::uint32_t> cohorts_;  // of this tick: bodies of one stamp are equally old
   std::map<std::string, LoadedRobot> robots_;

@@ -97,13 +97,19 @@ const char* name(Freshness state) {
 }
 
 struct Scene::State {
+  /// What a tick reads and writes of a body; the rest stands apart in `bodies`, so that a tick runs through little
+  /// memory.
   struct Slot {
     bool used = false;
+    bool fixed = false;
+    bool moved = false;  // its boxes are not those of its pose
     std::uint32_t generation = 0;
-    Body body;
     BodyPose pose;
-    std::vector<Aabb> boxes;  // of its shapes at its pose, as of the last commit
-    bool moved = false;       // since then
+  };
+  struct ShapeInBody {
+    Shape shape;
+    Pose body_from_shape;
+    double padding;
   };
 
   explicit State(const SceneOptions& scene_options) : options(scene_options) {}
@@ -116,9 +122,8 @@ struct Scene::State {
     return slots[id.slot];
   }
   void rebuildStructure();
-  void placeBoxes();
   std::shared_ptr<Snapshot> freshSnapshot() const;
-  void fillBodies(Snapshot& snapshot) const;
+  void fillBodies(Snapshot& snapshot);
   void fillGrid(Snapshot& snapshot);
   void fillPairs(Snapshot& snapshot);
   void fillCompleteness(Snapshot& snapshot, const std::vector<std::string>& missing) const;
@@ -126,12 +131,14 @@ struct Scene::State {
 
   SceneOptions options;
   std::vector<Slot> slots;
+  std::vector<Body> bodies;  // by slot
   std::vector<std::uint32_t> free_slots;
-  std::vector<std::uint32_t> moved;      // slots whose boxes are not those of their pose
   std::vector<std::uint32_t> uncovered;  // bodies of the structure that leave a gap wherever they are
   std::map<std::string, std::uint32_t> slot_of_name;  // ordered: the structure is sorted by name
   bool structure_changed = true;
   std::shared_ptr<const Structure> structure = std::make_shared<Structure>();
+  std::vector<ShapeInBody> shapes;  // by proxy of the structure
+  std::vector<Aabb> boxes;          // of them, as of the last commit
   GridScale scale;
   std::uint64_t sequence = 0, epoch = 0;
   PairTracker tracker;
@@ -170,14 +177,15 @@ BodyId Scene::add(Body body) {
   if (s.free_slots.empty()) {
     s.free_slots.push_back(static_cast<std::uint32_t>(s.slots.size()));
     s.slots.emplace_back();
+    s.bodies.emplace_back();
   }
   const std::uint32_t number = s.free_slots.back();
   s.slot_of_name.emplace(body.name, number);
   s.free_slots.pop_back();
   State::Slot& slot = s.slots[number];
   slot.used = true;
-  slot.boxes.assign(body.shapes.size(), Aabb{});
-  slot.body = std::move(body);
+  slot.fixed = body.mobility == Mobility::fixed;
+  s.bodies[number] = std::move(body);
   slot.pose = BodyPose{};
   s.structure_changed = true;
   return {number, slot.generation};
@@ -187,8 +195,8 @@ void Scene::remove(BodyId id) {
   State& s = *state_;
   State::Slot& slot = s.at(id);
   s.free_slots.push_back(id.slot);
-  s.slot_of_name.erase(slot.body.name);
-  slot.body = Body{};
+  s.slot_of_name.erase(s.bodies[id.slot].name);
+  s.bodies[id.slot] = Body{};
   slot.used = slot.moved = false;
   ++slot.generation;
   s.structure_changed = true;
@@ -201,32 +209,37 @@ bool Scene::find(const std::string& name, BodyId& id) const {
   return true;
 }
 
-const Body& Scene::body(BodyId id) const { return state_->at(id).body; }
+const Body& Scene::body(BodyId id) const {
+  state_->at(id);
+  return state_->bodies[id.slot];
+}
 std::size_t Scene::size() const { return state_->slot_of_name.size(); }
 const BodyPose& Scene::poseOf(BodyId id) const { return state_->at(id).pose; }
 
 void Scene::place(BodyId id, const Pose& world_from_body, Time stamp) {
   State::Slot& slot = state_->at(id);
   if (!world_from_body.matrix().allFinite()) {
-    throw Refusal(Code::nonfinite, "pose of body '" + slot.body.name + "' is not finite; every number must be");
+    throw Refusal(Code::nonfinite,
+                  "pose of body '" + state_->bodies[id.slot].name + "' is not finite; every number must be");
   }
-  if (!(world_from_body.translation().cwiseAbs().maxCoeff() <= state_->options.world_limit)) {
-    checkWithin(world_from_body.translation(), state_->options.world_limit, "pose of body '" + slot.body.name + "'");
+  const double limit = state_->options.world_limit;
+  if (!(world_from_body.translation().cwiseAbs().maxCoeff() <= limit)) {  // only then make the words for it
+    checkWithin(world_from_body.translation(), limit, "pose of body '" + state_->bodies[id.slot].name + "'");
   }
   const bool first = slot.pose.state == Freshness::unplaced;
   slot.pose.stamp = stamp;
   if (!first && slot.pose.world_from_body.matrix() == world_from_body.matrix()) return;  // never a tolerance
   slot.pose.world_from_body = world_from_body;
   if (first) slot.pose.state = Freshness::fresh;
-  if (!slot.moved) state_->moved.push_back(id.slot);
   slot.moved = true;
 }
 
 void Scene::setState(BodyId id, Freshness state, double age, std::uint32_t cohort) {
-  BodyPose& pose = state_->at(id).pose;
+  State::Slot& slot = state_->at(id);
+  BodyPose& pose = slot.pose;
   if (pose.state == Freshness::unplaced) return;
   pose.state = state == Freshness::unplaced ? Freshness::invalid : state;  // what had a pose keeps it
-  pose.age = state_->at(id).body.mobility == Mobility::fixed ? 0.0 : age;
+  pose.age = slot.fixed ? 0.0 : age;
   pose.cohort = cohort;
 }
 
@@ -236,41 +249,30 @@ void Scene::State::rebuildStructure() {
   next->least_margin = options.margin;
   std::vector<Aabb> sizes;
   uncovered.clear();
+  shapes.clear();
   for (const auto& named : slot_of_name) {
-    const Slot& slot = slots[named.second];
-    if (!slot.body.covered && !slot.body.waived) uncovered.push_back(static_cast<std::uint32_t>(next->bodies.size()));
+    slots[named.second].moved = true;  // its proxies may have other numbers now
+    const Body& body = bodies[named.second];
+    if (!body.covered && !body.waived) uncovered.push_back(static_cast<std::uint32_t>(next->bodies.size()));
     next->first_proxy.push_back(static_cast<std::uint32_t>(next->body_of_proxy.size()));
-    next->body_of_proxy.insert(next->body_of_proxy.end(), slot.body.shapes.size(),
+    next->body_of_proxy.insert(next->body_of_proxy.end(), body.shapes.size(),
                                static_cast<std::uint32_t>(next->bodies.size()));
-    next->bodies.push_back(slot.body);
-    next->ids.push_back({named.second, slot.generation});
-    next->margin.push_back(std::max(options.margin, slot.body.margin));
-    for (const BodyShape& shape : slot.body.shapes) {
+    next->bodies.push_back(body);
+    next->ids.push_back({named.second, slots[named.second].generation});
+    next->margin.push_back(std::max(options.margin, body.margin));
+    for (const BodyShape& shape : body.shapes) {
+      shapes.push_back({shape.shape, shape.body_from_shape, shape.padding});
       sizes.push_back(
           grown(boxOf(shape.shape, Pose::Identity(), shape.padding, Eigen::Vector3d::Zero()), 0.5 * options.margin));
     }
   }
   next->first_proxy.push_back(static_cast<std::uint32_t>(next->body_of_proxy.size()));
+  boxes.assign(shapes.size(), Aabb{});
   next->filter = PairFilter(next->bodies, options.pair_kinds, options.allowed_pairs);
   structure = std::move(next);
   scale = GridScale::fitting(sizes);
   if (options.finest_edge > 0.0) scale.finest_edge = options.finest_edge;
   structure_changed = false;
-}
-
-/// Boxes of what moved since the last commit; what stands still keeps its own.
-void Scene::State::placeBoxes() {
-  for (const std::uint32_t number : moved) {
-    Slot& slot = slots[number];
-    if (!slot.moved) continue;  // removed since
-    slot.moved = false;
-    for (std::size_t i = 0; i < slot.body.shapes.size(); ++i) {
-      const BodyShape& shape = slot.body.shapes[i];
-      slot.boxes[i] =
-          boxOf(shape.shape, slot.pose.world_from_body * shape.body_from_shape, shape.padding, options.origin);
-    }
-  }
-  moved.clear();
 }
 
 std::shared_ptr<Snapshot> Scene::State::freshSnapshot() const {
@@ -279,22 +281,30 @@ std::shared_ptr<Snapshot> Scene::State::freshSnapshot() const {
   return {snapshot.release(), [kept = pool](Snapshot* used) { kept->giveBack(std::unique_ptr<Snapshot>(used)); }};
 }
 
-void Scene::State::fillBodies(Snapshot& snapshot) const {
+/// Makes the boxes of what moved since the last commit; what stands still keeps its own.
+void Scene::State::fillBodies(Snapshot& snapshot) {
   snapshot.structure_ = structure;
   snapshot.poses_.resize(structure->ids.size());
-  snapshot.boxes_.resize(structure->body_of_proxy.size());
   snapshot.worst_state_ = Freshness::fresh;
   snapshot.max_age_ = 0.0;
-  auto box = snapshot.boxes_.begin();
   for (std::size_t i = 0; i < structure->ids.size(); ++i) {
-    const Slot& slot = slots[structure->ids[i].slot];
+    Slot& slot = slots[structure->ids[i].slot];
+    const bool placed = slot.pose.state != Freshness::unplaced;
+    if (slot.moved && placed) {
+      slot.moved = false;
+      for (std::uint32_t proxy = structure->first_proxy[i]; proxy < structure->first_proxy[i + 1]; ++proxy) {
+        const ShapeInBody& shape = shapes[proxy];
+        boxes[proxy] =
+            boxOf(shape.shape, slot.pose.world_from_body * shape.body_from_shape, shape.padding, options.origin);
+      }
+    }
     BodyPose& pose = snapshot.poses_[i];
     pose = slot.pose;
-    pose.growth = growthOf(slot.pose, slot.body, options.growth_cap);
-    box = std::copy(slot.boxes.begin(), slot.boxes.end(), box);
+    pose.growth = growthOf(slot.pose, bodies[structure->ids[i].slot], options.growth_cap);
     snapshot.worst_state_ = std::max(snapshot.worst_state_, pose.state);
-    if (pose.state != Freshness::unplaced) snapshot.max_age_ = std::max(snapshot.max_age_, pose.age);
+    if (placed) snapshot.max_age_ = std::max(snapshot.max_age_, pose.age);
   }
+  snapshot.boxes_ = boxes;
 }
 
 /// Stores the placed boxes, each grown by its share of the margins: half of the global one, and all by which its
@@ -382,7 +392,6 @@ std::shared_ptr<const Snapshot> Scene::commit(Time stamp, const std::vector<std:
   std::shared_ptr<Snapshot> snapshot = s.freshSnapshot();
   snapshot->origin_ = s.options.origin;
   snapshot->stamp_ = stamp;
-  s.placeBoxes();
   s.fillBodies(*snapshot);
   const auto boxes_done = Clock::now();
   s.fillGrid(*snapshot);
