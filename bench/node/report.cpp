@@ -58,8 +58,8 @@ void writeJson(const std::string& file, const std::string& commit, const std::ve
   for (const Measurement& m : measurements) {
     for (const Measurement::Part& part : m.parts) {
       out << ",\n  " << beginOf(m) << ", \"part\": " << quoted(part.name)
-          << ", \"median_ms\": " << number(part.milliseconds.median) << ", \"p99_ms\": " << number(part.milliseconds.p99)
-          << "}";
+          << ", \"median_ms\": " << number(part.milliseconds.median)
+          << ", \"p99_ms\": " << number(part.milliseconds.p99) << "}";
     }
     out << ",\n  " << beginOf(m) << ", \"part\": \"cpu\", \"percent\": " << number(m.cpu_percent) << "}";
     out << ",\n  " << beginOf(m) << ", \"part\": \"near pairs\", \"count\": " << number(m.pairs) << "}";

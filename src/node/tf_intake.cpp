@@ -218,6 +218,7 @@ void TfIntake::takeOne(const geometry_msgs::TransformStamped& transform, bool is
   Frame& frame = frames_[number];
   frame.refused.reset();
   if (is_static) {
+    ++static_revision_;
     if (!frame.from_tf) frame.newest = {Time(0), frame.parent, toFramePose(transform.transform)};
     return;
   }

@@ -66,6 +66,8 @@ class TfIntake {
   double ageOf(const Frame& frame, const Moment& now) const;
   /// One more whenever a frame is new or has another parent.
   std::uint64_t revision() const { return revision_; }
+  /// One more whenever a transform came on /tf_static.
+  std::uint64_t staticRevision() const { return static_revision_; }
   /// Frames that were placed in a parent.
   std::size_t frames() const { return placed_count_; }
   /// Names of the frames that come on /tf and on /tf_static, sorted.
@@ -92,7 +94,7 @@ class TfIntake {
   std::vector<Frame> frames_;
   std::unordered_map<std::string, std::uint32_t> numbers_;
   std::size_t placed_count_ = 0, parent_count_ = 0;
-  std::uint64_t revision_ = 0;
+  std::uint64_t revision_ = 0, static_revision_ = 0;
   std::vector<std::string> conflicts_;
   std::uint32_t last_ = kNone;  // frame of the transform that came before this one
   std::uint64_t accepted_ = 0;  // of this message

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
-#include <set>
 
 namespace hgrid {
 namespace {
@@ -207,7 +206,9 @@ Refusal World::noWay(const std::string& frame, const std::string& unknown) const
 }
 
 void World::planWays() {
+  if (settled_revision_ != intake_.staticRevision()) unsettle();
   if (!movers_changed_ && !ways_.stale()) return;
+  unsettle();
   std::vector<std::string> frames;
   for (const Mover& mover : movers_) frames.push_back(mover.frame);
   ways_.plan(world_frame_, frames);
@@ -270,8 +271,11 @@ Freshness World::judge(Mover& mover, Time time, const Moment& now, double& age) 
 
 void World::setState(const Mover& mover, Freshness state, double age) {
   for (std::size_t i = mover.first; i < mover.last; ++i) {
-    const Time stamp = scene_.poseOf(members_[i].body).stamp;
-    const auto cohort = cohorts_.emplace(stamp, static_cast<std::uint32_t>(cohorts_.size() + 1)).first->second;
+    std::uint32_t cohort = 0;  // of what stands still, since it keeps its number while those of the others change
+    if (!mover.settled) {
+      const Time stamp = scene_.poseOf(members_[i].body).stamp;
+      cohort = cohorts_.emplace(stamp, static_cast<std::uint32_t>(cohorts_.size() + 1)).first->second;
+    }
     scene_.setState(members_[i].body, state, age, cohort);
   }
 }
@@ -300,6 +304,31 @@ void World::describeTrouble(const Mover& mover, Tick& tick) const {
   }
 }
 
+/// A new way or a new transform on /tf_static may put elsewhere what stood still.
+void World::unsettle() {
+  for (Mover& mover : movers_) mover.settled = false;
+  settled_revision_ = intake_.staticRevision();
+}
+
+void World::update(std::size_t index, Time time, const Moment& now, Tick& tick) {
+  Mover& mover = movers_[index];
+  if (mover.settled && mover.chain.connected && !mover.chain.moves && mover.chain.refused == nullptr) return;
+  mover.trouble.reset();
+  if (mover.chain.refused != nullptr) mover.trouble = *mover.chain.refused;
+  if (mover.chain.connected) {
+    place(mover, ways_.worldFrom(index), time, now);
+  } else {
+    const std::string& unknown = ways_.unknownFrame(index);
+    mover.trouble = noWay(mover.frame, unknown);
+    if (!mover.placed && !unknown.empty()) tick.missing_frames.push_back(unknown);
+  }
+  double age = 0.0;
+  const Freshness state = judge(mover, time, now, age);
+  mover.settled = mover.chain.connected && !mover.chain.moves && !mover.trouble;
+  setState(mover, state, age);
+  describeTrouble(mover, tick);
+}
+
 std::shared_ptr<const Tick> World::tick(const Moment& now) {
   auto tick = std::make_shared<Tick>();
   handleClock(now);
@@ -323,25 +352,12 @@ std::shared_ptr<const Tick> World::tick(const Moment& now) {
   const Time time = chooseTime(now);
   ways_.place(time);
   cohorts_.clear();
-  std::set<std::string> missing;
-  for (std::size_t i = 0; i < movers_.size(); ++i) {
-    Mover& mover = movers_[i];
-    mover.trouble.reset();
-    if (mover.chain.refused != nullptr) mover.trouble = *mover.chain.refused;
-    if (mover.chain.connected) {
-      place(mover, ways_.worldFrom(i), time, now);
-    } else {
-      mover.trouble = noWay(mover.frame, ways_.unknownFrame(i));
-      if (!mover.placed && !ways_.unknownFrame(i).empty()) missing.insert(ways_.unknownFrame(i));
-    }
-    double age = 0.0;
-    const Freshness state = judge(mover, time, now, age);
-    setState(mover, state, age);
-    describeTrouble(mover, *tick);
-  }
+  for (std::size_t i = 0; i < movers_.size(); ++i) update(i, time, now, *tick);
   std::stable_sort(tick->troubles.begin(), tick->troubles.end(),
                    [](const BodyTrouble& a, const BodyTrouble& b) { return a.state > b.state; });
-  tick->missing_frames.assign(missing.begin(), missing.end());
+  std::sort(tick->missing_frames.begin(), tick->missing_frames.end());
+  tick->missing_frames.erase(std::unique(tick->missing_frames.begin(), tick->missing_frames.end()),
+                             tick->missing_frames.end());
   tick->poses_time = std::chrono::steady_clock::now() - begin;
   tick->snapshot = scene_.commit(time, tick->not_ready);
   tick->times = scene_.lastTimes();

@@ -80,6 +80,7 @@ class World {
     std::size_t first = 0, last = 0;               // its members in members_, last excluded
     ChainState chain;                              // of this tick
     bool placed = false, jumped = false;
+    bool settled = false;  // where it is, and nothing can move it but a new transform on /tf_static
     double age_when_placed = 0.0;
     std::chrono::steady_clock::time_point placed_at{};
     std::optional<Refusal> trouble;
@@ -99,6 +100,8 @@ class World {
   Refusal noWay(const std::string& frame, const std::string& unknown) const;
   Pose lookUp(const Mover& mover, Time& stamp) const;
   Freshness judge(Mover& mover, Time time, const Moment& now, double& age) const;
+  void update(std::size_t index, Time time, const Moment& now, Tick& tick);
+  void unsettle();
   void setState(const Mover& mover, Freshness state, double age);
   void describeTrouble(const Mover& mover, Tick& tick) const;
 
@@ -111,6 +114,7 @@ class World {
   std::vector<Mover> movers_;
   std::vector<Member> members_;  // of all movers, in their order: a tick runs through them
   bool movers_changed_ = true;
+  std::uint64_t settled_revision_ = 0;     // of /tf_static
   std::map<Time, std::uint32_t> cohorts_;  // of this tick: bodies of one stamp are equally old
   std::map<std::string, LoadedRobot> robots_;
   std::map<std::string, std::string> missing_;  // sentence by robot

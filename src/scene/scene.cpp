@@ -104,6 +104,7 @@ struct Scene::State {
     bool fixed = false;
     bool moved = false;  // its boxes are not those of its pose
     std::uint32_t generation = 0;
+    std::uint64_t changed = 0;  // number of the first commit that has its pose as it is
     BodyPose pose;
   };
   struct ShapeInBody {
@@ -140,7 +141,7 @@ struct Scene::State {
   std::vector<ShapeInBody> shapes;  // by proxy of the structure
   std::vector<Aabb> boxes;          // of them, as of the last commit
   GridScale scale;
-  std::uint64_t sequence = 0, epoch = 0;
+  std::uint64_t sequence = 0, epoch = 0, commits = 0;
   PairTracker tracker;
   TickTimes times;
   std::shared_ptr<SnapshotPool> pool = std::make_shared<SnapshotPool>();
@@ -227,6 +228,7 @@ void Scene::place(BodyId id, const Pose& world_from_body, Time stamp) {
     checkWithin(world_from_body.translation(), limit, "pose of body '" + state_->bodies[id.slot].name + "'");
   }
   const bool first = slot.pose.state == Freshness::unplaced;
+  slot.changed = state_->commits + 1;
   slot.pose.stamp = stamp;
   if (!first && slot.pose.world_from_body.matrix() == world_from_body.matrix()) return;  // never a tolerance
   slot.pose.world_from_body = world_from_body;
@@ -238,6 +240,7 @@ void Scene::setState(BodyId id, Freshness state, double age, std::uint32_t cohor
   State::Slot& slot = state_->at(id);
   BodyPose& pose = slot.pose;
   if (pose.state == Freshness::unplaced) return;
+  slot.changed = state_->commits + 1;
   pose.state = state == Freshness::unplaced ? Freshness::invalid : state;  // what had a pose keeps it
   pose.age = slot.fixed ? 0.0 : age;
   pose.cohort = cohort;
@@ -281,9 +284,12 @@ std::shared_ptr<Snapshot> Scene::State::freshSnapshot() const {
   return {snapshot.release(), [kept = pool](Snapshot* used) { kept->giveBack(std::unique_ptr<Snapshot>(used)); }};
 }
 
-/// Makes the boxes of what moved since the last commit; what stands still keeps its own.
+/// Makes the boxes of what moved since the last commit; what stands still keeps its own. Of the poses a snapshot that
+/// was used before takes those that changed since then.
 void Scene::State::fillBodies(Snapshot& snapshot) {
+  const std::uint64_t known = snapshot.structure_ == structure ? snapshot.commit_ : 0;
   snapshot.structure_ = structure;
+  snapshot.commit_ = ++commits;
   snapshot.poses_.resize(structure->ids.size());
   snapshot.worst_state_ = Freshness::fresh;
   snapshot.max_age_ = 0.0;
@@ -298,11 +304,12 @@ void Scene::State::fillBodies(Snapshot& snapshot) {
             boxOf(shape.shape, slot.pose.world_from_body * shape.body_from_shape, shape.padding, options.origin);
       }
     }
-    BodyPose& pose = snapshot.poses_[i];
-    pose = slot.pose;
-    pose.growth = growthOf(slot.pose, bodies[structure->ids[i].slot], options.growth_cap);
-    snapshot.worst_state_ = std::max(snapshot.worst_state_, pose.state);
-    if (placed) snapshot.max_age_ = std::max(snapshot.max_age_, pose.age);
+    if (known == 0 || slot.changed > known) {
+      snapshot.poses_[i] = slot.pose;
+      snapshot.poses_[i].growth = growthOf(slot.pose, bodies[structure->ids[i].slot], options.growth_cap);
+    }
+    snapshot.worst_state_ = std::max(snapshot.worst_state_, slot.pose.state);
+    if (placed) snapshot.max_age_ = std::max(snapshot.max_age_, slot.pose.age);
   }
   snapshot.boxes_ = boxes;
 }

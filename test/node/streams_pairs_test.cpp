@@ -106,6 +106,24 @@ TEST(Pairs, OfStaleBodiesWidenByTheSpeedThatIsSet) {
   for (const msg::Body& body : bodies->bodies) EXPECT_EQ(body.max_speed, speeds.at(body.name)) << body.name;
 }
 
+TEST(Pairs, OfAStaleLinkWidenAlsoAgainstLinksOfItsRobotThatStandStill) {
+  TransformSource transforms;
+  NodeSetup setup = nearBodies({{"max_speed", list({dict({{"pattern", "robot/*"}, {"speed", 50.0}})})},
+                                {"late_after", 0.05},
+                                {"stale_after", 0.1},
+                                {"growth_cap", 0.35}});
+  NodeUnderTest node(setup);
+  transforms.stream("base", "a", at(0));
+  transforms.fix({stamped("base", "b", at(0.25))});
+  node.waitForComplete();
+  node.waitForTicks(3);
+  transforms.stop("a");
+  const auto pairs = node.waitForPairs(
+      "a is stale", [](const msg::Pairs& p) { return p.world.worst_state == msg::WorldState::STALE && p.total == 3; });
+  EXPECT_EQ(namesOf(*pairs), Names({"obstacle/far|robot/a", "obstacle/near|robot/a", "robot/a|robot/b"}));
+  for (const double margin : pairs->margin) EXPECT_DOUBLE_EQ(margin, 0.45);
+}
+
 TEST(Obstacles, OfEveryKindStandWhereTheirPosesSay) {
   const auto shape = [](const char* type, double x) {
     return dict({{"type", type}, {"height", 0.4}, {"radius", 0.1}, {"pose", dict({{"xyz", xyz(x, 0, 0)}})}});

@@ -28,7 +28,7 @@ struct Structure {
 /// Where a body is in a snapshot, and how far that can be trusted.
 struct BodyPose {
   Pose world_from_body = Pose::Identity();  ///< meaningless while unplaced
-  Time stamp{0};                            ///< of the pose
+  Time stamp{0};                            ///< of the pose; where nothing can move it, when it was put there
   Freshness state = Freshness::unplaced;
   double age = 0.0;          ///< [s] of the pose when the snapshot was made; 0 if fixed
   double growth = 0.0;       ///< [m] by which the body's margins are widened since it is stale
@@ -111,7 +111,7 @@ class Snapshot {
 
   std::shared_ptr<const Structure> structure_;
   Time stamp_{0};
-  std::uint64_t sequence_ = 0, epoch_ = 0;
+  std::uint64_t sequence_ = 0, epoch_ = 0, commit_ = 0;  // commit_: never starts again
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   std::vector<BodyPose> poses_;
   std::vector<Aabb> boxes_;

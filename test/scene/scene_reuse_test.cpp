@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "test/support/random.h"
+#include "test/support/scenes.h"
+
+namespace hgrid {
+namespace {
+
+using test::Random;
+
+/// Compares a snapshot with one that a scene of its own makes, which was never used before.
+void expectAsFromANewScene(const Snapshot& snapshot, const std::map<std::string, BodyPose>& told) {
+  Scene fresh{SceneOptions{}};
+  for (const auto& named : told) {
+    const BodyId id = fresh.add(test::ball(named.first));
+    if (named.second.state == Freshness::unplaced) continue;
+    fresh.place(id, named.second.world_from_body, named.second.stamp);
+    fresh.setState(id, named.second.state, named.second.age, named.second.cohort);
+  }
+  const auto expected = fresh.commit(snapshot.stamp(), {});
+  EXPECT_EQ(snapshot.boxes(), expected->boxes());
+  EXPECT_EQ(snapshot.worstState(), expected->worstState());
+  EXPECT_EQ(snapshot.maxAge(), expected->maxAge());
+  EXPECT_EQ(snapshot.reasons(), expected->reasons());
+  EXPECT_EQ(snapshot.pairs().size(), expected->pairs().size());
+  ASSERT_EQ(snapshot.poses().size(), expected->poses().size());
+  for (std::size_t i = 0; i < snapshot.poses().size(); ++i) {
+    const BodyPose &a = snapshot.poses()[i], &b = expected->poses()[i];
+    EXPECT_EQ(a.world_from_body.matrix(), b.world_from_body.matrix());
+    EXPECT_EQ(a.stamp, b.stamp);
+    EXPECT_EQ(a.state, b.state);
+    EXPECT_EQ(a.age, b.age);
+    EXPECT_EQ(a.growth, b.growth);
+    EXPECT_EQ(a.cohort, b.cohort);
+  }
+}
+
+TEST(SceneReuse, ASnapshotThatWasUsedBeforeSaysWhatANewOneWould) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    Scene scene{SceneOptions{}};
+    std::map<std::string, BodyPose> told;
+    std::vector<std::shared_ptr<const Snapshot>> held;
+    for (int tick = 1; tick <= 60; ++tick) {
+      const int deeds = random.below(4);  // few, so that most bodies rest for many ticks
+      for (int deed = 0; deed < deeds; ++deed) {
+        const std::string name = std::to_string(random.below(12));
+        BodyId id;
+        if (!scene.find("obstacle/" + name, id)) {
+          scene.add(test::ball(name));
+          told[name] = BodyPose{};
+        } else if (random.below(10) == 0) {
+          scene.remove(id);
+          told.erase(name);
+        } else {
+          BodyPose& pose = told[name];
+          pose.world_from_body = test::at(random.uniform(-5.0, 5.0));
+          pose.stamp = Time{tick};
+          pose.state = static_cast<Freshness>(random.below(4));
+          pose.age = random.uniform(0.0, 2.0);
+          pose.cohort = static_cast<std::uint32_t>(random.below(3));
+          scene.place(id, pose.world_from_body, pose.stamp);
+          scene.setState(id, pose.state, pose.age, pose.cohort);
+        }
+      }
+      held.push_back(scene.commit(Time{tick}, {}));
+      expectAsFromANewScene(*held.back(), told);
+      while (static_cast<int>(held.size()) > random.below(5)) {  // in any order, so that old ones are used again too
+        held.erase(held.begin() + random.below(static_cast<int>(held.size())));
+      }
+    }
+    if (::testing::Test::HasFailure()) return;
+  }
+}
+
+}  // namespace
+}  // namespace hgrid
