@@ -1,6 +1,13 @@
 # The core: C++17 and Eigen, no ROS. Shared by the package and by the project in test/.
 set(HGRID_CORE_SOURCES
+  src/broadphase/engine.cpp
   src/broadphase/hgrid.cpp
+  src/broadphase/isa.cpp
+  src/broadphase/layer.cpp
+  src/broadphase/pair_search.cpp
+  src/broadphase/plan.cpp
+  src/broadphase/queries.cpp
+  src/broadphase/workers.cpp
   src/geometry/aabb.cpp
   src/geometry/pose.cpp
   src/geometry/segment.cpp
@@ -23,3 +30,27 @@ set(HGRID_ADAPTER_SOURCES
   src/adapters/urdf_tree.cpp
   src/adapters/xml.cpp
 )
+
+# The inner loops of the broad phase, once per instruction set; which is used is decided when the program runs.
+set(HGRID_KERNEL_FLAGS_sse2 -msse2)
+set(HGRID_KERNEL_FLAGS_avx2 -mavx2 -mbmi -mpopcnt)
+# gcc's own header of AVX-512 warns of itself (its bug 105593).
+set(HGRID_KERNEL_FLAGS_avx512 -mavx2 -mbmi -mpopcnt -mavx512f -mavx512vl -mavx512bw -mavx512dq -Wno-maybe-uninitialized
+  -Wno-uninitialized)
+
+# hgrid_core_options(target root): what a target made of the core's sources needs. Kernels are optimised whatever the
+# build type is, but -ffp-contract=off must hold for them as for the rest: one formula rounds one way everywhere.
+function(hgrid_core_options target root)
+  target_include_directories(${target} PRIVATE "${root}/src")
+  target_compile_options(${target} PRIVATE -ffp-contract=off)
+  set(isas portable)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
+    target_compile_definitions(${target} PRIVATE HGRID_X86_KERNELS)
+    list(APPEND isas sse2 avx2 avx512)
+  endif()
+  foreach(isa ${isas})
+    set(kernels "${root}/src/broadphase/kernels/kernels_${isa}.cpp")
+    target_sources(${target} PRIVATE "${kernels}")
+    set_property(SOURCE "${kernels}" PROPERTY COMPILE_OPTIONS -O2 -ftree-vectorize ${HGRID_KERNEL_FLAGS_${isa}})
+  endforeach()
+endfunction()

@@ -86,4 +86,27 @@ std::optional<Meeting> meet(const Segment& segment, const Aabb& box) {
   return Meeting{*first * step.norm(), best, nearestPoint(box, segment.from + best_way * step)};
 }
 
+std::optional<double> firstTouch(const Segment& segment, const Aabb& box) {
+  double enter = 0.0, surely_in = 0.0, surely_out = 1.0, squared = 0.0;
+  bool plain = segment.radius == 0.0;
+  for (int axis = 0; axis < 3 && plain; ++axis) {
+    const double from = segment.from[axis], step = segment.to[axis] - from;
+    if (step == 0.0) {
+      plain = box.min[axis] < from && from < box.max[axis];
+      continue;
+    }
+    plain = std::abs(step) > 1e-100 && std::abs(step) < 1e100;
+    const double inverse = 1.0 / step;
+    const double a = (box.min[axis] - from) * inverse, b = (box.max[axis] - from) * inverse;
+    const double rounded = 1e-12 * (std::abs(from) + std::abs(segment.to[axis])) * std::abs(inverse);
+    enter = std::max(enter, std::min(a, b));
+    surely_in = std::max(surely_in, std::min(a, b) + rounded);
+    surely_out = std::min(surely_out, std::max(a, b) - rounded);
+    squared += step * step;
+  }
+  if (plain && surely_in < surely_out) return enter * std::sqrt(squared);
+  const auto meeting = meet(segment, box);
+  return meeting ? std::optional<double>(meeting->along) : std::nullopt;
+}
+
 }  // namespace hgrid

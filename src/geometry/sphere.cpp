@@ -8,11 +8,4 @@ Eigen::Vector3d nearestPoint(const Aabb& box, const Eigen::Vector3d& point) {
   return point.cwiseMax(box.min.cast<double>()).cwiseMin(box.max.cast<double>());
 }
 
-double distance(const Aabb& box, const Eigen::Vector3d& point) { return (nearestPoint(box, point) - point).norm(); }
-
-bool touches(const Sphere& sphere, const Aabb& box) {
-  const double reach = sphere.center.cwiseAbs().maxCoeff() + sphere.radius;
-  return distance(box, sphere.center) <= sphere.radius + roundingSlack(reach);
-}
-
 }  // namespace hgrid

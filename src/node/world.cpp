@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 namespace hgrid {
 namespace {
@@ -20,8 +19,6 @@ SceneOptions optionsOf(const Params& params) {
   options.growth_cap = params.growth_cap;
   options.max_bodies = static_cast<std::size_t>(params.max_bodies);
   options.max_reasons = static_cast<std::size_t>(params.max_reasons);
-  std::random_device device;  // kept from those who send obstacles, so that they cannot aim at one cell
-  options.hash_seed = (static_cast<std::uint64_t>(device()) << 32) | device();
   options.pair_kinds = params.pair_kinds;
   options.allowed_pairs = params.allowed_pairs;
   return options;

@@ -2,29 +2,64 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "hgrid_proximity/scene/pair_tracker.h"
 
-namespace hgrid {
+#include <algorithm>
+#include <limits>
 
-std::size_t PairTracker::KeyHash::operator()(const Key& key) const {
-  std::uint64_t hash = 0;
-  for (const std::uint32_t part : {key.first.slot, key.first.generation, key.second.slot, key.second.generation}) {
-    hash = (hash ^ part) * 0x9e3779b97f4a7c15ull;
-    hash ^= hash >> 29;
+namespace hgrid {
+namespace {
+
+/// Whether pair a comes before b; both sorted by (first, second).
+template <class A, class B>
+bool before(const A& a, const B& b) {
+  return a.first != b.first ? a.first < b.first : a.second < b.second;
+}
+
+}  // namespace
+
+void PairTracker::clear() {
+  known_.clear();
+  ended_.clear();
+}
+
+/// Known pairs in the numbers of the new ids; those of bodies that are gone have ended.
+void PairTracker::renumber(const std::vector<BodyId>& ids) {
+  constexpr std::uint32_t kGone = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t slots = 0;
+  for (const BodyId& id : ids) slots = std::max(slots, id.slot + 1);
+  std::vector<std::uint32_t> of_slot(slots, kGone);
+  for (std::uint32_t i = 0; i < ids.size(); ++i) of_slot[ids[i].slot] = i;
+  const auto now = [&](std::uint32_t number) {
+    const BodyId& id = ids_[number];
+    const std::uint32_t i = id.slot < slots ? of_slot[id.slot] : kGone;
+    return i != kGone && ids[i] == id ? i : kGone;
+  };
+  std::size_t kept = 0;
+  for (const Known& pair : known_) {
+    const std::uint32_t a = now(pair.first), b = now(pair.second);
+    if (a == kGone || b == kGone) {
+      ended_.emplace_back(ids_[pair.first], ids_[pair.second]);
+    } else {
+      known_[kept++] = {std::min(a, b), std::max(a, b), pair.since};
+    }
   }
-  return static_cast<std::size_t>(hash);
+  known_.resize(kept);
+  std::sort(known_.begin(), known_.end(), [](const Known& a, const Known& b) { return before(a, b); });
+  ids_ = ids;
 }
 
 void PairTracker::update(const std::vector<BodyId>& ids, Time stamp, std::vector<NearPair>& pairs) {
-  next_.clear();
+  ended_.clear();
+  if (ids != ids_) renumber(ids);
+  auto known = known_.begin();
+  const auto end = [this](const Known& pair) { ended_.emplace_back(ids_[pair.first], ids_[pair.second]); };
   for (NearPair& pair : pairs) {
-    // By slot, since the order of the indices may change with the names of bodies that come and go.
-    BodyId a = ids[pair.first], b = ids[pair.second];
-    if (b.slot < a.slot) std::swap(a, b);
-    const Key key{a, b};
-    const auto known = since_.find(key);
-    pair.since = known == since_.end() ? stamp : known->second;
-    next_.emplace(key, pair.since);
+    while (known != known_.end() && before(*known, pair)) end(*known++);
+    const bool there = known != known_.end() && !before(pair, *known);
+    pair.since = there ? (known++)->since : stamp;
   }
-  since_.swap(next_);
+  while (known != known_.end()) end(*known++);
+  known_.clear();
+  for (const NearPair& pair : pairs) known_.push_back({pair.first, pair.second, pair.since});
 }
 
 }  // namespace hgrid

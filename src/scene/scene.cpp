@@ -89,6 +89,12 @@ std::string gapLeftBy(const Body& body, const BodyPose& pose) {
   return {};
 }
 
+/// Whether the grid may report a pair of proxies: its filter.
+bool isReported(const void* structure, ProxyId first, ProxyId second) {
+  const Structure& s = *static_cast<const Structure*>(structure);
+  return !s.filter.allowed(s.body_of_proxy[first], s.body_of_proxy[second]);
+}
+
 }  // namespace
 
 const char* name(Freshness state) {
@@ -127,6 +133,7 @@ struct Scene::State {
   void fillBodies(Snapshot& snapshot);
   void fillGrid(Snapshot& snapshot);
   void fillPairs(Snapshot& snapshot);
+  void sortPairs(std::vector<NearPair>& pairs);
   void fillCompleteness(Snapshot& snapshot, const std::vector<std::string>& missing) const;
   double pairMargin(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second) const;
 
@@ -141,6 +148,7 @@ struct Scene::State {
   std::vector<ShapeInBody> shapes;  // by proxy of the structure
   std::vector<Aabb> boxes;          // of them, as of the last commit
   GridScale scale;
+  std::vector<ProxyId> fixed_proxies;
   std::uint64_t sequence = 0, epoch = 0, commits = 0;
   PairTracker tracker;
   TickTimes times;
@@ -149,6 +157,14 @@ struct Scene::State {
   // Scratch of a tick, kept to save allocations.
   std::vector<ProxyId> ids;
   std::vector<Aabb> grown_boxes;
+  struct Grown {
+    Aabb box;
+    double by = -1.0;
+    Aabb result;
+  };
+  std::vector<Grown> grown_of;  // by proxy: what was grown last time
+  std::vector<std::uint32_t> next_of_first;
+  std::vector<NearPair> unsorted;
   std::vector<ProxyPair> proxy_pairs;
 };
 
@@ -272,6 +288,10 @@ void Scene::State::rebuildStructure() {
   next->first_proxy.push_back(static_cast<std::uint32_t>(next->body_of_proxy.size()));
   boxes.assign(shapes.size(), Aabb{});
   next->filter = PairFilter(next->bodies, options.pair_kinds, options.allowed_pairs);
+  fixed_proxies.clear();
+  for (ProxyId proxy = 0; proxy < next->body_of_proxy.size(); ++proxy) {
+    if (next->bodies[next->body_of_proxy[proxy]].mobility == Mobility::fixed) fixed_proxies.push_back(proxy);
+  }
   structure = std::move(next);
   scale = GridScale::fitting(sizes);
   if (options.finest_edge > 0.0) scale.finest_edge = options.finest_edge;
@@ -317,18 +337,28 @@ void Scene::State::fillBodies(Snapshot& snapshot) {
 /// Stores the placed boxes, each grown by its share of the margins: half of the global one, and all by which its
 /// own is larger. So two that are within max(m_i, m_j) plus their growth overlap.
 void Scene::State::fillGrid(Snapshot& snapshot) {
+  if (snapshot.grid_revision_ != structure->revision) {
+    snapshot.grid_ = HGrid(scale);
+    snapshot.grid_.setThreads(options.threads);
+    snapshot.grid_.setFixed(fixed_proxies);
+    snapshot.grid_.setFilter({isReported, structure.get()});  // the snapshot keeps it alive
+    snapshot.grid_revision_ = structure->revision;
+  }
   ids.clear();
   grown_boxes.clear();
+  grown_of.resize(snapshot.boxes_.size());
   for (ProxyId proxy = 0; proxy < snapshot.boxes_.size(); ++proxy) {
     const std::uint32_t body = structure->body_of_proxy[proxy];
     const BodyPose& pose = snapshot.poses_[body];
     if (pose.state == Freshness::unplaced) continue;
+    const double by = 0.5 * options.margin + (structure->margin[body] - options.margin) + pose.growth;
+    Grown& known = grown_of[proxy];
+    if (known.by != by || known.box != snapshot.boxes_[proxy]) {
+      known = {snapshot.boxes_[proxy], by, grown(snapshot.boxes_[proxy], by)};
+    }
     ids.push_back(proxy);
-    grown_boxes.push_back(
-        grown(snapshot.boxes_[proxy], 0.5 * options.margin + (structure->margin[body] - options.margin) + pose.growth));
+    grown_boxes.push_back(known.result);
   }
-  const HGrid empty(scale, options.hash_seed);
-  if (snapshot.grid_.edge(0) != empty.edge(0) || snapshot.sequence_ == 0) snapshot.grid_ = empty;
   snapshot.grid_.update(ids, grown_boxes);
 }
 
@@ -341,24 +371,39 @@ double Scene::State::pairMargin(const Snapshot& snapshot, std::uint32_t first, s
   return equally_old ? margin : margin + (a.growth + b.growth);
 }
 
+/// Sorts by (first, second, gap): counted by the first body, then each one's few among themselves.
+void Scene::State::sortPairs(std::vector<NearPair>& pairs) {
+  next_of_first.assign(structure->bodies.size() + 1, 0);
+  for (const NearPair& pair : pairs) ++next_of_first[pair.first + 1];
+  for (std::size_t i = 1; i < next_of_first.size(); ++i) next_of_first[i] += next_of_first[i - 1];
+  unsorted.swap(pairs);
+  pairs.resize(unsorted.size());
+  for (const NearPair& pair : unsorted) pairs[next_of_first[pair.first]++] = pair;
+  std::size_t begin = 0;
+  for (std::size_t body = 0; body + 1 < next_of_first.size(); ++body) {
+    const std::size_t end = next_of_first[body];
+    std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(begin), pairs.begin() + static_cast<std::ptrdiff_t>(end),
+              [](const NearPair& a, const NearPair& b) {
+                return a.second != b.second ? a.second < b.second : a.gap < b.gap;
+              });
+    begin = end;
+  }
+}
+
 void Scene::State::fillPairs(Snapshot& snapshot) {
   snapshot.grid_.overlappingPairs(proxy_pairs);
   std::vector<NearPair>& pairs = snapshot.pairs_;
   pairs.clear();
   for (const ProxyPair& proxies : proxy_pairs) {
-    std::uint32_t first = structure->body_of_proxy[proxies.first], second = structure->body_of_proxy[proxies.second];
-    if (first > second) std::swap(first, second);
-    if (structure->filter.allowed(first, second)) continue;
+    // Proxies are numbered in the order of their bodies.
+    const std::uint32_t first = structure->body_of_proxy[proxies.first], second = structure->body_of_proxy[proxies.second];
     const Aabb &a = snapshot.boxes_[proxies.first], &b = snapshot.boxes_[proxies.second];
     const double margin = pairMargin(snapshot, first, second);
     if (!withinDistance(a, b, margin)) continue;
     pairs.push_back({first, second, std::min(distance(a, b), margin), margin, Time{0}});
   }
+  sortPairs(pairs);
   // One entry per pair of bodies, that of the nearest boxes.
-  std::sort(pairs.begin(), pairs.end(), [](const NearPair& a, const NearPair& b) {
-    if (a.first != b.first) return a.first < b.first;
-    return a.second != b.second ? a.second < b.second : a.gap < b.gap;
-  });
   pairs.erase(
       std::unique(pairs.begin(), pairs.end(),
                   [](const NearPair& a, const NearPair& b) { return a.first == b.first && a.second == b.second; }),

@@ -93,9 +93,56 @@ void expectRightSegmentAnswers(const HGrid& grid, const std::vector<Aabb>& boxes
   }
 }
 
+void expectRightNearest(const HGrid& grid, const std::vector<Aabb>& boxes, Random& random) {
+  for (int i = 0; i < 2; ++i) {
+    const Eigen::Vector3d point = pointNear(boxes, random);
+    const auto count = std::size_t(random.below(12));
+    const double limit = random.chance(0.5) ? std::numeric_limits<double>::infinity() : someLength(boxes, random);
+    std::vector<std::pair<double, ProxyId>> expected;
+    for (ProxyId id = 0; id < boxes.size(); ++id) {
+      const double away = distance(boxes[id], point);  // itself tested in test/geometry
+      if (away <= limit) expected.emplace_back(away, id);
+    }
+    std::sort(expected.begin(), expected.end());
+    expected.resize(std::min(count, expected.size()));
+    std::vector<NearHit> found = {{7, 7.0}};
+    grid.nearest(point, count, limit, found);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      ASSERT_EQ(std::make_pair(found[k].distance, found[k].id), expected[k]) << "number " << k;
+    }
+  }
+}
+
+/// Many questions at once are answered as each alone.
+void expectBatchesAsSingles(const HGrid& grid, const std::vector<Aabb>& boxes, Random& random) {
+  std::vector<Aabb> around;
+  std::vector<Sphere> balls;
+  std::vector<Segment> segments;
+  for (int i = random.below(6); i > 0; --i) {
+    const Eigen::Vector3d a = pointNear(boxes, random), b = pointNear(boxes, random);
+    around.push_back({a.cwiseMin(b).cast<float>(), a.cwiseMax(b).cast<float>()});
+    balls.push_back({a, someLength(boxes, random)});
+    segments.push_back({a, b, random.chance(0.5) ? 0.0 : someLength(boxes, random)});
+  }
+  IdBatch ids;
+  SegmentBatch hits;
+  const auto listOf = [](const auto& batch, std::size_t i) {
+    const auto begin = batch.found.begin() + std::ptrdiff_t(batch.begin[i]);
+    return std::vector<std::decay_t<decltype(*begin)>>(begin, begin + std::ptrdiff_t(batch.count[i]));
+  };
+  grid.overlapping(around, ids);
+  for (std::size_t i = 0; i < around.size(); ++i) ASSERT_EQ(listOf(ids, i), test::foundBy(grid, around[i]));
+  grid.overlapping(balls, ids);
+  for (std::size_t i = 0; i < balls.size(); ++i) ASSERT_EQ(listOf(ids, i), test::foundBy(grid, balls[i]));
+  grid.along(segments, hits);
+  for (std::size_t i = 0; i < segments.size(); ++i) ASSERT_EQ(listOf(hits, i), test::alongOf(grid, segments[i]));
+  ASSERT_EQ(hits.begin.size(), segments.size());
+}
+
 class HGridOracle : public ::testing::TestWithParam<int> {};
 
-/// Claim: all pairs and box queries equal brute force; balls and segments find no less and hardly more.
+/// Claim: all pairs, box and nearest queries equal brute force; balls and segments find no less and hardly more.
 TEST_P(HGridOracle, AnswersAsAScanOfAllBoxesDoes) {
   const auto family = static_cast<Family>(GetParam());
   const int worlds = std::max(1, test::countFromEnvironment("HGRID_TEST_WORLDS", 10000) / test::kFamilies);
@@ -105,13 +152,15 @@ TEST_P(HGridOracle, AnswersAsAScanOfAllBoxesDoes) {
     SCOPED_TRACE(std::string(name(family)) + ", seed " + std::to_string(seed));
     Random random(seed + 1000000u);
     const std::vector<Aabb> boxes = test::worldOf(family, seed);
-    const HGrid grid = test::gridOf(boxes, test::scaleFor(boxes, random), random.bits());
+    const HGrid grid = test::gridComeTo(boxes, test::scaleFor(boxes, random), random);
     const test::Pairs expected = test::allOverlaps(boxes);
     true_pairs += expected.size();
     ASSERT_EQ(test::pairsOf(grid), expected);
     ASSERT_NO_FATAL_FAILURE(expectRightBoxAnswers(grid, boxes, random));
     ASSERT_NO_FATAL_FAILURE(expectRightBallAnswers(grid, boxes, random));
     ASSERT_NO_FATAL_FAILURE(expectRightSegmentAnswers(grid, boxes, random));
+    ASSERT_NO_FATAL_FAILURE(expectRightNearest(grid, boxes, random));
+    ASSERT_NO_FATAL_FAILURE(expectBatchesAsSingles(grid, boxes, random));
     ASSERT_NO_THROW(grid.checkInvariants());
   }
   if (family == Family::empty) {

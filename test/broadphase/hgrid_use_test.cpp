@@ -30,7 +30,6 @@ std::vector<Aabb> invalidBoxes() {
 TEST(HGridUse, AnEmptyGridFindsNothing) {
   const HGrid grid;
   EXPECT_EQ(grid.size(), 0u);
-  EXPECT_EQ(grid.occupiedLevels(), 0u);
   EXPECT_TRUE(test::pairsOf(grid).empty());
   EXPECT_TRUE(foundBy(grid, kUnit).empty());
   EXPECT_TRUE(foundBy(grid, Sphere{{0, 0, 0}, 1e6}).empty());
@@ -74,7 +73,6 @@ TEST(HGridUse, ARemovedBoxIsUnknownAndItsNumberFree) {
   grid.insert(4, kUnit);
   grid.remove(4);
   EXPECT_EQ(grid.size(), 0u);
-  EXPECT_EQ(grid.occupiedLevels(), 0u);
   EXPECT_THROW(grid.remove(4), std::invalid_argument);
   grid.insert(4, kUnit);
   grid.clear();
@@ -84,6 +82,80 @@ TEST(HGridUse, ARemovedBoxIsUnknownAndItsNumberFree) {
   grid.update(std::vector<ProxyId>{}, std::vector<Aabb>{});
   EXPECT_EQ(grid.size(), 0u);
   grid.checkInvariants();
+}
+
+TEST(HGridUse, ABulkMoveOfWhatIsNotStoredThrowsAndChangesNothing) {
+  HGrid grid;
+  grid.update({1, 4}, {kUnit, kUnit});
+  const Aabb away = {{7, 7, 7}, {8, 8, 8}};
+  EXPECT_THROW(grid.move({1, 2}, {away, away}), std::invalid_argument);
+  EXPECT_THROW(grid.move({4, 1}, {away, away}), std::invalid_argument);
+  EXPECT_THROW(grid.move({1}, {away, away}), std::invalid_argument);
+  EXPECT_THROW(grid.move({1, 4}, {away, invalidBoxes()[0]}), std::invalid_argument);
+  EXPECT_EQ(test::pairsOf(grid), test::Pairs({{1, 4}}));
+  grid.move({}, {});
+  grid.move({4}, {away});
+  EXPECT_TRUE(test::pairsOf(grid).empty());
+  EXPECT_EQ(foundBy(grid, away), std::vector<ProxyId>({4}));
+}
+
+TEST(HGridUse, ThreadsAndInstructionSetsThatThereAreNotAreRefused) {
+  HGrid grid;
+  for (const int threads : {0, -1, 65}) EXPECT_THROW(grid.setThreads(threads), std::invalid_argument) << threads;
+  for (const Isa isa : {Isa::portable, Isa::sse2, Isa::avx2, Isa::avx512}) {
+    if (isSupported(isa)) {
+      grid.setIsa(isa);
+      EXPECT_EQ(grid.isa(), isa);
+    } else {
+      EXPECT_THROW(grid.setIsa(isa), std::invalid_argument) << name(isa);
+    }
+  }
+  EXPECT_TRUE(isSupported(bestIsa()));
+  EXPECT_TRUE(isSupported(Isa::portable));
+}
+
+TEST(HGridUse, FixedBoxesPairWithOthersOnly) {
+  for (unsigned seed = 1; seed <= 55; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    test::Random random(seed);
+    const std::vector<Aabb> boxes = test::worldOf(static_cast<test::Family>(seed % test::kFamilies), seed);
+    HGrid grid = test::gridOf(boxes, test::scaleFor(boxes, random));
+    std::vector<ProxyId> fixed, moving;
+    std::vector<bool> is_fixed(boxes.size());
+    for (ProxyId id = 0; id < boxes.size(); ++id) {
+      is_fixed[id] = random.chance(0.5);
+      if (is_fixed[id]) fixed.push_back(id);
+      if (!is_fixed[id] && random.chance(0.2)) moving.push_back(id);
+    }
+    grid.setFixed(fixed);
+    const auto expectRight = [&](const std::vector<Aabb>& now) {
+      test::Pairs expected;
+      for (const auto& pair : test::allOverlaps(now)) {
+        if (!is_fixed[pair.first] || !is_fixed[pair.second]) expected.push_back(pair);
+      }
+      ASSERT_EQ(test::pairsOf(grid), expected);
+      ASSERT_NO_THROW(grid.checkInvariants());
+      if (!now.empty()) {
+        ASSERT_FALSE(foundBy(grid, now[0]).empty()) << "queries find fixed boxes too";
+      }
+    };
+    ASSERT_NO_FATAL_FAILURE(expectRight(boxes));
+    std::vector<Aabb> now = boxes;
+    for (int frame = 0; frame < 3; ++frame) {
+      std::vector<Aabb> moved;
+      for (const ProxyId id : moving) {
+        now[id] = boxes[std::size_t(random.below(int(boxes.size())))];
+        moved.push_back(now[id]);
+      }
+      grid.move(moving, moved);
+      ASSERT_NO_FATAL_FAILURE(expectRight(now));
+    }
+    if (!fixed.empty()) {  // a fixed box may be put elsewhere
+      now[fixed[0]] = boxes[0];
+      grid.move({fixed[0]}, {now[fixed[0]]});
+      ASSERT_NO_FATAL_FAILURE(expectRight(now));
+    }
+  }
 }
 
 TEST(HGridUse, EdgesOutsideThePromisedRangeAreRefused) {
@@ -110,30 +182,27 @@ TEST(HGridUse, EdgesAreRoundedDownToAPowerOfTwoAndGrowByTheRatio) {
   }
 }
 
-TEST(HGridUse, LevelsCountsAndMaskAgree) {
+TEST(HGridUse, LevelsHoldBoxesOfTheirSize) {
   for (unsigned seed = 1; seed <= 110; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     test::Random random(seed);
     const std::vector<Aabb> boxes = test::worldOf(static_cast<test::Family>(seed % test::kFamilies), seed);
     const HGrid grid = test::gridOf(boxes, test::scaleFor(boxes, random));
     std::vector<std::size_t> counts(GridScale::kLevels + 1, 0);
-    for (const Aabb& box : boxes) {
-      const int level = grid.levelFor(box);
+    for (ProxyId id = 0; id < boxes.size(); ++id) {
+      const int level = grid.levelFor(boxes[id]);
+      ASSERT_EQ(grid.levelOf(id), level);
       ++counts.at(std::size_t(level));
-      if (level == GridScale::kLevels) continue;
-      // The promise of the level: it fits, and hardly any finer one would do.
-      const double side = (box.max.cast<double>() - box.min.cast<double>()).maxCoeff();
-      ASSERT_LE(side, grid.edge(level));
-    }
-    std::size_t sum = 0;
-    for (int level = 0; level <= GridScale::kLevels; ++level) {
-      ASSERT_EQ(grid.count(level), counts[std::size_t(level)]) << "level " << level;
-      sum += grid.count(level);
+      const float side = (boxes[id].max - boxes[id].min).maxCoeff();
       if (level < GridScale::kLevels) {
-        ASSERT_EQ(grid.occupiedLevels() >> level & 1u, counts[std::size_t(level)] > 0 ? 1u : 0u);
+        ASSERT_LE(side, grid.edge(level));
+      }
+      if (level > 0) {
+        ASSERT_GT(side, grid.edge(level - 1));
       }
     }
-    ASSERT_EQ(sum, grid.size());
+    ASSERT_EQ(grid.levelCounts(), counts);
+    ASSERT_EQ(grid.levelOf(ProxyId(boxes.size())), -1);
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "test/support/oracle.h"
 #include "test/support/random.h"
+#include "test/support/worlds.h"
 
 namespace hgrid {
 namespace {
@@ -154,6 +155,30 @@ TEST(Segment, FirstTouchIsAsExactAsTheInputFromFarAway) {
     ASSERT_TRUE(meeting);
     ASSERT_NEAR(meeting->along, double(approach.first), test::promisedSlack(segment.from, segment.to, 0.0));
   }
+}
+
+TEST(Segment, TheFirstTouchIsThatOfTheMeeting) {
+  test::Random random(11);
+  int touched = 0;
+  for (int i = 0; i < 200000; ++i) {
+    const Aabb box = random.chance(0.3) ? test::latticeBox(random, 0.5f)
+                                        : test::boxAround(test::randomVector(random, -2, 2), test::randomVector(random, 0, 2));
+    Segment segment{test::randomVector(random, -4, 4), test::randomVector(random, -4, 4),
+                    random.chance(0.7) ? 0.0 : random.uniform(0, 1)};
+    for (int k = 0; k < 3; ++k) {
+      if (random.chance(0.2)) segment.to[k] = segment.from[k];
+      if (random.chance(0.1)) segment.from[k] = box.min[k];
+      if (random.chance(0.1)) segment.to[k] = box.max[k];
+      if (random.chance(0.02)) segment.to[k] = std::nextafter(segment.from[k], 9.0);
+    }
+    const auto meeting = meet(segment, box);
+    const auto first = firstTouch(segment, box);
+    ASSERT_EQ(first.has_value(), meeting.has_value()) << "number " << i;
+    if (!first) continue;
+    ASSERT_NEAR(*first, meeting->along, 1e-9) << "number " << i;
+    ++touched;
+  }
+  EXPECT_GT(touched, 20000);
 }
 
 }  // namespace

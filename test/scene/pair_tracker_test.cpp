@@ -44,6 +44,19 @@ TEST(PairTracker, BeginsAgainAfterAnInterruption) {
   EXPECT_EQ(sinceOf(tracker, kThree, 30, {{0, 1}}), times({30}));
 }
 
+TEST(PairTracker, NamesThePairsThatEnded) {
+  using Ended = std::vector<std::pair<BodyId, BodyId>>;
+  PairTracker tracker;
+  sinceOf(tracker, kThree, 10, {{0, 1}, {0, 2}, {1, 2}});
+  EXPECT_EQ(tracker.ended(), Ended());
+  sinceOf(tracker, kThree, 20, {{0, 2}});
+  EXPECT_EQ(tracker.ended(), (Ended{{{0, 0}, {1, 0}}, {{1, 0}, {2, 0}}}));
+  sinceOf(tracker, {{0, 0}, {1, 0}}, 30, {});  // a body went, and its pair with it
+  EXPECT_EQ(tracker.ended(), (Ended{{{0, 0}, {2, 0}}}));
+  sinceOf(tracker, kThree, 40, {{0, 1}});
+  EXPECT_EQ(tracker.ended(), Ended());
+}
+
 TEST(PairTracker, ANewNumberingOfTheBodiesDoesNotInterrupt) {
   PairTracker tracker;
   sinceOf(tracker, kThree, 10, {{0, 1}, {1, 2}});

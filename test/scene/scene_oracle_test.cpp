@@ -92,7 +92,7 @@ class Story {
     options.growth_cap = test::sixtyFourths(random, 0, 2);
     options.finest_edge = random.chance(0.5) ? 0.0 : random.logUniform(0.001, 100);
     if (random.chance(0.5)) options.origin << random.uniform(-10, 10), 1.5, -7;
-    options.hash_seed = random.bits();
+    options.threads = 1 + random.below(2);
     return options;
   }
 

@@ -21,9 +21,61 @@ inline GridScale scaleFor(const std::vector<Aabb>& boxes, Random& random) {
   return scale;
 }
 
-inline HGrid gridOf(const std::vector<Aabb>& boxes, const GridScale& scale, std::uint64_t seed = 0) {
-  HGrid grid(scale, seed);
-  for (ProxyId id = 0; id < boxes.size(); ++id) grid.insert(id, boxes[id]);
+/// The boxes of a world, box i under id i, in one bulk update.
+inline HGrid gridOf(const std::vector<Aabb>& boxes, const GridScale& scale) {
+  HGrid grid(scale);
+  std::vector<ProxyId> ids;
+  for (ProxyId id = 0; id < boxes.size(); ++id) ids.push_back(id);
+  grid.update(ids, boxes);
+  return grid;
+}
+
+inline std::vector<Isa> supportedIsas() {
+  std::vector<Isa> isas;
+  for (const Isa isa : {Isa::portable, Isa::sse2, Isa::avx2, Isa::avx512}) {
+    if (isSupported(isa)) isas.push_back(isa);
+  }
+  return isas;
+}
+
+/// The same, but come to in one of several ways, on some instruction set: whatever was before must not show.
+inline HGrid gridComeTo(const std::vector<Aabb>& boxes, const GridScale& scale, Random& random) {
+  HGrid grid(scale);
+  const std::vector<Isa> isas = supportedIsas();
+  grid.setIsa(isas[std::size_t(random.below(int(isas.size())))]);
+  const int way = random.below(5);
+  std::vector<ProxyId> ids, some;
+  std::vector<Aabb> before = boxes, moved;
+  for (ProxyId id = 0; id < boxes.size(); ++id) {
+    ids.push_back(id);
+    const bool few = way == 3 || way == 4;
+    if (!random.chance(few ? 0.1 : 0.7)) continue;
+    before[id] = boxes[std::size_t(random.below(int(boxes.size())))];  // elsewhere, another size
+    some.push_back(id);
+    moved.push_back(boxes[id]);
+  }
+  std::vector<ProxyPair> pairs;
+  if (way == 0) {  // one by one, in any order
+    for (std::size_t i = ids.size(); i > 1; --i) std::swap(ids[i - 1], ids[std::size_t(random.below(int(i)))]);
+    for (const ProxyId id : ids) grid.insert(id, boxes[id]);
+    return grid;
+  }
+  grid.update(ids, before);
+  if (random.chance(0.5)) grid.overlappingPairs(pairs);  // from now on pairs are kept
+  if (way == 1 || way == 3) {
+    grid.update(ids, boxes);
+  } else if (way == 4) {
+    grid.move(some, moved);
+  } else {
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      if (random.chance(0.5)) {
+        grid.update(some[i], moved[i]);
+      } else {
+        grid.remove(some[i]);
+        grid.insert(some[i], moved[i]);
+      }
+    }
+  }
   return grid;
 }
 

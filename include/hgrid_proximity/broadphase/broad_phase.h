@@ -30,6 +30,22 @@ struct SegmentHit {
   double along = 0.0;
 };
 
+/// A box near a point, and how far away [m]; 0 if the point is inside.
+struct NearHit {
+  ProxyId id = 0;
+  double distance = 0.0;
+};
+
+/// Answers to many questions at once, structure of arrays: those to question q are found[begin[q]] ..
+/// found[begin[q] + count[q] - 1], ordered as a single question would have them.
+template <class Found>
+struct BatchOf {
+  std::vector<std::uint32_t> begin, count;
+  std::vector<Found> found;
+};
+using IdBatch = BatchOf<ProxyId>;
+using SegmentBatch = BatchOf<SegmentHit>;
+
 /// Answers "which boxes overlap?". One writer at a time; const calls may run side by side and give the
 /// same results. Boxes that only touch overlap. Results replace what the caller's buffer held.
 class BroadPhase {
@@ -48,6 +64,9 @@ class BroadPhase {
   /// @throws std::invalid_argument if the arrays do not match, ids do not ascend or a box is not valid;
   /// then nothing has changed.
   virtual void update(const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) = 0;
+  /// Bulk move: ids[i] is now boxes[i], everything else rests; ids ascending. Costs what moves, not what is stored.
+  /// @throws std::invalid_argument as above, or if an id is not stored; then nothing has changed.
+  virtual void move(const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) = 0;
 
   virtual std::size_t size() const = 0;
 
@@ -59,6 +78,14 @@ class BroadPhase {
   virtual void overlapping(const Sphere& sphere, std::vector<ProxyId>& found) const = 0;
   /// Boxes that the segment meets, by `along`, then id; superset within rounding as meet() says.
   virtual void along(const Segment& segment, std::vector<SegmentHit>& found) const = 0;
+  /// The `count` boxes nearest to a point, none farther than `limit` [m], by distance, then id.
+  virtual void nearest(const Eigen::Vector3d& point, std::size_t count, double limit,
+                       std::vector<NearHit>& found) const = 0;
+
+  /// Many questions at once, answered in an order of their places, which spares the memory.
+  virtual void overlapping(const std::vector<Aabb>& boxes, IdBatch& found) const = 0;
+  virtual void overlapping(const std::vector<Sphere>& spheres, IdBatch& found) const = 0;
+  virtual void along(const std::vector<Segment>& segments, SegmentBatch& found) const = 0;
 
   /// @throws std::logic_error naming the first promise of the structure that does not hold.
   virtual void checkInvariants() const = 0;

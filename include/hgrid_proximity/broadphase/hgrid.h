@@ -2,109 +2,98 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <unordered_map>
+#include <memory>
 
 #include "hgrid_proximity/broadphase/broad_phase.h"
+#include "hgrid_proximity/broadphase/isa.h"
 
 namespace hgrid {
 
-/// The sizes of an HGrid's cells.
+/// The sizes of an HGrid's levels.
 struct GridScale {
-  static constexpr int kLevels = 16;     ///< levels of a grid
-  static constexpr double kRatio = 4.0;  ///< edge of a level's cells over that of the next finer level
+  static constexpr int kLevels = 16;     ///< levels of a grid; what is larger than the coarsest stands on one more
+  static constexpr double kRatio = 4.0;  ///< size of a level's boxes over that of the next finer level's
 
-  double finest_edge = 0.0625;  ///< [m] edge of the smallest cells; 2^-30 .. 2^30, rounded down to a power of two
+  double finest_edge = 0.0625;  ///< [m] longest side of the boxes on the finest level; 2^-30 .. 2^30
 
-  /// A scale whose finest cells fit the smallest of the boxes (1 m if there are none).
+  /// A scale whose finest level suits the smallest of the boxes (1 m if there are none).
   static GridScale fitting(const std::vector<Aabb>& boxes);
 };
 
-/// A hashed hierarchical grid (after Ericson, Real-Time Collision Detection, 2005, sections 7.1 and 7.2).
+/// Decides which overlapping pairs are reported at all. Asked on any thread, of each pair perhaps only once while
+/// neither of its boxes moves: the answer for a pair must not change.
+struct PairTest {
+  bool (*reported)(const void* context, ProxyId first, ProxyId second) = nullptr;  ///< null: every pair
+  const void* context = nullptr;
+};
+
+/// A hierarchical grid (after Ericson, Real-Time Collision Detection, 2005, sections 7.1 and 7.2).
 ///
-/// A box lives in one cell of one level: that of its minimum corner, on the finest level where it reaches
-/// no farther than into the next cell of each axis. So the boxes that overlap a query have their cells in
-/// the query's cells or one before them (7.1.6), whatever the rounding: cell numbers are monotone in the
-/// coordinate. A mask of occupied levels says which levels to look at. All pairs at once: each box looks
-/// at its own and the coarser levels. The grid has no border: cells are found by hash, their full key is
-/// compared. A box too large for the coarsest level, or so far out that its cell number would leave
-/// ±2^30 on every level that fits, stands in a list of its own that every query looks through.
+/// A box lives in one cell of one level: its longest side picks the level, its minimum corner the cell. So what
+/// overlaps a box begins at most the reach of its level before it, and every box looks at its own and the coarser
+/// levels. Boxes stand sorted by cell in structure of arrays, and a row of cells is one range of positions that is
+/// tested many boxes at a time; the inner loops exist once per instruction set. Levels that are thinly populated share
+/// one grid, and edges of cells follow from the boxes, by a model of the cost; coordinates outside the window of the
+/// cells count to its outermost, so the world has no border.
 ///
-/// What it finds depends neither on the order of insertion nor on the seed.
+/// Boxes that move are sorted anew whenever they do; those that rest keep their places, and the pairs among them.
+/// Fixed boxes stand in a layer of their own that makes no pairs with itself.
+///
+/// What is found depends neither on the order of insertion, nor on the instruction set, nor on the threads; for the
+/// same calls in the same order the pairs also come in the same order.
 class HGrid final : public BroadPhase {
  public:
-  /// @param seed  of the hash of the cells; keep it secret where boxes come from strangers
   /// @throws std::invalid_argument if the finest edge is not within 2^-30 .. 2^30.
-  explicit HGrid(const GridScale& scale = {}, std::uint64_t seed = 0);
+  explicit HGrid(const GridScale& scale = {});
+  ~HGrid() override;
+  HGrid(HGrid&&) noexcept;
+  HGrid& operator=(HGrid&&) noexcept;
+
+  /// Instruction set of the inner loops; bestIsa() if not told. @throws std::invalid_argument if not supported.
+  void setIsa(Isa isa);
+  Isa isa() const;
+  /// Threads that a bulk update and a search for pairs may use, the caller's among them: 1 (if not told) .. 64.
+  /// @throws std::invalid_argument
+  void setThreads(int threads);
+  /// Boxes that make no pairs among each other, ids ascending, whether they are stored yet or not.
+  void setFixed(const std::vector<ProxyId>& ids);
+
+  /// Pairs that the test does not want are left out where they are found, before they are kept or copied.
+  void setFilter(const PairTest& test);
 
   void insert(ProxyId id, const Aabb& box) override;
   void update(ProxyId id, const Aabb& box) override;
   void remove(ProxyId id) override;
   void clear() override;
   void update(const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) override;
-  std::size_t size() const override { return size_; }
+  void move(const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) override;
+  std::size_t size() const override;
   void overlappingPairs(std::vector<ProxyPair>& pairs) const override;
   void overlapping(const Aabb& box, std::vector<ProxyId>& found) const override;
   void overlapping(const Sphere& sphere, std::vector<ProxyId>& found) const override;
   void along(const Segment& segment, std::vector<SegmentHit>& found) const override;
+  void nearest(const Eigen::Vector3d& point, std::size_t count, double limit,
+               std::vector<NearHit>& found) const override;
+  void overlapping(const std::vector<Aabb>& boxes, IdBatch& found) const override;
+  void overlapping(const std::vector<Sphere>& spheres, IdBatch& found) const override;
+  void along(const std::vector<Segment>& segments, SegmentBatch& found) const override;
   void checkInvariants() const override;
 
-  /// Bit k is set while level k (0 the finest) holds a box.
-  std::uint32_t occupiedLevels() const { return occupied_; }
-  /// Boxes on a level; level kLevels counts those too large for every level.
-  std::size_t count(int level) const;
-  /// [m] Edge of a level's cells.
-  double edge(int level) const { return levels_.at(static_cast<std::size_t>(level)).edge; }
-  /// Level on which this box would live: 0 .. kLevels - 1, or kLevels if it is too large for all.
+  /// [m] Longest side of the boxes on a level.
+  double edge(int level) const;
+  /// Level of a box of this size: 0 .. kLevels - 1, or kLevels if it is larger than the coarsest.
   int levelFor(const Aabb& box) const;
-  /// Level on which a box lives, as levelFor(); -1 if it is not stored.
-  int levelOf(ProxyId id) const { return id < entries_.size() ? entries_[id].level : kAbsent; }
+  /// Level of a stored box, as levelFor(); -1 if it is not stored.
+  int levelOf(ProxyId id) const;
+  /// Stored boxes per level, kLevels + 1 numbers. Looks at every box.
+  std::vector<std::size_t> levelCounts() const;
+  /// Bytes of all that is kept, the pairs of resting boxes apart.
+  std::size_t bytes() const;
 
  private:
-  using Cell = std::array<std::int32_t, 3>;
-  struct CellHash {
-    std::uint64_t seed;
-    std::size_t operator()(const Cell& cell) const;
-  };
-  using Members = std::vector<ProxyId>;
-  using CellMap = std::unordered_map<Cell, Members, CellHash>;
-  struct Level {
-    double edge;
-    CellMap cells;
-    std::size_t count = 0;
-  };
-  struct Entry {
-    Aabb box;
-    int level = kAbsent;
-    Cell cell{};
-    std::uint32_t position = 0;  // in the members of its cell, or in oversize_
-  };
-  struct Range {
-    Cell low, high;
-  };
-  static constexpr int kAbsent = -1;
-  static constexpr int kOversize = GridScale::kLevels;
-
-  bool isStored(ProxyId id) const { return id < entries_.size() && entries_[id].level != kAbsent; }
-  void place(ProxyId id, const Aabb& box);
-  void withdraw(ProxyId id);
-  Members& membersOf(const Entry& entry);
-  const Members& membersOf(const Entry& entry) const;
-  Range reachOf(const Level& level, const Eigen::Vector3d& min, const Eigen::Vector3d& max) const;
-  template <class Visit>
-  void visitRange(const Level& level, const Range& range, Visit&& visit) const;
-  template <class Visit>
-  void visitAll(const Level& level, Visit&& visit) const;
-  template <class Visit>
-  void visitNear(const Eigen::Vector3d& min, const Eigen::Vector3d& max, std::uint32_t levels, Visit&& visit) const;
-  bool slabsAlong(const Level& level, const Segment& segment, std::vector<Range>& slabs) const;
-
-  std::array<Level, GridScale::kLevels> levels_;
-  std::vector<Entry> entries_;
-  Members oversize_;
-  std::uint32_t occupied_ = 0;
-  std::size_t size_ = 0;
+  struct Engine;
+  std::unique_ptr<Engine> engine_;
 };
 
 }  // namespace hgrid

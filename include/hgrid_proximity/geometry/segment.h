@@ -30,4 +30,8 @@ struct Meeting {
 /// breaks are where the point crosses a face's plane, and each piece is solved in closed form.
 std::optional<Meeting> meet(const Segment& segment, const Aabb& box);
 
+/// Meeting::along of meet(), within its rounding, without the rest and faster: a thin segment that plainly enters the
+/// box is clipped by the box's slabs (Ericson 2005, section 5.3.3).
+std::optional<double> firstTouch(const Segment& segment, const Aabb& box);
+
 }  // namespace hgrid

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "hgrid_proximity/scene/body.h"
@@ -23,19 +23,23 @@ struct NearPair {
 class PairTracker {
  public:
   /// Fills `since` of every pair: kept where the pair was there in the last call, else `stamp`.
-  /// @param ids  handle per body index
+  /// @param ids    handle per body index
+  /// @param pairs  sorted by (first, second), each once
   void update(const std::vector<BodyId>& ids, Time stamp, std::vector<NearPair>& pairs);
-  void clear() { since_.clear(); }
+  /// Pairs that were near before the last update() and are no more, by handle.
+  const std::vector<std::pair<BodyId, BodyId>>& ended() const { return ended_; }
+  void clear();
 
  private:
-  struct Key {
-    BodyId first, second;
-    bool operator==(const Key& other) const { return first == other.first && second == other.second; }
+  struct Known {
+    std::uint32_t first, second;
+    Time since;
   };
-  struct KeyHash {
-    std::size_t operator()(const Key& key) const;
-  };
-  std::unordered_map<Key, Time, KeyHash> since_, next_;
+  void renumber(const std::vector<BodyId>& ids);
+
+  std::vector<BodyId> ids_;
+  std::vector<Known> known_;  // sorted by (first, second), which index ids_
+  std::vector<std::pair<BodyId, BodyId>> ended_;
 };
 
 }  // namespace hgrid

@@ -121,6 +121,7 @@ class Snapshot {
   Freshness worst_state_ = Freshness::fresh;
   double max_age_ = 0.0;
   HGrid grid_;
+  std::uint64_t grid_revision_ = 0;  // of the structure that grid_ was set up for
 };
 
 }  // namespace hgrid

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "broadphase/layer.h"
+#include "hgrid_proximity/broadphase/hgrid.h"
+
+namespace hgrid {
+
+/// Positions of one level, to be tested among themselves or against all of another level.
+struct SearchTask {
+  const kernels::Level* asking;
+  const kernels::Level* asked;  // null: among themselves
+  std::uint32_t begin, end;
+};
+
+/// What a search for pairs works with.
+struct SearchBuffers {
+  std::vector<SearchTask> tasks;
+  std::vector<std::vector<ProxyPair>> parts;  // per task
+};
+
+/// What an HGrid holds. Boxes stand in layers by how they behave, each sorted on its own:
+///
+///   fixed    said to be so; no pairs among themselves
+///   resting  did not move for a while; their pairs among themselves and with fixed ones are kept
+///   moving   sorted anew whenever one of them moves
+///   loose    came or moved one by one; few, until they are sorted with the moving
+struct HGrid::Engine {
+  enum Place : std::uint8_t { kFixed, kResting, kMoving, kLoose, kLayers, kAbsent };
+
+  explicit Engine(double finest);
+
+  bool isStored(ProxyId id) const { return id < place.size() && place[id] != kAbsent; }
+  void requireStored(ProxyId id) const;
+  Machine machine() { return {&kernels::of(isa), workers.get(), &scratch}; }
+
+  // Changes; engine.cpp.
+  void grow(ProxyId id);
+  /// Takes a box out of its layer; `place` is then kAbsent.
+  void takeOut(ProxyId id);
+  /// Takes in a box that stands in no layer.
+  void putLoose(ProxyId id);
+  void joinLoose();
+  void settleLoose();
+  /// Sorts all boxes into fixed and resting.
+  void sortAll();
+  /// Sorts anew the boxes that moved (`moved`, whose boxes are written already), with those that moved lately.
+  void sortMoved();
+  void sortLayer(Place layer);
+  void locate(Place layer);
+  /// Pairs of what rests, so that they need not be looked for each time.
+  void keepPairs();
+
+  double finest_edge;
+  Isa isa = bestIsa();
+  PairTest filter;
+  std::vector<Aabb> boxes;        // by id
+  std::vector<Place> place;       // by id
+  std::vector<bool> fixed;        // by id; may be shorter
+  std::vector<std::uint32_t> position;  // by id, in its layer; only where `located` says so
+  std::array<Layer, kLayers> layers;
+  std::array<std::vector<ProxyId>, kLayers> members;  // moving and loose: ids
+  std::array<bool, kLayers> located{};
+  bool moving_changed = false;    // some of the moving were taken out, and stand there as withdrawn
+  std::size_t stored = 0;
+  std::size_t withdrawn = 0;      // positions that are empty, in fixed and resting
+  double waste = 0.0;             // boxes sorted with the moving although they rested, summed up
+  std::vector<ProxyId> moved;     // scratch
+  SortScratch scratch;
+  std::unique_ptr<Workers> workers = std::make_unique<Workers>(1);
+
+  std::vector<ProxyPair> kept;    // pairs of resting boxes with resting and fixed ones
+  bool kept_valid = false;
+  bool kept_dirty = false;        // some of their boxes are in these layers no more
+  mutable std::atomic<bool> pairs_wanted{false};
+
+  // Search for pairs; pair_search.cpp. Threads and their buffers serve one search at a time; a second one that runs
+  // beside it does without.
+  void findKept(std::vector<ProxyPair>& pairs) const;
+  void findPairs(std::vector<ProxyPair>& pairs) const;
+  mutable std::mutex search_mutex;
+  mutable SearchBuffers buffers;
+};
+
+}  // namespace hgrid

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+// The inner loops of the hgrid, compiled once per instruction set from the one text in kernels_body.h. Nothing in
+// this folder includes Eigen or the standard library's templates: an inline copy of theirs that was compiled for a
+// newer processor could be picked by the linker for everybody.
+
+namespace hgrid {
+
+enum class Isa : int;
+
+namespace kernels {
+
+constexpr float kMostFloat = 3.402823466e+38f;  ///< the largest finite one
+
+/// Floats are compared with them as they are in Aabb: min x y z, max x y z.
+struct Box {
+  float min[3], max[3];
+};
+
+struct Pair {
+  std::uint32_t first, second;
+};
+
+/// Maps coordinates to cells: on each axis, number = trunc(clamp(v * inverse - origin, 0, last)). Each of these
+/// steps is monotone in v, whatever it rounds, so intervals that overlap have cell numbers that overlap; a window
+/// that fits badly costs time, never a pair.
+struct Grid {
+  float inverse[3];  ///< [1/m] one over the edge of a cell
+  float origin[3];   ///< [cells] of the window's lower corner
+  float last[3];     ///< number of the last cell
+  std::int32_t row;  ///< cells of a row along x
+  std::int32_t slab; ///< cells of a slab: rows along y times row
+};
+
+/// One level of a layer: boxes in the order of their cells, structure of arrays. A row of cells along x is one
+/// range of positions. Every array can be read 16 places beyond `end`.
+struct Level {
+  Grid grid;
+  float reach[3];              ///< [m] at least the longest side of its boxes, per axis
+  const float* bounds;         ///< six arrays, `stride` apart: min x y z, max x y z at each position
+  std::size_t stride;
+  const std::uint32_t* id;     ///< at each position
+  const std::uint32_t* start;  ///< of a cell: position of its first box; that of the next cell ends it
+  std::uint32_t begin, end;    ///< positions of this level's boxes
+};
+
+/// A segment; everything within `around` of it counts.
+struct Line {
+  double from[3], way[3];
+  double around;
+};
+
+/// Where found things go: `next` is written and moved on; before fewer than 16 places are left `grow` makes room.
+template <class Found>
+struct Sink {
+  Found* next;
+  Found* limit;
+  void* owner;
+  void (*grow)(Sink*);
+};
+using PairSink = Sink<Pair>;
+using PositionSink = Sink<std::uint32_t>;
+
+/// A sorting of boxes into cells: what the first of two passes of counting needs and gives.
+struct Keying {
+  const Box* boxes;            ///< by id
+  const std::uint32_t* order;  ///< ids in the order to go through
+  std::size_t begin, end;      ///< positions in `order`
+  std::size_t readable;        ///< size of `order`; ids up to there may be fetched ahead
+  Box* copies;                 ///< out: the boxes by position
+  std::uint32_t* cells;        ///< out: cell by position, counted through all levels
+  std::uint32_t* counts;       ///< in and out: boxes per cell
+  const Grid* grids;           ///< per level
+  const float* sides;          ///< largest side of each level's boxes; ascending, the last is not looked at
+  const std::uint32_t* first_cells;  ///< per level
+  int levels;
+  float* sizes;                ///< out: 4 floats per level: largest extent on each axis, unspecified
+  float lower[4], upper[4];    ///< out: least and greatest minimum corner
+};
+
+struct Kernels {
+  /// Whether all boxes are finite, with min <= max.
+  bool (*sound)(const Box* boxes, std::size_t count);
+  /// First pass of counting (Ericson 2005, 7.1.4): the cell of each box.
+  void (*key)(Keying* keying);
+  /// Overlapping pairs of one level, each box of positions begin .. end - 1 with those after it.
+  void (*pairsWithin)(const Level* level, std::uint32_t begin, std::uint32_t end, PairSink* sink);
+  /// Overlapping pairs of the asking level's positions begin .. end - 1 with all boxes of the asked level.
+  void (*pairsAcross)(const Level* asking, std::uint32_t begin, std::uint32_t end, const Level* asked, PairSink* sink);
+  /// Positions of the boxes that overlap `box`, ascending.
+  void (*overlapping)(const Level* level, const Box* box, PositionSink* sink);
+  /// Positions of boxes near the line: all that come within `around` of it, and a few more.
+  void (*along)(const Level* level, const Line* line, PositionSink* sink);
+};
+
+/// The loops for an instruction set that isSupported().
+const Kernels& of(Isa isa);
+
+const Kernels& portableKernels();
+const Kernels& sse2Kernels();
+const Kernels& avx2Kernels();
+const Kernels& avx512Kernels();
+
+}  // namespace kernels
+}  // namespace hgrid

@@ -1,0 +1,391 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// The algorithm, in the words of one thin layer of vector operations: the including file has defined a type Simd (see
+// simd_portable.h for what each operation means) in its own unnamed namespace. No include guard: one text, several
+// instruction sets.
+
+#include "broadphase/kernels/kernels.h"
+
+namespace hgrid {
+namespace kernels {
+namespace {
+
+constexpr int kBlock = 16;  // boxes that look around together; the same for every instruction set
+
+inline std::int32_t cellOf(float value, const Grid& grid, int axis) {
+  float cell = value * grid.inverse[axis] - grid.origin[axis];
+  cell = cell > 0.0f ? cell : 0.0f;
+  cell = cell < grid.last[axis] ? cell : grid.last[axis];
+  return static_cast<std::int32_t>(cell);
+}
+
+/// cellOf() of 16 values, each moved down by `reach` before. A box of the level that overlaps one with minimum v
+/// has its own minimum at v - reach or above, and rounding is monotone, so also its cell.
+inline void cellsOf(const float* values, float reach, const Grid& grid, int axis, std::int32_t* cells) {
+  const float inverse = grid.inverse[axis], origin = grid.origin[axis], last = grid.last[axis];
+  for (int k = 0; k < kBlock; ++k) {
+    float cell = (values[k] - reach) * inverse - origin;
+    cell = cell > 0.0f ? cell : 0.0f;
+    cell = cell < last ? cell : last;
+    cells[k] = static_cast<std::int32_t>(cell);
+  }
+}
+
+/// A sink while a kernel writes to it: kept out of memory, since for all that a compiler knows what is written could
+/// change where to write next.
+template <class Found>
+class Output {
+ public:
+  explicit Output(Sink<Found>* sink) : sink_(sink), next_(sink->next), limit_(sink->limit) {}
+  Found* room() {
+    if (__builtin_expect(limit_ - next_ < kBlock, 0)) grow();
+    return next_;
+  }
+  void wrote(Found* end) { next_ = end; }
+  void close() { sink_->next = next_; }
+
+ private:
+  void __attribute__((noinline)) grow() {
+    sink_->next = next_;
+    sink_->grow(sink_);
+    next_ = sink_->next;
+    limit_ = sink_->limit;
+  }
+  Sink<Found>* sink_;
+  Found *next_, *limit_;
+};
+
+/// Tests box i of `asking` against `left` positions of `asked` from `begin` on.
+inline void meetRange(const Level& asking, std::uint32_t i, const Level& asked, std::uint32_t begin,
+                      std::uint32_t left, Output<Pair>& found) {
+  const Simd::Box box = Simd::boxAt(asking, i);
+  const Simd::Id id = Simd::idAt(asking, i);
+  for (;;) {  // nearly always once, so that not even an empty range is worth a question before
+    const std::uint32_t hits = Simd::overlaps(box, asked, begin, left);
+    found.wrote(Simd::storePairs(found.room(), id, asked.id + begin, hits));
+    if (left <= Simd::kWidth) return;
+    left -= Simd::kWidth;
+    begin += Simd::kWidth;
+  }
+}
+
+/// For each bit k: box first + k against the cells x_low[k] .. x_high[k] of the row that starts at cell row[k] + offset.
+/// Going through bits instead of boxes spares the processor most wrong guesses: whether a box reaches into the next
+/// row is a coin toss, how many of sixteen do is not.
+inline void meetRows(const Level& asking, std::uint32_t first, std::uint32_t bits, const Level& asked,
+                     const std::int32_t* row, std::int32_t offset, const std::int32_t* x_low,
+                     const std::int32_t* x_high, Output<Pair>& found) {
+  while (bits != 0) {
+    const int k = Simd::lowestBit(bits);
+    bits &= bits - 1;
+    const std::uint32_t begin = asked.start[row[k] + offset + x_low[k]];
+    const std::uint32_t end = asked.start[row[k] + offset + x_high[k] + 1];
+    if (begin < end) meetRange(asking, first + static_cast<std::uint32_t>(k), asked, begin, end - begin, found);
+  }
+}
+
+inline std::uint32_t bitsBelow(std::uint32_t count) { return count >= kBlock ? 0xffffu : (1u << count) - 1u; }
+
+/// A box lives in the cell of its minimum corner (Ericson 2005, 7.1.6), so what overlaps it has its cell between
+/// those of (minimum - reach) and of its maximum. Each box looks at what comes after it in the order of cells: the
+/// rest of its own row up to its maximum, then the later rows from the lower bound on.
+void pairsWithin(const Level* level, std::uint32_t begin, std::uint32_t end, PairSink* sink) {
+  const Level l = *level;
+  const Grid& grid = l.grid;
+  Output<Pair> found(sink);
+  alignas(64) std::int32_t x_low[kBlock], x_high[kBlock], y_low[kBlock], y_own[kBlock], y_high[kBlock], z_own[kBlock],
+      z_high[kBlock], own_row[kBlock], low_row[kBlock], own_span[kBlock], low_span[kBlock], z_span[kBlock];
+  for (std::uint32_t first = begin; first < end; first += kBlock) {
+    const std::uint32_t all = bitsBelow(end - first);
+    cellsOf(l.bounds + first, l.reach[0], grid, 0, x_low);
+    cellsOf(l.bounds + 3 * l.stride + first, 0.0f, grid, 0, x_high);
+    cellsOf(l.bounds + l.stride + first, l.reach[1], grid, 1, y_low);
+    cellsOf(l.bounds + l.stride + first, 0.0f, grid, 1, y_own);
+    cellsOf(l.bounds + 4 * l.stride + first, 0.0f, grid, 1, y_high);
+    cellsOf(l.bounds + 2 * l.stride + first, 0.0f, grid, 2, z_own);
+    cellsOf(l.bounds + 5 * l.stride + first, 0.0f, grid, 2, z_high);
+    for (int k = 0; k < kBlock; ++k) {
+      own_row[k] = z_own[k] * grid.slab + y_own[k] * grid.row;
+      low_row[k] = z_own[k] * grid.slab + y_low[k] * grid.row;
+      own_span[k] = y_high[k] - y_own[k];
+      low_span[k] = y_high[k] - y_low[k];
+      z_span[k] = z_high[k] - z_own[k];
+    }
+    const std::uint32_t stop = end - first < kBlock ? end - first : kBlock;
+    for (std::uint32_t k = 0; k < stop; ++k) {
+      const std::uint32_t next = first + k + 1, row_end = l.start[own_row[k] + x_high[k] + 1];
+      meetRange(l, first + k, l, next, row_end > next ? row_end - next : 0, found);
+    }
+    for (std::int32_t y = 1;; ++y) {
+      const std::uint32_t bits = Simd::atLeast(own_span, y) & all;
+      if (bits == 0) break;
+      meetRows(l, first, bits, l, own_row, y * grid.row, x_low, x_high, found);
+    }
+    for (std::int32_t z = 1;; ++z) {
+      const std::uint32_t slab_bits = Simd::atLeast(z_span, z) & all;
+      if (slab_bits == 0) break;
+      for (std::int32_t y = 0;; ++y) {
+        const std::uint32_t bits = Simd::atLeast(low_span, y) & slab_bits;
+        if (bits == 0) break;
+        meetRows(l, first, bits, l, low_row, z * grid.slab + y * grid.row, x_low, x_high, found);
+      }
+    }
+  }
+  found.close();
+}
+
+/// As above, but all cells from the lower bound on count: the two levels, or layers, have no common order.
+void pairsAcross(const Level* asking, std::uint32_t begin, std::uint32_t end, const Level* asked, PairSink* sink) {
+  const Level a = *asking, b = *asked;
+  const Grid& grid = b.grid;
+  Output<Pair> found(sink);
+  alignas(64) std::int32_t x_low[kBlock], x_high[kBlock], y_low[kBlock], y_high[kBlock], z_low[kBlock], z_high[kBlock],
+      row[kBlock];
+  for (std::uint32_t first = begin; first < end; first += kBlock) {
+    const std::uint32_t all = bitsBelow(end - first);
+    cellsOf(a.bounds + first, b.reach[0], grid, 0, x_low);
+    cellsOf(a.bounds + 3 * a.stride + first, 0.0f, grid, 0, x_high);
+    cellsOf(a.bounds + a.stride + first, b.reach[1], grid, 1, y_low);
+    cellsOf(a.bounds + 4 * a.stride + first, 0.0f, grid, 1, y_high);
+    cellsOf(a.bounds + 2 * a.stride + first, b.reach[2], grid, 2, z_low);
+    cellsOf(a.bounds + 5 * a.stride + first, 0.0f, grid, 2, z_high);
+    for (int k = 0; k < kBlock; ++k) {
+      row[k] = z_low[k] * grid.slab + y_low[k] * grid.row;
+      y_high[k] -= y_low[k];
+      z_high[k] -= z_low[k];
+    }
+    for (std::int32_t z = 0;; ++z) {
+      const std::uint32_t slab_bits = Simd::atLeast(z_high, z) & all;
+      if (slab_bits == 0) break;
+      for (std::int32_t y = 0;; ++y) {
+        const std::uint32_t bits = Simd::atLeast(y_high, y) & slab_bits;
+        if (bits == 0) break;
+        meetRows(a, first, bits, b, row, z * grid.slab + y * grid.row, x_low, x_high, found);
+      }
+    }
+  }
+  found.close();
+}
+
+void overlapping(const Level* level, const Box* box, PositionSink* sink) {
+  const Level l = *level;
+  const Grid& grid = l.grid;
+  std::int32_t low[3], high[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    low[axis] = cellOf(box->min[axis] - l.reach[axis], grid, axis);
+    high[axis] = cellOf(box->max[axis], grid, axis);
+  }
+  const Simd::Box query = Simd::boxOf(*box);
+  Output<std::uint32_t> found(sink);
+  for (std::int32_t z = low[2]; z <= high[2]; ++z) {
+    for (std::int32_t y = low[1]; y <= high[1]; ++y) {
+      const std::int32_t row = z * grid.slab + y * grid.row;
+      const std::uint32_t end = l.start[row + high[0] + 1];
+      for (std::uint32_t j = l.start[row + low[0]]; j < end; j += Simd::kWidth) {
+        found.wrote(Simd::storePositions(found.room(), j, Simd::overlaps(query, l, j, end - j)));
+      }
+    }
+  }
+  found.close();
+}
+
+/// What decides quickly that a box is off a line: on each of the three axes that are normal to the line and to a
+/// side of the box, the distance of the centres against the half-widths (Ericson 2005, 4.4: separating axes), in float
+/// with room for its rounding.
+struct LineFilter {
+  Simd::Lanes way[3], twice_from[3], width[3], slack[3];  // width: |way|, a little more
+};
+
+inline double magnitude(double value) { return value < 0.0 ? -value : value; }
+
+inline LineFilter filterOf(const Line& line) {
+  double length = 0.0, farthest = line.around;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double way = magnitude(line.way[axis]), from = magnitude(line.from[axis]);
+    length = way > length ? way : length;
+    farthest = from + way > farthest ? from + way : farthest;
+  }
+  const double scale = length > 1e-30 ? 1.0 / length : 0.0;
+  LineFilter filter;
+  double width[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    const double way = line.way[axis] * scale;
+    width[axis] = magnitude(way) * 1.00001;
+    filter.way[axis] = Simd::lanesOf(static_cast<float>(way));
+    filter.width[axis] = Simd::lanesOf(static_cast<float>(width[axis]));
+    filter.twice_from[axis] = Simd::lanesOf(static_cast<float>(2.0 * line.from[axis]));
+  }
+  for (int i = 0; i < 3; ++i) {
+    const double across = width[(i + 1) % 3] + width[(i + 2) % 3];
+    filter.slack[i] = Simd::lanesOf(static_cast<float>((2.0 * line.around + 2e-5 * farthest) * across));
+  }
+  return filter;
+}
+
+/// Bit k: the box at position j + k is off the line.
+inline std::uint32_t offLine(const LineFilter& filter, const Level& level, std::uint32_t j) {
+  Simd::Lanes away[3], size[3];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Simd::Lanes min = Simd::lanesAt(level.bounds + axis * level.stride + j);
+    const Simd::Lanes max = Simd::lanesAt(level.bounds + (axis + 3) * level.stride + j);
+    away[axis] = Simd::minus(Simd::plus(min, max), filter.twice_from[axis]);
+    size[axis] = Simd::minus(max, min);
+  }
+  std::uint32_t off = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int j1 = (i + 1) % 3, k1 = (i + 2) % 3;
+    const Simd::Lanes apart = Simd::minus(Simd::times(filter.way[j1], away[k1]), Simd::times(filter.way[k1], away[j1]));
+    const Simd::Lanes reach = Simd::plus(Simd::plus(Simd::times(size[j1], filter.width[k1]),
+                                                    Simd::times(size[k1], filter.width[j1])),
+                                         filter.slack[i]);
+    off |= Simd::greater(Simd::size(apart), reach);
+  }
+  return off;
+}
+
+/// Part of a line: from + t * way for t within low .. high.
+struct Stretch {
+  double low, high;
+};
+
+/// The part of the stretch on which the line is within `min` .. `max` on an axis, a little more; empty if low > high.
+/// @param inverse  one over line.way[axis]; 0 if that is too small
+inline Stretch within(const Line& line, int axis, double inverse, Stretch stretch, double min, double max) {
+  const double from = line.from[axis];
+  if (inverse == 0.0) return from < min || from > max ? Stretch{1.0, 0.0} : stretch;
+  const double a = (min - from) * inverse, b = (max - from) * inverse;
+  const double enter = (a < b ? a : b) - 1e-9, leave = (a < b ? b : a) + 1e-9;  // far more than was rounded
+  return {enter > stretch.low ? enter : stretch.low, leave < stretch.high ? leave : stretch.high};
+}
+
+/// Where the line is on an axis during a stretch, `around` it.
+struct Extent {
+  double min, max;
+};
+
+inline Extent extentOf(const Line& line, int axis, Stretch stretch) {
+  const double a = line.from[axis] + stretch.low * line.way[axis], b = line.from[axis] + stretch.high * line.way[axis];
+  return {(a < b ? a : b) - line.around, (a < b ? b : a) + line.around};
+}
+
+inline float floatBelow(double value) {
+  const auto nearest = static_cast<float>(value);
+  return nearest - static_cast<float>(magnitude(static_cast<double>(nearest))) * 1.2e-7f - 1e-37f;
+}
+inline float floatAbove(double value) { return -floatBelow(-value); }
+
+/// Cells of a level along an axis.
+class Cells {
+ public:
+  /// @param around  of a line
+  Cells(const Level& level, int axis, double around)
+      : last_(static_cast<std::int32_t>(level.grid.last[axis])),
+        edge_(1.0 / static_cast<double>(level.grid.inverse[axis])) {
+    const double origin = static_cast<double>(level.grid.origin[axis]);
+    const double rounded = 1e-6 * (magnitude(origin) + last_ + 1.0);  // cell numbers were rounded in float
+    min_ = (origin - rounded) * edge_ - around;
+    max_ = (origin + 1.0 + rounded) * edge_ + static_cast<double>(level.reach[axis]) + around;
+  }
+  /// What the boxes of a cell cover, `around` it and a little more. The outermost hold all that is beyond them.
+  Extent covered(std::int32_t cell) const {
+    return {cell == 0 ? -1e300 : min_ + cell * edge_, cell == last_ ? 1e300 : max_ + cell * edge_};
+  }
+
+ private:
+  std::int32_t last_;
+  double edge_, min_, max_;
+};
+
+/// Row by row: of each slab of cells the line crosses, the rows that it crosses there, and of each row the cells. Each
+/// part is computed from the line itself, not from the part before, so that roundings do not add up (unlike the walk
+/// from cell to cell of Ericson 2005, 7.4.2).
+void along(const Level* level, const Line* line, PositionSink* sink) {
+  const Level l = *level;
+  const Grid& grid = l.grid;
+  if (l.begin == l.end) return;
+  Output<std::uint32_t> found(sink);
+  const LineFilter filter = filterOf(*line);
+  const Cells slabs(l, 2, line->around), rows(l, 1, line->around);
+  const double z_inverse = magnitude(line->way[2]) > 1e-290 ? 1.0 / line->way[2] : 0.0;
+  const double y_inverse = magnitude(line->way[1]) > 1e-290 ? 1.0 / line->way[1] : 0.0;
+  const Stretch whole{0.0, 1.0};
+  const Extent z_extent = extentOf(*line, 2, whole);
+  const std::int32_t z_high = cellOf(floatAbove(z_extent.max), grid, 2);
+  for (std::int32_t z = cellOf(floatBelow(z_extent.min) - l.reach[2], grid, 2); z <= z_high; ++z) {
+    const Extent slab = slabs.covered(z);
+    const Stretch in_slab = within(*line, 2, z_inverse, whole, slab.min, slab.max);
+    if (in_slab.low > in_slab.high) continue;
+    const Extent y_extent = extentOf(*line, 1, in_slab);
+    const std::int32_t y_high = cellOf(floatAbove(y_extent.max), grid, 1);
+    for (std::int32_t y = cellOf(floatBelow(y_extent.min) - l.reach[1], grid, 1); y <= y_high; ++y) {
+      const Extent covered = rows.covered(y);
+      const Stretch in_row = within(*line, 1, y_inverse, in_slab, covered.min, covered.max);
+      if (in_row.low > in_row.high) continue;
+      Box around;
+      for (int axis = 0; axis < 3; ++axis) {
+        const Extent extent = extentOf(*line, axis, in_row);
+        around.min[axis] = floatBelow(extent.min);
+        around.max[axis] = floatAbove(extent.max);
+      }
+      const Simd::Box box = Simd::boxOf(around);
+      const std::int32_t row = z * grid.slab + y * grid.row;
+      const std::uint32_t end = l.start[row + cellOf(around.max[0], grid, 0) + 1];
+      for (std::uint32_t j = l.start[row + cellOf(around.min[0] - l.reach[0], grid, 0)]; j < end; j += Simd::kWidth) {
+        std::uint32_t hits = Simd::overlaps(box, l, j, end - j);
+        if (hits == 0) continue;
+        hits &= ~offLine(filter, l, j);
+        found.wrote(Simd::storePositions(found.room(), j, hits));
+      }
+    }
+  }
+  found.close();
+}
+
+bool sound(const Box* boxes, std::size_t count) {
+  bool sound = true;
+  for (std::size_t i = 0; i < count; ++i) sound = sound & Simd::isSound(boxes[i]);
+  return sound;
+}
+
+/// The boxes are visited in the order that they had last time, which is nearly that of their cells: counts and
+/// copies are written almost in sequence, and the one random access, to the boxes by id, is fetched ahead.
+void key(Keying* keying) {
+  constexpr std::size_t kAhead = 32;
+  constexpr int kMostLevels = 17;
+  Keying& k = *keying;
+  Simd::Quad largest[kMostLevels], lower = Simd::quadOf(k.lower), upper = Simd::quadOf(k.upper);
+  for (int level = 0; level < k.levels; ++level) largest[level] = Simd::quadOf(k.sizes + 4 * level);
+  for (std::size_t i = k.begin; i < k.end; ++i) {
+    const char* ahead = reinterpret_cast<const char*>(k.boxes + k.order[i + kAhead < k.readable ? i + kAhead : i]);
+    __builtin_prefetch(ahead);
+    __builtin_prefetch(ahead + sizeof(Box) - 1);
+    const Box& box = k.boxes[k.order[i]];
+    k.copies[i] = box;
+    const Simd::Quad min = Simd::minimaOf(box), size = Simd::minus(Simd::maximaOf(box), min);
+    lower = Simd::least(lower, min);
+    upper = Simd::greatest(upper, min);
+    int level = 0;
+    if (k.levels > 1) {
+      const float side = Simd::greatestOfThree(size);
+      while (level + 1 < k.levels && side > k.sides[level]) ++level;
+    }
+    largest[level] = Simd::greatest(largest[level], size);
+    const Grid& grid = k.grids[level];
+    std::int32_t cell[4];
+    Simd::cellsOf(min, grid, cell);
+    const std::uint32_t number = k.first_cells[level] + static_cast<std::uint32_t>(cell[2] * grid.slab +
+                                                                                   cell[1] * grid.row + cell[0]);
+    k.cells[i] = number;
+    ++k.counts[number];
+  }
+  for (int level = 0; level < k.levels; ++level) Simd::store(largest[level], k.sizes + 4 * level);
+  Simd::store(lower, k.lower);
+  Simd::store(upper, k.upper);
+}
+
+constexpr Kernels kKernels = {sound, key, pairsWithin, pairsAcross, overlapping, along};
+
+}  // namespace
+}  // namespace kernels
+}  // namespace hgrid

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "broadphase/kernels/simd_portable.h"
+
+#include "broadphase/kernels/kernels_body.h"
+
+namespace hgrid {
+namespace kernels {
+
+const Kernels& portableKernels() { return kKernels; }
+
+}  // namespace kernels
+}  // namespace hgrid

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "broadphase/kernels/simd_sse2.h"
+
+namespace hgrid {
+namespace kernels {
+namespace {
+using Simd = SimdSse2;
+}  // namespace
+}  // namespace kernels
+}  // namespace hgrid
+
+#include "broadphase/kernels/kernels_body.h"
+
+namespace hgrid {
+namespace kernels {
+
+const Kernels& sse2Kernels() { return kKernels; }
+
+}  // namespace kernels
+}  // namespace hgrid

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <immintrin.h>
+
+#include "broadphase/kernels/simd_sse2.h"
+
+namespace hgrid {
+namespace kernels {
+namespace {
+
+/// For each of 256 sets of lanes: their numbers, packed, four bits each, the lowest first.
+struct PackedLanes {
+  std::uint32_t of[256];
+  constexpr PackedLanes() : of() {
+    for (std::uint32_t bits = 0; bits < 256; ++bits) {
+      std::uint32_t packed = 0, shift = 0;
+      for (std::uint32_t lane = 0; lane < 8; ++lane) {
+        if ((bits >> lane & 1u) != 0) packed |= lane << shift, shift += 4;
+      }
+      of[bits] = packed;
+    }
+  }
+};
+constexpr PackedLanes kPackedLanes;
+
+struct SimdAvx2 : SimdSse2 {
+  static constexpr std::uint32_t kWidth = 8;
+
+  struct Box {
+    __m256 min[3], max[3];
+  };
+  using Id = __m256i;
+
+  static Box boxOf(const kernels::Box& box) {
+    return {{_mm256_set1_ps(box.min[0]), _mm256_set1_ps(box.min[1]), _mm256_set1_ps(box.min[2])},
+            {_mm256_set1_ps(box.max[0]), _mm256_set1_ps(box.max[1]), _mm256_set1_ps(box.max[2])}};
+  }
+  static Box boxAt(const Level& level, std::uint32_t i) {
+    return {{_mm256_broadcast_ss(level.bounds + i), _mm256_broadcast_ss(level.bounds + level.stride + i),
+             _mm256_broadcast_ss(level.bounds + 2 * level.stride + i)},
+            {_mm256_broadcast_ss(level.bounds + 3 * level.stride + i), _mm256_broadcast_ss(level.bounds + 4 * level.stride + i),
+             _mm256_broadcast_ss(level.bounds + 5 * level.stride + i)}};
+  }
+  static Id idAt(const Level& level, std::uint32_t i) { return _mm256_set1_epi32(static_cast<int>(level.id[i])); }
+
+  static std::uint32_t overlaps(const Box& box, const Level& level, std::uint32_t j, std::uint32_t count) {
+    const __m256 x = _mm256_and_ps(_mm256_cmp_ps(_mm256_loadu_ps(level.bounds + j), box.max[0], _CMP_LE_OQ),
+                                   _mm256_cmp_ps(_mm256_loadu_ps(level.bounds + 3 * level.stride + j), box.min[0], _CMP_GE_OQ));
+    const __m256 y = _mm256_and_ps(_mm256_cmp_ps(_mm256_loadu_ps(level.bounds + level.stride + j), box.max[1], _CMP_LE_OQ),
+                                   _mm256_cmp_ps(_mm256_loadu_ps(level.bounds + 4 * level.stride + j), box.min[1], _CMP_GE_OQ));
+    const __m256 z = _mm256_and_ps(_mm256_cmp_ps(_mm256_loadu_ps(level.bounds + 2 * level.stride + j), box.max[2], _CMP_LE_OQ),
+                                   _mm256_cmp_ps(_mm256_loadu_ps(level.bounds + 5 * level.stride + j), box.min[2], _CMP_GE_OQ));
+    const auto bits = static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_and_ps(_mm256_and_ps(x, y), z)));
+    return bits & (0xffu >> (count < kWidth ? kWidth - count : 0u));
+  }
+
+  static Pair* storePairs(Pair* next, Id id, const std::uint32_t* ids, std::uint32_t bits) {
+    const __m256i others = packed(ids, bits);
+    const __m256i first = _mm256_min_epu32(id, others), second = _mm256_max_epu32(id, others);
+    const __m256i low = _mm256_unpacklo_epi32(first, second), high = _mm256_unpackhi_epi32(first, second);
+    auto* to = reinterpret_cast<__m256i*>(next);
+    const int count = __builtin_popcount(bits);
+    _mm256_storeu_si256(to, _mm256_permute2x128_si256(low, high, 0x20));
+    if (__builtin_expect(count > 4, 0)) _mm256_storeu_si256(to + 1, _mm256_permute2x128_si256(low, high, 0x31));
+    return next + count;
+  }
+  static std::uint32_t* storePositions(std::uint32_t* to, std::uint32_t j, std::uint32_t bits) {
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
+                        _mm256_add_epi32(_mm256_set1_epi32(static_cast<int>(j)), lanesIn(bits)));
+    return to + __builtin_popcount(bits);
+  }
+
+  using Lanes = __m256;
+  using SimdSse2::minus;  // of Quad
+  static Lanes lanesOf(float value) { return _mm256_set1_ps(value); }
+  static Lanes lanesAt(const float* from) { return _mm256_loadu_ps(from); }
+  static Lanes plus(Lanes a, Lanes b) { return _mm256_add_ps(a, b); }
+  static Lanes minus(Lanes a, Lanes b) { return _mm256_sub_ps(a, b); }
+  static Lanes times(Lanes a, Lanes b) { return _mm256_mul_ps(a, b); }
+  static Lanes size(Lanes a) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a); }
+  static std::uint32_t greater(Lanes a, Lanes b) {
+    return static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_GT_OQ)));
+  }
+
+  static std::uint32_t atLeast(const std::int32_t* values, std::int32_t bound) {
+    const __m256i below = _mm256_set1_epi32(bound - 1);
+    const auto* from = reinterpret_cast<const __m256i*>(values);
+    const __m256i low = _mm256_cmpgt_epi32(_mm256_loadu_si256(from), below);
+    const __m256i high = _mm256_cmpgt_epi32(_mm256_loadu_si256(from + 1), below);
+    return static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_castsi256_ps(low))) |
+           static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_castsi256_ps(high))) << 8;
+  }
+
+ private:
+  /// The numbers of the lanes in `bits`, the lowest first; then zeros.
+  static __m256i lanesIn(std::uint32_t bits) {
+    const __m256i packed = _mm256_set1_epi32(static_cast<int>(kPackedLanes.of[bits]));
+    const __m256i shifted = _mm256_srlv_epi32(packed, _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28));
+    return _mm256_and_si256(shifted, _mm256_set1_epi32(7));
+  }
+  /// The ids of those lanes, moved together to the front.
+  static __m256i packed(const std::uint32_t* ids, std::uint32_t bits) {
+    return _mm256_permutevar8x32_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(ids)), lanesIn(bits));
+  }
+};
+
+}  // namespace
+}  // namespace kernels
+}  // namespace hgrid

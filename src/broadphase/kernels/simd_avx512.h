@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include "broadphase/kernels/simd_avx2.h"
+
+namespace hgrid {
+namespace kernels {
+namespace {
+
+struct SimdAvx512 : SimdSse2 {
+  static constexpr std::uint32_t kWidth = 16;
+
+  struct Box {
+    __m512 min[3], max[3];
+  };
+  using Id = __m512i;
+
+  static Box boxOf(const kernels::Box& box) {
+    return {{_mm512_set1_ps(box.min[0]), _mm512_set1_ps(box.min[1]), _mm512_set1_ps(box.min[2])},
+            {_mm512_set1_ps(box.max[0]), _mm512_set1_ps(box.max[1]), _mm512_set1_ps(box.max[2])}};
+  }
+  static Box boxAt(const Level& level, std::uint32_t i) {
+    return boxOf({{level.bounds[i], level.bounds[level.stride + i], level.bounds[2 * level.stride + i]},
+                  {level.bounds[3 * level.stride + i], level.bounds[4 * level.stride + i], level.bounds[5 * level.stride + i]}});
+  }
+  static Id idAt(const Level& level, std::uint32_t i) { return _mm512_set1_epi32(static_cast<int>(level.id[i])); }
+
+  static std::uint32_t overlaps(const Box& box, const Level& level, std::uint32_t j, std::uint32_t count) {
+    // Three chains instead of one: a comparison into a mask takes several cycles.
+    __mmask16 x = static_cast<__mmask16>(0xffffu >> (count < kWidth ? kWidth - count : 0u));
+    x = _mm512_mask_cmp_ps_mask(x, _mm512_loadu_ps(level.bounds + j), box.max[0], _CMP_LE_OQ);
+    __mmask16 y = _mm512_cmp_ps_mask(_mm512_loadu_ps(level.bounds + level.stride + j), box.max[1], _CMP_LE_OQ);
+    __mmask16 z = _mm512_cmp_ps_mask(_mm512_loadu_ps(level.bounds + 2 * level.stride + j), box.max[2], _CMP_LE_OQ);
+    x = _mm512_mask_cmp_ps_mask(x, _mm512_loadu_ps(level.bounds + 3 * level.stride + j), box.min[0], _CMP_GE_OQ);
+    y = _mm512_mask_cmp_ps_mask(y, _mm512_loadu_ps(level.bounds + 4 * level.stride + j), box.min[1], _CMP_GE_OQ);
+    z = _mm512_mask_cmp_ps_mask(z, _mm512_loadu_ps(level.bounds + 5 * level.stride + j), box.min[2], _CMP_GE_OQ);
+    return static_cast<std::uint32_t>(x & y & z);
+  }
+
+  static Pair* storePairs(Pair* to, Id id, const std::uint32_t* ids, std::uint32_t bits) {
+    const __m512i others = packed(ids, bits);
+    const __m512i first = _mm512_min_epu32(id, others), second = _mm512_max_epu32(id, others);
+    const int count = __builtin_popcount(bits);
+    _mm512_storeu_si512(to, _mm512_permutex2var_epi32(
+        first, _mm512_setr_epi32(0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23), second));
+    if (__builtin_expect(count > 8, 0)) {
+      _mm512_storeu_si512(to + 8, _mm512_permutex2var_epi32(
+          first, _mm512_setr_epi32(8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31), second));
+    }
+    return to + count;
+  }
+  static std::uint32_t* storePositions(std::uint32_t* to, std::uint32_t j, std::uint32_t bits) {
+    const __m512i lanes = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    const __m512i positions = _mm512_add_epi32(_mm512_set1_epi32(static_cast<int>(j)), lanes);
+    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), positions));
+    return to + __builtin_popcount(bits);
+  }
+
+  using Lanes = __m512;
+  using SimdSse2::minus;  // of Quad
+  static Lanes lanesOf(float value) { return _mm512_set1_ps(value); }
+  static Lanes lanesAt(const float* from) { return _mm512_loadu_ps(from); }
+  static Lanes plus(Lanes a, Lanes b) { return _mm512_add_ps(a, b); }
+  static Lanes minus(Lanes a, Lanes b) { return _mm512_sub_ps(a, b); }
+  static Lanes times(Lanes a, Lanes b) { return _mm512_mul_ps(a, b); }
+  static Lanes size(Lanes a) { return _mm512_abs_ps(a); }
+  static std::uint32_t greater(Lanes a, Lanes b) { return _mm512_cmp_ps_mask(a, b, _CMP_GT_OQ); }
+
+  static std::uint32_t atLeast(const std::int32_t* values, std::int32_t bound) {
+    return _mm512_cmpge_epi32_mask(_mm512_loadu_si512(values), _mm512_set1_epi32(bound));
+  }
+
+ private:
+  /// In a register: compressing straight to memory is slow on some processors.
+  static __m512i packed(const std::uint32_t* ids, std::uint32_t bits) {
+    return _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), _mm512_loadu_si512(ids));
+  }
+};
+
+}  // namespace
+}  // namespace kernels
+}  // namespace hgrid

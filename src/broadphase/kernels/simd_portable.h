@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include "broadphase/kernels/kernels.h"
+
+namespace hgrid {
+namespace kernels {
+namespace {
+
+/// The operations that the kernels are written in, in plain C++: the meaning of those in the other simd_ files.
+struct Simd {
+  static constexpr std::uint32_t kWidth = 8;  ///< boxes that overlaps() tests at once
+
+  using Box = kernels::Box;
+  using Id = std::uint32_t;
+
+  static Box boxOf(const kernels::Box& box) { return box; }
+  static Box boxAt(const Level& level, std::uint32_t i) {
+    return {{level.bounds[i], level.bounds[level.stride + i], level.bounds[2 * level.stride + i]},
+            {level.bounds[3 * level.stride + i], level.bounds[4 * level.stride + i], level.bounds[5 * level.stride + i]}};
+  }
+  static Id idAt(const Level& level, std::uint32_t i) { return level.id[i]; }
+
+  /// Bit k: the box overlaps that at position j + k, for the k below both `count` and kWidth.
+  static std::uint32_t overlaps(const Box& box, const Level& level, std::uint32_t j, std::uint32_t count) {
+    std::uint32_t bits = 0;
+    for (std::uint32_t k = 0; k < kWidth; ++k) {
+      bool meet = k < count;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        meet = meet & (level.bounds[axis * level.stride + j + k] <= box.max[axis]) & (level.bounds[(axis + 3) * level.stride + j + k] >= box.min[axis]);
+      }
+      bits |= static_cast<std::uint32_t>(meet) << k;
+    }
+    return bits;
+  }
+
+  /// Writes the pair of `id` and ids[k] for each bit k, smaller id first; the place after them. May write 16.
+  static Pair* storePairs(Pair* to, Id id, const std::uint32_t* ids, std::uint32_t bits) {
+    for (; bits != 0; bits &= bits - 1) {
+      const std::uint32_t other = ids[lowestBit(bits)];
+      *to++ = id < other ? Pair{id, other} : Pair{other, id};
+    }
+    return to;
+  }
+  /// Writes j + k for each bit k; the place after them. May write 16.
+  static std::uint32_t* storePositions(std::uint32_t* to, std::uint32_t j, std::uint32_t bits) {
+    for (; bits != 0; bits &= bits - 1) *to++ = j + static_cast<std::uint32_t>(lowestBit(bits));
+    return to;
+  }
+
+  static int lowestBit(std::uint32_t bits) { return __builtin_ctz(bits); }
+
+  /// Bit k: values[k] >= bound, for 16 values.
+  static std::uint32_t atLeast(const std::int32_t* values, std::int32_t bound) {
+    std::uint32_t bits = 0;
+    for (int k = 0; k < 16; ++k) bits |= static_cast<std::uint32_t>(values[k] >= bound) << k;
+    return bits;
+  }
+
+  /// As many floats as overlaps() tests boxes.
+  struct Lanes {
+    float v[kWidth];
+  };
+  template <class Operation>
+  static Lanes each(const Lanes& a, const Lanes& b, Operation operation) {
+    Lanes lanes;
+    for (std::uint32_t k = 0; k < kWidth; ++k) lanes.v[k] = operation(a.v[k], b.v[k]);
+    return lanes;
+  }
+  static Lanes lanesOf(float value) {
+    Lanes lanes;
+    for (float& lane : lanes.v) lane = value;
+    return lanes;
+  }
+  static Lanes lanesAt(const float* from) {
+    Lanes lanes;
+    for (std::uint32_t k = 0; k < kWidth; ++k) lanes.v[k] = from[k];
+    return lanes;
+  }
+  static Lanes plus(const Lanes& a, const Lanes& b) {
+    return each(a, b, [](float x, float y) { return x + y; });
+  }
+  static Lanes minus(const Lanes& a, const Lanes& b) {
+    return each(a, b, [](float x, float y) { return x - y; });
+  }
+  static Lanes times(const Lanes& a, const Lanes& b) {
+    return each(a, b, [](float x, float y) { return x * y; });
+  }
+  static Lanes size(const Lanes& a) {
+    return each(a, a, [](float x, float) { return x < 0.0f ? -x : x; });
+  }
+  /// Bit k: a > b in lane k.
+  static std::uint32_t greater(const Lanes& a, const Lanes& b) {
+    std::uint32_t bits = 0;
+    for (std::uint32_t k = 0; k < kWidth; ++k) bits |= static_cast<std::uint32_t>(a.v[k] > b.v[k]) << k;
+    return bits;
+  }
+
+  /// Finite, and min <= max.
+  static bool isSound(const kernels::Box& box) {
+    bool sound = true;
+    for (int i = 0; i < 3; ++i) {
+      sound = sound & (box.min[i] <= box.max[i]) & (box.min[i] >= -kMostFloat) & (box.max[i] <= kMostFloat);
+    }
+    return sound;
+  }
+
+  /// Three coordinates; the fourth is whatever it is.
+  struct Quad {
+    float v[4];
+  };
+  static Quad quadOf(const float* from) { return {{from[0], from[1], from[2], from[3]}}; }
+  static void store(const Quad& quad, float* to) {
+    for (int i = 0; i < 4; ++i) to[i] = quad.v[i];
+  }
+  static Quad minimaOf(const kernels::Box& box) { return {{box.min[0], box.min[1], box.min[2], 0.0f}}; }
+  static Quad maximaOf(const kernels::Box& box) { return {{box.max[0], box.max[1], box.max[2], 0.0f}}; }
+  static Quad minus(const Quad& a, const Quad& b) {
+    return {{a.v[0] - b.v[0], a.v[1] - b.v[1], a.v[2] - b.v[2], 0.0f}};
+  }
+  static Quad least(const Quad& a, const Quad& b) {
+    Quad quad;
+    for (int i = 0; i < 4; ++i) quad.v[i] = a.v[i] < b.v[i] ? a.v[i] : b.v[i];
+    return quad;
+  }
+  static Quad greatest(const Quad& a, const Quad& b) {
+    Quad quad;
+    for (int i = 0; i < 4; ++i) quad.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i];
+    return quad;
+  }
+  static float greatestOfThree(const Quad& a) {
+    const float xy = a.v[0] > a.v[1] ? a.v[0] : a.v[1];
+    return xy > a.v[2] ? xy : a.v[2];
+  }
+  static void cellsOf(const Quad& quad, const Grid& grid, std::int32_t* cell) {
+    for (int i = 0; i < 3; ++i) {
+      float number = quad.v[i] * grid.inverse[i] - grid.origin[i];
+      number = number > 0.0f ? number : 0.0f;
+      number = number < grid.last[i] ? number : grid.last[i];
+      cell[i] = static_cast<std::int32_t>(number);
+    }
+  }
+};
+
+}  // namespace
+}  // namespace kernels
+}  // namespace hgrid

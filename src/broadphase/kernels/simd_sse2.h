@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <emmintrin.h>
+
+#include "broadphase/kernels/kernels.h"
+
+namespace hgrid {
+namespace kernels {
+namespace {
+
+/// What the wider instruction sets share with SSE2; operations as in simd_portable.h.
+struct SimdSse2 {
+  static constexpr std::uint32_t kWidth = 4;
+
+  struct Box {
+    __m128 min[3], max[3];
+  };
+  using Id = std::uint32_t;
+
+  static Box boxOf(const kernels::Box& box) {
+    return {{_mm_set1_ps(box.min[0]), _mm_set1_ps(box.min[1]), _mm_set1_ps(box.min[2])},
+            {_mm_set1_ps(box.max[0]), _mm_set1_ps(box.max[1]), _mm_set1_ps(box.max[2])}};
+  }
+  static Box boxAt(const Level& level, std::uint32_t i) {
+    return boxOf({{level.bounds[i], level.bounds[level.stride + i], level.bounds[2 * level.stride + i]},
+                  {level.bounds[3 * level.stride + i], level.bounds[4 * level.stride + i], level.bounds[5 * level.stride + i]}});
+  }
+  static Id idAt(const Level& level, std::uint32_t i) { return level.id[i]; }
+
+  static std::uint32_t overlaps(const Box& box, const Level& level, std::uint32_t j, std::uint32_t count) {
+    __m128 meet = _mm_cmple_ps(_mm_loadu_ps(level.bounds + j), box.max[0]);
+    meet = _mm_and_ps(meet, _mm_cmpge_ps(_mm_loadu_ps(level.bounds + 3 * level.stride + j), box.min[0]));
+    meet = _mm_and_ps(meet, _mm_cmple_ps(_mm_loadu_ps(level.bounds + level.stride + j), box.max[1]));
+    meet = _mm_and_ps(meet, _mm_cmpge_ps(_mm_loadu_ps(level.bounds + 4 * level.stride + j), box.min[1]));
+    meet = _mm_and_ps(meet, _mm_cmple_ps(_mm_loadu_ps(level.bounds + 2 * level.stride + j), box.max[2]));
+    meet = _mm_and_ps(meet, _mm_cmpge_ps(_mm_loadu_ps(level.bounds + 5 * level.stride + j), box.min[2]));
+    const std::uint32_t bits = static_cast<std::uint32_t>(_mm_movemask_ps(meet));
+    return count < kWidth ? bits & ((1u << count) - 1u) : bits;
+  }
+
+  static Pair* storePairs(Pair* to, Id id, const std::uint32_t* ids, std::uint32_t bits) {
+    for (; bits != 0; bits &= bits - 1) {
+      const std::uint32_t other = ids[lowestBit(bits)];
+      *to++ = id < other ? Pair{id, other} : Pair{other, id};
+    }
+    return to;
+  }
+  static std::uint32_t* storePositions(std::uint32_t* to, std::uint32_t j, std::uint32_t bits) {
+    for (; bits != 0; bits &= bits - 1) *to++ = j + static_cast<std::uint32_t>(lowestBit(bits));
+    return to;
+  }
+
+  static int lowestBit(std::uint32_t bits) { return __builtin_ctz(bits); }
+
+  static std::uint32_t atLeast(const std::int32_t* values, std::int32_t bound) {
+    const __m128i below = _mm_set1_epi32(bound - 1);
+    __m128i four[4];
+    for (int i = 0; i < 4; ++i) {
+      four[i] = _mm_cmpgt_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(values) + i), below);
+    }
+    return static_cast<std::uint32_t>(
+        _mm_movemask_epi8(_mm_packs_epi16(_mm_packs_epi32(four[0], four[1]), _mm_packs_epi32(four[2], four[3]))));
+  }
+
+  using Lanes = __m128;
+  static Lanes lanesOf(float value) { return _mm_set1_ps(value); }
+  static Lanes lanesAt(const float* from) { return _mm_loadu_ps(from); }
+  static Lanes plus(Lanes a, Lanes b) { return _mm_add_ps(a, b); }
+  static Lanes minus(Lanes a, Lanes b) { return _mm_sub_ps(a, b); }
+  static Lanes times(Lanes a, Lanes b) { return _mm_mul_ps(a, b); }
+  static Lanes size(Lanes a) { return _mm_andnot_ps(_mm_set1_ps(-0.0f), a); }
+  static std::uint32_t greater(Lanes a, Lanes b) {
+    return static_cast<std::uint32_t>(_mm_movemask_ps(_mm_cmpgt_ps(a, b)));
+  }
+
+  static bool isSound(const kernels::Box& box) {
+    const __m128 min = minimaOf(box), max = maximaOf(box);
+    const __m128 sound = _mm_and_ps(_mm_cmple_ps(min, max), _mm_and_ps(_mm_cmpge_ps(min, _mm_set1_ps(-kMostFloat)),
+                                                                       _mm_cmple_ps(max, _mm_set1_ps(kMostFloat))));
+    return (_mm_movemask_ps(sound) & 7) == 7;
+  }
+
+  using Quad = __m128;  // as Lanes here, so that minus() serves both
+  static Quad quadOf(const float* from) { return _mm_loadu_ps(from); }
+  static void store(Quad quad, float* to) { _mm_storeu_ps(to, quad); }
+  static Quad minimaOf(const kernels::Box& box) { return _mm_loadu_ps(box.min); }
+  static Quad maximaOf(const kernels::Box& box) {
+    const __m128 last = _mm_loadu_ps(box.min + 2);  // min z, max x y z
+    return _mm_shuffle_ps(last, last, _MM_SHUFFLE(0, 3, 2, 1));
+  }
+  static Quad least(Quad a, Quad b) { return _mm_min_ps(a, b); }
+  static Quad greatest(Quad a, Quad b) { return _mm_max_ps(a, b); }
+  static float greatestOfThree(Quad a) {
+    const __m128 y = _mm_shuffle_ps(a, a, _MM_SHUFFLE(1, 1, 1, 1)), z = _mm_shuffle_ps(a, a, _MM_SHUFFLE(2, 2, 2, 2));
+    return _mm_cvtss_f32(_mm_max_ss(_mm_max_ss(a, y), z));
+  }
+  static void cellsOf(Quad quad, const Grid& grid, std::int32_t* cell) {
+    // The fourth lanes read the next member of Grid; only three numbers are used.
+    __m128 number = _mm_sub_ps(_mm_mul_ps(quad, _mm_loadu_ps(grid.inverse)), _mm_loadu_ps(grid.origin));
+    number = _mm_min_ps(_mm_max_ps(number, _mm_setzero_ps()), _mm_loadu_ps(grid.last));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(cell), _mm_cvttps_epi32(number));
+  }
+};
+
+}  // namespace
+}  // namespace kernels
+}  // namespace hgrid

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "broadphase/kernels/kernels.h"
+#include "hgrid_proximity/broadphase/hgrid.h"
+
+namespace hgrid {
+
+/// Largest of a box's three sides, as levels are chosen by it [m].
+float longestSide(const Aabb& box);
+
+/// How the boxes of a layer are divided into levels, and each level into cells. Any plan gives right answers; a good
+/// one gives them fast.
+struct Plan {
+  static constexpr std::size_t kMostLevels = GridScale::kLevels + 1;
+  template <class Value>
+  using PerLevel = std::array<Value, kMostLevels>;  // ascending by size; not a vector, so that a plan allocates nothing
+
+  std::size_t levels = 0;
+  PerLevel<kernels::Grid> grids{};
+  PerLevel<float> sides{};                      ///< [m] longest side of its boxes; the last takes what is longer, too
+  PerLevel<std::uint32_t> first_cells{};        ///< counted through all levels
+  PerLevel<std::array<float, 3>> largest{};     ///< [m] extents when the plan was made
+  PerLevel<std::array<float, 3>> mean_sides{};  ///< [m]
+
+  std::uint32_t cells = 0;                ///< of all levels
+  std::size_t boxes = 0;                  ///< that the plan was made for
+  std::array<float, 3> lower{}, upper{};  ///< [m] least and greatest minimum corner then
+  bool windowed = false;                  ///< some boxes lay outside the window of the cells
+
+  /// Whether it is still a good plan for this many boxes.
+  bool fits(std::size_t count) const;
+  /// Whether it is still a good plan for boxes within these bounds; sizes in fours, per level.
+  bool fits(const float* lower_now, const float* upper_now, const float* largest_now) const;
+};
+
+/// Divides the boxes of `count` ids as a model of the cost of finding all pairs says. Sizes that differ by less than a
+/// factor of GridScale::kRatio share a level, as do levels so thinly populated that a look at both costs more than a
+/// look at larger cells; among the edges of cells from once to many times the largest box the cheapest is taken.
+Plan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge);
+
+/// Estimated rows of cells that a box of one level looks at in another, whose boxes reach so far [m].
+double rowsAsked(const Plan& asking, std::size_t asking_level, const Plan& asked, std::size_t asked_level,
+                 const float* reach_of_asked);
+
+}  // namespace hgrid

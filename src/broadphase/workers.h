@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <type_traits>
+
+namespace hgrid {
+
+/// Threads that wait for work. One caller at a time; the caller works too.
+class Workers {
+ public:
+  /// @param threads  how many work at once, the caller among them; at least 1
+  explicit Workers(int threads);
+  ~Workers();
+
+  int threads() const;
+
+  /// Calls job(0) .. job(count - 1), each once, in any order and on any thread; returns when all are done.
+  /// A job must not throw. Allocates nothing.
+  template <class Job>
+  void run(std::size_t count, Job&& job) {
+    runAll(count, [](void* what, std::size_t i) { (*static_cast<std::remove_reference_t<Job>*>(what))(i); }, &job);
+  }
+
+ private:
+  void runAll(std::size_t count, void (*call)(void*, std::size_t), void* job);
+
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace hgrid
