@@ -178,7 +178,7 @@ TEST(Segment, TheFirstTouchIsThatOfTheMeeting) {
     ASSERT_NEAR(*first, meeting->along, 1e-9) << "number " << i;
     ++touched;
   }
-  EXPECT_GT(touched, 20000);
+  EXPECT_GT(touched, 10000);
 }
 
 }  // namespace
