@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-// node_bench: how long the parts of the node's tick take. Started by bench/node/run.
+// node_testbench: how long the parts of the node's tick take. Started by bench/node/run.
 
 #include <ros/init.h>
 #include <ros/spinner.h>
@@ -15,7 +15,7 @@
 
 int main(int argc, char** argv) {
   using namespace hgrid::bench;
-  ros::init(argc, argv, "node_bench");
+  ros::init(argc, argv, "node_testbench");
   std::string json, commit = "unknown";
   double duration = 10.0;  // [s]
   for (int i = 1; i < argc; ++i) {
@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
     }
     if (!json.empty()) writeJson(json, commit, measurements);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "node_bench: %s\n", error.what());
+    std::fprintf(stderr, "node_testbench: %s\n", error.what());
     return 1;
   }
   return 0;

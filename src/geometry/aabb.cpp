@@ -68,16 +68,6 @@ double exactComparison(const Aabb& a, const Aabb& b, double margin) {
   return sum.sign();
 }
 
-/// std::nextafter towards minus infinity of a number that has one below, without a call: every box takes six.
-float nextBelow(float value) {
-  if (value == 0.0f) return -std::numeric_limits<float>::denorm_min();
-  std::int32_t bits;
-  std::memcpy(&bits, &value, sizeof bits);
-  bits += value > 0.0f ? -1 : 1;
-  std::memcpy(&value, &bits, sizeof bits);
-  return value;
-}
-
 double squaredDistance(const Aabb& a, const Aabb& b) {
   double sum = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -94,8 +84,17 @@ bool isValid(const Aabb& box) {
 }
 
 float roundedDown(double value) {
+  // As std::nextafter, but with no branch that depends on the last digits, which no processor can foretell, and
+  // without a call: every box takes six of these.
   const float nearest = static_cast<float>(value);
-  return static_cast<double>(nearest) > value ? nextBelow(nearest) : nearest;
+  const std::int32_t above = static_cast<double>(nearest) > value ? 1 : 0;
+  if (nearest == 0.0f) return above == 0 ? nearest : -std::numeric_limits<float>::denorm_min();
+  std::int32_t bits;
+  std::memcpy(&bits, &nearest, sizeof bits);
+  bits += bits < 0 ? above : -above;  // below a negative number is one of larger magnitude
+  float below;
+  std::memcpy(&below, &bits, sizeof below);
+  return below;
 }
 
 float roundedUp(double value) { return -roundedDown(-value); }
