@@ -30,7 +30,8 @@ Record runRecord(const Options& options) {
 }
 
 int run(const Options& options) {
-  for (const std::string& name : missingPeers()) std::printf("-- without %s: not found when this was built\n", name.c_str());
+  for (const std::string& name : missingPeers())
+    std::printf("-- without %s: not found when this was built\n", name.c_str());
   std::vector<Record> records{runRecord(options)};
   if (options.part("pairs")) runPairs(options, records);
   if (options.part("ageing")) runAgeing(options, records);

@@ -46,7 +46,8 @@ std::vector<Run> runsOf(const Options& options, const Setting& setting) {
   std::vector<Run> runs;
   if (options.peer("hgrid")) runs = hgridRuns(setting);
   for (const PeerKind& kind : peers()) {
-    if (options.peer(kind.name) && kind.most >= setting.n && (kind.quick || !options.quick)) runs.push_back(runOf(kind));
+    if (options.peer(kind.name) && kind.most >= setting.n && (kind.quick || !options.quick))
+      runs.push_back(runOf(kind));
   }
   if (setting.workload == "uniform" && setting.moving == 1.0 && options.peer("floor"))
     runs.push_back({"floor", "default", 1, 0, makeFloor});
@@ -86,16 +87,20 @@ void play(const Options& options, const Setting& setting, const std::vector<Run>
     const std::string& status = match.contestant(i).status();
     if (run.peer == "floor") {
       Record floor("floor");
-      records.push_back(floor.number("n", double(setting.n)).number("median_ms", scores[i].median_ms)
+      records.push_back(floor.number("n", double(setting.n))
+                            .number("median_ms", scores[i].median_ms)
                             .number("min_ms", scores[i].min_ms));
     } else {
       records.push_back(recordOf(setting, run, scores[i], status));
     }
-    std::printf("  %-28s %-8s threads %d  age %-5llu %10.4f ms  min %10.4f  spread %3.0f %%  %7.1f B  %8llu pairs  %s\n",
-                run.peer.c_str(), run.instructions.c_str(), run.threads, static_cast<unsigned long long>(run.age),
-                scores[i].median_ms, scores[i].min_ms, 100.0 * scores[i].spread, scores[i].bytes / double(setting.n),
-                static_cast<unsigned long long>(scores[i].count),
-                status != "ok" ? status.c_str() : scores[i].correct || run.peer == "floor" ? "" : "WRONG");
+    std::printf(
+        "  %-28s %-8s threads %d  age %-5llu %10.4f ms  min %10.4f  spread %3.0f %%  %7.1f B  %8llu pairs  %s\n",
+        run.peer.c_str(), run.instructions.c_str(), run.threads, static_cast<unsigned long long>(run.age),
+        scores[i].median_ms, scores[i].min_ms, 100.0 * scores[i].spread, scores[i].bytes / double(setting.n),
+        static_cast<unsigned long long>(scores[i].count),
+        status != "ok"                             ? status.c_str()
+        : scores[i].correct || run.peer == "floor" ? ""
+                                                   : "WRONG");
   }
   std::fflush(stdout);
 }

@@ -112,8 +112,8 @@ void Contestant::play(double budget_ms, double limit_s) {
   const Clock::time_point deadline = Clock::now() + std::chrono::milliseconds(static_cast<long>(1e3 * limit_s));
   std::size_t count = 0;
   std::vector<Sample> samples;
-  bool good = writeAll(to_child_, &budget_ms, sizeof budget_ms) &&
-              readAll(from_child_, &count, sizeof count, &deadline);
+  bool good =
+      writeAll(to_child_, &budget_ms, sizeof budget_ms) && readAll(from_child_, &count, sizeof count, &deadline);
   if (good) {
     samples.resize(count);
     good = readAll(from_child_, samples.data(), count * sizeof(Sample), &deadline);

@@ -14,7 +14,8 @@ inline double heldBytes() {
   return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
 #else
   const struct mallinfo info = mallinfo();  // its numbers are ints that wrap around
-  return static_cast<double>(static_cast<unsigned>(info.uordblks)) + static_cast<double>(static_cast<unsigned>(info.hblkhd));
+  return static_cast<double>(static_cast<unsigned>(info.uordblks)) +
+         static_cast<double>(static_cast<unsigned>(info.hblkhd));
 #endif
 }
 

@@ -93,7 +93,8 @@ std::vector<Score> Match::scores() const {
     std::uint64_t lowest = ~std::uint64_t{0};
     for (const std::vector<Sample>& block : entry.contestant->blocks()) {
       for (const Sample& sample : block) {
-        if (sample.number < lowest) lowest = sample.number, score.count = sample.count, score.checksum = sample.checksum;
+        if (sample.number < lowest)
+          lowest = sample.number, score.count = sample.count, score.checksum = sample.checksum;
         const auto found = reference.find(sample.number);
         if (found == reference.end()) continue;
         ++score.compared;

@@ -17,8 +17,8 @@ struct Score {
   double min_ms = 0.0;     ///< of all timed samples
   double spread = 0.0;     ///< (largest - smallest median of a block) / median_ms
   double bytes = 0.0;
-  std::size_t timed = 0;     ///< samples that count
-  std::size_t compared = 0;  ///< results that a reference was there for
+  std::size_t timed = 0;                  ///< samples that count
+  std::size_t compared = 0;               ///< results that a reference was there for
   std::uint64_t count = 0, checksum = 0;  ///< of the lowest-numbered result
   bool correct = false;                   ///< every compared result equals the reference, and there was one
 };

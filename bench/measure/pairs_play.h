@@ -13,9 +13,10 @@ namespace bench {
 
 /// How a peer plays frames.
 ///
-/// A fresh peer (age 0) plays laps: loaded with the boxes of frame 0 it plays frames 1 .. kLap, the first kWarmUp of them
-/// untimed, and a new peer starts over, until the budget is used. So a tree that ages is seen young, and all peers see
-/// the same frames. An aged one is loaded once, plays `age` frames untimed, and then goes on by a lap in each block.
+/// A fresh peer (age 0) plays laps: loaded with the boxes of frame 0 it plays frames 1 .. kLap, the first kWarmUp of
+/// them untimed, and a new peer starts over, until the budget is used. So a tree that ages is seen young, and all peers
+/// see the same frames. An aged one is loaded once, plays `age` frames untimed, and then goes on by a lap in each
+/// block.
 class PairsPlay {
  public:
   static constexpr std::uint64_t kWarmUp = 2, kLap = 12;

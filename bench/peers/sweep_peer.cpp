@@ -13,8 +13,8 @@ namespace bench {
 #if defined(__x86_64__)
 namespace {
 
-/// Array sort-and-sweep (after Ericson, Real-Time Collision Detection, 2005, section 7.5.2): sorted by min.x each frame,
-/// each box tested against those that begin before it ends, eight at a time. The strongest simple rival.
+/// Array sort-and-sweep (after Ericson, Real-Time Collision Detection, 2005, section 7.5.2): sorted by min.x each
+/// frame, each box tested against those that begin before it ends, eight at a time. The strongest simple rival.
 class SweepPeer final : public Peer {
  public:
   void load(const std::vector<Aabb>&) override {}

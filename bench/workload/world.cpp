@@ -60,8 +60,8 @@ void World::makeCubes(const std::string& workload) {
   Random random(1);
   for (std::size_t i = 0; i < n_; ++i) {
     const Region& region = regions_[floor && random.below(10) == 0 ? 1 : 0];
-    const double edge = mixed ? std::exp(random.uniform(std::log(kSmallest), std::log(kLargest)))
-                              : random.uniform(0.8, 1.2);
+    const double edge =
+        mixed ? std::exp(random.uniform(std::log(kSmallest), std::log(kLargest))) : random.uniform(0.8, 1.2);
     half_.push_back(Vector3f::Constant(static_cast<float>(0.5 * edge)));
     walkers_.emplace_back(i, randomPoint(random, region), static_cast<float>(edge), region);
   }

@@ -57,10 +57,10 @@ class World {
 
   std::size_t n_;
   double side_ = 0.0;
-  std::unique_ptr<Region[]> regions_;        // walkers point to them
-  std::vector<Walker> walkers_, bases_;      // one per box; one per robot
-  std::vector<Eigen::Vector3f> rest_;        // of a robot's link, from its base
-  std::vector<Eigen::Vector3f> half_;        // half of each box's edges
+  std::unique_ptr<Region[]> regions_;    // walkers point to them
+  std::vector<Walker> walkers_, bases_;  // one per box; one per robot
+  std::vector<Eigen::Vector3f> rest_;    // of a robot's link, from its base
+  std::vector<Eigen::Vector3f> half_;    // half of each box's edges
   std::vector<Walker> first_walkers_, first_bases_;
   std::uint64_t frame_ = 0;
   std::vector<Aabb> boxes_;
