@@ -26,7 +26,7 @@ Record runRecord(const Options& options) {
   for (const std::string& name : missingPeers()) missing += (missing.empty() ? "" : ", ") + name;
   Record record("run");
   record.text("cpu", processor()).text("compiler", "g++ " __VERSION__).text("commit", options.commit);
-  return record.flag("quick", options.quick).text("missing", missing);
+  return record.text("command", options.command).flag("quick", options.quick).text("missing", missing);
 }
 
 int run(const Options& options) {
@@ -35,6 +35,7 @@ int run(const Options& options) {
   std::vector<Record> records{runRecord(options)};
   if (options.part("pairs")) runPairs(options, records);
   if (options.part("ageing")) runAgeing(options, records);
+  if (options.part("queries")) runQueries(options, records);
   if (!options.json.empty()) writeRecords(options.json, records);
   return 0;
 }

@@ -32,7 +32,7 @@ bool wanted(const std::vector<T>& list, const T& item) {
 }  // namespace
 
 const char* const kUsage =
-    "usage: hgrid_bench [--quick] [--json FILE] [--commit TEXT]\n"
+    "usage: hgrid_bench [--quick] [--json FILE] [--commit TEXT] [--command TEXT]\n"
     "                   [--part pairs,ageing,queries] [--workload uniform,mixed,floor,robots] [--n 1000,...]\n"
     "                   [--moving 1,0.1,0.01] [--peer 'hgrid,sweep,FCL DynamicAABBTree,...']\n";
 
@@ -56,6 +56,8 @@ Options parsed(int count, const char* const* arguments) {
       options.json = value;
     } else if (name == "--commit") {
       options.commit = value;
+    } else if (name == "--command") {
+      options.command = value;
     } else if (name == "--part") {
       options.parts = split(value);
     } else if (name == "--workload") {

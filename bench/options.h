@@ -12,8 +12,8 @@ namespace bench {
 /// What the program is asked to do. The lists narrow a run down; empty: everything.
 struct Options {
   bool quick = false;
-  std::string json;    ///< file for the figures; empty: none
-  std::string commit;  ///< what is measured, for the figures file
+  std::string json;             ///< file for the figures; empty: none
+  std::string commit, command;  ///< what is measured and how, for the figures file
   std::vector<std::string> parts, workloads, peers;
   std::vector<std::size_t> sizes;
   std::vector<double> moving;

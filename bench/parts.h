@@ -16,5 +16,8 @@ void runPairs(const Options& options, std::vector<Record>& records);
 /// Frames late in the life of HGrid and of FCL's tree beside early ones.
 void runAgeing(const Options& options, std::vector<Record>& records);
 
+/// Queries of every kind against resting boxes, one by one and batched.
+void runQueries(const Options& options, std::vector<Record>& records);
+
 }  // namespace bench
 }  // namespace hgrid

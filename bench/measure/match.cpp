@@ -12,7 +12,6 @@ namespace bench {
 namespace {
 
 using Result = std::pair<std::uint64_t, std::uint64_t>;  // count and checksum
-using Results = std::map<std::uint64_t, Result>;         // by the number of the sample
 
 Result resultOf(const Sample& sample) { return {sample.count, sample.checksum}; }
 
@@ -70,14 +69,14 @@ void Match::play(int rounds, double budget_ms, double limit_s) {
 
 std::vector<Score> Match::scores() const {
   std::map<std::uint64_t, std::map<Result, int>> votes;
-  Results reference;
+  std::map<std::uint64_t, Result> reference = decided_;  // by the number of the sample
   for (const Entry& entry : entries_) {
     std::map<std::uint64_t, std::set<Result>> mine;  // each voter has one vote for each result
     for (const std::vector<Sample>& block : entry.contestant->blocks()) {
       for (const Sample& sample : block) mine[sample.number].insert(resultOf(sample));
     }
     for (const auto& [number, results] : mine) {
-      if (entry.decides) reference[number] = *results.begin();
+      if (entry.decides) reference.emplace(number, *results.begin());
       for (const Result& result : results) votes[number][result] += entry.votes ? 1 : 0;
     }
   }

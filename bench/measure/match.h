@@ -2,8 +2,10 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/measure/contestant.h"
@@ -31,11 +33,16 @@ class Match {
   /// @param decides  its results are right: brute force
   void add(std::unique_ptr<Contestant> contestant, bool votes, bool decides);
 
+  /// Says what is right for results of this number.
+  void decide(std::uint64_t number, std::uint64_t count, std::uint64_t checksum) {
+    decided_[number] = {count, checksum};
+  }
+
   /// So many blocks of each; one that does not answer within the limit is out.
   void play(int rounds, double budget_ms, double limit_s);
 
-  /// In the order of add(). A result is right if it equals that of one who decides, else that on which at least two
-  /// voters agree, more than on any other.
+  /// In the order of add(). A result is right if it equals what was decided, else that of one who decides, else that on
+  /// which at least two voters agree, more than on any other.
   std::vector<Score> scores() const;
 
   const Contestant& contestant(std::size_t i) const { return *entries_[i].contestant; }
@@ -47,6 +54,7 @@ class Match {
   };
 
   std::vector<Entry> entries_;
+  std::map<std::uint64_t, std::pair<std::uint64_t, std::uint64_t>> decided_;  // count and checksum by number
 };
 
 }  // namespace bench
