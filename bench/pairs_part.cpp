@@ -46,8 +46,8 @@ std::vector<Run> runsOf(const Options& options, const Setting& setting) {
   std::vector<Run> runs;
   if (options.peer("hgrid")) runs = hgridRuns(setting);
   for (const PeerKind& kind : peers()) {
-    if (options.peer(kind.name) && kind.most >= setting.n && (kind.quick || !options.quick))
-      runs.push_back(runOf(kind));
+    const std::size_t most = options.quick ? kind.quick_most : kind.most;
+    if (options.peer(kind.name) && most >= setting.n) runs.push_back(runOf(kind));
   }
   if (setting.workload == "uniform" && setting.moving == 1.0 && options.peer("floor"))
     runs.push_back({"floor", "default", 1, 0, makeFloor});
@@ -78,7 +78,7 @@ void play(const Options& options, const Setting& setting, const std::vector<Run>
     };
     match.add(std::make_unique<Contestant>(begin, run.threads), votes, run.peer == "brute force");
   }
-  match.play(options.quick ? 3 : 5, options.quick ? 40.0 : 150.0, options.quick ? 20.0 : 120.0);
+  match.play(options.quick || setting.n >= 1000000 ? 3 : 5, options.quick ? 40.0 : 150.0, options.quick ? 20.0 : 120.0);
 
   std::printf("\n%s, n = %zu, %g %% move\n", setting.workload.c_str(), setting.n, 100.0 * setting.moving);
   const std::vector<Score> scores = match.scores();

@@ -6,6 +6,12 @@ namespace hgrid {
 namespace bench {
 namespace {
 
+/// hgrid::overlap without a branch: one that goes either way costs more than the comparisons it saves.
+bool overlapping(const Aabb& a, const Aabb& b) {
+  return (a.min.x() <= b.max.x()) & (b.min.x() <= a.max.x()) & (a.min.y() <= b.max.y()) & (b.min.y() <= a.max.y()) &
+         (a.min.z() <= b.max.z()) & (b.min.z() <= a.max.z());
+}
+
 /// Every box against every later one: nothing to go wrong, so it judges the others.
 class BrutePeer final : public Peer {
  public:
@@ -17,7 +23,7 @@ class BrutePeer final : public Peer {
     const auto n = static_cast<ProxyId>(frame.boxes.size());
     for (ProxyId i = 0; i < n; ++i) {
       for (ProxyId j = i + 1; j < n; ++j) {
-        if (overlap(frame.boxes[i], frame.boxes[j])) pairs.push_back({i, j});
+        if (overlapping(frame.boxes[i], frame.boxes[j])) pairs.push_back({i, j});
       }
     }
   }

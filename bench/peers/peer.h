@@ -33,9 +33,9 @@ inline ProxyPair ordered(ProxyId a, ProxyId b) { return a < b ? ProxyPair{a, b} 
 /// A peer by name, and how many boxes it is asked to handle at most.
 struct PeerKind {
   std::string name;
-  std::string instructions;  ///< instruction set that it is known to use, else "default"
-  std::size_t most = 0;      ///< above this number of boxes a frame or loading takes far too long
-  bool quick = false;        ///< takes part in a quick run
+  std::string instructions;    ///< instruction set that it is known to use, else "default"
+  std::size_t most = 0;        ///< above this number of boxes a frame, or loading, takes far too long
+  std::size_t quick_most = 0;  ///< the same for a quick run; 0: takes no part in it
   std::function<std::unique_ptr<Peer>()> make;
 };
 

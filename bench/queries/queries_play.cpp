@@ -40,12 +40,11 @@ void QueriesPlay::answer(std::size_t query, std::vector<ProxyId>& found) {
 Sample QueriesPlay::judgedResult() {
   Sample result;
   Checksum sum;
-  if (batched_) peer_->batch(kind_, *queries_, answers_);
+  if (batched_) peer_->batch(kind_, *queries_);
   for (std::size_t i = 0; i < judge_->size(); ++i) {
     if (!judge_->judges(i)) continue;
     if (batched_) {
-      found_.assign(answers_.ids.begin() + static_cast<std::ptrdiff_t>(answers_.begin[i]),
-                    answers_.ids.begin() + static_cast<std::ptrdiff_t>(answers_.begin[i + 1]));
+      peer_->batchHits(i, found_);
     } else {
       answer(i, found_);
     }
@@ -59,7 +58,7 @@ Sample QueriesPlay::judgedResult() {
 double QueriesPlay::timedChunk() {
   const Clock::time_point begin = Clock::now();
   if (batched_) {
-    peer_->batch(kind_, *queries_, answers_);
+    peer_->batch(kind_, *queries_);
     return msSince(begin);
   }
   for (std::size_t i = 0; i < kChunk; ++i) answer(next_ + i, found_);

@@ -31,7 +31,6 @@ class QueriesPlay {
   const Judge* judge_;
   std::size_t next_ = 0;
   std::vector<ProxyId> found_;
-  Answers answers_;
   Sample result_;  // what every sample carries beside its time
 };
 

@@ -12,12 +12,6 @@
 namespace hgrid {
 namespace bench {
 
-/// Answers to many queries: ids of query i from begin[i] up to begin[i + 1].
-struct Answers {
-  std::vector<std::size_t> begin;
-  std::vector<ProxyId> ids;
-};
-
 /// Something that answers queries. All hits are returned, in any order; boxes that only touch are hits.
 class QueryPeer {
  public:
@@ -32,8 +26,10 @@ class QueryPeer {
   virtual void segment(const Segment&, std::vector<ProxyId>&) {}
   virtual void box(const Aabb&, std::vector<ProxyId>&) {}
   virtual void nearest(const Eigen::Vector3d&, std::size_t, std::vector<ProxyId>&) {}
-  /// All queries of the kind in one call.
-  virtual void batch(QueryKind, const QuerySet&, Answers&) {}
+  /// All queries of the kind in one call; the peer keeps the hits in a form of its own.
+  virtual void batch(QueryKind, const QuerySet&) {}
+  /// The hits that the last batch() found for a query.
+  virtual void batchHits(std::size_t, std::vector<ProxyId>&) const {}
 };
 
 struct QueryPeerKind {

@@ -21,8 +21,8 @@ class Svg:
 
     def text(self, x, y, text, size=12, anchor='start', colour='#222', weight='normal'):
         text = text.replace('&', '&amp;').replace('<', '&lt;')
-        self.parts.append('<text x="%.1f" y="%.1f" font-size="%g" text-anchor="%s" fill="%s" font-weight="%s">%s</text>'
-                          % (x, y, size, anchor, colour, weight, text))
+        self.parts.append('<text x="%.1f" y="%.1f" font-size="%g" text-anchor="%s" fill="%s" font-weight="%s">%s'
+                          '</text>' % (x, y, size, anchor, colour, weight, text))
 
     def line(self, x1, y1, x2, y2, colour='#ddd', width=1.0):
         self.parts.append('<line x1="%.1f" y1="%.1f" x2="%.1f" y2="%.1f" stroke="%s" stroke-width="%g"/>'
@@ -35,7 +35,8 @@ class Svg:
             self.parts.append('<circle cx="%.1f" cy="%.1f" r="%g" fill="%s"/>' % (x, y, width + 0.8, colour))
 
     def bar(self, x, y, width, height, colour):
-        self.parts.append('<rect x="%.1f" y="%.1f" width="%.1f" height="%.1f" fill="%s"/>' % (x, y, width, height, colour))
+        self.parts.append('<rect x="%.1f" y="%.1f" width="%.1f" height="%.1f" fill="%s"/>'
+                          % (x, y, width, height, colour))
 
     def save(self, path):
         with open(path, 'w') as file:
@@ -71,7 +72,8 @@ def panel(svg, figures, workload, moving, left, top, width, height, low, high):
         svg.text(x, top + height + 16, '{:,}'.format(n), 11, 'middle')
     for peer in reversed(figures.peers()):  # hgrid on top
         records = [figures.pairs(peer, workload, n, moving) for n in sizes]
-        points = [at(record['n'], 1e3 * record['median_ms'] / record['n']) for record in records if record and record['correct']]
+        points = [at(record['n'], 1e3 * record['median_ms'] / record['n'])
+                  for record in records if record and record['correct']]
         if points:
             svg.polyline(points, COLOURS.get(peer, '#000'), 3.5 if peer == 'hgrid' else 1.6)
 
@@ -93,7 +95,8 @@ def pairs_chart(figures, moving, path):
 def queries_chart(figures, kinds, path):
     """Millions of queries per second, a group of bars per workload."""
     svg = Svg(1000, 60 + 330 * len(kinds))
-    svg.text(20, 30, 'Queries, n = {:,}, one thread: millions per second'.format(figures.all('query')[0]['n']), 16, weight='bold')
+    n = figures.all('query')[0]['n']
+    svg.text(20, 30, 'Queries, n = {:,}, one thread: millions per second'.format(n), 16, weight='bold')
     for row, kind in enumerate(kinds):
         query_panel(svg, figures, kind, 70, 90 + 330 * row, 900, 190)
     svg.save(path)

@@ -19,7 +19,7 @@ def count(n):
 
 def machine(figures):
     run = figures.run
-    text = '%s · %s · commit %s · `%s`' % (run.get('cpu'), run.get('compiler'), run.get('commit'), run.get('command'))
+    text = '%s · %s · commit %s · `%s`' % tuple(run.get(name) for name in ('cpu', 'compiler', 'commit', 'command'))
     if run.get('missing'):
         text += '\n\nNot measured, since the library was not found: %s.' % run['missing']
     return text
@@ -45,7 +45,8 @@ def spread(figures):
     if not spreads:
         return ''
     return ('Spread of the medians of single rounds, (largest − smallest) ÷ median: half of all figures below '
-            '%.0f %%, nine in ten below %.0f %%.' % (100 * spreads[len(spreads) // 2], 100 * spreads[9 * len(spreads) // 10]))
+            '%.0f %%, nine in ten below %.0f %%.'
+            % (100 * spreads[len(spreads) // 2], 100 * spreads[9 * len(spreads) // 10]))
 
 
 def variants(figures):
@@ -86,14 +87,17 @@ def queries(figures):
     rows = []
     for peer in figures.peers('query'):
         for batched in (False, True):
-            cells = [[shown(figures.one('query', peer=peer, workload=workload, query=kind, batched=batched), 'median_us')
-                      for workload in WORKLOADS] for kind in kinds]
+            records = [[figures.one('query', peer=peer, workload=workload, query=kind, batched=batched)
+                        for workload in WORKLOADS] for kind in kinds]
+            cells = [[shown(record, 'median_us') for record in row] for row in records]
             if any(cell != '–' for row in cells for cell in row):
                 rows.append([peer + (', batched' if batched else '')]
                             + [' / '.join(row) if set(row) != {'–'} else '–' for row in cells])
     n = figures.all('query')[-1]['n']
-    hits = [[figures.all('query', workload=workload, query=kind) for workload in WORKLOADS] for kind in kinds]
-    rows.append(['*hits per query*'] + [' / '.join(short(one[0]['hits_per_query']) if one else '–' for one in row) for row in hits])
+    right = [[figures.one('query', workload=workload, query=kind, correct=True) for workload in WORKLOADS]
+             for kind in kinds]
+    rows.append(['*hits per query*']
+                + [' / '.join(short(one['hits_per_query']) if one else '–' for one in row) for row in right])
     return table(['median µs per query, n = %s' % count(n)] + kinds, rows)
 
 

@@ -41,7 +41,8 @@ def against_tree(figures, verdicts, n, workload):
         least = 5
     ours, tree = (ms(figures.pairs(peer, workload, n)) for peer in ('hgrid', TREE))
     if least:
-        verdicts.at_least('%s, n = %s, all move: times faster than FCL\'s tree, fresh' % (workload, count(n)), least, ratio(tree, ours))
+        what = '%s, n = %s, all move: times faster than FCL\'s tree, fresh' % (workload, count(n))
+        verdicts.at_least(what, least, ratio(tree, ours))
 
 
 def against_fastest(figures, verdicts, n, workload, moving):
@@ -72,7 +73,8 @@ def part_moving(figures, verdicts, n, workload):
     whole = ms(figures.pairs('hgrid', workload, n))
     for moving, most in ((0.1, 0.5), (0.01, 0.15)):
         part = ms(figures.pairs('hgrid', workload, n, moving))
-        verdicts.at_most('%s, n = %s: %g %% moving ÷ all moving' % (workload, count(n), 100 * moving), most, ratio(part, whole))
+        what = '%s, n = %s: %g %% moving ÷ all moving' % (workload, count(n), 100 * moving)
+        verdicts.at_most(what, most, ratio(part, whole))
 
 
 def ages(figures, verdicts):
@@ -100,10 +102,12 @@ def queries(figures, verdicts):
 def sameness(figures, verdicts):
     """Equal pair sets whatever the instruction set and the number of threads."""
     ours = figures.all('pairs', peer='hgrid')
-    verdicts.holds('hgrid\'s pair sets equal the reference in all %d settings' % len(ours), all(record['correct'] for record in ours))
+    verdicts.holds('hgrid\'s pair sets equal the reference in all %d settings' % len(ours),
+                   all(record['correct'] for record in ours))
     asked = figures.all('query', peer='hgrid')
     if asked:
-        verdicts.holds('hgrid\'s query hits equal the reference in all %d settings' % len(asked), all(record['correct'] for record in asked))
+        verdicts.holds('hgrid\'s query hits equal the reference in all %d settings' % len(asked),
+                       all(record['correct'] for record in asked))
 
 
 def sweep_fairness(figures, verdicts):
@@ -131,7 +135,8 @@ def verdicts_table(figures):
                 part_moving(figures, verdicts, n, workload)
             if n >= 100000:
                 one, two = (ms(figures.pairs('hgrid', workload, n, 1, threads)) for threads in (1, 2))
-                verdicts.at_least('%s, n = %s: two threads, times faster than one' % (workload, count(n)), 1.7, ratio(one, two))
+                what = '%s, n = %s: two threads, times faster than one' % (workload, count(n))
+                verdicts.at_least(what, 1.7, ratio(one, two))
     floor_and_growth(figures, verdicts)
     ages(figures, verdicts)
     held = [record['bytes_per_object'] for record in figures.all('pairs', peer='hgrid') if record['n'] >= 10000]
@@ -142,4 +147,5 @@ def verdicts_table(figures):
     sweep_fairness(figures, verdicts)
     node(figures, verdicts)
     met = sum(row[-1] == 'met' for row in verdicts.rows)
-    return '%d of %d met.\n\n' % (met, len(verdicts.rows)) + table(['target', 'wanted', 'reached', 'verdict'], verdicts.rows)
+    return ('%d of %d met.\n\n' % (met, len(verdicts.rows))
+            + table(['target', 'wanted', 'reached', 'verdict'], verdicts.rows))
