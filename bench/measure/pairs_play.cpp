@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "bench/measure/pairs_play.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "bench/measure/held_bytes.h"
@@ -33,6 +34,7 @@ double PairsPlay::bytes() const {
 
 Sample PairsPlay::frame() {
   world_->step();
+  std::fill(pairs_.begin(), pairs_.end(), ProxyPair{});  // so that every pair must be written in every frame
   Sample sample;
   const Clock::time_point begin = Clock::now();
   peer_->frame(world_->frame(), pairs_);
