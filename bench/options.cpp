@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "bench/options.h"
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+namespace hgrid {
+namespace bench {
+namespace {
+
+std::vector<std::string> split(const std::string& list) {
+  std::vector<std::string> items;
+  std::istringstream in(list);
+  for (std::string item; std::getline(in, item, ',');) items.push_back(item);
+  return items;
+}
+
+double numberOf(const std::string& text) {
+  std::size_t used = 0;
+  const double value = std::stod(text, &used);
+  if (used != text.size()) throw std::invalid_argument(text + " is not a number");
+  return value;
+}
+
+template <class T>
+bool wanted(const std::vector<T>& list, const T& item) {
+  return list.empty() || std::find(list.begin(), list.end(), item) != list.end();
+}
+
+}  // namespace
+
+const char* const kUsage =
+    "usage: hgrid_bench [--quick] [--json FILE] [--commit TEXT] [--command TEXT]\n"
+    "                   [--part pairs,ageing,queries] [--workload uniform,mixed,floor,robots] [--n 1000,...]\n"
+    "                   [--moving 1,0.1,0.01] [--peer 'hgrid,sweep,FCL DynamicAABBTree,...']\n";
+
+bool Options::part(const std::string& name) const { return wanted(parts, name); }
+bool Options::workload(const std::string& name) const { return wanted(workloads, name); }
+bool Options::peer(const std::string& name) const { return wanted(peers, name); }
+bool Options::size(std::size_t n) const { return wanted(sizes, n); }
+bool Options::moves(double fraction) const { return wanted(moving, fraction); }
+
+Options parsed(int count, const char* const* arguments) {
+  Options options;
+  for (int i = 1; i < count; ++i) {
+    const std::string name = arguments[i];
+    if (name == "--quick") {
+      options.quick = true;
+      continue;
+    }
+    if (i + 1 == count) throw std::invalid_argument("unknown, or without its value: " + name);
+    const std::string value = arguments[++i];
+    if (name == "--json") {
+      options.json = value;
+    } else if (name == "--commit") {
+      options.commit = value;
+    } else if (name == "--command") {
+      options.command = value;
+    } else if (name == "--part") {
+      options.parts = split(value);
+    } else if (name == "--workload") {
+      options.workloads = split(value);
+    } else if (name == "--peer") {
+      options.peers = split(value);
+    } else if (name == "--n") {
+      for (const std::string& item : split(value)) options.sizes.push_back(static_cast<std::size_t>(numberOf(item)));
+    } else if (name == "--moving") {
+      for (const std::string& item : split(value)) options.moving.push_back(numberOf(item));
+    } else {
+      throw std::invalid_argument("unknown: " + name);
+    }
+  }
+  return options;
+}
+
+}  // namespace bench
+}  // namespace hgrid

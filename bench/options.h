@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace hgrid {
+namespace bench {
+
+/// What the program is asked to do. The lists narrow a run down; empty: everything.
+struct Options {
+  bool quick = false;
+  std::string json;             ///< file for the figures; empty: none
+  std::string commit, command;  ///< what is measured and how, for the figures file
+  std::vector<std::string> parts, workloads, peers;
+  std::vector<std::size_t> sizes;
+  std::vector<double> moving;
+
+  bool part(const std::string& name) const;
+  bool workload(const std::string& name) const;
+  bool peer(const std::string& name) const;
+  bool size(std::size_t n) const;
+  bool moves(double fraction) const;
+};
+
+/// @throws std::invalid_argument naming what is not understood.
+Options parsed(int count, const char* const* arguments);
+
+/// How to call the program.
+extern const char* const kUsage;
+
+}  // namespace bench
+}  // namespace hgrid

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <cstdio>
+
+#include "bench/measure/match.h"
+#include "bench/measure/pairs_play.h"
+#include "bench/parts.h"
+#include "bench/peers/factories.h"
+#include "bench/peers/hgrid_peer.h"
+
+namespace hgrid {
+namespace bench {
+namespace {
+
+/// One line of a match.
+struct Run {
+  std::string peer, instructions;
+  int threads;
+  std::uint64_t age;
+  std::function<std::unique_ptr<Peer>()> make;
+};
+
+struct Setting {
+  std::string workload;
+  std::size_t n;
+  double moving;
+};
+
+Run hgridRun(int threads, const std::string& instructions, std::uint64_t age = 0) {
+  return {"hgrid", instructions, threads, age, [=] { return makeHGrid(threads, instructions); }};
+}
+
+Run runOf(const PeerKind& kind, std::uint64_t age = 0) { return {kind.name, kind.instructions, 1, age, kind.make}; }
+
+/// HGrid as it runs by itself, and where all boxes move also in its other ways.
+std::vector<Run> hgridRuns(const Setting& setting) {
+  const std::vector<std::string> all = hgridInstructions();
+  std::vector<Run> runs{hgridRun(1, all.back())};
+  if (setting.moving < 1.0) return runs;
+  for (std::size_t i = 0; i + 1 < all.size(); ++i) runs.push_back(hgridRun(1, all[i]));
+  if (setting.n >= 10000) runs.push_back(hgridRun(2, all.back()));
+  return runs;
+}
+
+std::vector<Run> runsOf(const Options& options, const Setting& setting) {
+  std::vector<Run> runs;
+  if (options.peer("hgrid")) runs = hgridRuns(setting);
+  for (const PeerKind& kind : peers()) {
+    const std::size_t most = options.quick ? kind.quick_most : kind.most;
+    if (options.peer(kind.name) && most >= setting.n) runs.push_back(runOf(kind));
+  }
+  if (setting.workload == "uniform" && setting.moving == 1.0 && options.peer("floor"))
+    runs.push_back({"floor", "default", 1, 0, makeFloor});
+  return runs;
+}
+
+Record recordOf(const Setting& setting, const Run& run, const Score& score, const std::string& status) {
+  Record record(run.age > 0 ? "ageing" : "pairs");
+  record.text("peer", run.peer).text("workload", setting.workload).number("n", double(setting.n));
+  record.number("moving", setting.moving).number("threads", run.threads).text("isa", run.instructions);
+  if (run.age > 0) record.number("age", double(run.age));
+  record.number("median_ms", score.median_ms).number("min_ms", score.min_ms).number("spread", score.spread);
+  record.number("frames", double(score.timed)).number("pairs", double(score.count)).bits("checksum", score.checksum);
+  record.flag("correct", score.correct && status == "ok");
+  record.number("bytes_per_object", score.bytes / double(setting.n)).text("status", status);
+  return record;
+}
+
+/// Lets the runs play against each other, tells how it went, and appends the records.
+void play(const Options& options, const Setting& setting, const std::vector<Run>& runs, std::vector<Record>& records) {
+  World world(setting.workload, setting.n, setting.moving);
+  Match match;
+  for (const Run& run : runs) {
+    const bool votes = run.peer != "hgrid" && run.peer != "floor";
+    const auto begin = [&world, run]() -> Contestant::Play {
+      const auto play = std::make_shared<PairsPlay>(world, run.make, run.age);
+      return [play](double budget_ms) { return (*play)(budget_ms); };
+    };
+    match.add(std::make_unique<Contestant>(begin, run.threads), votes, run.peer == "brute force");
+  }
+  match.play(options.quick || setting.n >= 1000000 ? 3 : 5, options.quick ? 40.0 : 150.0, options.quick ? 20.0 : 120.0);
+
+  std::printf("\n%s, n = %zu, %g %% move\n", setting.workload.c_str(), setting.n, 100.0 * setting.moving);
+  const std::vector<Score> scores = match.scores();
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const Run& run = runs[i];
+    const std::string& status = match.contestant(i).status();
+    if (run.peer == "floor") {
+      Record floor("floor");
+      records.push_back(floor.number("n", double(setting.n))
+                            .number("median_ms", scores[i].median_ms)
+                            .number("min_ms", scores[i].min_ms));
+    } else {
+      records.push_back(recordOf(setting, run, scores[i], status));
+    }
+    std::printf(
+        "  %-28s %-8s threads %d  age %-5llu %10.4f ms  min %10.4f  spread %3.0f %%  %7.1f B  %8llu pairs  %s\n",
+        run.peer.c_str(), run.instructions.c_str(), run.threads, static_cast<unsigned long long>(run.age),
+        scores[i].median_ms, scores[i].min_ms, 100.0 * scores[i].spread, scores[i].bytes / double(setting.n),
+        static_cast<unsigned long long>(scores[i].count),
+        status != "ok"                             ? status.c_str()
+        : scores[i].correct || run.peer == "floor" ? ""
+                                                   : "WRONG");
+  }
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+void runPairs(const Options& options, std::vector<Record>& records) {
+  for (const double moving : {1.0, 0.1, 0.01}) {
+    for (const std::size_t n : {1000, 10000, 100000, 1000000}) {
+      for (const std::string& workload : workloads()) {
+        const bool chosen = options.moves(moving) && options.size(n) && options.workload(workload);
+        const bool too_long = options.quick && n == 1000000 && options.sizes.empty();
+        const Setting setting{workload, n, moving};
+        if (chosen && !too_long) play(options, setting, runsOf(options, setting), records);
+      }
+    }
+  }
+}
+
+void runAgeing(const Options& options, std::vector<Record>& records) {
+  for (const std::string& workload : workloads()) {
+    if (!options.workload(workload)) continue;
+    std::vector<Run> runs;
+    for (const std::uint64_t age : {10, 300, 1500}) {
+      runs.push_back(hgridRun(1, hgridInstructions().back(), age));
+      for (const PeerKind& kind : peers()) {
+        const bool old = age == 1500 || (age == 300 && workload != "uniform");
+        const bool tree = kind.name == "FCL DynamicAABBTree" && !(options.quick && old);
+        if (tree || kind.name == "brute force") runs.push_back(runOf(kind, age));
+      }
+    }
+    play(options, {workload, 10000, 1.0}, runs, records);
+  }
+}
+
+}  // namespace bench
+}  // namespace hgrid

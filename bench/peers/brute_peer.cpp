@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "bench/peers/factories.h"
+
+namespace hgrid {
+namespace bench {
+namespace {
+
+/// hgrid::overlap without a branch: one that goes either way costs more than the comparisons it saves.
+bool overlapping(const Aabb& a, const Aabb& b) {
+  return (a.min.x() <= b.max.x()) & (b.min.x() <= a.max.x()) & (a.min.y() <= b.max.y()) & (b.min.y() <= a.max.y()) &
+         (a.min.z() <= b.max.z()) & (b.min.z() <= a.max.z());
+}
+
+/// Every box against every later one: nothing to go wrong, so it judges the others.
+class BrutePeer final : public Peer {
+ public:
+  void load(const std::vector<Aabb>&) override {}
+  bool remembers() const override { return false; }
+
+  void frame(const Frame& frame, std::vector<ProxyPair>& pairs) override {
+    pairs.clear();
+    const auto n = static_cast<ProxyId>(frame.boxes.size());
+    for (ProxyId i = 0; i < n; ++i) {
+      for (ProxyId j = i + 1; j < n; ++j) {
+        if (overlapping(frame.boxes[i], frame.boxes[j])) pairs.push_back({i, j});
+      }
+    }
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Peer> makeBrute() { return std::make_unique<BrutePeer>(); }
+
+}  // namespace bench
+}  // namespace hgrid

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <memory>
+
+#include "bench/peers/peer.h"
+
+namespace hgrid {
+namespace bench {
+
+// One per peer; those of libraries that were not found are declared only.
+std::unique_ptr<Peer> makeBrute();
+std::unique_ptr<Peer> makeFloor();
+std::unique_ptr<Peer> makeSweep();
+std::unique_ptr<Peer> makeFclTree();
+std::unique_ptr<Peer> makeFclTreeArray();
+std::unique_ptr<Peer> makeFclSaP();
+std::unique_ptr<Peer> makeFclSSaP();
+std::unique_ptr<Peer> makeFclSpatialHash();
+std::unique_ptr<Peer> makeBulletDbvt();
+std::unique_ptr<Peer> makeBulletAxisSweep();
+std::unique_ptr<Peer> makeOdeHash();
+std::unique_ptr<Peer> makeOdeSap();
+std::unique_ptr<Peer> makeCgal();
+std::unique_ptr<Peer> makeBoostRtree();
+std::unique_ptr<Peer> makeEmbree();
+
+/// Whether this processor can run the array sort-and-sweep.
+bool canSweep();
+
+}  // namespace bench
+}  // namespace hgrid

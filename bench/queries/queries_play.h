@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include "bench/measure/contestant.h"
+#include "bench/queries/judge.h"
+
+namespace hgrid {
+namespace bench {
+
+/// How a peer answers queries of one kind: first the judged ones, untimed, then all in turn, kChunk of them per sample,
+/// or, batched, all in one call per sample.
+class QueriesPlay {
+ public:
+  static constexpr std::size_t kChunk = 1000;
+
+  QueriesPlay(const QueryPeerKind& peer, QueryKind kind, bool batched, const std::vector<Aabb>& boxes,
+              const QuerySet& queries, const Judge& judge);
+
+  std::vector<Sample> operator()(double budget_ms);
+
+ private:
+  void answer(std::size_t query, std::vector<ProxyId>& found);
+  Sample judgedResult();
+  double timedChunk();
+
+  std::unique_ptr<QueryPeer> peer_;
+  QueryKind kind_;
+  bool batched_;
+  const QuerySet* queries_;
+  const Judge* judge_;
+  std::size_t next_ = 0;
+  std::vector<ProxyId> found_;
+  Sample result_;  // what every sample carries beside its time
+};
+
+}  // namespace bench
+}  // namespace hgrid

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <cstdio>
+
+#include "bench/measure/match.h"
+#include "bench/parts.h"
+#include "bench/queries/queries_play.h"
+
+namespace hgrid {
+namespace bench {
+namespace {
+
+struct Run {
+  const QueryPeerKind* peer;
+  bool batched;
+};
+
+std::vector<Run> runsOf(const Options& options, QueryKind kind) {
+  std::vector<Run> runs;
+  for (const QueryPeerKind& peer : queryPeers()) {
+    for (const bool batched : {false, true}) {
+      if (options.peer(peer.name) && peer.make()->answers(kind, batched)) runs.push_back({&peer, batched});
+    }
+  }
+  return runs;
+}
+
+void play(const Options& options, const std::string& workload, const World& world, const QuerySet& queries,
+          QueryKind kind, std::vector<Record>& records) {
+  const Judge judge(kind, queries, world.boxes());
+  const std::vector<Run> runs = runsOf(options, kind);
+  Match match;
+  match.decide(0, judge.count(), judge.checksum());
+  for (const Run& run : runs) {
+    const auto begin = [&, run]() -> Contestant::Play {
+      const auto play = std::make_shared<QueriesPlay>(*run.peer, kind, run.batched, world.boxes(), queries, judge);
+      return [play](double budget_ms) { return (*play)(budget_ms); };
+    };
+    match.add(std::make_unique<Contestant>(begin, 1), false, false);
+  }
+  match.play(options.quick ? 3 : 5, options.quick ? 20.0 : 100.0, options.quick ? 20.0 : 60.0);
+
+  std::printf("\n%s, n = %zu, %s: %zu of %zu queries judged, %.2f hits each\n", workload.c_str(), world.boxes().size(),
+              name(kind), judge.judgedCount(), judge.size(), double(judge.count()) / double(judge.judgedCount()));
+  const std::vector<Score> scores = match.scores();
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const Score& score = scores[i];
+    const std::string& status = match.contestant(i).status();
+    const std::size_t per_sample = runs[i].batched ? queries.size() : QueriesPlay::kChunk;
+    const double us = 1e3 * score.median_ms / double(per_sample);
+    Record record("query");
+    record.text("peer", runs[i].peer->name).text("query", name(kind)).flag("batched", runs[i].batched);
+    record.text("workload", workload).number("n", double(world.boxes().size())).number("median_us", us);
+    record.number("min_us", 1e3 * score.min_ms / double(per_sample)).number("spread", score.spread);
+    record.number("hits_per_query", double(score.count) / double(judge.judgedCount()));
+    record.bits("checksum", score.checksum).flag("correct", score.correct && status == "ok");
+    record.number("judged", double(judge.judgedCount())).text("status", status);
+    records.push_back(record);
+    std::printf("  %-28s %-7s %10.4f us  spread %3.0f %%  %s\n", runs[i].peer->name.c_str(),
+                runs[i].batched ? "batched" : "single", us, 100.0 * score.spread,
+                status != "ok"  ? status.c_str()
+                : score.correct ? ""
+                                : "WRONG");
+  }
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+void runQueries(const Options& options, std::vector<Record>& records) {
+  std::size_t n = options.quick ? 10000 : 100000;
+  if (options.sizes.size() == 1) n = options.sizes.front();
+  for (const std::string& workload : workloads()) {
+    if (!options.workload(workload)) continue;
+    const World world(workload, n, 1.0);
+    const QuerySet queries(workload, world, 10 * QueriesPlay::kChunk);
+    for (const QueryKind kind : kQueryKinds) play(options, workload, world, queries, kind, records);
+  }
+}
+
+}  // namespace bench
+}  // namespace hgrid

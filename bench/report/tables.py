@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: the hgrid_proximity authors
+"""Result tables in Markdown, which is also what is printed."""
+from figures import QUERIES, WORKLOADS, short, shown
+
+PEER_NOTE = ('Cells: %s. – = not run: one frame, or loading, takes far too long; ✗ = wrong pair set; '
+             'crash = the process of this peer died.')
+
+
+def table(head, rows):
+    """A Markdown table; the first column is text."""
+    lines = ['| ' + ' | '.join(head) + ' |', '| --- ' + '| ---: ' * (len(head) - 1) + '|']
+    return '\n'.join(lines + ['| ' + ' | '.join(row) + ' |' for row in rows])
+
+
+def count(n):
+    return '{:,}'.format(int(n))
+
+
+def machine(figures):
+    run = figures.run
+    text = '%s · %s · commit %s · `%s`' % tuple(run.get(name) for name in ('cpu', 'compiler', 'commit', 'command'))
+    if run.get('missing'):
+        text += '\n\nNot measured, since the library was not found: %s.' % run['missing']
+    return text
+
+
+def pairs(figures, moving):
+    """One row per peer, one column per number of boxes, the workloads side by side."""
+    sizes = sorted({record['n'] for record in figures.all('pairs', moving=moving)})
+    rows = []
+    for peer in figures.peers():
+        cells = [[shown(figures.pairs(peer, workload, n, moving)) for workload in WORKLOADS] for n in sizes]
+        if any(cell != '–' for row in cells for cell in row):
+            bold = '**%s**' if peer == 'hgrid' else '%s'
+            rows.append([bold % peer] + [' / '.join(row) if set(row) != {'–'} else '–' for row in cells])
+    if moving == 1 and figures.all('floor'):
+        floors = [figures.one('floor', n=n) for n in sizes]
+        rows.append(['*the floor (uniform)*'] + [short(floor['median_ms']) if floor else '–' for floor in floors])
+    return table(['median ms per frame'] + ['n = ' + count(n) for n in sizes], rows)
+
+
+def spread(figures):
+    spreads = sorted(record['spread'] for record in figures.all('pairs') if record['correct'])
+    if not spreads:
+        return ''
+    return ('Spread of the medians of single rounds, (largest − smallest) ÷ median: half of all figures below '
+            '%.0f %%, nine in ten below %.0f %%.'
+            % (100 * spreads[len(spreads) // 2], 100 * spreads[9 * len(spreads) // 10]))
+
+
+def variants(figures):
+    """hgrid with other instruction sets and with two threads."""
+    sizes = sorted({record['n'] for record in figures.all('pairs', peer='hgrid', moving=1)})
+    ways = list(dict.fromkeys((record['isa'], record['threads']) for record in figures.all('pairs', peer='hgrid')))
+    rows = []
+    for isa, threads in sorted(ways, key=lambda way: (way[1], ways.index(way))):
+        cells = [[shown(figures.pairs('hgrid', workload, n, 1, threads, isa)) for workload in WORKLOADS] for n in sizes]
+        rows.append(['%s, %d thread%s' % (isa, threads, 's' if threads > 1 else '')]
+                    + [' / '.join(row) if set(row) != {'–'} else '–' for row in cells])
+    return table(['median ms per frame'] + ['n = ' + count(n) for n in sizes], rows)
+
+
+def ageing(figures):
+    ages = sorted({record['age'] for record in figures.all('ageing')})
+    rows = []
+    for peer in [name for name in figures.peers('ageing') if name != 'brute force']:
+        cells = [[shown(figures.one('ageing', peer=peer, workload=workload, age=age)) for workload in WORKLOADS]
+                 for age in ages]
+        rows.append([peer] + [' / '.join(row) if set(row) != {'–'} else '–' for row in cells])
+    return table(['median ms per frame, n = 10,000'] + ['after %s frames' % count(age) for age in ages], rows)
+
+
+def memory(figures):
+    sizes = figures.sizes()
+    n = 100000 if 100000 in sizes else sizes[-1]
+    rows = []
+    for peer in figures.peers():
+        records = [figures.pairs(peer, workload, n) for workload in WORKLOADS]
+        if any(records):
+            rows.append([peer] + [shown(record, 'bytes_per_object') for record in records])
+    return table(['bytes per box, n = %s' % count(n)] + WORKLOADS, rows)
+
+
+def queries(figures):
+    kinds = [kind for kind in QUERIES if figures.all('query', query=kind)]
+    rows = []
+    for peer in figures.peers('query'):
+        for batched in (False, True):
+            records = [[figures.one('query', peer=peer, workload=workload, query=kind, batched=batched)
+                        for workload in WORKLOADS] for kind in kinds]
+            cells = [[shown(record, 'median_us') for record in row] for row in records]
+            if any(cell != '–' for row in cells for cell in row):
+                rows.append([peer + (', batched' if batched else '')]
+                            + [' / '.join(row) if set(row) != {'–'} else '–' for row in cells])
+    n = figures.all('query')[-1]['n']
+    right = [[figures.one('query', workload=workload, query=kind, correct=True) for workload in WORKLOADS]
+             for kind in kinds]
+    rows.append(['*hits per query*']
+                + [' / '.join(short(one['hits_per_query']) if one else '–' for one in row) for row in right])
+    return table(['median µs per query, n = %s' % count(n)] + kinds, rows)
+
+
+def node(figures):
+    rows = [[record['part'], count(record['bodies']), short(record['rate_hz']), short(record['median_ms']),
+             short(record['p99_ms'])] for record in figures.all('node') if 'median_ms' in record]
+    return table(['part of the tick', 'bodies', 'Hz', 'median ms', 'p99 ms'], rows)
+
+
+def sections(figures):
+    """(title, text) of every table that the figures are there for."""
+    cells = PEER_NOTE % 'uniform / mixed / floor / robots'
+    found = [('Machine', machine(figures))]
+    for moving, title in ((1, 'Pairs, all boxes move'), (0.1, 'Pairs, 10 % move'), (0.01, 'Pairs, 1 % move')):
+        if figures.all('pairs', moving=moving):
+            found.append((title, cells + '\n\n' + pairs(figures, moving)))
+    if figures.all('pairs'):
+        found[-1] = (found[-1][0], found[-1][1] + '\n\n' + spread(figures))
+        found.append(('hgrid: instruction sets and threads', variants(figures)))
+        found.append(('Memory', memory(figures)))
+    if figures.all('ageing'):
+        found.append(('Ageing', ageing(figures)))
+    if figures.all('query'):
+        found.append(('Queries', queries(figures)))
+    if figures.all('node'):
+        found.append(('The node', node(figures)))
+    return found

@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: the hgrid_proximity authors
+"""The targets, judged by the figures; what a run cannot judge is left out."""
+from figures import TREE, WORKLOADS, short
+from tables import count, table
+
+
+class Verdicts:
+    """Rows of the table of targets: what was to be reached, what was, and whether that is enough."""
+
+    def __init__(self):
+        self.rows = []
+
+    def at_least(self, what, limit, value):
+        self._add(what, '≥ ' + short(limit), value, value is not None and value >= limit)
+
+    def at_most(self, what, limit, value):
+        self._add(what, '≤ ' + short(limit), value, value is not None and value <= limit)
+
+    def holds(self, what, value):
+        self.rows.append([what, 'yes', 'yes' if value else 'no', 'met' if value else '**not met**'])
+
+    def _add(self, what, limit, value, met):
+        if value is not None:
+            self.rows.append([what, limit, short(value), 'met' if met else '**not met**'])
+
+
+def ms(record):
+    return record['median_ms'] if record and record['correct'] else None
+
+
+def ratio(above, below):
+    return above / below if above and below else None
+
+
+def against_tree(figures, verdicts, n, workload):
+    least = {1000: 4, 10000: 6, 100000: 7, 1000000: 7}.get(n)
+    if workload == 'mixed':
+        least = 4
+    if workload == 'robots' and n == 1000000:
+        least = 5
+    ours, tree = (ms(figures.pairs(peer, workload, n)) for peer in ('hgrid', TREE))
+    if least:
+        what = '%s, n = %s, all move: times faster than FCL\'s tree, fresh' % (workload, count(n))
+        verdicts.at_least(what, least, ratio(tree, ours))
+
+
+def against_fastest(figures, verdicts, n, workload, moving):
+    ours = ms(figures.pairs('hgrid', workload, n, moving))
+    rivals = [record for record in figures.rivals(workload, n, moving) if record['peer'] != TREE]
+    if not rivals or n not in (1000, 10000, 100000, 1000000):
+        return
+    if moving < 1 and n < 10000:
+        return
+    fastest = min(rivals, key=ms)
+    least = 0.909 if n == 1000 else 1.0
+    if moving == 1 and n >= 100000:
+        least = 1.5 if workload == 'mixed' else 2
+    verdicts.at_least('%s, n = %s, %g %% move: times faster than the fastest other peer (%s)'
+                      % (workload, count(n), 100 * moving, fastest['peer']), least, ratio(ms(fastest), ours))
+
+
+def floor_and_growth(figures, verdicts):
+    def per_floor(n):
+        return ratio(ms(figures.pairs('hgrid', 'uniform', n)), (figures.one('floor', n=n) or {}).get('median_ms'))
+    verdicts.at_most('uniform, n = 100,000: time ÷ floor', 3.5, per_floor(100000))
+    verdicts.at_most('uniform, n = 1,000,000: time ÷ floor', 2, per_floor(1000000))
+    mixed, uniform = (ms(figures.pairs('hgrid', workload, 100000)) for workload in ('mixed', 'uniform'))
+    verdicts.at_most('n = 100,000: mixed ÷ uniform', 2, ratio(mixed, uniform))
+
+
+def part_moving(figures, verdicts, n, workload):
+    whole = ms(figures.pairs('hgrid', workload, n))
+    for moving, most in ((0.1, 0.5), (0.01, 0.15)):
+        part = ms(figures.pairs('hgrid', workload, n, moving))
+        what = '%s, n = %s: %g %% moving ÷ all moving' % (workload, count(n), 100 * moving)
+        verdicts.at_most(what, most, ratio(part, whole))
+
+
+def ages(figures, verdicts):
+    for workload in WORKLOADS:
+        early, late = (ms(figures.one('ageing', peer='hgrid', workload=workload, age=age)) for age in (10, 1500))
+        verdicts.at_most('%s, n = 10,000: frame 1,500 ÷ frame 10' % workload, 1.1, ratio(late, early))
+    tree, ours = (ms(figures.one('ageing', peer=peer, workload='uniform', age=300)) for peer in (TREE, 'hgrid'))
+    verdicts.at_least('uniform, n = 10,000: times faster than FCL\'s tree after 300 frames', 20, ratio(tree, ours))
+
+
+def queries(figures, verdicts):
+    def us(peer, kind, workload, batched=False):
+        record = figures.one('query', peer=peer, query=kind, workload=workload, batched=batched, n=100000)
+        return record['median_us'] if record and record['correct'] else None
+    rows = (('sphere', False, 'Boost R-tree', lambda workload: 1), ('sphere', False, TREE, lambda workload: 2),
+            ('sphere', True, 'Embree', lambda workload: 1 if workload == 'mixed' else 1.5),
+            ('segment', False, 'Boost R-tree', lambda workload: 1.5), ('segment', True, 'Embree', lambda workload: 1))
+    for kind, batched, peer, least in rows:
+        for workload in WORKLOADS:
+            value = ratio(us(peer, kind, workload), us('hgrid', kind, workload, batched))
+            verdicts.at_least('%s, n = 100,000: %s queries%s, times faster than %s'
+                              % (workload, kind, ' batched' if batched else '', peer), least(workload), value)
+
+
+def sameness(figures, verdicts):
+    """Equal pair sets whatever the instruction set and the number of threads."""
+    ours = figures.all('pairs', peer='hgrid')
+    verdicts.holds('hgrid\'s pair sets equal the reference in all %d settings' % len(ours),
+                   all(record['correct'] for record in ours))
+    asked = figures.all('query', peer='hgrid')
+    if asked:
+        verdicts.holds('hgrid\'s query hits equal the reference in all %d settings' % len(asked),
+                       all(record['correct'] for record in asked))
+
+
+def sweep_fairness(figures, verdicts):
+    """The rival of our own must be as good, measured by FCL's tree, as the one that the targets were set with."""
+    was = {'uniform': 26 / 32, 'mixed': 18 / 34, 'floor': 7.7 / 34, 'robots': 10 / 32}
+    for workload, share in was.items():
+        sweep, tree = (ms(figures.pairs(peer, workload, 100000)) for peer in ('sweep', TREE))
+        verdicts.at_most('%s, n = 100,000: our sweep ÷ FCL\'s tree' % workload, 1.2 * share, ratio(sweep, tree))
+
+
+def node(figures, verdicts):
+    for part, most in (('tick', 1.5), ('broad phase', 0.1)):
+        record = figures.one('node', bodies=992, part=part)
+        verdicts.at_most('node, 992 links: median ms of the %s' % part, most, record and record['median_ms'])
+
+
+def verdicts_table(figures):
+    verdicts = Verdicts()
+    for n in figures.sizes():
+        for workload in WORKLOADS:
+            against_tree(figures, verdicts, n, workload)
+            for moving in (1, 0.1, 0.01):
+                against_fastest(figures, verdicts, n, workload, moving)
+            if n >= 10000:
+                part_moving(figures, verdicts, n, workload)
+            if n >= 100000:
+                one, two = (ms(figures.pairs('hgrid', workload, n, 1, threads)) for threads in (1, 2))
+                what = '%s, n = %s: two threads, times faster than one' % (workload, count(n))
+                verdicts.at_least(what, 1.7, ratio(one, two))
+    floor_and_growth(figures, verdicts)
+    ages(figures, verdicts)
+    held = [record['bytes_per_object'] for record in figures.all('pairs', peer='hgrid') if record['n'] >= 10000]
+    verdicts.at_most('bytes per box, most from n = 10,000 up', 96, max(held) if held else None)
+    queries(figures, verdicts)
+    if figures.all('pairs', peer='hgrid'):
+        sameness(figures, verdicts)
+    sweep_fairness(figures, verdicts)
+    node(figures, verdicts)
+    met = sum(row[-1] == 'met' for row in verdicts.rows)
+    return ('%d of %d met.\n\n' % (met, len(verdicts.rows))
+            + table(['target', 'wanted', 'reached', 'verdict'], verdicts.rows))
