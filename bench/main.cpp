@@ -2,9 +2,12 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
 // Times broad phases side by side; tables and verdicts are made from its figures file by bench/report.
+#include <signal.h>
+
 #include <cstdio>
 #include <exception>
 #include <fstream>
+#include <stdexcept>
 
 #include "bench/parts.h"
 #include "bench/peers/peer.h"
@@ -45,6 +48,7 @@ int run(const Options& options) {
 }  // namespace hgrid
 
 int main(int count, char** arguments) {
+  signal(SIGPIPE, SIG_IGN);  // a contestant that is gone is noticed where it is asked
   try {
     return hgrid::bench::run(hgrid::bench::parsed(count, arguments));
   } catch (const std::invalid_argument& error) {

@@ -24,8 +24,7 @@ double numberOf(const std::string& text) {
   return value;
 }
 
-template <class T>
-bool wanted(const std::vector<T>& list, const T& item) {
+bool wanted(const std::vector<std::string>& list, const std::string& item) {
   return list.empty() || std::find(list.begin(), list.end(), item) != list.end();
 }
 
@@ -39,8 +38,6 @@ const char* const kUsage =
 bool Options::part(const std::string& name) const { return wanted(parts, name); }
 bool Options::workload(const std::string& name) const { return wanted(workloads, name); }
 bool Options::peer(const std::string& name) const { return wanted(peers, name); }
-bool Options::size(std::size_t n) const { return wanted(sizes, n); }
-bool Options::moves(double fraction) const { return wanted(moving, fraction); }
 
 Options parsed(int count, const char* const* arguments) {
   Options options;

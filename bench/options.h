@@ -9,7 +9,7 @@
 namespace hgrid {
 namespace bench {
 
-/// What the program is asked to do. The lists narrow a run down; empty: everything.
+/// What the program is asked to do. The lists narrow a run down; empty: everything (sizes and moving: the usual ones).
 struct Options {
   bool quick = false;
   std::string json;             ///< file for the figures; empty: none
@@ -21,8 +21,6 @@ struct Options {
   bool part(const std::string& name) const;
   bool workload(const std::string& name) const;
   bool peer(const std::string& name) const;
-  bool size(std::size_t n) const;
-  bool moves(double fraction) const;
 };
 
 /// @throws std::invalid_argument naming what is not understood.

@@ -66,41 +66,45 @@ Record recordOf(const Setting& setting, const Run& run, const Score& score, cons
   return record;
 }
 
+void print(const Setting& setting, const Run& run, const Score& score, const std::string& status) {
+  const bool right = score.correct || run.peer == "floor";
+  std::printf("  %-28s %-8s threads %d  age %-5llu %10.4f ms  min %10.4f  spread %3.0f %%  %7.1f B  %8llu pairs  %s\n",
+              run.peer.c_str(), run.instructions.c_str(), run.threads, static_cast<unsigned long long>(run.age),
+              score.median_ms, score.min_ms, 100.0 * score.spread, score.bytes / double(setting.n),
+              static_cast<unsigned long long>(score.count),
+              status != "ok" ? status.c_str()
+              : right        ? ""
+                             : "WRONG");
+}
+
+std::unique_ptr<Contestant> contestantOf(const Run& run, World& world) {
+  const auto begin = [&world, run]() -> Contestant::Play {
+    const auto play = std::make_shared<PairsPlay>(world, run.make, run.age);
+    return [play](double budget_ms) { return (*play)(budget_ms); };
+  };
+  return std::make_unique<Contestant>(begin, run.threads);
+}
+
 /// Lets the runs play against each other, tells how it went, and appends the records.
 void play(const Options& options, const Setting& setting, const std::vector<Run>& runs, std::vector<Record>& records) {
   World world(setting.workload, setting.n, setting.moving);
   Match match;
   for (const Run& run : runs) {
     const bool votes = run.peer != "hgrid" && run.peer != "floor";
-    const auto begin = [&world, run]() -> Contestant::Play {
-      const auto play = std::make_shared<PairsPlay>(world, run.make, run.age);
-      return [play](double budget_ms) { return (*play)(budget_ms); };
-    };
-    match.add(std::make_unique<Contestant>(begin, run.threads), votes, run.peer == "brute force");
+    match.add(contestantOf(run, world), votes, run.peer == "brute force");
   }
   match.play(options.quick || setting.n >= 1000000 ? 3 : 5, options.quick ? 40.0 : 150.0, options.quick ? 20.0 : 120.0);
 
   std::printf("\n%s, n = %zu, %g %% move\n", setting.workload.c_str(), setting.n, 100.0 * setting.moving);
   const std::vector<Score> scores = match.scores();
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const Run& run = runs[i];
     const std::string& status = match.contestant(i).status();
-    if (run.peer == "floor") {
-      Record floor("floor");
-      records.push_back(floor.number("n", double(setting.n))
-                            .number("median_ms", scores[i].median_ms)
-                            .number("min_ms", scores[i].min_ms));
-    } else {
-      records.push_back(recordOf(setting, run, scores[i], status));
+    print(setting, runs[i], scores[i], status);
+    if (runs[i].peer != "floor") {
+      records.push_back(recordOf(setting, runs[i], scores[i], status));
+      continue;
     }
-    std::printf(
-        "  %-28s %-8s threads %d  age %-5llu %10.4f ms  min %10.4f  spread %3.0f %%  %7.1f B  %8llu pairs  %s\n",
-        run.peer.c_str(), run.instructions.c_str(), run.threads, static_cast<unsigned long long>(run.age),
-        scores[i].median_ms, scores[i].min_ms, 100.0 * scores[i].spread, scores[i].bytes / double(setting.n),
-        static_cast<unsigned long long>(scores[i].count),
-        status != "ok"                             ? status.c_str()
-        : scores[i].correct || run.peer == "floor" ? ""
-                                                   : "WRONG");
+    records.push_back(Record("floor").number("n", double(setting.n)).number("median_ms", scores[i].median_ms));
   }
   std::fflush(stdout);
 }
@@ -108,13 +112,15 @@ void play(const Options& options, const Setting& setting, const std::vector<Run>
 }  // namespace
 
 void runPairs(const Options& options, std::vector<Record>& records) {
-  for (const double moving : {1.0, 0.1, 0.01}) {
-    for (const std::size_t n : {1000, 10000, 100000, 1000000}) {
+  std::vector<std::size_t> sizes{1000, 10000, 100000, 1000000};
+  if (options.quick) sizes.pop_back();
+  if (!options.sizes.empty()) sizes = options.sizes;
+  const std::vector<double> usual{1.0, 0.1, 0.01};
+  for (const double moving : options.moving.empty() ? usual : options.moving) {
+    for (const std::size_t n : sizes) {
       for (const std::string& workload : workloads()) {
-        const bool chosen = options.moves(moving) && options.size(n) && options.workload(workload);
-        const bool too_long = options.quick && n == 1000000 && options.sizes.empty();
         const Setting setting{workload, n, moving};
-        if (chosen && !too_long) play(options, setting, runsOf(options, setting), records);
+        if (options.workload(workload)) play(options, setting, runsOf(options, setting), records);
       }
     }
   }

@@ -75,7 +75,7 @@ void serve(const std::function<Contestant::Play()>& make, int in, int out) {
 
 Contestant::Contestant(const std::function<Play()>& make, int threads) {
   int down[2], up[2];
-  if (pipe2(down, 0) != 0 || pipe2(up, 0) != 0) throw std::runtime_error("no pipe to a contestant");
+  if (pipe(down) != 0 || pipe(up) != 0) throw std::runtime_error("no pipe to a contestant");
   std::fflush(nullptr);
   child_ = fork();
   if (child_ < 0) throw std::runtime_error("no process for a contestant");
