@@ -26,7 +26,6 @@ void HGrid::Engine::grow(ProxyId id) {
   if (id < boxes.size()) return;
   boxes.resize(id + std::size_t{1});
   place.resize(id + std::size_t{1}, kAbsent);
-  position.resize(id + std::size_t{1});
 }
 
 void HGrid::Engine::sortLayer(Place layer) {
@@ -36,6 +35,7 @@ void HGrid::Engine::sortLayer(Place layer) {
 
 void HGrid::Engine::locate(Place layer) {
   if (located[layer]) return;
+  position.resize(place.size());
   const ProxyId* ids = layers[layer].ids();
   for (std::uint32_t i = 0; i < layers[layer].size(); ++i) position[ids[i]] = i;
   located[layer] = true;
@@ -104,8 +104,7 @@ void HGrid::Engine::sortAll() {
       members[place[id]].push_back(id);
     }
     for (const Place layer : {kFixed, kResting, kMoving, kLoose}) layers[layer].setIds(members[layer]);
-    members[kFixed] = {};
-    members[kResting] = {};
+    for (const Place layer : {kFixed, kResting}) std::vector<ProxyId>().swap(members[layer]);  // the layers know them
   }
   for (const Place layer : {kFixed, kResting, kMoving, kLoose}) sortLayer(layer);
   withdrawn = 0;
@@ -116,6 +115,7 @@ void HGrid::Engine::sortAll() {
 }
 
 void HGrid::Engine::sortMoved() {
+  if (moved.size() > stored / kShareOfMoving) return sortAll();
   bool started = false;
   for (const ProxyId id : moved) {
     if (place[id] == kFixed) return sortAll();  // it was said to be rare

@@ -39,6 +39,7 @@ struct HGrid::Engine {
 
   bool isStored(ProxyId id) const { return id < place.size() && place[id] != kAbsent; }
   void requireStored(ProxyId id) const;
+  void requireValid(const std::vector<ProxyId>& ids, const std::vector<Aabb>& given);
   Machine machine() { return {&kernels::of(isa), workers.get(), &scratch}; }
 
   // Changes; engine.cpp.
@@ -64,7 +65,7 @@ struct HGrid::Engine {
   std::vector<Aabb> boxes;        // by id
   std::vector<Place> place;       // by id
   std::vector<bool> fixed;        // by id; may be shorter
-  std::vector<std::uint32_t> position;  // by id, in its layer; only where `located` says so
+  std::vector<std::uint32_t> position;  // by id, in its layer; only where `located` says so, else perhaps empty
   std::array<Layer, kLayers> layers;
   std::array<std::vector<ProxyId>, kLayers> members;  // moving and loose: ids
   std::array<bool, kLayers> located{};

@@ -17,14 +17,24 @@ void requireValid(const Aabb& box) {
   if (!isValid(box)) throw std::invalid_argument("HGrid: a box is not finite or has min > max");
 }
 
-void requireValid(const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes, const kernels::Kernels& kernels) {
-  if (ids.size() != boxes.size()) throw std::invalid_argument("HGrid: as many ids as boxes are needed");
-  bool ascend = true;
-  for (std::size_t i = 1; i < ids.size(); ++i) ascend = ascend & (ids[i - 1] < ids[i]);
-  if (!ascend) throw std::invalid_argument("HGrid: ids must ascend");
-  if (!kernels.sound(reinterpret_cast<const kernels::Box*>(boxes.data()), boxes.size())) {
-    throw std::invalid_argument("HGrid: a box is not finite or has min > max");
-  }
+constexpr std::size_t kPerJob = 16384;  // boxes that one job checks or copies
+
+/// Calls job(begin, end) for parts of 0 .. count - 1.
+template <class Job>
+void inParts(Workers& workers, std::size_t count, Job&& job) {
+  workers.run((count + kPerJob - 1) / kPerJob,
+              [&](std::size_t part) { job(part * kPerJob, std::min((part + 1) * kPerJob, count)); });
+}
+
+/// Whether the ids are 0 .. count - 1, which ascending ids are if the last is.
+bool areAll(const std::vector<ProxyId>& ids) { return !ids.empty() && ids.back() + std::size_t{1} == ids.size(); }
+
+/// Of boxes that are to be updated, looked at here and there: whether so many moved that all are to be sorted.
+bool mostMoved(const std::vector<Aabb>& stored, const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) {
+  const std::size_t stride = std::max<std::size_t>(1, ids.size() / 256);
+  std::size_t seen = 0, moved = 0;
+  for (std::size_t i = 0; i < ids.size(); i += stride, ++seen) moved += stored[ids[i]] != boxes[i];
+  return 2 * moved > seen;
 }
 
 }  // namespace
@@ -38,6 +48,20 @@ GridScale GridScale::fitting(const std::vector<Aabb>& boxes) {
   GridScale scale;
   scale.finest_edge = std::isfinite(smallest) ? std::clamp(2.0 * smallest, 0x1p-20, 0x1p10) : 1.0;
   return scale;
+}
+
+void HGrid::Engine::requireValid(const std::vector<ProxyId>& ids, const std::vector<Aabb>& given) {
+  if (ids.size() != given.size()) throw std::invalid_argument("HGrid: as many ids as boxes are needed");
+  std::atomic<bool> all_ascend{true}, all_sound{true};
+  inParts(*workers, ids.size(), [&](std::size_t begin, std::size_t end) {
+    bool ascend = true;
+    for (std::size_t i = std::max<std::size_t>(begin, 1); i < end; ++i) ascend = ascend & (ids[i - 1] < ids[i]);
+    if (!ascend) all_ascend = false;
+    const auto* first = reinterpret_cast<const kernels::Box*>(given.data()) + begin;
+    if (!kernels::of(isa).sound(first, end - begin)) all_sound = false;
+  });
+  if (!all_ascend) throw std::invalid_argument("HGrid: ids must ascend");
+  if (!all_sound) throw std::invalid_argument("HGrid: a box is not finite or has min > max");
 }
 
 HGrid::HGrid(const GridScale& scale) {
@@ -116,10 +140,12 @@ void HGrid::clear() {
 
 void HGrid::update(const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) {
   Engine& e = *engine_;
-  requireValid(ids, boxes, kernels::of(e.isa));
+  e.requireValid(ids, boxes);
   if (!ids.empty()) e.grow(ids.back());
   bool same = e.stored == ids.size();
-  for (std::size_t i = 0; same && i < ids.size(); ++i) same = e.place[ids[i]] != Engine::kAbsent;
+  if (same && !(areAll(ids) && e.place.size() == ids.size())) {
+    for (std::size_t i = 0; same && i < ids.size(); ++i) same = e.place[ids[i]] != Engine::kAbsent;
+  }
   if (!same) {
     std::fill(e.place.begin(), e.place.end(), Engine::kAbsent);
     for (std::size_t i = 0; i < ids.size(); ++i) {
@@ -130,35 +156,34 @@ void HGrid::update(const std::vector<ProxyId>& ids, const std::vector<Aabb>& box
     e.withdrawn = 1;
     return e.sortAll();
   }
-  // Once so many have moved that all are sorted, nobody asks which.
-  const std::size_t many = ids.size() / 4;
+  if (mostMoved(e.boxes, ids, boxes)) {
+    inParts(*e.workers, ids.size(), [&](std::size_t begin, std::size_t end) {
+      if (areAll(ids)) {
+        std::copy(&boxes[begin], boxes.data() + end, &e.boxes[begin]);
+      } else {
+        for (std::size_t i = begin; i < end; ++i) e.boxes[ids[i]] = boxes[i];
+      }
+    });
+    return e.sortAll();
+  }
   e.moved.clear();
-  std::size_t i = 0;
-  for (; i < ids.size() && e.moved.size() <= many; ++i) {
+  for (std::size_t i = 0; i < ids.size(); ++i) {
     Aabb& box = e.boxes[ids[i]];
     if (box == boxes[i]) continue;
     box = boxes[i];
     e.moved.push_back(ids[i]);
   }
-  for (; i < ids.size(); ++i) e.boxes[ids[i]] = boxes[i];
-  if (e.moved.size() > many) {
-    e.sortAll();
-  } else if (!e.moved.empty()) {
-    e.sortMoved();
-  }
+  if (!e.moved.empty()) e.sortMoved();
 }
 
 void HGrid::move(const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) {
   Engine& e = *engine_;
-  requireValid(ids, boxes, kernels::of(e.isa));
+  e.requireValid(ids, boxes);
   for (const ProxyId id : ids) e.requireStored(id);
   for (std::size_t i = 0; i < ids.size(); ++i) e.boxes[ids[i]] = boxes[i];
-  if (ids.size() > e.stored / 4) {
-    e.sortAll();
-  } else if (!ids.empty()) {
-    e.moved = ids;
-    e.sortMoved();
-  }
+  if (ids.empty()) return;
+  e.moved = ids;
+  e.sortMoved();
 }
 
 std::size_t HGrid::size() const { return engine_->stored; }

@@ -43,8 +43,9 @@ void Layer::sort(const std::vector<Aabb>& boxes, double finest_edge, const Machi
   growTo(scratch.copies, count_);
   growTo(scratch.cells, count_);
   if (count_ + kReadBeyond > stride_) {
-    // Not a multiple of a page: six reads at the same place of six pages would compete for one set of the cache.
-    stride_ = (count_ + (bounds_.empty() ? 0 : count_ / 16) + kReadBeyond) / 1024 * 1024 + 1024 + 160;
+    stride_ = (count_ + (bounds_.empty() ? 0 : count_ / 16) + 2 * kReadBeyond) / 16 * 16;
+    // Far from a multiple of a page: reads at one place of six pages would compete for one set of the cache.
+    if (stride_ % 1024 < 64) stride_ += 160;
     if (bounds_.size() < 6 * stride_) std::vector<float>(6 * stride_).swap(bounds_);
   }
 

@@ -121,12 +121,14 @@ void performAll(SearchBuffers& buffers, const kernels::Kernels& kernels, const P
     sift(filter, buffers.parts[i], 0);
   });
   std::size_t total = used;
-  for (std::size_t i = 0; i < buffers.tasks.size(); ++i) total += buffers.parts[i].size();
-  pairs.resize(total);
-  ProxyPair* to = pairs.data() + used;
   for (std::size_t i = 0; i < buffers.tasks.size(); ++i) {
-    to = std::copy(buffers.parts[i].begin(), buffers.parts[i].end(), to);
+    buffers.tasks[i].begin = static_cast<std::uint32_t>(total - used);  // from now on: where its pairs go
+    total += buffers.parts[i].size();
   }
+  pairs.resize(total);
+  workers->run(buffers.tasks.size(), [&](std::size_t i) {
+    std::copy(buffers.parts[i].begin(), buffers.parts[i].end(), pairs.data() + used + buffers.tasks[i].begin);
+  });
 }
 
 }  // namespace

@@ -77,13 +77,6 @@ kernels::Box boxOf(const Sphere& sphere) {
   return boxAround(sphere.center.array() - half, sphere.center.array() + half);
 }
 
-kernels::Box boxOf(const Segment& segment) {
-  const double reach =
-      std::max(segment.from.cwiseAbs().maxCoeff(), segment.to.cwiseAbs().maxCoeff()) + segment.radius;
-  const Eigen::Vector3d around = Eigen::Vector3d::Constant(segment.radius + 4.0 * roundingSlack(reach));
-  return boxAround(segment.from.cwiseMin(segment.to) - around, segment.from.cwiseMax(segment.to) + around);
-}
-
 bool earlier(const SegmentHit& a, const SegmentHit& b) { return a.along != b.along ? a.along < b.along : a.id < b.id; }
 
 /// The segment as kernels take it.
@@ -154,39 +147,51 @@ void answer(const Engine& engine, const Segment& query, std::vector<SegmentHit>&
   sortFew(found.begin() + static_cast<std::ptrdiff_t>(before), found.end(), earlier);
 }
 
-/// Answers questions by their places, so that those that look at the same boxes follow each other: in buckets of a
-/// coarse grid over the largest layer.
-template <class Engine, class Query, class Found>
-void answerAll(const Engine& engine, const std::vector<Query>& queries, BatchOf<Found>& batch) {
+Eigen::Vector3f placeOf(const Aabb& box) { return box.min; }
+Eigen::Vector3f placeOf(const Sphere& sphere) { return sphere.center.cast<float>(); }
+Eigen::Vector3f placeOf(const Segment& segment) { return segment.from.cast<float>(); }
+
+/// Numbers of the questions, ordered by their places in buckets of a coarse grid over a layer, so that those that
+/// look at the same boxes follow each other.
+template <class Query>
+std::vector<std::uint32_t> byPlace(const std::vector<Query>& queries, const kernels::Grid& grid) {
   constexpr float kAcross = 16.0f;
-  batch.begin.assign(queries.size(), 0);
-  batch.count.assign(queries.size(), 0);
-  batch.found.clear();
-  const Layer* largest = &engine.layers[0];
-  for (const Layer& layer : engine.layers) {
-    if (layer.size() > largest->size()) largest = &layer;
-  }
-  if (largest->size() == 0) return;
-  const kernels::Grid& grid = largest->levels().front().grid;
   std::vector<std::uint32_t> next(static_cast<std::size_t>(kAcross * kAcross * kAcross) + 1, 0);
   std::vector<std::uint32_t> buckets(queries.size()), order(queries.size());
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    const kernels::Box box = boxOf(queries[i]);
-    float bucket = 0.0f;
+    const Eigen::Vector3f place = placeOf(queries[i]);
+    std::uint32_t bucket = 0;
     for (const int axis : {2, 1, 0}) {
-      const float cell = box.min[axis] * grid.inverse[axis] - grid.origin[axis];
-      const float share = cell / (grid.last[axis] + 1.0f);
-      bucket = bucket * kAcross + std::floor(kAcross * std::min(share > 0.0f ? share : 0.0f, 0.999f));
+      const float share = (place[axis] * grid.inverse[axis] - grid.origin[axis]) * (kAcross / (grid.last[axis] + 1.0f));
+      const float number = std::min(share > 0.0f ? share : 0.0f, kAcross - 1.0f);  // 0 for NaN too
+      bucket = bucket * static_cast<std::uint32_t>(kAcross) + static_cast<std::uint32_t>(number);
     }
-    buckets[i] = static_cast<std::uint32_t>(bucket);
-    ++next[buckets[i] + 1];
+    buckets[i] = bucket;
+    ++next[bucket + 1];
   }
   for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
   for (std::uint32_t i = 0; i < queries.size(); ++i) order[next[buckets[i]]++] = i;
-  for (const std::uint32_t i : order) {
+  return order;
+}
+
+template <class Engine, class Query, class Found>
+void answerAll(const Engine& engine, const std::vector<Query>& queries, BatchOf<Found>& batch) {
+  constexpr std::size_t kFitsTheCache = 16384;  // boxes
+  batch.begin.resize(queries.size());
+  batch.count.resize(queries.size());
+  batch.found.clear();
+  const Layer& largest =
+      *std::max_element(engine.layers.begin(), engine.layers.end(),
+                        [](const Layer& a, const Layer& b) { return a.size() < b.size(); });
+  const auto answerOne = [&](std::size_t i) {
     batch.begin[i] = static_cast<std::uint32_t>(batch.found.size());
     answer(engine, queries[i], batch.found);
     batch.count[i] = static_cast<std::uint32_t>(batch.found.size()) - batch.begin[i];
+  };
+  if (largest.size() < kFitsTheCache) {
+    for (std::size_t i = 0; i < queries.size(); ++i) answerOne(i);
+  } else {
+    for (const std::uint32_t i : byPlace(queries, largest.levels().front().grid)) answerOne(i);
   }
 }
 
@@ -229,24 +234,26 @@ void HGrid::nearest(const Eigen::Vector3d& point, std::size_t count, double limi
       if (level.begin < level.end) radius = std::min(radius, 0.5 / static_cast<double>(level.grid.inverse[1]));
     }
   }
-  std::vector<ProxyId> ids;
   for (;; radius *= 2.0) {
     radius = std::min(radius, limit);
-    const bool all = !(radius < 1e30);
-    if (all) {
-      ids.clear();
-      for (ProxyId id = 0; id < e.place.size(); ++id) {
-        if (e.isStored(id)) ids.push_back(id);
-      }
-    } else {
-      overlapping(Sphere{point, radius}, ids);
-    }
     found.clear();
-    for (const ProxyId id : ids) {
-      const double away = distance(e.boxes[id], point);
+    const auto consider = [&](ProxyId id, const Aabb& box) {
+      const double away = distance(box, point);
       if (away <= radius) found.push_back({id, away});
+    };
+    if (!(radius < 1e30)) {  // all; coordinates of a larger ball would not be floats
+      for (ProxyId id = 0; id < e.place.size(); ++id) {
+        if (e.isStored(id)) consider(id, e.boxes[id]);
+      }
+      break;
     }
-    if (found.size() >= count || all || radius >= limit) break;
+    const kernels::Box box = boxOf(Sphere{point, radius});
+    visitFound(
+        e, [&](const kernels::Level& level, kernels::PositionSink* sink) {
+          kernels::of(e.isa).overlapping(&level, &box, sink);
+        },
+        [&](const Layer& layer, std::uint32_t i) { consider(layer.ids()[i], layer.boxAt(i)); });
+    if (found.size() >= count || radius >= limit) break;
   }
   const auto nearer = [](const NearHit& a, const NearHit& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.id < b.id;

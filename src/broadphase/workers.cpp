@@ -3,12 +3,32 @@
 #include "broadphase/workers.h"
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
 #include <vector>
 
 namespace hgrid {
+namespace {
+
+// The parts of one bulk update follow each other faster than a thread goes to sleep and wakes up.
+constexpr std::chrono::microseconds kPatience{50};
+
+/// Waits for a little while. @returns whether the condition came true
+template <class Condition>
+bool waitBriefly(Condition&& condition) {
+  const auto until = std::chrono::steady_clock::now() + kPatience;
+  for (;;) {
+    for (int i = 0; i < 64; ++i) {
+      if (condition()) return true;
+    }
+    if (std::chrono::steady_clock::now() > until) return condition();
+    std::this_thread::yield();  // somebody else may need the processor more
+  }
+}
+
+}  // namespace
 
 struct Workers::State {
   std::mutex mutex;
@@ -16,9 +36,7 @@ struct Workers::State {
   void (*call)(void*, std::size_t) = nullptr;
   void* job = nullptr;
   std::size_t count = 0;
-  std::atomic<std::size_t> next{0};
-  std::size_t round = 0;
-  std::size_t busy = 0;
+  std::atomic<std::size_t> next{0}, round{0}, busy{0};
   bool stop = false;
   std::vector<std::thread> threads;
 
@@ -28,15 +46,18 @@ struct Workers::State {
 
   void live() {
     std::size_t seen = 0;
-    std::unique_lock<std::mutex> lock(mutex);
     for (;;) {
-      wake.wait(lock, [&] { return stop || round != seen; });
-      if (stop) return;
-      seen = round;
-      lock.unlock();
+      if (!waitBriefly([&] { return round.load(std::memory_order_acquire) != seen; })) {
+        std::unique_lock<std::mutex> lock(mutex);
+        wake.wait(lock, [&] { return stop || round.load(std::memory_order_acquire) != seen; });
+        if (stop) return;
+      }
+      ++seen;  // no round begins before all are done with the last
       work();
-      lock.lock();
-      if (--busy == 0) done.notify_one();
+      if (busy.fetch_sub(1, std::memory_order_acq_rel) == 1) {
+        const std::lock_guard<std::mutex> lock(mutex);
+        done.notify_one();
+      }
     }
   }
 };
@@ -68,13 +89,15 @@ void Workers::runAll(std::size_t count, void (*call)(void*, std::size_t), void* 
     s.job = job;
     s.count = count;
     s.next.store(0, std::memory_order_relaxed);
-    s.busy = s.threads.size();
-    ++s.round;
+    s.busy.store(s.threads.size(), std::memory_order_relaxed);
+    s.round.fetch_add(1, std::memory_order_release);
   }
   s.wake.notify_all();
   s.work();
+  const auto all_done = [&s] { return s.busy.load(std::memory_order_acquire) == 0; };
+  if (waitBriefly(all_done)) return;
   std::unique_lock<std::mutex> lock(s.mutex);
-  s.done.wait(lock, [&s] { return s.busy == 0; });
+  s.done.wait(lock, all_done);
 }
 
 }  // namespace hgrid
