@@ -33,6 +33,7 @@ void ChurnWorld::begin(std::size_t most_boxes) {
   largest_ = random_.logUniform(0.1, 3);
   smallest_ = random_.chance(0.3) ? 1e-4 * largest_ : 0.2 * largest_;
   hall_ = largest_ * std::cbrt(double(most_)) * random_.uniform(0.7, 3);
+  for (std::size_t id = 0; id < most_; ++id) boxes_[id] = someBox();
   fixOthers();
   updateAll(0.95, 0.5);
 }
@@ -61,7 +62,7 @@ Aabb ChurnWorld::changed(const Aabb& box) {
     now = someBox();
   }
   now.max = now.max.cwiseMax(now.min);
-  return now;
+  return (now.max - now.min).maxCoeff() < 20 * largest_ ? now : someBox();
 }
 
 std::vector<ProxyId> ChurnWorld::storedIds() const {
@@ -128,7 +129,6 @@ void ChurnWorld::updateAll(double kept, double coming) {
   for (ProxyId id = 0; id < stored_.size(); ++id) {
     stored_[id] = id < most_ && random_.chance(stored_[id] ? kept : coming);
     if (!stored_[id]) continue;
-    if (boxes_[id] == Aabb{}) boxes_[id] = someBox();
     if (random_.chance(moving)) boxes_[id] = changed(boxes_[id]);
     ids.push_back(id);
     boxes.push_back(boxes_[id]);
