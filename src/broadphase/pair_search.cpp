@@ -125,6 +125,7 @@ void performAll(SearchBuffers& buffers, const kernels::Kernels& kernels, const P
     buffers.tasks[i].begin = static_cast<std::uint32_t>(total - used);  // from now on: where its pairs go
     total += buffers.parts[i].size();
   }
+  if (total > pairs.capacity()) pairs.reserve(total + total / 8);  // the next time there may be a few more
   pairs.resize(total);
   workers->run(buffers.tasks.size(), [&](std::size_t i) {
     std::copy(buffers.parts[i].begin(), buffers.parts[i].end(), pairs.data() + used + buffers.tasks[i].begin);
