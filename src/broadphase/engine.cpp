@@ -63,6 +63,7 @@ void HGrid::Engine::takeOut(ProxyId id) {
 
 void HGrid::Engine::putLoose(ProxyId id) {
   place[id] = kLoose;
+  fixed_astray = fixed_astray || isFixed(id);
   ++stored;
   members[kLoose].push_back(id);
   if (members[kLoose].size() > kMostLoose || withdrawn > stored) return settleLoose();
@@ -102,7 +103,7 @@ void HGrid::Engine::sortAll() {
     std::array<std::size_t, kLayers> counts{};
     for (ProxyId id = 0; id < place.size(); ++id) {
       if (place[id] == kAbsent) continue;
-      place[id] = id < fixed.size() && fixed[id] ? kFixed : kResting;
+      place[id] = isFixed(id) ? kFixed : kResting;
       ++counts[place[id]];
     }
     std::array<ProxyId*, kLayers> next{};
@@ -114,6 +115,7 @@ void HGrid::Engine::sortAll() {
   for (const Place layer : {kFixed, kResting, kMoving, kLoose}) sortLayer(layer);
   withdrawn = 0;
   waste = 0.0;
+  fixed_astray = false;
   moving_changed = false;
   kept_valid = kept_dirty = false;
   kept.clear();

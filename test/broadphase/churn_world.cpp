@@ -77,8 +77,7 @@ void ChurnWorld::act() {
   const int deed = random_.below(100);
   if (deed < 60) {
     for (int i = random_.chance(0.1) ? 150 : random_.between(1, 10); i > 0; --i) {
-      const auto id = ProxyId(random_.below(int(most_)));
-      if (mayActAlone(id)) actOnOne(id);
+      actOnOne(ProxyId(random_.below(int(most_))));
     }
   } else if (deed < 85) {
     moveSome();

@@ -31,7 +31,6 @@ class ChurnWorld {
   Aabb someBox();
   Aabb changed(const Aabb& box);
   std::vector<ProxyId> storedIds() const;
-  bool mayActAlone(ProxyId id) const { return !fixed_[id]; }
   void actOnOne(ProxyId id);
   void moveSome();
   void updateAll(double kept, double coming);

@@ -132,6 +132,31 @@ TEST(HGridLayers, WhatIsFixedMayBeSaidBeforeItComes) {
   ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes, allIds(300), is_fixed));
 }
 
+TEST(HGridLayers, FixedBoxesThatComeOrMoveOneByOneMakeNoPairsEither) {
+  Random random(4);
+  std::vector<Aabb> boxes = someBoxes(200, random);
+  std::vector<ProxyId> fixed, ids;
+  std::vector<bool> is_fixed(200);
+  for (ProxyId id = 0; id < 200; id += 2) fixed.push_back(id), is_fixed[id] = true;
+  HGrid grid;
+  grid.setFixed(fixed);
+  for (ProxyId id = 0; id < 200; ++id) {
+    grid.insert(id, boxes[id]);
+    ids.push_back(id);
+    ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes, ids, is_fixed));
+  }
+  for (int i = 0; i < 200; ++i) {
+    const auto id = ProxyId(random.below(200));
+    boxes[id] = someBox(random);
+    grid.update(id, boxes[id]);
+    ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes, ids, is_fixed));
+    if (i % 10 != 0) continue;
+    boxes[7] = someBox(random);
+    grid.move({7}, {boxes[7]});
+    ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes, ids, is_fixed));
+  }
+}
+
 bool sameRemainder(const void*, ProxyId first, ProxyId second) { return first % 3 == second % 3; }
 bool otherRemainder(const void*, ProxyId first, ProxyId second) { return first % 3 != second % 3; }
 

@@ -62,7 +62,7 @@ MUTANTS = [
      "used += place[pair.first] <= kResting && place[pair.second] <= kResting;",
      "used += place[pair.first] <= kResting;"),
     ("pairs that threads find are not filtered", PAIRS,
-     "sift(filter, buffers.parts[i], 0);", ""),
+     "sift(sieve, buffers.parts[i], 0);", ""),
     ("what is fixed stays what it was", HGRID,
      "engine_->withdrawn = std::max<std::size_t>(1, engine_->withdrawn);", ""),
     ("small moves are skipped in bulk", HGRID,
