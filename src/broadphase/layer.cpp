@@ -15,6 +15,7 @@ constexpr std::size_t kReadBeyond = 16;       // places that kernels may read be
 constexpr std::size_t kWorthAThread = 16384;  // boxes
 constexpr int kSortsPerPlan = 64;             // then a plan is made anew, since boxes may have gathered
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();  // no comparison with it holds
 
 static_assert(sizeof(Aabb) == sizeof(kernels::Box), "kernels read a box as six floats");
 static_assert(sizeof(ProxyPair) == sizeof(kernels::Pair), "kernels write a pair as two numbers");
@@ -171,10 +172,8 @@ void Layer::describe(const std::vector<float>& sizes) {
 }
 
 void Layer::withdraw(std::uint32_t position) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    bounds_[axis * stride_ + position] = kInfinity;
-    bounds_[(axis + 3) * stride_ + position] = -kInfinity;
-  }
+  // The minimum stays: it says which row the position is in, beyond whose end a search must not look.
+  for (std::size_t axis = 3; axis < 6; ++axis) bounds_[axis * stride_ + position] = kNothing;
 }
 
 std::size_t Layer::bytes() const {

@@ -40,7 +40,7 @@ class Layer {
   void sort(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine);
   /// Takes the box at a position out: from now on it overlaps nothing.
   void withdraw(std::uint32_t position);
-  bool isWithdrawn(std::uint32_t position) const { return bounds_[position] > bounds_[3 * stride_ + position]; }
+  bool isWithdrawn(std::uint32_t position) const { return !(bounds_[position] <= bounds_[3 * stride_ + position]); }
 
   std::size_t size() const { return count_; }  ///< positions, those withdrawn among them
   const ProxyId* ids() const { return ids_.data(); }

@@ -2,6 +2,9 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <limits>
+
 #include "test/support/expectations.h"
 
 // Boxes change between layers (fixed, resting, moving, loose) by counts and shares; nothing of it may show.
@@ -112,6 +115,44 @@ TEST(HGridLayers, ABoxThatWasRemovedWhileItMovedDoesNotComeBack) {
     grid.move({7}, {boxes[7]});  // sorts the moving again
     ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes, ids));
   }
+}
+
+TEST(HGridLayers, ARemovedBoxIsNotFoundEvenByAnInfiniteQuery) {
+  Random random(3);
+  const std::vector<Aabb> boxes = someBoxes(20, random);
+  const float far = std::numeric_limits<float>::infinity();
+  for (const Isa isa : test::supportedIsas()) {
+    SCOPED_TRACE(name(isa));
+    HGrid grid = test::gridOf(boxes, GridScale{});
+    grid.setIsa(isa);
+    grid.remove(3);
+    std::vector<ProxyId> expected = allIds(20);
+    expected.erase(expected.begin() + 3);
+    EXPECT_EQ(test::foundBy(grid, Aabb{{-far, -far, -far}, {far, far, far}}), expected);
+    EXPECT_EQ(test::foundBy(grid, Sphere{{0, 0, 0}, 1e39}), expected);
+    EXPECT_EQ(test::foundBy(grid, Sphere{{0, 0, 0}, far}), expected);
+  }
+}
+
+/// Seconds that a search for pairs takes, the best of some.
+double searchTime(const HGrid& grid) {
+  std::vector<ProxyPair> pairs;
+  double best = 1e9;
+  for (int i = 0; i < 5; ++i) {
+    const auto begin = std::chrono::steady_clock::now();
+    grid.overlappingPairs(pairs);
+    best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  }
+  return best;
+}
+
+/// Claim: a place that a box has left is not searched from; once it was, against half of all boxes.
+TEST(HGridLayers, RemovedBoxesDoNotSlowTheSearchDown) {
+  Random random(6);
+  HGrid grid = test::gridOf(someBoxes(30000, random, 30.0), GridScale{});
+  const double before = searchTime(grid);
+  for (ProxyId id = 0; id < 30000; id += 3) grid.remove(id);
+  EXPECT_LT(searchTime(grid), 8 * before);
 }
 
 TEST(HGridLayers, WhatIsFixedMayBeSaidBeforeItComes) {
