@@ -17,6 +17,9 @@ struct FramePose {
   FramePose operator*(const FramePose& next) const {
     return {rotation * next.rotation, rotation * next.translation + translation};
   }
+  bool operator==(const FramePose& other) const {
+    return rotation.coeffs() == other.rotation.coeffs() && translation == other.translation;
+  }
   FramePose inverse() const {
     const auto back = rotation.conjugate();
     return {back, back * -translation};
