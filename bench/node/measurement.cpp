@@ -43,11 +43,11 @@ const std::vector<std::pair<const char*, const char*>> kParts = {
 class Listener {
  public:
   explicit Listener(const std::string& space) {
-    pairs_ = node_.subscribe<msg::Pairs>(
-        space + "/pairs", 1000,
-        boost::function<void(const ros::MessageEvent<msg::Pairs const>&)>(
-            [this](const ros::MessageEvent<msg::Pairs const>& event) { onPairs(event); }),
-        ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+    pairs_ =
+        node_.subscribe<msg::Pairs>(space + "/pairs", 1000,
+                                    boost::function<void(const ros::MessageEvent<msg::Pairs const>&)>(
+                                        [this](const ros::MessageEvent<msg::Pairs const>& event) { onPairs(event); }),
+                                    ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
     status_ = node_.subscribe<msg::Status>(space + "/status", 1000, &Listener::onStatus, this);
   }
 

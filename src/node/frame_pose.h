@@ -34,8 +34,8 @@ struct FramePose {
 
 /// @param transform  checked: finite, the quaternion nearly of length 1
 inline FramePose toFramePose(const geometry_msgs::Transform& transform) {
-  const auto &t = transform.translation;
-  const auto &q = transform.rotation;
+  const auto& t = transform.translation;
+  const auto& q = transform.rotation;
   FramePose result;
   result.rotation = Eigen::Quaternion<double, Eigen::DontAlign>(q.w, q.x, q.y, q.z).normalized();
   result.translation = {t.x, t.y, t.z};
