@@ -141,7 +141,7 @@ struct Scene::State {
   std::vector<Slot> slots;
   std::vector<Body> bodies;  // by slot
   std::vector<std::uint32_t> free_slots;
-  std::vector<std::uint32_t> uncovered;  // bodies of the structure that leave a gap wherever they are
+  std::vector<std::uint32_t> uncovered;               // bodies of the structure that leave a gap wherever they are
   std::map<std::string, std::uint32_t> slot_of_name;  // ordered: the structure is sorted by name
   bool structure_changed = true;
   std::shared_ptr<const Structure> structure = std::make_shared<Structure>();
