@@ -300,16 +300,14 @@ class Cells {
   double edge_, min_, max_;
 };
 
-/// Positions of a row of cells that a line passes, and the box of the line on its way through the row.
+/// Positions of a row of cells that a line passes.
 struct Passage {
   std::uint32_t begin, end;
-  Box around;
 };
 
-inline void searchPassages(const Level& level, const LineFilter& filter, const Passage* passages, int count,
-                           Output<std::uint32_t>& found) {
+inline void searchPassages(const Level& level, const Simd::Box& box, const LineFilter& filter, const Passage* passages,
+                           int count, Output<std::uint32_t>& found) {
   for (int i = 0; i < count; ++i) {
-    const Simd::Box box = Simd::boxOf(passages[i].around);
     for (std::uint32_t j = passages[i].begin; j < passages[i].end; j += Simd::kWidth) {
       const std::uint32_t hits = Simd::overlaps(box, level, j, passages[i].end - j) & ~offLine(filter, level, j);
       found.wrote(Simd::storePositions(found.room(), j, hits));
@@ -334,9 +332,15 @@ void along(const Level* level, const Line* line, PositionSink* sink) {
   const Stretch whole{0.0, 1.0};
   Passage passages[kPassages];
   int count = 0;
-  const Extent z_extent = extentOf(*line, 2, whole);
-  const std::int32_t z_high = cellOf(floatAbove(z_extent.max), grid, 2);
-  for (std::int32_t z = cellOf(floatBelow(z_extent.min) - l.reach[2], grid, 2); z <= z_high; ++z) {
+  Box around;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Extent extent = extentOf(*line, axis, whole);
+    around.min[axis] = floatBelow(extent.min);
+    around.max[axis] = floatAbove(extent.max);
+  }
+  const Simd::Box box = Simd::boxOf(around);
+  const std::int32_t z_high = cellOf(around.max[2], grid, 2);
+  for (std::int32_t z = cellOf(around.min[2] - l.reach[2], grid, 2); z <= z_high; ++z) {
     const Extent slab = slabs.covered(z);
     const Stretch in_slab = within(*line, 2, z_inverse, whole, slab.min, slab.max);
     if (in_slab.low > in_slab.high) continue;
@@ -345,22 +349,19 @@ void along(const Level* level, const Line* line, PositionSink* sink) {
     for (std::int32_t y = cellOf(floatBelow(y_extent.min) - l.reach[1], grid, 1); y <= y_high; ++y) {
       const Extent covered = rows.covered(y);
       const Stretch in_row = within(*line, 1, y_inverse, in_slab, covered.min, covered.max);
-      Passage& passage = passages[count];
-      const Extent x_in_row = extentOf(*line, 0, in_row), y_in_row = extentOf(*line, 1, in_row),
-                   z_in_row = extentOf(*line, 2, in_row);
-      passage.around = {{floatBelow(x_in_row.min), floatBelow(y_in_row.min), floatBelow(z_in_row.min)},
-                        {floatAbove(x_in_row.max), floatAbove(y_in_row.max), floatAbove(z_in_row.max)}};
+      const Extent in_x = extentOf(*line, 0, in_row);
       const std::int32_t row = z * grid.slab + y * grid.row;
-      passage.begin = l.start[row + cellOf(passage.around.min[0] - l.reach[0], grid, 0)];
-      passage.end = l.start[row + cellOf(passage.around.max[0], grid, 0) + 1];
+      Passage& passage = passages[count];
+      passage.begin = l.start[row + cellOf(floatBelow(in_x.min) - l.reach[0], grid, 0)];
+      passage.end = l.start[row + cellOf(floatAbove(in_x.max), grid, 0) + 1];
       count += (in_row.low <= in_row.high) & (passage.begin < passage.end);
       if (count == kPassages) {
-        searchPassages(l, filter, passages, count, found);
+        searchPassages(l, box, filter, passages, count, found);
         count = 0;
       }
     }
   }
-  searchPassages(l, filter, passages, count, found);
+  searchPassages(l, box, filter, passages, count, found);
   found.close();
 }
 
