@@ -63,6 +63,7 @@ void HGrid::Engine::takeOut(ProxyId id) {
 
 void HGrid::Engine::putLoose(ProxyId id) {
   place[id] = kLoose;
+  fixed_astray = fixed_astray || isFixed(id);
   ++stored;
   members[kLoose].push_back(id);
   if (members[kLoose].size() > kMostLoose || withdrawn > stored) return settleLoose();
@@ -97,18 +98,24 @@ void HGrid::Engine::sortAll() {
   bool same = members[kMoving].empty() && members[kLoose].empty() && withdrawn == 0 &&
               layers[kFixed].size() + layers[kResting].size() == stored;
   if (!same) {  // otherwise the layers hold the right ids, in a good order
-    for (const Place layer : {kFixed, kResting, kMoving, kLoose}) members[layer].clear();
+    members[kMoving].clear();
+    members[kLoose].clear();
+    std::array<std::size_t, kLayers> counts{};
     for (ProxyId id = 0; id < place.size(); ++id) {
       if (place[id] == kAbsent) continue;
-      place[id] = id < fixed.size() && fixed[id] ? kFixed : kResting;
-      members[place[id]].push_back(id);
+      place[id] = isFixed(id) ? kFixed : kResting;
+      ++counts[place[id]];
     }
-    for (const Place layer : {kFixed, kResting, kMoving, kLoose}) layers[layer].setIds(members[layer]);
-    for (const Place layer : {kFixed, kResting}) std::vector<ProxyId>().swap(members[layer]);  // the layers know them
+    std::array<ProxyId*, kLayers> next{};
+    for (const Place layer : {kFixed, kResting, kMoving, kLoose}) next[layer] = layers[layer].setIds(counts[layer]);
+    for (ProxyId id = 0; id < place.size(); ++id) {
+      if (place[id] != kAbsent) *next[place[id]]++ = id;
+    }
   }
   for (const Place layer : {kFixed, kResting, kMoving, kLoose}) sortLayer(layer);
   withdrawn = 0;
   waste = 0.0;
+  fixed_astray = false;
   moving_changed = false;
   kept_valid = kept_dirty = false;
   kept.clear();

@@ -37,6 +37,7 @@ struct HGrid::Engine {
 
   explicit Engine(double finest);
 
+  bool isFixed(ProxyId id) const { return id < fixed.size() && fixed[id]; }
   bool isStored(ProxyId id) const { return id < place.size() && place[id] != kAbsent; }
   void requireStored(ProxyId id) const;
   void requireValid(const std::vector<ProxyId>& ids, const std::vector<Aabb>& given);
@@ -69,6 +70,7 @@ struct HGrid::Engine {
   std::array<Layer, kLayers> layers;
   std::array<std::vector<ProxyId>, kLayers> members;  // moving and loose: ids
   std::array<bool, kLayers> located{};
+  bool fixed_astray = false;      // some of the loose and moving are fixed: they came or moved one by one
   bool moving_changed = false;    // some of the moving were taken out, and stand there as withdrawn
   std::size_t stored = 0;
   std::size_t withdrawn = 0;      // positions that are empty, in fixed and resting

@@ -28,10 +28,12 @@ void growTo(std::vector<Value>& values, std::size_t size) {
 
 }  // namespace
 
-void Layer::setIds(const std::vector<ProxyId>& ids) {
-  count_ = ids.size();
+void Layer::setIds(const std::vector<ProxyId>& ids) { std::copy(ids.begin(), ids.end(), setIds(ids.size())); }
+
+ProxyId* Layer::setIds(std::size_t count) {
+  count_ = count;
   growTo(ids_, count_ + kReadBeyond);
-  std::copy(ids.begin(), ids.end(), ids_.begin());
+  return ids_.data();
 }
 
 void Layer::sort(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine) {
@@ -76,8 +78,9 @@ std::uint32_t* Layer::countsOf(std::size_t thread, std::size_t threads, const Ma
 void Layer::count(const std::vector<Aabb>& boxes, const Machine& machine, std::size_t threads) {
   SortScratch& scratch = *machine.scratch;
   const std::size_t cells = plan_.cells, levels = plan_.levels;
-  growTo(start_, cells + 1);
-  growTo(scratch.counts, (threads - 1) * cells);
+  const std::size_t some_more = cells + cells / 8 + 256;  // the next plan for as many boxes may want them
+  if (start_.size() < cells + 1) growTo(start_, some_more + 1);
+  if (scratch.counts.size() < (threads - 1) * cells) growTo(scratch.counts, (threads - 1) * some_more);
   scratch.sizes.assign(threads * 4 * levels, 0.0f);
   scratch.keyings.resize(threads);
   start_[0] = 0;

@@ -33,6 +33,8 @@ class Layer {
  public:
   /// Which boxes there are, in any order. Must be followed by sort().
   void setIds(const std::vector<ProxyId>& ids);
+  /// The same: room for so many ids, to be filled.
+  ProxyId* setIds(std::size_t count);
   /// Takes the boxes as they are now. The order of the last time is where it begins: boxes move little.
   /// @param boxes  by id
   void sort(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine);

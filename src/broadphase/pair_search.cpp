@@ -89,19 +89,31 @@ void perform(const SearchTask& task, const kernels::Kernels& kernels, kernels::P
   }
 }
 
-/// Leaves out what the filter does not want of the pairs from number `from` on.
-void sift(const PairTest& filter, std::vector<ProxyPair>& pairs, std::size_t from) {
-  if (filter.reported == nullptr) return;
+/// Which pairs are wanted, of all that overlap.
+struct Sieve {
+  const PairTest& filter;
+  const std::vector<bool>* fixed;  // by id; null if fixed boxes stand in their own layer only, which makes no pairs
+
+  bool isFixed(ProxyId id) const { return id < fixed->size() && (*fixed)[id]; }
+  bool wants(const ProxyPair& pair) const {
+    if (fixed != nullptr && isFixed(pair.first) && isFixed(pair.second)) return false;
+    return filter.reported == nullptr || filter.reported(filter.context, pair.first, pair.second);
+  }
+};
+
+/// Leaves out what is not wanted of the pairs from number `from` on.
+void sift(const Sieve& sieve, std::vector<ProxyPair>& pairs, std::size_t from) {
+  if (sieve.filter.reported == nullptr && sieve.fixed == nullptr) return;
   std::size_t to = from;
   for (std::size_t i = from; i < pairs.size(); ++i) {
     pairs[to] = pairs[i];
-    to += filter.reported(filter.context, pairs[i].first, pairs[i].second);
+    to += sieve.wants(pairs[i]);
   }
   pairs.resize(to);
 }
 
 /// Performs the tasks, all pairs after the first `used` of the vector, in the order of the tasks whoever does them.
-void performAll(SearchBuffers& buffers, const kernels::Kernels& kernels, const PairTest& filter, Workers* workers,
+void performAll(SearchBuffers& buffers, const kernels::Kernels& kernels, const Sieve& sieve, Workers* workers,
                 std::vector<ProxyPair>& pairs, std::size_t used) {
   std::size_t boxes = 0;
   for (const SearchTask& task : buffers.tasks) boxes += task.end - task.begin;
@@ -110,7 +122,7 @@ void performAll(SearchBuffers& buffers, const kernels::Kernels& kernels, const P
       PairWriter writer(pairs, used);
       for (const SearchTask& task : buffers.tasks) perform(task, kernels, writer.sink());
     }
-    return sift(filter, pairs, used);
+    return sift(sieve, pairs, used);
   }
   if (buffers.parts.size() < buffers.tasks.size()) buffers.parts.resize(buffers.tasks.size());
   workers->run(buffers.tasks.size(), [&](std::size_t i) {
@@ -118,13 +130,14 @@ void performAll(SearchBuffers& buffers, const kernels::Kernels& kernels, const P
       PairWriter writer(buffers.parts[i], 0);
       perform(buffers.tasks[i], kernels, writer.sink());
     }
-    sift(filter, buffers.parts[i], 0);
+    sift(sieve, buffers.parts[i], 0);
   });
   std::size_t total = used;
   for (std::size_t i = 0; i < buffers.tasks.size(); ++i) {
     buffers.tasks[i].begin = static_cast<std::uint32_t>(total - used);  // from now on: where its pairs go
     total += buffers.parts[i].size();
   }
+  if (total > pairs.capacity()) pairs.reserve(total + total / 8);  // the next time there may be a few more
   pairs.resize(total);
   workers->run(buffers.tasks.size(), [&](std::size_t i) {
     std::copy(buffers.parts[i].begin(), buffers.parts[i].end(), pairs.data() + used + buffers.tasks[i].begin);
@@ -137,7 +150,7 @@ void HGrid::Engine::findKept(std::vector<ProxyPair>& pairs) const {
   buffers.tasks.clear();
   addWithin(buffers.tasks, layers[kResting]);
   addAcross(buffers.tasks, layers[kResting], layers[kFixed]);
-  performAll(buffers, kernels::of(isa), filter, workers.get(), pairs, 0);
+  performAll(buffers, kernels::of(isa), {filter, nullptr}, workers.get(), pairs, 0);
 }
 
 void HGrid::Engine::findPairs(std::vector<ProxyPair>& pairs) const {
@@ -166,7 +179,8 @@ void HGrid::Engine::findPairs(std::vector<ProxyPair>& pairs) const {
     addWithin(tasks, layers[mobile]);
     for (int other = kFixed; other < mobile; ++other) addAcross(tasks, layers[mobile], layers[static_cast<std::size_t>(other)]);
   }
-  performAll(used_buffers, kernels::of(isa), filter, lock.owns_lock() ? workers.get() : nullptr, pairs, used);
+  performAll(used_buffers, kernels::of(isa), {filter, fixed_astray ? &fixed : nullptr},
+             lock.owns_lock() ? workers.get() : nullptr, pairs, used);
 }
 
 void HGrid::overlappingPairs(std::vector<ProxyPair>& pairs) const { engine_->findPairs(pairs); }

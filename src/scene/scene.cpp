@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <numeric>
 
 #include "hgrid_proximity/geometry/float_environment.h"
 #include "hgrid_proximity/refusal.h"
 #include "hgrid_proximity/scene/name.h"
+#include "scene/snapshot_pool.h"
 
 namespace hgrid {
 namespace {
@@ -48,28 +48,6 @@ void checkBody(const Body& body) {
     checkLength(shape.padding, kLargestMargin, "padding of a shape of body '" + body.name + "'");
   }
 }
-
-/// Snapshots that nobody reads any more, to be filled again: a steady tick allocates nothing. The lock is
-/// held for a push or a pop only.
-class SnapshotPool {
- public:
-  std::unique_ptr<Snapshot> take() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (free_.empty()) return nullptr;
-    std::unique_ptr<Snapshot> snapshot = std::move(free_.back());
-    free_.pop_back();
-    return snapshot;
-  }
-  void giveBack(std::unique_ptr<Snapshot> snapshot) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (free_.size() < kMostKept) free_.push_back(std::move(snapshot));
-  }
-
- private:
-  static constexpr std::size_t kMostKept = 4;
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<Snapshot>> free_;
-};
 
 double growthOf(const BodyPose& pose, const Body& body, double cap) {
   if (pose.state < Freshness::stale || pose.state == Freshness::unplaced || !(pose.age > 0.0)) return 0.0;
@@ -302,7 +280,8 @@ void Scene::State::rebuildStructure() {
 std::shared_ptr<Snapshot> Scene::State::freshSnapshot() const {
   std::unique_ptr<Snapshot> snapshot = pool->take();
   if (!snapshot) snapshot.reset(new Snapshot);
-  return {snapshot.release(), [kept = pool](Snapshot* used) { kept->giveBack(std::unique_ptr<Snapshot>(used)); }};
+  return {snapshot.release(), [kept = pool](Snapshot* used) { kept->giveBack(std::unique_ptr<Snapshot>(used)); },
+          PoolAllocator<Snapshot>(pool)};
 }
 
 /// Makes the boxes of what moved since the last commit; what stands still keeps its own. Of the poses a snapshot that

@@ -2,55 +2,91 @@
 # SPDX-FileCopyrightText: the hgrid_proximity authors
 """The mutants: (what is wrong, file under src/, text that stands there exactly once, what replaces it).
 
-Each is a fault that a broad phase has had somewhere, or that a tired reviewer would let pass. Those of one file stand
-together, because that saves the compiler a file.
+Each is a fault that a broad phase has had somewhere, or that a tired reviewer would let pass; what only costs time is
+none. Those of one file stand together, because that saves the compiler a file.
 """
 
+KERNELS = "broadphase/kernels/kernels_body.h"
+AVX2 = "broadphase/kernels/simd_avx2.h"
+LAYER = "broadphase/layer.cpp"
+ENGINE = "broadphase/engine.cpp"
+PAIRS = "broadphase/pair_search.cpp"
 HGRID = "broadphase/hgrid.cpp"
+QUERIES = "broadphase/queries.cpp"
 SCENE = "scene/scene.cpp"
 
 MUTANTS = [
-    ("truncation instead of floor", HGRID,
-     "std::floor(coordinate / edge)", "std::trunc(coordinate / edge)"),
-    ("one level is never looked at", HGRID,
-     "if ((occupied_ & levels) >> number & 1u)", "if (number != 9 && ((occupied_ & levels) >> number & 1u))"),
-    ("pairs on the own level only, not the coarser ones", HGRID,
-     "0u : ~0u << entry.level", "0u : 1u << entry.level"),
-    ("the cell before a query's first is left out", HGRID,
-     "level.edge) - 1;", "level.edge);"),
-    ("oversize boxes are left out of pairs and box queries", HGRID,
-     "for (const ProxyId id : oversize_) visit(id);\n}", "}"),
-    ("oversize boxes are left out of segment queries", HGRID,
-     "for (const ProxyId id : oversize_) visit(id);\n  std::sort", "std::sort"),
-    ("a moved box stays in its old cell", HGRID,
-     "withdraw(id);\n  place(id, box);", "entries_[id].box = box;"),
-    ("the mask of levels is not set", HGRID,
-     "if (level.count++ == 0) occupied_ |= 1u << entry.level;", "++level.count;"),
-    ("the mask of levels is cleared too early", HGRID,
-     "if (--level.count == 0)", "if (--level.count <= 1)"),
-    ("a removed box leaves a wrong position behind", HGRID,
-     "entries_[members.back()].position = entry.position;", ""),
-    ("a box may reach over three cells", HGRID,
-     "fits = high - low <= 1", "fits = high - low <= 2"),
-    ("a slab of a segment ends one cell too early", HGRID,
-     "(slab + 2.0)", "(slab + 1.0)"),
-    ("hits along a segment come the wrong way round", HGRID,
-     "a.along < b.along", "a.along > b.along"),
+    ("boxes of a level look around without its reach", KERNELS,
+     "cellsOf(l.bounds + first, l.reach[0], grid, 0, x_low);", "cellsOf(l.bounds + first, 0.0f, grid, 0, x_low);"),
+    ("a box looks no farther than the cell of its minimum", KERNELS,
+     "cellsOf(l.bounds + 3 * l.stride + first, 0.0f, grid, 0, x_high);",
+     "cellsOf(l.bounds + first, 0.0f, grid, 0, x_high);"),
+    ("the last slab is not looked at", KERNELS,
+     "z_span[k] = z_high[k] - z_own[k];", "z_span[k] = z_high[k] - z_own[k] - 1;"),
+    ("the first box after a box is skipped", KERNELS,
+     "next = first + k + 1,", "next = first + k + 2,"),
+    ("the last block of boxes is taken for a full one", KERNELS,
+     "count >= kBlock ? 0xffffu : (1u << count) - 1u", "count >= kBlock ? 0xffffu : 0xffffu"),
+    ("another level is looked at without its reach", KERNELS,
+     "b.reach[2], grid, 2, z_low", "0.0f, grid, 2, z_low"),
+    ("a query looks around without the reach", KERNELS,
+     "cellOf(box->min[axis] - l.reach[axis], grid, axis)", "cellOf(box->min[axis], grid, axis)"),
+    ("the quick test along a line forgets its radius", KERNELS,
+     "(2.0 * line.around + 2e-5 * farthest)", "(2e-5 * farthest)"),
 
-    ("a distance equal to the margin does not count", "geometry/aabb.cpp",
-     "exactComparison(a, b, margin) <= 0.0", "exactComparison(a, b, margin) < 0.0"),
-    ("the margin is compared with rounded squares", "geometry/aabb.cpp",
-     "return exactComparison(a, b, margin) <= 0.0", "return squared <= limit"),
-    ("boxes of shapes are rounded inward", "geometry/shape.cpp",
-     "roundedDown(low[i]", "roundedUp(low[i]"),
+    ("boxes that touch do not overlap, without SIMD", "broadphase/kernels/simd_portable.h",
+     "j + k] <= box.max[axis]", "j + k] < box.max[axis]"),
+    ("the last lane of a range is left out", AVX2,
+     "count < kWidth ? kWidth - count : 0u", "count < kWidth ? kWidth - count + 1u : 0u"),
+    ("the last lane is missing in the table of packed lanes", AVX2,
+     "lane < 8", "lane < 7"),
+
+    ("a length that was rounded down is the reach", LAYER,
+     "std::nextafter(sizes[4 * i + axis], kInfinity)", "sizes[4 * i + axis]"),
+    ("positions of a layer are not made anew", ENGINE,
+     "located[layer] = false;", ""),
+    ("a removed box stays in its layer", ENGINE,
+     "layers[from].withdraw(position[id]);", ""),
+    ("pairs of what moved away are kept", ENGINE,
+     "else if (kept_dirty)", "else if (false)"),
+    ("a removed box among the moving comes back", ENGINE,
+     "started || moving_changed || ", "started || "),
+
+    ("a level is not tested against the next coarser one", PAIRS,
+     "coarser = level + 1", "coarser = level + 2"),
+    ("layers are asked one way round only", PAIRS,
+     "addTask(tasks, second, &first);", ""),
+    ("boxes that came one by one make no pairs", PAIRS,
+     "{kMoving, kLoose}", "{kMoving}"),
+    ("kept pairs outlive the second of their boxes", PAIRS,
+     "used += place[pair.first] <= kResting && place[pair.second] <= kResting;",
+     "used += place[pair.first] <= kResting;"),
+    ("pairs that threads find are not filtered", PAIRS,
+     "sift(sieve, buffers.parts[i], 0);", ""),
+    ("what is fixed stays what it was", HGRID,
+     "engine_->withdrawn = std::max<std::size_t>(1, engine_->withdrawn);", ""),
+    ("small moves are skipped in bulk", HGRID,
+     "if (box == boxes[i]) continue;",
+     "if (box.min.isApprox(boxes[i].min, 1e-6f) && box.max.isApprox(boxes[i].max, 1e-6f)) continue;"),
+
+    ("a ball's box is rounded inward", QUERIES,
+     "low - std::abs(low) * 1.2e-7f - 1e-37f;", "low + std::abs(low) * 1.2e-7f + 1e-37f;"),
+    ("hits along a segment come the wrong way round", QUERIES,
+     "a.along < b.along", "a.along > b.along"),
+    ("the nearest are those in the first ball that is not empty", QUERIES,
+     "found.size() >= count", "!found.empty()"),
+
+    ("a segment that goes down an axis enters through the far side", "geometry/segment.cpp",
+     "enter = std::max(enter, std::min(a, b));", "enter = std::max(enter, a);"),
     ("only the ends of a segment's pieces are looked at", "geometry/segment.cpp",
      "{lowest, end}", "{begin, end}"),
+    ("a distance equal to the margin does not count", "geometry/aabb.cpp",
+     "exactComparison(a, b, margin) <= 0.0", "exactComparison(a, b, margin) < 0.0"),
+    ("boxes of shapes are rounded inward", "geometry/shape.cpp",
+     "roundedDown(low[i]", "roundedUp(low[i]"),
 
     ("the margin is halved", SCENE,
      "0.5 * options.margin + (", "0.25 * options.margin + ("),
-    ("the smaller of two margins decides", SCENE,
-     "std::max(structure->margin[first], structure->margin[second])",
-     "std::min(structure->margin[first], structure->margin[second])"),
     ("stale bodies do not grow in the grid", SCENE,
      " + pose.growth", ""),
     ("small moves are skipped", SCENE,
@@ -64,4 +100,6 @@ MUTANTS = [
      "const DefaultFloatEnvironment environment;\n  using Clock", "using Clock"),
     ("allowed patterns hold in one order only", "scene/pair_filter.cpp",
      "(as_first_[i] & as_second_[j]) | (as_second_[i] & as_first_[j])", "as_first_[i] & as_second_[j]"),
+    ("a new numbering leaves the pairs unsorted", "scene/pair_tracker.cpp",
+     "{std::min(a, b), std::max(a, b), pair.since}", "{a, b, pair.since}"),
 ]

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "test/support/random.h"
+#include "test/support/sweep.h"
 
 namespace hgrid {
 namespace test {
@@ -40,6 +41,14 @@ TEST(Oracle, FindsWhereASlantedSegmentPassesACorner) {
   const Approach approach = approachOf(box, {3, 0, 0.5}, {0, 3, 0.5}, 0.75);
   EXPECT_NEAR(double(approach.least), std::sqrt(0.5), 1e-15);
   EXPECT_NEAR(double(approach.first), std::sqrt(4.5) - 0.25, 1e-15);
+}
+
+// The witness of worlds too large for brute force.
+TEST(Oracle, ASweepFindsTheOverlapsThatAllPairsHave) {
+  for (unsigned seed = 1; seed <= 110; ++seed) {
+    const std::vector<Aabb> boxes = worldOf(static_cast<Family>(seed % kFamilies), seed);
+    ASSERT_EQ(sweptOverlaps(boxes), allOverlaps(boxes)) << "seed " << seed;
+  }
 }
 
 }  // namespace

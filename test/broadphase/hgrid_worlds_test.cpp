@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <gtest/gtest.h>
+
+#include "test/support/expectations.h"
+
+// Worlds that a grid whose cells follow from the boxes could choke on.
+
+namespace hgrid {
+namespace {
+
+using test::allIds;
+using test::boxAround;
+using test::expectRight;
+using test::Random;
+using test::randomVector;
+
+/// Boxes of about half a metre around a place, each with a few neighbours.
+std::vector<Aabb> crowd(std::size_t count, Random& random, const Eigen::Vector3d& place = Eigen::Vector3d::Zero()) {
+  std::vector<Aabb> boxes;
+  const double half = 0.35 * std::cbrt(double(count));
+  while (boxes.size() < count) {
+    const Eigen::Vector3d center = place + randomVector(random, -half, half);
+    boxes.push_back(boxAround(center, randomVector(random, 0.2, 0.9)));
+  }
+  return boxes;
+}
+
+/// Everybody moves a little.
+void stir(std::vector<Aabb>& boxes, Random& random) {
+  for (Aabb& box : boxes) {
+    const Eigen::Vector3f way = randomVector(random, -0.2, 0.2).cast<float>();
+    box = {box.min + way, (box.max + way).cwiseMax(box.min + way)};
+  }
+}
+
+TEST(HGridWorlds, StraysAMillionMetresOutMeetTheirNeighboursOnly) {
+  for (const Isa isa : test::supportedIsas()) {
+    SCOPED_TRACE(name(isa));
+    Random random(1);
+    std::vector<Aabb> boxes = crowd(2000, random);
+    HGrid grid;
+    grid.setIsa(isa);
+    for (int frame = 0; frame < 6; ++frame) {
+      if (frame > 0) stir(boxes, random);
+      for (int k = 0; k < 12; ++k) {  // two at each end of each axis, others each time
+        Eigen::Vector3d place(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-3, 3));
+        place[k % 3] = k % 2 != 0 ? 1e6 : -1e6;
+        boxes[std::size_t(100 * frame + k)] = boxAround(place, {2, 2, 2});
+      }
+      grid.update(allIds(boxes.size()), boxes);
+      ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes));
+    }
+    const Segment across{{-2e6, 0.1, 0.2}, {2e6, 0.1, 0.2}, 0.0};
+    std::size_t met = 0;
+    for (const Aabb& box : boxes) met += meet(across, box).has_value();
+    EXPECT_EQ(test::alongOf(grid, across).size(), met) << "a segment from stray to stray through all cells";
+  }
+}
+
+TEST(HGridWorlds, HeapsTenKilometresApartAreEachAsRightAsOne) {
+  for (const int heaps : {2, 10}) {
+    SCOPED_TRACE(std::to_string(heaps) + " heaps");
+    Random random(unsigned(heaps) + 0u);
+    std::vector<Aabb> boxes;
+    for (int i = 0; i < heaps; ++i) {
+      const Eigen::Vector3d place = 1e4 * Eigen::Vector3d(i % 2 + i / 4, i % 3, -(i % 5));
+      const std::vector<Aabb> heap = crowd(std::size_t(2000 / heaps), random, place);
+      boxes.insert(boxes.end(), heap.begin(), heap.end());
+    }
+    HGrid grid = test::gridOf(boxes, GridScale{});
+    ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes));
+    for (int frame = 0; frame < 3; ++frame) {
+      stir(boxes, random);
+      std::swap(boxes[std::size_t(random.below(2000))], boxes[std::size_t(random.below(2000))]);
+      grid.update(allIds(boxes.size()), boxes);
+      ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes));
+    }
+  }
+}
+
+TEST(HGridWorlds, BoxesThatAreAllEqualAllMeet) {
+  const Aabb somewhere = {{-3.7f, 0, 12}, {-3.5f, 0.3f, 12.1f}}, point = {{5, 5, 5}, {5, 5, 5}};
+  for (const Aabb& box : {somewhere, point}) {
+    std::vector<Aabb> boxes(400, box);
+    HGrid grid = test::gridOf(boxes, GridScale{});
+    EXPECT_EQ(test::pairsOf(grid).size(), 400u * 399u / 2u);
+    grid.insert(400, box);
+    boxes.push_back(box);
+    ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes));
+    boxes.assign(401, {{1, 1, 1}, {2, 2, 2}});
+    grid.update(allIds(401), boxes);
+    ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes));
+  }
+}
+
+TEST(HGridWorlds, AHugeBoxAmongTinyOnesMeetsThemAll) {
+  Random random(3);
+  std::vector<Aabb> boxes;
+  for (int i = 0; i < 3000; ++i)
+    boxes.push_back(boxAround(randomVector(random, -2, 2), randomVector(random, 0.001, 0.1)));
+  for (const double half : {1.5, 50.0, 1e4, 1e9}) {
+    SCOPED_TRACE(std::to_string(half));
+    boxes[1234] = boxAround({0, 0, 0}, Eigen::Vector3d::Constant(2 * half));
+    HGrid grid = test::gridOf(boxes, GridScale::fitting(boxes));
+    ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes));
+    for (const Aabb& now : {boxes[0], boxes[1234]}) {  // shrinks, and is huge again
+      boxes[1234] = now;
+      grid.move({1234}, {now});
+      ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes));
+    }
+  }
+}
+
+TEST(HGridWorlds, BoxesWithoutSizeOnSomeAxesMeetWhereTheyTouch) {
+  for (int axes = 0; axes < 8; ++axes) {  // those on which a box has a size
+    SCOPED_TRACE("axes " + std::to_string(axes));
+    Random random(unsigned(axes) + 1u);
+    std::vector<Aabb> boxes(1000);
+    for (Aabb& box : boxes) {
+      for (int k = 0; k < 3; ++k) {
+        box.min[k] = 0.25f * float(random.between(-16, 16));
+        box.max[k] = box.min[k] + (axes >> k & 1 ? 0.25f * float(random.between(0, 3)) : 0.f);
+      }
+    }
+    HGrid grid = test::gridOf(boxes, GridScale{});
+    ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes));
+    for (Aabb& box : boxes) box = {box.min * -2, (box.max * -2).cwiseMax(box.min * -2)};
+    grid.update(allIds(boxes.size()), boxes);
+    ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes));
+  }
+}
+
+TEST(HGridWorlds, MoreThan65536BoxesAreRightWithThreads) {
+  Random random(4);
+  std::vector<Aabb> boxes = crowd(70000, random);
+  for (Aabb& box : boxes) {  // along a street, which makes the witness fast
+    const Eigen::Vector3f way(5 * box.min.x(), 0, 0);
+    box = {box.min + way, box.max + way};
+  }
+  HGrid grid;
+  grid.setThreads(3);
+  grid.update(allIds(boxes.size()), boxes);
+  ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes));
+  for (std::size_t i = 0; i < boxes.size(); i += 9) boxes[i] = boxes[(i * 7919) % boxes.size()];
+  grid.update(allIds(boxes.size()), boxes);
+  grid.remove(69999);
+  grid.insert(69999, boxes[69999]);
+  ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes));
+}
+
+/// Claim: cells that fitted the boxes of the last frame do not decide what is found in this one.
+TEST(HGridWorlds, AllBoxesMayLeaveTheirPlaceAtOnce) {
+  Random random(5);
+  const std::vector<Aabb> home = crowd(1500, random);
+  std::vector<Aabb> boxes = home;
+  HGrid grid = test::gridOf(boxes, GridScale{});
+  const auto expectRightAs = [&](const char* what, auto&& moved) {
+    SCOPED_TRACE(what);
+    for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i] = moved(home[i], float(i));
+    grid.update(allIds(boxes.size()), boxes);
+    ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes));
+    grid.move({3, 700}, {boxes[700], boxes[3]});
+    std::swap(boxes[3], boxes[700]);
+    ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes));
+  };
+  const auto shifted = [](const Aabb& box, const Eigen::Vector3f& way) { return Aabb{box.min + way, box.max + way}; };
+  const auto scaled = [](const Aabb& box, float by) { return Aabb{box.min * by, box.max * by}; };
+  expectRightAs("far away", [&](const Aabb& box, float) { return shifted(box, {1e5f, -1e5f, 1e5f}); });
+  expectRightAs("home again", [&](const Aabb& box, float) { return box; });
+  expectRightAs("a thousand times as large", [&](const Aabb& box, float) { return scaled(box, 1e3f); });
+  expectRightAs("a thousandth as large", [&](const Aabb& box, float) { return scaled(box, 1e-3f); });
+  expectRightAs("on a line", [&](const Aabb& box, float i) {
+    return Aabb{{i, 0, 0}, {i + 1.5f * (box.max.x() - box.min.x()), 0, 0}};
+  });
+  expectRightAs("half of it to the other side of the world", [&](const Aabb& box, float i) {
+    return shifted(box, {i < 750 ? 0.f : -1e6f, 0, 0});
+  });
+  expectRightAs("within the same bounds, all in one corner but a few", [&](const Aabb& box, float i) {
+    return i < 20 ? box : scaled(shifted(box, {20, 20, 20}), 0.1f);
+  });
+}
+
+TEST(HGridWorlds, IdsWithGapsUpToAMillion) {
+  Random random(6);
+  std::vector<Aabb> boxes(1000001);
+  std::vector<ProxyId> ids;
+  const std::vector<Aabb> some = crowd(300, random);
+  std::vector<Aabb> chosen;
+  for (ProxyId id = 0; id <= 1000000; id += 2500) ids.push_back(id);
+  for (std::size_t i = 0; i < ids.size(); ++i) chosen.push_back(boxes[ids[i]] = some[i % some.size()]);
+  HGrid grid;
+  grid.update(ids, chosen);
+  ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes, ids));
+  for (int i = 0; i < 100; ++i) {
+    const ProxyId id = 2500 * ProxyId(i) + 17;
+    boxes[id] = some[std::size_t(random.below(300))];
+    grid.insert(id, boxes[id]);
+    grid.remove(ids[std::size_t(3 * i)]);
+    ids[std::size_t(3 * i)] = id;
+  }
+  std::sort(ids.begin(), ids.end());
+  ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes, ids));
+  grid.clear();
+  grid.insert(1000000, boxes[1000000]);
+  ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes, {1000000}));
+}
+
+/// Claim: a box whose length is rounded to a float that is too small is found at its far end.
+TEST(HGridWorlds, ALengthThatWasRoundedDownReachesFarEnough) {
+  const float length = 1024;     // floats there are 2^-13 apart
+  std::vector<Aabb> boxes(193);  // of which so many on a line get cells of 1/8 m
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const float step = -16 + 0.125f * float(i * 256 / (boxes.size() - 1)), sliver = i % 192 == 0 ? 0.f : 5e-5f;
+    boxes[i] = {{step - sliver, 0, 0}, {length + step, 0, 0}};  // begins a little before its cell
+    ASSERT_EQ(boxes[i].max.x() - boxes[i].min.x(), length);
+  }
+  HGrid grid = test::gridOf(boxes, GridScale{});
+  for (std::size_t i = 0; i < boxes.size(); i += 4) {
+    const Eigen::Vector3f end = boxes[i].max;
+    const Aabb beyond = {end, end};
+    std::vector<ProxyId> expected;
+    for (ProxyId id = 0; id < boxes.size(); ++id) {
+      if (test::oracleOverlap(beyond, boxes[id])) expected.push_back(id);
+    }
+    ASSERT_EQ(test::foundBy(grid, beyond), expected);
+    grid.insert(300, beyond);
+    std::vector<ProxyId> met;
+    for (const auto& pair : test::pairsOf(grid)) {
+      if (pair.second == 300) met.push_back(pair.first);
+    }
+    ASSERT_EQ(met, expected);
+    grid.remove(300);
+  }
+}
+
+}  // namespace
+}  // namespace hgrid
