@@ -26,7 +26,7 @@ namespace {
 
 namespace msg = ::hgrid_proximity;
 
-constexpr double kWarmUp = 2.0;  // [s]
+constexpr double kWarmUp = 11.0;  // [s] until tf's cache of 10 s is full: a fuller one is a slower one
 
 /// What the table shows of the node's timings, and under which name.
 const std::vector<std::pair<const char*, const char*>> kParts = {
@@ -43,11 +43,11 @@ const std::vector<std::pair<const char*, const char*>> kParts = {
 class Listener {
  public:
   explicit Listener(const std::string& space) {
-    pairs_ = node_.subscribe<msg::Pairs>(
-        space + "/pairs", 1000,
-        boost::function<void(const ros::MessageEvent<msg::Pairs const>&)>(
-            [this](const ros::MessageEvent<msg::Pairs const>& event) { onPairs(event); }),
-        ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+    pairs_ =
+        node_.subscribe<msg::Pairs>(space + "/pairs", 1000,
+                                    boost::function<void(const ros::MessageEvent<msg::Pairs const>&)>(
+                                        [this](const ros::MessageEvent<msg::Pairs const>& event) { onPairs(event); }),
+                                    ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
     status_ = node_.subscribe<msg::Status>(space + "/status", 1000, &Listener::onStatus, this);
   }
 

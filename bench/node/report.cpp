@@ -53,8 +53,8 @@ void print(const Measurement& m) {
 
 void writeJson(const std::string& file, const std::string& commit, const std::vector<Measurement>& measurements) {
   std::ofstream out(file);
-  out << "[\n  {\"kind\": \"run\", \"cpu\": " << quoted(processor())
-      << ", \"compiler\": " << quoted("gcc " __VERSION__) << ", \"commit\": " << quoted(commit) << "}";
+  out << "[\n  {\"kind\": \"run\", \"cpu\": " << quoted(processor()) << ", \"compiler\": " << quoted("gcc " __VERSION__)
+      << ", \"commit\": " << quoted(commit) << "}";
   for (const Measurement& m : measurements) {
     for (const Measurement::Part& part : m.parts) {
       out << ",\n  " << beginOf(m) << ", \"part\": " << quoted(part.name)

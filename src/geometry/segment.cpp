@@ -87,7 +87,10 @@ std::optional<Meeting> meet(const Segment& segment, const Aabb& box) {
 }
 
 std::optional<double> firstTouch(const Segment& segment, const Aabb& box) {
-  double enter = 0.0, surely_in = 0.0, surely_out = 1.0, squared = 0.0;
+  double sum = 0.0, squared = 0.0;
+  for (int axis = 0; axis < 3; ++axis) sum += std::abs(segment.from[axis]) + std::abs(segment.to[axis]);
+  const double slack = 2.0 * roundingSlack(sum);  // more than meet() allows, and than is rounded here
+  double enter = 0.0, surely_in = 0.0, surely_out = 1.0, perhaps_in = 0.0, perhaps_out = 1.0;
   bool plain = segment.radius == 0.0;
   for (int axis = 0; axis < 3 && plain; ++axis) {
     const double from = segment.from[axis], step = segment.to[axis] - from;
@@ -96,15 +99,18 @@ std::optional<double> firstTouch(const Segment& segment, const Aabb& box) {
       continue;
     }
     plain = std::abs(step) > 1e-100 && std::abs(step) < 1e100;
-    const double inverse = 1.0 / step;
+    const double inverse = 1.0 / step, rounded = slack * std::abs(inverse);
     const double a = (box.min[axis] - from) * inverse, b = (box.max[axis] - from) * inverse;
-    const double rounded = 1e-12 * (std::abs(from) + std::abs(segment.to[axis])) * std::abs(inverse);
-    enter = std::max(enter, std::min(a, b));
-    surely_in = std::max(surely_in, std::min(a, b) + rounded);
-    surely_out = std::min(surely_out, std::max(a, b) - rounded);
+    const double in = std::min(a, b), out = std::max(a, b);
+    enter = std::max(enter, in);
+    surely_in = std::max(surely_in, in + rounded);
+    surely_out = std::min(surely_out, out - rounded);
+    perhaps_in = std::max(perhaps_in, in - rounded);
+    perhaps_out = std::min(perhaps_out, out + rounded);
     squared += step * step;
   }
   if (plain && surely_in < surely_out) return enter * std::sqrt(squared);
+  if (plain && perhaps_in > perhaps_out) return std::nullopt;
   const auto meeting = meet(segment, box);
   return meeting ? std::optional<double>(meeting->along) : std::nullopt;
 }

@@ -17,6 +17,9 @@ struct FramePose {
   FramePose operator*(const FramePose& next) const {
     return {rotation * next.rotation, rotation * next.translation + translation};
   }
+  bool operator==(const FramePose& other) const {
+    return rotation.coeffs() == other.rotation.coeffs() && translation == other.translation;
+  }
   FramePose inverse() const {
     const auto back = rotation.conjugate();
     return {back, back * -translation};
@@ -31,8 +34,8 @@ struct FramePose {
 
 /// @param transform  checked: finite, the quaternion nearly of length 1
 inline FramePose toFramePose(const geometry_msgs::Transform& transform) {
-  const auto &t = transform.translation;
-  const auto &q = transform.rotation;
+  const auto& t = transform.translation;
+  const auto& q = transform.rotation;
   FramePose result;
   result.rotation = Eigen::Quaternion<double, Eigen::DontAlign>(q.w, q.x, q.y, q.z).normalized();
   result.translation = {t.x, t.y, t.z};

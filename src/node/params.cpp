@@ -28,7 +28,7 @@ void visit(Visitor& v, Params& p) {
   v.number("rate", p.rate, "Hz", 1.0, 1000.0, "ticks per second");
   v.number("margin", p.margin, "m", 0.0, 1000.0, "bodies whose boxes are this near or nearer are pairs");
   v.number("finest_edge", p.finest_edge, "m", 0.0, 1000.0,
-           "edge of the grid's smallest cells, at least 0.001; 0: chosen from the bodies");
+           "longest side of the boxes on the grid's finest level, at least 0.001; 0: chosen from the bodies");
 
   v.section("Robots");
   v.robots("robots", p.robots,
@@ -81,6 +81,8 @@ void visit(Visitor& v, Params& p) {
   v.number("min_size", p.min_size, "m", 1e-6, 1.0, "smallest radius, side or height of a shape");
   v.number("max_size", p.max_size, "m", 1.0, 1e5, "largest radius, side, height or vertex coordinate of a shape");
   v.flag("allow_flat", p.allow_flat, "boxes may have one side of 0");
+  v.integer("threads", p.threads, 1, 64,
+            "that a tick's broad phase may use; worth more than 1 from some tens of thousands of shapes on");
   v.integer("max_bodies", p.max_bodies, 1, 1000000, "bodies");
   v.integer("max_frames", p.max_frames, 1, 1000000, "tf frames that are kept");
   v.integer("max_pairs", p.max_pairs, 1, 10000000, "pairs in one message; more: truncated");

@@ -218,8 +218,9 @@ void TfIntake::takeOne(const geometry_msgs::TransformStamped& transform, bool is
   Frame& frame = frames_[number];
   frame.refused.reset();
   if (is_static) {
-    ++static_revision_;
-    if (!frame.from_tf) frame.newest = {Time(0), frame.parent, toFramePose(transform.transform)};
+    const Sample sample{Time(0), frame.parent, toFramePose(transform.transform)};
+    if (frame.from_tf || !(sample.parent_from_frame == frame.newest.parent_from_frame)) ++static_revision_;
+    if (!frame.from_tf) frame.newest = sample;
     return;
   }
   if (stamp < frame.newest.stamp) return;  // what is not newer makes nothing fresh

@@ -66,7 +66,7 @@ class TfIntake {
   double ageOf(const Frame& frame, const Moment& now) const;
   /// One more whenever a frame is new or has another parent.
   std::uint64_t revision() const { return revision_; }
-  /// One more whenever a transform came on /tf_static.
+  /// One more whenever a transform on /tf_static was another than before.
   std::uint64_t staticRevision() const { return static_revision_; }
   /// Frames that were placed in a parent.
   std::size_t frames() const { return placed_count_; }

@@ -27,16 +27,15 @@ void extend(ChainState& state, const TfIntake& intake, const TfIntake::Frame& fr
 }  // namespace
 
 /// Steps from the world frame up to its ancestors, only as far as some way goes through them.
-void TfTree::addAncestors(std::uint32_t world, std::size_t count) {
+void TfTree::addAncestors(std::size_t count) {
   for (; ancestors_ < count; ++ancestors_) {
     Step step;
     step.moved = above_[ancestors_];
-    step.from = ancestors_ == 0 ? kWorld : step_to_[step.moved];
+    step.from = step_to_[step.moved];
     step.upwards = true;
     step_to_[above_[ancestors_ + 1]] = steps_.size();
     steps_.push_back(step);
   }
-  step_to_[world] = kWorld;
 }
 
 /// Up from the frame until something known is met, then down again step by step.
@@ -45,7 +44,7 @@ std::size_t TfTree::wayTo(std::uint32_t frame) {
   while (step_to_[frame] == kNowhere) {
     const auto ancestor = std::find(above_.begin(), above_.end(), frame);
     if (ancestor != above_.end()) {
-      addAncestors(above_.front(), static_cast<std::size_t>(ancestor - above_.begin()));
+      addAncestors(static_cast<std::size_t>(ancestor - above_.begin()));
       break;
     }
     const std::uint32_t parent = intake_.frame(frame).parent;

@@ -49,9 +49,9 @@ class TfTree {
  private:
   /// From a frame to a neighbour farther from the world, which is a child or, above the world frame, the parent.
   struct Step {
-    std::size_t from = 0;                     // step that ends where this one begins
+    std::size_t from = 0;                   // step that ends where this one begins
     std::uint32_t moved = TfIntake::kNone;  // frame whose transform is crossed
-    bool upwards = false;                     // towards the parent of `moved`
+    bool upwards = false;                   // towards the parent of `moved`
     bool placed = false;
     FramePose world_from_frame;
     ChainState state;
@@ -61,7 +61,7 @@ class TfTree {
     std::string unknown;
   };
 
-  void addAncestors(std::uint32_t world, std::size_t count);
+  void addAncestors(std::size_t count);
   std::size_t wayTo(std::uint32_t frame);
   bool parentFromFrame(const TfIntake::Frame& frame, Time time, FramePose& pose) const;
 
@@ -71,9 +71,9 @@ class TfTree {
   std::uint64_t revision_ = ~std::uint64_t{0};
   std::vector<Step> steps_ = std::vector<Step>(2);  // each after the one it begins at
   std::vector<Way> ways_;
-  std::vector<std::uint32_t> above_;   // the world frame and its ancestors
-  std::size_t ancestors_ = 0;          // of above_ that have steps
-  std::vector<std::size_t> step_to_;   // by number of the frame; kNowhere: none yet
+  std::vector<std::uint32_t> above_;  // the world frame and its ancestors
+  std::size_t ancestors_ = 0;         // of above_ that have steps
+  std::vector<std::size_t> step_to_;  // by number of the frame; kNowhere: none yet
 };
 
 }  // namespace hgrid

@@ -15,6 +15,7 @@ SceneOptions optionsOf(const Params& params) {
   options.origin = params.origin;
   options.margin = params.margin;
   options.finest_edge = params.finest_edge;
+  options.threads = params.threads;
   options.world_limit = params.world_limit;
   options.growth_cap = params.growth_cap;
   options.max_bodies = static_cast<std::size_t>(params.max_bodies);

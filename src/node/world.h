@@ -76,9 +76,9 @@ class World {
   /// Bodies that one tf frame places.
   struct Mover {
     std::string frame;
-    std::string robot;                             // empty: an obstacle
-    std::size_t first = 0, last = 0;               // its members in members_, last excluded
-    ChainState chain;                              // of this tick
+    std::string robot;                // empty: an obstacle
+    std::size_t first = 0, last = 0;  // its members in members_, last excluded
+    ChainState chain;                 // of this tick
     bool placed = false, jumped = false;
     bool settled = false;  // where it is, and nothing can move it but a new transform on /tf_static
     double age_when_placed = 0.0;

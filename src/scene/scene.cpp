@@ -109,6 +109,7 @@ struct Scene::State {
   void rebuildStructure();
   std::shared_ptr<Snapshot> freshSnapshot() const;
   void fillBodies(Snapshot& snapshot);
+  void growBoxes(const Snapshot& snapshot);
   void fillGrid(Snapshot& snapshot);
   void fillPairs(Snapshot& snapshot);
   void sortPairs(std::vector<NearPair>& pairs);
@@ -119,7 +120,7 @@ struct Scene::State {
   std::vector<Slot> slots;
   std::vector<Body> bodies;  // by slot
   std::vector<std::uint32_t> free_slots;
-  std::vector<std::uint32_t> uncovered;  // bodies of the structure that leave a gap wherever they are
+  std::vector<std::uint32_t> uncovered;               // bodies of the structure that leave a gap wherever they are
   std::map<std::string, std::uint32_t> slot_of_name;  // ordered: the structure is sorted by name
   bool structure_changed = true;
   std::shared_ptr<const Structure> structure = std::make_shared<Structure>();
@@ -313,16 +314,9 @@ void Scene::State::fillBodies(Snapshot& snapshot) {
   snapshot.boxes_ = boxes;
 }
 
-/// Stores the placed boxes, each grown by its share of the margins: half of the global one, and all by which its
-/// own is larger. So two that are within max(m_i, m_j) plus their growth overlap.
-void Scene::State::fillGrid(Snapshot& snapshot) {
-  if (snapshot.grid_revision_ != structure->revision) {
-    snapshot.grid_ = HGrid(scale);
-    snapshot.grid_.setThreads(options.threads);
-    snapshot.grid_.setFixed(fixed_proxies);
-    snapshot.grid_.setFilter({isReported, structure.get()});  // the snapshot keeps it alive
-    snapshot.grid_revision_ = structure->revision;
-  }
+/// Grows the placed boxes by their shares of the margins: half of the global one, and all by which a body's own is
+/// larger. So two that are within max(m_i, m_j) plus their growth overlap.
+void Scene::State::growBoxes(const Snapshot& snapshot) {
   ids.clear();
   grown_boxes.clear();
   grown_of.resize(snapshot.boxes_.size());
@@ -338,7 +332,19 @@ void Scene::State::fillGrid(Snapshot& snapshot) {
     ids.push_back(proxy);
     grown_boxes.push_back(known.result);
   }
+}
+
+/// Stores the grown boxes and looks for the pairs of them that the filter lets through.
+void Scene::State::fillGrid(Snapshot& snapshot) {
+  if (snapshot.grid_revision_ != structure->revision) {
+    snapshot.grid_ = HGrid(scale);
+    snapshot.grid_.setThreads(options.threads);
+    snapshot.grid_.setFixed(fixed_proxies);
+    snapshot.grid_.setFilter({isReported, structure.get()});  // the snapshot keeps it alive
+    snapshot.grid_revision_ = structure->revision;
+  }
   snapshot.grid_.update(ids, grown_boxes);
+  snapshot.grid_.overlappingPairs(proxy_pairs);
 }
 
 double Scene::State::pairMargin(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second) const {
@@ -370,7 +376,6 @@ void Scene::State::sortPairs(std::vector<NearPair>& pairs) {
 }
 
 void Scene::State::fillPairs(Snapshot& snapshot) {
-  snapshot.grid_.overlappingPairs(proxy_pairs);
   std::vector<NearPair>& pairs = snapshot.pairs_;
   pairs.clear();
   for (const ProxyPair& proxies : proxy_pairs) {
@@ -424,6 +429,7 @@ std::shared_ptr<const Snapshot> Scene::commit(Time stamp, const std::vector<std:
   snapshot->origin_ = s.options.origin;
   snapshot->stamp_ = stamp;
   s.fillBodies(*snapshot);
+  s.growBoxes(*snapshot);
   const auto boxes_done = Clock::now();
   s.fillGrid(*snapshot);
   const auto grid_done = Clock::now();

@@ -26,8 +26,8 @@ std::vector<std::string> saidBy(const Snapshot& snapshot, std::size_t most) {
   std::vector<std::string> pairs;
   for (std::size_t i = 0; i < std::min(most, snapshot.pairs().size()); ++i) {
     const NearPair& pair = snapshot.pairs()[i];
-    pairs.push_back(snapshot.structure().bodies[pair.first].name + " " +
-                    snapshot.structure().bodies[pair.second].name + " " + std::to_string(pair.gap));
+    pairs.push_back(snapshot.structure().bodies[pair.first].name + " " + snapshot.structure().bodies[pair.second].name +
+                    " " + std::to_string(pair.gap));
   }
   return pairs;
 }

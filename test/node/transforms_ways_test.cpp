@@ -75,7 +75,8 @@ class RandomTree {
       tree.place(time);
       for (std::size_t frame = 0; frame < frames.size(); ++frame) expectTheSame(tree, frames[frame], frame, time);
     }
-    for (std::size_t frame = 0; frame < frames.size(); ++frame) expectNewest(tree.state(frame), static_cast<int>(frame));
+    for (std::size_t frame = 0; frame < frames.size(); ++frame)
+      expectNewest(tree.state(frame), static_cast<int>(frame));
   }
 
  private:
@@ -101,10 +102,10 @@ class RandomTree {
     const FramePose* ours = tree.worldFrom(index);
     FramePose witness;
     try {
-      witness = toFramePose(intake_.buffer()
-                                .lookupTransform(frameName(world_), frame,
-                                                 ros::Time().fromNSec(static_cast<std::uint64_t>(time.count())))
-                                .transform);
+      witness = toFramePose(
+          intake_.buffer()
+              .lookupTransform(frameName(world_), frame, ros::Time().fromNSec(static_cast<std::uint64_t>(time.count())))
+              .transform);
     } catch (const tf2::TransformException& error) {
       EXPECT_EQ(ours, nullptr) << error.what();
       return;

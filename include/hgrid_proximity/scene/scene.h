@@ -15,7 +15,7 @@ namespace hgrid {
 struct SceneOptions {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m, world] boxes are stored relative to it
   double margin = 0.10;                              ///< [m] boxes this close or closer are candidates, 0 .. 1e3
-  double finest_edge = 0.0;                          ///< [m] edge of the finest cells, 1e-6 .. 1e3; 0: from the bodies
+  double finest_edge = 0.0;                          ///< [m] HGrid's finest level, 1e-6 .. 1e3; 0: from the bodies
   double world_limit = 1e6;                          ///< [m] poses beyond are refused, per axis; at most 1e6
   double growth_cap = 1.0;                           ///< [m] most that a stale body's margins are widened by
   std::size_t max_bodies = 100000;

@@ -223,25 +223,28 @@ inline LineFilter filterOf(const Line& line) {
   return filter;
 }
 
+/// Bits of boxes whose centres are farther from the line, along the axis normal to it and to coordinate i, than their
+/// half-widths reach. The other coordinates are j and k.
+inline std::uint32_t offAxis(const LineFilter& filter, int i, int j, int k, const Simd::Lanes& away_j,
+                             const Simd::Lanes& away_k, const Simd::Lanes& size_j, const Simd::Lanes& size_k) {
+  const Simd::Lanes apart = Simd::minus(Simd::times(filter.way[j], away_k), Simd::times(filter.way[k], away_j));
+  const Simd::Lanes reach = Simd::plus(Simd::plus(Simd::times(size_j, filter.width[k]),
+                                                  Simd::times(size_k, filter.width[j])),
+                                       filter.slack[i]);
+  return Simd::greater(Simd::size(apart), reach);
+}
+
 /// Bit k: the box at position j + k is off the line.
 inline std::uint32_t offLine(const LineFilter& filter, const Level& level, std::uint32_t j) {
-  Simd::Lanes away[3], size[3];
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Simd::Lanes min = Simd::lanesAt(level.bounds + axis * level.stride + j);
-    const Simd::Lanes max = Simd::lanesAt(level.bounds + (axis + 3) * level.stride + j);
-    away[axis] = Simd::minus(Simd::plus(min, max), filter.twice_from[axis]);
-    size[axis] = Simd::minus(max, min);
-  }
-  std::uint32_t off = 0;
-  for (int i = 0; i < 3; ++i) {
-    const int j1 = (i + 1) % 3, k1 = (i + 2) % 3;
-    const Simd::Lanes apart = Simd::minus(Simd::times(filter.way[j1], away[k1]), Simd::times(filter.way[k1], away[j1]));
-    const Simd::Lanes reach = Simd::plus(Simd::plus(Simd::times(size[j1], filter.width[k1]),
-                                                    Simd::times(size[k1], filter.width[j1])),
-                                         filter.slack[i]);
-    off |= Simd::greater(Simd::size(apart), reach);
-  }
-  return off;
+  const float* bounds = level.bounds + j;
+  const std::size_t stride = level.stride;
+  const Simd::Lanes x0 = Simd::lanesAt(bounds), x1 = Simd::lanesAt(bounds + 3 * stride);
+  const Simd::Lanes y0 = Simd::lanesAt(bounds + stride), y1 = Simd::lanesAt(bounds + 4 * stride);
+  const Simd::Lanes z0 = Simd::lanesAt(bounds + 2 * stride), z1 = Simd::lanesAt(bounds + 5 * stride);
+  const Simd::Lanes x = Simd::minus(Simd::plus(x0, x1), filter.twice_from[0]), w = Simd::minus(x1, x0);
+  const Simd::Lanes y = Simd::minus(Simd::plus(y0, y1), filter.twice_from[1]), d = Simd::minus(y1, y0);
+  const Simd::Lanes z = Simd::minus(Simd::plus(z0, z1), filter.twice_from[2]), h = Simd::minus(z1, z0);
+  return offAxis(filter, 2, 0, 1, x, y, w, d) | offAxis(filter, 0, 1, 2, y, z, d, h) | offAxis(filter, 1, 2, 0, z, x, h, w);
 }
 
 /// Part of a line: from + t * way for t within low .. high.
@@ -297,10 +300,27 @@ class Cells {
   double edge_, min_, max_;
 };
 
+/// Positions of a row of cells that a line passes.
+struct Passage {
+  std::uint32_t begin, end;
+};
+
+inline void searchPassages(const Level& level, const Simd::Box& box, const LineFilter& filter, const Passage* passages,
+                           int count, Output<std::uint32_t>& found) {
+  for (int i = 0; i < count; ++i) {
+    for (std::uint32_t j = passages[i].begin; j < passages[i].end; j += Simd::kWidth) {
+      const std::uint32_t hits = Simd::overlaps(box, level, j, passages[i].end - j) & ~offLine(filter, level, j);
+      found.wrote(Simd::storePositions(found.room(), j, hits));
+    }
+  }
+}
+
 /// Row by row: of each slab of cells the line crosses, the rows that it crosses there, and of each row the cells. Each
 /// part is computed from the line itself, not from the part before, so that roundings do not add up (unlike the walk
-/// from cell to cell of Ericson 2005, 7.4.2).
+/// from cell to cell of Ericson 2005, 7.4.2). Rows are searched a few at a time, so that the processor reads one while
+/// it still computes another.
 void along(const Level* level, const Line* line, PositionSink* sink) {
+  constexpr int kPassages = 32;
   const Level l = *level;
   const Grid& grid = l.grid;
   if (l.begin == l.end) return;
@@ -310,9 +330,17 @@ void along(const Level* level, const Line* line, PositionSink* sink) {
   const double z_inverse = magnitude(line->way[2]) > 1e-290 ? 1.0 / line->way[2] : 0.0;
   const double y_inverse = magnitude(line->way[1]) > 1e-290 ? 1.0 / line->way[1] : 0.0;
   const Stretch whole{0.0, 1.0};
-  const Extent z_extent = extentOf(*line, 2, whole);
-  const std::int32_t z_high = cellOf(floatAbove(z_extent.max), grid, 2);
-  for (std::int32_t z = cellOf(floatBelow(z_extent.min) - l.reach[2], grid, 2); z <= z_high; ++z) {
+  Passage passages[kPassages];
+  int count = 0;
+  Box around;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Extent extent = extentOf(*line, axis, whole);
+    around.min[axis] = floatBelow(extent.min);
+    around.max[axis] = floatAbove(extent.max);
+  }
+  const Simd::Box box = Simd::boxOf(around);
+  const std::int32_t z_high = cellOf(around.max[2], grid, 2);
+  for (std::int32_t z = cellOf(around.min[2] - l.reach[2], grid, 2); z <= z_high; ++z) {
     const Extent slab = slabs.covered(z);
     const Stretch in_slab = within(*line, 2, z_inverse, whole, slab.min, slab.max);
     if (in_slab.low > in_slab.high) continue;
@@ -321,24 +349,19 @@ void along(const Level* level, const Line* line, PositionSink* sink) {
     for (std::int32_t y = cellOf(floatBelow(y_extent.min) - l.reach[1], grid, 1); y <= y_high; ++y) {
       const Extent covered = rows.covered(y);
       const Stretch in_row = within(*line, 1, y_inverse, in_slab, covered.min, covered.max);
-      if (in_row.low > in_row.high) continue;
-      Box around;
-      for (int axis = 0; axis < 3; ++axis) {
-        const Extent extent = extentOf(*line, axis, in_row);
-        around.min[axis] = floatBelow(extent.min);
-        around.max[axis] = floatAbove(extent.max);
-      }
-      const Simd::Box box = Simd::boxOf(around);
+      const Extent in_x = extentOf(*line, 0, in_row);
       const std::int32_t row = z * grid.slab + y * grid.row;
-      const std::uint32_t end = l.start[row + cellOf(around.max[0], grid, 0) + 1];
-      for (std::uint32_t j = l.start[row + cellOf(around.min[0] - l.reach[0], grid, 0)]; j < end; j += Simd::kWidth) {
-        std::uint32_t hits = Simd::overlaps(box, l, j, end - j);
-        if (hits == 0) continue;
-        hits &= ~offLine(filter, l, j);
-        found.wrote(Simd::storePositions(found.room(), j, hits));
+      Passage& passage = passages[count];
+      passage.begin = l.start[row + cellOf(floatBelow(in_x.min) - l.reach[0], grid, 0)];
+      passage.end = l.start[row + cellOf(floatAbove(in_x.max), grid, 0) + 1];
+      count += (in_row.low <= in_row.high) & (passage.begin < passage.end);
+      if (count == kPassages) {
+        searchPassages(l, box, filter, passages, count, found);
+        count = 0;
       }
     }
   }
+  searchPassages(l, box, filter, passages, count, found);
   found.close();
 }
 
