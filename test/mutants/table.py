@@ -77,7 +77,7 @@ MUTANTS = [
      "found.size() >= count", "!found.empty()"),
 
     ("a segment that goes down an axis enters through the far side", "geometry/segment.cpp",
-     "enter = std::max(enter, std::min(a, b));", "enter = std::max(enter, a);"),
+     "enter = std::max(enter, in);", "enter = std::max(enter, a);"),
     ("only the ends of a segment's pieces are looked at", "geometry/segment.cpp",
      "{lowest, end}", "{begin, end}"),
     ("a distance equal to the margin does not count", "geometry/aabb.cpp",
