@@ -63,25 +63,25 @@ struct HGrid::Engine {
   double finest_edge;
   Isa isa = bestIsa();
   PairTest filter;
-  std::vector<Aabb> boxes;        // by id
-  std::vector<Place> place;       // by id
-  std::vector<bool> fixed;        // by id; may be shorter
+  std::vector<Aabb> boxes;              // by id
+  std::vector<Place> place;             // by id
+  std::vector<bool> fixed;              // by id; may be shorter
   std::vector<std::uint32_t> position;  // by id, in its layer; only where `located` says so, else perhaps empty
   std::array<Layer, kLayers> layers;
   std::array<std::vector<ProxyId>, kLayers> members;  // moving and loose: ids
   std::array<bool, kLayers> located{};
-  bool fixed_astray = false;      // some of the loose and moving are fixed: they came or moved one by one
-  bool moving_changed = false;    // some of the moving were taken out, and stand there as withdrawn
+  bool fixed_astray = false;    // some of the loose and moving are fixed: they came or moved one by one
+  bool moving_changed = false;  // some of the moving were taken out, and stand there as withdrawn
   std::size_t stored = 0;
-  std::size_t withdrawn = 0;      // positions that are empty, in fixed and resting
-  double waste = 0.0;             // boxes sorted with the moving although they rested, summed up
-  std::vector<ProxyId> moved;     // scratch
+  std::size_t withdrawn = 0;   // positions that are empty, in fixed and resting
+  double waste = 0.0;          // boxes sorted with the moving although they rested, summed up
+  std::vector<ProxyId> moved;  // scratch
   SortScratch scratch;
   std::unique_ptr<Workers> workers = std::make_unique<Workers>(1);
 
-  std::vector<ProxyPair> kept;    // pairs of resting boxes with resting and fixed ones
+  std::vector<ProxyPair> kept;  // pairs of resting boxes with resting and fixed ones
   bool kept_valid = false;
-  bool kept_dirty = false;        // some of their boxes are in these layers no more
+  bool kept_dirty = false;  // some of their boxes are in these layers no more
   mutable std::atomic<bool> pairs_wanted{false};
 
   // Search for pairs; pair_search.cpp. Threads and their buffers serve one search at a time; a second one that runs

@@ -93,6 +93,7 @@ void HGrid::setThreads(int threads) {
 }
 
 void HGrid::setFixed(const std::vector<ProxyId>& ids) {
+  if (!std::is_sorted(ids.begin(), ids.end())) throw std::invalid_argument("HGrid: ids must ascend");
   std::vector<bool> fixed(ids.empty() ? 0 : ids.back() + std::size_t{1});
   for (const ProxyId id : ids) fixed[id] = true;
   if (fixed == engine_->fixed) return;

@@ -65,10 +65,10 @@ class Layer {
   Plan plan_;
   int sorts_with_plan_ = 0;
   std::size_t count_ = 0;
-  std::vector<ProxyId> ids_, other_ids_;      // by position; the one is read while the other is written
-  std::vector<float> bounds_;                 // six arrays, stride_ apart: min x y z, max x y z by position
+  std::vector<ProxyId> ids_, other_ids_;  // by position; the one is read while the other is written
+  std::vector<float> bounds_;             // six arrays, stride_ apart: min x y z, max x y z by position
   std::size_t stride_ = 0;
-  std::vector<std::uint32_t> start_;          // of each cell, and the end of the last
+  std::vector<std::uint32_t> start_;  // of each cell, and the end of the last
   std::vector<kernels::Level> levels_;
 };
 

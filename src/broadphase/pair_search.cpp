@@ -7,8 +7,8 @@
 namespace hgrid {
 namespace {
 
-constexpr std::uint32_t kTask = 4096;          // boxes per task; a multiple of what kernels take at once
-constexpr std::size_t kWorthAThread = 16384;   // boxes
+constexpr std::uint32_t kTask = 4096;         // boxes per task; a multiple of what kernels take at once
+constexpr std::size_t kWorthAThread = 16384;  // boxes
 
 /// Lets kernels write into a vector, growing it as they need.
 class PairWriter {
@@ -177,7 +177,8 @@ void HGrid::Engine::findPairs(std::vector<ProxyPair>& pairs) const {
   }
   for (const Place mobile : {kMoving, kLoose}) {
     addWithin(tasks, layers[mobile]);
-    for (int other = kFixed; other < mobile; ++other) addAcross(tasks, layers[mobile], layers[static_cast<std::size_t>(other)]);
+    for (int other = kFixed; other < mobile; ++other)
+      addAcross(tasks, layers[mobile], layers[static_cast<std::size_t>(other)]);
   }
   performAll(used_buffers, kernels::of(isa), {filter, fixed_astray ? &fixed : nullptr},
              lock.owns_lock() ? workers.get() : nullptr, pairs, used);

@@ -95,8 +95,8 @@ double costOfAsking(const Census& asking, const Census& asked, const Cells& cell
   for (const std::size_t axis : {std::size_t{1}, std::size_t{2}}) {
     rows *= std::min(cells.count[axis], 1.0 + (asking.mean(axis) + asked.largest[axis]) / cells.edge[axis]);
   }
-  const double along = std::min(1.0, (asking.mean(0) + asked.largest[0] + cells.edge[0]) /
-                                         (cells.edge[0] * cells.count[0]));
+  const double along =
+      std::min(1.0, (asking.mean(0) + asked.largest[0] + cells.edge[0]) / (cells.edge[0] * cells.count[0]));
   const double candidates = asked.boxes * along / (cells.count[1] * cells.count[2]);
   return asking.boxes * (kPerBox + rows * (kPerAskedRow + kPerTest * (1.0 + candidates / kLanes)));
 }
@@ -246,7 +246,8 @@ double rowsAsked(const Plan& asking, std::size_t asking_level, const Plan& asked
   const kernels::Grid& grid = asked.grids[asked_level];
   double rows = 1.0;
   for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) {
-    const double across = (static_cast<double>(asking.mean_sides[asking_level][i]) + reach_of_asked[i]) * grid.inverse[i];
+    const double across =
+        (static_cast<double>(asking.mean_sides[asking_level][i]) + reach_of_asked[i]) * grid.inverse[i];
     rows *= std::min(1.0 + across, static_cast<double>(grid.last[i]) + 1.0);
   }
   return rows;

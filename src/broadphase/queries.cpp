@@ -82,8 +82,7 @@ bool earlier(const SegmentHit& a, const SegmentHit& b) { return a.along != b.alo
 /// The segment as kernels take it.
 kernels::Line lineOf(const Segment& segment) {
   kernels::Line line;
-  const double reach =
-      std::max(segment.from.cwiseAbs().maxCoeff(), segment.to.cwiseAbs().maxCoeff()) + segment.radius;
+  const double reach = std::max(segment.from.cwiseAbs().maxCoeff(), segment.to.cwiseAbs().maxCoeff()) + segment.radius;
   line.around = segment.radius + 4.0 * roundingSlack(reach);
   for (int axis = 0; axis < 3; ++axis) {
     line.from[axis] = segment.from[axis];
@@ -180,9 +179,8 @@ void answerAll(const Engine& engine, const std::vector<Query>& queries, BatchOf<
   batch.begin.resize(queries.size());
   batch.count.resize(queries.size());
   batch.found.clear();
-  const Layer& largest =
-      *std::max_element(engine.layers.begin(), engine.layers.end(),
-                        [](const Layer& a, const Layer& b) { return a.size() < b.size(); });
+  const Layer& largest = *std::max_element(engine.layers.begin(), engine.layers.end(),
+                                           [](const Layer& a, const Layer& b) { return a.size() < b.size(); });
   const auto answerOne = [&](std::size_t i) {
     batch.begin[i] = static_cast<std::uint32_t>(batch.found.size());
     answer(engine, queries[i], batch.found);
@@ -249,7 +247,8 @@ void HGrid::nearest(const Eigen::Vector3d& point, std::size_t count, double limi
     }
     const kernels::Box box = boxOf(Sphere{point, radius});
     visitFound(
-        e, [&](const kernels::Level& level, kernels::PositionSink* sink) {
+        e,
+        [&](const kernels::Level& level, kernels::PositionSink* sink) {
           kernels::of(e.isa).overlapping(&level, &box, sink);
         },
         [&](const Layer& layer, std::uint32_t i) { consider(layer.ids()[i], layer.boxAt(i)); });

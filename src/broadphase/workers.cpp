@@ -6,6 +6,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -63,7 +64,11 @@ struct Workers::State {
 };
 
 Workers::Workers(int threads) : state_(std::make_unique<State>()) {
-  for (int i = 1; i < threads; ++i) state_->threads.emplace_back([this] { state_->live(); });
+  try {
+    for (int i = 1; i < threads; ++i) state_->threads.emplace_back([this] { state_->live(); });
+  } catch (const std::system_error&) {
+    // The system gives no more; fewer threads do the same work.
+  }
 }
 
 Workers::~Workers() {

@@ -11,7 +11,7 @@ namespace hgrid {
 /// Threads that wait for work. One caller at a time; the caller works too.
 class Workers {
  public:
-  /// @param threads  how many work at once, the caller among them; at least 1
+  /// @param threads  how many work at once, the caller among them, at least 1; fewer if the system gives no more
   explicit Workers(int threads);
   ~Workers();
 
@@ -21,7 +21,8 @@ class Workers {
   /// A job must not throw. Allocates nothing.
   template <class Job>
   void run(std::size_t count, Job&& job) {
-    runAll(count, [](void* what, std::size_t i) { (*static_cast<std::remove_reference_t<Job>*>(what))(i); }, &job);
+    runAll(
+        count, [](void* what, std::size_t i) { (*static_cast<std::remove_reference_t<Job>*>(what))(i); }, &job);
   }
 
  private:

@@ -380,7 +380,8 @@ void Scene::State::fillPairs(Snapshot& snapshot) {
   pairs.clear();
   for (const ProxyPair& proxies : proxy_pairs) {
     // Proxies are numbered in the order of their bodies.
-    const std::uint32_t first = structure->body_of_proxy[proxies.first], second = structure->body_of_proxy[proxies.second];
+    const std::uint32_t first = structure->body_of_proxy[proxies.first],
+                        second = structure->body_of_proxy[proxies.second];
     const Aabb &a = snapshot.boxes_[proxies.first], &b = snapshot.boxes_[proxies.second];
     const double margin = pairMargin(snapshot, first, second);
     if (!withinDistance(a, b, margin)) continue;

@@ -151,5 +151,16 @@ TEST(HGridEdges, QueriesAsLargeAsTheWorldAnswerToo) {
   EXPECT_EQ(test::alongOf(grid, Segment{{-1e9, 0, 0}, {1e9, 0, 0}, 1e6}).size(), boxes.size());
 }
 
+TEST(HGridEdges, SegmentsAmongTheLargestFloatsMissNothing) {
+  const std::vector<Aabb> boxes = {{{0, 0, 0}, {2e38f, 2e38f, 2e38f}}, {{1e38f, 0, 0}, {3e38f, 1e38f, 1e38f}}};
+  const HGrid grid = test::gridOf(boxes, GridScale{});
+  for (const Segment& segment :
+       {Segment{{3e38, 1e38, 1e38}, {0, 0.5e38, 0.2e38}, 0.0}, Segment{{2.5e38, 0, 0}, {1.5e38, 1e37, 1e37}, 0.0}}) {
+    std::size_t met = 0;
+    for (const Aabb& box : boxes) met += meet(segment, box).has_value();
+    EXPECT_EQ(test::alongOf(grid, segment).size(), met);
+  }
+}
+
 }  // namespace
 }  // namespace hgrid

@@ -70,8 +70,14 @@ TEST(HGridInvariance, InstructionSetsAndThreadsDoNotShow) {
     frames.push_back(boxes);
   }
   std::vector<std::vector<ProxyPair>> expected;
-  for (const Isa isa : test::supportedIsas()) {
-    for (const int threads : {1, 2, 3, 5}) {
+  std::vector<Isa> isas = test::supportedIsas();
+  std::vector<int> thread_counts = {1, 2, 3, 5};
+  if (test::countFromEnvironment("HGRID_TEST_WORLDS", 10000) < 10000) {  // sanitizers take their time
+    isas = {bestIsa()};
+    thread_counts = {1, 3};
+  }
+  for (const Isa isa : isas) {
+    for (const int threads : thread_counts) {
       SCOPED_TRACE(std::string(name(isa)) + ", threads " + std::to_string(threads));
       HGrid grid;
       grid.setIsa(isa);

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <limits>
 
 #include "test/support/expectations.h"
@@ -132,27 +131,6 @@ TEST(HGridLayers, ARemovedBoxIsNotFoundEvenByAnInfiniteQuery) {
     EXPECT_EQ(test::foundBy(grid, Sphere{{0, 0, 0}, 1e39}), expected);
     EXPECT_EQ(test::foundBy(grid, Sphere{{0, 0, 0}, far}), expected);
   }
-}
-
-/// Seconds that a search for pairs takes, the best of some.
-double searchTime(const HGrid& grid) {
-  std::vector<ProxyPair> pairs;
-  double best = 1e9;
-  for (int i = 0; i < 5; ++i) {
-    const auto begin = std::chrono::steady_clock::now();
-    grid.overlappingPairs(pairs);
-    best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-  }
-  return best;
-}
-
-/// Claim: a place that a box has left is not searched from; once it was, against half of all boxes.
-TEST(HGridLayers, RemovedBoxesDoNotSlowTheSearchDown) {
-  Random random(6);
-  HGrid grid = test::gridOf(someBoxes(30000, random, 30.0), GridScale{});
-  const double before = searchTime(grid);
-  for (ProxyId id = 0; id < 30000; id += 3) grid.remove(id);
-  EXPECT_LT(searchTime(grid), 8 * before);
 }
 
 TEST(HGridLayers, WhatIsFixedMayBeSaidBeforeItComes) {

@@ -161,8 +161,9 @@ TEST(Segment, TheFirstTouchIsThatOfTheMeeting) {
   test::Random random(11);
   int touched = 0;
   for (int i = 0; i < 200000; ++i) {
-    const Aabb box = random.chance(0.3) ? test::latticeBox(random, 0.5f)
-                                        : test::boxAround(test::randomVector(random, -2, 2), test::randomVector(random, 0, 2));
+    const Aabb box = random.chance(0.3)
+                         ? test::latticeBox(random, 0.5f)
+                         : test::boxAround(test::randomVector(random, -2, 2), test::randomVector(random, 0, 2));
     Segment segment{test::randomVector(random, -4, 4), test::randomVector(random, -4, 4),
                     random.chance(0.7) ? 0.0 : random.uniform(0, 1)};
     for (int k = 0; k < 3; ++k) {

@@ -57,6 +57,7 @@ class HGrid final : public BroadPhase {
   /// @throws std::invalid_argument
   void setThreads(int threads);
   /// Boxes that make no pairs among each other, ids ascending, whether they are stored yet or not.
+  /// @throws std::invalid_argument if they do not ascend
   void setFixed(const std::vector<ProxyId>& ids);
 
   /// Pairs that the test does not want are left out where they are found, before they are kept or copied.

@@ -20,7 +20,7 @@ struct SceneOptions {
   double growth_cap = 1.0;                           ///< [m] most that a stale body's margins are widened by
   std::size_t max_bodies = 100000;
   std::size_t max_reasons = 8;  ///< reasons that a snapshot lists
-  int threads = 1;  ///< that the broad phase may use, 1 .. 64
+  int threads = 1;              ///< that the broad phase may use, 1 .. 64
   PairKinds pair_kinds;
   std::vector<AllowedPattern> allowed_pairs;
 };

@@ -30,19 +30,19 @@ struct Pair {
 /// steps is monotone in v, whatever it rounds, so intervals that overlap have cell numbers that overlap; a window
 /// that fits badly costs time, never a pair.
 struct Grid {
-  float inverse[3];  ///< [1/m] one over the edge of a cell
-  float origin[3];   ///< [cells] of the window's lower corner
-  float last[3];     ///< number of the last cell
-  std::int32_t row;  ///< cells of a row along x
-  std::int32_t slab; ///< cells of a slab: rows along y times row
+  float inverse[3];   ///< [1/m] one over the edge of a cell
+  float origin[3];    ///< [cells] of the window's lower corner
+  float last[3];      ///< number of the last cell
+  std::int32_t row;   ///< cells of a row along x
+  std::int32_t slab;  ///< cells of a slab: rows along y times row
 };
 
 /// One level of a layer: boxes in the order of their cells, structure of arrays. A row of cells along x is one
 /// range of positions. Every array can be read 16 places beyond `end`.
 struct Level {
   Grid grid;
-  float reach[3];              ///< [m] at least the longest side of its boxes, per axis
-  const float* bounds;         ///< six arrays, `stride` apart: min x y z, max x y z at each position
+  float reach[3];       ///< [m] at least the longest side of its boxes, per axis
+  const float* bounds;  ///< six arrays, `stride` apart: min x y z, max x y z at each position
   std::size_t stride;
   const std::uint32_t* id;     ///< at each position
   const std::uint32_t* start;  ///< of a cell: position of its first box; that of the next cell ends it
@@ -68,19 +68,19 @@ using PositionSink = Sink<std::uint32_t>;
 
 /// A sorting of boxes into cells: what the first of two passes of counting needs and gives.
 struct Keying {
-  const Box* boxes;            ///< by id
-  const std::uint32_t* order;  ///< ids in the order to go through
-  std::size_t begin, end;      ///< positions in `order`
-  std::size_t readable;        ///< size of `order`; ids up to there may be fetched ahead
-  Box* copies;                 ///< out: the boxes by position
-  std::uint32_t* cells;        ///< out: cell by position, counted through all levels
-  std::uint32_t* counts;       ///< in and out: boxes per cell
-  const Grid* grids;           ///< per level
-  const float* sides;          ///< largest side of each level's boxes; ascending, the last is not looked at
+  const Box* boxes;                  ///< by id
+  const std::uint32_t* order;        ///< ids in the order to go through
+  std::size_t begin, end;            ///< positions in `order`
+  std::size_t readable;              ///< size of `order`; ids up to there may be fetched ahead
+  Box* copies;                       ///< out: the boxes by position
+  std::uint32_t* cells;              ///< out: cell by position, counted through all levels
+  std::uint32_t* counts;             ///< in and out: boxes per cell
+  const Grid* grids;                 ///< per level
+  const float* sides;                ///< largest side of each level's boxes; ascending, the last is not looked at
   const std::uint32_t* first_cells;  ///< per level
   int levels;
-  float* sizes;                ///< out: 4 floats per level: largest extent on each axis, unspecified
-  float lower[4], upper[4];    ///< out: least and greatest minimum corner
+  float* sizes;              ///< out: 4 floats per level: largest extent on each axis, unspecified
+  float lower[4], upper[4];  ///< out: least and greatest minimum corner
 };
 
 struct Kernels {

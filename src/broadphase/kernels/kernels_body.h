@@ -57,8 +57,8 @@ class Output {
 };
 
 /// Tests box i of `asking` against `left` positions of `asked` from `begin` on.
-inline void meetRange(const Level& asking, std::uint32_t i, const Level& asked, std::uint32_t begin,
-                      std::uint32_t left, Output<Pair>& found) {
+inline void meetRange(const Level& asking, std::uint32_t i, const Level& asked, std::uint32_t begin, std::uint32_t left,
+                      Output<Pair>& found) {
   const Simd::Box box = Simd::boxAt(asking, i);
   const Simd::Id id = Simd::idAt(asking, i);
   for (;;) {  // nearly always once, so that not even an empty range is worth a question before
@@ -70,7 +70,8 @@ inline void meetRange(const Level& asking, std::uint32_t i, const Level& asked, 
   }
 }
 
-/// For each bit k: box first + k against the cells x_low[k] .. x_high[k] of the row that starts at cell row[k] + offset.
+/// For each bit k: box first + k against the cells x_low[k] .. x_high[k] of the row that begins with cell
+/// row[k] + offset.
 /// Going through bits instead of boxes spares the processor most wrong guesses: whether a box reaches into the next
 /// row is a coin toss, how many of sixteen do is not.
 inline void meetRows(const Level& asking, std::uint32_t first, std::uint32_t bits, const Level& asked,
@@ -218,7 +219,10 @@ inline LineFilter filterOf(const Line& line) {
   }
   for (int i = 0; i < 3; ++i) {
     const double across = width[(i + 1) % 3] + width[(i + 2) % 3];
-    filter.slack[i] = Simd::lanesOf(static_cast<float>((2.0 * line.around + 2e-5 * farthest) * across));
+    // Where sums of coordinates may not be floats any more nothing is off the line.
+    const bool sane = farthest < 1e30;
+    filter.slack[i] =
+        Simd::lanesOf(sane ? static_cast<float>((2.0 * line.around + 2e-5 * farthest) * across) : __builtin_inff());
   }
   return filter;
 }
@@ -228,9 +232,8 @@ inline LineFilter filterOf(const Line& line) {
 inline std::uint32_t offAxis(const LineFilter& filter, int i, int j, int k, const Simd::Lanes& away_j,
                              const Simd::Lanes& away_k, const Simd::Lanes& size_j, const Simd::Lanes& size_k) {
   const Simd::Lanes apart = Simd::minus(Simd::times(filter.way[j], away_k), Simd::times(filter.way[k], away_j));
-  const Simd::Lanes reach = Simd::plus(Simd::plus(Simd::times(size_j, filter.width[k]),
-                                                  Simd::times(size_k, filter.width[j])),
-                                       filter.slack[i]);
+  const Simd::Lanes reach = Simd::plus(
+      Simd::plus(Simd::times(size_j, filter.width[k]), Simd::times(size_k, filter.width[j])), filter.slack[i]);
   return Simd::greater(Simd::size(apart), reach);
 }
 
@@ -244,7 +247,8 @@ inline std::uint32_t offLine(const LineFilter& filter, const Level& level, std::
   const Simd::Lanes x = Simd::minus(Simd::plus(x0, x1), filter.twice_from[0]), w = Simd::minus(x1, x0);
   const Simd::Lanes y = Simd::minus(Simd::plus(y0, y1), filter.twice_from[1]), d = Simd::minus(y1, y0);
   const Simd::Lanes z = Simd::minus(Simd::plus(z0, z1), filter.twice_from[2]), h = Simd::minus(z1, z0);
-  return offAxis(filter, 2, 0, 1, x, y, w, d) | offAxis(filter, 0, 1, 2, y, z, d, h) | offAxis(filter, 1, 2, 0, z, x, h, w);
+  return offAxis(filter, 2, 0, 1, x, y, w, d) | offAxis(filter, 0, 1, 2, y, z, d, h) |
+         offAxis(filter, 1, 2, 0, z, x, h, w);
 }
 
 /// Part of a line: from + t * way for t within low .. high.
@@ -397,8 +401,8 @@ void key(Keying* keying) {
     const Grid& grid = k.grids[level];
     std::int32_t cell[4];
     Simd::cellsOf(min, grid, cell);
-    const std::uint32_t number = k.first_cells[level] + static_cast<std::uint32_t>(cell[2] * grid.slab +
-                                                                                   cell[1] * grid.row + cell[0]);
+    const std::uint32_t number =
+        k.first_cells[level] + static_cast<std::uint32_t>(cell[2] * grid.slab + cell[1] * grid.row + cell[0]);
     k.cells[i] = number;
     ++k.counts[number];
   }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "broadphase/kernels/simd_portable.h"
-
 #include "broadphase/kernels/kernels_body.h"
+#include "broadphase/kernels/simd_portable.h"
 
 namespace hgrid {
 namespace kernels {

@@ -21,8 +21,9 @@ struct SimdAvx512 : SimdSse2 {
             {_mm512_set1_ps(box.max[0]), _mm512_set1_ps(box.max[1]), _mm512_set1_ps(box.max[2])}};
   }
   static Box boxAt(const Level& level, std::uint32_t i) {
-    return boxOf({{level.bounds[i], level.bounds[level.stride + i], level.bounds[2 * level.stride + i]},
-                  {level.bounds[3 * level.stride + i], level.bounds[4 * level.stride + i], level.bounds[5 * level.stride + i]}});
+    return boxOf(
+        {{level.bounds[i], level.bounds[level.stride + i], level.bounds[2 * level.stride + i]},
+         {level.bounds[3 * level.stride + i], level.bounds[4 * level.stride + i], level.bounds[5 * level.stride + i]}});
   }
   static Id idAt(const Level& level, std::uint32_t i) { return _mm512_set1_epi32(static_cast<int>(level.id[i])); }
 
@@ -42,11 +43,13 @@ struct SimdAvx512 : SimdSse2 {
     const __m512i others = packed(ids, bits);
     const __m512i first = _mm512_min_epu32(id, others), second = _mm512_max_epu32(id, others);
     const int count = __builtin_popcount(bits);
-    _mm512_storeu_si512(to, _mm512_permutex2var_epi32(
-        first, _mm512_setr_epi32(0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23), second));
+    _mm512_storeu_si512(
+        to, _mm512_permutex2var_epi32(first, _mm512_setr_epi32(0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23),
+                                      second));
     if (__builtin_expect(count > 8, 0)) {
-      _mm512_storeu_si512(to + 8, _mm512_permutex2var_epi32(
-          first, _mm512_setr_epi32(8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31), second));
+      _mm512_storeu_si512(
+          to + 8, _mm512_permutex2var_epi32(
+                      first, _mm512_setr_epi32(8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31), second));
     }
     return to + count;
   }

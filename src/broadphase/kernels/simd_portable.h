@@ -17,8 +17,9 @@ struct Simd {
 
   static Box boxOf(const kernels::Box& box) { return box; }
   static Box boxAt(const Level& level, std::uint32_t i) {
-    return {{level.bounds[i], level.bounds[level.stride + i], level.bounds[2 * level.stride + i]},
-            {level.bounds[3 * level.stride + i], level.bounds[4 * level.stride + i], level.bounds[5 * level.stride + i]}};
+    return {
+        {level.bounds[i], level.bounds[level.stride + i], level.bounds[2 * level.stride + i]},
+        {level.bounds[3 * level.stride + i], level.bounds[4 * level.stride + i], level.bounds[5 * level.stride + i]}};
   }
   static Id idAt(const Level& level, std::uint32_t i) { return level.id[i]; }
 
@@ -28,7 +29,8 @@ struct Simd {
     for (std::uint32_t k = 0; k < kWidth; ++k) {
       bool meet = k < count;
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        meet = meet & (level.bounds[axis * level.stride + j + k] <= box.max[axis]) & (level.bounds[(axis + 3) * level.stride + j + k] >= box.min[axis]);
+        meet = meet & (level.bounds[axis * level.stride + j + k] <= box.max[axis]) &
+               (level.bounds[(axis + 3) * level.stride + j + k] >= box.min[axis]);
       }
       bits |= static_cast<std::uint32_t>(meet) << k;
     }

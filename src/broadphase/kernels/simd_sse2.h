@@ -24,8 +24,9 @@ struct SimdSse2 {
             {_mm_set1_ps(box.max[0]), _mm_set1_ps(box.max[1]), _mm_set1_ps(box.max[2])}};
   }
   static Box boxAt(const Level& level, std::uint32_t i) {
-    return boxOf({{level.bounds[i], level.bounds[level.stride + i], level.bounds[2 * level.stride + i]},
-                  {level.bounds[3 * level.stride + i], level.bounds[4 * level.stride + i], level.bounds[5 * level.stride + i]}});
+    return boxOf(
+        {{level.bounds[i], level.bounds[level.stride + i], level.bounds[2 * level.stride + i]},
+         {level.bounds[3 * level.stride + i], level.bounds[4 * level.stride + i], level.bounds[5 * level.stride + i]}});
   }
   static Id idAt(const Level& level, std::uint32_t i) { return level.id[i]; }
 
