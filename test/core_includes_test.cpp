@@ -92,5 +92,22 @@ TEST(CoreIncludes, NoCoreFileIncludesAForeignHeader) {
   EXPECT_GT(includes, files.size()) << "a check that reads nothing finds nothing";
 }
 
+/// Claim: what is compiled for an instruction set holds no template of the standard library or of Eigen, whose inline
+/// copy the linker might pick for everybody.
+TEST(CoreIncludes, KernelsIncludeNoTemplates) {
+  const std::vector<std::string> allowed = {"cstddef", "cstdint", "emmintrin.h", "immintrin.h"};
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(kRoot / "src/broadphase/kernels")) {
+    ++files;
+    std::ifstream file(entry.path());
+    for (std::string line; std::getline(file, line);) {
+      const std::string header = includedIn(line);
+      if (header.empty() || header.compare(0, 19, "broadphase/kernels/") == 0) continue;
+      EXPECT_EQ(std::count(allowed.begin(), allowed.end(), header), 1) << entry.path() << " includes " << header;
+    }
+  }
+  EXPECT_GE(files, 10u);
+}
+
 }  // namespace
 }  // namespace hgrid
