@@ -1,7 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "broadphase/kernels/kernels_body.h"
 #include "broadphase/kernels/simd_portable.h"
+
+namespace hgrid {
+namespace kernels {
+namespace {
+using Simd = SimdPortable;
+}  // namespace
+}  // namespace kernels
+}  // namespace hgrid
+
+#include "broadphase/kernels/kernels_body.h"
 
 namespace hgrid {
 namespace kernels {

@@ -9,7 +9,7 @@ namespace kernels {
 namespace {
 
 /// The operations that the kernels are written in, in plain C++: the meaning of those in the other simd_ files.
-struct Simd {
+struct SimdPortable {
   static constexpr std::uint32_t kWidth = 8;  ///< boxes that overlaps() tests at once
 
   using Box = kernels::Box;
