@@ -73,7 +73,7 @@ struct HGrid::Engine {
   bool fixed_astray = false;    // some of the loose and moving are fixed: they came or moved one by one
   bool moving_changed = false;  // some of the moving were taken out, and stand there as withdrawn
   std::size_t stored = 0;
-  std::size_t withdrawn = 0;   // positions that are empty, in fixed and resting
+  std::size_t withdrawn = 0;   // positions that are empty, in any layer
   double waste = 0.0;          // boxes sorted with the moving although they rested, summed up
   std::vector<ProxyId> moved;  // scratch
   SortScratch scratch;

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
-#include <stdexcept>
 
 #include "broadphase/engine.h"
 
@@ -60,9 +60,8 @@ void sortFew(Iterator begin, Iterator end, Less less) {
 kernels::Box boxAround(const Eigen::Vector3d& min, const Eigen::Vector3d& max) {
   kernels::Box box;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto low = static_cast<float>(min[axis]), high = static_cast<float>(max[axis]);
-    box.min[axis] = low - std::abs(low) * 1.2e-7f - 1e-37f;  // outward, and faster than exactly so
-    box.max[axis] = high + std::abs(high) * 1.2e-7f + 1e-37f;
+    box.min[axis] = roundedDown(min[axis]);
+    box.max[axis] = roundedUp(max[axis]);
   }
   return box;
 }
@@ -103,31 +102,32 @@ void visitFound(const Engine& engine, Search&& search, Visit&& visit) {
   }
 }
 
-// Answers to one question, appended. Several threads may ask at once.
-template <class Engine>
-void answer(const Engine& engine, const Aabb& query, std::vector<ProxyId>& found) {
+/// The same for what overlaps a box.
+template <class Engine, class Visit>
+void visitOverlapping(const Engine& engine, const kernels::Box& box, Visit&& visit) {
   const kernels::Kernels& kernels = kernels::of(engine.isa);
-  const kernels::Box box = boxOf(query);
-  const std::size_t before = found.size();
   visitFound(
       engine,
       [&](const kernels::Level& level, kernels::PositionSink* sink) { kernels.overlapping(&level, &box, sink); },
-      [&](const Layer& layer, std::uint32_t position) { found.push_back(layer.ids()[position]); });
+      visit);
+}
+
+// Answers to one question, appended. Several threads may ask at once.
+template <class Engine>
+void answer(const Engine& engine, const Aabb& query, std::vector<ProxyId>& found) {
+  const std::size_t before = found.size();
+  visitOverlapping(engine, boxOf(query),
+                   [&](const Layer& layer, std::uint32_t position) { found.push_back(layer.ids()[position]); });
   sortFew(found.begin() + static_cast<std::ptrdiff_t>(before), found.end(), std::less<ProxyId>());
 }
 
 template <class Engine>
 void answer(const Engine& engine, const Sphere& query, std::vector<ProxyId>& found) {
   const double near = touchingDistance(query);
-  const kernels::Kernels& kernels = kernels::of(engine.isa);
-  const kernels::Box box = boxOf(query);
   const std::size_t before = found.size();
-  visitFound(
-      engine,
-      [&](const kernels::Level& level, kernels::PositionSink* sink) { kernels.overlapping(&level, &box, sink); },
-      [&](const Layer& layer, std::uint32_t position) {
-        if (distance(layer.boxAt(position), query.center) <= near) found.push_back(layer.ids()[position]);
-      });
+  visitOverlapping(engine, boxOf(query), [&](const Layer& layer, std::uint32_t position) {
+    if (distance(layer.boxAt(position), query.center) <= near) found.push_back(layer.ids()[position]);
+  });
   sortFew(found.begin() + static_cast<std::ptrdiff_t>(before), found.end(), std::less<ProxyId>());
 }
 
@@ -245,13 +245,8 @@ void HGrid::nearest(const Eigen::Vector3d& point, std::size_t count, double limi
       }
       break;
     }
-    const kernels::Box box = boxOf(Sphere{point, radius});
-    visitFound(
-        e,
-        [&](const kernels::Level& level, kernels::PositionSink* sink) {
-          kernels::of(e.isa).overlapping(&level, &box, sink);
-        },
-        [&](const Layer& layer, std::uint32_t i) { consider(layer.ids()[i], layer.boxAt(i)); });
+    visitOverlapping(e, boxOf(Sphere{point, radius}),
+                     [&](const Layer& layer, std::uint32_t i) { consider(layer.ids()[i], layer.boxAt(i)); });
     if (found.size() >= count || radius >= limit) break;
   }
   const auto nearer = [](const NearHit& a, const NearHit& b) {

@@ -69,8 +69,8 @@ MUTANTS = [
      "if (box == boxes[i]) continue;",
      "if (box.min.isApprox(boxes[i].min, 1e-6f) && box.max.isApprox(boxes[i].max, 1e-6f)) continue;"),
 
-    ("a ball's box is rounded inward", QUERIES,
-     "low - std::abs(low) * 1.2e-7f - 1e-37f;", "low + std::abs(low) * 1.2e-7f + 1e-37f;"),
+    ("a ball's box is a little too small", QUERIES,
+     "sphere.radius + 2.0 * roundingSlack(reach)", "0.999 * sphere.radius"),
     ("hits along a segment come the wrong way round", QUERIES,
      "a.along < b.along", "a.along > b.along"),
     ("the nearest are those in the first ball that is not empty", QUERIES,
