@@ -38,6 +38,7 @@ int run(const Options& options) {
   std::vector<Record> records{runRecord(options)};
   if (options.part("pairs")) runPairs(options, records);
   if (options.part("ageing")) runAgeing(options, records);
+  if (options.part("threads") && options.peer("hgrid")) runThreads(options, records);
   if (options.part("queries")) runQueries(options, records);
   if (!options.json.empty()) writeRecords(options.json, records);
   return 0;

@@ -116,11 +116,12 @@ void runPairs(const Options& options, std::vector<Record>& records) {
   if (options.quick) sizes.pop_back();
   if (!options.sizes.empty()) sizes = options.sizes;
   const std::vector<double> usual{1.0, 0.1, 0.01};
-  for (const double moving : options.moving.empty() ? usual : options.moving) {
-    for (const std::size_t n : sizes) {
-      for (const std::string& workload : workloads()) {
+  for (const std::size_t n : sizes) {
+    for (const std::string& workload : workloads()) {
+      if (!options.workload(workload)) continue;
+      for (const double moving : options.moving.empty() ? usual : options.moving) {  // soon after each other: compared
         const Setting setting{workload, n, moving};
-        if (options.workload(workload)) play(options, setting, runsOf(options, setting), records);
+        play(options, setting, runsOf(options, setting), records);
       }
     }
   }

@@ -16,6 +16,9 @@ void runPairs(const Options& options, std::vector<Record>& records);
 /// Frames late in the life of HGrid and of FCL's tree beside early ones.
 void runAgeing(const Options& options, std::vector<Record>& records);
 
+/// HGrid with two threads against HGrid with one, turn by turn, beside what two processors are worth at that time.
+void runThreads(const Options& options, std::vector<Record>& records);
+
 /// Queries of every kind against resting boxes, one by one and batched.
 void runQueries(const Options& options, std::vector<Record>& records);
 

@@ -6,6 +6,9 @@ from figures import QUERIES, WORKLOADS, short, shown
 PEER_NOTE = ('Cells: %s. – = not run: one frame, or loading, takes far too long; ✗ = wrong pair set; '
              'crash = the process of this peer died.')
 
+THREADS_NOTE = ('Medians of turns; beside hgrid, in the same turns, a loop that adds registers and touches no memory: what '
+                'two processors are worth at that time. Both are taken for free where that loop gains 1.9 or more.')
+
 
 def table(head, rows):
     """A Markdown table; the first column is text."""
@@ -59,6 +62,15 @@ def variants(figures):
         rows.append(['%s, %d thread%s' % (isa, threads, 's' if threads > 1 else '')]
                     + [' / '.join(row) if set(row) != {'–'} else '–' for row in cells])
     return table(['median ms per frame'] + ['n = ' + count(n) for n in sizes], rows)
+
+
+def threads(figures):
+    """What a second thread gains, beside what it can gain at that time."""
+    rows = [[record['workload'], count(record['n']), short(record['gain']), short(record['gain_of_registers']),
+             '%d of %d' % (record['free_turns'], record['turns']),
+             short(record['gain_in_free_turns']) if record['free_turns'] else '–'] for record in figures.all('threads')]
+    return table(['two threads, times faster than one', 'n', 'hgrid', 'adding registers', 'turns with both free',
+                  'hgrid in those'], rows)
 
 
 def ageing(figures):
@@ -118,6 +130,8 @@ def sections(figures):
         found[-1] = (found[-1][0], found[-1][1] + '\n\n' + spread(figures))
         found.append(('hgrid: instruction sets and threads', variants(figures)))
         found.append(('Memory', memory(figures)))
+    if figures.all('threads'):
+        found.append(('Two threads', THREADS_NOTE + '\n\n' + threads(figures)))
     if figures.all('ageing'):
         found.append(('Ageing', ageing(figures)))
     if figures.all('query'):

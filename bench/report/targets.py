@@ -104,6 +104,10 @@ def sameness(figures, verdicts):
     ours = figures.all('pairs', peer='hgrid')
     verdicts.holds('hgrid\'s pair sets equal the reference in all %d settings' % len(ours),
                    all(record['correct'] for record in ours))
+    threaded = figures.all('threads')
+    if threaded:
+        verdicts.holds('the same bytes from two threads as from one in all %d settings' % len(threaded),
+                       all(record['same_bytes'] for record in threaded))
     asked = figures.all('query', peer='hgrid')
     if asked:
         verdicts.holds('hgrid\'s query hits equal the reference in all %d settings' % len(asked),
@@ -124,6 +128,16 @@ def node(figures, verdicts):
         verdicts.at_most('node, 992 links: median ms of the %s' % part, most, record and record['median_ms'])
 
 
+def threads(figures, verdicts):
+    """Judged where the machine has two processors to give; how often that was, the table of threads tells."""
+    for record in figures.all('threads'):
+        what = '%s, n = %s: two threads, times faster than one' % (record['workload'], count(record['n']))
+        if record['free_turns']:
+            verdicts.at_least(what + ', both processors free', 1.7, record['gain_in_free_turns'])
+        else:
+            verdicts.at_least(what + ' (registers alone: %s)' % short(record['gain_of_registers']), 1.7, record['gain'])
+
+
 def verdicts_table(figures):
     verdicts = Verdicts()
     for n in figures.sizes():
@@ -133,11 +147,8 @@ def verdicts_table(figures):
                 against_fastest(figures, verdicts, n, workload, moving)
             if n >= 10000:
                 part_moving(figures, verdicts, n, workload)
-            if n >= 100000:
-                one, two = (ms(figures.pairs('hgrid', workload, n, 1, threads)) for threads in (1, 2))
-                what = '%s, n = %s: two threads, times faster than one' % (workload, count(n))
-                verdicts.at_least(what, 1.7, ratio(one, two))
     floor_and_growth(figures, verdicts)
+    threads(figures, verdicts)
     ages(figures, verdicts)
     held = [record['bytes_per_object'] for record in figures.all('pairs', peer='hgrid') if record['n'] >= 10000]
     verdicts.at_most('bytes per box, most from n = 10,000 up', 96, max(held) if held else None)

@@ -35,7 +35,8 @@ void HGrid::Engine::sortLayer(Place layer) {
 
 void HGrid::Engine::locate(Place layer) {
   if (located[layer]) return;
-  position.resize(place.size());
+  std::vector<std::uint32_t>& position = positions();
+  if (position.size() < place.size()) position.resize(place.size());
   const ProxyId* ids = layers[layer].ids();
   for (std::uint32_t i = 0; i < layers[layer].size(); ++i) position[ids[i]] = i;
   located[layer] = true;
@@ -49,7 +50,7 @@ void HGrid::Engine::takeOut(ProxyId id) {
     sortLayer(kLoose);
   } else {
     locate(from);
-    layers[from].withdraw(position[id]);
+    layers[from].withdraw(positions()[id]);
     ++withdrawn;
     if (from == kMoving) {
       moving_changed = true;
@@ -134,7 +135,7 @@ void HGrid::Engine::sortMoved() {
     if (started) locate(kResting);
     for (const ProxyId id : moved) {
       if (place[id] != kResting) continue;
-      layers[kResting].withdraw(position[id]);
+      layers[kResting].withdraw(positions()[id]);
       ++withdrawn;
       kept_dirty = true;
       place[id] = kMoving;

@@ -18,12 +18,15 @@ struct SearchTask {
   const kernels::Level* asking;
   const kernels::Level* asked;  // null: among themselves
   std::uint32_t begin, end;
+  std::size_t thread = 0, first = 0, found = 0;  // its pairs: so many from the first on in that thread's part
+  std::size_t to = 0;                            // where they go
 };
 
 /// What a search for pairs works with.
 struct SearchBuffers {
   std::vector<SearchTask> tasks;
-  std::vector<std::vector<ProxyPair>> parts;  // per task
+  std::vector<std::vector<ProxyPair>> parts;  // per thread; room for all pairs in each, since any may do all tasks
+  std::vector<std::size_t> used;              // of each part
 };
 
 /// What an HGrid holds. Boxes stand in layers by how they behave, each sorted on its own:
@@ -57,19 +60,20 @@ struct HGrid::Engine {
   void sortMoved();
   void sortLayer(Place layer);
   void locate(Place layer);
+  /// By id, in its layer. Kept in the array that the resting are sorted to; when they are, so are all layers.
+  std::vector<std::uint32_t>& positions() { return layers[kResting].spare(); }
   /// Pairs of what rests, so that they need not be looked for each time.
   void keepPairs();
 
   double finest_edge;
   Isa isa = bestIsa();
   PairTest filter;
-  std::vector<Aabb> boxes;              // by id
-  std::vector<Place> place;             // by id
-  std::vector<bool> fixed;              // by id; may be shorter
-  std::vector<std::uint32_t> position;  // by id, in its layer; only where `located` says so, else perhaps empty
+  std::vector<Aabb> boxes;   // by id
+  std::vector<Place> place;  // by id
+  std::vector<bool> fixed;   // by id; may be shorter
   std::array<Layer, kLayers> layers;
   std::array<std::vector<ProxyId>, kLayers> members;  // moving and loose: ids
-  std::array<bool, kLayers> located{};
+  std::array<bool, kLayers> located{};                // layers whose boxes have their positions in positions()
   bool fixed_astray = false;    // some of the loose and moving are fixed: they came or moved one by one
   bool moving_changed = false;  // some of the moving were taken out, and stand there as withdrawn
   std::size_t stored = 0;

@@ -17,13 +17,13 @@ void requireValid(const Aabb& box) {
   if (!isValid(box)) throw std::invalid_argument("HGrid: a box is not finite or has min > max");
 }
 
-constexpr std::size_t kPerJob = 16384;  // boxes that one job checks or copies
+constexpr std::size_t kPerJob = 4096;  // boxes that one job checks or copies
 
 /// Calls job(begin, end) for parts of 0 .. count - 1.
 template <class Job>
 void inParts(Workers& workers, std::size_t count, Job&& job) {
   workers.run((count + kPerJob - 1) / kPerJob,
-              [&](std::size_t part) { job(part * kPerJob, std::min((part + 1) * kPerJob, count)); });
+              [&](std::size_t part, std::size_t) { job(part * kPerJob, std::min((part + 1) * kPerJob, count)); });
 }
 
 /// Whether the ids are 0 .. count - 1, which ascending ids are if the last is.
@@ -211,8 +211,7 @@ std::vector<std::size_t> HGrid::levelCounts() const {
 
 std::size_t HGrid::bytes() const {
   const Engine& e = *engine_;
-  std::size_t sum = sizeof(Engine) + e.boxes.capacity() * sizeof(Aabb) + e.place.capacity() +
-                    e.position.capacity() * sizeof(std::uint32_t) + e.fixed.capacity() / 8 +
+  std::size_t sum = sizeof(Engine) + e.boxes.capacity() * sizeof(Aabb) + e.place.capacity() + e.fixed.capacity() / 8 +
                     e.moved.capacity() * sizeof(ProxyId) + e.scratch.copies.capacity() * sizeof(Aabb) +
                     (e.scratch.cells.capacity() + e.scratch.counts.capacity()) * sizeof(std::uint32_t);
   for (const Layer& layer : e.layers) sum += layer.bytes();
@@ -221,7 +220,7 @@ std::size_t HGrid::bytes() const {
 }
 
 void HGrid::checkInvariants() const {
-  const Engine& e = *engine_;
+  Engine& e = *engine_;
   const auto require = [](bool holds, const char* promise) {
     if (!holds) throw std::logic_error(std::string("HGrid: ") + promise);
   };
@@ -241,7 +240,7 @@ void HGrid::checkInvariants() const {
       const ProxyId id = layer.ids()[i];
       require(e.place[id] == number, "a box stands in the layer that it is said to be in");
       require(!seen[id], "a box stands in one layer only");
-      require(!e.located[number] || e.position[id] == i, "a located box stands at its position");
+      require(!e.located[number] || e.positions()[id] == i, "a located box stands at its position");
       seen[id] = true;
       ++standing;
     }

@@ -5,15 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
 namespace hgrid {
 namespace {
 
-constexpr std::size_t kReadBeyond = 16;       // places that kernels may read beyond the last box
-constexpr std::size_t kWorthAThread = 16384;  // boxes
-constexpr int kSortsPerPlan = 64;             // then a plan is made anew, since boxes may have gathered
+constexpr std::size_t kReadBeyond = 16;                      // places that kernels may read beyond the last box
+constexpr std::size_t kWorthCopying = std::size_t{1} << 18;  // boxes; of fewer most are still in the cache
+constexpr std::size_t kWorthAThread = 16384;                 // boxes
+constexpr int kSortsPerPlan = 64;                            // then a plan is made anew, since boxes may have gathered
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();  // no comparison with it holds
 
@@ -43,7 +45,7 @@ void Layer::sort(const std::vector<Aabb>& boxes, double finest_edge, const Machi
   const std::size_t threads = std::max<std::size_t>(1, std::min(most, count_ / kWorthAThread));
   growTo(ids_, count_ + kReadBeyond);
   growTo(other_ids_, count_ + kReadBeyond);
-  growTo(scratch.copies, count_);
+  if (boxes.size() >= kWorthCopying) growTo(scratch.copies, count_);
   growTo(scratch.cells, count_);
   if (count_ + kReadBeyond > stride_) {
     stride_ = (count_ + (bounds_.empty() ? 0 : count_ / 16) + 2 * kReadBeyond) / 16 * 16;
@@ -65,7 +67,7 @@ void Layer::sort(const std::vector<Aabb>& boxes, double finest_edge, const Machi
     count(boxes, machine, threads);
   }
   if (planned) sorts_with_plan_ = 0;
-  scatter(machine, threads);
+  scatter(boxes, machine, threads);
   ids_.swap(other_ids_);
   describe(scratch.sizes);
 }
@@ -84,8 +86,9 @@ void Layer::count(const std::vector<Aabb>& boxes, const Machine& machine, std::s
   if (scratch.counts.size() < (threads - 1) * cells) growTo(scratch.counts, (threads - 1) * some_more);
   scratch.sizes.assign(threads * 4 * levels, 0.0f);
   scratch.keyings.resize(threads);
+  scratch.sums.resize(threads * threads);
   start_[0] = 0;
-  machine.workers->run(threads, [&](std::size_t thread) {
+  machine.workers->run(threads, [&](std::size_t thread, std::size_t) {
     std::uint32_t* counts = countsOf(thread, threads, machine);
     std::fill_n(counts, cells, 0u);
     kernels::Keying& keying = scratch.keyings[thread];
@@ -94,7 +97,7 @@ void Layer::count(const std::vector<Aabb>& boxes, const Machine& machine, std::s
     keying.begin = count_ * thread / threads;
     keying.end = count_ * (thread + 1) / threads;
     keying.readable = count_;
-    keying.copies = reinterpret_cast<kernels::Box*>(scratch.copies.data());
+    keying.copies = boxes.size() < kWorthCopying ? nullptr : reinterpret_cast<kernels::Box*>(scratch.copies.data());
     keying.cells = scratch.cells.data();
     keying.counts = counts;
     keying.grids = plan_.grids.data();
@@ -105,6 +108,10 @@ void Layer::count(const std::vector<Aabb>& boxes, const Machine& machine, std::s
     std::fill_n(keying.lower, 4, kInfinity);
     std::fill_n(keying.upper, 4, -kInfinity);
     machine.kernels->key(&keying);
+    for (std::size_t range = 0; range + 1 < threads; ++range) {
+      const std::uint32_t *begin = counts + cells * range / threads, *end = counts + cells * (range + 1) / threads;
+      scratch.sums[thread * threads + range] = std::accumulate(begin, end, 0u);
+    }
   });
   for (std::size_t thread = 1; thread < threads; ++thread) {
     kernels::Keying &total = scratch.keyings.front(), &part = scratch.keyings[thread];
@@ -116,33 +123,38 @@ void Layer::count(const std::vector<Aabb>& boxes, const Machine& machine, std::s
   }
 }
 
-void Layer::scatter(const Machine& machine, std::size_t threads) {
+void Layer::scatter(const std::vector<Aabb>& boxes, const Machine& machine, std::size_t threads) {
   const SortScratch& scratch = *machine.scratch;
-  std::uint32_t sum = 0;
-  std::uint32_t* last = countsOf(threads - 1, threads, machine);
-  for (std::size_t cell = 0; cell < plan_.cells; ++cell) {
-    for (std::size_t thread = 0; thread + 1 < threads; ++thread) {
-      std::uint32_t& place = machine.scratch->counts[thread * plan_.cells + cell];
-      const std::uint32_t count = place;
-      place = sum;
+  machine.workers->run(threads, [&](std::size_t range, std::size_t) {  // counts become places, by ranges of cells
+    std::uint32_t sum = 0;
+    for (std::size_t i = 0; i < threads * threads; ++i) sum += i % threads < range ? scratch.sums[i] : 0;
+    std::uint32_t* last = countsOf(threads - 1, threads, machine);
+    const std::size_t end = plan_.cells * (range + 1) / threads;
+    for (std::size_t cell = plan_.cells * range / threads; cell < end; ++cell) {
+      for (std::size_t thread = 0; thread + 1 < threads; ++thread) {
+        std::uint32_t& place = machine.scratch->counts[thread * plan_.cells + cell];
+        const std::uint32_t count = place;
+        place = sum;
+        sum += count;
+      }
+      const std::uint32_t count = last[cell];
+      last[cell] = sum;
       sum += count;
     }
-    const std::uint32_t count = last[cell];
-    last[cell] = sum;
-    sum += count;
-  }
-  machine.workers->run(threads, [&](std::size_t thread) {
+  });
+  machine.workers->run(threads, [&](std::size_t thread, std::size_t) {
     std::uint32_t* next = countsOf(thread, threads, machine);
     float* const bounds = bounds_.data();
     const std::size_t stride = stride_;
     const std::uint32_t* cells = scratch.cells.data();
-    const Aabb* copies = scratch.copies.data();
     const ProxyId* from = ids_.data();
+    const Aabb* by_id = boxes.data();
+    const Aabb* copies = boxes.size() < kWorthCopying ? nullptr : scratch.copies.data();
     ProxyId* to = other_ids_.data();
     const std::size_t end = scratch.keyings[thread].end;
     for (std::size_t i = scratch.keyings[thread].begin; i < end; ++i) {
       const std::uint32_t position = next[cells[i]]++;
-      const Aabb& box = copies[i];
+      const Aabb& box = copies == nullptr ? by_id[from[i]] : copies[i];
       bounds[position] = box.min[0];
       bounds[stride + position] = box.min[1];
       bounds[2 * stride + position] = box.min[2];

@@ -13,9 +13,10 @@ namespace hgrid {
 
 /// What sorting works with; one for all layers of a grid.
 struct SortScratch {
-  std::vector<Aabb> copies;           // by position before
+  std::vector<Aabb> copies;           // by position before; only of so many that they are in no cache any more
   std::vector<std::uint32_t> cells;   // by position before
   std::vector<std::uint32_t> counts;  // boxes per cell, for each thread but the last
+  std::vector<std::uint32_t> sums;    // per thread and range of cells: boxes counted there
   std::vector<float> sizes;           // per thread and level, in fours
   std::vector<kernels::Keying> keyings;
 };
@@ -42,6 +43,9 @@ class Layer {
   void withdraw(std::uint32_t position);
   bool isWithdrawn(std::uint32_t position) const { return !(bounds_[position] <= bounds_[3 * stride_ + position]); }
 
+  /// An array that is at the caller's disposal until the next sort().
+  std::vector<std::uint32_t>& spare() { return other_ids_; }
+
   std::size_t size() const { return count_; }  ///< positions, those withdrawn among them
   const ProxyId* ids() const { return ids_.data(); }
   /// The box at a position.
@@ -58,7 +62,7 @@ class Layer {
 
  private:
   void count(const std::vector<Aabb>& boxes, const Machine& machine, std::size_t threads);
-  void scatter(const Machine& machine, std::size_t threads);
+  void scatter(const std::vector<Aabb>& boxes, const Machine& machine, std::size_t threads);
   void describe(const std::vector<float>& sizes);
   std::uint32_t* countsOf(std::size_t thread, std::size_t threads, const Machine& machine);
 

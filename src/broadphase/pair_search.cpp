@@ -7,27 +7,27 @@
 namespace hgrid {
 namespace {
 
-constexpr std::uint32_t kTask = 4096;         // boxes per task; a multiple of what kernels take at once
+constexpr std::uint32_t kTask = 1024;         // boxes per task; a multiple of what kernels take at once
 constexpr std::size_t kWorthAThread = 16384;  // boxes
 
-/// Lets kernels write into a vector, growing it as they need.
+/// Lets kernels write into a vector after the first `used` pairs, growing it as they need. The vector ends up as large
+/// as it ever was; used() says how far it is filled.
 class PairWriter {
  public:
-  explicit PairWriter(std::vector<ProxyPair>& pairs, std::size_t used) : pairs_(pairs) {
+  PairWriter(std::vector<ProxyPair>& pairs, std::size_t used) : pairs_(pairs) {
     pairs_.resize(std::max<std::size_t>({pairs_.capacity(), used + 64, 256}));
     sink_.owner = this;
     sink_.grow = grow;
     point(used);
   }
-  ~PairWriter() { pairs_.resize(used()); }
   PairWriter(const PairWriter&) = delete;
   PairWriter& operator=(const PairWriter&) = delete;
 
   kernels::PairSink* sink() { return &sink_; }
+  std::size_t used() const { return static_cast<std::size_t>(sink_.next - data()); }
 
  private:
-  kernels::Pair* data() { return reinterpret_cast<kernels::Pair*>(pairs_.data()); }
-  std::size_t used() { return static_cast<std::size_t>(sink_.next - data()); }
+  kernels::Pair* data() const { return reinterpret_cast<kernels::Pair*>(pairs_.data()); }
   void point(std::size_t used) {
     sink_.next = data() + used;
     sink_.limit = data() + pairs_.size();
@@ -101,46 +101,55 @@ struct Sieve {
   }
 };
 
-/// Leaves out what is not wanted of the pairs from number `from` on.
-void sift(const Sieve& sieve, std::vector<ProxyPair>& pairs, std::size_t from) {
-  if (sieve.filter.reported == nullptr && sieve.fixed == nullptr) return;
+/// Leaves out what is not wanted of the pairs from number `from` up to `end`. @returns where they end now
+std::size_t sift(const Sieve& sieve, std::vector<ProxyPair>& pairs, std::size_t from, std::size_t end) {
+  if (sieve.filter.reported == nullptr && sieve.fixed == nullptr) return end;
   std::size_t to = from;
-  for (std::size_t i = from; i < pairs.size(); ++i) {
+  for (std::size_t i = from; i < end; ++i) {
     pairs[to] = pairs[i];
     to += sieve.wants(pairs[i]);
   }
-  pairs.resize(to);
+  return to;
 }
 
 /// Performs the tasks, all pairs after the first `used` of the vector, in the order of the tasks whoever does them.
 void performAll(SearchBuffers& buffers, const kernels::Kernels& kernels, const Sieve& sieve, Workers* workers,
                 std::vector<ProxyPair>& pairs, std::size_t used) {
+  std::vector<SearchTask>& tasks = buffers.tasks;
   std::size_t boxes = 0;
-  for (const SearchTask& task : buffers.tasks) boxes += task.end - task.begin;
+  for (const SearchTask& task : tasks) boxes += task.end - task.begin;
   if (workers == nullptr || workers->threads() == 1 || boxes < 2 * kWorthAThread) {
-    {
-      PairWriter writer(pairs, used);
-      for (const SearchTask& task : buffers.tasks) perform(task, kernels, writer.sink());
-    }
-    return sift(sieve, pairs, used);
+    PairWriter writer(pairs, used);
+    for (const SearchTask& task : tasks) perform(task, kernels, writer.sink());
+    return pairs.resize(sift(sieve, pairs, used, writer.used()));
   }
-  if (buffers.parts.size() < buffers.tasks.size()) buffers.parts.resize(buffers.tasks.size());
-  workers->run(buffers.tasks.size(), [&](std::size_t i) {
-    {
-      PairWriter writer(buffers.parts[i], 0);
-      perform(buffers.tasks[i], kernels, writer.sink());
-    }
-    sift(sieve, buffers.parts[i], 0);
+  const auto threads = static_cast<std::size_t>(workers->threads());
+  buffers.parts.resize(threads);
+  buffers.used.assign(threads, 0);
+  workers->run(tasks.size(), [&](std::size_t number, std::size_t thread) {
+    SearchTask& task = tasks[number];
+    std::vector<ProxyPair>& part = buffers.parts[thread];
+    PairWriter writer(part, buffers.used[thread]);
+    perform(task, kernels, writer.sink());
+    task.thread = thread;
+    task.first = buffers.used[thread];
+    buffers.used[thread] = sift(sieve, part, task.first, writer.used());
+    task.found = buffers.used[thread] - task.first;
   });
   std::size_t total = used;
-  for (std::size_t i = 0; i < buffers.tasks.size(); ++i) {
-    buffers.tasks[i].begin = static_cast<std::uint32_t>(total - used);  // from now on: where its pairs go
-    total += buffers.parts[i].size();
+  for (SearchTask& task : tasks) {
+    task.to = total;
+    total += task.found;
   }
   if (total > pairs.capacity()) pairs.reserve(total + total / 8);  // the next time there may be a few more
   pairs.resize(total);
-  workers->run(buffers.tasks.size(), [&](std::size_t i) {
-    std::copy(buffers.parts[i].begin(), buffers.parts[i].end(), pairs.data() + used + buffers.tasks[i].begin);
+  for (std::vector<ProxyPair>& part : buffers.parts) {
+    const std::size_t all = total - used + kTask;
+    if (part.capacity() < all) part.reserve(all + all / 4);
+  }
+  workers->run(tasks.size(), [&](std::size_t number, std::size_t) {
+    const SearchTask& task = tasks[number];
+    std::copy_n(buffers.parts[task.thread].data() + task.first, task.found, pairs.data() + task.to);
   });
 }
 

@@ -42,7 +42,7 @@ struct Cells {
 // Costs [ns], measured on one machine; only their ratios matter.
 constexpr double kPerBox = 4.0, kPerRow = 3.0, kPerAskedRow = 6.0, kPerTest = 3.0, kPerCell = 0.15;
 constexpr double kLanes = 8.0;  // boxes per test: one number for all instruction sets, since plans must not differ
-constexpr double kMostCellsPerBox = 2.0, kFewestCells = 64.0;
+constexpr double kMostCellsPerBox = 1.0, kFewestCells = 64.0;
 
 double cellsAlong(double length, double edge) { return std::floor(length / edge) + 1.0; }
 

@@ -2,9 +2,11 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "broadphase/workers.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <mutex>
 #include <system_error>
 #include <thread>
@@ -32,40 +34,87 @@ bool waitBriefly(Condition&& condition) {
 }  // namespace
 
 struct Workers::State {
+  // A round is open while its caller takes part in it. Whoever wakes up too late for one is not waited for: the word
+  // holds the number of the round, whether it is open, and how many are inside, the caller not among them.
+  static constexpr std::uint64_t kInside = 0xffff, kOpen = 0x10000, kNumber = ~(kInside | kOpen);
+
+  /// Jobs that one thread begins with: from begin (lower half of the word) up to end. The thread takes them from the
+  /// front, who has nothing left of its own from the back, so that neighbours stay together and in one cache.
+  struct alignas(64) Share {
+    std::atomic<std::uint64_t> left{0};
+
+    void set(std::size_t begin, std::size_t end) {
+      left.store(static_cast<std::uint64_t>(end) << 32 | begin, std::memory_order_relaxed);
+    }
+    template <class Call>
+    void workOff(bool from_front, const Call& call) {
+      std::uint64_t now = left.load(std::memory_order_relaxed);
+      for (;;) {
+        const std::uint64_t begin = now & 0xffffffff, end = now >> 32;
+        if (begin >= end) return;
+        const std::uint64_t then = from_front ? now + 1 : now - (std::uint64_t{1} << 32);
+        if (!left.compare_exchange_weak(now, then, std::memory_order_relaxed)) continue;
+        call(from_front ? begin : end - 1);
+        now = left.load(std::memory_order_relaxed);
+      }
+    }
+  };
+
   std::mutex mutex;
   std::condition_variable wake, done;
-  void (*call)(void*, std::size_t) = nullptr;
+  void (*call)(void*, std::size_t, std::size_t) = nullptr;
   void* job = nullptr;
-  std::size_t count = 0;
-  std::atomic<std::size_t> next{0}, round{0}, busy{0};
+  std::atomic<std::uint64_t> round{0};
   bool stop = false;
+  std::unique_ptr<Share[]> shares;
   std::vector<std::thread> threads;
 
-  void work() {
-    for (std::size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < count;) call(job, i);
+  void work(std::size_t self) {
+    const std::size_t count = threads.size() + 1;
+    for (std::size_t i = 0; i < count; ++i) {
+      shares[(self + i) % count].workOff(i == 0, [&](std::size_t number) { call(job, number, self); });
+    }
   }
 
-  void live() {
-    std::size_t seen = 0;
+  /// Whether there is a round that this thread has not seen; it is inside then.
+  bool enter(std::uint64_t& seen) {
+    std::uint64_t now = round.load(std::memory_order_relaxed);
+    while ((now & kOpen) != 0 && (now & kNumber) != seen) {
+      if (!round.compare_exchange_weak(now, now + 1, std::memory_order_acquire, std::memory_order_relaxed)) continue;
+      seen = now & kNumber;
+      return true;
+    }
+    return false;
+  }
+
+  void leave() {
+    if (((round.fetch_sub(1, std::memory_order_release) - 1) & (kInside | kOpen)) != 0) return;
+    const std::lock_guard<std::mutex> lock(mutex);
+    done.notify_one();
+  }
+
+  void live(std::size_t self) {
+    std::uint64_t seen = 0;
     for (;;) {
-      if (!waitBriefly([&] { return round.load(std::memory_order_acquire) != seen; })) {
+      if (!waitBriefly([&] { return enter(seen); })) {
         std::unique_lock<std::mutex> lock(mutex);
-        wake.wait(lock, [&] { return stop || round.load(std::memory_order_acquire) != seen; });
+        wake.wait(lock, [&] { return stop || enter(seen); });
         if (stop) return;
       }
-      ++seen;  // no round begins before all are done with the last
-      work();
-      if (busy.fetch_sub(1, std::memory_order_acq_rel) == 1) {
-        const std::lock_guard<std::mutex> lock(mutex);
-        done.notify_one();
-      }
+      work(self);
+      leave();
     }
   }
 };
 
 Workers::Workers(int threads) : state_(std::make_unique<State>()) {
+  State& s = *state_;
+  s.shares = std::make_unique<State::Share[]>(static_cast<std::size_t>(std::max(threads, 1)));
+  s.threads.reserve(static_cast<std::size_t>(std::max(threads, 1)) - 1);
   try {
-    for (int i = 1; i < threads; ++i) state_->threads.emplace_back([this] { state_->live(); });
+    for (int i = 1; i < threads; ++i) {
+      s.threads.emplace_back([&s, i] { s.live(static_cast<std::size_t>(i)); });
+    }
   } catch (const std::system_error&) {
     // The system gives no more; fewer threads do the same work.
   }
@@ -82,27 +131,28 @@ Workers::~Workers() {
 
 int Workers::threads() const { return static_cast<int>(state_->threads.size()) + 1; }
 
-void Workers::runAll(std::size_t count, void (*call)(void*, std::size_t), void* job) {
+void Workers::runAll(std::size_t count, void (*call)(void*, std::size_t, std::size_t), void* job) {
   State& s = *state_;
   if (s.threads.empty() || count <= 1) {
-    for (std::size_t i = 0; i < count; ++i) call(job, i);
+    for (std::size_t i = 0; i < count; ++i) call(job, i, 0);
     return;
   }
+  const std::size_t threads = s.threads.size() + 1;
   {
     const std::lock_guard<std::mutex> lock(s.mutex);
     s.call = call;
     s.job = job;
-    s.count = count;
-    s.next.store(0, std::memory_order_relaxed);
-    s.busy.store(s.threads.size(), std::memory_order_relaxed);
-    s.round.fetch_add(1, std::memory_order_release);
+    for (std::size_t i = 0; i < threads; ++i) s.shares[i].set(count * i / threads, count * (i + 1) / threads);
+    const std::uint64_t last = s.round.load(std::memory_order_relaxed) & State::kNumber;
+    s.round.store((last + State::kOpen * 2) | State::kOpen, std::memory_order_release);
   }
   s.wake.notify_all();
-  s.work();
-  const auto all_done = [&s] { return s.busy.load(std::memory_order_acquire) == 0; };
-  if (waitBriefly(all_done)) return;
+  s.work(0);
+  s.round.fetch_and(~State::kOpen, std::memory_order_relaxed);
+  const auto all_left = [&s] { return (s.round.load(std::memory_order_acquire) & State::kInside) == 0; };
+  if (waitBriefly(all_left)) return;
   std::unique_lock<std::mutex> lock(s.mutex);
-  s.done.wait(lock, all_done);
+  s.done.wait(lock, all_left);
 }
 
 }  // namespace hgrid

@@ -17,16 +17,21 @@ class Workers {
 
   int threads() const;
 
-  /// Calls job(0) .. job(count - 1), each once, in any order and on any thread; returns when all are done.
-  /// A job must not throw. Allocates nothing.
+  /// Calls job(0, thread) .. job(count - 1, thread), each once and in any order; returns when all are done. The thread
+  /// is a number below threads(); each of them begins with a share of its own, the same every time, of jobs that follow
+  /// each other. A job must not throw. Allocates nothing.
   template <class Job>
   void run(std::size_t count, Job&& job) {
     runAll(
-        count, [](void* what, std::size_t i) { (*static_cast<std::remove_reference_t<Job>*>(what))(i); }, &job);
+        count,
+        [](void* what, std::size_t i, std::size_t thread) {
+          (*static_cast<std::remove_reference_t<Job>*>(what))(i, thread);
+        },
+        &job);
   }
 
  private:
-  void runAll(std::size_t count, void (*call)(void*, std::size_t), void* job);
+  void runAll(std::size_t count, void (*call)(void*, std::size_t, std::size_t), void* job);
 
   struct State;
   std::unique_ptr<State> state_;

@@ -72,7 +72,7 @@ struct Keying {
   const std::uint32_t* order;        ///< ids in the order to go through
   std::size_t begin, end;            ///< positions in `order`
   std::size_t readable;              ///< size of `order`; ids up to there may be fetched ahead
-  Box* copies;                       ///< out: the boxes by position
+  Box* copies;                       ///< out: the boxes by position; may be null
   std::uint32_t* cells;              ///< out: cell by position, counted through all levels
   std::uint32_t* counts;             ///< in and out: boxes per cell
   const Grid* grids;                 ///< per level

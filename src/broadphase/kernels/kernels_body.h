@@ -136,6 +136,46 @@ void pairsWithin(const Level* level, std::uint32_t begin, std::uint32_t end, Pai
   found.close();
 }
 
+/// A box that asks, and positions that it may overlap.
+struct Encounter {
+  std::uint32_t box, begin, left;
+};
+
+/// Encounters of one level with another. They are collected first and held later: by then what they read, which may be
+/// far from what the one before has read, has come into the cache.
+class Encounters {
+ public:
+  Encounters(const Level& asking, const Level& asked) : asking_(asking), asked_(asked) {}
+
+  /// As meetRows() takes them.
+  void add(std::uint32_t first, std::uint32_t bits, const std::int32_t* row, std::int32_t offset,
+           const std::int32_t* x_low, const std::int32_t* x_high, Output<Pair>& found) {
+    if (count_ > kMost - kBlock) hold(found);
+    while (bits != 0) {
+      const int k = Simd::lowestBit(bits);
+      bits &= bits - 1;
+      const std::uint32_t begin = asked_.start[row[k] + offset + x_low[k]];
+      const std::uint32_t end = asked_.start[row[k] + offset + x_high[k] + 1];
+      for (int side = 0; side < 6; ++side) __builtin_prefetch(asked_.bounds + side * asked_.stride + begin);
+      encounters_[count_] = {first + static_cast<std::uint32_t>(k), begin, end - begin};
+      count_ += begin < end;
+    }
+  }
+  void hold(Output<Pair>& found) {
+    for (int i = 0; i < count_; ++i) {
+      const Encounter& encounter = encounters_[i];
+      meetRange(asking_, encounter.box, asked_, encounter.begin, encounter.left, found);
+    }
+    count_ = 0;
+  }
+
+ private:
+  static constexpr int kMost = 256;
+  const Level &asking_, &asked_;
+  int count_ = 0;
+  Encounter encounters_[kMost];
+};
+
 /// As above, but all cells from the lower bound on count: the two levels, or layers, have no common order.
 void pairsAcross(const Level* asking, std::uint32_t begin, std::uint32_t end, const Level* asked, PairSink* sink) {
   const Level a = *asking, b = *asked;
@@ -143,6 +183,7 @@ void pairsAcross(const Level* asking, std::uint32_t begin, std::uint32_t end, co
   Output<Pair> found(sink);
   alignas(64) std::int32_t x_low[kBlock], x_high[kBlock], y_low[kBlock], y_high[kBlock], z_low[kBlock], z_high[kBlock],
       row[kBlock];
+  Encounters encounters(a, b);
   for (std::uint32_t first = begin; first < end; first += kBlock) {
     const std::uint32_t all = bitsBelow(end - first);
     cellsOf(a.bounds + first, b.reach[0], grid, 0, x_low);
@@ -162,10 +203,11 @@ void pairsAcross(const Level* asking, std::uint32_t begin, std::uint32_t end, co
       for (std::int32_t y = 0;; ++y) {
         const std::uint32_t bits = Simd::atLeast(y_high, y) & slab_bits;
         if (bits == 0) break;
-        meetRows(a, first, bits, b, row, z * grid.slab + y * grid.row, x_low, x_high, found);
+        encounters.add(first, bits, row, z * grid.slab + y * grid.row, x_low, x_high, found);
       }
     }
   }
+  encounters.hold(found);
   found.close();
 }
 
@@ -388,7 +430,7 @@ void key(Keying* keying) {
     __builtin_prefetch(ahead);
     __builtin_prefetch(ahead + sizeof(Box) - 1);
     const Box& box = k.boxes[k.order[i]];
-    k.copies[i] = box;
+    if (k.copies != nullptr) k.copies[i] = box;
     const Simd::Quad min = Simd::minimaOf(box), size = Simd::minus(Simd::maximaOf(box), min);
     lower = Simd::least(lower, min);
     upper = Simd::greatest(upper, min);
