@@ -8,16 +8,46 @@
 
 namespace hgrid {
 
+namespace {
+
+struct Type {
+  BodyKind kind;
+  Mobility mobility;
+};
+
+std::uint8_t numberOf(const Type& type) {
+  return static_cast<std::uint8_t>(2 * static_cast<int>(type.kind) + static_cast<int>(type.mobility));
+}
+
+Type typeOf(std::size_t number) { return {static_cast<BodyKind>(number / 2), static_cast<Mobility>(number % 2)}; }
+
+bool exists(const PairKinds& kinds, const Type& a, const Type& b, bool same_robot) {
+  if (a.mobility == Mobility::fixed && b.mobility == Mobility::fixed) return false;
+  if (a.kind == BodyKind::link && b.kind == BodyKind::link) return same_robot ? kinds.self : kinds.robot_robot;
+  if (a.kind == BodyKind::link || b.kind == BodyKind::link) {
+    const BodyKind other = a.kind == BodyKind::link ? b.kind : a.kind;
+    return other == BodyKind::map ? kinds.robot_map : kinds.robot_obstacle;
+  }
+  return kinds.moving_obstacle;
+}
+
+}  // namespace
+
 PairFilter::PairFilter(const std::vector<Body>& bodies, PairKinds kinds, std::vector<AllowedPattern> patterns)
-    : kinds_(kinds), words_((patterns.size() + 63) / 64) {
+    : words_((patterns.size() + 63) / 64) {
+  for (std::size_t a = 0; a < kTypes; ++a) {
+    for (std::size_t b = 0; b < kTypes; ++b) {
+      for (const bool same_robot : {false, true})
+        exists_[same_robot][a][b] = exists(kinds, typeOf(a), typeOf(b), same_robot);
+    }
+  }
   std::map<std::string, std::uint32_t> robots;
   as_first_.resize(bodies.size() * words_);
   as_second_.resize(bodies.size() * words_);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Body& body = bodies[i];
     Subject subject;
-    subject.kind = body.kind;
-    subject.mobility = body.mobility;
+    subject.type = numberOf({body.kind, body.mobility});
     subject.link = body.link;
     subject.links = body.links.get();
     if (body.kind == BodyKind::link) {
@@ -33,34 +63,12 @@ PairFilter::PairFilter(const std::vector<Body>& bodies, PairKinds kinds, std::ve
   }
 }
 
-bool PairFilter::kindExists(const Subject& a, const Subject& b) const {
-  if (a.mobility == Mobility::fixed && b.mobility == Mobility::fixed) return false;
-  if (a.kind == BodyKind::link && b.kind == BodyKind::link)
-    return a.robot == b.robot ? kinds_.self : kinds_.robot_robot;
-  if (a.kind == BodyKind::link || b.kind == BodyKind::link) {
-    const BodyKind other = a.kind == BodyKind::link ? b.kind : a.kind;
-    return other == BodyKind::map ? kinds_.robot_map : kinds_.robot_obstacle;
-  }
-  return kinds_.moving_obstacle;
-}
-
 bool PairFilter::patternMatches(std::uint32_t first, std::uint32_t second) const {
   for (std::size_t word = 0; word < words_; ++word) {
     const std::size_t i = first * words_ + word, j = second * words_ + word;
     if (((as_first_[i] & as_second_[j]) | (as_second_[i] & as_first_[j])) != 0) return true;
   }
   return false;
-}
-
-Origin PairFilter::origin(std::uint32_t first, std::uint32_t second) const {
-  if (first == second) return Origin::self;
-  const Subject &a = subjects_[first], &b = subjects_[second];
-  if (!kindExists(a, b)) return Origin::kind;
-  if (a.kind == BodyKind::link && b.kind == BodyKind::link && a.robot == b.robot && a.links != nullptr) {
-    const Origin origin = a.links->origin(a.link, b.link);
-    if (origin != Origin::none) return origin;
-  }
-  return patternMatches(first, second) ? Origin::parameter : Origin::none;
 }
 
 }  // namespace hgrid

@@ -37,20 +37,30 @@ class PairFilter {
   /// Whether the pair may touch, that is, is not reported. Symmetric.
   bool allowed(std::uint32_t first, std::uint32_t second) const { return origin(first, second) != Origin::none; }
   /// Why it may, the first that holds of: self, kind, the model's matrix, a pattern.
-  Origin origin(std::uint32_t first, std::uint32_t second) const;
+  Origin origin(std::uint32_t first, std::uint32_t second) const {
+    if (first == second) return Origin::self;
+    const Subject &a = subjects_[first], &b = subjects_[second];
+    const bool same_robot = a.robot == b.robot && a.robot != kNoRobot;
+    if (!exists_[same_robot][a.type][b.type]) return Origin::kind;
+    if (same_robot && a.links != nullptr) {
+      const Origin origin = a.links->origin(a.link, b.link);
+      if (origin != Origin::none) return origin;
+    }
+    return words_ > 0 && patternMatches(first, second) ? Origin::parameter : Origin::none;
+  }
 
  private:
+  static constexpr std::uint32_t kNoRobot = 0xffffffff;
+  static constexpr std::size_t kTypes = 6;  // kinds of body, each fixed or moving
   struct Subject {
-    BodyKind kind = BodyKind::obstacle;
-    Mobility mobility = Mobility::moving;
-    std::uint32_t robot = 0;  // equal for links of one robot
+    std::uint32_t robot = kNoRobot;  // equal for links of one robot
     std::uint32_t link = 0;
     const LinkMatrix* links = nullptr;
+    std::uint8_t type = 0;
   };
-  bool kindExists(const Subject& a, const Subject& b) const;
   bool patternMatches(std::uint32_t first, std::uint32_t second) const;
 
-  PairKinds kinds_;
+  bool exists_[2][kTypes][kTypes] = {};  // by whether they are links of one robot, and by the types of both
   std::vector<Subject> subjects_;
   std::vector<std::shared_ptr<const LinkMatrix>> matrices_;  // keeps what subjects_ point to
   std::size_t words_ = 0;                                    // 64-bit words per body in the bit sets
