@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <memory>
+
+#include "hgrid_proximity/narrowphase/narrow_phase.h"
+
+namespace hgrid {
+
+/// The narrow phase that FCL (flexible-collision-library 0.6 or 0.7) does the work of.
+///
+/// Solver libccd with a tolerance of 1e-10, unsigned distances: with others FCL aborts on ordinary input or errs by
+/// millimetres. A ball is a point, a capsule a segment, each with a radius around it, and so is padding: what is round
+/// is measured exactly, into contact too. Every pair is asked in one order, in the frame of one of the two, so that the
+/// order of the question does not matter and nothing is lost far from the origin.
+std::shared_ptr<NarrowPhase> makeFclNarrowPhase();
+
+}  // namespace hgrid

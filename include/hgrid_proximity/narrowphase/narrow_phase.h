@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <memory>
+
+#include "hgrid_proximity/geometry/pose.h"
+#include "hgrid_proximity/geometry/shape.h"
+
+namespace hgrid {
+
+/// What became of the question how far two shapes are apart; the numbers are those of msg/Distances.msg.
+enum class Measure : std::uint8_t {
+  not_measured = 0,         ///< not asked, or no time was left for it
+  apart = 1,                ///< distance, points and normal hold
+  contact = 2,              ///< in contact: distance 0
+  contained = 3,            ///< one lies wholly inside the other, a closed mesh: in contact
+  containment_unknown = 4,  ///< one may lie inside the other, an open mesh: to be taken as contact
+  failed = 5,               ///< the solver failed: to be taken as contact
+};
+
+/// The status as a word, as in "CONTAINED".
+const char* name(Measure status);
+
+/// Whether it says contact, or is to be taken as contact.
+inline bool isContact(Measure status) { return status >= Measure::contact; }
+
+/// How two padded shapes lie to each other. NaN where nothing is known.
+struct Proximity {
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+  Measure status = Measure::not_measured;
+  double distance = kUnknown;  ///< [m] 0 in contact; infinite if farther apart than was asked for
+  Eigen::Vector3d on_first = Eigen::Vector3d::Constant(kUnknown);   ///< [m, world] nearest point; in contact the deepest
+  Eigen::Vector3d on_second = Eigen::Vector3d::Constant(kUnknown);  ///< [m, world] the same of the second
+  Eigen::Vector3d normal = Eigen::Vector3d::Constant(kUnknown);     ///< unit vector from the first towards the second
+  double depth = kUnknown;  ///< [m] in contact: the second moved this far along the normal is free of the first
+};
+
+/// A shape made ready to be measured: immutable, shared by all bodies that have it.
+class Solid {
+ public:
+  virtual ~Solid() = default;
+};
+
+/// A solid somewhere in the world, grown by its padding on all sides.
+struct PlacedSolid {
+  const Solid& solid;
+  const Pose& world_from_shape;
+  double padding;  ///< [m] >= 0
+};
+
+/// Answers how far two shapes are apart, exactly.
+///
+/// A shape is solid; a mesh is its surface, and if closed what it encloses. measure() may run on several threads.
+class NarrowPhase {
+ public:
+  virtual ~NarrowPhase() = default;
+
+  /// Makes a shape ready. What a mesh is made into is kept as long as somebody holds it, and shared. Any thread.
+  /// @throws Refusal bad_geometry
+  virtual std::shared_ptr<const Solid> solidOf(const Shape& shape) = 0;
+
+  /// How two solids of this narrow phase lie to each other. Never throws: what goes wrong is Measure::failed. The same
+  /// with the order of both exchanged, but for the exchange.
+  /// @param up_to  [m] beyond this distance the answer is `apart` and infinitely far, which may take much less time
+  virtual Proximity measure(const PlacedSolid& first, const PlacedSolid& second, double up_to) const = 0;
+};
+
+}  // namespace hgrid

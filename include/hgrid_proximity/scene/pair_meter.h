@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <vector>
+
+#include "hgrid_proximity/narrowphase/narrow_phase.h"
+#include "hgrid_proximity/scene/snapshot.h"
+
+namespace hgrid {
+
+/// The exact distance of a candidate pair of bodies: that of their nearest shapes.
+struct PairDistance {
+  std::uint32_t first = 0, second = 0;              ///< indices into Structure::bodies, first < second
+  std::uint32_t first_shape = 0, second_shape = 0;  ///< the nearest ones, in the order of each body's shapes
+  double gap = 0.0;                                 ///< [m] distance of their boxes
+  Proximity proximity;
+  double closing_speed = Proximity::kUnknown;       ///< [m/s] estimate from past ticks; > 0: they come closer
+  double time_to_contact = Proximity::kUnknown;     ///< [s] estimate; infinite if they do not come closer
+  double no_contact_before = Proximity::kUnknown;   ///< [s] bound by max_speed, from the stamp on
+};
+
+/// Exact distances of one snapshot. Immutable.
+struct PairDistances {
+  std::vector<PairDistance> pairs;  ///< contacts first, then by distance, not measured ones by gap; then by names
+  std::size_t measured = 0;         ///< pairs whose distance was asked for or known
+  std::size_t left_out = 0;         ///< pairs that are candidates, but no time was left to measure them
+};
+
+/// What a PairMeter can be told.
+struct MeterOptions {
+  double report_distance = 0.1;  ///< [m] pairs that are farther apart are left out
+  double budget = 0.0;           ///< [s] per snapshot; 0: as long as it takes
+  int threads = 1;               ///< 1 .. 64
+};
+
+/// Measures the candidates of one snapshot after the other, nearest boxes first, and remembers of each pair what makes
+/// the next time cheaper. One thread at a time.
+class PairMeter {
+ public:
+  PairMeter(std::shared_ptr<const NarrowPhase> narrow_phase, const MeterOptions& options);
+  ~PairMeter();
+
+  std::shared_ptr<const PairDistances> measure(const Snapshot& snapshot);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace hgrid
