@@ -83,6 +83,20 @@ QueryAnswer Snapshot::finished(std::vector<QueryHit>& hits, const QueryScope& sc
   return answer;
 }
 
+double Snapshot::noContactBefore(std::uint32_t first, std::uint32_t second, double distance) const {
+  double speed = 0.0, left = distance;
+  for (const std::uint32_t i : {first, second}) {
+    const Body& body = structure_->bodies[i];
+    if (body.mobility == Mobility::fixed) continue;
+    if (!std::isfinite(body.speed_bound)) return std::numeric_limits<double>::quiet_NaN();
+    speed += body.speed_bound;
+    left -= body.speed_bound * std::max(0.0, seconds(stamp_ - poses_[i].stamp));
+  }
+  left = std::max(0.0, left);
+  if (left == 0.0) return 0.0;
+  return speed > 0.0 ? left / speed : std::numeric_limits<double>::infinity();
+}
+
 QueryAnswer Snapshot::query(const Sphere& sphere, const QueryScope& scope) const {
   const DefaultFloatEnvironment environment;
   checkPoint(sphere.center, "the query's centre");

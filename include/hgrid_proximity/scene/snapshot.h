@@ -92,6 +92,11 @@ class Snapshot {
   /// The broad phase; its boxes are those of the placed proxies, grown by their margins.
   const HGrid& grid() const { return grid_; }
 
+  /// [s] From stamp() on, two bodies that are at least so far apart [m] at their poses do not meet earlier, by their
+  /// bounds of speed; by how much a pose is older than stamp() counts. NaN where a bound is missing, infinite where
+  /// neither can move.
+  double noContactBefore(std::uint32_t first, std::uint32_t second, double distance) const;
+
   /// Bodies whose boxes the ball touches; the pair filter does not apply, padding counts, margins do not.
   /// @throws Refusal nonfinite, bad_geometry (negative radius), out_of_range (beyond kQueryReach)
   QueryAnswer query(const Sphere& sphere, const QueryScope& scope) const;
