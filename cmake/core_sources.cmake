@@ -25,6 +25,8 @@ set(HGRID_CORE_SOURCES
   src/scene/robot_model.cpp
   src/scene/scene.cpp
   src/scene/snapshot.cpp
+  src/scene/snapshot_nearest.cpp
+  src/scene/snapshot_queries.cpp
 )
 set(HGRID_ADAPTER_SOURCES
   src/adapters/fcl.cpp

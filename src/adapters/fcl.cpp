@@ -82,6 +82,9 @@ class FclSolid final : public Solid {
     }
   }
 
+  FclSolid(ShapeKind kind, double reach, std::unique_ptr<const Geometry> core)
+      : kind_(kind), reach_(reach), core_(std::move(core)) {}
+
   const Geometry& core() const { return mesh_ ? static_cast<const Geometry&>(mesh_->model) : *core_; }
   const MeshCore* mesh() const { return mesh_.get(); }
   double radius() const { return radius_; }
@@ -248,6 +251,14 @@ class FclNarrowPhase final : public NarrowPhase {
     return std::make_shared<FclSolid>(shape, mesh);
   }
 
+  std::shared_ptr<const Solid> point() const override { return point_; }
+  std::shared_ptr<const Solid> needle(double length) const override {
+    return std::make_shared<FclSolid>(ShapeKind::capsule, 0.5 * length, std::make_unique<fcl::Capsuled>(0.0, length));
+  }
+  std::shared_ptr<const Solid> block(const Eigen::Vector3d& size) const override {
+    return std::make_shared<FclSolid>(ShapeKind::box, 0.5 * size.norm(), std::make_unique<fcl::Boxd>(size));
+  }
+
   Proximity measure(const PlacedSolid& first, const PlacedSolid& second, double up_to) const override {
     Side a(first), b(second);
     Proximity result;
@@ -287,6 +298,8 @@ class FclNarrowPhase final : public NarrowPhase {
     return made;
   }
 
+  const std::shared_ptr<const Solid> point_ =
+      std::make_shared<FclSolid>(ShapeKind::sphere, 0.0, std::make_unique<fcl::Sphered>(0.0));
   std::mutex mutex_;
   std::map<const TriangleMesh*, std::weak_ptr<const MeshCore>> meshes_;
 };

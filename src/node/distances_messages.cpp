@@ -7,14 +7,6 @@
 namespace hgrid {
 namespace {
 
-geometry_msgs::Vector3 toVector(const Eigen::Vector3d& vector) {
-  geometry_msgs::Vector3 result;
-  result.x = vector.x();
-  result.y = vector.y();
-  result.z = vector.z();
-  return result;
-}
-
 /// Number of each body among the names; those in use stand in the order of all, which is that of their names.
 std::vector<std::uint32_t> fillNames(const Structure& structure, const PairDistances& distances, std::size_t shown,
                                      std::vector<std::string>& names) {
