@@ -27,9 +27,9 @@ namespace {
 using Geometry = fcl::CollisionGeometryd;
 using Vector = Eigen::Vector3d;
 
-constexpr double kTolerance = 1e-10;     // [m] of FCL's iterations
-constexpr double kDisagreement = 1e-6;   // [m] between FCL's nearest points and its distance, beside their rounding
-constexpr double kMaybeInside = 0.25;    // winding number from which an open mesh may enclose a point
+constexpr double kTolerance = 1e-10;    // [m] of FCL's iterations
+constexpr double kDisagreement = 1e-6;  // [m] between FCL's nearest points and its distance, beside their rounding
+constexpr double kMaybeInside = 0.25;   // winding number from which an open mesh may enclose a point
 
 /// What FCL makes of a mesh, and what it encloses; equal meshes share it.
 struct MeshCore {

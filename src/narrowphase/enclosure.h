@@ -19,9 +19,9 @@ class Enclosure {
   /// A vertex of every connected part of the mesh.
   const std::vector<Eigen::Vector3d>& parts() const { return parts_; }
   /// How often the mesh goes round a point: the sum of the signed solid angles of its triangles over 4 pi (Jacobson,
-  /// Kavan, Sorkine-Hornung 2013, "Robust Inside-Outside Segmentation using Generalized Winding Numbers"; the angle after
-  /// Van Oosterom and Strackee 1983). Of a closed mesh a whole number, 0 outside; of an open one something between. 0
-  /// without counting where the point lies outside the mesh's box. @param point [m] in the mesh's frame
+  /// Kavan, Sorkine-Hornung 2013, "Robust Inside-Outside Segmentation using Generalized Winding Numbers"; the angle
+  /// after Van Oosterom and Strackee 1983). Of a closed mesh a whole number, 0 outside; of an open one something
+  /// between. 0 without counting where the point lies outside the mesh's box. @param point [m] in the mesh's frame
   double windingNumber(const Eigen::Vector3d& point) const;
 
  private:

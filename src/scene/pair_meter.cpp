@@ -144,8 +144,8 @@ void PairMeter::State::perform(const Snapshot& snapshot, Job& job, std::vector<S
   Known& now = job.known;
   const double enough = kBeyond * job.report;
   bool measure = !now.measured || now.up_to < job.report;
-  if (!measure && (first.matrix() != now.world_from_first.matrix() ||
-                   second.matrix() != now.world_from_second.matrix())) {
+  if (!measure &&
+      (first.matrix() != now.world_from_first.matrix() || second.matrix() != now.world_from_second.matrix())) {
     const double moved = relativeMotion(now.world_from_first, now.world_from_second, first, second,
                                         reachOf(snapshot.structure().bodies[job.pair->second]));
     const double at_least = std::min(now.proximity.distance, now.up_to) - moved;
