@@ -140,8 +140,8 @@ bool goesAfter(const Side& a, const Side& b) {
 
 /// Nearest points of two cores in the first one's frame.
 struct CoreDistance {
-  double distance;  // [m] <= 0: they meet; infinite: farther than asked
-  Vector on_first, on_second;
+  double distance = std::numeric_limits<double>::infinity();  // [m] <= 0: they meet; infinite: farther than asked
+  Vector on_first = Vector::Zero(), on_second = Vector::Zero();
 };
 
 fcl::DistanceRequestd distanceRequest() {
@@ -158,8 +158,15 @@ CoreDistance distanceOf(const FclSolid& a, const FclSolid& b, const Pose& a_from
   fcl::DistanceResultd result;
   result.min_distance = std::nextafter(up_to, std::numeric_limits<double>::infinity());  // FCL looks no farther
   fcl::distance(&a.core(), identity, &b.core(), placed, distanceRequest(), result);
-  if (result.o1 == nullptr) return {std::numeric_limits<double>::infinity(), {}, {}};
-  return {result.min_distance, result.nearest_points[0], result.nearest_points[1]};
+  if (result.o1 == nullptr) return {};
+  CoreDistance found;
+  found.distance = result.min_distance;
+  found.on_first = result.nearest_points[0];
+  found.on_second = result.nearest_points[1];
+  // The core of a ball is its centre. Beside a triangle FCL names that point in the ball's own frame.
+  if (a.kind() == ShapeKind::sphere) found.on_first.setZero();
+  if (b.kind() == ShapeKind::sphere) found.on_second = a_from_b.translation();
+  return found;
 }
 
 /// Depth, normal and place of two cores that meet, where FCL's contact stands the test of moving them apart by it.
@@ -207,7 +214,7 @@ Proximity measured(const Side& a, const Side& b, double up_to) {
   const double around = a.around + b.around;
   const bool has_mesh = a.solid.mesh() || b.solid.mesh();
   const bool far = a_from_b.translation().norm() - (a.solid.reach() + b.solid.reach()) - around > up_to;
-  CoreDistance cores{std::numeric_limits<double>::infinity(), {}, {}};
+  CoreDistance cores;
   if (!far) cores = distanceOf(a.solid, b.solid, a_from_b, std::max(0.0, up_to) + around);
   if (std::isnan(cores.distance)) return result;
   if (cores.distance <= 0.0) {
