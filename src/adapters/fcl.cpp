@@ -91,12 +91,13 @@ class FclSolid final : public Solid {
   double reach() const { return reach_; }
   ShapeKind kind() const { return kind_; }
 
-  /// A point of every part of the core, in its frame.
-  template <class Visit>
-  bool anyPart(Visit&& visit) const {
-    if (!mesh_) return visit(some_point_);
-    const std::vector<Vector>& parts = mesh_->enclosure.parts();
-    return std::any_of(parts.begin(), parts.end(), visit);
+  /// Whether a part of the core, told by some points in its frame, is as asked.
+  template <class Ask>
+  bool anyPart(const Ask& ask) const {
+    if (!mesh_) return ask(&some_point_, &some_point_ + 1);
+    const std::vector<Enclosure::Part>& parts = mesh_->enclosure.parts();
+    return std::any_of(parts.begin(), parts.end(),
+                       [&](const Enclosure::Part& part) { return ask(part.data(), part.data() + part.size()); });
   }
 
  private:
@@ -198,8 +199,10 @@ Measure enclosed(const FclSolid& outer, const FclSolid& inner, const Pose& outer
   if (!outer.mesh()) return Measure::apart;  // what is not a mesh is solid: FCL has found it
   const Enclosure& enclosure = outer.mesh()->enclosure;
   const double least = enclosure.closed() ? 0.5 : kMaybeInside;
-  const bool inside = inner.anyPart(
-      [&](const Vector& point) { return std::abs(enclosure.windingNumber(outer_from_inner * point)) >= least; });
+  const bool inside = inner.anyPart([&](const Vector* begin, const Vector* end) {
+    const auto in_box = [&](const Vector& point) { return enclosure.boxHolds(outer_from_inner * point); };
+    return std::all_of(begin, end, in_box) && std::abs(enclosure.windingNumber(outer_from_inner * *begin)) >= least;
+  });
   if (!inside) return Measure::apart;
   return enclosure.closed() ? Measure::contained : Measure::containment_unknown;
 }
