@@ -14,6 +14,7 @@ set(HGRID_CORE_SOURCES
   src/geometry/shape.cpp
   src/geometry/sphere.cpp
   src/refusal.cpp
+  src/scene/commit.cpp
   src/scene/link_matrix.cpp
   src/scene/name.cpp
   src/scene/pair_filter.cpp
