@@ -17,6 +17,7 @@ set(HGRID_CORE_SOURCES
   src/scene/commit.cpp
   src/scene/link_matrix.cpp
   src/scene/name.cpp
+  src/scene/pair_events.cpp
   src/scene/pair_filter.cpp
   src/scene/pair_tracker.cpp
   src/scene/robot_model.cpp

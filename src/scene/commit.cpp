@@ -6,6 +6,7 @@
 
 #include "hgrid_proximity/geometry/float_environment.h"
 #include "hgrid_proximity/refusal.h"
+#include "scene/pair_margin.h"
 #include "scene/scene_state.h"
 
 namespace hgrid {
@@ -143,15 +144,6 @@ void Scene::State::fillGrid(Snapshot& snapshot) {
   snapshot.grid_.overlappingPairs(proxy_pairs);
 }
 
-double Scene::State::pairMargin(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second) const {
-  const BodyPose &a = snapshot.poses_[first], &b = snapshot.poses_[second];
-  const double margin = std::max(structure->margin[first], structure->margin[second]);
-  const Body &body_a = structure->bodies[first], &body_b = structure->bodies[second];
-  const bool equally_old =
-      a.cohort != 0 && a.cohort == b.cohort && !body_a.robot.empty() && body_a.robot == body_b.robot;
-  return equally_old ? margin : margin + (a.growth + b.growth);
-}
-
 /// Sorts by (first, second, gap): counted by the first body, then each one's few among themselves.
 void Scene::State::sortPairs(std::vector<NearPair>& pairs) {
   next_of_first.assign(structure->bodies.size() + 1, 0);
@@ -179,7 +171,8 @@ void Scene::State::fillPairs(Snapshot& snapshot) {
     const std::uint32_t first = structure->body_of_proxy[proxies.first],
                         second = structure->body_of_proxy[proxies.second];
     const Aabb &a = snapshot.boxes_[proxies.first], &b = snapshot.boxes_[proxies.second];
-    const double margin = pairMargin(snapshot, first, second);
+    const double margin = pairMargin(*structure, first, stalenessOf(snapshot.poses_[first]), second,
+                                     stalenessOf(snapshot.poses_[second]));
     if (!withinDistance(a, b, margin)) continue;
     pairs.push_back({first, second, std::min(distance(a, b), margin), margin, Time{0}});
   }
@@ -190,6 +183,8 @@ void Scene::State::fillPairs(Snapshot& snapshot) {
                   [](const NearPair& a, const NearPair& b) { return a.first == b.first && a.second == b.second; }),
       pairs.end());
   tracker.update(structure->ids, snapshot.stamp_, pairs);
+  pair_events.update({structure, snapshot.poses_, snapshot.boxes_, pairs, snapshot.worst_state_, snapshot.stamp_},
+                     snapshot.events_);
 }
 
 void Scene::State::fillCompleteness(Snapshot& snapshot, const std::vector<std::string>& missing) const {

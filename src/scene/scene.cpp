@@ -61,6 +61,7 @@ Scene::State::Slot& Scene::State::at(BodyId id) {
 
 Scene::Scene(const SceneOptions& options) : state_(std::make_unique<State>(options)) {
   checkLength(options.margin, kLargestMargin, "margin");
+  checkLength(options.event_hysteresis, kLargestMargin, "event_hysteresis");
   checkLength(options.growth_cap, kLargestMargin, "growth_cap");
   checkLength(options.world_limit, kFarthestShape, "world_limit");
   checkLength(options.finest_edge, kLargestMargin, "finest_edge");
@@ -157,6 +158,7 @@ void Scene::beginEpoch(std::uint64_t epoch) {
   state_->epoch = epoch;
   state_->sequence = 0;
   state_->tracker.clear();
+  state_->pair_events.beginEpoch();
 }
 
 std::uint64_t Scene::revision() const { return state_->structure->revision; }

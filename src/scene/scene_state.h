@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hgrid_proximity/scene/scene.h"
+#include "scene/pair_events.h"
 #include "scene/snapshot_pool.h"
 
 namespace hgrid {
@@ -37,7 +38,8 @@ struct Scene::State {
     Aabb result;
   };
 
-  explicit State(const SceneOptions& scene_options) : options(scene_options) {}
+  explicit State(const SceneOptions& scene_options)
+      : options(scene_options), pair_events(scene_options.event_hysteresis) {}
 
   // scene.cpp: the bodies as they were told.
 
@@ -62,7 +64,6 @@ struct Scene::State {
   void fillPairs(Snapshot& snapshot);
   void sortPairs(std::vector<NearPair>& pairs);
   void fillCompleteness(Snapshot& snapshot, const std::vector<std::string>& missing) const;
-  double pairMargin(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second) const;
 
   std::shared_ptr<const Structure> structure = std::make_shared<Structure>();
   std::vector<std::uint32_t> uncovered;  // bodies of the structure that leave a gap wherever they are
@@ -71,6 +72,7 @@ struct Scene::State {
   GridScale scale;
   std::vector<ProxyId> fixed_proxies;
   PairTracker tracker;
+  PairEvents pair_events;
   TickTimes times;
   std::shared_ptr<SnapshotPool> pool = std::make_shared<SnapshotPool>();
 

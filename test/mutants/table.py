@@ -15,6 +15,7 @@ HGRID = "broadphase/hgrid.cpp"
 QUERIES = "broadphase/queries.cpp"
 SCENE = "scene/scene.cpp"
 COMMIT = "scene/commit.cpp"
+EVENTS = "scene/pair_events.cpp"
 
 MUTANTS = [
     ("boxes of a level look around without its reach", KERNELS,
@@ -103,6 +104,12 @@ MUTANTS = [
      "a.gap < b.gap", "a.gap > b.gap"),
     ("a tick computes in the caller's rounding mode", COMMIT,
      "const DefaultFloatEnvironment environment;\n  using Clock", "using Clock"),
+    ("a pair's end is told without the hysteresis", EVENTS,
+     "margin + hysteresis_) &&", "margin) &&"),
+    ("pairs of what is gone end without a word", EVENTS,
+     "else if (!epoch_began_) {", "else if (false) {"),
+    ("who takes the name of a body that is gone takes its pairs too", EVENTS,
+     "order == 0 && was.ids[i] == now.ids[j]", "order == 0"),
     ("allowed patterns hold in one order only", "scene/pair_filter.cpp",
      "(as_first_[i] & as_second_[j]) | (as_second_[i] & as_first_[j])", "as_first_[i] & as_second_[j]"),
     ("a new numbering leaves the pairs unsorted", "scene/pair_tracker.cpp",
