@@ -15,6 +15,7 @@
 #include <mutex>
 #include <vector>
 
+#include "events_messages.h"
 #include "markers.h"
 #include "messages.h"
 #include "node_diagnostics.h"
@@ -85,7 +86,7 @@ class ProximityNode {
   std::chrono::steady_clock::time_point next_try_{}, next_diagnostics_{};
   std::size_t viewers_ = 0;
 
-  ros::Publisher pairs_, status_, bodies_, markers_;
+  ros::Publisher pairs_, events_, status_, bodies_, markers_;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> servers_;
   std::unique_ptr<QueryServices> queries_;
