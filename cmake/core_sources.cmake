@@ -16,9 +16,11 @@ set(HGRID_CORE_SOURCES
   src/narrowphase/enclosure.cpp
   src/narrowphase/narrow_phase.cpp
   src/refusal.cpp
+  src/scene/commit.cpp
   src/scene/link_matrix.cpp
   src/scene/motion_bound.cpp
   src/scene/name.cpp
+  src/scene/pair_events.cpp
   src/scene/pair_filter.cpp
   src/scene/pair_meter.cpp
   src/scene/pair_tracker.cpp

@@ -58,6 +58,8 @@ void visit(Visitor& v, Params& p) {
       "list of {pattern, margin}: bodies with a margin of their own; a pair has the larger one; the last match counts");
   v.values("padding", p.padding, "padding", "m", 0.0, 1000.0,
            "list of {pattern, padding}: bodies whose shapes are grown on all sides; the last match counts");
+  v.number("event_hysteresis", p.event_hysteresis, "m", 0.0, 1000.0,
+           "~events tells the end of a pair when its gap exceeds its margin by more than this");
 
   v.section("Time");
   v.number("max_sync_wait", p.max_sync_wait, "s", 0.0, 10.0,
@@ -94,6 +96,9 @@ void visit(Visitor& v, Params& p) {
   v.integer("max_bodies", p.max_bodies, 1, 1000000, "bodies");
   v.integer("max_frames", p.max_frames, 1, 1000000, "tf frames that are kept");
   v.integer("max_pairs", p.max_pairs, 1, 10000000, "pairs in one message; more: truncated");
+  v.integer("max_events", p.max_events, 1, 1000000, "events in one message of ~events; more: several messages");
+  v.integer("event_queue", p.event_queue, 1, 100000,
+            "messages of ~events that wait for a slow subscriber; more: the oldest are lost");
   v.integer("max_hits", p.max_hits, 1, 1000000, "hits in one answer; more: truncated");
   v.integer("max_listed", p.max_listed, 1, 100000, "bodies that ~status lists");
   v.integer("max_reasons", p.max_reasons, 1, 1000, "reasons for an incomplete world that a message lists");

@@ -66,6 +66,7 @@ ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node)
 
   pairs_ = update_private_.advertise<msg::Pairs>("pairs", 1);
   distances_ = update_private_.advertise<msg::Distances>("distances", 1);
+  events_ = update_private_.advertise<msg::Events>("events", static_cast<std::uint32_t>(params_.event_queue));
   status_ = update_private_.advertise<msg::Status>("status", 1);
   bodies_ = update_private_.advertise<msg::Bodies>("bodies", 1, true);
   markers_ = admin_private_.advertise<visualization_msgs::MarkerArray>("markers", 1);
@@ -160,6 +161,9 @@ void ProximityNode::noteConflicts() {
 
 void ProximityNode::publish(const std::shared_ptr<const Tick>& tick) {
   const msg::WorldState world = worldState(*tick, params_, config_hash_, 0.0);
+  if (events_.getNumSubscribers() > 0) {  // before what says how many there were
+    for (const auto& message : eventsMessages(*tick, world, params_)) events_.publish(message);
+  }
   if (pairs_.getNumSubscribers() > 0) pairs_.publish(pairs_messages_.of(*tick, world));
   if (status_.getNumSubscribers() > 0) {
     status_.publish(boost::make_shared<msg::Status>(status(*tick, world, params_, ledger_, stopwatch_)));

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "hgrid_proximity/scene/pair_meter.h"
+#include "events_messages.h"
 #include "markers.h"
 #include "messages.h"
 #include "node_diagnostics.h"
@@ -90,7 +91,7 @@ class ProximityNode {
   std::chrono::steady_clock::time_point next_try_{}, next_diagnostics_{};
   std::size_t viewers_ = 0;
 
-  ros::Publisher pairs_, distances_, status_, bodies_, markers_;
+  ros::Publisher pairs_, distances_, events_, status_, bodies_, markers_;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> servers_;
   std::unique_ptr<QueryServices> queries_;

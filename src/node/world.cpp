@@ -14,6 +14,7 @@ SceneOptions optionsOf(const Params& params) {
   SceneOptions options;
   options.origin = params.origin;
   options.margin = params.margin;
+  options.event_hysteresis = params.event_hysteresis;
   options.finest_edge = params.finest_edge;
   options.threads = params.threads;
   options.world_limit = params.world_limit;

@@ -9,6 +9,7 @@
 #include "hgrid_proximity/broadphase/hgrid.h"
 #include "hgrid_proximity/narrowphase/narrow_phase.h"
 #include "hgrid_proximity/scene/body.h"
+#include "hgrid_proximity/scene/pair_event.h"
 #include "hgrid_proximity/scene/pair_filter.h"
 #include "hgrid_proximity/scene/pair_tracker.h"
 
@@ -98,6 +99,14 @@ class Snapshot {
   const Eigen::Vector3d& origin() const { return origin_; }
   /// Candidates after the filter, sorted by (first, second).
   const std::vector<NearPair>& pairs() const { return pairs_; }
+  /// Pairs that began or ended since the snapshot before, by number: the ends, then the begins.
+  const std::vector<PairEvent>& events() const { return events_.events; }
+  /// Number of the newest event of the epoch; 0: there was none.
+  std::uint64_t lastEvent() const { return events_.last; }
+  /// What the bodies of an event are indices into: those of an end may be gone from structure().
+  const Structure& structureOf(const PairEvent& event) const {
+    return event.kind == EventKind::end && event.cause == EventCause::bodies ? *events_.before : *structure_;
+  }
   /// Whether every body is known, placed and covered, and none is lost, frozen or invalid.
   bool complete() const { return reasons_total_ == 0; }
   /// Why not, the worst first, at most as many as the scene was told to keep.
@@ -150,6 +159,7 @@ class Snapshot {
   std::vector<BodyPose> poses_;
   std::vector<Aabb> boxes_;
   std::vector<NearPair> pairs_;
+  PairEventList events_;
   std::vector<std::string> reasons_;
   std::uint32_t reasons_total_ = 0;
   Freshness worst_state_ = Freshness::fresh;

@@ -82,6 +82,8 @@ void NodeUnderTest::hear(std::vector<boost::shared_ptr<const Message>> Heard::*w
 void NodeUnderTest::listen() {
   subscribers_.push_back(node_.subscribe<msg::Pairs>(
       named("pairs"), 1000, [this](const msg::Pairs::ConstPtr& message) { hear(&Heard::pairs, message); }));
+  subscribers_.push_back(node_.subscribe<msg::Events>(
+      named("events"), 1000, [this](const msg::Events::ConstPtr& message) { hear(&Heard::events, message); }));
   subscribers_.push_back(node_.subscribe<msg::Status>(
       named("status"), 1000, [this](const msg::Status::ConstPtr& message) { hear(&Heard::status, message); }));
   subscribers_.push_back(node_.subscribe<msg::Bodies>(

@@ -4,6 +4,7 @@
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <hgrid_proximity/Bodies.h>
+#include <hgrid_proximity/Events.h>
 #include <hgrid_proximity/Pairs.h>
 #include <hgrid_proximity/QuerySegment.h>
 #include <hgrid_proximity/QuerySphere.h>
@@ -43,6 +44,7 @@ struct NodeSetup {
 /// What it has said since it was started, the newest last.
 struct Heard {
   std::vector<msg::Pairs::ConstPtr> pairs;
+  std::vector<msg::Events::ConstPtr> events;
   std::vector<msg::Status::ConstPtr> status;
   std::vector<msg::Bodies::ConstPtr> bodies;
   std::map<std::string, diagnostic_msgs::DiagnosticStatus> diagnostics;  ///< newest by name: world, robots, ...
