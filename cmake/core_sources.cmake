@@ -16,9 +16,13 @@ set(HGRID_CORE_SOURCES
   src/refusal.cpp
   src/scene/link_matrix.cpp
   src/scene/name.cpp
+  src/scene/name_index.cpp
+  src/scene/nearest_names.cpp
   src/scene/pair_filter.cpp
+  src/scene/pair_rule.cpp
   src/scene/pair_tracker.cpp
   src/scene/robot_model.cpp
+  src/scene/rule_book.cpp
   src/scene/scene.cpp
   src/scene/snapshot.cpp
 )

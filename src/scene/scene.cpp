@@ -241,6 +241,11 @@ void Scene::setState(BodyId id, Freshness state, double age, std::uint32_t cohor
   pose.cohort = cohort;
 }
 
+void Scene::setRules(std::vector<PairRule> rules) {
+  state_->options.allowed_pairs = std::move(rules);
+  state_->structure_changed = true;
+}
+
 void Scene::State::rebuildStructure() {
   auto next = std::make_shared<Structure>();
   next->revision = structure->revision + 1;
@@ -267,6 +272,7 @@ void Scene::State::rebuildStructure() {
   next->first_proxy.push_back(static_cast<std::uint32_t>(next->body_of_proxy.size()));
   boxes.assign(shapes.size(), Aabb{});
   next->filter = PairFilter(next->bodies, options.pair_kinds, options.allowed_pairs);
+  next->silenced = silencesAll(next->bodies, options.pair_kinds, next->filter);
   fixed_proxies.clear();
   for (ProxyId proxy = 0; proxy < next->body_of_proxy.size(); ++proxy) {
     if (next->bodies[next->body_of_proxy[proxy]].mobility == Mobility::fixed) fixed_proxies.push_back(proxy);
@@ -348,12 +354,7 @@ void Scene::State::fillGrid(Snapshot& snapshot) {
 }
 
 double Scene::State::pairMargin(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second) const {
-  const BodyPose &a = snapshot.poses_[first], &b = snapshot.poses_[second];
-  const double margin = std::max(structure->margin[first], structure->margin[second]);
-  const Body &body_a = structure->bodies[first], &body_b = structure->bodies[second];
-  const bool equally_old =
-      a.cohort != 0 && a.cohort == b.cohort && !body_a.robot.empty() && body_a.robot == body_b.robot;
-  return equally_old ? margin : margin + (a.growth + b.growth);
+  return snapshot.marginOf(first, second) + snapshot.growthOf(first, second);
 }
 
 /// Sorts by (first, second, gap): counted by the first body, then each one's few among themselves.

@@ -50,6 +50,13 @@ void sortOnePerBody(std::vector<QueryHit>& hits, bool (*order)(const QueryHit&, 
 
 }  // namespace
 
+std::uint32_t Structure::find(const std::string& name) const {
+  const auto found = std::lower_bound(bodies.begin(), bodies.end(), name,
+                                      [](const Body& body, const std::string& wanted) { return body.name < wanted; });
+  const bool here = found != bodies.end() && found->name == name;
+  return here ? static_cast<std::uint32_t>(found - bodies.begin()) : kNone;
+}
+
 bool Snapshot::inScope(const QueryScope& scope, std::uint32_t body) const {
   const std::string& name = structure_->bodies[body].name;
   return (scope.include.empty() || matchesAny(scope.include, name)) && !matchesAny(scope.exclude, name);

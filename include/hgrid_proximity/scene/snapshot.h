@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,6 +24,11 @@ struct Structure {
   std::vector<double> margin;  ///< [m] of each body, at least the global one
   double least_margin = 0.0;   ///< [m] the global one
   PairFilter filter;
+  bool silenced = false;  ///< rules switch off every pair that would be reported without them
+
+  static constexpr std::uint32_t kNone = 0xffffffff;
+  /// Index of the body of this name, or kNone.
+  std::uint32_t find(const std::string& name) const;
 };
 
 /// Where a body is in a snapshot, and how far that can be trusted.
@@ -81,6 +87,18 @@ class Snapshot {
   const Eigen::Vector3d& origin() const { return origin_; }
   /// Candidates after the filter, sorted by (first, second).
   const std::vector<NearPair>& pairs() const { return pairs_; }
+  /// [m] The margin that a pair of bodies has while both are fresh.
+  double marginOf(std::uint32_t first, std::uint32_t second) const {
+    return std::max(structure_->margin[first], structure_->margin[second]);
+  }
+  /// [m] By how much it is wider since they are stale. Links of one robot that are equally old have not moved apart.
+  double growthOf(std::uint32_t first, std::uint32_t second) const {
+    const BodyPose &a = poses_[first], &b = poses_[second];
+    const Body &body_a = structure_->bodies[first], &body_b = structure_->bodies[second];
+    const bool equally_old =
+        a.cohort != 0 && a.cohort == b.cohort && !body_a.robot.empty() && body_a.robot == body_b.robot;
+    return equally_old ? 0.0 : a.growth + b.growth;
+  }
   /// Whether every body is known, placed and covered, and none is lost, frozen or invalid.
   bool complete() const { return reasons_total_ == 0; }
   /// Why not, the worst first, at most as many as the scene was told to keep.
