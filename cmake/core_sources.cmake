@@ -14,6 +14,8 @@ set(HGRID_CORE_SOURCES
   src/geometry/shape.cpp
   src/geometry/sphere.cpp
   src/refusal.cpp
+  src/scene/allowed_matrix.cpp
+  src/scene/explain.cpp
   src/scene/link_matrix.cpp
   src/scene/name.cpp
   src/scene/name_index.cpp
