@@ -84,6 +84,11 @@ ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node)
   queries_ = std::make_unique<QueryServices>(
       query_private_, params_, config_hash_, [this] { return newest(); }, world_.transforms().buffer(), narrow_phase_,
       sketch_, ledger_);
+  explain_ = std::make_unique<ExplainService>(
+      query_private_, params_, config_hash_, [this] { return newest(); }, narrow_phase_, ledger_);
+  allowed_ = std::make_unique<AllowedServices>(
+      admin_private_, params_, config_hash_, [this] { return newest(); },
+      [this](const Job& job) { return tickAfter(job); }, ledger_);
   servers_.push_back(admin_private_.advertiseService("reset", &ProximityNode::onReset, this));
   servers_.push_back(admin_private_.advertiseService("reload_robot", &ProximityNode::onReload, this));
   diagnostics_ = std::make_unique<NodeDiagnostics>(
@@ -293,6 +298,14 @@ void ProximityNode::publishMarkers() {
 void ProximityNode::waitForTick() {
   runInTick([](World&) {});
   runInTick([](World&) {});
+}
+
+/// Does a job at the begin of a tick and returns that tick.
+std::shared_ptr<const Tick> ProximityNode::tickAfter(const Job& job) {
+  runInTick(job);
+  const auto tick = std::make_shared<std::shared_ptr<const Tick>>();  // not on the stack: the wait may be given up
+  runInTick([this, tick](World&) { *tick = newest(); });
+  return *tick;
 }
 
 bool ProximityNode::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {

@@ -15,8 +15,10 @@
 #include <mutex>
 #include <vector>
 
-#include "hgrid_proximity/scene/pair_meter.h"
+#include "allowed_services.h"
 #include "events_messages.h"
+#include "explain_service.h"
+#include "hgrid_proximity/scene/pair_meter.h"
 #include "markers.h"
 #include "messages.h"
 #include "node_diagnostics.h"
@@ -30,7 +32,7 @@ namespace hgrid {
 
 /// The node: three queues that do not wait for each other. On the first, one thread reads tf and ticks; on the
 /// second, ~query_threads threads answer queries from the newest tick; on the third, one thread reads robots, serves
-/// ~reset and ~reload_robot and publishes diagnostics and markers.
+/// ~reset, ~reload_robot, ~set_allowed and ~get_allowed and publishes diagnostics and markers.
 class ProximityNode {
  public:
   /// @throws std::invalid_argument listing every wrong parameter
@@ -54,6 +56,7 @@ class ProximityNode {
   void loadMissing();
   void runInTick(const Job& job);
   void waitForTick();
+  std::shared_ptr<const Tick> tickAfter(const Job& job);
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool onReload(msg::ReloadRobot::Request& request, msg::ReloadRobot::Response& response);
   NodeHealth health() const;
@@ -95,6 +98,8 @@ class ProximityNode {
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> servers_;
   std::unique_ptr<QueryServices> queries_;
+  std::unique_ptr<ExplainService> explain_;
+  std::unique_ptr<AllowedServices> allowed_;
   std::unique_ptr<NodeDiagnostics> diagnostics_;
   ros::SteadyTimer tick_timer_, housekeeping_timer_;
   std::vector<std::unique_ptr<ros::AsyncSpinner>> spinners_;

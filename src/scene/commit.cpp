@@ -64,6 +64,7 @@ void Scene::State::rebuildStructure() {
   next->first_proxy.push_back(static_cast<std::uint32_t>(next->body_of_proxy.size()));
   boxes.assign(shapes.size(), Aabb{});
   next->filter = PairFilter(next->bodies, options.pair_kinds, options.allowed_pairs);
+  next->silenced = silencesAll(next->bodies, options.pair_kinds, next->filter);
   fixed_proxies.clear();
   for (ProxyId proxy = 0; proxy < next->body_of_proxy.size(); ++proxy) {
     if (next->bodies[next->body_of_proxy[proxy]].mobility == Mobility::fixed) fixed_proxies.push_back(proxy);

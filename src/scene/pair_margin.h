@@ -21,16 +21,21 @@ inline double toldMargin(const Structure& structure, std::uint32_t first, std::u
   return std::max(structure.margin[first], structure.margin[second]);
 }
 
-/// [m] margin of a pair, widened by what both may have moved. Links of one robot that are equally old do not grow
+/// [m] by how much that margin is wider since they are stale. Links of one robot that are equally old do not grow
 /// against each other.
-inline double pairMargin(const Structure& structure, std::uint32_t first, Staleness a, std::uint32_t second,
-                         Staleness b) {
-  const double margin = toldMargin(structure, first, second);
+inline double widening(const Structure& structure, std::uint32_t first, Staleness a, std::uint32_t second,
+                       Staleness b) {
   if (a.cohort != 0 && a.cohort == b.cohort) {
     const std::string &robot_a = structure.bodies[first].robot, &robot_b = structure.bodies[second].robot;
-    if (!robot_a.empty() && robot_a == robot_b) return margin;
+    if (!robot_a.empty() && robot_a == robot_b) return 0.0;
   }
-  return margin + (a.growth + b.growth);
+  return a.growth + b.growth;
+}
+
+/// [m] the margin with what it is wider.
+inline double pairMargin(const Structure& structure, std::uint32_t first, Staleness a, std::uint32_t second,
+                         Staleness b) {
+  return toldMargin(structure, first, second) + widening(structure, first, a, second, b);
 }
 
 }  // namespace hgrid

@@ -154,6 +154,11 @@ void Scene::setState(BodyId id, Freshness state, double age, std::uint32_t cohor
   pose.cohort = cohort;
 }
 
+void Scene::setRules(std::vector<PairRule> rules) {
+  state_->options.allowed_pairs = std::move(rules);
+  state_->structure_changed = true;
+}
+
 void Scene::beginEpoch(std::uint64_t epoch) {
   state_->epoch = epoch;
   state_->sequence = 0;

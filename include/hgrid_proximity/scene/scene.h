@@ -23,7 +23,7 @@ struct SceneOptions {
   std::size_t max_reasons = 8;  ///< reasons that a snapshot lists
   int threads = 1;              ///< that the broad phase may use, 1 .. 64
   PairKinds pair_kinds;
-  std::vector<AllowedPattern> allowed_pairs;
+  std::vector<PairRule> allowed_pairs;  ///< rules to begin with
 };
 
 /// Time a part of a tick took.
@@ -61,6 +61,10 @@ class Scene {
   void setState(BodyId id, Freshness state, double age, std::uint32_t cohort = 0);
   /// Last known pose of a body.
   const BodyPose& poseOf(BodyId id) const;
+
+  /// Replaces all rules of the allowed-pair matrix from the next commit on. Of two that are equally exact the stronger
+  /// comes last.
+  void setRules(std::vector<PairRule> rules);
 
   /// Makes the snapshot of now.
   /// @param missing  sentences of what else is missing from the world (a robot without a model); each

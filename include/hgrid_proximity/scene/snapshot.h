@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,8 +26,10 @@ struct Structure {
   std::vector<double> margin;  ///< [m] of each body, at least the global one
   double least_margin = 0.0;   ///< [m] the global one
   PairFilter filter;
+  bool silenced = false;  ///< rules switch off every pair that would be reported without them
 
-  /// Index of the body of this name. @throws Refusal unknown_id
+  static constexpr std::uint32_t kNone = 0xffffffff;
+  /// Index of the body of this name, or kNone.
   std::uint32_t find(const std::string& name) const;
 };
 
@@ -107,6 +110,10 @@ class Snapshot {
   const Structure& structureOf(const PairEvent& event) const {
     return event.kind == EventKind::end && event.cause == EventCause::bodies ? *events_.before : *structure_;
   }
+  /// [m] The margin that a pair of bodies has while both are fresh.
+  double marginOf(std::uint32_t first, std::uint32_t second) const;
+  /// [m] By how much it is wider since they are stale. Links of one robot that are equally old have not moved apart.
+  double growthOf(std::uint32_t first, std::uint32_t second) const;
   /// Whether every body is known, placed and covered, and none is lost, frozen or invalid.
   bool complete() const { return reasons_total_ == 0; }
   /// Why not, the worst first, at most as many as the scene was told to keep.

@@ -223,6 +223,21 @@ msg::ReloadRobot::Response NodeUnderTest::reload(const std::string& robot) {
 
 std_srvs::Trigger::Response NodeUnderTest::reset() { return call<std_srvs::Trigger>(reset_, "reset", {}); }
 
+msg::SetAllowed::Response NodeUnderTest::setAllowed(const msg::SetAllowed::Request& request) {
+  return call<msg::SetAllowed>(set_allowed_, "set_allowed", request);
+}
+
+msg::GetAllowed::Response NodeUnderTest::getAllowed(const msg::GetAllowed::Request& request) {
+  return call<msg::GetAllowed>(get_allowed_, "get_allowed", request);
+}
+
+msg::ExplainPair::Response NodeUnderTest::explain(const std::string& first, const std::string& second) {
+  msg::ExplainPair::Request request;
+  request.first = first;
+  request.second = second;
+  return call<msg::ExplainPair>(explain_, "explain_pair", request);
+}
+
 std::string NodeUnderTest::output() const {
   std::ifstream file(output_file_);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
