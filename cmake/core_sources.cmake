@@ -13,16 +13,23 @@ set(HGRID_CORE_SOURCES
   src/geometry/segment.cpp
   src/geometry/shape.cpp
   src/geometry/sphere.cpp
+  src/narrowphase/enclosure.cpp
+  src/narrowphase/narrow_phase.cpp
   src/refusal.cpp
   src/scene/link_matrix.cpp
+  src/scene/motion_bound.cpp
   src/scene/name.cpp
   src/scene/pair_filter.cpp
+  src/scene/pair_meter.cpp
   src/scene/pair_tracker.cpp
   src/scene/robot_model.cpp
   src/scene/scene.cpp
   src/scene/snapshot.cpp
+  src/scene/snapshot_nearest.cpp
+  src/scene/snapshot_queries.cpp
 )
 set(HGRID_ADAPTER_SOURCES
+  src/adapters/fcl.cpp
   src/adapters/mesh.cpp
   src/adapters/resource.cpp
   src/adapters/srdf.cpp

@@ -9,7 +9,8 @@ export PATH="/usr/bin:/usr/sbin:$PATH"  # ROS needs the system's python3; anothe
 
 build_packages=(
   catkin cmake g++ make ros-core-dev
-  libassimp-dev libconsole-bridge-dev libdiagnostic-updater-dev libeigen3-dev libgtest-dev libnodelet-dev
+  libassimp-dev libconsole-bridge-dev libdiagnostic-updater-dev libeigen3-dev libfcl-dev libgtest-dev
+  libnodelet-dev
   libnodeletlib-dev libtf2-dev libtf2-msgs-dev libtinyxml2-dev liburdfdom-dev liburdfdom-headers-dev pluginlib-dev
 )
 demo_packages=(
@@ -19,7 +20,7 @@ demo_packages=(
 )
 # shellcheck disable=SC2034  # read by scripts/test
 test_packages=(
-  "${demo_packages[@]}" catkin-lint libfaketime libfcl-dev libnodeletlib-tools locales python3-rostest rosbash
+  "${demo_packages[@]}" catkin-lint libfaketime libnodeletlib-tools locales python3-rostest rosbash
 )
 
 # What goes on in the background is stopped, and the scratch folder removed, when the script ends, however it ends.

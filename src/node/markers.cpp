@@ -3,6 +3,7 @@
 #include "markers.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "messages.h"
 
@@ -11,6 +12,7 @@ namespace {
 
 using visualization_msgs::Marker;
 
+constexpr int kMostTexts = 20;  // those of the nearest pairs; more could not be read
 constexpr auto kQueryShownFor = std::chrono::seconds(3);
 
 std_msgs::ColorRGBA color(double r, double g, double b, double a) {
@@ -106,6 +108,38 @@ void addPair(Marker& lines, const Snapshot& snapshot, const NearPair& pair) {
           color(1.0, 1.0 - 0.9 * nearness, 0.1, 1.0));
 }
 
+/// From green far away to red in contact; grey where nothing was measured.
+std_msgs::ColorRGBA distanceColor(const PairDistance& pair, double farthest) {
+  if (std::isnan(pair.proximity.distance)) return color(0.6, 0.6, 0.6, 1.0);
+  const double nearness = farthest > 0.0 ? 1.0 - std::min(1.0, pair.proximity.distance / farthest) : 1.0;
+  return color(std::min(1.0, 2.0 * nearness), std::min(1.0, 2.0 - 2.0 * nearness), 0.1, 1.0);
+}
+
+std::string distanceText(const PairDistance& pair) {
+  if (pair.proximity.status != Measure::apart) return name(pair.proximity.status);
+  return std::to_string(std::lround(1e3 * pair.proximity.distance)) + " mm";
+}
+
+/// Lines between the nearest points, and beside the first of them how far they are apart.
+void addDistances(const Tick& tick, const PairDistances& distances, Marker& lines, std::vector<Marker>& texts) {
+  double farthest = 0.0;
+  for (const PairDistance& pair : distances.pairs) {
+    if (std::isfinite(pair.proximity.distance)) farthest = std::max(farthest, pair.proximity.distance);
+  }
+  std::size_t written = 0;
+  for (const PairDistance& pair : distances.pairs) {
+    if (!pair.proximity.on_first.allFinite() || !pair.proximity.on_second.allFinite()) continue;
+    const std_msgs::ColorRGBA tint = distanceColor(pair, farthest);
+    addLine(lines, pair.proximity.on_first, pair.proximity.on_second, tint);
+    if (written == texts.size()) continue;
+    Marker& text = texts[written++];
+    text.action = Marker::ADD;
+    text.text = distanceText(pair);
+    text.color = tint;
+    text.pose.position = toPoint(0.5 * (pair.proximity.on_first + pair.proximity.on_second));
+  }
+}
+
 }  // namespace
 
 void QuerySketch::show(const Sphere& sphere, Verdict verdict) {
@@ -128,14 +162,21 @@ std::optional<QuerySketch::Drawn<Segment>> QuerySketch::segment() const {
   return segment_;
 }
 
-visualization_msgs::MarkerArray markers(const Tick& tick, const QuerySketch& queries) {
+visualization_msgs::MarkerArray markers(const Tick& tick, const QuerySketch& queries, const PairDistances* distances) {
   Marker boxes = marker(tick, "boxes", 0, Marker::LINE_LIST),
          not_fresh = marker(tick, "not_fresh", 0, Marker::LINE_LIST),
-         pairs = marker(tick, "pairs", 0, Marker::LINE_LIST), ball = marker(tick, "queries", 0, Marker::SPHERE),
+         pairs = marker(tick, "pairs", 0, Marker::LINE_LIST), nearest = marker(tick, "distances", 0, Marker::LINE_LIST),
+         ball = marker(tick, "queries", 0, Marker::SPHERE),
          ray = marker(tick, "queries", 1, Marker::LINE_LIST);
   boxes.scale.x = 0.004;
   not_fresh.scale.x = 0.012;
   pairs.scale.x = 0.02;
+  nearest.scale.x = 0.008;
+  std::vector<Marker> texts;
+  for (int i = 0; i < kMostTexts; ++i) {
+    texts.push_back(marker(tick, "distance_texts", i, Marker::TEXT_VIEW_FACING));
+    texts.back().scale.z = 0.05;
+  }
   if (tick.snapshot) {
     const Snapshot& snapshot = *tick.snapshot;
     for (ProxyId proxy = 0; proxy < snapshot.boxes().size(); ++proxy) {
@@ -147,6 +188,7 @@ visualization_msgs::MarkerArray markers(const Tick& tick, const QuerySketch& que
     }
     for (const NearPair& pair : snapshot.pairs()) addPair(pairs, snapshot, pair);
   }
+  if (distances != nullptr) addDistances(tick, *distances, nearest, texts);
   const auto now = std::chrono::steady_clock::now();
   const auto sphere = queries.sphere();
   if (sphere && now - sphere->at < kQueryShownFor) {
@@ -161,7 +203,8 @@ visualization_msgs::MarkerArray markers(const Tick& tick, const QuerySketch& que
     addLine(ray, segment->geometry.from, segment->geometry.to, verdictColor(segment->verdict));
   }
   visualization_msgs::MarkerArray array;
-  array.markers = {boxes, not_fresh, pairs, ball, ray};
+  array.markers = {boxes, not_fresh, pairs, nearest, ball, ray};
+  array.markers.insert(array.markers.end(), texts.begin(), texts.end());
   return array;
 }
 

@@ -56,6 +56,14 @@ geometry_msgs::Point toPoint(const Eigen::Vector3d& point) {
   return result;
 }
 
+geometry_msgs::Vector3 toVector(const Eigen::Vector3d& vector) {
+  geometry_msgs::Vector3 result;
+  result.x = vector.x();
+  result.y = vector.y();
+  result.z = vector.z();
+  return result;
+}
+
 geometry_msgs::Pose toPose(const Pose& pose) {
   geometry_msgs::Pose result;
   const Eigen::Quaterniond rotation(pose.linear());

@@ -19,6 +19,7 @@ namespace hgrid {
 namespace msg = ::hgrid_proximity;
 
 ros::Time toRos(Time time);
+geometry_msgs::Vector3 toVector(const Eigen::Vector3d& vector);
 geometry_msgs::Point toPoint(const Eigen::Vector3d& point);
 geometry_msgs::Pose toPose(const Pose& pose);
 

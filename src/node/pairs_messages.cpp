@@ -16,7 +16,7 @@ void fillPairs(const Snapshot& snapshot, const std::vector<std::uint32_t>& numbe
   message.margin.resize(shown);
   message.since.resize(shown);
   message.state.resize(shown);
-  message.no_contact_before.resize(shown, std::nan(""));  // of no pair known yet, and so in every message
+  message.no_contact_before.resize(shown);
   message.flags.resize(shown, 0);
   for (std::size_t i = 0; i < shown; ++i) {
     const NearPair& pair = snapshot.pairs()[i];
@@ -25,6 +25,7 @@ void fillPairs(const Snapshot& snapshot, const std::vector<std::uint32_t>& numbe
     message.gap[i] = pair.gap;
     message.margin[i] = pair.margin;
     message.since[i] = toRos(pair.since);
+    message.no_contact_before[i] = snapshot.noContactBefore(pair.first, pair.second, pair.gap);
     message.state[i] =
         static_cast<std::uint8_t>(std::max(snapshot.poses()[pair.first].state, snapshot.poses()[pair.second].state));
   }

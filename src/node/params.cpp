@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "params.h"
 
+#include <map>
 #include <sstream>
 #include <stdexcept>
 
@@ -76,6 +77,13 @@ void visit(Visitor& v, Params& p) {
   v.number("tf_cache", p.tf_cache, "s", 1.0, 3600.0, "how long transforms are kept");
   v.number("clock_jump", p.clock_jump, "s", 0.1, 86400.0, "a ROS clock that runs ahead by more in one tick has jumped");
 
+  v.section("Exact distances");
+  v.number("distances/max", p.distances_max, "m", 0.0, 1000.0,
+           "pairs whose shapes are this near or nearer stand in ~distances; at most ~margin");
+  v.number("distances/budget", p.distances_budget, "s", 0.0, 10.0,
+           "most time per tick; what does not fit, the farthest boxes, is not measured; 0: as long as it takes");
+  v.integer("distances/threads", p.distances_threads, 1, 64, "that measure");
+
   v.section("Limits");
   v.number("world_limit", p.world_limit, "m", 1.0, 1e6, "poses beyond this are refused, per axis");
   v.number("min_size", p.min_size, "m", 1e-6, 1.0, "smallest radius, side or height of a shape");
@@ -110,22 +118,22 @@ class Reader {
 
   void section(const char*) {}
   void string(const char* name, std::string& value, const char*) {
-    if (auto given = root_.get(name)) given->string(value);
+    if (auto given = get(name)) given->string(value);
   }
   void vector(const char* name, Eigen::Vector3d& value, const char*, double limit, const char*) {
-    if (auto given = root_.get(name)) given->vector(value, limit);
+    if (auto given = get(name)) given->vector(value, limit);
   }
   void number(const char* name, double& value, const char* unit, double low, double high, const char*) {
-    if (auto given = root_.get(name)) given->number(value, low, high, unit);
+    if (auto given = get(name)) given->number(value, low, high, unit);
   }
   void integer(const char* name, int& value, int low, int high, const char*) {
-    if (auto given = root_.get(name)) given->integer(value, low, high);
+    if (auto given = get(name)) given->integer(value, low, high);
   }
   void flag(const char* name, bool& value, const char*) {
-    if (auto given = root_.get(name)) given->flag(value);
+    if (auto given = get(name)) given->flag(value);
   }
   void strings(const char* name, std::vector<std::string>& value, const char*) {
-    if (auto given = root_.get(name)) given->strings(value);
+    if (auto given = get(name)) given->strings(value);
   }
   void robots(const char* name, std::vector<RobotParams>& value, const char*) {
     std::set<std::string> names;
@@ -174,7 +182,7 @@ class Reader {
     });
   }
   void kinds(const char* name, PairKinds& value, const char*) {
-    auto given = root_.get(name);
+    auto given = get(name);
     if (!given) return;
     std::vector<std::string> names;
     given->strings(names);
@@ -193,17 +201,20 @@ class Reader {
     }
   }
   void obstacles(const char* name, std::vector<ObstacleParams>& value, const char*) {
-    obstacles_ = root_.get(name);  // read last: the limits on sizes are parameters too
+    obstacles_ = get(name);  // read last: the limits on sizes are parameters too
     obstacles_target_ = &value;
   }
   void finish() {
     if (obstacles_) *obstacles_target_ = readObstacles(*obstacles_, params_.shapeLimits());
+    for (auto& group : groups_) {
+      if (group.second) group.second->finish("parameter of this node");
+    }
   }
 
  private:
   template <class Read>
   void forEach(const char* name, const char* noun, Read&& read) {
-    auto given = root_.get(name);
+    auto given = get(name);
     if (!given) return;
     for (ParamValue& element : given->elements()) {
       if (!element.requireStruct()) continue;
@@ -215,8 +226,22 @@ class Reader {
     if (auto given = required ? element.require(key) : element.get(key)) given->string(value);
   }
 
+  /// Of a name "group/key" the member of that struct.
+  std::optional<ParamValue> get(const std::string& name) {
+    const std::size_t slash = name.find('/');
+    if (slash == std::string::npos) return root_.get(name);
+    const std::string group = name.substr(0, slash);
+    auto known = groups_.find(group);
+    if (known == groups_.end()) {
+      known = groups_.emplace(group, root_.get(group)).first;
+      if (known->second && !known->second->requireStruct()) known->second.reset();
+    }
+    return known->second ? known->second->get(name.substr(slash + 1)) : std::nullopt;
+  }
+
   ParamValue& root_;
   const Params& params_;
+  std::map<std::string, std::optional<ParamValue>> groups_;
   std::optional<ParamValue> obstacles_;
   std::vector<ObstacleParams>* obstacles_target_ = nullptr;
 };
@@ -224,30 +249,29 @@ class Reader {
 /// Writes config/params.yaml.
 class Printer {
  public:
-  void section(const char* title) { out_ << "\n# " << title << "\n"; }
+  void section(const char* title) {
+    out_ << "\n# " << title << "\n";
+    group_.clear();
+  }
   void string(const char* name, const std::string& value, const char* meaning) {
-    line(meaning);
-    out_ << name << ": \"" << value << "\"\n";
+    entry(name, meaning, "\"" + value + "\"");
   }
   void vector(const char* name, const Eigen::Vector3d& value, const char* unit, double limit, const char* meaning) {
-    line(std::string("[") + unit + "] " + meaning + "; each within " + text(-limit) + " .. " + text(limit));
-    out_ << name << ": [" << decimal(value[0]) << ", " << decimal(value[1]) << ", " << decimal(value[2]) << "]\n";
+    entry(name, std::string("[") + unit + "] " + meaning + "; each within " + text(-limit) + " .. " + text(limit),
+          "[" + decimal(value[0]) + ", " + decimal(value[1]) + ", " + decimal(value[2]) + "]");
   }
   void number(const char* name, double value, const char* unit, double low, double high, const char* meaning) {
-    line(std::string("[") + unit + "] " + meaning + "; " + text(low) + " .. " + text(high));
-    out_ << name << ": " << decimal(value) << "\n";
+    entry(name, std::string("[") + unit + "] " + meaning + "; " + text(low) + " .. " + text(high), decimal(value));
   }
   void integer(const char* name, int value, int low, int high, const char* meaning) {
-    line(std::string(meaning) + "; " + std::to_string(low) + " .. " + std::to_string(high));
-    out_ << name << ": " << value << "\n";
+    entry(name, std::string(meaning) + "; " + std::to_string(low) + " .. " + std::to_string(high),
+          std::to_string(value));
   }
   void flag(const char* name, bool value, const char* meaning) {
-    line(meaning);
-    out_ << name << ": " << (value ? "true" : "false") << "\n";
+    entry(name, meaning, value ? "true" : "false");
   }
   void kinds(const char* name, const PairKinds&, const char* meaning) {
-    line(meaning);
-    out_ << name << ": [self, robot_robot, robot_obstacle, robot_map, moving_obstacle]\n";
+    entry(name, meaning, "[self, robot_robot, robot_obstacle, robot_map, moving_obstacle]");
   }
   void strings(const char* name, const std::vector<std::string>&, const char* meaning) { list(name, "", meaning); }
   void robots(const char* name, const std::vector<RobotParams>&, const char* meaning) { list(name, "", meaning); }
@@ -262,16 +286,21 @@ class Printer {
 
  private:
   void list(const char* name, const std::string& unit, const std::string& meaning) {
-    line(unit + meaning);
-    out_ << name << ": []\n";
+    entry(name, unit + meaning, "[]");
   }
-  void line(std::string meaning) {  // wrapped for people
-    while (!meaning.empty()) {
+  void entry(const std::string& name, std::string meaning, const std::string& value) {
+    const std::size_t slash = name.find('/');
+    const std::string group = slash == std::string::npos ? "" : name.substr(0, slash);
+    if (group != group_ && !group.empty()) out_ << group << ":\n";
+    group_ = group;
+    const std::string indent = group.empty() ? "" : "  ";
+    while (!meaning.empty()) {  // wrapped for people
       std::size_t end = meaning.size();
       if (end > 110) end = meaning.rfind(' ', 110);
-      out_ << "# " << meaning.substr(0, end) << "\n";
+      out_ << indent << "# " << meaning.substr(0, end) << "\n";
       meaning.erase(0, end + 1);
     }
+    out_ << indent << (group.empty() ? name : name.substr(slash + 1)) << ": " << value << "\n";
   }
   static std::string decimal(double value) {  // YAML 1.1 reads 1e+06 as a string
     std::string shown = text(value);
@@ -282,6 +311,7 @@ class Printer {
   }
 
   std::ostringstream out_;
+  std::string group_;  // of the last entry
 };
 
 }  // namespace
@@ -310,6 +340,8 @@ Params readParams(XmlRpc::XmlRpcValue values) {
   require(params.valid_for * params.rate >= 1.0, "~valid_for is " + text(params.valid_for) +
                                                      " s; it must be at least one period of ~rate, " +
                                                      text(1.0 / params.rate) + " s");
+  require(params.distances_max <= params.margin, "~distances/max is " + text(params.distances_max) +
+                                                     " m; it must be at most ~margin, " + text(params.margin) + " m");
   require(params.min_size < params.max_size,
           "~min_size is " + text(params.min_size) + " m; it must be below ~max_size, " + text(params.max_size) + " m");
   require(params.finest_edge == 0.0 || params.finest_edge >= 1e-3,

@@ -7,6 +7,8 @@
 #include <future>
 #include <utility>
 
+#include "distances_messages.h"
+#include "hgrid_proximity/adapters/fcl.h"
 #include "hgrid_proximity/scene/name.h"
 
 namespace hgrid {
@@ -56,11 +58,14 @@ ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node)
       admin_private_(onQueue(private_node, admin_queue_)),
       params_(readParams(valuesOf(private_node))),
       config_hash_(fnv1a(valuesOf(private_node).toXml())),
-      robot_source_(private_node, params_),
-      world_(params_, ros::Time::isSimTime(), newEpoch(), ledger_) {
+      narrow_phase_(makeFclNarrowPhase()),
+      robot_source_(private_node, params_, narrow_phase_),
+      world_(params_, ros::Time::isSimTime(), newEpoch(), ledger_, narrow_phase_),
+      meter_(narrow_phase_, {params_.distances_max, params_.distances_budget, params_.distances_threads}) {
   for (const RobotParams& robot : params_.robots) to_load_.push_back(robot.name);
 
   pairs_ = update_private_.advertise<msg::Pairs>("pairs", 1);
+  distances_ = update_private_.advertise<msg::Distances>("distances", 1);
   status_ = update_private_.advertise<msg::Status>("status", 1);
   bodies_ = update_private_.advertise<msg::Bodies>("bodies", 1, true);
   markers_ = admin_private_.advertise<visualization_msgs::MarkerArray>("markers", 1);
@@ -76,7 +81,7 @@ ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node)
   subscribers_.push_back(update_node_.subscribe<tf2_msgs::TFMessage>("/tf_static", 1000, on_tf(true)));
 
   queries_ = std::make_unique<QueryServices>(
-      query_private_, params_, config_hash_, [this] { return newest(); }, world_.transforms().buffer(), sketch_,
+      query_private_, params_, config_hash_, [this] { return newest(); }, world_.transforms().buffer(), narrow_phase_, sketch_,
       ledger_);
   servers_.push_back(admin_private_.advertiseService("reset", &ProximityNode::onReset, this));
   servers_.push_back(admin_private_.advertiseService("reload_robot", &ProximityNode::onReload, this));
@@ -125,6 +130,8 @@ void ProximityNode::onTick(const ros::SteadyTimerEvent& event) {
     const auto made = std::chrono::steady_clock::now();
     publish(tick);
     const auto published = std::chrono::steady_clock::now();
+    measure(tick);
+    const auto measured = std::chrono::steady_clock::now();
     logChange(*tick);
     noteConflicts();
     const auto end = std::chrono::steady_clock::now();
@@ -134,6 +141,7 @@ void ProximityNode::onTick(const ros::SteadyTimerEvent& event) {
     stopwatch_.add("tick.grid", tick->times.grid);
     stopwatch_.add("tick.pairs", tick->times.pairs);
     stopwatch_.add("tick.publish", published - made);
+    stopwatch_.add("tick.distances", measured - published);
     stopwatch_.add("tf", std::exchange(tf_time_, std::chrono::nanoseconds(0)));
     stopwatch_.summarise(end);
   } catch (const std::exception& error) {  // the last tick goes on serving; its age shows that there is no newer one
@@ -161,6 +169,20 @@ void ProximityNode::publish(const std::shared_ptr<const Tick>& tick) {
     published_epoch_ = tick->epoch;
     bodies_.publish(boost::make_shared<msg::Bodies>(bodies(*tick)));
   }
+}
+
+/// Exact distances, once the candidates are out: those who need no more do not wait for them.
+void ProximityNode::measure(const std::shared_ptr<const Tick>& tick) {
+  const bool wanted = distances_.getNumSubscribers() > 0;
+  if (!wanted && markers_.getNumSubscribers() == 0) return std::atomic_store(&measured_, {});
+  auto measured = std::make_shared<MeasuredTick>();
+  measured->tick = tick;
+  if (tick->snapshot) measured->distances = meter_.measure(*tick->snapshot);
+  std::atomic_store(&measured_, std::shared_ptr<const MeasuredTick>(measured));
+  if (!wanted) return;
+  const msg::WorldState world = worldState(*tick, params_, config_hash_, 0.0);
+  distances_.publish(distancesMessage(*tick, world, measured->distances.get(), params_));
+  if (measured->distances && measured->distances->left_out > 0) ledger_.count("distances.left_out");
 }
 
 /// One line when the world becomes complete or stops being so, or for another reason; not one per tick.
@@ -256,7 +278,9 @@ void ProximityNode::publishMarkers() {
   const std::shared_ptr<const Tick> tick = newest();
   if (viewers > 0 && tick) {
     if (viewers > viewers_) markers_.publish(markersGone(*tick));
-    markers_.publish(markers(*tick, sketch_));
+    const std::shared_ptr<const MeasuredTick> measured = std::atomic_load(&measured_);
+    markers_.publish(measured && measured->distances ? markers(*measured->tick, sketch_, measured->distances.get())
+                                                     : markers(*tick, sketch_, nullptr));
   }
   viewers_ = viewers;
 }

@@ -15,6 +15,7 @@
 #include <mutex>
 #include <vector>
 
+#include "hgrid_proximity/scene/pair_meter.h"
 #include "markers.h"
 #include "messages.h"
 #include "node_diagnostics.h"
@@ -43,6 +44,7 @@ class ProximityNode {
   void onTick(const ros::SteadyTimerEvent& event);
   void noteConflicts();
   void publish(const std::shared_ptr<const Tick>& tick);
+  void measure(const std::shared_ptr<const Tick>& tick);
   void logChange(const Tick& tick);
   void onHousekeeping();
   void publishMarkers();
@@ -61,10 +63,12 @@ class ProximityNode {
   std::uint64_t config_hash_;
   Ledger ledger_;
   QuerySketch sketch_;
+  std::shared_ptr<NarrowPhase> narrow_phase_;
   RobotSource robot_source_;
   World world_;  // of the update thread, see runInTick()
   Stopwatch stopwatch_;
   std::shared_ptr<const Tick> newest_;
+  std::shared_ptr<const MeasuredTick> measured_;  // null while nobody asks for distances
   std::atomic<bool> stopping_{false};
 
   mutable std::mutex mutex_;  // of what follows
@@ -73,6 +77,7 @@ class ProximityNode {
 
   // Of the update thread.
   PairsMessages pairs_messages_{params_};
+  PairMeter meter_;
   std::uint64_t published_revision_ = 0, published_epoch_ = 0;
   std::chrono::nanoseconds tf_time_{0};  // spent on transforms since the last tick
   std::size_t known_conflicts_ = 0;
@@ -85,7 +90,7 @@ class ProximityNode {
   std::chrono::steady_clock::time_point next_try_{}, next_diagnostics_{};
   std::size_t viewers_ = 0;
 
-  ros::Publisher pairs_, status_, bodies_, markers_;
+  ros::Publisher pairs_, distances_, status_, bodies_, markers_;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> servers_;
   std::unique_ptr<QueryServices> queries_;

@@ -28,12 +28,14 @@ msg::Hit toMsg(const QueryHit& source, const Snapshot& snapshot, const Pose& fra
   msg::Hit hit;
   hit.name = snapshot.structure().bodies[source.body].name;
   hit.shape = source.shape;
-  hit.cell_edge = hit.own_point.x = hit.own_point.y = hit.own_point.z = std::nan("");
+  hit.cell_edge = std::nan("");
+  hit.status = static_cast<std::uint8_t>(source.status);
   hit.distance = source.distance;
   hit.center_distance = source.center_distance;
   hit.along = source.along;
   hit.point = toPoint(frame_from_world * source.point);
-  hit.normal.x = hit.normal.y = hit.normal.z = std::nan("");
+  hit.own_point = toPoint(frame_from_world * source.own_point);
+  hit.normal = toVector(frame_from_world.linear() * source.normal);
   const BodyPose& pose = snapshot.poses()[source.body];
   hit.state = static_cast<std::uint8_t>(pose.state);
   const bool fixed = snapshot.structure().bodies[source.body].mobility == Mobility::fixed;
@@ -52,15 +54,19 @@ std::string summaryOf(const QueryAnswer& found, const Snapshot& snapshot) {
 }  // namespace
 
 QueryServices::QueryServices(ros::NodeHandle& node, const Params& params, std::uint64_t config_hash, NewestTick newest,
-                             const tf2::BufferCore& transforms, QuerySketch& sketch, Ledger& ledger)
+                             const tf2::BufferCore& transforms, std::shared_ptr<const NarrowPhase> narrow_phase,
+                             QuerySketch& sketch, Ledger& ledger)
     : params_(params),
       config_hash_(config_hash),
       newest_(std::move(newest)),
       transforms_(transforms),
+      narrow_phase_(std::move(narrow_phase)),
       sketch_(sketch),
       ledger_(ledger) {
   servers_.push_back(node.advertiseService("query_sphere", &QueryServices::onSphere, this));
   servers_.push_back(node.advertiseService("query_segment", &QueryServices::onSegment, this));
+  servers_.push_back(node.advertiseService("query_box", &QueryServices::onBox, this));
+  servers_.push_back(node.advertiseService("query_nearest", &QueryServices::onNearest, this));
 }
 
 Pose QueryServices::worldFromFrame(const Tick& tick, const std::string& frame) const {
@@ -127,11 +133,10 @@ bool QueryServices::answer(const Request& request, Response& response, Ask&& ask
     const Snapshot& snapshot = *tick->snapshot;
     const std::string frame = withoutSlash(request.header.frame_id);
     checkStamp(request.header.stamp, snapshot);
-    if (request.exact) {
-      throw Refusal(Code::unsupported, "exact is true; this version answers by boxes, ask with exact = false");
-    }
     const Pose world_from_frame = worldFromFrame(*tick, frame);
-    QueryAnswer found = ask(snapshot, world_from_frame, scopeOf(request.include, request.exclude, request.limit));
+    QueryScope scope = scopeOf(request.include, request.exclude, request.limit);
+    if (request.exact) scope.exact = narrow_phase_.get();
+    QueryAnswer found = ask(snapshot, world_from_frame, scope);
     if (found.verdict == Verdict::clear && age_since > params_.valid_for) {
       found.verdict = Verdict::unknown;
       found.because = Unknown::outdated;
@@ -181,6 +186,31 @@ bool QueryServices::onSegment(msg::QuerySegment::Request& request, msg::QuerySeg
                   QueryAnswer found = snapshot.query(segment, scope);
                   sketch_.show(segment, found.verdict);
                   return found;
+                });
+}
+
+bool QueryServices::onBox(msg::QueryBox::Request& request, msg::QueryBox::Response& response) {
+  return answer(request, response,
+                [&](const Snapshot& snapshot, const Pose& world_from_frame, const QueryScope& scope) {
+                  const auto& q = request.pose.orientation;
+                  const bool unset = q.x == 0.0 && q.y == 0.0 && q.z == 0.0 && q.w == 0.0;  // as typed by hand
+                  const Pose frame_from_box = checkedPose(
+                      fromPoint(request.pose.position),
+                      unset ? Eigen::Vector4d(0.0, 0.0, 0.0, 1.0) : Eigen::Vector4d(q.x, q.y, q.z, q.w), "the query's box");
+                  const Eigen::Vector3d size(request.size.x, request.size.y, request.size.z);
+                  return snapshot.query(QueryBox{world_from_frame * frame_from_box, size}, *narrow_phase_, scope);
+                });
+}
+
+bool QueryServices::onNearest(msg::QueryNearest::Request& request, msg::QueryNearest::Response& response) {
+  return answer(request, response,
+                [&](const Snapshot& snapshot, const Pose& world_from_frame, const QueryScope& given) {
+                  QueryScope scope = given;
+                  if (request.limit == 0) scope.limit = 1;
+                  if (request.body.empty()) {
+                    return snapshot.nearest(world_from_frame * fromPoint(request.point), request.max_distance, scope);
+                  }
+                  return snapshot.nearest(snapshot.structure().find(request.body), request.max_distance, scope);
                 });
 }
 

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <hgrid_proximity/QueryBox.h>
+#include <hgrid_proximity/QueryNearest.h>
 #include <hgrid_proximity/QuerySegment.h>
 #include <hgrid_proximity/QuerySphere.h>
 #include <ros/node_handle.h>
@@ -16,18 +18,21 @@
 
 namespace hgrid {
 
-/// Answers ~query_sphere and ~query_segment from the newest tick. Callbacks run on the queue of the node handle,
+/// Answers ~query_sphere, ~query_segment, ~query_box and ~query_nearest from the newest tick. Callbacks run on the queue of the node handle,
 /// on as many threads as spin it, and wait for nobody.
 class QueryServices {
  public:
   using NewestTick = std::function<std::shared_ptr<const Tick>()>;
 
   QueryServices(ros::NodeHandle& node, const Params& params, std::uint64_t config_hash, NewestTick newest,
-                const tf2::BufferCore& transforms, QuerySketch& sketch, Ledger& ledger);
+                const tf2::BufferCore& transforms, std::shared_ptr<const NarrowPhase> narrow_phase, QuerySketch& sketch,
+                Ledger& ledger);
 
  private:
   bool onSphere(msg::QuerySphere::Request& request, msg::QuerySphere::Response& response);
   bool onSegment(msg::QuerySegment::Request& request, msg::QuerySegment::Response& response);
+  bool onBox(msg::QueryBox::Request& request, msg::QueryBox::Response& response);
+  bool onNearest(msg::QueryNearest::Request& request, msg::QueryNearest::Response& response);
   template <class Request, class Response, class Ask>
   bool answer(const Request& request, Response& response, Ask&& ask);
   Pose worldFromFrame(const Tick& tick, const std::string& frame) const;
@@ -38,6 +43,7 @@ class QueryServices {
   std::uint64_t config_hash_;
   NewestTick newest_;
   const tf2::BufferCore& transforms_;
+  std::shared_ptr<const NarrowPhase> narrow_phase_;
   QuerySketch& sketch_;
   Ledger& ledger_;
   std::vector<ros::ServiceServer> servers_;

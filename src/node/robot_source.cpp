@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <sstream>
 
 #include "frames.h"
@@ -100,11 +101,17 @@ double lastMatch(const std::vector<PatternValue>& values, const std::string& nam
 
 void applyPatterns(const Params& params, Body& body) {
   body.margin = lastMatch(params.margins, body.name, 0.0);
+  body.speed_bound = lastMatch(params.max_speed, body.name, std::numeric_limits<double>::infinity());
   const double padding = lastMatch(params.padding, body.name, 0.0);
   for (BodyShape& shape : body.shapes) shape.padding = padding;
 }
 
-RobotSource::RobotSource(ros::NodeHandle node, const Params& params) : node_(std::move(node)), params_(params) {}
+void makeSolids(NarrowPhase& narrow_phase, Body& body) {
+  for (BodyShape& shape : body.shapes) shape.solid = narrow_phase.solidOf(shape.shape);
+}
+
+RobotSource::RobotSource(ros::NodeHandle node, const Params& params, std::shared_ptr<NarrowPhase> narrow_phase)
+    : node_(std::move(node)), params_(params), narrow_phase_(std::move(narrow_phase)) {}
 
 std::string RobotSource::description(const std::string& name) const {
   std::string key;
@@ -152,6 +159,7 @@ LoadedRobot RobotSource::load(const RobotParams& params) const {
     }
     robot.groups[link.rigid_group].members.emplace_back(robot.bodies.size(), link.group_from_link);
     robot.bodies.push_back(bodyOf(robot, model, i, params_));
+    makeSolids(*narrow_phase_, robot.bodies.back());
     robot.bodies.back().links = links;
     robot.bodies.back().frame = prefixed(params.tf_prefix, link.name);
   }

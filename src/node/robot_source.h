@@ -33,7 +33,7 @@ struct LoadedRobot {
 class RobotSource {
  public:
   /// @param node  private node handle: parameters are searched from here upwards
-  RobotSource(ros::NodeHandle node, const Params& params);
+  RobotSource(ros::NodeHandle node, const Params& params, std::shared_ptr<NarrowPhase> narrow_phase);
 
   /// Slow (it reads files and asks the master); any one thread.
   /// @throws Refusal not_ready while there is no description, or as readUrdf() and readSrdf().
@@ -44,12 +44,16 @@ class RobotSource {
 
   ros::NodeHandle node_;
   const Params& params_;
+  std::shared_ptr<NarrowPhase> narrow_phase_;
 };
 
 /// The last value whose pattern matches the name, or `otherwise`.
 double lastMatch(const std::vector<PatternValue>& values, const std::string& name, double otherwise);
 
-/// Gives a body the margin and padding that parameters have for it.
+/// Gives a body the margin, padding and bound of speed that parameters have for it.
 void applyPatterns(const Params& params, Body& body);
+
+/// Makes a body's shapes ready for exact distances. May take long for large meshes.
+void makeSolids(NarrowPhase& narrow_phase, Body& body);
 
 }  // namespace hgrid

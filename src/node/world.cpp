@@ -35,9 +35,11 @@ World::Member World::memberOf(BodyId body, const Pose& frame_from_body) {
   return {body, frame_from_body.matrix() == Pose::Identity().matrix(), frame_from_body};
 }
 
-World::World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& ledger)
+World::World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& ledger,
+             std::shared_ptr<NarrowPhase> narrow_phase)
     : params_(params),
       ledger_(ledger),
+      narrow_phase_(std::move(narrow_phase)),
       intake_(params.max_future, params.tf_cache, static_cast<std::size_t>(params.max_frames), simulated, ledger),
       ways_(intake_),
       watch_(simulated, params.clock_jump, params.stale_after),
@@ -135,6 +137,7 @@ void World::addObstacles() {
     body.mobility = body.frame == world_frame_ ? Mobility::fixed : Mobility::moving;
     body.max_speed = lastMatch(params_.max_speed, body.name, params_.default_max_speed);
     applyPatterns(params_, body);
+    makeSolids(*narrow_phase_, body);
     try {
       const std::string frame = body.frame;
       const Pose frame_from_body = body.frame_from_body;

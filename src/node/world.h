@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "clock_watch.h"
+#include "hgrid_proximity/narrowphase/narrow_phase.h"
+#include "hgrid_proximity/scene/pair_meter.h"
 #include "hgrid_proximity/scene/scene.h"
 #include "ledger.h"
 #include "params.h"
@@ -48,11 +50,18 @@ struct Tick {
   std::chrono::nanoseconds poses_time{0};
 };
 
+/// A tick and the exact distances of its pairs.
+struct MeasuredTick {
+  std::shared_ptr<const Tick> tick;
+  std::shared_ptr<const PairDistances> distances;
+};
+
 /// Keeps the Scene up to date from tf: decides the time of a tick, places every body at it, says how far each
 /// pose can be trusted. One thread; Ticks may be read by any.
 class World {
  public:
-  World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& ledger);
+  World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& ledger,
+        std::shared_ptr<NarrowPhase> narrow_phase);
 
   TfIntake& transforms() { return intake_; }
   const TfIntake& transforms() const { return intake_; }
@@ -107,6 +116,7 @@ class World {
 
   const Params& params_;
   Ledger& ledger_;
+  std::shared_ptr<NarrowPhase> narrow_phase_;
   TfIntake intake_;
   TfTree ways_;  // to the frames of movers_, in their order
   ClockWatch watch_;

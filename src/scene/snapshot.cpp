@@ -12,22 +12,6 @@
 namespace hgrid {
 namespace {
 
-void checkPoint(const Eigen::Vector3d& point, const std::string& what) {
-  if (!point.allFinite()) throw Refusal(Code::nonfinite, what + " is not finite; every coordinate must be");
-  checkWithin(point, Snapshot::kQueryReach, what);
-}
-
-void checkRadius(double radius) {
-  if (!std::isfinite(radius) || radius < 0.0) {
-    throw Refusal(Code::bad_geometry,
-                  "the query's radius is " + text(radius) + " m; it must be finite and not negative");
-  }
-  if (radius > Snapshot::kQueryReach) {
-    throw Refusal(Code::out_of_range, "the query's radius is " + text(radius) + " m; it must be at most " +
-                                          text(Snapshot::kQueryReach) + " m");
-  }
-}
-
 bool nearer(const QueryHit& a, const QueryHit& b) {
   if (a.distance != b.distance) return a.distance < b.distance;
   if (a.center_distance != b.center_distance) return a.center_distance < b.center_distance;
@@ -49,6 +33,15 @@ void sortOnePerBody(std::vector<QueryHit>& hits, bool (*order)(const QueryHit&, 
 }
 
 }  // namespace
+
+std::uint32_t Structure::find(const std::string& name) const {
+  const auto found = std::lower_bound(bodies.begin(), bodies.end(), name,
+                                      [](const Body& body, const std::string& wanted) { return body.name < wanted; });
+  if (found == bodies.end() || found->name != name) {
+    throw Refusal(Code::unknown_id, "there is no body '" + printable(name) + "'");
+  }
+  return static_cast<std::uint32_t>(found - bodies.begin());
+}
 
 bool Snapshot::inScope(const QueryScope& scope, std::uint32_t body) const {
   const std::string& name = structure_->bodies[body].name;
@@ -83,63 +76,18 @@ QueryAnswer Snapshot::finished(std::vector<QueryHit>& hits, const QueryScope& sc
   return answer;
 }
 
-QueryAnswer Snapshot::query(const Sphere& sphere, const QueryScope& scope) const {
-  const DefaultFloatEnvironment environment;
-  checkPoint(sphere.center, "the query's centre");
-  checkRadius(sphere.radius);
-  const Sphere local{sphere.center - origin_, sphere.radius};
-  std::vector<ProxyId> candidates;
-  grid_.overlapping(local, candidates);
-  std::vector<QueryHit> hits;
-  std::string doubt;
-  for (const ProxyId proxy : candidates) {
-    const std::uint32_t body = structure_->body_of_proxy[proxy];
-    if (!inScope(scope, body)) continue;
-    const Aabb& box = boxes_[proxy];
-    if (touches(local, box)) {
-      QueryHit hit;
-      hit.body = body;
-      hit.shape = proxy - structure_->first_proxy[body];
-      hit.center_distance = distance(box, local.center);
-      hit.distance = std::max(0.0, hit.center_distance - sphere.radius);
-      hit.along = std::numeric_limits<double>::quiet_NaN();
-      hit.point = nearestPoint(box, local.center) + origin_;
-      hits.push_back(hit);
-    } else if (poses_[body].growth > 0.0 && touches({local.center, local.radius + poses_[body].growth}, box)) {
-      doubt = doubtOf(body);
-    }
+double Snapshot::noContactBefore(std::uint32_t first, std::uint32_t second, double distance) const {
+  double speed = 0.0, left = distance;
+  for (const std::uint32_t i : {first, second}) {
+    const Body& body = structure_->bodies[i];
+    if (body.mobility == Mobility::fixed) continue;
+    if (!std::isfinite(body.speed_bound)) return std::numeric_limits<double>::quiet_NaN();
+    speed += body.speed_bound;
+    left -= body.speed_bound * std::max(0.0, seconds(stamp_ - poses_[i].stamp));
   }
-  return finished(hits, scope, false, doubt);
-}
-
-QueryAnswer Snapshot::query(const Segment& segment, const QueryScope& scope) const {
-  const DefaultFloatEnvironment environment;
-  checkPoint(segment.from, "the segment's start");
-  checkPoint(segment.to, "the segment's end");
-  checkRadius(segment.radius);
-  const Segment local{segment.from - origin_, segment.to - origin_, segment.radius};
-  std::vector<SegmentHit> candidates;
-  grid_.along(local, candidates);
-  std::vector<QueryHit> hits;
-  std::string doubt;
-  for (const SegmentHit& candidate : candidates) {
-    const std::uint32_t body = structure_->body_of_proxy[candidate.id];
-    if (!inScope(scope, body)) continue;
-    const Aabb& box = boxes_[candidate.id];
-    if (const auto meeting = meet(local, box)) {
-      QueryHit hit;
-      hit.body = body;
-      hit.shape = candidate.id - structure_->first_proxy[body];
-      hit.center_distance = meeting->axis_distance;
-      hit.distance = std::max(0.0, hit.center_distance - segment.radius);
-      hit.along = meeting->along;
-      hit.point = meeting->point + origin_;
-      hits.push_back(hit);
-    } else if (poses_[body].growth > 0.0 && meet({local.from, local.to, local.radius + poses_[body].growth}, box)) {
-      doubt = doubtOf(body);
-    }
-  }
-  return finished(hits, scope, true, doubt);
+  left = std::max(0.0, left);
+  if (left == 0.0) return 0.0;
+  return speed > 0.0 ? left / speed : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace hgrid

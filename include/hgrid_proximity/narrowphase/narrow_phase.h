@@ -64,6 +64,11 @@ class NarrowPhase {
   /// @throws Refusal bad_geometry
   virtual std::shared_ptr<const Solid> solidOf(const Shape& shape) = 0;
 
+  /// What questions are made of: a point, a segment along z and centred, a box; padding gives them a radius.
+  virtual std::shared_ptr<const Solid> point() const = 0;
+  virtual std::shared_ptr<const Solid> needle(double length) const = 0;             ///< [m] > 0
+  virtual std::shared_ptr<const Solid> block(const Eigen::Vector3d& size) const = 0;  ///< [m] full lengths, >= 0
+
   /// How two solids of this narrow phase lie to each other. Never throws: what goes wrong is Measure::failed. The same
   /// with the order of both exchanged, but for the exchange.
   /// @param up_to  [m] beyond this distance the answer is `apart` and infinitely far, which may take much less time

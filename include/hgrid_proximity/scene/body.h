@@ -15,6 +15,8 @@
 
 namespace hgrid {
 
+class Solid;
+
 /// A point in time: nanoseconds since the epoch of ROS time.
 using Time = std::chrono::nanoseconds;
 
@@ -55,6 +57,7 @@ struct BodyShape {
   double padding = 0.0;                             ///< [m] >= 0
   std::string resource;                             ///< URI of a mesh file; empty otherwise
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< of the mesh file
+  std::shared_ptr<const Solid> solid = nullptr;     ///< for exact distances; null: none of this shape are measured
 };
 
 /// What is known of a body and does not change while it moves.
@@ -67,6 +70,8 @@ struct Body {
   std::vector<BodyShape> shapes;  ///< may be empty: every shape was unreadable
   double margin = 0.0;            ///< [m] its own margin; the global one where that is larger
   double max_speed = std::numeric_limits<double>::infinity();  ///< [m/s] bound of the speed of its points
+  /// [m/s] the same where somebody vouches for it; bounds of time to contact rest on it alone. Infinite: nobody does.
+  double speed_bound = std::numeric_limits<double>::infinity();
   bool covered = true;                                         ///< every shape that its description has was read
   bool waived = false;                                         ///< not covered, but accepted by the user
   std::string note;                                            ///< why it is not covered, or the reason of the waiver

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hgrid_proximity/broadphase/hgrid.h"
+#include "hgrid_proximity/narrowphase/narrow_phase.h"
 #include "hgrid_proximity/scene/body.h"
 #include "hgrid_proximity/scene/pair_filter.h"
 #include "hgrid_proximity/scene/pair_tracker.h"
@@ -23,6 +24,9 @@ struct Structure {
   std::vector<double> margin;  ///< [m] of each body, at least the global one
   double least_margin = 0.0;   ///< [m] the global one
   PairFilter filter;
+
+  /// Index of the body of this name. @throws Refusal unknown_id
+  std::uint32_t find(const std::string& name) const;
 };
 
 /// Where a body is in a snapshot, and how far that can be trusted.
@@ -45,16 +49,29 @@ struct QueryScope {
   std::vector<std::string> include;  ///< globs over body names; empty: all
   std::vector<std::string> exclude;  ///< globs over body names; beat include
   std::uint32_t limit = 0;           ///< most hits; 0: all
+  /// By it distances to shapes are measured; null: by boxes. What has no solid, or fails, counts as hit by its box.
+  const NarrowPhase* exact = nullptr;
+};
+
+/// A box that is asked for.
+struct QueryBox {
+  Pose world_from_box = Pose::Identity();  ///< of its centre
+  Eigen::Vector3d size;                    ///< [m] full lengths, >= 0
 };
 
 /// One body that a query met.
 struct QueryHit {
   std::uint32_t body = 0;        ///< index into Structure::bodies
   std::uint32_t shape = 0;       ///< index of the nearest (segment: first met) of its shapes
-  double distance = 0.0;         ///< [m] from the query's surface to the body's box; 0 where they overlap
-  double center_distance = 0.0;  ///< [m] from the query's centre or axis to the body's box
-  double along = 0.0;            ///< [m] segment only; NaN otherwise
-  Eigen::Vector3d point;         ///< [m, world] point of the box nearest to centre or axis
+  Measure status = Measure::not_measured;  ///< of exact ones
+  double distance = 0.0;         ///< [m] from the query's surface to the body's box (exact: shape); 0 where they overlap
+  double center_distance = 0.0;  ///< [m] the same from the query's centre or axis; between two bodies as distance
+  double along = Proximity::kUnknown;  ///< [m] segment only
+  /// [m, world] point of the box (exact: shape) nearest to centre or axis; of a shape that a segment meets the point
+  /// that it meets first. NaN: unknown, as inside a shape
+  Eigen::Vector3d point = Eigen::Vector3d::Constant(Proximity::kUnknown);
+  Eigen::Vector3d own_point = Eigen::Vector3d::Constant(Proximity::kUnknown);  ///< nearest to a body: point on that one
+  Eigen::Vector3d normal = Eigen::Vector3d::Constant(Proximity::kUnknown);  ///< exact: outward unit normal of the shape
 };
 
 /// What a query found. A verdict of unknown has a reason.
@@ -92,11 +109,22 @@ class Snapshot {
   /// The broad phase; its boxes are those of the placed proxies, grown by their margins.
   const HGrid& grid() const { return grid_; }
 
+  /// [s] From stamp() on, two bodies that are at least so far apart [m] at their poses do not meet earlier, by their
+  /// bounds of speed; by how much a pose is older than stamp() counts. NaN where a bound is missing, infinite where
+  /// neither can move.
+  double noContactBefore(std::uint32_t first, std::uint32_t second, double distance) const;
+
   /// Bodies whose boxes the ball touches; the pair filter does not apply, padding counts, margins do not.
   /// @throws Refusal nonfinite, bad_geometry (negative radius), out_of_range (beyond kQueryReach)
   QueryAnswer query(const Sphere& sphere, const QueryScope& scope) const;
   /// Bodies whose boxes the segment meets, in order along it; otherwise as above.
   QueryAnswer query(const Segment& segment, const QueryScope& scope) const;
+  /// Bodies whose boxes (exact: shapes) the box touches; otherwise as above. @param narrow_phase  measures also by boxes
+  QueryAnswer query(const QueryBox& box, const NarrowPhase& narrow_phase, const QueryScope& scope) const;
+  /// The scope.limit (0: one) bodies nearest to a point, at most so far away [m]; otherwise as above.
+  QueryAnswer nearest(const Eigen::Vector3d& point, double max_distance, const QueryScope& scope) const;
+  /// The same to another body, itself left out. @throws Refusal not_ready if it has no pose or no shapes
+  QueryAnswer nearest(std::uint32_t body, double max_distance, const QueryScope& scope) const;
 
   /// [m] queries may reach this far from the world's origin.
   static constexpr double kQueryReach = 1e10;
@@ -104,10 +132,15 @@ class Snapshot {
  private:
   friend class Scene;
   Snapshot() = default;
+  struct Probe;
   bool inScope(const QueryScope& scope, std::uint32_t body) const;
   QueryAnswer finished(std::vector<QueryHit>& hits, const QueryScope& scope, bool by_along,
                        const std::string& doubt) const;
   std::string doubtOf(std::uint32_t body) const;
+  template <class Ask>
+  QueryAnswer nearestBy(const Eigen::Vector3d& center, double reach, double max_distance, const QueryScope& scope,
+                        const Ask& measure) const;
+  void measureFrom(ProxyId own, ProxyId proxy, double up_to, const QueryScope& scope, QueryHit& hit) const;
 
   std::shared_ptr<const Structure> structure_;
   Time stamp_{0};

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "hgrid_proximity/scene/pair_meter.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "broadphase/workers.h"
+#include "hgrid_proximity/geometry/float_environment.h"
+#include "scene/motion_bound.h"
+
+namespace hgrid {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Measured a little farther than is reported, so that a pair known to be beyond need not be asked again at once.
+constexpr double kBeyond = 1.25;
+constexpr double kSmoothing = 0.05;  // [s] time constant of the closing speed
+constexpr std::size_t kPairsPerJob = 8;
+
+struct ShapePair {
+  double gap;
+  std::uint32_t first, second;
+};
+
+}  // namespace
+
+struct PairMeter::State {
+  /// What was found when a pair was measured last.
+  struct Known {
+    std::uint32_t first = 0, second = 0;
+    bool measured = false;
+    Pose world_from_first = Pose::Identity(), world_from_second = Pose::Identity();
+    std::uint32_t first_shape = 0, second_shape = 0;
+    Proximity proximity;
+    double up_to = 0.0;  // [m] how far was looked
+    // Of the closing speed.
+    Time stamp{0};
+    double distance = Proximity::kUnknown, speed = Proximity::kUnknown;
+  };
+  struct Job {
+    const NearPair* pair;
+    double report;  // [m] farther than this it is left out
+    Known known;    // in: of the last time; out: of this time
+    bool shown, left_out;
+  };
+
+  State(std::shared_ptr<const NarrowPhase> phase, const MeterOptions& given)
+      : narrow_phase(std::move(phase)), options(given), workers(given.threads) {}
+
+  void recall(const Snapshot& snapshot);
+  void perform(const Snapshot& snapshot, Job& job, std::vector<ShapePair>& shape_pairs) const;
+  void measureShapes(const Snapshot& snapshot, Job& job, double up_to, std::vector<ShapePair>& shape_pairs) const;
+  PairDistance entryOf(const Snapshot& snapshot, const Job& job) const;
+
+  std::shared_ptr<const NarrowPhase> narrow_phase;
+  MeterOptions options;
+  Workers workers;
+  std::uint64_t revision = 0, epoch = 0;
+  std::vector<Known> known;  // sorted by (first, second)
+  std::vector<Job> jobs;
+  std::vector<std::vector<ShapePair>> scratch;  // per thread
+};
+
+PairMeter::PairMeter(std::shared_ptr<const NarrowPhase> narrow_phase, const MeterOptions& options)
+    : state_(std::make_unique<State>(std::move(narrow_phase), options)) {}
+PairMeter::~PairMeter() = default;
+
+/// Makes the jobs, those with the nearest boxes first, each with what is known of its pair.
+void PairMeter::State::recall(const Snapshot& snapshot) {
+  const Structure& structure = snapshot.structure();
+  if (revision != structure.revision || epoch != snapshot.epoch()) known.clear();  // bodies have other numbers
+  revision = structure.revision;
+  epoch = snapshot.epoch();
+  jobs.clear();
+  auto last = known.begin();
+  for (const NearPair& pair : snapshot.pairs()) {
+    // Margins that are widened since data is old widen what is reported too.
+    const double growth = pair.margin - std::max(structure.margin[pair.first], structure.margin[pair.second]);
+    const double report = options.report_distance + std::max(0.0, growth);
+    const auto before = [&](const Known& one) {
+      return one.first != pair.first ? one.first < pair.first : one.second < pair.second;
+    };
+    while (last != known.end() && before(*last)) ++last;
+    if (pair.gap > report) continue;
+    jobs.push_back({&pair, report, {}, false, false});
+    Known& now = jobs.back().known;
+    if (last != known.end() && last->first == pair.first && last->second == pair.second) now = *last;
+    now.first = pair.first;
+    now.second = pair.second;
+  }
+  std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.pair->gap < b.pair->gap; });
+}
+
+/// The nearest shapes of both bodies.
+void PairMeter::State::measureShapes(const Snapshot& snapshot, Job& job, double up_to,
+                                     std::vector<ShapePair>& shape_pairs) const {
+  const Structure& structure = snapshot.structure();
+  Known& known_now = job.known;
+  const Body &first = structure.bodies[job.pair->first], &second = structure.bodies[job.pair->second];
+  const std::uint32_t first_proxy = structure.first_proxy[job.pair->first],
+                      second_proxy = structure.first_proxy[job.pair->second];
+  shape_pairs.clear();
+  for (std::uint32_t i = 0; i < first.shapes.size(); ++i) {
+    for (std::uint32_t j = 0; j < second.shapes.size(); ++j) {
+      const double gap = distance(snapshot.boxes()[first_proxy + i], snapshot.boxes()[second_proxy + j]);
+      if (gap <= up_to) shape_pairs.push_back({gap, i, j});
+    }
+  }
+  std::sort(shape_pairs.begin(), shape_pairs.end(), [](const ShapePair& a, const ShapePair& b) {
+    return std::tie(a.gap, a.first, a.second) < std::tie(b.gap, b.first, b.second);
+  });
+  known_now.proximity = Proximity{};
+  known_now.proximity.status = Measure::apart;
+  known_now.proximity.distance = std::numeric_limits<double>::infinity();
+  known_now.first_shape = known_now.second_shape = 0;
+  double least = up_to;
+  for (const ShapePair& shapes : shape_pairs) {
+    if (shapes.gap > least) break;
+    const BodyShape &a = first.shapes[shapes.first], &b = second.shapes[shapes.second];
+    const Pose world_from_a = known_now.world_from_first * a.body_from_shape;
+    const Pose world_from_b = known_now.world_from_second * b.body_from_shape;
+    Proximity found;
+    if (a.solid && b.solid) {
+      found = narrow_phase->measure({*a.solid, world_from_a, a.padding}, {*b.solid, world_from_b, b.padding}, least);
+    }
+    if (found.status == Measure::not_measured || found.distance < known_now.proximity.distance) {
+      known_now.proximity = found;
+      known_now.first_shape = shapes.first;
+      known_now.second_shape = shapes.second;
+    }
+    if (found.status != Measure::apart) break;  // nothing is nearer
+    least = std::min(least, found.distance);
+  }
+}
+
+void PairMeter::State::perform(const Snapshot& snapshot, Job& job, std::vector<ShapePair>& shape_pairs) const {
+  const Pose &first = snapshot.poses()[job.pair->first].world_from_body,
+             &second = snapshot.poses()[job.pair->second].world_from_body;
+  Known& now = job.known;
+  const double enough = kBeyond * job.report;
+  bool measure = !now.measured || now.up_to < job.report;
+  if (!measure && (first.matrix() != now.world_from_first.matrix() ||
+                   second.matrix() != now.world_from_second.matrix())) {
+    const double moved = relativeMotion(now.world_from_first, now.world_from_second, first, second,
+                                        reachOf(snapshot.structure().bodies[job.pair->second]));
+    const double at_least = std::min(now.proximity.distance, now.up_to) - moved;
+    measure = !(at_least > job.report);
+  }
+  if (measure) {
+    now.world_from_first = first;
+    now.world_from_second = second;
+    now.up_to = enough;
+    measureShapes(snapshot, job, enough, shape_pairs);
+    now.measured = true;
+  }
+  job.shown = now.proximity.status == Measure::not_measured || now.proximity.distance <= job.report;
+}
+
+PairDistance PairMeter::State::entryOf(const Snapshot& snapshot, const Job& job) const {
+  PairDistance entry;
+  entry.first = job.pair->first;
+  entry.second = job.pair->second;
+  entry.gap = job.pair->gap;
+  if (!job.left_out) {
+    entry.proximity = job.known.proximity;
+    entry.first_shape = job.known.first_shape;
+    entry.second_shape = job.known.second_shape;
+    entry.closing_speed = job.known.speed;
+  }
+  const double least = std::isnan(entry.proximity.distance) ? entry.gap : entry.proximity.distance;
+  if (isContact(entry.proximity.status)) {
+    entry.time_to_contact = 0.0;
+  } else if (!std::isnan(entry.closing_speed)) {
+    entry.time_to_contact =
+        entry.closing_speed > 0.0 ? least / entry.closing_speed : std::numeric_limits<double>::infinity();
+  }
+  entry.no_contact_before = snapshot.noContactBefore(entry.first, entry.second, least);
+  return entry;
+}
+
+std::shared_ptr<const PairDistances> PairMeter::measure(const Snapshot& snapshot) {
+  const DefaultFloatEnvironment environment;
+  State& s = *state_;
+  const Clock::time_point begin = Clock::now();
+  const auto budget = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s.options.budget));
+  s.recall(snapshot);
+  s.scratch.resize(static_cast<std::size_t>(s.workers.threads()));
+  std::atomic<bool> out_of_time{false};
+  const std::size_t per_job = s.workers.threads() == 1 ? 1 : kPairsPerJob;
+  s.workers.run((s.jobs.size() + per_job - 1) / per_job, [&](std::size_t number, std::size_t thread) {
+    const DefaultFloatEnvironment of_this_thread;
+    const std::size_t end = std::min((number + 1) * per_job, s.jobs.size());
+    for (std::size_t i = number * per_job; i < end; ++i) {
+      State::Job& job = s.jobs[i];
+      if (s.options.budget > 0.0 && !out_of_time && Clock::now() - begin > budget) out_of_time = true;
+      if (out_of_time) {
+        job.known.measured = false;
+        job.shown = job.left_out = true;
+      } else {
+        s.perform(snapshot, job, s.scratch[thread]);
+      }
+    }
+  });
+
+  const auto result = std::make_shared<PairDistances>();
+  for (State::Job& job : s.jobs) {
+    State::Known& now = job.known;
+    const double distance = job.left_out ? Proximity::kUnknown : now.proximity.distance;
+    if (std::isfinite(distance) && std::isfinite(now.distance) && snapshot.stamp() > now.stamp) {
+      const double dt = seconds(snapshot.stamp() - now.stamp), raw = (now.distance - distance) / dt;
+      now.speed = std::isnan(now.speed) ? raw : now.speed + (raw - now.speed) * dt / (dt + kSmoothing);
+    } else if (snapshot.stamp() != now.stamp) {
+      now.speed = Proximity::kUnknown;
+    }
+    now.distance = distance;
+    now.stamp = snapshot.stamp();
+    result->left_out += job.left_out;
+    result->measured += !job.left_out;
+    if (job.shown) result->pairs.push_back(s.entryOf(snapshot, job));
+  }
+  std::sort(result->pairs.begin(), result->pairs.end(), [](const PairDistance& a, const PairDistance& b) {
+    const bool unknown_a = std::isnan(a.proximity.distance), unknown_b = std::isnan(b.proximity.distance);
+    if (unknown_a != unknown_b) return unknown_b;
+    const double key_a = unknown_a ? a.gap : a.proximity.distance, key_b = unknown_b ? b.gap : b.proximity.distance;
+    return std::tie(key_a, a.first, a.second) < std::tie(key_b, b.first, b.second);
+  });
+  s.known.clear();
+  for (const State::Job& job : s.jobs) s.known.push_back(job.known);
+  std::sort(s.known.begin(), s.known.end(), [](const State::Known& a, const State::Known& b) {
+    return std::tie(a.first, a.second) < std::tie(b.first, b.second);
+  });
+  return result;
+}
+
+}  // namespace hgrid

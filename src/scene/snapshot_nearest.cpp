@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "hgrid_proximity/geometry/float_environment.h"
+#include "hgrid_proximity/refusal.h"
+#include "scene/probe.h"
+
+namespace hgrid {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kFirstLook = 16;  // boxes, beside four for each body that is wanted
+
+bool nearer(const QueryHit& a, const QueryHit& b) {
+  return a.distance != b.distance ? a.distance < b.distance : a.shape < b.shape;
+}
+
+}  // namespace
+
+/// Boxes come from the grid by growing distance, which is a lower bound of the one that is asked for; it is over when no
+/// further box can be nearer than the last body that is wanted.
+/// @param reach  [m] of what is asked from, around `center`
+template <class Ask>
+QueryAnswer Snapshot::nearestBy(const Eigen::Vector3d& center, double reach, double max_distance,
+                                const QueryScope& scope, const Ask& measure) const {
+  const std::size_t wanted = std::max<std::uint32_t>(1, scope.limit);
+  const double limit = max_distance > 0.0 ? max_distance : kInfinity;
+  double growth = 0.0;
+  for (const BodyPose& pose : poses_) growth = std::max(growth, pose.growth);
+  std::map<std::uint32_t, QueryHit> best;  // by body
+  std::string doubt;
+  std::vector<NearHit> near;
+  for (std::size_t look = 4 * wanted + kFirstLook, done = 0;; look *= 4) {
+    grid_.nearest(center - origin_, look, limit + reach + growth, near);
+    for (; done < near.size(); ++done) {
+      const ProxyId proxy = near[done].id;
+      const std::uint32_t body = structure_->body_of_proxy[proxy];
+      if (!inScope(scope, body)) continue;
+      QueryHit hit;
+      hit.body = body;
+      hit.shape = proxy - structure_->first_proxy[body];
+      const double growth_of_body = poses_[body].growth;
+      if (!measure(proxy, limit + growth_of_body, hit)) continue;
+      if (hit.distance > limit) {
+        if (hit.distance <= limit + growth_of_body) doubt = doubtOf(body);
+        continue;
+      }
+      const auto known = best.emplace(body, hit);
+      if (!known.second && nearer(hit, known.first->second)) known.first->second = hit;
+    }
+    std::vector<double> distances;
+    for (const auto& hit : best) distances.push_back(hit.second.distance);
+    if (near.size() < look) break;  // there are no more
+    if (distances.size() < wanted) continue;
+    std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(wanted - 1), distances.end());
+    if (distances[wanted - 1] < near.back().distance - reach) break;
+  }
+  std::vector<QueryHit> hits;
+  for (const auto& hit : best) hits.push_back(hit.second);
+  QueryScope limited = scope;
+  limited.limit = static_cast<std::uint32_t>(wanted);
+  return finished(hits, limited, false, doubt);
+}
+
+QueryAnswer Snapshot::nearest(const Eigen::Vector3d& point, double max_distance, const QueryScope& scope) const {
+  const DefaultFloatEnvironment environment;
+  checkQueryPoint(point, "the query's point");
+  checkQueryLength(max_distance, "max_distance");
+  return nearestBy(point, 0.0, max_distance, scope, [&](ProxyId proxy, double up_to, QueryHit& hit) {
+    hit.center_distance = hit.distance = distance(boxes_[proxy], point - origin_);
+    hit.point = nearestPoint(boxes_[proxy], point - origin_) + origin_;
+    if (hit.distance > up_to) return false;
+    if (scope.exact == nullptr) return true;
+    const Probe probe{*scope.exact, scope.exact->point(), Pose(Eigen::Translation3d(point))};
+    const Proximity found = probe.measure(*this, hit.body, hit.shape, up_to);
+    if (found.status == Measure::not_measured) return true;
+    hit.status = found.status;
+    hit.center_distance = hit.distance = found.distance;
+    hit.point = found.on_second;
+    hit.normal = -found.normal;
+    return found.distance <= up_to;
+  });
+}
+
+QueryAnswer Snapshot::nearest(std::uint32_t from, double max_distance, const QueryScope& scope) const {
+  const DefaultFloatEnvironment environment;
+  checkQueryLength(max_distance, "max_distance");
+  const Body& asking = structure_->bodies[from];
+  if (poses_[from].state == Freshness::unplaced || asking.shapes.empty()) {
+    throw Refusal(Code::not_ready, "body '" + asking.name + "' has no " +
+                                       (asking.shapes.empty() ? "shapes" : "pose") + " to be near to");
+  }
+  const ProxyId first = structure_->first_proxy[from], last = structure_->first_proxy[from + 1];
+  Eigen::Vector3d low = boxes_[first].min.cast<double>(), high = boxes_[first].max.cast<double>();
+  for (ProxyId proxy = first; proxy < last; ++proxy) {
+    low = low.cwiseMin(boxes_[proxy].min.cast<double>());
+    high = high.cwiseMax(boxes_[proxy].max.cast<double>());
+  }
+  const Eigen::Vector3d center = origin_ + 0.5 * (low + high);
+  return nearestBy(center, 0.5 * (high - low).norm(), max_distance, scope,
+                   [&](ProxyId proxy, double up_to, QueryHit& hit) {
+                     if (hit.body == from) return false;
+                     hit.distance = kInfinity;
+                     for (ProxyId own = first; own < last; ++own) measureFrom(own, proxy, up_to, scope, hit);
+                     hit.center_distance = hit.distance;
+                     return hit.distance <= up_to;
+                   });
+}
+
+/// From one shape of a body to one of another; the hit keeps the nearest.
+void Snapshot::measureFrom(ProxyId own, ProxyId proxy, double up_to, const QueryScope& scope, QueryHit& hit) const {
+  const double gap = distance(boxes_[own], boxes_[proxy]);
+  if (gap > std::min(up_to, hit.distance)) return;
+  const std::uint32_t from = structure_->body_of_proxy[own];
+  const BodyShape& shape = structure_->bodies[from].shapes[own - structure_->first_proxy[from]];
+  if (scope.exact != nullptr && shape.solid) {
+    const Pose world_from_shape = poses_[from].world_from_body * shape.body_from_shape;
+    const Probe probe{*scope.exact, shape.solid, world_from_shape, shape.padding};
+    const Proximity found = probe.measure(*this, hit.body, hit.shape, std::min(up_to, hit.distance));
+    if (found.status != Measure::not_measured) {
+      if (!(found.distance < hit.distance)) return;
+      hit.status = found.status;
+      hit.distance = found.distance;
+      hit.own_point = found.on_first;
+      hit.point = found.on_second;
+      hit.normal = -found.normal;
+      return;
+    }
+  }
+  if (!(gap < hit.distance)) return;
+  hit.distance = gap;
+  for (int axis = 0; axis < 3; ++axis) {  // nearest points of two boxes; in the middle of what they share
+    const double low = std::max(boxes_[own].min[axis], boxes_[proxy].min[axis]),
+                 high = std::min(boxes_[own].max[axis], boxes_[proxy].max[axis]);
+    const bool own_first = boxes_[own].max[axis] < boxes_[proxy].min[axis];
+    hit.own_point[axis] = origin_[axis] + (low <= high ? 0.5 * (low + high) : own_first ? high : low);
+    hit.point[axis] = origin_[axis] + (low <= high ? 0.5 * (low + high) : own_first ? low : high);
+  }
+}
+
+}  // namespace hgrid
