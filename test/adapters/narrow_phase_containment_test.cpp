@@ -119,7 +119,7 @@ TEST_P(Containment, TheSideThatATriangleFacesDoesNotMatter) {
 }
 
 // The cavity of a hollow ball is outside of its matter.
-TEST(Containment, WhatFloatsInTheCavityOfAClosedMeshIsApart) {
+TEST(Cavity, OfAClosedMeshIsOutsideOfIt) {
   TriangleMesh hollow = ballMesh(2);
   const auto count = std::uint32_t(hollow.vertices.size());
   const std::vector<std::array<std::uint32_t, 3>> outside = hollow.triangles;

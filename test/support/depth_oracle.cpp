@@ -11,7 +11,7 @@ namespace test {
 namespace {
 
 constexpr Real kTolerance = 1e-8L;  // [m] of the bounds
-constexpr int kMaxSteps = 300;
+constexpr int kMaxSteps = 150;
 
 /// A triangle of the polytope; its normal points out, `offset` is the depth of zero below it.
 struct Face {

@@ -141,10 +141,10 @@ TEST(DepthOracle, MeasuresHowDeepAPointLiesInACylinder) {
     const double angle = random.uniform(0, 6.28), beside = random.uniform(0, radius), z = random.uniform(-half, half);
     const Eigen::Vector3d point(beside * std::cos(angle), beside * std::sin(angle), z);
     const Pose pose = randomPose(random, 2.0);
-    const Interval depth = depthOf(Convex(shape, pose, 0.0), Convex(Eigen::Vector3d(pose * point)));
     const double expected = std::min(radius - beside, half - std::abs(z));
+    const Interval depth = depthOf(Convex(shape, pose, 0.0), Convex(Eigen::Vector3d(pose * point)), 0.5 * expected);
     ASSERT_LE(depth.errorOf(expected), kClose);
-    unknown += depth.width() > 1e-3 * shape.reach();
+    unknown += depth.lower <= 0.5 * expected;
   }
   EXPECT_LE(unknown, kTrials / 400);
 }

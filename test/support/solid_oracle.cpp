@@ -34,8 +34,8 @@ Real volume(const Vector3r& a, const Vector3r& b, const Vector3r& c) { return a.
 
 Real farApart(const Convex& a, const Convex& b) { return (a.center() - b.center()).norm() - a.reach() - b.reach(); }
 
-/// The distance of the cores, and of the pieces it is between.
-CoreDistance coreDistance(const SolidOracle& first, const SolidOracle& second) {
+/// The distance of the cores, which is that of the two pieces that lie nearest.
+CoreDistance nearestPieces(const SolidOracle& first, const SolidOracle& second) {
   const Convex *a_first = &first.pieces().front(), *b_first = &second.pieces().front();
   for (const Convex& a : first.pieces()) {
     for (const Convex& b : second.pieces()) {
@@ -103,7 +103,7 @@ bool SolidOracle::encloses(const Vector3r& point) const {
 }
 
 SolidDistance distanceOf(const SolidOracle& first, const SolidOracle& second) {
-  const CoreDistance core = coreDistance(first, second);
+  const CoreDistance core = nearestPieces(first, second);
   const Real radii = first.radius() + second.radius();
   SolidDistance result;
   result.on_first = core.on_first;
@@ -127,7 +127,7 @@ Interval distanceOf(const SolidOracle& solid, const Eigen::Vector3d& point) {
 }
 
 bool overlapByMore(const SolidOracle& first, const SolidOracle& second, double depth) {
-  const CoreDistance core = coreDistance(first, second);
+  const CoreDistance core = nearestPieces(first, second);
   if (core.lower > 0 && (encloses(first, second) || encloses(second, first))) return core.lower > depth;
   const Real radii = first.radius() + second.radius();
   if (core.upper > 1e-10L || radii > depth) return radii - core.upper > depth;
