@@ -116,5 +116,14 @@ bool isSame(const Proximity& a, const Proximity& b) {
          sameBits(a.on_second, b.on_second) && sameBits(a.normal, b.normal) && sameBits(a.depth, b.depth);
 }
 
+bool isSameInOtherOrder(const Case& placed, const Proximity& answer, const Proximity& other) {
+  const Shape &a = placed.first_shape, &b = placed.second_shape;
+  const bool are_one = a.kind() == b.kind() && a.dimensions() == b.dimensions() && a.mesh() == b.mesh() &&
+                       placed.first_padding == placed.second_padding &&
+                       placed.world_from_first.matrix() == placed.world_from_second.matrix();
+  if (are_one) return isSame(answer, other);
+  return isSame(answer, swapped(other));
+}
+
 }  // namespace test
 }  // namespace hgrid

@@ -79,5 +79,9 @@ Proximity swapped(Proximity answer);
 /// The same bit for bit; NaN is the same as NaN.
 bool isSame(const Proximity& a, const Proximity& b);
 
+/// Whether `answer` to a case is `other`, to the case in the other order, with the order exchanged. Of two equal shapes
+/// at one pose nobody can tell which is the first: there any normal and its points may be said of either.
+bool isSameInOtherOrder(const Case& placed, const Proximity& answer, const Proximity& other);
+
 }  // namespace test
 }  // namespace hgrid

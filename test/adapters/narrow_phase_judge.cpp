@@ -73,7 +73,7 @@ void Judge::look(const Case& placed) {
   const Trial trial(placed);
   const Proximity answer = trial.measure();
   sound_.hold(unsound(answer).empty() && answer.status != Measure::failed, placed);
-  same_.hold(isSame(answer, swapped(trial.measureSwapped())), placed);
+  same_.hold(isSameInOtherOrder(placed, answer, trial.measureSwapped()), placed);
 
   const SolidOracle first = placed.first(), second = placed.second();
   const Interval truth = distanceOf(first, second).interval;

@@ -202,6 +202,16 @@ TEST(SolidOracle, KnowsTheInsideOfABoxAndOfABall) {
   }
 }
 
+TEST(SolidOracle, TakesNoNoticeOfTrianglesWithoutAnArea) {
+  TriangleMesh mesh = boxMesh({1, 1, 1});
+  mesh.triangles.push_back({0, 1, 0});
+  mesh.triangles.push_back({5, 5, 5});
+  const SolidOracle solid(meshOf(mesh), Pose::Identity(), 0.0);
+  EXPECT_TRUE(solid.isClosed());
+  EXPECT_TRUE(solid.encloses({0.1L, 0.2L, 0.3L}));
+  EXPECT_FALSE(solid.encloses({0.1L, 0.2L, 0.7L}));
+}
+
 TEST(SolidOracle, SeesWhetherAMeshIsClosed) {
   Random random(8);
   for (const TriangleMesh& mesh : {boxMesh({1, 2, 3}), ballMesh(0), ballMesh(2), lumpMesh(random, {1, 2, 3})}) {

@@ -93,9 +93,10 @@ bool SolidOracle::encloses(const Vector3r& point) const {
     for (const auto& [a, b, c] : triangles_) {
       const Vector3r p = a - point, q = b - point, r = c - point;
       const Real u = volume(ray, p, q), v = volume(ray, q, r), w = volume(ray, r, p);
-      if ((u > 0) != (v > 0) || (v > 0) != (w > 0)) continue;  // passes beside it
+      const bool leaves = u > 0 && v > 0 && w > 0, enters = u < 0 && v < 0 && w < 0;
+      if (!leaves && !enters) continue;  // passes beside it, or it has no area
       const Real ahead = volume(p, q, r);
-      if ((ahead > 0) == (u > 0)) odd = !odd;
+      if ((ahead > 0) == leaves) odd = !odd;
     }
     inside += odd;
   }
