@@ -28,7 +28,13 @@ int main(int argc, char** argv) {
     ros::AsyncSpinner spinner(1);
     spinner.start();
     std::vector<Measurement> measurements;
-    for (const Workload& workload : {robots(32, 31, 100.0), freeBodies(1000, 100.0), freeBodies(10000, 10.0)}) {
+    std::vector<Workload> workloads{robots(32, 31, 100.0), freeBodies(1000, 100.0), freeBodies(10000, 10.0),
+                                    robots(32, 31, 100.0)};
+    workloads.back().title += ", distances measured";
+    workloads.back().distances = true;
+    for (Workload& workload : realRobots(100.0)) workloads.push_back(std::move(workload));
+    if (workloads.size() == 4) std::printf("without real robots: their descriptions are not at hand\n");
+    for (const Workload& workload : workloads) {
       measurements.push_back(measure(workload, duration));
       print(measurements.back());
     }

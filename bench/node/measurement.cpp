@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "measurement.h"
 
+#include <hgrid_proximity/Distances.h>
 #include <hgrid_proximity/Pairs.h>
 #include <hgrid_proximity/Status.h>
 #include <ros/param.h>
@@ -30,19 +31,16 @@ constexpr double kWarmUp = 11.0;  // [s] until tf's cache of 10 s is full: a ful
 
 /// What the table shows of the node's timings, and under which name.
 const std::vector<std::pair<const char*, const char*>> kParts = {
-    {"tick", "tick"},
-    {"poses", "tick.poses"},
-    {"boxes", "tick.boxes"},
-    {"broad phase", "tick.grid"},
-    {"pairs", "tick.pairs"},
-    {"publish", "tick.publish"},
-    {"tf", "tf"},
+    {"tick", "tick"},        {"poses", "tick.poses"},     {"boxes", "tick.boxes"},         {"broad phase", "tick.grid"},
+    {"pairs", "tick.pairs"}, {"publish", "tick.publish"}, {"distances", "tick.distances"}, {"tf", "tf"},
 };
 
 /// Notes what the node says. Callbacks run on one other thread.
 class Listener {
  public:
-  explicit Listener(const std::string& space) {
+  explicit Listener(const std::string& space, bool distances) {
+    if (distances)
+      distances_ = node_.subscribe<msg::Distances>(space + "/distances", 10, [](const msg::Distances::ConstPtr&) {});
     pairs_ =
         node_.subscribe<msg::Pairs>(space + "/pairs", 1000,
                                     boost::function<void(const ros::MessageEvent<msg::Pairs const>&)>(
@@ -94,7 +92,7 @@ class Listener {
   std::size_t pair_count_ = 0, messages_ = 0;
   ros::Time last_stamp_;
   ros::NodeHandle node_;
-  ros::Subscriber pairs_, status_;
+  ros::Subscriber pairs_, status_, distances_;
 };
 
 Spread spreadOf(std::vector<double> values) {
@@ -138,7 +136,7 @@ Measurement measure(const Workload& workload, double duration) {
   ros::param::set(node, workload.params);
 
   const double tick = 1.0 / workload.rate;
-  Listener listener(node);
+  Listener listener(node, workload.distances);
   TfPublisher publisher(workload, tick * (1.0 + tick / duration));
   const char* folder = std::getenv("ROS_LOG_DIR");
   test::ChildProcess process({HGRID_NODE, "__ns:=" + space, "__name:=proximity"},
@@ -153,6 +151,7 @@ Measurement measure(const Workload& workload, double duration) {
   measurement.title = workload.title;
   measurement.bodies = workload.bodies;
   measurement.rate = workload.rate;
+  measurement.distances = workload.distances;
   const std::size_t late_before = publisher.lateCycles();
   listener.begin();
   const double before = processorTime(process.pid());

@@ -24,6 +24,7 @@ struct Measurement {
   std::string title;
   std::size_t bodies = 0;
   double rate = 0.0;            ///< [Hz]
+  bool distances = false;       ///< were measured
   std::vector<Part> parts;      ///< of the ticks; "latency" last
   double cpu_percent = 0.0;     ///< of one processor
   double pairs = 0.0;           ///< near pairs per tick, on average

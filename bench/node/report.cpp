@@ -35,7 +35,8 @@ std::string number(double value) {
 }
 
 std::string beginOf(const Measurement& m) {
-  return "{\"kind\": \"node\", \"bodies\": " + std::to_string(m.bodies) + ", \"rate_hz\": " + number(m.rate);
+  return "{\"kind\": \"node\", \"bodies\": " + std::to_string(m.bodies) + ", \"rate_hz\": " + number(m.rate) +
+         ", \"world\": " + quoted(m.title) + ", \"distances\": " + (m.distances ? "true" : "false");
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ struct Workload {
   std::string title;
   std::size_t bodies = 0;
   double rate = 100.0;                              ///< [Hz] of /tf and of the node's ticks
+  bool distances = false;                           ///< somebody listens to ~distances, so that they are measured
   XmlRpc::XmlRpcValue params;                       ///< the node's private parameters
   std::map<std::string, std::string> descriptions;  ///< parameters beside the node
   /// The messages of one cycle of /tf at `t` [s]; their stamps are filled in when they are sent.
@@ -32,6 +33,11 @@ Workload robots(std::size_t count, std::size_t links, double rate);
 /// Boxes, each an obstacle in a frame of its own, that fly about and turn; about one near neighbour per body. As from
 /// a motion capture system: one message with all.
 Workload freeBodies(std::size_t count, double rate);
+
+/// UR5, Panda and PR2 beside each other, swinging all joints, where their descriptions are at hand (HGRID_TEST_DATA,
+/// else
+/// ../shared/data beside the project); none otherwise.
+std::vector<Workload> realRobots(double rate);
 
 }  // namespace bench
 }  // namespace hgrid

@@ -27,9 +27,9 @@ namespace {
 using Geometry = fcl::CollisionGeometryd;
 using Vector = Eigen::Vector3d;
 
-constexpr double kTolerance = 1e-10;     // [m] of FCL's iterations
-constexpr double kDisagreement = 1e-6;   // [m] between FCL's nearest points and its distance, beside their rounding
-constexpr double kMaybeInside = 0.25;    // winding number from which an open mesh may enclose a point
+constexpr double kTolerance = 1e-10;    // [m] of FCL's iterations
+constexpr double kDisagreement = 1e-6;  // [m] between FCL's nearest points and its distance, beside their rounding
+constexpr double kMaybeInside = 0.25;   // winding number from which an open mesh may enclose a point
 
 /// What FCL makes of a mesh, and what it encloses; equal meshes share it.
 struct MeshCore {
@@ -91,12 +91,13 @@ class FclSolid final : public Solid {
   double reach() const { return reach_; }
   ShapeKind kind() const { return kind_; }
 
-  /// A point of every part of the core, in its frame.
-  template <class Visit>
-  bool anyPart(Visit&& visit) const {
-    if (!mesh_) return visit(some_point_);
-    const std::vector<Vector>& parts = mesh_->enclosure.parts();
-    return std::any_of(parts.begin(), parts.end(), visit);
+  /// Whether a part of the core, told by some points in its frame, is as asked.
+  template <class Ask>
+  bool anyPart(const Ask& ask) const {
+    if (!mesh_) return ask(&some_point_, &some_point_ + 1);
+    const std::vector<Enclosure::Part>& parts = mesh_->enclosure.parts();
+    return std::any_of(parts.begin(), parts.end(),
+                       [&](const Enclosure::Part& part) { return ask(part.data(), part.data() + part.size()); });
   }
 
  private:
@@ -140,8 +141,8 @@ bool goesAfter(const Side& a, const Side& b) {
 
 /// Nearest points of two cores in the first one's frame.
 struct CoreDistance {
-  double distance;  // [m] <= 0: they meet; infinite: farther than asked
-  Vector on_first, on_second;
+  double distance = std::numeric_limits<double>::infinity();  // [m] <= 0: they meet; infinite: farther than asked
+  Vector on_first = Vector::Zero(), on_second = Vector::Zero();
 };
 
 fcl::DistanceRequestd distanceRequest() {
@@ -158,8 +159,15 @@ CoreDistance distanceOf(const FclSolid& a, const FclSolid& b, const Pose& a_from
   fcl::DistanceResultd result;
   result.min_distance = std::nextafter(up_to, std::numeric_limits<double>::infinity());  // FCL looks no farther
   fcl::distance(&a.core(), identity, &b.core(), placed, distanceRequest(), result);
-  if (result.o1 == nullptr) return {std::numeric_limits<double>::infinity(), {}, {}};
-  return {result.min_distance, result.nearest_points[0], result.nearest_points[1]};
+  if (result.o1 == nullptr) return {};
+  CoreDistance found;
+  found.distance = result.min_distance;
+  found.on_first = result.nearest_points[0];
+  found.on_second = result.nearest_points[1];
+  // The core of a ball is its centre. Beside a triangle FCL names that point in the ball's own frame.
+  if (a.kind() == ShapeKind::sphere) found.on_first.setZero();
+  if (b.kind() == ShapeKind::sphere) found.on_second = a_from_b.translation();
+  return found;
 }
 
 /// Depth, normal and place of two cores that meet, where FCL's contact stands the test of moving them apart by it.
@@ -191,8 +199,10 @@ Measure enclosed(const FclSolid& outer, const FclSolid& inner, const Pose& outer
   if (!outer.mesh()) return Measure::apart;  // what is not a mesh is solid: FCL has found it
   const Enclosure& enclosure = outer.mesh()->enclosure;
   const double least = enclosure.closed() ? 0.5 : kMaybeInside;
-  const bool inside = inner.anyPart(
-      [&](const Vector& point) { return std::abs(enclosure.windingNumber(outer_from_inner * point)) >= least; });
+  const bool inside = inner.anyPart([&](const Vector* begin, const Vector* end) {
+    const auto in_box = [&](const Vector& point) { return enclosure.boxHolds(outer_from_inner * point); };
+    return std::all_of(begin, end, in_box) && std::abs(enclosure.windingNumber(outer_from_inner * *begin)) >= least;
+  });
   if (!inside) return Measure::apart;
   return enclosure.closed() ? Measure::contained : Measure::containment_unknown;
 }
@@ -207,7 +217,7 @@ Proximity measured(const Side& a, const Side& b, double up_to) {
   const double around = a.around + b.around;
   const bool has_mesh = a.solid.mesh() || b.solid.mesh();
   const bool far = a_from_b.translation().norm() - (a.solid.reach() + b.solid.reach()) - around > up_to;
-  CoreDistance cores{std::numeric_limits<double>::infinity(), {}, {}};
+  CoreDistance cores;
   if (!far) cores = distanceOf(a.solid, b.solid, a_from_b, std::max(0.0, up_to) + around);
   if (std::isnan(cores.distance)) return result;
   if (cores.distance <= 0.0) {

@@ -68,20 +68,29 @@ Enclosure::Enclosure(const TriangleMesh& mesh) {
   closed_ = isBalanced(triangles);
   low_.setConstant(std::numeric_limits<double>::infinity());
   high_ = -low_;
-  std::vector<bool> seen(parent.size());
+  std::vector<std::size_t> part_of(parent.size(), parts_.max_size());
   for (const auto& triangle : triangles) {
     const Index root = rootOf(parent, triangle[0]);
-    if (!seen[root]) parts_.push_back(mesh.vertices[root]);
-    seen[root] = true;
+    if (part_of[root] == parts_.max_size()) {
+      part_of[root] = parts_.size();
+      parts_.emplace_back();
+      parts_.back().fill(mesh.vertices[root]);
+    }
+    Part& part = parts_[part_of[root]];
     for (const Index i : triangle) {
-      low_ = low_.cwiseMin(mesh.vertices[i]);
-      high_ = high_.cwiseMax(mesh.vertices[i]);
+      const Eigen::Vector3d& vertex = mesh.vertices[i];
+      low_ = low_.cwiseMin(vertex);
+      high_ = high_.cwiseMax(vertex);
+      for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        const auto least = static_cast<std::size_t>(axis), most = least + 3;
+        if (vertex[axis] < part[least][axis]) part[least] = vertex;
+        if (vertex[axis] > part[most][axis]) part[most] = vertex;
+      }
     }
   }
 }
 
 double Enclosure::windingNumber(const Eigen::Vector3d& point) const {
-  if ((point.array() < low_.array()).any() || (point.array() > high_.array()).any()) return 0.0;
   double half_angles = 0.0;
   for (const Corners& triangle : triangles_) {
     const Eigen::Vector3d a = triangle.a - point, b = triangle.b - point, c = triangle.c - point;

@@ -5,8 +5,8 @@
 namespace hgrid {
 
 const char* name(Measure status) {
-  static constexpr const char* kNames[] = {"NOT_MEASURED", "MEASURED",            "CONTACT",
-                                           "CONTAINED",    "CONTAINMENT_UNKNOWN", "FAILED"};
+  static constexpr const char* kNames[] = {"NOT_MEASURED",        "MEASURED", "CONTACT", "CONTAINED",
+                                           "CONTAINMENT_UNKNOWN", "FAILED"};
   return kNames[static_cast<int>(status)];
 }
 

@@ -166,8 +166,7 @@ visualization_msgs::MarkerArray markers(const Tick& tick, const QuerySketch& que
   Marker boxes = marker(tick, "boxes", 0, Marker::LINE_LIST),
          not_fresh = marker(tick, "not_fresh", 0, Marker::LINE_LIST),
          pairs = marker(tick, "pairs", 0, Marker::LINE_LIST), nearest = marker(tick, "distances", 0, Marker::LINE_LIST),
-         ball = marker(tick, "queries", 0, Marker::SPHERE),
-         ray = marker(tick, "queries", 1, Marker::LINE_LIST);
+         ball = marker(tick, "queries", 0, Marker::SPHERE), ray = marker(tick, "queries", 1, Marker::LINE_LIST);
   boxes.scale.x = 0.004;
   not_fresh.scale.x = 0.012;
   pairs.scale.x = 0.02;

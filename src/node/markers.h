@@ -34,10 +34,10 @@ class QuerySketch {
 };
 
 /// What RViz draws of a tick, in the world frame: namespace "boxes" (one colour per grid level), "not_fresh" (boxes of
-/// bodies that are not, red), "pairs" (a line between the nearest points of each near pair's boxes), "distances" (a line
-/// between the nearest points of the shapes of each measured pair, from green at the report distance to red in contact),
-/// "distance_texts" (the distance beside each such line [mm]), "queries".
-/// Every marker has a stable id and is replaced, or deleted where there is nothing to draw.
+/// bodies that are not, red), "pairs" (a line between the nearest points of each near pair's boxes), "distances" (a
+/// line between the nearest points of the shapes of each measured pair, from green at the report distance to red in
+/// contact), "distance_texts" (the distance beside each such line [mm]), "queries". Every marker has a stable id and is
+/// replaced, or deleted where there is nothing to draw.
 /// @param distances  of the tick's snapshot; null: not measured
 visualization_msgs::MarkerArray markers(const Tick& tick, const QuerySketch& queries, const PairDistances* distances);
 

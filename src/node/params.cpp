@@ -267,9 +267,7 @@ class Printer {
     entry(name, std::string(meaning) + "; " + std::to_string(low) + " .. " + std::to_string(high),
           std::to_string(value));
   }
-  void flag(const char* name, bool value, const char* meaning) {
-    entry(name, meaning, value ? "true" : "false");
-  }
+  void flag(const char* name, bool value, const char* meaning) { entry(name, meaning, value ? "true" : "false"); }
   void kinds(const char* name, const PairKinds&, const char* meaning) {
     entry(name, meaning, "[self, robot_robot, robot_obstacle, robot_map, moving_obstacle]");
   }

@@ -81,8 +81,8 @@ ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node)
   subscribers_.push_back(update_node_.subscribe<tf2_msgs::TFMessage>("/tf_static", 1000, on_tf(true)));
 
   queries_ = std::make_unique<QueryServices>(
-      query_private_, params_, config_hash_, [this] { return newest(); }, world_.transforms().buffer(), narrow_phase_, sketch_,
-      ledger_);
+      query_private_, params_, config_hash_, [this] { return newest(); }, world_.transforms().buffer(), narrow_phase_,
+      sketch_, ledger_);
   servers_.push_back(admin_private_.advertiseService("reset", &ProximityNode::onReset, this));
   servers_.push_back(admin_private_.advertiseService("reload_robot", &ProximityNode::onReload, this));
   diagnostics_ = std::make_unique<NodeDiagnostics>(

@@ -190,16 +190,16 @@ bool QueryServices::onSegment(msg::QuerySegment::Request& request, msg::QuerySeg
 }
 
 bool QueryServices::onBox(msg::QueryBox::Request& request, msg::QueryBox::Response& response) {
-  return answer(request, response,
-                [&](const Snapshot& snapshot, const Pose& world_from_frame, const QueryScope& scope) {
-                  const auto& q = request.pose.orientation;
-                  const bool unset = q.x == 0.0 && q.y == 0.0 && q.z == 0.0 && q.w == 0.0;  // as typed by hand
-                  const Pose frame_from_box = checkedPose(
-                      fromPoint(request.pose.position),
-                      unset ? Eigen::Vector4d(0.0, 0.0, 0.0, 1.0) : Eigen::Vector4d(q.x, q.y, q.z, q.w), "the query's box");
-                  const Eigen::Vector3d size(request.size.x, request.size.y, request.size.z);
-                  return snapshot.query(QueryBox{world_from_frame * frame_from_box, size}, *narrow_phase_, scope);
-                });
+  return answer(
+      request, response, [&](const Snapshot& snapshot, const Pose& world_from_frame, const QueryScope& scope) {
+        const auto& q = request.pose.orientation;
+        const bool unset = q.x == 0.0 && q.y == 0.0 && q.z == 0.0 && q.w == 0.0;  // as typed by hand
+        const Pose frame_from_box = checkedPose(
+            fromPoint(request.pose.position),
+            unset ? Eigen::Vector4d(0.0, 0.0, 0.0, 1.0) : Eigen::Vector4d(q.x, q.y, q.z, q.w), "the query's box");
+        const Eigen::Vector3d size(request.size.x, request.size.y, request.size.z);
+        return snapshot.query(QueryBox{world_from_frame * frame_from_box, size}, *narrow_phase_, scope);
+      });
 }
 
 bool QueryServices::onNearest(msg::QueryNearest::Request& request, msg::QueryNearest::Response& response) {

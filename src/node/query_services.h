@@ -18,8 +18,8 @@
 
 namespace hgrid {
 
-/// Answers ~query_sphere, ~query_segment, ~query_box and ~query_nearest from the newest tick. Callbacks run on the queue of the node handle,
-/// on as many threads as spin it, and wait for nobody.
+/// Answers ~query_sphere, ~query_segment, ~query_box and ~query_nearest from the newest tick. Callbacks run on the
+/// queue of the node handle, on as many threads as spin it, and wait for nobody.
 class QueryServices {
  public:
   using NewestTick = std::function<std::shared_ptr<const Tick>()>;

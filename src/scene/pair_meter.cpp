@@ -17,8 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Measured a little farther than is reported, so that a pair known to be beyond need not be asked again at once.
-constexpr double kBeyond = 1.25;
+constexpr double kLittle = 0.25;     // share of the report distance
 constexpr double kSmoothing = 0.05;  // [s] time constant of the closing speed
 constexpr std::size_t kPairsPerJob = 8;
 
@@ -142,20 +141,24 @@ void PairMeter::State::perform(const Snapshot& snapshot, Job& job, std::vector<S
   const Pose &first = snapshot.poses()[job.pair->first].world_from_body,
              &second = snapshot.poses()[job.pair->second].world_from_body;
   Known& now = job.known;
-  const double enough = kBeyond * job.report;
-  bool measure = !now.measured || now.up_to < job.report;
-  if (!measure && (first.matrix() != now.world_from_first.matrix() ||
-                   second.matrix() != now.world_from_second.matrix())) {
-    const double moved = relativeMotion(now.world_from_first, now.world_from_second, first, second,
-                                        reachOf(snapshot.structure().bodies[job.pair->second]));
-    const double at_least = std::min(now.proximity.distance, now.up_to) - moved;
-    measure = !(at_least > job.report);
+  double moved = std::numeric_limits<double>::infinity();
+  if (now.measured) {
+    const bool same =
+        first.matrix() == now.world_from_first.matrix() && second.matrix() == now.world_from_second.matrix();
+    moved = same ? 0.0
+                 : relativeMotion(now.world_from_first, now.world_from_second, first, second,
+                                  reachOf(snapshot.structure().bodies[job.pair->second]));
   }
-  if (measure) {
+  const double at_least = std::min(now.proximity.distance, now.up_to) - moved;
+  const bool enough_known = moved == 0.0 ? now.up_to >= job.report : at_least > job.report;
+  if (!now.measured || !enough_known) {
+    // So far it need be looked, if that is known, and a little more than any solver errs.
+    const double at_most = now.proximity.distance + moved + 1e-6;
+    // What moves little is looked for a little farther than is reported: it need not be asked again at once.
+    now.up_to = moved < kLittle * job.report ? (1.0 + kLittle) * job.report : job.report;
     now.world_from_first = first;
     now.world_from_second = second;
-    now.up_to = enough;
-    measureShapes(snapshot, job, enough, shape_pairs);
+    measureShapes(snapshot, job, at_most < now.up_to ? at_most : now.up_to, shape_pairs);
     now.measured = true;
   }
   job.shown = now.proximity.status == Measure::not_measured || now.proximity.distance <= job.report;

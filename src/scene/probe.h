@@ -27,7 +27,8 @@ struct Snapshot::Probe {
     const BodyShape& what = snapshot.structure().bodies[body].shapes[shape];
     if (!what.solid) return {};
     const Pose world_from_shape = snapshot.poses()[body].world_from_body * what.body_from_shape;
-    return narrow_phase.measure({*core, world_from_core, padding}, {*what.solid, world_from_shape, what.padding}, up_to);
+    return narrow_phase.measure({*core, world_from_core, padding}, {*what.solid, world_from_shape, what.padding},
+                                up_to);
   }
 };
 

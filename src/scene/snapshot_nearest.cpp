@@ -21,8 +21,8 @@ bool nearer(const QueryHit& a, const QueryHit& b) {
 
 }  // namespace
 
-/// Boxes come from the grid by growing distance, which is a lower bound of the one that is asked for; it is over when no
-/// further box can be nearer than the last body that is wanted.
+/// Boxes come from the grid by growing distance, which is a lower bound of the one that is asked for; it is over when
+/// no further box can be nearer than the last body that is wanted.
 /// @param reach  [m] of what is asked from, around `center`
 template <class Ask>
 QueryAnswer Snapshot::nearestBy(const Eigen::Vector3d& center, double reach, double max_distance,
@@ -91,8 +91,8 @@ QueryAnswer Snapshot::nearest(std::uint32_t from, double max_distance, const Que
   checkQueryLength(max_distance, "max_distance");
   const Body& asking = structure_->bodies[from];
   if (poses_[from].state == Freshness::unplaced || asking.shapes.empty()) {
-    throw Refusal(Code::not_ready, "body '" + asking.name + "' has no " +
-                                       (asking.shapes.empty() ? "shapes" : "pose") + " to be near to");
+    throw Refusal(Code::not_ready, "body '" + asking.name + "' has no " + (asking.shapes.empty() ? "shapes" : "pose") +
+                                       " to be near to");
   }
   const ProxyId first = structure_->first_proxy[from], last = structure_->first_proxy[from + 1];
   Eigen::Vector3d low = boxes_[first].min.cast<double>(), high = boxes_[first].max.cast<double>();

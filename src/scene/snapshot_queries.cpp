@@ -25,9 +25,9 @@ Pose alongSegment(const Segment& segment) {
   return pose;
 }
 
-/// How far along a segment a ball that moves along it first touches what `distanceTo` measures: steps as long as nothing
-/// can be in the way (conservative advancement; after Mirtich 1996, section 2.3). What was found there is left in
-/// `found`.
+/// How far along a segment a ball that moves along it first touches what `distanceTo` measures: steps as long as
+/// nothing can be in the way (conservative advancement; after Mirtich 1996, section 2.3). What was found there is left
+/// in `found`.
 template <class DistanceTo>
 double firstTouch(const Segment& segment, const DistanceTo& distanceTo, Proximity& found) {
   const Eigen::Vector3d way = segment.to - segment.from;

@@ -30,7 +30,9 @@ std::shared_ptr<fcl::CollisionGeometryd> meshGeometry(const TriangleMesh& mesh) 
   return model;
 }
 
-std::shared_ptr<fcl::CollisionGeometryd> geometryOf(const Shape& shape) {
+}  // namespace
+
+std::shared_ptr<fcl::CollisionGeometryd> fclGeometry(const Shape& shape) {
   const std::vector<double> size = shape.dimensions();
   switch (shape.kind()) {
     case ShapeKind::sphere:
@@ -51,11 +53,9 @@ std::shared_ptr<fcl::CollisionGeometryd> geometryOf(const Shape& shape) {
   throw std::invalid_argument("no FCL geometry for this shape");
 }
 
-}  // namespace
-
 FclBody::FclBody(const Body& body) {
   for (const BodyShape& shape : body.shapes) {
-    Part part{geometryOf(shape.shape), shape.body_from_shape, Eigen::Vector3d::Zero(), 0.0};
+    Part part{fclGeometry(shape.shape), shape.body_from_shape, Eigen::Vector3d::Zero(), 0.0};
     if (shape.shape.mesh()) {
       const auto& vertices = shape.shape.mesh()->vertices;
       Eigen::Vector3d low = vertices.front(), high = vertices.front();

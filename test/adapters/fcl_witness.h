@@ -12,6 +12,9 @@
 namespace hgrid {
 namespace test {
 
+/// A shape as described, to FCL. @throws std::invalid_argument for a hull
+std::shared_ptr<fcl::CollisionGeometryd> fclGeometry(const Shape& shape);
+
 /// A body as FCL sees it: its shapes, and a ball round each that the product knows nothing of.
 ///
 /// Distances are those of the shapes as described, in double (by GST_LIBCCD, unsigned: the only way of FCL

@@ -34,7 +34,7 @@ struct Proximity {
 
   Measure status = Measure::not_measured;
   double distance = kUnknown;  ///< [m] 0 in contact; infinite if farther apart than was asked for
-  Eigen::Vector3d on_first = Eigen::Vector3d::Constant(kUnknown);   ///< [m, world] nearest point; in contact the deepest
+  Eigen::Vector3d on_first = Eigen::Vector3d::Constant(kUnknown);  ///< [m, world] nearest point; in contact the deepest
   Eigen::Vector3d on_second = Eigen::Vector3d::Constant(kUnknown);  ///< [m, world] the same of the second
   Eigen::Vector3d normal = Eigen::Vector3d::Constant(kUnknown);     ///< unit vector from the first towards the second
   double depth = kUnknown;  ///< [m] in contact: the second moved this far along the normal is free of the first
@@ -66,7 +66,7 @@ class NarrowPhase {
 
   /// What questions are made of: a point, a segment along z and centred, a box; padding gives them a radius.
   virtual std::shared_ptr<const Solid> point() const = 0;
-  virtual std::shared_ptr<const Solid> needle(double length) const = 0;             ///< [m] > 0
+  virtual std::shared_ptr<const Solid> needle(double length) const = 0;               ///< [m] > 0
   virtual std::shared_ptr<const Solid> block(const Eigen::Vector3d& size) const = 0;  ///< [m] full lengths, >= 0
 
   /// How two solids of this narrow phase lie to each other. Never throws: what goes wrong is Measure::failed. The same

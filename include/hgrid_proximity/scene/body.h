@@ -72,9 +72,9 @@ struct Body {
   double max_speed = std::numeric_limits<double>::infinity();  ///< [m/s] bound of the speed of its points
   /// [m/s] the same where somebody vouches for it; bounds of time to contact rest on it alone. Infinite: nobody does.
   double speed_bound = std::numeric_limits<double>::infinity();
-  bool covered = true;                                         ///< every shape that its description has was read
-  bool waived = false;                                         ///< not covered, but accepted by the user
-  std::string note;                                            ///< why it is not covered, or the reason of the waiver
+  bool covered = true;  ///< every shape that its description has was read
+  bool waived = false;  ///< not covered, but accepted by the user
+  std::string note;     ///< why it is not covered, or the reason of the waiver
 
   std::string robot;                        ///< links: name of the robot
   std::uint32_t link = 0;                   ///< links: index in the robot's model

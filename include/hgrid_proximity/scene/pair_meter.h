@@ -17,9 +17,9 @@ struct PairDistance {
   std::uint32_t first_shape = 0, second_shape = 0;  ///< the nearest ones, in the order of each body's shapes
   double gap = 0.0;                                 ///< [m] distance of their boxes
   Proximity proximity;
-  double closing_speed = Proximity::kUnknown;       ///< [m/s] estimate from past ticks; > 0: they come closer
-  double time_to_contact = Proximity::kUnknown;     ///< [s] estimate; infinite if they do not come closer
-  double no_contact_before = Proximity::kUnknown;   ///< [s] bound by max_speed, from the stamp on
+  double closing_speed = Proximity::kUnknown;      ///< [m/s] estimate from past ticks; > 0: they come closer
+  double time_to_contact = Proximity::kUnknown;    ///< [s] estimate; infinite if they do not come closer
+  double no_contact_before = Proximity::kUnknown;  ///< [s] bound by max_speed, from the stamp on
 };
 
 /// Exact distances of one snapshot. Immutable.

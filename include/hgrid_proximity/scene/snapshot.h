@@ -61,11 +61,11 @@ struct QueryBox {
 
 /// One body that a query met.
 struct QueryHit {
-  std::uint32_t body = 0;        ///< index into Structure::bodies
-  std::uint32_t shape = 0;       ///< index of the nearest (segment: first met) of its shapes
+  std::uint32_t body = 0;                  ///< index into Structure::bodies
+  std::uint32_t shape = 0;                 ///< index of the nearest (segment: first met) of its shapes
   Measure status = Measure::not_measured;  ///< of exact ones
-  double distance = 0.0;         ///< [m] from the query's surface to the body's box (exact: shape); 0 where they overlap
-  double center_distance = 0.0;  ///< [m] the same from the query's centre or axis; between two bodies as distance
+  double distance = 0.0;  ///< [m] from the query's surface to the body's box (exact: shape); 0 where they overlap
+  double center_distance = 0.0;        ///< [m] the same from the query's centre or axis; between two bodies as distance
   double along = Proximity::kUnknown;  ///< [m] segment only
   /// [m, world] point of the box (exact: shape) nearest to centre or axis; of a shape that a segment meets the point
   /// that it meets first. NaN: unknown, as inside a shape
@@ -119,7 +119,8 @@ class Snapshot {
   QueryAnswer query(const Sphere& sphere, const QueryScope& scope) const;
   /// Bodies whose boxes the segment meets, in order along it; otherwise as above.
   QueryAnswer query(const Segment& segment, const QueryScope& scope) const;
-  /// Bodies whose boxes (exact: shapes) the box touches; otherwise as above. @param narrow_phase  measures also by boxes
+  /// Bodies whose boxes (exact: shapes) the box touches; otherwise as above. @param narrow_phase  measures also by
+  /// boxes
   QueryAnswer query(const QueryBox& box, const NarrowPhase& narrow_phase, const QueryScope& scope) const;
   /// The scope.limit (0: one) bodies nearest to a point, at most so far away [m]; otherwise as above.
   QueryAnswer nearest(const Eigen::Vector3d& point, double max_distance, const QueryScope& scope) const;

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// Exact queries against a look at every shape of every body, and hits against shapes whose answer is known.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "hgrid_proximity/adapters/fcl.h"
+#include "test/support/scenes.h"
+#include "test/support/worlds.h"
+
+namespace hgrid {
+namespace {
+
+using test::at;
+using test::put;
+using test::Random;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+class ExactQueries : public ::testing::Test {
+ protected:
+  BodyId add(Body body, const Pose& pose) {
+    for (BodyShape& shape : body.shapes) shape.solid = phase_->solidOf(shape.shape);
+    return put(scene_, body, pose);
+  }
+  void fill(unsigned seed, int count) {
+    Random random(seed);
+    for (int i = 0; i < count; ++i) {
+      add(test::randomBody(random, std::to_string(i)), test::randomPose(random, 2.0));
+    }
+    snapshot_ = scene_.commit(Time{1}, {});
+  }
+  QueryScope exactly(std::uint32_t limit = 0) const {
+    QueryScope scope;
+    scope.limit = limit;
+    scope.exact = phase_.get();
+    return scope;
+  }
+  /// The least distance of a solid to any shape of a body.
+  double distanceTo(const Solid& solid, const Pose& pose, double padding, std::uint32_t body) const {
+    double least = kInfinity;
+    for (const BodyShape& shape : snapshot_->structure().bodies[body].shapes) {
+      const Pose world_from_shape = snapshot_->poses()[body].world_from_body * shape.body_from_shape;
+      least = std::min(
+          least,
+          phase_->measure({solid, pose, padding}, {*shape.solid, world_from_shape, shape.padding}, kInfinity).distance);
+    }
+    return least;
+  }
+  double leastDistance(bool exact, bool from_body, std::uint32_t from, const Eigen::Vector3d& point,
+                       std::uint32_t body) const {
+    const Structure& structure = snapshot_->structure();
+    double least = kInfinity;
+    if (exact && !from_body) return distanceTo(*phase_->point(), at(point.x(), point.y(), point.z()), 0.0, body);
+    if (exact) {
+      for (const BodyShape& shape : structure.bodies[from].shapes) {
+        const Pose pose = snapshot_->poses()[from].world_from_body * shape.body_from_shape;
+        least = std::min(least, distanceTo(*shape.solid, pose, shape.padding, body));
+      }
+      return least;
+    }
+    for (ProxyId j = structure.first_proxy[body]; j < structure.first_proxy[body + 1]; ++j) {
+      if (!from_body) least = std::min(least, distance(snapshot_->boxes()[j], point));
+      for (ProxyId i = structure.first_proxy[from]; from_body && i < structure.first_proxy[from + 1]; ++i) {
+        least = std::min(least, distance(snapshot_->boxes()[i], snapshot_->boxes()[j]));
+      }
+    }
+    return least;
+  }
+  template <class DistanceTo>
+  void expectHits(const QueryAnswer& answer, const DistanceTo& distanceTo, double reach) const {
+    std::map<std::uint32_t, QueryHit> hits;
+    for (const QueryHit& hit : answer.hits) ASSERT_TRUE(hits.emplace(hit.body, hit).second) << "one body twice";
+    for (std::uint32_t body = 0; body < snapshot_->structure().bodies.size(); ++body) {
+      const double distance = distanceTo(body);
+      SCOPED_TRACE(std::to_string(body) + " at " + std::to_string(distance));
+      if (hits.count(body) == 0) {
+        ASSERT_GT(distance, reach) << "missed";
+        continue;
+      }
+      ASSERT_LE(distance, reach + 1e-7) << "too much";
+      ASSERT_NEAR(hits[body].center_distance, distance, 1e-6);
+    }
+  }
+
+  std::shared_ptr<NarrowPhase> phase_ = makeFclNarrowPhase();
+  Scene scene_{SceneOptions{}};
+  std::shared_ptr<const Snapshot> snapshot_;
+};
+
+TEST_F(ExactQueries, SpheresFindExactlyTheShapesTheyTouch) {
+  fill(1, 60);
+  Random random(2);
+  for (int i = 0; i < 300; ++i) {
+    const Sphere sphere{test::randomVector(random, -3, 3), i % 5 == 0 ? 0.0 : random.uniform(0, 1)};
+    const QueryAnswer answer = snapshot_->query(sphere, exactly());
+    expectHits(
+        answer,
+        [&](std::uint32_t body) {
+          return distanceTo(*phase_->point(), at(sphere.center.x(), sphere.center.y(), sphere.center.z()), 0.0, body);
+        },
+        sphere.radius);
+    EXPECT_LE(answer.total, snapshot_->query(sphere, QueryScope{}).total) << "boxes find no less";
+  }
+}
+
+TEST_F(ExactQueries, SegmentsFindTheFirstTouchOnTheShape) {
+  fill(3, 60);
+  Random random(4);
+  int met = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Segment segment{test::randomVector(random, -3, 3), test::randomVector(random, -3, 3),
+                          i % 2 == 0 ? 0.0 : random.uniform(0, 0.3)};
+    const double length = (segment.to - segment.from).norm();
+    const QueryAnswer answer = snapshot_->query(segment, exactly());
+    const auto ball = [&](double along, std::uint32_t body) {
+      const Eigen::Vector3d center = segment.from + along / length * (segment.to - segment.from);
+      return distanceTo(*phase_->point(), at(center.x(), center.y(), center.z()), 0.0, body);
+    };
+    for (const QueryHit& hit : answer.hits) {
+      ++met;
+      ASSERT_GE(hit.along, 0.0);
+      ASSERT_LE(hit.along, length);
+      for (int k = 0; k < 20; ++k) {
+        const double before = hit.along * k / 20.0 * (1.0 - 1e-9);
+        ASSERT_GT(ball(before, hit.body), segment.radius - 1e-7) << "it touches earlier";
+      }
+      ASSERT_LE(ball(hit.along, hit.body), segment.radius + 1e-4) << "it does not touch there";
+    }
+  }
+  EXPECT_GT(met, 100);
+}
+
+TEST_F(ExactQueries, ARayMeetsABoxWhereItsFaceIs) {
+  Body box = test::obstacle("box");
+  box.shapes.push_back(test::shapeOf(Shape::box({1, 1, 1})));
+  Pose turned = at(3.0);
+  turned.linear() = Eigen::AngleAxisd(M_PI / 4, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  add(box, turned);
+  snapshot_ = scene_.commit(Time{1}, {});
+  const QueryAnswer answer = snapshot_->query(Segment{{0, 0.1, 0.2}, {10, 0.1, 0.2}, 0.0}, exactly());
+  ASSERT_EQ(answer.hits.size(), 1u);
+  const double expected = 3.0 - std::sqrt(0.5) + 0.1;  // a corner of the turned box looks at the ray
+  EXPECT_NEAR(answer.hits[0].along, expected, 1e-6);
+  EXPECT_LT((answer.hits[0].point - Eigen::Vector3d(expected, 0.1, 0.2)).norm(), 1e-6);
+  EXPECT_LT((answer.hits[0].normal - Eigen::Vector3d(-std::sqrt(0.5), std::sqrt(0.5), 0.0)).norm(), 1e-3);
+}
+
+TEST_F(ExactQueries, BoxesFindExactlyTheShapesTheyTouch) {
+  fill(5, 60);
+  Random random(6);
+  for (int i = 0; i < 200; ++i) {
+    QueryBox box{test::randomPose(random, 3.0),
+                 {random.uniform(0.01, 1), random.uniform(0.01, 1), random.uniform(0.01, 1)}};
+    const auto solid = phase_->block(box.size);
+    const QueryAnswer answer = snapshot_->query(box, *phase_, exactly());
+    std::map<std::uint32_t, bool> hits;
+    for (const QueryHit& hit : answer.hits) hits[hit.body] = true;
+    for (std::uint32_t body = 0; body < snapshot_->structure().bodies.size(); ++body) {
+      const double distance = distanceTo(*solid, box.world_from_box, 0.0, body);
+      if (hits.count(body) == 0) {
+        ASSERT_GT(distance, 0.0) << "missed " << body;
+      } else {
+        ASSERT_LE(distance, 1e-7) << "too much " << body;
+      }
+    }
+    const QueryAnswer by_boxes = snapshot_->query(box, *phase_, QueryScope{});
+    ASSERT_GE(by_boxes.total, answer.total);
+  }
+}
+
+TEST_F(ExactQueries, NearestAreTheNearestOfAll) {
+  fill(7, 80);
+  Random random(8);
+  for (const bool exact : {false, true}) {
+    for (int i = 0; i < 100; ++i) {
+      SCOPED_TRACE(std::to_string(exact) + ", query " + std::to_string(i));
+      const Eigen::Vector3d point = test::randomVector(random, -4, 4);
+      const auto k = static_cast<std::uint32_t>(random.between(1, 9));
+      const double bound = i % 3 == 0 ? random.uniform(0.1, 1.0) : 0.0;
+      QueryScope scope;
+      scope.limit = k;
+      if (exact) scope.exact = phase_.get();
+      const bool from_body = i % 2 == 1;
+      const auto from = static_cast<std::uint32_t>(random.between(0, 79));
+      const QueryAnswer answer =
+          from_body ? snapshot_->nearest(from, bound, scope) : snapshot_->nearest(point, bound, scope);
+      std::vector<double> all;
+      for (std::uint32_t body = 0; body < 80; ++body) {
+        if (from_body && body == from) continue;
+        all.push_back(leastDistance(exact, from_body, from, point, body));
+      }
+      std::sort(all.begin(), all.end());
+      while (!all.empty() && bound > 0.0 && all.back() > bound) all.pop_back();
+      ASSERT_EQ(answer.hits.size(), std::min<std::size_t>(k, all.size()));
+      for (std::size_t n = 0; n < answer.hits.size(); ++n) ASSERT_NEAR(answer.hits[n].distance, all[n], 1e-6);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hgrid

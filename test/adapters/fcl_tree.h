@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "hgrid_proximity/scene/body.h"
+
+namespace hgrid {
+namespace test {
+
+/// FCL's own way to near pairs: a DynamicAABBTree of all shapes and a callback that asks for distances up to a bound.
+class FclTree {
+ public:
+  FclTree();
+  ~FclTree();
+
+  void add(const Body& body);
+  /// Moves the bodies, in the order in which they were added, then measures all pairs of different bodies that are not
+  /// allowed to touch. @returns how many of them are at most `bound` [m] apart
+  std::size_t distances(const std::vector<Pose>& world_from_bodies, double bound,
+                        const std::function<bool(std::size_t, std::size_t)>& allowed);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace test
+}  // namespace hgrid
