@@ -59,7 +59,7 @@ std::string unsound(const Proximity& answer, double up_to) {
 }
 
 Judge::Judge(double error)
-    : sound_("an answer agrees with itself", 0.0),
+    : sound_("there is an answer, and it agrees with itself", 0.0),
       same_("both orders give the same answer", 0.0),
       distance_("the distance apart is right", error),
       false_contact_("what is said to touch is not apart", error),
@@ -81,7 +81,7 @@ void Judge::look(const Case& placed) {
   if (answer.status == Measure::apart) {
     judgeApart(placed, answer, truth);
     if (truth.upper < 1e-9) missed_.hold(!overlapByMore(first, second, kMissedDepth), placed);
-  } else {
+  } else if (answer.status != Measure::failed) {
     judgeContact(placed, answer, truth);
   }
 }
