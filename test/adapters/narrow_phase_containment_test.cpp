@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// A closed mesh is solid: what lies wholly within it is in contact. What an open one encloses nobody can say.
+#include <gtest/gtest.h>
+
+#include "test/adapters/narrow_phase_judge.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+/// Meshes around the origin that hold a ball of radius 0.9.
+std::vector<std::pair<std::string, TriangleMesh>> vessels() {
+  const auto scaled = [](TriangleMesh mesh, double factor) {
+    for (Eigen::Vector3d& vertex : mesh.vertices) vertex *= factor;
+    return mesh;
+  };
+  const TriangleMesh box = boxMesh({2.0, 2.5, 3.0}), ball = scaled(ballMesh(2), 1.1);
+  return {{"box", box}, {"box of an STL file", unwelded(box)}, {"ball", ball}, {"ball of an STL file", unwelded(ball)}};
+}
+
+std::vector<ShapeKind> allKinds() {
+  std::vector<ShapeKind> kinds;
+  for (int kind = 1; kind <= 7; ++kind) kinds.push_back(ShapeKind(kind));
+  return kinds;
+}
+
+const Proportions kSmall = {0.01, 0.2, 10.0};
+
+Case placedIn(const Shape& outer, const Shape& inner, const Pose& world_from_outer, const Pose& outer_from_inner) {
+  return {outer, inner, world_from_outer, world_from_outer * outer_from_inner, 0.0, 0.0};
+}
+
+class Containment : public testing::TestWithParam<ShapeKind> {};
+
+INSTANTIATE_TEST_SUITE_P(NarrowPhase, Containment, testing::ValuesIn(allKinds()),
+                         [](const auto& info) { return std::string(name(info.param)); });
+
+TEST_P(Containment, WhatLiesWithinAClosedMeshIsContained) {
+  Random random(5);
+  for (const auto& [what, vessel] : vessels()) {
+    SCOPED_TRACE(what);
+    for (int i = 0; i < 50; ++i) {
+      const Case placed = placedIn(meshOf(vessel), randomSolid(random, GetParam(), kSmall), randomPose(random, 5.0),
+                                   randomPose(random, 0.3));
+      const Trial trial(placed);
+      const Proximity answer = trial.measure();
+      ASSERT_EQ(unsound(answer), "") << placed.text();
+      ASSERT_EQ(answer.status, Measure::contained) << placed.text();
+      ASSERT_TRUE(isSameInOtherOrder(placed, answer, trial.measureSwapped())) << placed.text();
+    }
+  }
+}
+
+TEST_P(Containment, WhatLiesBesideAClosedMeshIsApart) {
+  Random random(6);
+  for (const auto& [what, vessel] : vessels()) {
+    SCOPED_TRACE(what);
+    Judge judge;
+    for (int i = 0; i < 50; ++i) {
+      Pose beside = randomPose(random, 0.3);
+      beside.translation()[random.below(3)] += random.chance(0.5) ? 2.5 : -2.5;
+      const Case placed =
+          placedIn(meshOf(vessel), randomSolid(random, GetParam(), kSmall), randomPose(random, 5.0), beside);
+      ASSERT_EQ(Trial(placed).measure().status, Measure::apart) << placed.text();
+      judge.look(placed);
+    }
+    judge.expectAllHeld();
+  }
+}
+
+// One missing triangle, on any side: rays and winding numbers of some places then lie.
+TEST_P(Containment, WhatLiesWithinAnOpenMeshIsNeverSaidToBeFree) {
+  Random random(7);
+  for (const auto& [what, vessel] : vessels()) {
+    SCOPED_TRACE(what);
+    for (std::size_t hole = 0; hole < vessel.triangles.size(); hole += 1 + vessel.triangles.size() / 30) {
+      const Case placed = placedIn(meshOf(without(vessel, hole)), randomSolid(random, GetParam(), kSmall),
+                                   randomPose(random, 5.0), randomPose(random, 0.3));
+      const Trial trial(placed);
+      const Proximity answer = trial.measure();
+      ASSERT_EQ(unsound(answer), "") << placed.text();
+      ASSERT_TRUE(answer.status == Measure::containment_unknown || answer.status == Measure::contact)
+          << name(answer.status) << ": " << placed.text();
+      ASSERT_TRUE(isSameInOtherOrder(placed, answer, trial.measureSwapped())) << placed.text();
+    }
+  }
+}
+
+TEST_P(Containment, WhatLiesFarFromAnOpenMeshIsApart) {
+  Random random(8);
+  for (const auto& [what, vessel] : vessels()) {
+    SCOPED_TRACE(what);
+    Judge judge;
+    for (std::size_t hole = 0; hole < vessel.triangles.size(); hole += 1 + vessel.triangles.size() / 30) {
+      Pose beside = randomPose(random, 0.3);
+      beside.translation()[random.below(3)] += random.chance(0.5) ? 4.0 : -4.0;
+      const Case placed = placedIn(meshOf(without(vessel, hole)), randomSolid(random, GetParam(), kSmall),
+                                   randomPose(random, 5.0), beside);
+      ASSERT_EQ(Trial(placed).measure().status, Measure::apart) << placed.text();
+      judge.look(placed);
+    }
+    judge.expectAllHeld();
+  }
+}
+
+// Both ways round: the vessel may be given with its triangles clockwise, as a mirror with a negative scale leaves them.
+TEST_P(Containment, TheSideThatATriangleFacesDoesNotMatter) {
+  Random random(9);
+  for (const auto& [what, vessel] : vessels()) {
+    SCOPED_TRACE(what);
+    TriangleMesh turned = vessel;
+    for (auto& triangle : turned.triangles) std::swap(triangle[1], triangle[2]);
+    const Shape inner = randomSolid(random, GetParam(), kSmall);
+    const Case placed = placedIn(meshOf(turned), inner, randomPose(random, 5.0), randomPose(random, 0.3));
+    EXPECT_EQ(Trial(placed).measure().status, Measure::contained) << placed.text();
+  }
+}
+
+// The cavity of a hollow ball is outside of its matter.
+TEST(Cavity, OfAClosedMeshIsOutsideOfIt) {
+  TriangleMesh hollow = ballMesh(2);
+  const auto count = std::uint32_t(hollow.vertices.size());
+  const std::vector<std::array<std::uint32_t, 3>> outside = hollow.triangles;
+  for (std::uint32_t i = 0; i < count; ++i) hollow.vertices.push_back(0.5 * hollow.vertices[i]);
+  for (const auto& [a, b, c] : outside) hollow.triangles.push_back({a + count, c + count, b + count});
+  Pose pose = Pose::Identity();
+  const Shape ball = Shape::sphere(0.1);
+  EXPECT_EQ(Trial({meshOf(hollow), ball, Pose::Identity(), pose, 0.0, 0.0}).measure().status, Measure::apart);
+  pose.translation().x() = 0.72;
+  EXPECT_EQ(Trial({meshOf(hollow), ball, Pose::Identity(), pose, 0.0, 0.0}).measure().status, Measure::contained);
+}
+
+// A solid has no cavity: what lies within a ball or a box is in contact with it, a mesh too.
+TEST_P(Containment, WhatLiesWithinASolidIsInContact) {
+  Random random(10);
+  const Shape outers[] = {Shape::sphere(1.0),        Shape::box({2, 2, 2}),
+                          Shape::cylinder(3.0, 1.0), Shape::cone(5.0, 3.0),
+                          Shape::capsule(2.0, 1.0),  Shape::hull(std::make_shared<TriangleMesh>(boxMesh({2, 2, 2})))};
+  for (const Shape& outer : outers) {
+    for (int i = 0; i < 50; ++i) {
+      const Case placed =
+          placedIn(outer, randomSolid(random, GetParam(), kSmall), randomPose(random, 5.0), randomPose(random, 0.3));
+      const Trial trial(placed);
+      const Proximity answer = trial.measure();
+      ASSERT_EQ(unsound(answer), "") << placed.text();
+      ASSERT_TRUE(answer.status == Measure::contact || answer.status == Measure::contained) << placed.text();
+      ASSERT_TRUE(isSameInOtherOrder(placed, answer, trial.measureSwapped())) << placed.text();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// Plain cases, most of them found by the random ones, that libraries get wrong; their answers can be seen by eye.
+#include <gtest/gtest.h>
+
+#include "test/adapters/narrow_phase_judge.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+Pose at(double x, double y, double z) {
+  Pose pose = Pose::Identity();
+  pose.translation() << x, y, z;
+  return pose;
+}
+
+Pose turned(Pose pose, const Eigen::Vector3d& axis, double angle) {
+  pose.linear() = Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
+  return pose;
+}
+
+Shape hullOf(std::vector<Eigen::Vector3d> vertices) {
+  return Shape::hull(std::make_shared<TriangleMesh>(TriangleMesh{std::move(vertices), {}}));
+}
+
+void expectDistance(double expected, const Shape& first, const Shape& second, const Pose& world_from_second) {
+  const Case placed{first, second, Pose::Identity(), world_from_second, 0.0, 0.0};
+  SCOPED_TRACE(placed.text());
+  EXPECT_LE(distanceOf(placed.first(), placed.second()).interval.errorOf(expected), 1e-9) << "says the witness";
+  const Proximity answer = Trial(placed).measure();
+  EXPECT_EQ(answer.status, expected > 0.0 ? Measure::apart : Measure::contact);
+  EXPECT_NEAR(answer.distance, expected, 1e-6);
+  Judge judge;
+  judge.look(placed);
+  judge.expectAllHeld();
+}
+
+// The nearest feature of one is a whole side of the other: a search that stops when it comes no nearer stops at once.
+TEST(NarrowPhaseKnown, UprightThingsSideBySide) {
+  for (const double off : {0.0, 1e-12, 1e-10, 1e-8}) {
+    expectDistance(0.3, Shape::cylinder(1.0, 1.0), Shape::capsule(0.3, 0.2), at(1.5, off, -off));
+    expectDistance(0.6, Shape::box({0.4, 0.4, 0.4}), Shape::capsule(0.1, 0.2), at(1.0, off, -off));
+    expectDistance(0.4, Shape::cylinder(1.0, 0.3), Shape::cylinder(0.5, 0.3), at(1.0, off, -off));
+    expectDistance(0.5, Shape::capsule(1.0, 0.3), Shape::capsule(0.5, 0.2), at(1.0, off, -off));
+    expectDistance(0.75, Shape::box({1.0, 1.0, 1.0}), Shape::box({0.5, 0.5, 0.5}), at(1.5, off, -off));
+  }
+}
+
+TEST(NarrowPhaseKnown, ThingsOnTopOfEachOther) {
+  for (const double off : {0.0, 1e-12, 1e-10, 1e-8}) {
+    expectDistance(0.25, Shape::cylinder(1.0, 1.0), Shape::cylinder(0.5, 0.2), at(off, -off, 1.0));
+    expectDistance(0.25, Shape::box({1.0, 1.0, 1.0}), Shape::cone(0.5, 2.0), at(off, -off, 1.0));
+    expectDistance(0.5, Shape::cone(1.0, 1.0), Shape::sphere(0.25), at(off, -off, 1.25));
+    expectDistance(0.3, Shape::box({2.0, 2.0, 1.0}), Shape::capsule(0.5, 0.2), at(off, -off, 1.25));
+  }
+}
+
+TEST(NarrowPhaseKnown, SmallBoxBesideAThinPlate) {
+  for (const double angle : {0.0, 1e-12, 1e-10}) {
+    expectDistance(0.11575, Shape::box({0.0005, 0.0133, 0.0007}), Shape::box({0.08, 0.002, 0.08}),
+                   turned(at(0.156, angle, -angle), {-1.0, 0.9, -0.3}, angle));
+  }
+}
+
+TEST(NarrowPhaseKnown, BallOverAMesh) {
+  expectDistance(1.4, Shape::sphere(0.1), meshOf(boxMesh({1.0, 1.0, 1.0})), at(0.1, 0.2, -2.0));
+}
+
+// What is no more than a point, where the centre of a ball is, or an end of a capsule, or a corner.
+TEST(NarrowPhaseKnown, PointsThatMeet) {
+  const Shape point = hullOf({{0, 0, 0}}), points = hullOf({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}});
+  for (const Shape& one : {point, points}) {
+    expectDistance(0.0, Shape::sphere(0.1), one, at(0, 0, 0));
+    expectDistance(0.0, Shape::capsule(0.2, 0.1), one, at(0, 0, 0.1));
+    expectDistance(0.0, Shape::box({1, 1, 1}), one, at(0, 0, 0));
+    expectDistance(0.0, point, one, at(0, 0, 0));
+    expectDistance(2.0, point, one, at(2, 0, 0));
+    expectDistance(1.9, Shape::sphere(0.1), one, at(2, 0, 0));
+  }
+}
+
+TEST(NarrowPhaseKnown, CentresThatMeet) {
+  const Shape shapes[] = {Shape::sphere(0.3),          Shape::box({0.2, 0.4, 0.6}),
+                          Shape::cylinder(0.5, 0.2),   Shape::cone(0.5, 0.2),
+                          Shape::capsule(0.5, 0.2),    hullOf(boxMesh({0.2, 0.4, 0.6}).vertices),
+                          hullOf(ballMesh(1).vertices)};
+  for (const Shape& one : shapes) {
+    for (const Shape& other : shapes) expectDistance(0.0, one, other, at(0, 0, 0));
+  }
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid
