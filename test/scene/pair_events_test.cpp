@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "test/support/events.h"
+#include "test/support/models.h"
 #include "test/support/scenes.h"
 
 namespace hgrid {
@@ -160,6 +161,35 @@ TEST_F(PairEvents, SayThatTheyMovedWhereTheMarginOfBeforeIsEnough) {
   place(a, 0.0);
   scene_.setState(b, Freshness::fresh, 0.0);
   EXPECT_EQ(next(), Events({"2 END MOVED obstacle/a obstacle/b"})) << "it left the wide margin too";
+}
+
+TEST_F(PairEvents, OfLinksOfOneRobotAreNotCausedByEqualAge) {
+  RobotModel model;
+  for (int i = 0; i < 3; ++i) test::addLink(model, std::to_string(i), i - 1);
+  findRigidGroups(model);
+  const auto matrix = std::make_shared<const LinkMatrix>(test::matrixOf(model));
+  const auto put_link = [&](std::uint32_t link, double x) {
+    Body body = test::ball("");
+    body.name = "arm/" + std::to_string(link);
+    body.kind = BodyKind::link;
+    body.robot = "arm";
+    body.link = link;
+    body.links = matrix;
+    body.max_speed = 1.0;
+    return test::put(scene_, body, at(x));
+  };
+  const BodyId base = put_link(0, 0), tip = put_link(2, 1.5);
+  EXPECT_EQ(next(), Events());
+  const auto set_age = [&](double age, std::uint32_t cohort_of_tip) {
+    scene_.setState(base, Freshness::stale, age, 7);
+    scene_.setState(tip, Freshness::stale, age, cohort_of_tip);
+  };
+  set_age(0.5, 7);
+  EXPECT_EQ(next(), Events());
+  set_age(0.5, 8);
+  EXPECT_EQ(next(), Events({"1 BEGIN STALENESS arm/0 arm/2"})) << "the margin is 1/8 + 1/2 + 1/2 m now";
+  set_age(0.5, 7);
+  EXPECT_EQ(next(), Events({"2 END STALENESS arm/0 arm/2"}));
 }
 
 TEST_F(PairEvents, BeginAgainInANewEpochFromNumberOne) {
