@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kRoot = HGRID_PROJECT_DIR;
-const std::vector<std::string> kRooms = {"geometry", "broadphase", "scene"};
+const std::vector<std::string> kRooms = {"geometry", "broadphase", "narrowphase", "scene"};
 
 /// The header that a line includes, or nothing.
 std::string includedIn(const std::string& line) {

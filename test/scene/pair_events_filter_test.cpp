@@ -22,9 +22,9 @@ class PairEventsFilter : public ::testing::Test {
     next->first_proxy = {0, 1, 2};
     next->body_of_proxy = {0, 1};
     next->margin = {0.0, margin};
-    std::vector<AllowedPattern> patterns;
-    if (allowed) patterns.push_back({"*/a", "*/b", ""});
-    next->filter = PairFilter(next->bodies, PairKinds(), patterns);
+    std::vector<PairRule> rules;
+    if (allowed) rules.push_back({"*/a", "*/b", ""});
+    next->filter = PairFilter(next->bodies, PairKinds(), rules);
     structure_ = next;
   }
   Events next(double gap) {
