@@ -16,13 +16,21 @@ set(HGRID_CORE_SOURCES
   src/narrowphase/enclosure.cpp
   src/narrowphase/narrow_phase.cpp
   src/refusal.cpp
+  src/scene/allowed_matrix.cpp
+  src/scene/commit.cpp
+  src/scene/explain.cpp
   src/scene/link_matrix.cpp
   src/scene/motion_bound.cpp
   src/scene/name.cpp
+  src/scene/name_index.cpp
+  src/scene/nearest_names.cpp
+  src/scene/pair_events.cpp
   src/scene/pair_filter.cpp
   src/scene/pair_meter.cpp
+  src/scene/pair_rule.cpp
   src/scene/pair_tracker.cpp
   src/scene/robot_model.cpp
+  src/scene/rule_book.cpp
   src/scene/scene.cpp
   src/scene/snapshot.cpp
   src/scene/snapshot_nearest.cpp

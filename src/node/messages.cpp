@@ -110,6 +110,7 @@ msg::WorldState worldState(const Tick& tick, const Params& params, std::uint64_t
   world.reasons = snapshot.reasons();
   world.reasons_total = snapshot.reasonsTotal();
   world.worst_state = static_cast<std::uint8_t>(snapshot.worstState());
+  world.last_event = snapshot.lastEvent();
   world.max_age = snapshot.maxAge() > 0.0 ? snapshot.maxAge() + age_since : 0.0;
   return world;
 }

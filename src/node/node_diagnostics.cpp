@@ -39,9 +39,13 @@ void NodeDiagnostics::world(DiagnosticStatusWrapper& status) {
   } else {
     status.summary(DiagnosticStatus::OK, "complete");
   }
+  const bool silenced = snapshot.structure().silenced;
+  if (silenced) status.mergeSummary(DiagnosticStatus::WARN, "rules switch off every pair: nothing is reported");
   status.add("bodies", snapshot.poses().size());
   status.add("near pairs", snapshot.pairs().size());
   status.add("age of the oldest pose [s]", snapshot.maxAge());
+  status.add("rules of the allowed-pair matrix", snapshot.structure().filter.rules().size());
+  status.add("rules switch off every pair", silenced ? "yes" : "no");
   addAll(status, "reason", snapshot.reasons());
 }
 

@@ -58,6 +58,8 @@ void visit(Visitor& v, Params& p) {
       "list of {pattern, margin}: bodies with a margin of their own; a pair has the larger one; the last match counts");
   v.values("padding", p.padding, "padding", "m", 0.0, 1000.0,
            "list of {pattern, padding}: bodies whose shapes are grown on all sides; the last match counts");
+  v.number("event_hysteresis", p.event_hysteresis, "m", 0.0, 1000.0,
+           "~events tells the end of a pair when its gap exceeds its margin by more than this");
 
   v.section("Time");
   v.number("max_sync_wait", p.max_sync_wait, "s", 0.0, 10.0,
@@ -94,9 +96,13 @@ void visit(Visitor& v, Params& p) {
   v.integer("max_bodies", p.max_bodies, 1, 1000000, "bodies");
   v.integer("max_frames", p.max_frames, 1, 1000000, "tf frames that are kept");
   v.integer("max_pairs", p.max_pairs, 1, 10000000, "pairs in one message; more: truncated");
+  v.integer("max_events", p.max_events, 1, 1000000, "events in one message of ~events; more: several messages");
+  v.integer("event_queue", p.event_queue, 1, 100000,
+            "messages of ~events that wait for a slow subscriber; more: the oldest are lost");
   v.integer("max_hits", p.max_hits, 1, 1000000, "hits in one answer; more: truncated");
   v.integer("max_listed", p.max_listed, 1, 100000, "bodies that ~status lists");
   v.integer("max_reasons", p.max_reasons, 1, 1000, "reasons for an incomplete world that a message lists");
+  v.integer("max_rules", p.max_rules, 1, 10000, "rules of the allowed-pair matrix, those of allowed_pairs included");
   v.integer("max_description_bytes", p.max_description_bytes, 1000, 256 << 20, "bytes of a URDF or SRDF");
   v.integer("max_description_depth", p.max_description_depth, 8, 256, "nesting of elements in a URDF or SRDF");
   v.integer("max_links", p.max_links, 1, 100000, "links of a robot");
@@ -165,7 +171,7 @@ class Reader {
       readString(element, "reason", value.back().reason, true);
     });
   }
-  void allowed(const char* name, std::vector<AllowedPattern>& value, const char*) {
+  void allowed(const char* name, std::vector<PairRule>& value, const char*) {
     forEach(name, "field of an allowed pair (first, second, reason)", [&](ParamValue& element) {
       value.emplace_back();
       readString(element, "first", value.back().first, true);
@@ -274,7 +280,7 @@ class Printer {
   void strings(const char* name, const std::vector<std::string>&, const char* meaning) { list(name, "", meaning); }
   void robots(const char* name, const std::vector<RobotParams>&, const char* meaning) { list(name, "", meaning); }
   void waivers(const char* name, const std::vector<Waiver>&, const char* meaning) { list(name, "", meaning); }
-  void allowed(const char* name, const std::vector<AllowedPattern>&, const char* meaning) { list(name, "", meaning); }
+  void allowed(const char* name, const std::vector<PairRule>&, const char* meaning) { list(name, "", meaning); }
   void obstacles(const char* name, const std::vector<ObstacleParams>&, const char* meaning) { list(name, "", meaning); }
   void values(const char* name, const std::vector<PatternValue>&, const char*, const char* unit, double low,
               double high, const char* meaning) {
@@ -344,6 +350,9 @@ Params readParams(XmlRpc::XmlRpcValue values) {
           "~min_size is " + text(params.min_size) + " m; it must be below ~max_size, " + text(params.max_size) + " m");
   require(params.finest_edge == 0.0 || params.finest_edge >= 1e-3,
           "~finest_edge is " + text(params.finest_edge) + " m; it must be 0 or at least 0.001 m");
+  require(params.allowed_pairs.size() <= static_cast<std::size_t>(params.max_rules),
+          "~allowed_pairs has " + std::to_string(params.allowed_pairs.size()) + " rules; at most ~max_rules, " +
+              std::to_string(params.max_rules) + ", are allowed");
   params.world_frame = withoutSlash(params.world_frame);
   require(params.robots.size() < 2 || !params.world_frame.empty(),
           "~world_frame is empty; with several robots it must name the frame that all are known in");

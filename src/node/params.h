@@ -47,10 +47,11 @@ struct Params {
 
   std::vector<RobotParams> robots;
   std::vector<ObstacleParams> obstacles;
-  std::vector<AllowedPattern> allowed_pairs;
+  std::vector<PairRule> allowed_pairs;
   PairKinds pair_kinds;
   std::vector<Waiver> accept_uncovered;
   std::vector<PatternValue> margins, padding, max_speed;
+  double event_hysteresis = 0.02;
 
   double late_after = 0.1, stale_after = 0.25, lost_after = 2.0;
   double growth_cap = 1.0, default_max_speed = 2.0;
@@ -59,7 +60,8 @@ struct Params {
   double world_limit = 1e6, min_size = 1e-4, max_size = 1e5;
   bool allow_flat = false;
   int threads = 1;
-  int max_bodies = 100000, max_frames = 10000, max_pairs = 100000, max_hits = 10000, max_listed = 100, max_reasons = 8;
+  int max_bodies = 100000, max_frames = 10000, max_pairs = 100000, max_events = 10000, event_queue = 100;
+  int max_hits = 10000, max_listed = 100, max_reasons = 8, max_rules = 1000;
   int max_description_bytes = 16 << 20, max_description_depth = 256, max_links = 2000;
   std::vector<std::string> mesh_roots;
   int max_mesh_bytes = 64 << 20, max_mesh_triangles = 1000000, mesh_memory = 512 << 20;

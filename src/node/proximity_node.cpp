@@ -66,6 +66,7 @@ ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node)
 
   pairs_ = update_private_.advertise<msg::Pairs>("pairs", 1);
   distances_ = update_private_.advertise<msg::Distances>("distances", 1);
+  events_ = update_private_.advertise<msg::Events>("events", static_cast<std::uint32_t>(params_.event_queue));
   status_ = update_private_.advertise<msg::Status>("status", 1);
   bodies_ = update_private_.advertise<msg::Bodies>("bodies", 1, true);
   markers_ = admin_private_.advertise<visualization_msgs::MarkerArray>("markers", 1);
@@ -83,6 +84,11 @@ ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node)
   queries_ = std::make_unique<QueryServices>(
       query_private_, params_, config_hash_, [this] { return newest(); }, world_.transforms().buffer(), narrow_phase_,
       sketch_, ledger_);
+  explain_ = std::make_unique<ExplainService>(
+      query_private_, params_, config_hash_, [this] { return newest(); }, narrow_phase_, ledger_);
+  allowed_ = std::make_unique<AllowedServices>(
+      admin_private_, params_, config_hash_, [this] { return newest(); },
+      [this](const Job& job) { return tickAfter(job); }, ledger_);
   servers_.push_back(admin_private_.advertiseService("reset", &ProximityNode::onReset, this));
   servers_.push_back(admin_private_.advertiseService("reload_robot", &ProximityNode::onReload, this));
   diagnostics_ = std::make_unique<NodeDiagnostics>(
@@ -160,6 +166,9 @@ void ProximityNode::noteConflicts() {
 
 void ProximityNode::publish(const std::shared_ptr<const Tick>& tick) {
   const msg::WorldState world = worldState(*tick, params_, config_hash_, 0.0);
+  if (events_.getNumSubscribers() > 0) {  // before what says how many there were
+    for (const auto& message : eventsMessages(*tick, world, params_)) events_.publish(message);
+  }
   if (pairs_.getNumSubscribers() > 0) pairs_.publish(pairs_messages_.of(*tick, world));
   if (status_.getNumSubscribers() > 0) {
     status_.publish(boost::make_shared<msg::Status>(status(*tick, world, params_, ledger_, stopwatch_)));
@@ -289,6 +298,14 @@ void ProximityNode::publishMarkers() {
 void ProximityNode::waitForTick() {
   runInTick([](World&) {});
   runInTick([](World&) {});
+}
+
+/// Does a job at the begin of a tick and returns that tick.
+std::shared_ptr<const Tick> ProximityNode::tickAfter(const Job& job) {
+  runInTick(job);
+  const auto tick = std::make_shared<std::shared_ptr<const Tick>>();  // not on the stack: the wait may be given up
+  runInTick([this, tick](World&) { *tick = newest(); });
+  return *tick;
 }
 
 bool ProximityNode::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {

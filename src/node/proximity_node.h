@@ -15,6 +15,9 @@
 #include <mutex>
 #include <vector>
 
+#include "allowed_services.h"
+#include "events_messages.h"
+#include "explain_service.h"
 #include "hgrid_proximity/scene/pair_meter.h"
 #include "markers.h"
 #include "messages.h"
@@ -29,7 +32,7 @@ namespace hgrid {
 
 /// The node: three queues that do not wait for each other. On the first, one thread reads tf and ticks; on the
 /// second, ~query_threads threads answer queries from the newest tick; on the third, one thread reads robots, serves
-/// ~reset and ~reload_robot and publishes diagnostics and markers.
+/// ~reset, ~reload_robot, ~set_allowed and ~get_allowed and publishes diagnostics and markers.
 class ProximityNode {
  public:
   /// @throws std::invalid_argument listing every wrong parameter
@@ -53,6 +56,7 @@ class ProximityNode {
   void loadMissing();
   void runInTick(const Job& job);
   void waitForTick();
+  std::shared_ptr<const Tick> tickAfter(const Job& job);
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool onReload(msg::ReloadRobot::Request& request, msg::ReloadRobot::Response& response);
   NodeHealth health() const;
@@ -90,10 +94,12 @@ class ProximityNode {
   std::chrono::steady_clock::time_point next_try_{}, next_diagnostics_{};
   std::size_t viewers_ = 0;
 
-  ros::Publisher pairs_, distances_, status_, bodies_, markers_;
+  ros::Publisher pairs_, distances_, events_, status_, bodies_, markers_;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> servers_;
   std::unique_ptr<QueryServices> queries_;
+  std::unique_ptr<ExplainService> explain_;
+  std::unique_ptr<AllowedServices> allowed_;
   std::unique_ptr<NodeDiagnostics> diagnostics_;
   ros::SteadyTimer tick_timer_, housekeeping_timer_;
   std::vector<std::unique_ptr<ros::AsyncSpinner>> spinners_;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "frames.h"
+#include "snapshot_stamp.h"
 
 namespace hgrid {
 namespace {
@@ -14,15 +15,6 @@ namespace {
 constexpr std::size_t kMostPatterns = 256, kLongestPattern = 512;  // bytes
 
 Eigen::Vector3d fromPoint(const geometry_msgs::Point& point) { return {point.x, point.y, point.z}; }
-
-/// Only "now" can be asked: the range of times that are available is the one stamp of the newest snapshot.
-void checkStamp(const ros::Time& stamp, const Snapshot& snapshot) {
-  const ros::Time available = toRos(snapshot.stamp());
-  if (stamp.isZero() || stamp == available) return;
-  throw Refusal(Code::extrapolation, "the query asks for time " + text(stamp.toSec()) + " s; available is " +
-                                         text(available.toSec()) + " .. " + text(available.toSec()) +
-                                         " s (stamp 0 asks for now)");
-}
 
 msg::Hit toMsg(const QueryHit& source, const Snapshot& snapshot, const Pose& frame_from_world, double age_since) {
   msg::Hit hit;
@@ -210,7 +202,11 @@ bool QueryServices::onNearest(msg::QueryNearest::Request& request, msg::QueryNea
                   if (request.body.empty()) {
                     return snapshot.nearest(world_from_frame * fromPoint(request.point), request.max_distance, scope);
                   }
-                  return snapshot.nearest(snapshot.structure().find(request.body), request.max_distance, scope);
+                  const std::uint32_t body = snapshot.structure().find(request.body);
+                  if (body == Structure::kNone) {
+                    throw Refusal(Code::unknown_id, "there is no body '" + printable(request.body) + "'");
+                  }
+                  return snapshot.nearest(body, request.max_distance, scope);
                 });
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "hgrid_proximity/narrowphase/narrow_phase.h"
 #include "hgrid_proximity/scene/robot_model.h"
 #include "params.h"
 

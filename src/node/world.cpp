@@ -14,6 +14,7 @@ SceneOptions optionsOf(const Params& params) {
   SceneOptions options;
   options.origin = params.origin;
   options.margin = params.margin;
+  options.event_hysteresis = params.event_hysteresis;
   options.finest_edge = params.finest_edge;
   options.threads = params.threads;
   options.world_limit = params.world_limit;
@@ -44,6 +45,7 @@ World::World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& 
       ways_(intake_),
       watch_(simulated, params.clock_jump, params.stale_after),
       scene_(optionsOf(params)),
+      rules_(params.allowed_pairs),
       world_frame_(params.world_frame),
       epoch_(epoch) {
   scene_.beginEpoch(epoch_);
@@ -156,6 +158,11 @@ void World::reset() {
   for (const ObstacleParams& obstacle : params_.obstacles) missing_.erase(obstacle.body.name);
   ledger_.clear();
   beginEpoch();
+}
+
+void World::setRules(std::vector<PairRule> rules) {
+  rules_ = RuleBook(std::move(rules));
+  scene_.setRules(rules_.rules());
 }
 
 bool World::findWorldFrame() {
@@ -333,6 +340,7 @@ void World::update(std::size_t index, Time time, const Moment& now, Tick& tick) 
 std::shared_ptr<const Tick> World::tick(const Moment& now) {
   auto tick = std::make_shared<Tick>();
   handleClock(now);
+  if (rules_.expire(now.steady)) scene_.setRules(rules_.rules());
   tick->made = now;
   tick->epoch = epoch_;
   const bool has_frame = findWorldFrame();

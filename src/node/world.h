@@ -10,6 +10,7 @@
 #include "clock_watch.h"
 #include "hgrid_proximity/narrowphase/narrow_phase.h"
 #include "hgrid_proximity/scene/pair_meter.h"
+#include "hgrid_proximity/scene/rule_book.h"
 #include "hgrid_proximity/scene/scene.h"
 #include "ledger.h"
 #include "params.h"
@@ -70,7 +71,9 @@ class World {
   void setRobot(LoadedRobot robot);
   /// Says why a robot has no model (yet). It keeps the model it has.
   void setMissing(const std::string& robot, const std::string& sentence);
-  /// Obstacles as configured, counters at 0, a new epoch.
+  /// All rules of the allowed-pair matrix, from the next tick on; they end by themselves.
+  void setRules(std::vector<PairRule> rules);
+  /// Obstacles as configured, counters at 0, a new epoch. Rules stay.
   void reset();
 
   std::shared_ptr<const Tick> tick(const Moment& now);
@@ -129,6 +132,7 @@ class World {
   std::map<std::string, LoadedRobot> robots_;
   std::map<std::string, std::string> missing_;  // sentence by robot
   std::shared_ptr<const ModelReport> report_ = std::make_shared<ModelReport>();
+  RuleBook rules_;
   std::string world_frame_;
   bool obstacles_added_ = false;
   std::uint64_t epoch_;

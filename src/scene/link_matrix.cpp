@@ -2,11 +2,15 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "hgrid_proximity/scene/link_matrix.h"
 
+#include <algorithm>
+
 #include "hgrid_proximity/refusal.h"
 #include "hgrid_proximity/scene/robot_model.h"
 
 namespace hgrid {
 namespace {
+
+constexpr std::size_t kLongestReason = 512;  // bytes of an SRDF's reason that are kept
 
 /// Links with geometry that a joint joins to `start`, perhaps through links that have none.
 std::vector<std::uint32_t> joinedTo(const RobotModel& model, const std::vector<std::vector<std::uint32_t>>& neighbours,
@@ -56,7 +60,10 @@ LinkMatrix::LinkMatrix(const RobotModel& model, const LinkRules& rules, std::vec
   };
   const auto setPair = [&](const LinkRules::Pair& pair, const char* tag, Origin origin) {
     const int first = indexOf(pair.first, tag), second = indexOf(pair.second, tag);
-    if (first >= 0 && second >= 0) set(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(second), origin);
+    if (first < 0 || second < 0) return;
+    const auto a = static_cast<std::uint32_t>(first), b = static_cast<std::uint32_t>(second);
+    set(a, b, origin);
+    if (a != b) tags_[std::minmax(a, b)] = {origin == Origin::srdf, printable(pair.reason, kLongestReason)};
   };
   for (const std::string& link : rules.disabled_default) {
     const int index = indexOf(link, "disable_default_collisions");
@@ -65,6 +72,11 @@ LinkMatrix::LinkMatrix(const RobotModel& model, const LinkRules& rules, std::vec
   for (const LinkRules::Pair& pair : rules.enabled) setPair(pair, "enable_collisions", Origin::none);
   for (const LinkRules::Pair& pair : rules.disabled) setPair(pair, "disable_collisions", Origin::srdf);
   for (std::uint32_t i = 0; i < size_; ++i) set(i, i, Origin::self);  // last: no rule makes a link meet itself
+}
+
+const LinkMatrix::Tag* LinkMatrix::tag(std::uint32_t first, std::uint32_t second) const {
+  const auto found = tags_.find(std::minmax(first, second));
+  return found == tags_.end() ? nullptr : &found->second;
 }
 
 void LinkMatrix::set(std::uint32_t first, std::uint32_t second, Origin origin) {

@@ -26,7 +26,64 @@ struct ShapePair {
   std::uint32_t first, second;
 };
 
+/// The nearest shapes of two bodies, and how they lie to each other.
+struct NearestShapes {
+  std::uint32_t first = 0, second = 0;
+  Proximity proximity;
+};
+
+NearestShapes nearestShapes(const NarrowPhase& narrow_phase, const Snapshot& snapshot, std::uint32_t first,
+                            std::uint32_t second, double up_to, std::vector<ShapePair>& shape_pairs) {
+  const Structure& structure = snapshot.structure();
+  const Body &body_a = structure.bodies[first], &body_b = structure.bodies[second];
+  const ProxyId proxy_a = structure.first_proxy[first], proxy_b = structure.first_proxy[second];
+  shape_pairs.clear();
+  for (std::uint32_t i = 0; i < body_a.shapes.size(); ++i) {
+    for (std::uint32_t j = 0; j < body_b.shapes.size(); ++j) {
+      const double gap = distance(snapshot.boxes()[proxy_a + i], snapshot.boxes()[proxy_b + j]);
+      if (gap <= up_to) shape_pairs.push_back({gap, i, j});
+    }
+  }
+  std::sort(shape_pairs.begin(), shape_pairs.end(), [](const ShapePair& a, const ShapePair& b) {
+    return std::tie(a.gap, a.first, a.second) < std::tie(b.gap, b.first, b.second);
+  });
+  NearestShapes nearest;
+  nearest.proximity.status = Measure::apart;
+  nearest.proximity.distance = std::numeric_limits<double>::infinity();
+  double least = up_to;
+  for (const ShapePair& shapes : shape_pairs) {
+    if (shapes.gap > least) break;
+    const BodyShape &a = body_a.shapes[shapes.first], &b = body_b.shapes[shapes.second];
+    const Pose world_from_a = snapshot.poses()[first].world_from_body * a.body_from_shape;
+    const Pose world_from_b = snapshot.poses()[second].world_from_body * b.body_from_shape;
+    Proximity found;
+    if (a.solid && b.solid) {
+      found = narrow_phase.measure({*a.solid, world_from_a, a.padding}, {*b.solid, world_from_b, b.padding}, least);
+    }
+    if (found.status == Measure::not_measured || found.distance < nearest.proximity.distance) {
+      nearest = {shapes.first, shapes.second, found};
+    }
+    if (found.status != Measure::apart) break;  // nothing is nearer
+    least = std::min(least, found.distance);
+  }
+  return nearest;
+}
+
 }  // namespace
+
+PairDistance measurePair(const NarrowPhase& narrow_phase, const Snapshot& snapshot, std::uint32_t first,
+                         std::uint32_t second, double up_to) {
+  const DefaultFloatEnvironment environment;
+  std::vector<ShapePair> shape_pairs;
+  const NearestShapes nearest = nearestShapes(narrow_phase, snapshot, first, second, up_to, shape_pairs);
+  PairDistance result;
+  result.first = first;
+  result.second = second;
+  result.first_shape = nearest.first;
+  result.second_shape = nearest.second;
+  result.proximity = nearest.proximity;
+  return result;
+}
 
 struct PairMeter::State {
   /// What was found when a pair was measured last.
@@ -53,7 +110,6 @@ struct PairMeter::State {
 
   void recall(const Snapshot& snapshot);
   void perform(const Snapshot& snapshot, Job& job, std::vector<ShapePair>& shape_pairs) const;
-  void measureShapes(const Snapshot& snapshot, Job& job, double up_to, std::vector<ShapePair>& shape_pairs) const;
   PairDistance entryOf(const Snapshot& snapshot, const Job& job) const;
 
   std::shared_ptr<const NarrowPhase> narrow_phase;
@@ -79,8 +135,7 @@ void PairMeter::State::recall(const Snapshot& snapshot) {
   auto last = known.begin();
   for (const NearPair& pair : snapshot.pairs()) {
     // Margins that are widened since data is old widen what is reported too.
-    const double growth = pair.margin - std::max(structure.margin[pair.first], structure.margin[pair.second]);
-    const double report = options.report_distance + std::max(0.0, growth);
+    const double report = options.report_distance + snapshot.growthOf(pair.first, pair.second);
     const auto before = [&](const Known& one) {
       return one.first != pair.first ? one.first < pair.first : one.second < pair.second;
     };
@@ -93,48 +148,6 @@ void PairMeter::State::recall(const Snapshot& snapshot) {
     now.second = pair.second;
   }
   std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.pair->gap < b.pair->gap; });
-}
-
-/// The nearest shapes of both bodies.
-void PairMeter::State::measureShapes(const Snapshot& snapshot, Job& job, double up_to,
-                                     std::vector<ShapePair>& shape_pairs) const {
-  const Structure& structure = snapshot.structure();
-  Known& known_now = job.known;
-  const Body &first = structure.bodies[job.pair->first], &second = structure.bodies[job.pair->second];
-  const std::uint32_t first_proxy = structure.first_proxy[job.pair->first],
-                      second_proxy = structure.first_proxy[job.pair->second];
-  shape_pairs.clear();
-  for (std::uint32_t i = 0; i < first.shapes.size(); ++i) {
-    for (std::uint32_t j = 0; j < second.shapes.size(); ++j) {
-      const double gap = distance(snapshot.boxes()[first_proxy + i], snapshot.boxes()[second_proxy + j]);
-      if (gap <= up_to) shape_pairs.push_back({gap, i, j});
-    }
-  }
-  std::sort(shape_pairs.begin(), shape_pairs.end(), [](const ShapePair& a, const ShapePair& b) {
-    return std::tie(a.gap, a.first, a.second) < std::tie(b.gap, b.first, b.second);
-  });
-  known_now.proximity = Proximity{};
-  known_now.proximity.status = Measure::apart;
-  known_now.proximity.distance = std::numeric_limits<double>::infinity();
-  known_now.first_shape = known_now.second_shape = 0;
-  double least = up_to;
-  for (const ShapePair& shapes : shape_pairs) {
-    if (shapes.gap > least) break;
-    const BodyShape &a = first.shapes[shapes.first], &b = second.shapes[shapes.second];
-    const Pose world_from_a = known_now.world_from_first * a.body_from_shape;
-    const Pose world_from_b = known_now.world_from_second * b.body_from_shape;
-    Proximity found;
-    if (a.solid && b.solid) {
-      found = narrow_phase->measure({*a.solid, world_from_a, a.padding}, {*b.solid, world_from_b, b.padding}, least);
-    }
-    if (found.status == Measure::not_measured || found.distance < known_now.proximity.distance) {
-      known_now.proximity = found;
-      known_now.first_shape = shapes.first;
-      known_now.second_shape = shapes.second;
-    }
-    if (found.status != Measure::apart) break;  // nothing is nearer
-    least = std::min(least, found.distance);
-  }
 }
 
 void PairMeter::State::perform(const Snapshot& snapshot, Job& job, std::vector<ShapePair>& shape_pairs) const {
@@ -158,7 +171,11 @@ void PairMeter::State::perform(const Snapshot& snapshot, Job& job, std::vector<S
     now.up_to = moved < kLittle * job.report ? (1.0 + kLittle) * job.report : job.report;
     now.world_from_first = first;
     now.world_from_second = second;
-    measureShapes(snapshot, job, at_most < now.up_to ? at_most : now.up_to, shape_pairs);
+    const NearestShapes nearest = nearestShapes(*narrow_phase, snapshot, job.pair->first, job.pair->second,
+                                                at_most < now.up_to ? at_most : now.up_to, shape_pairs);
+    now.first_shape = nearest.first;
+    now.second_shape = nearest.second;
+    now.proximity = nearest.proximity;
     now.measured = true;
   }
   job.shown = now.proximity.status == Measure::not_measured || now.proximity.distance <= job.report;

@@ -5,16 +5,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "scene/pair_order.h"
+
 namespace hgrid {
-namespace {
-
-/// Whether pair a comes before b; both sorted by (first, second).
-template <class A, class B>
-bool before(const A& a, const B& b) {
-  return a.first != b.first ? a.first < b.first : a.second < b.second;
-}
-
-}  // namespace
 
 void PairTracker::clear() {
   known_.clear();

@@ -2,14 +2,9 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "hgrid_proximity/scene/scene.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
-#include "hgrid_proximity/geometry/float_environment.h"
 #include "hgrid_proximity/refusal.h"
 #include "hgrid_proximity/scene/name.h"
-#include "scene/snapshot_pool.h"
+#include "scene/scene_state.h"
 
 namespace hgrid {
 namespace {
@@ -49,30 +44,6 @@ void checkBody(const Body& body) {
   }
 }
 
-double growthOf(const BodyPose& pose, const Body& body, double cap) {
-  if (pose.state < Freshness::stale || pose.state == Freshness::unplaced || !(pose.age > 0.0)) return 0.0;
-  return std::min(body.max_speed * pose.age, cap);
-}
-
-/// Why a body makes the world incomplete; empty if it does not.
-std::string gapLeftBy(const Body& body, const BodyPose& pose) {
-  if (pose.state == Freshness::unplaced) {
-    return "UNPLACED " + body.name + ": it never had a pose (frame '" + printable(body.frame) + "')";
-  }
-  if (!body.covered && !body.waived) return "UNCOVERED " + body.name + ": " + body.note;
-  if (pose.state >= Freshness::lost) {
-    return std::string(name(pose.state)) + " " + body.name + ": its pose is " + secondsText(pose.age) +
-           " old (frame '" + printable(body.frame) + "')";
-  }
-  return {};
-}
-
-/// Whether the grid may report a pair of proxies: its filter.
-bool isReported(const void* structure, ProxyId first, ProxyId second) {
-  const Structure& s = *static_cast<const Structure*>(structure);
-  return !s.filter.allowed(s.body_of_proxy[first], s.body_of_proxy[second]);
-}
-
 }  // namespace
 
 const char* name(Freshness state) {
@@ -80,75 +51,17 @@ const char* name(Freshness state) {
   return kNames[static_cast<int>(state)];
 }
 
-struct Scene::State {
-  /// What a tick reads and writes of a body; the rest stands apart in `bodies`, so that a tick runs through little
-  /// memory.
-  struct Slot {
-    bool used = false;
-    bool fixed = false;
-    bool moved = false;  // its boxes are not those of its pose
-    std::uint32_t generation = 0;
-    std::uint64_t changed = 0;  // number of the first commit that has its pose as it is
-    BodyPose pose;
-  };
-  struct ShapeInBody {
-    Shape shape;
-    Pose body_from_shape;
-    double padding;
-  };
-
-  explicit State(const SceneOptions& scene_options) : options(scene_options) {}
-
-  Slot& at(BodyId id) {
-    if (id.slot >= slots.size() || !slots[id.slot].used || slots[id.slot].generation != id.generation) {
-      throw Refusal(Code::unknown_id, "body handle " + std::to_string(id.slot) + " (use " +
-                                          std::to_string(id.generation) + ") is not valid any more");
-    }
-    return slots[id.slot];
+Scene::State::Slot& Scene::State::at(BodyId id) {
+  if (id.slot >= slots.size() || !slots[id.slot].used || slots[id.slot].generation != id.generation) {
+    throw Refusal(Code::unknown_id, "body handle " + std::to_string(id.slot) + " (use " +
+                                        std::to_string(id.generation) + ") is not valid any more");
   }
-  void rebuildStructure();
-  std::shared_ptr<Snapshot> freshSnapshot() const;
-  void fillBodies(Snapshot& snapshot);
-  void growBoxes(const Snapshot& snapshot);
-  void fillGrid(Snapshot& snapshot);
-  void fillPairs(Snapshot& snapshot);
-  void sortPairs(std::vector<NearPair>& pairs);
-  void fillCompleteness(Snapshot& snapshot, const std::vector<std::string>& missing) const;
-  double pairMargin(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second) const;
-
-  SceneOptions options;
-  std::vector<Slot> slots;
-  std::vector<Body> bodies;  // by slot
-  std::vector<std::uint32_t> free_slots;
-  std::vector<std::uint32_t> uncovered;               // bodies of the structure that leave a gap wherever they are
-  std::map<std::string, std::uint32_t> slot_of_name;  // ordered: the structure is sorted by name
-  bool structure_changed = true;
-  std::shared_ptr<const Structure> structure = std::make_shared<Structure>();
-  std::vector<ShapeInBody> shapes;  // by proxy of the structure
-  std::vector<Aabb> boxes;          // of them, as of the last commit
-  GridScale scale;
-  std::vector<ProxyId> fixed_proxies;
-  std::uint64_t sequence = 0, epoch = 0, commits = 0;
-  PairTracker tracker;
-  TickTimes times;
-  std::shared_ptr<SnapshotPool> pool = std::make_shared<SnapshotPool>();
-
-  // Scratch of a tick, kept to save allocations.
-  std::vector<ProxyId> ids;
-  std::vector<Aabb> grown_boxes;
-  struct Grown {
-    Aabb box;
-    double by = -1.0;
-    Aabb result;
-  };
-  std::vector<Grown> grown_of;  // by proxy: what was grown last time
-  std::vector<std::uint32_t> next_of_first;
-  std::vector<NearPair> unsorted;
-  std::vector<ProxyPair> proxy_pairs;
-};
+  return slots[id.slot];
+}
 
 Scene::Scene(const SceneOptions& options) : state_(std::make_unique<State>(options)) {
   checkLength(options.margin, kLargestMargin, "margin");
+  checkLength(options.event_hysteresis, kLargestMargin, "event_hysteresis");
   checkLength(options.growth_cap, kLargestMargin, "growth_cap");
   checkLength(options.world_limit, kFarthestShape, "world_limit");
   checkLength(options.finest_edge, kLargestMargin, "finest_edge");
@@ -241,211 +154,16 @@ void Scene::setState(BodyId id, Freshness state, double age, std::uint32_t cohor
   pose.cohort = cohort;
 }
 
-void Scene::State::rebuildStructure() {
-  auto next = std::make_shared<Structure>();
-  next->revision = structure->revision + 1;
-  next->least_margin = options.margin;
-  std::vector<Aabb> sizes;
-  uncovered.clear();
-  shapes.clear();
-  for (const auto& named : slot_of_name) {
-    slots[named.second].moved = true;  // its proxies may have other numbers now
-    const Body& body = bodies[named.second];
-    if (!body.covered && !body.waived) uncovered.push_back(static_cast<std::uint32_t>(next->bodies.size()));
-    next->first_proxy.push_back(static_cast<std::uint32_t>(next->body_of_proxy.size()));
-    next->body_of_proxy.insert(next->body_of_proxy.end(), body.shapes.size(),
-                               static_cast<std::uint32_t>(next->bodies.size()));
-    next->bodies.push_back(body);
-    next->ids.push_back({named.second, slots[named.second].generation});
-    next->margin.push_back(std::max(options.margin, body.margin));
-    for (const BodyShape& shape : body.shapes) {
-      shapes.push_back({shape.shape, shape.body_from_shape, shape.padding});
-      sizes.push_back(
-          grown(boxOf(shape.shape, Pose::Identity(), shape.padding, Eigen::Vector3d::Zero()), 0.5 * options.margin));
-    }
-  }
-  next->first_proxy.push_back(static_cast<std::uint32_t>(next->body_of_proxy.size()));
-  boxes.assign(shapes.size(), Aabb{});
-  next->filter = PairFilter(next->bodies, options.pair_kinds, options.allowed_pairs);
-  fixed_proxies.clear();
-  for (ProxyId proxy = 0; proxy < next->body_of_proxy.size(); ++proxy) {
-    if (next->bodies[next->body_of_proxy[proxy]].mobility == Mobility::fixed) fixed_proxies.push_back(proxy);
-  }
-  structure = std::move(next);
-  scale = GridScale::fitting(sizes);
-  if (options.finest_edge > 0.0) scale.finest_edge = options.finest_edge;
-  structure_changed = false;
-}
-
-std::shared_ptr<Snapshot> Scene::State::freshSnapshot() const {
-  std::unique_ptr<Snapshot> snapshot = pool->take();
-  if (!snapshot) snapshot.reset(new Snapshot);
-  return {snapshot.release(), [kept = pool](Snapshot* used) { kept->giveBack(std::unique_ptr<Snapshot>(used)); },
-          PoolAllocator<Snapshot>(pool)};
-}
-
-/// Makes the boxes of what moved since the last commit; what stands still keeps its own. Of the poses a snapshot that
-/// was used before takes those that changed since then.
-void Scene::State::fillBodies(Snapshot& snapshot) {
-  const std::uint64_t known = snapshot.structure_ == structure ? snapshot.commit_ : 0;
-  snapshot.structure_ = structure;
-  snapshot.commit_ = ++commits;
-  snapshot.poses_.resize(structure->ids.size());
-  snapshot.worst_state_ = Freshness::fresh;
-  snapshot.max_age_ = 0.0;
-  for (std::size_t i = 0; i < structure->ids.size(); ++i) {
-    Slot& slot = slots[structure->ids[i].slot];
-    const bool placed = slot.pose.state != Freshness::unplaced;
-    if (slot.moved && placed) {
-      slot.moved = false;
-      for (std::uint32_t proxy = structure->first_proxy[i]; proxy < structure->first_proxy[i + 1]; ++proxy) {
-        const ShapeInBody& shape = shapes[proxy];
-        boxes[proxy] =
-            boxOf(shape.shape, slot.pose.world_from_body * shape.body_from_shape, shape.padding, options.origin);
-      }
-    }
-    if (known == 0 || slot.changed > known) {
-      snapshot.poses_[i] = slot.pose;
-      snapshot.poses_[i].growth = growthOf(slot.pose, bodies[structure->ids[i].slot], options.growth_cap);
-    }
-    snapshot.worst_state_ = std::max(snapshot.worst_state_, slot.pose.state);
-    if (placed) snapshot.max_age_ = std::max(snapshot.max_age_, slot.pose.age);
-  }
-  snapshot.boxes_ = boxes;
-}
-
-/// Grows the placed boxes by their shares of the margins: half of the global one, and all by which a body's own is
-/// larger. So two that are within max(m_i, m_j) plus their growth overlap.
-void Scene::State::growBoxes(const Snapshot& snapshot) {
-  ids.clear();
-  grown_boxes.clear();
-  grown_of.resize(snapshot.boxes_.size());
-  for (ProxyId proxy = 0; proxy < snapshot.boxes_.size(); ++proxy) {
-    const std::uint32_t body = structure->body_of_proxy[proxy];
-    const BodyPose& pose = snapshot.poses_[body];
-    if (pose.state == Freshness::unplaced) continue;
-    const double by = 0.5 * options.margin + (structure->margin[body] - options.margin) + pose.growth;
-    Grown& known = grown_of[proxy];
-    if (known.by != by || known.box != snapshot.boxes_[proxy]) {
-      known = {snapshot.boxes_[proxy], by, grown(snapshot.boxes_[proxy], by)};
-    }
-    ids.push_back(proxy);
-    grown_boxes.push_back(known.result);
-  }
-}
-
-/// Stores the grown boxes and looks for the pairs of them that the filter lets through.
-void Scene::State::fillGrid(Snapshot& snapshot) {
-  if (snapshot.grid_revision_ != structure->revision) {
-    snapshot.grid_ = HGrid(scale);
-    snapshot.grid_.setThreads(options.threads);
-    snapshot.grid_.setFixed(fixed_proxies);
-    snapshot.grid_.setFilter({isReported, structure.get()});  // the snapshot keeps it alive
-    snapshot.grid_revision_ = structure->revision;
-  }
-  snapshot.grid_.update(ids, grown_boxes);
-  snapshot.grid_.overlappingPairs(proxy_pairs);
-}
-
-double Scene::State::pairMargin(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second) const {
-  const BodyPose &a = snapshot.poses_[first], &b = snapshot.poses_[second];
-  const double margin = std::max(structure->margin[first], structure->margin[second]);
-  const Body &body_a = structure->bodies[first], &body_b = structure->bodies[second];
-  const bool equally_old =
-      a.cohort != 0 && a.cohort == b.cohort && !body_a.robot.empty() && body_a.robot == body_b.robot;
-  return equally_old ? margin : margin + (a.growth + b.growth);
-}
-
-/// Sorts by (first, second, gap): counted by the first body, then each one's few among themselves.
-void Scene::State::sortPairs(std::vector<NearPair>& pairs) {
-  next_of_first.assign(structure->bodies.size() + 1, 0);
-  for (const NearPair& pair : pairs) ++next_of_first[pair.first + 1];
-  for (std::size_t i = 1; i < next_of_first.size(); ++i) next_of_first[i] += next_of_first[i - 1];
-  unsorted.swap(pairs);
-  pairs.resize(unsorted.size());
-  for (const NearPair& pair : unsorted) pairs[next_of_first[pair.first]++] = pair;
-  std::size_t begin = 0;
-  for (std::size_t body = 0; body + 1 < next_of_first.size(); ++body) {
-    const std::size_t end = next_of_first[body];
-    std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(begin), pairs.begin() + static_cast<std::ptrdiff_t>(end),
-              [](const NearPair& a, const NearPair& b) {
-                return a.second != b.second ? a.second < b.second : a.gap < b.gap;
-              });
-    begin = end;
-  }
-}
-
-void Scene::State::fillPairs(Snapshot& snapshot) {
-  std::vector<NearPair>& pairs = snapshot.pairs_;
-  pairs.clear();
-  for (const ProxyPair& proxies : proxy_pairs) {
-    // Proxies are numbered in the order of their bodies.
-    const std::uint32_t first = structure->body_of_proxy[proxies.first],
-                        second = structure->body_of_proxy[proxies.second];
-    const Aabb &a = snapshot.boxes_[proxies.first], &b = snapshot.boxes_[proxies.second];
-    const double margin = pairMargin(snapshot, first, second);
-    if (!withinDistance(a, b, margin)) continue;
-    pairs.push_back({first, second, std::min(distance(a, b), margin), margin, Time{0}});
-  }
-  sortPairs(pairs);
-  // One entry per pair of bodies, that of the nearest boxes.
-  pairs.erase(
-      std::unique(pairs.begin(), pairs.end(),
-                  [](const NearPair& a, const NearPair& b) { return a.first == b.first && a.second == b.second; }),
-      pairs.end());
-  tracker.update(structure->ids, snapshot.stamp_, pairs);
-}
-
-void Scene::State::fillCompleteness(Snapshot& snapshot, const std::vector<std::string>& missing) const {
-  snapshot.reasons_.clear();
-  snapshot.reasons_total_ = static_cast<std::uint32_t>(missing.size());
-  for (const std::string& sentence : missing) {
-    if (snapshot.reasons_.size() < options.max_reasons) snapshot.reasons_.push_back(sentence);
-  }
-  if (snapshot.worst_state_ < Freshness::lost && uncovered.empty()) return;  // nothing else leaves a gap
-  std::vector<std::pair<int, std::uint32_t>> gaps;  // the worse the state, the smaller the number
-  for (std::uint32_t i = 0; i < snapshot.poses_.size(); ++i) {
-    if (snapshot.poses_[i].state >= Freshness::lost) gaps.emplace_back(-static_cast<int>(snapshot.poses_[i].state), i);
-  }
-  for (const std::uint32_t i : uncovered) {
-    const Freshness state = snapshot.poses_[i].state;
-    if (state < Freshness::lost) gaps.emplace_back(-static_cast<int>(state), i);
-  }
-  snapshot.reasons_total_ += static_cast<std::uint32_t>(gaps.size());
-  const std::size_t listed = std::min(gaps.size(), options.max_reasons - snapshot.reasons_.size());
-  std::partial_sort(gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>(listed), gaps.end());
-  for (std::size_t i = 0; i < listed; ++i) {
-    const std::uint32_t body = gaps[i].second;
-    snapshot.reasons_.push_back(gapLeftBy(structure->bodies[body], snapshot.poses_[body]));
-  }
-}
-
-std::shared_ptr<const Snapshot> Scene::commit(Time stamp, const std::vector<std::string>& missing) {
-  const DefaultFloatEnvironment environment;
-  using Clock = std::chrono::steady_clock;
-  State& s = *state_;
-  const auto begin = Clock::now();
-  if (s.structure_changed) s.rebuildStructure();
-  std::shared_ptr<Snapshot> snapshot = s.freshSnapshot();
-  snapshot->origin_ = s.options.origin;
-  snapshot->stamp_ = stamp;
-  s.fillBodies(*snapshot);
-  s.growBoxes(*snapshot);
-  const auto boxes_done = Clock::now();
-  s.fillGrid(*snapshot);
-  const auto grid_done = Clock::now();
-  s.fillPairs(*snapshot);
-  snapshot->sequence_ = ++s.sequence;
-  snapshot->epoch_ = s.epoch;
-  s.fillCompleteness(*snapshot, missing);
-  s.times = {boxes_done - begin, grid_done - boxes_done, Clock::now() - grid_done};
-  return snapshot;
+void Scene::setRules(std::vector<PairRule> rules) {
+  state_->options.allowed_pairs = std::move(rules);
+  state_->structure_changed = true;
 }
 
 void Scene::beginEpoch(std::uint64_t epoch) {
   state_->epoch = epoch;
   state_->sequence = 0;
   state_->tracker.clear();
+  state_->pair_events.beginEpoch();
 }
 
 std::uint64_t Scene::revision() const { return state_->structure->revision; }

@@ -8,6 +8,7 @@
 #include "hgrid_proximity/geometry/float_environment.h"
 #include "hgrid_proximity/refusal.h"
 #include "hgrid_proximity/scene/name.h"
+#include "scene/pair_margin.h"
 
 namespace hgrid {
 namespace {
@@ -37,10 +38,16 @@ void sortOnePerBody(std::vector<QueryHit>& hits, bool (*order)(const QueryHit&, 
 std::uint32_t Structure::find(const std::string& name) const {
   const auto found = std::lower_bound(bodies.begin(), bodies.end(), name,
                                       [](const Body& body, const std::string& wanted) { return body.name < wanted; });
-  if (found == bodies.end() || found->name != name) {
-    throw Refusal(Code::unknown_id, "there is no body '" + printable(name) + "'");
-  }
-  return static_cast<std::uint32_t>(found - bodies.begin());
+  const bool here = found != bodies.end() && found->name == name;
+  return here ? static_cast<std::uint32_t>(found - bodies.begin()) : kNone;
+}
+
+double Snapshot::marginOf(std::uint32_t first, std::uint32_t second) const {
+  return toldMargin(*structure_, first, second);
+}
+
+double Snapshot::growthOf(std::uint32_t first, std::uint32_t second) const {
+  return widening(*structure_, first, stalenessOf(poses_[first]), second, stalenessOf(poses_[second]));
 }
 
 bool Snapshot::inScope(const QueryScope& scope, std::uint32_t body) const {

@@ -61,9 +61,11 @@ QueryAnswer Snapshot::nearestBy(const Eigen::Vector3d& center, double reach, dou
   }
   std::vector<QueryHit> hits;
   for (const auto& hit : best) hits.push_back(hit.second);
-  QueryScope limited = scope;
-  limited.limit = static_cast<std::uint32_t>(wanted);
-  return finished(hits, limited, false, doubt);
+  std::sort(hits.begin(), hits.end(), [](const QueryHit& a, const QueryHit& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.body < b.body;
+  });
+  if (hits.size() > wanted) hits.resize(wanted);
+  return finished(hits, scope, false, doubt);
 }
 
 QueryAnswer Snapshot::nearest(const Eigen::Vector3d& point, double max_distance, const QueryScope& scope) const {

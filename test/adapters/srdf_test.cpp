@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
 
+#include <algorithm>
+
+#include "hgrid_proximity/scene/allowed_matrix.h"
 #include "test/support/refusals.h"
 #include "test/support/robots.h"
 
@@ -54,6 +57,38 @@ TEST(Srdf, RulesActOnTheModelAndUnknownLinksAreWarnings) {
   std::string all = warnings[0] + warnings[1];
   EXPECT_TRUE(says(all, "ghost"));
   EXPECT_TRUE(says(all, "phantom"));
+}
+
+TEST(Srdf, WhatTheAllowedMatrixPrintsReadsBackAsTheSameMatrix) {
+  MeshLoader loader(meshPolicy());
+  const RobotModel model = readWith(loader, fileText(ownData() + "/robots/traits.urdf"));
+  std::vector<std::string> warnings;
+  const auto matrix =
+      std::make_shared<const LinkMatrix>(model, readSrdf(fileText(ownData() + "/robots/traits.srdf")), warnings);
+  Structure structure;
+  for (std::uint32_t i = 0; i < model.links.size(); ++i) {
+    if (!model.links[i].has_collision) continue;
+    Body body;
+    body.name = "traits/" + model.links[i].name;
+    body.kind = BodyKind::link;
+    body.robot = "traits";
+    body.link = i;
+    body.links = matrix;
+    structure.bodies.push_back(body);
+  }
+  std::sort(structure.bodies.begin(), structure.bodies.end(),
+            [](const Body& a, const Body& b) { return a.name < b.name; });
+  structure.filter = PairFilter(structure.bodies, {}, {});
+  const AllowedList list = decidedPairs(structure, {"", "", 1000000});
+  std::vector<std::string> none;
+  const LinkMatrix again(model, readSrdf(srdfOf(structure, list.entries)), none);
+  EXPECT_TRUE(none.empty());
+  EXPECT_GT(list.total, 10u);
+  for (const Body& a : structure.bodies) {
+    for (const Body& b : structure.bodies) {
+      EXPECT_EQ(again.allowed(a.link, b.link), matrix->allowed(a.link, b.link)) << a.name << " " << b.name;
+    }
+  }
 }
 
 TEST(Srdf, NothingOfCollisionsIsNoRules) {

@@ -14,6 +14,8 @@ PAIRS = "broadphase/pair_search.cpp"
 HGRID = "broadphase/hgrid.cpp"
 QUERIES = "broadphase/queries.cpp"
 SCENE = "scene/scene.cpp"
+COMMIT = "scene/commit.cpp"
+EVENTS = "scene/pair_events.cpp"
 
 MUTANTS = [
     ("boxes of a level look around without its reach", KERNELS,
@@ -89,19 +91,25 @@ MUTANTS = [
     ("boxes of shapes are rounded inward", "geometry/shape.cpp",
      "roundedDown(low[i]", "roundedUp(low[i]"),
 
-    ("the margin is halved", SCENE,
-     "0.5 * options.margin + (", "0.25 * options.margin + ("),
-    ("stale bodies do not grow in the grid", SCENE,
-     " + pose.growth", ""),
     ("small moves are skipped", SCENE,
      "slot.pose.world_from_body.matrix() == world_from_body.matrix()",
      "slot.pose.world_from_body.matrix().isApprox(world_from_body.matrix(), 1e-6)"),
-    ("the gap is that of the farthest shapes", SCENE,
-     "a.gap < b.gap", "a.gap > b.gap"),
     ("handles are valid for the next user of the slot", SCENE,
      "++slot.generation;", ""),
-    ("a tick computes in the caller's rounding mode", SCENE,
+    ("the margin is halved", COMMIT,
+     "0.5 * options.margin + (", "0.25 * options.margin + ("),
+    ("stale bodies do not grow in the grid", COMMIT,
+     " + pose.growth", ""),
+    ("the gap is that of the farthest shapes", COMMIT,
+     "a.gap < b.gap", "a.gap > b.gap"),
+    ("a tick computes in the caller's rounding mode", COMMIT,
      "const DefaultFloatEnvironment environment;\n  using Clock", "using Clock"),
+    ("a pair's end is told without the hysteresis", EVENTS,
+     "margin + hysteresis_) &&", "margin) &&"),
+    ("pairs of what is gone end without a word", EVENTS,
+     "else if (!epoch_began_) {", "else if (false) {"),
+    ("who takes the name of a body that is gone takes its pairs too", EVENTS,
+     "order == 0 && was.ids[i] == now.ids[j]", "order == 0"),
     ("allowed patterns hold in one order only", "scene/pair_filter.cpp",
      "(as_first_[i] & as_second_[j]) | (as_second_[i] & as_first_[j])", "as_first_[i] & as_second_[j]"),
     ("a new numbering leaves the pairs unsorted", "scene/pair_tracker.cpp",

@@ -5,6 +5,7 @@
 #include <hgrid_proximity/Answer.h>
 #include <hgrid_proximity/Body.h>
 #include <hgrid_proximity/Code.h>
+#include <hgrid_proximity/Events.h>
 #include <hgrid_proximity/Shape.h>
 #include <hgrid_proximity/WorldState.h>
 
@@ -93,6 +94,16 @@ TEST(Constants, VerdictsAndMobilitiesAreThoseOfTheLibrary) {
   EXPECT_EQ(msg::Answer::HIT, number(Verdict::hit));
   EXPECT_EQ(msg::Body::FIXED, number(Mobility::fixed));
   EXPECT_EQ(msg::Body::MOVING, number(Mobility::moving));
+}
+
+TEST(Constants, KindsAndCausesOfEventsAreThoseOfTheLibrary) {
+  EXPECT_EQ(msg::Events::BEGIN, number(EventKind::begin));
+  EXPECT_EQ(msg::Events::END, number(EventKind::end));
+  EXPECT_EQ(msg::Events::MOVED, number(EventCause::moved));
+  EXPECT_EQ(msg::Events::BODIES, number(EventCause::bodies));
+  EXPECT_EQ(msg::Events::FILTER, number(EventCause::filter));
+  EXPECT_EQ(msg::Events::STALENESS, number(EventCause::staleness));
+  EXPECT_EQ(msg::Events::EPOCH, number(EventCause::epoch));
 }
 
 TEST(Constants, OriginsOfAllowedPairsAreThoseOfTheLibrary) {

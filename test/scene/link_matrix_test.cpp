@@ -113,6 +113,26 @@ TEST(LinkMatrix, AnExplicitDisableBeatsAnEnableBeatsTheDefaults) {
   EXPECT_EQ(matrix.origin(0, 2), Origin::srdf) << "disable beats enable";
 }
 
+TEST(LinkMatrix, KeepsWhatTheSrdfSaysOfAPairAndWhy) {
+  LinkRules rules;
+  rules.disabled_default = {"wrist"};
+  rules.enabled = {{"wrist", "base", "watch it"}, {"base", "elbow", "before"}};
+  rules.disabled = {{"elbow", "base", "Never"}, {"base", "elbow", "Never, really"}, {"elbow", "elbow", ""}};
+  const LinkMatrix matrix = matrixOf(arm(), rules);
+  for (const bool swapped : {false, true}) {
+    const auto tag = [&](std::uint32_t i, std::uint32_t j) { return swapped ? matrix.tag(j, i) : matrix.tag(i, j); };
+    ASSERT_NE(tag(0, 2), nullptr);
+    EXPECT_TRUE(tag(0, 2)->disabled);
+    EXPECT_EQ(tag(0, 2)->reason, "Never, really") << "of the last one";
+    ASSERT_NE(tag(0, 3), nullptr);
+    EXPECT_FALSE(tag(0, 3)->disabled);
+    EXPECT_EQ(tag(0, 3)->reason, "watch it");
+    EXPECT_EQ(tag(1, 3), nullptr) << "a default is of no pair";
+    EXPECT_EQ(tag(0, 1), nullptr);
+    EXPECT_EQ(tag(2, 2), nullptr);
+  }
+}
+
 TEST(LinkMatrix, ALinkNeverMeetsItself) {
   LinkRules rules;
   rules.enabled = {{"base", "base", ""}};

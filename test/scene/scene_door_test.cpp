@@ -92,6 +92,9 @@ TEST_F(Door, PaddingsAndMarginsOutOfRangeAreRefused) {
     SceneOptions options;
     options.margin = bad;
     EXPECT_EQ(refusalOf([&] { Scene{options}; }), Code::out_of_range) << bad;
+    options = SceneOptions{};
+    options.event_hysteresis = bad;
+    EXPECT_EQ(refusalOf([&] { Scene{options}; }), Code::out_of_range) << bad;
   }
 }
 

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace hgrid {
@@ -46,11 +48,20 @@ class LinkMatrix {
   Origin origin(std::uint32_t first, std::uint32_t second) const { return origins_[first * size_ + second]; }
   std::size_t size() const { return size_; }
 
+  /// What an SRDF says of just this pair.
+  struct Tag {
+    bool disabled = true;  ///< disable_collisions; else enable_collisions
+    std::string reason;    ///< its attribute, made printable; may be empty
+  };
+  /// The tag that decides of a pair; null: it has none.
+  const Tag* tag(std::uint32_t first, std::uint32_t second) const;
+
  private:
   void set(std::uint32_t first, std::uint32_t second, Origin origin);
 
   std::size_t size_;
   std::vector<Origin> origins_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Tag> tags_;  // by links, the smaller first: few pairs have one
 };
 
 }  // namespace hgrid

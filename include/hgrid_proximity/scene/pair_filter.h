@@ -3,17 +3,15 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "hgrid_proximity/scene/body.h"
+#include "hgrid_proximity/scene/pair_rule.h"
 
 namespace hgrid {
 
-/// Two globs over body names: pairs that match, in either order, may touch without being reported.
-struct AllowedPattern {
-  std::string first, second, reason;
-};
+class NameIndex;
 
 /// Which kinds of pair exist at all.
 struct PairKinds {
@@ -24,47 +22,84 @@ struct PairKinds {
   bool moving_obstacle = true;  ///< an obstacle in a moving frame and any other obstacle or map
 };
 
+/// What decides of a pair of bodies, and why.
+struct PairDecision {
+  static constexpr std::uint32_t kNoRule = 0xffffffff;
+
+  Origin origin = Origin::none;  ///< of what decides; none: nothing speaks of the pair, so it is reported
+  bool allowed = false;          ///< the pair may touch and is not reported
+  std::string_view reason;       ///< of the rule or of the SRDF; may be empty; alive as long as the filter
+  std::uint32_t rule = kNoRule;  ///< index into PairFilter::rules()
+};
+
 /// Decides which pairs of bodies are reported. Made anew when bodies or rules change; immutable.
 ///
-/// Holds no matrix of the world: within a robot it asks the model's LinkMatrix; globs were matched once
-/// per body and are compared as bit sets.
+/// Holds no matrix of the world: within a robot it asks the model's LinkMatrix; rules for two names stand in a sorted
+/// list; globs were matched once per body and are compared as bit sets.
 class PairFilter {
  public:
+  static constexpr std::uint32_t kNoRule = PairDecision::kNoRule;
+
   PairFilter() = default;
   /// @param bodies  what the indices of allowed() mean; not kept
-  PairFilter(const std::vector<Body>& bodies, PairKinds kinds, std::vector<AllowedPattern> patterns);
+  /// @param rules   the stronger of two that are equally exact last
+  PairFilter(const std::vector<Body>& bodies, PairKinds kinds, std::vector<PairRule> rules);
 
   /// Whether the pair may touch, that is, is not reported. Symmetric.
   bool allowed(std::uint32_t first, std::uint32_t second) const { return origin(first, second) != Origin::none; }
-  /// Why it may, the first that holds of: self, kind, the model's matrix, a pattern.
+  /// Why it may, the first that holds of: self, kind, the strongest rule, the model's matrix.
   Origin origin(std::uint32_t first, std::uint32_t second) const {
     if (first == second) return Origin::self;
     const Subject &a = subjects_[first], &b = subjects_[second];
     const bool same_robot = a.robot == b.robot && a.robot != kNoRobot;
     if (!exists_[same_robot][a.type][b.type]) return Origin::kind;
-    if (same_robot && a.links != nullptr) {
-      const Origin origin = a.links->origin(a.link, b.link);
-      if (origin != Origin::none) return origin;
+    if ((a.ruled & b.ruled) != 0) {
+      const std::uint32_t rule = ruleOf(first, second);
+      if (rule != kNoRule) return verdicts_[rule];
     }
-    return words_ > 0 && patternMatches(first, second) ? Origin::parameter : Origin::none;
+    return same_robot && a.links != nullptr ? a.links->origin(a.link, b.link) : Origin::none;
   }
+
+  /// As origin(), with all that is known of it: also where a rule or an SRDF says that the pair is reported.
+  PairDecision decision(std::uint32_t first, std::uint32_t second) const;
+  const std::vector<PairRule>& rules() const { return rules_; }
+  /// Whether a rule speaks of some pair of this body.
+  bool isRuled(std::uint32_t body) const { return subjects_[body].ruled != 0; }
+  /// Whether there is a pair that is reported when it is near.
+  bool reportsAny() const;
 
  private:
   static constexpr std::uint32_t kNoRobot = 0xffffffff;
-  static constexpr std::size_t kTypes = 6;  // kinds of body, each fixed or moving
+  static constexpr std::size_t kTypes = 6;                 // kinds of body, each fixed or moving
+  static constexpr std::uint8_t kByName = 1, kByGlob = 2;  // bits of Subject::ruled
   struct Subject {
     std::uint32_t robot = kNoRobot;  // equal for links of one robot
     std::uint32_t link = 0;
     const LinkMatrix* links = nullptr;
     std::uint8_t type = 0;
+    std::uint8_t ruled = 0;  // what kind of rule knows it; both of a pair must be known by one kind
   };
-  bool patternMatches(std::uint32_t first, std::uint32_t second) const;
+  struct NamedPair {
+    std::uint64_t bodies;  // the smaller index in the upper half
+    std::uint32_t rule;
+  };
+  void resolve(const std::vector<Body>& bodies);
+  void fillSets(const NameIndex& names, std::size_t bodies);
+  std::uint32_t ruleOf(std::uint32_t first, std::uint32_t second) const;
+  std::vector<std::uint32_t> representatives() const;
 
   bool exists_[2][kTypes][kTypes] = {};  // by whether they are links of one robot, and by the types of both
   std::vector<Subject> subjects_;
   std::vector<std::shared_ptr<const LinkMatrix>> matrices_;  // keeps what subjects_ point to
-  std::size_t words_ = 0;                                    // 64-bit words per body in the bit sets
-  std::vector<std::uint64_t> as_first_, as_second_;          // bit k: the body matches pattern k's first, second
+  std::vector<PairRule> rules_;
+  std::vector<Origin> verdicts_;           // by rule: its origin, or none where it says that the pair is reported
+  std::vector<NamedPair> named_;           // sorted; of several rules for one pair the last
+  std::vector<std::uint32_t> glob_rules_;  // rules with a glob; bit k in the sets is of glob_rules_[k]
+  std::size_t words_ = 0;                  // 64-bit words per body in the bit sets
+  std::vector<std::uint64_t> as_first_, as_second_;  // bit k: the body matches that rule's first, second
 };
+
+/// Whether the rules switch off every pair that would be reported without them.
+bool silencesAll(const std::vector<Body>& bodies, const PairKinds& kinds, const PairFilter& filter);
 
 }  // namespace hgrid

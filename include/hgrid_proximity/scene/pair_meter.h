@@ -29,6 +29,11 @@ struct PairDistances {
   std::size_t left_out = 0;         ///< pairs that are candidates, but no time was left to measure them
 };
 
+/// Measures one pair of bodies of a snapshot, near or not; without estimates from the past. Both must have poses.
+/// @param up_to  [m] beyond this distance it is infinite
+PairDistance measurePair(const NarrowPhase& narrow_phase, const Snapshot& snapshot, std::uint32_t first,
+                         std::uint32_t second, double up_to);
+
 /// What a PairMeter can be told.
 struct MeterOptions {
   double report_distance = 0.1;  ///< [m] pairs that are farther apart are left out

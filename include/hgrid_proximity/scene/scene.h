@@ -15,6 +15,7 @@ namespace hgrid {
 struct SceneOptions {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m, world] boxes are stored relative to it
   double margin = 0.10;                              ///< [m] boxes this close or closer are candidates, 0 .. 1e3
+  double event_hysteresis = 0.02;                    ///< [m] a pair's end is told this far beyond its margin, 0 .. 1e3
   double finest_edge = 0.0;                          ///< [m] HGrid's finest level, 1e-6 .. 1e3; 0: from the bodies
   double world_limit = 1e6;                          ///< [m] poses beyond are refused, per axis; at most 1e6
   double growth_cap = 1.0;                           ///< [m] most that a stale body's margins are widened by
@@ -22,7 +23,7 @@ struct SceneOptions {
   std::size_t max_reasons = 8;  ///< reasons that a snapshot lists
   int threads = 1;              ///< that the broad phase may use, 1 .. 64
   PairKinds pair_kinds;
-  std::vector<AllowedPattern> allowed_pairs;
+  std::vector<PairRule> allowed_pairs;  ///< rules to begin with
 };
 
 /// Time a part of a tick took.
@@ -61,12 +62,16 @@ class Scene {
   /// Last known pose of a body.
   const BodyPose& poseOf(BodyId id) const;
 
+  /// Replaces all rules of the allowed-pair matrix from the next commit on. Of two that are equally exact the stronger
+  /// comes last.
+  void setRules(std::vector<PairRule> rules);
+
   /// Makes the snapshot of now.
   /// @param missing  sentences of what else is missing from the world (a robot without a model); each
   ///                 makes it incomplete
   std::shared_ptr<const Snapshot> commit(Time stamp, const std::vector<std::string>& missing);
 
-  /// A new epoch: sequence numbers start again and pairs forget since when they are near.
+  /// A new epoch: the numbers of ticks and events start again and pairs forget since when they are near.
   void beginEpoch(std::uint64_t epoch);
 
   std::uint64_t revision() const;

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "hgrid_proximity/broadphase/hgrid.h"
 #include "hgrid_proximity/narrowphase/narrow_phase.h"
 #include "hgrid_proximity/scene/body.h"
+#include "hgrid_proximity/scene/pair_event.h"
 #include "hgrid_proximity/scene/pair_filter.h"
 #include "hgrid_proximity/scene/pair_tracker.h"
 
@@ -24,8 +26,10 @@ struct Structure {
   std::vector<double> margin;  ///< [m] of each body, at least the global one
   double least_margin = 0.0;   ///< [m] the global one
   PairFilter filter;
+  bool silenced = false;  ///< rules switch off every pair that would be reported without them
 
-  /// Index of the body of this name. @throws Refusal unknown_id
+  static constexpr std::uint32_t kNone = 0xffffffff;
+  /// Index of the body of this name, or kNone.
   std::uint32_t find(const std::string& name) const;
 };
 
@@ -98,6 +102,18 @@ class Snapshot {
   const Eigen::Vector3d& origin() const { return origin_; }
   /// Candidates after the filter, sorted by (first, second).
   const std::vector<NearPair>& pairs() const { return pairs_; }
+  /// Pairs that began or ended since the snapshot before, by number: the ends, then the begins.
+  const std::vector<PairEvent>& events() const { return events_.events; }
+  /// Number of the newest event of the epoch; 0: there was none.
+  std::uint64_t lastEvent() const { return events_.last; }
+  /// What the bodies of an event are indices into: those of an end may be gone from structure().
+  const Structure& structureOf(const PairEvent& event) const {
+    return event.kind == EventKind::end && event.cause == EventCause::bodies ? *events_.before : *structure_;
+  }
+  /// [m] The margin that a pair of bodies has while both are fresh.
+  double marginOf(std::uint32_t first, std::uint32_t second) const;
+  /// [m] By how much it is wider since they are stale. Links of one robot that are equally old have not moved apart.
+  double growthOf(std::uint32_t first, std::uint32_t second) const;
   /// Whether every body is known, placed and covered, and none is lost, frozen or invalid.
   bool complete() const { return reasons_total_ == 0; }
   /// Why not, the worst first, at most as many as the scene was told to keep.
@@ -150,6 +166,7 @@ class Snapshot {
   std::vector<BodyPose> poses_;
   std::vector<Aabb> boxes_;
   std::vector<NearPair> pairs_;
+  PairEventList events_;
   std::vector<std::string> reasons_;
   std::uint32_t reasons_total_ = 0;
   Freshness worst_state_ = Freshness::fresh;

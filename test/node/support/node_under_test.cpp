@@ -82,6 +82,8 @@ void NodeUnderTest::hear(std::vector<boost::shared_ptr<const Message>> Heard::*w
 void NodeUnderTest::listen() {
   subscribers_.push_back(node_.subscribe<msg::Pairs>(
       named("pairs"), 1000, [this](const msg::Pairs::ConstPtr& message) { hear(&Heard::pairs, message); }));
+  subscribers_.push_back(node_.subscribe<msg::Events>(
+      named("events"), 1000, [this](const msg::Events::ConstPtr& message) { hear(&Heard::events, message); }));
   subscribers_.push_back(node_.subscribe<msg::Status>(
       named("status"), 1000, [this](const msg::Status::ConstPtr& message) { hear(&Heard::status, message); }));
   subscribers_.push_back(node_.subscribe<msg::Bodies>(
@@ -220,6 +222,21 @@ msg::ReloadRobot::Response NodeUnderTest::reload(const std::string& robot) {
 }
 
 std_srvs::Trigger::Response NodeUnderTest::reset() { return call<std_srvs::Trigger>(reset_, "reset", {}); }
+
+msg::SetAllowed::Response NodeUnderTest::setAllowed(const msg::SetAllowed::Request& request) {
+  return call<msg::SetAllowed>(set_allowed_, "set_allowed", request);
+}
+
+msg::GetAllowed::Response NodeUnderTest::getAllowed(const msg::GetAllowed::Request& request) {
+  return call<msg::GetAllowed>(get_allowed_, "get_allowed", request);
+}
+
+msg::ExplainPair::Response NodeUnderTest::explain(const std::string& first, const std::string& second) {
+  msg::ExplainPair::Request request;
+  request.first = first;
+  request.second = second;
+  return call<msg::ExplainPair>(explain_, "explain_pair", request);
+}
 
 std::string NodeUnderTest::output() const {
   std::ifstream file(output_file_);

@@ -4,10 +4,14 @@
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <hgrid_proximity/Bodies.h>
+#include <hgrid_proximity/Events.h>
+#include <hgrid_proximity/ExplainPair.h>
+#include <hgrid_proximity/GetAllowed.h>
 #include <hgrid_proximity/Pairs.h>
 #include <hgrid_proximity/QuerySegment.h>
 #include <hgrid_proximity/QuerySphere.h>
 #include <hgrid_proximity/ReloadRobot.h>
+#include <hgrid_proximity/SetAllowed.h>
 #include <hgrid_proximity/Status.h>
 #include <ros/node_handle.h>
 #include <std_srvs/Trigger.h>
@@ -43,6 +47,7 @@ struct NodeSetup {
 /// What it has said since it was started, the newest last.
 struct Heard {
   std::vector<msg::Pairs::ConstPtr> pairs;
+  std::vector<msg::Events::ConstPtr> events;
   std::vector<msg::Status::ConstPtr> status;
   std::vector<msg::Bodies::ConstPtr> bodies;
   std::map<std::string, diagnostic_msgs::DiagnosticStatus> diagnostics;  ///< newest by name: world, robots, ...
@@ -82,6 +87,9 @@ class NodeUnderTest {
   msg::QuerySegment::Response segment(const Value& from, const Value& to, double radius, const std::string& frame = "");
   msg::ReloadRobot::Response reload(const std::string& robot);
   std_srvs::Trigger::Response reset();
+  msg::SetAllowed::Response setAllowed(const msg::SetAllowed::Request& request);
+  msg::GetAllowed::Response getAllowed(const msg::GetAllowed::Request& request = {});
+  msg::ExplainPair::Response explain(const std::string& first, const std::string& second);
 
   /// What it wrote so far, to standard output and standard error.
   std::string output() const;
@@ -109,7 +117,7 @@ class NodeUnderTest {
   Heard heard_;
   ros::NodeHandle node_;
   std::vector<ros::Subscriber> subscribers_;
-  ros::ServiceClient sphere_, segment_, reload_, reset_;
+  ros::ServiceClient sphere_, segment_, reload_, reset_, set_allowed_, get_allowed_, explain_;
   std::unique_ptr<ChildProcess> process_;
 };
 

@@ -39,5 +39,16 @@ std::vector<std::string> namesOf(const msg::Pairs& pairs) {
   return names;
 }
 
+std::vector<std::string> eventsOf(const msg::Events& events) {
+  static constexpr const char* kKinds[] = {"BEGIN", "END"};
+  static constexpr const char* kCauses[] = {"MOVED", "BODIES", "FILTER", "STALENESS", "EPOCH"};
+  std::vector<std::string> told;
+  for (std::size_t i = 0; i < events.number.size(); ++i) {
+    told.push_back(std::to_string(events.number[i]) + " " + kKinds[events.kind[i]] + " " + kCauses[events.cause[i]] +
+                   " " + events.names.at(events.first[i]) + "|" + events.names.at(events.second[i]));
+  }
+  return told;
+}
+
 }  // namespace test
 }  // namespace hgrid

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <hgrid_proximity/Events.h>
 #include <hgrid_proximity/Pairs.h>
 #include <hgrid_proximity/Status.h>
 
@@ -25,6 +26,8 @@ std::uint64_t counter(const msg::Status& status, const std::string& name);
 int indexOf(const msg::Pairs& pairs, const std::string& first, const std::string& second);
 /// Every pair as "first|second", in the order of the message.
 std::vector<std::string> namesOf(const msg::Pairs& pairs);
+/// Every event as "7 BEGIN MOVED first|second", in the order of the message.
+std::vector<std::string> eventsOf(const msg::Events& events);
 
 }  // namespace test
 }  // namespace hgrid

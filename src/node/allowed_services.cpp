@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "allowed_services.h"
+
+#include <ros/console.h>
+
+#include <algorithm>
+
+#include "hgrid_proximity/scene/allowed_matrix.h"
+#include "hgrid_proximity/scene/rule_book.h"
+#include "rule_messages.h"
+
+namespace hgrid {
+namespace {
+
+void checkGlob(const std::string& glob) {
+  if (glob.size() <= kLongestRuleText) return;
+  throw Refusal(Code::bad_id, "glob '" + printable(glob, 48) + "' has " + std::to_string(glob.size()) +
+                                  " bytes; at most " + std::to_string(kLongestRuleText) + " are allowed");
+}
+
+}  // namespace
+
+AllowedServices::AllowedServices(ros::NodeHandle& node, const Params& params, std::uint64_t config_hash,
+                                 NewestTick newest, DoInTick do_in_tick, Ledger& ledger)
+    : params_(params),
+      config_hash_(config_hash),
+      newest_(std::move(newest)),
+      do_in_tick_(std::move(do_in_tick)),
+      ledger_(ledger) {
+  servers_.push_back(node.advertiseService("set_allowed", &AllowedServices::onSet, this));
+  servers_.push_back(node.advertiseService("get_allowed", &AllowedServices::onGet, this));
+}
+
+/// Does the deed with the newest tick, which it may replace by a later one, and says how it went.
+template <class Response, class Deed>
+bool AllowedServices::answer(const char* what, Response& response, Deed&& deed) {
+  std::shared_ptr<const Tick> tick = newest_();
+  response.code = toMsg(Code::ok, "");
+  try {
+    if (!tick) throw Refusal(Code::not_ready, "there is no world yet: the first tick was not made");
+    if (!tick->snapshot) throw Refusal(Code::not_ready, "there is no world yet: " + tick->not_ready.front());
+    deed(tick);
+    response.success = true;
+  } catch (const Refusal& refusal) {
+    response.code = toMsg(refusal.code(), refusal.what());
+    ledger_.refuse(std::string(what) + ".refused", refusal);
+  } catch (const std::exception& error) {  // a fault of ours: the caller hears of it, the node goes on
+    response.code = toMsg(Code::internal, error.what());
+    ledger_.refuse(std::string(what) + ".failed", Refusal(Code::internal, error.what()));
+  }
+  if (tick) {
+    const std::chrono::duration<double> age = std::chrono::steady_clock::now() - tick->made.steady;
+    response.world = worldState(*tick, params_, config_hash_, age.count());
+  } else {
+    response.world.worst_state = msg::WorldState::UNPLACED;
+  }
+  return true;
+}
+
+/// All rules as they will be when the request is done. @throws Refusal if it may not be done
+std::vector<PairRule> AllowedServices::rulesAfter(const msg::SetAllowed::Request& request,
+                                                  const Structure& structure) const {
+  const auto most = static_cast<std::size_t>(params_.max_rules);
+  if (request.rules.size() > most) {
+    throw Refusal(Code::limit, "the request has " + std::to_string(request.rules.size()) + " rules; at most " +
+                                   std::to_string(most) + " are allowed (~max_rules)");
+  }
+  const std::vector<PairRule> rules = rulesOf(request.rules, PairRule::Clock::now());
+  RuleBook book(structure.filter.rules(), most);
+  if (request.remove) {
+    book.remove(rules);
+  } else {
+    checkKnown(rules, structure.bodies);
+    book.add(rules);
+  }
+  const PairFilter filter(structure.bodies, params_.pair_kinds, book.rules());
+  if (silencesAll(structure.bodies, params_.pair_kinds, filter)) {
+    if (!request.force) {
+      throw Refusal(Code::needs_force,
+                    "no pair of bodies would be reported any more; ask with force = true if so meant");
+    }
+    ROS_WARN("Rules of ~set_allowed switch off every pair: nothing is reported any more.");
+  }
+  return book.rules();
+}
+
+bool AllowedServices::onSet(msg::SetAllowed::Request& request, msg::SetAllowed::Response& response) {
+  return answer("set_allowed", response, [&](std::shared_ptr<const Tick>& tick) {
+    const std::vector<PairRule> rules = rulesAfter(request, tick->snapshot->structure());
+    tick = do_in_tick_([rules](World& world) { world.setRules(rules); });
+  });
+}
+
+bool AllowedServices::onGet(msg::GetAllowed::Request& request, msg::GetAllowed::Response& response) {
+  return answer("get_allowed", response, [&](const std::shared_ptr<const Tick>& tick) {
+    checkGlob(request.first);
+    checkGlob(request.second);
+    const Structure& structure = tick->snapshot->structure();
+    const auto most = static_cast<std::uint32_t>(params_.max_pairs);
+    const AllowedScope scope{request.first, request.second, request.limit == 0 ? most : std::min(request.limit, most)};
+    const AllowedList list = request.rules ? givenRules(structure, scope) : decidedPairs(structure, scope);
+    const auto now = PairRule::Clock::now();
+    for (const PairRule& entry : list.entries) response.entries.push_back(toMsg(entry, now));
+    response.total = static_cast<std::uint32_t>(list.total);
+    response.truncated = list.total > list.entries.size();
+    if (request.as_srdf) response.srdf = srdfOf(structure, list.entries);
+  });
+}
+
+}  // namespace hgrid

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "explain_service.h"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "hgrid_proximity/scene/explain.h"
+#include "rule_messages.h"
+#include "snapshot_stamp.h"
+
+namespace hgrid {
+namespace {
+
+/// Age of a body's pose as it is when the answer is given; what is fixed does not age.
+double ageNow(const Body& body, double age, double age_since) {
+  return body.mobility == Mobility::fixed && !std::isnan(age) ? 0.0 : age + age_since;
+}
+
+bool hasPose(const Snapshot& snapshot, std::uint32_t body) {
+  return snapshot.poses()[body].state != Freshness::unplaced;
+}
+
+/// An answer in which nothing is known.
+msg::ExplainPair::Response nothing() {
+  msg::ExplainPair::Response response;
+  response.gap = response.margin = response.margin_first = response.margin_second = std::nan("");
+  response.margin_pair = response.growth = response.distance = std::nan("");
+  response.age_first = response.age_second = std::nan("");
+  response.state_first = response.state_second = msg::WorldState::UNPLACED;
+  return response;
+}
+
+}  // namespace
+
+ExplainService::ExplainService(ros::NodeHandle& node, const Params& params, std::uint64_t config_hash,
+                               NewestTick newest, std::shared_ptr<const NarrowPhase> narrow_phase, Ledger& ledger)
+    : params_(params),
+      config_hash_(config_hash),
+      newest_(std::move(newest)),
+      narrow_phase_(std::move(narrow_phase)),
+      ledger_(ledger) {
+  server_ = node.advertiseService("explain_pair", &ExplainService::onExplain, this);
+}
+
+void ExplainService::explainTo(msg::ExplainPair::Response& response, const Snapshot& snapshot, const std::string& first,
+                               const std::string& second, double age_since) const {
+  const Structure& structure = snapshot.structure();
+  const std::uint32_t a = structure.find(first), b = structure.find(second);
+  std::optional<PairDistance> exact;
+  if (a != Structure::kNone && b != Structure::kNone && a != b && hasPose(snapshot, a) && hasPose(snapshot, b)) {
+    exact = measurePair(*narrow_phase_, snapshot, a, b, std::numeric_limits<double>::infinity());
+  }
+  const Explanation what = explain(snapshot, first, second, exact ? &*exact : nullptr);
+  response.reported = what.reported && what.position < static_cast<std::size_t>(params_.max_pairs);
+  response.explanation = what.text;
+  if (what.reported && !response.reported) {
+    response.explanation += " But it does not stand in ~pairs, which lists the first " +
+                            std::to_string(params_.max_pairs) + " pairs by name (~max_pairs).";
+  }
+  response.rule = toMsg(what.rule, PairRule::Clock::now());
+  response.gap = what.gap;
+  response.margin = what.margin;
+  response.margin_first = what.margin_first;
+  response.margin_second = what.margin_second;
+  response.growth = what.growth;
+  response.distance = what.distance;
+  response.narrow_status = static_cast<std::uint8_t>(what.measured);
+  response.state_first = static_cast<std::uint8_t>(what.state_first);
+  response.state_second = static_cast<std::uint8_t>(what.state_second);
+  const std::vector<Body>& bodies = snapshot.structure().bodies;
+  response.age_first = ageNow(bodies[what.first], what.age_first, age_since);
+  response.age_second = ageNow(bodies[what.second], what.age_second, age_since);
+  if (response.reported) response.since = toRos(what.since);
+}
+
+bool ExplainService::onExplain(msg::ExplainPair::Request& request, msg::ExplainPair::Response& response) {
+  const std::shared_ptr<const Tick> tick = newest_();
+  response = nothing();
+  ledger_.count("explain_pair.asked");
+  try {
+    if (!tick) {
+      response.world.worst_state = msg::WorldState::UNPLACED;
+      throw Refusal(Code::not_ready, "there is no world yet: the first tick was not made");
+    }
+    const std::chrono::duration<double> age_since = std::chrono::steady_clock::now() - tick->made.steady;
+    response.header = headerOf(*tick);
+    response.world = worldState(*tick, params_, config_hash_, age_since.count());
+    if (!tick->snapshot) throw Refusal(Code::not_ready, "there is no world yet: " + tick->not_ready.front());
+    checkStamp(request.header.stamp, *tick->snapshot);
+    explainTo(response, *tick->snapshot, request.first, request.second, age_since.count());
+    response.code = toMsg(Code::ok, "");
+    response.success = true;
+  } catch (const Refusal& refusal) {
+    response.code = toMsg(refusal.code(), refusal.what());
+    response.explanation = refusal.what();
+    ledger_.refuse("explain_pair.refused", refusal);
+  } catch (const std::exception& error) {  // a fault of ours: the caller hears of it, the node goes on
+    response.code = toMsg(Code::internal, error.what());
+    ledger_.refuse("explain_pair.failed", Refusal(Code::internal, error.what()));
+  }
+  return true;
+}
+
+}  // namespace hgrid

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <hgrid_proximity/ExplainPair.h>
+#include <ros/node_handle.h>
+
+#include <functional>
+#include <memory>
+
+#include "ledger.h"
+#include "messages.h"
+#include "params.h"
+#include "world.h"
+
+namespace hgrid {
+
+/// Serves ~explain_pair from the newest tick. Callbacks run on the queue of the node handle, on as many threads as spin
+/// it, and wait for nobody.
+class ExplainService {
+ public:
+  using NewestTick = std::function<std::shared_ptr<const Tick>()>;
+
+  ExplainService(ros::NodeHandle& node, const Params& params, std::uint64_t config_hash, NewestTick newest,
+                 std::shared_ptr<const NarrowPhase> narrow_phase, Ledger& ledger);
+
+ private:
+  bool onExplain(msg::ExplainPair::Request& request, msg::ExplainPair::Response& response);
+  void explainTo(msg::ExplainPair::Response& response, const Snapshot& snapshot, const std::string& first,
+                 const std::string& second, double age_since) const;
+
+  const Params& params_;
+  std::uint64_t config_hash_;
+  NewestTick newest_;
+  std::shared_ptr<const NarrowPhase> narrow_phase_;
+  Ledger& ledger_;
+  ros::ServiceServer server_;
+};
+
+}  // namespace hgrid

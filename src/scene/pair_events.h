@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "hgrid_proximity/scene/snapshot.h"
+
+namespace hgrid {
+
+/// What a tick knows when it asks for its events.
+struct PairsNow {
+  const std::shared_ptr<const Structure>& structure;
+  const std::vector<BodyPose>& poses;
+  const std::vector<Aabb>& boxes;
+  const std::vector<NearPair>& pairs;  ///< sorted by (first, second), each once
+  Freshness worst_state;
+  Time stamp;
+};
+
+/// Says which pairs began and which ended since the tick before, each once, and why.
+///
+/// A pair that began stays on until its gap exceeds its margin by more than the hysteresis. The broad phase need not
+/// know of that: of the pairs that are on, only those that are not near any more are measured, shape by shape.
+class PairEvents {
+ public:
+  /// @param hysteresis  [m] >= 0
+  explicit PairEvents(double hysteresis) : hysteresis_(hysteresis) {}
+
+  /// Replaces what stands in `list` by the events of this tick.
+  void update(const PairsNow& now, PairEventList& list);
+  /// Numbers start again; pairs that are still near begin again, the others are forgotten without an end.
+  void beginEpoch();
+
+ private:
+  struct On {
+    std::uint32_t first, second;
+    Time since;
+  };
+  struct Known {
+    double growth;
+    std::uint32_t cohort;
+    bool placed;
+  };
+
+  void renumber(const Structure& now, PairEventList& list);
+  void judge(const On& on, const PairsNow& now, PairEventList& list);
+  void begin(const NearPair& pair, EventCause cause, const PairsNow& now);
+  EventCause causeOfBegin(const NearPair& pair, const Structure& now) const;
+  EventCause causeOfEnd(const On& on, double margin, double gap, const Structure& now) const;
+  void remember(const PairsNow& now);
+  std::uint32_t numberBefore(std::uint32_t body) const { return renumbered_ ? before_[body] : body; }
+  double marginBefore(std::uint32_t first, std::uint32_t second) const;
+
+  double hysteresis_;
+  std::uint64_t last_ = 0;
+  bool epoch_began_ = false;
+  std::vector<On> on_;  // sorted by (first, second)
+
+  // Of the tick before.
+  std::shared_ptr<const Structure> structure_ = std::make_shared<Structure>();
+  std::vector<Known> known_;  // by body; empty: all were placed and none was stale
+
+  // Scratch of a tick.
+  bool renumbered_ = false;
+  std::vector<std::uint32_t> before_;  // by body: its number before
+  std::vector<std::uint32_t> after_;   // by body of the tick before: its number now
+  std::vector<On> next_;
+  std::vector<PairEvent> begun_;
+};
+
+}  // namespace hgrid

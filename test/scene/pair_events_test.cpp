@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <gtest/gtest.h>
+
+#include "test/support/events.h"
+#include "test/support/scenes.h"
+
+namespace hgrid {
+namespace {
+
+using test::at;
+using test::eventsOf;
+using Events = std::vector<std::string>;
+
+/// Balls of radius 0.5 m along x; margin 1/8 m, hysteresis 1/16 m.
+class PairEvents : public ::testing::Test {
+ protected:
+  static SceneOptions options() {
+    SceneOptions options;
+    options.margin = 0.125;
+    options.event_hysteresis = 0.0625;
+    options.growth_cap = 2.0;
+    return options;
+  }
+  BodyId put(const std::string& name, double x, double max_speed = 1.0) {
+    Body body = test::ball(name);
+    body.max_speed = max_speed;
+    return test::put(scene_, body, at(x), Time{tick_ + 1});
+  }
+  void place(BodyId id, double x) { scene_.place(id, at(x), Time{tick_ + 1}); }
+  Events next() {
+    snapshot_ = scene_.commit(Time{++tick_}, {});
+    return eventsOf(*snapshot_);
+  }
+  const PairEvent& event(std::size_t i = 0) const { return snapshot_->events().at(i); }
+
+  Scene scene_{options()};
+  std::shared_ptr<const Snapshot> snapshot_;
+  int tick_ = 0;
+};
+
+TEST_F(PairEvents, APairBeginsWithinItsMarginAndEndsBeyondTheHysteresis) {
+  put("a", 0);
+  const BodyId b = put("b", 1.3);
+  EXPECT_EQ(next(), Events());
+  place(b, 1.15);
+  EXPECT_EQ(next(), Events()) << "within the hysteresis, but it was not there before";
+  place(b, 1.1);
+  EXPECT_EQ(next(), Events({"1 BEGIN MOVED obstacle/a obstacle/b"}));
+  EXPECT_EQ(event().since, Time{3});
+  EXPECT_NEAR(event().gap, 0.1, 1e-6);
+  for (const double x : {1.1, 1.15, 1.18, 1.0, 1.18}) {
+    place(b, x);
+    EXPECT_EQ(next(), Events()) << x;
+    EXPECT_EQ(snapshot_->pairs().size(), x < 1.125 ? 1u : 0u) << "pairs have the margin alone";
+  }
+  place(b, 1.2);
+  EXPECT_EQ(next(), Events({"2 END MOVED obstacle/a obstacle/b"}));
+  EXPECT_EQ(event().since, Time{3}) << "when it began";
+  EXPECT_NEAR(event().gap, 0.2, 1e-6);
+  for (const double x : {1.18, 1.13}) {
+    place(b, x);
+    EXPECT_EQ(next(), Events()) << x;
+    EXPECT_EQ(snapshot_->lastEvent(), 2u);
+  }
+}
+
+TEST_F(PairEvents, AreTheSameWithAnyOfTheTwoMoving) {
+  const BodyId a = put("a", 0);
+  put("b", 1.1);
+  EXPECT_EQ(next(), Events({"1 BEGIN BODIES obstacle/a obstacle/b"}));
+  place(a, -0.08);
+  EXPECT_EQ(next(), Events());
+  place(a, -0.1);
+  EXPECT_EQ(next(), Events({"2 END MOVED obstacle/a obstacle/b"}));
+}
+
+TEST_F(PairEvents, TheNearestShapesDecide) {
+  put("a", 0);
+  Body two = test::ball("b");
+  two.shapes.push_back(two.shapes[0]);
+  two.shapes[0].body_from_shape = at(5);
+  const BodyId b = test::put(scene_, two, at(1.1));
+  EXPECT_EQ(next(), Events({"1 BEGIN BODIES obstacle/a obstacle/b"}));
+  place(b, 1.18);
+  EXPECT_EQ(next(), Events());
+  place(b, -6.18);
+  EXPECT_EQ(next(), Events()) << "now the other shape is as near";
+  place(b, -6.2);
+  EXPECT_EQ(next(), Events({"2 END MOVED obstacle/a obstacle/b"}));
+  EXPECT_NEAR(event().gap, 0.2, 1e-6);
+}
+
+TEST_F(PairEvents, ComeEndsFirstThenByName) {
+  const BodyId b = put("b", 0);
+  put("c", 1.05);
+  put("a", -1.05);
+  next();
+  put("d", 3);
+  EXPECT_EQ(next(), Events());
+  place(b, 4.05);
+  EXPECT_EQ(next(), Events({"3 END MOVED obstacle/a obstacle/b", "4 END MOVED obstacle/b obstacle/c",
+                            "5 BEGIN MOVED obstacle/b obstacle/d"}));
+}
+
+TEST_F(PairEvents, OfABodyThatIsGoneStillKnowItsName) {
+  const BodyId a = put("a", 0);
+  put("b", 1.1);
+  put("c", 2.2);
+  EXPECT_EQ(next(), Events({"1 BEGIN BODIES obstacle/a obstacle/b", "2 BEGIN BODIES obstacle/b obstacle/c"}));
+  scene_.remove(a);
+  EXPECT_EQ(next(), Events({"3 END BODIES obstacle/a obstacle/b"})) << "b and c have other numbers now, and go on";
+  EXPECT_TRUE(std::isnan(event().gap));
+  EXPECT_EQ(event().since, Time{1});
+  EXPECT_EQ(next(), Events());
+}
+
+TEST_F(PairEvents, OfABodyThatIsReplacedEndAndBegin) {
+  const BodyId a = put("a", 0);
+  put("b", 1.1);
+  next();
+  scene_.remove(a);
+  put("a", 0);
+  EXPECT_EQ(next(), Events({"2 END BODIES obstacle/a obstacle/b", "3 BEGIN BODIES obstacle/a obstacle/b"}));
+  scene_.remove(scene_.add(test::ball("0")));  // another structure with the same bodies
+  EXPECT_EQ(next(), Events());
+}
+
+TEST_F(PairEvents, OfABodyThatWasNowhereBeginWithItsFirstPose) {
+  put("a", 0);
+  const BodyId b = scene_.add(test::ball("b"));
+  EXPECT_EQ(next(), Events());
+  EXPECT_EQ(next(), Events());
+  place(b, 1.1);
+  EXPECT_EQ(next(), Events({"1 BEGIN BODIES obstacle/a obstacle/b"}));
+}
+
+TEST_F(PairEvents, SayWhenOnlyTheStalenessOfABodyMadeThePair) {
+  put("a", 0);
+  const BodyId b = put("b", 1.5);
+  EXPECT_EQ(next(), Events());
+  scene_.setState(b, Freshness::stale, 0.25);
+  EXPECT_EQ(next(), Events());
+  scene_.setState(b, Freshness::stale, 0.5);
+  EXPECT_EQ(next(), Events({"1 BEGIN STALENESS obstacle/a obstacle/b"}));
+  scene_.setState(b, Freshness::stale, 0.35);
+  EXPECT_EQ(next(), Events()) << "the hysteresis is beyond the wider margin";
+  scene_.setState(b, Freshness::fresh, 0.0);
+  EXPECT_EQ(next(), Events({"2 END STALENESS obstacle/a obstacle/b"}));
+}
+
+TEST_F(PairEvents, SayThatTheyMovedWhereTheMarginOfBeforeIsEnough) {
+  const BodyId a = put("a", 0);
+  const BodyId b = put("b", 3.5);
+  scene_.setState(b, Freshness::stale, 2.0);
+  EXPECT_EQ(next(), Events());
+  place(a, 1.0);
+  scene_.setState(b, Freshness::stale, 2.01);
+  EXPECT_EQ(next(), Events({"1 BEGIN MOVED obstacle/a obstacle/b"})) << "2.125 m reach over 1.5 m";
+  place(a, 0.0);
+  scene_.setState(b, Freshness::fresh, 0.0);
+  EXPECT_EQ(next(), Events({"2 END MOVED obstacle/a obstacle/b"})) << "it left the wide margin too";
+}
+
+TEST_F(PairEvents, BeginAgainInANewEpochFromNumberOne) {
+  put("a", 0);
+  const BodyId b = put("b", 1.1);
+  put("c", 1.25);
+  next();
+  place(b, 1.15);
+  EXPECT_EQ(next(), Events());
+  EXPECT_EQ(snapshot_->lastEvent(), 2u);
+  scene_.beginEpoch(77);
+  EXPECT_EQ(next(), Events({"1 BEGIN EPOCH obstacle/b obstacle/c"})) << "a and b are not within the margin";
+  EXPECT_EQ(event().since, Time{3});
+  EXPECT_EQ(snapshot_->lastEvent(), 1u);
+  place(b, 1.1);
+  EXPECT_EQ(next(), Events({"2 BEGIN MOVED obstacle/a obstacle/b"}));
+}
+
+TEST_F(PairEvents, OfANewEpochGoByName) {
+  const BodyId a = put("a", 0);
+  put("b", 1.1);
+  const BodyId c = put("c", 2.2);
+  next();
+  scene_.remove(a);
+  scene_.remove(c);
+  put("a", 0);
+  put("d", 2.2);
+  scene_.beginEpoch(77);
+  EXPECT_EQ(next(), Events({"1 BEGIN EPOCH obstacle/a obstacle/b", "2 BEGIN BODIES obstacle/b obstacle/d"}))
+      << "nothing ends in an epoch in which it did not begin";
+}
+
+TEST_F(PairEvents, WithoutHysteresisAreTheChangesOfThePairs) {
+  SceneOptions sharp = options();
+  sharp.event_hysteresis = 0.0;
+  Scene scene(sharp);
+  test::put(scene, test::ball("a"), at(0));
+  const BodyId b = test::put(scene, test::ball("b"), at(1.1));
+  bool was_near = false;
+  for (const double x : {1.1, 1.12, 1.13, 1.12, 1.3, 1.126, 1.124}) {
+    scene.place(b, at(x), Time{2});
+    const auto snapshot = scene.commit(Time{2}, {});
+    const bool near = !snapshot->pairs().empty();
+    EXPECT_EQ(snapshot->events().size(), near != was_near ? 1u : 0u) << x;
+    was_near = near;
+  }
+}
+
+TEST_F(PairEvents, OfASnapshotStayWhatTheyWere) {
+  put("a", 0);
+  const BodyId b = put("b", 1.1);
+  next();
+  const auto first = snapshot_;
+  scene_.remove(b);
+  next();
+  const auto second = snapshot_;
+  for (int i = 0; i < 10; ++i) {
+    put("c" + std::to_string(i), -1.05);
+    next();
+  }
+  EXPECT_EQ(eventsOf(*first), Events({"1 BEGIN BODIES obstacle/a obstacle/b"}));
+  EXPECT_EQ(eventsOf(*second), Events({"2 END BODIES obstacle/a obstacle/b"}));
+}
+
+}  // namespace
+}  // namespace hgrid

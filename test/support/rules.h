@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hgrid_proximity/scene/pair_rule.h"
+#include "test/support/models.h"
+
+namespace hgrid {
+namespace test {
+
+/// A rule of ~set_allowed: the pair may touch.
+inline PairRule allow(const std::string& first, const std::string& second, const std::string& reason = "") {
+  PairRule rule;
+  rule.first = first;
+  rule.second = second;
+  rule.reason = reason;
+  rule.origin = Origin::service;
+  return rule;
+}
+
+/// A rule of ~set_allowed: the pair is reported.
+inline PairRule enable(const std::string& first, const std::string& second, const std::string& reason = "") {
+  PairRule rule = allow(first, second, reason);
+  rule.allowed = false;
+  return rule;
+}
+
+/// The rule with an end.
+inline PairRule until(PairRule rule, PairRule::Clock::time_point end) {
+  rule.ends = end;
+  return rule;
+}
+
+/// An arm of balls: base = shoulder (fixed joint) - elbow - hand.
+inline std::vector<Body> armBodies(const std::string& robot, const LinkRules& srdf = {}) {
+  RobotModel model;
+  model.name = robot;
+  const int base = addLink(model, "base", -1), shoulder = addLink(model, "shoulder", base, JointKind::fixed);
+  addLink(model, "hand", addLink(model, "elbow", shoulder));
+  findRigidGroups(model);
+  const auto matrix = std::make_shared<const LinkMatrix>(matrixOf(model, srdf));
+  std::vector<Body> bodies;
+  for (std::uint32_t i = 0; i < model.links.size(); ++i) {
+    Body body;
+    body.name = robot + "/" + model.links[i].name;
+    body.frame = model.links[i].name;
+    body.kind = BodyKind::link;
+    body.shapes = model.links[i].shapes;
+    body.robot = robot;
+    body.link = i;
+    body.links = matrix;
+    bodies.push_back(body);
+  }
+  return bodies;
+}
+
+}  // namespace test
+}  // namespace hgrid
