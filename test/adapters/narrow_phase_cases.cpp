@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "test/adapters/narrow_phase_cases.h"
 
+#include <cmath>
 #include <utility>
 
 #include "hgrid_proximity/refusal.h"

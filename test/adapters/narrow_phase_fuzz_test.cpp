@@ -32,7 +32,7 @@ TEST(NarrowPhaseFuzz, EveryAnswerAgreesWithItself) {
   EXPECT_EQ(failed, 0) << "a pair of finite shapes at finite places can be measured";
 }
 
-// What touches here touches in the coordinates of a double: the error is that of the coordinates and the sizes.
+// Of things of 10 km a double in the end knows less than of those of 1 m: a hundred millionth of the sizes is allowed.
 TEST(NarrowPhaseFuzz, WhatIsStrangeIsMeasuredRightToo) {
   Random random(12);
   Claim distance("the distance apart is right", 1.0), contact("what is said to touch is not apart", 1.0);
@@ -42,7 +42,7 @@ TEST(NarrowPhaseFuzz, WhatIsStrangeIsMeasuredRightToo) {
     const Proximity answer = Trial(strange).measure();
     const SolidOracle first = strange.first(), second = strange.second();
     const Interval truth = distanceOf(first, second).interval;
-    const double allowed = 1e-6 + 1e-9 * (strange.first_shape.reach() + strange.second_shape.reach());
+    const double allowed = 1e-6 + 1e-8 * (strange.first_shape.reach() + strange.second_shape.reach());
     if (answer.status == Measure::apart) {
       distance.hold(truth.errorOf(answer.distance) / allowed, strange);
       if (truth.lower == 0.0) missed.hold(!overlapByMore(first, second, 10 * allowed), strange);

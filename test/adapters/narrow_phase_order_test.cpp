@@ -4,6 +4,8 @@
 // The order of a question does not show in the answer, even of shapes that are hard to tell apart.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "test/adapters/narrow_phase_judge.h"
 
 namespace hgrid {

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "test/support/convex.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 

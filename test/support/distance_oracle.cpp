@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "test/support/distance_oracle.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 

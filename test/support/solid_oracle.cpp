@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "test/support/solid_oracle.h"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 

@@ -3,6 +3,7 @@
 #include "test/support/solids.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace hgrid {
