@@ -17,8 +17,8 @@
 
 namespace hgrid {
 
-/// Serves ~set_allowed and ~get_allowed: the allowed-pair matrix. One thread, which nothing else may change the rules
-/// on; what a request may be is decided from the newest tick, and only what it comes to is done in a tick.
+/// Serves ~set_allowed and ~get_allowed: the allowed-pair matrix. Whether a request is right is decided from the newest
+/// tick; a tick only takes over the rules that it comes to. One thread; nobody else changes rules, but that they end.
 class AllowedServices {
  public:
   using NewestTick = std::function<std::shared_ptr<const Tick>()>;

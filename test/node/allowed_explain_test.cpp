@@ -170,6 +170,30 @@ TEST_F(ExplainPair, NamesThatNobodyHasAreRefused) {
   EXPECT_GT(response.world.sequence, 0u);
 }
 
+TEST(ExplainPairLimits, WhatAMessageCutsOffIsNotReportedAndSaysWhy) {
+  NodeSetup setup;
+  setup.params = dict({{"world_frame", "base"}, {"max_pairs", 1}, {"obstacles", list({ball("post", 0, 0, -5, 0.1)})}});
+  setup.params["obstacles"][1] = ball("quay", 0, 0, -5, 0.1);
+  setup.beside["robot_description"] = balls({});
+  NodeUnderTest node(setup);
+  node.waitForComplete();
+  EXPECT_TRUE(node.explain("obstacle/post", "robot/base").reported);
+  const auto cut = node.explain("obstacle/quay", "robot/base");
+  EXPECT_FALSE(cut.reported);
+  EXPECT_TRUE(says(cut.explanation, "But it does not stand in ~pairs, which lists the first 1 pairs by name"));
+}
+
+TEST(ExplainPairLimits, OnlyNowCanBeAskedFor) {
+  NodeSetup setup;
+  setup.beside["robot_description"] = balls({});
+  NodeUnderTest node(setup);
+  node.waitForComplete();
+  EXPECT_TRUE(node.explain("robot/base", "robot/base").success);
+  const auto past = node.explain("robot/base", "robot/base", ros::Time(1.0));
+  EXPECT_FALSE(past.success);
+  EXPECT_EQ(past.code.name, "EXTRAPOLATION");
+}
+
 }  // namespace
 }  // namespace test
 }  // namespace hgrid

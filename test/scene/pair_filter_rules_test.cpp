@@ -75,7 +75,8 @@ TEST(PairRules, ARuleBeatsTheModelBothWays) {
     for (const bool swapped : {false, true}) {
       const std::string &a = bodies[swapped ? pair.second : pair.first].name,
                         &b = bodies[swapped ? pair.first : pair.second].name;
-      const PairDecision on = decided(PairFilter(bodies, {}, {enable(a, b, "test")}), pair.first, pair.second);
+      const PairFilter enabling(bodies, {}, {enable(a, b, "test")});
+      const PairDecision on = decided(enabling, pair.first, pair.second);
       EXPECT_FALSE(on.allowed) << a << " " << b;
       EXPECT_EQ(on.origin, Origin::service);
       EXPECT_EQ(on.reason, "test");

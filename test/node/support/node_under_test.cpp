@@ -231,8 +231,10 @@ msg::GetAllowed::Response NodeUnderTest::getAllowed(const msg::GetAllowed::Reque
   return call<msg::GetAllowed>(get_allowed_, "get_allowed", request);
 }
 
-msg::ExplainPair::Response NodeUnderTest::explain(const std::string& first, const std::string& second) {
+msg::ExplainPair::Response NodeUnderTest::explain(const std::string& first, const std::string& second,
+                                                  ros::Time stamp) {
   msg::ExplainPair::Request request;
+  request.header.stamp = stamp;
   request.first = first;
   request.second = second;
   return call<msg::ExplainPair>(explain_, "explain_pair", request);
