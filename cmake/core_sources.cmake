@@ -14,6 +14,7 @@ set(HGRID_CORE_SOURCES
   src/geometry/shape.cpp
   src/geometry/sphere.cpp
   src/narrowphase/enclosure.cpp
+  src/narrowphase/gjk.cpp
   src/narrowphase/narrow_phase.cpp
   src/refusal.cpp
   src/scene/allowed_matrix.cpp
@@ -38,6 +39,7 @@ set(HGRID_CORE_SOURCES
 )
 set(HGRID_ADAPTER_SOURCES
   src/adapters/fcl.cpp
+  src/adapters/fcl_mesh.cpp
   src/adapters/mesh.cpp
   src/adapters/resource.cpp
   src/adapters/srdf.cpp

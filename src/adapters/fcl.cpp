@@ -2,24 +2,24 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "hgrid_proximity/adapters/fcl.h"
 
-#include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/cone.h>
 #include <fcl/geometry/shape/convex.h>
 #include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/sphere.h>
-#include <fcl/math/bv/OBBRSS.h>
+#include <fcl/math/bv/utility.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <mutex>
 #include <tuple>
 
+#include "adapters/fcl_mesh.h"
 #include "hgrid_proximity/refusal.h"
-#include "narrowphase/enclosure.h"
 
 namespace hgrid {
 namespace {
@@ -28,83 +28,110 @@ using Geometry = fcl::CollisionGeometryd;
 using Vector = Eigen::Vector3d;
 
 constexpr double kTolerance = 1e-10;    // [m] of FCL's iterations
-constexpr double kDisagreement = 1e-6;  // [m] between FCL's nearest points and its distance, beside their rounding
+constexpr double kDisagreement = 1e-6;  // [m] between nearest points and distance, beside their rounding
 constexpr double kMaybeInside = 0.25;   // winding number from which an open mesh may enclose a point
 
-/// What FCL makes of a mesh, and what it encloses; equal meshes share it.
-struct MeshCore {
-  explicit MeshCore(const std::shared_ptr<const TriangleMesh>& source) : mesh(source), enclosure(*source) {
-    model.beginModel(static_cast<int>(source->triangles.size()), static_cast<int>(source->vertices.size()));
-    for (const auto& triangle : source->triangles) {
-      const Vector &a = source->vertices[triangle[0]], &b = source->vertices[triangle[1]],
-                   &c = source->vertices[triangle[2]];
-      if ((b - a).cross(c - a).squaredNorm() > 0.0) model.addTriangle(a, b, c);  // FCL divides by the area
-    }
-    model.endModel();
-  }
-  std::shared_ptr<const TriangleMesh> mesh;  // lives as long, so that its address is no other mesh's
-  Enclosure enclosure;
-  fcl::BVHModel<fcl::OBBRSSd> model;
-};
-
-/// A shape as FCL measures it: a core, and a radius around it.
+/// A shape ready to be measured: a convex core or a mesh, and a radius around it.
 class FclSolid final : public Solid {
  public:
-  FclSolid(const Shape& shape, std::shared_ptr<const MeshCore> mesh)
-      : kind_(shape.kind()), reach_(shape.reach()), mesh_(std::move(mesh)) {
-    const std::vector<double> size = shape.dimensions();
+  FclSolid(const Shape& shape, std::shared_ptr<const FclMesh> mesh)
+      : kind_(shape.kind()), size_(shape.dimensions()), source_(shape.mesh()), mesh_(std::move(mesh)) {
     switch (kind_) {
       case ShapeKind::sphere:
-        radius_ = size[0];
-        core_ = std::make_unique<fcl::Sphered>(0.0);
+        radius_ = size_[0];
+        core_ = ConvexCore::point();
+        geometry_ = std::make_unique<fcl::Sphered>(0.0);
         break;
       case ShapeKind::box:
-        core_ = std::make_unique<fcl::Boxd>(size[0], size[1], size[2]);
+        core_ = ConvexCore::box({size_[0], size_[1], size_[2]});
+        geometry_ = std::make_unique<fcl::Boxd>(size_[0], size_[1], size_[2]);
         break;
       case ShapeKind::cylinder:
-        core_ = std::make_unique<fcl::Cylinderd>(size[1], size[0]);
+        core_ = ConvexCore::cylinder(size_[0], size_[1]);
+        geometry_ = std::make_unique<fcl::Cylinderd>(size_[1], size_[0]);
         break;
       case ShapeKind::cone:
-        core_ = std::make_unique<fcl::Coned>(size[1], size[0]);
+        core_ = ConvexCore::cone(size_[0], size_[1]);
+        geometry_ = std::make_unique<fcl::Coned>(size_[1], size_[0]);
         break;
       case ShapeKind::capsule:
-        radius_ = size[1];
-        core_ = std::make_unique<fcl::Capsuled>(0.0, size[0]);
+        radius_ = size_[1];
+        core_ = ConvexCore::segment(size_[0]);
+        geometry_ = std::make_unique<fcl::Capsuled>(0.0, size_[0]);
         break;
       case ShapeKind::hull:
+        core_ = ConvexCore::hull(source_->vertices.data(), source_->vertices.size());
         // Without faces: FCL then goes through all vertices, which is right whatever they are.
-        core_ = std::make_unique<fcl::Convexd>(std::make_shared<const std::vector<Vector>>(shape.mesh()->vertices), 0,
-                                               std::make_shared<const std::vector<int>>());
-        some_point_ = shape.mesh()->vertices.front();
+        geometry_ = std::make_unique<fcl::Convexd>(std::make_shared<const std::vector<Vector>>(source_->vertices), 0,
+                                                   std::make_shared<const std::vector<int>>());
+        some_point_ = source_->vertices.front();
         break;
       case ShapeKind::mesh:
         break;
     }
+    finish(shape.reach());
+  }
+  /// What questions are made of.
+  FclSolid(const ConvexCore& core, const std::vector<double>& size)
+      : kind_(ShapeKind::box), size_(size), core_(core), geometry_(nullptr) {
+    finish(core.reach());
   }
 
-  FclSolid(ShapeKind kind, double reach, std::unique_ptr<const Geometry> core)
-      : kind_(kind), reach_(reach), core_(std::move(core)) {}
-
-  const Geometry& core() const { return mesh_ ? static_cast<const Geometry&>(mesh_->model) : *core_; }
-  const MeshCore* mesh() const { return mesh_.get(); }
+  const ConvexCore& core() const { return core_; }              // of all but meshes
+  const fcl::OBBRSSd& volume() const { return volume_; }        // around the core
+  const Geometry* geometry() const { return geometry_.get(); }  // for contacts; null: there are none
+  const FclMesh* mesh() const { return mesh_.get(); }
   double radius() const { return radius_; }
   double reach() const { return reach_; }
   ShapeKind kind() const { return kind_; }
+
+  /// An order of solids that differ.
+  bool before(const FclSolid& other) const {
+    if (kind_ != other.kind_) return kind_ > other.kind_;  // meshes go first
+    if (size_ != other.size_) return size_ < other.size_;
+    if (source_ == other.source_ || !source_ || !other.source_) return false;
+    const auto &v = source_->vertices, &w = other.source_->vertices;
+    const auto less = [](const Vector& a, const Vector& b) {
+      return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+    };
+    if (std::lexicographical_compare(v.begin(), v.end(), w.begin(), w.end(), less)) return true;
+    if (std::lexicographical_compare(w.begin(), w.end(), v.begin(), v.end(), less)) return false;
+    return source_->triangles < other.source_->triangles;
+  }
 
   /// Whether a part of the core, told by some points in its frame, is as asked.
   template <class Ask>
   bool anyPart(const Ask& ask) const {
     if (!mesh_) return ask(&some_point_, &some_point_ + 1);
-    const std::vector<Enclosure::Part>& parts = mesh_->enclosure.parts();
+    const std::vector<Enclosure::Part>& parts = mesh_->enclosure().parts();
     return std::any_of(parts.begin(), parts.end(),
                        [&](const Enclosure::Part& part) { return ask(part.data(), part.data() + part.size()); });
   }
 
  private:
+  void finish(double reach) {
+    reach_ = reach;
+    if (mesh_) return;
+    Vector low, high;
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = core_.support(-Vector::Unit(axis))[axis];
+      high[axis] = core_.support(Vector::Unit(axis))[axis];
+    }
+    std::array<Vector, 8> corners;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      corners[i] = {i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(), i & 4 ? high.z() : low.z()};
+    }
+    fcl::fit(corners.data(), static_cast<int>(corners.size()), volume_);
+  }
+
   ShapeKind kind_;
-  double reach_, radius_ = 0.0;
-  std::unique_ptr<const Geometry> core_;  // of all but meshes
-  std::shared_ptr<const MeshCore> mesh_;
+  std::vector<double> size_;
+  std::shared_ptr<const TriangleMesh> source_;  // of hull and mesh
+  double reach_ = 0.0, radius_ = 0.0;
+  ConvexCore core_ = ConvexCore::point();
+  fcl::OBBRSSd volume_;
+  std::unique_ptr<const Geometry> geometry_;
+  std::shared_ptr<const FclMesh> mesh_;
   Vector some_point_ = Vector::Zero();
 };
 
@@ -119,85 +146,77 @@ struct Side {
   double around;
 };
 
-/// Whether the two are to be asked in the other order: meshes go first, which is how FCL names points rightly; then by
-/// what they are and where, so that the order of the question does not show.
+/// Whether the two are to be asked in the other order, so that the order of the question does not show: they are sorted
+/// by what they are, then by what is around them and where they are.
 bool goesAfter(const Side& a, const Side& b) {
-  const auto key = [](const Side& side) {
-    const std::size_t triangles = side.solid.mesh() ? side.solid.mesh()->mesh->triangles.size() : 0;
-    return std::make_tuple(-static_cast<int>(side.solid.kind()), triangles, side.solid.reach(), side.around);
-  };
-  if (key(a) != key(b)) return key(b) < key(a);
+  if (b.solid.before(a.solid)) return true;
+  if (a.solid.before(b.solid)) return false;
+  if (a.around != b.around) return b.around < a.around;
   const auto &m = a.world_from_shape.matrix(), &n = b.world_from_shape.matrix();
   for (Eigen::Index i = 0; i < 16; ++i) {
     if (m.data()[i] != n.data()[i]) return n.data()[i] < m.data()[i];
   }
-  if (!a.solid.mesh() || a.solid.mesh() == b.solid.mesh()) return false;
-  const auto &v = a.solid.mesh()->mesh->vertices, &w = b.solid.mesh()->mesh->vertices;
-  for (std::size_t i = 0; i < std::min(v.size(), w.size()); ++i) {
-    if (v[i] != w[i]) return std::lexicographical_compare(w[i].data(), w[i].data() + 3, v[i].data(), v[i].data() + 3);
-  }
   return false;
 }
 
-/// Nearest points of two cores in the first one's frame.
-struct CoreDistance {
-  double distance = std::numeric_limits<double>::infinity();  // [m] <= 0: they meet; infinite: farther than asked
-  Vector on_first = Vector::Zero(), on_second = Vector::Zero();
-};
-
-fcl::DistanceRequestd distanceRequest() {
+/// Two meshes, by FCL: triangles against triangles, which it measures rightly.
+CoreGap gapOfMeshes(const FclMesh& a, const FclMesh& b, const Pose& a_from_b, double up_to) {
   fcl::DistanceRequestd request;
   request.enable_nearest_points = true;
   request.enable_signed_distance = false;
   request.distance_tolerance = kTolerance;
   request.gjk_solver_type = fcl::GST_LIBCCD;
-  return request;
-}
-
-CoreDistance distanceOf(const FclSolid& a, const FclSolid& b, const Pose& a_from_b, double up_to) {
-  const fcl::Transform3d identity = fcl::Transform3d::Identity(), placed(a_from_b.matrix());
   fcl::DistanceResultd result;
   result.min_distance = std::nextafter(up_to, std::numeric_limits<double>::infinity());  // FCL looks no farther
-  fcl::distance(&a.core(), identity, &b.core(), placed, distanceRequest(), result);
-  if (result.o1 == nullptr) return {};
-  CoreDistance found;
-  found.distance = result.min_distance;
-  found.on_first = result.nearest_points[0];
-  found.on_second = result.nearest_points[1];
-  // The core of a ball is its centre. Beside a triangle FCL names that point in the ball's own frame.
-  if (a.kind() == ShapeKind::sphere) found.on_first.setZero();
-  if (b.kind() == ShapeKind::sphere) found.on_second = a_from_b.translation();
-  return found;
+  fcl::distance(&a.model(), fcl::Transform3d::Identity(), &b.model(), fcl::Transform3d(a_from_b.matrix()), request,
+                result);
+  CoreGap gap;
+  gap.lower = std::numeric_limits<double>::infinity();
+  if (result.o1 == nullptr) return gap;
+  gap.lower = gap.upper = result.min_distance;
+  gap.on_first = result.nearest_points[0];
+  gap.on_second = result.nearest_points[1];
+  return gap;
 }
 
-/// Depth, normal and place of two cores that meet, where FCL's contact stands the test of moving them apart by it.
+/// How far the cores are apart, in the first one's frame; infinite if it is more than `up_to`.
+CoreGap gapOfCores(const FclSolid& a, const FclSolid& b, const Pose& a_from_b, double up_to) {
+  CoreGap gap = b.mesh()   ? gapOfMeshes(*a.mesh(), *b.mesh(), a_from_b, up_to)
+                : a.mesh() ? a.mesh()->gapTo(b.core(), b.volume(), a_from_b, up_to)
+                           : gapOf(a.core(), b.core(), a_from_b, up_to);
+  if (gap.lower > up_to) gap.lower = gap.upper = std::numeric_limits<double>::infinity();
+  return gap;
+}
+
+/// Depth, normal and place of two convex cores that meet, where FCL's contact stands the test of moving the solids
+/// apart by it.
 void describeContact(const Side& a, const Side& b, const Pose& a_from_b, Proximity& result) {
-  if (a.solid.mesh() || b.solid.mesh()) return;  // of meshes FCL knows depths of single triangles only
+  if (a.solid.geometry() == nullptr || b.solid.geometry() == nullptr) return;
   const fcl::Transform3d identity = fcl::Transform3d::Identity(), placed(a_from_b.matrix());
   fcl::CollisionRequestd request;
   request.num_max_contacts = 1;
   request.enable_contact = true;
   request.gjk_solver_type = fcl::GST_LIBCCD;
   fcl::CollisionResultd found;
-  fcl::collide(&a.solid.core(), identity, &b.solid.core(), placed, request, found);
+  fcl::collide(a.solid.geometry(), identity, b.solid.geometry(), placed, request, found);
   if (!found.isCollision()) return;
   const fcl::Contactd& contact = found.getContact(0);
-  const double depth = contact.penetration_depth, length = contact.normal.norm();
+  const double depth = contact.penetration_depth, length = contact.normal.norm(), around = a.around + b.around;
   if (!(depth >= 0.0) || !std::isfinite(depth) || !(std::abs(length - 1.0) < 1e-6) || !contact.pos.allFinite()) return;
   const Vector normal = contact.normal / length;
   Pose apart = a_from_b;
-  apart.translation() += (depth + 1e-5) * normal;
-  if (!(distanceOf(a.solid, b.solid, apart, 1.0).distance > 0.0)) return;
+  apart.translation() += (depth + around + 1e-6) * normal;
+  if (!(gapOf(a.solid.core(), b.solid.core(), apart, around).lower > around)) return;
   result.normal = normal;
-  result.depth = depth + a.around + b.around;
+  result.depth = depth + around;
   result.on_first = contact.pos + (0.5 * depth + a.around) * normal;
   result.on_second = contact.pos - (0.5 * depth + b.around) * normal;
 }
 
 /// Whether a part of `inner` lies within the mesh `outer`, the surfaces being apart.
 Measure enclosed(const FclSolid& outer, const FclSolid& inner, const Pose& outer_from_inner) {
-  if (!outer.mesh()) return Measure::apart;  // what is not a mesh is solid: FCL has found it
-  const Enclosure& enclosure = outer.mesh()->enclosure;
+  if (!outer.mesh()) return Measure::apart;  // what is not a mesh is solid: its core was met
+  const Enclosure& enclosure = outer.mesh()->enclosure();
   const double least = enclosure.closed() ? 0.5 : kMaybeInside;
   const bool inside = inner.anyPart([&](const Vector* begin, const Vector* end) {
     const auto in_box = [&](const Vector& point) { return enclosure.boxHolds(outer_from_inner * point); };
@@ -207,48 +226,50 @@ Measure enclosed(const FclSolid& outer, const FclSolid& inner, const Pose& outer
   return enclosure.closed() ? Measure::contained : Measure::containment_unknown;
 }
 
+Proximity answer(Measure status, double distance) {
+  Proximity result;
+  result.status = status;
+  result.distance = distance;
+  return result;
+}
+
 /// The pair in the order of goesAfter(), in the frame of the first.
 Proximity measured(const Side& a, const Side& b, double up_to) {
-  Proximity result;
-  result.status = Measure::failed;
-  result.distance = 0.0;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const Pose a_from_b = a.world_from_shape.inverse() * b.world_from_shape;
-  if (!a_from_b.matrix().allFinite() || !(a.around >= 0.0) || !(b.around >= 0.0)) return result;
   const double around = a.around + b.around;
+  if (!a_from_b.matrix().allFinite() || !(around >= 0.0)) return answer(Measure::failed, 0.0);
   const bool has_mesh = a.solid.mesh() || b.solid.mesh();
-  const bool far = a_from_b.translation().norm() - (a.solid.reach() + b.solid.reach()) - around > up_to;
-  CoreDistance cores;
-  if (!far) cores = distanceOf(a.solid, b.solid, a_from_b, std::max(0.0, up_to) + around);
-  if (std::isnan(cores.distance)) return result;
-  if (cores.distance <= 0.0) {
-    result.status = Measure::contact;
-    describeContact(a, b, a_from_b, result);
+  if (a_from_b.translation().norm() - (a.solid.reach() + b.solid.reach()) - around > up_to) {
+    return answer(Measure::apart, kInfinity);
+  }
+  const CoreGap gap = gapOfCores(a.solid, b.solid, a_from_b, std::max(0.0, up_to) + around + 1e-9);
+  if (std::isnan(gap.lower) || std::isnan(gap.upper)) return answer(Measure::failed, 0.0);
+  if (gap.lower <= 0.0) {
+    Proximity result = answer(Measure::contact, 0.0);
+    if (!has_mesh) describeContact(a, b, a_from_b, result);
     return result;
   }
-  if (has_mesh && !far) {
+  if (has_mesh) {
     Measure inside = enclosed(a.solid, b.solid, a_from_b);
     if (inside == Measure::apart) inside = enclosed(b.solid, a.solid, a_from_b.inverse());
-    if (inside != Measure::apart) {
-      result.status = inside;
-      return result;
-    }
+    if (inside != Measure::apart) return answer(inside, 0.0);
   }
-  if (std::isinf(cores.distance)) {
-    result.status = Measure::apart;
-    result.distance = cores.distance;
-    return result;
-  }
-  const Vector between = cores.on_second - cores.on_first;
+  Proximity result = answer(Measure::apart, std::max(0.0, gap.upper - around));
+  if (result.distance > up_to) return answer(Measure::apart, kInfinity);
+  const Vector between = gap.on_second - gap.on_first;
   const double length = between.norm();
   const double rounding = 1e-12 * (a.solid.reach() + b.solid.reach() + a_from_b.translation().norm());
-  if (!(std::abs(length - cores.distance) <= kDisagreement + rounding)) return result;
-  result.distance = std::max(0.0, cores.distance - around);
-  result.status = cores.distance > around ? Measure::apart : Measure::contact;
-  if (result.status == Measure::contact) result.depth = around - cores.distance;
+  if (!(std::abs(length - gap.upper) <= kDisagreement + rounding)) return answer(Measure::failed, 0.0);
+  if (!(gap.lower > around)) {
+    result.status = Measure::contact;
+    result.distance = 0.0;
+    if (!has_mesh) result.depth = std::max(0.0, around - gap.upper);  // a mesh may be in the way of moving apart
+  }
   if (length > 0.0) {
     result.normal = between / length;
-    result.on_first = cores.on_first + a.around * result.normal;
-    result.on_second = cores.on_second - b.around * result.normal;
+    result.on_first = gap.on_first + a.around * result.normal;
+    result.on_second = gap.on_second - b.around * result.normal;
   }
   return result;
 }
@@ -256,17 +277,17 @@ Proximity measured(const Side& a, const Side& b, double up_to) {
 class FclNarrowPhase final : public NarrowPhase {
  public:
   std::shared_ptr<const Solid> solidOf(const Shape& shape) override {
-    std::shared_ptr<const MeshCore> mesh;
+    std::shared_ptr<const FclMesh> mesh;
     if (shape.kind() == ShapeKind::mesh) mesh = meshOf(shape.mesh());
     return std::make_shared<FclSolid>(shape, mesh);
   }
 
   std::shared_ptr<const Solid> point() const override { return point_; }
   std::shared_ptr<const Solid> needle(double length) const override {
-    return std::make_shared<FclSolid>(ShapeKind::capsule, 0.5 * length, std::make_unique<fcl::Capsuled>(0.0, length));
+    return std::make_shared<FclSolid>(ConvexCore::segment(length), std::vector<double>{length});
   }
   std::shared_ptr<const Solid> block(const Eigen::Vector3d& size) const override {
-    return std::make_shared<FclSolid>(ShapeKind::box, 0.5 * size.norm(), std::make_unique<fcl::Boxd>(size));
+    return std::make_shared<FclSolid>(ConvexCore::box(size), std::vector<double>{size.x(), size.y(), size.z()});
   }
 
   Proximity measure(const PlacedSolid& first, const PlacedSolid& second, double up_to) const override {
@@ -293,13 +314,12 @@ class FclNarrowPhase final : public NarrowPhase {
     return result;
   }
 
-  std::shared_ptr<const MeshCore> meshOf(const std::shared_ptr<const TriangleMesh>& mesh) {
+  std::shared_ptr<const FclMesh> meshOf(const std::shared_ptr<const TriangleMesh>& mesh) {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       if (auto known = meshes_[mesh.get()].lock()) return known;
     }
-    auto made = std::make_shared<const MeshCore>(mesh);  // takes long: others need not wait
-    if (made->model.num_tris == 0) throw Refusal(Code::bad_geometry, "mesh: none of its triangles has an area");
+    auto made = std::make_shared<const FclMesh>(mesh);  // takes long: others need not wait
     const std::lock_guard<std::mutex> lock(mutex_);
     for (auto known = meshes_.begin(); known != meshes_.end();) {
       known = known->second.expired() ? meshes_.erase(known) : std::next(known);
@@ -308,10 +328,9 @@ class FclNarrowPhase final : public NarrowPhase {
     return made;
   }
 
-  const std::shared_ptr<const Solid> point_ =
-      std::make_shared<FclSolid>(ShapeKind::sphere, 0.0, std::make_unique<fcl::Sphered>(0.0));
+  const std::shared_ptr<const Solid> point_ = std::make_shared<FclSolid>(ConvexCore::point(), std::vector<double>{});
   std::mutex mutex_;
-  std::map<const TriangleMesh*, std::weak_ptr<const MeshCore>> meshes_;
+  std::map<const TriangleMesh*, std::weak_ptr<const FclMesh>> meshes_;
 };
 
 }  // namespace
