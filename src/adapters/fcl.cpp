@@ -261,7 +261,7 @@ Proximity measured(const Side& a, const Side& b, double up_to) {
   const double length = between.norm();
   const double rounding = 1e-12 * (a.solid.reach() + b.solid.reach() + a_from_b.translation().norm());
   if (!(std::abs(length - gap.upper) <= kDisagreement + rounding)) return answer(Measure::failed, 0.0);
-  if (!(gap.lower > around)) {
+  if (!(std::min(gap.lower, gap.upper) > around)) {  // their rounding may have crossed
     result.status = Measure::contact;
     result.distance = 0.0;
     if (!has_mesh) result.depth = std::max(0.0, around - gap.upper);  // a mesh may be in the way of moving apart

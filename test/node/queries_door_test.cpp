@@ -91,15 +91,6 @@ TEST_F(QueryDoor, ATimeThatIsNotNowIsRefusedWithTheTimesThatAre) {
   }
 }
 
-TEST_F(QueryDoor, ExactIsNotSupportedYet) {
-  msg::QuerySphere::Request sphere;
-  sphere.exact = true;
-  expectRefused(node_->ask(sphere), "UNSUPPORTED", "ask with exact = false");
-  msg::QuerySegment::Request segment;
-  segment.exact = true;
-  expectRefused(node_->ask(segment), "UNSUPPORTED", "ask with exact = false");
-}
-
 TEST_F(QueryDoor, PatternsAreBounded) {
   msg::QuerySphere::Request request;
   request.include.assign(257, "x");
