@@ -81,7 +81,7 @@ void visit(Visitor& v, Params& p) {
 
   v.section("Exact distances");
   v.number("distances/max", p.distances_max, "m", 0.0, 1000.0,
-           "pairs whose shapes are this near or nearer stand in ~distances; at most ~margin");
+           "pairs whose shapes are this near or nearer stand in ~distances; at most ~margin; 0: as ~margin");
   v.number("distances/budget", p.distances_budget, "s", 0.0, 10.0,
            "most time per tick; what does not fit, the farthest boxes, is not measured; 0: as long as it takes");
   v.integer("distances/threads", p.distances_threads, 1, 64, "that measure");
@@ -353,6 +353,7 @@ Params readParams(XmlRpc::XmlRpcValue values) {
   require(params.allowed_pairs.size() <= static_cast<std::size_t>(params.max_rules),
           "~allowed_pairs has " + std::to_string(params.allowed_pairs.size()) + " rules; at most ~max_rules, " +
               std::to_string(params.max_rules) + ", are allowed");
+  if (params.distances_max == 0.0) params.distances_max = params.margin;
   params.world_frame = withoutSlash(params.world_frame);
   require(params.robots.size() < 2 || !params.world_frame.empty(),
           "~world_frame is empty; with several robots it must name the frame that all are known in");

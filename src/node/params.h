@@ -69,7 +69,7 @@ struct Params {
   int query_threads = 2;
   double marker_rate = 5.0;
 
-  double distances_max = 0.10, distances_budget = 0.005;
+  double distances_max = 0.0, distances_budget = 0.005;
   int distances_threads = 1;
 
   ShapeLimits shapeLimits() const { return {min_size, max_size, allow_flat}; }

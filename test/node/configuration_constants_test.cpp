@@ -56,7 +56,10 @@ TEST(Constants, CodesAreThoseOfTheLibraryByNumberAndByName) {
                       ROW(NOT_READY, not_ready),
                       ROW(VERSION, version),
                       ROW(CHECKSUM, checksum),
-                      ROW(INTERNAL, internal), ROW(CONFLICT, conflict), ROW(NEEDS_FORCE, needs_force), ROW(FAILED, failed)};
+                      ROW(INTERNAL, internal),
+                      ROW(CONFLICT, conflict),
+                      ROW(NEEDS_FORCE, needs_force),
+                      ROW(FAILED, failed)};
 #undef ROW
   int next = 0;
   for (const Row& row : rows) {

@@ -42,9 +42,10 @@ TEST(ParamsFile, LoadedIsTheSameAsNothingAtAll) {
               &P::stale_after, &P::lost_after, &P::growth_cap, &P::default_max_speed, &P::max_sync_wait, &P::max_future,
               &P::tf_cache, &P::clock_jump, &P::valid_for, &P::world_limit, &P::min_size, &P::max_size, &P::allow_flat,
               &P::max_bodies, &P::max_frames, &P::max_pairs, &P::event_hysteresis, &P::max_events, &P::event_queue,
-              &P::max_hits, &P::max_listed, &P::max_reasons, &P::max_rules, &P::max_description_bytes, &P::max_description_depth,
-              &P::max_links, &P::mesh_roots, &P::max_mesh_bytes, &P::max_mesh_triangles, &P::mesh_memory,
-              &P::mesh_timeout, &P::query_threads, &P::marker_rate, &P::distances_max, &P::distances_budget, &P::distances_threads);
+              &P::max_hits, &P::max_listed, &P::max_reasons, &P::max_rules, &P::max_description_bytes,
+              &P::max_description_depth, &P::max_links, &P::mesh_roots, &P::max_mesh_bytes, &P::max_mesh_triangles,
+              &P::mesh_memory, &P::mesh_timeout, &P::query_threads, &P::marker_rate, &P::distances_max,
+              &P::distances_budget, &P::distances_threads);
   ASSERT_EQ(read.robots.size(), 1u);
   using R = RobotParams;
   expectEqual(read.robots[0], defaults.robots.at(0), &R::name, &R::description, &R::semantic, &R::tf_prefix);
@@ -58,14 +59,18 @@ TEST(ParamsFile, LoadedIsTheSameAsNothingAtAll) {
 TEST(ParamsFile, EveryParameterInItIsKnownAndNoOtherIs) {
   Value loaded;
   ASSERT_TRUE(ros::param::get("/params_file", loaded));
-  for (const auto& member : loaded) {
+  for (auto& member : loaded) {
     Value one = dict();
-    one[member.first] = Value(dict({{"not", "like that"}}));  // no parameter is a dictionary
+    one[member.first] =
+        Value(dict({{"not", "like that"}}));  // no parameter is a dictionary, and no group has this member
     try {
       readParams(one);
       ADD_FAILURE() << member.first << " is not read";
     } catch (const std::invalid_argument& refusal) {
-      EXPECT_TRUE(says(refusal.what(), "~" + member.first + " is a dictionary; it must be ")) << member.first;
+      const bool group = member.second.getType() == Value::TypeStruct;
+      EXPECT_TRUE(says(refusal.what(), group ? "~" + member.first + "/not is not a parameter of this node"
+                                             : "~" + member.first + " is a dictionary; it must be "))
+          << member.first;
     }
   }
 }

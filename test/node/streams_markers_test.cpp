@@ -64,8 +64,9 @@ TEST(Markers, ComeWhileSomebodyLooksAndBeginByClearing) {
   for (int viewer = 0; viewer < 2; ++viewer) {
     SCOPED_TRACE(viewer);
     Ear<MarkerArray> eye(node.named("markers"));
-    const auto seen =
-        eye.until([](const MarkerArray& array) { return draws(array, "boxes") && draws(array, "pairs"); });
+    const auto seen = eye.until([](const MarkerArray& array) {
+      return draws(array, "boxes") && draws(array, "pairs") && draws(array, "distances");
+    });
     ASSERT_EQ(seen.front()->markers.size(), 1u);
     EXPECT_EQ(seen.front()->markers[0].action, Marker::DELETEALL);
     std::set<std::pair<std::string, int>> ids;
@@ -73,11 +74,15 @@ TEST(Markers, ComeWhileSomebodyLooksAndBeginByClearing) {
       EXPECT_EQ(marker.header.frame_id, "base");
       EXPECT_TRUE(ids.insert({marker.ns, marker.id}).second);
     }
-    EXPECT_EQ(ids, (std::set<std::pair<std::string, int>>{
-                       {"boxes", 0}, {"not_fresh", 0}, {"pairs", 0}, {"queries", 0}, {"queries", 1}}));
+    std::set<std::pair<std::string, int>> expected{{"boxes", 0}, {"distances", 0}, {"not_fresh", 0},
+                                                   {"pairs", 0}, {"queries", 0},   {"queries", 1}};
+    for (int text = 0; text < 20; ++text) expected.insert({"distance_texts", text});
+    EXPECT_EQ(ids, expected);
     EXPECT_FALSE(draws(*seen.back(), "not_fresh"));
     for (const Marker& marker : seen.back()->markers) {
-      const std::size_t points = marker.ns == "boxes" ? 3 * 24 : marker.ns == "pairs" ? 2 : 0;
+      const std::size_t points = marker.ns == "boxes"                               ? 3 * 24
+                                 : marker.ns == "pairs" || marker.ns == "distances" ? 2
+                                                                                    : 0;
       EXPECT_EQ(marker.points.size(), points) << marker.ns << ": 12 edges of 3 boxes, one line per pair";
     }
   }

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <hgrid_proximity/Distances.h>
+#include <hgrid_proximity/ExplainPair.h>
+#include <hgrid_proximity/QueryBox.h>
+#include <hgrid_proximity/QueryNearest.h>
+#include <ros/service.h>
+#include <ros/topic.h>
+
+#include "test/node/support/claims.h"
+#include "test/node/support/descriptions.h"
+#include "test/node/support/transform_source.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+using msg::Answer;
+using msg::Distances;
+
+/// A ball that rides on a frame over a table whose top is at 0; boxes turned by 45 degrees, so that their boxes touch
+/// what they do not.
+class DistancesNode : public ::testing::Test {
+ protected:
+  DistancesNode() : node_(setup()) {
+    transforms_.stream("world", "rider", at(0.0, 0.0, 0.25));
+    transforms_.fix({stamped("world", "turned", at(3.0, 0.0, 0.0, 0.78539816339744831))});
+    node_.waitForComplete();
+  }
+  static NodeSetup setup() {
+    NodeSetup setup;
+    setup.params = dict(
+        {{"world_frame", "world"},
+         {"stale_after", 3600.0},
+         {"lost_after", 3600.0},
+         {"margin", 0.2},
+         {"distances", dict({{"max", 0.15}})},
+         {"max_speed", list({dict({{"pattern", "obstacle/ball"}, {"speed", 0.5}})})},
+         {"robots", list({dict({{"name", "none"}, {"description", "robot_description"}})})},
+         {"obstacles", list({box("table", xyz(0, 0, -0.5), xyz(2, 2, 1)), ball("ball", 0, 0, 0, 0.15, "rider"),
+                             box("turned", xyz(0, 0, 0), xyz(1, 1, 1), "turned"), ball("post", 3.6, 0.6, 0, 0.05)})}});
+    setup.beside["robot_description"] = urdf(link("world"));
+    return setup;
+  }
+  Distances::ConstPtr next() {
+    const auto message = ros::topic::waitForMessage<Distances>(node_.named("distances"), ros::Duration(20.0));
+    if (!message) throw std::runtime_error("~distances says nothing");
+    return message;
+  }
+  template <class Service>
+  typename Service::Response call(const std::string& name, typename Service::Request request) {
+    typename Service::Response response;
+    if (!ros::service::call(node_.named(name), request, response)) throw std::runtime_error(name + " does not answer");
+    return response;
+  }
+
+  TransformSource transforms_;
+  NodeUnderTest node_;
+};
+
+TEST_F(DistancesNode, SayHowFarShapesAreApart) {
+  const auto message = next();
+  EXPECT_TRUE(message->world.complete);
+  EXPECT_EQ(message->header.frame_id, "world");
+  ASSERT_EQ(message->names, std::vector<std::string>({"obstacle/ball", "obstacle/table"}));
+  ASSERT_EQ(message->status.size(), 1u);
+  EXPECT_EQ(message->status[0], Distances::MEASURED);
+  EXPECT_NEAR(message->distance[0], 0.1, 1e-9);
+  EXPECT_NEAR(message->gap[0], 0.1, 1e-6);
+  EXPECT_NEAR(message->point_on_first[0].z, 0.1, 1e-9);
+  EXPECT_NEAR(message->point_on_second[0].z, 0.0, 1e-9);
+  EXPECT_NEAR(message->normal[0].z, -1.0, 1e-9);
+  EXPECT_TRUE(std::isnan(message->depth[0]));
+  EXPECT_LE(message->no_contact_before[0], 0.1 / 0.5 + 1e-9) << "the ball's bound of speed is 0.5 m/s";
+  EXPECT_GT(message->no_contact_before[0], 0.0);
+  EXPECT_EQ(message->total, 1u);
+  EXPECT_FALSE(message->truncated);
+}
+
+TEST_F(DistancesNode, AreEmptyWhereNothingIsNearAndSayContactWhereThereIs) {
+  transforms_.stream("world", "rider", at(0.0, 0.0, 5.0));
+  node_.waitForPairs("the ball far away", [](const msg::Pairs& pairs) { return pairs.total == 1; });
+  EXPECT_EQ(next()->total, 0u);
+  transforms_.stream("world", "rider", at(0.0, 0.0, 0.1));
+  node_.waitForPairs("the ball in the table",
+                     [](const msg::Pairs& pairs) { return pairs.total == 2 && pairs.gap[0] == 0.0; });
+  const auto message = next();
+  ASSERT_EQ(message->status.size(), 1u);
+  EXPECT_EQ(message->status[0], Distances::CONTACT);
+  EXPECT_EQ(message->distance[0], 0.0);
+  EXPECT_NEAR(message->depth[0], 0.05, 1e-9);
+  EXPECT_EQ(message->time_to_contact[0], 0.0);
+}
+
+TEST_F(DistancesNode, ExactQueriesMeetShapesNotTheirBoxes) {
+  msg::QuerySphere::Request sphere;  // in a corner of the turned box's box
+  sphere.center.x = 3.6;
+  sphere.center.y = 0.6;
+  sphere.radius = 0.1;
+  sphere.exclude = {"obstacle/post"};
+  EXPECT_EQ(node_.ask(sphere).answer.verdict, Answer::HIT);
+  sphere.exact = true;
+  EXPECT_EQ(node_.ask(sphere).answer.verdict, Answer::CLEAR);
+  sphere.radius = 0.4;
+  const Answer answer = node_.ask(sphere).answer;
+  ASSERT_EQ(answer.hits.size(), 1u);
+  EXPECT_EQ(answer.hits[0].status, Distances::MEASURED);
+  EXPECT_NEAR(answer.hits[0].center_distance, 0.6 * std::sqrt(2.0) - 0.5, 1e-9);
+  EXPECT_NEAR(answer.hits[0].normal.x, std::sqrt(0.5), 1e-6);
+  msg::QuerySegment::Request segment;
+  segment.start.y = segment.end.y = 0.2;
+  segment.end.x = 5.0;
+  segment.exact = true;
+  segment.include = {"obstacle/turned"};
+  const Answer met = node_.ask(segment).answer;
+  ASSERT_EQ(met.hits.size(), 1u);
+  EXPECT_NEAR(met.hits[0].along, 3.0 - std::sqrt(0.5) + 0.2, 1e-6);
+}
+
+TEST_F(DistancesNode, BoxesAndNearestAnswer) {
+  msg::QueryBox::Request box;
+  box.pose.position.x = 3.6;
+  box.pose.position.y = 0.6;
+  box.size.x = box.size.y = box.size.z = 0.2;
+  const auto by_boxes = call<msg::QueryBox>("query_box", box).answer;
+  EXPECT_EQ(namesOf(by_boxes).size(), 2u) << by_boxes.summary;
+  box.exact = true;
+  EXPECT_EQ(namesOf(call<msg::QueryBox>("query_box", box).answer), std::vector<std::string>({"obstacle/post"}));
+  box.size.x = -1.0;
+  EXPECT_EQ(call<msg::QueryBox>("query_box", box).answer.code.name, "BAD_GEOMETRY");
+
+  msg::QueryNearest::Request nearest;
+  nearest.body = "obstacle/post";
+  nearest.exact = true;
+  nearest.limit = 2;
+  const auto found = call<msg::QueryNearest>("query_nearest", nearest).answer;
+  ASSERT_EQ(found.hits.size(), 2u);
+  EXPECT_EQ(found.hits[0].name, "obstacle/turned");
+  EXPECT_NEAR(found.hits[0].distance, 0.6 * std::sqrt(2.0) - 0.5 - 0.05, 1e-9);
+  EXPECT_FALSE(std::isnan(found.hits[0].own_point.x));
+  EXPECT_EQ(found.total, 2u);
+  EXPECT_FALSE(found.truncated);
+  nearest.body = "obstacle/nobody";
+  EXPECT_EQ(call<msg::QueryNearest>("query_nearest", nearest).answer.code.name, "UNKNOWN_ID");
+  nearest.body.clear();
+  nearest.point.x = 100.0;
+  nearest.max_distance = 1.0;
+  EXPECT_EQ(call<msg::QueryNearest>("query_nearest", nearest).answer.verdict, Answer::CLEAR);
+}
+
+TEST_F(DistancesNode, ExplainPairMeasures) {
+  msg::ExplainPair::Request request;
+  request.first = "obstacle/table";
+  request.second = "obstacle/ball";
+  const auto answer = call<msg::ExplainPair>("explain_pair", request);
+  EXPECT_TRUE(answer.success);
+  EXPECT_TRUE(answer.reported);
+  EXPECT_EQ(answer.narrow_status, Distances::MEASURED);
+  EXPECT_NEAR(answer.distance, 0.1, 1e-9);
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid
