@@ -20,6 +20,7 @@ set(HGRID_CORE_SOURCES
   src/scene/allowed_matrix.cpp
   src/scene/commit.cpp
   src/scene/explain.cpp
+  src/scene/horizon.cpp
   src/scene/link_matrix.cpp
   src/scene/motion_bound.cpp
   src/scene/name.cpp
@@ -27,6 +28,7 @@ set(HGRID_CORE_SOURCES
   src/scene/nearest_names.cpp
   src/scene/pair_events.cpp
   src/scene/pair_filter.cpp
+  src/scene/pair_margins.cpp
   src/scene/pair_meter.cpp
   src/scene/pair_rule.cpp
   src/scene/pair_tracker.cpp

@@ -175,7 +175,7 @@ std::vector<std::uint32_t> byPlace(const std::vector<Query>& queries, const kern
 
 template <class Engine, class Query, class Found>
 void answerAll(const Engine& engine, const std::vector<Query>& queries, BatchOf<Found>& batch) {
-  constexpr std::size_t kFitsTheCache = 16384;  // boxes
+  constexpr std::size_t kFitsTheCache = std::size_t{1} << 18;  // boxes: finding an order takes longer than it saves
   batch.begin.resize(queries.size());
   batch.count.resize(queries.size());
   batch.found.clear();

@@ -51,12 +51,12 @@ boost::shared_ptr<msg::Distances> distancesMessage(const Tick& tick, const msg::
     message->closing_speed.push_back(pair.closing_speed);
     message->time_to_contact.push_back(pair.time_to_contact);
     message->no_contact_before.push_back(pair.no_contact_before);
+    message->flags.push_back(pair.flags);
     message->first_shape.push_back(pair.first_shape);
     message->second_shape.push_back(pair.second_shape);
     message->first_state.push_back(static_cast<std::uint8_t>(snapshot.poses()[pair.first].state));
     message->second_state.push_back(static_cast<std::uint8_t>(snapshot.poses()[pair.second].state));
   }
-  message->flags.assign(shown, 0);
   message->cells_end.assign(shown, 0);
   return message;
 }

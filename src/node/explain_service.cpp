@@ -62,6 +62,7 @@ void ExplainService::explainTo(msg::ExplainPair::Response& response, const Snaps
   response.rule = toMsg(what.rule, PairRule::Clock::now());
   response.gap = what.gap;
   response.margin = what.margin;
+  response.margin_pair = what.margin_pair;
   response.margin_first = what.margin_first;
   response.margin_second = what.margin_second;
   response.growth = what.growth;

@@ -26,6 +26,7 @@ void fillPairs(const Snapshot& snapshot, const std::vector<std::uint32_t>& numbe
     message.margin[i] = pair.margin;
     message.since[i] = toRos(pair.since);
     message.no_contact_before[i] = snapshot.noContactBefore(pair.first, pair.second, pair.gap);
+    message.flags[i] = pair.flags;
     message.state[i] =
         static_cast<std::uint8_t>(std::max(snapshot.poses()[pair.first].state, snapshot.poses()[pair.second].state));
   }

@@ -56,6 +56,9 @@ void visit(Visitor& v, Params& p) {
   v.values(
       "margins", p.margins, "margin", "m", 0.0, 1000.0,
       "list of {pattern, margin}: bodies with a margin of their own; a pair has the larger one; the last match counts");
+  v.pairMargins("pair_margins", p.pair_margins, 0.0, 1000.0,
+                "list of {first, second, margin}: globs over body names; pairs that match have this margin instead, at "
+                "least ~margin; the last match counts");
   v.values("padding", p.padding, "padding", "m", 0.0, 1000.0,
            "list of {pattern, padding}: bodies whose shapes are grown on all sides; the last match counts");
   v.number("event_hysteresis", p.event_hysteresis, "m", 0.0, 1000.0,
@@ -73,6 +76,10 @@ void visit(Visitor& v, Params& p) {
            "list of {pattern, speed}: bound of the speed of any point of these bodies; the last match counts");
   v.number("default_max_speed", p.default_max_speed, "m/s", 0.0, 1e6,
            "speed bound where neither max_speed nor the robot's joint velocity limits give one");
+  v.number(
+      "horizon", p.horizon, "s", 0.0, 60.0,
+      "pairs that can meet within this time, by their speed bounds, are pairs too, flagged, as are those that passed "
+      "each other between two ticks; 0: neither");
   v.number("growth_cap", p.growth_cap, "m", 0.0, 1000.0, "most that the margins of a stale body widen");
   v.number("valid_for", p.valid_for, "s", 0.001, 3600.0, "valid_until of every message is this long after it was made");
   v.number("max_future", p.max_future, "s", 0.0, 3600.0, "transforms stamped farther in the future are refused");
@@ -179,6 +186,14 @@ class Reader {
       readString(element, "reason", value.back().reason, false);
     });
   }
+  void pairMargins(const char* name, std::vector<PairMargin>& value, double low, double high, const char*) {
+    forEach(name, "field of it", [&](ParamValue& element) {
+      value.emplace_back();
+      readString(element, "first", value.back().first, true);
+      readString(element, "second", value.back().second, true);
+      if (auto number = element.require("margin")) number->number(value.back().margin, low, high, "m");
+    });
+  }
   void values(const char* name, std::vector<PatternValue>& value, const char* key, const char* unit, double low,
               double high, const char*) {
     forEach(name, "field of it", [&](ParamValue& element) {
@@ -282,6 +297,9 @@ class Printer {
   void waivers(const char* name, const std::vector<Waiver>&, const char* meaning) { list(name, "", meaning); }
   void allowed(const char* name, const std::vector<PairRule>&, const char* meaning) { list(name, "", meaning); }
   void obstacles(const char* name, const std::vector<ObstacleParams>&, const char* meaning) { list(name, "", meaning); }
+  void pairMargins(const char* name, const std::vector<PairMargin>&, double low, double high, const char* meaning) {
+    list(name, "[m] ", std::string(meaning) + "; " + text(low) + " .. " + text(high));
+  }
   void values(const char* name, const std::vector<PatternValue>&, const char*, const char* unit, double low,
               double high, const char* meaning) {
     list(name, std::string("[") + unit + "] ", std::string(meaning) + "; " + text(low) + " .. " + text(high));

@@ -9,6 +9,7 @@
 
 #include "hgrid_proximity/scene/body.h"
 #include "hgrid_proximity/scene/pair_filter.h"
+#include "hgrid_proximity/scene/pair_margins.h"
 
 namespace hgrid {
 
@@ -50,10 +51,12 @@ struct Params {
   std::vector<PairRule> allowed_pairs;
   PairKinds pair_kinds;
   std::vector<Waiver> accept_uncovered;
+  std::vector<PairMargin> pair_margins;
   std::vector<PatternValue> margins, padding, max_speed;
   double event_hysteresis = 0.02;
 
   double late_after = 0.1, stale_after = 0.25, lost_after = 2.0;
+  double horizon = 0.0;
   double growth_cap = 1.0, default_max_speed = 2.0;
   double max_sync_wait = 0.1, max_future = 0.5, tf_cache = 10.0, clock_jump = 10.0, valid_for = 0.1;
 

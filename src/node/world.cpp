@@ -23,6 +23,8 @@ SceneOptions optionsOf(const Params& params) {
   options.max_reasons = static_cast<std::size_t>(params.max_reasons);
   options.pair_kinds = params.pair_kinds;
   options.allowed_pairs = params.allowed_pairs;
+  options.pair_margins = params.pair_margins;
+  options.horizon = params.horizon;
   return options;
 }
 

@@ -63,6 +63,7 @@ void Scene::State::rebuildStructure() {
   }
   next->first_proxy.push_back(static_cast<std::uint32_t>(next->body_of_proxy.size()));
   boxes.assign(shapes.size(), Aabb{});
+  next->pair_margins = PairMargins(next->bodies, options.pair_margins);
   next->filter = PairFilter(next->bodies, options.pair_kinds, options.allowed_pairs);
   next->silenced = silencesAll(next->bodies, options.pair_kinds, next->filter);
   fixed_proxies.clear();
@@ -110,10 +111,11 @@ void Scene::State::fillBodies(Snapshot& snapshot) {
     if (placed) snapshot.max_age_ = std::max(snapshot.max_age_, slot.pose.age);
   }
   snapshot.boxes_ = boxes;
+  horizon.step(structure, snapshot.poses_, boxes);
 }
 
 /// Grows the placed boxes by their shares of the margins: half of the global one, and all by which a body's own is
-/// larger. So two that are within max(m_i, m_j) plus their growth overlap.
+/// larger, or a pair of it may have. So two that are within their pair's margin plus their growth overlap.
 void Scene::State::growBoxes(const Snapshot& snapshot) {
   ids.clear();
   grown_boxes.clear();
@@ -122,10 +124,13 @@ void Scene::State::growBoxes(const Snapshot& snapshot) {
     const std::uint32_t body = structure->body_of_proxy[proxy];
     const BodyPose& pose = snapshot.poses_[body];
     if (pose.state == Freshness::unplaced) continue;
-    const double by = 0.5 * options.margin + (structure->margin[body] - options.margin) + pose.growth;
+    const double by = 0.5 * options.margin +
+                      (std::max(structure->margin[body], structure->pair_margins.largestOf(body)) - options.margin) +
+                      pose.growth + horizon.reachOf(structure->bodies[body]);
+    const Aabb& box = horizon.on() ? horizon.swept(proxy) : snapshot.boxes_[proxy];
     Grown& known = grown_of[proxy];
-    if (known.by != by || known.box != snapshot.boxes_[proxy]) {
-      known = {snapshot.boxes_[proxy], by, grown(snapshot.boxes_[proxy], by)};
+    if (known.by != by || known.box != box) {
+      known = {box, by, grown(box, by)};
     }
     ids.push_back(proxy);
     grown_boxes.push_back(known.result);
@@ -174,8 +179,13 @@ void Scene::State::fillPairs(Snapshot& snapshot) {
     const Aabb &a = snapshot.boxes_[proxies.first], &b = snapshot.boxes_[proxies.second];
     const double margin = pairMargin(*structure, first, stalenessOf(snapshot.poses_[first]), second,
                                      stalenessOf(snapshot.poses_[second]));
-    if (!withinDistance(a, b, margin)) continue;
-    pairs.push_back({first, second, std::min(distance(a, b), margin), margin, Time{0}});
+    const bool near = withinDistance(a, b, margin);
+    if (!near && !horizon.on()) continue;
+    const double gap = near ? std::min(distance(a, b), margin) : distance(a, b);
+    if (!near && !horizon.canMeet(*structure, proxies.first, proxies.second, gap, margin)) continue;
+    const bool odd = horizon.teleported(first) || horizon.teleported(second);
+    const auto flags = static_cast<std::uint8_t>((near ? 0 : kHorizonFlag) | (odd ? kTeleportFlag : 0));
+    pairs.push_back({first, second, gap, margin, Time{0}, flags});
   }
   sortPairs(pairs);
   // One entry per pair of bodies, that of the nearest boxes.

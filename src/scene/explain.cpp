@@ -208,6 +208,7 @@ Explanation explain(const Snapshot& snapshot, const std::string& first, const st
   what.state_second = b.state;
   what.age_first = a.state == Freshness::unplaced ? kNan : a.age;
   what.age_second = b.state == Freshness::unplaced ? kNan : b.age;
+  what.margin_pair = structure.pair_margins.of(what.first, what.second).value_or(Proximity::kUnknown);
   what.margin_first = structure.margin[what.first];
   what.margin_second = structure.margin[what.second];
   what.growth = snapshot.growthOf(what.first, what.second);

@@ -18,6 +18,7 @@ inline Staleness stalenessOf(const BodyPose& pose) { return {pose.growth, pose.c
 
 /// [m] margin of a pair of bodies that are not stale.
 inline double toldMargin(const Structure& structure, std::uint32_t first, std::uint32_t second) {
+  if (const auto own = structure.pair_margins.of(first, second)) return std::max(structure.least_margin, *own);
   return std::max(structure.margin[first], structure.margin[second]);
 }
 

@@ -186,6 +186,7 @@ PairDistance PairMeter::State::entryOf(const Snapshot& snapshot, const Job& job)
   entry.first = job.pair->first;
   entry.second = job.pair->second;
   entry.gap = job.pair->gap;
+  entry.flags = job.pair->flags;
   if (!job.left_out) {
     entry.proximity = job.known.proximity;
     entry.first_shape = job.known.first_shape;

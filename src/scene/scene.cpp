@@ -62,6 +62,13 @@ Scene::State::Slot& Scene::State::at(BodyId id) {
 Scene::Scene(const SceneOptions& options) : state_(std::make_unique<State>(options)) {
   checkLength(options.margin, kLargestMargin, "margin");
   checkLength(options.event_hysteresis, kLargestMargin, "event_hysteresis");
+  for (const PairMargin& pair : options.pair_margins) {
+    checkLength(pair.margin, kLargestMargin,
+                "margin of the pair '" + printable(pair.first) + "', '" + printable(pair.second) + "'");
+  }
+  if (!(options.horizon >= 0.0 && options.horizon <= 60.0)) {
+    throw Refusal(Code::out_of_range, "horizon is " + text(options.horizon) + " s; it must be within 0 .. 60 s");
+  }
   checkLength(options.growth_cap, kLargestMargin, "growth_cap");
   checkLength(options.world_limit, kFarthestShape, "world_limit");
   checkLength(options.finest_edge, kLargestMargin, "finest_edge");

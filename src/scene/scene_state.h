@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hgrid_proximity/scene/scene.h"
+#include "scene/horizon.h"
 #include "scene/pair_events.h"
 #include "scene/snapshot_pool.h"
 
@@ -39,7 +40,9 @@ struct Scene::State {
   };
 
   explicit State(const SceneOptions& scene_options)
-      : options(scene_options), pair_events(scene_options.event_hysteresis) {}
+      : options(scene_options),
+        horizon(scene_options.horizon, scene_options.growth_cap),
+        pair_events(scene_options.event_hysteresis) {}
 
   // scene.cpp: the bodies as they were told.
 
@@ -71,6 +74,7 @@ struct Scene::State {
   std::vector<Aabb> boxes;               // of them, as of the last commit
   GridScale scale;
   std::vector<ProxyId> fixed_proxies;
+  Horizon horizon;
   PairTracker tracker;
   PairEvents pair_events;
   TickTimes times;

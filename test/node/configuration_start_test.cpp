@@ -39,10 +39,10 @@ TEST(ParamsFile, LoadedIsTheSameAsNothingAtAll) {
   const Params read = readParams(loaded), defaults = readParams(dict());
   using P = Params;
   expectEqual(read, defaults, &P::world_frame, &P::origin, &P::rate, &P::margin, &P::finest_edge, &P::late_after,
-              &P::stale_after, &P::lost_after, &P::growth_cap, &P::default_max_speed, &P::max_sync_wait, &P::max_future,
-              &P::tf_cache, &P::clock_jump, &P::valid_for, &P::world_limit, &P::min_size, &P::max_size, &P::allow_flat,
-              &P::max_bodies, &P::max_frames, &P::max_pairs, &P::event_hysteresis, &P::max_events, &P::event_queue,
-              &P::max_hits, &P::max_listed, &P::max_reasons, &P::max_rules, &P::max_description_bytes,
+              &P::stale_after, &P::lost_after, &P::horizon, &P::growth_cap, &P::default_max_speed, &P::max_sync_wait,
+              &P::max_future, &P::tf_cache, &P::clock_jump, &P::valid_for, &P::world_limit, &P::min_size, &P::max_size,
+              &P::allow_flat, &P::max_bodies, &P::max_frames, &P::max_pairs, &P::event_hysteresis, &P::max_events,
+              &P::event_queue, &P::max_hits, &P::max_listed, &P::max_reasons, &P::max_rules, &P::max_description_bytes,
               &P::max_description_depth, &P::max_links, &P::mesh_roots, &P::max_mesh_bytes, &P::max_mesh_triangles,
               &P::mesh_memory, &P::mesh_timeout, &P::query_threads, &P::marker_rate, &P::distances_max,
               &P::distances_budget, &P::distances_threads);
@@ -53,7 +53,7 @@ TEST(ParamsFile, LoadedIsTheSameAsNothingAtAll) {
   expectEqual(read.pair_kinds, defaults.pair_kinds, &K::self, &K::robot_robot, &K::robot_obstacle, &K::robot_map,
               &K::moving_obstacle);
   EXPECT_TRUE(read.obstacles.empty() && read.allowed_pairs.empty() && read.accept_uncovered.empty());
-  EXPECT_TRUE(read.margins.empty() && read.padding.empty() && read.max_speed.empty());
+  EXPECT_TRUE(read.margins.empty() && read.pair_margins.empty() && read.padding.empty() && read.max_speed.empty());
 }
 
 TEST(ParamsFile, EveryParameterInItIsKnownAndNoOtherIs) {

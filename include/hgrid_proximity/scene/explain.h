@@ -21,6 +21,7 @@ struct Explanation {
   double gap = 0.0;                                ///< [m] distance of their boxes
   double margin = 0.0;                             ///< [m] that applies to the pair now, growth included
   double growth = 0.0;                             ///< [m] of margin: since data is stale
+  double margin_pair = 0.0;                        ///< [m] that was told for this pair; NaN if there is none
   double margin_first = 0.0, margin_second = 0.0;  ///< [m] of each body, at least the global one
   double age_first = 0.0, age_second = 0.0;        ///< [s] of the poses when the snapshot was made
   Freshness state_first = Freshness::unplaced, state_second = Freshness::unplaced;

@@ -16,6 +16,7 @@ struct PairDistance {
   std::uint32_t first = 0, second = 0;              ///< indices into Structure::bodies, first < second
   std::uint32_t first_shape = 0, second_shape = 0;  ///< the nearest ones, in the order of each body's shapes
   double gap = 0.0;                                 ///< [m] distance of their boxes
+  std::uint8_t flags = 0;                           ///< as NearPair::flags
   Proximity proximity;
   double closing_speed = Proximity::kUnknown;      ///< [m/s] estimate from past ticks; > 0: they come closer
   double time_to_contact = Proximity::kUnknown;    ///< [s] estimate; infinite if they do not come closer

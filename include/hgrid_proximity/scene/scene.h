@@ -22,6 +22,10 @@ struct SceneOptions {
   std::size_t max_bodies = 100000;
   std::size_t max_reasons = 8;  ///< reasons that a snapshot lists
   int threads = 1;              ///< that the broad phase may use, 1 .. 64
+  /// [s] Pairs that can meet within it, by their bodies' max_speed, are candidates too, as are those that passed each
+  /// other since the last commit; 0 .. 60; 0: neither
+  double horizon = 0.0;
+  std::vector<PairMargin> pair_margins;  ///< margins of pairs, 0 .. 1e3; what is below `margin` counts as that
   PairKinds pair_kinds;
   std::vector<PairRule> allowed_pairs;  ///< rules to begin with
 };

@@ -12,6 +12,7 @@
 #include "hgrid_proximity/scene/body.h"
 #include "hgrid_proximity/scene/pair_event.h"
 #include "hgrid_proximity/scene/pair_filter.h"
+#include "hgrid_proximity/scene/pair_margins.h"
 #include "hgrid_proximity/scene/pair_tracker.h"
 
 namespace hgrid {
@@ -25,6 +26,7 @@ struct Structure {
   std::vector<std::uint32_t> body_of_proxy;
   std::vector<double> margin;  ///< [m] of each body, at least the global one
   double least_margin = 0.0;   ///< [m] the global one
+  PairMargins pair_margins;    ///< of pairs that have one of their own
   PairFilter filter;
   bool silenced = false;  ///< rules switch off every pair that would be reported without them
 

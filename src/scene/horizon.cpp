@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "scene/horizon.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hgrid {
+namespace {
+
+constexpr Time kNever{-1};
+
+/// [m] The farthest that a side of the box moved. No extreme of a body moves farther than its fastest point.
+double shiftOf(const Aabb& before, const Aabb& now) {
+  return std::max((now.min - before.min).cast<double>().cwiseAbs().maxCoeff(),
+                  (now.max - before.max).cast<double>().cwiseAbs().maxCoeff());
+}
+
+/// [m] What rounding of boxes may add to that.
+double roundingOf(const Aabb& box) {
+  return 4e-7 * std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff()) + 1e-9;
+}
+
+}  // namespace
+
+double Horizon::reachOf(const Body& body) const {
+  if (!on() || body.mobility == Mobility::fixed) return 0.0;
+  return std::isfinite(body.max_speed) ? body.max_speed * seconds_ : cap_;
+}
+
+void Horizon::step(const std::shared_ptr<const Structure>& structure, const std::vector<BodyPose>& poses,
+                   const std::vector<Aabb>& boxes) {
+  if (!on()) return;
+  const std::size_t count = structure->bodies.size();
+  if (structure != structure_) last_stamps_.assign(count, kNever);
+  structure_ = structure;
+  swept_ = boxes;
+  teleported_.assign(count, false);
+  for (std::uint32_t body = 0; body < count; ++body) {
+    const BodyPose& pose = poses[body];
+    if (pose.state == Freshness::unplaced) continue;
+    const Time before = std::exchange(last_stamps_[body], pose.stamp);
+    if (before == kNever) continue;
+    const double may = structure->bodies[body].max_speed * std::max(0.0, seconds(pose.stamp - before));
+    for (ProxyId proxy = structure->first_proxy[body]; proxy < structure->first_proxy[body + 1]; ++proxy) {
+      const Aabb &from = last_[proxy], &to = boxes[proxy];
+      if (from == to) continue;
+      swept_[proxy] = {from.min.cwiseMin(to.min), from.max.cwiseMax(to.max)};
+      if (shiftOf(from, to) > may + roundingOf(to)) teleported_[body] = true;
+    }
+  }
+  last_ = boxes;
+}
+
+bool Horizon::canMeet(const Structure& structure, ProxyId first, ProxyId second, double gap, double margin) const {
+  const Body &a = structure.bodies[structure.body_of_proxy[first]],
+             &b = structure.bodies[structure.body_of_proxy[second]];
+  return gap <= reachOf(a) + reachOf(b) || withinDistance(swept_[first], swept_[second], margin);
+}
+
+}  // namespace hgrid

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <vector>
+
+#include "hgrid_proximity/scene/snapshot.h"
+
+namespace hgrid {
+
+/// What can happen between two ticks and soon after: the boxes that shapes swept since the last one, and how far bodies
+/// can go within a horizon, by their max_speed. Off while the horizon is 0.
+class Horizon {
+ public:
+  /// @param seconds  [s] >= 0
+  /// @param cap      [m] how far a body without a bound of speed is taken to go
+  Horizon(double seconds, double cap) : seconds_(seconds), cap_(cap) {}
+
+  bool on() const { return seconds_ > 0.0; }
+  /// Takes the boxes and poses of a new tick. What had no pose before, or is in a new structure, swept nothing.
+  void step(const std::shared_ptr<const Structure>& structure, const std::vector<BodyPose>& poses,
+            const std::vector<Aabb>& boxes);
+  /// [m] That a body can go within the horizon.
+  double reachOf(const Body& body) const;
+  /// The box around a proxy's boxes of this tick and the last.
+  const Aabb& swept(ProxyId proxy) const { return swept_[proxy]; }
+  /// Whether two proxies may have come within the margin since the last tick, or may meet within the horizon.
+  bool canMeet(const Structure& structure, ProxyId first, ProxyId second, double gap, double margin) const;
+  /// Whether a body moved farther since the last tick than its max_speed allows.
+  bool teleported(std::uint32_t body) const { return on() && teleported_[body]; }
+
+ private:
+  double seconds_, cap_;
+  std::shared_ptr<const Structure> structure_;
+  std::vector<Aabb> last_, swept_;  // by proxy
+  std::vector<Time> last_stamps_;   // by body; negative: it had no pose
+  std::vector<bool> teleported_;    // by body
+};
+
+}  // namespace hgrid

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <gtest/gtest.h>
+
+#include "test/support/refusals.h"
+#include "test/support/scenes.h"
+
+namespace hgrid {
+namespace {
+
+using test::at;
+using test::put;
+
+class HorizonTest : public ::testing::Test {
+ protected:
+  static SceneOptions withHorizon(double horizon) {
+    SceneOptions options;
+    options.margin = 0.1;
+    options.horizon = horizon;
+    return options;
+  }
+  static Body ballOf(const std::string& name, double max_speed) {
+    Body body = test::ball(name);
+    body.max_speed = max_speed;
+    return body;
+  }
+  static std::shared_ptr<const Snapshot> commit(Scene& scene, int milliseconds) {
+    return scene.commit(std::chrono::milliseconds(milliseconds), {});
+  }
+  static void move(Scene& scene, BodyId id, const Pose& pose, int milliseconds) {
+    scene.place(id, pose, std::chrono::milliseconds(milliseconds));
+  }
+};
+
+TEST_F(HorizonTest, PairsThatCanMeetWithinItAreCandidates) {
+  for (const double gap : {0.05, 0.3, 0.49, 0.51, 2.0}) {
+    SCOPED_TRACE(gap);
+    Scene scene(withHorizon(0.5));
+    put(scene, ballOf("a", 0.6), at(0.0));
+    put(scene, ballOf("b", 0.4), at(1.0 + gap));  // together 1 m/s
+    const auto snapshot = commit(scene, 1);
+    ASSERT_EQ(snapshot->pairs().size(), gap <= 0.5 ? 1u : 0u);
+    if (gap > 0.5) continue;
+    const NearPair& pair = snapshot->pairs()[0];
+    EXPECT_NEAR(pair.gap, gap, 1e-6);
+    EXPECT_EQ(pair.flags, gap > 0.1 ? kHorizonFlag : 0);
+  }
+}
+
+TEST_F(HorizonTest, FixedBodiesGoNowhereAndWithoutAHorizonNothingDoes) {
+  for (const double horizon : {0.0, 10.0}) {
+    Scene scene(withHorizon(horizon));
+    Body fixed = ballOf("b", 100.0);
+    fixed.mobility = Mobility::fixed;
+    put(scene, ballOf("a", 0.01), at(0.0));
+    put(scene, fixed, at(1.5));
+    EXPECT_TRUE(commit(scene, 1)->pairs().empty()) << horizon;
+  }
+}
+
+TEST_F(HorizonTest, WhatPassedThroughBetweenTwoTicksIsNotMissed) {
+  Scene scene(withHorizon(0.01));
+  const BodyId a = put(scene, ballOf("a", 1000.0), at(-5.0), std::chrono::milliseconds(1));
+  put(scene, ballOf("b", 1.0), at(0.0), std::chrono::milliseconds(1));
+  scene.add(ballOf("unplaced", 1.0));
+  // The reach of a within the horizon is 10 m; to tell the sweep from it, make it slow and let it jump.
+  EXPECT_EQ(commit(scene, 1)->pairs().size(), 1u);
+  Scene slow(withHorizon(0.001));
+  const BodyId jumper = put(slow, ballOf("a", 1.0), at(-5.0), std::chrono::milliseconds(1));
+  put(slow, ballOf("b", 1.0), at(0.0), std::chrono::milliseconds(1));
+  EXPECT_TRUE(commit(slow, 1)->pairs().empty());
+  move(slow, jumper, at(5.0), 11);  // right through b
+  const auto snapshot = commit(slow, 11);
+  ASSERT_EQ(snapshot->pairs().size(), 1u);
+  EXPECT_EQ(snapshot->pairs()[0].flags, kHorizonFlag | kTeleportFlag) << "10 m in 10 ms at 1 m/s";
+  EXPECT_TRUE(commit(slow, 21)->pairs().empty()) << "a tick later it is far away";
+  move(scene, a, at(-5.1), 11);
+  for (const NearPair& pair : commit(scene, 11)->pairs()) EXPECT_EQ(pair.flags & kTeleportFlag, 0);
+}
+
+TEST_F(HorizonTest, WhatMovesAsFastAsItMayDidNotTeleport) {
+  Scene scene(withHorizon(1.0));
+  const BodyId a = put(scene, ballOf("a", 1.0), at(0.0), std::chrono::milliseconds(1));
+  put(scene, ballOf("b", 1.0), at(1.2), std::chrono::milliseconds(1));
+  commit(scene, 1);
+  for (int tick = 1; tick < 50; ++tick) {
+    move(scene, a, at(-0.01 * tick), 1 + 10 * tick);
+    const auto snapshot = commit(scene, 1 + 10 * tick);
+    ASSERT_EQ(snapshot->pairs().size(), 1u);
+    ASSERT_EQ(snapshot->pairs()[0].flags & kTeleportFlag, 0) << tick;
+  }
+  move(scene, a, at(-0.6), 511);
+  EXPECT_EQ(commit(scene, 511)->pairs().at(0).flags & kTeleportFlag, kTeleportFlag) << "0.11 m in 10 ms";
+}
+
+TEST_F(HorizonTest, IsCheckedAtTheDoor) {
+  for (const double wrong : {-0.1, 61.0, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_EQ(test::refusalOf([&] { Scene scene(withHorizon(wrong)); }), Code::out_of_range);
+  }
+}
+
+}  // namespace
+}  // namespace hgrid
