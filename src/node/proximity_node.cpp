@@ -191,7 +191,9 @@ void ProximityNode::measure(const std::shared_ptr<const Tick>& tick) {
   if (!wanted) return;
   const msg::WorldState world = worldState(*tick, params_, config_hash_, 0.0);
   distances_.publish(distancesMessage(*tick, world, measured->distances.get(), params_));
-  if (measured->distances && measured->distances->left_out > 0) ledger_.count("distances.left_out");
+  if (!measured->distances) return;
+  if (measured->distances->left_out > 0) ledger_.count("distances.left_out", measured->distances->left_out);
+  if (measured->distances->failed > 0) ledger_.count("distances.failed", measured->distances->failed);
 }
 
 /// One line when the world becomes complete or stops being so, or for another reason; not one per tick.

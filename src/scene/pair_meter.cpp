@@ -241,6 +241,7 @@ std::shared_ptr<const PairDistances> PairMeter::measure(const Snapshot& snapshot
     now.distance = distance;
     now.stamp = snapshot.stamp();
     result->left_out += job.left_out;
+    result->failed += !job.left_out && now.proximity.status == Measure::failed;
     result->measured += !job.left_out;
     if (job.shown) result->pairs.push_back(s.entryOf(snapshot, job));
   }

@@ -36,6 +36,11 @@ class BallPhase final : public NarrowPhase {
                           static_cast<const Ball&>(second.solid).radius + second.padding;
     const Eigen::Vector3d way = second.world_from_shape.translation() - first.world_from_shape.translation();
     Proximity result;
+    if (fails) {
+      result.status = Measure::failed;
+      result.distance = 0.0;
+      return result;
+    }
     result.distance = std::max(0.0, way.norm() - around);
     result.status = result.distance > 0.0 ? Measure::apart : Measure::contact;
     if (result.distance > up_to) result.distance = std::numeric_limits<double>::infinity();
@@ -44,6 +49,7 @@ class BallPhase final : public NarrowPhase {
 
   mutable std::atomic<int> asked{0};
   std::chrono::microseconds takes{0};
+  bool fails = false;
 };
 
 class PairMeterTest : public ::testing::Test {
@@ -187,6 +193,18 @@ TEST_F(PairMeterTest, NoContactBeforeRestsOnBoundsThatSomebodyVouchesFor) {
       EXPECT_NEAR(pair.no_contact_before, (0.1 - 0.5 * 0.02) / 0.5, 1e-9);
     }
   }
+}
+
+TEST_F(PairMeterTest, APairThatTheSolverFailsOnIsKeptAsContactAndCounted) {
+  add("a", 0.0);
+  add("b", 1.1);
+  phase_->fails = true;
+  PairMeter meter = meterOf(0.3);
+  const auto found = measure(meter, 1);
+  ASSERT_EQ(found->pairs.size(), 1u);
+  EXPECT_EQ(found->failed, 1u);
+  EXPECT_TRUE(isContact(found->pairs[0].proximity.status));
+  EXPECT_EQ(found->pairs[0].time_to_contact, 0.0);
 }
 
 TEST_F(PairMeterTest, ShapesWithoutASolidAreNotMeasured) {

@@ -27,6 +27,7 @@ struct PairDistance {
 struct PairDistances {
   std::vector<PairDistance> pairs;  ///< contacts first, then by distance, not measured ones by gap; then by names
   std::size_t measured = 0;         ///< pairs whose distance was asked for or known
+  std::size_t failed = 0;           ///< pairs of those that the solver failed on: listed, to be taken as contact
   std::size_t left_out = 0;         ///< pairs that are candidates, but no time was left to measure them
 };
 
