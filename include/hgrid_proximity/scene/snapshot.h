@@ -73,7 +73,7 @@ struct QueryHit {
   double distance = 0.0;  ///< [m] from the query's surface to the body's box (exact: shape); 0 where they overlap
   double center_distance = 0.0;  ///< [m] the same from the query's centre or axis; between two bodies as distance
   /// [m] segment only; in an open mesh, which it may enter without a touch, no later than where it meets the surface
-  double along = Proximity::kUnknown;  ///< [m] segment only
+  double along = Proximity::kUnknown;
   /// [m, world] point of the box (exact: shape) nearest to centre or axis; of a shape that a segment meets the point
   /// that it meets first. NaN: unknown, as inside a shape
   Eigen::Vector3d point = Eigen::Vector3d::Constant(Proximity::kUnknown);
