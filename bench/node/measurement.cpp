@@ -39,8 +39,7 @@ const std::vector<std::pair<const char*, const char*>> kParts = {
 class Listener {
  public:
   explicit Listener(const std::string& space, bool distances) {
-    if (distances)
-      distances_ = node_.subscribe<msg::Distances>(space + "/distances", 10, [](const msg::Distances::ConstPtr&) {});
+    if (distances) distances_ = node_.subscribe<msg::Distances>(space + "/distances", 10, ignore);
     pairs_ =
         node_.subscribe<msg::Pairs>(space + "/pairs", 1000,
                                     boost::function<void(const ros::MessageEvent<msg::Pairs const>&)>(
@@ -70,6 +69,7 @@ class Listener {
   void report(Measurement& measurement) const;
 
  private:
+  static void ignore(const msg::Distances::ConstPtr&) {}
   void onPairs(const ros::MessageEvent<msg::Pairs const>& event) {
     const std::lock_guard<std::mutex> lock(mutex_);
     const msg::Pairs& pairs = *event.getConstMessage();

@@ -62,7 +62,7 @@ std::vector<Workload> realRobots(double rate) {
     tf2_msgs::TFMessage message;
   };
   auto robots = std::make_shared<std::vector<Moving>>();
-  for (const std::string& name : {"ur5", "panda", "pr2"}) {
+  for (const std::string name : {"ur5", "panda", "pr2"}) {
     const test::RealRobot robot = test::realRobot(name);
     MeshLoader loader(test::meshPolicy());
     Moving moving{test::readWith(loader, robot.urdf), name, {}};
