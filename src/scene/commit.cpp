@@ -124,9 +124,9 @@ void Scene::State::growBoxes(const Snapshot& snapshot) {
     const std::uint32_t body = structure->body_of_proxy[proxy];
     const BodyPose& pose = snapshot.poses_[body];
     if (pose.state == Freshness::unplaced) continue;
-    const double by = 0.5 * options.margin +
-                      (std::max(structure->margin[body], structure->pair_margins.largestOf(body)) - options.margin) +
-                      pose.growth + horizon.reachOf(structure->bodies[body]);
+    const double own = std::max(structure->margin[body], structure->pair_margins.largestOf(body));
+    const double can_go = horizon.reachOf(structure->bodies[body]);
+    const double by = 0.5 * options.margin + (own - options.margin) + pose.growth + can_go;
     const Aabb& box = horizon.on() ? horizon.swept(proxy) : snapshot.boxes_[proxy];
     Grown& known = grown_of[proxy];
     if (known.by != by || known.box != box) {
