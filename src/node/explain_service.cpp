@@ -59,6 +59,7 @@ void ExplainService::explainTo(msg::ExplainPair::Response& response, const Snaps
     response.explanation += " But it does not stand in ~pairs, which lists the first " +
                             std::to_string(params_.max_pairs) + " pairs by name (~max_pairs).";
   }
+  if (what.reported) response.flags = snapshot.pairs()[what.position].flags;
   response.rule = toMsg(what.rule, PairRule::Clock::now());
   response.gap = what.gap;
   response.margin = what.margin;
