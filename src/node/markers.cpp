@@ -12,7 +12,7 @@ namespace {
 
 using visualization_msgs::Marker;
 
-constexpr int kMostTexts = 20;  // those of the nearest pairs; more could not be read
+constexpr int kMostTexts = 20;  // those of the nearest pairs: more could not be read
 constexpr auto kQueryShownFor = std::chrono::seconds(3);
 
 std_msgs::ColorRGBA color(double r, double g, double b, double a) {
@@ -137,6 +137,7 @@ void addDistances(const Tick& tick, const PairDistances& distances, Marker& line
     text.text = distanceText(pair);
     text.color = tint;
     text.pose.position = toPoint(0.5 * (pair.proximity.on_first + pair.proximity.on_second));
+    text.pose.position.z += text.scale.z;  // beside the line, not on it
   }
 }
 
