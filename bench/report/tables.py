@@ -114,7 +114,7 @@ def queries(figures):
 
 
 def node(figures):
-    rows = [[record['part'], record.get('world', count(record['bodies'])), short(record['rate_hz']), short(record['median_ms']),
+    rows = [[record['part'], record['world'], short(record['rate_hz']), short(record['median_ms']),
              short(record['p99_ms'])] for record in figures.all('node') if 'median_ms' in record]
     return table(['part of the tick', 'world', 'Hz', 'median ms', 'p99 ms'], rows)
 

@@ -91,7 +91,7 @@ void Scene::State::fillBodies(Snapshot& snapshot) {
   snapshot.commit_ = ++commits;
   snapshot.poses_.resize(structure->ids.size());
   snapshot.worst_state_ = Freshness::fresh;
-  snapshot.max_age_ = 0.0;
+  snapshot.max_age_ = snapshot.max_growth_ = 0.0;
   for (std::size_t i = 0; i < structure->ids.size(); ++i) {
     Slot& slot = slots[structure->ids[i].slot];
     const bool placed = slot.pose.state != Freshness::unplaced;
@@ -108,6 +108,7 @@ void Scene::State::fillBodies(Snapshot& snapshot) {
       snapshot.poses_[i].growth = growthOf(slot.pose, bodies[structure->ids[i].slot], options.growth_cap);
     }
     snapshot.worst_state_ = std::max(snapshot.worst_state_, slot.pose.state);
+    snapshot.max_growth_ = std::max(snapshot.max_growth_, snapshot.poses_[i].growth);
     if (placed) snapshot.max_age_ = std::max(snapshot.max_age_, slot.pose.age);
   }
   snapshot.boxes_ = boxes;

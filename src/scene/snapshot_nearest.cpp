@@ -29,13 +29,11 @@ QueryAnswer Snapshot::nearestBy(const Eigen::Vector3d& center, double reach, dou
                                 const QueryScope& scope, const Ask& measure) const {
   const std::size_t wanted = std::max<std::uint32_t>(1, scope.limit);
   const double limit = max_distance > 0.0 ? max_distance : kInfinity;
-  double growth = 0.0;
-  for (const BodyPose& pose : poses_) growth = std::max(growth, pose.growth);
   std::map<std::uint32_t, QueryHit> best;  // by body
   std::string doubt;
   std::vector<NearHit> near;
   for (std::size_t look = 4 * wanted + kFirstLook, done = 0;; look *= 4) {
-    grid_.nearest(center - origin_, look, limit + reach + growth, near);
+    grid_.nearest(center - origin_, look, limit + reach + max_growth_, near);
     for (; done < near.size(); ++done) {
       const ProxyId proxy = near[done].id;
       const std::uint32_t body = structure_->body_of_proxy[proxy];

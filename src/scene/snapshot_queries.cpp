@@ -182,10 +182,8 @@ QueryAnswer Snapshot::query(const QueryBox& box, const NarrowPhase& narrow_phase
   const Probe probe{narrow_phase, narrow_phase.block(box.size), box.world_from_box};
   const Probe middle{narrow_phase, narrow_phase.point(), Pose(Eigen::Translation3d(center))};
   const double slack = touchSlack(center, box.size.norm()), infinity = std::numeric_limits<double>::infinity();
-  double growth_of_all = 0.0;
-  for (const BodyPose& pose : poses_) growth_of_all = std::max(growth_of_all, pose.growth);
   const Eigen::Vector3d half = box.world_from_box.linear().cwiseAbs() * (0.5 * box.size);
-  const Eigen::Vector3d reach = half.array() + (growth_of_all + 2.0 * slack);
+  const Eigen::Vector3d reach = half.array() + (max_growth_ + 2.0 * slack);
   Aabb around;
   for (int axis = 0; axis < 3; ++axis) {
     around.min[axis] = roundedDown(center[axis] - origin_[axis] - reach[axis]);

@@ -173,7 +173,7 @@ class Snapshot {
   std::vector<std::string> reasons_;
   std::uint32_t reasons_total_ = 0;
   Freshness worst_state_ = Freshness::fresh;
-  double max_age_ = 0.0;
+  double max_age_ = 0.0, max_growth_ = 0.0;
   HGrid grid_;
   std::uint64_t grid_revision_ = 0;  // of the structure that grid_ was set up for
 };
