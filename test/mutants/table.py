@@ -35,6 +35,12 @@ MUTANTS = [
      "b.reach[2], grid, 2, z_low", "0.0f, grid, 2, z_low"),
     ("a query looks around without the reach", KERNELS,
      "cellOf(box->min[axis] - l.reach[axis], grid, axis)", "cellOf(box->min[axis], grid, axis)"),
+    ("along a line cells are looked at without the reach of their boxes", KERNELS,
+     "track.below + static_cast<double>(level.reach[axis]) * inverse", "track.below"),
+    ("the cells along a line forget its radius", KERNELS,
+     "line.around * inverse + rounded", "rounded"),
+    ("along a line the outermost cells end like all others", KERNELS,
+     "cell == 0 ? -unbounded_ : enter", "enter"),
     ("the quick test along a line forgets its radius", KERNELS,
      "(2.0 * line.around + 2e-5 * farthest)", "(2e-5 * farthest)"),
 

@@ -293,30 +293,10 @@ inline std::uint32_t offLine(const LineFilter& filter, const Level& level, std::
          offAxis(filter, 1, 2, 0, z, x, h, w);
 }
 
-/// Part of a line: from + t * way for t within low .. high.
-struct Stretch {
-  double low, high;
-};
-
-/// The part of the stretch on which the line is within `min` .. `max` on an axis, a little more; empty if low > high.
-/// @param inverse  one over line.way[axis]; 0 if that is too small
-inline Stretch within(const Line& line, int axis, double inverse, Stretch stretch, double min, double max) {
-  const double from = line.from[axis];
-  if (inverse == 0.0) return from < min || from > max ? Stretch{1.0, 0.0} : stretch;
-  const double a = (min - from) * inverse, b = (max - from) * inverse;
-  const double enter = (a < b ? a : b) - 1e-9, leave = (a < b ? b : a) + 1e-9;  // far more than was rounded
-  return {enter > stretch.low ? enter : stretch.low, leave < stretch.high ? leave : stretch.high};
-}
-
-/// Where the line is on an axis during a stretch, `around` it.
+/// Where a line is on an axis.
 struct Extent {
   double min, max;
 };
-
-inline Extent extentOf(const Line& line, int axis, Stretch stretch) {
-  const double a = line.from[axis] + stretch.low * line.way[axis], b = line.from[axis] + stretch.high * line.way[axis];
-  return {(a < b ? a : b) - line.around, (a < b ? b : a) + line.around};
-}
 
 inline float floatBelow(double value) {
   const auto nearest = static_cast<float>(value);
@@ -324,26 +304,73 @@ inline float floatBelow(double value) {
 }
 inline float floatAbove(double value) { return -floatBelow(-value); }
 
-/// Cells of a level along an axis.
-class Cells {
- public:
-  /// @param around  of a line
-  Cells(const Level& level, int axis, double around)
-      : last_(static_cast<std::int32_t>(level.grid.last[axis])),
-        edge_(1.0 / static_cast<double>(level.grid.inverse[axis])) {
-    const double origin = static_cast<double>(level.grid.origin[axis]);
-    const double rounded = 1e-6 * (magnitude(origin) + last_ + 1.0);  // cell numbers were rounded in float
-    min_ = (origin - rounded) * edge_ - around;
-    max_ = (origin + 1.0 + rounded) * edge_ + static_cast<double>(level.reach[axis]) + around;
+/// The box around a line.
+inline Box boxAround(const Line& line) {
+  Box box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double from = line.from[axis], to = from + line.way[axis];
+    box.min[axis] = floatBelow((from < to ? from : to) - line.around);
+    box.max[axis] = floatAbove((from < to ? to : from) + line.around);
   }
-  /// What the boxes of a cell cover, `around` it and a little more. The outermost hold all that is beyond them.
-  Extent covered(std::int32_t cell) const {
-    return {cell == 0 ? -1e300 : min_ + cell * edge_, cell == last_ ? 1e300 : max_ + cell * edge_};
+  return box;
+}
+
+/// A line on one axis of a level, all in cells. A box of cell c can be met only while the line is within
+/// c - below .. c + 1 + above; the outermost cells hold all that is beyond them, too.
+struct Track {
+  double from, way, below, above;
+  std::int32_t last;
+
+  Extent whole() const { return way > 0.0 ? Extent{from, from + way} : Extent{from + way, from}; }
+  std::int32_t lowest(Extent extent) const { return clamped(extent.min - above); }
+  std::int32_t highest(Extent extent) const { return clamped(extent.max + below); }
+
+ private:
+  std::int32_t clamped(double cell) const {
+    cell = cell > 0.0 ? cell : 0.0;
+    const double most = last;
+    return static_cast<std::int32_t>(cell < most ? cell : most);
+  }
+};
+
+inline Track trackOf(const Line& line, const Level& level, int axis) {
+  const double inverse = static_cast<double>(level.grid.inverse[axis]);
+  const double origin = static_cast<double>(level.grid.origin[axis]), last = static_cast<double>(level.grid.last[axis]);
+  Track track;
+  track.from = line.from[axis] * inverse - origin;
+  track.way = line.way[axis] * inverse;
+  // The boxes' cells were rounded in float, what is computed here in double.
+  const double rounded =
+      1e-6 * (magnitude(origin) + last + 1.0) + 1e-9 * (magnitude(track.way) + magnitude(track.from));
+  track.below = line.around * inverse + rounded;
+  track.above = track.below + static_cast<double>(level.reach[axis]) * inverse;
+  track.last = static_cast<std::int32_t>(level.grid.last[axis]);
+  return track;
+}
+
+/// Where a line is on one axis while it passes a cell of another.
+class Crossing {
+ public:
+  Crossing(const Track& on, const Track& passing)
+      : from_(on.from),
+        passing_(passing),
+        // What hardly moves on the other axis passes a cell all its way.
+        slope_(magnitude(passing.way) > 1e-3 ? on.way / passing.way : 0.0),
+        unbounded_(slope_ > 0.0 ? 1e300 : -1e300) {}
+
+  Extent within(std::int32_t cell, Extent extent) const {
+    if (slope_ == 0.0) return extent;
+    const double enter = from_ + slope_ * (cell - passing_.below - passing_.from);
+    const double leave = from_ + slope_ * (cell + 1.0 + passing_.above - passing_.from);
+    const double a = cell == 0 ? -unbounded_ : enter, b = cell == passing_.last ? unbounded_ : leave;
+    const double min = a < b ? a : b, max = a < b ? b : a;
+    return {min > extent.min ? min : extent.min, max < extent.max ? max : extent.max};
   }
 
  private:
-  std::int32_t last_;
-  double edge_, min_, max_;
+  double from_;
+  const Track& passing_;
+  double slope_, unbounded_;
 };
 
 /// Positions of a row of cells that a line passes.
@@ -361,10 +388,10 @@ inline void searchPassages(const Level& level, const Simd::Box& box, const LineF
   }
 }
 
-/// Row by row: of each slab of cells the line crosses, the rows that it crosses there, and of each row the cells. Each
-/// part is computed from the line itself, not from the part before, so that roundings do not add up (unlike the walk
-/// from cell to cell of Ericson 2005, 7.4.2). Rows are searched a few at a time, so that the processor reads one while
-/// it still computes another.
+/// Row by row: of each slab of cells that the line crosses, the rows that it crosses there, and of each row the cells.
+/// Each part is computed from the line itself, not from the part before, so that roundings do not add up (unlike the
+/// walk from cell to cell of Ericson 2005, 7.4.2). Rows are searched a few at a time, so that the processor reads one
+/// while it still computes another.
 void along(const Level* level, const Line* line, PositionSink* sink) {
   constexpr int kPassages = 32;
   const Level l = *level;
@@ -372,35 +399,22 @@ void along(const Level* level, const Line* line, PositionSink* sink) {
   if (l.begin == l.end) return;
   Output<std::uint32_t> found(sink);
   const LineFilter filter = filterOf(*line);
-  const Cells slabs(l, 2, line->around), rows(l, 1, line->around);
-  const double z_inverse = magnitude(line->way[2]) > 1e-290 ? 1.0 / line->way[2] : 0.0;
-  const double y_inverse = magnitude(line->way[1]) > 1e-290 ? 1.0 / line->way[1] : 0.0;
-  const Stretch whole{0.0, 1.0};
+  const Simd::Box box = Simd::boxOf(boxAround(*line));
+  const Track x = trackOf(*line, l, 0), y = trackOf(*line, l, 1), z = trackOf(*line, l, 2);
+  const Crossing x_in_slab(x, z), y_in_slab(y, z), x_in_row(x, y);
   Passage passages[kPassages];
   int count = 0;
-  Box around;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Extent extent = extentOf(*line, axis, whole);
-    around.min[axis] = floatBelow(extent.min);
-    around.max[axis] = floatAbove(extent.max);
-  }
-  const Simd::Box box = Simd::boxOf(around);
-  const std::int32_t z_high = cellOf(around.max[2], grid, 2);
-  for (std::int32_t z = cellOf(around.min[2] - l.reach[2], grid, 2); z <= z_high; ++z) {
-    const Extent slab = slabs.covered(z);
-    const Stretch in_slab = within(*line, 2, z_inverse, whole, slab.min, slab.max);
-    if (in_slab.low > in_slab.high) continue;
-    const Extent y_extent = extentOf(*line, 1, in_slab);
-    const std::int32_t y_high = cellOf(floatAbove(y_extent.max), grid, 1);
-    for (std::int32_t y = cellOf(floatBelow(y_extent.min) - l.reach[1], grid, 1); y <= y_high; ++y) {
-      const Extent covered = rows.covered(y);
-      const Stretch in_row = within(*line, 1, y_inverse, in_slab, covered.min, covered.max);
-      const Extent in_x = extentOf(*line, 0, in_row);
-      const std::int32_t row = z * grid.slab + y * grid.row;
+  const std::int32_t z_highest = z.highest(z.whole());
+  for (std::int32_t slab = z.lowest(z.whole()); slab <= z_highest; ++slab) {
+    const Extent x_here = x_in_slab.within(slab, x.whole()), y_here = y_in_slab.within(slab, y.whole());
+    const std::int32_t y_highest = y.highest(y_here);
+    for (std::int32_t row = y.lowest(y_here); row <= y_highest; ++row) {
+      const Extent passed = x_in_row.within(row, x_here);
+      const std::uint32_t* const start = l.start + slab * grid.slab + row * grid.row;
       Passage& passage = passages[count];
-      passage.begin = l.start[row + cellOf(floatBelow(in_x.min) - l.reach[0], grid, 0)];
-      passage.end = l.start[row + cellOf(floatAbove(in_x.max), grid, 0) + 1];
-      count += (in_row.low <= in_row.high) & (passage.begin < passage.end);
+      passage.begin = start[x.lowest(passed)];
+      passage.end = start[x.highest(passed) + 1];
+      count += passage.begin < passage.end;
       if (count == kPassages) {
         searchPassages(l, box, filter, passages, count, found);
         count = 0;
