@@ -29,6 +29,7 @@ using Vector = Eigen::Vector3d;
 
 constexpr double kTolerance = 1e-10;    // [m] of FCL's iterations
 constexpr double kDisagreement = 1e-6;  // [m] between nearest points and distance, beside their rounding
+constexpr double kTouching = 1e-9;      // [m] as far apart is in contact, for one way or another of rounding
 constexpr double kMaybeInside = 0.25;   // winding number from which an open mesh may enclose a point
 
 /// A shape ready to be measured: a convex core or a mesh, and a radius around it.
@@ -213,17 +214,50 @@ void describeContact(const Side& a, const Side& b, const Pose& a_from_b, Proximi
   result.on_second = contact.pos - (0.5 * depth + b.around) * normal;
 }
 
-/// Whether a part of `inner` lies within the mesh `outer`, the surfaces being apart.
-Measure enclosed(const FclSolid& outer, const FclSolid& inner, const Pose& outer_from_inner) {
-  if (!outer.mesh()) return Measure::apart;  // what is not a mesh is solid: its core was met
+/// Whether one solid lies within the other, and a point of it.
+struct Enclosed {
+  Measure status = Measure::apart;
+  Vector point = Vector::Zero();
+};
+
+/// Whether a part of `inner` lies within the mesh `outer`, the surfaces being apart; in the frame of `outer`.
+Enclosed enclosedBy(const FclSolid& outer, const FclSolid& inner, const Pose& outer_from_inner) {
+  Enclosed result;
+  if (!outer.mesh()) return result;  // what is not a mesh is solid: its core was met
   const Enclosure& enclosure = outer.mesh()->enclosure();
   const double least = enclosure.closed() ? 0.5 : kMaybeInside;
   const bool inside = inner.anyPart([&](const Vector* begin, const Vector* end) {
     const auto in_box = [&](const Vector& point) { return enclosure.boxHolds(outer_from_inner * point); };
-    return std::all_of(begin, end, in_box) && std::abs(enclosure.windingNumber(outer_from_inner * *begin)) >= least;
+    result.point = outer_from_inner * *begin;
+    return std::all_of(begin, end, in_box) && std::abs(enclosure.windingNumber(result.point)) >= least;
   });
-  if (!inside) return Measure::apart;
-  return enclosure.closed() ? Measure::contained : Measure::containment_unknown;
+  if (inside) result.status = enclosure.closed() ? Measure::contained : Measure::containment_unknown;
+  return result;
+}
+
+/// The same either way round, in the frame of the first.
+Enclosed enclosed(const FclSolid& a, const FclSolid& b, const Pose& a_from_b) {
+  const Enclosed second = enclosedBy(a, b, a_from_b);
+  if (second.status != Measure::apart) return second;
+  Enclosed first = enclosedBy(b, a, a_from_b.inverse());
+  first.point = a_from_b * first.point;
+  return first;
+}
+
+/// Where two parts are in contact whose cores are not farther apart than what is around them.
+Contact contactOf(const Side& a, const Side& b, const CoreGap& gap) {
+  const double around = a.around + b.around;
+  const Vector between = gap.on_second - gap.on_first;
+  const double length = between.norm();
+  Contact contact;
+  if (length <= around + kDisagreement) {  // otherwise that they meet was not disproved, but no more
+    contact.point = gap.on_first + (around > 0.0 ? a.around / around : 0.5) * between;
+  }
+  if (gap.lower > 0.0) {
+    contact.normal = between / length;
+    contact.depth = std::max(0.0, around - length);
+  }
+  return contact;
 }
 
 Proximity answer(Measure status, double distance) {
@@ -243,7 +277,7 @@ Proximity measured(const Side& a, const Side& b, double up_to) {
   if (a_from_b.translation().norm() - (a.solid.reach() + b.solid.reach()) - around > up_to) {
     return answer(Measure::apart, kInfinity);
   }
-  const CoreGap gap = gapOfCores(a.solid, b.solid, a_from_b, std::max(0.0, up_to) + around + 1e-9);
+  const CoreGap gap = gapOfCores(a.solid, b.solid, a_from_b, std::max(0.0, up_to) + around + kTouching);
   if (std::isnan(gap.lower) || std::isnan(gap.upper)) return answer(Measure::failed, 0.0);
   if (gap.lower <= 0.0) {
     Proximity result = answer(Measure::contact, 0.0);
@@ -251,8 +285,7 @@ Proximity measured(const Side& a, const Side& b, double up_to) {
     return result;
   }
   if (has_mesh) {
-    Measure inside = enclosed(a.solid, b.solid, a_from_b);
-    if (inside == Measure::apart) inside = enclosed(b.solid, a.solid, a_from_b.inverse());
+    const Measure inside = enclosed(a.solid, b.solid, a_from_b).status;
     if (inside != Measure::apart) return answer(inside, 0.0);
   }
   Proximity result = answer(Measure::apart, std::max(0.0, gap.upper - around));
@@ -272,6 +305,40 @@ Proximity measured(const Side& a, const Side& b, double up_to) {
     result.on_second = gap.on_second - b.around * result.normal;
   }
   return result;
+}
+
+/// At most so many, of the pair in the order of goesAfter(), in the frame of the first.
+std::vector<Contact> contactsOf(const Side& a, const Side& b, std::size_t most) {
+  const Pose a_from_b = a.world_from_shape.inverse() * b.world_from_shape;
+  const double reach = a.around + b.around + kTouching;
+  std::vector<Contact> contacts;
+  const Measure status = most > 0 ? measured(a, b, 0.0).status : Measure::not_measured;
+  if (!isContact(status) || status == Measure::failed) return contacts;
+  const auto met = [&](const CoreGap& gap) {
+    contacts.push_back(contactOf(a, b, gap));
+    return contacts.size() < most;
+  };
+  if (b.solid.mesh()) {
+    a.solid.mesh()->meetings(*b.solid.mesh(), a_from_b, reach, met);
+  } else if (a.solid.mesh()) {
+    a.solid.mesh()->meetings(b.solid.core(), b.solid.volume(), a_from_b, reach, met);
+  } else {
+    const CoreGap gap = gapOf(a.solid.core(), b.solid.core(), a_from_b, reach);
+    met(gap);
+    if (gap.lower <= 0.0) {
+      Proximity described;
+      describeContact(a, b, a_from_b, described);
+      contacts.front().normal = described.normal;
+      contacts.front().depth = described.depth;
+    }
+  }
+  if (!contacts.empty()) return contacts;
+  const Enclosed inside = enclosed(a.solid, b.solid, a_from_b);
+  if (inside.status != Measure::apart) {
+    contacts.emplace_back();
+    contacts.back().point = inside.point;
+  }
+  return contacts;
 }
 
 class FclNarrowPhase final : public NarrowPhase {
@@ -304,6 +371,25 @@ class FclNarrowPhase final : public NarrowPhase {
       result.distance = 0.0;
     }
     return result;
+  }
+
+  std::vector<Contact> contacts(const PlacedSolid& first, const PlacedSolid& second, std::size_t most) const override {
+    Side a(first), b(second);
+    const bool exchanged = goesAfter(a, b);
+    const Pose& world_from_frame = exchanged ? b.world_from_shape : a.world_from_shape;
+    std::vector<Contact> found;
+    try {
+      found = exchanged ? contactsOf(b, a, most) : contactsOf(a, b, most);
+    } catch (const std::exception&) {
+      return {};
+    }
+    for (Contact& contact : found) {
+      contact.point = world_from_frame * contact.point;
+      contact.normal = world_from_frame.linear() * contact.normal;
+      if (exchanged) contact.normal = -contact.normal;
+    }
+    std::stable_sort(found.begin(), found.end(), [](const Contact& m, const Contact& n) { return deeper(m, n); });
+    return found;
   }
 
  private:

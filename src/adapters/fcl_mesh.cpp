@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "adapters/fcl_mesh.h"
 
-#include <array>
-
 #include "hgrid_proximity/refusal.h"
 
 namespace hgrid {
@@ -28,15 +26,18 @@ CoreGap FclMesh::gapTo(const ConvexCore& core, const fcl::OBBRSSd& core_volume, 
   return best;
 }
 
+std::array<Eigen::Vector3d, 3> FclMesh::triangle(const fcl::BVNode<fcl::OBBRSSd>& leaf) const {
+  const fcl::Triangle& corners = model_.tri_indices[leaf.primitiveId()];
+  return {model_.vertices[corners[0]], model_.vertices[corners[1]], model_.vertices[corners[2]]};
+}
+
 /// The nearer child first: what it gives may spare the other. @param bound  [m] no triangle below is nearer
 void FclMesh::visit(int node, double bound, const ConvexCore& core, const fcl::OBBRSSd& core_volume,
                     const Pose& mesh_from_core, CoreGap& best) const {
   if (bound >= best.upper || best.lower <= 0.0) return;
   const auto& here = model_.getBV(node);
   if (here.isLeaf()) {
-    const fcl::Triangle& triangle = model_.tri_indices[here.primitiveId()];
-    const std::array<Eigen::Vector3d, 3> corners{model_.vertices[triangle[0]], model_.vertices[triangle[1]],
-                                                 model_.vertices[triangle[2]]};
+    const auto corners = triangle(here);
     const CoreGap gap = gapOf(ConvexCore::hull(corners.data(), corners.size()), core, mesh_from_core, best.upper);
     if (gap.lower <= 0.0 || gap.upper < best.upper) best = gap;
     return;
@@ -49,6 +50,45 @@ void FclMesh::visit(int node, double bound, const ConvexCore& core, const fcl::O
   const bool left_first = left_bound <= right_bound;
   visit(left_first ? left : right, left_first ? left_bound : right_bound, core, core_volume, mesh_from_core, best);
   visit(left_first ? right : left, left_first ? right_bound : left_bound, core, core_volume, mesh_from_core, best);
+}
+
+bool FclMesh::meetings(const ConvexCore& core, const fcl::OBBRSSd& core_volume, const Pose& mesh_from_core,
+                       double reach, const Met& met) const {
+  std::vector<int> nodes{0};
+  while (!nodes.empty()) {
+    const auto& here = model_.getBV(nodes.back());
+    nodes.pop_back();
+    if (fcl::distance(mesh_from_core.linear(), mesh_from_core.translation(), here.bv, core_volume) > reach) continue;
+    if (here.isLeaf()) {
+      const auto corners = triangle(here);
+      const CoreGap gap = gapOf(ConvexCore::hull(corners.data(), corners.size()), core, mesh_from_core, reach);
+      if (!(gap.lower > reach) && !met(gap)) return false;
+    } else {
+      nodes.insert(nodes.end(), {here.rightChild(), here.leftChild()});
+    }
+  }
+  return true;
+}
+
+bool FclMesh::meetings(const FclMesh& other, const Pose& mesh_from_other, double reach, const Met& met) const {
+  std::vector<std::pair<int, int>> nodes{{0, 0}};
+  while (!nodes.empty()) {
+    const auto [mine, theirs] = nodes.back();
+    nodes.pop_back();
+    const auto &a = model_.getBV(mine), &b = other.model_.getBV(theirs);
+    if (fcl::distance(mesh_from_other.linear(), mesh_from_other.translation(), a.bv, b.bv) > reach) continue;
+    if (a.isLeaf() && b.isLeaf()) {
+      const auto my_corners = triangle(a), their_corners = other.triangle(b);
+      const CoreGap gap = gapOf(ConvexCore::hull(my_corners.data(), my_corners.size()),
+                                ConvexCore::hull(their_corners.data(), their_corners.size()), mesh_from_other, reach);
+      if (!(gap.lower > reach) && !met(gap)) return false;
+    } else if (b.isLeaf() || (!a.isLeaf() && a.bv.size() > b.bv.size())) {
+      nodes.insert(nodes.end(), {{a.rightChild(), theirs}, {a.leftChild(), theirs}});
+    } else {
+      nodes.insert(nodes.end(), {{mine, b.rightChild()}, {mine, b.leftChild()}});
+    }
+  }
+  return true;
 }
 
 }  // namespace hgrid

@@ -5,6 +5,8 @@
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/math/bv/OBBRSS.h>
 
+#include <array>
+#include <functional>
 #include <memory>
 
 #include "narrowphase/enclosure.h"
@@ -26,7 +28,16 @@ class FclMesh {
   CoreGap gapTo(const ConvexCore& core, const fcl::OBBRSSd& core_volume, const Pose& mesh_from_core,
                 double up_to) const;
 
+  /// How a part of the one lies to a part of the other, told in the frame of the one. @returns whether to go on
+  using Met = std::function<bool(const CoreGap&)>;
+  /// Tells of each triangle that is within `reach` [m] of the core. @returns whether `met` wanted to go on
+  bool meetings(const ConvexCore& core, const fcl::OBBRSSd& core_volume, const Pose& mesh_from_core, double reach,
+                const Met& met) const;
+  /// Tells of each two triangles of this mesh and of the other that are within `reach` [m] of each other.
+  bool meetings(const FclMesh& other, const Pose& mesh_from_other, double reach, const Met& met) const;
+
  private:
+  std::array<Eigen::Vector3d, 3> triangle(const fcl::BVNode<fcl::OBBRSSd>& leaf) const;
   void visit(int node, double bound, const ConvexCore& core, const fcl::OBBRSSd& core_volume,
              const Pose& mesh_from_core, CoreGap& best) const;
 

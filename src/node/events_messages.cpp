@@ -3,10 +3,15 @@
 #include "events_messages.h"
 
 #include <algorithm>
-#include <cmath>
+#include <chrono>
+#include <limits>
+
+#include "hgrid_proximity/scene/pair_meter.h"
 
 namespace hgrid {
 namespace {
+
+constexpr double kShareOfBudget = 0.2;  // of ~distances/budget: ~pairs waits for it
 
 /// Names of the bodies of some events, sorted, each once.
 std::vector<std::string> namesOf(const Snapshot& snapshot, const PairEvent* first, const PairEvent* last) {
@@ -21,7 +26,32 @@ std::vector<std::string> namesOf(const Snapshot& snapshot, const PairEvent* firs
   return names;
 }
 
-void add(const PairEvent& event, const Structure& structure, msg::Events& message) {
+/// Exact distances of events, as long as there is time.
+class EventMeter {
+ public:
+  /// @param budget  [s] 0: as long as it takes
+  EventMeter(const NarrowPhase& narrow_phase, const Snapshot& snapshot, double budget)
+      : narrow_phase_(narrow_phase),
+        snapshot_(snapshot),
+        until_(budget > 0.0
+                   ? Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(budget))
+                   : Clock::time_point::max()) {}
+
+  /// [m] NaN if a body is gone, or no time is left.
+  double distanceOf(const PairEvent& event) const {
+    if (&snapshot_.structureOf(event) != &snapshot_.structure() || Clock::now() >= until_) return Proximity::kUnknown;
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    return measurePair(narrow_phase_, snapshot_, event.first, event.second, kFar).proximity.distance;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  const NarrowPhase& narrow_phase_;
+  const Snapshot& snapshot_;
+  Clock::time_point until_;
+};
+
+void add(const PairEvent& event, const Structure& structure, double distance, msg::Events& message) {
   const auto indexOf = [&](std::uint32_t body) {
     const std::string& name = structure.bodies[body].name;
     const auto found = std::lower_bound(message.names.begin(), message.names.end(), name);
@@ -34,17 +64,18 @@ void add(const PairEvent& event, const Structure& structure, msg::Events& messag
   message.second.push_back(indexOf(event.second));
   message.since.push_back(toRos(event.since));
   message.gap.push_back(event.gap);
-  message.distance.push_back(std::nan(""));
+  message.distance.push_back(distance);
 }
 
 }  // namespace
 
 std::vector<boost::shared_ptr<msg::Events>> eventsMessages(const Tick& tick, const msg::WorldState& world,
-                                                           const Params& params) {
+                                                           const Params& params, const NarrowPhase& narrow_phase) {
   std::vector<boost::shared_ptr<msg::Events>> messages;
   if (!tick.snapshot) return messages;
   const Snapshot& snapshot = *tick.snapshot;
   const std::vector<PairEvent>& events = snapshot.events();
+  const EventMeter meter(narrow_phase, snapshot, kShareOfBudget * params.distances_budget);
   const std::size_t most = static_cast<std::size_t>(params.max_events);
   for (std::size_t begin = 0; begin < events.size(); begin += most) {
     const PairEvent* const first = events.data() + begin;
@@ -54,7 +85,9 @@ std::vector<boost::shared_ptr<msg::Events>> eventsMessages(const Tick& tick, con
     message->world = world;
     message->world.last_event = (last - 1)->number;
     message->names = namesOf(snapshot, first, last);
-    for (const PairEvent* event = first; event != last; ++event) add(*event, snapshot.structureOf(*event), *message);
+    for (const PairEvent* event = first; event != last; ++event) {
+      add(*event, snapshot.structureOf(*event), meter.distanceOf(*event), *message);
+    }
     messages.push_back(message);
   }
   return messages;

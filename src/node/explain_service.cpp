@@ -2,11 +2,11 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "explain_service.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
-#include "hgrid_proximity/scene/explain.h"
 #include "rule_messages.h"
 #include "snapshot_stamp.h"
 
@@ -44,8 +44,25 @@ ExplainService::ExplainService(ros::NodeHandle& node, const Params& params, std:
   server_ = node.advertiseService("explain_pair", &ExplainService::onExplain, this);
 }
 
-void ExplainService::explainTo(msg::ExplainPair::Response& response, const Snapshot& snapshot, const std::string& first,
-                               const std::string& second, double age_since) const {
+void ExplainService::listContacts(msg::ExplainPair::Response& response, const Snapshot& snapshot,
+                                  const Explanation& what, std::uint32_t most) const {
+  most = std::min(most, static_cast<std::uint32_t>(params_.max_hits));
+  std::vector<PairContact> contacts =
+      contactsOf(*narrow_phase_, snapshot, what.first, what.second, std::size_t{most} + 1);
+  response.contacts_truncated = contacts.size() > most;
+  if (response.contacts_truncated) contacts.resize(most);
+  for (const PairContact& one : contacts) {
+    response.contact_point.push_back(toPoint(one.contact.point));
+    response.contact_normal.push_back(toVector(one.contact.normal));
+    response.contact_depth.push_back(one.contact.depth);
+    response.contact_first_shape.push_back(one.first_shape);
+    response.contact_second_shape.push_back(one.second_shape);
+  }
+}
+
+void ExplainService::explainTo(msg::ExplainPair::Response& response, const Snapshot& snapshot,
+                               const msg::ExplainPair::Request& request, double age_since) const {
+  const std::string &first = request.first, &second = request.second;
   const Structure& structure = snapshot.structure();
   const std::uint32_t a = structure.find(first), b = structure.find(second);
   std::optional<PairDistance> exact;
@@ -75,6 +92,7 @@ void ExplainService::explainTo(msg::ExplainPair::Response& response, const Snaps
   response.age_first = ageNow(bodies[what.first], what.age_first, age_since);
   response.age_second = ageNow(bodies[what.second], what.age_second, age_since);
   if (response.reported) response.since = toRos(what.since);
+  if (exact && request.contacts > 0) listContacts(response, snapshot, what, request.contacts);
 }
 
 bool ExplainService::onExplain(msg::ExplainPair::Request& request, msg::ExplainPair::Response& response) {
@@ -91,7 +109,7 @@ bool ExplainService::onExplain(msg::ExplainPair::Request& request, msg::ExplainP
     response.world = worldState(*tick, params_, config_hash_, age_since.count());
     if (!tick->snapshot) throw Refusal(Code::not_ready, "there is no world yet: " + tick->not_ready.front());
     checkStamp(request.header.stamp, *tick->snapshot);
-    explainTo(response, *tick->snapshot, request.first, request.second, age_since.count());
+    explainTo(response, *tick->snapshot, request, age_since.count());
     response.code = toMsg(Code::ok, "");
     response.success = true;
   } catch (const Refusal& refusal) {

@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 
+#include "hgrid_proximity/scene/explain.h"
 #include "ledger.h"
 #include "messages.h"
 #include "params.h"
@@ -26,8 +27,10 @@ class ExplainService {
 
  private:
   bool onExplain(msg::ExplainPair::Request& request, msg::ExplainPair::Response& response);
-  void explainTo(msg::ExplainPair::Response& response, const Snapshot& snapshot, const std::string& first,
-                 const std::string& second, double age_since) const;
+  void listContacts(msg::ExplainPair::Response& response, const Snapshot& snapshot, const Explanation& what,
+                    std::uint32_t most) const;
+  void explainTo(msg::ExplainPair::Response& response, const Snapshot& snapshot,
+                 const msg::ExplainPair::Request& request, double age_since) const;
 
   const Params& params_;
   std::uint64_t config_hash_;

@@ -89,8 +89,10 @@ void visit(Visitor& v, Params& p) {
   v.section("Exact distances");
   v.number("distances/max", p.distances_max, "m", 0.0, 1000.0,
            "pairs whose shapes are this near or nearer stand in ~distances; at most ~margin; 0: as ~margin");
-  v.number("distances/budget", p.distances_budget, "s", 0.0, 10.0,
-           "most time per tick; what does not fit, the farthest boxes, is not measured; 0: as long as it takes");
+  v.number(
+      "distances/budget", p.distances_budget, "s", 0.0, 10.0,
+      "most time per tick; what does not fit, the farthest boxes, is not measured; ~events take up to a fifth of it "
+      "more; 0: as long as it takes");
   v.integer("distances/threads", p.distances_threads, 1, 64, "that measure");
 
   v.section("Limits");

@@ -51,6 +51,10 @@ ros::NodeHandle onQueue(ros::NodeHandle node, ros::CallbackQueue& queue) {
 }  // namespace
 
 ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node)
+    : ProximityNode(node, private_node, makeFclNarrowPhase()) {}
+
+ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node,
+                             std::shared_ptr<NarrowPhase> narrow_phase)
     : update_node_(onQueue(node, update_queue_)),
       update_private_(onQueue(private_node, update_queue_)),
       query_private_(onQueue(private_node, query_queue_)),
@@ -58,7 +62,7 @@ ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node)
       admin_private_(onQueue(private_node, admin_queue_)),
       params_(readParams(valuesOf(private_node))),
       config_hash_(fnv1a(valuesOf(private_node).toXml())),
-      narrow_phase_(makeFclNarrowPhase()),
+      narrow_phase_(std::move(narrow_phase)),
       robot_source_(private_node, params_, narrow_phase_),
       world_(params_, ros::Time::isSimTime(), newEpoch(), ledger_, narrow_phase_),
       meter_(narrow_phase_, {params_.distances_max, params_.distances_budget, params_.distances_threads}) {
@@ -167,7 +171,7 @@ void ProximityNode::noteConflicts() {
 void ProximityNode::publish(const std::shared_ptr<const Tick>& tick) {
   const msg::WorldState world = worldState(*tick, params_, config_hash_, 0.0);
   if (events_.getNumSubscribers() > 0) {  // before what says how many there were
-    for (const auto& message : eventsMessages(*tick, world, params_)) events_.publish(message);
+    for (const auto& message : eventsMessages(*tick, world, params_, *narrow_phase_)) events_.publish(message);
   }
   if (pairs_.getNumSubscribers() > 0) pairs_.publish(pairs_messages_.of(*tick, world));
   if (status_.getNumSubscribers() > 0) {

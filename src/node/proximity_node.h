@@ -37,6 +37,8 @@ class ProximityNode {
  public:
   /// @throws std::invalid_argument listing every wrong parameter
   ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node);
+  /// With another narrow phase than FCL's.
+  ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node, std::shared_ptr<NarrowPhase> narrow_phase);
   ~ProximityNode();
 
  private:

@@ -32,34 +32,45 @@ struct NearestShapes {
   Proximity proximity;
 };
 
-NearestShapes nearestShapes(const NarrowPhase& narrow_phase, const Snapshot& snapshot, std::uint32_t first,
-                            std::uint32_t second, double up_to, std::vector<ShapePair>& shape_pairs) {
-  const Structure& structure = snapshot.structure();
-  const Body &body_a = structure.bodies[first], &body_b = structure.bodies[second];
-  const ProxyId proxy_a = structure.first_proxy[first], proxy_b = structure.first_proxy[second];
+/// Those whose boxes are no farther apart than `up_to` [m], nearest first.
+void collectShapePairs(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second, double up_to,
+                       std::vector<ShapePair>& shape_pairs) {
+  const std::vector<ProxyId>& begin = snapshot.structure().first_proxy;
   shape_pairs.clear();
-  for (std::uint32_t i = 0; i < body_a.shapes.size(); ++i) {
-    for (std::uint32_t j = 0; j < body_b.shapes.size(); ++j) {
-      const double gap = distance(snapshot.boxes()[proxy_a + i], snapshot.boxes()[proxy_b + j]);
-      if (gap <= up_to) shape_pairs.push_back({gap, i, j});
+  for (ProxyId a = begin[first]; a < begin[first + 1]; ++a) {
+    for (ProxyId b = begin[second]; b < begin[second + 1]; ++b) {
+      const double gap = distance(snapshot.boxes()[a], snapshot.boxes()[b]);
+      if (gap <= up_to) shape_pairs.push_back({gap, a - begin[first], b - begin[second]});
     }
   }
   std::sort(shape_pairs.begin(), shape_pairs.end(), [](const ShapePair& a, const ShapePair& b) {
     return std::tie(a.gap, a.first, a.second) < std::tie(b.gap, b.first, b.second);
   });
+}
+
+/// Calls `ask` with two shapes of two bodies as they are placed; not if one was not made ready.
+template <class Ask>
+void placed(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second, const ShapePair& shapes, Ask&& ask) {
+  const std::vector<Body>& bodies = snapshot.structure().bodies;
+  const BodyShape &a = bodies[first].shapes[shapes.first], &b = bodies[second].shapes[shapes.second];
+  if (!a.solid || !b.solid) return;
+  const Pose world_from_a = snapshot.poses()[first].world_from_body * a.body_from_shape;
+  const Pose world_from_b = snapshot.poses()[second].world_from_body * b.body_from_shape;
+  ask(PlacedSolid{*a.solid, world_from_a, a.padding}, PlacedSolid{*b.solid, world_from_b, b.padding});
+}
+
+NearestShapes nearestShapes(const NarrowPhase& narrow_phase, const Snapshot& snapshot, std::uint32_t first,
+                            std::uint32_t second, double up_to, std::vector<ShapePair>& shape_pairs) {
+  collectShapePairs(snapshot, first, second, up_to, shape_pairs);
   NearestShapes nearest;
   nearest.proximity.status = Measure::apart;
   nearest.proximity.distance = std::numeric_limits<double>::infinity();
   double least = up_to;
   for (const ShapePair& shapes : shape_pairs) {
     if (shapes.gap > least) break;
-    const BodyShape &a = body_a.shapes[shapes.first], &b = body_b.shapes[shapes.second];
-    const Pose world_from_a = snapshot.poses()[first].world_from_body * a.body_from_shape;
-    const Pose world_from_b = snapshot.poses()[second].world_from_body * b.body_from_shape;
     Proximity found;
-    if (a.solid && b.solid) {
-      found = narrow_phase.measure({*a.solid, world_from_a, a.padding}, {*b.solid, world_from_b, b.padding}, least);
-    }
+    placed(snapshot, first, second, shapes,
+           [&](const PlacedSolid& a, const PlacedSolid& b) { found = narrow_phase.measure(a, b, least); });
     if (found.status == Measure::not_measured || found.distance < nearest.proximity.distance) {
       nearest = {shapes.first, shapes.second, found};
     }
@@ -83,6 +94,24 @@ PairDistance measurePair(const NarrowPhase& narrow_phase, const Snapshot& snapsh
   result.second_shape = nearest.second;
   result.proximity = nearest.proximity;
   return result;
+}
+
+std::vector<PairContact> contactsOf(const NarrowPhase& narrow_phase, const Snapshot& snapshot, std::uint32_t first,
+                                    std::uint32_t second, std::size_t most) {
+  const DefaultFloatEnvironment environment;
+  std::vector<ShapePair> shape_pairs;
+  collectShapePairs(snapshot, first, second, 0.0, shape_pairs);
+  std::vector<PairContact> contacts;
+  for (const ShapePair& shapes : shape_pairs) {
+    placed(snapshot, first, second, shapes, [&](const PlacedSolid& a, const PlacedSolid& b) {
+      for (const Contact& contact : narrow_phase.contacts(a, b, most - contacts.size())) {
+        contacts.push_back({shapes.first, shapes.second, contact});
+      }
+    });
+  }
+  std::stable_sort(contacts.begin(), contacts.end(),
+                   [](const PairContact& a, const PairContact& b) { return deeper(a.contact, b.contact); });
+  return contacts;
 }
 
 struct PairMeter::State {

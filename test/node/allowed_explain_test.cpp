@@ -162,6 +162,21 @@ TEST_F(ExplainPair, WhatIsStaleSaysHowOldAndWhatThatDoes) {
   node_->waitForStatus("d is fresh", [](const msg::Status& status) { return entryOf(status, "robot/d") == nullptr; });
 }
 
+TEST_F(ExplainPair, ListsPlacesOfContactOnRequest) {
+  EXPECT_TRUE(node_->explain("robot/d", "obstacle/post").contact_point.empty()) << "none were asked for";
+  const auto response = node_->explain("robot/d", "obstacle/post", 3);
+  EXPECT_EQ(response.narrow_status, msg::Distances::CONTACT);
+  ASSERT_EQ(response.contact_point.size(), 1u) << "balls touch in one place";
+  EXPECT_NEAR(response.contact_point[0].y, 0.05, 1e-6);
+  EXPECT_NEAR(response.contact_normal.at(0).y, 1.0, 1e-6) << "from the first to the second";
+  EXPECT_NEAR(response.contact_depth.at(0), 0.1, 1e-6);
+  EXPECT_EQ(response.contact_first_shape.at(0), 0u);
+  EXPECT_EQ(response.contact_second_shape.at(0), 0u);
+  EXPECT_FALSE(response.contacts_truncated);
+  EXPECT_TRUE(node_->explain("robot/d", "robot/far", 3).contact_point.empty()) << "they are apart";
+  EXPECT_TRUE(node_->explain("robot/d", "robot/ghost", 3).contact_point.empty()) << "it has no pose";
+}
+
 TEST_F(ExplainPair, NamesThatNobodyHasAreRefused) {
   const auto response = node_->explain("robot/gost", "robot/a");
   EXPECT_FALSE(response.success);
@@ -191,7 +206,7 @@ TEST(ExplainPairLimits, OnlyNowCanBeAskedFor) {
   NodeUnderTest node(setup);
   node.waitForComplete();
   EXPECT_TRUE(node.explain("robot/base", "robot/base").success);
-  const auto past = node.explain("robot/base", "robot/base", ros::Time(1.0));
+  const auto past = node.explain("robot/base", "robot/base", 0, ros::Time(1.0));
   EXPECT_FALSE(past.success);
   EXPECT_EQ(past.code.name, "EXTRAPOLATION");
 }

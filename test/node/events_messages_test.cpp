@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hgrid_proximity/adapters/fcl.h"
 #include "test/node/support/readings.h"
 #include "test/support/events.h"
 #include "test/support/random.h"
@@ -12,6 +13,12 @@
 namespace hgrid {
 namespace test {
 namespace {
+
+Body solidBall(NarrowPhase& narrow_phase, const std::string& name) {
+  Body body = ball(name);
+  for (BodyShape& shape : body.shapes) shape.solid = narrow_phase.solidOf(shape.shape);
+  return body;
+}
 
 void expectWellFormed(const msg::Events& message, std::size_t most) {
   const std::size_t count = message.number.size();
@@ -25,7 +32,8 @@ void expectWellFormed(const msg::Events& message, std::size_t most) {
   for (std::size_t i = 0; i < count; ++i) {
     EXPECT_LT(message.first[i], message.second[i]);
     used.insert({message.first[i], message.second[i]});
-    EXPECT_TRUE(std::isnan(message.distance[i])) << "not measured";
+    EXPECT_EQ(std::isnan(message.distance[i]), std::isnan(message.gap[i])) << "measured unless a body is gone";
+    EXPECT_FALSE(message.distance[i] < message.gap[i] - 1e-6);
   }
   EXPECT_EQ(used.size(), message.names.size()) << "every name stands in an event";
   EXPECT_EQ(std::set<std::string>(message.names.begin(), message.names.end()).size(), message.names.size());
@@ -36,6 +44,7 @@ void expectWellFormed(const msg::Events& message, std::size_t most) {
 TEST(EventsMessages, SayAllThatTheSnapshotSaysInAsManyMessagesAsItTakes) {
   constexpr std::size_t kMost = 3;
   std::size_t split = 0, none = 0;
+  const std::shared_ptr<NarrowPhase> narrow_phase = makeFclNarrowPhase();
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
@@ -45,14 +54,14 @@ TEST(EventsMessages, SayAllThatTheSnapshotSaysInAsManyMessagesAsItTakes) {
     for (int tick = 1; tick <= 100; ++tick) {
       const std::string name = std::to_string(random.below(12));
       BodyId id;
-      if (!scene.find("obstacle/" + name, id)) id = scene.add(ball(name));
+      if (!scene.find("obstacle/" + name, id)) id = scene.add(solidBall(*narrow_phase, name));
       scene.place(id, at(random.uniform(-4.0, 4.0)), Time{tick});
       if (random.below(10) == 0) scene.remove(id);
 
       Tick made;
       made.world_frame = "world";
       made.snapshot = scene.commit(Time{tick}, {});
-      const auto messages = eventsMessages(made, msg::WorldState(), params);
+      const auto messages = eventsMessages(made, msg::WorldState(), params, *narrow_phase);
       std::vector<std::string> told, expected;
       std::vector<double> gaps;
       for (const auto& message : messages) {
@@ -77,7 +86,7 @@ TEST(EventsMessages, SayAllThatTheSnapshotSaysInAsManyMessagesAsItTakes) {
 }
 
 TEST(EventsMessages, AreNoneWhileThereIsNoWorld) {
-  EXPECT_TRUE(eventsMessages(Tick(), msg::WorldState(), Params()).empty());
+  EXPECT_TRUE(eventsMessages(Tick(), msg::WorldState(), Params(), *makeFclNarrowPhase()).empty());
 }
 
 }  // namespace

@@ -70,6 +70,7 @@ TEST_F(Events, ComeOnceEachWithHysteresisFromOneOn) {
   EXPECT_EQ(end->since.at(0), begin->header.stamp) << "when it began";
   EXPECT_GT(end->header.stamp, begin->header.stamp);
   EXPECT_GT(end->gap.at(0), 0.12);
+  EXPECT_NEAR(end->distance.at(0), end->gap.at(0), 1e-6) << "balls beside each other on an axis";
   EXPECT_EQ(end->world.last_event, 3u);
   EXPECT_EQ(end->world.epoch, begin->world.epoch);
 }

@@ -47,6 +47,13 @@ class BallPhase final : public NarrowPhase {
     return result;
   }
 
+  std::vector<Contact> contacts(const PlacedSolid& first, const PlacedSolid& second, std::size_t most) const override {
+    if (most == 0 || measure(first, second, 0.0).status != Measure::contact) return {};
+    Contact contact;
+    contact.depth = static_cast<const Ball&>(first.solid).radius;  // tells which one it is
+    return {contact};
+  }
+
   mutable std::atomic<int> asked{0};
   std::chrono::microseconds takes{0};
   bool fails = false;
@@ -229,6 +236,32 @@ TEST_F(PairMeterTest, ThreadsDoNotShow) {
     EXPECT_EQ(a->pairs[i].second, b->pairs[i].second);
     EXPECT_EQ(a->pairs[i].proximity.distance, b->pairs[i].proximity.distance);
   }
+}
+
+TEST_F(PairMeterTest, ContactsTellTheirShapesDeepestFirst) {
+  Body pile = ballOf(*phase_, "pile", 0.3);
+  for (const double radius : {0.1, 0.5, 0.2}) {
+    Body one = ballOf(*phase_, "one", radius);
+    pile.shapes.push_back(one.shapes.front());
+  }
+  put(scene_, pile, at(0.0));
+  add("wall", 0.75, 0.4);  // meets the balls of 0.5 only
+  add("floor", 0.2, 0.4);  // meets all
+  snapshot_ = scene_.commit(std::chrono::milliseconds(1), {});
+  const Structure& structure = snapshot_->structure();
+  const std::uint32_t pile_number = structure.find("obstacle/pile");
+  const auto with = [&](const char* other, std::size_t most) {
+    return contactsOf(*phase_, *snapshot_, pile_number, structure.find(other), most);
+  };
+  std::vector<PairContact> found = with("obstacle/wall", 10);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].first_shape, 2u);
+  found = with("obstacle/floor", 10);
+  ASSERT_EQ(found.size(), 4u);
+  const std::vector<std::uint32_t> expected{2, 0, 3, 1};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(found[i].first_shape, expected[i]);
+  EXPECT_EQ(with("obstacle/floor", 3).size(), 3u);
+  EXPECT_TRUE(with("obstacle/floor", 0).empty());
 }
 
 }  // namespace

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include "hgrid_proximity/geometry/pose.h"
 #include "hgrid_proximity/geometry/shape.h"
@@ -40,6 +42,19 @@ struct Proximity {
   double depth = kUnknown;  ///< [m] in contact: the second moved this far along the normal is free of the first
 };
 
+/// A place where two solids are in contact, told of two of their parts: a mesh has its triangles, what is convex is one
+/// part. NaN where nothing is known.
+struct Contact {
+  Eigen::Vector3d point = Eigen::Vector3d::Constant(Proximity::kUnknown);   ///< [m, world] of both padded parts
+  Eigen::Vector3d normal = Eigen::Vector3d::Constant(Proximity::kUnknown);  ///< unit vector from the first part on
+  double depth = Proximity::kUnknown;  ///< [m] the second part moved this far along the normal is free of the first
+};
+
+/// An order of contacts: deepest first, those of unknown depth last.
+inline bool deeper(const Contact& a, const Contact& b) {
+  return a.depth > b.depth || (std::isnan(b.depth) && !std::isnan(a.depth));
+}
+
 /// A shape made ready to be measured: immutable, shared by all bodies that have it.
 class Solid {
  public:
@@ -73,6 +88,12 @@ class NarrowPhase {
   /// with the order of both exchanged, but for the exchange.
   /// @param up_to  [m] beyond this distance the answer is `apart` and infinitely far, which may take much less time
   virtual Proximity measure(const PlacedSolid& first, const PlacedSolid& second, double up_to) const = 0;
+
+  /// Places where two solids of this narrow phase are in contact, deepest first: one for each two parts that meet, and
+  /// one if a solid lies wholly inside the other. None where they are apart, and where the solver failed. Never throws.
+  /// @param most  the search ends with so many, whichever they are
+  virtual std::vector<Contact> contacts(const PlacedSolid& first, const PlacedSolid& second,
+                                        std::size_t most) const = 0;
 };
 
 }  // namespace hgrid

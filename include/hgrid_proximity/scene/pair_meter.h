@@ -36,6 +36,18 @@ struct PairDistances {
 PairDistance measurePair(const NarrowPhase& narrow_phase, const Snapshot& snapshot, std::uint32_t first,
                          std::uint32_t second, double up_to);
 
+/// A place where two bodies are in contact.
+struct PairContact {
+  std::uint32_t first_shape = 0, second_shape = 0;  ///< in the order of each body's shapes
+  Contact contact;
+};
+
+/// Places where two bodies of a snapshot are in contact, deepest first. Both must have poses. A pair that measurePair()
+/// calls FAILED may have none.
+/// @param most  the search ends with so many, whichever they are
+std::vector<PairContact> contactsOf(const NarrowPhase& narrow_phase, const Snapshot& snapshot, std::uint32_t first,
+                                    std::uint32_t second, std::size_t most);
+
 /// What a PairMeter can be told.
 struct MeterOptions {
   double report_distance = 0.1;  ///< [m] pairs that are farther apart are left out

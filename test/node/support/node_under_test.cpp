@@ -232,8 +232,9 @@ msg::GetAllowed::Response NodeUnderTest::getAllowed(const msg::GetAllowed::Reque
 }
 
 msg::ExplainPair::Response NodeUnderTest::explain(const std::string& first, const std::string& second,
-                                                  ros::Time stamp) {
+                                                  std::uint32_t contacts, ros::Time stamp) {
   msg::ExplainPair::Request request;
+  request.contacts = contacts;
   request.header.stamp = stamp;
   request.first = first;
   request.second = second;

@@ -89,7 +89,7 @@ class NodeUnderTest {
   std_srvs::Trigger::Response reset();
   msg::SetAllowed::Response setAllowed(const msg::SetAllowed::Request& request);
   msg::GetAllowed::Response getAllowed(const msg::GetAllowed::Request& request = {});
-  msg::ExplainPair::Response explain(const std::string& first, const std::string& second,
+  msg::ExplainPair::Response explain(const std::string& first, const std::string& second, std::uint32_t contacts = 0,
                                      ros::Time stamp = ros::Time());
 
   /// What it wrote so far, to standard output and standard error.

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// Places of contact: there are some exactly where there is contact, each lies in both, one for each two parts that
+// meet.
+#include <gtest/gtest.h>
+
+#include "test/adapters/narrow_phase_judge.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+constexpr std::size_t kAll = 1000000;
+
+std::vector<Contact> contactsOf(const Case& placed, std::size_t most = kAll, bool exchanged = false) {
+  const auto first = narrowPhase().solidOf(placed.first_shape), second = narrowPhase().solidOf(placed.second_shape);
+  const PlacedSolid a{*first, placed.world_from_first, placed.first_padding};
+  const PlacedSolid b{*second, placed.world_from_second, placed.second_padding};
+  return exchanged ? narrowPhase().contacts(b, a, most) : narrowPhase().contacts(a, b, most);
+}
+
+bool same(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a == b || (a.hasNaN() && b.hasNaN()); }
+
+/// Convex shapes that together are the shape: its triangles, or itself.
+std::vector<Shape> partsOf(const Shape& shape) {
+  if (shape.kind() != ShapeKind::mesh) return {shape};
+  std::vector<Shape> parts;
+  for (const auto& corners : shape.mesh()->triangles) {
+    const auto& vertices = shape.mesh()->vertices;
+    parts.push_back(Shape::hull(std::make_shared<TriangleMesh>(
+        TriangleMesh{{vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]}, {}})));
+  }
+  return parts;
+}
+
+/// How many parts of the two certainly meet, and how many may, since they are within a rounding of touching.
+std::pair<std::size_t, std::size_t> partsThatMeet(const Case& placed) {
+  std::pair<std::size_t, std::size_t> count{0, 0};
+  for (const Shape& a : partsOf(placed.first_shape)) {
+    for (const Shape& b : partsOf(placed.second_shape)) {
+      const auto meet = [&](double padding) {
+        return distanceOf(SolidOracle(a, placed.world_from_first, placed.first_padding + padding),
+                          SolidOracle(b, placed.world_from_second, placed.second_padding))
+                   .interval.upper <= 0.0;
+      };
+      count.first += meet(0.0);
+      count.second += meet(2e-9);
+    }
+  }
+  return count;
+}
+
+class Contacts : public testing::TestWithParam<KindPair> {};
+
+INSTANTIATE_TEST_SUITE_P(NarrowPhase, Contacts, testing::ValuesIn(allKindPairs()),
+                         [](const auto& info) { return nameOf(info.param); });
+
+TEST_P(Contacts, AreWhereThereIsContactAndLieInBoth) {
+  Cases cases(41, GetParam());
+  Claim there("there are contacts exactly where there is contact", 0.0);
+  Claim in_both("the point lies in both padded shapes", 1e-6);
+  Claim free("a convex second, moved by the depth along the normal, is free", 0.0);
+  Claim same_order("both orders give the same contacts", 0.0);
+  Claim sorted("the deepest come first", 0.0);
+  const bool convex = GetParam().first != ShapeKind::mesh && GetParam().second != ShapeKind::mesh;
+  for (int i = 0; i < 300; ++i) {
+    const Case placed = cases.next();
+    const Proximity answer = Trial(placed).measure();
+    const std::vector<Contact> contacts = contactsOf(placed), exchanged = contactsOf(placed, kAll, true);
+    there.hold(contacts.empty() == !isContact(answer.status), placed);
+    same_order.hold(contacts.size() == exchanged.size(), placed);
+    for (std::size_t k = 0; k < std::min(contacts.size(), exchanged.size()); ++k) {
+      const Contact &contact = contacts[k], &other = exchanged[k];
+      same_order.hold(same(contact.point, other.point) && same(contact.normal, -other.normal), placed);
+      in_both.hold(
+          std::max(distanceOf(placed.first(), contact.point).lower, distanceOf(placed.second(), contact.point).lower),
+          placed);
+      sorted.hold(k == 0 || !deeper(contact, contacts[k - 1]), placed);
+      if (!convex || std::isnan(contact.depth)) continue;
+      Case freed = placed;
+      freed.world_from_second.translation() += (contact.depth + 1e-5) * contact.normal;
+      free.hold(distanceOf(freed.first(), freed.second()).interval.lower > 0.0, placed);
+    }
+  }
+  for (const Claim* claim : {&there, &in_both, &free, &same_order, &sorted}) claim->expectHeld();
+  EXPECT_GT(in_both.count(), 20u) << "too few contacts to say";
+}
+
+TEST_P(Contacts, AreOneForEachTwoPartsThatMeet) {
+  if (GetParam().first != ShapeKind::mesh && GetParam().second != ShapeKind::mesh) return;
+  Cases cases(42, GetParam());
+  for (int i = 0; i < 10; ++i) {
+    const Case placed = cases.next();
+    const auto [surely, maybe] = partsThatMeet(placed);
+    if (surely == 0) continue;  // apart, or one within the other
+    const std::size_t found = contactsOf(placed).size();
+    EXPECT_GE(found, surely) << placed.text();
+    EXPECT_LE(found, maybe) << placed.text();
+    EXPECT_EQ(contactsOf(placed, 1).size(), 1u);
+    EXPECT_EQ(contactsOf(placed, found).size(), found);
+    EXPECT_TRUE(contactsOf(placed, 0).empty());
+  }
+}
+
+TEST(NarrowPhaseContacts, OfABallInAFloorOfTwoTriangles) {
+  const Shape floor = meshOf({{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}});
+  Case placed{floor, Shape::sphere(0.1), Pose::Identity(), Pose::Identity(), 0.0, 0.01};
+  placed.world_from_second.translation() << 0.5, -0.5, 0.08;  // over one triangle
+  std::vector<Contact> contacts = contactsOf(placed);
+  ASSERT_EQ(contacts.size(), 1u);
+  EXPECT_NEAR(contacts[0].depth, 0.03, 1e-9);
+  EXPECT_TRUE(contacts[0].normal.isApprox(Eigen::Vector3d::UnitZ(), 1e-9));
+  EXPECT_TRUE(contacts[0].point.isApprox(Eigen::Vector3d(0.5, -0.5, 0.0), 1e-9)) << contacts[0].point.transpose();
+  placed.world_from_second.translation() << 0.5, 0.5 - 1e-3, 0.08;  // over their common side, nearly
+  contacts = contactsOf(placed);
+  ASSERT_EQ(contacts.size(), 2u);
+  EXPECT_GT(contacts[0].depth, contacts[1].depth);
+}
+
+TEST(NarrowPhaseContacts, OfWhatLiesWithinAMeshIsAPointOfIt) {
+  Case placed{meshOf(boxMesh({1, 1, 1})), Shape::box({0.1, 0.1, 0.1}), Pose::Identity(), Pose::Identity(), 0.0, 0.0};
+  placed.world_from_first.translation() << 5, 0, 0;
+  placed.world_from_second.translation() << 5.2, 0, 0;
+  for (const bool exchanged : {false, true}) {
+    const std::vector<Contact> contacts = contactsOf(placed, kAll, exchanged);
+    ASSERT_EQ(contacts.size(), 1u);
+    EXPECT_LE(distanceOf(placed.second(), contacts[0].point).lower, 1e-9);
+    EXPECT_TRUE(contacts[0].normal.hasNaN());
+    EXPECT_TRUE(std::isnan(contacts[0].depth));
+  }
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid

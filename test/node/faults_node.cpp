@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// The node with a narrow phase that throws what it never should, while the parameter ~/fault names the function.
+#include <ros/ros.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <thread>
+
+#include "hgrid_proximity/adapters/fcl.h"
+#include "src/node/proximity_node.h"
+
+namespace hgrid {
+namespace {
+
+class FaultyPhase final : public NarrowPhase {
+ public:
+  std::shared_ptr<const Solid> solidOf(const Shape& shape) override {
+    throwIf("solidOf");
+    return sound_->solidOf(shape);
+  }
+  std::shared_ptr<const Solid> point() const override { return sound_->point(); }
+  std::shared_ptr<const Solid> needle(double length) const override { return sound_->needle(length); }
+  std::shared_ptr<const Solid> block(const Eigen::Vector3d& size) const override { return sound_->block(size); }
+  Proximity measure(const PlacedSolid& first, const PlacedSolid& second, double up_to) const override {
+    throwIf("measure");
+    return sound_->measure(first, second, up_to);
+  }
+  std::vector<Contact> contacts(const PlacedSolid& first, const PlacedSolid& second, std::size_t most) const override {
+    throwIf("contacts");
+    return sound_->contacts(first, second, most);
+  }
+
+ private:
+  static void throwIf(const std::string& function) {
+    std::string fault;
+    if (ros::param::get("~fault", fault) && fault == function) throw std::runtime_error("a fault in " + function);
+  }
+  std::shared_ptr<NarrowPhase> sound_ = makeFclNarrowPhase();
+};
+
+}  // namespace
+}  // namespace hgrid
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "proximity");
+  ros::NodeHandle node, private_node("~");
+  const hgrid::ProximityNode proximity(node, private_node, std::make_shared<hgrid::FaultyPhase>());
+  ros::waitForShutdown();
+}
