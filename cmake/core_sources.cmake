@@ -43,6 +43,8 @@ set(HGRID_ADAPTER_SOURCES
   src/adapters/fcl.cpp
   src/adapters/fcl_mesh.cpp
   src/adapters/mesh.cpp
+  src/adapters/octomap.cpp
+  src/adapters/octomap_header.cpp
   src/adapters/resource.cpp
   src/adapters/srdf.cpp
   src/adapters/urdf.cpp

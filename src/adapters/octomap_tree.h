@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+#include "hgrid_proximity/geometry/voxel.h"
+#include "hgrid_proximity/refusal.h"
+
+namespace hgrid {
+
+/// What stands in an octant; the first four are the two bits that a `.bt` file has for it.
+enum class Octant : std::uint8_t { unknown = 0, free = 1, occupied = 2, node = 3, nan = 4 };
+
+/// A node as it was read. Without children it is a leaf.
+struct OctreeNode {
+  std::uint16_t children;  ///< two bits of Octant for each, the first lowest; 0: none
+  Octant leaf;             ///< what it is without children
+};
+
+/// The bytes not yet read.
+class NodeBytes {
+ public:
+  NodeBytes(std::string_view data, const std::string& what) : data_(data), what_(what) {}
+
+  const unsigned char* take(std::size_t count) {
+    if (data_.size() - at_ < count) {
+      throw Refusal(Code::truncated,
+                    what_ + " ends after " + std::to_string(data_.size()) + " bytes of nodes, before its tree does");
+    }
+    at_ += count;
+    return reinterpret_cast<const unsigned char*>(data_.data()) + at_ - count;
+  }
+
+  /// @throws Refusal parse if there are bytes left
+  void finish() const {
+    if (at_ == data_.size()) return;
+    throw Refusal(Code::parse, what_ + " has " + std::to_string(data_.size() - at_) + " bytes after the " +
+                                   std::to_string(at_) + " of its tree; there must be none");
+  }
+
+ private:
+  std::string_view data_;
+  const std::string& what_;
+  std::size_t at_ = 0;
+};
+
+/// Nodes of a `.bt`: two bytes for each node with children, none for the others.
+class BinaryNodes : public NodeBytes {
+ public:
+  using NodeBytes::NodeBytes;
+
+  OctreeNode next() {
+    const unsigned char* bytes = take(2);
+    const Octant leaf = is_root_ ? Octant::occupied : Octant::free;  // OctoMap takes the likeliest of no children
+    is_root_ = false;
+    return {static_cast<std::uint16_t>(bytes[0] | bytes[1] << 8), leaf};
+  }
+
+ private:
+  bool is_root_ = true;
+};
+
+/// Nodes of an `.ot`: log-odds as a little-endian float, three bytes of colour if there is one, a bit for each child.
+class FullNodes : public NodeBytes {
+ public:
+  FullNodes(std::string_view data, const std::string& what, bool colour, float occupied_from)
+      : NodeBytes(data, what), bytes_of_node_(colour ? 8 : 5), occupied_from_(occupied_from) {}
+
+  OctreeNode next() {
+    const unsigned char* bytes = take(bytes_of_node_);
+    const unsigned children = bytes[bytes_of_node_ - 1];
+    if (children != 0) return {allNodes(children), Octant::node};
+    const float log_odds = floatOf(bytes);
+    if (log_odds >= occupied_from_) return {0, Octant::occupied};
+    return {0, log_odds < occupied_from_ ? Octant::free : Octant::nan};
+  }
+
+ private:
+  /// Octant::node for each bit.
+  static std::uint16_t allNodes(unsigned bits) {
+    bits = (bits | bits << 4) & 0x0f0f;
+    bits = (bits | bits << 2) & 0x3333;
+    bits = (bits | bits << 1) & 0x5555;
+    return static_cast<std::uint16_t>(3 * bits);
+  }
+
+  static float floatOf(const unsigned char* bytes) {
+    const std::uint32_t bits = bytes[0] | bytes[1] << 8 | bytes[2] << 16 | static_cast<std::uint32_t>(bytes[3]) << 24;
+    float value;
+    std::memcpy(&value, &bits, sizeof(value));
+    return value;
+  }
+
+  std::size_t bytes_of_node_;
+  float occupied_from_;
+};
+
+/// Child 0..7 of a cube: bit 0 is the upper half along x, bit 1 along y, bit 2 along z.
+inline Voxel childOf(const Voxel& cube, unsigned child) {
+  const unsigned level = cube.level - 1u;
+  const auto half = [&](std::uint16_t key, unsigned axis) {
+    return static_cast<std::uint16_t>(key | (child >> axis & 1u) << level);
+  };
+  return {half(cube.x, 0), half(cube.y, 1), half(cube.z, 2), static_cast<std::uint8_t>(level)};
+}
+
+/// Walks through the nodes, which come depth first and so in Morton order, and tells `leaves`
+///   countNode()         for each,
+///   add(cube, octant)   for each leaf, and for each octant without one if `with_unknown`.
+/// @throws Refusal parse below a cube of level 0, and what the two throw
+template <class Nodes, class Leaves>
+void readTree(Nodes& nodes, Leaves& leaves, bool with_unknown, const std::string& what) {
+  struct Inner {
+    Voxel cube;
+    unsigned children;  // as in OctreeNode
+    unsigned ahead;     // bit 2 i: child i is still to be told
+  };
+  std::array<Inner, Voxel::kLevels> path;  // from the root down
+  std::size_t depth = 0;
+  const unsigned always = with_unknown ? 0x5555 : 0;
+  const auto read = [&](const Voxel& cube) {
+    const OctreeNode node = nodes.next();
+    if (node.children == 0) return leaves.add(cube, node.leaf);
+    if (cube.level == 0) {
+      throw Refusal(Code::parse, what + " has nodes deeper than " + std::to_string(Voxel::kLevels) +
+                                     " levels, which is the depth of an OctoMap");
+    }
+    const unsigned children = node.children;
+    path[depth++] = {cube, children, ((children | children >> 1) & 0x5555) | always};
+  };
+
+  leaves.countNode();
+  read({0, 0, 0, Voxel::kLevels});
+  while (depth > 0) {
+    Inner& inner = path[depth - 1];
+    if (inner.ahead == 0) {
+      --depth;
+      continue;
+    }
+    const auto bit = static_cast<unsigned>(__builtin_ctz(inner.ahead));
+    inner.ahead &= inner.ahead - 1;
+    const Voxel cube = childOf(inner.cube, bit / 2);
+    const auto octant = static_cast<Octant>(inner.children >> bit & 3);
+    if (octant != Octant::unknown) leaves.countNode();
+    if (octant == Octant::node) {
+      read(cube);
+    } else {
+      leaves.add(cube, octant);
+    }
+  }
+  nodes.finish();
+}
+
+}  // namespace hgrid
