@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "hgrid_proximity/adapters/octomap.h"
+#include "hgrid_proximity/refusal.h"
+#include "test/adapters/mutation.h"
+#include "test/adapters/octomap_judge.h"
+#include "test/adapters/octomap_oracle.h"
+#include "test/fuzz/octomap_fuzz.h"
+#include "test/support/robots.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+const std::vector<std::string> kWords = {"size ",
+                                         "res ",
+                                         "id ",
+                                         "data\n",
+                                         "-1",
+                                         "nan",
+                                         "1e30",
+                                         "ColorOcTree",
+                                         "\r\n",
+                                         "\xff\xff",
+                                         "\xaa\xaa",
+                                         "\x55\x55",
+                                         std::string("\0\0\xc0\x7f", 4),
+                                         std::string("\0\0", 2)};
+
+TEST(OctomapMutation, AHarmedMapIsSoundOrARefusal) {
+  int read_anyway = 0;
+  const int count = countFromEnvironment("HGRID_TEST_MUTATIONS", 4000);
+  for (int seed = 0; seed < count; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(static_cast<std::uint64_t>(seed));
+    const WrittenMap map = randomMap(random, random.chance(0.5) ? "OcTree" : "ColorOcTree", random.chance(0.5));
+    OctomapOptions options;
+    options.nan_is_occupied = random.chance(0.5);
+    options.keep_free = random.chance(0.5);
+    options.unknown_is_occupied = random.chance(0.2);
+    options.max_leaves = random.chance(0.1) ? 100 : 1000000;
+    try {
+      const Octomap read = random.chance(0.5)
+                               ? readOctomap(mutated(map.file, kWords, random), "map", options)
+                               : readOctomapData(map.format, mutated(map.data, kWords, random), "map", options);
+      ++read_anyway;
+      ASSERT_EQ(flawOf(read, options), "");
+    } catch (const Refusal& refusal) {
+      ASSERT_NE(refusal.code(), Code::ok);
+      ASSERT_STRNE(refusal.what(), "");
+    }
+  }
+  EXPECT_GT(read_anyway, count / 50) << "too harmful to test what is read anyway";
+  EXPECT_LT(read_anyway, count) << "too harmless";
+}
+
+/// Claim: what the fuzzer starts from, and what it once found, is read soundly.
+TEST(OctomapMutation, TheSeedsOfTheFuzzerAreSound) {
+  std::size_t seeds = 0, read = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(HGRID_PROJECT_DIR) + "/test/fuzz/octomap")) {
+    const FuzzedOctomap result = readFuzzed(fileText(entry.path().string()));
+    EXPECT_EQ(result.flaw, "") << entry.path();
+    ++seeds;
+    read += result.accepted ? 1 : 0;
+  }
+  EXPECT_GE(seeds, 8u);
+  EXPECT_GE(read, 6u) << "seeds that are refused teach the fuzzer little";
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid

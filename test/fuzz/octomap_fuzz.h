@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "hgrid_proximity/refusal.h"
+#include "test/adapters/octomap_oracle.h"
+
+namespace hgrid {
+namespace test {
+
+/// What became of an input of the fuzzer.
+struct FuzzedOctomap {
+  bool accepted = false;
+  std::string flaw;  ///< as flawOf() says
+};
+
+/// Reads what stands behind the first byte, whose bits are options: as a file, or as the data of a message.
+inline FuzzedOctomap readFuzzed(std::string_view input) {
+  if (input.empty()) return {};
+  const auto bits = static_cast<unsigned char>(input[0]);
+  input.remove_prefix(1);
+  OctomapOptions options;
+  options.nan_is_occupied = bits & 1;
+  options.unknown_is_occupied = bits & 2;
+  options.keep_free = bits & 4;
+  options.allow_empty = bits & 8;
+  if (bits & 16) options.crop = Eigen::AlignedBox3d(Eigen::Vector3d(-1.0, -2.0, 0.0), Eigen::Vector3d(1.0, 2.0, 1.5));
+  const bool message = bits & 32, binary = bits & 64, colour = bits & 128;
+  try {
+    const Octomap map = message
+                            ? readOctomapData({colour ? "ColorOcTree" : "OcTree", binary, 0.1}, input, "map", options)
+                            : readOctomap(input, "map", options);
+    return {true, flawOf(map, options)};
+  } catch (const Refusal&) {
+    return {};
+  }
+}
+
+}  // namespace test
+}  // namespace hgrid
