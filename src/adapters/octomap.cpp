@@ -57,16 +57,17 @@ class Leaves {
     }
   }
 
-  void countNode() {
-    if (++map_.nodes > options_.max_nodes) refuse("nodes", options_.max_nodes);
+  bool wantsFree() const { return options_.keep_free; }
+  bool wantsUnknown() const { return options_.unknown_is_occupied; }
+
+  void count(std::uint64_t nodes, std::uint64_t free) {
+    map_.nodes += nodes;
+    map_.free_leaves += free;
+    if (map_.nodes > options_.max_nodes) refuse("nodes", options_.max_nodes);
   }
 
   void add(const Voxel& cube, Octant octant) {
-    if (octant == Octant::free) {
-      ++map_.free_leaves;
-      if (options_.keep_free) keep(cube, map_.free);
-      return;
-    }
+    if (octant == Octant::free) return keep(cube, map_.free);
     if (octant == Octant::unknown) ++map_.unknown_leaves;
     if (octant == Octant::nan) countNan();
     keep(cube, map_.occupied);
@@ -159,10 +160,10 @@ Octomap readNodes(const OctomapFormat& format, std::string_view data, const std:
   }
   if (format.binary) {
     BinaryNodes nodes(data, what);
-    readTree(nodes, leaves, options.unknown_is_occupied, what);
+    readTree(nodes, leaves, what);
   } else {
     FullNodes nodes(data, what, format.id == "ColorOcTree", logOdds(options.occupied_from));
-    readTree(nodes, leaves, options.unknown_is_occupied, what);
+    readTree(nodes, leaves, what);
   }
   return leaves.take();
 }

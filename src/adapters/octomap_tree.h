@@ -110,32 +110,47 @@ inline Voxel childOf(const Voxel& cube, unsigned child) {
   return {half(cube.x, 0), half(cube.y, 1), half(cube.z, 2), static_cast<std::uint8_t>(level)};
 }
 
+/// How many of the bits 0, 2, .. 14 are set; others must not be. The compiler's own calls a function.
+inline unsigned bitsIn(unsigned bits) {
+  bits = (bits & 0x3333) + (bits >> 2 & 0x3333);
+  bits += bits >> 4;
+  return ((bits & 0x0f0f) + (bits >> 8)) & 0x0f;
+}
+
 /// Walks through the nodes, which come depth first and so in Morton order, and tells `leaves`
-///   countNode()         for each,
-///   add(cube, octant)   for each leaf, and for each octant without one if `with_unknown`.
+///   count(nodes, free)  how many more there are, of all and of free leaves,
+///   add(cube, octant)   each leaf, in order; free ones if it `wantsFree()`, octants without one if `wantsUnknown()`.
 /// @throws Refusal parse below a cube of level 0, and what the two throw
 template <class Nodes, class Leaves>
-void readTree(Nodes& nodes, Leaves& leaves, bool with_unknown, const std::string& what) {
+void readTree(Nodes& nodes, Leaves& leaves, const std::string& what) {
   struct Inner {
     Voxel cube;
     unsigned children;  // as in OctreeNode
     unsigned ahead;     // bit 2 i: child i is still to be told
   };
+  constexpr unsigned kEach = 0x5555;       // bit 2 i for each child i
   std::array<Inner, Voxel::kLevels> path;  // from the root down
   std::size_t depth = 0;
-  const unsigned always = with_unknown ? 0x5555 : 0;
+  const unsigned free_wanted = leaves.wantsFree() ? kEach : 0, unknown_wanted = leaves.wantsUnknown() ? kEach : 0;
   const auto read = [&](const Voxel& cube) {
     const OctreeNode node = nodes.next();
-    if (node.children == 0) return leaves.add(cube, node.leaf);
+    if (node.children == 0) {
+      const bool is_free = node.leaf == Octant::free;
+      leaves.count(0, is_free);
+      if (!is_free || free_wanted) leaves.add(cube, node.leaf);
+      return;
+    }
     if (cube.level == 0) {
       throw Refusal(Code::parse, what + " has nodes deeper than " + std::to_string(Voxel::kLevels) +
                                      " levels, which is the depth of an OctoMap");
     }
-    const unsigned children = node.children;
-    path[depth++] = {cube, children, ((children | children >> 1) & 0x5555) | always};
+    const unsigned low = node.children & kEach, high = node.children >> 1 & kEach;
+    const unsigned free = low & ~high, unknown = kEach & ~(low | high);
+    leaves.count(bitsIn(low | high), bitsIn(free));
+    path[depth++] = {cube, node.children, high | (free & free_wanted) | (unknown & unknown_wanted)};
   };
 
-  leaves.countNode();
+  leaves.count(1, 0);
   read({0, 0, 0, Voxel::kLevels});
   while (depth > 0) {
     Inner& inner = path[depth - 1];
@@ -147,7 +162,6 @@ void readTree(Nodes& nodes, Leaves& leaves, bool with_unknown, const std::string
     inner.ahead &= inner.ahead - 1;
     const Voxel cube = childOf(inner.cube, bit / 2);
     const auto octant = static_cast<Octant>(inner.children >> bit & 3);
-    if (octant != Octant::unknown) leaves.countNode();
     if (octant == Octant::node) {
       read(cube);
     } else {
