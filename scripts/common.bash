@@ -20,8 +20,10 @@ demo_packages=(
 )
 # shellcheck disable=SC2034  # read by scripts/test
 test_packages=(
-  "${demo_packages[@]}" catkin-lint libfaketime libnodeletlib-tools locales python3-rostest rosbash
+  "${demo_packages[@]}" catkin-lint libfaketime libnodeletlib-tools liboctomap-dev locales python3-rostest rosbash
 )
+# shellcheck disable=SC2034
+long_test_packages=(clang libclang-rt-dev)
 
 # What goes on in the background is stopped, and the scratch folder removed, when the script ends, however it ends.
 started=()

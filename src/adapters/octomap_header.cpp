@@ -79,8 +79,8 @@ class HeaderReader {
     return trimmed(rest.substr(0, end));
   }
 
+  /// Takes id, size and res; all else is passed over: comments, and words that OctoMap may yet think of.
   void readLine(std::string_view line) {
-    if (line.empty() || line[0] == '#') return;
     const std::string_view key = line.substr(0, line.find_first_of(kSpace));
     const std::string_view value = trimmed(line.substr(key.size()));
     if (key == "id") setOnce(id_, key, value);
