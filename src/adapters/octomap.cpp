@@ -4,10 +4,12 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <new>
+#include <utility>
 
 #include "hgrid_proximity/refusal.h"
 #include "octomap_header.h"
@@ -155,8 +157,9 @@ Octomap readNodes(const OctomapFormat& format, std::string_view data, const std:
                   const OctomapOptions& options) {
   Leaves leaves(options, format.resolution, what);
   if (data.empty()) {
-    if (options.allow_empty) return leaves.take();
-    throw Refusal(Code::parse, what + " is empty; it must have one node at least");
+    if (!options.allow_empty) throw Refusal(Code::parse, what + " is empty; it must have one node at least");
+    if (leaves.wantsUnknown()) leaves.add(kWhole, Octant::unknown);
+    return leaves.take();
   }
   if (format.binary) {
     BinaryNodes nodes(data, what);

@@ -101,6 +101,8 @@ class FullNodes : public NodeBytes {
   float occupied_from_;
 };
 
+constexpr Voxel kWhole{0, 0, 0, Voxel::kLevels};  ///< the cube of the root
+
 /// Child 0..7 of a cube: bit 0 is the upper half along x, bit 1 along y, bit 2 along z.
 inline Voxel childOf(const Voxel& cube, unsigned child) {
   const unsigned level = cube.level - 1u;
@@ -151,7 +153,7 @@ void readTree(Nodes& nodes, Leaves& leaves, const std::string& what) {
   };
 
   leaves.count(1, 0);
-  read({0, 0, 0, Voxel::kLevels});
+  read(kWhole);
   while (depth > 0) {
     Inner& inner = path[depth - 1];
     if (inner.ahead == 0) {

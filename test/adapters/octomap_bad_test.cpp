@@ -4,7 +4,6 @@
 #include <sys/resource.h>
 
 #include <cmath>
-#include <limits>
 
 #include "hgrid_proximity/adapters/octomap.h"
 #include "test/adapters/octomap_bytes.h"

@@ -122,6 +122,17 @@ TEST(OctomapOptions, WhatHasNoLeafCanBeOccupied) {
   EXPECT_EQ(full.occupied.front(), (Voxel{32768, 0, 0, 15}));
 }
 
+TEST(OctomapOptions, AnEmptyMapIsUnknownAllOver) {
+  OctomapOptions options;
+  options.unknown_is_occupied = options.allow_empty = true;
+  for (const OctomapFormat& format : {kBinary, kFull}) {
+    const Octomap map = read(format, "", options);
+    EXPECT_EQ(map.occupied, (std::vector<Voxel>{{0, 0, 0, 16}}));
+    EXPECT_EQ(map.unknown_leaves, 1u);
+    EXPECT_EQ(map.nodes, 0u);
+  }
+}
+
 TEST(OctomapOptions, TheThresholdIsAProbabilityAndItselfOccupied) {
   OctomapOptions options;
   EXPECT_EQ(read(kFull, otNode(-0.0f), options).occupied.size(), 1u);

@@ -23,7 +23,7 @@ struct OctomapOptions {
   bool nan_is_occupied = false;      ///< a leaf whose log-odds are NaN is occupied and counted; false: refused
   bool unknown_is_occupied = false;  ///< space without a leaf is occupied too, out to the ends of the keys
   bool keep_free = false;            ///< Octomap::free is filled
-  bool allow_empty = false;          ///< no nodes at all are a map of nothing; false: refused
+  bool allow_empty = false;          ///< no nodes at all are a map, all of it unknown; false: refused
   /// Voxels that lie wholly outside this box [m] in the map's frame are dropped while reading; touching is not
   /// outside, and none is cut. Sides may be infinite.
   std::optional<Eigen::AlignedBox3d> crop;
