@@ -7,6 +7,7 @@ set(HGRID_CORE_SOURCES
   src/broadphase/pair_search.cpp
   src/broadphase/plan.cpp
   src/broadphase/queries.cpp
+  src/broadphase/static_grid.cpp
   src/broadphase/workers.cpp
   src/geometry/aabb.cpp
   src/geometry/pose.cpp

@@ -1,0 +1,427 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "hgrid_proximity/broadphase/static_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "broadphase/brick.h"
+#include "hgrid_proximity/refusal.h"
+
+namespace hgrid {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Aabb keysOf(const Voxel& voxel) {
+  const auto along = static_cast<float>(keysAlong(voxel));
+  const Eigen::Vector3f min(voxel.x, voxel.y, voxel.z);  // exact, as all keys are
+  return {min, min + Eigen::Vector3f::Constant(along)};
+}
+
+}  // namespace
+
+/// Takes voxels in Morton order; the bricks that are not yet complete are those around the last one.
+class StaticGrid::Builder {
+ public:
+  explicit Builder(StaticGrid& grid) : grid_(grid) {}
+
+  void add(const Voxel& voxel, std::size_t number) {
+    const std::uint64_t code = mortonOf(voxel), after = code + (std::uint64_t{1} << 3 * voxel.level);
+    const bool sound = voxel.level <= Voxel::kLevels && code % (std::uint64_t{1} << 3 * voxel.level) == 0;
+    if (!sound || code < end_) refuse(voxel, number, sound);
+    // Bricks that end before this voxel are complete.
+    const int level = std::min(voxel.level / 2, kBrickLevels - 1);
+    for (int open = 0; open < kBrickLevels - 1; ++open) {
+      if (open < level || (code ^ last_) >> 6 * (open + 1) != 0) close(open);
+    }
+    last_ = code;
+    end_ = after;
+    set(voxel, code, level);
+  }
+
+  void finish() {
+    for (int open = 0; open < kBrickLevels; ++open) close(open);
+    if (grid_.levels_.back().cells.empty()) {  // the root stands alone
+      open_.back().cells = 1;
+      close(kBrickLevels - 1);
+      grid_.levels_.back().cells.front() = 0;
+    }
+  }
+
+ private:
+  struct Open {
+    std::uint64_t cells = 0, full = 0;
+    std::uint32_t first_below = 0;
+    std::uint8_t blocks = 0;
+  };
+
+  [[noreturn]] static void refuse(const Voxel& voxel, std::size_t number, bool sound) {
+    throw Refusal(Code::bad_geometry, "voxel " + std::to_string(number) + " (keys " + std::to_string(voxel.x) + ", " +
+                                          std::to_string(voxel.y) + ", " + std::to_string(voxel.z) + ", level " +
+                                          std::to_string(voxel.level) +
+                                          (sound ? ") begins before the one before it ends; voxels must be "
+                                                   "disjoint and in Morton order"
+                                                 : ") is not a multiple of its edge"));
+  }
+
+  void set(const Voxel& voxel, std::uint64_t code, int level) {
+    Open& brick = open_[static_cast<std::size_t>(level)];
+    const unsigned cell = static_cast<unsigned>(code >> 6 * level) & 63u;
+    std::uint64_t cells = std::uint64_t{1} << cell;
+    if (voxel.level == Voxel::kLevels) {
+      cells = ~std::uint64_t{0};
+      brick.blocks = 0xff;
+      grid_.is_whole_ = true;
+    } else if (voxel.level % 2 == 1) {
+      cells = std::uint64_t{0xff} << cell;
+      brick.blocks = static_cast<std::uint8_t>(brick.blocks | 1u << cell / 8);
+    }
+    if (brick.cells == 0) begin(level);
+    brick.cells |= cells;
+    brick.full |= cells;
+    for (int above = level + 1; above < kBrickLevels; ++above) {
+      Open& outer = open_[static_cast<std::size_t>(above)];
+      if (outer.cells == 0) begin(above);
+      outer.cells |= std::uint64_t{1} << (code >> 6 * above & 63u);
+    }
+  }
+
+  /// Bricks below a brick come between its begin and its end.
+  void begin(int level) {
+    if (level == 0) return;
+    const std::size_t below = grid_.levels_[static_cast<std::size_t>(level) - 1].cells.size();
+    open_[static_cast<std::size_t>(level)].first_below = static_cast<std::uint32_t>(below);
+  }
+
+  void close(int number) {
+    Open& brick = open_[static_cast<std::size_t>(number)];
+    if (brick.cells == 0) return;
+    BrickLevel& level = grid_.levels_[static_cast<std::size_t>(number)];
+    level.cells.push_back(brick.cells);
+    level.blocks.push_back(brick.blocks);
+    if (number > 0) {
+      level.full.push_back(brick.full);
+      level.first_below.push_back(brick.first_below);
+    }
+    brick = Open{};
+  }
+
+  StaticGrid& grid_;
+  std::array<Open, kBrickLevels> open_;
+  std::uint64_t last_ = 0, end_ = 0;
+};
+
+StaticGrid::StaticGrid(double finest_edge, const std::vector<Voxel>& voxels)
+    : finest_edge_(finest_edge), size_(voxels.size()) {
+  if (!(finest_edge > 0.0 && std::isfinite(finest_edge))) {
+    throw Refusal(Code::out_of_range, "the finest edge is " + text(finest_edge) + " m; it must be greater than 0");
+  }
+  Builder builder(*this);
+  for (std::size_t i = 0; i < voxels.size(); ++i) {
+    builder.add(voxels[i], i);
+    bounds_.extend(minCorner(voxels[i], finest_edge));
+    bounds_.extend(maxCorner(voxels[i], finest_edge));
+  }
+  builder.finish();
+  for (BrickLevel& level : levels_) {
+    level.cells.shrink_to_fit();
+    level.full.shrink_to_fit();
+    level.first_below.shrink_to_fit();
+    level.blocks.shrink_to_fit();
+  }
+}
+
+std::size_t StaticGrid::bytes() const {
+  std::size_t bytes = sizeof(*this);
+  for (const BrickLevel& level : levels_) {
+    bytes += 8 * (level.cells.capacity() + level.full.capacity()) + 4 * level.first_below.capacity() +
+             level.blocks.capacity();
+  }
+  return bytes;
+}
+
+std::uint64_t StaticGrid::fullOf(const Brick& brick) const {
+  const BrickLevel& level = levels_[static_cast<std::size_t>(brick.level)];
+  return brick.level == 0 ? level.cells[brick.number] : level.full[brick.number];
+}
+
+StaticGrid::Brick StaticGrid::below(const Brick& brick, unsigned cell) const {
+  const BrickLevel& level = levels_[static_cast<std::size_t>(brick.level)];
+  const std::uint64_t with_brick = level.cells[brick.number] & ~level.full[brick.number];
+  const auto before = static_cast<std::uint32_t>(bitCount(with_brick & ((std::uint64_t{1} << cell) - 1)));
+  Brick result{brick.level - 1, level.first_below[brick.number] + before, brick.corner};
+  for (int axis = 0; axis < 3; ++axis)
+    result.corner[static_cast<std::size_t>(axis)] += cellAlong(cell, axis) << 2 * brick.level;
+  return result;
+}
+
+Voxel StaticGrid::voxelAt(const Brick& brick, unsigned cell) const {
+  if (is_whole_) return {0, 0, 0, Voxel::kLevels};
+  const bool is_block = levels_[static_cast<std::size_t>(brick.level)].blocks[brick.number] >> cell / 8 & 1u;
+  if (is_block) cell &= ~7u;
+  const auto key = [&](int axis) {
+    return static_cast<std::uint16_t>(brick.corner[static_cast<std::size_t>(axis)] +
+                                      (cellAlong(cell, axis) << 2 * brick.level));
+  };
+  return {key(0), key(1), key(2), static_cast<std::uint8_t>(2 * brick.level + (is_block ? 1 : 0))};
+}
+
+/// The cells of the voxel that this one is of.
+std::uint64_t StaticGrid::restOfVoxel(const Brick& brick, unsigned cell) const {
+  if (is_whole_) return ~std::uint64_t{0};
+  const bool is_block = levels_[static_cast<std::size_t>(brick.level)].blocks[brick.number] >> cell / 8 & 1u;
+  return is_block ? std::uint64_t{0xff} << (cell & ~7u) : std::uint64_t{1} << cell;
+}
+
+/// Searches in keys: numbers of finest edges, in which the corners of all cells are whole.
+class StaticGrid::Search {
+ public:
+  explicit Search(const StaticGrid& grid) : grid_(grid) {}
+
+  Eigen::Vector3d keysAt(const Eigen::Vector3d& point) const {
+    return (point / grid_.finest_edge_).array() + static_cast<double>(Voxel::kOriginKey);
+  }
+  double metres(double keys) const { return keys * grid_.finest_edge_; }
+  double keys(double metres) const { return metres / grid_.finest_edge_; }
+
+  /// A box in keys, wider by what may have been rounded.
+  struct Range {
+    Eigen::Array3d min, max;
+  };
+  static Range rangeAround(const Eigen::Vector3d& min, const Eigen::Vector3d& max, double by) {
+    const double rounded = 1e-9 + 1e-12 * (std::max(min.cwiseAbs().maxCoeff(), max.cwiseAbs().maxCoeff()) + by);
+    return {min.array() - (by + rounded), max.array() + (by + rounded)};
+  }
+
+  /// Calls `look` with every voxel that has a part of the range and that is `wanted`, as its brick is, in Morton order,
+  /// until it returns false. @returns whether it never did
+  template <class Wanted, class Look>
+  bool within(const Brick& brick, const Range& range, const Wanted& wanted, const Look& look) const {
+    std::uint64_t cells = grid_.cellsOf(brick) & cellsWithin(brick, range);
+    const std::uint64_t full = grid_.fullOf(brick);
+    while (cells != 0) {
+      const unsigned cell = firstCell(cells);
+      if (full >> cell & 1u) {
+        cells &= ~grid_.restOfVoxel(brick, cell);
+        const Voxel voxel = grid_.voxelAt(brick, cell);
+        if (wanted(keysOf(voxel)) && !look(voxel)) return false;
+      } else {
+        cells &= cells - 1;
+        const Brick inner = grid_.below(brick, cell);
+        if (wanted(cubeOf(inner)) && !within(inner, range, wanted, look)) return false;
+      }
+    }
+    return true;
+  }
+
+  /// Of what lies within `limit` keys of a box in keys, the nearer cells first.
+  template <class Look>
+  void near(const Brick& brick, const Eigen::AlignedBox3d& box, double& limit, const Look& look) const {
+    struct Cell {
+      double distance;
+      unsigned number;
+    };
+    std::array<Cell, 64> cells;
+    std::size_t count = 0;
+    std::uint64_t left = grid_.cellsOf(brick) & cellsWithin(brick, rangeAround(box.min(), box.max(), limit));
+    const std::uint64_t full = grid_.fullOf(brick);
+    while (left != 0) {
+      const unsigned cell = firstCell(left);
+      left &= full >> cell & 1u ? ~grid_.restOfVoxel(brick, cell) : left - 1;
+      const double distance =
+          distanceTo(box, full >> cell & 1u ? keysOf(grid_.voxelAt(brick, cell)) : cubeOf(grid_.below(brick, cell)));
+      if (distance <= limit) cells[count++] = {distance, cell};
+    }
+    std::sort(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(count), [](const Cell& a, const Cell& b) {
+      return a.distance != b.distance ? a.distance < b.distance : a.number < b.number;
+    });
+    for (std::size_t i = 0; i < count && cells[i].distance <= limit; ++i) {
+      if (full >> cells[i].number & 1u) {
+        limit = std::min(limit, look(grid_.voxelAt(brick, cells[i].number), cells[i].distance));
+      } else {
+        near(grid_.below(brick, cells[i].number), box, limit, look);
+      }
+    }
+  }
+
+  /// A segment in keys.
+  struct Line {
+    Segment segment;
+    Eigen::Vector3d way;
+    int main;       // the axis along which it is longest
+    double around;  // its radius and what may have been rounded
+  };
+  Line lineOf(const Segment& segment) const {
+    Line line;
+    line.segment = {keysAt(segment.from), keysAt(segment.to), keys(segment.radius)};
+    line.way = line.segment.to - line.segment.from;
+    line.way.cwiseAbs().maxCoeff(&line.main);
+    const double farthest = std::max(line.segment.from.cwiseAbs().maxCoeff(), line.segment.to.cwiseAbs().maxCoeff());
+    line.around = line.segment.radius + 1e-9 + 1e-12 * (farthest + line.segment.radius);
+    return line;
+  }
+
+  /// Slice by slice of cells across the line's main axis, as it passes them: of each slice the cells that the line
+  /// passes there. What begins after `first` is left out.
+  void along(const Brick& brick, const Line& line, VoxelTouch& first) const {
+    const double edge = static_cast<double>(std::int64_t{1} << 2 * brick.level);
+    const auto corner = [&](int axis) { return static_cast<double>(brick.corner[static_cast<std::size_t>(axis)]); };
+    const int main = line.main, second = (main + 1) % 3, third = (main + 2) % 3;
+    const std::uint64_t cells = grid_.cellsOf(brick), full = grid_.fullOf(brick);
+    const double from = line.segment.from[main], way = line.way[main];
+    for (int i = 0; i < 4; ++i) {
+      const int slice = way < 0.0 ? 3 - i : i;
+      std::uint64_t passed = cells & kCellRanges.sets[static_cast<std::size_t>(main)][static_cast<std::size_t>(slice)]
+                                                     [static_cast<std::size_t>(slice)];
+      if (passed == 0) continue;
+      const double low = corner(main) + slice * edge - line.around, high = low + edge + 2.0 * line.around;
+      double enter = 0.0, leave = std::min(1.0, first.along);  // shares of the line
+      if (way != 0.0) {
+        const double a = (low - from) / way, b = (high - from) / way;
+        enter = std::max(enter, std::min(a, b));
+        leave = std::min(leave, std::max(a, b));
+      } else if (from < low || from > high) {
+        continue;
+      }
+      if (enter > leave) continue;
+      for (const int axis : {second, third}) {
+        const double a = line.segment.from[axis] + enter * line.way[axis];
+        const double b = line.segment.from[axis] + leave * line.way[axis];
+        passed &= cellsBetween(axis, (std::min(a, b) - line.around - corner(axis)) / edge,
+                               (std::max(a, b) + line.around - corner(axis)) / edge);
+      }
+      while (passed != 0) {
+        const unsigned cell = firstCell(passed);
+        if (full >> cell & 1u) {
+          passed &= ~grid_.restOfVoxel(brick, cell);
+          touch(line, grid_.voxelAt(brick, cell), first);
+        } else {
+          passed &= passed - 1;
+          along(grid_.below(brick, cell), line, first);
+        }
+      }
+    }
+  }
+
+ private:
+  static void touch(const Line& line, const Voxel& voxel, VoxelTouch& first) {
+    const auto along = firstTouch(line.segment, keysOf(voxel));
+    if (!along) return;
+    const double length = line.way.norm(), share = length > 0.0 ? *along / length : 0.0;
+    if (share < first.along) first = {voxel, share};
+  }
+
+  static std::uint64_t cellsWithin(const Brick& brick, const Range& range) {
+    const double per_key = 1.0 / static_cast<double>(std::int64_t{1} << 2 * brick.level);
+    std::uint64_t cells = ~std::uint64_t{0};
+    for (int axis = 0; axis < 3; ++axis) {
+      const double corner = brick.corner[static_cast<std::size_t>(axis)];
+      cells &= cellsBetween(axis, (range.min[axis] - corner) * per_key, (range.max[axis] - corner) * per_key);
+    }
+    return cells;
+  }
+
+  static Aabb cubeOf(const Brick& brick) {
+    const Eigen::Vector3f min(static_cast<float>(brick.corner[0]), static_cast<float>(brick.corner[1]),
+                              static_cast<float>(brick.corner[2]));
+    return {min, min + Eigen::Vector3f::Constant(static_cast<float>(std::int64_t{4} << 2 * brick.level))};
+  }
+
+  static double distanceTo(const Eigen::AlignedBox3d& box, const Aabb& cube) {
+    double sum = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double gap = std::max(std::max(static_cast<double>(cube.min[axis]) - box.max()[axis],
+                                           box.min()[axis] - static_cast<double>(cube.max[axis])),
+                                  0.0);
+      sum += gap * gap;
+    }
+    return std::sqrt(sum);
+  }
+
+  const StaticGrid& grid_;
+};
+
+std::vector<Voxel> StaticGrid::voxels() const {
+  std::vector<Voxel> all;
+  all.reserve(size_);
+  overlapping(Eigen::AlignedBox3d(Eigen::Vector3d::Constant(-kInfinity), Eigen::Vector3d::Constant(kInfinity)), size_,
+              all);
+  return all;
+}
+
+bool StaticGrid::overlapping(const Eigen::AlignedBox3d& box, std::size_t most, std::vector<Voxel>& found) const {
+  found.clear();
+  const Search search(*this);
+  return search.within(
+      root(), Search::rangeAround(search.keysAt(box.min()), search.keysAt(box.max()), 0.0),
+      [](const Aabb&) { return true; },
+      [&](const Voxel& voxel) {
+        if (found.size() == most) return false;
+        found.push_back(voxel);
+        return true;
+      });
+}
+
+namespace {
+
+/// Asks whether a ball in keys touches a cube.
+auto touchedBy(const Sphere& sphere) {
+  return [sphere, near = touchingDistance(sphere)](const Aabb& cube) { return distance(cube, sphere.center) <= near; };
+}
+
+}  // namespace
+
+bool StaticGrid::overlapping(const Sphere& sphere, std::size_t most, std::vector<Voxel>& found) const {
+  found.clear();
+  const Search search(*this);
+  const Sphere in_keys{search.keysAt(sphere.center), search.keys(sphere.radius)};
+  return search.within(root(), Search::rangeAround(in_keys.center, in_keys.center, in_keys.radius), touchedBy(in_keys),
+                       [&](const Voxel& voxel) {
+                         if (found.size() == most) return false;
+                         found.push_back(voxel);
+                         return true;
+                       });
+}
+
+bool StaticGrid::touches(const Sphere& sphere) const {
+  const Search search(*this);
+  const Sphere in_keys{search.keysAt(sphere.center), search.keys(sphere.radius)};
+  return !search.within(root(), Search::rangeAround(in_keys.center, in_keys.center, in_keys.radius), touchedBy(in_keys),
+                        [](const Voxel&) { return false; });
+}
+
+std::optional<VoxelTouch> StaticGrid::firstAlong(const Segment& segment) const {
+  const Search search(*this);
+  VoxelTouch first;
+  first.along = kInfinity;
+  search.along(root(), search.lineOf(segment), first);
+  if (std::isinf(first.along)) return std::nullopt;
+  first.along *= (segment.to - segment.from).norm();
+  return first;
+}
+
+void StaticGrid::visitNear(const Eigen::AlignedBox3d& box, double limit, const Look& look) const {
+  const Search search(*this);
+  double limit_in_keys = search.keys(limit);
+  search.near(root(), {search.keysAt(box.min()), search.keysAt(box.max())}, limit_in_keys,
+              [&](const Voxel& voxel, double distance) { return search.keys(look(voxel, search.metres(distance))); });
+}
+
+void StaticGrid::nearest(const Eigen::AlignedBox3d& box, std::size_t count, double limit,
+                         std::vector<NearVoxel>& found) const {
+  found.clear();
+  if (count == 0) return;
+  const auto nearer = [](const NearVoxel& a, const NearVoxel& b) {
+    return a.distance != b.distance ? a.distance < b.distance : mortonOf(a.voxel) < mortonOf(b.voxel);
+  };
+  visitNear(box, limit, [&](const Voxel& voxel, double distance) {
+    if (found.size() == count) found.pop_back();
+    const NearVoxel one{voxel, distance};
+    found.insert(std::upper_bound(found.begin(), found.end(), one, nearer), one);
+    return found.size() < count ? limit : found.back().distance;
+  });
+}
+
+}  // namespace hgrid
