@@ -23,6 +23,9 @@ set(HGRID_CORE_SOURCES
   src/scene/explain.cpp
   src/scene/horizon.cpp
   src/scene/link_matrix.cpp
+  src/scene/map_gap.cpp
+  src/scene/map_meter.cpp
+  src/scene/map_pairs.cpp
   src/scene/motion_bound.cpp
   src/scene/name.cpp
   src/scene/name_index.cpp
@@ -37,6 +40,7 @@ set(HGRID_CORE_SOURCES
   src/scene/rule_book.cpp
   src/scene/scene.cpp
   src/scene/snapshot.cpp
+  src/scene/snapshot_maps.cpp
   src/scene/snapshot_nearest.cpp
   src/scene/snapshot_queries.cpp
 )

@@ -16,7 +16,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Aabb keysOf(const Voxel& voxel) {
   const auto along = static_cast<float>(keysAlong(voxel));
-  const Eigen::Vector3f min(voxel.x, voxel.y, voxel.z);  // exact, as all keys are
+  constexpr int kOrigin = Voxel::kOriginKey;
+  const Eigen::Vector3i key(voxel.x - kOrigin, voxel.y - kOrigin, voxel.z - kOrigin);
+  const Eigen::Vector3f min = key.cast<float>();  // exact, as all keys are
   return {min, min + Eigen::Vector3f::Constant(along)};
 }
 
@@ -162,7 +164,7 @@ Voxel StaticGrid::voxelAt(const Brick& brick, unsigned cell) const {
   const bool is_block = levels_[static_cast<std::size_t>(brick.level)].blocks[brick.number] >> cell / 8 & 1u;
   if (is_block) cell &= ~7u;
   const auto key = [&](int axis) {
-    return static_cast<std::uint16_t>(brick.corner[static_cast<std::size_t>(axis)] +
+    return static_cast<std::uint16_t>(brick.corner[static_cast<std::size_t>(axis)] + Voxel::kOriginKey +
                                       (cellAlong(cell, axis) << 2 * brick.level));
   };
   return {key(0), key(1), key(2), static_cast<std::uint8_t>(2 * brick.level + (is_block ? 1 : 0))};
@@ -175,14 +177,12 @@ std::uint64_t StaticGrid::restOfVoxel(const Brick& brick, unsigned cell) const {
   return is_block ? std::uint64_t{0xff} << (cell & ~7u) : std::uint64_t{1} << cell;
 }
 
-/// Searches in keys: numbers of finest edges, in which the corners of all cells are whole.
+/// Searches in keys, counted from the map's origin: finest edges, of which all corners of cells are whole numbers.
 class StaticGrid::Search {
  public:
   explicit Search(const StaticGrid& grid) : grid_(grid) {}
 
-  Eigen::Vector3d keysAt(const Eigen::Vector3d& point) const {
-    return (point / grid_.finest_edge_).array() + static_cast<double>(Voxel::kOriginKey);
-  }
+  Eigen::Vector3d keysAt(const Eigen::Vector3d& point) const { return point / grid_.finest_edge_; }
   double metres(double keys) const { return keys * grid_.finest_edge_; }
   double keys(double metres) const { return metres / grid_.finest_edge_; }
 
@@ -404,9 +404,13 @@ std::optional<VoxelTouch> StaticGrid::firstAlong(const Segment& segment) const {
 
 void StaticGrid::visitNear(const Eigen::AlignedBox3d& box, double limit, const Look& look) const {
   const Search search(*this);
-  double limit_in_keys = search.keys(limit);
-  search.near(root(), {search.keysAt(box.min()), search.keysAt(box.max())}, limit_in_keys,
-              [&](const Voxel& voxel, double distance) { return search.keys(look(voxel, search.metres(distance))); });
+  const Eigen::AlignedBox3d in_keys(search.keysAt(box.min()), search.keysAt(box.max()));
+  const double farthest = std::max(in_keys.min().cwiseAbs().maxCoeff(), in_keys.max().cwiseAbs().maxCoeff());
+  const double rounded = 1e-12 * (farthest + 1.0);  // what is no farther away touches
+  double limit_in_keys = search.keys(limit) + rounded;
+  search.near(root(), in_keys, limit_in_keys, [&](const Voxel& voxel, double distance) {
+    return search.keys(look(voxel, distance > rounded ? search.metres(distance) : 0.0)) + rounded;
+  });
 }
 
 void StaticGrid::nearest(const Eigen::AlignedBox3d& box, std::size_t count, double limit,

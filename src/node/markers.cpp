@@ -98,6 +98,7 @@ void addPair(Marker& lines, const Snapshot& snapshot, const NearPair& pair) {
       if (gap < least) least = gap, first = i, second = j;
     }
   }
+  if (std::isinf(least)) return;  // a map has no boxes; its pairs are drawn where they are measured
   auto points = nearestPoints(snapshot.boxes()[first], snapshot.boxes()[second]);
   if (least == 0.0) {  // they overlap: from the middle of one to the middle of the other
     points.first = 0.5 * (snapshot.boxes()[first].min + snapshot.boxes()[first].max).cast<double>();

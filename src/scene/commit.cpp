@@ -52,6 +52,7 @@ void Scene::State::rebuildStructure() {
     next->first_proxy.push_back(static_cast<std::uint32_t>(next->body_of_proxy.size()));
     next->body_of_proxy.insert(next->body_of_proxy.end(), body.shapes.size(),
                                static_cast<std::uint32_t>(next->bodies.size()));
+    if (body.kind == BodyKind::map) next->maps.push_back(static_cast<std::uint32_t>(next->bodies.size()));
     next->bodies.push_back(body);
     next->ids.push_back({named.second, slots[named.second].generation});
     next->margin.push_back(std::max(options.margin, body.margin));
@@ -112,6 +113,11 @@ void Scene::State::fillBodies(Snapshot& snapshot) {
     if (placed) snapshot.max_age_ = std::max(snapshot.max_age_, slot.pose.age);
   }
   snapshot.boxes_ = boxes;
+  snapshot.cells_.clear();
+  for (const std::uint32_t map : structure->maps) {
+    const auto known_cells = cells_of_slot.find(structure->ids[map].slot);
+    snapshot.cells_.push_back(known_cells == cells_of_slot.end() ? nullptr : known_cells->second);
+  }
   horizon.step(structure, snapshot.poses_, boxes);
 }
 
@@ -170,6 +176,13 @@ void Scene::State::sortPairs(std::vector<NearPair>& pairs) {
   }
 }
 
+void Scene::State::addPair(std::uint32_t first, std::uint32_t second, double gap, double margin, bool near,
+                           std::vector<NearPair>& pairs) const {
+  const bool odd = horizon.teleported(first) || horizon.teleported(second);
+  const auto flags = static_cast<std::uint8_t>((near ? 0 : kHorizonFlag) | (odd ? kTeleportFlag : 0));
+  pairs.push_back({first, second, near ? std::min(gap, margin) : gap, margin, Time{0}, flags});
+}
+
 void Scene::State::fillPairs(Snapshot& snapshot) {
   std::vector<NearPair>& pairs = snapshot.pairs_;
   pairs.clear();
@@ -182,12 +195,14 @@ void Scene::State::fillPairs(Snapshot& snapshot) {
                                      stalenessOf(snapshot.poses_[second]));
     const bool near = withinDistance(a, b, margin);
     if (!near && !horizon.on()) continue;
-    const double gap = near ? std::min(distance(a, b), margin) : distance(a, b);
+    const double gap = distance(a, b);
     if (!near && !horizon.canMeet(*structure, proxies.first, proxies.second, gap, margin)) continue;
-    const bool odd = horizon.teleported(first) || horizon.teleported(second);
-    const auto flags = static_cast<std::uint8_t>((near ? 0 : kHorizonFlag) | (odd ? kTeleportFlag : 0));
-    pairs.push_back({first, second, gap, margin, Time{0}, flags});
+    addPair(first, second, gap, margin, near, pairs);
   }
+  map_pairs.find(snapshot, horizon,
+                 [&](std::uint32_t first, std::uint32_t second, double gap, double margin, bool near) {
+                   addPair(first, second, gap, margin, near, pairs);
+                 });
   sortPairs(pairs);
   // One entry per pair of bodies, that of the nearest boxes.
   pairs.erase(
@@ -195,8 +210,10 @@ void Scene::State::fillPairs(Snapshot& snapshot) {
                   [](const NearPair& a, const NearPair& b) { return a.first == b.first && a.second == b.second; }),
       pairs.end());
   tracker.update(structure->ids, snapshot.stamp_, pairs);
-  pair_events.update({structure, snapshot.poses_, snapshot.boxes_, pairs, snapshot.worst_state_, snapshot.stamp_},
-                     snapshot.events_);
+  pair_events.update(
+      {structure, snapshot.poses_, snapshot.boxes_, pairs, snapshot.worst_state_, snapshot.stamp_,
+       [&](std::uint32_t first, std::uint32_t second, double up_to) { return snapshot.gapOf(first, second, up_to); }},
+      snapshot.events_);
 }
 
 void Scene::State::fillCompleteness(Snapshot& snapshot, const std::vector<std::string>& missing) const {

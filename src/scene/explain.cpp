@@ -64,6 +64,9 @@ class Words {
         return body->name + " is UNPLACED: it never had a pose (frame '" + printable(body->frame) + "')";
       }
     }
+    for (const auto* body : {&a_, &b_}) {
+      if (body->kind == BodyKind::map) return body->name + " has no occupied cells";
+    }
     const Body& body = a_.shapes.empty() ? a_ : b_;
     return body.name + " has no shape that could be read" + (body.note.empty() ? "" : ": " + body.note);
   }
@@ -163,6 +166,8 @@ class Words {
   bool near_;
 };
 
+bool isMap(const Structure& structure, std::uint32_t body) { return structure.bodies[body].kind == BodyKind::map; }
+
 /// Gap of the nearest boxes, and whether it is within the margin; of a reported pair as it stands in the snapshot.
 bool fillGap(const Snapshot& snapshot, Explanation& what) {
   const Structure& s = snapshot.structure();
@@ -181,12 +186,13 @@ bool fillGap(const Snapshot& snapshot, Explanation& what) {
   }
   what.gap = kNan;
   if (what.state_first == Freshness::unplaced || what.state_second == Freshness::unplaced) return false;
-  bool near = false;
+  const double gap = snapshot.gapOf(what.first, what.second);
+  if (!std::isfinite(gap)) return false;
+  what.gap = gap;
+  bool near = gap <= what.margin && (isMap(s, what.first) || isMap(s, what.second));
   for (std::uint32_t i = s.first_proxy[what.first]; i < s.first_proxy[what.first + 1]; ++i) {
     for (std::uint32_t j = s.first_proxy[what.second]; j < s.first_proxy[what.second + 1]; ++j) {
-      const Aabb &a = snapshot.boxes()[i], &b = snapshot.boxes()[j];
-      what.gap = std::fmin(what.gap, distance(a, b));
-      near = near || withinDistance(a, b, what.margin);
+      near = near || withinDistance(snapshot.boxes()[i], snapshot.boxes()[j], what.margin);
     }
   }
   if (near) what.gap = std::min(what.gap, what.margin);  // as in a reported pair

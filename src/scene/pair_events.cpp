@@ -25,12 +25,19 @@ bool anyBoxes(const PairsNow& now, std::uint32_t first, std::uint32_t second, Lo
   return false;
 }
 
+bool isWithMap(const PairsNow& now, std::uint32_t first, std::uint32_t second) {
+  const std::vector<Body>& bodies = now.structure->bodies;
+  return bodies[first].kind == BodyKind::map || bodies[second].kind == BodyKind::map;
+}
+
 bool within(const PairsNow& now, std::uint32_t first, std::uint32_t second, double reach) {
+  if (isWithMap(now, first, second)) return now.gap_to_map(first, second, reach) <= reach;
   return anyBoxes(now, first, second, [&](const Aabb& a, const Aabb& b) { return withinDistance(a, b, reach); });
 }
 
 double gapOf(const PairsNow& now, std::uint32_t first, std::uint32_t second) {
   double gap = std::numeric_limits<double>::infinity();
+  if (isWithMap(now, first, second)) return now.gap_to_map(first, second, gap);
   anyBoxes(now, first, second, [&](const Aabb& a, const Aabb& b) {
     gap = std::min(gap, distance(a, b));
     return false;

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct PairsNow {
   const std::vector<NearPair>& pairs;  ///< sorted by (first, second), each once
   Freshness worst_state;
   Time stamp;
+  /// [m] gap of a map and another body, infinite if more than `up_to`; asked of those pairs alone
+  std::function<double(std::uint32_t first, std::uint32_t second, double up_to)> gap_to_map = nullptr;
 };
 
 /// Says which pairs began and which ended since the tick before, each once, and why.

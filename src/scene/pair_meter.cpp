@@ -10,6 +10,7 @@
 
 #include "broadphase/workers.h"
 #include "hgrid_proximity/geometry/float_environment.h"
+#include "scene/map_meter.h"
 #include "scene/motion_bound.h"
 
 namespace hgrid {
@@ -30,7 +31,12 @@ struct ShapePair {
 struct NearestShapes {
   std::uint32_t first = 0, second = 0;
   Proximity proximity;
+  std::vector<NearCell> cells;  // of a map
 };
+
+bool isMap(const Snapshot& snapshot, std::uint32_t body) {
+  return snapshot.structure().bodies[body].kind == BodyKind::map;
+}
 
 /// Those whose boxes are no farther apart than `up_to` [m], nearest first.
 void collectShapePairs(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second, double up_to,
@@ -61,8 +67,15 @@ void placed(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second,
 
 NearestShapes nearestShapes(const NarrowPhase& narrow_phase, const Snapshot& snapshot, std::uint32_t first,
                             std::uint32_t second, double up_to, std::vector<ShapePair>& shape_pairs) {
-  collectShapePairs(snapshot, first, second, up_to, shape_pairs);
   NearestShapes nearest;
+  if (isMap(snapshot, first) || isMap(snapshot, second)) {
+    MapProximity found = measureMap(narrow_phase, snapshot, first, second, up_to);
+    (isMap(snapshot, first) ? nearest.second : nearest.first) = found.shape;
+    nearest.proximity = found.proximity;
+    nearest.cells = std::move(found.cells);
+    return nearest;
+  }
+  collectShapePairs(snapshot, first, second, up_to, shape_pairs);
   nearest.proximity.status = Measure::apart;
   nearest.proximity.distance = std::numeric_limits<double>::infinity();
   double least = up_to;
@@ -72,7 +85,7 @@ NearestShapes nearestShapes(const NarrowPhase& narrow_phase, const Snapshot& sna
     placed(snapshot, first, second, shapes,
            [&](const PlacedSolid& a, const PlacedSolid& b) { found = narrow_phase.measure(a, b, least); });
     if (found.status == Measure::not_measured || found.distance < nearest.proximity.distance) {
-      nearest = {shapes.first, shapes.second, found};
+      nearest = {shapes.first, shapes.second, found, {}};
     }
     if (found.status != Measure::apart) break;  // nothing is nearer
     least = std::min(least, found.distance);
@@ -93,15 +106,20 @@ PairDistance measurePair(const NarrowPhase& narrow_phase, const Snapshot& snapsh
   result.first_shape = nearest.first;
   result.second_shape = nearest.second;
   result.proximity = nearest.proximity;
+  result.cells = nearest.cells;
   return result;
 }
 
 std::vector<PairContact> contactsOf(const NarrowPhase& narrow_phase, const Snapshot& snapshot, std::uint32_t first,
                                     std::uint32_t second, std::size_t most) {
   const DefaultFloatEnvironment environment;
-  std::vector<ShapePair> shape_pairs;
-  collectShapePairs(snapshot, first, second, 0.0, shape_pairs);
   std::vector<PairContact> contacts;
+  std::vector<ShapePair> shape_pairs;
+  if (isMap(snapshot, first) || isMap(snapshot, second)) {
+    contacts = contactsWithMap(narrow_phase, snapshot, first, second, most);
+  } else {
+    collectShapePairs(snapshot, first, second, 0.0, shape_pairs);
+  }
   for (const ShapePair& shapes : shape_pairs) {
     placed(snapshot, first, second, shapes, [&](const PlacedSolid& a, const PlacedSolid& b) {
       for (const Contact& contact : narrow_phase.contacts(a, b, most - contacts.size())) {
@@ -122,7 +140,9 @@ struct PairMeter::State {
     Pose world_from_first = Pose::Identity(), world_from_second = Pose::Identity();
     std::uint32_t first_shape = 0, second_shape = 0;
     Proximity proximity;
-    double up_to = 0.0;  // [m] how far was looked
+    std::vector<NearCell> cells;
+    std::shared_ptr<const MapCells> map;  // whose cells they are
+    double up_to = 0.0;                   // [m] how far was looked
     // Of the closing speed.
     Time stamp{0};
     double distance = Proximity::kUnknown, speed = Proximity::kUnknown;
@@ -184,12 +204,16 @@ void PairMeter::State::perform(const Snapshot& snapshot, Job& job, std::vector<S
              &second = snapshot.poses()[job.pair->second].world_from_body;
   Known& now = job.known;
   double moved = std::numeric_limits<double>::infinity();
-  if (now.measured) {
+  const bool map_first = isMap(snapshot, job.pair->first);
+  const auto map = snapshot.cellsOf(map_first ? job.pair->first : job.pair->second);
+  if (now.measured && now.map == map) {
     const bool same =
         first.matrix() == now.world_from_first.matrix() && second.matrix() == now.world_from_second.matrix();
-    moved = same ? 0.0
-                 : relativeMotion(now.world_from_first, now.world_from_second, first, second,
-                                  reachOf(snapshot.structure().bodies[job.pair->second]));
+    moved = same                ? 0.0
+            : map_first || !map ? relativeMotion(now.world_from_first, now.world_from_second, first, second,
+                                                 reachOf(snapshot.structure().bodies[job.pair->second]))
+                                : relativeMotion(now.world_from_second, now.world_from_first, second, first,
+                                                 reachOf(snapshot.structure().bodies[job.pair->first]));
   }
   const double at_least = std::min(now.proximity.distance, now.up_to) - moved;
   const bool enough_known = moved == 0.0 ? now.up_to >= job.report : at_least > job.report;
@@ -205,6 +229,8 @@ void PairMeter::State::perform(const Snapshot& snapshot, Job& job, std::vector<S
     now.first_shape = nearest.first;
     now.second_shape = nearest.second;
     now.proximity = nearest.proximity;
+    now.cells = nearest.cells;
+    now.map = map;
     now.measured = true;
   }
   job.shown = now.proximity.status == Measure::not_measured || now.proximity.distance <= job.report;
@@ -218,6 +244,7 @@ PairDistance PairMeter::State::entryOf(const Snapshot& snapshot, const Job& job)
   entry.flags = job.pair->flags;
   if (!job.left_out) {
     entry.proximity = job.known.proximity;
+    entry.cells = job.known.cells;
     entry.first_shape = job.known.first_shape;
     entry.second_shape = job.known.second_shape;
     entry.closing_speed = job.known.speed;

@@ -15,6 +15,9 @@ void checkQueryPoint(const Eigen::Vector3d& point, const std::string& what);
 /// @throws Refusal bad_geometry, out_of_range
 void checkQueryLength(double length, const std::string& what);
 
+/// [m] What rounding may take from a distance at such coordinates: a question that touches within it hits.
+inline double touchSlack(const Eigen::Vector3d& at, double radius) { return 1e-9 * (at.norm() + radius); }
+
 /// A question's core somewhere in the world, to be measured against shapes.
 struct Snapshot::Probe {
   const NarrowPhase& narrow_phase;

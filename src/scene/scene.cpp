@@ -112,6 +112,7 @@ void Scene::remove(BodyId id) {
   State::Slot& slot = s.at(id);
   s.free_slots.push_back(id.slot);
   s.slot_of_name.erase(s.bodies[id.slot].name);
+  s.cells_of_slot.erase(id.slot);
   s.bodies[id.slot] = Body{};
   slot.used = slot.moved = false;
   ++slot.generation;
@@ -159,6 +160,17 @@ void Scene::setState(BodyId id, Freshness state, double age, std::uint32_t cohor
   pose.state = state == Freshness::unplaced ? Freshness::invalid : state;  // what had a pose keeps it
   pose.age = slot.fixed ? 0.0 : age;
   pose.cohort = cohort;
+}
+
+void Scene::setCells(BodyId id, std::shared_ptr<const MapCells> cells) {
+  State& s = *state_;
+  s.at(id);
+  const Body& body = s.bodies[id.slot];
+  if (body.kind != BodyKind::map || !body.shapes.empty() || !cells || !cells->grid) {
+    throw Refusal(Code::bad_geometry,
+                  "body '" + body.name + "' cannot have occupied cells; only a map without shapes can");
+  }
+  s.cells_of_slot[id.slot] = std::move(cells);
 }
 
 void Scene::setRules(std::vector<PairRule> rules) {

@@ -10,6 +10,7 @@
 
 #include "hgrid_proximity/scene/scene.h"
 #include "scene/horizon.h"
+#include "scene/map_pairs.h"
 #include "scene/pair_events.h"
 #include "scene/snapshot_pool.h"
 
@@ -53,7 +54,8 @@ struct Scene::State {
   std::vector<Slot> slots;
   std::vector<Body> bodies;  // by slot
   std::vector<std::uint32_t> free_slots;
-  std::map<std::string, std::uint32_t> slot_of_name;  // ordered: the structure is sorted by name
+  std::map<std::uint32_t, std::shared_ptr<const MapCells>> cells_of_slot;  // of maps
+  std::map<std::string, std::uint32_t> slot_of_name;                       // ordered: the structure is sorted by name
   bool structure_changed = true;
   std::uint64_t sequence = 0, epoch = 0, commits = 0;
 
@@ -66,6 +68,8 @@ struct Scene::State {
   void fillGrid(Snapshot& snapshot);
   void fillPairs(Snapshot& snapshot);
   void sortPairs(std::vector<NearPair>& pairs);
+  void addPair(std::uint32_t first, std::uint32_t second, double gap, double margin, bool near,
+               std::vector<NearPair>& pairs) const;
   void fillCompleteness(Snapshot& snapshot, const std::vector<std::string>& missing) const;
 
   std::shared_ptr<const Structure> structure = std::make_shared<Structure>();
@@ -75,6 +79,7 @@ struct Scene::State {
   GridScale scale;
   std::vector<ProxyId> fixed_proxies;
   Horizon horizon;
+  MapPairs map_pairs;
   PairTracker tracker;
   PairEvents pair_events;
   TickTimes times;

@@ -24,8 +24,9 @@ bool nearer(const QueryHit& a, const QueryHit& b) {
 /// Boxes come from the grid by growing distance, which is a lower bound of the one that is asked for; it is over when
 /// no further box can be nearer than the last body that is wanted.
 /// @param reach  [m] of what is asked from, around `center`
-template <class Ask>
-QueryAnswer Snapshot::nearestBy(const Eigen::Vector3d& center, double reach, double max_distance,
+/// @param asked    a point or a body, from which maps are looked for
+template <class Asked, class Ask>
+QueryAnswer Snapshot::nearestBy(const Asked& asked, const Eigen::Vector3d& center, double reach, double max_distance,
                                 const QueryScope& scope, const Ask& measure) const {
   const std::size_t wanted = std::max<std::uint32_t>(1, scope.limit);
   const double limit = max_distance > 0.0 ? max_distance : kInfinity;
@@ -59,6 +60,7 @@ QueryAnswer Snapshot::nearestBy(const Eigen::Vector3d& center, double reach, dou
   }
   std::vector<QueryHit> hits;
   for (const auto& hit : best) hits.push_back(hit.second);
+  addMapsNear(asked, limit, scope, hits, doubt);
   std::sort(hits.begin(), hits.end(), [](const QueryHit& a, const QueryHit& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.body < b.body;
   });
@@ -70,7 +72,7 @@ QueryAnswer Snapshot::nearest(const Eigen::Vector3d& point, double max_distance,
   const DefaultFloatEnvironment environment;
   checkQueryPoint(point, "the query's point");
   checkQueryLength(max_distance, "max_distance");
-  return nearestBy(point, 0.0, max_distance, scope, [&](ProxyId proxy, double up_to, QueryHit& hit) {
+  return nearestBy(point, point, 0.0, max_distance, scope, [&](ProxyId proxy, double up_to, QueryHit& hit) {
     hit.center_distance = hit.distance = distance(boxes_[proxy], point - origin_);
     hit.point = nearestPoint(boxes_[proxy], point - origin_) + origin_;
     if (hit.distance > up_to) return false;
@@ -101,7 +103,7 @@ QueryAnswer Snapshot::nearest(std::uint32_t from, double max_distance, const Que
     high = high.cwiseMax(boxes_[proxy].max.cast<double>());
   }
   const Eigen::Vector3d center = origin_ + 0.5 * (low + high);
-  return nearestBy(center, 0.5 * (high - low).norm(), max_distance, scope,
+  return nearestBy(from, center, 0.5 * (high - low).norm(), max_distance, scope,
                    [&](ProxyId proxy, double up_to, QueryHit& hit) {
                      if (hit.body == from) return false;
                      hit.distance = kInfinity;

@@ -13,9 +13,6 @@ namespace {
 
 constexpr int kMostSteps = 500;  // towards the first touch; each at least halves what a straight approach leaves
 
-/// [m] What rounding may take from a distance at such coordinates: a question that touches within it hits.
-double touchSlack(const Eigen::Vector3d& at, double radius) { return 1e-9 * (at.norm() + radius); }
-
 /// The pose of a needle along a segment.
 Pose alongSegment(const Segment& segment) {
   Pose pose = Pose::Identity();
@@ -106,6 +103,7 @@ QueryAnswer Snapshot::query(const Sphere& sphere, const QueryScope& scope) const
       doubt = doubtOf(body);
     }
   }
+  addMaps(sphere, scope, hits, doubt);
   return finished(hits, scope, false, doubt);
 }
 
@@ -171,6 +169,7 @@ QueryAnswer Snapshot::query(const Segment& segment, const QueryScope& scope) con
       doubt = doubtOf(body);
     }
   }
+  addMaps(segment, scope, hits, doubt);
   return finished(hits, scope, true, doubt);
 }
 
@@ -226,6 +225,7 @@ QueryAnswer Snapshot::query(const QueryBox& box, const NarrowPhase& narrow_phase
       doubt = doubtOf(body);
     }
   }
+  addMaps(box, narrow_phase, scope, hits, doubt);
   return finished(hits, scope, false, doubt);
 }
 

@@ -84,12 +84,12 @@ class StaticGrid {
   struct Brick {
     int level;
     std::uint32_t number;
-    std::array<std::int32_t, 3> corner;  // keys
+    std::array<std::int32_t, 3> corner;  // keys, counted from the map's origin
   };
   class Builder;
   class Search;
 
-  Brick root() const { return {kBrickLevels - 1, 0, {0, 0, 0}}; }
+  Brick root() const { return {kBrickLevels - 1, 0, {-Voxel::kOriginKey, -Voxel::kOriginKey, -Voxel::kOriginKey}}; }
   std::uint64_t cellsOf(const Brick& brick) const {
     return levels_[static_cast<std::size_t>(brick.level)].cells[brick.number];
   }

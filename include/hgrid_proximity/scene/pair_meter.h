@@ -11,13 +11,24 @@
 
 namespace hgrid {
 
-/// The exact distance of a candidate pair of bodies: that of their nearest shapes.
+/// An occupied cell of a map that is near to a body.
+struct NearCell {
+  Eigen::Vector3d center;  ///< [m, world]
+  double edge = 0.0;       ///< [m]
+  double distance = 0.0;   ///< [m] from the body
+};
+
+/// So many of a map's cells are told of in a pair, the nearest.
+inline constexpr std::size_t kNearCells = 4;
+
+/// The exact distance of a candidate pair of bodies: that of their nearest shapes; a map's are its occupied cells.
 struct PairDistance {
   std::uint32_t first = 0, second = 0;              ///< indices into Structure::bodies, first < second
   std::uint32_t first_shape = 0, second_shape = 0;  ///< the nearest ones, in the order of each body's shapes
   double gap = 0.0;                                 ///< [m] distance of their boxes
   std::uint8_t flags = 0;                           ///< as NearPair::flags
   Proximity proximity;
+  std::vector<NearCell> cells;                     ///< pairs with a map: its nearest cells, nearest first
   double closing_speed = Proximity::kUnknown;      ///< [m/s] estimate from past ticks; > 0: they come closer
   double time_to_contact = Proximity::kUnknown;    ///< [s] estimate; infinite if they do not come closer
   double no_contact_before = Proximity::kUnknown;  ///< [s] bound by max_speed, from the stamp on

@@ -66,6 +66,10 @@ class Scene {
   /// Last known pose of a body.
   const BodyPose& poseOf(BodyId id) const;
 
+  /// Says what is occupied of a body of kind map, from the next commit on. That is no change of the structure.
+  /// @throws Refusal unknown_id, bad_geometry (a body of another kind, or no cells)
+  void setCells(BodyId id, std::shared_ptr<const MapCells> cells);
+
   /// Replaces all rules of the allowed-pair matrix from the next commit on. Of two that are equally exact the stronger
   /// comes last.
   void setRules(std::vector<PairRule> rules);

@@ -10,6 +10,7 @@
 #include "hgrid_proximity/broadphase/hgrid.h"
 #include "hgrid_proximity/narrowphase/narrow_phase.h"
 #include "hgrid_proximity/scene/body.h"
+#include "hgrid_proximity/scene/map_cells.h"
 #include "hgrid_proximity/scene/pair_event.h"
 #include "hgrid_proximity/scene/pair_filter.h"
 #include "hgrid_proximity/scene/pair_margins.h"
@@ -24,9 +25,10 @@ struct Structure {
   std::vector<BodyId> ids;                 ///< handle of each body
   std::vector<std::uint32_t> first_proxy;  ///< proxies of body i: first_proxy[i] .. first_proxy[i + 1] - 1
   std::vector<std::uint32_t> body_of_proxy;
-  std::vector<double> margin;  ///< [m] of each body, at least the global one
-  double least_margin = 0.0;   ///< [m] the global one
-  PairMargins pair_margins;    ///< of pairs that have one of their own
+  std::vector<std::uint32_t> maps;  ///< bodies that are maps or clouds, ascending
+  std::vector<double> margin;       ///< [m] of each body, at least the global one
+  double least_margin = 0.0;        ///< [m] the global one
+  PairMargins pair_margins;         ///< of pairs that have one of their own
   PairFilter filter;
   bool silenced = false;  ///< rules switch off every pair that would be reported without them
 
@@ -74,6 +76,7 @@ struct QueryHit {
   double center_distance = 0.0;  ///< [m] the same from the query's centre or axis; between two bodies as distance
   /// [m] segment only; in an open mesh, which it may enter without a touch, no later than where it meets the surface
   double along = Proximity::kUnknown;
+  double cell_edge = Proximity::kUnknown;  ///< [m] maps and clouds: of the cell met, the nearest or first
   /// [m, world] point of the box (exact: shape) nearest to centre or axis; of a shape that a segment meets the point
   /// that it meets first. NaN: unknown, as inside a shape
   Eigen::Vector3d point = Eigen::Vector3d::Constant(Proximity::kUnknown);
@@ -103,6 +106,12 @@ class Snapshot {
   /// Per proxy, relative to origin(); meaningless for proxies of unplaced bodies.
   const std::vector<Aabb>& boxes() const { return boxes_; }
   const Eigen::Vector3d& origin() const { return origin_; }
+  /// What is occupied of a map or a cloud; null for other bodies, and while it is not known.
+  std::shared_ptr<const MapCells> cellsOf(std::uint32_t body) const;
+  /// [m] The least distance of the boxes of two bodies: those of their shapes, or the occupied cells of a map, which in
+  /// the map's frame are held against the box around the other's box. Infinite if it is more than `up_to`, and where
+  /// there are no boxes.
+  double gapOf(std::uint32_t first, std::uint32_t second, double up_to = std::numeric_limits<double>::infinity()) const;
   /// Candidates after the filter, sorted by (first, second).
   const std::vector<NearPair>& pairs() const { return pairs_; }
   /// Pairs that began or ended since the snapshot before, by number: the ends, then the begins.
@@ -157,9 +166,19 @@ class Snapshot {
   QueryAnswer finished(std::vector<QueryHit>& hits, const QueryScope& scope, bool by_along,
                        const std::string& doubt) const;
   std::string doubtOf(std::uint32_t body) const;
-  template <class Ask>
-  QueryAnswer nearestBy(const Eigen::Vector3d& center, double reach, double max_distance, const QueryScope& scope,
-                        const Ask& measure) const;
+  template <class Asked, class Ask>
+  QueryAnswer nearestBy(const Asked& asked, const Eigen::Vector3d& center, double reach, double max_distance,
+                        const QueryScope& scope, const Ask& measure) const;
+  template <class Look>
+  void forEachMap(const QueryScope& scope, Look&& look) const;
+  void addMaps(const Sphere& sphere, const QueryScope& scope, std::vector<QueryHit>& hits, std::string& doubt) const;
+  void addMaps(const Segment& segment, const QueryScope& scope, std::vector<QueryHit>& hits, std::string& doubt) const;
+  void addMaps(const QueryBox& box, const NarrowPhase& narrow_phase, const QueryScope& scope,
+               std::vector<QueryHit>& hits, std::string& doubt) const;
+  void addMapsNear(const Eigen::Vector3d& point, double limit, const QueryScope& scope, std::vector<QueryHit>& hits,
+                   std::string& doubt) const;
+  void addMapsNear(std::uint32_t body, double limit, const QueryScope& scope, std::vector<QueryHit>& hits,
+                   std::string& doubt) const;
   void measureFrom(ProxyId own, ProxyId proxy, double up_to, const QueryScope& scope, QueryHit& hit) const;
 
   std::shared_ptr<const Structure> structure_;
@@ -168,6 +187,7 @@ class Snapshot {
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   std::vector<BodyPose> poses_;
   std::vector<Aabb> boxes_;
+  std::vector<std::shared_ptr<const MapCells>> cells_;  // of structure_->maps
   std::vector<NearPair> pairs_;
   PairEventList events_;
   std::vector<std::string> reasons_;

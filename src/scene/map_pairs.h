@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "hgrid_proximity/scene/snapshot.h"
+#include "scene/horizon.h"
+
+namespace hgrid {
+
+/// Finds the pairs of maps with bodies that have shapes: each box is held against the map's occupied cells, in the
+/// map's frame, so that a map that is moved need not be made anew. Two maps make no pair.
+///
+/// Remembers gaps: what stands still beside a map that stands still is not asked again.
+class MapPairs {
+ public:
+  /// A pair, its gap and margin [m], and whether it is near or may soon be.
+  using Add = std::function<void(std::uint32_t first, std::uint32_t second, double gap, double margin, bool near)>;
+  /// Tells each pair of shapes and map that is near or, by the horizon, may soon be; some pairs more than once.
+  void find(const Snapshot& snapshot, const Horizon& horizon, const Add& add);
+
+ private:
+  struct Gap {
+    Aabb box;
+    double up_to = -1.0;  // [m] how far was looked
+    double gap = 0.0;     // [m]
+  };
+  struct OfMap {
+    std::shared_ptr<const MapCells> cells;
+    Pose world_from_map = Pose::Identity(), map_from_world = Pose::Identity();
+    std::vector<Gap> gaps;  // by proxy
+  };
+  void recall(const Snapshot& snapshot);
+  void findFor(OfMap& map, std::uint32_t number, const Snapshot& snapshot, const Horizon& horizon, const Add& add);
+
+  std::uint64_t revision_ = 0;
+  std::vector<OfMap> maps_;  // of the structure
+};
+
+}  // namespace hgrid

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// Exact distances of bodies to maps: those of a scan that measures every cell.
+#include <gtest/gtest.h>
+
+#include "hgrid_proximity/adapters/fcl.h"
+#include "hgrid_proximity/scene/pair_meter.h"
+#include "test/support/maps.h"
+#include "test/support/solids.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+constexpr double kEdge = 0.1, kInfinity = std::numeric_limits<double>::infinity();
+
+/// Bodies of one to three solids around two maps, one of whose names comes after theirs.
+class MapDistances : public ::testing::TestWithParam<unsigned> {
+ protected:
+  MapDistances() : random_(GetParam()) {
+    for (const std::string name : {"map/room", "zone/cloud"}) {
+      Body body = mapBody("room", Mobility::moving);
+      body.name = name;
+      ids_[name] = put(scene_, body, pose());
+      fill(name);
+    }
+    for (int i = 0; i < 6; ++i) {
+      Body body = obstacle(std::to_string(i));
+      for (int shapes = random_.between(1, 3); shapes > 0; --shapes) {
+        const auto kind = ShapeKind(random_.between(1, 7));
+        BodyShape shape = shapeOf(randomSolid(random_, kind, {0.05, 0.5, 10.0}));
+        shape.body_from_shape = randomPose(random_, 0.3);
+        shape.padding = random_.chance(0.5) ? 0.02 : 0.0;
+        shape.solid = narrow_phase_->solidOf(shape.shape);
+        body.shapes.push_back(shape);
+      }
+      ids_[body.name] = put(scene_, body, pose());
+    }
+  }
+  static SceneOptions options() {
+    SceneOptions options;
+    options.margin = 0.5;
+    return options;
+  }
+  Pose pose() { return randomPose(random_, 1.5); }
+  void fill(const std::string& name) {
+    voxels_[name] = randomVoxels(random_, 150, 15);
+    const auto grid = std::make_shared<StaticGrid>(kEdge, voxels_[name]);
+    scene_.setCells(ids_[name], makeMapCells(grid, *narrow_phase_));
+  }
+  /// Of every cell, from the body, ascending.
+  std::vector<double> distancesByHand(const Snapshot& snapshot, std::uint32_t map, std::uint32_t body) const {
+    std::vector<double> distances;
+    for (const Voxel& voxel : voxels_.at(snapshot.structure().bodies[map].name)) {
+      const double edge = edgeOf(voxel, kEdge);
+      const auto cube = narrow_phase_->solidOf(Shape::box({edge, edge, edge}));
+      const Eigen::Vector3d middle = minCorner(voxel, kEdge) + Eigen::Vector3d::Constant(0.5 * edge);
+      const Pose world_from_cube = snapshot.poses()[map].world_from_body * Eigen::Translation3d(middle);
+      double least = kInfinity;
+      for (const BodyShape& shape : snapshot.structure().bodies[body].shapes) {
+        const Pose world_from_shape = snapshot.poses()[body].world_from_body * shape.body_from_shape;
+        least = std::min(least, narrow_phase_
+                                    ->measure({*shape.solid, world_from_shape, shape.padding},
+                                              {*cube, world_from_cube, 0.0}, kInfinity)
+                                    .distance);
+      }
+      distances.push_back(least);
+    }
+    std::sort(distances.begin(), distances.end());
+    return distances;
+  }
+
+  Random random_;
+  std::shared_ptr<NarrowPhase> narrow_phase_ = makeFclNarrowPhase();
+  Scene scene_{options()};
+  std::map<std::string, BodyId> ids_;
+  std::map<std::string, std::vector<Voxel>> voxels_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, MapDistances, ::testing::Range(1u, 9u));
+
+TEST_P(MapDistances, OfPairsAreThoseOfTheNearestCells) {
+  const auto snapshot = scene_.commit(Time{1}, {});
+  const Structure& structure = snapshot->structure();
+  for (const std::uint32_t map : structure.maps) {
+    for (std::uint32_t body = 0; body < structure.bodies.size(); ++body) {
+      if (structure.bodies[body].kind == BodyKind::map) continue;
+      SCOPED_TRACE(structure.bodies[map].name + " and " + structure.bodies[body].name);
+      const std::vector<double> expected = distancesByHand(*snapshot, map, body);
+      const auto [first, second] = std::minmax(map, body);
+      const PairDistance found = measurePair(*narrow_phase_, *snapshot, first, second, kInfinity);
+      ASSERT_NEAR(found.proximity.distance, expected.front(), 1e-8);
+      EXPECT_EQ(isContact(found.proximity.status), expected.front() == 0.0);
+      ASSERT_EQ(found.cells.size(), kNearCells);
+      for (std::size_t i = 0; i < kNearCells; ++i) EXPECT_NEAR(found.cells[i].distance, expected[i], 1e-8);
+      if (expected.front() > 0.0) {  // from the first to the second, whichever is the map
+        const Eigen::Vector3d way = found.proximity.on_second - found.proximity.on_first;
+        EXPECT_NEAR(way.norm(), expected.front(), 1e-6);
+        const Eigen::Vector3d on_map = first == map ? found.proximity.on_first : found.proximity.on_second;
+        const Eigen::Vector3d off = (snapshot->poses()[map].world_from_body.inverse() * on_map) -
+                                    snapshot->poses()[map].world_from_body.inverse() * found.cells.front().center;
+        EXPECT_LE(off.cwiseAbs().maxCoeff(), 0.5 * found.cells.front().edge + 1e-6) << "the point is not on the cell";
+      }
+      const PairDistance bounded = measurePair(*narrow_phase_, *snapshot, first, second, 0.1);
+      EXPECT_EQ(std::isinf(bounded.proximity.distance), expected.front() > 0.1);
+      const auto contacts = contactsOf(*narrow_phase_, *snapshot, first, second, 1000);
+      EXPECT_EQ(contacts.empty(), expected.front() > 0.0);
+    }
+  }
+}
+
+TEST_P(MapDistances, FromTickToTickAreThoseThatOneWouldMeasureAnew) {
+  PairMeter meter(narrow_phase_, {0.4, 0.0, 1});
+  std::size_t measured = 0;
+  for (int tick = 1; tick <= 40; ++tick) {
+    SCOPED_TRACE("tick " + std::to_string(tick));
+    const int deed = random_.below(6);
+    if (deed == 0) fill("map/room");
+    if (deed == 1) scene_.place(ids_["zone/cloud"], pose(), Time{tick});
+    if (deed > 1) {  // a small step
+      const std::string name = deed == 2 ? "map/room" : "obstacle/" + std::to_string(random_.below(6));
+      const Pose step = randomPose(random_, 0.01);
+      Pose moved = scene_.poseOf(ids_[name]).world_from_body;
+      moved.translation() += step.translation();
+      scene_.place(ids_[name], moved, Time{tick});
+    }
+    const auto snapshot = scene_.commit(Time{tick}, {});
+    const auto distances = meter.measure(*snapshot);
+    for (const PairDistance& pair : distances->pairs) {
+      const PairDistance anew = measurePair(*narrow_phase_, *snapshot, pair.first, pair.second, kInfinity);
+      ASSERT_NEAR(pair.proximity.distance, anew.proximity.distance, 1e-8);
+      ASSERT_EQ(pair.cells.empty(), anew.cells.empty());
+      ++measured;
+    }
+  }
+  EXPECT_GT(measured, 40u);
+}
+
+TEST_P(MapDistances, OfExactQueriesAreThoseOfTheNearestCells) {
+  const auto snapshot = scene_.commit(Time{1}, {});
+  QueryScope scope;
+  scope.include = {"map/room", "zone/cloud"};
+  scope.exact = narrow_phase_.get();
+  scope.limit = 2;
+  for (std::uint32_t body = 0; body < snapshot->structure().bodies.size(); ++body) {
+    if (snapshot->structure().bodies[body].kind == BodyKind::map) continue;
+    const QueryAnswer answer = snapshot->nearest(body, 0.0, scope);
+    ASSERT_EQ(answer.hits.size(), 2u);
+    for (const QueryHit& hit : answer.hits) {
+      EXPECT_NEAR(hit.distance, distancesByHand(*snapshot, hit.body, body).front(), 1e-8);
+    }
+  }
+  for (int i = 0; i < 50; ++i) {
+    const QueryBox box{pose(), {random_.uniform(0.0, 1.0), random_.uniform(0.0, 1.0), random_.uniform(0.0, 1.0)}};
+    const QueryAnswer answer = snapshot->query(box, *narrow_phase_, scope);
+    const auto core = narrow_phase_->block(box.size);
+    for (const std::uint32_t map : snapshot->structure().maps) {
+      bool met = false;
+      for (const Voxel& voxel : voxels_.at(snapshot->structure().bodies[map].name)) {
+        const double edge = edgeOf(voxel, kEdge);
+        const auto cube = narrow_phase_->solidOf(Shape::box({edge, edge, edge}));
+        const Eigen::Vector3d middle = minCorner(voxel, kEdge) + Eigen::Vector3d::Constant(0.5 * edge);
+        const Pose world_from_cube = snapshot->poses()[map].world_from_body * Eigen::Translation3d(middle);
+        met = met || isContact(narrow_phase_
+                                   ->measure({*core, box.world_from_box, 0.0}, {*cube, world_from_cube, 0.0}, kInfinity)
+                                   .status);
+      }
+      const bool said =
+          std::any_of(answer.hits.begin(), answer.hits.end(), [&](const QueryHit& hit) { return hit.body == map; });
+      EXPECT_EQ(said, met);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid
