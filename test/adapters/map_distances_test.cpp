@@ -161,10 +161,14 @@ TEST(MapDistancesOfABar, ThatTurnsTowardsACellAreMeasuredAnew) {
   scene.setCells(put(scene, zone, at(0)), makeMapCells(grid, *narrow_phase));  // 0.12 m from the bar
   PairMeter meter(narrow_phase, {0.1, 0.0, 1});
   EXPECT_TRUE(meter.measure(*scene.commit(Time{1}, {}))->pairs.empty());
-  Pose turned = Pose::Identity();
-  turned.linear() = Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  scene.place(id, turned, Time{2});
-  const auto distances = meter.measure(*scene.commit(Time{2}, {}));
+  const auto turn = [&](double angle) {
+    Pose turned = Pose::Identity();
+    turned.linear() = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    scene.place(id, turned, Time{2});
+    return meter.measure(*scene.commit(Time{2}, {}));
+  };
+  EXPECT_TRUE(turn(1e-6)->pairs.empty()) << "what moves little is looked for farther than is reported";
+  const auto distances = turn(0.05);
   ASSERT_EQ(distances->pairs.size(), 1u);
   EXPECT_NEAR(distances->pairs.front().proximity.distance, 0.073, 0.002);
 }
