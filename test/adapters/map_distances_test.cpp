@@ -156,17 +156,17 @@ TEST(MapDistancesOfABar, ThatTurnsTowardsACellAreMeasuredAnew) {
   BodyShape shape = shapeOf(Shape::box({2.0, 0.1, 0.1}));
   shape.solid = narrow_phase->solidOf(shape.shape);
   bar.shapes.push_back(shape);
-  const BodyId id = put(scene, bar, at(0));
-  const auto grid = std::make_shared<StaticGrid>(0.01, std::vector<Voxel>{{32768 + 95, 32768 + 17, 32768, 0}});
+  const BodyId id = put(scene, bar, at(0));  // turned, so that its box has the cell
+  const auto grid = std::make_shared<StaticGrid>(0.01, std::vector<Voxel>{{32768 + 54, 32768 + 79, 32768, 0}});
   scene.setCells(put(scene, zone, at(0)), makeMapCells(grid, *narrow_phase));  // 0.12 m from the bar
   PairMeter meter(narrow_phase, {0.1, 0.0, 1});
-  EXPECT_TRUE(meter.measure(*scene.commit(Time{1}, {}))->pairs.empty());
   const auto turn = [&](double angle) {
     Pose turned = Pose::Identity();
-    turned.linear() = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    turned.linear() = Eigen::AngleAxisd(0.25 * M_PI + angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     scene.place(id, turned, Time{2});
     return meter.measure(*scene.commit(Time{2}, {}));
   };
+  EXPECT_TRUE(turn(0.0)->pairs.empty());
   EXPECT_TRUE(turn(1e-6)->pairs.empty()) << "what moves little is looked for farther than is reported";
   const auto distances = turn(0.05);
   ASSERT_EQ(distances->pairs.size(), 1u);
