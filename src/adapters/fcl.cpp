@@ -16,6 +16,7 @@
 #include <array>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <tuple>
 
 #include "adapters/fcl_mesh.h"
@@ -30,6 +31,7 @@ using Vector = Eigen::Vector3d;
 constexpr double kTolerance = 1e-10;    // [m] of FCL's iterations
 constexpr double kDisagreement = 1e-6;  // [m] between nearest points and distance, beside their rounding
 constexpr double kTouching = 1e-9;      // [m] as far apart is in contact, for one way or another of rounding
+constexpr double kHair = 1e-6;          // [m] moved apart by so much more, two solids must be free of each other
 constexpr double kMaybeInside = 0.25;   // winding number from which an open mesh may enclose a point
 
 /// A shape ready to be measured: a convex core or a mesh, and a radius around it.
@@ -189,29 +191,59 @@ CoreGap gapOfCores(const FclSolid& a, const FclSolid& b, const Pose& a_from_b, d
   return gap;
 }
 
-/// Depth, normal and place of two convex cores that meet, where FCL's contact stands the test of moving the solids
-/// apart by it.
-void describeContact(const Side& a, const Side& b, const Pose& a_from_b, Proximity& result) {
-  if (a.solid.geometry() == nullptr || b.solid.geometry() == nullptr) return;
-  const fcl::Transform3d identity = fcl::Transform3d::Identity(), placed(a_from_b.matrix());
+/// Depth and normal of two convex cores that meet, of FCL where it says something.
+struct Overlap {
+  double depth = 0.0;  // [m] of the cores
+  Vector normal = Vector::Zero(), point = Vector::Zero();
+};
+
+std::optional<Overlap> overlapByFcl(const Side& a, const Side& b, const Pose& a_from_b) {
   fcl::CollisionRequestd request;
   request.num_max_contacts = 1;
   request.enable_contact = true;
   request.gjk_solver_type = fcl::GST_LIBCCD;
   fcl::CollisionResultd found;
-  fcl::collide(a.solid.geometry(), identity, b.solid.geometry(), placed, request, found);
-  if (!found.isCollision()) return;
+  fcl::collide(a.solid.geometry(), fcl::Transform3d::Identity(), b.solid.geometry(),
+               fcl::Transform3d(a_from_b.matrix()), request, found);
+  if (!found.isCollision()) return std::nullopt;
   const fcl::Contactd& contact = found.getContact(0);
-  const double depth = contact.penetration_depth, length = contact.normal.norm(), around = a.around + b.around;
-  if (!(depth >= 0.0) || !std::isfinite(depth) || !(std::abs(length - 1.0) < 1e-6) || !contact.pos.allFinite()) return;
-  const Vector normal = contact.normal / length;
+  const double depth = contact.penetration_depth, length = contact.normal.norm();
+  if (!(depth >= 0.0) || !std::isfinite(depth) || !(std::abs(length - 1.0) < 1e-6)) return std::nullopt;
+  if (!contact.pos.allFinite()) return std::nullopt;
+  return Overlap{depth, contact.normal / length, contact.pos};
+}
+
+/// Of cores that do no more than touch, as what stands on something does: a hair's breadth farther apart they have
+/// nearest points.
+std::optional<Overlap> touchOf(const Side& a, const Side& b, const Pose& a_from_b) {
+  const double distance = a_from_b.translation().norm();
+  if (!(distance > 0.0)) return std::nullopt;
   Pose apart = a_from_b;
-  apart.translation() += (depth + around + 1e-6) * normal;
-  if (!(gapOf(a.solid.core(), b.solid.core(), apart, around).lower > around)) return;
-  result.normal = normal;
-  result.depth = depth + around;
-  result.on_first = contact.pos + (0.5 * depth + a.around) * normal;
-  result.on_second = contact.pos - (0.5 * depth + b.around) * normal;
+  apart.translation() += kHair / distance * a_from_b.translation();
+  const CoreGap gap = gapOf(a.solid.core(), b.solid.core(), apart, kHair);
+  if (!(gap.lower > 0.0)) return std::nullopt;
+  const Vector between = gap.on_second - gap.on_first;
+  return Overlap{0.0, between.normalized(), gap.on_first + 0.5 * between};
+}
+
+/// Depth, normal and place of two convex cores that meet, where they stand the test of moving the solids apart by them.
+void describeContact(const Side& a, const Side& b, const Pose& a_from_b, Proximity& result) {
+  if (a.solid.geometry() == nullptr || b.solid.geometry() == nullptr) return;
+  const double around = a.around + b.around;
+  for (const auto& describe : {overlapByFcl, touchOf}) {
+    const std::optional<Overlap> overlap = describe(a, b, a_from_b);
+    if (!overlap) continue;
+    const double depth = overlap->depth;
+    const Vector& normal = overlap->normal;
+    Pose apart = a_from_b;
+    apart.translation() += (depth + around + kHair) * normal;
+    if (!(gapOf(a.solid.core(), b.solid.core(), apart, around).lower > around)) continue;
+    result.normal = normal;
+    result.depth = depth + around;
+    result.on_first = overlap->point + (0.5 * depth + a.around) * normal;
+    result.on_second = overlap->point - (0.5 * depth + b.around) * normal;
+    return;
+  }
 }
 
 /// Whether one solid lies within the other, and a point of it.

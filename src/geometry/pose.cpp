@@ -21,7 +21,8 @@ Pose checkedPose(const Eigen::Vector3d& position, const Eigen::Vector4d& xyzw, c
   const double squared_norm = xyzw.cwiseAbs().maxCoeff() > 2.0 ? HUGE_VAL : xyzw.squaredNorm();  // no overflow
   if (!(std::abs(squared_norm - 1.0) <= kQuaternionTolerance)) {
     throw Refusal(Code::bad_rotation, what + ": the squared norm of its quaternion is " + text(squared_norm) +
-                                          "; it must be within 1 ± " + text(kQuaternionTolerance));
+                                          "; it must be within " + text(1.0 - kQuaternionTolerance) + " .. " +
+                                          text(1.0 + kQuaternionTolerance));
   }
   if (renormalised != nullptr && std::abs(squared_norm - 1.0) > 1e-6) *renormalised = true;
   Pose pose = Pose::Identity();
@@ -34,7 +35,7 @@ void checkWithin(const Eigen::Vector3d& position, double limit, const std::strin
   for (int axis = 0; axis < 3; ++axis) {
     if (!(std::abs(position[axis]) <= limit)) {
       throw Refusal(Code::out_of_range, what + ": " + "xyz"[axis] + " is " + text(position[axis]) +
-                                            " m; it must be within ±" + text(limit) + " m");
+                                            " m; it must be within " + text(-limit) + " .. " + text(limit) + " m");
     }
   }
 }

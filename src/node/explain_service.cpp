@@ -108,6 +108,13 @@ bool ExplainService::onExplain(msg::ExplainPair::Request& request, msg::ExplainP
     response.header = headerOf(*tick);
     response.world = worldState(*tick, params_, config_hash_, age_since.count());
     if (!tick->snapshot) throw Refusal(Code::not_ready, "there is no world yet: " + tick->not_ready.front());
+    for (const std::string* name : {&request.first, &request.second}) {
+      const std::vector<std::string>& bare = tick->models->without_collision;
+      if (std::find(bare.begin(), bare.end(), *name) != bare.end()) {
+        throw Refusal(Code::unknown_id,
+                      "link '" + *name + "' has no <collision>: nothing is known of its extent, and it makes no pair");
+      }
+    }
     checkStamp(request.header.stamp, *tick->snapshot);
     explainTo(response, *tick->snapshot, request, age_since.count());
     response.code = toMsg(Code::ok, "");

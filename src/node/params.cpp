@@ -88,7 +88,8 @@ void visit(Visitor& v, Params& p) {
 
   v.section("Exact distances");
   v.number("distances/max", p.distances_max, "m", 0.0, 1000.0,
-           "pairs whose shapes are this near or nearer stand in ~distances; at most ~margin; 0: as ~margin");
+           "pairs whose shapes are this near or nearer stand in ~distances; at most ~margin, also for "
+           "pairs whose own margin is larger; 0: as ~margin");
   v.number(
       "distances/budget", p.distances_budget, "s", 0.0, 10.0,
       "most time per tick; what does not fit, the farthest boxes, is not measured; ~events take up to a fifth of it "

@@ -4,9 +4,11 @@
 
 #include <tf2/exceptions.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "frames.h"
+#include "hgrid_proximity/scene/name.h"
 #include "snapshot_stamp.h"
 
 namespace hgrid {
@@ -107,6 +109,25 @@ QueryScope QueryServices::scopeOf(const std::vector<std::string>& include, const
   return {include, exclude, limit == 0 ? most : std::min(limit, most)};
 }
 
+namespace {
+
+/// How many bodies a query is about. A misspelt name must not read as CLEAR.
+/// @throws Refusal unknown_id if a pattern to be included matches nobody, or none is left
+std::size_t asked(const QueryScope& scope, const std::vector<Body>& bodies) {
+  for (const std::string& pattern : scope.include) {
+    const bool known =
+        std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) { return matches(pattern, body.name); });
+    if (!known) throw Refusal(Code::unknown_id, "no body matches '" + printable(pattern) + "' of include");
+  }
+  const auto count = std::count_if(bodies.begin(), bodies.end(), [&](const Body& body) {
+    return (scope.include.empty() || matchesAny(scope.include, body.name)) && !matchesAny(scope.exclude, body.name);
+  });
+  if (count == 0) throw Refusal(Code::unknown_id, "exclude leaves no body to ask for");
+  return static_cast<std::size_t>(count);
+}
+
+}  // namespace
+
 template <class Request, class Response, class Ask>
 bool QueryServices::answer(const Request& request, Response& response, Ask&& ask) {
   const std::shared_ptr<const Tick> tick = newest_();
@@ -128,6 +149,8 @@ bool QueryServices::answer(const Request& request, Response& response, Ask&& ask
     const Pose world_from_frame = worldFromFrame(*tick, frame);
     QueryScope scope = scopeOf(request.include, request.exclude, request.limit);
     if (request.exact) scope.exact = narrow_phase_.get();
+    const bool all = scope.include.empty() && scope.exclude.empty();
+    const std::size_t count = all ? 0 : asked(scope, snapshot.structure().bodies);
     QueryAnswer found = ask(snapshot, world_from_frame, scope);
     if (found.verdict == Verdict::clear && age_since > params_.valid_for) {
       found.verdict = Verdict::unknown;
@@ -143,6 +166,9 @@ bool QueryServices::answer(const Request& request, Response& response, Ask&& ask
     result.verdict = static_cast<std::uint8_t>(found.verdict);
     result.unknown_because = static_cast<std::uint8_t>(found.because);
     result.summary = summaryOf(found, snapshot);
+    if (!all && found.verdict == Verdict::clear) {
+      result.summary = "CLEAR: none of the " + std::to_string(count) + " bodies asked for is there";
+    }
     result.total = static_cast<std::uint32_t>(found.total);
     result.truncated = found.total > found.hits.size();
   } catch (const Refusal& refusal) {

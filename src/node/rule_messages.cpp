@@ -23,6 +23,11 @@ std::vector<PairRule> rulesOf(const std::vector<msg::AllowedPair>& pairs, PairRu
       throw Refusal(Code::out_of_range, "the lifetime of rule '" + rule.first + "', '" + rule.second + "' is " +
                                             text(pair.lifetime.toSec()) + " s; it must not be negative (0: forever)");
     }
+    if (lifetime > 0 && lifetime < 1000000) {
+      throw Refusal(Code::out_of_range, "the lifetime of rule '" + rule.first + "', '" + rule.second + "' is " +
+                                            std::to_string(lifetime) +
+                                            " ns; it must be 0 (forever) or at least 0.001 s; by hand: {secs: 20}");
+    }
     if (lifetime > 0) rule.ends = now + std::chrono::nanoseconds(lifetime);
     rules.push_back(rule);
   }

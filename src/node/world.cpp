@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hgrid_proximity/scene/name.h"
+
 namespace hgrid {
 namespace {
 
@@ -119,6 +121,33 @@ void World::setMissing(const std::string& robot, const std::string& sentence) {
   if (robots_.count(robot) == 0) missing_[robot] = sentence;
 }
 
+/// A misspelt name in a parameter does nothing, and that would show nowhere.
+void World::warnOfIdlePatterns(ModelReport& report) const {
+  std::vector<std::string> names;
+  for (const auto& robot : robots_) {
+    for (const Body& body : robot.second.bodies) names.push_back(body.name);
+  }
+  for (const ObstacleParams& obstacle : params_.obstacles) names.push_back(obstacle.body.name);
+  const auto check = [&](const std::string& parameter, const std::string& pattern) {
+    if (pattern.rfind("map/", 0) == 0 || pattern.rfind("cloud/", 0) == 0) return;  // these come and go
+    const bool idle =
+        std::none_of(names.begin(), names.end(), [&](const std::string& name) { return matches(pattern, name); });
+    if (idle) report.warnings.push_back(parameter + ": '" + printable(pattern) + "' matches no body");
+  };
+  for (const PatternValue& value : params_.margins) check("~margins", value.pattern);
+  for (const PatternValue& value : params_.padding) check("~padding", value.pattern);
+  for (const PatternValue& value : params_.max_speed) check("~max_speed", value.pattern);
+  for (const Waiver& waiver : params_.accept_uncovered) check("~accept_uncovered", waiver.pattern);
+  for (const PairMargin& pair : params_.pair_margins) {
+    check("~pair_margins", pair.first);
+    check("~pair_margins", pair.second);
+  }
+  for (const PairRule& rule : params_.allowed_pairs) {
+    check("~allowed_pairs", rule.first);
+    check("~allowed_pairs", rule.second);
+  }
+}
+
 void World::rebuildReport() {
   auto report = std::make_shared<ModelReport>();
   for (const auto& named : robots_) {
@@ -131,6 +160,7 @@ void World::rebuildReport() {
     for (const std::string& warning : robot.warnings) report->warnings.push_back(robot.name + ": " + warning);
   }
   report->robots = robots_.size();
+  if (missing_.empty()) warnOfIdlePatterns(*report);
   report_ = std::move(report);
 }
 

@@ -104,6 +104,7 @@ class World {
   void removeMovers(const std::string& robot);
   void beginEpoch();
   void rebuildReport();
+  void warnOfIdlePatterns(ModelReport& report) const;
   bool findWorldFrame();
   void handleClock(const Moment& now);
   Time chooseTime(const Moment& now);

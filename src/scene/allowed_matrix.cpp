@@ -122,9 +122,6 @@ AllowedList givenRules(const Structure& structure, const AllowedScope& scope) {
   for (const PairRule& rule : structure.filter.rules()) {
     if (inScope(match(scope, rule.first), match(scope, rule.second))) list.entries.push_back(rule);
   }
-  std::stable_sort(list.entries.begin(), list.entries.end(), [](const PairRule& a, const PairRule& b) {
-    return a.first != b.first ? a.first < b.first : a.second < b.second;
-  });
   list.total = list.entries.size();
   if (list.entries.size() > scope.limit) list.entries.resize(scope.limit);
   return list;

@@ -43,8 +43,10 @@ class Words {
     } else {
       result = pair + " are not reported: " + (hasBoxes() ? nearness() : missing()) + "." + enabled();
     }
-    return result + grown() + freshness(a_, what_.state_first, what_.age_first) +
-           (what_.first == what_.second ? "" : freshness(b_, what_.state_second, what_.age_second)) + measured();
+    result += grown() + freshness(a_, what_.state_first, what_.age_first);
+    if (what_.first != what_.second) result += freshness(b_, what_.state_second, what_.age_second);
+    result += measured() + unread(a_);
+    return what_.first == what_.second ? result : result + unread(b_);
   }
 
  private:
@@ -53,7 +55,17 @@ class Words {
   std::string nearness() const {
     const std::string margin = "the margin of " + metres(what_.margin);
     if (!(what_.gap > 0.0)) return "their boxes touch or overlap, which is within " + margin;
-    return "their boxes are " + metres(what_.gap) + " apart, " + (near_ ? "within " : "more than ") + margin;
+    const std::string soon = what_.reported && !near_
+                                 ? ", but by their bounds of speed they can meet within ~horizon, or they passed each "
+                                   "other since the tick before"
+                                 : "";
+    return "their boxes are " + metres(what_.gap) + " apart, " + (near_ ? "within " : "more than ") + margin + soon;
+  }
+
+  /// That what was said may not be all.
+  static std::string unread(const Body& body) {
+    if (body.covered || body.shapes.empty()) return {};
+    return " Not all shapes of " + body.name + " could be read, so it may be nearer: " + body.note + ".";
   }
 
   /// Why there is no gap.
@@ -121,7 +133,7 @@ class Words {
   std::string without() const {
     if (what_.rule.origin == Origin::self) return {};
     if (!hasBoxes()) return " Besides, " + missing() + ".";
-    return near_ ? " Otherwise it would be: " + nearness() + "." : " Besides, " + nearness() + ".";
+    return near_ ? " Without that they would be reported: " + nearness() + "." : " Besides, " + nearness() + ".";
   }
 
   /// That a rule or an SRDF says that the pair is to be reported.
@@ -134,7 +146,7 @@ class Words {
 
   std::string grown() const {
     if (!(what_.growth > 0.0) || !hasBoxes()) return {};
-    return " Of the margin " + metres(what_.growth) + " is there since data is old.";
+    return " " + metres(what_.growth) + " of the margin are there because data is old.";
   }
 
   static std::string freshness(const Body& body, Freshness state, double age) {
@@ -182,7 +194,7 @@ bool fillGap(const Snapshot& snapshot, Explanation& what) {
     what.gap = found->gap;
     what.margin = found->margin;
     what.since = found->since;
-    return true;
+    return (found->flags & kHorizonFlag) == 0;
   }
   what.gap = kNan;
   if (what.state_first == Freshness::unplaced || what.state_second == Freshness::unplaced) return false;

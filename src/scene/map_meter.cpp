@@ -54,6 +54,7 @@ class MapPair {
     return {worldFromCube(voxel).translation(), edgeOf(voxel, cells_->grid->finestEdge()), distance};
   }
   bool mapIsFirst() const { return map_first_; }
+  bool hasShapes() const { return cells_ && !snapshot_.structure().bodies[body_].shapes.empty(); }
 
  private:
   const Snapshot& snapshot_;
@@ -71,6 +72,7 @@ MapProximity measureMap(const NarrowPhase& narrow_phase, const Snapshot& snapsho
   nearest.proximity.status = Measure::apart;
   nearest.proximity.distance = kInfinity;
   const MapPair pair(snapshot, first, second);
+  if (!pair.hasShapes()) return {};
   pair.visit(up_to, [&](std::uint32_t shape, const Voxel& voxel, const PlacedSolid& a, const PlacedSolid& b) {
     const bool full = nearest.cells.size() == kNearCells;
     const double limit = full ? nearest.cells.back().distance : up_to;

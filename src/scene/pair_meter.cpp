@@ -75,6 +75,8 @@ NearestShapes nearestShapes(const NarrowPhase& narrow_phase, const Snapshot& sna
     nearest.cells = std::move(found.cells);
     return nearest;
   }
+  const std::vector<Body>& bodies = snapshot.structure().bodies;
+  if (bodies[first].shapes.empty() || bodies[second].shapes.empty()) return nearest;  // nothing to measure
   collectShapePairs(snapshot, first, second, up_to, shape_pairs);
   nearest.proximity.status = Measure::apart;
   nearest.proximity.distance = std::numeric_limits<double>::infinity();

@@ -91,6 +91,24 @@ TEST(NarrowPhaseKnown, CentresThatMeet) {
   }
 }
 
+// What stands on something touches it and no more: nothing lies within the other, and still there is a way up.
+TEST(NarrowPhaseKnown, ThingsThatStandOnATableHaveANormal) {
+  const Shape table = Shape::box({1.0, 1.0, 0.1});
+  for (const double x : {0.0, 0.25, 0.4}) {
+    for (const Shape& thing : {Shape::box({0.2, 0.2, 0.2}), Shape::cylinder(0.2, 0.1), Shape::cone(0.2, 0.1)}) {
+      const Case placed{table, thing, Pose::Identity(), at(x, 0.1, 0.15), 0.0, 0.0};
+      SCOPED_TRACE(placed.text());
+      const Proximity answer = Trial(placed).measure();
+      ASSERT_EQ(answer.status, Measure::contact);
+      EXPECT_NEAR(answer.depth, 0.0, 1e-6);
+      EXPECT_NEAR(answer.normal.z(), 1.0, 1e-3);
+      EXPECT_NEAR(answer.on_first.z(), 0.05, 1e-5);
+      const Proximity other = Trial(placed).measureSwapped();
+      EXPECT_NEAR(other.normal.z(), -1.0, 1e-3);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace test
 }  // namespace hgrid

@@ -99,7 +99,7 @@ TEST_F(ExplainPair, NamesTheRuleOfAService) {
   expectOff("robot/b", "obstacle/post", AllowedPair::ORIGIN_SERVICE,
             "rule 'obstacle/*', 'robot/b' of ~set_allowed, which ends in 35");
   const auto response = explained("robot/b", "obstacle/post");
-  EXPECT_TRUE(says(response.explanation, "(being loaded). Otherwise it would be: their boxes touch or overlap"));
+  EXPECT_TRUE(says(response.explanation, "(being loaded). Without that they would be reported: their boxes touch or overlap"));
   EXPECT_EQ(response.rule.first, "obstacle/*");
   EXPECT_EQ(response.rule.reason, "being loaded");
   EXPECT_GT(response.rule.lifetime.toSec(), 3500.0);
@@ -157,7 +157,7 @@ TEST_F(ExplainPair, WhatIsStaleSaysHowOldAndWhatThatDoes) {
   EXPECT_DOUBLE_EQ(response.growth, 0.05);
   EXPECT_DOUBLE_EQ(response.margin, 0.35);
   EXPECT_TRUE(
-      says(response.explanation, "Of the margin 0.05 m is there since data is old. robot/d is STALE: its pose is"));
+      says(response.explanation, "0.05 m of the margin are there because data is old. robot/d is STALE: its pose is"));
   transforms_->stream("base", "d", at(0));
   node_->waitForStatus("d is fresh", [](const msg::Status& status) { return entryOf(status, "robot/d") == nullptr; });
 }

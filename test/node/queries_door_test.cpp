@@ -71,6 +71,24 @@ TEST_F(QueryDoor, APointThatIsNoneIsRefused) {
   expectRefused(node_->segment(xyz(0, 0, 0), xyz(1e300, 0, 0), 0), "OUT_OF_RANGE", "the segment's end");
 }
 
+TEST_F(QueryDoor, PatternsThatNobodyMatchesDoNotReadAsClear) {
+  const auto ask = [](const std::vector<std::string>& include, const std::vector<std::string>& exclude) {
+    msg::QuerySphere::Request request;
+    request.center.x = 5.0;
+    request.radius = 0.1;
+    request.include = include;
+    request.exclude = exclude;
+    return node_->ask(request);
+  };
+  expectRefused(ask({"no_such/*"}, {}), "UNKNOWN_ID", "no body matches 'no_such/*' of include");
+  expectRefused(ask({"obstacle/post", "obstacle/pots"}, {}), "UNKNOWN_ID", "no body matches 'obstacle/pots'");
+  expectRefused(ask({""}, {}), "UNKNOWN_ID", "no body matches ''");
+  expectRefused(ask({}, {"*"}), "UNKNOWN_ID", "exclude leaves no body to ask for");
+  const auto clear = ask({"obstacle/*"}, {"nobody"}).answer;
+  EXPECT_EQ(clear.verdict, Answer::CLEAR);
+  EXPECT_EQ(clear.summary, "CLEAR: none of the 1 bodies asked for is there");
+}
+
 TEST_F(QueryDoor, AFrameThatNobodyKnowsIsRefused) {
   expectRefused(node_->sphere(0, 0, 0, 1, "nowhere"), "UNKNOWN_FRAME", "frame 'nowhere' is not connected to 'base'");
   expectRefused(node_->sphere(0, 0, 0, 1, "a\n\x1b[31m"), "UNKNOWN_FRAME", "a\\x0a\\x1b[31m");

@@ -82,8 +82,9 @@ TEST(AllowedMatrix, RulesAreListedAsTheyWereGiven) {
                                   allow("left/hand", "*", "again"), allow("nobody", "no one")});
   const Structure& structure = snapshot->structure();
   const AllowedList all = givenRules(structure, {"", "", kAll});
-  EXPECT_EQ(gist(all), Lines({"left/hand * 5 -", "left/hand * 5 +", "nobody no one 5 +", "right/* obstacle/box 5 +"}));
-  EXPECT_EQ(all.entries[0].ends, end);
+  EXPECT_EQ(gist(all), Lines({"right/* obstacle/box 5 +", "left/hand * 5 -", "left/hand * 5 +", "nobody no one 5 +"}))
+      << "in their order: a later one beats an earlier one";
+  EXPECT_EQ(all.entries[1].ends, end);
   EXPECT_EQ(gist(givenRules(structure, {"obstacle/*", "right/*", kAll})), Lines({"right/* obstacle/box 5 +"}));
   EXPECT_EQ(givenRules(structure, {"", "", 3}).entries.size(), 3u);
   EXPECT_EQ(givenRules(structure, {"", "", 3}).total, 4u);

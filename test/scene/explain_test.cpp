@@ -131,8 +131,9 @@ TEST_F(Explain, EveryOriginIsToldWithItsReason) {
 
 TEST_F(Explain, WhatIsSwitchedOffSaysWhetherItWouldBeReported) {
   scene_.setRules({allow("obstacle/*", "obstacle/*")});
-  EXPECT_TRUE(says(ask("obstacle/box", "obstacle/near").text,
-                   "allows them to touch. Otherwise it would be: their boxes are 0.0625 m apart, within"));
+  EXPECT_TRUE(
+      says(ask("obstacle/box", "obstacle/near").text,
+           "allows them to touch. Without that they would be reported: their boxes are 0.0625 m apart, within"));
   EXPECT_TRUE(says(ask("obstacle/box", "obstacle/far").text,
                    "allows them to touch. Besides, their boxes are 3 m apart, more than"));
 }
@@ -212,7 +213,7 @@ TEST_F(Explain, OldDataIsToldWithWhatItDoesToTheMargin) {
   scene_.setState(near_, Freshness::stale, 1.0);
   const Explanation what = ask("obstacle/near", "obstacle/box");
   EXPECT_TRUE(says(what.text,
-                   "within the margin of 0.375 m. Of the margin 0.25 m is there since data is old. "
+                   "within the margin of 0.375 m. 0.25 m of the margin are there because data is old. "
                    "obstacle/near is STALE: its pose is 1 s old."));
   EXPECT_EQ(what.growth, 0.25);
   EXPECT_EQ(what.margin, 0.375);
@@ -248,6 +249,32 @@ TEST_F(Explain, WhatWasMeasuredIsTold) {
   EXPECT_TRUE(says(wordsOf(Measure::contained, 0.0), "One shape lies inside the other, which is contact."));
   EXPECT_TRUE(says(wordsOf(Measure::containment_unknown, 0.0), "an open mesh; that is taken as contact."));
   EXPECT_TRUE(says(wordsOf(Measure::failed, 0.0), "could not be computed; that is taken as contact."));
+}
+
+TEST_F(Explain, WhatWasNotReadIsSaidOfAPairThatIsMeasured) {
+  Body half = test::ball("half");
+  half.covered = false;
+  half.note = "its grip could not be read";
+  test::put(scene_, half, test::at(0, 3));
+  EXPECT_TRUE(says(ask("obstacle/half", "obstacle/box").text,
+                   "Not all shapes of obstacle/half could be read, so it may be nearer: its grip could not be read."));
+}
+
+TEST(ExplainHorizon, APairThatIsReportedForItSaysSo) {
+  SceneOptions options;
+  options.margin = kMargin;
+  options.horizon = 1.0;
+  Scene scene(options);
+  Body ball = test::ball("runner");
+  ball.max_speed = 1.0;
+  test::put(scene, ball, test::at(0));
+  test::put(scene, test::ball("wall", 0.5, Mobility::fixed), test::at(1.5));
+  const auto snapshot = scene.commit(Time{1}, {});
+  const Explanation what = explain(*snapshot, "obstacle/runner", "obstacle/wall", nullptr);
+  EXPECT_TRUE(what.reported);
+  EXPECT_TRUE(says(what.text,
+                   "are reported: their boxes are 0.5 m apart, more than the margin of 0.125 m, but by their "
+                   "bounds of speed they can meet within ~horizon"));
 }
 
 TEST_F(Explain, NamesThatNobodyHasAreRefusedWithWhatIsCalledNearlySo) {

@@ -238,6 +238,15 @@ TEST_F(PairMeterTest, ThreadsDoNotShow) {
   }
 }
 
+TEST_F(PairMeterTest, ABodyOfWhichNothingWasReadIsNotMeasured) {
+  put(scene_, test::obstacle("bare"), at(0));
+  add("ball", 0.0);
+  snapshot_ = scene_.commit(std::chrono::milliseconds(1), {});
+  const PairDistance found = measurePair(*phase_, *snapshot_, 0, 1, 1.0);
+  EXPECT_EQ(found.proximity.status, Measure::not_measured);
+  EXPECT_TRUE(std::isnan(found.proximity.distance));
+}
+
 TEST_F(PairMeterTest, ContactsTellTheirShapesDeepestFirst) {
   Body pile = ballOf(*phase_, "pile", 0.3);
   for (const double radius : {0.1, 0.5, 0.2}) {

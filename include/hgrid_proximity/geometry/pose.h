@@ -17,14 +17,14 @@ inline constexpr double kQuaternionTolerance = 0.03;
 
 /// The pose of a position [m] and a quaternion from outside.
 ///
-/// A quaternion whose squared norm is within 1 ± kQuaternionTolerance is normalised; if it was off
+/// A quaternion whose squared norm is within kQuaternionTolerance of 1 is normalised; if it was off
 /// by more than 1e-6, `*renormalised` is set (it is never cleared; null: not asked).
 /// @param what  names the thing in the sentence of a refusal, as in "transform of frame 'tool0'"
 /// @throws Refusal nonfinite or bad_rotation, naming the field.
 Pose checkedPose(const Eigen::Vector3d& position, const Eigen::Vector4d& xyzw, const std::string& what,
                  bool* renormalised = nullptr);
 
-/// Checks that every coordinate of `position` [m] is within ±limit, the limit itself included.
+/// Checks that every coordinate of `position` [m] is within -limit .. limit, the limit itself included.
 /// @throws Refusal out_of_range, naming the axis, the value and the limit.
 void checkWithin(const Eigen::Vector3d& position, double limit, const std::string& what);
 
