@@ -49,8 +49,19 @@ Record recordOf(const Map& map, const MapPeerKind& kind, const std::string& quer
 }
 
 const char* remark(const Score& score, const std::string& status) {
-  return status != "ok" ? status.c_str() : score.correct ? "" : "WRONG";
+  if (status != "ok") return status.c_str();
+  return score.compared == 0 ? "compared with none" : score.correct ? "" : "WRONG";
 }
+
+/// A map, and who takes part.
+struct Setting {
+  const Options& options;
+  const Map& map;
+  std::vector<const MapPeerKind*> kinds;
+
+  int rounds() const { return options.quick ? 3 : 5; }
+  double budget() const { return options.quick ? 20.0 : 100.0; }  // [ms] of each block
+};
 
 std::vector<const MapPeerKind*> kindsFor(const Options& options, const Map& map) {
   std::vector<const MapPeerKind*> kinds;
@@ -66,15 +77,15 @@ std::vector<const MapPeerKind*> kindsFor(const Options& options, const Map& map)
 }
 
 /// Times the peers being made of the file and of the leaves, which also tells what they hold.
-void playMaking(const Options& options, const Map& map, const std::vector<const MapPeerKind*>& kinds,
-                std::vector<Record>& records) {
+void playMaking(const Setting& setting, std::vector<Record>& records) {
+  const Map& map = setting.map;
   struct Run {
     const MapPeerKind* kind;
     const char* query;
     MapPeerKind::Make make;
   };
   std::vector<Run> runs;
-  for (const MapPeerKind* kind : kinds) {
+  for (const MapPeerKind* kind : setting.kinds) {
     if (kind->from_file) runs.push_back({kind, "load", kind->from_file});
     if (kind->from_leaves) runs.push_back({kind, "build", kind->from_leaves});
   }
@@ -82,7 +93,7 @@ void playMaking(const Options& options, const Map& map, const std::vector<const 
   for (const Run& run : runs) {
     add(match, *run.kind, [&map, run]() -> Contestant::Play { return MakeMapPlay(map, run.make); });
   }
-  match.play(options.quick ? 3 : 5, options.quick ? 20.0 : 100.0, 60.0);
+  match.play(setting.rounds(), setting.budget(), 60.0);
 
   const std::vector<Score> scores = match.scores();
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -98,18 +109,19 @@ void playMaking(const Options& options, const Map& map, const std::vector<const 
 }
 
 /// Times the peers answering questions of one kind, one by one in random order and in Morton order.
-void playAsking(const Options& options, const Map& map, const std::vector<const MapPeerKind*>& kinds,
-                const std::vector<std::unique_ptr<MapPeer>>& peers, const MapQuestions& questions,
-                const MapDoubts& doubts, MapQuestion question, std::vector<Record>& records) {
+void playAsking(const Setting& setting, const std::vector<std::unique_ptr<MapPeer>>& peers,
+                const MapQuestions& questions, const MapDoubts& doubts, MapQuestion question,
+                std::vector<Record>& records) {
+  const Map& map = setting.map;
   struct Run {
     const MapPeerKind* kind;
     MapPeer* peer;
     bool batched;
   };
   std::vector<Run> runs;
-  for (std::size_t i = 0; i < kinds.size(); ++i) {
+  for (std::size_t i = 0; i < peers.size(); ++i) {
     if (!peers[i]->answers(question)) continue;
-    for (const bool batched : {false, true}) runs.push_back({kinds[i], peers[i].get(), batched});
+    for (const bool batched : {false, true}) runs.push_back({setting.kinds[i], peers[i].get(), batched});
   }
   Match match;
   for (const Run& run : runs) {
@@ -118,39 +130,41 @@ void playAsking(const Options& options, const Map& map, const std::vector<const 
       return [play](double budget_ms) { return (*play)(budget_ms); };
     });
   }
-  match.play(options.quick ? 3 : 5, options.quick ? 20.0 : 100.0, 60.0);
+  match.play(setting.rounds(), setting.budget(), 60.0);
 
   const std::vector<Score> scores = match.scores();
-  const double compared = static_cast<double>(questions.size() - doubts.count());
+  const double compared = double(questions.size() - doubts.count());
   std::printf("  %s: %zu questions, %zu of them in doubt by rounding and not compared\n", name(question),
               questions.size(), doubts.count());
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const Score& score = scores[i];
     const std::string& status = match.contestant(i).status();
-    const double per_sample = static_cast<double>(runs[i].batched ? questions.size() : AskMapPlay::kChunk);
+    const double per_sample = double(runs[i].batched ? questions.size() : AskMapPlay::kChunk);
     const double us = 1e3 * score.median_ms / per_sample;
     Record record = recordOf(map, *runs[i].kind, name(question), score, status);
     record.flag("batched", runs[i].batched).number("median_us", us).number("min_us", 1e3 * score.min_ms / per_sample);
-    record.number("hits_per_query", static_cast<double>(score.count) / compared);
-    record.number("compared", compared).number("in_doubt", static_cast<double>(doubts.count()));
+    record.number("hits_per_query", double(score.count) / compared);
+    record.number("compared", compared).number("in_doubt", double(doubts.count()));
     records.push_back(record);
     std::printf("  %-28s %-12s %10.4f us  spread %3.0f %%  %8.2f hits  %s\n", runs[i].kind->name.c_str(),
-                runs[i].batched ? "batched" : "single", us, 100.0 * score.spread,
-                static_cast<double>(score.count) / compared, remark(score, status));
+                runs[i].batched ? "batched" : "single", us, 100.0 * score.spread, double(score.count) / compared,
+                remark(score, status));
   }
   std::fflush(stdout);
 }
 
 void play(const Options& options, const Map& map, std::vector<Record>& records) {
   std::printf("\nmap %s, %zu occupied leaves, the finest %g m\n", map.name.c_str(), map.leaves.size(), map.resolution);
-  const std::vector<const MapPeerKind*> kinds = kindsFor(options, map);
-  playMaking(options, map, kinds, records);
+  const Setting setting{options, map, kindsFor(options, map)};
+  playMaking(setting, records);
   std::vector<std::unique_ptr<MapPeer>> peers;  // made once: contestants are forked with them
-  for (const MapPeerKind* kind : kinds) peers.push_back((kind->from_file ? kind->from_file : kind->from_leaves)(map));
+  for (const MapPeerKind* kind : setting.kinds) {
+    peers.push_back((kind->from_file ? kind->from_file : kind->from_leaves)(map));
+  }
   const MapQuestions questions(map, (options.quick ? 2 : 10) * AskMapPlay::kChunk);
   const StaticGrid grid(map.resolution, map.leaves);
   for (const MapQuestion question : kMapQuestions) {
-    playAsking(options, map, kinds, peers, questions, MapDoubts(grid, questions, question), question, records);
+    playAsking(setting, peers, questions, MapDoubts(grid, questions, question), question, records);
   }
 }
 
