@@ -9,9 +9,10 @@ PEER_NOTE = ('Cells: %s. – = not run: one frame, or loading, takes far too lon
 THREADS_NOTE = ('Medians of turns; beside hgrid, in the same turns, a loop that adds registers and touches no memory: what '
                 'two processors are worth at that time. Both are taken for free where that loop gains 1.9 or more.')
 
-MAPS_NOTE = ('Load: the file read and ready for questions; build: from a list of leaves. Each cell of a question: one by one '
-             'in random order / batched, which is in Morton order, the ordering included. Bytes: what the peer says that '
-             'it holds, of FCL what it has allocated. – = not asked, or too many leaves; ✗ = other answers than OctoMap.')
+MAPS_NOTE = ('Load: the file read and ready for questions; build: from a list of leaves. Questions: one by one in random '
+             'order / batched, which is in Morton order, the ordering included. Bytes: what the peer says that it '
+             'holds, of FCL what it has allocated. – = not asked, or too many leaves; ✗ = other answers than OctoMap, '
+             'or nobody to compare them with.')
 
 
 def table(head, rows):
