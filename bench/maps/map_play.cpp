@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "bench/maps/map_play.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <chrono>
 
@@ -33,6 +35,7 @@ std::vector<Sample> MakeMapPlay::operator()(double budget_ms) {
   std::vector<Sample> samples;
   while (samples.empty() || msSince(all_begin) < budget_ms) {
     Sample sample;
+    malloc_trim(0);
     const double held_before = heldBytes();
     const Clock::time_point begin = Clock::now();
     const std::unique_ptr<MapPeer> peer = make_(*map_);

@@ -8,7 +8,9 @@
 namespace hgrid {
 namespace bench {
 
-/// How a peer is made of a map, again and again. Its leaves are compared, where it can tell them.
+/// How a peer is made of a map, again and again, and its leaves compared. Each time the heap has been given back
+/// before, as if it were the first map of the process: memory that is still there would save a tree of small nodes
+/// most.
 class MakeMapPlay {
  public:
   MakeMapPlay(const Map& map, MapPeerKind::Make make) : map_(&map), make_(std::move(make)) {}
