@@ -32,7 +32,8 @@ bool wanted(const std::vector<std::string>& list, const std::string& item) {
 
 const char* const kUsage =
     "usage: hgrid_bench [--quick] [--json FILE] [--commit TEXT] [--command TEXT]\n"
-    "                   [--part pairs,ageing,threads,queries] [--workload uniform,mixed,floor,robots] [--n 1000,...]\n"
+    "                   [--part pairs,ageing,threads,queries,maps] [--n 1000,...]\n"
+    "                   [--workload uniform,mixed,floor,robots,building,geb079]\n"
     "                   [--moving 1,0.1,0.01] [--peer 'hgrid,sweep,FCL DynamicAABBTree,...']\n";
 
 bool Options::part(const std::string& name) const { return wanted(parts, name); }

@@ -22,5 +22,8 @@ void runThreads(const Options& options, std::vector<Record>& records);
 /// Queries of every kind against resting boxes, one by one and batched.
 void runQueries(const Options& options, std::vector<Record>& records);
 
+/// Maps: how they are loaded, what they hold, and questions about their leaves, beside OctoMap and FCL.
+void runMaps(const Options& options, std::vector<Record>& records);
+
 }  // namespace bench
 }  // namespace hgrid

@@ -66,6 +66,9 @@ const std::vector<std::string>& missingPeers() {
 #ifndef HGRID_BENCH_EMBREE
       "Embree",
 #endif
+#ifndef HGRID_BENCH_OCTOMAP
+      "OctoMap",
+#endif
   };
   return names;
 }

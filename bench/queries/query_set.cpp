@@ -2,25 +2,10 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "bench/queries/query_set.h"
 
+#include "bench/workload/random_points.h"
+
 namespace hgrid {
 namespace bench {
-namespace {
-
-/// A point of a cube around zero.
-Eigen::Vector3d cubePoint(Random& random, double half) {
-  Eigen::Vector3d point;
-  for (int axis = 0; axis < 3; ++axis) point[axis] = random.uniform(-half, half);
-  return point;
-}
-
-Eigen::Vector3d direction(Random& random) {
-  for (;;) {
-    const Eigen::Vector3d point = cubePoint(random, 1.0);
-    if (point.squaredNorm() <= 1.0 && point.squaredNorm() > 0.01) return point.normalized();
-  }
-}
-
-}  // namespace
 
 const char* name(QueryKind kind) {
   static constexpr const char* kNames[] = {"sphere", "segment", "box", "nearest", "nearest8"};

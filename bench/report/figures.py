@@ -5,6 +5,7 @@ import json
 
 WORKLOADS = ['uniform', 'mixed', 'floor', 'robots']
 QUERIES = ['sphere', 'segment', 'box', 'nearest', 'nearest8']
+MAP_QUERIES = ['touches', 'overlapping', 'segment']
 TREE = 'FCL DynamicAABBTree'
 
 

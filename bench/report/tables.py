@@ -1,13 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
 """Result tables in Markdown, which is also what is printed."""
-from figures import QUERIES, WORKLOADS, short, shown
+from figures import MAP_QUERIES, QUERIES, WORKLOADS, short, shown
 
 PEER_NOTE = ('Cells: %s. – = not run: one frame, or loading, takes far too long; ✗ = wrong pair set; '
              'crash = the process of this peer died.')
 
 THREADS_NOTE = ('Medians of turns; beside hgrid, in the same turns, a loop that adds registers and touches no memory: what '
                 'two processors are worth at that time. Both are taken for free where that loop gains 1.9 or more.')
+
+MAPS_NOTE = ('Load: the file read and ready for questions; build: from a list of leaves. Questions: one by one in random '
+             'order / batched, which is in Morton order, the ordering included. Bytes: what the peer says that it '
+             'holds, of FCL what it has allocated. – = not asked, or too many leaves; ✗ = other answers than OctoMap, '
+             'or nobody to compare them with.')
 
 
 def table(head, rows):
@@ -113,6 +118,30 @@ def queries(figures):
     return table(['median µs per query, n = %s' % count(n)] + kinds, rows)
 
 
+def maps(figures):
+    """One table per map: how it is loaded, what it takes, and how long questions about its leaves take."""
+    tables = []
+    for name, leaves in dict.fromkeys((record['map'], record['leaves']) for record in figures.all('map')):
+        def one(peer, query, **wanted):
+            return figures.one('map', map=name, leaves=leaves, peer=peer, query=query, **wanted)
+
+        rows = []
+        for peer in figures.peers('map'):
+            made = [one(peer, query) for query in ('load', 'build')]
+            asked = [[one(peer, query, batched=batched) for batched in (False, True)] for query in MAP_QUERIES]
+            if any(made):
+                rows.append([peer] + [shown(record) for record in made] + [shown(made[0] or made[1], 'bytes_per_leaf')]
+                            + [' / '.join(shown(record, 'median_us') for record in row) if any(row) else '–'
+                               for row in asked])
+        head = ['load ms', 'build ms', 'bytes per leaf'] + ['%s µs' % query for query in MAP_QUERIES]
+        tables.append(table(['%s, %s leaves' % (name, count(leaves))] + head, rows))
+    asked = [record for record in figures.all('map', peer='hgrid', batched=False)]
+    doubt = 'In doubt by rounding, and not compared: %d of %d questions.' % (
+        sum(record['in_doubt'] for record in asked),
+        sum(record['in_doubt'] + record['compared'] for record in asked))
+    return '\n\n'.join(tables + [doubt])
+
+
 def node(figures):
     rows = [[record['part'], record['world'], short(record['rate_hz']), short(record['median_ms']),
              short(record['p99_ms'])] for record in figures.all('node') if 'median_ms' in record]
@@ -136,6 +165,8 @@ def sections(figures):
         found.append(('Ageing', ageing(figures)))
     if figures.all('query'):
         found.append(('Queries', queries(figures)))
+    if figures.all('map'):
+        found.append(('Maps', MAPS_NOTE + '\n\n' + maps(figures)))
     if figures.all('node'):
         found.append(('The node', node(figures)))
     return found

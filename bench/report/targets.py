@@ -99,6 +99,30 @@ def queries(figures, verdicts):
                               % (workload, kind, ' batched' if batched else '', peer), least(workload), value)
 
 
+def maps(figures, verdicts):
+    """Loading and memory on every map, questions on the synthetic ones."""
+    for name, leaves in dict.fromkeys((record['map'], record['leaves']) for record in figures.all('map')):
+        def figure(peer, query, field, **wanted):
+            record = figures.one('map', map=name, leaves=leaves, peer=peer, query=query, **wanted)
+            return record[field] if record and record['correct'] else None
+
+        where = 'map %s, %s leaves: ' % (name, count(leaves))
+        ours, octomap = (figure(peer, 'load', 'median_ms') for peer in ('hgrid', 'OctoMap'))
+        verdicts.at_least(where + 'load and index, times faster than OctoMap\'s readBinary', 1, ratio(octomap, ours))
+        verdicts.at_most(where + 'bytes per leaf', 16, figure('hgrid', 'load', 'bytes_per_leaf'))
+        rows = (('touches', 'balls that touch, times faster than FCL\'s OcTree', 'FCL OcTree', 10),
+                ('overlapping', 'leaves in balls, times faster than FCL\'s tree of them', TREE + ' of leaves', 10),
+                ('segment', 'segments, times faster than OctoMap\'s castRay', 'OctoMap', 3))
+        for query, what, peer, least in rows if name == 'building' else ():
+            for batched in (False, True):
+                us, theirs = (figure(one, query, 'median_us', batched=batched) for one in ('hgrid', peer))
+                verdicts.at_least(where + what + (', batched' if batched else ''), least, ratio(theirs, us))
+    asked = figures.all('map', peer='hgrid') if figures.all('map', peer='OctoMap') else []
+    if asked:
+        verdicts.holds('hgrid\'s leaves and answers on maps equal OctoMap\'s in all %d settings' % len(asked),
+                       all(record['correct'] for record in asked))
+
+
 def sameness(figures, verdicts):
     """Equal pair sets whatever the instruction set and the number of threads."""
     ours = figures.all('pairs', peer='hgrid')
@@ -153,6 +177,7 @@ def verdicts_table(figures):
     held = [record['bytes_per_object'] for record in figures.all('pairs', peer='hgrid') if record['n'] >= 10000]
     verdicts.at_most('bytes per box, most from n = 10,000 up', 96, max(held) if held else None)
     queries(figures, verdicts)
+    maps(figures, verdicts)
     if figures.all('pairs', peer='hgrid'):
         sameness(figures, verdicts)
     sweep_fairness(figures, verdicts)

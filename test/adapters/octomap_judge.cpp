@@ -6,26 +6,16 @@
 #include <octomap/OcTree.h>
 
 #include <chrono>
-#include <iostream>
 #include <sstream>
 #include <stdexcept>
 
 #include "hgrid_proximity/refusal.h"
 #include "test/adapters/octomap_bytes.h"
+#include "test/support/silence.h"
 
 namespace hgrid {
 namespace test {
 namespace {
-
-/// OctoMap tells std::cerr of each file that it reads.
-class Silence {
- public:
-  Silence() : buffer_(std::cerr.rdbuf(nullptr)) {}
-  ~Silence() { std::cerr.rdbuf(buffer_); }
-
- private:
-  std::streambuf* buffer_;
-};
 
 template <class Tree>
 JudgedMap leavesOf(const Tree& tree) {
