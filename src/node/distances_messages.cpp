@@ -56,8 +56,13 @@ boost::shared_ptr<msg::Distances> distancesMessage(const Tick& tick, const msg::
     message->second_shape.push_back(pair.second_shape);
     message->first_state.push_back(static_cast<std::uint8_t>(snapshot.poses()[pair.first].state));
     message->second_state.push_back(static_cast<std::uint8_t>(snapshot.poses()[pair.second].state));
+    for (const NearCell& cell : pair.cells) {
+      message->cell_center.push_back(toPoint(cell.center));
+      message->cell_edge.push_back(cell.edge);
+      message->cell_distance.push_back(cell.distance);
+    }
+    message->cells_end.push_back(static_cast<std::uint32_t>(message->cell_edge.size()));
   }
-  message->cells_end.assign(shown, 0);
   return message;
 }
 

@@ -48,6 +48,18 @@ void visit(Visitor& v, Params& p) {
       "sphere (radius), cylinder, cone, capsule (height, radius) [m]; frame empty: the world frame, and the obstacle "
       "is fixed");
 
+  v.section("Maps");
+  v.maps("maps", p.maps,
+         "list of {name, file, frame, pose: {xyz: [m], rpy: [rad]}}: OctoMaps (.bt, .ot) of map/folder, each the body "
+         "map/name; frame empty: the world frame, and the map is fixed");
+  v.string("map/folder", p.map_folder, "folder whose files maps and ~load_octomap may name; empty: none is read");
+  v.number("map/occupied_from", p.map_occupied_from, "", 0.001, 0.999,
+           "cells of at least this probability are occupied; only .ot files have probabilities");
+  v.flag("map/nan_is_occupied", p.map_nan_is_occupied,
+         "a cell whose probability is no number is occupied; false: such a file is refused");
+  v.integer("map/max_bytes", p.map_max_bytes, 1000, 1 << 30, "bytes of a file");
+  v.integer("map/max_leaves", p.map_max_leaves, 1, 100000000, "occupied cells of a map");
+
   v.section("Which pairs");
   v.kinds("pair_kinds", p.pair_kinds,
           "kinds of pair that are reported: self, robot_robot, robot_obstacle, robot_map, moving_obstacle");
@@ -228,6 +240,27 @@ class Reader {
     obstacles_ = get(name);  // read last: the limits on sizes are parameters too
     obstacles_target_ = &value;
   }
+  void maps(const char* name, std::vector<MapParams>& value, const char*) {
+    std::set<std::string> names;
+    forEach(name, "field of a map (name, file, frame, pose)", [&](ParamValue& element) {
+      MapParams map;
+      readString(element, "file", map.file, true);
+      readString(element, "frame", map.frame, false);
+      map.frame = withoutSlash(map.frame);
+      if (auto pose = element.get("pose")) map.frame_from_map = readPose(*pose);
+      if (auto given = element.require("name")) {
+        given->string(map.name);
+        try {
+          checkLocal(map.name, "it");
+        } catch (const Refusal& refusal) {
+          given->error(std::string("cannot be a name: ") + refusal.what());
+        }
+        if (!names.insert(map.name).second)
+          given->error("is '" + printable(map.name) + "' a second time; names must differ");
+      }
+      value.push_back(map);
+    });
+  }
   void finish() {
     if (obstacles_) *obstacles_target_ = readObstacles(*obstacles_, params_.shapeLimits());
     for (auto& group : groups_) {
@@ -300,6 +333,7 @@ class Printer {
   void waivers(const char* name, const std::vector<Waiver>&, const char* meaning) { list(name, "", meaning); }
   void allowed(const char* name, const std::vector<PairRule>&, const char* meaning) { list(name, "", meaning); }
   void obstacles(const char* name, const std::vector<ObstacleParams>&, const char* meaning) { list(name, "", meaning); }
+  void maps(const char* name, const std::vector<MapParams>&, const char* meaning) { list(name, "", meaning); }
   void pairMargins(const char* name, const std::vector<PairMargin>&, double low, double high, const char* meaning) {
     list(name, "[m] ", std::string(meaning) + "; " + text(low) + " .. " + text(high));
   }

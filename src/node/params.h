@@ -26,6 +26,13 @@ struct ObstacleParams {
   Body body;
 };
 
+/// A map to be read from a file.
+struct MapParams {
+  std::string name, file;  ///< the body map/name; a file's name in ~map/folder
+  std::string frame;       ///< that the map follows; empty: the world frame
+  Pose frame_from_map = Pose::Identity();
+};
+
 /// A value for all bodies whose name matches a glob.
 struct PatternValue {
   std::string pattern;
@@ -48,6 +55,11 @@ struct Params {
 
   std::vector<RobotParams> robots;
   std::vector<ObstacleParams> obstacles;
+  std::vector<MapParams> maps;
+  std::string map_folder;
+  double map_occupied_from = 0.5;
+  bool map_nan_is_occupied = false;
+  int map_max_bytes = 256 << 20, map_max_leaves = 20000000;
   std::vector<PairRule> allowed_pairs;
   PairKinds pair_kinds;
   std::vector<Waiver> accept_uncovered;

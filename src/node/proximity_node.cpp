@@ -64,9 +64,11 @@ ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node,
       config_hash_(fnv1a(valuesOf(private_node).toXml())),
       narrow_phase_(std::move(narrow_phase)),
       robot_source_(private_node, params_, narrow_phase_),
+      map_source_(params_, narrow_phase_),
       world_(params_, ros::Time::isSimTime(), newEpoch(), ledger_, narrow_phase_),
       meter_(narrow_phase_, {params_.distances_max, params_.distances_budget, params_.distances_threads}) {
   for (const RobotParams& robot : params_.robots) to_load_.push_back(robot.name);
+  maps_to_load_ = params_.maps;
 
   pairs_ = update_private_.advertise<msg::Pairs>("pairs", 1);
   distances_ = update_private_.advertise<msg::Distances>("distances", 1);
@@ -92,6 +94,9 @@ ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node,
       query_private_, params_, config_hash_, [this] { return newest(); }, narrow_phase_, ledger_);
   allowed_ = std::make_unique<AllowedServices>(
       admin_private_, params_, config_hash_, [this] { return newest(); },
+      [this](const Job& job) { return tickAfter(job); }, ledger_);
+  maps_ = std::make_unique<MapServices>(
+      admin_private_, params_, config_hash_, map_source_, [this] { return newest(); },
       [this](const Job& job) { return tickAfter(job); }, ledger_);
   servers_.push_back(admin_private_.advertiseService("reset", &ProximityNode::onReset, this));
   servers_.push_back(admin_private_.advertiseService("reload_robot", &ProximityNode::onReload, this));
@@ -265,16 +270,37 @@ Refusal ProximityNode::loadRobot(const RobotParams& robot) {
   return result;
 }
 
-/// Tries again the robots that have no model, at first often, then every ten seconds.
+Refusal ProximityNode::loadMap(const MapParams& map) {
+  Refusal result(Code::ok, "");
+  try {
+    const LoadedMap loaded = map_source_.load(map);
+    runInTick([loaded](World& world) { world.setMap(loaded); });
+    ROS_INFO("Map '%s' is loaded: %zu occupied cells.", map.name.c_str(), loaded.cells->grid->size());
+    return result;
+  } catch (const Refusal& refusal) {
+    result = refusal;
+  } catch (const std::exception& error) {
+    result = Refusal(Code::internal, error.what());
+  }
+  ledger_.refuse("maps.refused", result);
+  const std::string sentence = std::string(name(result.code())) + " map '" + map.name + "': " + result.what();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  jobs_.push_back([body = joined("map", map.name), sentence](World& world) { world.setMissing(body, sentence); });
+  return result;
+}
+
+/// Tries again the robots that have no model and the maps without cells, at first often, then every ten seconds.
 void ProximityNode::loadMissing() {
   const auto now = std::chrono::steady_clock::now();
-  if (to_load_.empty() || now < next_try_) return;
+  if ((to_load_.empty() && maps_to_load_.empty()) || now < next_try_) return;
   std::vector<std::string> left;
   for (const RobotParams& robot : params_.robots) {
     const bool wanted = std::find(to_load_.begin(), to_load_.end(), robot.name) != to_load_.end();
     if (wanted && loadRobot(robot).code() != Code::ok) left.push_back(robot.name);
   }
   to_load_ = left;
+  const auto loaded = [this](const MapParams& map) { return loadMap(map).code() == Code::ok; };
+  maps_to_load_.erase(std::remove_if(maps_to_load_.begin(), maps_to_load_.end(), loaded), maps_to_load_.end());
   retry_after_ = std::min(10.0, std::max(0.5, 2.0 * retry_after_));
   next_try_ = now + std::chrono::milliseconds(static_cast<int>(1e3 * retry_after_));
 }

@@ -19,6 +19,7 @@
 #include "events_messages.h"
 #include "explain_service.h"
 #include "hgrid_proximity/scene/pair_meter.h"
+#include "map_services.h"
 #include "markers.h"
 #include "messages.h"
 #include "node_diagnostics.h"
@@ -55,6 +56,7 @@ class ProximityNode {
   void publishMarkers();
   /// Reads a robot and puts it into the world; the sentence of the refusal, or an empty one.
   Refusal loadRobot(const RobotParams& robot);
+  Refusal loadMap(const MapParams& map);
   void loadMissing();
   void runInTick(const Job& job);
   void waitForTick();
@@ -71,6 +73,7 @@ class ProximityNode {
   QuerySketch sketch_;
   std::shared_ptr<NarrowPhase> narrow_phase_;
   RobotSource robot_source_;
+  MapSource map_source_;
   World world_;  // of the update thread, see runInTick()
   Stopwatch stopwatch_;
   std::shared_ptr<const Tick> newest_;
@@ -92,6 +95,7 @@ class ProximityNode {
   const std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
   // Of the admin thread.
   std::vector<std::string> to_load_;
+  std::vector<MapParams> maps_to_load_;
   double retry_after_ = 0.0;
   std::chrono::steady_clock::time_point next_try_{}, next_diagnostics_{};
   std::size_t viewers_ = 0;
@@ -102,6 +106,7 @@ class ProximityNode {
   std::unique_ptr<QueryServices> queries_;
   std::unique_ptr<ExplainService> explain_;
   std::unique_ptr<AllowedServices> allowed_;
+  std::unique_ptr<MapServices> maps_;
   std::unique_ptr<NodeDiagnostics> diagnostics_;
   ros::SteadyTimer tick_timer_, housekeeping_timer_;
   std::vector<std::unique_ptr<ros::AsyncSpinner>> spinners_;

@@ -22,7 +22,7 @@ msg::Hit toMsg(const QueryHit& source, const Snapshot& snapshot, const Pose& fra
   msg::Hit hit;
   hit.name = snapshot.structure().bodies[source.body].name;
   hit.shape = source.shape;
-  hit.cell_edge = std::nan("");
+  hit.cell_edge = source.cell_edge;
   hit.status = static_cast<std::uint8_t>(source.status);
   hit.distance = source.distance;
   hit.center_distance = source.center_distance;

@@ -13,6 +13,7 @@
 #include "hgrid_proximity/scene/rule_book.h"
 #include "hgrid_proximity/scene/scene.h"
 #include "ledger.h"
+#include "map_source.h"
 #include "params.h"
 #include "robot_source.h"
 #include "tf_intake.h"
@@ -69,6 +70,10 @@ class World {
 
   /// Puts a robot in the place of the one of the same name; all of it or, with a Refusal, nothing.
   void setRobot(LoadedRobot robot);
+  /// Puts a map in the place of the one of the same name. @throws Refusal not_ready (no world frame yet), limit
+  void setMap(const LoadedMap& map);
+  /// Takes a map away; an empty name all of them. @throws Refusal unknown_id
+  void clearMap(const std::string& name);
   /// Says why a robot has no model (yet). It keeps the model it has.
   void setMissing(const std::string& robot, const std::string& sentence);
   /// All rules of the allowed-pair matrix, from the next tick on; they end by themselves.
@@ -131,6 +136,7 @@ class World {
   std::uint64_t settled_revision_ = 0;     // of /tf_static
   std::map<Time, std::uint32_t> cohorts_;  // of this tick: bodies of one stamp are equally old
   std::map<std::string, LoadedRobot> robots_;
+  std::map<std::string, Body> maps_;            // by name of the body
   std::map<std::string, std::string> missing_;  // sentence by robot
   std::shared_ptr<const ModelReport> report_ = std::make_shared<ModelReport>();
   RuleBook rules_;

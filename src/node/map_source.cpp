@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "map_source.h"
+
+#include <algorithm>
+
+#include "hgrid_proximity/adapters/octomap.h"
+#include "hgrid_proximity/refusal.h"
+#include "hgrid_proximity/scene/name.h"
+
+namespace hgrid {
+namespace {
+
+constexpr std::size_t kLongestFileName = 64;  // bytes
+
+/// A name and no path: whoever may call a service may not choose what is read.
+void checkFileName(const std::string& file) {
+  const bool plain = !file.empty() && file.size() <= kLongestFileName && file.front() != '.' &&
+                     std::all_of(file.begin(), file.end(), [](char c) {
+                       return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
+                              c == '_' || c == '-';
+                     });
+  if (!plain) {
+    throw Refusal(Code::bad_id, "file is '" + printable(file) +
+                                    "'; it must be the name of a file in ~map/folder, of at most " +
+                                    std::to_string(kLongestFileName) + " letters, digits and . _ -");
+  }
+}
+
+}  // namespace
+
+MapSource::MapSource(const Params& params, std::shared_ptr<const NarrowPhase> narrow_phase)
+    : params_(params), narrow_phase_(std::move(narrow_phase)) {}
+
+LoadedMap MapSource::load(const MapParams& map) const {
+  checkLocal(map.name, "the map's name");
+  checkFileName(map.file);
+  if (params_.map_folder.empty()) {
+    throw Refusal(Code::resource_denied, "map '" + map.name + "': ~map/folder is not set, so no file may be read");
+  }
+  ResourcePolicy policy;
+  policy.file_roots = {params_.map_folder};
+  policy.max_bytes = static_cast<std::size_t>(params_.map_max_bytes);
+  OctomapOptions options;
+  options.occupied_from = params_.map_occupied_from;
+  options.nan_is_occupied = params_.map_nan_is_occupied;
+  options.max_bytes = policy.max_bytes;
+  options.max_leaves = static_cast<std::uint64_t>(params_.map_max_leaves);
+  options.max_nodes = 2 * options.max_leaves;
+  const OpenResource file = openResource("file://" + params_.map_folder + "/" + map.file, policy);
+  const Octomap octomap = readOctomapFile(file, options);
+  return {map, makeMapCells(std::make_shared<StaticGrid>(octomap.resolution, octomap.occupied), *narrow_phase_)};
+}
+
+}  // namespace hgrid

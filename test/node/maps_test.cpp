@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// OctoMaps from files: at the start and on request, replaced without a gap, refused without harm.
+#include <hgrid_proximity/ClearMap.h>
+#include <hgrid_proximity/Distances.h>
+#include <hgrid_proximity/LoadOctomap.h>
+#include <ros/service.h>
+#include <ros/topic.h>
+
+#include <fstream>
+
+#include "test/adapters/octomap_oracle.h"
+#include "test/adapters/temporary_folder.h"
+#include "test/node/support/claims.h"
+#include "test/node/support/descriptions.h"
+#include "test/node/support/transform_source.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+using msg::Answer;
+using Names = std::vector<std::string>;
+
+/// A `.bt` file of voxels of level 0 in a row along x, each of 0.1 m, from the origin on.
+std::string rowOf(int count) {
+  std::vector<Voxel> voxels;
+  for (int i = 0; i < count; ++i) voxels.push_back({static_cast<std::uint16_t>(32768 + i), 32768, 32768, 0});
+  std::sort(voxels.begin(), voxels.end(), [](const Voxel& a, const Voxel& b) { return mortonOf(a) < mortonOf(b); });
+  const std::string nodes = binaryNodesOf(voxels);
+  const Octomap read = readOctomapData({"OcTree", true, 0.1}, nodes, "the row");
+  return "# Octomap OcTree binary file\nid OcTree\nsize " + std::to_string(read.nodes) + "\nres 0.1\ndata\n" + nodes;
+}
+
+/// A robot's ball of 0.1 m at (0.05, 0.05, 0.3): 0.1 m above the first voxel of the map.
+class Maps : public ::testing::Test {
+ protected:
+  Maps() { folder_.write("row.bt", rowOf(1)); }
+  void start(const Value& maps, double rate = 50.0) {
+    NodeSetup setup;
+    setup.params =
+        dict({{"map", dict({{"folder", folder_.path()}})}, {"maps", maps}, {"margin", 0.15}, {"rate", rate}});
+    setup.beside["robot_description"] = balls({"a"});
+    transforms_.stream("base", "a", at(0.05, 0.05, 0.3));
+    node_ = std::make_unique<NodeUnderTest>(setup);
+  }
+  static Value mapOf(const std::string& name, const std::string& file) {
+    return dict({{"name", name}, {"file", file}});
+  }
+  msg::LoadOctomap::Response load(const std::string& map, const std::string& file, double z = 0.0) {
+    msg::LoadOctomap::Request request;
+    request.map = map;
+    request.file = file;
+    request.pose.position.z = z;
+    msg::LoadOctomap::Response response;
+    if (!ros::service::call(node_->named("load_octomap"), request, response)) throw std::runtime_error("no answer");
+    return response;
+  }
+  msg::ClearMap::Response clear(const std::string& map) {
+    msg::ClearMap::Request request;
+    request.map = map;
+    msg::ClearMap::Response response;
+    if (!ros::service::call(node_->named("clear_map"), request, response)) throw std::runtime_error("no answer");
+    return response;
+  }
+  /// Names of maps that a thin ray from above meets at x.
+  Names metAt(double x) {
+    msg::QuerySegment::Request request;
+    request.start.x = request.end.x = x;
+    request.start.y = request.end.y = 0.05;
+    request.start.z = 2.0;
+    request.end.z = -1.0;
+    request.exclude = {"robot/*"};
+    return namesOf(node_->ask(request).answer);
+  }
+  void expectRefused(const msg::LoadOctomap::Response& response, const std::string& code, const std::string& words) {
+    EXPECT_FALSE(response.success);
+    EXPECT_EQ(response.code.name, code);
+    EXPECT_TRUE(says(response.code.text, words));
+    EXPECT_EQ(metAt(0.05), Names({"map/room"})) << "the old map serves";
+  }
+
+  TemporaryFolder folder_;
+  TransformSource transforms_;
+  std::unique_ptr<NodeUnderTest> node_;
+};
+
+TEST_F(Maps, MakePairsAnswersAndDistances) {
+  start(list({mapOf("room", "row.bt")}));
+  node_->waitForComplete();
+  node_->waitForPairs("the ball over the map", [](const msg::Pairs& pairs) {
+    return pairs.names == Names({"map/room", "robot/a"}) && std::abs(pairs.gap.at(0) - 0.1) < 1e-6;
+  });
+  const auto distances = ros::topic::waitForMessage<msg::Distances>(node_->named("distances"), ros::Duration(20.0));
+  ASSERT_TRUE(distances);
+  ASSERT_EQ(distances->distance.size(), 1u);
+  EXPECT_NEAR(distances->distance[0], 0.1, 1e-9);
+  EXPECT_NEAR(distances->point_on_first[0].z, 0.1, 1e-9) << "the map's point";
+  ASSERT_EQ(distances->cells_end, std::vector<std::uint32_t>({1}));
+  EXPECT_NEAR(distances->cell_center[0].z, 0.05, 1e-9);
+  EXPECT_NEAR(distances->cell_edge[0], 0.1, 1e-12);
+  EXPECT_NEAR(distances->cell_distance[0], 0.1, 1e-9);
+  const auto hits = node_->sphere(0.05, 0.05, 0.14, 0.05).answer.hits;
+  ASSERT_EQ(hits.size(), 1u);
+  EXPECT_EQ(hits[0].name, "map/room");
+  EXPECT_NEAR(hits[0].cell_edge, 0.1, 1e-12);
+  EXPECT_NEAR(hits[0].center_distance, 0.04, 1e-9);
+  EXPECT_EQ(metAt(0.05), Names({"map/room"}));
+  EXPECT_EQ(metAt(0.15), Names());
+  const auto why = node_->explain("map/room", "robot/a");
+  EXPECT_TRUE(why.reported);
+  EXPECT_NEAR(why.distance, 0.1, 1e-9);
+}
+
+TEST_F(Maps, AreReplacedMovedAndTakenAway) {
+  start(list({mapOf("room", "row.bt")}));
+  node_->waitForComplete();
+  folder_.write("longer.bt", rowOf(5));
+  const std::uint64_t revision = node_->heard().status.back()->world.bodies_revision;
+  const auto loaded = load("room", "longer.bt");
+  ASSERT_TRUE(loaded.success) << loaded.code.text;
+  EXPECT_EQ(loaded.occupied_leaves, 5u);
+  EXPECT_EQ(loaded.resolution, 0.1);
+  EXPECT_EQ(loaded.world.bodies_revision, revision) << "other cells are no other structure";
+  EXPECT_EQ(metAt(0.45), Names({"map/room"}));
+  ASSERT_TRUE(load("hall", "row.bt", 1.0).success);
+  EXPECT_EQ(metAt(0.05), Names({"map/hall", "map/room"})) << "in order along the ray";
+  ASSERT_TRUE(load("room", "longer.bt", -5.0).success) << "to another place";
+  EXPECT_EQ(metAt(0.05), Names({"map/hall"}));
+  ASSERT_TRUE(clear("hall").success);
+  EXPECT_EQ(metAt(0.05), Names());
+  const auto unknown = clear("hall");
+  EXPECT_EQ(unknown.code.name, "UNKNOWN_ID");
+  ASSERT_TRUE(clear("").success);
+  node_->waitForTicks(2);
+  EXPECT_EQ(node_->heard().status.back()->body_count, 2u);
+}
+
+TEST_F(Maps, ThatCannotBeReadAreRefusedByName) {
+  start(list({mapOf("room", "row.bt")}));
+  node_->waitForComplete();
+  for (const char* file : {"../row.bt", "/etc/passwd", "", ".", "..", ".hidden", "a b.bt", "row.bt\n", "%2e%2e"}) {
+    SCOPED_TRACE(file);
+    expectRefused(load("room", file), "BAD_ID", "it must be the name of a file in ~map/folder");
+  }
+  expectRefused(load("room", std::string(65, 'a')), "BAD_ID", "of at most 64 letters");
+  expectRefused(load("a/b\n", "row.bt"), "BAD_ID", "the map's name");
+  expectRefused(load("room", "nothing.bt"), "RESOURCE_MISSING", "nothing.bt");
+  ASSERT_EQ(symlink("/etc/passwd", (folder_ / "link.bt").c_str()), 0);
+  expectRefused(load("room", "link.bt"), "RESOURCE_DENIED", "link.bt");
+  const std::string whole = rowOf(3);
+  folder_.write("cut.bt", whole.substr(0, whole.size() - 1));
+  expectRefused(load("room", "cut.bt"), "TRUNCATED", "cut.bt");
+  folder_.write("other.bt", "# Octomap OcTree binary file\nid Quadtree\nsize 1\nres 0.1\ndata\n\1\1");
+  expectRefused(load("room", "other.bt"), "UNSUPPORTED", "Quadtree");
+  msg::LoadOctomap::Request request;
+  request.map = "room";
+  request.file = "row.bt";
+  request.pose.orientation.x = 3.0;
+  msg::LoadOctomap::Response response;
+  ASSERT_TRUE(ros::service::call(node_->named("load_octomap"), request, response));
+  expectRefused(response, "BAD_ROTATION", "the map's pose");
+}
+
+TEST_F(Maps, ThatAreMissingAtTheStartLeaveTheWorldIncompleteUntilTheyCome) {
+  start(list({mapOf("room", "late.bt")}));
+  node_->waitForStatus("the map is missed", [](const msg::Status& status) {
+    return !status.world.complete && !status.world.reasons.empty() &&
+           status.world.reasons[0].find("RESOURCE_MISSING map 'room'") == 0;
+  });
+  EXPECT_EQ(node_->sphere(3, 3, 3, 0.1).answer.verdict, Answer::UNKNOWN);
+  folder_.write("late.bt", rowOf(1));
+  node_->waitForComplete();
+  EXPECT_EQ(metAt(0.05), Names({"map/room"}));
+}
+
+std::size_t residentKilobytes(pid_t process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/statm");
+  std::size_t pages = 0, resident = 0;
+  file >> pages >> resident;
+  return resident * 4;
+}
+
+TEST_F(Maps, OneThousandReplacementsLeaveNothingBehind) {
+  start(list({mapOf("room", "row.bt")}), 500.0);
+  node_->waitForComplete();
+  std::vector<Voxel> voxels;
+  for (std::uint16_t x = 0; x < 30; ++x) {
+    for (std::uint16_t y = 0; y < 30; ++y)
+      voxels.push_back(
+          {static_cast<std::uint16_t>(32768 + 2 * x), static_cast<std::uint16_t>(32768 + 2 * y), 32768, 0});
+  }
+  std::sort(voxels.begin(), voxels.end(), [](const Voxel& a, const Voxel& b) { return mortonOf(a) < mortonOf(b); });
+  const std::string nodes = binaryNodesOf(voxels);
+  const Octomap read = readOctomapData({"OcTree", true, 0.1}, nodes, "the field");
+  folder_.write("field.bt", "# Octomap OcTree binary file\nid OcTree\nsize " + std::to_string(read.nodes) +
+                                "\nres 0.1\ndata\n" + nodes);
+  std::size_t after_100 = 0;
+  for (int i = 1; i <= 1000; ++i) {
+    ASSERT_TRUE(load("room", i % 2 == 0 ? "row.bt" : "field.bt").success);
+    if (i == 100) after_100 = residentKilobytes(node_->process().pid());
+  }
+  EXPECT_LT(residentKilobytes(node_->process().pid()), after_100 + 2000) << "kB";
+  EXPECT_EQ(metAt(0.05), Names({"map/room"}));
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid
