@@ -36,7 +36,8 @@ class StaticGrid::Builder {
     // Bricks that end before this voxel are complete.
     const int level = std::min(voxel.level / 2, kBrickLevels - 1);
     for (int open = 0; open < kBrickLevels - 1; ++open) {
-      if (open < level || (code ^ last_) >> 6 * (open + 1) != 0) close(open);
+      if (open >= level && (code ^ last_) >> 6 * (open + 1) == 0) break;  // nor do those around it end
+      close(open);
     }
     last_ = code;
     end_ = after;
@@ -85,8 +86,10 @@ class StaticGrid::Builder {
     brick.full |= cells;
     for (int above = level + 1; above < kBrickLevels; ++above) {
       Open& outer = open_[static_cast<std::size_t>(above)];
+      const std::uint64_t part = std::uint64_t{1} << (code >> 6 * above & 63u);
+      if ((outer.cells & part) != 0) break;  // and so has all that is around it
       if (outer.cells == 0) begin(above);
-      outer.cells |= std::uint64_t{1} << (code >> 6 * above & 63u);
+      outer.cells |= part;
     }
   }
 
@@ -127,6 +130,9 @@ StaticGrid::StaticGrid(double finest_edge, const std::vector<Voxel>& voxels)
     bounds_.extend(maxCorner(voxels[i], finest_edge));
   }
   builder.finish();
+  while (start_.level > 0 && bitCount(cellsOf(start_)) == 1 && fullOf(start_) == 0) {
+    start_ = below(start_, firstCell(cellsOf(start_)));
+  }
   for (BrickLevel& level : levels_) {
     level.cells.shrink_to_fit();
     level.full.shrink_to_fit();
@@ -195,25 +201,35 @@ class StaticGrid::Search {
     return {min.array() - (by + rounded), max.array() + (by + rounded)};
   }
 
-  /// Calls `look` with every voxel that has a part of the range and that is `wanted`, as its brick is, in Morton order,
-  /// until it returns false. @returns whether it never did
-  template <class Wanted, class Look>
-  bool within(const Brick& brick, const Range& range, const Wanted& wanted, const Look& look) const {
-    std::uint64_t cells = grid_.cellsOf(brick) & cellsWithin(brick, range);
+  /// Calls `look` with every voxel of the cells that `chosen` leaves of a brick, in Morton order, until it returns
+  /// false. @returns whether it never did
+  template <class Chosen, class Look>
+  bool visit(const Brick& brick, const Chosen& chosen, const Look& look) const {
     const std::uint64_t full = grid_.fullOf(brick);
+    std::uint64_t cells = grid_.cellsOf(brick) & chosen(brick, full != 0);
     while (cells != 0) {
       const unsigned cell = firstCell(cells);
       if (full >> cell & 1u) {
         cells &= ~grid_.restOfVoxel(brick, cell);
-        const Voxel voxel = grid_.voxelAt(brick, cell);
-        if (wanted(keysOf(voxel)) && !look(voxel)) return false;
+        if (!look(grid_.voxelAt(brick, cell))) return false;
       } else {
         cells &= cells - 1;
-        const Brick inner = grid_.below(brick, cell);
-        if (wanted(cubeOf(inner)) && !within(inner, range, wanted, look)) return false;
+        if (!visit(grid_.below(brick, cell), chosen, look)) return false;
       }
     }
     return true;
+  }
+
+  /// Chooses the cells of a brick that have a part of a range.
+  static auto inRange(const Range& range) {
+    return [range](const Brick& brick, bool) { return cellsWithin(brick, range); };
+  }
+  /// Chooses the cells that touch a ball in keys; of bricks without voxels of their own, those around it.
+  static auto inBall(const Sphere& ball) {
+    const double near = touchingDistance(ball);
+    return [range = rangeAround(ball.center, ball.center, ball.radius), ball, near](const Brick& brick, bool exactly) {
+      return exactly ? cellsTouching(brick, ball.center, near * near) : cellsWithin(brick, range);
+    };
   }
 
   /// Of what lies within `limit` keys of a box in keys, the nearer cells first.
@@ -250,14 +266,16 @@ class StaticGrid::Search {
   struct Line {
     Segment segment;
     Eigen::Vector3d way;
-    int main;       // the axis along which it is longest
-    double around;  // its radius and what may have been rounded
+    int main;        // the axis along which it is longest
+    double per_way;  // one over its length along that; 0 if it has none
+    double around;   // its radius and what may have been rounded
   };
   Line lineOf(const Segment& segment) const {
     Line line;
     line.segment = {keysAt(segment.from), keysAt(segment.to), keys(segment.radius)};
     line.way = line.segment.to - line.segment.from;
-    line.way.cwiseAbs().maxCoeff(&line.main);
+    const double longest = line.way.cwiseAbs().maxCoeff(&line.main);
+    line.per_way = longest > 1e-100 ? 1.0 / line.way[line.main] : 0.0;
     const double farthest = std::max(line.segment.from.cwiseAbs().maxCoeff(), line.segment.to.cwiseAbs().maxCoeff());
     line.around = line.segment.radius + 1e-9 + 1e-12 * (farthest + line.segment.radius);
     return line;
@@ -266,20 +284,20 @@ class StaticGrid::Search {
   /// Slice by slice of cells across the line's main axis, as it passes them: of each slice the cells that the line
   /// passes there. What begins after `first` is left out.
   void along(const Brick& brick, const Line& line, VoxelTouch& first) const {
-    const double edge = static_cast<double>(std::int64_t{1} << 2 * brick.level);
+    const double edge = static_cast<double>(std::int64_t{1} << 2 * brick.level), per_edge = 1.0 / edge;
     const auto corner = [&](int axis) { return static_cast<double>(brick.corner[static_cast<std::size_t>(axis)]); };
     const int main = line.main, second = (main + 1) % 3, third = (main + 2) % 3;
     const std::uint64_t cells = grid_.cellsOf(brick), full = grid_.fullOf(brick);
-    const double from = line.segment.from[main], way = line.way[main];
+    const double from = line.segment.from[main];
     for (int i = 0; i < 4; ++i) {
-      const int slice = way < 0.0 ? 3 - i : i;
+      const int slice = line.per_way < 0.0 ? 3 - i : i;
       std::uint64_t passed = cells & kCellRanges.sets[static_cast<std::size_t>(main)][static_cast<std::size_t>(slice)]
                                                      [static_cast<std::size_t>(slice)];
       if (passed == 0) continue;
       const double low = corner(main) + slice * edge - line.around, high = low + edge + 2.0 * line.around;
       double enter = 0.0, leave = std::min(1.0, first.along);  // shares of the line
-      if (way != 0.0) {
-        const double a = (low - from) / way, b = (high - from) / way;
+      if (line.per_way != 0.0) {
+        const double a = (low - from) * line.per_way, b = (high - from) * line.per_way;
         enter = std::max(enter, std::min(a, b));
         leave = std::min(leave, std::max(a, b));
       } else if (from < low || from > high) {
@@ -289,8 +307,8 @@ class StaticGrid::Search {
       for (const int axis : {second, third}) {
         const double a = line.segment.from[axis] + enter * line.way[axis];
         const double b = line.segment.from[axis] + leave * line.way[axis];
-        passed &= cellsBetween(axis, (std::min(a, b) - line.around - corner(axis)) / edge,
-                               (std::max(a, b) + line.around - corner(axis)) / edge);
+        passed &= cellsBetween(axis, (std::min(a, b) - line.around - corner(axis)) * per_edge,
+                               (std::max(a, b) + line.around - corner(axis)) * per_edge);
       }
       while (passed != 0) {
         const unsigned cell = firstCell(passed);
@@ -323,6 +341,32 @@ class StaticGrid::Search {
     return cells;
   }
 
+  /// Along each axis the square of a cell's distance is one of four; of three of them each cell's is made.
+  static std::uint64_t cellsTouching(const Brick& brick, const Eigen::Vector3d& center, double most_squared) {
+    const double edge = static_cast<double>(std::int64_t{1} << 2 * brick.level);
+    std::array<std::array<double, 4>, 3> squared;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double at = center[static_cast<Eigen::Index>(axis)] - brick.corner[axis];
+      for (std::size_t i = 0; i < 4; ++i) {
+        const double low = static_cast<double>(i) * edge;
+        const double gap = std::max(std::max(low - at, at - (low + edge)), 0.0);
+        squared[axis][i] = gap * gap;
+      }
+    }
+    std::uint64_t cells = 0;
+    for (unsigned z = 0; z < 4; ++z) {
+      for (unsigned y = 0; y < 4; ++y) {
+        const double rest = most_squared - (squared[2][z] + squared[1][y]);
+        std::uint64_t row = 0;  // cells 0, 1, 8 and 9 stand beside each other along x
+        for (const unsigned x : {0u, 1u, 2u, 3u}) {
+          row |= static_cast<std::uint64_t>(squared[0][x] <= rest) << ((x & 1) + (x >> 1) * 8);
+        }
+        cells |= row << ((y & 1) * 2 + (y >> 1) * 16 + (z & 1) * 4 + (z >> 1) * 32);
+      }
+    }
+    return cells;
+  }
+
   static Aabb cubeOf(const Brick& brick) {
     const Eigen::Vector3f min(static_cast<float>(brick.corner[0]), static_cast<float>(brick.corner[1]),
                               static_cast<float>(brick.corner[2]));
@@ -351,52 +395,43 @@ std::vector<Voxel> StaticGrid::voxels() const {
   return all;
 }
 
-bool StaticGrid::overlapping(const Eigen::AlignedBox3d& box, std::size_t most, std::vector<Voxel>& found) const {
-  found.clear();
-  const Search search(*this);
-  return search.within(
-      root(), Search::rangeAround(search.keysAt(box.min()), search.keysAt(box.max()), 0.0),
-      [](const Aabb&) { return true; },
-      [&](const Voxel& voxel) {
-        if (found.size() == most) return false;
-        found.push_back(voxel);
-        return true;
-      });
-}
-
 namespace {
 
-/// Asks whether a ball in keys touches a cube.
-auto touchedBy(const Sphere& sphere) {
-  return [sphere, near = touchingDistance(sphere)](const Aabb& cube) { return distance(cube, sphere.center) <= near; };
+/// Keeps voxels until there are more than `most`.
+auto keepIn(std::vector<Voxel>& found, std::size_t most) {
+  found.clear();
+  return [&found, most](const Voxel& voxel) {
+    if (found.size() == most) return false;
+    found.push_back(voxel);
+    return true;
+  };
 }
 
 }  // namespace
 
+bool StaticGrid::overlapping(const Eigen::AlignedBox3d& box, std::size_t most, std::vector<Voxel>& found) const {
+  const Search search(*this);
+  const auto range = Search::rangeAround(search.keysAt(box.min()), search.keysAt(box.max()), 0.0);
+  return search.visit(start_, Search::inRange(range), keepIn(found, most));
+}
+
 bool StaticGrid::overlapping(const Sphere& sphere, std::size_t most, std::vector<Voxel>& found) const {
-  found.clear();
   const Search search(*this);
   const Sphere in_keys{search.keysAt(sphere.center), search.keys(sphere.radius)};
-  return search.within(root(), Search::rangeAround(in_keys.center, in_keys.center, in_keys.radius), touchedBy(in_keys),
-                       [&](const Voxel& voxel) {
-                         if (found.size() == most) return false;
-                         found.push_back(voxel);
-                         return true;
-                       });
+  return search.visit(start_, Search::inBall(in_keys), keepIn(found, most));
 }
 
 bool StaticGrid::touches(const Sphere& sphere) const {
   const Search search(*this);
   const Sphere in_keys{search.keysAt(sphere.center), search.keys(sphere.radius)};
-  return !search.within(root(), Search::rangeAround(in_keys.center, in_keys.center, in_keys.radius), touchedBy(in_keys),
-                        [](const Voxel&) { return false; });
+  return !search.visit(start_, Search::inBall(in_keys), [](const Voxel&) { return false; });
 }
 
 std::optional<VoxelTouch> StaticGrid::firstAlong(const Segment& segment) const {
   const Search search(*this);
   VoxelTouch first;
   first.along = kInfinity;
-  search.along(root(), search.lineOf(segment), first);
+  search.along(start_, search.lineOf(segment), first);
   if (std::isinf(first.along)) return std::nullopt;
   first.along *= (segment.to - segment.from).norm();
   return first;
@@ -408,7 +443,7 @@ void StaticGrid::visitNear(const Eigen::AlignedBox3d& box, double limit, const L
   const double farthest = std::max(in_keys.min().cwiseAbs().maxCoeff(), in_keys.max().cwiseAbs().maxCoeff());
   const double rounded = 1e-12 * (farthest + 1.0);  // what is no farther away touches
   double limit_in_keys = search.keys(limit) + rounded;
-  search.near(root(), in_keys, limit_in_keys, [&](const Voxel& voxel, double distance) {
+  search.near(start_, in_keys, limit_in_keys, [&](const Voxel& voxel, double distance) {
     return search.keys(look(voxel, distance > rounded ? search.metres(distance) : 0.0)) + rounded;
   });
 }

@@ -89,7 +89,6 @@ class StaticGrid {
   class Builder;
   class Search;
 
-  Brick root() const { return {kBrickLevels - 1, 0, {-Voxel::kOriginKey, -Voxel::kOriginKey, -Voxel::kOriginKey}}; }
   std::uint64_t cellsOf(const Brick& brick) const {
     return levels_[static_cast<std::size_t>(brick.level)].cells[brick.number];
   }
@@ -103,6 +102,8 @@ class StaticGrid {
   bool is_whole_ = false;  // one voxel is the whole map: eight of half its edge, as it is stored
   Eigen::AlignedBox3d bounds_;
   std::array<BrickLevel, kBrickLevels> levels_;
+  /// The deepest brick that holds everything: where searches start.
+  Brick start_{kBrickLevels - 1, 0, {-Voxel::kOriginKey, -Voxel::kOriginKey, -Voxel::kOriginKey}};
 };
 
 }  // namespace hgrid
