@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "hgrid_proximity/adapters/octomap.h"
+#include "frames.h"
 #include "hgrid_proximity/refusal.h"
 #include "hgrid_proximity/scene/name.h"
 
@@ -32,6 +32,27 @@ void checkFileName(const std::string& file) {
 MapSource::MapSource(const Params& params, std::shared_ptr<const NarrowPhase> narrow_phase)
     : params_(params), narrow_phase_(std::move(narrow_phase)) {}
 
+OctomapOptions MapSource::options() const {
+  OctomapOptions options;
+  options.occupied_from = params_.map_occupied_from;
+  options.nan_is_occupied = params_.map_nan_is_occupied;
+  options.max_bytes = static_cast<std::size_t>(params_.map_max_bytes);
+  options.max_leaves = static_cast<std::uint64_t>(params_.map_max_leaves);
+  options.max_nodes = 2 * options.max_leaves;
+  return options;
+}
+
+LoadedMap MapSource::load(const MapParams& map, const OctomapMessage& message) const {
+  const std::string what = "map '" + map.name + "' of " + map.topic;
+  if (!message.flaw.empty()) throw Refusal(Code::truncated, what + ": " + printable(message.flaw, 200));
+  const Octomap octomap =
+      readOctomapData({message.id, message.binary, message.resolution}, message.data, what, options());
+  LoadedMap loaded{map,
+                   makeMapCells(std::make_shared<StaticGrid>(octomap.resolution, octomap.occupied), *narrow_phase_)};
+  loaded.params.frame = withoutSlash(message.frame);
+  return loaded;
+}
+
 LoadedMap MapSource::load(const MapParams& map) const {
   checkLocal(map.name, "the map's name");
   checkFileName(map.file);
@@ -41,14 +62,8 @@ LoadedMap MapSource::load(const MapParams& map) const {
   ResourcePolicy policy;
   policy.file_roots = {params_.map_folder};
   policy.max_bytes = static_cast<std::size_t>(params_.map_max_bytes);
-  OctomapOptions options;
-  options.occupied_from = params_.map_occupied_from;
-  options.nan_is_occupied = params_.map_nan_is_occupied;
-  options.max_bytes = policy.max_bytes;
-  options.max_leaves = static_cast<std::uint64_t>(params_.map_max_leaves);
-  options.max_nodes = 2 * options.max_leaves;
   const OpenResource file = openResource("file://" + params_.map_folder + "/" + map.file, policy);
-  const Octomap octomap = readOctomapFile(file, options);
+  const Octomap octomap = readOctomapFile(file, options());
   return {map, makeMapCells(std::make_shared<StaticGrid>(octomap.resolution, octomap.occupied), *narrow_phase_)};
 }
 

@@ -49,15 +49,17 @@ void visit(Visitor& v, Params& p) {
       "is fixed");
 
   v.section("Maps");
-  v.maps("maps", p.maps,
-         "list of {name, file, frame, pose: {xyz: [m], rpy: [rad]}}: OctoMaps (.bt, .ot) of map/folder, each the body "
-         "map/name; frame empty: the world frame, and the map is fixed");
+  v.maps(
+      "maps", p.maps,
+      "list of {name, file or topic, frame, pose: {xyz: [m], rpy: [rad]}}: OctoMaps, each the body map/name; file: the "
+      "name of a .bt or .ot in map/folder; topic: of octomap_msgs/Octomap, such as octomap_binary, whose frame is the "
+      "map's; frame of a file, empty: the world frame, and the map is fixed");
   v.string("map/folder", p.map_folder, "folder whose files maps and ~load_octomap may name; empty: none is read");
   v.number("map/occupied_from", p.map_occupied_from, "", 0.001, 0.999,
            "cells of at least this probability are occupied; only .ot files have probabilities");
   v.flag("map/nan_is_occupied", p.map_nan_is_occupied,
          "a cell whose probability is no number is occupied; false: such a file is refused");
-  v.integer("map/max_bytes", p.map_max_bytes, 1000, 1 << 30, "bytes of a file");
+  v.integer("map/max_bytes", p.map_max_bytes, 1000, 1 << 30, "bytes of a file or message");
   v.integer("map/max_leaves", p.map_max_leaves, 1, 100000000, "occupied cells of a map");
 
   v.section("Which pairs");
@@ -242,9 +244,11 @@ class Reader {
   }
   void maps(const char* name, std::vector<MapParams>& value, const char*) {
     std::set<std::string> names;
-    forEach(name, "field of a map (name, file, frame, pose)", [&](ParamValue& element) {
+    forEach(name, "field of a map (name, file, topic, frame, pose)", [&](ParamValue& element) {
       MapParams map;
-      readString(element, "file", map.file, true);
+      readString(element, "file", map.file, false);
+      readString(element, "topic", map.topic, false);
+      if (map.file.empty() == map.topic.empty()) element.error("must have a file or a topic, and not both");
       readString(element, "frame", map.frame, false);
       map.frame = withoutSlash(map.frame);
       if (auto pose = element.get("pose")) map.frame_from_map = readPose(*pose);

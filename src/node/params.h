@@ -26,10 +26,12 @@ struct ObstacleParams {
   Body body;
 };
 
-/// A map to be read from a file.
+/// A map from a file or a topic.
 struct MapParams {
-  std::string name, file;  ///< the body map/name; a file's name in ~map/folder
-  std::string frame;       ///< that the map follows; empty: the world frame
+  std::string name;   ///< the body map/name
+  std::string file;   ///< name of a file in ~map/folder; empty: from a topic
+  std::string topic;  ///< of octomap_msgs/Octomap messages; their frame is the map's
+  std::string frame;  ///< that the map follows; empty: the world frame
   Pose frame_from_map = Pose::Identity();
 };
 

@@ -5,6 +5,7 @@
 #include <ros/names.h>
 
 #include <future>
+#include <optional>
 #include <utility>
 
 #include "distances_messages.h"
@@ -68,7 +69,9 @@ ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node,
       world_(params_, ros::Time::isSimTime(), newEpoch(), ledger_, narrow_phase_),
       meter_(narrow_phase_, {params_.distances_max, params_.distances_budget, params_.distances_threads}) {
   for (const RobotParams& robot : params_.robots) to_load_.push_back(robot.name);
-  maps_to_load_ = params_.maps;
+  for (const MapParams& map : params_.maps) {
+    if (!map.file.empty()) maps_to_load_.push_back(map);
+  }
 
   pairs_ = update_private_.advertise<msg::Pairs>("pairs", 1);
   distances_ = update_private_.advertise<msg::Distances>("distances", 1);
@@ -86,6 +89,13 @@ ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node,
   subscribers_.push_back(update_node_.subscribe<tf2_msgs::TFMessage>("/tf", 1000, on_tf(false), ros::VoidConstPtr(),
                                                                      ros::TransportHints().tcpNoDelay()));
   subscribers_.push_back(update_node_.subscribe<tf2_msgs::TFMessage>("/tf_static", 1000, on_tf(true)));
+
+  for (const MapParams& map : params_.maps) {
+    if (map.topic.empty()) continue;
+    const boost::function<void(const boost::shared_ptr<const OctomapMessage>&)> on_map =
+        [this, map](const boost::shared_ptr<const OctomapMessage>& message) { onMap(map, *message); };
+    subscribers_.push_back(admin_node_.subscribe<OctomapMessage>(map.topic, 1, on_map));
+  }
 
   queries_ = std::make_unique<QueryServices>(
       query_private_, params_, config_hash_, [this] { return newest(); }, world_.transforms().buffer(), narrow_phase_,
@@ -270,12 +280,12 @@ Refusal ProximityNode::loadRobot(const RobotParams& robot) {
   return result;
 }
 
-Refusal ProximityNode::loadMap(const MapParams& map) {
+/// Puts what `load` returns into the world; says why if that fails.
+Refusal ProximityNode::putMap(const MapParams& map, const std::function<LoadedMap()>& load) {
   Refusal result(Code::ok, "");
   try {
-    const LoadedMap loaded = map_source_.load(map);
+    const LoadedMap loaded = load();
     runInTick([loaded](World& world) { world.setMap(loaded); });
-    ROS_INFO("Map '%s' is loaded: %zu occupied cells.", map.name.c_str(), loaded.cells->grid->size());
     return result;
   } catch (const Refusal& refusal) {
     result = refusal;
@@ -289,18 +299,33 @@ Refusal ProximityNode::loadMap(const MapParams& map) {
   return result;
 }
 
+/// A map that comes before there is a world waits for it: many are sent but once.
+void ProximityNode::onMap(const MapParams& map, const OctomapMessage& message) {
+  std::optional<LoadedMap> loaded;
+  const Refusal result = putMap(map, [&] { return *(loaded = map_source_.load(map, message)); });
+  const auto same = [&](const LoadedMap& other) { return other.params.name == map.name; };
+  arrived_maps_.erase(std::remove_if(arrived_maps_.begin(), arrived_maps_.end(), same), arrived_maps_.end());
+  if (loaded && result.code() != Code::ok) arrived_maps_.push_back(*loaded);
+}
+
 /// Tries again the robots that have no model and the maps without cells, at first often, then every ten seconds.
 void ProximityNode::loadMissing() {
   const auto now = std::chrono::steady_clock::now();
-  if ((to_load_.empty() && maps_to_load_.empty()) || now < next_try_) return;
+  if ((to_load_.empty() && maps_to_load_.empty() && arrived_maps_.empty()) || now < next_try_) return;
   std::vector<std::string> left;
   for (const RobotParams& robot : params_.robots) {
     const bool wanted = std::find(to_load_.begin(), to_load_.end(), robot.name) != to_load_.end();
     if (wanted && loadRobot(robot).code() != Code::ok) left.push_back(robot.name);
   }
   to_load_ = left;
-  const auto loaded = [this](const MapParams& map) { return loadMap(map).code() == Code::ok; };
-  maps_to_load_.erase(std::remove_if(maps_to_load_.begin(), maps_to_load_.end(), loaded), maps_to_load_.end());
+  const auto read = [this](const MapParams& map) {
+    return putMap(map, [&] { return map_source_.load(map); }).code() == Code::ok;
+  };
+  const auto taken = [this](const LoadedMap& map) {
+    return putMap(map.params, [&] { return map; }).code() == Code::ok;
+  };
+  maps_to_load_.erase(std::remove_if(maps_to_load_.begin(), maps_to_load_.end(), read), maps_to_load_.end());
+  arrived_maps_.erase(std::remove_if(arrived_maps_.begin(), arrived_maps_.end(), taken), arrived_maps_.end());
   retry_after_ = std::min(10.0, std::max(0.5, 2.0 * retry_after_));
   next_try_ = now + std::chrono::milliseconds(static_cast<int>(1e3 * retry_after_));
 }

@@ -56,7 +56,8 @@ class ProximityNode {
   void publishMarkers();
   /// Reads a robot and puts it into the world; the sentence of the refusal, or an empty one.
   Refusal loadRobot(const RobotParams& robot);
-  Refusal loadMap(const MapParams& map);
+  Refusal putMap(const MapParams& map, const std::function<LoadedMap()>& load);
+  void onMap(const MapParams& map, const OctomapMessage& message);
   void loadMissing();
   void runInTick(const Job& job);
   void waitForTick();
@@ -96,6 +97,7 @@ class ProximityNode {
   // Of the admin thread.
   std::vector<std::string> to_load_;
   std::vector<MapParams> maps_to_load_;
+  std::vector<LoadedMap> arrived_maps_;  // of topics, that the world could not take yet
   double retry_after_ = 0.0;
   std::chrono::steady_clock::time_point next_try_{}, next_diagnostics_{};
   std::size_t viewers_ = 0;

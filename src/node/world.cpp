@@ -57,7 +57,9 @@ World::World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& 
     missing_[robot.name] = "NOT_READY robot '" + robot.name + "': its description was not read yet";
   }
   for (const MapParams& map : params.maps) {
-    missing_[joined("map", map.name)] = "NOT_READY map '" + map.name + "': its file was not read yet";
+    missing_[joined("map", map.name)] =
+        "NOT_READY map '" + map.name +
+        "': " + (map.topic.empty() ? "its file was not read yet" : "nothing came on " + map.topic + " yet");
   }
 }
 

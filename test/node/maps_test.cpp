@@ -8,6 +8,7 @@
 #include <ros/service.h>
 #include <ros/topic.h>
 
+#include <cstring>
 #include <fstream>
 
 #include "test/adapters/octomap_oracle.h"
@@ -15,6 +16,57 @@
 #include "test/node/support/claims.h"
 #include "test/node/support/descriptions.h"
 #include "test/node/support/transform_source.h"
+
+namespace hgrid {
+namespace test {
+
+/// The bytes of any message, sent as an octomap_msgs/Octomap.
+struct OctomapBytes {
+  std::string bytes;
+};
+
+}  // namespace test
+}  // namespace hgrid
+
+namespace ros {
+namespace message_traits {
+
+template <>
+struct MD5Sum<hgrid::test::OctomapBytes> {
+  static const char* value() { return "9a45536b45c5e409cd49f04bb2d9999f"; }
+  static const char* value(const hgrid::test::OctomapBytes&) { return value(); }
+};
+template <>
+struct DataType<hgrid::test::OctomapBytes> {
+  static const char* value() { return "octomap_msgs/Octomap"; }
+  static const char* value(const hgrid::test::OctomapBytes&) { return value(); }
+};
+template <>
+struct Definition<hgrid::test::OctomapBytes> {
+  static const char* value() {
+    return "std_msgs/Header header\nbool binary\nstring id\nfloat64 resolution\nint8[] data\n";
+  }
+  static const char* value(const hgrid::test::OctomapBytes&) { return value(); }
+};
+
+}  // namespace message_traits
+
+namespace serialization {
+
+template <>
+struct Serializer<hgrid::test::OctomapBytes> {
+  template <typename Stream>
+  static void write(Stream& stream, const hgrid::test::OctomapBytes& message) {
+    std::memcpy(stream.advance(static_cast<std::uint32_t>(message.bytes.size())), message.bytes.data(),
+                message.bytes.size());
+  }
+  static std::uint32_t serializedLength(const hgrid::test::OctomapBytes& message) {
+    return static_cast<std::uint32_t>(message.bytes.size());
+  }
+};
+
+}  // namespace serialization
+}  // namespace ros
 
 namespace hgrid {
 namespace test {
@@ -31,6 +83,13 @@ std::string rowOf(int count) {
   const std::string nodes = binaryNodesOf(voxels);
   const Octomap read = readOctomapData({"OcTree", true, 0.1}, nodes, "the row");
   return "# Octomap OcTree binary file\nid OcTree\nsize " + std::to_string(read.nodes) + "\nres 0.1\ndata\n" + nodes;
+}
+
+std::size_t residentKilobytes(pid_t process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/statm");
+  std::size_t pages = 0, resident = 0;
+  file >> pages >> resident;
+  return resident * 4;
 }
 
 /// A robot's ball of 0.1 m at (0.05, 0.05, 0.3): 0.1 m above the first voxel of the map.
@@ -175,13 +234,6 @@ TEST_F(Maps, ThatAreMissingAtTheStartLeaveTheWorldIncompleteUntilTheyCome) {
   EXPECT_EQ(metAt(0.05), Names({"map/room"}));
 }
 
-std::size_t residentKilobytes(pid_t process) {
-  std::ifstream file("/proc/" + std::to_string(process) + "/statm");
-  std::size_t pages = 0, resident = 0;
-  file >> pages >> resident;
-  return resident * 4;
-}
-
 TEST_F(Maps, OneThousandReplacementsLeaveNothingBehind) {
   start(list({mapOf("room", "row.bt")}), 500.0);
   node_->waitForComplete();
@@ -203,6 +255,79 @@ TEST_F(Maps, OneThousandReplacementsLeaveNothingBehind) {
   }
   EXPECT_LT(residentKilobytes(node_->process().pid()), after_100 + 2000) << "kB";
   EXPECT_EQ(metAt(0.05), Names({"map/room"}));
+}
+
+template <class Number>
+std::string bytesOf(Number number) {
+  return {reinterpret_cast<const char*>(&number), sizeof(number)};
+}
+std::string stringOf(const std::string& text) { return bytesOf(static_cast<std::uint32_t>(text.size())) + text; }
+
+/// A message as octomap_server sends it.
+std::string messageOf(const std::string& frame, const std::string& nodes, const std::string& id = "OcTree") {
+  return bytesOf(std::uint32_t{7}) + bytesOf(std::uint64_t{0}) + stringOf(frame) + std::string(1, '\1') + stringOf(id) +
+         bytesOf(0.1) + stringOf(nodes);
+}
+std::string nodesOfRow(int count) {
+  const std::string file = rowOf(count), mark = "data\n";
+  return file.substr(file.find(mark) + mark.size());
+}
+
+/// A map of a topic.
+class MapTopics : public Maps {
+ protected:
+  MapTopics() {
+    start(list({dict({{"name", "room"}, {"topic", "octomap_binary"}})}));
+    publisher_ = ros_.advertise<OctomapBytes>(node_->space() + "/octomap_binary", 1, true);
+  }
+  void send(const std::string& bytes) { publisher_.publish(OctomapBytes{bytes}); }
+  void waitForRefusals(const std::string& code, std::uint64_t count) {
+    node_->waitForStatus("a refusal",
+                         [&](const msg::Status& status) { return counter(status, "maps.refused." + code) >= count; });
+    EXPECT_EQ(metAt(0.05), Names({"map/room"})) << "the old map serves";
+  }
+
+  ros::NodeHandle ros_;
+  ros::Publisher publisher_;
+};
+
+TEST_F(MapTopics, ComeWithTheTypeNameOfOctomapServerAndFollowTheirFrame) {
+  node_->waitForStatus("the map is missed", [](const msg::Status& status) {
+    return !status.world.reasons.empty() && status.world.reasons[0].find("NOT_READY map 'room': nothing came on") == 0;
+  });
+  transforms_.stream("base", "odom", at(1.0));
+  send(messageOf("odom", nodesOfRow(1)));
+  node_->waitForComplete();
+  EXPECT_EQ(metAt(1.05), Names({"map/room"}));
+  transforms_.stream("base", "odom", at(2.0));  // the frame jumps, and the map with it: nothing is read again
+  node_->waitForTicks(20);
+  EXPECT_EQ(metAt(2.05), Names({"map/room"}));
+  EXPECT_EQ(metAt(1.05), Names());
+  send(messageOf("odom", nodesOfRow(5)));
+  node_->waitUntil("the longer row", [&](const Heard&) { return !metAt(2.45).empty(); });
+}
+
+TEST_F(MapTopics, ThatLieLeaveTheMapAsItWas) {
+  const std::string whole = messageOf("", nodesOfRow(1));
+  send(whole);
+  node_->waitForComplete();
+  const std::size_t before = residentKilobytes(node_->process().pid());
+  send(whole.substr(0, 12) + bytesOf(std::uint32_t{0xffffffff}) + "map");  // a frame_id of 4 GB
+  waitForRefusals("TRUNCATED", 1);
+  send(messageOf("", "").substr(0, messageOf("", "").size() - 4) +
+       bytesOf(std::uint32_t{0x08000000}));  // 134 MB of data
+  waitForRefusals("TRUNCATED", 2);
+  send(whole.substr(0, 20));
+  waitForRefusals("TRUNCATED", 3);
+  send(messageOf("", ""));
+  waitForRefusals("PARSE", 1);
+  send(whole + "x");
+  waitForRefusals("TRUNCATED", 4);
+  send(messageOf("", nodesOfRow(1), "SemanticOcTree"));
+  waitForRefusals("UNSUPPORTED", 1);
+  EXPECT_LT(residentKilobytes(node_->process().pid()), before + 4000)
+      << "kB: nothing is allocated for what is not there";
+  EXPECT_TRUE(node_->process().alive());
 }
 
 }  // namespace
