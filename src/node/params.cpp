@@ -60,6 +60,9 @@ void visit(Visitor& v, Params& p) {
   v.flag("map/nan_is_occupied", p.map_nan_is_occupied,
          "a cell whose probability is no number is occupied; false: such a file is refused");
   v.integer("map/max_bytes", p.map_max_bytes, 1000, 1 << 30, "bytes of a file or message");
+  v.number("map/shown_within", p.map_shown_within, "m", 0.0, 1000.0,
+           "~markers show occupied cells so near to a body's box; 0: none");
+  v.integer("map/max_shown", p.map_max_shown, 1, 1000000, "cells that ~markers show");
   v.integer("map/max_leaves", p.map_max_leaves, 1, 100000000, "occupied cells of a map");
 
   v.section("Which pairs");

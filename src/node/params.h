@@ -61,7 +61,8 @@ struct Params {
   std::string map_folder;
   double map_occupied_from = 0.5;
   bool map_nan_is_occupied = false;
-  int map_max_bytes = 256 << 20, map_max_leaves = 20000000;
+  int map_max_bytes = 256 << 20, map_max_leaves = 20000000, map_max_shown = 20000;
+  double map_shown_within = 1.0;
   std::vector<PairRule> allowed_pairs;
   PairKinds pair_kinds;
   std::vector<Waiver> accept_uncovered;

@@ -11,6 +11,7 @@
 #include "distances_messages.h"
 #include "hgrid_proximity/adapters/fcl.h"
 #include "hgrid_proximity/scene/name.h"
+#include "map_markers.h"
 
 namespace hgrid {
 namespace {
@@ -345,8 +346,13 @@ void ProximityNode::publishMarkers() {
   if (viewers > 0 && tick) {
     if (viewers > viewers_) markers_.publish(markersGone(*tick));
     const std::shared_ptr<const MeasuredTick> measured = std::atomic_load(&measured_);
-    markers_.publish(measured && measured->distances ? markers(*measured->tick, sketch_, measured->distances.get())
-                                                     : markers(*tick, sketch_, nullptr));
+    const bool has_distances = measured && measured->distances;
+    const Tick& shown = has_distances ? *measured->tick : *tick;
+    visualization_msgs::MarkerArray array =
+        markers(shown, sketch_, has_distances ? measured->distances.get() : nullptr);
+    const std::vector<visualization_msgs::Marker> cells = mapMarkers(shown, params_);
+    array.markers.insert(array.markers.end(), cells.begin(), cells.end());
+    markers_.publish(array);
   }
   viewers_ = viewers;
 }

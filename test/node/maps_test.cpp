@@ -7,6 +7,7 @@
 #include <hgrid_proximity/LoadOctomap.h>
 #include <ros/service.h>
 #include <ros/topic.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <cstring>
 #include <fstream>
@@ -170,6 +171,31 @@ TEST_F(Maps, MakePairsAnswersAndDistances) {
   const auto why = node_->explain("map/room", "robot/a");
   EXPECT_TRUE(why.reported);
   EXPECT_NEAR(why.distance, 0.1, 1e-9);
+}
+
+TEST_F(Maps, AreDrawnWhereBodiesAre) {
+  folder_.write("long.bt", rowOf(100));  // 10 m
+  start(list({mapOf("room", "long.bt")}));
+  node_->waitForComplete();
+  std::vector<visualization_msgs::Marker> cubes;
+  std::mutex mutex;
+  const ros::Subscriber subscriber = ros::NodeHandle().subscribe<visualization_msgs::MarkerArray>(
+      node_->named("markers"), 10, [&](const visualization_msgs::MarkerArray::ConstPtr& array) {
+        const std::lock_guard<std::mutex> lock(mutex);
+        for (const auto& marker : array->markers) {
+          if (marker.ns == "maps") cubes.push_back(marker);
+        }
+      });
+  node_->waitUntil("cubes", [&](const Heard&) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    return !cubes.empty();
+  });
+  const std::lock_guard<std::mutex> lock(mutex);
+  EXPECT_EQ(cubes[0].type, visualization_msgs::Marker::CUBE_LIST);
+  EXPECT_NEAR(cubes[0].scale.x, 0.1, 1e-12);
+  EXPECT_GE(cubes[0].points.size(), 10u);
+  EXPECT_LE(cubes[0].points.size(), 15u) << "those within a metre of the ball";
+  EXPECT_NEAR(cubes[0].points[0].x, 0.05, 1e-9);
 }
 
 TEST_F(Maps, AreReplacedMovedAndTakenAway) {
