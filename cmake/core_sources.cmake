@@ -8,6 +8,7 @@ set(HGRID_CORE_SOURCES
   src/broadphase/plan.cpp
   src/broadphase/queries.cpp
   src/broadphase/static_grid.cpp
+  src/broadphase/static_grid_search.cpp
   src/broadphase/workers.cpp
   src/geometry/aabb.cpp
   src/geometry/pose.cpp

@@ -19,49 +19,24 @@ void checkGlob(const std::string& glob) {
                                   " bytes; at most " + std::to_string(kLongestRuleText) + " are allowed");
 }
 
-}  // namespace
-
-AllowedServices::AllowedServices(ros::NodeHandle& node, const Params& params, std::uint64_t config_hash,
-                                 NewestTick newest, DoInTick do_in_tick, Ledger& ledger)
-    : params_(params),
-      config_hash_(config_hash),
-      newest_(std::move(newest)),
-      do_in_tick_(std::move(do_in_tick)),
-      ledger_(ledger) {
-  servers_.push_back(node.advertiseService("set_allowed", &AllowedServices::onSet, this));
-  servers_.push_back(node.advertiseService("get_allowed", &AllowedServices::onGet, this));
+/// What there is in the world. @throws Refusal not_ready
+const Structure& structureOf(const std::shared_ptr<const Tick>& tick) {
+  if (!tick) throw Refusal(Code::not_ready, "there is no world yet: the first tick was not made");
+  if (!tick->snapshot) throw Refusal(Code::not_ready, "there is no world yet: " + tick->not_ready.front());
+  return tick->snapshot->structure();
 }
 
-/// Does the deed with the newest tick, which it may replace by a later one, and says how it went.
-template <class Response, class Deed>
-bool AllowedServices::answer(const char* what, Response& response, Deed&& deed) {
-  std::shared_ptr<const Tick> tick = newest_();
-  response.code = toMsg(Code::ok, "");
-  try {
-    if (!tick) throw Refusal(Code::not_ready, "there is no world yet: the first tick was not made");
-    if (!tick->snapshot) throw Refusal(Code::not_ready, "there is no world yet: " + tick->not_ready.front());
-    deed(tick);
-    response.success = true;
-  } catch (const Refusal& refusal) {
-    response.code = toMsg(refusal.code(), refusal.what());
-    ledger_.refuse(std::string(what) + ".refused", refusal);
-  } catch (const std::exception& error) {  // a fault of ours: the caller hears of it, the node goes on
-    response.code = toMsg(Code::internal, error.what());
-    ledger_.refuse(std::string(what) + ".failed", Refusal(Code::internal, error.what()));
-  }
-  if (tick) {
-    const std::chrono::duration<double> age = std::chrono::steady_clock::now() - tick->made.steady;
-    response.world = worldState(*tick, params_, config_hash_, age.count());
-  } else {
-    response.world.worst_state = msg::WorldState::UNPLACED;
-  }
-  return true;
+}  // namespace
+
+AllowedServices::AllowedServices(ros::NodeHandle& node, AdminAnswer answer) : answer_(std::move(answer)) {
+  servers_.push_back(node.advertiseService("set_allowed", &AllowedServices::onSet, this));
+  servers_.push_back(node.advertiseService("get_allowed", &AllowedServices::onGet, this));
 }
 
 /// All rules as they will be when the request is done. @throws Refusal if it may not be done
 std::vector<PairRule> AllowedServices::rulesAfter(const msg::SetAllowed::Request& request,
                                                   const Structure& structure) const {
-  const auto most = static_cast<std::size_t>(params_.max_rules);
+  const auto most = static_cast<std::size_t>(answer_.params.max_rules);
   if (request.rules.size() > most) {
     throw Refusal(Code::limit, "the request has " + std::to_string(request.rules.size()) + " rules; at most " +
                                    std::to_string(most) + " are allowed (~max_rules)");
@@ -74,8 +49,8 @@ std::vector<PairRule> AllowedServices::rulesAfter(const msg::SetAllowed::Request
     checkKnown(rules, structure.bodies);
     book.add(rules);
   }
-  const PairFilter filter(structure.bodies, params_.pair_kinds, book.rules());
-  if (silencesAll(structure.bodies, params_.pair_kinds, filter)) {
+  const PairFilter filter(structure.bodies, answer_.params.pair_kinds, book.rules());
+  if (silencesAll(structure.bodies, answer_.params.pair_kinds, filter)) {
     if (!request.force) {
       throw Refusal(Code::needs_force,
                     "no pair of bodies would be reported any more; ask with force = true if so meant");
@@ -86,18 +61,18 @@ std::vector<PairRule> AllowedServices::rulesAfter(const msg::SetAllowed::Request
 }
 
 bool AllowedServices::onSet(msg::SetAllowed::Request& request, msg::SetAllowed::Response& response) {
-  return answer("set_allowed", response, [&](std::shared_ptr<const Tick>& tick) {
-    const std::vector<PairRule> rules = rulesAfter(request, tick->snapshot->structure());
-    tick = do_in_tick_([rules](World& world) { world.setRules(rules); });
+  return answer_("set_allowed", response, [&](std::shared_ptr<const Tick>& tick) {
+    const std::vector<PairRule> rules = rulesAfter(request, structureOf(tick));
+    tick = answer_.do_in_tick([rules](World& world) { world.setRules(rules); });
   });
 }
 
 bool AllowedServices::onGet(msg::GetAllowed::Request& request, msg::GetAllowed::Response& response) {
-  return answer("get_allowed", response, [&](const std::shared_ptr<const Tick>& tick) {
+  return answer_("get_allowed", response, [&](const std::shared_ptr<const Tick>& tick) {
+    const Structure& structure = structureOf(tick);
     checkGlob(request.first);
     checkGlob(request.second);
-    const Structure& structure = tick->snapshot->structure();
-    const auto most = static_cast<std::uint32_t>(params_.max_pairs);
+    const auto most = static_cast<std::uint32_t>(answer_.params.max_pairs);
     const AllowedScope scope{request.first, request.second, request.limit == 0 ? most : std::min(request.limit, most)};
     const AllowedList list = request.rules ? givenRules(structure, scope) : decidedPairs(structure, scope);
     const auto now = PairRule::Clock::now();

@@ -6,14 +6,10 @@
 #include <hgrid_proximity/LoadOctomap.h>
 #include <ros/node_handle.h>
 
-#include <functional>
-#include <memory>
 #include <vector>
 
-#include "ledger.h"
+#include "admin_answer.h"
 #include "map_source.h"
-#include "messages.h"
-#include "world.h"
 
 namespace hgrid {
 
@@ -21,26 +17,14 @@ namespace hgrid {
 /// one; a tick only takes it over.
 class MapServices {
  public:
-  using NewestTick = std::function<std::shared_ptr<const Tick>()>;
-  /// Does a job at the begin of a tick and waits for the result of that tick.
-  /// @throws Refusal busy
-  using DoInTick = std::function<std::shared_ptr<const Tick>(const std::function<void(World&)>&)>;
-
-  MapServices(ros::NodeHandle& node, const Params& params, std::uint64_t config_hash, const MapSource& source,
-              NewestTick newest, DoInTick do_in_tick, Ledger& ledger);
+  MapServices(ros::NodeHandle& node, const MapSource& source, AdminAnswer answer);
 
  private:
   bool onLoad(msg::LoadOctomap::Request& request, msg::LoadOctomap::Response& response);
   bool onClear(msg::ClearMap::Request& request, msg::ClearMap::Response& response);
-  template <class Response, class Deed>
-  bool answer(const char* what, Response& response, Deed&& deed);
 
-  const Params& params_;
-  std::uint64_t config_hash_;
   const MapSource& source_;
-  NewestTick newest_;
-  DoInTick do_in_tick_;
-  Ledger& ledger_;
+  AdminAnswer answer_;
   std::vector<ros::ServiceServer> servers_;
 };
 

@@ -103,12 +103,10 @@ ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node,
       sketch_, ledger_);
   explain_ = std::make_unique<ExplainService>(
       query_private_, params_, config_hash_, [this] { return newest(); }, narrow_phase_, ledger_);
-  allowed_ = std::make_unique<AllowedServices>(
-      admin_private_, params_, config_hash_, [this] { return newest(); },
-      [this](const Job& job) { return tickAfter(job); }, ledger_);
-  maps_ = std::make_unique<MapServices>(
-      admin_private_, params_, config_hash_, map_source_, [this] { return newest(); },
-      [this](const Job& job) { return tickAfter(job); }, ledger_);
+  const AdminAnswer answer{params_, config_hash_, [this] { return newest(); },
+                           [this](const Job& job) { return tickAfter(job); }, ledger_};
+  allowed_ = std::make_unique<AllowedServices>(admin_private_, answer);
+  maps_ = std::make_unique<MapServices>(admin_private_, map_source_, answer);
   servers_.push_back(admin_private_.advertiseService("reset", &ProximityNode::onReset, this));
   servers_.push_back(admin_private_.advertiseService("reload_robot", &ProximityNode::onReload, this));
   diagnostics_ = std::make_unique<NodeDiagnostics>(
