@@ -48,6 +48,7 @@ set(HGRID_CORE_SOURCES
 set(HGRID_ADAPTER_SOURCES
   src/adapters/fcl.cpp
   src/adapters/fcl_mesh.cpp
+  src/adapters/fcl_solid.cpp
   src/adapters/mesh.cpp
   src/adapters/octomap.cpp
   src/adapters/octomap_header.cpp

@@ -2,13 +2,6 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "hgrid_proximity/adapters/fcl.h"
 
-#include <fcl/geometry/shape/box.h>
-#include <fcl/geometry/shape/capsule.h>
-#include <fcl/geometry/shape/cone.h>
-#include <fcl/geometry/shape/convex.h>
-#include <fcl/geometry/shape/cylinder.h>
-#include <fcl/geometry/shape/sphere.h>
-#include <fcl/math/bv/utility.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 
@@ -19,13 +12,12 @@
 #include <optional>
 #include <tuple>
 
-#include "adapters/fcl_mesh.h"
+#include "adapters/fcl_solid.h"
 #include "hgrid_proximity/refusal.h"
 
 namespace hgrid {
 namespace {
 
-using Geometry = fcl::CollisionGeometryd;
 using Vector = Eigen::Vector3d;
 
 constexpr double kTolerance = 1e-10;    // [m] of FCL's iterations
@@ -33,110 +25,6 @@ constexpr double kDisagreement = 1e-6;  // [m] between nearest points and distan
 constexpr double kTouching = 1e-9;      // [m] as far apart is in contact, for one way or another of rounding
 constexpr double kHair = 1e-6;          // [m] moved apart by so much more, two solids must be free of each other
 constexpr double kMaybeInside = 0.25;   // winding number from which an open mesh may enclose a point
-
-/// A shape ready to be measured: a convex core or a mesh, and a radius around it.
-class FclSolid final : public Solid {
- public:
-  FclSolid(const Shape& shape, std::shared_ptr<const FclMesh> mesh)
-      : kind_(shape.kind()), size_(shape.dimensions()), source_(shape.mesh()), mesh_(std::move(mesh)) {
-    switch (kind_) {
-      case ShapeKind::sphere:
-        radius_ = size_[0];
-        core_ = ConvexCore::point();
-        geometry_ = std::make_unique<fcl::Sphered>(0.0);
-        break;
-      case ShapeKind::box:
-        core_ = ConvexCore::box({size_[0], size_[1], size_[2]});
-        geometry_ = std::make_unique<fcl::Boxd>(size_[0], size_[1], size_[2]);
-        break;
-      case ShapeKind::cylinder:
-        core_ = ConvexCore::cylinder(size_[0], size_[1]);
-        geometry_ = std::make_unique<fcl::Cylinderd>(size_[1], size_[0]);
-        break;
-      case ShapeKind::cone:
-        core_ = ConvexCore::cone(size_[0], size_[1]);
-        geometry_ = std::make_unique<fcl::Coned>(size_[1], size_[0]);
-        break;
-      case ShapeKind::capsule:
-        radius_ = size_[1];
-        core_ = ConvexCore::segment(size_[0]);
-        geometry_ = std::make_unique<fcl::Capsuled>(0.0, size_[0]);
-        break;
-      case ShapeKind::hull:
-        core_ = ConvexCore::hull(source_->vertices.data(), source_->vertices.size());
-        // Without faces: FCL then goes through all vertices, which is right whatever they are.
-        geometry_ = std::make_unique<fcl::Convexd>(std::make_shared<const std::vector<Vector>>(source_->vertices), 0,
-                                                   std::make_shared<const std::vector<int>>());
-        some_point_ = source_->vertices.front();
-        break;
-      case ShapeKind::mesh:
-        break;
-    }
-    finish(shape.reach());
-  }
-  /// What questions are made of.
-  FclSolid(const ConvexCore& core, const std::vector<double>& size)
-      : kind_(ShapeKind::box), size_(size), core_(core), geometry_(nullptr) {
-    finish(core.reach());
-  }
-
-  const ConvexCore& core() const { return core_; }              // of all but meshes
-  const fcl::OBBRSSd& volume() const { return volume_; }        // around the core
-  const Geometry* geometry() const { return geometry_.get(); }  // for contacts; null: there are none
-  const FclMesh* mesh() const { return mesh_.get(); }
-  double radius() const { return radius_; }
-  double reach() const { return reach_; }
-  ShapeKind kind() const { return kind_; }
-
-  /// An order of solids that differ.
-  bool before(const FclSolid& other) const {
-    if (kind_ != other.kind_) return kind_ > other.kind_;  // meshes go first
-    if (size_ != other.size_) return size_ < other.size_;
-    if (source_ == other.source_ || !source_ || !other.source_) return false;
-    const auto &v = source_->vertices, &w = other.source_->vertices;
-    const auto less = [](const Vector& a, const Vector& b) {
-      return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
-    };
-    if (std::lexicographical_compare(v.begin(), v.end(), w.begin(), w.end(), less)) return true;
-    if (std::lexicographical_compare(w.begin(), w.end(), v.begin(), v.end(), less)) return false;
-    return source_->triangles < other.source_->triangles;
-  }
-
-  /// Whether a part of the core, told by some points in its frame, is as asked.
-  template <class Ask>
-  bool anyPart(const Ask& ask) const {
-    if (!mesh_) return ask(&some_point_, &some_point_ + 1);
-    const std::vector<Enclosure::Part>& parts = mesh_->enclosure().parts();
-    return std::any_of(parts.begin(), parts.end(),
-                       [&](const Enclosure::Part& part) { return ask(part.data(), part.data() + part.size()); });
-  }
-
- private:
-  void finish(double reach) {
-    reach_ = reach;
-    if (mesh_) return;
-    Vector low, high;
-    for (int axis = 0; axis < 3; ++axis) {
-      low[axis] = core_.support(-Vector::Unit(axis))[axis];
-      high[axis] = core_.support(Vector::Unit(axis))[axis];
-    }
-    std::array<Vector, 8> corners;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      corners[i] = {i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(), i & 4 ? high.z() : low.z()};
-    }
-    fcl::fit(corners.data(), static_cast<int>(corners.size()), volume_);
-  }
-
-  ShapeKind kind_;
-  std::vector<double> size_;
-  std::shared_ptr<const TriangleMesh> source_;  // of hull and mesh
-  double reach_ = 0.0, radius_ = 0.0;
-  ConvexCore core_ = ConvexCore::point();
-  fcl::OBBRSSd volume_;
-  std::unique_ptr<const Geometry> geometry_;
-  std::shared_ptr<const FclMesh> mesh_;
-  Vector some_point_ = Vector::Zero();
-};
 
 /// A solid, its core's pose, and all that is around the core.
 struct Side {
