@@ -16,6 +16,8 @@ QUERIES = "broadphase/queries.cpp"
 SCENE = "scene/scene.cpp"
 COMMIT = "scene/commit.cpp"
 EVENTS = "scene/pair_events.cpp"
+STATIC = "broadphase/static_grid.cpp"
+MAPS = "scene/map_pairs.cpp"
 
 MUTANTS = [
     ("boxes of a level look around without its reach", KERNELS,
@@ -120,4 +122,15 @@ MUTANTS = [
      "(as_first_[i] & as_second_[j]) | (as_second_[i] & as_first_[j])", "as_first_[i] & as_second_[j]"),
     ("a new numbering leaves the pairs unsorted", "scene/pair_tracker.cpp",
      "{std::min(a, b), std::max(a, b), pair.since}", "{a, b, pair.since}"),
+    ("every brick of a map is taken for the first below its parent", STATIC,
+     "level.first_below[brick.number] + before", "level.first_below[brick.number]"),
+    ("a search along a segment has no room for rounding", "broadphase/static_grid_search.cpp",
+     "line.around = line.segment.radius + 1e-9 + 1e-12 * (farthest + line.segment.radius);",
+     "line.around = line.segment.radius;"),
+    ("a gap to a map is remembered though the map moved", MAPS,
+     "map.cells == cells && map.world_from_map.matrix() == pose.matrix()", "map.cells == cells"),
+    ("a gap to a map is remembered though the body moved", MAPS,
+     "known.up_to < up_to || known.box != box", "known.up_to < up_to"),
+    ("the box around a turned box is too small", "scene/map_gap.cpp",
+     "map_from_world.linear().cwiseAbs()", "map_from_world.linear()"),
 ]
