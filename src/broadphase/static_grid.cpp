@@ -31,11 +31,12 @@ class StaticGrid::Builder {
 
   void finish() {
     for (int open = 0; open < kBrickLevels; ++open) close(open);
-    if (grid_.levels_.back().cells.empty()) {  // the root stands alone
-      open_.back().cells = 1;
-      close(kBrickLevels - 1);
-      grid_.levels_.back().cells.front() = 0;
-    }
+    BrickLevel& top = grid_.levels_.back();
+    if (!top.cells.empty()) return;
+    top.cells.push_back(0);  // a root that holds nothing
+    top.full.push_back(0);
+    top.first_below.push_back(0);
+    top.blocks.push_back(0);
   }
 
  private:

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "messages.h"
 
@@ -22,11 +23,13 @@ std::vector<Voxel> voxelsNearBodies(const Snapshot& snapshot, std::uint32_t map,
     const Aabb& box = snapshot.boxes()[proxy];
     const Eigen::Vector3d low = box.min.cast<double>(), high = box.max.cast<double>();
     const Eigen::Vector3d center = map_from_world * (snapshot.origin() + 0.5 * (low + high));
-    grid.overlapping(Sphere{center, 0.5 * (high - low).norm() + within}, most - all.size(), found);
-    all.insert(all.end(), found.begin(), found.end());
+    grid.overlapping(Sphere{center, 0.5 * (high - low).norm() + within}, most, found);
+    std::vector<Voxel> both;  // what several bodies are near to counts once
+    std::set_union(all.begin(), all.end(), found.begin(), found.end(), std::back_inserter(both),
+                   [](const Voxel& a, const Voxel& b) { return mortonOf(a) < mortonOf(b); });
+    all.swap(both);
   }
-  std::sort(all.begin(), all.end(), [](const Voxel& a, const Voxel& b) { return mortonOf(a) < mortonOf(b); });
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  if (all.size() > most) all.resize(most);
   return all;
 }
 

@@ -113,17 +113,17 @@ namespace {
 
 /// How many bodies a query is about. A misspelt name must not read as CLEAR.
 /// @throws Refusal unknown_id if a pattern to be included matches nobody, or none is left
-std::size_t asked(const QueryScope& scope, const std::vector<Body>& bodies) {
+std::size_t asked(const QueryScope& scope, const Snapshot& snapshot) {
+  const std::vector<Body>& bodies = snapshot.structure().bodies;
   for (const std::string& pattern : scope.include) {
     const bool known =
         std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) { return matches(pattern, body.name); });
     if (!known) throw Refusal(Code::unknown_id, "no body matches '" + printable(pattern) + "' of include");
   }
-  const auto count = std::count_if(bodies.begin(), bodies.end(), [&](const Body& body) {
-    return (scope.include.empty() || matchesAny(scope.include, body.name)) && !matchesAny(scope.exclude, body.name);
-  });
+  std::size_t count = 0;
+  for (std::uint32_t body = 0; body < bodies.size(); ++body) count += snapshot.inScope(scope, body) ? 1 : 0;
   if (count == 0) throw Refusal(Code::unknown_id, "exclude leaves no body to ask for");
-  return static_cast<std::size_t>(count);
+  return count;
 }
 
 }  // namespace
@@ -150,7 +150,7 @@ bool QueryServices::answer(const Request& request, Response& response, Ask&& ask
     QueryScope scope = scopeOf(request.include, request.exclude, request.limit);
     if (request.exact) scope.exact = narrow_phase_.get();
     const bool all = scope.include.empty() && scope.exclude.empty();
-    const std::size_t count = all ? 0 : asked(scope, snapshot.structure().bodies);
+    const std::size_t count = all ? 0 : asked(scope, snapshot);
     QueryAnswer found = ask(snapshot, world_from_frame, scope);
     if (found.verdict == Verdict::clear && age_since > params_.valid_for) {
       found.verdict = Verdict::unknown;

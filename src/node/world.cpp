@@ -138,12 +138,16 @@ void World::setMap(const LoadedMap& map) {
   const bool same = known != maps_.end() && known->second.frame == body.frame &&
                     known->second.frame_from_body.matrix() == body.frame_from_body.matrix();
   if (!same) {  // otherwise only its cells are others: the structure stays, and nobody starts again
-    if (known != maps_.end()) removeMovers(body.name);
-    maps_[body.name] = body;
+    if (known != maps_.end()) {
+      removeMovers(body.name);
+      maps_.erase(known);
+    }
     addMover(body.frame, body.name, {memberOf(scene_.add(body), body.frame_from_body)});
+    maps_[body.name] = body;
   }
   BodyId id;
-  if (scene_.find(body.name, id)) scene_.setCells(id, map.cells);
+  scene_.find(body.name, id);
+  scene_.setCells(id, map.cells);
   missing_.erase(body.name);
 }
 
@@ -202,7 +206,7 @@ void World::rebuildReport() {
     for (const std::string& warning : robot.warnings) report->warnings.push_back(robot.name + ": " + warning);
   }
   report->robots = robots_.size();
-  if (missing_.empty()) warnOfIdlePatterns(*report);
+  if (robots_.size() == params_.robots.size()) warnOfIdlePatterns(*report);
   report_ = std::move(report);
 }
 

@@ -178,8 +178,6 @@ class Words {
   bool near_;
 };
 
-bool isMap(const Structure& structure, std::uint32_t body) { return structure.bodies[body].kind == BodyKind::map; }
-
 /// Gap of the nearest boxes, and whether it is within the margin; of a reported pair as it stands in the snapshot.
 bool fillGap(const Snapshot& snapshot, Explanation& what) {
   const Structure& s = snapshot.structure();
@@ -201,7 +199,7 @@ bool fillGap(const Snapshot& snapshot, Explanation& what) {
   const double gap = snapshot.gapOf(what.first, what.second);
   if (!std::isfinite(gap)) return false;
   what.gap = gap;
-  bool near = gap <= what.margin && (isMap(s, what.first) || isMap(s, what.second));
+  bool near = gap <= what.margin && (s.isMap(what.first) || s.isMap(what.second));
   for (std::uint32_t i = s.first_proxy[what.first]; i < s.first_proxy[what.first + 1]; ++i) {
     for (std::uint32_t j = s.first_proxy[what.second]; j < s.first_proxy[what.second + 1]; ++j) {
       near = near || withinDistance(snapshot.boxes()[i], snapshot.boxes()[j], what.margin);

@@ -18,22 +18,21 @@ class MapPair {
  public:
   MapPair(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second)
       : snapshot_(snapshot),
-        map_first_(snapshot.structure().bodies[first].kind == BodyKind::map),
+        map_first_(snapshot.structure().isMap(first)),
         map_(map_first_ ? first : second),
         body_(map_first_ ? second : first),
         cells_(snapshot.cellsOf(map_)),
         map_from_world_(snapshot.poses()[map_].world_from_body.inverse()) {}
 
-  /// Calls `look` with each shape that can be measured and each voxel within `limit` of its box, until it returns a
+  /// Calls `look`, if isReady(), with each shape and each voxel within `limit` of its box, until it returns a
   /// limit below 0. @param look  (shape's number, voxel, shape and cube in the order of the pair) -> limit
   template <class Look>
   void visit(double limit, const Look& look) const {
-    if (!cells_) return;
+    if (!isReady()) return;
     const Structure& structure = snapshot_.structure();
     const std::vector<BodyShape>& shapes = structure.bodies[body_].shapes;
     for (std::uint32_t i = 0; i < shapes.size() && limit >= 0.0; ++i) {
       const BodyShape& shape = shapes[i];
-      if (!shape.solid) continue;
       const Pose world_from_shape = snapshot_.poses()[body_].world_from_body * shape.body_from_shape;
       const Aabb& box = snapshot_.boxes()[structure.first_proxy[body_] + i];
       cells_->grid->visitNear(boxInMap(map_from_world_, box, snapshot_.origin()), limit,
@@ -54,7 +53,12 @@ class MapPair {
     return {worldFromCube(voxel).translation(), edgeOf(voxel, cells_->grid->finestEdge()), distance};
   }
   bool mapIsFirst() const { return map_first_; }
-  bool hasShapes() const { return cells_ && !snapshot_.structure().bodies[body_].shapes.empty(); }
+  /// Whether there is something on both sides, and all of it was made ready to be measured.
+  bool isReady() const {
+    const std::vector<BodyShape>& shapes = snapshot_.structure().bodies[body_].shapes;
+    return cells_ && cells_->cubes.front() && !shapes.empty() &&
+           std::all_of(shapes.begin(), shapes.end(), [](const BodyShape& shape) { return shape.solid != nullptr; });
+  }
 
  private:
   const Snapshot& snapshot_;
@@ -72,7 +76,7 @@ MapProximity measureMap(const NarrowPhase& narrow_phase, const Snapshot& snapsho
   nearest.proximity.status = Measure::apart;
   nearest.proximity.distance = kInfinity;
   const MapPair pair(snapshot, first, second);
-  if (!pair.hasShapes()) return {};
+  if (!pair.isReady()) return {};
   pair.visit(up_to, [&](std::uint32_t shape, const Voxel& voxel, const PlacedSolid& a, const PlacedSolid& b) {
     const bool full = nearest.cells.size() == kNearCells;
     const double limit = full ? nearest.cells.back().distance : up_to;

@@ -26,8 +26,7 @@ bool anyBoxes(const PairsNow& now, std::uint32_t first, std::uint32_t second, Lo
 }
 
 bool isWithMap(const PairsNow& now, std::uint32_t first, std::uint32_t second) {
-  const std::vector<Body>& bodies = now.structure->bodies;
-  return bodies[first].kind == BodyKind::map || bodies[second].kind == BodyKind::map;
+  return now.structure->isMap(first) || now.structure->isMap(second);
 }
 
 bool within(const PairsNow& now, std::uint32_t first, std::uint32_t second, double reach) {

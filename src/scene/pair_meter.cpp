@@ -34,10 +34,6 @@ struct NearestShapes {
   std::vector<NearCell> cells;  // of a map
 };
 
-bool isMap(const Snapshot& snapshot, std::uint32_t body) {
-  return snapshot.structure().bodies[body].kind == BodyKind::map;
-}
-
 /// Those whose boxes are no farther apart than `up_to` [m], nearest first.
 void collectShapePairs(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second, double up_to,
                        std::vector<ShapePair>& shape_pairs) {
@@ -68,9 +64,9 @@ void placed(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second,
 NearestShapes nearestShapes(const NarrowPhase& narrow_phase, const Snapshot& snapshot, std::uint32_t first,
                             std::uint32_t second, double up_to, std::vector<ShapePair>& shape_pairs) {
   NearestShapes nearest;
-  if (isMap(snapshot, first) || isMap(snapshot, second)) {
+  if (snapshot.structure().isMap(first) || snapshot.structure().isMap(second)) {
     MapProximity found = measureMap(narrow_phase, snapshot, first, second, up_to);
-    (isMap(snapshot, first) ? nearest.second : nearest.first) = found.shape;
+    (snapshot.structure().isMap(first) ? nearest.second : nearest.first) = found.shape;
     nearest.proximity = found.proximity;
     nearest.cells = std::move(found.cells);
     return nearest;
@@ -117,7 +113,7 @@ std::vector<PairContact> contactsOf(const NarrowPhase& narrow_phase, const Snaps
   const DefaultFloatEnvironment environment;
   std::vector<PairContact> contacts;
   std::vector<ShapePair> shape_pairs;
-  if (isMap(snapshot, first) || isMap(snapshot, second)) {
+  if (snapshot.structure().isMap(first) || snapshot.structure().isMap(second)) {
     contacts = contactsWithMap(narrow_phase, snapshot, first, second, most);
   } else {
     collectShapePairs(snapshot, first, second, 0.0, shape_pairs);
@@ -206,7 +202,7 @@ void PairMeter::State::perform(const Snapshot& snapshot, Job& job, std::vector<S
              &second = snapshot.poses()[job.pair->second].world_from_body;
   Known& now = job.known;
   double moved = std::numeric_limits<double>::infinity();
-  const bool map_first = isMap(snapshot, job.pair->first);
+  const bool map_first = snapshot.structure().isMap(job.pair->first);
   const auto map = snapshot.cellsOf(map_first ? job.pair->first : job.pair->second);
   if (now.measured && now.map == map) {
     const bool same =

@@ -78,7 +78,7 @@ double Snapshot::gapOf(std::uint32_t first, std::uint32_t second, double up_to) 
   for (const std::uint32_t body : {first, second}) {
     if (poses_[body].state == Freshness::unplaced) return gap;
   }
-  if (structure_->bodies[first].kind == BodyKind::map) std::swap(first, second);
+  if (structure_->isMap(first)) std::swap(first, second);
   const auto cells = cellsOf(second);
   const Pose map_from_world = poses_[second].world_from_body.inverse();
   for (ProxyId a = structure_->first_proxy[first]; a < structure_->first_proxy[first + 1]; ++a) {

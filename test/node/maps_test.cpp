@@ -260,6 +260,28 @@ TEST_F(Maps, ThatAreMissingAtTheStartLeaveTheWorldIncompleteUntilTheyCome) {
   EXPECT_EQ(metAt(0.05), Names({"map/room"}));
 }
 
+TEST(MapsBeyondTheLimit, AreMissedAsLongAsTheyAreNotThere) {
+  const TemporaryFolder folder;
+  folder.write("row.bt", rowOf(1));
+  NodeSetup setup;
+  setup.params = dict({{"map", dict({{"folder", folder.path()}})},
+                       {"maps", list({dict({{"name", "room"}, {"file", "row.bt"}})})},
+                       {"max_bodies", 2},
+                       {"margins", list({dict({{"pattern", "robot/aa"}, {"margin", 0.3}})})}});
+  setup.beside["robot_description"] = balls({"a"});
+  NodeUnderTest node(setup);
+  const auto refused = [](const msg::Status& status, std::uint64_t count) {
+    return counter(status, "maps.refused.LIMIT") >= count;
+  };
+  const auto status = node.waitForStatus("it was tried again", [&](const msg::Status& now) { return refused(now, 2); });
+  EXPECT_FALSE(status->world.complete);
+  bool told = false;
+  for (const std::string& reason : status->world.reasons) told = told || reason.find("LIMIT map 'room'") == 0;
+  EXPECT_TRUE(told);
+  ASSERT_EQ(status->model_warnings.size(), 1u) << "told though a map is missed";
+  EXPECT_TRUE(says(status->model_warnings[0], "~margins: 'robot/aa' matches no body"));
+}
+
 TEST_F(Maps, OneThousandReplacementsLeaveNothingBehind) {
   start(list({mapOf("room", "row.bt")}), 500.0);
   node_->waitForComplete();

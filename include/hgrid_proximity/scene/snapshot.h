@@ -32,6 +32,8 @@ struct Structure {
   PairFilter filter;
   bool silenced = false;  ///< rules switch off every pair that would be reported without them
 
+  bool isMap(std::uint32_t body) const { return bodies[body].kind == BodyKind::map; }
+
   static constexpr std::uint32_t kNone = 0xffffffff;
   /// Index of the body of this name, or kNone.
   std::uint32_t find(const std::string& name) const;
@@ -155,6 +157,9 @@ class Snapshot {
   /// The same to another body, itself left out. @throws Refusal not_ready if it has no pose or no shapes
   QueryAnswer nearest(std::uint32_t body, double max_distance, const QueryScope& scope) const;
 
+  /// Whether a query is about a body.
+  bool inScope(const QueryScope& scope, std::uint32_t body) const;
+
   /// [m] queries may reach this far from the world's origin.
   static constexpr double kQueryReach = 1e10;
 
@@ -162,7 +167,6 @@ class Snapshot {
   friend class Scene;
   Snapshot() = default;
   struct Probe;
-  bool inScope(const QueryScope& scope, std::uint32_t body) const;
   QueryAnswer finished(std::vector<QueryHit>& hits, const QueryScope& scope, bool by_along,
                        const std::string& doubt) const;
   std::string doubtOf(std::uint32_t body) const;
