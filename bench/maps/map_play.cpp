@@ -5,19 +5,13 @@
 #include <malloc.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "bench/measure/held_bytes.h"
+#include "bench/measure/turns.h"
 
 namespace hgrid {
 namespace bench {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double msSince(Clock::time_point begin) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
 
 /// The leaf that a cell is of; the cell itself if it is of none.
 Voxel leafOf(const Voxel& cell, const std::vector<Voxel>& leaves) {
@@ -98,14 +92,7 @@ double AskMapPlay::timed() {
 }
 
 std::vector<Sample> AskMapPlay::operator()(double budget_ms) {
-  const Clock::time_point begin = Clock::now();
-  std::vector<Sample> samples;
-  while (samples.empty() || msSince(begin) < budget_ms) {
-    samples.push_back(result_);
-    samples.back().ms = timed();
-    samples.back().timed = 1;
-  }
-  return samples;
+  return samplesFor(budget_ms, result_, [this] { return timed(); });
 }
 
 }  // namespace bench

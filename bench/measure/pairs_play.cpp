@@ -3,21 +3,12 @@
 #include "bench/measure/pairs_play.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "bench/measure/held_bytes.h"
+#include "bench/measure/turns.h"
 
 namespace hgrid {
 namespace bench {
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double msSince(Clock::time_point begin) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
-
-}  // namespace
 
 void PairsPlay::start() {
   peer_.reset();

@@ -2,19 +2,10 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "bench/queries/queries_play.h"
 
-#include <chrono>
+#include "bench/measure/turns.h"
 
 namespace hgrid {
 namespace bench {
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double msSince(Clock::time_point begin) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
-
-}  // namespace
 
 QueriesPlay::QueriesPlay(const QueryPeerKind& peer, QueryKind kind, bool batched, const std::vector<Aabb>& boxes,
                          const QuerySet& queries, const Judge& judge)
@@ -67,14 +58,7 @@ double QueriesPlay::timedChunk() {
 }
 
 std::vector<Sample> QueriesPlay::operator()(double budget_ms) {
-  const Clock::time_point begin = Clock::now();
-  std::vector<Sample> samples;
-  while (samples.empty() || msSince(begin) < budget_ms) {
-    samples.push_back(result_);
-    samples.back().ms = timedChunk();
-    samples.back().timed = 1;
-  }
-  return samples;
+  return samplesFor(budget_ms, result_, [this] { return timedChunk(); });
 }
 
 }  // namespace bench
