@@ -44,6 +44,7 @@ set(HGRID_CORE_SOURCES
   src/scene/snapshot_maps.cpp
   src/scene/snapshot_nearest.cpp
   src/scene/snapshot_queries.cpp
+  src/scene/snapshot_unmapped.cpp
 )
 set(HGRID_ADAPTER_SOURCES
   src/adapters/fcl.cpp

@@ -60,7 +60,7 @@ class Leaves {
   }
 
   bool wantsFree() const { return options_.keep_free; }
-  bool wantsUnknown() const { return options_.unknown_is_occupied; }
+  bool wantsUnknown() const { return options_.unknown != UnknownSpace::ignore; }
 
   void count(std::uint64_t nodes, std::uint64_t free) {
     map_.nodes += nodes;
@@ -70,9 +70,10 @@ class Leaves {
 
   void add(const Voxel& cube, Octant octant) {
     if (octant == Octant::free) return keep(cube, map_.free);
-    if (octant == Octant::unknown) ++map_.unknown_leaves;
     if (octant == Octant::nan) countNan();
-    keep(cube, map_.occupied);
+    if (octant == Octant::unknown) ++map_.unknown_leaves;
+    const bool apart = octant == Octant::unknown && options_.unknown == UnknownSpace::report;
+    keep(cube, apart ? map_.unknown : map_.occupied);
   }
 
   Octomap take() { return std::move(map_); }
@@ -92,7 +93,8 @@ class Leaves {
       ++map_.cropped;
       return;
     }
-    if (map_.occupied.size() + map_.free.size() >= options_.max_leaves) refuse("leaves to keep", options_.max_leaves);
+    const std::size_t kept = map_.occupied.size() + map_.free.size() + map_.unknown.size();
+    if (kept >= options_.max_leaves) refuse("leaves to keep", options_.max_leaves);
     voxels.push_back(cube);
   }
 

@@ -36,10 +36,26 @@ OctomapOptions MapSource::options() const {
   OctomapOptions options;
   options.occupied_from = params_.map_occupied_from;
   options.nan_is_occupied = params_.map_nan_is_occupied;
+  options.allow_empty = params_.map_allow_empty;
+  options.unknown = params_.map_unknown;
+  options.crop = Eigen::AlignedBox3d(params_.map_crop_min, params_.map_crop_max);
   options.max_bytes = static_cast<std::size_t>(params_.map_max_bytes);
   options.max_leaves = static_cast<std::uint64_t>(params_.map_max_leaves);
   options.max_nodes = 2 * options.max_leaves;
   return options;
+}
+
+std::shared_ptr<const MapCells> MapSource::cellsOf(const Octomap& octomap) const {
+  std::shared_ptr<const UnmappedSpace> unmapped;
+  if (params_.map_unknown == UnknownSpace::report) {
+    const auto end = [&](std::uint32_t key) {
+      return Eigen::Vector3d::Constant(coordinateOf(key, octomap.resolution)).eval();
+    };
+    const Eigen::AlignedBox3d extent(params_.map_crop_min.cwiseMax(end(0)),
+                                     params_.map_crop_max.cwiseMin(end(1u << Voxel::kLevels)));
+    unmapped = std::make_shared<UnmappedSpace>(UnmappedSpace{StaticGrid(octomap.resolution, octomap.unknown), extent});
+  }
+  return makeMapCells(std::make_shared<StaticGrid>(octomap.resolution, octomap.occupied), *narrow_phase_, unmapped);
 }
 
 LoadedMap MapSource::load(const MapParams& map, const OctomapMessage& message) const {
@@ -47,8 +63,7 @@ LoadedMap MapSource::load(const MapParams& map, const OctomapMessage& message) c
   if (!message.flaw.empty()) throw Refusal(Code::truncated, what + ": " + printable(message.flaw, 200));
   const Octomap octomap =
       readOctomapData({message.id, message.binary, message.resolution}, message.data, what, options());
-  LoadedMap loaded{map,
-                   makeMapCells(std::make_shared<StaticGrid>(octomap.resolution, octomap.occupied), *narrow_phase_)};
+  LoadedMap loaded{map, cellsOf(octomap)};
   loaded.params.frame = withoutSlash(message.frame);
   return loaded;
 }
@@ -63,8 +78,7 @@ LoadedMap MapSource::load(const MapParams& map) const {
   policy.file_roots = {params_.map_folder};
   policy.max_bytes = static_cast<std::size_t>(params_.map_max_bytes);
   const OpenResource file = openResource("file://" + params_.map_folder + "/" + map.file, policy);
-  const Octomap octomap = readOctomapFile(file, options());
-  return {map, makeMapCells(std::make_shared<StaticGrid>(octomap.resolution, octomap.occupied), *narrow_phase_)};
+  return {map, cellsOf(readOctomapFile(file, options()))};
 }
 
 }  // namespace hgrid

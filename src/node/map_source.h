@@ -33,6 +33,7 @@ class MapSource {
 
  private:
   OctomapOptions options() const;
+  std::shared_ptr<const MapCells> cellsOf(const Octomap& octomap) const;
 
   const Params& params_;
   std::shared_ptr<const NarrowPhase> narrow_phase_;

@@ -95,7 +95,7 @@ msg::WorldState worldState(const Tick& tick, const Params& params, std::uint64_t
   world.epoch = tick.epoch;
   world.config_hash = config_hash;
   world.valid_until = toRos(tick.made.ros + std::chrono::nanoseconds(std::llround(1e9 * params.valid_for)));
-  world.unknown_space = msg::WorldState::UNKNOWN_SPACE_IGNORE;
+  world.unknown_space = static_cast<std::uint8_t>(params.map_unknown);
   if (!tick.snapshot) {
     world.reasons = tick.not_ready;
     world.reasons_total = static_cast<std::uint32_t>(tick.not_ready.size());

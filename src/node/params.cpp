@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "params.h"
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -15,6 +17,7 @@
 namespace hgrid {
 namespace {
 
+constexpr const char* kUnknownSpace[] = {"ignore", "report", "occupied"};
 constexpr const char* kKinds[] = {"self", "robot_robot", "robot_obstacle", "robot_map", "moving_obstacle"};
 
 /// Shows every parameter to a visitor: name, value, unit and range, meaning. The one list of all of them.
@@ -52,18 +55,29 @@ void visit(Visitor& v, Params& p) {
   v.maps(
       "maps", p.maps,
       "list of {name, file or topic, frame, pose: {xyz: [m], rpy: [rad]}}: OctoMaps, each the body map/name; file: the "
-      "name of a .bt or .ot in map/folder; topic: of octomap_msgs/Octomap, such as octomap_binary, whose frame is the "
-      "map's; frame of a file, empty: the world frame, and the map is fixed");
+      "name of a .bt or .ot in map/folder; topic: of octomap_msgs/Octomap, whose frame is the map's, if neither is "
+      "given "
+      "octomap_binary; frame of a file, empty: the world frame, and the map is fixed");
   v.string("map/folder", p.map_folder, "folder whose files maps and ~load_octomap may name; empty: none is read");
   v.number("map/occupied_from", p.map_occupied_from, "", 0.001, 0.999,
            "cells of at least this probability are occupied; only .ot files have probabilities");
   v.flag("map/nan_is_occupied", p.map_nan_is_occupied,
          "a cell whose probability is no number is occupied; false: such a file is refused");
+  v.flag("map/allow_empty", p.map_allow_empty,
+         "a message or file without any node is an empty map, all of it unknown; false: it is refused");
+  v.unknownSpace("map/unknown", p.map_unknown,
+                 "what space means that a map has no leaf for: ignore (it is free), report (a CLEAR that passes "
+                 "through it becomes UNKNOWN; so does one where there is no map at all), occupied");
+  v.vector(
+      "map/crop_min", p.map_crop_min, "m", kNoCrop,
+      "least corner, in the map's frame, of what is read of every map; cells that lie wholly outside are left out");
+  v.vector("map/crop_max", p.map_crop_max, "m", kNoCrop, "its greatest corner");
   v.integer("map/max_bytes", p.map_max_bytes, 1000, 1 << 30, "bytes of a file or message");
   v.number("map/shown_within", p.map_shown_within, "m", 0.0, 1000.0,
            "~markers show occupied cells so near to a body's box; 0: none");
   v.integer("map/max_shown", p.map_max_shown, 1, 1000000, "cells that ~markers show");
-  v.integer("map/max_leaves", p.map_max_leaves, 1, 100000000, "occupied cells of a map");
+  v.integer("map/max_leaves", p.map_max_leaves, 1, 100000000,
+            "cells of a map: occupied ones, and with report the pieces of unknown space");
 
   v.section("Which pairs");
   v.kinds("pair_kinds", p.pair_kinds,
@@ -165,6 +179,18 @@ class Reader {
   void flag(const char* name, bool& value, const char*) {
     if (auto given = get(name)) given->flag(value);
   }
+  void unknownSpace(const char* name, UnknownSpace& value, const char*) {
+    auto given = get(name);
+    if (!given) return;
+    std::string word;
+    given->string(word);
+    const auto* const found = std::find(std::begin(kUnknownSpace), std::end(kUnknownSpace), word);
+    if (found == std::end(kUnknownSpace)) {
+      given->error("is '" + printable(word, 48) + "'; it must be ignore, report or occupied");
+    } else {
+      value = static_cast<UnknownSpace>(found - std::begin(kUnknownSpace));
+    }
+  }
   void strings(const char* name, std::vector<std::string>& value, const char*) {
     if (auto given = get(name)) given->strings(value);
   }
@@ -251,7 +277,8 @@ class Reader {
       MapParams map;
       readString(element, "file", map.file, false);
       readString(element, "topic", map.topic, false);
-      if (map.file.empty() == map.topic.empty()) element.error("must have a file or a topic, and not both");
+      if (!map.file.empty() && !map.topic.empty()) element.error("must have a file or a topic, and not both");
+      if (map.file.empty() && map.topic.empty()) map.topic = "octomap_binary";
       readString(element, "frame", map.frame, false);
       map.frame = withoutSlash(map.frame);
       if (auto pose = element.get("pose")) map.frame_from_map = readPose(*pose);
@@ -335,6 +362,9 @@ class Printer {
   void kinds(const char* name, const PairKinds&, const char* meaning) {
     entry(name, meaning, "[self, robot_robot, robot_obstacle, robot_map, moving_obstacle]");
   }
+  void unknownSpace(const char* name, UnknownSpace value, const char* meaning) {
+    entry(name, meaning, kUnknownSpace[static_cast<std::size_t>(value)]);
+  }
   void strings(const char* name, const std::vector<std::string>&, const char* meaning) { list(name, "", meaning); }
   void robots(const char* name, const std::vector<RobotParams>&, const char* meaning) { list(name, "", meaning); }
   void waivers(const char* name, const std::vector<Waiver>&, const char* meaning) { list(name, "", meaning); }
@@ -408,6 +438,11 @@ Params readParams(XmlRpc::XmlRpcValue values) {
                                                      text(1.0 / params.rate) + " s");
   require(params.distances_max <= params.margin, "~distances/max is " + text(params.distances_max) +
                                                      " m; it must be at most ~margin, " + text(params.margin) + " m");
+  for (int axis = 0; axis < 3; ++axis) {
+    require(params.map_crop_min[axis] <= params.map_crop_max[axis],
+            std::string("~map/crop_min is ") + text(params.map_crop_min[axis]) + " m along " + "xyz"[axis] +
+                ", ~map/crop_max " + text(params.map_crop_max[axis]) + " m; the first must be at most the second");
+  }
   require(params.min_size < params.max_size,
           "~min_size is " + text(params.min_size) + " m; it must be below ~max_size, " + text(params.max_size) + " m");
   require(params.finest_edge == 0.0 || params.finest_edge >= 1e-3,

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "hgrid_proximity/adapters/octomap.h"
 #include "hgrid_proximity/scene/body.h"
 #include "hgrid_proximity/scene/pair_filter.h"
 #include "hgrid_proximity/scene/pair_margins.h"
@@ -35,6 +36,9 @@ struct MapParams {
   Pose frame_from_map = Pose::Identity();
 };
 
+/// [m] Farther than the ends of any map.
+constexpr double kNoCrop = 1e7;
+
 /// A value for all bodies whose name matches a glob.
 struct PatternValue {
   std::string pattern;
@@ -60,7 +64,9 @@ struct Params {
   std::vector<MapParams> maps;
   std::string map_folder;
   double map_occupied_from = 0.5;
-  bool map_nan_is_occupied = false;
+  bool map_nan_is_occupied = false, map_allow_empty = false;
+  UnknownSpace map_unknown = UnknownSpace::ignore;
+  Eigen::Vector3d map_crop_min = Eigen::Vector3d::Constant(-kNoCrop), map_crop_max = Eigen::Vector3d::Constant(kNoCrop);
   int map_max_bytes = 256 << 20, map_max_leaves = 20000000, map_max_shown = 20000;
   double map_shown_within = 1.0;
   std::vector<PairRule> allowed_pairs;

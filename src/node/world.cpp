@@ -27,6 +27,7 @@ SceneOptions optionsOf(const Params& params) {
   options.allowed_pairs = params.allowed_pairs;
   options.pair_margins = params.pair_margins;
   options.horizon = params.horizon;
+  options.report_unmapped = params.map_unknown == UnknownSpace::report;
   return options;
 }
 

@@ -249,6 +249,7 @@ std::shared_ptr<const Snapshot> Scene::commit(Time stamp, const std::vector<std:
   std::shared_ptr<Snapshot> snapshot = s.freshSnapshot();
   snapshot->origin_ = s.options.origin;
   snapshot->stamp_ = stamp;
+  snapshot->report_unmapped_ = s.options.report_unmapped;
   s.fillBodies(*snapshot);
   s.growBoxes(*snapshot);
   const auto boxes_done = Clock::now();

@@ -6,13 +6,15 @@
 
 namespace hgrid {
 
-std::shared_ptr<const MapCells> makeMapCells(std::shared_ptr<const StaticGrid> grid, const NarrowPhase& narrow_phase) {
+std::shared_ptr<const MapCells> makeMapCells(std::shared_ptr<const StaticGrid> grid, const NarrowPhase& narrow_phase,
+                                             std::shared_ptr<const UnmappedSpace> unmapped) {
   auto cells = std::make_shared<MapCells>();
   for (std::size_t level = 0; level < cells->cubes.size(); ++level) {
     const double edge = std::ldexp(grid->finestEdge(), static_cast<int>(level));
     cells->cubes[level] = narrow_phase.block(Eigen::Vector3d::Constant(edge));
   }
   cells->grid = std::move(grid);
+  cells->unmapped = std::move(unmapped);
   return cells;
 }
 
@@ -24,7 +26,6 @@ Eigen::AlignedBox3d boxInMap(const Pose& map_from_world, const Aabb& box, const 
 }
 
 double gapTo(const StaticGrid& grid, const Eigen::AlignedBox3d& box, double up_to) {
-  constexpr double kNoFurther = -1.0;
   double least = std::numeric_limits<double>::infinity();
   const double rounding = 1e-9 * (box.min().cwiseAbs().maxCoeff() + box.max().cwiseAbs().maxCoeff());
   grid.visitNear(box, up_to + rounding, [&](const Voxel&, double distance) {

@@ -6,6 +6,9 @@
 
 namespace hgrid {
 
+/// [m] What a look at voxels (StaticGrid::Look) returns when it is over.
+constexpr double kNoFurther = -1.0;
+
 /// The box in a map's frame around a box of the world: larger where the map is turned.
 /// @param origin  [m, world] that the box is relative to
 Eigen::AlignedBox3d boxInMap(const Pose& map_from_world, const Aabb& box, const Eigen::Vector3d& origin);

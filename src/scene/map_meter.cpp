@@ -11,7 +11,6 @@ namespace hgrid {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNoFurther = -1.0;
 
 /// A pair of a map and a body with shapes.
 class MapPair {

@@ -62,7 +62,7 @@ std::string Snapshot::doubtOf(std::uint32_t body) const {
 }
 
 QueryAnswer Snapshot::finished(std::vector<QueryHit>& hits, const QueryScope& scope, bool by_along,
-                               const std::string& doubt) const {
+                               const std::string& doubt, bool unmapped) const {
   sortOnePerBody(hits, by_along ? earlier : nearer);
   QueryAnswer answer;
   answer.total = hits.size();
@@ -77,6 +77,9 @@ QueryAnswer Snapshot::finished(std::vector<QueryHit>& hits, const QueryScope& sc
   } else if (!doubt.empty()) {
     answer.because = Unknown::stale_body;
     answer.reason = doubt;
+  } else if (unmapped) {
+    answer.because = Unknown::unmapped;
+    answer.reason = "it passes through space that no map knows to be free";
   } else {
     answer.verdict = Verdict::clear;
   }

@@ -8,33 +8,13 @@
 #include <optional>
 
 #include "scene/map_gap.h"
+#include "scene/placed_map.h"
 #include "scene/probe.h"
 
 namespace hgrid {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNoFurther = -1.0;
-
-/// A map as it lies in the world.
-struct PlacedMap {
-  std::uint32_t body;
-  const MapCells& cells;
-  const Pose& world_from_map;
-  Pose map_from_world;
-  double growth;  // [m]
-
-  double edgeOf(const Voxel& voxel) const { return hgrid::edgeOf(voxel, cells.grid->finestEdge()); }
-  Eigen::AlignedBox3d cubeOf(const Voxel& voxel) const {
-    return {minCorner(voxel, cells.grid->finestEdge()), maxCorner(voxel, cells.grid->finestEdge())};
-  }
-  /// The point of a voxel, in the map's frame, that is nearest to another.
-  Eigen::Vector3d nearestOf(const Voxel& voxel, const Eigen::Vector3d& point) const {
-    const Eigen::AlignedBox3d cube = cubeOf(voxel);
-    return point.cwiseMax(cube.min()).cwiseMin(cube.max());
-  }
-  Pose worldFromCube(const Voxel& voxel) const { return world_from_map * Eigen::Translation3d(cells.centerOf(voxel)); }
-};
 
 /// The hit of a question whose middle is `distance` from a voxel.
 /// @param from  the middle, in the map's frame
@@ -90,17 +70,6 @@ double Snapshot::gapOf(std::uint32_t first, std::uint32_t second, double up_to) 
     }
   }
   return gap <= up_to ? gap : kInfinity;
-}
-
-/// Those in scope that have a pose and cells.
-template <class Look>
-void Snapshot::forEachMap(const QueryScope& scope, Look&& look) const {
-  for (std::size_t i = 0; i < cells_.size(); ++i) {
-    const std::uint32_t body = structure_->maps[i];
-    const BodyPose& pose = poses_[body];
-    if (!cells_[i] || pose.state == Freshness::unplaced || !inScope(scope, body)) continue;
-    look(PlacedMap{body, *cells_[i], pose.world_from_body, pose.world_from_body.inverse(), pose.growth});
-  }
 }
 
 void Snapshot::addMaps(const Sphere& sphere, const QueryScope& scope, std::vector<QueryHit>& hits,

@@ -65,7 +65,7 @@ QueryAnswer Snapshot::nearestBy(const Asked& asked, const Eigen::Vector3d& cente
     return a.distance != b.distance ? a.distance < b.distance : a.body < b.body;
   });
   if (hits.size() > wanted) hits.resize(wanted);
-  return finished(hits, scope, false, doubt);
+  return finished(hits, scope, false, doubt, hits.empty() && unmappedNear(asked, limit, scope));
 }
 
 QueryAnswer Snapshot::nearest(const Eigen::Vector3d& point, double max_distance, const QueryScope& scope) const {

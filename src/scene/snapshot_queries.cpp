@@ -104,7 +104,7 @@ QueryAnswer Snapshot::query(const Sphere& sphere, const QueryScope& scope) const
     }
   }
   addMaps(sphere, scope, hits, doubt);
-  return finished(hits, scope, false, doubt);
+  return finished(hits, scope, false, doubt, hits.empty() && unmapped(sphere, scope));
 }
 
 QueryAnswer Snapshot::query(const Segment& segment, const QueryScope& scope) const {
@@ -170,7 +170,7 @@ QueryAnswer Snapshot::query(const Segment& segment, const QueryScope& scope) con
     }
   }
   addMaps(segment, scope, hits, doubt);
-  return finished(hits, scope, true, doubt);
+  return finished(hits, scope, true, doubt, hits.empty() && unmapped(segment, scope));
 }
 
 QueryAnswer Snapshot::query(const QueryBox& box, const NarrowPhase& narrow_phase, const QueryScope& scope) const {
@@ -226,7 +226,7 @@ QueryAnswer Snapshot::query(const QueryBox& box, const NarrowPhase& narrow_phase
     }
   }
   addMaps(box, narrow_phase, scope, hits, doubt);
-  return finished(hits, scope, false, doubt);
+  return finished(hits, scope, false, doubt, hits.empty() && unmapped(box, narrow_phase, scope));
 }
 
 }  // namespace hgrid

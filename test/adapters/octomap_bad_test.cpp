@@ -253,7 +253,7 @@ TEST(OctomapBad, SmallInputsDoNotExpand) {
   const std::string data = fullBelow(12, "nnnnnnn.");
   ASSERT_LT(data.size(), 4096u);
   OctomapOptions options;
-  options.unknown_is_occupied = true;
+  options.unknown = UnknownSpace::occupied;
   const Octomap map = readOctomapData(kBinary, data, "map", options);
   EXPECT_EQ(map.occupied.size(), 7u * 8 * 8 * 8 + 1 + 12 * 7);
   EXPECT_LE(map.occupied.size() * sizeof(Voxel), 32 * data.size());

@@ -41,7 +41,7 @@ TEST(OctomapMutation, AHarmedMapIsSoundOrARefusal) {
     OctomapOptions options;
     options.nan_is_occupied = random.chance(0.5);
     options.keep_free = random.chance(0.5);
-    options.unknown_is_occupied = random.chance(0.2);
+    options.unknown = static_cast<UnknownSpace>(random.chance(0.4) ? random.below(3) : 0);
     options.max_leaves = random.chance(0.1) ? 100 : 1000000;
     try {
       const Octomap read = random.chance(0.5)

@@ -105,7 +105,8 @@ TEST(OctomapOptions, NanIsRefusedOrOccupied) {
 
 TEST(OctomapOptions, WhatHasNoLeafCanBeOccupied) {
   OctomapOptions options;
-  options.unknown_is_occupied = options.keep_free = true;
+  options.unknown = UnknownSpace::occupied;
+  options.keep_free = true;
   const Octomap map = read(kBinary, btNode("of.....n") + btNode("fffffff."), options);
   EXPECT_EQ(map.unknown_leaves, 6u);
   EXPECT_EQ(map.occupied.size(), 7u);
@@ -122,9 +123,38 @@ TEST(OctomapOptions, WhatHasNoLeafCanBeOccupied) {
   EXPECT_EQ(full.occupied.front(), (Voxel{32768, 0, 0, 15}));
 }
 
+TEST(OctomapOptions, WhatHasNoLeafCanBeKeptApart) {
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const WrittenMap written = randomMap(random, "OcTree", random.chance(0.5));
+    OctomapOptions options;
+    options.keep_free = true;
+    const Octomap without = read(written.format, written.data, options);
+    options.unknown = UnknownSpace::report;
+    const Octomap with = read(written.format, written.data, options);
+    EXPECT_TRUE(without.unknown.empty());
+    EXPECT_TRUE(with.occupied == without.occupied);
+    EXPECT_TRUE(with.free == without.free);
+    EXPECT_EQ(with.unknown_leaves, with.unknown.size());
+    std::uint64_t covered = 0;
+    std::vector<Voxel> all;
+    for (const auto* voxels : {&with.occupied, &with.free, &with.unknown}) {
+      for (const Voxel& voxel : *voxels) covered += std::uint64_t{1} << 3 * voxel.level;
+      all.insert(all.end(), voxels->begin(), voxels->end());
+    }
+    EXPECT_EQ(covered, std::uint64_t{1} << 48) << "all space is one of the three";
+    std::sort(all.begin(), all.end(), [](const Voxel& a, const Voxel& b) { return mortonOf(a) < mortonOf(b); });
+    for (std::size_t i = 1; i < all.size(); ++i) {
+      ASSERT_GE(mortonOf(all[i]), mortonOf(all[i - 1]) + (std::uint64_t{1} << 3 * all[i - 1].level)) << "they overlap";
+    }
+  }
+}
+
 TEST(OctomapOptions, AnEmptyMapIsUnknownAllOver) {
   OctomapOptions options;
-  options.unknown_is_occupied = options.allow_empty = true;
+  options.unknown = UnknownSpace::occupied;
+  options.allow_empty = true;
   for (const OctomapFormat& format : {kBinary, kFull}) {
     const Octomap map = read(format, "", options);
     EXPECT_EQ(map.occupied, (std::vector<Voxel>{{0, 0, 0, 16}}));

@@ -58,6 +58,8 @@ std::string flawOf(const Octomap& map, const OctomapOptions& options) {
   std::vector<Voxel> all;
   std::merge(map.occupied.begin(), map.occupied.end(), map.free.begin(), map.free.end(), std::back_inserter(all),
              inMortonOrder);
+  const auto middle = all.insert(all.end(), map.unknown.begin(), map.unknown.end());
+  std::inplace_merge(all.begin(), middle, all.end(), inMortonOrder);
   const std::string flaw = flawOf(all);  // merging keeps the order of each list, be it right or wrong
   if (!flaw.empty()) return flaw;
   if (all.size() > options.max_leaves) return std::to_string(all.size()) + " leaves";

@@ -24,7 +24,7 @@ inline FuzzedOctomap readFuzzed(std::string_view input) {
   input.remove_prefix(1);
   OctomapOptions options;
   options.nan_is_occupied = bits & 1;
-  options.unknown_is_occupied = bits & 2;
+  if (bits & 2) options.unknown = bits & 8 ? UnknownSpace::report : UnknownSpace::occupied;
   options.keep_free = bits & 4;
   options.allow_empty = bits & 8;
   if (bits & 16) options.crop = Eigen::AlignedBox3d(Eigen::Vector3d(-1.0, -2.0, 0.0), Eigen::Vector3d(1.0, 2.0, 1.5));

@@ -52,6 +52,13 @@ TEST(ParamErrors, AWrongTypeIsNamed) {
   expectRefused(dict({{"robots", list({Value("ur5")})}}), "~robots[0] is a string ('ur5'); it must be a dictionary");
 }
 
+TEST(ParamErrors, WhatIsTakenOfMapsIsNamed) {
+  expectRefused(dict({{"map", dict({{"unknown", "guess"}})}}),
+                "~map/unknown is 'guess'; it must be ignore, report or occupied");
+  expectRefused(dict({{"map", dict({{"crop_min", list({0.0, 2.0, 0.0})}, {"crop_max", list({1.0, 1.0, 1.0})}})}}),
+                "~map/crop_min is 2 m along y, ~map/crop_max 1 m; the first must be at most the second");
+}
+
 TEST(ParamErrors, ANumberOutOfRangeIsNamedWithTheRange) {
   expectRefused(dict({{"rate", 0.0}}), "~rate is 0 Hz; it must be within 1 .. 1000 Hz");
   expectRefused(dict({{"rate", kNan}}), "~rate is nan Hz; it must be within 1 .. 1000 Hz");

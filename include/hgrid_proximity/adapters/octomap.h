@@ -15,34 +15,42 @@
 
 namespace hgrid {
 
+/// What becomes of space that a map has no leaf for, out to the ends of the keys; as msg/WorldState.msg numbers it.
+enum class UnknownSpace : std::uint8_t {
+  ignore = 0,    ///< it counts as free
+  report = 1,    ///< it is kept apart, so that answers can say that nothing is known of it
+  occupied = 2,  ///< it counts as occupied
+};
+
 /// What is taken of an OctoMap, and how much of one is read at most.
 struct OctomapOptions {
   /// Leaves of at least this probability, within (0, 1), are occupied. Only for maps with probabilities (`.ot`,
   /// octomap_full): the others say themselves what is occupied.
   double occupied_from = 0.5;
-  bool nan_is_occupied = false;      ///< a leaf whose log-odds are NaN is occupied and counted; false: refused
-  bool unknown_is_occupied = false;  ///< space without a leaf is occupied too, out to the ends of the keys
-  bool keep_free = false;            ///< Octomap::free is filled
-  bool allow_empty = false;          ///< no nodes at all are a map, all of it unknown; false: refused
+  bool nan_is_occupied = false;  ///< a leaf whose log-odds are NaN is occupied and counted; false: refused
+  UnknownSpace unknown = UnknownSpace::ignore;
+  bool keep_free = false;    ///< Octomap::free is filled
+  bool allow_empty = false;  ///< no nodes at all are a map, all of it unknown; false: refused
   /// Voxels that lie wholly outside this box [m] in the map's frame are dropped while reading; touching is not
   /// outside, and none is cut. Sides may be infinite.
   std::optional<Eigen::AlignedBox3d> crop;
 
   std::size_t max_bytes = 256u << 20;     ///< of a file or a message
   std::uint64_t max_nodes = 40'000'000;   ///< inner nodes and leaves, the cropped ones included
-  std::uint64_t max_leaves = 20'000'000;  ///< kept: occupied and free together
+  std::uint64_t max_leaves = 20'000'000;  ///< kept: occupied, free and unknown together
 };
 
-/// The leaves of an OctoMap, without the tree. Both lists are disjoint and in Morton order.
+/// The leaves of an OctoMap, without the tree. The lists are each disjoint and in Morton order.
 struct Octomap {
   double resolution = 0.0;  ///< [m] edge of a voxel of level 0
   std::vector<Voxel> occupied;
-  std::vector<Voxel> free;  ///< empty unless OctomapOptions::keep_free
+  std::vector<Voxel> free;     ///< empty unless OctomapOptions::keep_free
+  std::vector<Voxel> unknown;  ///< empty unless OctomapOptions::unknown says report
 
   std::uint64_t nodes = 0;           ///< read: inner nodes and leaves, as OctoMap's own size()
   std::uint64_t free_leaves = 0;     ///< read
   std::uint64_t nan_leaves = 0;      ///< read, and taken as occupied
-  std::uint64_t unknown_leaves = 0;  ///< parts without a leaf, if unknown_is_occupied: taken as occupied
+  std::uint64_t unknown_leaves = 0;  ///< parts without a leaf that OctomapOptions::unknown asked for
   std::uint64_t cropped = 0;         ///< voxels that would have been kept, but lie outside the crop
 };
 

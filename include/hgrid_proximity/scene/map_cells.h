@@ -10,9 +10,16 @@
 
 namespace hgrid {
 
+/// What a map knows nothing of, in its frame: these cells, and all that lies beyond what it speaks of.
+struct UnmappedSpace {
+  StaticGrid cells;
+  Eigen::AlignedBox3d extent;  ///< [m] what it speaks of
+};
+
 /// What is occupied of a map or a cloud, and its cells made ready to be measured. Immutable, shared by snapshots.
 struct MapCells {
   std::shared_ptr<const StaticGrid> grid;                                   ///< in the frame of its body
+  std::shared_ptr<const UnmappedSpace> unmapped = nullptr;                  ///< null: it knows no space to be free
   std::array<std::shared_ptr<const Solid>, Voxel::kLevels + 1> cubes = {};  ///< by level of the voxel
 
   /// The middle of a voxel [m] in the frame of its body.
@@ -21,6 +28,7 @@ struct MapCells {
   }
 };
 
-std::shared_ptr<const MapCells> makeMapCells(std::shared_ptr<const StaticGrid> grid, const NarrowPhase& narrow_phase);
+std::shared_ptr<const MapCells> makeMapCells(std::shared_ptr<const StaticGrid> grid, const NarrowPhase& narrow_phase,
+                                             std::shared_ptr<const UnmappedSpace> unmapped = nullptr);
 
 }  // namespace hgrid

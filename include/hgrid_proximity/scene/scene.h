@@ -26,6 +26,8 @@ struct SceneOptions {
   /// other since the last commit; 0 .. 60; 0: neither
   double horizon = 0.0;
   std::vector<PairMargin> pair_margins;  ///< margins of pairs, 0 .. 1e3; what is below `margin` counts as that
+  /// A CLEAR is said only of space that one of the maps asked about knows to be free; otherwise it becomes UNKNOWN.
+  bool report_unmapped = false;
   PairKinds pair_kinds;
   std::vector<PairRule> allowed_pairs;  ///< rules to begin with
 };

@@ -52,7 +52,7 @@ struct BodyPose {
 enum class Verdict : std::uint8_t { unknown = 0, clear = 1, hit = 2 };
 
 /// Why a verdict is unknown; the numbers are those of msg/Answer.msg.
-enum class Unknown : std::uint8_t { no = 0, refused = 1, incomplete = 2, stale_body = 3, outdated = 4 };
+enum class Unknown : std::uint8_t { no = 0, refused = 1, incomplete = 2, stale_body = 3, outdated = 4, unmapped = 5 };
 
 /// Which bodies a query is about, and how many hits it wants.
 struct QueryScope {
@@ -167,8 +167,8 @@ class Snapshot {
   friend class Scene;
   Snapshot() = default;
   struct Probe;
-  QueryAnswer finished(std::vector<QueryHit>& hits, const QueryScope& scope, bool by_along,
-                       const std::string& doubt) const;
+  QueryAnswer finished(std::vector<QueryHit>& hits, const QueryScope& scope, bool by_along, const std::string& doubt,
+                       bool unmapped) const;
   std::string doubtOf(std::uint32_t body) const;
   template <class Asked, class Ask>
   QueryAnswer nearestBy(const Asked& asked, const Eigen::Vector3d& center, double reach, double max_distance,
@@ -183,6 +183,13 @@ class Snapshot {
                    std::string& doubt) const;
   void addMapsNear(std::uint32_t body, double limit, const QueryScope& scope, std::vector<QueryHit>& hits,
                    std::string& doubt) const;
+  template <class Knows>
+  bool knownToNone(const QueryScope& scope, const Knows& knows) const;
+  bool unmapped(const Sphere& sphere, const QueryScope& scope) const;
+  bool unmapped(const Segment& segment, const QueryScope& scope) const;
+  bool unmapped(const QueryBox& box, const NarrowPhase& narrow_phase, const QueryScope& scope) const;
+  bool unmappedNear(const Eigen::Vector3d& point, double limit, const QueryScope& scope) const;
+  bool unmappedNear(std::uint32_t body, double limit, const QueryScope& scope) const;
   void measureFrom(ProxyId own, ProxyId proxy, double up_to, const QueryScope& scope, QueryHit& hit) const;
 
   std::shared_ptr<const Structure> structure_;
@@ -198,6 +205,7 @@ class Snapshot {
   std::uint32_t reasons_total_ = 0;
   Freshness worst_state_ = Freshness::fresh;
   double max_age_ = 0.0, max_growth_ = 0.0;
+  bool report_unmapped_ = false;
   HGrid grid_;
   std::uint64_t grid_revision_ = 0;  // of the structure that grid_ was set up for
 };

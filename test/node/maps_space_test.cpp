@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// What becomes of space that maps do not know, and of what lies outside the crop.
+#include <gtest/gtest.h>
+
+#include "test/adapters/octomap_bytes.h"
+#include "test/adapters/temporary_folder.h"
+#include "test/node/support/claims.h"
+#include "test/node/support/descriptions.h"
+#include "test/node/support/transform_source.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+using msg::Answer;
+using Names = std::vector<std::string>;
+
+/// A robot's ball at the origin, and a map of 6553.6 m whose upper octant is free, the next one (x < 0) occupied, the
+/// others unknown.
+class MapSpace : public ::testing::Test {
+ protected:
+  MapSpace() { folder_.write("octants.bt", btHeader(usualLines("3")) + btNode("......of")); }
+  void start(Value map) {
+    map["folder"] = folder_.path();
+    NodeSetup setup;
+    setup.params["map"] = map;
+    setup.params["maps"] = list({dict({{"name", "octants"}, {"file", "octants.bt"}})});
+    setup.beside["robot_description"] = balls({"a"});
+    transforms_.stream("base", "a", at(0));
+    node_ = std::make_unique<NodeUnderTest>(setup);
+    node_->waitForComplete();
+  }
+  Answer asked(double x, double y, double z) { return node_->sphere(x, y, z, 0.5).answer; }
+
+  TemporaryFolder folder_;
+  TransformSource transforms_;
+  std::unique_ptr<NodeUnderTest> node_;
+};
+
+TEST_F(MapSpace, ThatIsUnknownIsFreeUnlessSaidOtherwise) {
+  start(dict());
+  EXPECT_EQ(asked(10, 10, 10).verdict, Answer::CLEAR);
+  EXPECT_EQ(asked(10, 10, -10).verdict, Answer::CLEAR);
+  EXPECT_EQ(namesOf(asked(-10, 10, 10)), Names({"map/octants"}));
+  EXPECT_EQ(node_->heard().status.back()->world.unknown_space, msg::WorldState::UNKNOWN_SPACE_IGNORE);
+}
+
+TEST_F(MapSpace, ThatIsUnknownIsReported) {
+  start(dict({{"unknown", "report"}}));
+  EXPECT_EQ(asked(10, 10, 10).verdict, Answer::CLEAR);
+  for (const double z : {-10.0, 0.4, 5000.0}) {
+    const Answer answer = asked(10, 10, z);
+    EXPECT_EQ(answer.verdict, Answer::UNKNOWN);
+    EXPECT_EQ(answer.unknown_because, Answer::UNMAPPED);
+    EXPECT_TRUE(says(answer.summary, "space that no map knows to be free"));
+  }
+  EXPECT_EQ(asked(-10, 10, 10).verdict, Answer::HIT);
+  EXPECT_EQ(node_->heard().status.back()->world.unknown_space, msg::WorldState::UNKNOWN_SPACE_REPORT);
+}
+
+TEST_F(MapSpace, ThatIsUnknownIsOccupied) {
+  start(dict({{"unknown", "occupied"}}));
+  EXPECT_EQ(asked(10, 10, 10).verdict, Answer::CLEAR);
+  EXPECT_EQ(namesOf(asked(10, 10, -10)), Names({"map/octants"}));
+  EXPECT_EQ(node_->heard().status.back()->world.unknown_space, msg::WorldState::UNKNOWN_SPACE_OCCUPIED);
+  node_->waitForPairs("the ball in unknown space", [](const msg::Pairs& pairs) {
+    return pairs.names == Names({"map/octants", "robot/a", "robot/base"});
+  });
+}
+
+TEST_F(MapSpace, OutsideTheCropIsNotRead) {
+  folder_.write("octants.bt", btHeader(usualLines("4")) + btNode(".......n") + btNode("o......o"));
+  start(dict({{"crop_min", list({1.0, 1.0, 1.0})}, {"crop_max", list({20.0, 20.0, 20.0})}, {"unknown", "report"}}));
+  EXPECT_EQ(asked(10, 10, 10).verdict, Answer::HIT);
+  EXPECT_EQ(asked(3000, 3000, 3000).unknown_because, Answer::UNMAPPED) << "the far cell is left out";
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// Where maps are to say what they know to be free, CLEAR is said of nothing else.
+#include <gtest/gtest.h>
+
+#include "test/support/maps.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+constexpr double kEdge = 0.1;
+
+std::shared_ptr<const MapCells> knowing(const std::vector<Voxel>& unknown, const Eigen::AlignedBox3d& extent) {
+  auto cells = std::make_shared<MapCells>();
+  cells->grid = std::make_shared<StaticGrid>(kEdge, std::vector<Voxel>{});
+  cells->unmapped = std::make_shared<UnmappedSpace>(UnmappedSpace{StaticGrid(kEdge, unknown), extent});
+  return cells;
+}
+Eigen::AlignedBox3d cube(double half) { return {Eigen::Vector3d::Constant(-half), Eigen::Vector3d::Constant(half)}; }
+SceneOptions reporting() {
+  SceneOptions options;
+  options.report_unmapped = true;
+  return options;
+}
+
+/// [m] By how much a ball stays clear of all that the map does not know; negative: it does not. By hand.
+double clearance(const std::vector<Voxel>& unknown, const Eigen::AlignedBox3d& extent, const Eigen::Vector3d& at,
+                 double radius) {
+  double least = std::min((at - extent.min()).minCoeff(), (extent.max() - at).minCoeff());
+  for (const Voxel& voxel : unknown) {
+    const Eigen::Vector3d off = (minCorner(voxel, kEdge) - at).cwiseMax(at - maxCorner(voxel, kEdge));
+    least = std::min(least, off.cwiseMax(Eigen::Vector3d::Zero()).norm());
+  }
+  return least - radius;
+}
+
+TEST(Unmapped, ClearIsSaidExactlyOfWhatTheMapKnowsToBeFree) {
+  std::size_t clear = 0, unknown_space = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    Random random(seed);
+    const std::vector<Voxel> unknown = randomVoxels(random, 60, 20);
+    const Eigen::AlignedBox3d extent = cube(random.uniform(1.0, 2.0));
+    Scene scene(reporting());
+    const Pose world_from_map = randomPose(random, 5.0);
+    scene.setCells(put(scene, mapBody("room"), world_from_map), knowing(unknown, extent));
+    const auto snapshot = scene.commit(Time{1}, {});
+    const auto check = [&](double room, const QueryAnswer& answer, const char* what) {
+      if (std::abs(room) < 1e-3) return;  // the witness of segments is made of points
+      SCOPED_TRACE("seed " + std::to_string(seed) + ", " + what + ", " + std::to_string(room) + " m of room");
+      ASSERT_EQ(answer.verdict, room > 0.0 ? Verdict::clear : Verdict::unknown);
+      ASSERT_EQ(answer.because, room > 0.0 ? Unknown::no : Unknown::unmapped);
+      ++(room > 0.0 ? clear : unknown_space);
+    };
+    for (int i = 0; i < 60; ++i) {
+      const auto point = [&] { return randomPose(random, 2.0).translation().eval(); };
+      const Eigen::Vector3d from = point(), to = from + 0.3 * point();
+      const double radius = random.chance(0.3) ? 0.0 : random.uniform(0.0, 0.3);
+      const double room = clearance(unknown, extent, from, radius);
+      check(room, snapshot->query(Sphere{world_from_map * from, radius}, {}), "ball");
+      if (radius > 0.0) check(room, snapshot->nearest(world_from_map * from, radius, {}), "nearest");
+      double along = room;
+      for (int step = 1; step <= 1000; ++step) {
+        along = std::min(along, clearance(unknown, extent, from + 1e-3 * step * (to - from), radius));
+      }
+      check(along, snapshot->query(Segment{world_from_map * from, world_from_map * to, radius}, {}), "segment");
+    }
+  }
+  EXPECT_GT(clear, 300u);
+  EXPECT_GT(unknown_space, 300u);
+}
+
+TEST(Unmapped, WhatTouchesTheUnknownIsNotClear) {
+  Scene scene(reporting());
+  scene.setCells(put(scene, mapBody("room"), at(0)), knowing({{32778, 32768, 32768, 0}}, cube(2.0)));  // x 1 .. 1.1
+  const auto snapshot = scene.commit(Time{1}, {});
+  const auto verdict = [&](double x, double radius) {
+    return snapshot->query(Sphere{{x, 0.05, 0.05}, radius}, {}).verdict;
+  };
+  EXPECT_EQ(verdict(0.5, 0.4999), Verdict::clear);
+  EXPECT_EQ(verdict(0.5, 0.5), Verdict::unknown);
+  EXPECT_EQ(verdict(-1.5, 0.4999), Verdict::clear);
+  EXPECT_EQ(verdict(-1.5, 0.5), Verdict::unknown) << "beyond what the map speaks of";
+}
+
+TEST(Unmapped, AHitStaysAHit) {
+  Scene scene(reporting());
+  put(scene, ball("post", 0.5), at(0));
+  EXPECT_EQ(scene.commit(Time{1}, {})->query(Sphere{{0, 0, 0}, 0.1}, {}).verdict, Verdict::hit);
+}
+
+TEST(Unmapped, OfSeveralMapsOneMustKnowAll) {
+  Scene scene(reporting());
+  scene.setCells(put(scene, mapBody("west"), at(-1)), knowing({}, cube(1.0)));
+  scene.setCells(put(scene, mapBody("east"), at(1)), knowing({}, cube(1.0)));
+  const auto snapshot = scene.commit(Time{1}, {});
+  const auto asked = [&](double x, const QueryScope& scope) { return snapshot->query(Sphere{{x, 0, 0}, 0.5}, scope); };
+  EXPECT_EQ(asked(-1.0, {}).verdict, Verdict::clear);
+  EXPECT_EQ(asked(1.0, {}).verdict, Verdict::clear);
+  EXPECT_EQ(asked(0.0, {}).because, Unknown::unmapped) << "each knows a half";
+  QueryScope scope;
+  scope.include = {"map/west"};
+  EXPECT_EQ(asked(1.0, scope).because, Unknown::unmapped) << "the one that knows was not asked";
+  scope.include = {"obstacle/*"};
+  EXPECT_EQ(asked(5.0, scope).verdict, Verdict::clear) << "no map was asked";
+  scope = {};
+  scope.exclude = {"map/*"};
+  EXPECT_EQ(asked(5.0, scope).verdict, Verdict::clear) << "no map was asked";
+}
+
+TEST(Unmapped, WithoutAMapNothingIsKnown) {
+  Scene scene(reporting());
+  EXPECT_EQ(scene.commit(Time{1}, {})->query(Sphere{{0, 0, 0}, 0.1}, {}).because, Unknown::unmapped);
+  const BodyId cloud = put(scene, mapBody("cloud"), at(0));
+  scene.setCells(cloud, cellsOf(kEdge, {}));
+  EXPECT_EQ(scene.commit(Time{2}, {})->query(Sphere{{0, 0, 0}, 0.1}, {}).because, Unknown::unmapped)
+      << "a map that knows no free space";
+}
+
+TEST(Unmapped, IsNotAskedUnlessMapsAreToReport) {
+  Scene scene{SceneOptions{}};
+  scene.setCells(put(scene, mapBody("room"), at(0)), knowing({}, cube(1.0)));
+  EXPECT_EQ(scene.commit(Time{1}, {})->query(Sphere{{5, 0, 0}, 0.1}, {}).verdict, Verdict::clear);
+}
+
+TEST(Unmapped, AStaleMapKnowsLess) {
+  Scene scene(reporting());
+  const BodyId room = put(scene, mapBody("room", Mobility::moving), at(0));  // 1 m/s
+  scene.setCells(room, knowing({}, cube(1.0)));
+  const auto because = [&] { return scene.commit(Time{1}, {})->query(Sphere{{0.5, 0, 0}, 0.2}, {}).because; };
+  EXPECT_EQ(because(), Unknown::no);
+  scene.setState(room, Freshness::stale, 0.4);
+  EXPECT_EQ(because(), Unknown::unmapped);
+}
+
+TEST(Unmapped, NearestToABodyLooksAroundAllOfIt) {
+  Scene scene(reporting());
+  scene.setCells(put(scene, mapBody("room"), at(0)), knowing({{32778, 32768, 32768, 0}}, cube(2.0)));  // x 1 .. 1.1
+  put(scene, ball("tool", 0.25), at(0));
+  const auto snapshot = scene.commit(Time{1}, {});
+  const auto because = [&](double limit) {
+    return snapshot->nearest(snapshot->structure().find("obstacle/tool"), limit, {}).because;
+  };
+  EXPECT_EQ(because(0.7), Unknown::no);
+  EXPECT_EQ(because(0.8), Unknown::unmapped);
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid
