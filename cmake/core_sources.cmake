@@ -20,6 +20,7 @@ set(HGRID_CORE_SOURCES
   src/narrowphase/narrow_phase.cpp
   src/refusal.cpp
   src/scene/allowed_matrix.cpp
+  src/scene/cloud_cells.cpp
   src/scene/commit.cpp
   src/scene/explain.cpp
   src/scene/horizon.cpp
@@ -40,6 +41,7 @@ set(HGRID_CORE_SOURCES
   src/scene/robot_model.cpp
   src/scene/rule_book.cpp
   src/scene/scene.cpp
+  src/scene/self_filter.cpp
   src/scene/snapshot.cpp
   src/scene/snapshot_maps.cpp
   src/scene/snapshot_nearest.cpp
@@ -53,6 +55,7 @@ set(HGRID_ADAPTER_SOURCES
   src/adapters/mesh.cpp
   src/adapters/octomap.cpp
   src/adapters/octomap_header.cpp
+  src/adapters/point_cloud.cpp
   src/adapters/resource.cpp
   src/adapters/srdf.cpp
   src/adapters/urdf.cpp

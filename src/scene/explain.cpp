@@ -112,6 +112,12 @@ class Words {
     const bool links = a_.kind == BodyKind::link && b_.kind == BodyKind::link;
     const bool link = a_.kind == BodyKind::link || b_.kind == BodyKind::link;
     const bool map = a_.kind == BodyKind::map || b_.kind == BodyKind::map;
+    const auto moving_obstacle = [](const Body& body) {
+      return body.kind == BodyKind::obstacle && body.mobility == Mobility::moving;
+    };
+    if (!link && !moving_obstacle(a_) && !moving_obstacle(b_)) {
+      return "without a robot's link a pair needs an obstacle that moves";
+    }
     const char* name = links  ? (a_.robot == b_.robot ? "self" : "robot_robot")
                        : link ? (map ? "robot_map" : "robot_obstacle")
                               : "moving_obstacle";

@@ -31,7 +31,10 @@ bool exists(const PairKinds& kinds, const Type& a, const Type& b, bool same_robo
     const BodyKind other = a.kind == BodyKind::link ? b.kind : a.kind;
     return other == BodyKind::map ? kinds.robot_map : kinds.robot_obstacle;
   }
-  return kinds.moving_obstacle;
+  const auto moving_obstacle = [](const Type& type) {
+    return type.kind == BodyKind::obstacle && type.mobility == Mobility::moving;
+  };
+  return kinds.moving_obstacle && (moving_obstacle(a) || moving_obstacle(b));  // a moving map shows the fixed ones too
 }
 
 std::uint64_t keyOf(std::uint32_t first, std::uint32_t second) {

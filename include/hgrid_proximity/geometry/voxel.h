@@ -54,10 +54,24 @@ inline std::uint64_t spreadByThree(std::uint16_t key) {
   return (bits | bits << 2) & 0x249249249249;
 }
 
+/// Bit 3 i of the bits becomes bit i: the reverse.
+inline std::uint16_t gatheredByThree(std::uint64_t bits) {
+  bits &= 0x249249249249;
+  bits = (bits | bits >> 2) & 0x0c30c30c30c3;
+  bits = (bits | bits >> 4) & 0x00f00f00f00f;
+  bits = (bits | bits >> 8) & 0x0000ff0000ff;
+  return static_cast<std::uint16_t>(bits | bits >> 16);
+}
+
 /// The 48 bits of the keys interleaved, x lowest: the order in which an octree has its leaves. The voxel covers the
 /// codes from this one to the one before this + 8^level.
 inline std::uint64_t mortonOf(const Voxel& voxel) {
   return spreadByThree(voxel.x) | spreadByThree(voxel.y) << 1 | spreadByThree(voxel.z) << 2;
+}
+
+/// The voxel of level 0 that has this code.
+inline Voxel finestVoxelOf(std::uint64_t morton) {
+  return {gatheredByThree(morton), gatheredByThree(morton >> 1), gatheredByThree(morton >> 2), 0};
 }
 
 }  // namespace hgrid

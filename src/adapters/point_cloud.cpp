@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "hgrid_proximity/adapters/point_cloud.h"
+
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "hgrid_proximity/refusal.h"
+
+namespace hgrid {
+namespace {
+
+/// Where a coordinate stands in a point.
+struct Place {
+  std::uint32_t offset = 0;
+  bool wide = false;  // FLOAT64
+
+  double read(const char* point) const {
+    if (wide) return number<double>(point + offset);
+    return static_cast<double>(number<float>(point + offset));
+  }
+
+ private:
+  template <class Number>
+  static Number number(const char* bytes) {
+    Number value;
+    std::memcpy(&value, bytes, sizeof(value));
+    return value;
+  }
+};
+
+Place placeOf(const char* name, const PointCloudFormat& format, const std::string& what) {
+  const PointField* found = nullptr;
+  for (const PointField& field : format.fields) {
+    if (field.name != name) continue;
+    if (found != nullptr) throw Refusal(Code::parse, what + " has two fields '" + name + "'; it must have one");
+    found = &field;
+  }
+  if (found == nullptr || (found->datatype != PointField::kFloat32 && found->datatype != PointField::kFloat64)) {
+    throw Refusal(Code::unsupported, what +
+                                         (found == nullptr ? " has no field '" + std::string(name) + "'"
+                                                           : " has a field '" + std::string(name) + "' of datatype " +
+                                                                 std::to_string(found->datatype)) +
+                                         "; it must have x, y and z as FLOAT32 (7) or FLOAT64 (8)");
+  }
+  const bool wide = found->datatype == PointField::kFloat64;
+  if (std::uint64_t{found->offset} + (wide ? 8 : 4) > format.point_step) {
+    throw Refusal(Code::parse, what + " has its field '" + name + "' at byte " + std::to_string(found->offset) +
+                                   " of points of " + std::to_string(format.point_step) + " bytes; it must lie within");
+  }
+  return {found->offset, wide};
+}
+
+void checkSizes(const PointCloudFormat& format, std::string_view data, const std::string& what) {
+  if (std::uint64_t{format.width} * format.point_step > format.row_step) {
+    throw Refusal(Code::parse, what + " has rows of " + std::to_string(format.row_step) + " bytes; " +
+                                   std::to_string(format.width) + " points of " + std::to_string(format.point_step) +
+                                   " bytes must fit into them");
+  }
+  const std::uint64_t bytes = std::uint64_t{format.height} * format.row_step;
+  if (data.size() == bytes) return;
+  throw Refusal(data.size() < bytes ? Code::truncated : Code::parse,
+                what + " has " + std::to_string(data.size()) + " bytes of points; " + std::to_string(format.height) +
+                    " rows of " + std::to_string(format.row_step) + " bytes must be all of it");
+}
+
+}  // namespace
+
+PointCloud readPointCloud(const PointCloudFormat& format, std::string_view data, const std::string& what) {
+  PointCloud cloud;
+  const std::uint64_t count = std::uint64_t{format.height} * format.width;
+  if (count == 0 && data.empty()) return cloud;
+  if (format.big_endian) throw Refusal(Code::unsupported, what + " is big-endian; it must be little-endian");
+  const std::array<Place, 3> places{placeOf("x", format, what), placeOf("y", format, what), placeOf("z", format, what)};
+  checkSizes(format, data, what);
+  cloud.points.reserve(count);  // as many as there are bytes for
+  for (std::uint32_t row = 0; row < format.height; ++row) {
+    const char* point = data.data() + std::size_t{row} * format.row_step;
+    for (std::uint32_t i = 0; i < format.width; ++i, point += format.point_step) {
+      const Eigen::Vector3d at(places[0].read(point), places[1].read(point), places[2].read(point));
+      if (at.allFinite()) {
+        cloud.points.push_back(at);
+      } else {
+        ++cloud.not_finite;
+      }
+    }
+  }
+  return cloud;
+}
+
+}  // namespace hgrid
