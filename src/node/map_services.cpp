@@ -26,7 +26,7 @@ bool MapServices::onLoad(msg::LoadOctomap::Request& request, msg::LoadOctomap::R
     const bool unset = q.x == 0.0 && q.y == 0.0 && q.z == 0.0 && q.w == 0.0;  // as typed by hand
     map.frame_from_map = checkedPose(
         {p.x, p.y, p.z}, unset ? Eigen::Vector4d(0, 0, 0, 1) : Eigen::Vector4d(q.x, q.y, q.z, q.w), "the map's pose");
-    const LoadedMap loaded = source_.load(map);
+    const LoadedMap loaded = source_.finished(source_.read(map));
     tick = answer_.do_in_tick([loaded](World& world) { world.setMap(loaded); });
     response.occupied_leaves = loaded.cells->grid->size();
     response.resolution = loaded.cells->grid->finestEdge();

@@ -29,8 +29,9 @@ void checkFileName(const std::string& file) {
 
 }  // namespace
 
-MapSource::MapSource(const Params& params, std::shared_ptr<const NarrowPhase> narrow_phase)
-    : params_(params), narrow_phase_(std::move(narrow_phase)) {}
+MapSource::MapSource(const Params& params, const OwnShapes& own, std::shared_ptr<const NarrowPhase> narrow_phase,
+                     Ledger& ledger)
+    : params_(params), own_(own), narrow_phase_(std::move(narrow_phase)), ledger_(ledger) {}
 
 OctomapOptions MapSource::options() const {
   OctomapOptions options;
@@ -45,30 +46,38 @@ OctomapOptions MapSource::options() const {
   return options;
 }
 
-std::shared_ptr<const MapCells> MapSource::cellsOf(const Octomap& octomap) const {
+LoadedMap MapSource::finished(ReadMap map) const {
+  Octomap& octomap = map.octomap;
+  if (own_.wanted()) {
+    own_.require();
+    const Pose world_from_map = own_.worldFrom(map.params.frame, map.stamp) * map.params.frame_from_map;
+    OthersCells others =
+        withoutSelf(octomap.occupied, octomap.resolution, world_from_map, own_.at(map.stamp), *narrow_phase_);
+    if (others.left_out > 0) ledger_.count("maps.own_cells", others.left_out);
+    if (others.undecided > 0) ledger_.count("maps.cells_undecided", others.undecided);
+    octomap.occupied = std::move(others.voxels);
+  }
   std::shared_ptr<const UnmappedSpace> unmapped;
   if (params_.map_unknown == UnknownSpace::report) {
-    const auto end = [&](std::uint32_t key) {
-      return Eigen::Vector3d::Constant(coordinateOf(key, octomap.resolution)).eval();
-    };
-    const Eigen::AlignedBox3d extent(params_.map_crop_min.cwiseMax(end(0)),
-                                     params_.map_crop_max.cwiseMin(end(1u << Voxel::kLevels)));
+    const double begin = coordinateOf(0, octomap.resolution),
+                 end = coordinateOf(1u << Voxel::kLevels, octomap.resolution);
+    const Eigen::AlignedBox3d extent(params_.map_crop_min.cwiseMax(begin), params_.map_crop_max.cwiseMin(end));
     unmapped = std::make_shared<UnmappedSpace>(UnmappedSpace{StaticGrid(octomap.resolution, octomap.unknown), extent});
   }
-  return makeMapCells(std::make_shared<StaticGrid>(octomap.resolution, octomap.occupied), *narrow_phase_, unmapped);
+  const auto grid = std::make_shared<StaticGrid>(octomap.resolution, octomap.occupied);
+  return {map.params, makeMapCells(grid, *narrow_phase_, unmapped)};
 }
 
-LoadedMap MapSource::load(const MapParams& map, const OctomapMessage& message) const {
+ReadMap MapSource::read(const MapParams& map, const OctomapMessage& message) const {
   const std::string what = "map '" + map.name + "' of " + map.topic;
   if (!message.flaw.empty()) throw Refusal(Code::truncated, what + ": " + printable(message.flaw, 200));
-  const Octomap octomap =
-      readOctomapData({message.id, message.binary, message.resolution}, message.data, what, options());
-  LoadedMap loaded{map, cellsOf(octomap)};
-  loaded.params.frame = withoutSlash(message.frame);
-  return loaded;
+  ReadMap result{map, readOctomapData({message.id, message.binary, message.resolution}, message.data, what, options()),
+                 Time(static_cast<std::int64_t>(message.stamp.toNSec()))};
+  result.params.frame = withoutSlash(message.frame);
+  return result;
 }
 
-LoadedMap MapSource::load(const MapParams& map) const {
+ReadMap MapSource::read(const MapParams& map) const {
   checkLocal(map.name, "the map's name");
   checkFileName(map.file);
   if (params_.map_folder.empty()) {
@@ -78,7 +87,7 @@ LoadedMap MapSource::load(const MapParams& map) const {
   policy.file_roots = {params_.map_folder};
   policy.max_bytes = static_cast<std::size_t>(params_.map_max_bytes);
   const OpenResource file = openResource("file://" + params_.map_folder + "/" + map.file, policy);
-  return {map, cellsOf(readOctomapFile(file, options()))};
+  return {map, readOctomapFile(file, options()), Time(0)};
 }
 
 }  // namespace hgrid

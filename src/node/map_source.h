@@ -7,36 +7,44 @@
 
 #include "hgrid_proximity/adapters/octomap.h"
 #include "hgrid_proximity/narrowphase/narrow_phase.h"
-#include "hgrid_proximity/scene/map_cells.h"
+#include "ledger.h"
+#include "loaded_map.h"
 #include "octomap_message.h"
+#include "own_shapes.h"
 #include "params.h"
 
 namespace hgrid {
 
-/// A map that was read, ready to be put into the world.
-struct LoadedMap {
+/// A map that was read.
+struct ReadMap {
   MapParams params;
-  std::shared_ptr<const MapCells> cells;
+  Octomap octomap;
+  Time stamp{0};  // of the message; 0: a file
 };
 
-/// Reads OctoMaps from the configured folder. Any thread.
+/// Reads OctoMaps from the configured folder and from messages. Any thread.
 class MapSource {
  public:
-  MapSource(const Params& params, std::shared_ptr<const NarrowPhase> narrow_phase);
+  MapSource(const Params& params, const OwnShapes& own, std::shared_ptr<const NarrowPhase> narrow_phase,
+            Ledger& ledger);
 
   /// @throws Refusal naming the map: bad_id (the file's name has other than letters, digits, . _ -), resource_denied
   /// (no folder is configured, or the file leads out of it), and as readOctomapFile()
-  LoadedMap load(const MapParams& map) const;
+  ReadMap read(const MapParams& map) const;
   /// What a message says of a map. @throws Refusal naming the map: truncated (the message lies about its lengths), and
   /// as readOctomapData()
-  LoadedMap load(const MapParams& map, const OctomapMessage& message) const;
+  ReadMap read(const MapParams& map, const OctomapMessage& message) const;
+  /// Makes a map's cells, the robot's own left out if ~map/self_filter says so. @throws Refusal not_ready if it is not
+  /// known where the robot was
+  LoadedMap finished(ReadMap map) const;
 
  private:
   OctomapOptions options() const;
-  std::shared_ptr<const MapCells> cellsOf(const Octomap& octomap) const;
 
   const Params& params_;
+  const OwnShapes& own_;
   std::shared_ptr<const NarrowPhase> narrow_phase_;
+  Ledger& ledger_;
 };
 
 }  // namespace hgrid

@@ -58,6 +58,11 @@ void visit(Visitor& v, Params& p) {
       "name of a .bt or .ot in map/folder; topic: of octomap_msgs/Octomap, whose frame is the map's, if neither is "
       "given "
       "octomap_binary; frame of a file, empty: the world frame, and the map is fixed");
+  v.clouds("clouds", p.clouds,
+           "list of {name, topic, resolution: [m], lifetime: [s]}: sensor_msgs/PointCloud2, each the body cloud/name; "
+           "its points fill cells of that edge in the world frame, which go a lifetime after they were seen last; "
+           "without a newer message by then the world is incomplete; without a topic it is cloud, resolution 0.05, "
+           "lifetime 1");
   v.string("map/folder", p.map_folder, "folder whose files maps and ~load_octomap may name; empty: none is read");
   v.number("map/occupied_from", p.map_occupied_from, "", 0.001, 0.999,
            "cells of at least this probability are occupied; only .ot files have probabilities");
@@ -72,12 +77,17 @@ void visit(Visitor& v, Params& p) {
       "map/crop_min", p.map_crop_min, "m", kNoCrop,
       "least corner, in the map's frame, of what is read of every map; cells that lie wholly outside are left out");
   v.vector("map/crop_max", p.map_crop_max, "m", kNoCrop, "its greatest corner");
-  v.integer("map/max_bytes", p.map_max_bytes, 1000, 1 << 30, "bytes of a file or message");
+  v.values("map/self_filter", p.map_self_filter, "padding", "m", 0.0, 10.0,
+           "list of {pattern, padding}: robots' links, or what they carry, whose own cells are left out of maps and "
+           "clouds: finest cells whose middles are as near as that to the body's padded shapes where it was at the "
+           "stamp of the map (of a file: when it is taken in), so that 0.87 of a cell's edge takes all that touch; the "
+           "last match counts; empty: none is");
+  v.integer("map/max_bytes", p.map_max_bytes, 1000, 1 << 30, "bytes of a file or message, of clouds too");
   v.number("map/shown_within", p.map_shown_within, "m", 0.0, 1000.0,
            "~markers show occupied cells so near to a body's box; 0: none");
   v.integer("map/max_shown", p.map_max_shown, 1, 1000000, "cells that ~markers show");
   v.integer("map/max_leaves", p.map_max_leaves, 1, 100000000,
-            "cells of a map: occupied ones, and with report the pieces of unknown space");
+            "cells of a map or cloud: occupied ones, and with report the pieces of unknown space");
 
   v.section("Which pairs");
   v.kinds("pair_kinds", p.pair_kinds,
@@ -282,17 +292,19 @@ class Reader {
       readString(element, "frame", map.frame, false);
       map.frame = withoutSlash(map.frame);
       if (auto pose = element.get("pose")) map.frame_from_map = readPose(*pose);
-      if (auto given = element.require("name")) {
-        given->string(map.name);
-        try {
-          checkLocal(map.name, "it");
-        } catch (const Refusal& refusal) {
-          given->error(std::string("cannot be a name: ") + refusal.what());
-        }
-        if (!names.insert(map.name).second)
-          given->error("is '" + printable(map.name) + "' a second time; names must differ");
-      }
+      readLocal(element, map.name, names);
       value.push_back(map);
+    });
+  }
+  void clouds(const char* name, std::vector<CloudParams>& value, const char*) {
+    std::set<std::string> names;
+    forEach(name, "field of a cloud (name, topic, resolution, lifetime)", [&](ParamValue& element) {
+      CloudParams cloud;
+      readString(element, "topic", cloud.topic, false);
+      if (auto given = element.get("resolution")) given->number(cloud.resolution, 0.001, 100.0, "m");
+      if (auto given = element.get("lifetime")) given->number(cloud.lifetime, 0.01, 3600.0, "s");
+      readLocal(element, cloud.name, names);
+      value.push_back(cloud);
     });
   }
   void finish() {
@@ -315,6 +327,19 @@ class Reader {
   }
   static void readString(ParamValue& element, const char* key, std::string& value, bool required) {
     if (auto given = required ? element.require(key) : element.get(key)) given->string(value);
+  }
+
+  /// A required name within a source, unlike those before it.
+  static void readLocal(ParamValue& element, std::string& name, std::set<std::string>& names) {
+    auto given = element.require("name");
+    if (!given) return;
+    given->string(name);
+    try {
+      checkLocal(name, "it");
+    } catch (const Refusal& refusal) {
+      given->error(std::string("cannot be a name: ") + refusal.what());
+    }
+    if (!names.insert(name).second) given->error("is '" + printable(name) + "' a second time; names must differ");
   }
 
   /// Of a name "group/key" the member of that struct.
@@ -371,6 +396,7 @@ class Printer {
   void allowed(const char* name, const std::vector<PairRule>&, const char* meaning) { list(name, "", meaning); }
   void obstacles(const char* name, const std::vector<ObstacleParams>&, const char* meaning) { list(name, "", meaning); }
   void maps(const char* name, const std::vector<MapParams>&, const char* meaning) { list(name, "", meaning); }
+  void clouds(const char* name, const std::vector<CloudParams>&, const char* meaning) { list(name, "", meaning); }
   void pairMargins(const char* name, const std::vector<PairMargin>&, double low, double high, const char* meaning) {
     list(name, "[m] ", std::string(meaning) + "; " + text(low) + " .. " + text(high));
   }

@@ -36,6 +36,14 @@ struct MapParams {
   Pose frame_from_map = Pose::Identity();
 };
 
+/// A point cloud of a topic.
+struct CloudParams {
+  std::string name;             ///< the body cloud/name
+  std::string topic = "cloud";  ///< of sensor_msgs/PointCloud2 messages
+  double resolution = 0.05;     ///< [m] edge of its cells
+  double lifetime = 1.0;        ///< [s] how long a cell stays after it was seen
+};
+
 /// [m] Farther than the ends of any map.
 constexpr double kNoCrop = 1e7;
 
@@ -62,6 +70,7 @@ struct Params {
   std::vector<RobotParams> robots;
   std::vector<ObstacleParams> obstacles;
   std::vector<MapParams> maps;
+  std::vector<CloudParams> clouds;
   std::string map_folder;
   double map_occupied_from = 0.5;
   bool map_nan_is_occupied = false, map_allow_empty = false;
@@ -73,7 +82,7 @@ struct Params {
   PairKinds pair_kinds;
   std::vector<Waiver> accept_uncovered;
   std::vector<PairMargin> pair_margins;
-  std::vector<PatternValue> margins, padding, max_speed;
+  std::vector<PatternValue> margins, padding, max_speed, map_self_filter;
   double event_hysteresis = 0.02;
 
   double late_after = 0.1, stale_after = 0.25, lost_after = 2.0;

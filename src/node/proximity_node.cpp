@@ -66,8 +66,9 @@ ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node,
       config_hash_(fnv1a(valuesOf(private_node).toXml())),
       narrow_phase_(std::move(narrow_phase)),
       robot_source_(private_node, params_, narrow_phase_),
-      map_source_(params_, narrow_phase_),
       world_(params_, ros::Time::isSimTime(), newEpoch(), ledger_, narrow_phase_),
+      own_shapes_(params_, world_.transforms().buffer(), [this] { return newest(); }),
+      map_source_(params_, own_shapes_, narrow_phase_, ledger_),
       meter_(narrow_phase_, {params_.distances_max, params_.distances_budget, params_.distances_threads}) {
   for (const RobotParams& robot : params_.robots) to_load_.push_back(robot.name);
   for (const MapParams& map : params_.maps) {
@@ -122,12 +123,14 @@ ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node,
       std::make_unique<ros::AsyncSpinner>(static_cast<std::uint32_t>(params_.query_threads), &query_queue_));
   spinners_.push_back(std::make_unique<ros::AsyncSpinner>(1, &admin_queue_));
   for (const auto& spinner : spinners_) spinner->start();
+  for (const CloudParams& cloud : params_.clouds) addCloud(cloud);
 }
 
 ProximityNode::~ProximityNode() {
   stopping_ = true;
   tick_timer_.stop();
   housekeeping_timer_.stop();
+  clouds_.clear();
   for (const auto& spinner : spinners_) spinner->stop();
 }
 
@@ -300,11 +303,26 @@ Refusal ProximityNode::putMap(const MapParams& map, const std::function<LoadedMa
 
 /// A map that comes before there is a world waits for it: many are sent but once.
 void ProximityNode::onMap(const MapParams& map, const OctomapMessage& message) {
-  std::optional<LoadedMap> loaded;
-  const Refusal result = putMap(map, [&] { return *(loaded = map_source_.load(map, message)); });
-  const auto same = [&](const LoadedMap& other) { return other.params.name == map.name; };
+  std::optional<ReadMap> read;
+  const Refusal result = putMap(map, [&] {
+    read = map_source_.read(map, message);
+    return map_source_.finished(*read);
+  });
+  const auto same = [&](const ReadMap& other) { return other.params.name == map.name; };
   arrived_maps_.erase(std::remove_if(arrived_maps_.begin(), arrived_maps_.end(), same), arrived_maps_.end());
-  if (loaded && result.code() != Code::ok) arrived_maps_.push_back(*loaded);
+  if (read && result.code() != Code::ok) arrived_maps_.push_back(std::move(*read));
+}
+
+void ProximityNode::addCloud(const CloudParams& cloud) {
+  CloudSource::Sink sink;
+  sink.put = [this](const LoadedCloud& loaded) { runInTick([loaded](World& world) { world.setCloud(loaded); }); };
+  sink.miss = [this, body = joined("cloud", cloud.name)](const std::string& sentence) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    jobs_.push_back([body, sentence](World& world) { world.setMissing(body, sentence); });
+  };
+  clouds_.push_back(std::make_unique<CloudSource>(
+      admin_node_, cloud, params_, own_shapes_, world_.transforms().buffer(), narrow_phase_,
+      [this] { return newest(); }, sink, ledger_));
 }
 
 /// Tries again the robots that have no model and the maps without cells, at first often, then every ten seconds.
@@ -318,10 +336,10 @@ void ProximityNode::loadMissing() {
   }
   to_load_ = left;
   const auto read = [this](const MapParams& map) {
-    return putMap(map, [&] { return map_source_.load(map); }).code() == Code::ok;
+    return putMap(map, [&] { return map_source_.finished(map_source_.read(map)); }).code() == Code::ok;
   };
-  const auto taken = [this](const LoadedMap& map) {
-    return putMap(map.params, [&] { return map; }).code() == Code::ok;
+  const auto taken = [this](const ReadMap& map) {
+    return putMap(map.params, [&] { return map_source_.finished(map); }).code() == Code::ok;
   };
   maps_to_load_.erase(std::remove_if(maps_to_load_.begin(), maps_to_load_.end(), read), maps_to_load_.end());
   arrived_maps_.erase(std::remove_if(arrived_maps_.begin(), arrived_maps_.end(), taken), arrived_maps_.end());

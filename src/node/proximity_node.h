@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "allowed_services.h"
+#include "cloud_source.h"
 #include "events_messages.h"
 #include "explain_service.h"
 #include "hgrid_proximity/scene/pair_meter.h"
@@ -58,6 +59,7 @@ class ProximityNode {
   Refusal loadRobot(const RobotParams& robot);
   Refusal putMap(const MapParams& map, const std::function<LoadedMap()>& load);
   void onMap(const MapParams& map, const OctomapMessage& message);
+  void addCloud(const CloudParams& cloud);
   void loadMissing();
   void runInTick(const Job& job);
   void waitForTick();
@@ -74,8 +76,9 @@ class ProximityNode {
   QuerySketch sketch_;
   std::shared_ptr<NarrowPhase> narrow_phase_;
   RobotSource robot_source_;
-  MapSource map_source_;
   World world_;  // of the update thread, see runInTick()
+  OwnShapes own_shapes_;
+  MapSource map_source_;
   Stopwatch stopwatch_;
   std::shared_ptr<const Tick> newest_;
   std::shared_ptr<const MeasuredTick> measured_;  // null while nobody asks for distances
@@ -97,7 +100,7 @@ class ProximityNode {
   // Of the admin thread.
   std::vector<std::string> to_load_;
   std::vector<MapParams> maps_to_load_;
-  std::vector<LoadedMap> arrived_maps_;  // of topics, that the world could not take yet
+  std::vector<ReadMap> arrived_maps_;  // of topics, that the world could not take yet
   double retry_after_ = 0.0;
   std::chrono::steady_clock::time_point next_try_{}, next_diagnostics_{};
   std::size_t viewers_ = 0;
@@ -109,6 +112,7 @@ class ProximityNode {
   std::unique_ptr<ExplainService> explain_;
   std::unique_ptr<AllowedServices> allowed_;
   std::unique_ptr<MapServices> maps_;
+  std::vector<std::unique_ptr<CloudSource>> clouds_;
   std::unique_ptr<NodeDiagnostics> diagnostics_;
   ros::SteadyTimer tick_timer_, housekeeping_timer_;
   std::vector<std::unique_ptr<ros::AsyncSpinner>> spinners_;

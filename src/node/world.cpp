@@ -62,6 +62,10 @@ World::World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& 
         "NOT_READY map '" + map.name +
         "': " + (map.topic.empty() ? "its file was not read yet" : "nothing came on " + map.topic + " yet");
   }
+  for (const CloudParams& cloud : params.clouds) {
+    missing_[joined("cloud", cloud.name)] =
+        "NOT_READY cloud '" + cloud.name + "': nothing came on " + cloud.topic + " yet";
+  }
 }
 
 void World::beginEpoch() {
@@ -123,49 +127,8 @@ void World::setRobot(LoadedRobot robot) {
   rebuildReport();
 }
 
-void World::setMap(const LoadedMap& map) {
-  if (world_frame_.empty() && !findWorldFrame()) {
-    throw Refusal(Code::not_ready, "map '" + map.params.name + "' cannot be placed yet: there is no world frame");
-  }
-  Body body;
-  body.name = joined("map", map.params.name);
-  body.kind = BodyKind::map;
-  body.frame = map.params.frame.empty() ? world_frame_ : map.params.frame;
-  body.frame_from_body = map.params.frame_from_map;
-  body.mobility = body.frame == world_frame_ ? Mobility::fixed : Mobility::moving;
-  body.max_speed = lastMatch(params_.max_speed, body.name, params_.default_max_speed);
-  applyPatterns(params_, body);
-  const auto known = maps_.find(body.name);
-  const bool same = known != maps_.end() && known->second.frame == body.frame &&
-                    known->second.frame_from_body.matrix() == body.frame_from_body.matrix();
-  if (!same) {  // otherwise only its cells are others: the structure stays, and nobody starts again
-    if (known != maps_.end()) {
-      removeMovers(body.name);
-      maps_.erase(known);
-    }
-    addMover(body.frame, body.name, {memberOf(scene_.add(body), body.frame_from_body)});
-    maps_[body.name] = body;
-  }
-  BodyId id;
-  scene_.find(body.name, id);
-  scene_.setCells(id, map.cells);
-  missing_.erase(body.name);
-}
-
-void World::clearMap(const std::string& name) {
-  const std::string body = joined("map", name);
-  if (!name.empty() && maps_.count(body) == 0) {
-    throw Refusal(Code::unknown_id, "there is no map '" + printable(name) + "'");
-  }
-  for (auto map = maps_.begin(); map != maps_.end();) {
-    const bool chosen = name.empty() || map->first == body;
-    if (chosen) removeMovers(map->first);
-    map = chosen ? maps_.erase(map) : std::next(map);
-  }
-}
-
 void World::setMissing(const std::string& robot, const std::string& sentence) {
-  if (robots_.count(robot) == 0 && maps_.count(robot) == 0) missing_[robot] = sentence;
+  if (robots_.count(robot) == 0 && maps_.count(robot) == 0 && clouds_.count(robot) == 0) missing_[robot] = sentence;
 }
 
 /// A misspelt name in a parameter does nothing, and that would show nowhere.
@@ -441,6 +404,7 @@ std::shared_ptr<const Tick> World::tick(const Moment& now) {
   ways_.place(time);
   cohorts_.clear();
   for (std::size_t i = 0; i < movers_.size(); ++i) update(i, time, now, *tick);
+  updateClouds(time, now, *tick);
   std::stable_sort(tick->troubles.begin(), tick->troubles.end(),
                    [](const BodyTrouble& a, const BodyTrouble& b) { return a.state > b.state; });
   std::sort(tick->missing_frames.begin(), tick->missing_frames.end());

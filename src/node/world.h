@@ -13,7 +13,7 @@
 #include "hgrid_proximity/scene/rule_book.h"
 #include "hgrid_proximity/scene/scene.h"
 #include "ledger.h"
-#include "map_source.h"
+#include "loaded_map.h"
 #include "params.h"
 #include "robot_source.h"
 #include "tf_intake.h"
@@ -74,6 +74,8 @@ class World {
   void setMap(const LoadedMap& map);
   /// Takes a map away; an empty name all of them. @throws Refusal unknown_id
   void clearMap(const std::string& name);
+  /// Puts what a sensor has seen in the place of what it saw before. @throws Refusal limit
+  void setCloud(const LoadedCloud& cloud);
   /// Says why a robot has no model (yet). It keeps the model it has.
   void setMissing(const std::string& robot, const std::string& sentence);
   /// All rules of the allowed-pair matrix, from the next tick on; they end by themselves.
@@ -103,6 +105,13 @@ class World {
     std::optional<Refusal> trouble;
   };
 
+  /// A cloud, and how often messages come.
+  struct Cloud {
+    BodyId body;
+    LoadedCloud newest;
+    double period = 0.0;  // [s] between stamps, smoothed
+  };
+
   void addObstacles();
   static Member memberOf(BodyId body, const Pose& frame_from_body);
   void addMover(const std::string& frame, const std::string& robot, const std::vector<Member>& members);
@@ -119,6 +128,8 @@ class World {
   Pose lookUp(const Mover& mover, Time& stamp) const;
   Freshness judge(Mover& mover, Time time, const Moment& now, double& age) const;
   void update(std::size_t index, Time time, const Moment& now, Tick& tick);
+  Freshness judgeCloud(const Cloud& cloud, const Moment& now, double& age) const;
+  void updateClouds(Time time, const Moment& now, Tick& tick);
   void unsettle();
   void setState(const Mover& mover, Freshness state, double age);
   void describeTrouble(const Mover& mover, Tick& tick) const;
@@ -137,7 +148,8 @@ class World {
   std::map<Time, std::uint32_t> cohorts_;  // of this tick: bodies of one stamp are equally old
   std::map<std::string, LoadedRobot> robots_;
   std::map<std::string, Body> maps_;            // by name of the body
-  std::map<std::string, std::string> missing_;  // sentence by robot
+  std::map<std::string, Cloud> clouds_;         // by name of the body
+  std::map<std::string, std::string> missing_;  // sentence by robot, map/name, cloud/name
   std::shared_ptr<const ModelReport> report_ = std::make_shared<ModelReport>();
   RuleBook rules_;
   std::string world_frame_;

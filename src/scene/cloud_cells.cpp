@@ -104,8 +104,10 @@ void CloudCells::see(const std::vector<Voxel>& cells, Time stamp) {
 
 std::size_t CloudCells::forget(Time now) {
   const std::size_t before = seen_.size();
-  seen_.erase(std::remove_if(seen_.begin(), seen_.end(), [&](const Seen& one) { return now - one.stamp > lifetime_; }),
-              seen_.end());
+  seen_.erase(
+      std::remove_if(seen_.begin(), seen_.end(),
+                     [&](const Seen& one) { return now - one.stamp > lifetime_ || one.stamp - now > lifetime_; }),
+      seen_.end());
   return before - seen_.size();
 }
 

@@ -99,7 +99,8 @@ TEST_F(ExplainPair, NamesTheRuleOfAService) {
   expectOff("robot/b", "obstacle/post", AllowedPair::ORIGIN_SERVICE,
             "rule 'obstacle/*', 'robot/b' of ~set_allowed, which ends in 35");
   const auto response = explained("robot/b", "obstacle/post");
-  EXPECT_TRUE(says(response.explanation, "(being loaded). Without that they would be reported: their boxes touch or overlap"));
+  EXPECT_TRUE(
+      says(response.explanation, "(being loaded). Without that they would be reported: their boxes touch or overlap"));
   EXPECT_EQ(response.rule.first, "obstacle/*");
   EXPECT_EQ(response.rule.reason, "being loaded");
   EXPECT_GT(response.rule.lifetime.toSec(), 3500.0);

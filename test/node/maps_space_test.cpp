@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "test/adapters/octomap_bytes.h"
+#include "test/adapters/octomap_oracle.h"
 #include "test/adapters/temporary_folder.h"
 #include "test/node/support/claims.h"
 #include "test/node/support/descriptions.h"
@@ -28,14 +29,15 @@ class MapSpace : public ::testing::Test {
     setup.params["map"] = map;
     setup.params["maps"] = list({dict({{"name", "octants"}, {"file", "octants.bt"}})});
     setup.beside["robot_description"] = balls({"a"});
-    transforms_.stream("base", "a", at(0));
+    if (streams_) transforms_.stream("base", "a", at(0));
     node_ = std::make_unique<NodeUnderTest>(setup);
-    node_->waitForComplete();
+    if (streams_) node_->waitForComplete();
   }
   Answer asked(double x, double y, double z) { return node_->sphere(x, y, z, 0.5).answer; }
 
   TemporaryFolder folder_;
   TransformSource transforms_;
+  bool streams_ = true;  // where the ball is
   std::unique_ptr<NodeUnderTest> node_;
 };
 
@@ -75,6 +77,24 @@ TEST_F(MapSpace, OutsideTheCropIsNotRead) {
   start(dict({{"crop_min", list({1.0, 1.0, 1.0})}, {"crop_max", list({20.0, 20.0, 20.0})}, {"unknown", "report"}}));
   EXPECT_EQ(asked(10, 10, 10).verdict, Answer::HIT);
   EXPECT_EQ(asked(3000, 3000, 3000).unknown_because, Answer::UNMAPPED) << "the far cell is left out";
+}
+
+TEST_F(MapSpace, TheRobotsOwnCellsAreLeftOutOnceItIsKnownWhereItIs) {
+  const std::string nodes =
+      binaryNodesOf({{32768, 32768, 32768, 0}, {32778, 32768, 32768, 0}});  // in the ball, and 1 m from it
+  const Octomap read = readOctomapData({"OcTree", true, 0.1}, nodes, "the two");
+  folder_.write("octants.bt", btHeader(usualLines(std::to_string(read.nodes))) + nodes);
+  streams_ = false;
+  start(dict({{"self_filter", list({dict({{"pattern", "robot/*"}, {"padding", 0.05}})})}}));
+  node_->waitForStatus("the map waits", [](const msg::Status& status) {
+    return !status.world.reasons.empty() &&
+           status.world.reasons[0].find("NOT_READY map 'octants': body 'robot/a'") == 0;
+  });
+  transforms_.stream("base", "a", at(0));
+  node_->waitForComplete();
+  EXPECT_EQ(namesOf(node_->sphere(0.05, 0.05, 0.05, 0.01).answer), Names({"robot/a"}));
+  EXPECT_EQ(namesOf(node_->sphere(1.05, 0.05, 0.05, 0.01).answer), Names({"map/octants"}));
+  EXPECT_EQ(counter(*node_->heard().status.back(), "maps.own_cells"), 1u);
 }
 
 }  // namespace

@@ -9,65 +9,14 @@
 #include <ros/topic.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include <cstring>
 #include <fstream>
 
 #include "test/adapters/octomap_oracle.h"
 #include "test/adapters/temporary_folder.h"
 #include "test/node/support/claims.h"
 #include "test/node/support/descriptions.h"
+#include "test/node/support/raw_message.h"
 #include "test/node/support/transform_source.h"
-
-namespace hgrid {
-namespace test {
-
-/// The bytes of any message, sent as an octomap_msgs/Octomap.
-struct OctomapBytes {
-  std::string bytes;
-};
-
-}  // namespace test
-}  // namespace hgrid
-
-namespace ros {
-namespace message_traits {
-
-template <>
-struct MD5Sum<hgrid::test::OctomapBytes> {
-  static const char* value() { return "9a45536b45c5e409cd49f04bb2d9999f"; }
-  static const char* value(const hgrid::test::OctomapBytes&) { return value(); }
-};
-template <>
-struct DataType<hgrid::test::OctomapBytes> {
-  static const char* value() { return "octomap_msgs/Octomap"; }
-  static const char* value(const hgrid::test::OctomapBytes&) { return value(); }
-};
-template <>
-struct Definition<hgrid::test::OctomapBytes> {
-  static const char* value() {
-    return "std_msgs/Header header\nbool binary\nstring id\nfloat64 resolution\nint8[] data\n";
-  }
-  static const char* value(const hgrid::test::OctomapBytes&) { return value(); }
-};
-
-}  // namespace message_traits
-
-namespace serialization {
-
-template <>
-struct Serializer<hgrid::test::OctomapBytes> {
-  template <typename Stream>
-  static void write(Stream& stream, const hgrid::test::OctomapBytes& message) {
-    std::memcpy(stream.advance(static_cast<std::uint32_t>(message.bytes.size())), message.bytes.data(),
-                message.bytes.size());
-  }
-  static std::uint32_t serializedLength(const hgrid::test::OctomapBytes& message) {
-    return static_cast<std::uint32_t>(message.bytes.size());
-  }
-};
-
-}  // namespace serialization
-}  // namespace ros
 
 namespace hgrid {
 namespace test {
@@ -84,13 +33,6 @@ std::string rowOf(int count) {
   const std::string nodes = binaryNodesOf(voxels);
   const Octomap read = readOctomapData({"OcTree", true, 0.1}, nodes, "the row");
   return "# Octomap OcTree binary file\nid OcTree\nsize " + std::to_string(read.nodes) + "\nres 0.1\ndata\n" + nodes;
-}
-
-std::size_t residentKilobytes(pid_t process) {
-  std::ifstream file("/proc/" + std::to_string(process) + "/statm");
-  std::size_t pages = 0, resident = 0;
-  file >> pages >> resident;
-  return resident * 4;
 }
 
 /// A robot's ball of 0.1 m at (0.05, 0.05, 0.3): 0.1 m above the first voxel of the map.
@@ -304,12 +246,6 @@ TEST_F(Maps, OneThousandReplacementsLeaveNothingBehind) {
   EXPECT_LT(residentKilobytes(node_->process().pid()), after_100 + 2000) << "kB";
   EXPECT_EQ(metAt(0.05), Names({"map/room"}));
 }
-
-template <class Number>
-std::string bytesOf(Number number) {
-  return {reinterpret_cast<const char*>(&number), sizeof(number)};
-}
-std::string stringOf(const std::string& text) { return bytesOf(static_cast<std::uint32_t>(text.size())) + text; }
 
 /// A message as octomap_server sends it.
 std::string messageOf(const std::string& frame, const std::string& nodes, const std::string& id = "OcTree") {

@@ -40,7 +40,8 @@ class CloudCells {
   /// Takes in cells, which are disjoint, of level 0 and in Morton order, as seen at a time.
   /// @throws Refusal limit if there would be too many; then nothing has changed
   void see(const std::vector<Voxel>& cells, Time stamp);
-  /// Forgets what was seen longer ago than the lifetime. @returns cells forgotten
+  /// Forgets what was seen longer ago than the lifetime, or, since the clock was set back, is to be seen only so much
+  /// later. @returns cells forgotten
   std::size_t forget(Time now);
   /// All cells in Morton order.
   std::vector<Voxel> cells() const;

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <sys/types.h>
 
 #include <cmath>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -40,6 +42,14 @@ inline std::vector<std::string> namesOf(const msg::Answer& answer) {
   std::vector<std::string> names;
   for (const msg::Hit& hit : answer.hits) names.push_back(hit.name);
   return names;
+}
+
+/// [kB] of memory that a process holds.
+inline std::size_t residentKilobytes(pid_t process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/statm");
+  std::size_t pages = 0, resident = 0;
+  file >> pages >> resident;
+  return resident * 4;
 }
 
 /// x [m] of the centre of a ball-shaped body, found by a ray along the x axis through (y, z). NaN if it is not met.

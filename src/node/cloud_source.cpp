@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "cloud_source.h"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "frames.h"
+#include "hgrid_proximity/refusal.h"
+#include "world.h"
+
+namespace hgrid {
+namespace {
+
+constexpr auto kLookAgain = std::chrono::milliseconds(2);  // for a transform that is on its way
+
+Time rosNow() { return Time(static_cast<std::int64_t>(ros::Time::now().toNSec())); }
+Time durationOf(double length) { return Time(std::llround(1e9 * length)); }
+
+}  // namespace
+
+CloudSource::CloudSource(const ros::NodeHandle& node, const CloudParams& cloud, const Params& params,
+                         const OwnShapes& own, const tf2::BufferCore& buffer,
+                         std::shared_ptr<const NarrowPhase> narrow_phase, OwnShapes::NewestTick newest, Sink sink,
+                         Ledger& ledger)
+    : cloud_(cloud),
+      what_("cloud '" + cloud.name + "' of " + cloud.topic),
+      params_(params),
+      own_(own),
+      buffer_(buffer),
+      narrow_phase_(std::move(narrow_phase)),
+      newest_(std::move(newest)),
+      sink_(std::move(sink)),
+      ledger_(ledger),
+      cells_(cloud.resolution, durationOf(cloud.lifetime), static_cast<std::size_t>(params.map_max_leaves)),
+      node_(node) {
+  loaded_.name = cloud.name;
+  loaded_.lifetime = cloud.lifetime;
+  node_.setCallbackQueue(&queue_);
+  const boost::function<void(const boost::shared_ptr<const CloudMessage>&)> on_message =
+      [this](const boost::shared_ptr<const CloudMessage>& message) { onMessage(*message); };
+  subscriber_ = node_.subscribe<CloudMessage>(cloud_.topic, 1, on_message);
+  const double period = std::min(0.1, std::max(0.01, 0.25 * cloud_.lifetime));  // [s]
+  timer_ = node_.createSteadyTimer(ros::WallDuration(period), [this](const ros::SteadyTimerEvent&) { onTimer(); });
+  spinner_ = std::make_unique<ros::AsyncSpinner>(1, &queue_);
+  spinner_->start();
+}
+
+CloudSource::~CloudSource() {
+  stopping_ = true;
+  timer_.stop();
+  subscriber_.shutdown();
+  spinner_->stop();
+}
+
+void CloudSource::onMessage(const CloudMessage& message) {
+  Refusal refused(Code::ok, "");
+  try {
+    take(message);
+    ledger_.count("clouds.accepted");
+    return;
+  } catch (const Refusal& refusal) {
+    refused = refusal;
+  } catch (const std::exception& error) {
+    refused = Refusal(Code::internal, what_ + ": " + error.what());
+  }
+  ledger_.refuse("clouds.refused", refused);
+  sink_.miss(std::string(name(refused.code())) + " " + refused.what());
+}
+
+void CloudSource::take(const CloudMessage& message) {
+  loaded_.received = std::chrono::steady_clock::now();
+  if (!message.flaw.empty()) throw Refusal(Code::truncated, what_ + ": " + printable(message.flaw, 200));
+  if (message.data.size() > static_cast<std::size_t>(params_.map_max_bytes)) {
+    throw Refusal(Code::limit, what_ + " has " + std::to_string(message.data.size()) + " bytes; at most " +
+                                   std::to_string(params_.map_max_bytes) + " are allowed");
+  }
+  const std::shared_ptr<const Tick> tick = newest_();
+  if (!tick || tick->world_frame.empty()) {
+    throw Refusal(Code::not_ready, what_ + " cannot be placed yet: there is no world frame");
+  }
+  const Time now = rosNow();
+  const Time given(static_cast<std::int64_t>(message.stamp.toNSec()));
+  const Time stamp = given.count() == 0 ? now : given;  // of those who do not stamp, the time when it came
+  if (seconds(stamp - now) > params_.max_future) {
+    throw Refusal(Code::clock, what_ + " is stamped " + secondsText(seconds(stamp - now)) +
+                                   " in the future; at most ~max_future, " + secondsText(params_.max_future) +
+                                   ", is allowed");
+  }
+  cells_.see(voxelsOf(message, tick->world_frame, stamp), stamp);
+  cells_.forget(rosNow());
+  loaded_.stamp = stamp;
+  loaded_.latency = std::max(0.0, seconds(now - stamp));
+  put();
+}
+
+/// Waits until tf knows where the sensor and the robot's own shapes were at the stamp, or it takes too long.
+void CloudSource::waitFor(const std::string& world_frame, const std::string& frame, Time stamp) const {
+  std::vector<std::string> frames;
+  if (own_.wanted()) frames = own_.frames();
+  frames.push_back(frame);
+  const ros::Time time = ros::Time().fromNSec(static_cast<std::uint64_t>(stamp.count()));
+  const auto known = [&](const std::string& one) {
+    return one == world_frame || buffer_.canTransform(world_frame, one, time);
+  };
+  const auto deadline = std::chrono::steady_clock::now() + durationOf(params_.max_sync_wait);
+  while (!stopping_ && !frames.empty() && std::chrono::steady_clock::now() < deadline) {
+    while (!frames.empty() && known(frames.back())) frames.pop_back();
+    if (!frames.empty()) std::this_thread::sleep_for(kLookAgain);
+  }
+}
+
+/// The cells of a message's points, the robot's own left out.
+std::vector<Voxel> CloudSource::voxelsOf(const CloudMessage& message, const std::string& world_frame, Time stamp) {
+  const std::string frame = message.frame.empty() ? world_frame : withoutSlash(message.frame);
+  PointCloud cloud = readPointCloud(message.format, message.data, what_);
+  waitFor(world_frame, frame, stamp);
+  const auto world_from_sensor = poseAt(buffer_, world_frame, frame, stamp);
+  if (!world_from_sensor) {
+    throw Refusal(
+        poseAt(buffer_, world_frame, frame, Time(0)) ? Code::extrapolation : Code::unknown_frame,
+        what_ + ": where its frame '" + printable(frame) + "' was in '" + world_frame + "' at its stamp is not known");
+  }
+  checkWithin(world_from_sensor->translation(), params_.world_limit, what_ + ": the pose of its sensor");
+  for (Eigen::Vector3d& point : cloud.points) point = *world_from_sensor * point;
+  const Eigen::Vector3d sensor = world_from_sensor->translation();
+  std::size_t out_of_reach = 0;
+  const std::size_t forgotten = cells_.follow(sensor);
+  std::vector<Voxel> voxels = cells_.cellsOf(cloud.points, sensor, out_of_reach);
+  ledger_.count("clouds.points", cloud.points.size());
+  if (cloud.not_finite > 0) ledger_.count("clouds.points_not_finite", cloud.not_finite);
+  if (out_of_reach > 0) ledger_.count("clouds.points_out_of_reach", out_of_reach);
+  if (forgotten > 0) ledger_.count("clouds.cells_out_of_reach", forgotten);
+  if (!own_.wanted()) return voxels;
+  const Pose world_from_keys(Eigen::Translation3d(cells_.corner()));
+  OthersCells others = withoutSelf(voxels, cells_.edge(), world_from_keys, own_.at(stamp), *narrow_phase_);
+  if (others.left_out > 0) ledger_.count("clouds.own_cells", others.left_out);
+  if (others.undecided > 0) ledger_.count("clouds.cells_undecided", others.undecided);
+  return std::move(others.voxels);
+}
+
+/// What is seen no more goes when its time is over, also if no message comes.
+void CloudSource::onTimer() {
+  if (!loaded_.cells || cells_.forget(rosNow()) == 0) return;
+  try {
+    put();
+  } catch (const std::exception& error) {
+    ledger_.refuse("clouds.refused", Refusal(Code::internal, what_ + ": " + error.what()));
+  }
+}
+
+void CloudSource::put() {
+  loaded_.cells = makeMapCells(std::make_shared<StaticGrid>(cells_.edge(), cells_.cells()), *narrow_phase_);
+  loaded_.corner = cells_.corner();
+  sink_.put(loaded_);
+}
+
+}  // namespace hgrid

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// Maps and clouds in the world: bodies whose cells are replaced while their structure stays.
+#include <algorithm>
+
+#include "hgrid_proximity/scene/name.h"
+#include "world.h"
+
+namespace hgrid {
+
+void World::setMap(const LoadedMap& map) {
+  if (world_frame_.empty() && !findWorldFrame()) {
+    throw Refusal(Code::not_ready, "map '" + map.params.name + "' cannot be placed yet: there is no world frame");
+  }
+  Body body;
+  body.name = joined("map", map.params.name);
+  body.kind = BodyKind::map;
+  body.frame = map.params.frame.empty() ? world_frame_ : map.params.frame;
+  body.frame_from_body = map.params.frame_from_map;
+  body.mobility = body.frame == world_frame_ ? Mobility::fixed : Mobility::moving;
+  body.max_speed = lastMatch(params_.max_speed, body.name, params_.default_max_speed);
+  applyPatterns(params_, body);
+  const auto known = maps_.find(body.name);
+  const bool same = known != maps_.end() && known->second.frame == body.frame &&
+                    known->second.frame_from_body.matrix() == body.frame_from_body.matrix();
+  if (!same) {  // otherwise only its cells are others: the structure stays, and nobody starts again
+    if (known != maps_.end()) {
+      removeMovers(body.name);
+      maps_.erase(known);
+    }
+    addMover(body.frame, body.name, {memberOf(scene_.add(body), body.frame_from_body)});
+    maps_[body.name] = body;
+  }
+  BodyId id;
+  scene_.find(body.name, id);
+  scene_.setCells(id, map.cells);
+  missing_.erase(body.name);
+}
+
+void World::clearMap(const std::string& name) {
+  const std::string body = joined("map", name);
+  if (!name.empty() && maps_.count(body) == 0) {
+    throw Refusal(Code::unknown_id, "there is no map '" + printable(name) + "'");
+  }
+  for (auto map = maps_.begin(); map != maps_.end();) {
+    const bool chosen = name.empty() || map->first == body;
+    if (chosen) removeMovers(map->first);
+    map = chosen ? maps_.erase(map) : std::next(map);
+  }
+}
+
+void World::setCloud(const LoadedCloud& loaded) {
+  const std::string name = joined("cloud", loaded.name);
+  auto known = clouds_.find(name);
+  if (known == clouds_.end()) {
+    Body body;
+    body.name = name;
+    body.kind = BodyKind::map;
+    body.frame = world_frame_;
+    body.max_speed = lastMatch(params_.max_speed, body.name, params_.default_max_speed);
+    applyPatterns(params_, body);
+    const BodyId id = scene_.add(body);
+    known = clouds_.emplace(name, Cloud{}).first;
+    known->second.body = id;
+    missing_.erase(name);
+  }
+  Cloud& cloud = known->second;
+  const double gap = seconds(loaded.stamp - cloud.newest.stamp);
+  if (cloud.newest.cells && gap > 0.0) cloud.period = cloud.period > 0.0 ? 0.8 * cloud.period + 0.2 * gap : gap;
+  cloud.newest = loaded;
+  scene_.setCells(cloud.body, loaded.cells);
+}
+
+Freshness World::judgeCloud(const Cloud& cloud, const Moment& now, double& age) const {
+  const double ahead = seconds(cloud.newest.stamp - now.ros);
+  age = watch_.simulated()
+            ? std::max(0.0, -ahead)
+            : cloud.newest.latency + std::chrono::duration<double>(now.steady - cloud.newest.received).count();
+  if (watch_.frozen() || (watch_.simulated() && ahead > params_.max_future)) return Freshness::frozen;
+  if (age > cloud.newest.lifetime) return Freshness::lost;
+  if (age > std::max(params_.stale_after, 1.5 * cloud.period)) return Freshness::stale;
+  return age > std::max(params_.late_after, 1.5 * cloud.period) ? Freshness::late : Freshness::fresh;
+}
+
+/// Clouds lie in the world frame: tf has placed their points already, each at its stamp.
+void World::updateClouds(Time time, const Moment& now, Tick& tick) {
+  for (const auto& named : clouds_) {
+    const Cloud& cloud = named.second;
+    BodyTrouble trouble{named.first, world_frame_, Freshness::fresh, 0.0, cloud.newest.stamp, Code::tf_timeout, {}};
+    try {
+      scene_.place(cloud.body, Pose(Eigen::Translation3d(cloud.newest.corner)), std::min(time, cloud.newest.stamp));
+      trouble.state = judgeCloud(cloud, now, trouble.age);
+      trouble.sentence = "cloud '" + named.first + "': its newest message is " + secondsText(trouble.age) + " old" +
+                         (trouble.state == Freshness::lost ? "; its cells have expired" : "");
+    } catch (const Refusal& refusal) {
+      ledger_.refuse("pose.refused", refusal);
+      trouble.state = Freshness::invalid;
+      trouble.code = refusal.code();
+      trouble.sentence = refusal.what();
+    }
+    scene_.setState(cloud.body, trouble.state, trouble.age);
+    if (trouble.state != Freshness::fresh) tick.troubles.push_back(std::move(trouble));
+  }
+}
+
+}  // namespace hgrid

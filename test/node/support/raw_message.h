@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <ros/message_traits.h>
+#include <ros/serialization.h>
+
+#include <cstring>
+#include <string>
+
+namespace hgrid {
+namespace test {
+
+/// The bytes of any message, true or not, sent as a message of a kind: octomap_msgs/Octomap without that package, say.
+template <class Kind>
+struct RawMessage {
+  std::string bytes;
+};
+
+struct OctomapKind {
+  static constexpr const char* kMd5 = "9a45536b45c5e409cd49f04bb2d9999f";
+  static constexpr const char* kType = "octomap_msgs/Octomap";
+  static constexpr const char* kDefinition =
+      "std_msgs/Header header\nbool binary\nstring id\nfloat64 resolution\nint8[] data\n";
+};
+struct CloudKind {
+  static constexpr const char* kMd5 = "1158d486dd51d683ce2f1be655c3c181";
+  static constexpr const char* kType = "sensor_msgs/PointCloud2";
+  static constexpr const char* kDefinition =
+      "std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\nbool is_bigendian\n"
+      "uint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n";
+};
+using OctomapBytes = RawMessage<OctomapKind>;
+using CloudBytes = RawMessage<CloudKind>;
+
+/// Pieces of such bytes.
+template <class Number>
+std::string bytesOf(Number number) {
+  return {reinterpret_cast<const char*>(&number), sizeof(number)};
+}
+inline std::string stringOf(const std::string& text) { return bytesOf(static_cast<std::uint32_t>(text.size())) + text; }
+
+}  // namespace test
+}  // namespace hgrid
+
+namespace ros {
+namespace message_traits {
+
+template <class Kind>
+struct MD5Sum<hgrid::test::RawMessage<Kind>> {
+  static const char* value() { return Kind::kMd5; }
+  static const char* value(const hgrid::test::RawMessage<Kind>&) { return value(); }
+};
+template <class Kind>
+struct DataType<hgrid::test::RawMessage<Kind>> {
+  static const char* value() { return Kind::kType; }
+  static const char* value(const hgrid::test::RawMessage<Kind>&) { return value(); }
+};
+template <class Kind>
+struct Definition<hgrid::test::RawMessage<Kind>> {
+  static const char* value() { return Kind::kDefinition; }
+  static const char* value(const hgrid::test::RawMessage<Kind>&) { return value(); }
+};
+
+}  // namespace message_traits
+
+namespace serialization {
+
+template <class Kind>
+struct Serializer<hgrid::test::RawMessage<Kind>> {
+  template <typename Stream>
+  static void write(Stream& stream, const hgrid::test::RawMessage<Kind>& message) {
+    const auto size = static_cast<std::uint32_t>(message.bytes.size());
+    std::memcpy(stream.advance(size), message.bytes.data(), size);
+  }
+  static std::uint32_t serializedLength(const hgrid::test::RawMessage<Kind>& message) {
+    return static_cast<std::uint32_t>(message.bytes.size());
+  }
+};
+
+}  // namespace serialization
+}  // namespace ros
