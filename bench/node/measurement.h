@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sightings.h"
 #include "workload.h"
 
 namespace hgrid {
@@ -25,12 +26,15 @@ struct Measurement {
   std::size_t bodies = 0;
   double rate = 0.0;            ///< [Hz]
   bool distances = false;       ///< were measured
-  std::vector<Part> parts;      ///< of the ticks; "latency" last
+  std::vector<Part> parts;      ///< of the ticks; "latency" after them
   double cpu_percent = 0.0;     ///< of one processor
   double pairs = 0.0;           ///< near pairs per tick, on average
   std::size_t ticks = 0;        ///< that were measured
   std::size_t late_cycles = 0;  ///< of /tf
 };
+
+Spread spreadOf(std::vector<double> seconds);
+Measurement measurementOf(const Workload& workload, const Sightings& seen);
 
 /// Starts a node, lets it run in the workload, and measures it for `duration` [s].
 ///
