@@ -40,6 +40,7 @@ Measurement measurementOf(const Workload& workload, const Sightings& seen) {
   }
   measurement.cpu_percent = 100.0 * seen.node_time / seen.duration;
   measurement.bench_percent = 100.0 * seen.bench_time / seen.duration;
+  measurement.others_percent = 100.0 * seen.others_time / seen.duration;
   if (seen.ticks > 0) measurement.pairs = static_cast<double>(seen.pairs) / static_cast<double>(seen.ticks);
   measurement.ticks = seen.ticks;
   measurement.late_cycles = seen.late_cycles;

@@ -31,6 +31,7 @@ struct Measurement {
   std::vector<Part> parts;           ///< of the ticks; "latency" after them
   double cpu_percent = 0.0;          ///< of one processor
   double bench_percent = 0.0;        ///< the same, of the process that moves the world, listens and asks
+  double others_percent = 0.0;       ///< the same, of all others together: what they take disturbs the rest
   double pairs = 0.0;                ///< near pairs per tick, on average
   std::size_t ticks = 0;             ///< that were measured
   std::size_t late_cycles = 0;       ///< of /tf

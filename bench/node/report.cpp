@@ -71,8 +71,11 @@ void print(const MapMeasurement& m) {
     std::printf("  %-14s %9.3f / %9.3f %+12.3f %9.3f / %9.3f %+12.3f\n", resting.parts[i].name.c_str(), without.median,
                 with.median, with.median - without.median, without.p99, with.p99, with.p99 - without.p99);
   }
-  std::printf("  the node takes %.1f / %.1f %% of one processor, this program, which sends and asks, %.1f / %.1f %%\n",
-              resting.cpu_percent, replaced.cpu_percent, resting.bench_percent, replaced.bench_percent);
+  std::printf(
+      "  the node takes %.1f / %.1f %% of one processor, this program, which sends and asks, %.1f / %.1f %%,\n"
+      "  all others %.1f / %.1f %%\n",
+      resting.cpu_percent, replaced.cpu_percent, resting.bench_percent, replaced.bench_percent, resting.others_percent,
+      replaced.others_percent);
   printLateCycles(resting);
   printLateCycles(replaced);
   std::fflush(stdout);
@@ -92,6 +95,7 @@ void writeJson(const std::string& file, const std::string& commit, const std::ve
     if (m.maps_per_s) {
       out << ",\n  " << beginOf(m) << ", \"part\": \"cpu of the bench\", \"percent\": " << number(m.bench_percent)
           << "}";
+      out << ",\n  " << beginOf(m) << ", \"part\": \"cpu of others\", \"percent\": " << number(m.others_percent) << "}";
     }
     out << ",\n  " << beginOf(m) << ", \"part\": \"near pairs\", \"count\": " << number(m.pairs) << "}";
   }

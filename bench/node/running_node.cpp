@@ -5,6 +5,7 @@
 #include <ros/param.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
@@ -29,6 +30,20 @@ double processorTime(pid_t process) {
   double user = 0.0, system = 0.0;
   fields >> user >> system;
   return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
+/// [s] of processor that all programs have used, on all processors, or that the machine's host did not give.
+double processorTimeOfAll() {
+  std::ifstream file("/proc/stat");
+  std::string skipped;
+  file >> skipped;
+  double sum = 0.0;
+  for (const bool busy : {true, true, true, false, false, true, true, true}) {  // not idle, not waiting for disks
+    double ticks = 0.0;
+    file >> ticks;
+    if (busy) sum += ticks;
+  }
+  return sum / static_cast<double>(sysconf(_SC_CLK_TCK));
 }
 
 void sleepFor(double duration) { std::this_thread::sleep_for(std::chrono::duration<double>(duration)); }
@@ -71,6 +86,8 @@ void RunningNode::rest() {
   sightings_->duration += ended.now - began_.now;
   sightings_->node_time += ended.node - began_.node;
   sightings_->bench_time += ended.bench - began_.bench;
+  const double ours = ended.node - began_.node + ended.bench - began_.bench;
+  sightings_->others_time += std::max(0.0, ended.all - began_.all - ours);
   sightings_->late_cycles += ended.late_cycles - began_.late_cycles;
 }
 
@@ -79,6 +96,7 @@ RunningNode::Clocks RunningNode::clocks() const {
   clocks.now = std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
   clocks.node = processorTime(process_->pid());
   clocks.bench = processorTime(getpid());
+  clocks.all = processorTimeOfAll();
   clocks.late_cycles = publisher_->lateCycles();
   return clocks;
 }

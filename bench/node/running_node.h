@@ -29,7 +29,7 @@ class RunningNode {
 
  private:
   struct Clocks {
-    double now = 0.0, node = 0.0, bench = 0.0;  // [s] the last two of processor
+    double now = 0.0, node = 0.0, bench = 0.0, all = 0.0;  // [s] the last three of processor
     std::size_t late_cycles = 0;
   };
   Clocks clocks() const;

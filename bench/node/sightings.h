@@ -16,6 +16,7 @@ struct Sightings {
   std::size_t pairs = 0, ticks = 0, late_cycles = 0;   ///< late_cycles: of /tf
   double duration = 0.0;                               ///< [s] that it was watched
   double node_time = 0.0, bench_time = 0.0;            ///< [s] of processor that the two processes used meanwhile
+  double others_time = 0.0;                            ///< [s] the same of all other programs
 };
 
 }  // namespace bench

@@ -19,6 +19,8 @@ NODE_MAPS_NOTE = ('Each second a message (binary, as octomap_server\'s octomap_b
                   'query_segment: round trips over persistent connections, 200 a second together. The bench moves the '
                   'robots, sends the prepared maps, listens and asks, on the same processors as the node.')
 
+PROCESSES = ('cpu', 'cpu of the bench', 'cpu of others')
+
 
 def table(head, rows):
     """A Markdown table; the first column is text."""
@@ -168,8 +170,8 @@ def node_maps(figures):
                 rows.append([part] + [' / '.join(map(short, pair)) for pair in (median, p99)]
                             + ['%+.3f' % (p99[1] - p99[0])])
         tables.append(table(['%s: map at rest / replaced' % world, 'median ms', 'p99 ms', 'p99, difference'], rows))
-        shares = tuple(' / '.join(map(short, both(part, 'percent'))) for part in ('cpu', 'cpu of the bench'))
-        tables.append('The node takes %s %% of one processor, the bench %s %%.' % shares)
+        shares = tuple(' / '.join(map(short, both(part, 'percent'))) for part in PROCESSES)
+        tables.append('The node takes %s %% of one processor, the bench %s %%, all other programs %s %%.' % shares)
     return '\n\n'.join(tables)
 
 
