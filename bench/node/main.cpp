@@ -10,17 +10,38 @@
 #include <string>
 #include <vector>
 
+#include "map_measurement.h"
 #include "measurement.h"
 #include "report.h"
+
+namespace hgrid {
+namespace bench {
+namespace {
+
+std::vector<Workload> movingWorlds() {
+  std::vector<Workload> worlds{robots(32, 31, 100.0), freeBodies(1000, 100.0), freeBodies(10000, 10.0),
+                               robots(32, 31, 100.0)};
+  worlds.back().title += ", distances measured";
+  worlds.back().distances = true;
+  for (Workload& world : realRobots(100.0)) worlds.push_back(std::move(world));
+  if (worlds.size() == 4) std::printf("without real robots: their descriptions are not at hand\n");
+  return worlds;
+}
+
+}  // namespace
+}  // namespace bench
+}  // namespace hgrid
 
 int main(int argc, char** argv) {
   using namespace hgrid::bench;
   ros::init(argc, argv, "node_testbench");
   std::string json, commit = "unknown";
   double duration = 10.0;  // [s]
+  bool only_maps = false;
   for (int i = 1; i < argc; ++i) {
     const std::string option = argv[i];
     if (option == "--quick") duration = 4.0;
+    if (option == "--maps") only_maps = true;
     if (option == "--json" && i + 1 < argc) json = argv[++i];
     if (option == "--commit" && i + 1 < argc) commit = argv[++i];
   }
@@ -28,16 +49,14 @@ int main(int argc, char** argv) {
     ros::AsyncSpinner spinner(1);
     spinner.start();
     std::vector<Measurement> measurements;
-    std::vector<Workload> workloads{robots(32, 31, 100.0), freeBodies(1000, 100.0), freeBodies(10000, 10.0),
-                                    robots(32, 31, 100.0)};
-    workloads.back().title += ", distances measured";
-    workloads.back().distances = true;
-    for (Workload& workload : realRobots(100.0)) workloads.push_back(std::move(workload));
-    if (workloads.size() == 4) std::printf("without real robots: their descriptions are not at hand\n");
-    for (const Workload& workload : workloads) {
-      measurements.push_back(measure(workload, duration));
+    for (const Workload& world : only_maps ? std::vector<Workload>() : movingWorlds()) {
+      measurements.push_back(measure(world, duration));
       print(measurements.back());
     }
+    const MapMeasurement maps = measureMaps(duration);
+    print(maps);
+    measurements.push_back(maps.resting);
+    measurements.push_back(maps.replaced);
     if (!json.empty()) writeJson(json, commit, measurements);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "node_testbench: %s\n", error.what());

@@ -2,9 +2,11 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "sightings.h"
 #include "workload.h"
 
 namespace hgrid {
@@ -23,14 +25,20 @@ struct Measurement {
   };
   std::string title;
   std::size_t bodies = 0;
-  double rate = 0.0;            ///< [Hz]
-  bool distances = false;       ///< were measured
-  std::vector<Part> parts;      ///< of the ticks; "latency" last
-  double cpu_percent = 0.0;     ///< of one processor
-  double pairs = 0.0;           ///< near pairs per tick, on average
-  std::size_t ticks = 0;        ///< that were measured
-  std::size_t late_cycles = 0;  ///< of /tf
+  double rate = 0.0;                 ///< [Hz]
+  bool distances = false;            ///< were measured
+  std::optional<double> maps_per_s;  ///< [1/s] how often its map was replaced, where that was to be measured
+  std::vector<Part> parts;           ///< of the ticks; "latency" after them
+  double cpu_percent = 0.0;          ///< of one processor
+  double bench_percent = 0.0;        ///< the same, of the process that moves the world, listens and asks
+  double others_percent = 0.0;       ///< the same, of all others together: what they take disturbs the rest
+  double pairs = 0.0;                ///< near pairs per tick, on average
+  std::size_t ticks = 0;             ///< that were measured
+  std::size_t late_cycles = 0;       ///< of /tf
 };
+
+Spread spreadOf(std::vector<double> seconds);
+Measurement measurementOf(const Workload& workload, const Sightings& seen);
 
 /// Starts a node, lets it run in the workload, and measures it for `duration` [s].
 ///

@@ -7,6 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "question_stream.h"
+
 namespace hgrid {
 namespace bench {
 namespace {
@@ -36,7 +38,12 @@ std::string number(double value) {
 
 std::string beginOf(const Measurement& m) {
   return "{\"kind\": \"node\", \"bodies\": " + std::to_string(m.bodies) + ", \"rate_hz\": " + number(m.rate) +
-         ", \"world\": " + quoted(m.title) + ", \"distances\": " + (m.distances ? "true" : "false");
+         ", \"world\": " + quoted(m.title) + ", \"distances\": " + (m.distances ? "true" : "false") +
+         (m.maps_per_s ? ", \"maps_per_s\": " + number(*m.maps_per_s) : "");
+}
+
+void printLateCycles(const Measurement& m) {
+  if (m.late_cycles > 0) std::printf("  %zu cycles of /tf were late: the machine is too busy\n", m.late_cycles);
 }
 
 }  // namespace
@@ -48,7 +55,29 @@ void print(const Measurement& m) {
     std::printf("  %-12s %10.3f %10.3f\n", part.name.c_str(), part.milliseconds.median, part.milliseconds.p99);
   }
   std::printf("  the node takes %.1f %% of one processor\n", m.cpu_percent);
-  if (m.late_cycles > 0) std::printf("  %zu cycles of /tf were late: the machine is too busy\n", m.late_cycles);
+  printLateCycles(m);
+  std::fflush(stdout);
+}
+
+void print(const MapMeasurement& m) {
+  const Measurement &resting = m.resting, &replaced = m.replaced;
+  std::printf("\n%s, /tf and ticks at %g Hz, %.0f questions a second: twice %zu ticks, %zu questions\n",
+              resting.title.c_str(), resting.rate, QuestionStream::kRate, replaced.ticks, m.questions);
+  std::printf("  the map at rest / replaced every second, 1 %% of its leaves changed, by a message of %.2f MB\n",
+              1e-6 * static_cast<double>(m.message_bytes));
+  std::printf("  %-14s %21s %12s %21s %12s\n", "part", "median ms", "difference", "p99 ms", "difference");
+  for (std::size_t i = 0; i < resting.parts.size(); ++i) {
+    const Spread &without = resting.parts[i].milliseconds, &with = replaced.parts[i].milliseconds;
+    std::printf("  %-14s %9.3f / %9.3f %+12.3f %9.3f / %9.3f %+12.3f\n", resting.parts[i].name.c_str(), without.median,
+                with.median, with.median - without.median, without.p99, with.p99, with.p99 - without.p99);
+  }
+  std::printf(
+      "  the node takes %.1f / %.1f %% of one processor, this program, which sends and asks, %.1f / %.1f %%,\n"
+      "  all others %.1f / %.1f %%\n",
+      resting.cpu_percent, replaced.cpu_percent, resting.bench_percent, replaced.bench_percent, resting.others_percent,
+      replaced.others_percent);
+  printLateCycles(resting);
+  printLateCycles(replaced);
   std::fflush(stdout);
 }
 
@@ -63,6 +92,11 @@ void writeJson(const std::string& file, const std::string& commit, const std::ve
           << ", \"p99_ms\": " << number(part.milliseconds.p99) << "}";
     }
     out << ",\n  " << beginOf(m) << ", \"part\": \"cpu\", \"percent\": " << number(m.cpu_percent) << "}";
+    if (m.maps_per_s) {
+      out << ",\n  " << beginOf(m) << ", \"part\": \"cpu of the bench\", \"percent\": " << number(m.bench_percent)
+          << "}";
+      out << ",\n  " << beginOf(m) << ", \"part\": \"cpu of others\", \"percent\": " << number(m.others_percent) << "}";
+    }
     out << ",\n  " << beginOf(m) << ", \"part\": \"near pairs\", \"count\": " << number(m.pairs) << "}";
   }
   out << "\n]\n";

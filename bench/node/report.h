@@ -5,13 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "map_measurement.h"
 #include "measurement.h"
 
 namespace hgrid {
 namespace bench {
 
-/// The measurement as a table for people, on standard output.
+/// A measurement as a table for people, on standard output.
 void print(const Measurement& measurement);
+void print(const MapMeasurement& measurement);
 
 /// All measurements as one JSON array of flat records, a record per part; the first says of which machine and commit.
 /// @throws std::runtime_error if the file cannot be written

@@ -30,6 +30,10 @@ struct Workload {
 /// revolute joints. Boxes, cylinders and spheres in turn. As from robot_state_publisher: a message per robot.
 Workload robots(std::size_t count, std::size_t links, double rate);
 
+/// The same robots on the floor of a room of 6.4 x 6.4 x 3.2 m in a building, whose map comes on a topic in the frame
+/// "map". `links`: 20 stand under the ceiling.
+Workload robotsInBuilding(std::size_t count, std::size_t links, double rate, const std::string& topic);
+
 /// Boxes, each an obstacle in a frame of its own, that fly about and turn; about one near neighbour per body. As from
 /// a motion capture system: one message with all.
 Workload freeBodies(std::size_t count, double rate);

@@ -14,6 +14,13 @@ MAPS_NOTE = ('Load: the file read and ready for questions; build: from a list of
              'holds, of FCL what it has allocated. – = not asked, or too many leaves; ✗ = other answers than OctoMap, '
              'or nobody to compare them with.')
 
+NODE_MAPS_NOTE = ('Each second a message (binary, as octomap_server\'s octomap_binary) brings a map of which 1 % of the '
+                  'leaves are others. Spans with the map at rest and with such messages take turns. query_sphere and '
+                  'query_segment: round trips over persistent connections, 200 a second together. The bench moves the '
+                  'robots, sends the prepared maps, listens and asks, on the same processors as the node.')
+
+PROCESSES = ('cpu', 'cpu of the bench', 'cpu of others')
+
 
 def table(head, rows):
     """A Markdown table; the first column is text."""
@@ -144,8 +151,28 @@ def maps(figures):
 
 def node(figures):
     rows = [[record['part'], record['world'], short(record['rate_hz']), short(record['median_ms']),
-             short(record['p99_ms'])] for record in figures.all('node') if 'median_ms' in record]
+             short(record['p99_ms'])] for record in figures.all('node', maps_per_s=None) if 'median_ms' in record]
     return table(['part of the tick', 'world', 'Hz', 'median ms', 'p99 ms'], rows)
+
+
+def node_maps(figures):
+    """One table per world whose map rests, and is replaced every second: what that does to ticks and questions."""
+    tables = []
+    for world in dict.fromkeys(record['world'] for record in figures.all('node', maps_per_s=1)):
+        def both(part, field):
+            records = [figures.one('node', world=world, part=part, maps_per_s=often) for often in (0, 1)]
+            return [record[field] for record in records if record and field in record]
+
+        rows = []
+        for part in dict.fromkeys(record['part'] for record in figures.all('node', world=world, maps_per_s=1)):
+            median, p99 = both(part, 'median_ms'), both(part, 'p99_ms')
+            if len(p99) == 2:
+                rows.append([part] + [' / '.join(map(short, pair)) for pair in (median, p99)]
+                            + ['%+.3f' % (p99[1] - p99[0])])
+        tables.append(table(['%s: map at rest / replaced' % world, 'median ms', 'p99 ms', 'p99, difference'], rows))
+        shares = tuple(' / '.join(map(short, both(part, 'percent'))) for part in PROCESSES)
+        tables.append('The node takes %s %% of one processor, the bench %s %%, all other programs %s %%.' % shares)
+    return '\n\n'.join(tables)
 
 
 def sections(figures):
@@ -167,6 +194,8 @@ def sections(figures):
         found.append(('Queries', queries(figures)))
     if figures.all('map'):
         found.append(('Maps', MAPS_NOTE + '\n\n' + maps(figures)))
-    if figures.all('node'):
+    if figures.all('node', maps_per_s=None):
         found.append(('The node', node(figures)))
+    if figures.all('node', maps_per_s=1):
+        found.append(('The node while its map is replaced', NODE_MAPS_NOTE + '\n\n' + node_maps(figures)))
     return found

@@ -148,8 +148,13 @@ def sweep_fairness(figures, verdicts):
 
 def node(figures, verdicts):
     for part, most in (('tick', 1.5), ('broad phase', 0.1)):
-        record = figures.one('node', bodies=992, part=part, distances=False)
+        record = figures.one('node', bodies=992, part=part, distances=False, maps_per_s=None)
         verdicts.at_most('node, 992 links: median ms of the %s' % part, most, record and record['median_ms'])
+    for part in ('tick', 'query_sphere', 'query_segment'):
+        without, with_maps = (figures.one('node', part=part, maps_per_s=often) for often in (0, 1))
+        added = with_maps['p99_ms'] - without['p99_ms'] if without and with_maps else None
+        what = 'node, a map of 1,000,000 leaves replaced every second, 1 %% changed: adds to the p99 of %s, ms' % part
+        verdicts.at_most(what, 2, added)
 
 
 def threads(figures, verdicts):
