@@ -30,7 +30,7 @@ std::string bytesOf(Number number) {
 }
 std::string stringOf(const std::string& text) { return bytesOf(static_cast<std::uint32_t>(text.size())) + text; }
 
-MapMessage messageOf(const std::vector<Voxel>& voxels) {
+test::OctomapBytes messageOf(const std::vector<Voxel>& voxels) {
   const std::uint32_t seq = 0;
   const std::uint64_t stamp = 0;
   return {bytesOf(seq) + bytesOf(stamp) + stringOf("map") + std::string(1, '\1') + stringOf("OcTree") +
@@ -50,7 +50,7 @@ MapStream::MapStream(const std::string& topic) {
     }
     messages_.push_back(messageOf(voxels));
   }
-  publisher_ = node_.advertise<MapMessage>(topic, 1, true);
+  publisher_ = node_.advertise<test::OctomapBytes>(topic, 1, true);
   publishNext();
 }
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "map_message.h"
+#include "test/node/support/raw_message.h"
 
 namespace hgrid {
 namespace bench {
@@ -38,7 +38,7 @@ class MapStream {
   static double middleOfMark();
 
  private:
-  std::vector<MapMessage> messages_;
+  std::vector<test::OctomapBytes> messages_;
   std::size_t published_ = 0;
   ros::NodeHandle node_;
   ros::Publisher publisher_;
