@@ -34,7 +34,7 @@ void Horizon::step(const std::shared_ptr<const Structure>& structure, const std:
   const std::size_t count = structure->bodies.size();
   if (structure != structure_) last_stamps_.assign(count, kNever);
   structure_ = structure;
-  swept_ = boxes;
+  before_ = swept_ = boxes;
   teleported_.assign(count, false);
   for (std::uint32_t body = 0; body < count; ++body) {
     const BodyPose& pose = poses[body];
@@ -45,6 +45,7 @@ void Horizon::step(const std::shared_ptr<const Structure>& structure, const std:
     for (ProxyId proxy = structure->first_proxy[body]; proxy < structure->first_proxy[body + 1]; ++proxy) {
       const Aabb &from = last_[proxy], &to = boxes[proxy];
       if (from == to) continue;
+      before_[proxy] = from;
       swept_[proxy] = {from.min.cwiseMin(to.min), from.max.cwiseMax(to.max)};
       if (shiftOf(from, to) > may + roundingOf(to)) teleported_[body] = true;
     }

@@ -24,6 +24,8 @@ class Horizon {
   double reachOf(const Body& body) const;
   /// The box around a proxy's boxes of this tick and the last.
   const Aabb& swept(ProxyId proxy) const { return swept_[proxy]; }
+  /// The proxy's box of the last tick; that of this one if it had none.
+  const Aabb& before(ProxyId proxy) const { return before_[proxy]; }
   /// Whether two proxies may have come within the margin since the last tick, or may meet within the horizon.
   bool canMeet(const Structure& structure, ProxyId first, ProxyId second, double gap, double margin) const;
   /// Whether a body moved farther since the last tick than its max_speed allows.
@@ -32,9 +34,9 @@ class Horizon {
  private:
   double seconds_, cap_;
   std::shared_ptr<const Structure> structure_;
-  std::vector<Aabb> last_, swept_;  // by proxy
-  std::vector<Time> last_stamps_;   // by body; negative: it had no pose
-  std::vector<bool> teleported_;    // by body
+  std::vector<Aabb> last_, before_, swept_;  // by proxy
+  std::vector<Time> last_stamps_;            // by body; negative: it had no pose
+  std::vector<bool> teleported_;             // by body
 };
 
 }  // namespace hgrid

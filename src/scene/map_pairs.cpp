@@ -20,10 +20,12 @@ void MapPairs::recall(const Snapshot& snapshot) {
     OfMap& map = maps_[i];
     const Pose& pose = snapshot.poses()[structure.maps[i]].world_from_body;
     const std::shared_ptr<const MapCells> cells = snapshot.cellsOf(structure.maps[i]);
+    map.map_from_world_before = map.map_from_world;
     if (map.cells == cells && map.world_from_map.matrix() == pose.matrix()) continue;
-    map.cells = cells;
     map.world_from_map = pose;
     map.map_from_world = pose.inverse();
+    if (!map.cells) map.map_from_world_before = map.map_from_world;
+    map.cells = cells;
     map.gaps.assign(structure.body_of_proxy.size(), Gap{});
   }
 }
@@ -35,6 +37,16 @@ void MapPairs::find(const Snapshot& snapshot, const Horizon& horizon, const Add&
     const bool placed = snapshot.poses()[numbers[i]].state != Freshness::unplaced;
     if (placed && maps_[i].cells) findFor(maps_[i], numbers[i], snapshot, horizon, add);
   }
+}
+
+/// Whether a box came within the margin of a cell between the last tick and this one, as seen from the map.
+bool MapPairs::passed(const OfMap& map, ProxyId proxy, const Snapshot& snapshot, const Horizon& horizon,
+                      double margin) const {
+  const Aabb &from = horizon.before(proxy), &to = snapshot.boxes()[proxy];
+  if (from == to && map.map_from_world_before.matrix() == map.map_from_world.matrix()) return false;
+  const Eigen::AlignedBox3d swept = boxInMap(map.map_from_world_before, from, snapshot.origin())
+                                        .merged(boxInMap(map.map_from_world, to, snapshot.origin()));
+  return gapTo(*map.cells->grid, swept, margin) <= margin;
 }
 
 void MapPairs::findFor(OfMap& map, std::uint32_t number, const Snapshot& snapshot, const Horizon& horizon,
@@ -59,7 +71,7 @@ void MapPairs::findFor(OfMap& map, std::uint32_t number, const Snapshot& snapsho
         add(first, second, known.gap, margin, true);
       } else if (known.gap <= can_go) {
         add(first, second, known.gap, margin, false);
-      } else if (horizon.on() && horizon.swept(proxy) != box && gapOf(horizon.swept(proxy), margin) <= margin) {
+      } else if (horizon.on() && passed(map, proxy, snapshot, horizon, margin)) {
         add(first, second, gapOf(box, kInfinity), margin, false);
       }
     }

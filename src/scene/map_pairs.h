@@ -31,9 +31,11 @@ class MapPairs {
   struct OfMap {
     std::shared_ptr<const MapCells> cells;
     Pose world_from_map = Pose::Identity(), map_from_world = Pose::Identity();
-    std::vector<Gap> gaps;  // by proxy
+    Pose map_from_world_before = Pose::Identity();  // of the last tick; of this one if it had no pose
+    std::vector<Gap> gaps;                          // by proxy
   };
   void recall(const Snapshot& snapshot);
+  bool passed(const OfMap& map, ProxyId proxy, const Snapshot& snapshot, const Horizon& horizon, double margin) const;
   void findFor(OfMap& map, std::uint32_t number, const Snapshot& snapshot, const Horizon& horizon, const Add& add);
 
   std::uint64_t revision_ = 0;

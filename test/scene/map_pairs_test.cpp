@@ -93,6 +93,10 @@ TEST(MapPairs, AreThoseOfAScanOfAllCellsWhateverMoves) {
             EXPECT_TRUE(found == pairs.end()) << "two maps make no pair";
             continue;
           }
+          if (structure.bodies[body].mobility == Mobility::fixed) {
+            EXPECT_TRUE(found == pairs.end()) << "a map shows the fixed obstacles, too";
+            continue;
+          }
           const double gap = gapOf(world, *snapshot, map, body);
           const double margin = snapshot->marginOf(map, body) + snapshot->growthOf(map, body);
           ASSERT_NEAR(std::min(gap, 1e3), std::min(snapshot->gapOf(map, body), 1e3), 1e-4);
@@ -133,6 +137,31 @@ TEST(MapPairs, BeginAndEndLikeAllOthers) {
   told(0.69);
   scene.setCells(room, cellsOf(0.1, {}));
   EXPECT_EQ(told(0.69), "end 0") << "the cell is gone";
+}
+
+TEST(MapPairs, WhatPassedTheOtherBetweenTwoTicksIsTold) {
+  SceneOptions options;
+  options.horizon = 0.001;
+  for (const bool map_moves : {false, true}) {
+    SCOPED_TRACE(map_moves ? "the map moves" : "the ball moves");
+    Scene scene(options);
+    const BodyId room = put(scene, mapBody("room", Mobility::moving), at(0));
+    const BodyId ball_id = put(scene, ball("ball", 0.1), at(3));
+    scene.setCells(room, cellsOf(0.1, {{32768, 32768, 32768, 0}}));  // 0 .. 0.1 m
+    EXPECT_TRUE(scene.commit(Time{1}, {})->pairs().empty());
+    scene.place(map_moves ? room : ball_id, at(map_moves ? 6 : -3), Time{2});
+    const auto passing = scene.commit(Time{2}, {});
+    ASSERT_EQ(passing->pairs().size(), 1u);
+    EXPECT_EQ(passing->pairs()[0].flags & kHorizonFlag, kHorizonFlag);
+    EXPECT_NEAR(passing->pairs()[0].gap, 2.9, 1e-6);
+    EXPECT_TRUE(scene.commit(Time{3}, {})->pairs().empty());
+    scene.place(room, at(6, 0.2), Time{4});  // off, and both together
+    scene.place(ball_id, at(3, 0.2), Time{4});
+    scene.commit(Time{4}, {});
+    scene.place(room, at(-6, 0.2), Time{5});
+    scene.place(ball_id, at(-9, 0.2), Time{5});
+    EXPECT_TRUE(scene.commit(Time{5}, {})->pairs().empty()) << "they went together";
+  }
 }
 
 TEST(MapPairs, OfAFixedBodyAndAFixedMapThereAreNone) {
