@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <thread>
 
 #include "frames.h"
@@ -62,6 +63,8 @@ void CloudSource::onMessage(const CloudMessage& message) {
     return;
   } catch (const Refusal& refusal) {
     refused = refusal;
+  } catch (const std::bad_alloc&) {
+    refused = Refusal(Code::limit, what_ + " does not fit into the memory that is left");
   } catch (const std::exception& error) {
     refused = Refusal(Code::internal, what_ + ": " + error.what());
   }

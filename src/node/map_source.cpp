@@ -3,6 +3,7 @@
 #include "map_source.h"
 
 #include <algorithm>
+#include <new>
 
 #include "frames.h"
 #include "hgrid_proximity/refusal.h"
@@ -47,6 +48,14 @@ OctomapOptions MapSource::options() const {
 }
 
 LoadedMap MapSource::finished(ReadMap map) const {
+  try {
+    return built(std::move(map));
+  } catch (const std::bad_alloc&) {
+    throw Refusal(Code::limit, "map '" + map.params.name + "' does not fit into the memory that is left");
+  }
+}
+
+LoadedMap MapSource::built(ReadMap&& map) const {
   Octomap& octomap = map.octomap;
   if (own_.wanted()) {
     own_.require();

@@ -35,11 +35,12 @@ class MapSource {
   /// as readOctomapData()
   ReadMap read(const MapParams& map, const OctomapMessage& message) const;
   /// Makes a map's cells, the robot's own left out if ~map/self_filter says so. @throws Refusal not_ready if it is not
-  /// known where the robot was
+  /// known where the robot was, limit if memory runs out
   LoadedMap finished(ReadMap map) const;
 
  private:
   OctomapOptions options() const;
+  LoadedMap built(ReadMap&& map) const;
 
   const Params& params_;
   const OwnShapes& own_;

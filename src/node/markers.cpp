@@ -122,7 +122,7 @@ std::string distanceText(const PairDistance& pair) {
 }
 
 /// Lines between the nearest points, and beside the first of them how far they are apart.
-void addDistances(const Tick& tick, const PairDistances& distances, Marker& lines, std::vector<Marker>& texts) {
+void addDistances(const PairDistances& distances, Marker& lines, std::vector<Marker>& texts) {
   double farthest = 0.0;
   for (const PairDistance& pair : distances.pairs) {
     if (std::isfinite(pair.proximity.distance)) farthest = std::max(farthest, pair.proximity.distance);
@@ -189,7 +189,7 @@ visualization_msgs::MarkerArray markers(const Tick& tick, const QuerySketch& que
     }
     for (const NearPair& pair : snapshot.pairs()) addPair(pairs, snapshot, pair);
   }
-  if (distances != nullptr) addDistances(tick, *distances, nearest, texts);
+  if (distances != nullptr) addDistances(*distances, nearest, texts);
   const auto now = std::chrono::steady_clock::now();
   const auto sphere = queries.sphere();
   if (sphere && now - sphere->at < kQueryShownFor) {

@@ -70,7 +70,8 @@ class World {
 
   /// Puts a robot in the place of the one of the same name; all of it or, with a Refusal, nothing.
   void setRobot(LoadedRobot robot);
-  /// Puts a map in the place of the one of the same name. @throws Refusal not_ready (no world frame yet), limit
+  /// Puts a map in the place of the one of the same name. @throws Refusal not_ready (no world frame yet), limit,
+  /// unknown_frame (the old one is known where it is, the new one is not)
   void setMap(const LoadedMap& map);
   /// Takes a map away; an empty name all of them. @throws Refusal unknown_id
   void clearMap(const std::string& name);
@@ -128,6 +129,7 @@ class World {
   Pose lookUp(const Mover& mover, Time& stamp) const;
   Freshness judge(Mover& mover, Time time, const Moment& now, double& age) const;
   void update(std::size_t index, Time time, const Moment& now, Tick& tick);
+  bool isConnected(const std::string& frame) const;
   Freshness judgeCloud(const Cloud& cloud, const Moment& now, double& age) const;
   void updateClouds(Time time, const Moment& now, Tick& tick);
   void unsettle();

@@ -9,6 +9,10 @@
 
 namespace hgrid {
 
+bool World::isConnected(const std::string& frame) const {
+  return frame == world_frame_ || intake_.buffer().canTransform(world_frame_, frame, ros::Time(0));
+}
+
 void World::setMap(const LoadedMap& map) {
   if (world_frame_.empty() && !findWorldFrame()) {
     throw Refusal(Code::not_ready, "map '" + map.params.name + "' cannot be placed yet: there is no world frame");
@@ -24,6 +28,10 @@ void World::setMap(const LoadedMap& map) {
   const auto known = maps_.find(body.name);
   const bool same = known != maps_.end() && known->second.frame == body.frame &&
                     known->second.frame_from_body.matrix() == body.frame_from_body.matrix();
+  if (known != maps_.end() && !same && !isConnected(body.frame)) {
+    throw Refusal(Code::unknown_frame, "map '" + map.params.name + "': its frame '" + printable(body.frame) +
+                                           "' is not connected to '" + world_frame_ + "'; the old map stays");
+  }
   if (!same) {  // otherwise only its cells are others: the structure stays, and nobody starts again
     if (known != maps_.end()) {
       removeMovers(body.name);

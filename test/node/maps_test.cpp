@@ -7,10 +7,12 @@
 #include <hgrid_proximity/LoadOctomap.h>
 #include <ros/service.h>
 #include <ros/topic.h>
+#include <sys/resource.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <fstream>
 
+#include "test/adapters/octomap_bytes.h"
 #include "test/adapters/octomap_oracle.h"
 #include "test/adapters/temporary_folder.h"
 #include "test/node/support/claims.h"
@@ -224,6 +226,32 @@ TEST(MapsBeyondTheLimit, AreMissedAsLongAsTheyAreNotThere) {
   EXPECT_TRUE(says(status->model_warnings[0], "~margins: 'robot/aa' matches no body"));
 }
 
+TEST_F(Maps, ThatDoNotFitIntoMemoryAreRefused) {
+  start(list({mapOf("room", "row.bt")}));
+  node_->waitForComplete();
+  std::string nodes;
+  std::uint64_t count = 1;
+  for (int level = Voxel::kLevels; level > 8; --level) nodes += btNode("n......."), ++count;
+  const std::function<void(int)> fill = [&](int levels) {  // 8^8 leaves, two bytes for eight of them
+    nodes += btNode(levels > 1 ? "nnnnnnnn" : "oooooooo");
+    count += 8;
+    for (int child = 0; levels > 1 && child < 8; ++child) fill(levels - 1);
+  };
+  fill(8);
+  folder_.write("full.bt", btHeader(usualLines(std::to_string(count))) + nodes);
+  rlimit unlimited{}, tight{};
+  const pid_t node = node_->process().pid();
+  ASSERT_EQ(prlimit(node, RLIMIT_AS, nullptr, &unlimited), 0);
+  tight = unlimited;
+  tight.rlim_cur = (virtualKilobytes(node) << 10) + (std::size_t{64} << 20);
+  ASSERT_EQ(prlimit(node, RLIMIT_AS, &tight, nullptr), 0);
+  expectRefused(load("room", "full.bt"), "LIMIT", "does not fit into the memory that is left");
+  ASSERT_EQ(prlimit(node, RLIMIT_AS, &unlimited, nullptr), 0);
+  const auto loaded = load("room", "full.bt");
+  EXPECT_TRUE(loaded.success) << loaded.code.text;
+  EXPECT_EQ(loaded.occupied_leaves, std::uint64_t{1} << 24);
+}
+
 TEST_F(Maps, OneThousandReplacementsLeaveNothingBehind) {
   start(list({mapOf("room", "row.bt")}), 500.0);
   node_->waitForComplete();
@@ -289,6 +317,49 @@ TEST_F(MapTopics, ComeWithTheTypeNameOfOctomapServerAndFollowTheirFrame) {
   EXPECT_EQ(metAt(1.05), Names());
   send(messageOf("odom", nodesOfRow(5)));
   node_->waitUntil("the longer row", [&](const Heard&) { return !metAt(2.45).empty(); });
+}
+
+TEST_F(MapTopics, StayWhereTheyAreWhenTheirFrameIsLostOrTheNextOneIsUnknown) {
+  transforms_.stream("base", "odom", at(1.0));
+  send(messageOf("odom", nodesOfRow(1)));
+  node_->waitForComplete();
+  send(messageOf("nowhere", nodesOfRow(5)));
+  node_->waitForStatus("a refusal",
+                       [](const msg::Status& status) { return counter(status, "maps.refused.UNKNOWN_FRAME") > 0; });
+  EXPECT_EQ(metAt(1.05), Names({"map/room"})) << "the old map stays";
+  EXPECT_TRUE(node_->heard().status.back()->world.complete);
+  transforms_.stop("odom");
+  const auto stale = [](std::uint8_t state) {
+    return [state](const msg::Status& status) {
+      return !status.bodies.empty() && status.bodies[0].name == "map/room" && status.bodies[0].state == state;
+    };
+  };
+  node_->waitForStatus("it is STALE", stale(msg::WorldState::STALE));
+  EXPECT_EQ(metAt(1.05), Names({"map/room"}));
+  node_->waitForStatus("it is LOST", stale(msg::WorldState::LOST));
+  EXPECT_EQ(metAt(1.05), Names({"map/room"})) << "never dropped";
+  EXPECT_EQ(node_->sphere(-3, -3, -3, 0.1).answer.verdict, Answer::UNKNOWN);
+  transforms_.stream("base", "nowhere", at(2.0));
+  node_->waitUntil("the next map, tried again", [&](const Heard&) { return metAt(2.45) == Names({"map/room"}); });
+  node_->waitForComplete();
+}
+
+TEST_F(MapTopics, ThatAnnounceMuchAndSendNothingCostAddressesOnly) {
+  send(messageOf("", nodesOfRow(1)));
+  node_->waitForComplete();
+  const auto before = memoryOf(node_->process().pid());
+  const std::string output = folder_ / "silent.txt";
+  ChildProcess silent({"/usr/bin/python3", HGRID_PROJECT_DIR "/test/node/support/silent_publisher.py",
+                       node_->space() + "/octomap_binary", OctomapKind::kType, OctomapKind::kMd5},
+                      output, {});
+  node_->waitUntil("the announcement", [&](const Heard&) {
+    return memoryOf(node_->process().pid()).second > before.second + 900000;  // kB
+  });
+  node_->waitForTicks(10);
+  EXPECT_EQ(metAt(0.05), Names({"map/room"}));
+  EXPECT_LT(memoryOf(node_->process().pid()).first, before.first + 4000) << "kB";
+  send(messageOf("", nodesOfRow(5)));
+  node_->waitUntil("the map of one who sends", [&](const Heard&) { return !metAt(0.45).empty(); });
 }
 
 TEST_F(MapTopics, ThatLieLeaveTheMapAsItWas) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "test/node/support/node_under_test.h"
@@ -44,13 +45,15 @@ inline std::vector<std::string> namesOf(const msg::Answer& answer) {
   return names;
 }
 
-/// [kB] of memory that a process holds.
-inline std::size_t residentKilobytes(pid_t process) {
+/// [kB] of memory that a process holds, and of addresses.
+inline std::pair<std::size_t, std::size_t> memoryOf(pid_t process) {
   std::ifstream file("/proc/" + std::to_string(process) + "/statm");
   std::size_t pages = 0, resident = 0;
   file >> pages >> resident;
-  return resident * 4;
+  return {resident * 4, pages * 4};
 }
+inline std::size_t residentKilobytes(pid_t process) { return memoryOf(process).first; }
+inline std::size_t virtualKilobytes(pid_t process) { return memoryOf(process).second; }
 
 /// x [m] of the centre of a ball-shaped body, found by a ray along the x axis through (y, z). NaN if it is not met.
 inline double xOf(NodeUnderTest& node, const std::string& body, double radius = 0.1, double y = 0.0, double z = 0.0) {
