@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "bench/maps/cloud_stream.h"
 #include "bench/maps/map_play.h"
 #include "bench/measure/match.h"
 #include "bench/parts.h"
@@ -182,6 +183,7 @@ void runMaps(const Options& options, std::vector<Record>& records) {
       play(options, mapOfFile("geb079", file), records);
     }
   }
+  if (options.workload("cloud")) playClouds(records);
   if (!options.workload("building")) return;
   const ScratchFolder folder;
   for (const std::size_t leaves : sizes) play(options, building(leaves, folder.path()), records);

@@ -15,8 +15,10 @@ CloudCells::CloudCells(double edge, Time lifetime, std::size_t most) : edge_(edg
 
 CloudCells::Keys CloudCells::keysOf(const Eigen::Vector3d& point) const {
   Keys keys;
-  for (int axis = 0; axis < 3; ++axis) {  // not a cast: -0.1 lies in cell -1
-    keys[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(std::floor(point[axis] / edge_));
+  for (int axis = 0; axis < 3; ++axis) {  // as std::floor, which is a call: -0.1 lies in cell -1
+    const double cells = point[axis] / edge_;
+    const auto whole = static_cast<std::int64_t>(cells);
+    keys[static_cast<std::size_t>(axis)] = whole - (cells < static_cast<double>(whole) ? 1 : 0);
   }
   return keys;
 }
