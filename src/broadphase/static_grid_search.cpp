@@ -7,20 +7,13 @@
 #include <limits>
 
 #include "broadphase/brick.h"
+#include "broadphase/static_grid_bricks.h"
 #include "hgrid_proximity/broadphase/static_grid.h"
 
 namespace hgrid {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-Aabb keysOf(const Voxel& voxel) {
-  const auto along = static_cast<float>(keysAlong(voxel));
-  constexpr int kOrigin = Voxel::kOriginKey;
-  const Eigen::Vector3i key(voxel.x - kOrigin, voxel.y - kOrigin, voxel.z - kOrigin);
-  const Eigen::Vector3f min = key.cast<float>();  // exact, as all keys are
-  return {min, min + Eigen::Vector3f::Constant(along)};
-}
 
 }  // namespace
 

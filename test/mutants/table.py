@@ -16,7 +16,7 @@ QUERIES = "broadphase/queries.cpp"
 SCENE = "scene/scene.cpp"
 COMMIT = "scene/commit.cpp"
 EVENTS = "scene/pair_events.cpp"
-STATIC = "broadphase/static_grid.cpp"
+BRICKS = "broadphase/static_grid_bricks.h"
 MAPS = "scene/map_pairs.cpp"
 
 MUTANTS = [
@@ -122,7 +122,7 @@ MUTANTS = [
      "(as_first_[i] & as_second_[j]) | (as_second_[i] & as_first_[j])", "as_first_[i] & as_second_[j]"),
     ("a new numbering leaves the pairs unsorted", "scene/pair_tracker.cpp",
      "{std::min(a, b), std::max(a, b), pair.since}", "{a, b, pair.since}"),
-    ("every brick of a map is taken for the first below its parent", STATIC,
+    ("every brick of a map is taken for the first below its parent", BRICKS,
      "level.first_below[brick.number] + before", "level.first_below[brick.number]"),
     ("a search along a segment has no room for rounding", "broadphase/static_grid_search.cpp",
      "line.around = line.segment.radius + 1e-9 + 1e-12 * (farthest + line.segment.radius);",
