@@ -210,20 +210,31 @@ class StaticGrid::LineSearch {
     const double share = length_ > 0.0 ? *along / length_ : 0.0;
     if (!(share < first_.along)) return;
     first_ = {voxel, share};
-    endAt(segment_.from[main_] + share * way_, level);
+    endAt(segment_.from + share * (segment_.to - segment_.from), level);
   }
 
-  /// Leaves out, of this brick and those around it, what begins after `end` [keys] along the main axis.
-  void endAt(double end, int level) {
+  /// Leaves out, of this brick and those around it, what the segment passes only beyond `end` [keys].
+  void endAt(const Eigen::Vector3d& end, int level) {
     for (; level <= grid_.start_.level; ++level) {
       Frame& frame = frames_[static_cast<std::size_t>(level)];
-      const double at = end - brickOf(frame, level).corner[static_cast<std::size_t>(main_)];
-      if (way_ < 0.0) {
-        frame.main[0] = std::max(frame.main[0], static_cast<float>((at - around_) / edgeOf(level)) - kRoom);
-      } else {
-        frame.main[1] = std::min(frame.main[1], static_cast<float>((at + around_) / edgeOf(level)) + kRoom);
-      }
+      if (frame.left == 0) continue;
+      const Brick brick = brickOf(frame, level);
+      const auto shorten = [&](int axis, float& from, float& to) {
+        const double at = end[axis] - brick.corner[static_cast<std::size_t>(axis)];
+        const bool falls = segment_.to[axis] < segment_.from[axis];
+        const auto last = static_cast<float>((falls ? at - around_ : at + around_) / edgeOf(level));
+        falls ? from = std::max(from, last - kRoom) : to = std::min(to, last + kRoom);
+      };
+      float from = frame.main[0], to = frame.main[1];
+      shorten(main_, from, to);
+      frame.main = Four{from, to, 0.0f, 0.0f};
       frame.left &= alongMain(frame);
+      for (std::size_t i = 0; i < 2 && frame.left != 0; ++i) {
+        from = frame.others[i][2], to = frame.others[i][3];
+        shorten(axisOf(i), from, to);
+        frame.others[i] = Four{frame.others[i][0], frame.others[i][1], from, to};
+        frame.left &= alongOther(frame, i);
+      }
     }
   }
 
