@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -24,20 +25,20 @@ inline int bitCount(std::uint64_t cells) {
 /// The first cell of a set that is not empty.
 inline unsigned firstCell(std::uint64_t cells) { return static_cast<unsigned>(__builtin_ctzll(cells)); }
 
-/// By axis, first and last: the cells between two positions along the axis; none if the first is after the last.
+/// By axis, first and end: the cells from one position along the axis to before another, each 0 .. 4.
 struct CellRanges {
-  std::array<std::array<std::array<std::uint64_t, 4>, 4>, 3> sets{};
+  std::array<std::array<std::array<std::uint64_t, 5>, 5>, 3> sets{};
 
   constexpr CellRanges() {
     for (int axis = 0; axis < 3; ++axis) {
-      for (int first = 0; first < 4; ++first) {
-        for (int last = 0; last < 4; ++last) {
+      for (int first = 0; first < 5; ++first) {
+        for (int end = 0; end < 5; ++end) {
           std::uint64_t set = 0;
           for (unsigned cell = 0; cell < 64; ++cell) {
             const std::int32_t at = cellAlong(cell, axis);
-            if (first <= at && at <= last) set |= std::uint64_t{1} << cell;
+            if (first <= at && at < end) set |= std::uint64_t{1} << cell;
           }
-          sets[static_cast<std::size_t>(axis)][static_cast<std::size_t>(first)][static_cast<std::size_t>(last)] = set;
+          sets[static_cast<std::size_t>(axis)][static_cast<std::size_t>(first)][static_cast<std::size_t>(end)] = set;
         }
       }
     }
@@ -47,9 +48,10 @@ inline constexpr CellRanges kCellRanges;
 
 /// The cells of a brick that have a part of min .. max on an axis, in cells from the brick's corner.
 inline std::uint64_t cellsBetween(int axis, double min, double max) {
-  if (!(max >= 0.0 && min <= 4.0)) return 0;
-  const auto number = [](double at) { return static_cast<std::size_t>(at > 0.0 ? (at < 3.0 ? at : 3.0) : 0.0); };
-  return kCellRanges.sets[static_cast<std::size_t>(axis)][number(min)][number(max)];
+  const auto number = [](double at) {
+    return static_cast<std::size_t>(static_cast<int>(std::min(4.0, std::max(0.0, at))));
+  };
+  return kCellRanges.sets[static_cast<std::size_t>(axis)][number(min)][number(max + 1.0)];
 }
 
 }  // namespace hgrid

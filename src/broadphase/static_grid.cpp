@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "broadphase/brick.h"
+#include "broadphase/static_grid_bricks.h"
 #include "hgrid_proximity/refusal.h"
 
 namespace hgrid {
@@ -134,39 +135,6 @@ std::size_t StaticGrid::bytes() const {
              level.blocks.capacity();
   }
   return bytes;
-}
-
-std::uint64_t StaticGrid::fullOf(const Brick& brick) const {
-  const BrickLevel& level = levels_[static_cast<std::size_t>(brick.level)];
-  return brick.level == 0 ? level.cells[brick.number] : level.full[brick.number];
-}
-
-StaticGrid::Brick StaticGrid::below(const Brick& brick, unsigned cell) const {
-  const BrickLevel& level = levels_[static_cast<std::size_t>(brick.level)];
-  const std::uint64_t with_brick = level.cells[brick.number] & ~level.full[brick.number];
-  const auto before = static_cast<std::uint32_t>(bitCount(with_brick & ((std::uint64_t{1} << cell) - 1)));
-  Brick result{brick.level - 1, level.first_below[brick.number] + before, brick.corner};
-  for (int axis = 0; axis < 3; ++axis)
-    result.corner[static_cast<std::size_t>(axis)] += cellAlong(cell, axis) << 2 * brick.level;
-  return result;
-}
-
-Voxel StaticGrid::voxelAt(const Brick& brick, unsigned cell) const {
-  if (is_whole_) return {0, 0, 0, Voxel::kLevels};
-  const bool is_block = levels_[static_cast<std::size_t>(brick.level)].blocks[brick.number] >> cell / 8 & 1u;
-  if (is_block) cell &= ~7u;
-  const auto key = [&](int axis) {
-    return static_cast<std::uint16_t>(brick.corner[static_cast<std::size_t>(axis)] + Voxel::kOriginKey +
-                                      (cellAlong(cell, axis) << 2 * brick.level));
-  };
-  return {key(0), key(1), key(2), static_cast<std::uint8_t>(2 * brick.level + (is_block ? 1 : 0))};
-}
-
-/// The cells of the voxel that this one is of.
-std::uint64_t StaticGrid::restOfVoxel(const Brick& brick, unsigned cell) const {
-  if (is_whole_) return ~std::uint64_t{0};
-  const bool is_block = levels_[static_cast<std::size_t>(brick.level)].blocks[brick.number] >> cell / 8 & 1u;
-  return is_block ? std::uint64_t{0xff} << (cell & ~7u) : std::uint64_t{1} << cell;
 }
 
 }  // namespace hgrid

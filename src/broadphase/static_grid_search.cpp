@@ -7,20 +7,14 @@
 #include <limits>
 
 #include "broadphase/brick.h"
+#include "broadphase/static_grid_bricks.h"
+#include "broadphase/static_grid_line.h"
 #include "hgrid_proximity/broadphase/static_grid.h"
 
 namespace hgrid {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-Aabb keysOf(const Voxel& voxel) {
-  const auto along = static_cast<float>(keysAlong(voxel));
-  constexpr int kOrigin = Voxel::kOriginKey;
-  const Eigen::Vector3i key(voxel.x - kOrigin, voxel.y - kOrigin, voxel.z - kOrigin);
-  const Eigen::Vector3f min = key.cast<float>();  // exact, as all keys are
-  return {min, min + Eigen::Vector3f::Constant(along)};
-}
 
 }  // namespace
 
@@ -103,75 +97,7 @@ class StaticGrid::Search {
     }
   }
 
-  /// A segment in keys.
-  struct Line {
-    Segment segment;
-    Eigen::Vector3d way;
-    int main;        // the axis along which it is longest
-    double per_way;  // one over its length along that; 0 if it has none
-    double around;   // its radius and what may have been rounded
-  };
-  Line lineOf(const Segment& segment) const {
-    Line line;
-    line.segment = {keysAt(segment.from), keysAt(segment.to), keys(segment.radius)};
-    line.way = line.segment.to - line.segment.from;
-    const double longest = line.way.cwiseAbs().maxCoeff(&line.main);
-    line.per_way = longest > 1e-100 ? 1.0 / line.way[line.main] : 0.0;
-    const double farthest = std::max(line.segment.from.cwiseAbs().maxCoeff(), line.segment.to.cwiseAbs().maxCoeff());
-    line.around = line.segment.radius + 1e-9 + 1e-12 * (farthest + line.segment.radius);
-    return line;
-  }
-
-  /// Slice by slice of cells across the line's main axis, as it passes them: of each slice the cells that the line
-  /// passes there. What begins after `first` is left out.
-  void along(const Brick& brick, const Line& line, VoxelTouch& first) const {
-    const double edge = static_cast<double>(std::int64_t{1} << 2 * brick.level), per_edge = 1.0 / edge;
-    const auto corner = [&](int axis) { return static_cast<double>(brick.corner[static_cast<std::size_t>(axis)]); };
-    const int main = line.main, second = (main + 1) % 3, third = (main + 2) % 3;
-    const std::uint64_t cells = grid_.cellsOf(brick), full = grid_.fullOf(brick);
-    const double from = line.segment.from[main];
-    for (int i = 0; i < 4; ++i) {
-      const int slice = line.per_way < 0.0 ? 3 - i : i;
-      std::uint64_t passed = cells & kCellRanges.sets[static_cast<std::size_t>(main)][static_cast<std::size_t>(slice)]
-                                                     [static_cast<std::size_t>(slice)];
-      if (passed == 0) continue;
-      const double low = corner(main) + slice * edge - line.around, high = low + edge + 2.0 * line.around;
-      double enter = 0.0, leave = std::min(1.0, first.along);  // shares of the line
-      if (line.per_way != 0.0) {
-        const double a = (low - from) * line.per_way, b = (high - from) * line.per_way;
-        enter = std::max(enter, std::min(a, b));
-        leave = std::min(leave, std::max(a, b));
-      } else if (from < low || from > high) {
-        continue;
-      }
-      if (enter > leave) continue;
-      for (const int axis : {second, third}) {
-        const double a = line.segment.from[axis] + enter * line.way[axis];
-        const double b = line.segment.from[axis] + leave * line.way[axis];
-        passed &= cellsBetween(axis, (std::min(a, b) - line.around - corner(axis)) * per_edge,
-                               (std::max(a, b) + line.around - corner(axis)) * per_edge);
-      }
-      while (passed != 0) {
-        const unsigned cell = firstCell(passed);
-        if (full >> cell & 1u) {
-          passed &= ~grid_.restOfVoxel(brick, cell);
-          touch(line, grid_.voxelAt(brick, cell), first);
-        } else {
-          passed &= passed - 1;
-          along(grid_.below(brick, cell), line, first);
-        }
-      }
-    }
-  }
-
  private:
-  static void touch(const Line& line, const Voxel& voxel, VoxelTouch& first) {
-    const auto along = firstTouch(line.segment, keysOf(voxel));
-    if (!along) return;
-    const double length = line.way.norm(), share = length > 0.0 ? *along / length : 0.0;
-    if (share < first.along) first = {voxel, share};
-  }
-
   static std::uint64_t cellsWithin(const Brick& brick, const Range& range) {
     const double per_key = 1.0 / static_cast<double>(std::int64_t{1} << 2 * brick.level);
     std::uint64_t cells = ~std::uint64_t{0};
@@ -270,9 +196,8 @@ bool StaticGrid::touches(const Sphere& sphere) const {
 
 std::optional<VoxelTouch> StaticGrid::firstAlong(const Segment& segment) const {
   const Search search(*this);
-  VoxelTouch first;
-  first.along = kInfinity;
-  search.along(start_, search.lineOf(segment), first);
+  LineSearch line(*this, {search.keysAt(segment.from), search.keysAt(segment.to), search.keys(segment.radius)});
+  VoxelTouch first = line.first();
   if (std::isinf(first.along)) return std::nullopt;
   first.along *= (segment.to - segment.from).norm();
   return first;

@@ -270,6 +270,45 @@ TEST_P(StaticGridOracle, FindsWhatASegmentTouchesFirst) {
   }
 }
 
+/// Ends of segments where rounding is hardest: on planes, edges and corners of cells, far off, next to each other.
+Segment hardSegment(const Map& map, Random& random) {
+  Segment segment{somewhere(map, random), somewhere(map, random), 0.0};
+  const int kind = random.below(8);
+  if (kind == 0) segment.to = segment.from + std::ldexp(map.edge, random.below(12)) * Eigen::Vector3d::Ones();
+  if (kind == 1) segment.from -= 1e4 * (segment.to - segment.from);
+  if (kind == 2) segment.to = segment.from + 1e-13 * (segment.to - segment.from);
+  if (kind <= 4) segment.to[random.below(3)] = segment.from[random.below(3)];
+  if (kind == 5) segment.to[0] = segment.from[0], segment.to[2] = segment.from[2];
+  if (random.chance(0.5)) std::swap(segment.from, segment.to);
+  if (random.chance(0.2)) segment.radius = length(map, random);
+  return segment;
+}
+
+TEST_P(StaticGridOracle, LeavesNoVoxelOutAlongASegment) {
+  const int count = std::max(100, countFromEnvironment("HGRID_TEST_WORLDS", 10000) / 10);
+  std::vector<Aabb> boxes;  // in keys
+  for (const Voxel& voxel : map_.voxels) {
+    const auto key = [](std::uint16_t at) { return static_cast<float>(at - Voxel::kOriginKey); };
+    const Eigen::Vector3f min(key(voxel.x), key(voxel.y), key(voxel.z));
+    boxes.push_back({min, min + Eigen::Vector3f::Constant(static_cast<float>(keysAlong(voxel)))});
+  }
+  for (int i = 0; i < count; ++i) {
+    const Segment segment = hardSegment(map_, random_);
+    const Segment in_keys{segment.from / map_.edge, segment.to / map_.edge, segment.radius / map_.edge};
+    const double length = (in_keys.to - in_keys.from).norm();
+    std::optional<double> share;
+    for (const Aabb& box : boxes) {
+      const auto along = firstTouch(in_keys, box);
+      if (along) share = std::min(share.value_or(1e9), length > 0.0 ? *along / length : 0.0);
+    }
+    const auto found = grid_.firstAlong(segment);
+    ASSERT_EQ(found.has_value(), share.has_value()) << "question " << i;
+    if (found) {
+      ASSERT_EQ(found->along, *share * (segment.to - segment.from).norm()) << "question " << i;
+    }
+  }
+}
+
 TEST(StaticGrid, RefusesVoxelsThatAreNotAsSaid) {
   const auto expectRefusal = [](Code code, const std::string& words, double edge, const std::vector<Voxel>& voxels) {
     std::string sentence;

@@ -16,7 +16,8 @@ QUERIES = "broadphase/queries.cpp"
 SCENE = "scene/scene.cpp"
 COMMIT = "scene/commit.cpp"
 EVENTS = "scene/pair_events.cpp"
-STATIC = "broadphase/static_grid.cpp"
+BRICKS = "broadphase/static_grid_bricks.h"
+LINE = "broadphase/static_grid_line.h"
 MAPS = "scene/map_pairs.cpp"
 
 MUTANTS = [
@@ -122,11 +123,15 @@ MUTANTS = [
      "(as_first_[i] & as_second_[j]) | (as_second_[i] & as_first_[j])", "as_first_[i] & as_second_[j]"),
     ("a new numbering leaves the pairs unsorted", "scene/pair_tracker.cpp",
      "{std::min(a, b), std::max(a, b), pair.since}", "{a, b, pair.since}"),
-    ("every brick of a map is taken for the first below its parent", STATIC,
+    ("every brick of a map is taken for the first below its parent", BRICKS,
      "level.first_below[brick.number] + before", "level.first_below[brick.number]"),
-    ("a search along a segment has no room for rounding", "broadphase/static_grid_search.cpp",
-     "line.around = line.segment.radius + 1e-9 + 1e-12 * (farthest + line.segment.radius);",
-     "line.around = line.segment.radius;"),
+    ("a search along a segment takes every brick for the first below its parent", LINE,
+     "static_cast<std::uint32_t>(bitCount(before))", "0u * static_cast<std::uint32_t>(bitCount(before))"),
+    ("a search along a segment has no room for rounding", LINE, "kRoom = 1.0f / (1 << 18)", "kRoom = 0.0f"),
+    ("a search along a segment takes a capsule for a line", LINE, "around_ = segment.radius + ", "around_ = "),
+    ("a search along a segment ends with what it finds first", LINE, "frame.left &= alongMain(frame);",
+     "frame.left = 0;"),
+    ("a segment's slices are entered where a rising one enters them", LINE, "slices + std::min(slope, 0.0f)", "slices"),
     ("a gap to a map is remembered though the map moved", MAPS,
      "map.cells == cells && map.world_from_map.matrix() == pose.matrix()", "map.cells == cells"),
     ("a gap to a map is remembered though the body moved", MAPS,

@@ -88,6 +88,7 @@ class StaticGrid {
   };
   class Builder;
   class Search;
+  class LineSearch;
 
   std::uint64_t cellsOf(const Brick& brick) const {
     return levels_[static_cast<std::size_t>(brick.level)].cells[brick.number];
