@@ -146,7 +146,14 @@ def maps(figures):
     doubt = 'In doubt by rounding, and not compared: %d of %d questions.' % (
         sum(record['in_doubt'] for record in asked),
         sum(record['in_doubt'] + record['compared'] for record in asked))
-    return '\n\n'.join(tables + [doubt])
+    return '\n\n'.join(tables + [doubt] + clouds(figures))
+
+
+def clouds(figures):
+    rows = [[count(record['points']), short(record['edge']), count(record['cells']), short(record['median_ms']),
+             short(record['p99_ms'])] for record in figures.all('cloud')]
+    head = ['cloud: points of a message', 'cells of m', 'cells held', 'median ms', 'p99 ms']
+    return [table(head, rows)] if rows else []
 
 
 def node(figures):
