@@ -19,6 +19,8 @@ EVENTS = "scene/pair_events.cpp"
 BRICKS = "broadphase/static_grid_bricks.h"
 LINE = "broadphase/static_grid_line.h"
 MAPS = "scene/map_pairs.cpp"
+UNMAPPED = "scene/snapshot_unmapped.cpp"
+CLOUD = "scene/cloud_cells.cpp"
 
 MUTANTS = [
     ("boxes of a level look around without its reach", KERNELS,
@@ -136,6 +138,16 @@ MUTANTS = [
      "map.cells == cells && map.world_from_map.matrix() == pose.matrix()", "map.cells == cells"),
     ("a gap to a map is remembered though the body moved", MAPS,
      "known.up_to < up_to || known.box != box", "known.up_to < up_to"),
+    ("a map's own moves are not swept", MAPS,
+     "boxInMap(map.map_from_world_before, from", "boxInMap(map.map_from_world, from"),
+    ("what lies beyond a map counts as known", UNMAPPED,
+     "return contains(space.extent, ball) && !", "return !"),
+    ("a stale map knows as much as a fresh one", UNMAPPED,
+     "sphere.radius + map.growth + touchSlack(sphere", "sphere.radius + touchSlack(sphere"),
+    ("what a sensor sees again goes as if it had not", CLOUD,
+     "newest = std::max(newest, (known++)->stamp);", "newest = (known++)->stamp;"),
+    ("just below zero lies in the cell above", CLOUD,
+     "whole - (cells < static_cast<double>(whole) ? 1 : 0)", "whole"),
     ("the box around a turned box is too small", "scene/map_gap.cpp",
      "map_from_world.linear().cwiseAbs()", "map_from_world.linear()"),
 ]
