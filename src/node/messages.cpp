@@ -115,6 +115,21 @@ msg::WorldState worldState(const Tick& tick, const Params& params, std::uint64_t
   return world;
 }
 
+/// The cells of a map, as one shape.
+msg::Shape shapeOf(const StaticGrid& grid) {
+  msg::Shape shape;
+  shape.kind = msg::Shape::CELLS;
+  shape.dimensions = {grid.finestEdge(), 0.0, 0.0, 0.0};
+  shape.pose.orientation.w = 1.0;
+  shape.scale.x = shape.scale.y = shape.scale.z = 1.0;
+  shape.vertex_count = static_cast<std::uint32_t>(grid.size());
+  if (grid.size() == 0) return shape;
+  const Eigen::Vector3d sizes = grid.bounds().sizes();
+  for (int axis = 0; axis < 3; ++axis) shape.dimensions[static_cast<std::size_t>(axis) + 1] = sizes[axis];
+  shape.pose.position = toPoint(grid.bounds().center());
+  return shape;
+}
+
 msg::Bodies bodies(const Tick& tick) {
   msg::Bodies message;
   message.header = headerOf(tick);
@@ -126,6 +141,8 @@ msg::Bodies bodies(const Tick& tick) {
   message.origin = toPoint(tick.snapshot->origin());
   for (std::size_t i = 0; i < structure.bodies.size(); ++i) {
     message.bodies.push_back(toMsg(structure.bodies[i], structure.margin[i]));
+    const auto cells = tick.snapshot->cellsOf(static_cast<std::uint32_t>(i));
+    if (cells) message.bodies.back().shapes.push_back(shapeOf(*cells->grid));
   }
   return message;
 }
@@ -170,9 +187,19 @@ msg::Status status(const Tick& tick, const msg::WorldState& world, const Params&
     message.counters.back().name = counter.first;
     message.counters.back().value = counter.second;
   }
-  message.gauges.resize(1);
-  message.gauges.front().name = "tf.frames";
-  message.gauges.front().value = static_cast<double>(tick.frames);
+  const auto gauge = [&](const std::string& name, double value) {
+    message.gauges.emplace_back();
+    message.gauges.back().name = name;
+    message.gauges.back().value = value;
+  };
+  if (tick.snapshot) {
+    const Structure& structure = tick.snapshot->structure();
+    for (const std::uint32_t map : structure.maps) {  // in the order of their names
+      const auto cells = tick.snapshot->cellsOf(map);
+      gauge("cells." + structure.bodies[map].name, cells ? static_cast<double>(cells->grid->size()) : 0.0);
+    }
+  }
+  gauge("tf.frames", static_cast<double>(tick.frames));
   for (const auto& part : stopwatch.summaries()) {
     msg::Timing timing;
     timing.name = part.first;

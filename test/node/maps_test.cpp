@@ -96,6 +96,16 @@ TEST_F(Maps, MakePairsAnswersAndDistances) {
   node_->waitForPairs("the ball over the map", [](const msg::Pairs& pairs) {
     return pairs.names == Names({"map/room", "robot/a"}) && std::abs(pairs.gap.at(0) - 0.1) < 1e-6;
   });
+  const auto bodies = node_->waitForBodies("the map", [](const msg::Bodies& now) {
+    return now.bodies.front().name == "map/room" && now.bodies.front().shapes.size() == 1;
+  });
+  const msg::Shape& shape = bodies->bodies.front().shapes[0];
+  EXPECT_EQ(shape.kind, msg::Shape::CELLS);
+  EXPECT_EQ(shape.dimensions, std::vector<double>({0.1, 0.1, 0.1, 0.1}));
+  EXPECT_EQ(shape.vertex_count, 1u);
+  EXPECT_NEAR(shape.pose.position.z, 0.05, 1e-12);
+  EXPECT_EQ(node_->heard().status.back()->gauges.front().name, "cells.map/room");
+  EXPECT_EQ(node_->heard().status.back()->gauges.front().value, 1.0);
   const auto distances = ros::topic::waitForMessage<msg::Distances>(node_->named("distances"), ros::Duration(20.0));
   ASSERT_TRUE(distances);
   ASSERT_EQ(distances->distance.size(), 1u);
@@ -275,10 +285,11 @@ TEST_F(Maps, OneThousandReplacementsLeaveNothingBehind) {
   EXPECT_EQ(metAt(0.05), Names({"map/room"}));
 }
 
-/// A message as octomap_server sends it.
-std::string messageOf(const std::string& frame, const std::string& nodes, const std::string& id = "OcTree") {
-  return bytesOf(std::uint32_t{7}) + bytesOf(std::uint64_t{0}) + stringOf(frame) + std::string(1, '\1') + stringOf(id) +
-         bytesOf(0.1) + stringOf(nodes);
+/// A message as octomap_server sends it on octomap_binary, or on octomap_full.
+std::string messageOf(const std::string& frame, const std::string& nodes, const std::string& id = "OcTree",
+                      bool binary = true) {
+  return bytesOf(std::uint32_t{7}) + bytesOf(std::uint64_t{0}) + stringOf(frame) +
+         std::string(1, binary ? '\1' : '\0') + stringOf(id) + bytesOf(0.1) + stringOf(nodes);
 }
 std::string nodesOfRow(int count) {
   const std::string file = rowOf(count), mark = "data\n";
@@ -317,6 +328,22 @@ TEST_F(MapTopics, ComeWithTheTypeNameOfOctomapServerAndFollowTheirFrame) {
   EXPECT_EQ(metAt(1.05), Names());
   send(messageOf("odom", nodesOfRow(5)));
   node_->waitUntil("the longer row", [&](const Heard&) { return !metAt(2.45).empty(); });
+}
+
+TEST_F(MapTopics, MayHaveProbabilitiesAndColours) {
+  const std::string colour("\x10\x20\x30", 3);
+  const auto octants = [&](float log_odds, const std::string& between) {  // a root, whose last octant is a leaf
+    return otNode(0.0f, 0).substr(0, 4) + between + '\x80' + otNode(log_odds, 0).substr(0, 4) + between + '\0';
+  };
+  send(messageOf("", octants(2.0f, ""), "OcTree", false));
+  node_->waitForComplete();
+  EXPECT_EQ(node_->sphere(5, 5, 5, 0.1).answer.verdict, Answer::HIT);
+  send(messageOf("", octants(-2.0f, ""), "OcTree", false));
+  node_->waitUntil("it is free",
+                   [&](const Heard&) { return node_->sphere(5, 5, 5, 0.1).answer.verdict == Answer::CLEAR; });
+  send(messageOf("", octants(2.0f, colour), "ColorOcTree", false));
+  node_->waitUntil("it is occupied",
+                   [&](const Heard&) { return node_->sphere(5, 5, 5, 0.1).answer.verdict == Answer::HIT; });
 }
 
 TEST_F(MapTopics, StayWhereTheyAreWhenTheirFrameIsLostOrTheNextOneIsUnknown) {
