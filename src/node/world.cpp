@@ -147,6 +147,7 @@ void World::warnOfIdlePatterns(ModelReport& report) const {
   for (const PatternValue& value : params_.margins) check("~margins", value.pattern);
   for (const PatternValue& value : params_.padding) check("~padding", value.pattern);
   for (const PatternValue& value : params_.max_speed) check("~max_speed", value.pattern);
+  for (const PatternValue& value : params_.map_self_filter) check("~map/self_filter", value.pattern);
   for (const Waiver& waiver : params_.accept_uncovered) check("~accept_uncovered", waiver.pattern);
   for (const PairMargin& pair : params_.pair_margins) {
     check("~pair_margins", pair.first);
