@@ -84,5 +84,6 @@ function(hgrid_core_options target root)
     set(kernels "${root}/src/broadphase/kernels/kernels_${isa}.cpp")
     target_sources(${target} PRIVATE "${kernels}")
     set_property(SOURCE "${kernels}" PROPERTY COMPILE_OPTIONS -O2 -ftree-vectorize ${HGRID_KERNEL_FLAGS_${isa}})
+    set_property(SOURCE "${kernels}" PROPERTY SKIP_PRECOMPILE_HEADERS ON)  # made for other flags
   endforeach()
 endfunction()

@@ -133,12 +133,12 @@ start_cell() {
 # What the cell and the node said before the first of them gave up.
 show_logs() { sed '/Initiating shutdown/q' "$scratch/launch.log" | tail -n 30 >&2; }
 
-# Every process that still runs: those started here, and of a session also those that lost their parent, by the log
-# folder in their environment.
+# Every process that still runs: those started here, as long as one of their group does, and of a session also those
+# that lost their parent, by the log folder in their environment.
 still_running() {
   local pid
   for pid in "${started[@]}"; do
-    ! kill -0 "$pid" 2>/dev/null || printf '%s\n' "$pid"
+    ! kill -0 -- "-$pid" 2>/dev/null || printf '%s\n' "$pid"
   done
   if [[ ${ROS_LOG_DIR:-} == "$scratch"/* ]]; then
     env -u ROS_LOG_DIR grep -lsxzF "ROS_LOG_DIR=$ROS_LOG_DIR" /proc/[0-9]*/environ | cut -d/ -f3 || true
@@ -160,7 +160,9 @@ end() {
   for pid in "${started[@]}"; do kill -INT -- "-$pid" 2>/dev/null || true; done
   for signal in TERM KILL; do
     if gone_within 8; then break; fi
-    for pid in $(still_running); do kill -"$signal" "$pid" 2>/dev/null || true; done
+    for pid in $(still_running); do
+      kill -"$signal" -- "-$pid" 2>/dev/null || kill -"$signal" "$pid" 2>/dev/null || true
+    done
   done
   wait 2>/dev/null || true
   rm -rf -- "$scratch"
