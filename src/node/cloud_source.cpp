@@ -16,6 +16,7 @@ namespace {
 
 constexpr auto kLookAgain = std::chrono::milliseconds(2);  // for a transform that is on its way
 
+Time steadyNow() { return std::chrono::steady_clock::now().time_since_epoch(); }
 Time rosNow() { return Time(static_cast<std::int64_t>(ros::Time::now().toNSec())); }
 Time durationOf(double length) { return Time(std::llround(1e9 * length)); }
 
@@ -27,6 +28,8 @@ CloudSource::CloudSource(const ros::NodeHandle& node, const CloudParams& cloud, 
                          Ledger& ledger)
     : cloud_(cloud),
       what_("cloud '" + cloud.name + "' of " + cloud.topic),
+      counter_("cloud/" + cloud.name + "."),
+      simulated_(ros::Time::isSimTime()),
       params_(params),
       own_(own),
       buffer_(buffer),
@@ -59,7 +62,7 @@ void CloudSource::onMessage(const CloudMessage& message) {
   Refusal refused(Code::ok, "");
   try {
     take(message);
-    ledger_.count("clouds.accepted");
+    ledger_.count(counter_ + "accepted");
     return;
   } catch (const Refusal& refusal) {
     refused = refusal;
@@ -68,7 +71,7 @@ void CloudSource::onMessage(const CloudMessage& message) {
   } catch (const std::exception& error) {
     refused = Refusal(Code::internal, what_ + ": " + error.what());
   }
-  ledger_.refuse("clouds.refused", refused);
+  ledger_.refuse(counter_ + "refused", refused);
   sink_.miss(std::string(name(refused.code())) + " " + refused.what());
 }
 
@@ -91,12 +94,21 @@ void CloudSource::take(const CloudMessage& message) {
                                    " in the future; at most ~max_future, " + secondsText(params_.max_future) +
                                    ", is allowed");
   }
-  cells_.see(voxelsOf(message, tick->world_frame, stamp), stamp);
-  cells_.forget(rosNow());
+  const std::vector<Voxel> voxels = voxelsOf(message, tick->world_frame, stamp);
+  const Time latency = std::max(Time{0}, now - stamp);
+  try {
+    cells_.see(voxels, simulated_ ? stamp : Time(loaded_.received.time_since_epoch()) - latency);
+  } catch (const Refusal& refusal) {
+    throw Refusal(refusal.code(), what_ + ": " + refusal.what() + " by ~map/max_leaves");
+  }
+  cells_.forget(cellTime());
   loaded_.stamp = stamp;
-  loaded_.latency = std::max(0.0, seconds(now - stamp));
+  loaded_.latency = seconds(latency);
   put();
 }
+
+/// The clock that cells grow old by: /clock, or else the steady clock, so that setting the wall clock ages nothing.
+Time CloudSource::cellTime() const { return simulated_ ? rosNow() : steadyNow(); }
 
 /// Waits until tf knows where the sensor and the robot's own shapes were at the stamp, or it takes too long.
 void CloudSource::waitFor(const std::string& world_frame, const std::string& frame, Time stamp) const {
@@ -119,11 +131,13 @@ std::vector<Voxel> CloudSource::voxelsOf(const CloudMessage& message, const std:
   const std::string frame = message.frame.empty() ? world_frame : withoutSlash(message.frame);
   PointCloud cloud = readPointCloud(message.format, message.data, what_);
   waitFor(world_frame, frame, stamp);
-  const auto world_from_sensor = poseAt(buffer_, world_frame, frame, stamp);
+  std::string why;
+  const auto world_from_sensor = poseAt(buffer_, world_frame, frame, stamp, &why);
   if (!world_from_sensor) {
-    throw Refusal(
-        poseAt(buffer_, world_frame, frame, Time(0)) ? Code::extrapolation : Code::unknown_frame,
-        what_ + ": where its frame '" + printable(frame) + "' was in '" + world_frame + "' at its stamp is not known");
+    throw Refusal(poseAt(buffer_, world_frame, frame, Time(0)) ? Code::extrapolation : Code::unknown_frame,
+                  what_ + ": where its frame '" + printable(frame) + "' was in '" + world_frame + "' at its stamp, " +
+                      text(seconds(stamp)) + " s, is not known after ~max_sync_wait, " +
+                      secondsText(params_.max_sync_wait) + ": " + printable(why, 300));
   }
   checkWithin(world_from_sensor->translation(), params_.world_limit, what_ + ": the pose of its sensor");
   for (Eigen::Vector3d& point : cloud.points) point = *world_from_sensor * point;
@@ -131,25 +145,25 @@ std::vector<Voxel> CloudSource::voxelsOf(const CloudMessage& message, const std:
   std::size_t out_of_reach = 0;
   const std::size_t forgotten = cells_.follow(sensor);
   std::vector<Voxel> voxels = cells_.cellsOf(cloud.points, sensor, out_of_reach);
-  ledger_.count("clouds.points", cloud.points.size());
-  if (cloud.not_finite > 0) ledger_.count("clouds.points_not_finite", cloud.not_finite);
-  if (out_of_reach > 0) ledger_.count("clouds.points_out_of_reach", out_of_reach);
-  if (forgotten > 0) ledger_.count("clouds.cells_out_of_reach", forgotten);
+  ledger_.count(counter_ + "points", cloud.points.size());
+  if (cloud.not_finite > 0) ledger_.count(counter_ + "points_not_finite", cloud.not_finite);
+  if (out_of_reach > 0) ledger_.count(counter_ + "points_out_of_reach", out_of_reach);
+  if (forgotten > 0) ledger_.count(counter_ + "cells_out_of_reach", forgotten);
   if (!own_.wanted()) return voxels;
   const Pose world_from_keys(Eigen::Translation3d(cells_.corner()));
   OthersCells others = withoutSelf(voxels, cells_.edge(), world_from_keys, own_.at(stamp), *narrow_phase_);
-  if (others.left_out > 0) ledger_.count("clouds.own_cells", others.left_out);
-  if (others.undecided > 0) ledger_.count("clouds.cells_undecided", others.undecided);
+  if (others.left_out > 0) ledger_.count(counter_ + "own_cells", others.left_out);
+  if (others.undecided > 0) ledger_.count(counter_ + "cells_undecided", others.undecided);
   return std::move(others.voxels);
 }
 
 /// What is seen no more goes when its time is over, also if no message comes.
 void CloudSource::onTimer() {
-  if (!loaded_.cells || cells_.forget(rosNow()) == 0) return;
+  if (!loaded_.cells || cells_.forget(cellTime()) == 0) return;
   try {
     put();
   } catch (const std::exception& error) {
-    ledger_.refuse("clouds.refused", Refusal(Code::internal, what_ + ": " + error.what()));
+    ledger_.refuse(counter_ + "refused", Refusal(Code::internal, what_ + ": " + error.what()));
   }
 }
 

@@ -44,9 +44,12 @@ class CloudSource {
   void waitFor(const std::string& world_frame, const std::string& frame, Time stamp) const;
   std::vector<Voxel> voxelsOf(const CloudMessage& message, const std::string& world_frame, Time stamp);
   void put();
+  Time cellTime() const;
 
   CloudParams cloud_;
-  std::string what_;  // in refusals
+  std::string what_;     // in refusals
+  std::string counter_;  // what the names of its counters begin with
+  bool simulated_;       // /clock drives ROS time
   const Params& params_;
   const OwnShapes& own_;
   const tf2::BufferCore& buffer_;

@@ -8,8 +8,8 @@
 
 namespace hgrid {
 
-MapServices::MapServices(ros::NodeHandle& node, const MapSource& source, AdminAnswer answer)
-    : source_(source), answer_(std::move(answer)) {
+MapServices::MapServices(ros::NodeHandle& node, const MapSource& source, AdminAnswer answer, Decided decided)
+    : source_(source), answer_(std::move(answer)), decided_(std::move(decided)) {
   servers_.push_back(node.advertiseService("load_octomap", &MapServices::onLoad, this));
   servers_.push_back(node.advertiseService("clear_map", &MapServices::onClear, this));
 }
@@ -28,6 +28,7 @@ bool MapServices::onLoad(msg::LoadOctomap::Request& request, msg::LoadOctomap::R
         {p.x, p.y, p.z}, unset ? Eigen::Vector4d(0, 0, 0, 1) : Eigen::Vector4d(q.x, q.y, q.z, q.w), "the map's pose");
     const LoadedMap loaded = source_.finished(source_.read(map));
     tick = answer_.do_in_tick([loaded](World& world) { world.setMap(loaded); });
+    decided_(request.map);
     response.occupied_leaves = loaded.cells->grid->size();
     response.resolution = loaded.cells->grid->finestEdge();
     response.duration = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -37,6 +38,7 @@ bool MapServices::onLoad(msg::LoadOctomap::Request& request, msg::LoadOctomap::R
 bool MapServices::onClear(msg::ClearMap::Request& request, msg::ClearMap::Response& response) {
   return answer_("clear_map", response, [&](std::shared_ptr<const Tick>& tick) {
     tick = answer_.do_in_tick([map = request.map](World& world) { world.clearMap(map); });
+    decided_(request.map);
   });
 }
 

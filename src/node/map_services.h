@@ -6,6 +6,8 @@
 #include <hgrid_proximity/LoadOctomap.h>
 #include <ros/node_handle.h>
 
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "admin_answer.h"
@@ -17,7 +19,10 @@ namespace hgrid {
 /// one; a tick only takes it over.
 class MapServices {
  public:
-  MapServices(ros::NodeHandle& node, const MapSource& source, AdminAnswer answer);
+  /// Told of a map that was loaded or taken away; an empty name is all: nothing older may take its place.
+  using Decided = std::function<void(const std::string& map)>;
+
+  MapServices(ros::NodeHandle& node, const MapSource& source, AdminAnswer answer, Decided decided);
 
  private:
   bool onLoad(msg::LoadOctomap::Request& request, msg::LoadOctomap::Response& response);
@@ -25,6 +30,7 @@ class MapServices {
 
   const MapSource& source_;
   AdminAnswer answer_;
+  Decided decided_;
   std::vector<ros::ServiceServer> servers_;
 };
 

@@ -12,12 +12,13 @@
 namespace hgrid {
 
 std::optional<Pose> poseAt(const tf2::BufferCore& buffer, const std::string& target, const std::string& frame,
-                           Time stamp) {
+                           Time stamp, std::string* why_not) {
   if (frame == target) return Pose::Identity();
   try {
     const ros::Time time = ros::Time().fromNSec(static_cast<std::uint64_t>(stamp.count()));
     return toFramePose(buffer.lookupTransform(target, frame, time).transform).pose();
-  } catch (const tf2::TransformException&) {
+  } catch (const tf2::TransformException& error) {
+    if (why_not != nullptr) *why_not = error.what();
     return std::nullopt;
   }
 }
@@ -51,7 +52,9 @@ void OwnShapes::require() const {
 
 std::vector<std::string> OwnShapes::frames() const {
   std::vector<std::string> frames;
-  forEach([&](const Tick&, const Body& body, const BodyPose&, double) { frames.push_back(body.frame); });
+  forEach([&](const Tick&, const Body& body, const BodyPose& pose, double) {
+    if (pose.state < Freshness::lost) frames.push_back(body.frame);
+  });
   return frames;
 }
 

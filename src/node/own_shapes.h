@@ -20,7 +20,7 @@ struct Tick;
 
 /// The pose of a frame in another at a time (0: the newest), if tf knows it.
 std::optional<Pose> poseAt(const tf2::BufferCore& buffer, const std::string& target, const std::string& frame,
-                           Time stamp);
+                           Time stamp, std::string* why_not = nullptr);
 
 /// Where the shapes were that ~map/self_filter names: what sensors may have seen of the robot itself. Any thread.
 class OwnShapes {
@@ -33,7 +33,7 @@ class OwnShapes {
   bool wanted() const { return !params_.map_self_filter.empty(); }
   /// @throws Refusal not_ready if robots are not loaded, or a body in question never had a pose
   void require() const;
-  /// The tf frames of the bodies in question.
+  /// The tf frames of the bodies in question whose poses keep coming.
   std::vector<std::string> frames() const;
   /// The shapes at a time (0: the newest), padded; where tf does not know that, at the newest tick. What never had a
   /// pose is left out.

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "params.h"
 
+#include <ros/names.h>
+
 #include <algorithm>
 #include <iterator>
 #include <map>
@@ -100,8 +102,10 @@ void visit(Visitor& v, Params& p) {
   v.pairMargins("pair_margins", p.pair_margins, 0.0, 1000.0,
                 "list of {first, second, margin}: globs over body names; pairs that match have this margin instead, at "
                 "least ~margin; the last match counts");
-  v.values("padding", p.padding, "padding", "m", 0.0, 1000.0,
-           "list of {pattern, padding}: bodies whose shapes are grown on all sides; the last match counts");
+  v.values(
+      "padding", p.padding, "padding", "m", 0.0, 1000.0,
+      "list of {pattern, padding}: bodies whose shapes are grown on all sides; the last match counts; cells of maps "
+      "and clouds are not grown");
   v.number("event_hysteresis", p.event_hysteresis, "m", 0.0, 1000.0,
            "~events tells the end of a pair when its gap exceeds its margin by more than this");
 
@@ -192,7 +196,7 @@ class Reader {
   void unknownSpace(const char* name, UnknownSpace& value, const char*) {
     auto given = get(name);
     if (!given) return;
-    std::string word;
+    std::string word = kUnknownSpace[static_cast<std::size_t>(value)];
     given->string(word);
     const auto* const found = std::find(std::begin(kUnknownSpace), std::end(kUnknownSpace), word);
     if (found == std::end(kUnknownSpace)) {
@@ -289,6 +293,7 @@ class Reader {
       readString(element, "topic", map.topic, false);
       if (!map.file.empty() && !map.topic.empty()) element.error("must have a file or a topic, and not both");
       if (map.file.empty() && map.topic.empty()) map.topic = "octomap_binary";
+      if (map.file.empty()) checkTopic(element, map.topic);
       readString(element, "frame", map.frame, false);
       map.frame = withoutSlash(map.frame);
       if (auto pose = element.get("pose")) map.frame_from_map = readPose(*pose);
@@ -301,6 +306,7 @@ class Reader {
     forEach(name, "field of a cloud (name, topic, resolution, lifetime)", [&](ParamValue& element) {
       CloudParams cloud;
       readString(element, "topic", cloud.topic, false);
+      checkTopic(element, cloud.topic);
       if (auto given = element.get("resolution")) given->number(cloud.resolution, 0.001, 100.0, "m");
       if (auto given = element.get("lifetime")) given->number(cloud.lifetime, 0.01, 3600.0, "s");
       readLocal(element, cloud.name, names);
@@ -327,6 +333,13 @@ class Reader {
   }
   static void readString(ParamValue& element, const char* key, std::string& value, bool required) {
     if (auto given = required ? element.require(key) : element.get(key)) given->string(value);
+  }
+
+  static void checkTopic(const ParamValue& element, const std::string& topic) {
+    std::string flaw = "it must not be empty";
+    if (topic.empty() || !ros::names::validate(topic, flaw)) {
+      element.error("has the topic '" + printable(topic) + "': " + flaw);
+    }
   }
 
   /// A required name within a source, unlike those before it.
@@ -476,6 +489,11 @@ Params readParams(XmlRpc::XmlRpcValue values) {
   require(params.allowed_pairs.size() <= static_cast<std::size_t>(params.max_rules),
           "~allowed_pairs has " + std::to_string(params.allowed_pairs.size()) + " rules; at most ~max_rules, " +
               std::to_string(params.max_rules) + ", are allowed");
+  for (const PatternValue& padding : params.padding) {
+    require(padding.pattern.rfind("map/", 0) != 0 && padding.pattern.rfind("cloud/", 0) != 0,
+            "~padding has the pattern '" + printable(padding.pattern) +
+                "'; cells of maps and clouds cannot be grown, use ~margins or ~map/self_filter");
+  }
   if (params.distances_max == 0.0) params.distances_max = params.margin;
   params.world_frame = withoutSlash(params.world_frame);
   require(params.robots.size() < 2 || !params.world_frame.empty(),

@@ -107,7 +107,8 @@ ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node,
   const AdminAnswer answer{params_, config_hash_, [this] { return newest(); },
                            [this](const Job& job) { return tickAfter(job); }, ledger_};
   allowed_ = std::make_unique<AllowedServices>(admin_private_, answer);
-  maps_ = std::make_unique<MapServices>(admin_private_, map_source_, answer);
+  maps_ = std::make_unique<MapServices>(admin_private_, map_source_, answer,
+                                        [this](const std::string& map) { forgetPending(map); });
   servers_.push_back(admin_private_.advertiseService("reset", &ProximityNode::onReset, this));
   servers_.push_back(admin_private_.advertiseService("reload_robot", &ProximityNode::onReload, this));
   diagnostics_ = std::make_unique<NodeDiagnostics>(
@@ -311,6 +312,15 @@ void ProximityNode::onMap(const MapParams& map, const OctomapMessage& message) {
   const auto same = [&](const ReadMap& other) { return other.params.name == map.name; };
   arrived_maps_.erase(std::remove_if(arrived_maps_.begin(), arrived_maps_.end(), same), arrived_maps_.end());
   if (read && result.code() != Code::ok) arrived_maps_.push_back(std::move(*read));
+}
+
+/// Maps that were to be put into the world later are not, since somebody has decided what it has.
+void ProximityNode::forgetPending(const std::string& map) {
+  const auto chosen = [&](const MapParams& params) { return map.empty() || params.name == map; };
+  maps_to_load_.erase(std::remove_if(maps_to_load_.begin(), maps_to_load_.end(), chosen), maps_to_load_.end());
+  arrived_maps_.erase(std::remove_if(arrived_maps_.begin(), arrived_maps_.end(),
+                                     [&](const ReadMap& arrived) { return chosen(arrived.params); }),
+                      arrived_maps_.end());
 }
 
 void ProximityNode::addCloud(const CloudParams& cloud) {

@@ -59,6 +59,7 @@ class ProximityNode {
   Refusal loadRobot(const RobotParams& robot);
   Refusal putMap(const MapParams& map, const std::function<LoadedMap()>& load);
   void onMap(const MapParams& map, const OctomapMessage& message);
+  void forgetPending(const std::string& map);
   void addCloud(const CloudParams& cloud);
   void loadMissing();
   void runInTick(const Job& job);

@@ -127,8 +127,13 @@ void World::setRobot(LoadedRobot robot) {
   rebuildReport();
 }
 
-void World::setMissing(const std::string& robot, const std::string& sentence) {
-  if (robots_.count(robot) == 0 && maps_.count(robot) == 0 && clouds_.count(robot) == 0) missing_[robot] = sentence;
+void World::setMissing(const std::string& name, const std::string& sentence) {
+  const auto cloud = clouds_.find(name);
+  if (cloud != clouds_.end()) {
+    cloud->second.refused = sentence;
+  } else if (robots_.count(name) == 0 && maps_.count(name) == 0) {
+    missing_[name] = sentence;
+  }
 }
 
 /// A misspelt name in a parameter does nothing, and that would show nowhere.
@@ -138,8 +143,9 @@ void World::warnOfIdlePatterns(ModelReport& report) const {
     for (const Body& body : robot.second.bodies) names.push_back(body.name);
   }
   for (const ObstacleParams& obstacle : params_.obstacles) names.push_back(obstacle.body.name);
+  for (const CloudParams& cloud : params_.clouds) names.push_back(joined("cloud", cloud.name));
   const auto check = [&](const std::string& parameter, const std::string& pattern) {
-    if (pattern.rfind("map/", 0) == 0 || pattern.rfind("cloud/", 0) == 0) return;  // these come and go
+    if (pattern.rfind("map/", 0) == 0) return;  // these come and go
     const bool idle =
         std::none_of(names.begin(), names.end(), [&](const std::string& name) { return matches(pattern, name); });
     if (idle) report.warnings.push_back(parameter + ": '" + printable(pattern) + "' matches no body");

@@ -73,12 +73,12 @@ class World {
   /// Puts a map in the place of the one of the same name. @throws Refusal not_ready (no world frame yet), limit,
   /// unknown_frame (the old one is known where it is, the new one is not)
   void setMap(const LoadedMap& map);
-  /// Takes a map away; an empty name all of them. @throws Refusal unknown_id
+  /// Takes a map away, or waits for it no more; an empty name all of them. @throws Refusal unknown_id
   void clearMap(const std::string& name);
   /// Puts what a sensor has seen in the place of what it saw before. @throws Refusal limit
   void setCloud(const LoadedCloud& cloud);
-  /// Says why a robot has no model (yet). It keeps the model it has.
-  void setMissing(const std::string& robot, const std::string& sentence);
+  /// Says why a robot has no model (yet), or what has become of a map or cloud. It keeps what it has.
+  void setMissing(const std::string& name, const std::string& sentence);
   /// All rules of the allowed-pair matrix, from the next tick on; they end by themselves.
   void setRules(std::vector<PairRule> rules);
   /// Obstacles as configured, counters at 0, a new epoch. Rules stay.
@@ -111,6 +111,7 @@ class World {
     BodyId body;
     LoadedCloud newest;
     double period = 0.0;  // [s] between stamps, smoothed
+    std::string refused;  // why a message since then could not be read
   };
 
   void addObstacles();

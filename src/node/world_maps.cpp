@@ -3,6 +3,7 @@
 //
 // Maps and clouds in the world: bodies whose cells are replaced while their structure stays.
 #include <algorithm>
+#include <cmath>
 
 #include "hgrid_proximity/scene/name.h"
 #include "world.h"
@@ -17,6 +18,8 @@ void World::setMap(const LoadedMap& map) {
   if (world_frame_.empty() && !findWorldFrame()) {
     throw Refusal(Code::not_ready, "map '" + map.params.name + "' cannot be placed yet: there is no world frame");
   }
+  checkWithin(map.params.frame_from_map.translation(), params_.world_limit,
+              "map '" + map.params.name + "': its position in its frame");
   Body body;
   body.name = joined("map", map.params.name);
   body.kind = BodyKind::map;
@@ -48,8 +51,12 @@ void World::setMap(const LoadedMap& map) {
 
 void World::clearMap(const std::string& name) {
   const std::string body = joined("map", name);
-  if (!name.empty() && maps_.count(body) == 0) {
+  if (!name.empty() && maps_.count(body) + missing_.count(body) == 0) {
     throw Refusal(Code::unknown_id, "there is no map '" + printable(name) + "'");
+  }
+  for (auto sentence = missing_.begin(); sentence != missing_.end();) {  // nobody waits for them any more
+    const bool chosen = name.empty() ? sentence->first.compare(0, 4, "map/") == 0 : sentence->first == body;
+    sentence = chosen ? missing_.erase(sentence) : std::next(sentence);
   }
   for (auto map = maps_.begin(); map != maps_.end();) {
     const bool chosen = name.empty() || map->first == body;
@@ -75,7 +82,10 @@ void World::setCloud(const LoadedCloud& loaded) {
   }
   Cloud& cloud = known->second;
   const double gap = seconds(loaded.stamp - cloud.newest.stamp);
-  if (cloud.newest.cells && gap > 0.0) cloud.period = cloud.period > 0.0 ? 0.8 * cloud.period + 0.2 * gap : gap;
+  if (cloud.newest.cells && gap > 0.0 && gap <= loaded.lifetime) {  // a longer one is an outage
+    cloud.period = cloud.period > 0.0 ? 0.8 * cloud.period + 0.2 * std::min(gap, 2.0 * cloud.period) : gap;
+  }
+  if (loaded.stamp != cloud.newest.stamp) cloud.refused.clear();
   cloud.newest = loaded;
   scene_.setCells(cloud.body, loaded.cells);
 }
@@ -83,9 +93,9 @@ void World::setCloud(const LoadedCloud& loaded) {
 Freshness World::judgeCloud(const Cloud& cloud, const Moment& now, double& age) const {
   const double ahead = seconds(cloud.newest.stamp - now.ros);
   age = watch_.simulated()
-            ? std::max(0.0, -ahead)
+            ? std::abs(ahead)  // if /clock went back, cells that are too far ahead are gone as well
             : cloud.newest.latency + std::chrono::duration<double>(now.steady - cloud.newest.received).count();
-  if (watch_.frozen() || (watch_.simulated() && ahead > params_.max_future)) return Freshness::frozen;
+  if (watch_.frozen()) return Freshness::frozen;
   if (age > cloud.newest.lifetime) return Freshness::lost;
   if (age > std::max(params_.stale_after, 1.5 * cloud.period)) return Freshness::stale;
   return age > std::max(params_.late_after, 1.5 * cloud.period) ? Freshness::late : Freshness::fresh;
@@ -99,8 +109,11 @@ void World::updateClouds(Time time, const Moment& now, Tick& tick) {
     try {
       scene_.place(cloud.body, Pose(Eigen::Translation3d(cloud.newest.corner)), std::min(time, cloud.newest.stamp));
       trouble.state = judgeCloud(cloud, now, trouble.age);
-      trouble.sentence = "cloud '" + named.first + "': its newest message is " + secondsText(trouble.age) + " old" +
-                         (trouble.state == Freshness::lost ? "; its cells have expired" : "");
+      trouble.sentence = "cloud '" + named.first + "': the newest message that could be read is " +
+                         secondsText(trouble.age) + " old" +
+                         (trouble.state == Freshness::lost ? "; its cells have expired" : "") +
+                         (cloud.refused.empty() ? "" : "; since then: " + cloud.refused);
+      if (trouble.state == Freshness::lost && !cloud.refused.empty()) tick.not_ready.push_back(cloud.refused);
     } catch (const Refusal& refusal) {
       ledger_.refuse("pose.refused", refusal);
       trouble.state = Freshness::invalid;

@@ -24,8 +24,7 @@ std::string gapLeftBy(const Body& body, const BodyPose& pose) {
   }
   if (!body.covered && !body.waived) return "UNCOVERED " + body.name + ": " + body.note;
   if (pose.state >= Freshness::lost) {
-    const bool is_cloud = body.name.compare(0, 6, "cloud/") == 0;
-    return std::string(name(pose.state)) + " " + body.name + (is_cloud ? ": what it saw is " : ": its pose is ") +
+    return std::string(name(pose.state)) + " " + body.name + (isCloud(body) ? ": what it saw is " : ": its pose is ") +
            secondsText(pose.age) + " old (frame '" + printable(body.frame) + "')";
   }
   return {};

@@ -159,13 +159,14 @@ void Snapshot::addMapsNear(std::uint32_t from, double limit, const QueryScope& s
                            std::string& doubt) const {
   const Body& asking = structure_->bodies[from];
   forEachMap(scope, [&](const PlacedMap& map) {
+    const double growth = growthOf(from, map.body);
     QueryHit best;
     best.distance = kInfinity;
     for (std::uint32_t i = 0; i < asking.shapes.size(); ++i) {
       const BodyShape& shape = asking.shapes[i];
       const Pose world_from_shape = poses_[from].world_from_body * shape.body_from_shape;
       const Eigen::AlignedBox3d own = boxInMap(map.map_from_world, boxes_[structure_->first_proxy[from] + i], origin_);
-      const auto most = [&] { return best.distance > 0.0 ? std::min(limit + map.growth, best.distance) : kNoFurther; };
+      const auto most = [&] { return best.distance > 0.0 ? std::min(limit + growth, best.distance) : kNoFurther; };
       if (most() < 0.0) break;
       map.cells.grid->visitNear(own, most(), [&](const Voxel& voxel, double gap) {
         Proximity found;
@@ -199,8 +200,8 @@ void Snapshot::addMapsNear(std::uint32_t from, double limit, const QueryScope& s
     }
     if (best.distance <= limit) {
       hits.push_back(best);
-    } else if (best.distance <= limit + map.growth) {
-      doubt = doubtOf(map.body);
+    } else if (best.distance <= limit + growth) {
+      doubt = doubtOf(map.growth > 0.0 ? map.body : from);
     }
   });
 }

@@ -24,17 +24,18 @@ bool nearer(const QueryHit& a, const QueryHit& b) {
 /// Boxes come from the grid by growing distance, which is a lower bound of the one that is asked for; it is over when
 /// no further box can be nearer than the last body that is wanted.
 /// @param reach  [m] of what is asked from, around `center`
+/// @param asking  the body that is asked from, or Structure::kNone
 /// @param asked    a point or a body, from which maps are looked for
 template <class Asked, class Ask>
 QueryAnswer Snapshot::nearestBy(const Asked& asked, const Eigen::Vector3d& center, double reach, double max_distance,
-                                const QueryScope& scope, const Ask& measure) const {
+                                const QueryScope& scope, std::uint32_t asking, const Ask& measure) const {
   const std::size_t wanted = std::max<std::uint32_t>(1, scope.limit);
   const double limit = max_distance > 0.0 ? max_distance : kInfinity;
   std::map<std::uint32_t, QueryHit> best;  // by body
   std::string doubt;
   std::vector<NearHit> near;
   for (std::size_t look = 4 * wanted + kFirstLook, done = 0;; look *= 4) {
-    grid_.nearest(center - origin_, look, limit + reach + max_growth_, near);
+    grid_.nearest(center - origin_, look, limit + reach + 2.0 * max_growth_, near);
     for (; done < near.size(); ++done) {
       const ProxyId proxy = near[done].id;
       const std::uint32_t body = structure_->body_of_proxy[proxy];
@@ -42,10 +43,11 @@ QueryAnswer Snapshot::nearestBy(const Asked& asked, const Eigen::Vector3d& cente
       QueryHit hit;
       hit.body = body;
       hit.shape = proxy - structure_->first_proxy[body];
-      const double growth_of_body = poses_[body].growth;
-      if (!measure(proxy, limit + growth_of_body, hit)) continue;
+      const double own = poses_[body].growth;  // both may have come nearer since their poses
+      const double growth = asking == Structure::kNone || asking == body ? own : growthOf(asking, body);
+      if (!measure(proxy, limit + growth, hit)) continue;
       if (hit.distance > limit) {
-        if (hit.distance <= limit + growth_of_body) doubt = doubtOf(body);
+        if (hit.distance <= limit + growth) doubt = doubtOf(own > 0.0 ? body : asking);
         continue;
       }
       const auto known = best.emplace(body, hit);
@@ -72,7 +74,7 @@ QueryAnswer Snapshot::nearest(const Eigen::Vector3d& point, double max_distance,
   const DefaultFloatEnvironment environment;
   checkQueryPoint(point, "the query's point");
   checkQueryLength(max_distance, "max_distance");
-  return nearestBy(point, point, 0.0, max_distance, scope, [&](ProxyId proxy, double up_to, QueryHit& hit) {
+  const auto measure = [&](ProxyId proxy, double up_to, QueryHit& hit) {
     hit.center_distance = hit.distance = distance(boxes_[proxy], point - origin_);
     hit.point = nearestPoint(boxes_[proxy], point - origin_) + origin_;
     if (hit.distance > up_to) return false;
@@ -85,7 +87,8 @@ QueryAnswer Snapshot::nearest(const Eigen::Vector3d& point, double max_distance,
     hit.point = found.on_second;
     hit.normal = -found.normal;
     return found.distance <= up_to;
-  });
+  };
+  return nearestBy(point, point, 0.0, max_distance, scope, Structure::kNone, measure);
 }
 
 QueryAnswer Snapshot::nearest(std::uint32_t from, double max_distance, const QueryScope& scope) const {
@@ -103,7 +106,7 @@ QueryAnswer Snapshot::nearest(std::uint32_t from, double max_distance, const Que
     high = high.cwiseMax(boxes_[proxy].max.cast<double>());
   }
   const Eigen::Vector3d center = origin_ + 0.5 * (low + high);
-  return nearestBy(from, center, 0.5 * (high - low).norm(), max_distance, scope,
+  return nearestBy(from, center, 0.5 * (high - low).norm(), max_distance, scope, from,
                    [&](ProxyId proxy, double up_to, QueryHit& hit) {
                      if (hit.body == from) return false;
                      hit.distance = kInfinity;

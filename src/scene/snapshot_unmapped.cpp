@@ -25,9 +25,13 @@ bool contains(const Eigen::AlignedBox3d& extent, const Sphere& ball) {
 template <class Knows>
 bool Snapshot::knownToNone(const QueryScope& scope, const Knows& knows) const {
   if (!report_unmapped_) return false;
-  const std::vector<std::uint32_t>& maps = structure_->maps;
-  const bool asks = std::any_of(maps.begin(), maps.end(), [&](std::uint32_t map) { return inScope(scope, map); });
-  if (!asks && !(maps.empty() && scope.include.empty())) return false;
+  bool asks = false, has_maps = false;
+  for (const std::uint32_t map : structure_->maps) {
+    if (isCloud(structure_->bodies[map])) continue;
+    has_maps = true;
+    asks = asks || inScope(scope, map);
+  }
+  if (has_maps ? !asks : !scope.include.empty()) return false;
   bool known = false;
   forEachMap(scope, [&](const PlacedMap& map) {
     if (!known && map.cells.unmapped) known = knows(map, *map.cells.unmapped);
@@ -83,7 +87,7 @@ bool Snapshot::unmappedNear(std::uint32_t body, double limit, const QueryScope& 
     std::vector<NearVoxel> near;
     for (ProxyId proxy = structure_->first_proxy[body]; proxy < structure_->first_proxy[body + 1]; ++proxy) {
       const Eigen::AlignedBox3d own = boxInMap(map.map_from_world, boxes_[proxy], origin_);
-      const double within = limit + map.growth + touchSlack(own.center(), limit);
+      const double within = limit + map.growth + poses_[body].growth + touchSlack(own.center(), limit);
       const Eigen::Vector3d reach = Eigen::Vector3d::Constant(within);
       if (!contains(space.extent, own.min() - reach, own.max() + reach)) return false;
       space.cells.nearest(own, 1, within, near);

@@ -126,15 +126,15 @@ TEST_F(Clouds, PointsThatAreNoneAreLeftOut) {
   sendUntilComplete({{nan, nan, nan}, {0.05f, 0.05f, -0.95f}, {0.0f, infinity, 0.0f}, {-infinity, nan, 0.0f}});
   EXPECT_EQ(askedAt(0.05, 0.05, 0.05).verdict, Answer::HIT);
   sendUntil({{nan, nan, nan}}, "all counted",
-            [](const msg::Status& status) { return counter(status, "clouds.points_not_finite") >= 4; });
-  EXPECT_EQ(counter(*node_->heard().status.back(), "clouds.refused.NONFINITE"), 0u);
+            [](const msg::Status& status) { return counter(status, "cloud/front.points_not_finite") >= 4; });
+  EXPECT_EQ(counter(*node_->heard().status.back(), "cloud/front.refused.NONFINITE"), 0u);
 }
 
 TEST_F(Clouds, ThatCannotBePlacedAreRefusedAndSaidToBeMissed) {
   start(20.0);
   send(cloudOf("nowhere", transforms_.now(), {{0, 0, 0}}));
   const auto refused = [&](const std::string& code) {
-    return [code](const msg::Status& status) { return counter(status, "clouds.refused." + code) > 0; };
+    return [code](const msg::Status& status) { return counter(status, "cloud/front.refused." + code) > 0; };
   };
   node_->waitUntil("a refusal", [&](const Heard& heard) {
     send(cloudOf("nowhere", transforms_.now(), {{0, 0, 0}}));
@@ -165,9 +165,9 @@ TEST_F(Clouds, ThatLieLeaveTheCloudAsItWas) {
     node_->waitForStatus("refusal " + std::to_string(sent) + " with " + code, [&](const msg::Status& status) {
       std::uint64_t all = 0;
       for (const char* each : {"TRUNCATED", "PARSE", "UNSUPPORTED", "LIMIT"}) {
-        all += counter(status, std::string("clouds.refused.") + each);
+        all += counter(status, std::string("cloud/front.refused.") + each);
       }
-      return all == sent && counter(status, "clouds.refused." + code) > 0;
+      return all == sent && counter(status, "cloud/front.refused." + code) > 0;
     });
   };
   const std::size_t frame_at = 12, fields_at = frame_at + 4 + 6 + 8;  // seq and stamp; height and width
@@ -189,6 +189,24 @@ TEST_F(Clouds, ThatLieLeaveTheCloudAsItWas) {
   EXPECT_LT(residentKilobytes(node_->process().pid()), before + 4000) << "kB";
 }
 
+TEST_F(Clouds, ThatAreLostSayWhatWasWrongWithTheLastMessage) {
+  start(0.3, dict({{"map", dict({{"max_leaves", 2}})}}));
+  sendUntilComplete({{0.05f, 0.05f, 1.0f}});
+  const auto refused = [&](const sensor_msgs::PointCloud2& cloud, const std::string& words) {
+    node_->waitUntil(words, [&](const Heard& heard) {
+      if (heard.status.back()->world.sequence % 5 == 0) send(cloud);
+      for (const std::string& reason : heard.status.back()->world.reasons) {
+        if (reason.find(words) == 0) return true;
+      }
+      return false;
+    });
+  };
+  refused(cloudOf("nowhere", ros::Time(), {{0, 0, 0}}), "UNKNOWN_FRAME cloud 'front' of points: where its frame");
+  refused(cloudOf("camera", ros::Time(), {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}),
+          "LIMIT cloud 'front' of points: there would be 3 cells; at most 2 are allowed by ~map/max_leaves");
+  sendUntilComplete({{0.05f, 0.05f, 1.0f}});
+}
+
 TEST_F(Clouds, DoNotHoldTheRobotItself) {
   start(20.0, dict({{"map", dict({{"self_filter", list({dict({{"pattern", "robot/a"}, {"padding", 0.09}})})}})}}));
   Points points;
@@ -200,7 +218,7 @@ TEST_F(Clouds, DoNotHoldTheRobotItself) {
   sendUntilComplete(points);
   EXPECT_EQ(askedAt(0.05, 0.35, 0.05).verdict, Answer::HIT);
   EXPECT_EQ(namesOf(askedAt(0.1, 0.0, 0.0)), Names({"robot/a"}));
-  EXPECT_GT(counter(*node_->heard().status.back(), "clouds.own_cells"), 3u);
+  EXPECT_GT(counter(*node_->heard().status.back(), "cloud/front.own_cells"), 3u);
 }
 
 }  // namespace

@@ -59,6 +59,21 @@ TEST(ParamErrors, WhatIsTakenOfMapsIsNamed) {
                 "~map/crop_min is 2 m along y, ~map/crop_max 1 m; the first must be at most the second");
 }
 
+TEST(ParamErrors, TopicsAndPatternsThatCannotBeAreNamed) {
+  const auto cloud = [](const char* topic) {
+    return dict({{"clouds", list({dict({{"name", "a"}, {"topic", topic}})})}});
+  };
+  EXPECT_NE(refusalOf(cloud("my topic!")).find("~clouds[0] has the topic 'my topic!': Character"), std::string::npos);
+  expectRefused(cloud(""), "~clouds[0] has the topic '': it must not be empty");
+  EXPECT_NE(
+      refusalOf(dict({{"maps", list({dict({{"name", "a"}, {"topic", "b//\x01"}})})}})).find("~maps[0] has the topic"),
+      std::string::npos);
+  expectRefused(dict({{"padding", list({dict({{"pattern", "cloud/*"}, {"padding", 0.1}})})}}),
+                "~padding has the pattern 'cloud/*'; cells of maps and clouds cannot be grown, use ~margins or "
+                "~map/self_filter");
+  expectRefused(dict({{"map", dict({{"unknown", true}})}}), "~map/unknown is a boolean; it must be a string");
+}
+
 TEST(ParamErrors, ANumberOutOfRangeIsNamedWithTheRange) {
   expectRefused(dict({{"rate", 0.0}}), "~rate is 0 Hz; it must be within 1 .. 1000 Hz");
   expectRefused(dict({{"rate", kNan}}), "~rate is nan Hz; it must be within 1 .. 1000 Hz");

@@ -236,6 +236,28 @@ TEST(MapsBeyondTheLimit, AreMissedAsLongAsTheyAreNotThere) {
   EXPECT_TRUE(says(status->model_warnings[0], "~margins: 'robot/aa' matches no body"));
 }
 
+TEST_F(Maps, ThatWereMissingDoNotComeBackOnceOthersWereChosen) {
+  start(list({mapOf("room", "late.bt"), mapOf("hall", "later.bt")}));
+  ASSERT_TRUE(load("room", "row.bt").success);
+  ASSERT_TRUE(clear("hall").success) << "nobody waits for it any more";
+  node_->waitForComplete();
+  folder_.write("late.bt", rowOf(5));
+  folder_.write("later.bt", rowOf(5));
+  const auto refusals = [](const msg::Status& status) { return counter(status, "maps.refused.RESOURCE_MISSING"); };
+  const std::uint64_t before = refusals(*node_->heard().status.back());
+  node_->waitForTicks(75);  // the next try would be half a second after the last
+  EXPECT_EQ(metAt(0.05), Names({"map/room"}));
+  EXPECT_EQ(metAt(0.45), Names()) << "the file that came late is not read";
+  EXPECT_EQ(refusals(*node_->heard().status.back()), before);
+}
+
+TEST_F(Maps, ThatCannotBePlacedAreRefused) {
+  start(list({mapOf("room", "row.bt")}));
+  node_->waitForComplete();
+  expectRefused(load("room", "row.bt", 1e9), "OUT_OF_RANGE", "map 'room': its position in its frame");
+  EXPECT_TRUE(node_->heard().status.back()->world.complete);
+}
+
 TEST_F(Maps, ThatDoNotFitIntoMemoryAreRefused) {
   start(list({mapOf("room", "row.bt")}));
   node_->waitForComplete();

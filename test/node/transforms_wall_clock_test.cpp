@@ -7,6 +7,7 @@
 
 #include "test/node/support/claims.h"
 #include "test/node/support/descriptions.h"
+#include "test/node/support/raw_message.h"
 #include "test/node/support/transform_source.h"
 
 namespace hgrid {
@@ -34,22 +35,50 @@ class WallClock : public ::testing::Test {
     std::rename(next.c_str(), file_.c_str());
   }
 
+  NodeSetup underThisClock() const {
+    NodeSetup setup;
+    setup.environment = {{"LD_PRELOAD", library()},
+                         {"FAKETIME_TIMESTAMP_FILE", file_},
+                         {"FAKETIME_NO_CACHE", "1"},
+                         {"DONT_FAKE_MONOTONIC", "1"},
+                         {"FAKETIME_DONT_FAKE_MONOTONIC", "1"}};
+    return setup;
+  }
+
   double shift_ = 0.0;  // [s]
   const std::string file_ = std::string(std::getenv("TMPDIR") ? std::getenv("TMPDIR") : "/tmp") + "/shifted_clock_" +
                             std::to_string(getpid());
   TransformSource transforms_;
 };
 
+TEST_F(WallClock, SettingItTakesNoCellOfACloudAway) {
+  if (library().empty()) GTEST_SKIP() << "libfaketime is not installed";
+  NodeSetup setup = underThisClock();
+  setup.params["clouds"] = list({dict({{"name", "front"}, {"lifetime", 60.0}})});
+  setup.beside["robot_description"] = balls({"a"});
+  NodeUnderTest node(setup);
+  ros::NodeHandle ros;
+  const ros::Publisher publisher = ros.advertise<CloudBytes>(node.space() + "/cloud", 1);
+  const auto verdict = [&] { return node.sphere(3.0, 0.0, 0.0, 0.1).answer.verdict; };
+  node.waitUntil("a hit", [&](const Heard&) {
+    publisher.publish(cloudOfOne("base", transforms_.now(), 3.0f, 0.0f, 0.0f));
+    return verdict() == msg::Answer::HIT;
+  });
+  for (const double shift : {3600.0, 0.0, -3600.0}) {
+    SCOPED_TRACE(shift);
+    write(shift);
+    for (int look = 0; look < 20; ++look) {
+      node.waitForTicks(1);
+      ASSERT_EQ(verdict(), msg::Answer::HIT);
+    }
+  }
+}
+
 TEST_F(WallClock, SettingItAgesNothing) {
   if (library().empty()) GTEST_SKIP() << "libfaketime is not installed";
-  NodeSetup setup;
+  NodeSetup setup = underThisClock();
   setup.params = dict({{"late_after", 1.0}, {"stale_after", 2.0}, {"lost_after", 4.0}});
   setup.beside["robot_description"] = balls({"a", "b"});
-  setup.environment = {{"LD_PRELOAD", library()},
-                       {"FAKETIME_TIMESTAMP_FILE", file_},
-                       {"FAKETIME_NO_CACHE", "1"},
-                       {"DONT_FAKE_MONOTONIC", "1"},
-                       {"FAKETIME_DONT_FAKE_MONOTONIC", "1"}};
   NodeUnderTest node(setup);
   transforms_.stream("base", "a", at(0));
   transforms_.stream("base", "b", at(0.25));

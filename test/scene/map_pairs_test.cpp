@@ -266,6 +266,30 @@ TEST(MapQueries, AStaleMapIsNeverClearWhereItMayBe) {
   EXPECT_EQ(snapshot->nearest({1.5, 0.5, 0.5}, 0.3, {}).verdict, Verdict::unknown);
 }
 
+TEST(MapQueries, NearestToAStaleBodyIsNeverClearWhereThatMayBe) {
+  SceneOptions options;
+  options.growth_cap = 1.0;
+  Scene scene{options};
+  Body tool = ball("tool", 0.1);
+  tool.max_speed = 1.0;
+  const BodyId asking = put(scene, tool, at(0));
+  put(scene, ball("post", 0.1, Mobility::fixed), at(1));                                          // 0.8 m of room
+  scene.setCells(put(scene, mapBody("room"), at(-5)), cellsOf(1.0, {{32771, 32768, 32768, 0}}));  // x -2 .. -1
+  const auto because = [&](const std::string& what, double limit) {
+    QueryScope scope;
+    scope.include = {what};
+    const auto snapshot = scene.commit(Time{1}, {});
+    return snapshot->nearest(snapshot->structure().find("obstacle/tool"), limit, scope).because;
+  };
+  EXPECT_EQ(because("obstacle/*", 0.5), Unknown::no);
+  EXPECT_EQ(because("map/*", 0.5), Unknown::no);
+  scene.setState(asking, Freshness::stale, 0.4);  // it may have moved 0.4 m
+  EXPECT_EQ(because("obstacle/*", 0.5), Unknown::stale_body);
+  EXPECT_EQ(because("map/*", 0.6), Unknown::stale_body);
+  EXPECT_EQ(because("obstacle/*", 0.3), Unknown::no);
+  EXPECT_EQ(because("map/*", 0.3), Unknown::no);
+}
+
 }  // namespace
 }  // namespace test
 }  // namespace hgrid

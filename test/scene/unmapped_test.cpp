@@ -118,6 +118,18 @@ TEST(Unmapped, WithoutAMapNothingIsKnown) {
       << "a map that knows no free space";
 }
 
+TEST(Unmapped, ACloudIsNoMap) {
+  Scene scene(reporting());
+  Body cloud = mapBody("x");
+  cloud.name = "cloud/x";
+  scene.setCells(put(scene, cloud, at(0)), cellsOf(kEdge, {}));
+  const auto snapshot = scene.commit(Time{1}, {});
+  QueryScope scope;
+  scope.exclude = {"cloud/*"};
+  EXPECT_EQ(snapshot->query(Sphere{{0, 0, 0}, 0.1}, scope).because, Unknown::unmapped);
+  EXPECT_EQ(snapshot->query(Sphere{{0, 0, 0}, 0.1}, {}).because, Unknown::unmapped);
+}
+
 TEST(Unmapped, IsNotAskedUnlessMapsAreToReport) {
   Scene scene{SceneOptions{}};
   scene.setCells(put(scene, mapBody("room"), at(0)), knowing({}, cube(1.0)));

@@ -82,4 +82,7 @@ struct Body {
   std::shared_ptr<const LinkMatrix> links;  ///< links: the model's matrix; equal robots share it
 };
 
+/// Whether a body of kind map is a cloud, whose cells come and go and say nothing of space that is free.
+inline bool isCloud(const Body& body) { return body.name.compare(0, 6, "cloud/") == 0; }
+
 }  // namespace hgrid

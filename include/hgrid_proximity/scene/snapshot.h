@@ -172,7 +172,7 @@ class Snapshot {
   std::string doubtOf(std::uint32_t body) const;
   template <class Asked, class Ask>
   QueryAnswer nearestBy(const Asked& asked, const Eigen::Vector3d& center, double reach, double max_distance,
-                        const QueryScope& scope, const Ask& measure) const;
+                        const QueryScope& scope, std::uint32_t asking, const Ask& measure) const;
   template <class Look>
   void forEachMap(const QueryScope& scope, Look&& look) const;
   void addMaps(const Sphere& sphere, const QueryScope& scope, std::vector<QueryHit>& hits, std::string& doubt) const;

@@ -4,7 +4,9 @@
 
 #include <ros/message_traits.h>
 #include <ros/serialization.h>
+#include <ros/time.h>
 
+#include <cstdint>
 #include <cstring>
 #include <string>
 
@@ -39,6 +41,17 @@ std::string bytesOf(Number number) {
   return {reinterpret_cast<const char*>(&number), sizeof(number)};
 }
 inline std::string stringOf(const std::string& text) { return bytesOf(static_cast<std::uint32_t>(text.size())) + text; }
+
+/// A cloud of one point [m], in float, as most drivers send it.
+inline CloudBytes cloudOfOne(const std::string& frame, ros::Time stamp, float x, float y, float z) {
+  std::string fields = bytesOf(std::uint32_t{3});
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    fields += stringOf(std::string(1, "xyz"[i])) + bytesOf(4 * i) + '\7' + bytesOf(std::uint32_t{1});
+  }
+  const auto number = [](std::uint32_t value) { return bytesOf(value); };
+  return {number(0) + bytesOf(stamp.sec) + bytesOf(stamp.nsec) + stringOf(frame) + number(1) + number(1) + fields +
+          '\0' + number(12) + number(12) + stringOf(bytesOf(x) + bytesOf(y) + bytesOf(z)) + '\1'};
+}
 
 }  // namespace test
 }  // namespace hgrid
