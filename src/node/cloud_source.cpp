@@ -76,7 +76,7 @@ void CloudSource::onMessage(const CloudMessage& message) {
 }
 
 void CloudSource::take(const CloudMessage& message) {
-  loaded_.received = std::chrono::steady_clock::now();
+  const auto received = std::chrono::steady_clock::now();
   if (!message.flaw.empty()) throw Refusal(Code::truncated, what_ + ": " + printable(message.flaw, 200));
   if (message.data.size() > static_cast<std::size_t>(params_.map_max_bytes)) {
     throw Refusal(Code::limit, what_ + " has " + std::to_string(message.data.size()) + " bytes; at most " +
@@ -97,11 +97,12 @@ void CloudSource::take(const CloudMessage& message) {
   const std::vector<Voxel> voxels = voxelsOf(message, tick->world_frame, stamp);
   const Time latency = std::max(Time{0}, now - stamp);
   try {
-    cells_.see(voxels, simulated_ ? stamp : Time(loaded_.received.time_since_epoch()) - latency);
+    cells_.see(voxels, simulated_ ? stamp : Time(received.time_since_epoch()) - latency);
   } catch (const Refusal& refusal) {
     throw Refusal(refusal.code(), what_ + ": " + refusal.what() + " by ~map/max_leaves");
   }
   cells_.forget(cellTime());
+  loaded_.received = received;
   loaded_.stamp = stamp;
   loaded_.latency = seconds(latency);
   put();

@@ -204,6 +204,10 @@ TEST_F(Clouds, ThatAreLostSayWhatWasWrongWithTheLastMessage) {
   refused(cloudOf("nowhere", ros::Time(), {{0, 0, 0}}), "UNKNOWN_FRAME cloud 'front' of points: where its frame");
   refused(cloudOf("camera", ros::Time(), {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}),
           "LIMIT cloud 'front' of points: there would be 3 cells; at most 2 are allowed by ~map/max_leaves");
+  for (const auto& status : node_->heard().status) {
+    if (status->gauges.front().name != "cells.cloud/front" || status->gauges.front().value > 0.0) continue;
+    ASSERT_FALSE(status->world.complete) << "what was refused keeps nothing fresh";
+  }
   sendUntilComplete({{0.05f, 0.05f, 1.0f}});
 }
 
