@@ -211,6 +211,24 @@ TEST_F(Clouds, ThatAreLostSayWhatWasWrongWithTheLastMessage) {
   sendUntilComplete({{0.05f, 0.05f, 1.0f}});
 }
 
+TEST_F(Clouds, AreStaleAsSoonAfterAnOutageAsBeforeIt) {
+  start(2.0);  // ~stale_after is 0.25 s
+  const Points point{{0.05f, 0.05f, 1.0f}};
+  sendUntilComplete(point);
+  std::uint64_t accepted = 0;
+  sendUntil(point, "a rhythm of 10 Hz",
+            [&](const msg::Status& status) { return (accepted = counter(status, "cloud/front.accepted")) >= 10; });
+  node_->waitForTicks(200);  // an outage of 4 s
+  const std::size_t begin = node_->heard().status.size();
+  send(cloudOf("camera", transforms_.now(), point));
+  node_->waitUntil("STALE after that message", [&](const Heard& heard) {
+    const auto& status = *heard.status.back();
+    if (heard.status.size() <= begin || counter(status, "cloud/front.accepted") <= accepted) return false;
+    return !status.bodies.empty() && status.bodies[0].state == msg::WorldState::STALE;
+  });
+  EXPECT_LT(node_->heard().status.back()->bodies[0].age, 1.0) << "s";
+}
+
 TEST_F(Clouds, DoNotHoldTheRobotItself) {
   start(20.0, dict({{"map", dict({{"self_filter", list({dict({{"pattern", "robot/a"}, {"padding", 0.09}})})}})}}));
   Points points;
