@@ -103,15 +103,6 @@ class FullNodes : public NodeBytes {
 
 constexpr Voxel kWhole{0, 0, 0, Voxel::kLevels};  ///< the cube of the root
 
-/// Child 0..7 of a cube: bit 0 is the upper half along x, bit 1 along y, bit 2 along z.
-inline Voxel childOf(const Voxel& cube, unsigned child) {
-  const unsigned level = cube.level - 1u;
-  const auto half = [&](std::uint16_t key, unsigned axis) {
-    return static_cast<std::uint16_t>(key | (child >> axis & 1u) << level);
-  };
-  return {half(cube.x, 0), half(cube.y, 1), half(cube.z, 2), static_cast<std::uint8_t>(level)};
-}
-
 /// How many of the bits 0, 2, .. 14 are set; others must not be. The compiler's own calls a function.
 inline unsigned bitsIn(unsigned bits) {
   bits = (bits & 0x3333) + (bits >> 2 & 0x3333);

@@ -70,6 +70,18 @@ Pose readPose(ParamValue value) {
   return pose;
 }
 
+void readLocalName(ParamValue& element, std::string& name, std::set<std::string>& names) {
+  auto given = element.require("name");
+  if (!given) return;
+  given->string(name);
+  try {
+    checkLocal(name, "it");
+  } catch (const Refusal& refusal) {
+    given->error(std::string("cannot be a name: ") + refusal.what());
+  }
+  if (!names.insert(name).second) given->error("is '" + printable(name) + "' a second time; names must differ");
+}
+
 std::vector<ObstacleParams> readObstacles(ParamValue value, const ShapeLimits& limits) {
   std::vector<ObstacleParams> obstacles;
   std::set<std::string> names;
@@ -77,15 +89,7 @@ std::vector<ObstacleParams> readObstacles(ParamValue value, const ShapeLimits& l
     if (!element.requireStruct()) continue;
     ObstacleParams obstacle;
     std::string name;
-    if (auto given = element.require("name")) {
-      given->string(name);
-      try {
-        checkLocal(name, "it");
-      } catch (const Refusal& refusal) {
-        given->error(std::string("cannot be a name: ") + refusal.what());
-      }
-      if (!names.insert(name).second) given->error("is '" + printable(name) + "' a second time; names must differ");
-    }
+    readLocalName(element, name, names);
     obstacle.body.name = joined("obstacle", name);
     if (auto frame = element.get("frame")) frame->string(obstacle.body.frame);
     obstacle.body.frame = withoutSlash(obstacle.body.frame);

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,5 +17,8 @@ Pose readPose(ParamValue value);
 /// Reads ~obstacles: a list of {name, frame, pose, shapes: [{type, ..., pose}]}. The frame of an obstacle that names
 /// none stays empty: the world frame.
 std::vector<ObstacleParams> readObstacles(ParamValue value, const ShapeLimits& limits);
+
+/// Reads an element's required name, local to its source, which must differ from those before it.
+void readLocalName(ParamValue& element, std::string& name, std::set<std::string>& names);
 
 }  // namespace hgrid

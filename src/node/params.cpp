@@ -297,7 +297,7 @@ class Reader {
       readString(element, "frame", map.frame, false);
       map.frame = withoutSlash(map.frame);
       if (auto pose = element.get("pose")) map.frame_from_map = readPose(*pose);
-      readLocal(element, map.name, names);
+      readLocalName(element, map.name, names);
       value.push_back(map);
     });
   }
@@ -309,7 +309,7 @@ class Reader {
       checkTopic(element, cloud.topic);
       if (auto given = element.get("resolution")) given->number(cloud.resolution, 0.001, 100.0, "m");
       if (auto given = element.get("lifetime")) given->number(cloud.lifetime, 0.01, 3600.0, "s");
-      readLocal(element, cloud.name, names);
+      readLocalName(element, cloud.name, names);
       value.push_back(cloud);
     });
   }
@@ -340,19 +340,6 @@ class Reader {
     if (topic.empty() || !ros::names::validate(topic, flaw)) {
       element.error("has the topic '" + printable(topic) + "': " + flaw);
     }
-  }
-
-  /// A required name within a source, unlike those before it.
-  static void readLocal(ParamValue& element, std::string& name, std::set<std::string>& names) {
-    auto given = element.require("name");
-    if (!given) return;
-    given->string(name);
-    try {
-      checkLocal(name, "it");
-    } catch (const Refusal& refusal) {
-      given->error(std::string("cannot be a name: ") + refusal.what());
-    }
-    if (!names.insert(name).second) given->error("is '" + printable(name) + "' a second time; names must differ");
   }
 
   /// Of a name "group/key" the member of that struct.

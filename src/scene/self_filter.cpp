@@ -75,15 +75,8 @@ class Splitter {
       return true;
     }
     const std::size_t before = others.voxels.size();
-    const auto half = static_cast<std::uint16_t>(1u << (cell.level - 1));
     bool whole = true;
-    for (unsigned child = 0; child < 8; ++child) {
-      const auto key = [&](std::uint16_t of_cell, unsigned axis) {
-        return static_cast<std::uint16_t>(of_cell + ((child >> axis & 1) != 0 ? half : 0));
-      };
-      const Voxel part{key(cell.x, 0), key(cell.y, 1), key(cell.z, 2), static_cast<std::uint8_t>(cell.level - 1)};
-      whole = split(part, others) && whole;
-    }
+    for (unsigned child = 0; child < 8; ++child) whole = split(childOf(cell, child), others) && whole;
     if (whole) {
       others.voxels.resize(before);
       others.voxels.push_back(cell);

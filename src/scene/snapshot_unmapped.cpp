@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
 // Whether what a query asks about is known to be free by a map: what several know only together counts as unknown.
-#include <algorithm>
-
 #include "scene/map_gap.h"
 #include "scene/placed_map.h"
 #include "scene/probe.h"

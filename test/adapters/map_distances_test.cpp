@@ -209,6 +209,54 @@ TEST_P(MapDistances, OfExactQueriesAreThoseOfTheNearestCells) {
   }
 }
 
+/// Claim: a box is CLEAR exactly where none of its points is in an unknown cell or beyond what the map speaks of.
+TEST(UnmappedBoxes, AreThoseOfAScanOfAllUnknownCells) {
+  const auto narrow_phase = makeFclNarrowPhase();
+  std::size_t clear = 0, unknown_space = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    Random random(seed);
+    const std::vector<Voxel> unknown = randomVoxels(random, 60, 20);
+    const double half = random.uniform(1.0, 2.0);
+    const Eigen::AlignedBox3d extent(Eigen::Vector3d::Constant(-half), Eigen::Vector3d::Constant(half));
+    SceneOptions options;
+    options.report_unmapped = true;
+    Scene scene(options);
+    const Pose world_from_map = randomPose(random, 5.0);
+    const auto space = std::make_shared<UnmappedSpace>(UnmappedSpace{StaticGrid(kEdge, unknown), extent});
+    const auto none = std::make_shared<StaticGrid>(kEdge, std::vector<Voxel>{});
+    scene.setCells(put(scene, mapBody("room"), world_from_map), makeMapCells(none, *narrow_phase, space));
+    const auto snapshot = scene.commit(Time{1}, {});
+    for (int i = 0; i < 100; ++i) {
+      const Pose map_from_box = randomPose(random, 1.5);
+      const QueryBox box{world_from_map * map_from_box, Eigen::Vector3d(random.uniform(0.0, 0.6), 0.2, 0.1)};
+      double room = kInfinity;  // [m] negative or 0: the box is not wholly known
+      for (int corner = 0; corner < 8; ++corner) {
+        Eigen::Vector3d at = 0.5 * box.size;
+        for (int axis = 0; axis < 3; ++axis) at[axis] *= corner >> axis & 1 ? 1.0 : -1.0;
+        at = map_from_box * at;
+        room = std::min({room, (at - extent.min()).minCoeff(), (extent.max() - at).minCoeff()});
+      }
+      const auto solid = narrow_phase->solidOf(Shape::box(box.size.cwiseMax(1e-3)));
+      for (const Voxel& voxel : unknown) {
+        const double edge = edgeOf(voxel, kEdge);
+        const auto cube = narrow_phase->solidOf(Shape::box({edge, edge, edge}));
+        const Pose world_from_cube =
+            world_from_map * Eigen::Translation3d(minCorner(voxel, kEdge) + Eigen::Vector3d::Constant(0.5 * edge));
+        room = std::min(
+            room, narrow_phase->measure({*solid, box.world_from_box, 0.0}, {*cube, world_from_cube, 0.0}, kInfinity)
+                      .distance);
+      }
+      if (std::abs(room) < 1e-3 && room != 0.0) continue;
+      const QueryAnswer answer = snapshot->query(box, *narrow_phase, {});
+      ASSERT_EQ(answer.because, room > 0.0 ? Unknown::no : Unknown::unmapped) << "seed " << seed << ", " << room;
+      ASSERT_EQ(answer.verdict, room > 0.0 ? Verdict::clear : Verdict::unknown);
+      ++(room > 0.0 ? clear : unknown_space);
+    }
+  }
+  EXPECT_GT(clear, 100u);
+  EXPECT_GT(unknown_space, 100u);
+}
+
 }  // namespace
 }  // namespace test
 }  // namespace hgrid

@@ -45,6 +45,15 @@ inline Eigen::Vector3d maxCorner(const Voxel& voxel, double finest_edge) {
           coordinateOf(voxel.z + along, finest_edge)};
 }
 
+/// Child 0..7 of a cube of level 1 or more: bit 0 is the upper half along x, bit 1 along y, bit 2 along z.
+inline Voxel childOf(const Voxel& cube, unsigned child) {
+  const unsigned level = cube.level - 1u;
+  const auto half = [&](std::uint16_t key, unsigned axis) {
+    return static_cast<std::uint16_t>(key | (child >> axis & 1u) << level);
+  };
+  return {half(cube.x, 0), half(cube.y, 1), half(cube.z, 2), static_cast<std::uint8_t>(level)};
+}
+
 /// Bit i of the key becomes bit 3 i.
 inline std::uint64_t spreadByThree(std::uint16_t key) {
   std::uint64_t bits = key;
