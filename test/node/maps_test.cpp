@@ -238,7 +238,11 @@ TEST(MapsBeyondTheLimit, AreMissedAsLongAsTheyAreNotThere) {
 
 TEST_F(Maps, ThatWereMissingDoNotComeBackOnceOthersWereChosen) {
   start(list({mapOf("room", "late.bt"), mapOf("hall", "later.bt")}));
-  ASSERT_TRUE(load("room", "row.bt").success);
+  node_->waitForStatus("only the maps are missed", [](const msg::Status& status) {
+    return status.world.reasons.size() == 2 && counter(status, "maps.refused.RESOURCE_MISSING") >= 2;
+  });
+  const auto loaded = load("room", "row.bt");
+  ASSERT_TRUE(loaded.success) << loaded.code.text;
   ASSERT_TRUE(clear("hall").success) << "nobody waits for it any more";
   node_->waitForComplete();
   folder_.write("late.bt", rowOf(5));
