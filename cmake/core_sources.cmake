@@ -65,9 +65,9 @@ set(HGRID_ADAPTER_SOURCES
 
 # The inner loops of the broad phase, once per instruction set; which is used is decided when the program runs.
 set(HGRID_KERNEL_FLAGS_sse2 -msse2)
-set(HGRID_KERNEL_FLAGS_avx2 -mavx2 -mbmi -mpopcnt)
+set(HGRID_KERNEL_FLAGS_avx2 -mavx2 -mfma -mbmi -mpopcnt)
 # gcc's own header of AVX-512 warns of itself (its bug 105593).
-set(HGRID_KERNEL_FLAGS_avx512 -mavx2 -mbmi -mpopcnt -mavx512f -mavx512vl -mavx512bw -mavx512dq -Wno-maybe-uninitialized
+set(HGRID_KERNEL_FLAGS_avx512 -mavx2 -mfma -mbmi -mpopcnt -mavx512f -mavx512vl -mavx512bw -mavx512dq -Wno-maybe-uninitialized
   -Wno-uninitialized)
 
 # hgrid_core_options(target root): what a target made of the core's sources needs. Kernels are optimised whatever the

@@ -16,7 +16,8 @@ const char* name(Isa isa) {
 bool isSupported(Isa isa) {
 #ifdef HGRID_X86_KERNELS
   if (isa == Isa::sse2) return __builtin_cpu_supports("sse2");
-  if (isa == Isa::avx2) return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi");
+  if (isa == Isa::avx2)
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi");
   if (isa == Isa::avx512) {
     return isSupported(Isa::avx2) && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
            __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq");

@@ -78,14 +78,21 @@ struct SimdAvx2 : SimdSse2 {
 
   using Lanes = __m256;
   using SimdSse2::minus;  // of Quad
+  using SimdSse2::plus;   // of Two
+  using SimdSse2::times;  // of Two
   static Lanes lanesOf(float value) { return _mm256_set1_ps(value); }
   static Lanes lanesAt(const float* from) { return _mm256_loadu_ps(from); }
   static Lanes plus(Lanes a, Lanes b) { return _mm256_add_ps(a, b); }
   static Lanes minus(Lanes a, Lanes b) { return _mm256_sub_ps(a, b); }
   static Lanes times(Lanes a, Lanes b) { return _mm256_mul_ps(a, b); }
+  static Lanes timesPlus(Lanes a, Lanes b, Lanes c) { return _mm256_fmadd_ps(a, b, c); }
+  static Lanes timesMinus(Lanes a, Lanes b, Lanes c) { return _mm256_fmsub_ps(a, b, c); }
   static Lanes size(Lanes a) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a); }
-  static std::uint32_t greater(Lanes a, Lanes b) {
-    return static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_GT_OQ)));
+  using Mask = __m256;
+  static Mask notGreater(Lanes a, Lanes b) { return _mm256_cmp_ps(a, b, _CMP_NGT_UQ); }
+  static Mask both(Mask a, Mask b) { return _mm256_and_ps(a, b); }
+  static std::uint32_t bitsOf(Mask mask, std::uint32_t count) {
+    return static_cast<std::uint32_t>(_mm256_movemask_ps(mask)) & ((1u << (count < kWidth ? count : kWidth)) - 1u);
   }
 
   static std::uint32_t atLeast(const std::int32_t* values, std::int32_t bound) {

@@ -62,13 +62,22 @@ struct SimdAvx512 : SimdSse2 {
 
   using Lanes = __m512;
   using SimdSse2::minus;  // of Quad
+  using SimdSse2::plus;   // of Two
+  using SimdSse2::times;  // of Two
   static Lanes lanesOf(float value) { return _mm512_set1_ps(value); }
   static Lanes lanesAt(const float* from) { return _mm512_loadu_ps(from); }
   static Lanes plus(Lanes a, Lanes b) { return _mm512_add_ps(a, b); }
   static Lanes minus(Lanes a, Lanes b) { return _mm512_sub_ps(a, b); }
   static Lanes times(Lanes a, Lanes b) { return _mm512_mul_ps(a, b); }
+  static Lanes timesPlus(Lanes a, Lanes b, Lanes c) { return _mm512_fmadd_ps(a, b, c); }
+  static Lanes timesMinus(Lanes a, Lanes b, Lanes c) { return _mm512_fmsub_ps(a, b, c); }
   static Lanes size(Lanes a) { return _mm512_abs_ps(a); }
-  static std::uint32_t greater(Lanes a, Lanes b) { return _mm512_cmp_ps_mask(a, b, _CMP_GT_OQ); }
+  using Mask = __mmask16;
+  static Mask notGreater(Lanes a, Lanes b) { return _mm512_cmp_ps_mask(a, b, _CMP_NGT_UQ); }
+  static Mask both(Mask a, Mask b) { return _kand_mask16(a, b); }
+  static std::uint32_t bitsOf(Mask mask, std::uint32_t count) {
+    return _cvtmask16_u32(mask) & ((1u << (count < kWidth ? count : kWidth)) - 1u);
+  }
 
   static std::uint32_t atLeast(const std::int32_t* values, std::int32_t bound) {
     return _mm512_cmpge_epi32_mask(_mm512_loadu_si512(values), _mm512_set1_epi32(bound));

@@ -89,14 +89,46 @@ struct SimdPortable {
   static Lanes times(const Lanes& a, const Lanes& b) {
     return each(a, b, [](float x, float y) { return x * y; });
   }
+  /// a * b + c, rounded once or twice.
+  static Lanes timesPlus(const Lanes& a, const Lanes& b, const Lanes& c) { return plus(times(a, b), c); }
+  /// a * b - c, rounded once or twice.
+  static Lanes timesMinus(const Lanes& a, const Lanes& b, const Lanes& c) { return minus(times(a, b), c); }
   static Lanes size(const Lanes& a) {
     return each(a, a, [](float x, float) { return x < 0.0f ? -x : x; });
   }
-  /// Bit k: a > b in lane k.
-  static std::uint32_t greater(const Lanes& a, const Lanes& b) {
-    std::uint32_t bits = 0;
-    for (std::uint32_t k = 0; k < kWidth; ++k) bits |= static_cast<std::uint32_t>(a.v[k] > b.v[k]) << k;
-    return bits;
+  /// A yes or no for each lane.
+  using Mask = std::uint32_t;
+  /// Not a > b: yes where one of them is not a number.
+  static Mask notGreater(const Lanes& a, const Lanes& b) {
+    Mask mask = 0;
+    for (std::uint32_t k = 0; k < kWidth; ++k) mask |= static_cast<std::uint32_t>(!(a.v[k] > b.v[k])) << k;
+    return mask;
+  }
+  static Mask both(Mask a, Mask b) { return a & b; }
+  /// Bit k: lane k, for the k below both `count` and kWidth.
+  static std::uint32_t bitsOf(Mask mask, std::uint32_t count) {
+    return mask & ((1u << (count < kWidth ? count : kWidth)) - 1u);
+  }
+
+  /// Two numbers in double.
+  struct Two {
+    double v[2];
+  };
+  static Two twoOf(double first, double second) { return {{first, second}}; }
+  static Two plus(const Two& a, const Two& b) { return {{a.v[0] + b.v[0], a.v[1] + b.v[1]}}; }
+  static Two times(const Two& a, const Two& b) { return {{a.v[0] * b.v[0], a.v[1] * b.v[1]}}; }
+  /// b where one of them is not a number.
+  static Two least(const Two& a, const Two& b) {
+    return {{a.v[0] < b.v[0] ? a.v[0] : b.v[0], a.v[1] < b.v[1] ? a.v[1] : b.v[1]}};
+  }
+  /// b where one of them is not a number.
+  static Two greatest(const Two& a, const Two& b) {
+    return {{a.v[0] > b.v[0] ? a.v[0] : b.v[0], a.v[1] > b.v[1] ? a.v[1] : b.v[1]}};
+  }
+  /// Rounded towards zero.
+  static void store(const Two& two, std::int32_t* to) {
+    to[0] = static_cast<std::int32_t>(two.v[0]);
+    to[1] = static_cast<std::int32_t>(two.v[1]);
   }
 
   /// Finite, and min <= max.

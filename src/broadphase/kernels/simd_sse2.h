@@ -71,9 +71,24 @@ struct SimdSse2 {
   static Lanes plus(Lanes a, Lanes b) { return _mm_add_ps(a, b); }
   static Lanes minus(Lanes a, Lanes b) { return _mm_sub_ps(a, b); }
   static Lanes times(Lanes a, Lanes b) { return _mm_mul_ps(a, b); }
+  static Lanes timesPlus(Lanes a, Lanes b, Lanes c) { return plus(times(a, b), c); }
+  static Lanes timesMinus(Lanes a, Lanes b, Lanes c) { return minus(times(a, b), c); }
   static Lanes size(Lanes a) { return _mm_andnot_ps(_mm_set1_ps(-0.0f), a); }
-  static std::uint32_t greater(Lanes a, Lanes b) {
-    return static_cast<std::uint32_t>(_mm_movemask_ps(_mm_cmpgt_ps(a, b)));
+  using Mask = __m128;
+  static Mask notGreater(Lanes a, Lanes b) { return _mm_cmpngt_ps(a, b); }
+  static Mask both(Mask a, Mask b) { return _mm_and_ps(a, b); }
+  static std::uint32_t bitsOf(Mask mask, std::uint32_t count) {
+    return static_cast<std::uint32_t>(_mm_movemask_ps(mask)) & ((1u << (count < kWidth ? count : kWidth)) - 1u);
+  }
+
+  using Two = __m128d;
+  static Two twoOf(double first, double second) { return _mm_setr_pd(first, second); }
+  static Two plus(Two a, Two b) { return _mm_add_pd(a, b); }
+  static Two times(Two a, Two b) { return _mm_mul_pd(a, b); }
+  static Two least(Two a, Two b) { return _mm_min_pd(a, b); }
+  static Two greatest(Two a, Two b) { return _mm_max_pd(a, b); }
+  static void store(Two two, std::int32_t* to) {
+    _mm_storel_epi64(reinterpret_cast<__m128i*>(to), _mm_cvttpd_epi32(two));
   }
 
   static bool isSound(const kernels::Box& box) {

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// Which boxes may touch a line: tests of as many at once as there are lanes.
+// Part of kernels_body.h, which says what Simd is.
+#pragma once
+
+#include "broadphase/kernels/kernels.h"
+
+namespace hgrid {
+namespace kernels {
+namespace {
+
+/// What decides quickly that a box is off a line: on each of the three axes of space, the box around the line; on each
+/// of the three axes that are normal to the line and to a side of the box, the distance of the centres against the
+/// half-widths (Ericson 2005, 4.4: separating axes), in float with room for its rounding.
+struct LineFilter {
+  Simd::Lanes min[3], max[3];                             // of the box around the line
+  Simd::Lanes way[3], twice_from[3], width[3], slack[3];  // width: |way|, a little more
+};
+
+inline double magnitude(double value) { return value < 0.0 ? -value : value; }
+
+inline float floatBelow(double value) {
+  const auto nearest = static_cast<float>(value);
+  return nearest - static_cast<float>(magnitude(static_cast<double>(nearest))) * 1.2e-7f - 1e-37f;
+}
+inline float floatAbove(double value) { return -floatBelow(-value); }
+
+inline LineFilter filterOf(const Line& line) {
+  double length = 0.0, farthest = line.around;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double way = magnitude(line.way[axis]), from = magnitude(line.from[axis]);
+    length = way > length ? way : length;
+    farthest = from + way > farthest ? from + way : farthest;
+  }
+  const double scale = length > 1e-30 ? 1.0 / length : 0.0;
+  LineFilter filter;
+  double width[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    const double way = line.way[axis] * scale;
+    width[axis] = magnitude(way) * 1.00001;
+    const double from = line.from[axis], to = from + line.way[axis];
+    filter.min[axis] = Simd::lanesOf(floatBelow((from < to ? from : to) - line.around));
+    filter.max[axis] = Simd::lanesOf(floatAbove((from < to ? to : from) + line.around));
+    filter.way[axis] = Simd::lanesOf(static_cast<float>(way));
+    filter.width[axis] = Simd::lanesOf(static_cast<float>(width[axis]));
+    filter.twice_from[axis] = Simd::lanesOf(static_cast<float>(2.0 * line.from[axis]));
+  }
+  for (int i = 0; i < 3; ++i) {
+    const double across = width[(i + 1) % 3] + width[(i + 2) % 3];
+    // Where sums of coordinates may not be floats any more nothing is off the line.
+    const bool sane = farthest < 1e30;
+    filter.slack[i] =
+        Simd::lanesOf(sane ? static_cast<float>((2.0 * line.around + 2e-5 * farthest) * across) : __builtin_inff());
+  }
+  return filter;
+}
+
+/// As many boxes as there are lanes, on one axis of space.
+struct Extents {
+  Simd::Lanes away, size;  // of the centres from the line's start, and of the boxes; both doubled
+  Simd::Mask within;       // they overlap the box around the line
+};
+
+inline Extents extentsOf(const LineFilter& filter, int axis, const Level& level, std::uint32_t position) {
+  const float* const bounds = level.bounds + static_cast<std::size_t>(axis) * level.stride + position;
+  const Simd::Lanes min = Simd::lanesAt(bounds), max = Simd::lanesAt(bounds + 3 * level.stride);
+  return {Simd::minus(Simd::plus(min, max), filter.twice_from[axis]), Simd::minus(max, min),
+          Simd::both(Simd::notGreater(min, filter.max[axis]), Simd::notGreater(filter.min[axis], max))};
+}
+
+/// Yes for boxes whose centres are no farther from the line, along the axis normal to it and to coordinate i, than
+/// their half-widths reach. The other coordinates are j and k.
+inline Simd::Mask onAxis(const LineFilter& filter, int i, int j, int k, const Extents& at_j, const Extents& at_k) {
+  const Simd::Lanes apart = Simd::timesMinus(filter.way[j], at_k.away, Simd::times(filter.way[k], at_j.away));
+  const Simd::Lanes reach =
+      Simd::timesPlus(at_j.size, filter.width[k], Simd::timesPlus(at_k.size, filter.width[j], filter.slack[i]));
+  return Simd::notGreater(Simd::size(apart), reach);
+}
+
+/// Bit k: the box at `position` + k may be on the line, for the k below both `count` and kWidth.
+inline __attribute__((always_inline)) std::uint32_t onLine(const LineFilter& filter, const Level& level,
+                                                           std::uint32_t position, std::uint32_t count) {
+  const Extents x = extentsOf(filter, 0, level, position), y = extentsOf(filter, 1, level, position),
+                z = extentsOf(filter, 2, level, position);
+  const Simd::Mask around = Simd::both(x.within, Simd::both(y.within, z.within));
+  const Simd::Mask on = Simd::both(onAxis(filter, 0, 1, 2, y, z),
+                                   Simd::both(onAxis(filter, 1, 2, 0, z, x), onAxis(filter, 2, 0, 1, x, y)));
+  return Simd::bitsOf(Simd::both(around, on), count);
+}
+
+}  // namespace
+}  // namespace kernels
+}  // namespace hgrid

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// Pairs of boxes of one level, and of two.
+// Part of kernels_body.h, which says what Simd is.
+#pragma once
+
+#include "broadphase/kernels/kernels.h"
+#include "broadphase/kernels/output_body.h"
+
+namespace hgrid {
+namespace kernels {
+namespace {
+
+/// cellOf() of 16 values, each moved down by `reach` before. A box of the level that overlaps one with minimum v
+/// has its own minimum at v - reach or above, and rounding is monotone, so also its cell.
+inline void cellsOf(const float* values, float reach, const Grid& grid, int axis, std::int32_t* cells) {
+  const float inverse = grid.inverse[axis], origin = grid.origin[axis], last = grid.last[axis];
+  for (int k = 0; k < kBlock; ++k) {
+    float cell = (values[k] - reach) * inverse - origin;
+    cell = cell > 0.0f ? cell : 0.0f;
+    cell = cell < last ? cell : last;
+    cells[k] = static_cast<std::int32_t>(cell);
+  }
+}
+
+/// Tests box i of `asking` against `left` positions of `asked` from `begin` on.
+inline void meetRange(const Level& asking, std::uint32_t i, const Level& asked, std::uint32_t begin, std::uint32_t left,
+                      Output<Pair>& found) {
+  const Simd::Box box = Simd::boxAt(asking, i);
+  const Simd::Id id = Simd::idAt(asking, i);
+  for (;;) {  // nearly always once, so that not even an empty range is worth a question before
+    const std::uint32_t hits = Simd::overlaps(box, asked, begin, left);
+    found.wrote(Simd::storePairs(found.room(), id, asked.id + begin, hits));
+    if (left <= Simd::kWidth) return;
+    left -= Simd::kWidth;
+    begin += Simd::kWidth;
+  }
+}
+
+/// For each bit k: box first + k against the cells x_low[k] .. x_high[k] of the row that begins with cell
+/// row[k] + offset.
+/// Going through bits instead of boxes spares the processor most wrong guesses: whether a box reaches into the next
+/// row is a coin toss, how many of sixteen do is not.
+inline void meetRows(const Level& asking, std::uint32_t first, std::uint32_t bits, const Level& asked,
+                     const std::int32_t* row, std::int32_t offset, const std::int32_t* x_low,
+                     const std::int32_t* x_high, Output<Pair>& found) {
+  while (bits != 0) {
+    const int k = Simd::lowestBit(bits);
+    bits &= bits - 1;
+    const std::uint32_t begin = asked.start[row[k] + offset + x_low[k]];
+    const std::uint32_t end = asked.start[row[k] + offset + x_high[k] + 1];
+    if (begin < end) meetRange(asking, first + static_cast<std::uint32_t>(k), asked, begin, end - begin, found);
+  }
+}
+
+inline std::uint32_t bitsBelow(std::uint32_t count) { return count >= kBlock ? 0xffffu : (1u << count) - 1u; }
+
+/// A box lives in the cell of its minimum corner (Ericson 2005, 7.1.6), so what overlaps it has its cell between
+/// those of (minimum - reach) and of its maximum. Each box looks at what comes after it in the order of cells: the
+/// rest of its own row up to its maximum, then the later rows from the lower bound on.
+void pairsWithin(const Level* level, std::uint32_t begin, std::uint32_t end, PairSink* sink) {
+  const Level l = *level;
+  const Grid& grid = l.grid;
+  Output<Pair> found(sink);
+  alignas(64) std::int32_t x_low[kBlock], x_high[kBlock], y_low[kBlock], y_own[kBlock], y_high[kBlock], z_own[kBlock],
+      z_high[kBlock], own_row[kBlock], low_row[kBlock], own_span[kBlock], low_span[kBlock], z_span[kBlock];
+  for (std::uint32_t first = begin; first < end; first += kBlock) {
+    const std::uint32_t all = bitsBelow(end - first);
+    cellsOf(l.bounds + first, l.reach[0], grid, 0, x_low);
+    cellsOf(l.bounds + 3 * l.stride + first, 0.0f, grid, 0, x_high);
+    cellsOf(l.bounds + l.stride + first, l.reach[1], grid, 1, y_low);
+    cellsOf(l.bounds + l.stride + first, 0.0f, grid, 1, y_own);
+    cellsOf(l.bounds + 4 * l.stride + first, 0.0f, grid, 1, y_high);
+    cellsOf(l.bounds + 2 * l.stride + first, 0.0f, grid, 2, z_own);
+    cellsOf(l.bounds + 5 * l.stride + first, 0.0f, grid, 2, z_high);
+    for (int k = 0; k < kBlock; ++k) {
+      own_row[k] = z_own[k] * grid.slab + y_own[k] * grid.row;
+      low_row[k] = z_own[k] * grid.slab + y_low[k] * grid.row;
+      own_span[k] = y_high[k] - y_own[k];
+      low_span[k] = y_high[k] - y_low[k];
+      z_span[k] = z_high[k] - z_own[k];
+    }
+    const std::uint32_t stop = end - first < kBlock ? end - first : kBlock;
+    for (std::uint32_t k = 0; k < stop; ++k) {
+      const std::uint32_t next = first + k + 1, row_end = l.start[own_row[k] + x_high[k] + 1];
+      meetRange(l, first + k, l, next, row_end > next ? row_end - next : 0, found);
+    }
+    for (std::int32_t y = 1;; ++y) {
+      const std::uint32_t bits = Simd::atLeast(own_span, y) & all;
+      if (bits == 0) break;
+      meetRows(l, first, bits, l, own_row, y * grid.row, x_low, x_high, found);
+    }
+    for (std::int32_t z = 1;; ++z) {
+      const std::uint32_t slab_bits = Simd::atLeast(z_span, z) & all;
+      if (slab_bits == 0) break;
+      for (std::int32_t y = 0;; ++y) {
+        const std::uint32_t bits = Simd::atLeast(low_span, y) & slab_bits;
+        if (bits == 0) break;
+        meetRows(l, first, bits, l, low_row, z * grid.slab + y * grid.row, x_low, x_high, found);
+      }
+    }
+  }
+  found.close();
+}
+
+/// A box that asks, and positions that it may overlap.
+struct Encounter {
+  std::uint32_t box, begin, left;
+};
+
+/// Encounters of one level with another. They are collected first and held later: by then what they read, which may be
+/// far from what the one before has read, has come into the cache.
+class Encounters {
+ public:
+  Encounters(const Level& asking, const Level& asked) : asking_(asking), asked_(asked) {}
+
+  /// As meetRows() takes them.
+  void add(std::uint32_t first, std::uint32_t bits, const std::int32_t* row, std::int32_t offset,
+           const std::int32_t* x_low, const std::int32_t* x_high, Output<Pair>& found) {
+    if (count_ > kMost - kBlock) hold(found);
+    while (bits != 0) {
+      const int k = Simd::lowestBit(bits);
+      bits &= bits - 1;
+      const std::uint32_t begin = asked_.start[row[k] + offset + x_low[k]];
+      const std::uint32_t end = asked_.start[row[k] + offset + x_high[k] + 1];
+      for (int side = 0; side < 6; ++side) __builtin_prefetch(asked_.bounds + side * asked_.stride + begin);
+      encounters_[count_] = {first + static_cast<std::uint32_t>(k), begin, end - begin};
+      count_ += begin < end;
+    }
+  }
+  void hold(Output<Pair>& found) {
+    for (int i = 0; i < count_; ++i) {
+      const Encounter& encounter = encounters_[i];
+      meetRange(asking_, encounter.box, asked_, encounter.begin, encounter.left, found);
+    }
+    count_ = 0;
+  }
+
+ private:
+  static constexpr int kMost = 256;
+  const Level &asking_, &asked_;
+  int count_ = 0;
+  Encounter encounters_[kMost];
+};
+
+/// As above, but all cells from the lower bound on count: the two levels, or layers, have no common order.
+void pairsAcross(const Level* asking, std::uint32_t begin, std::uint32_t end, const Level* asked, PairSink* sink) {
+  const Level a = *asking, b = *asked;
+  const Grid& grid = b.grid;
+  Output<Pair> found(sink);
+  alignas(64) std::int32_t x_low[kBlock], x_high[kBlock], y_low[kBlock], y_high[kBlock], z_low[kBlock], z_high[kBlock],
+      row[kBlock];
+  Encounters encounters(a, b);
+  for (std::uint32_t first = begin; first < end; first += kBlock) {
+    const std::uint32_t all = bitsBelow(end - first);
+    cellsOf(a.bounds + first, b.reach[0], grid, 0, x_low);
+    cellsOf(a.bounds + 3 * a.stride + first, 0.0f, grid, 0, x_high);
+    cellsOf(a.bounds + a.stride + first, b.reach[1], grid, 1, y_low);
+    cellsOf(a.bounds + 4 * a.stride + first, 0.0f, grid, 1, y_high);
+    cellsOf(a.bounds + 2 * a.stride + first, b.reach[2], grid, 2, z_low);
+    cellsOf(a.bounds + 5 * a.stride + first, 0.0f, grid, 2, z_high);
+    for (int k = 0; k < kBlock; ++k) {
+      row[k] = z_low[k] * grid.slab + y_low[k] * grid.row;
+      y_high[k] -= y_low[k];
+      z_high[k] -= z_low[k];
+    }
+    for (std::int32_t z = 0;; ++z) {
+      const std::uint32_t slab_bits = Simd::atLeast(z_high, z) & all;
+      if (slab_bits == 0) break;
+      for (std::int32_t y = 0;; ++y) {
+        const std::uint32_t bits = Simd::atLeast(y_high, y) & slab_bits;
+        if (bits == 0) break;
+        encounters.add(first, bits, row, z * grid.slab + y * grid.row, x_low, x_high, found);
+      }
+    }
+  }
+  encounters.hold(found);
+  found.close();
+}
+
+}  // namespace
+}  // namespace kernels
+}  // namespace hgrid
