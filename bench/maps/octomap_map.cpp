@@ -78,7 +78,7 @@ class OctomapMap final : public MapPeer {
          leaf != end; ++leaf) {
       if (!tree_->isNodeOccupied(*leaf)) continue;
       const Voxel voxel = voxelOf(leaf);
-      if (squaredDistance(inKeys(voxel), ball.center) <= squared && !look(voxel)) return;
+      if (squaredGap(inKeys(voxel), ball.center) <= squared && !look(voxel)) return;
     }
   }
 

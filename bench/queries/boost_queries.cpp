@@ -23,7 +23,7 @@ class BoostQueries final : public QueryPeer {
   void sphere(const Sphere& sphere, std::vector<ProxyId>& found) override {
     const double squared = sphere.radius * sphere.radius;
     query(bgi::intersects(toBoost(around(sphere))), found,
-          [&](ProxyId id) { return squaredDistance(boxes_[id], sphere.center) <= squared; });
+          [&](ProxyId id) { return squaredGap(boxes_[id], sphere.center) <= squared; });
   }
   void segment(const Segment& segment, std::vector<ProxyId>& found) override {
     using BoostSegment = boost::geometry::model::segment<BoostPoint>;

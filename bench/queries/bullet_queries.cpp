@@ -33,7 +33,7 @@ class BulletQueries final : public QueryPeer {
 
   void sphere(const Sphere& sphere, std::vector<ProxyId>& found) override {
     const double squared = sphere.radius * sphere.radius;
-    const auto hit = [&](ProxyId id) { return squaredDistance(boxes_[id], sphere.center) <= squared; };
+    const auto hit = [&](ProxyId id) { return squaredGap(boxes_[id], sphere.center) <= squared; };
     collide(around(sphere), hit, found);
   }
   void box(const Aabb& box, std::vector<ProxyId>& found) override {

@@ -88,7 +88,7 @@ class EmbreeQueries final : public QueryPeer {
 
   static bool takeTouched(RTCPointQueryFunctionArguments* arguments) {
     const BallQuery& query = *static_cast<BallQuery*>(arguments->userPtr);
-    const double squared = squaredDistance(query.peer->boxes_[arguments->primID], query.sphere->center);
+    const double squared = squaredGap(query.peer->boxes_[arguments->primID], query.sphere->center);
     if (squared <= query.sphere->radius * query.sphere->radius) query.found->push_back(arguments->primID);
     return false;
   }
@@ -96,7 +96,7 @@ class EmbreeQueries final : public QueryPeer {
   static bool takeNear(RTCPointQueryFunctionArguments* arguments) {
     NearestQuery& query = *static_cast<NearestQuery*>(arguments->userPtr);
     const double before = query.list.bound();
-    query.list.offer(squaredDistance(query.peer->boxes_[arguments->primID], *query.point), arguments->primID);
+    query.list.offer(squaredGap(query.peer->boxes_[arguments->primID], *query.point), arguments->primID);
     if (query.list.bound() == before) return false;
     arguments->query->radius = static_cast<float>(std::sqrt(query.list.bound()) + kSlack);
     return true;  // the radius has changed

@@ -13,7 +13,7 @@ namespace hgrid {
 namespace bench {
 
 /// Squared distance of a point from a box [m²], 0 inside.
-inline double squaredDistance(const Aabb& box, const Eigen::Vector3d& point) {
+inline double squaredGap(const Aabb& box, const Eigen::Vector3d& point) {
   double sum = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     const double off = std::max({0.0, double(box.min[axis]) - point[axis], point[axis] - double(box.max[axis])});

@@ -36,7 +36,7 @@ class FclQueries final : public QueryPeer {
 
   void sphere(const Sphere& sphere, std::vector<ProxyId>& found) override {
     const double squared = sphere.radius * sphere.radius;
-    const auto hit = [&](ProxyId id) { return squaredDistance(boxes_[id], sphere.center) <= squared; };
+    const auto hit = [&](ProxyId id) { return squaredGap(boxes_[id], sphere.center) <= squared; };
     collide(around(sphere), hit, found);
   }
   void segment(const Segment& segment, std::vector<ProxyId>& found) override {
@@ -56,7 +56,7 @@ class FclQueries final : public QueryPeer {
     search.list.start(k);
     tree_.distance(&query, &search, [](Object* object, Object*, void* to, double& bound) {
       Search& search = *static_cast<Search*>(to);
-      search.list.offer(squaredDistance(search.peer->boxes_[idOf(object)], search.point), idOf(object));
+      search.list.offer(squaredGap(search.peer->boxes_[idOf(object)], search.point), idOf(object));
       bound = std::sqrt(search.list.bound());
       return false;
     });

@@ -17,7 +17,7 @@ bool hitsOfSphere(const Sphere& sphere, const std::vector<Aabb>& boxes, std::vec
   hits.clear();
   bool clear = true;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const double squared = squaredDistance(boxes[i], sphere.center);
+    const double squared = squaredGap(boxes[i], sphere.center);
     if (squared > high) continue;
     clear = clear && squared <= low;
     hits.push_back(static_cast<ProxyId>(i));
@@ -49,7 +49,7 @@ bool hitsOfNearest(const Eigen::Vector3d& point, std::size_t k, const std::vecto
                    std::vector<ProxyId>& hits) {
   std::vector<std::pair<double, ProxyId>> all;
   for (std::size_t i = 0; i < boxes.size(); ++i)
-    all.emplace_back(std::sqrt(squaredDistance(boxes[i], point)), static_cast<ProxyId>(i));
+    all.emplace_back(std::sqrt(squaredGap(boxes[i], point)), static_cast<ProxyId>(i));
   std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(k + 1), all.end());
   hits.clear();
   for (std::size_t i = 0; i < k; ++i) hits.push_back(all[i].second);

@@ -57,6 +57,20 @@ void sortFew(Iterator begin, Iterator end, Less less) {
   }
 }
 
+/// Sorts ids, each of which is there once. That of each place is counted: more steps than other ways, but none that a
+/// processor could guess wrong.
+void sortIds(ProxyId* ids, std::size_t count) {
+  constexpr std::size_t kFew = 32;
+  if (count > kFew) return std::sort(ids, ids + count);
+  std::array<ProxyId, kFew> unsorted;
+  std::copy_n(ids, count, unsorted.begin());
+  for (std::size_t i = 0; i < count; ++i) {
+    std::uint32_t before = 0;
+    for (std::size_t k = 0; k < count; ++k) before += unsorted[k] < unsorted[i] ? 1u : 0u;
+    ids[before] = unsorted[i];
+  }
+}
+
 kernels::Box boxAround(const Eigen::Vector3d& min, const Eigen::Vector3d& max) {
   kernels::Box box;
   for (int axis = 0; axis < 3; ++axis) {
@@ -112,34 +126,51 @@ void visitOverlapping(const Engine& engine, const kernels::Box& box, Visit&& vis
       visit);
 }
 
+/// Appends the ids of the boxes that overlap a box and pass a test, ascending.
+template <class Engine, class Test>
+void appendOverlapping(const Engine& engine, const kernels::Box& box, std::vector<ProxyId>& found, Test&& test) {
+  const kernels::Kernels& kernels = kernels::of(engine.isa);
+  PositionWriter writer(bufferOfThread());
+  const std::size_t before = found.size();
+  std::size_t count = before;
+  for (const Layer& layer : engine.layers) {
+    if (layer.size() == 0) continue;
+    for (const kernels::Level& level : layer.levels()) kernels.overlapping(&level, &box, writer.sink());
+    found.resize(count + static_cast<std::size_t>(writer.end() - writer.begin()));
+    for (const std::uint32_t position : writer) {  // written first, then kept or not: no branch to guess
+      found[count] = layer.ids()[position];
+      count += test(layer, position) ? 1 : 0;
+    }
+    writer.clear();
+  }
+  found.resize(count);
+  sortIds(found.data() + before, count - before);
+}
+
 // Answers to one question, appended. Several threads may ask at once.
 template <class Engine>
 void answer(const Engine& engine, const Aabb& query, std::vector<ProxyId>& found) {
-  const std::size_t before = found.size();
-  visitOverlapping(engine, boxOf(query),
-                   [&](const Layer& layer, std::uint32_t position) { found.push_back(layer.ids()[position]); });
-  sortFew(found.begin() + static_cast<std::ptrdiff_t>(before), found.end(), std::less<ProxyId>());
+  appendOverlapping(engine, boxOf(query), found, [](const Layer&, std::uint32_t) { return true; });
 }
 
 template <class Engine>
 void answer(const Engine& engine, const Sphere& query, std::vector<ProxyId>& found) {
   const double near = touchingDistance(query);
-  const std::size_t before = found.size();
-  visitOverlapping(engine, boxOf(query), [&](const Layer& layer, std::uint32_t position) {
-    if (distance(layer.boxAt(position), query.center) <= near) found.push_back(layer.ids()[position]);
+  appendOverlapping(engine, boxOf(query), found, [&](const Layer& layer, std::uint32_t position) {
+    return squaredDistance(layer.boxAt(position), query.center) <= near * near;
   });
-  sortFew(found.begin() + static_cast<std::ptrdiff_t>(before), found.end(), std::less<ProxyId>());
 }
 
 template <class Engine>
 void answer(const Engine& engine, const Segment& query, std::vector<SegmentHit>& found) {
   const kernels::Kernels& kernels = kernels::of(engine.isa);
   const kernels::Line line = lineOf(query);
+  const FirstTouch firstTouch(query);
   const std::size_t before = found.size();
   visitFound(
       engine, [&](const kernels::Level& level, kernels::PositionSink* sink) { kernels.along(&level, &line, sink); },
       [&](const Layer& layer, std::uint32_t position) {
-        if (const auto along = firstTouch(query, layer.boxAt(position))) {
+        if (const auto along = firstTouch(layer.boxAt(position))) {
           found.push_back({layer.ids()[position], *along});
         }
       });
@@ -173,9 +204,25 @@ std::vector<std::uint32_t> byPlace(const std::vector<Query>& queries, const kern
   return order;
 }
 
+/// [m] Half the way between boxes where they stand densest, if they stood evenly; of a ball that holds `count` of them.
+template <class Engine>
+double likelyRadius(const Engine& engine, std::size_t count) {
+  double radius = std::numeric_limits<double>::infinity();
+  for (const Layer& layer : engine.layers) {
+    for (const kernels::Level& level : layer.levels()) {
+      if (level.begin == level.end) continue;
+      double volume = static_cast<double>(count) / (level.end - level.begin);
+      for (int i = 0; i < 3; ++i) volume *= (level.grid.last[i] + 1.0) / static_cast<double>(level.grid.inverse[i]);
+      radius = std::min(radius, 0.5 * std::cbrt(volume));
+    }
+  }
+  return radius;
+}
+
 template <class Engine, class Query, class Found>
 void answerAll(const Engine& engine, const std::vector<Query>& queries, BatchOf<Found>& batch) {
   constexpr std::size_t kFitsTheCache = std::size_t{1} << 18;  // boxes: finding an order takes longer than it saves
+  constexpr std::size_t kAhead = 8;                            // questions fetched before they are answered
   batch.begin.resize(queries.size());
   batch.count.resize(queries.size());
   batch.found.clear();
@@ -189,7 +236,13 @@ void answerAll(const Engine& engine, const std::vector<Query>& queries, BatchOf<
   if (largest.size() < kFitsTheCache) {
     for (std::size_t i = 0; i < queries.size(); ++i) answerOne(i);
   } else {
-    for (const std::uint32_t i : byPlace(queries, largest.levels().front().grid)) answerOne(i);
+    const std::vector<std::uint32_t> order = byPlace(queries, largest.levels().front().grid);
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      const char* const ahead = reinterpret_cast<const char*>(&queries[order[std::min(k + kAhead, order.size() - 1)]]);
+      __builtin_prefetch(ahead);
+      __builtin_prefetch(ahead + sizeof(Query) - 1);
+      answerOne(order[k]);
+    }
   }
 }
 
@@ -225,36 +278,32 @@ void HGrid::nearest(const Eigen::Vector3d& point, std::size_t count, double limi
   const Engine& e = *engine_;
   count = std::min(count, e.stored);
   if (count == 0 || !(limit >= 0.0)) return;
-  // Balls that grow until one holds enough boxes; what a ball finds is all that is as near as its radius.
-  double radius = std::numeric_limits<double>::infinity();
-  for (const Layer& layer : e.layers) {
-    for (const kernels::Level& level : layer.levels()) {
-      if (level.begin < level.end) radius = std::min(radius, 0.5 / static_cast<double>(level.grid.inverse[1]));
-    }
-  }
-  for (;; radius *= 2.0) {
-    radius = std::min(radius, limit);
-    found.clear();
-    const auto consider = [&](ProxyId id, const Aabb& box) {
-      const double away = distance(box, point);
-      if (away <= radius) found.push_back({id, away});
-    };
-    if (!(radius < 1e30)) {  // all; coordinates of a larger ball would not be floats
-      for (ProxyId id = 0; id < e.place.size(); ++id) {
-        if (e.isStored(id)) consider(id, e.boxes[id]);
-      }
-      break;
-    }
-    visitOverlapping(e, boxOf(Sphere{point, radius}),
-                     [&](const Layer& layer, std::uint32_t i) { consider(layer.ids()[i], layer.boxAt(i)); });
-    if (found.size() >= count || radius >= limit) break;
-  }
   const auto nearer = [](const NearHit& a, const NearHit& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.id < b.id;
   };
-  count = std::min(count, found.size());
-  std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(count), found.end(), nearer);
-  found.resize(count);
+  // Balls that grow until one holds enough boxes; what a ball finds is all that is as near as its radius.
+  for (double radius = std::min(likelyRadius(e, count), limit);;) {
+    const bool all = !(radius < 1e30);  // coordinates of such a ball would not be floats
+    found.clear();
+    const auto consider = [&](ProxyId id, const Aabb& box) {
+      const double away = distance(box, point);
+      if (away <= limit) found.push_back({id, away});
+    };
+    if (all) {
+      for (ProxyId id = 0; id < e.place.size(); ++id) {
+        if (e.isStored(id)) consider(id, e.boxes[id]);
+      }
+    } else {
+      visitOverlapping(e, boxOf(Sphere{point, radius}),
+                       [&](const Layer& layer, std::uint32_t i) { consider(layer.ids()[i], layer.boxAt(i)); });
+    }
+    const std::size_t kept = std::min(count, found.size());
+    std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(kept), found.end(), nearer);
+    // Those in the corners of the box around the ball are farther than its radius; enough of them are a bound.
+    const bool enough = kept == count;
+    if (all || radius >= limit || (enough && found[kept - 1].distance <= radius)) return found.resize(kept);
+    radius = std::min(enough ? found[kept - 1].distance : 2.0 * radius, limit);
+  }
 }
 
 }  // namespace hgrid

@@ -68,7 +68,7 @@ class StaticGrid::LineSearch {
     const Eigen::Vector3d way = segment.to - segment.from;
     const double longest = way.cwiseAbs().maxCoeff(&main_);
     const double farthest = std::max(segment.from.cwiseAbs().maxCoeff(), segment.to.cwiseAbs().maxCoeff());
-    around_ = segment.radius + 2e-12 * (farthest + segment.radius);  // twice what firstTouch() adds
+    around_ = segment.radius + 2e-12 * (farthest + segment.radius);  // twice what FirstTouch adds
     length_ = way.norm();
     way_ = way[main_];
     const double per_way = longest > 1e-100 ? 1.0 / way_ : 0.0;
@@ -205,7 +205,7 @@ class StaticGrid::LineSearch {
     const Brick brick = brickOf(frame, level);
     frame.left &= ~grid_.restOfVoxel(brick, cell);
     const Voxel voxel = grid_.voxelAt(brick, cell);
-    const auto along = firstTouch(segment_, keysOf(voxel));
+    const auto along = FirstTouch(segment_)(keysOf(voxel));
     if (!along) return;
     const double share = length_ > 0.0 ? *along / length_ : 0.0;
     if (!(share < first_.along)) return;

@@ -86,32 +86,39 @@ std::optional<Meeting> meet(const Segment& segment, const Aabb& box) {
   return Meeting{*first * step.norm(), best, nearestPoint(box, segment.from + best_way * step)};
 }
 
-std::optional<double> firstTouch(const Segment& segment, const Aabb& box) {
-  double sum = 0.0, squared = 0.0;
-  for (int axis = 0; axis < 3; ++axis) sum += std::abs(segment.from[axis]) + std::abs(segment.to[axis]);
-  const double slack = 2.0 * roundingSlack(sum);  // more than meet() allows, and than is rounded here
+FirstTouch::FirstTouch(const Segment& segment) : segment_(segment), clips_(segment.radius == 0.0) {
+  const Eigen::Vector3d step = segment.to - segment.from;
+  // More than meet() allows, and than is rounded here.
+  const double slack = 2.0 * roundingSlack(segment.from.lpNorm<1>() + segment.to.lpNorm<1>());
+  for (int axis = 0; axis < 3; ++axis) {
+    const double size = std::abs(step[axis]);
+    clips_ = clips_ && (size == 0.0 || (size > 1e-100 && size < 1e100));
+    inverse_[axis] = 1.0 / step[axis];
+    rounded_[axis] = slack * std::abs(inverse_[axis]);
+  }
+  length_ = step.norm();
+}
+
+std::optional<double> FirstTouch::operator()(const Aabb& box) const {
   double enter = 0.0, surely_in = 0.0, surely_out = 1.0, perhaps_in = 0.0, perhaps_out = 1.0;
-  bool plain = segment.radius == 0.0;
+  bool plain = clips_;
   for (int axis = 0; axis < 3 && plain; ++axis) {
-    const double from = segment.from[axis], step = segment.to[axis] - from;
-    if (step == 0.0) {
+    const double from = segment_.from[axis], to = segment_.to[axis];
+    if (from == to) {
       plain = box.min[axis] < from && from < box.max[axis];
       continue;
     }
-    plain = std::abs(step) > 1e-100 && std::abs(step) < 1e100;
-    const double inverse = 1.0 / step, rounded = slack * std::abs(inverse);
-    const double a = (box.min[axis] - from) * inverse, b = (box.max[axis] - from) * inverse;
+    const double a = (box.min[axis] - from) * inverse_[axis], b = (box.max[axis] - from) * inverse_[axis];
     const double in = std::min(a, b), out = std::max(a, b);
     enter = std::max(enter, in);
-    surely_in = std::max(surely_in, in + rounded);
-    surely_out = std::min(surely_out, out - rounded);
-    perhaps_in = std::max(perhaps_in, in - rounded);
-    perhaps_out = std::min(perhaps_out, out + rounded);
-    squared += step * step;
+    surely_in = std::max(surely_in, in + rounded_[axis]);
+    surely_out = std::min(surely_out, out - rounded_[axis]);
+    perhaps_in = std::max(perhaps_in, in - rounded_[axis]);
+    perhaps_out = std::min(perhaps_out, out + rounded_[axis]);
   }
-  if (plain && surely_in < surely_out) return enter * std::sqrt(squared);
+  if (plain && surely_in < surely_out) return enter * length_;
   if (plain && perhaps_in > perhaps_out) return std::nullopt;
-  const auto meeting = meet(segment, box);
+  const auto meeting = meet(segment_, box);
   return meeting ? std::optional<double>(meeting->along) : std::nullopt;
 }
 

@@ -173,7 +173,7 @@ void ChurnWorld::expectRightQueries() {
   for (const ProxyId id : ids) {  // what decides about one box is tested in test/geometry
     if (oracleOverlap(box, boxes_[id])) in_box.push_back(id);
     if (touches(ball, boxes_[id])) in_ball.push_back(id);
-    if (const auto along = firstTouch(segment, boxes_[id])) hits.push_back({id, *along});
+    if (const auto along = FirstTouch(segment)(boxes_[id])) hits.push_back({id, *along});
     near.emplace_back(distance(boxes_[id], ball.center), id);
   }
   std::sort(hits.begin(), hits.end(), [](const SegmentHit& a, const SegmentHit& b) {

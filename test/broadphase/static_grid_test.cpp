@@ -298,7 +298,7 @@ TEST_P(StaticGridOracle, LeavesNoVoxelOutAlongASegment) {
     const double length = (in_keys.to - in_keys.from).norm();
     std::optional<double> share;
     for (const Aabb& box : boxes) {
-      const auto along = firstTouch(in_keys, box);
+      const auto along = FirstTouch(in_keys)(box);
       if (along) share = std::min(share.value_or(1e9), length > 0.0 ? *along / length : 0.0);
     }
     const auto found = grid_.firstAlong(segment);

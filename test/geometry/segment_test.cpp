@@ -173,7 +173,7 @@ TEST(Segment, TheFirstTouchIsThatOfTheMeeting) {
       if (random.chance(0.02)) segment.to[k] = std::nextafter(segment.from[k], 9.0);
     }
     const auto meeting = meet(segment, box);
-    const auto first = firstTouch(segment, box);
+    const auto first = FirstTouch(segment)(box);
     ASSERT_EQ(first.has_value(), meeting.has_value()) << "number " << i;
     if (!first) continue;
     ASSERT_NEAR(*first, meeting->along, 1e-9) << "number " << i;

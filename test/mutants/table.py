@@ -6,7 +6,10 @@ Each is a fault that a broad phase has had somewhere, or that a tired reviewer w
 none. Those of one file stand together, because that saves the compiler a file.
 """
 
-KERNELS = "broadphase/kernels/kernels_body.h"
+PAIRS_BODY = "broadphase/kernels/pairs_body.h"
+BOXES_BODY = "broadphase/kernels/boxes_body.h"
+LINE_BODY = "broadphase/kernels/line_body.h"
+LINE_FILTER = "broadphase/kernels/line_filter_body.h"
 AVX2 = "broadphase/kernels/simd_avx2.h"
 LAYER = "broadphase/layer.cpp"
 ENGINE = "broadphase/engine.cpp"
@@ -23,30 +26,30 @@ UNMAPPED = "scene/snapshot_unmapped.cpp"
 CLOUD = "scene/cloud_cells.cpp"
 
 MUTANTS = [
-    ("boxes of a level look around without its reach", KERNELS,
+    ("boxes of a level look around without its reach", PAIRS_BODY,
      "cellsOf(l.bounds + first, l.reach[0], grid, 0, x_low);", "cellsOf(l.bounds + first, 0.0f, grid, 0, x_low);"),
-    ("a box looks no farther than the cell of its minimum", KERNELS,
+    ("a box looks no farther than the cell of its minimum", PAIRS_BODY,
      "cellsOf(l.bounds + 3 * l.stride + first, 0.0f, grid, 0, x_high);",
      "cellsOf(l.bounds + first, 0.0f, grid, 0, x_high);"),
-    ("the last slab is not looked at", KERNELS,
+    ("the last slab is not looked at", PAIRS_BODY,
      "z_span[k] = z_high[k] - z_own[k];", "z_span[k] = z_high[k] - z_own[k] - 1;"),
-    ("the first box after a box is skipped", KERNELS,
+    ("the first box after a box is skipped", PAIRS_BODY,
      "next = first + k + 1,", "next = first + k + 2,"),
-    ("the last block of boxes is taken for a full one", KERNELS,
+    ("the last block of boxes is taken for a full one", PAIRS_BODY,
      "count >= kBlock ? 0xffffu : (1u << count) - 1u", "count >= kBlock ? 0xffffu : 0xffffu"),
-    ("encounters that were collected last are never held", KERNELS,
+    ("encounters that were collected last are never held", PAIRS_BODY,
      "  encounters.hold(found);", ""),
-    ("another level is looked at without its reach", KERNELS,
+    ("another level is looked at without its reach", PAIRS_BODY,
      "b.reach[2], grid, 2, z_low", "0.0f, grid, 2, z_low"),
-    ("a query looks around without the reach", KERNELS,
+    ("a query looks around without the reach", BOXES_BODY,
      "cellOf(box->min[axis] - l.reach[axis], grid, axis)", "cellOf(box->min[axis], grid, axis)"),
-    ("along a line cells are looked at without the reach of their boxes", KERNELS,
+    ("along a line cells are looked at without the reach of their boxes", LINE_BODY,
      "track.below + static_cast<double>(level.reach[axis]) * inverse", "track.below"),
-    ("the cells along a line forget its radius", KERNELS,
+    ("the cells along a line forget its radius", LINE_BODY,
      "line.around * inverse + rounded", "rounded"),
-    ("along a line the outermost cells end like all others", KERNELS,
-     "cell == 0 ? -unbounded_ : enter", "enter"),
-    ("the quick test along a line forgets its radius", KERNELS,
+    ("along a line the outermost cells end like all others", LINE_BODY,
+     "if (cell == 0.0) met", "if (false) met"),
+    ("the quick test along a line forgets its radius", LINE_FILTER,
      "(2.0 * line.around + 2e-5 * farthest)", "(2e-5 * farthest)"),
 
     ("boxes that touch do not overlap, without SIMD", "broadphase/kernels/simd_portable.h",
@@ -91,7 +94,11 @@ MUTANTS = [
     ("hits along a segment come the wrong way round", QUERIES,
      "a.along < b.along", "a.along > b.along"),
     ("the nearest are those in the first ball that is not empty", QUERIES,
-     "found.size() >= count", "!found.empty()"),
+     "(enough && found[kept - 1].distance <= radius)", "kept > 0"),
+    ("all that overlaps the box around a ball touches the ball", QUERIES,
+     "query.center) <= near * near", "query.center) <= 3.0 * near * near"),
+    ("the boxes after a row that a line passes are looked at with it", AVX2,
+     "& ((1u << (count < kWidth ? count : kWidth)) - 1u)", "& 0xffu"),
 
     ("a segment that goes down an axis enters through the far side", "geometry/segment.cpp",
      "enter = std::max(enter, in);", "enter = std::max(enter, a);"),

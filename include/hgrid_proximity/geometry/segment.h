@@ -30,8 +30,20 @@ struct Meeting {
 /// breaks are where the point crosses a face's plane, and each piece is solved in closed form.
 std::optional<Meeting> meet(const Segment& segment, const Aabb& box);
 
-/// Meeting::along of meet(), within its rounding, without the rest and faster: a thin segment that plainly enters the
-/// box is clipped by the box's slabs (Ericson 2005, section 5.3.3).
-std::optional<double> firstTouch(const Segment& segment, const Aabb& box);
+/// Meeting::along of meet(), within its rounding, without the rest and faster: a thin segment that plainly enters a box
+/// is clipped by the box's slabs (Ericson 2005, section 5.3.3). For many boxes: what they share is computed once.
+class FirstTouch {
+ public:
+  /// @param segment  must outlive this
+  explicit FirstTouch(const Segment& segment);
+  /// [m] from the segment's start, or nullopt if it does not touch the box.
+  std::optional<double> operator()(const Aabb& box) const;
+
+ private:
+  const Segment& segment_;
+  bool clips_;  // it is thin, and of sane length on every axis
+  double length_;
+  Eigen::Vector3d inverse_, rounded_;  // of the step on each axis; in units of the whole way
+};
 
 }  // namespace hgrid
