@@ -89,28 +89,24 @@ void perform(const SearchTask& task, const kernels::Kernels& kernels, kernels::P
   }
 }
 
+bool notBothFixed(const void* fixed, ProxyId first, ProxyId second) {
+  const auto& is = *static_cast<const std::vector<bool>*>(fixed);
+  return !(first < is.size() && is[first] && second < is.size() && is[second]);
+}
+
 /// Which pairs are wanted, of all that overlap.
 struct Sieve {
   const PairTest& filter;
   const std::vector<bool>* fixed;  // by id; null if fixed boxes stand in their own layer only, which makes no pairs
 
-  bool isFixed(ProxyId id) const { return id < fixed->size() && (*fixed)[id]; }
-  bool wants(const ProxyPair& pair) const {
-    if (fixed != nullptr && isFixed(pair.first) && isFixed(pair.second)) return false;
-    return filter.reported == nullptr || filter.reported(filter.context, pair.first, pair.second);
+  /// Leaves out what is not wanted of the pairs from number `from` up to `end`. @returns where they end now
+  std::size_t sift(std::vector<ProxyPair>& pairs, std::size_t from, std::size_t end) const {
+    for (const PairTest& test : {fixed != nullptr ? PairTest::of<notBothFixed>(fixed) : PairTest{}, filter}) {
+      if (test.sift != nullptr) end = from + test.sift(test.context, pairs.data() + from, end - from);
+    }
+    return end;
   }
 };
-
-/// Leaves out what is not wanted of the pairs from number `from` up to `end`. @returns where they end now
-std::size_t sift(const Sieve& sieve, std::vector<ProxyPair>& pairs, std::size_t from, std::size_t end) {
-  if (sieve.filter.reported == nullptr && sieve.fixed == nullptr) return end;
-  std::size_t to = from;
-  for (std::size_t i = from; i < end; ++i) {
-    pairs[to] = pairs[i];
-    to += sieve.wants(pairs[i]);
-  }
-  return to;
-}
 
 /// Performs the tasks, all pairs after the first `used` of the vector, in the order of the tasks whoever does them.
 void performAll(SearchBuffers& buffers, const kernels::Kernels& kernels, const Sieve& sieve, Workers* workers,
@@ -121,7 +117,7 @@ void performAll(SearchBuffers& buffers, const kernels::Kernels& kernels, const S
   if (workers == nullptr || workers->threads() == 1 || boxes < 2 * kWorthAThread) {
     PairWriter writer(pairs, used);
     for (const SearchTask& task : tasks) perform(task, kernels, writer.sink());
-    return pairs.resize(sift(sieve, pairs, used, writer.used()));
+    return pairs.resize(sieve.sift(pairs, used, writer.used()));
   }
   const auto threads = static_cast<std::size_t>(workers->threads());
   buffers.parts.resize(threads);
@@ -133,7 +129,7 @@ void performAll(SearchBuffers& buffers, const kernels::Kernels& kernels, const S
     perform(task, kernels, writer.sink());
     task.thread = thread;
     task.first = buffers.used[thread];
-    buffers.used[thread] = sift(sieve, part, task.first, writer.used());
+    buffers.used[thread] = sieve.sift(part, task.first, writer.used());
     task.found = buffers.used[thread] - task.first;
   });
   std::size_t total = used;

@@ -150,7 +150,7 @@ void Scene::State::fillGrid(Snapshot& snapshot) {
     snapshot.grid_ = HGrid(scale);
     snapshot.grid_.setThreads(options.threads);
     snapshot.grid_.setFixed(fixed_proxies);
-    snapshot.grid_.setFilter({isReported, structure.get()});  // the snapshot keeps it alive
+    snapshot.grid_.setFilter(PairTest::of<isReported>(structure.get()));  // the snapshot keeps it alive
     snapshot.grid_revision_ = structure->revision;
   }
   snapshot.grid_.update(ids, grown_boxes);

@@ -33,7 +33,10 @@ std::vector<std::uint32_t> joinedTo(const RobotModel& model, const std::vector<s
 }  // namespace
 
 LinkMatrix::LinkMatrix(const RobotModel& model, const LinkRules& rules, std::vector<std::string>& warnings)
-    : size_(model.links.size()), origins_(size_ * size_, Origin::none) {
+    : size_(model.links.size()),
+      words_((size_ + 63) / 64),
+      origins_(size_ * size_, Origin::none),
+      allowed_(size_ * words_) {
   std::vector<std::vector<std::uint32_t>> neighbours(size_);
   for (std::uint32_t i = 0; i < size_; ++i) {
     if (model.links[i].parent < 0) continue;
@@ -80,8 +83,12 @@ const LinkMatrix::Tag* LinkMatrix::tag(std::uint32_t first, std::uint32_t second
 }
 
 void LinkMatrix::set(std::uint32_t first, std::uint32_t second, Origin origin) {
-  origins_[first * size_ + second] = origin;
-  origins_[second * size_ + first] = origin;
+  for (const auto& [a, b] : {std::pair(first, second), std::pair(second, first)}) {
+    origins_[a * size_ + b] = origin;
+    std::uint64_t& word = allowed_[a * words_ + b / 64];
+    const std::uint64_t bit = std::uint64_t{1} << (b % 64);
+    word = origin != Origin::none ? word | bit : word & ~bit;
+  }
 }
 
 }  // namespace hgrid

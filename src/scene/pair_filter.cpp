@@ -56,11 +56,14 @@ PairFilter::PairFilter(const std::vector<Body>& bodies, PairKinds kinds, std::ve
     Subject subject;
     subject.type = numberOf({body.kind, body.mobility});
     subject.link = body.link;
-    subject.links = body.links.get();
     if (body.kind == BodyKind::link) {
       subject.robot = robots.emplace(body.robot, static_cast<std::uint32_t>(robots.size())).first->second;
     }
-    if (body.links) matrices_.push_back(body.links);
+    if (body.links) {
+      if (matrices_.empty() || matrices_.back() != body.links) matrices_.push_back(body.links);
+      subject.matrix = static_cast<std::uint32_t>(matrices_.size() - 1);
+      subject.allowed = body.links->allowedWith(body.link);
+    }
     subjects_.push_back(subject);
   }
   if (!rules_.empty()) resolve(bodies);
@@ -134,8 +137,8 @@ PairDecision PairFilter::decision(std::uint32_t first, std::uint32_t second) con
     return result;
   }
   const Subject &a = subjects_[first], &b = subjects_[second];
-  if (a.robot != b.robot || a.links == nullptr) return result;
-  if (const LinkMatrix::Tag* tag = a.links->tag(a.link, b.link)) {
+  if (a.robot != b.robot || a.allowed == nullptr) return result;
+  if (const LinkMatrix::Tag* tag = matrices_[a.matrix]->tag(a.link, b.link)) {
     result.origin = Origin::srdf;
     result.reason = tag->reason;
   } else if (result.origin == Origin::srdf) {

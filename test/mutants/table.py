@@ -80,7 +80,7 @@ MUTANTS = [
      "used += place[pair.first] <= kResting && place[pair.second] <= kResting;",
      "used += place[pair.first] <= kResting;"),
     ("pairs that threads find are not filtered", PAIRS,
-     "buffers.used[thread] = sift(sieve, part, task.first, writer.used());", "buffers.used[thread] = writer.used();"),
+     "buffers.used[thread] = sieve.sift(part, task.first, writer.used());", "buffers.used[thread] = writer.used();"),
     ("what threads find goes where another thread found it", PAIRS,
      "task.thread = thread;", "task.thread = 0;"),
     ("what is fixed stays what it was", HGRID,

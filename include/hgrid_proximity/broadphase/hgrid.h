@@ -24,8 +24,24 @@ struct GridScale {
 /// Decides which overlapping pairs are reported at all. Asked on any thread, of each pair perhaps only once while
 /// neither of its boxes moves: the answer for a pair must not change.
 struct PairTest {
-  bool (*reported)(const void* context, ProxyId first, ProxyId second) = nullptr;  ///< null: every pair
+  /// Moves those of `count` pairs that are reported to the front, in their order, and says how many. Null: all are.
+  std::size_t (*sift)(const void* context, ProxyPair* pairs, std::size_t count) = nullptr;
   const void* context = nullptr;
+
+  /// The test that asks a function of each pair.
+  template <bool (*reported)(const void* context, ProxyId first, ProxyId second)>
+  static PairTest of(const void* context) {
+    return {[](const void* context, ProxyPair* pairs, std::size_t count) {
+              std::size_t kept = 0;
+              for (std::size_t i = 0; i < count; ++i) {
+                const ProxyPair pair = pairs[i];
+                pairs[kept] = pair;  // written, then kept or not: which it is nobody could guess
+                kept += reported(context, pair.first, pair.second) ? 1 : 0;
+              }
+              return kept;
+            },
+            context};
+  }
 };
 
 /// A hierarchical grid (after Ericson, Real-Time Collision Detection, 2005, sections 7.1 and 7.2).

@@ -44,7 +44,13 @@ class LinkMatrix {
   /// out, one sentence each in `warnings`.
   LinkMatrix(const RobotModel& model, const LinkRules& rules, std::vector<std::string>& warnings);
 
-  bool allowed(std::uint32_t first, std::uint32_t second) const { return origin(first, second) != Origin::none; }
+  bool allowed(std::uint32_t first, std::uint32_t second) const { return isIn(allowedWith(first), second); }
+  /// The links that may touch this one, as a set of bits, for isIn(). Every near pair asks, of many robots in turn, so
+  /// that caches should have to hold little.
+  const std::uint64_t* allowedWith(std::uint32_t link) const { return allowed_.data() + link * words_; }
+  static bool isIn(const std::uint64_t* links, std::uint32_t link) {
+    return (links[link / 64] >> (link % 64) & 1u) != 0;
+  }
   Origin origin(std::uint32_t first, std::uint32_t second) const { return origins_[first * size_ + second]; }
   std::size_t size() const { return size_; }
 
@@ -59,8 +65,9 @@ class LinkMatrix {
  private:
   void set(std::uint32_t first, std::uint32_t second, Origin origin);
 
-  std::size_t size_;
+  std::size_t size_, words_;  // links; 64-bit words of a set of links
   std::vector<Origin> origins_;
+  std::vector<std::uint64_t> allowed_;                           // bit: there is an origin
   std::map<std::pair<std::uint32_t, std::uint32_t>, Tag> tags_;  // by links, the smaller first: few pairs have one
 };
 

@@ -46,18 +46,16 @@ class PairFilter {
   PairFilter(const std::vector<Body>& bodies, PairKinds kinds, std::vector<PairRule> rules);
 
   /// Whether the pair may touch, that is, is not reported. Symmetric.
-  bool allowed(std::uint32_t first, std::uint32_t second) const { return origin(first, second) != Origin::none; }
+  bool allowed(std::uint32_t first, std::uint32_t second) const {
+    Origin origin = Origin::none;
+    if (!asksMatrix(first, second, origin)) return origin != Origin::none;
+    return LinkMatrix::isIn(subjects_[first].allowed, subjects_[second].link);
+  }
   /// Why it may, the first that holds of: self, kind, the strongest rule, the model's matrix.
   Origin origin(std::uint32_t first, std::uint32_t second) const {
-    if (first == second) return Origin::self;
-    const Subject &a = subjects_[first], &b = subjects_[second];
-    const bool same_robot = a.robot == b.robot && a.robot != kNoRobot;
-    if (!exists_[same_robot][a.type][b.type]) return Origin::kind;
-    if ((a.ruled & b.ruled) != 0) {
-      const std::uint32_t rule = ruleOf(first, second);
-      if (rule != kNoRule) return verdicts_[rule];
-    }
-    return same_robot && a.links != nullptr ? a.links->origin(a.link, b.link) : Origin::none;
+    Origin origin = Origin::none;
+    if (!asksMatrix(first, second, origin)) return origin;
+    return matrices_[subjects_[first].matrix]->origin(subjects_[first].link, subjects_[second].link);
   }
 
   /// As origin(), with all that is known of it: also where a rule or an SRDF says that the pair is reported.
@@ -73,9 +71,10 @@ class PairFilter {
   static constexpr std::size_t kTypes = 6;                 // kinds of body, each fixed or moving
   static constexpr std::uint8_t kByName = 1, kByGlob = 2;  // bits of Subject::ruled
   struct Subject {
-    std::uint32_t robot = kNoRobot;  // equal for links of one robot
+    const std::uint64_t* allowed = nullptr;  // links of its robot that it may touch, by the model; null: no model
+    std::uint32_t robot = kNoRobot;          // equal for links of one robot
     std::uint32_t link = 0;
-    const LinkMatrix* links = nullptr;
+    std::uint32_t matrix = 0;  // its model's
     std::uint8_t type = 0;
     std::uint8_t ruled = 0;  // what kind of rule knows it; both of a pair must be known by one kind
   };
@@ -83,6 +82,18 @@ class PairFilter {
     std::uint64_t bodies;  // the smaller index in the upper half
     std::uint32_t rule;
   };
+  /// Whether the model's matrix decides; else `origin` is what does.
+  bool asksMatrix(std::uint32_t first, std::uint32_t second, Origin& origin) const {
+    if (first == second) return origin = Origin::self, false;
+    const Subject &a = subjects_[first], &b = subjects_[second];
+    const bool same_robot = a.robot == b.robot && a.robot != kNoRobot;
+    if (!exists_[same_robot][a.type][b.type]) return origin = Origin::kind, false;
+    if ((a.ruled & b.ruled) != 0) {
+      const std::uint32_t rule = ruleOf(first, second);
+      if (rule != kNoRule) return origin = verdicts_[rule], false;
+    }
+    return same_robot && a.allowed != nullptr;
+  }
   void resolve(const std::vector<Body>& bodies);
   void fillSets(const NameIndex& names, std::size_t bodies);
   std::uint32_t ruleOf(std::uint32_t first, std::uint32_t second) const;
@@ -90,7 +101,7 @@ class PairFilter {
 
   bool exists_[2][kTypes][kTypes] = {};  // by whether they are links of one robot, and by the types of both
   std::vector<Subject> subjects_;
-  std::vector<std::shared_ptr<const LinkMatrix>> matrices_;  // keeps what subjects_ point to
+  std::vector<std::shared_ptr<const LinkMatrix>> matrices_;  // holds what subjects_ point to
   std::vector<PairRule> rules_;
   std::vector<Origin> verdicts_;           // by rule: its origin, or none where it says that the pair is reported
   std::vector<NamedPair> named_;           // sorted; of several rules for one pair the last
