@@ -34,7 +34,7 @@ const char* const kUsage =
     "usage: hgrid_bench [--quick] [--json FILE] [--commit TEXT] [--command TEXT]\n"
     "                   [--part pairs,ageing,threads,queries,maps] [--n 1000,...]\n"
     "                   [--workload uniform,mixed,floor,robots,building,geb079]\n"
-    "                   [--moving 1,0.1,0.01] [--peer 'hgrid,sweep,FCL DynamicAABBTree,...']\n";
+    "                   [--moving 1,0.1,0.01] [--peer 'hgrid,sweep,FCL DynamicAABBTree,...'] [--questions 100000]\n";
 
 bool Options::part(const std::string& name) const { return wanted(parts, name); }
 bool Options::workload(const std::string& name) const { return wanted(workloads, name); }
@@ -66,6 +66,12 @@ Options parsed(int count, const char* const* arguments) {
       for (const std::string& item : split(value)) options.sizes.push_back(static_cast<std::size_t>(numberOf(item)));
     } else if (name == "--moving") {
       for (const std::string& item : split(value)) options.moving.push_back(numberOf(item));
+    } else if (name == "--questions") {
+      const double questions = numberOf(value);
+      options.questions = questions >= 1e3 && questions <= 1e7 ? static_cast<std::size_t>(questions) : 0;
+      if (options.questions == 0 || options.questions % 1000 != 0) {
+        throw std::invalid_argument("--questions must be a multiple of 1000 up to 10000000; it is " + value);
+      }
     } else {
       throw std::invalid_argument("unknown: " + name);
     }

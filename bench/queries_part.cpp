@@ -68,15 +68,12 @@ void play(const Options& options, const std::string& workload, const World& worl
 }  // namespace
 
 void runQueries(const Options& options, std::vector<Record>& records) {
-  // So many that no processor learns by heart where they turn: asked 1,000 again and again, Embree and hgrid are up to
-  // twice as fast as they are on questions that nobody has asked before.
-  constexpr std::size_t kQueries = 100 * QueriesPlay::kChunk;
   std::size_t n = options.quick ? 10000 : 100000;
   if (options.sizes.size() == 1) n = options.sizes.front();
   for (const std::string& workload : workloads()) {
     if (!options.workload(workload)) continue;
     const World world(workload, n, 1.0);
-    const QuerySet queries(workload, world, kQueries);
+    const QuerySet queries(workload, world, options.questions);
     for (const QueryKind kind : kQueryKinds) play(options, workload, world, queries, kind, records);
   }
 }
