@@ -22,6 +22,7 @@ class PositionWriter {
   kernels::PositionSink* sink() { return &sink_; }
   const std::uint32_t* begin() const { return buffer_.data(); }
   const std::uint32_t* end() const { return sink_.next; }
+  std::size_t size() const { return static_cast<std::size_t>(end() - begin()); }
   void clear() { sink_.next = buffer_.data(); }
 
  private:
@@ -104,14 +105,14 @@ kernels::Line lineOf(const Segment& segment) {
   return line;
 }
 
-/// Calls `visit` with the layer and position of each box that `search` finds on a level.
+/// Calls `visit` with each layer and the positions in it of the boxes that `search` finds on its levels.
 template <class Engine, class Search, class Visit>
 void visitFound(const Engine& engine, Search&& search, Visit&& visit) {
   PositionWriter writer(bufferOfThread());
   for (const Layer& layer : engine.layers) {
     if (layer.size() == 0) continue;
     for (const kernels::Level& level : layer.levels()) search(level, writer.sink());
-    for (const std::uint32_t position : writer) visit(layer, position);
+    visit(layer, writer);
     writer.clear();
   }
 }
@@ -129,36 +130,30 @@ void visitOverlapping(const Engine& engine, const kernels::Box& box, Visit&& vis
 /// Appends the ids of the boxes that overlap a box and pass a test, ascending.
 template <class Engine, class Test>
 void appendOverlapping(const Engine& engine, const kernels::Box& box, std::vector<ProxyId>& found, Test&& test) {
-  const kernels::Kernels& kernels = kernels::of(engine.isa);
-  PositionWriter writer(bufferOfThread());
   const std::size_t before = found.size();
-  std::size_t count = before;
-  for (const Layer& layer : engine.layers) {
-    if (layer.size() == 0) continue;
-    for (const kernels::Level& level : layer.levels()) kernels.overlapping(&level, &box, writer.sink());
-    found.resize(count + static_cast<std::size_t>(writer.end() - writer.begin()));
-    for (const std::uint32_t position : writer) {  // written first, then kept or not: no branch to guess
+  visitOverlapping(engine, box, [&](const Layer& layer, const PositionWriter& positions) {
+    std::size_t count = found.size();
+    found.resize(count + positions.size());
+    for (const std::uint32_t position : positions) {  // written first, then kept or not: no branch to guess
       found[count] = layer.ids()[position];
-      count += test(layer, position) ? 1 : 0;
+      count += test(layer.boxAt(position)) ? 1 : 0;
     }
-    writer.clear();
-  }
-  found.resize(count);
-  sortIds(found.data() + before, count - before);
+    found.resize(count);
+  });
+  sortIds(found.data() + before, found.size() - before);
 }
 
 // Answers to one question, appended. Several threads may ask at once.
 template <class Engine>
 void answer(const Engine& engine, const Aabb& query, std::vector<ProxyId>& found) {
-  appendOverlapping(engine, boxOf(query), found, [](const Layer&, std::uint32_t) { return true; });
+  appendOverlapping(engine, boxOf(query), found, [](const Aabb&) { return true; });
 }
 
 template <class Engine>
 void answer(const Engine& engine, const Sphere& query, std::vector<ProxyId>& found) {
   const double near = touchingDistance(query);
-  appendOverlapping(engine, boxOf(query), found, [&](const Layer& layer, std::uint32_t position) {
-    return squaredDistance(layer.boxAt(position), query.center) <= near * near;
-  });
+  appendOverlapping(engine, boxOf(query), found,
+                    [&](const Aabb& box) { return squaredDistance(box, query.center) <= near * near; });
 }
 
 template <class Engine>
@@ -169,9 +164,10 @@ void answer(const Engine& engine, const Segment& query, std::vector<SegmentHit>&
   const std::size_t before = found.size();
   visitFound(
       engine, [&](const kernels::Level& level, kernels::PositionSink* sink) { kernels.along(&level, &line, sink); },
-      [&](const Layer& layer, std::uint32_t position) {
-        if (const auto along = firstTouch(layer.boxAt(position))) {
-          found.push_back({layer.ids()[position], *along});
+      [&](const Layer& layer, const PositionWriter& positions) {
+        for (const std::uint32_t position : positions) {
+          const auto along = firstTouch(layer.boxAt(position));
+          if (along) found.push_back({layer.ids()[position], *along});
         }
       });
   sortFew(found.begin() + static_cast<std::ptrdiff_t>(before), found.end(), earlier);
@@ -294,8 +290,9 @@ void HGrid::nearest(const Eigen::Vector3d& point, std::size_t count, double limi
         if (e.isStored(id)) consider(id, e.boxes[id]);
       }
     } else {
-      visitOverlapping(e, boxOf(Sphere{point, radius}),
-                       [&](const Layer& layer, std::uint32_t i) { consider(layer.ids()[i], layer.boxAt(i)); });
+      visitOverlapping(e, boxOf(Sphere{point, radius}), [&](const Layer& layer, const PositionWriter& positions) {
+        for (const std::uint32_t i : positions) consider(layer.ids()[i], layer.boxAt(i));
+      });
     }
     const std::size_t kept = std::min(count, found.size());
     std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(kept), found.end(), nearer);
