@@ -16,8 +16,8 @@ struct Options {
   std::string commit, command;  ///< what is measured and how, for the figures file
   std::vector<std::string> parts, workloads, peers;
   std::vector<std::size_t> sizes;
-  /// Of each kind, asked in turn; a multiple of 1,000. So many that no processor learns by heart where they turn: asked
-  /// 1,000 again and again, Embree and hgrid are up to twice as fast as on questions that nobody has asked before.
+  /// Of each kind, asked in turn; a multiple of 1,000. So many that no processor learns their branches by heart, as it
+  /// does of 1,000 that come again and again.
   std::size_t questions = 100000;
   std::vector<double> moving;
 
