@@ -22,6 +22,7 @@ set(HGRID_CORE_SOURCES
   src/scene/allowed_matrix.cpp
   src/scene/cloud_cells.cpp
   src/scene/commit.cpp
+  src/scene/completeness.cpp
   src/scene/explain.cpp
   src/scene/horizon.cpp
   src/scene/link_matrix.cpp
@@ -43,10 +44,12 @@ set(HGRID_CORE_SOURCES
   src/scene/scene.cpp
   src/scene/self_filter.cpp
   src/scene/snapshot.cpp
+  src/scene/snapshot_doubt.cpp
   src/scene/snapshot_maps.cpp
   src/scene/snapshot_nearest.cpp
   src/scene/snapshot_queries.cpp
   src/scene/snapshot_unmapped.cpp
+  src/scene/source.cpp
 )
 set(HGRID_ADAPTER_SOURCES
   src/adapters/fcl.cpp

@@ -2,12 +2,21 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "clock_watch.h"
 
+#include <ros/time.h>
+
 namespace hgrid {
 namespace {
 
 constexpr double kSmallStep = 0.1;  // [s] a wall clock that is being adjusted may go back by this
 
 }  // namespace
+
+Moment thisMoment() {
+  Moment moment;
+  moment.ros = Time(static_cast<std::int64_t>(ros::Time::now().toNSec()));
+  moment.steady = std::chrono::steady_clock::now();
+  return moment;
+}
 
 ClockWatch::Event ClockWatch::look(const Moment& now) {
   Event event = Event::none;

@@ -14,6 +14,9 @@ struct Moment {
   std::chrono::steady_clock::time_point steady;
 };
 
+/// Both clocks now.
+Moment thisMoment();
+
 /// Compares ROS time with the steady clock and says when it jumped or stands still.
 class ClockWatch {
  public:

@@ -41,6 +41,7 @@ CloudSource::CloudSource(const ros::NodeHandle& node, const CloudParams& cloud, 
       node_(node) {
   loaded_.name = cloud.name;
   loaded_.lifetime = cloud.lifetime;
+  loaded_.range = cloud.range;
   node_.setCallbackQueue(&queue_);
   const boost::function<void(const boost::shared_ptr<const CloudMessage>&)> on_message =
       [this](const boost::shared_ptr<const CloudMessage>& message) { onMessage(*message); };
@@ -94,7 +95,11 @@ void CloudSource::take(const CloudMessage& message) {
                                    " in the future; at most ~max_future, " + secondsText(params_.max_future) +
                                    ", is allowed");
   }
-  const std::vector<Voxel> voxels = voxelsOf(message, tick->world_frame, stamp);
+  PointCloud cloud = readPointCloud(message.format, message.data, what_);
+  const std::size_t points = cloud.points.size();
+  const std::string frame = message.frame.empty() ? tick->world_frame : withoutSlash(message.frame);
+  const Pose world_from_sensor = sensorPose(frame, tick->world_frame, stamp);
+  const std::vector<Voxel> voxels = voxelsOf(std::move(cloud), world_from_sensor, stamp);
   const Time latency = std::max(Time{0}, now - stamp);
   try {
     cells_.see(voxels, simulated_ ? stamp : Time(received.time_since_epoch()) - latency);
@@ -102,10 +107,29 @@ void CloudSource::take(const CloudMessage& message) {
     throw Refusal(refusal.code(), what_ + ": " + refusal.what() + " by ~map/max_leaves");
   }
   cells_.forget(cellTime());
+  const bool seen = cloud_.empty == EmptyCloud::clear || points >= static_cast<std::size_t>(cloud_.min_points);
+  if (seen) noteNewest(stamp, now, received, world_from_sensor.translation());
+  if (seen || loaded_.cells) put();
+  if (!seen) {
+    throw Refusal(Code::out_of_range, what_ + " has a message with " + std::to_string(points) +
+                                          " finite points; min_points is " + std::to_string(cloud_.min_points) +
+                                          ", so the message does not count (set empty: clear if it should)");
+  }
+}
+
+/// Remembers how old the cloud is. A message that is stamped earlier than another one adds its points but makes the
+/// cloud neither fresher nor older, unless the clock was set back.
+void CloudSource::noteNewest(Time stamp, Time now, std::chrono::steady_clock::time_point received,
+                             const Eigen::Vector3d& sensor) {
+  const bool clock_went_back = seconds(loaded_.stamp - now) > params_.max_future;
+  if (stamp <= loaded_.stamp && !clock_went_back) {
+    ledger_.count(counter_ + "out_of_order");
+    return;
+  }
   loaded_.received = received;
   loaded_.stamp = stamp;
-  loaded_.latency = seconds(latency);
-  put();
+  loaded_.latency = std::max(0.0, seconds(now - stamp));
+  loaded_.sensor = sensor;
 }
 
 /// The clock that cells grow old by: /clock, or else the steady clock, so that setting the wall clock ages nothing.
@@ -127,10 +151,8 @@ void CloudSource::waitFor(const std::string& world_frame, const std::string& fra
   }
 }
 
-/// The cells of a message's points, the robot's own left out.
-std::vector<Voxel> CloudSource::voxelsOf(const CloudMessage& message, const std::string& world_frame, Time stamp) {
-  const std::string frame = message.frame.empty() ? world_frame : withoutSlash(message.frame);
-  PointCloud cloud = readPointCloud(message.format, message.data, what_);
+/// Where the sensor was when it saw. @throws Refusal extrapolation or unknown_frame if tf does not say so in time
+Pose CloudSource::sensorPose(const std::string& frame, const std::string& world_frame, Time stamp) const {
   waitFor(world_frame, frame, stamp);
   std::string why;
   const auto world_from_sensor = poseAt(buffer_, world_frame, frame, stamp, &why);
@@ -141,8 +163,13 @@ std::vector<Voxel> CloudSource::voxelsOf(const CloudMessage& message, const std:
                       secondsText(params_.max_sync_wait) + ": " + printable(why, 300));
   }
   checkWithin(world_from_sensor->translation(), params_.world_limit, what_ + ": the pose of its sensor");
-  for (Eigen::Vector3d& point : cloud.points) point = *world_from_sensor * point;
-  const Eigen::Vector3d sensor = world_from_sensor->translation();
+  return *world_from_sensor;
+}
+
+/// The cells of a message's points without those of the robot itself.
+std::vector<Voxel> CloudSource::voxelsOf(PointCloud cloud, const Pose& world_from_sensor, Time stamp) {
+  for (Eigen::Vector3d& point : cloud.points) point = world_from_sensor * point;
+  const Eigen::Vector3d sensor = world_from_sensor.translation();
   std::size_t out_of_reach = 0;
   const std::size_t forgotten = cells_.follow(sensor);
   std::vector<Voxel> voxels = cells_.cellsOf(cloud.points, sensor, out_of_reach);

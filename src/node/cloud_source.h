@@ -42,7 +42,10 @@ class CloudSource {
   void take(const CloudMessage& message);
   void onTimer();
   void waitFor(const std::string& world_frame, const std::string& frame, Time stamp) const;
-  std::vector<Voxel> voxelsOf(const CloudMessage& message, const std::string& world_frame, Time stamp);
+  Pose sensorPose(const std::string& frame, const std::string& world_frame, Time stamp) const;
+  std::vector<Voxel> voxelsOf(PointCloud cloud, const Pose& world_from_sensor, Time stamp);
+  void noteNewest(Time stamp, Time now, std::chrono::steady_clock::time_point received,
+                  const Eigen::Vector3d& sensor);
   void put();
   Time cellTime() const;
 

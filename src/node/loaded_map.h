@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "clock_watch.h"
 #include "hgrid_proximity/scene/body.h"
 #include "hgrid_proximity/scene/map_cells.h"
 #include "params.h"
@@ -16,14 +17,18 @@ namespace hgrid {
 struct LoadedMap {
   MapParams params;
   std::shared_ptr<const MapCells> cells;
+  Time stamp{0};    // of the message; 0: it had none, or this came from a file
+  Moment received;  // when the message came or the file was read
 };
 
 /// What a sensor has seen lately, ready to be put into the world.
 struct LoadedCloud {
   std::string name;  // the body cloud/name
-  double lifetime = 0.0;
+  double lifetime = 0.0;                             // [s]
+  double range = 0.0;                                // [m] the sensor sees no farther; 0: no bound
   std::shared_ptr<const MapCells> cells;
   Eigen::Vector3d corner = Eigen::Vector3d::Zero();  // [m, world] the origin of their keys
+  Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  // [m, world] where the sensor was at the newest message
   Time stamp{0};                                     // of the newest message
   double latency = 0.0;                              // [s] how old that was when it came
   std::chrono::steady_clock::time_point received{};

@@ -74,14 +74,14 @@ LoadedMap MapSource::built(ReadMap&& map) const {
     unmapped = std::make_shared<UnmappedSpace>(UnmappedSpace{StaticGrid(octomap.resolution, octomap.unknown), extent});
   }
   const auto grid = std::make_shared<StaticGrid>(octomap.resolution, octomap.occupied);
-  return {map.params, makeMapCells(grid, *narrow_phase_, unmapped)};
+  return {map.params, makeMapCells(grid, *narrow_phase_, unmapped), map.stamp, map.received};
 }
 
 ReadMap MapSource::read(const MapParams& map, const OctomapMessage& message) const {
   const std::string what = "map '" + map.name + "' of " + map.topic;
   if (!message.flaw.empty()) throw Refusal(Code::truncated, what + ": " + printable(message.flaw, 200));
   ReadMap result{map, readOctomapData({message.id, message.binary, message.resolution}, message.data, what, options()),
-                 Time(static_cast<std::int64_t>(message.stamp.toNSec()))};
+                 Time(static_cast<std::int64_t>(message.stamp.toNSec())), thisMoment()};
   result.params.frame = withoutSlash(message.frame);
   return result;
 }
@@ -96,7 +96,7 @@ ReadMap MapSource::read(const MapParams& map) const {
   policy.file_roots = {params_.map_folder};
   policy.max_bytes = static_cast<std::size_t>(params_.map_max_bytes);
   const OpenResource file = openResource("file://" + params_.map_folder + "/" + map.file, policy);
-  return {map, readOctomapFile(file, options()), Time(0)};
+  return {map, readOctomapFile(file, options()), Time(0), thisMoment()};
 }
 
 }  // namespace hgrid

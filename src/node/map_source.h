@@ -20,6 +20,7 @@ struct ReadMap {
   MapParams params;
   Octomap octomap;
   Time stamp{0};  // of the message; 0: a file
+  Moment received;  // when the message came or the file was read
 };
 
 /// Reads OctoMaps from the configured folder and from messages. Any thread.

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "messages.h"
 
+#include "source_messages.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -90,6 +92,10 @@ std_msgs::Header headerOf(const Tick& tick) {
   return header;
 }
 
+std::vector<std::string> firstOf(const std::vector<std::string>& all, std::size_t most) {
+  return {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), most))};
+}
+
 msg::WorldState worldState(const Tick& tick, const Params& params, std::uint64_t config_hash, double age_since) {
   msg::WorldState world;
   world.epoch = tick.epoch;
@@ -100,6 +106,9 @@ msg::WorldState worldState(const Tick& tick, const Params& params, std::uint64_t
     world.reasons = tick.not_ready;
     world.reasons_total = static_cast<std::uint32_t>(tick.not_ready.size());
     world.worst_state = msg::WorldState::UNPLACED;
+    for (const msg::SourceStatus& source : sourcesOf(tick, params)) world.incomplete.push_back(source.name);
+    world.incomplete_total = static_cast<std::uint32_t>(world.incomplete.size());
+    world.incomplete = firstOf(world.incomplete, static_cast<std::size_t>(params.max_listed));
     return world;
   }
   const Snapshot& snapshot = *tick.snapshot;
@@ -107,6 +116,8 @@ msg::WorldState worldState(const Tick& tick, const Params& params, std::uint64_t
   world.sequence = snapshot.sequence();
   world.bodies_revision = snapshot.structure().revision;
   world.complete = snapshot.complete();
+  world.incomplete = firstOf(snapshot.incompleteSources(), static_cast<std::size_t>(params.max_listed));
+  world.incomplete_total = static_cast<std::uint32_t>(snapshot.incompleteSources().size());
   world.reasons = snapshot.reasons();
   world.reasons_total = snapshot.reasonsTotal();
   world.worst_state = static_cast<std::uint8_t>(snapshot.worstState());
@@ -154,6 +165,9 @@ msg::Status status(const Tick& tick, const msg::WorldState& world, const Params&
   message.world = world;
   message.made = toRos(tick.made.ros);
   message.not_ready = tick.not_ready;
+  message.sources = sourcesOf(tick, params);
+  message.sources_total = static_cast<std::uint32_t>(message.sources.size());
+  message.sources.resize(std::min(message.sources.size(), static_cast<std::size_t>(params.max_listed)));
   message.bodies_total = static_cast<std::uint32_t>(tick.troubles.size());
   for (const BodyTrouble& trouble : tick.troubles) {
     if (message.bodies.size() >= static_cast<std::size_t>(params.max_listed)) break;

@@ -46,6 +46,7 @@ void NodeDiagnostics::world(DiagnosticStatusWrapper& status) {
   status.add("age of the oldest pose [s]", snapshot.maxAge());
   status.add("rules of the allowed-pair matrix", snapshot.structure().filter.rules().size());
   status.add("rules switch off every pair", silenced ? "yes" : "no");
+  addAll(status, "source that is not complete", snapshot.incompleteSources());
   addAll(status, "reason", snapshot.reasons());
 }
 

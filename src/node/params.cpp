@@ -20,6 +20,7 @@ namespace hgrid {
 namespace {
 
 constexpr const char* kUnknownSpace[] = {"ignore", "report", "occupied"};
+constexpr const char* kEmptyCloud[] = {"unknown", "clear"};
 constexpr const char* kKinds[] = {"self", "robot_robot", "robot_obstacle", "robot_map", "moving_obstacle"};
 
 /// Shows every parameter to a visitor: name, value, unit and range, meaning. The one list of all of them.
@@ -59,12 +60,15 @@ void visit(Visitor& v, Params& p) {
       "list of {name, file or topic, frame, pose: {xyz: [m], rpy: [rad]}}: OctoMaps, each the body map/name; file: the "
       "name of a .bt or .ot in map/folder; topic: of octomap_msgs/Octomap, whose frame is the map's, if neither is "
       "given "
-      "octomap_binary; frame of a file, empty: the world frame, and the map is fixed");
+      "octomap_binary; frame of a file, empty: the world frame, and the map is fixed; max_age [s] of a topic: without "
+      "a message for longer the map is not complete, 0: off");
   v.clouds("clouds", p.clouds,
-           "list of {name, topic, resolution: [m], lifetime: [s]}: sensor_msgs/PointCloud2, each the body cloud/name; "
-           "its points fill cells of that edge in the world frame, which go a lifetime after they were seen last; "
-           "without a newer message by then the world is incomplete; without a topic it is cloud, resolution 0.05, "
-           "lifetime 1");
+           "list of {name, topic, resolution: [m], lifetime: [s], empty, min_points, range: [m]}: "
+           "sensor_msgs/PointCloud2, each the body cloud/name; its points fill cells of that edge in the world frame, "
+           "which go a lifetime after they were seen last; without a newer message by then the cloud is not complete; "
+           "a message with fewer than min_points finite points does not count as newer (empty: unknown) or says that "
+           "nothing is there (empty: clear); range: the sensor sees no farther, 0: no bound; defaults: topic cloud, "
+           "resolution 0.05, lifetime 1, empty unknown, min_points 1, range 0");
   v.string("map/folder", p.map_folder, "folder whose files maps and ~load_octomap may name; empty: none is read");
   v.number("map/occupied_from", p.map_occupied_from, "", 0.001, 0.999,
            "cells of at least this probability are occupied; only .ot files have probabilities");
@@ -90,6 +94,9 @@ void visit(Visitor& v, Params& p) {
   v.integer("map/max_shown", p.map_max_shown, 1, 1000000, "cells that ~markers show");
   v.integer("map/max_leaves", p.map_max_leaves, 1, 100000000,
             "cells of a map or cloud: occupied ones, and with report the pieces of unknown space");
+
+  v.strings("required", p.required,
+            "globs over body names; while one of them matches no body, the world is not complete");
 
   v.section("Which pairs");
   v.kinds("pair_kinds", p.pair_kinds,
@@ -194,16 +201,7 @@ class Reader {
     if (auto given = get(name)) given->flag(value);
   }
   void unknownSpace(const char* name, UnknownSpace& value, const char*) {
-    auto given = get(name);
-    if (!given) return;
-    std::string word = kUnknownSpace[static_cast<std::size_t>(value)];
-    given->string(word);
-    const auto* const found = std::find(std::begin(kUnknownSpace), std::end(kUnknownSpace), word);
-    if (found == std::end(kUnknownSpace)) {
-      given->error("is '" + printable(word, 48) + "'; it must be ignore, report or occupied");
-    } else {
-      value = static_cast<UnknownSpace>(found - std::begin(kUnknownSpace));
-    }
+    if (auto given = get(name)) readWord(*given, kUnknownSpace, "ignore, report or occupied", value);
   }
   void strings(const char* name, std::vector<std::string>& value, const char*) {
     if (auto given = get(name)) given->strings(value);
@@ -287,7 +285,7 @@ class Reader {
   }
   void maps(const char* name, std::vector<MapParams>& value, const char*) {
     std::set<std::string> names;
-    forEach(name, "field of a map (name, file, topic, frame, pose)", [&](ParamValue& element) {
+    forEach(name, "field of a map (name, file, topic, frame, pose, max_age)", [&](ParamValue& element) {
       MapParams map;
       readString(element, "file", map.file, false);
       readString(element, "topic", map.topic, false);
@@ -297,18 +295,25 @@ class Reader {
       readString(element, "frame", map.frame, false);
       map.frame = withoutSlash(map.frame);
       if (auto pose = element.get("pose")) map.frame_from_map = readPose(*pose);
+      if (auto given = element.get("max_age")) given->number(map.max_age, 0.0, 86400.0, "s");
+      if (map.max_age > 0.0 && !map.file.empty()) {
+        element.error("has max_age " + text(map.max_age) + " s and a file; only a map of a topic can grow old");
+      }
       readLocalName(element, map.name, names);
       value.push_back(map);
     });
   }
   void clouds(const char* name, std::vector<CloudParams>& value, const char*) {
     std::set<std::string> names;
-    forEach(name, "field of a cloud (name, topic, resolution, lifetime)", [&](ParamValue& element) {
+    forEach(name, "field of a cloud (name, topic, resolution, lifetime, empty, min_points, range)", [&](ParamValue& element) {
       CloudParams cloud;
       readString(element, "topic", cloud.topic, false);
       checkTopic(element, cloud.topic);
       if (auto given = element.get("resolution")) given->number(cloud.resolution, 0.001, 100.0, "m");
       if (auto given = element.get("lifetime")) given->number(cloud.lifetime, 0.01, 3600.0, "s");
+      if (auto given = element.get("empty")) readWord(*given, kEmptyCloud, "unknown or clear", cloud.empty);
+      if (auto given = element.get("min_points")) given->integer(cloud.min_points, 1, 100000000);
+      if (auto given = element.get("range")) given->number(cloud.range, 0.0, 1e6, "m");
       readLocalName(element, cloud.name, names);
       value.push_back(cloud);
     });
@@ -333,6 +338,19 @@ class Reader {
   }
   static void readString(ParamValue& element, const char* key, std::string& value, bool required) {
     if (auto given = required ? element.require(key) : element.get(key)) given->string(value);
+  }
+
+  /// A word of a list; its place there is the value.
+  template <std::size_t count, class Enum>
+  static void readWord(ParamValue& given, const char* const (&words)[count], const char* rule, Enum& value) {
+    std::string word = words[static_cast<std::size_t>(value)];
+    given.string(word);
+    const auto* const found = std::find(std::begin(words), std::end(words), word);
+    if (found == std::end(words)) {
+      given.error("is '" + printable(word, 48) + "'; it must be " + rule);
+    } else {
+      value = static_cast<Enum>(found - std::begin(words));
+    }
   }
 
   static void checkTopic(const ParamValue& element, const std::string& topic) {

@@ -34,6 +34,13 @@ struct MapParams {
   std::string topic;  ///< of octomap_msgs/Octomap messages; their frame is the map's
   std::string frame;  ///< that the map follows; empty: the world frame
   Pose frame_from_map = Pose::Identity();
+  double max_age = 0.0;  ///< [s] of a topic: without a message for longer the map is not complete; 0: off
+};
+
+/// What a cloud message means that has fewer finite points than CloudParams::min_points.
+enum class EmptyCloud : std::uint8_t {
+  unknown,  ///< the sensor did not see: the message makes nothing fresh
+  clear,    ///< the sensor saw that nothing is there
 };
 
 /// A point cloud of a topic.
@@ -42,6 +49,9 @@ struct CloudParams {
   std::string topic = "cloud";  ///< of sensor_msgs/PointCloud2 messages
   double resolution = 0.05;     ///< [m] edge of its cells
   double lifetime = 1.0;        ///< [s] how long a cell stays after it was seen
+  EmptyCloud empty = EmptyCloud::unknown;
+  int min_points = 1;  ///< finite points that a message must have to count as seen
+  double range = 0.0;  ///< [m] the sensor sees no farther, so that a lost cloud hides nothing beyond; 0: no bound
 };
 
 /// [m] Farther than the ends of any map.
@@ -81,6 +91,7 @@ struct Params {
   std::vector<PairRule> allowed_pairs;
   PairKinds pair_kinds;
   std::vector<Waiver> accept_uncovered;
+  std::vector<std::string> required;
   std::vector<PairMargin> pair_margins;
   std::vector<PatternValue> margins, padding, max_speed, map_self_filter;
   double event_hysteresis = 0.02;

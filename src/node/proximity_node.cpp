@@ -19,13 +19,6 @@ namespace {
 constexpr auto kGrace = std::chrono::seconds(1);         // after the start
 constexpr auto kJobPatience = std::chrono::seconds(10);  // a tick takes milliseconds; longer means that it hangs
 
-Moment thisMoment() {
-  Moment moment;
-  moment.ros = Time(static_cast<std::int64_t>(ros::Time::now().toNSec()));
-  moment.steady = std::chrono::steady_clock::now();
-  return moment;
-}
-
 XmlRpc::XmlRpcValue valuesOf(const ros::NodeHandle& node) {
   XmlRpc::XmlRpcValue values;
   if (!node.getParam(node.getNamespace(), values) || values.getType() != XmlRpc::XmlRpcValue::TypeStruct) {

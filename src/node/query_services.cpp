@@ -37,8 +37,16 @@ msg::Hit toMsg(const QueryHit& source, const Snapshot& snapshot, const Pose& fra
   return hit;
 }
 
+/// What a CLEAR in a world that is not complete owes its reader.
+std::string elsewhere(const Snapshot& snapshot) {
+  if (snapshot.complete()) return "";
+  const std::vector<std::string>& sources = snapshot.incompleteSources();
+  const std::string others = sources.size() > 1 ? " and " + std::to_string(sources.size() - 1) + " more" : "";
+  return " ('" + sources.front() + "'" + others + " not complete, but not asked about or not able to be there)";
+}
+
 std::string summaryOf(const QueryAnswer& found, const Snapshot& snapshot) {
-  if (found.verdict == Verdict::clear) return "CLEAR: nothing is there";
+  if (found.verdict == Verdict::clear) return "CLEAR: nothing is there" + elsewhere(snapshot);
   if (found.verdict == Verdict::unknown) return "UNKNOWN: " + found.reason;
   const std::string first =
       found.hits.empty() ? "" : ", first " + snapshot.structure().bodies[found.hits.front().body].name;
@@ -112,17 +120,23 @@ QueryScope QueryServices::scopeOf(const std::vector<std::string>& include, const
 namespace {
 
 /// How many bodies a query is about. A misspelt name must not read as CLEAR.
-/// @throws Refusal unknown_id if a pattern to be included matches nobody, or none is left
+/// @throws Refusal unknown_id if a pattern to be included can match no body, or none is left
 std::size_t asked(const QueryScope& scope, const Snapshot& snapshot) {
   const std::vector<Body>& bodies = snapshot.structure().bodies;
+  const std::vector<SourceGap>& gaps = snapshot.gaps();
   for (const std::string& pattern : scope.include) {
     const bool known =
         std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) { return matches(pattern, body.name); });
-    if (!known) throw Refusal(Code::unknown_id, "no body matches '" + printable(pattern) + "' of include");
+    const bool awaited = std::any_of(gaps.begin(), gaps.end(), [&](const SourceGap& gap) {
+      return canMatchTogether(pattern, gap.bodies);
+    });
+    if (!known && !awaited) throw Refusal(Code::unknown_id, "no body matches '" + printable(pattern) + "' of include");
   }
   std::size_t count = 0;
   for (std::uint32_t body = 0; body < bodies.size(); ++body) count += snapshot.inScope(scope, body) ? 1 : 0;
-  if (count == 0) throw Refusal(Code::unknown_id, "exclude leaves no body to ask for");
+  const bool awaits =
+      std::any_of(gaps.begin(), gaps.end(), [&](const SourceGap& gap) { return snapshot.inScope(scope, gap); });
+  if (count == 0 && !awaits) throw Refusal(Code::unknown_id, "exclude leaves no body to ask for");
   return count;
 }
 
@@ -167,7 +181,8 @@ bool QueryServices::answer(const Request& request, Response& response, Ask&& ask
     result.unknown_because = static_cast<std::uint8_t>(found.because);
     result.summary = summaryOf(found, snapshot);
     if (!all && found.verdict == Verdict::clear) {
-      result.summary = "CLEAR: none of the " + std::to_string(count) + " bodies asked for is there";
+      result.summary =
+          "CLEAR: none of the " + std::to_string(count) + " bodies asked for is there" + elsewhere(snapshot);
     }
     result.total = static_cast<std::uint32_t>(found.total);
     result.truncated = found.total > found.hits.size();

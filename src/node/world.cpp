@@ -23,6 +23,7 @@ SceneOptions optionsOf(const Params& params) {
   options.growth_cap = params.growth_cap;
   options.max_bodies = static_cast<std::size_t>(params.max_bodies);
   options.max_reasons = static_cast<std::size_t>(params.max_reasons);
+  options.required = params.required;
   options.pair_kinds = params.pair_kinds;
   options.allowed_pairs = params.allowed_pairs;
   options.pair_margins = params.pair_margins;
@@ -50,6 +51,7 @@ World::World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& 
       ways_(intake_),
       watch_(simulated, params.clock_jump, params.stale_after),
       scene_(optionsOf(params)),
+      map_news_(simulated),
       rules_(params.allowed_pairs),
       world_frame_(params.world_frame),
       epoch_(epoch) {
@@ -131,9 +133,24 @@ void World::setMissing(const std::string& name, const std::string& sentence) {
   const auto cloud = clouds_.find(name);
   if (cloud != clouds_.end()) {
     cloud->second.refused = sentence;
-  } else if (robots_.count(name) == 0 && maps_.count(name) == 0) {
+  } else if (maps_.count(name) != 0) {
+    map_news_.noteRefused(name, sentence);
+  } else if (robots_.count(name) == 0) {
     missing_[name] = sentence;
   }
+}
+
+/// What a robot (by its name), an obstacle, a map or a cloud (by the names of their bodies) lacks.
+SourceGap World::gapOf(const std::string& thing, const std::string& sentence) const {
+  const std::size_t slash = thing.find('/');
+  if (slash == std::string::npos) return {thing, joined(thing, "*"), sentence};
+  return {thing.compare(0, slash, "obstacle") == 0 ? "obstacle" : thing, thing, sentence};
+}
+
+std::vector<SourceGap> World::gaps(const Moment& now) const {
+  std::vector<SourceGap> gaps = map_news_.gaps(now);
+  for (const auto& thing : missing_) gaps.push_back(gapOf(thing.first, thing.second));
+  return gaps;
 }
 
 /// A misspelt name in a parameter does nothing, and that would show nowhere.
@@ -394,7 +411,8 @@ std::shared_ptr<const Tick> World::tick(const Moment& now) {
   tick->epoch = epoch_;
   const bool has_frame = findWorldFrame();
   tick->world_frame = world_frame_;
-  for (const auto& robot : missing_) tick->not_ready.push_back(robot.second);
+  std::vector<SourceGap> lacking = gaps(now);
+  for (const SourceGap& gap : lacking) tick->not_ready.push_back(gap.sentence);
   tick->models = report_;
   tick->frames = intake_.frames();
   if (!watch_.running())
@@ -411,14 +429,14 @@ std::shared_ptr<const Tick> World::tick(const Moment& now) {
   ways_.place(time);
   cohorts_.clear();
   for (std::size_t i = 0; i < movers_.size(); ++i) update(i, time, now, *tick);
-  updateClouds(time, now, *tick);
+  updateClouds(time, now, *tick, lacking);
   std::stable_sort(tick->troubles.begin(), tick->troubles.end(),
                    [](const BodyTrouble& a, const BodyTrouble& b) { return a.state > b.state; });
   std::sort(tick->missing_frames.begin(), tick->missing_frames.end());
   tick->missing_frames.erase(std::unique(tick->missing_frames.begin(), tick->missing_frames.end()),
                              tick->missing_frames.end());
   tick->poses_time = std::chrono::steady_clock::now() - begin;
-  tick->snapshot = scene_.commit(time, tick->not_ready);
+  tick->snapshot = scene_.commit(time, lacking);
   tick->times = scene_.lastTimes();
   return tick;
 }

@@ -14,6 +14,7 @@
 #include "hgrid_proximity/scene/scene.h"
 #include "ledger.h"
 #include "loaded_map.h"
+#include "map_news.h"
 #include "params.h"
 #include "robot_source.h"
 #include "tf_intake.h"
@@ -131,8 +132,11 @@ class World {
   Freshness judge(Mover& mover, Time time, const Moment& now, double& age) const;
   void update(std::size_t index, Time time, const Moment& now, Tick& tick);
   bool isConnected(const std::string& frame) const;
+  std::vector<SourceGap> gaps(const Moment& now) const;
+  SourceGap gapOf(const std::string& thing, const std::string& sentence) const;
+  SourceGap gapOf(const BodyTrouble& trouble, const Cloud& cloud) const;
   Freshness judgeCloud(const Cloud& cloud, const Moment& now, double& age) const;
-  void updateClouds(Time time, const Moment& now, Tick& tick);
+  void updateClouds(Time time, const Moment& now, Tick& tick, std::vector<SourceGap>& gaps);
   void unsettle();
   void setState(const Mover& mover, Freshness state, double age);
   void describeTrouble(const Mover& mover, Tick& tick) const;
@@ -151,6 +155,7 @@ class World {
   std::map<Time, std::uint32_t> cohorts_;  // of this tick: bodies of one stamp are equally old
   std::map<std::string, LoadedRobot> robots_;
   std::map<std::string, Body> maps_;            // by name of the body
+  MapNews map_news_;
   std::map<std::string, Cloud> clouds_;         // by name of the body
   std::map<std::string, std::string> missing_;  // sentence by robot, map/name, cloud/name
   std::shared_ptr<const ModelReport> report_ = std::make_shared<ModelReport>();

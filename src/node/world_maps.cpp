@@ -46,6 +46,7 @@ void World::setMap(const LoadedMap& map) {
   BodyId id;
   scene_.find(body.name, id);
   scene_.setCells(id, map.cells);
+  map_news_.noteAccepted(body.name, map);
   missing_.erase(body.name);
 }
 
@@ -60,7 +61,10 @@ void World::clearMap(const std::string& name) {
   }
   for (auto map = maps_.begin(); map != maps_.end();) {
     const bool chosen = name.empty() || map->first == body;
-    if (chosen) removeMovers(map->first);
+    if (chosen) {
+      removeMovers(map->first);
+      map_news_.forget(map->first);
+    }
     map = chosen ? maps_.erase(map) : std::next(map);
   }
 }
@@ -101,18 +105,31 @@ Freshness World::judgeCloud(const Cloud& cloud, const Moment& now, double& age) 
   return age > std::max(params_.late_after, 1.5 * cloud.period) ? Freshness::late : Freshness::fresh;
 }
 
+/// What a cloud lacks that is lost: what it would see now. That can be anywhere, or, where the range of its sensor is
+/// known, not beyond that range of where the sensor can be by now.
+SourceGap World::gapOf(const BodyTrouble& trouble, const Cloud& cloud) const {
+  const std::string& cloud_name = trouble.name;
+  SourceGap gap{cloud_name, cloud_name, std::string(name(trouble.state)) + " " + cloud_name + ": what it saw is " +
+                                            secondsText(trouble.age) + " old" +
+                                            (cloud.refused.empty() ? "" : "; since then: " + cloud.refused)};
+  const double travelled = scene_.body(cloud.body).max_speed * trouble.age;
+  if (cloud.newest.range > 0.0) gap.within = Sphere{cloud.newest.sensor, cloud.newest.range + travelled};
+  return gap;
+}
+
 /// Clouds lie in the world frame: tf has placed their points already, each at its stamp.
-void World::updateClouds(Time time, const Moment& now, Tick& tick) {
+void World::updateClouds(Time time, const Moment& now, Tick& tick, std::vector<SourceGap>& gaps) {
   for (const auto& named : clouds_) {
     const Cloud& cloud = named.second;
     BodyTrouble trouble{named.first, world_frame_, Freshness::fresh, 0.0, cloud.newest.stamp, Code::tf_timeout, {}};
     try {
       scene_.place(cloud.body, Pose(Eigen::Translation3d(cloud.newest.corner)), std::min(time, cloud.newest.stamp));
       trouble.state = judgeCloud(cloud, now, trouble.age);
-      trouble.sentence = "cloud '" + named.first + "': the newest message that could be read is " +
+      trouble.sentence = "cloud '" + named.first + "': the newest message that counts is " +
                          secondsText(trouble.age) + " old" +
                          (trouble.state == Freshness::lost ? "; its cells have expired" : "") +
                          (cloud.refused.empty() ? "" : "; since then: " + cloud.refused);
+      if (trouble.state >= Freshness::lost) gaps.push_back(gapOf(trouble, cloud));
       if (trouble.state == Freshness::lost && !cloud.refused.empty()) tick.not_ready.push_back(cloud.refused);
     } catch (const Refusal& refusal) {
       ledger_.refuse("pose.refused", refusal);

@@ -12,22 +12,10 @@
 namespace hgrid {
 namespace {
 
-double growthOf(const BodyPose& pose, const Body& body, double cap) {
+/// [m] How far a point of the body may be from where its pose puts it.
+double reachOf(const BodyPose& pose, const Body& body) {
   if (pose.state < Freshness::stale || pose.state == Freshness::unplaced || !(pose.age > 0.0)) return 0.0;
-  return std::min(body.max_speed * pose.age, cap);
-}
-
-/// Why a body makes the world incomplete; empty if it does not.
-std::string gapLeftBy(const Body& body, const BodyPose& pose) {
-  if (pose.state == Freshness::unplaced) {
-    return "UNPLACED " + body.name + ": it never had a pose (frame '" + printable(body.frame) + "')";
-  }
-  if (!body.covered && !body.waived) return "UNCOVERED " + body.name + ": " + body.note;
-  if (pose.state >= Freshness::lost) {
-    return std::string(name(pose.state)) + " " + body.name + (isCloud(body) ? ": what it saw is " : ": its pose is ") +
-           secondsText(pose.age) + " old (frame '" + printable(body.frame) + "')";
-  }
-  return {};
+  return body.max_speed * pose.age;
 }
 
 /// Whether the grid may report a pair of proxies: its filter.
@@ -71,6 +59,7 @@ void Scene::State::rebuildStructure() {
   for (ProxyId proxy = 0; proxy < next->body_of_proxy.size(); ++proxy) {
     if (next->bodies[next->body_of_proxy[proxy]].mobility == Mobility::fixed) fixed_proxies.push_back(proxy);
   }
+  fillSources(*next);
   structure = std::move(next);
   scale = GridScale::fitting(sizes);
   if (options.finest_edge > 0.0) scale.finest_edge = options.finest_edge;
@@ -106,7 +95,8 @@ void Scene::State::fillBodies(Snapshot& snapshot) {
     }
     if (known == 0 || slot.changed > known) {
       snapshot.poses_[i] = slot.pose;
-      snapshot.poses_[i].growth = growthOf(slot.pose, bodies[structure->ids[i].slot], options.growth_cap);
+      snapshot.poses_[i].reach = reachOf(slot.pose, bodies[structure->ids[i].slot]);
+      snapshot.poses_[i].growth = std::min(snapshot.poses_[i].reach, options.growth_cap);
     }
     snapshot.worst_state_ = std::max(snapshot.worst_state_, slot.pose.state);
     snapshot.max_growth_ = std::max(snapshot.max_growth_, snapshot.poses_[i].growth);
@@ -216,31 +206,7 @@ void Scene::State::fillPairs(Snapshot& snapshot) {
       snapshot.events_);
 }
 
-void Scene::State::fillCompleteness(Snapshot& snapshot, const std::vector<std::string>& missing) const {
-  snapshot.reasons_.clear();
-  snapshot.reasons_total_ = static_cast<std::uint32_t>(missing.size());
-  for (const std::string& sentence : missing) {
-    if (snapshot.reasons_.size() < options.max_reasons) snapshot.reasons_.push_back(sentence);
-  }
-  if (snapshot.worst_state_ < Freshness::lost && uncovered.empty()) return;  // nothing else leaves a gap
-  std::vector<std::pair<int, std::uint32_t>> gaps;  // the worse the state, the smaller the number
-  for (std::uint32_t i = 0; i < snapshot.poses_.size(); ++i) {
-    if (snapshot.poses_[i].state >= Freshness::lost) gaps.emplace_back(-static_cast<int>(snapshot.poses_[i].state), i);
-  }
-  for (const std::uint32_t i : uncovered) {
-    const Freshness state = snapshot.poses_[i].state;
-    if (state < Freshness::lost) gaps.emplace_back(-static_cast<int>(state), i);
-  }
-  snapshot.reasons_total_ += static_cast<std::uint32_t>(gaps.size());
-  const std::size_t listed = std::min(gaps.size(), options.max_reasons - snapshot.reasons_.size());
-  std::partial_sort(gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>(listed), gaps.end());
-  for (std::size_t i = 0; i < listed; ++i) {
-    const std::uint32_t body = gaps[i].second;
-    snapshot.reasons_.push_back(gapLeftBy(structure->bodies[body], snapshot.poses_[body]));
-  }
-}
-
-std::shared_ptr<const Snapshot> Scene::commit(Time stamp, const std::vector<std::string>& missing) {
+std::shared_ptr<const Snapshot> Scene::commit(Time stamp, const std::vector<SourceGap>& gaps) {
   const DefaultFloatEnvironment environment;
   using Clock = std::chrono::steady_clock;
   State& s = *state_;
@@ -258,7 +224,7 @@ std::shared_ptr<const Snapshot> Scene::commit(Time stamp, const std::vector<std:
   s.fillPairs(*snapshot);
   snapshot->sequence_ = ++s.sequence;
   snapshot->epoch_ = s.epoch;
-  s.fillCompleteness(*snapshot, missing);
+  s.fillCompleteness(*snapshot, gaps);
   s.times = {boxes_done - begin, grid_done - boxes_done, Clock::now() - grid_done};
   return snapshot;
 }

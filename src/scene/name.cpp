@@ -55,6 +55,47 @@ bool matches(const std::string& glob, const std::string& name) {
   return g == glob.size();
 }
 
+bool canMatchTogether(const std::string& first, const std::string& second) {
+  // possible[j]: the rest of `first` from i on and the rest of `second` from j on match a common name.
+  std::vector<bool> possible(second.size() + 1), below;
+  for (std::size_t i = first.size() + 1; i-- > 0;) {
+    below = possible;  // of i + 1
+    for (std::size_t j = second.size() + 1; j-- > 0;) {
+      const bool a = i < first.size(), b = j < second.size();
+      const bool star_a = a && first[i] == '*', star_b = b && second[j] == '*';
+      bool here = !a && !b;
+      if (star_a) here = below[j] || (b && possible[j + 1]);
+      if (star_b && !here) here = possible[j + 1] || (a && below[j]);
+      if (a && b && !star_a && !star_b && (first[i] == second[j] || first[i] == '?' || second[j] == '?')) {
+        here = below[j + 1];
+      }
+      possible[j] = here;
+    }
+  }
+  return possible[0];
+}
+
+bool coversGlob(const std::string& wide, const std::string& narrow) {
+  // As matches(), with `narrow` for the name: a star of it stands for any run, so only a star of `wide` covers it.
+  std::size_t w = 0, n = 0, star = std::string::npos, resume = 0;
+  while (n < narrow.size()) {
+    if (w < wide.size() && wide[w] == '*') {
+      star = w++;
+      resume = n;
+    } else if (w < wide.size() && narrow[n] != '*' && (wide[w] == '?' || wide[w] == narrow[n])) {
+      ++w;
+      ++n;
+    } else if (star != std::string::npos) {
+      w = star + 1;
+      n = ++resume;
+    } else {
+      return false;
+    }
+  }
+  while (w < wide.size() && wide[w] == '*') ++w;
+  return w == wide.size();
+}
+
 bool matchesAny(const std::vector<std::string>& globs, const std::string& name) {
   return std::any_of(globs.begin(), globs.end(), [&](const std::string& glob) { return matches(glob, name); });
 }

@@ -22,15 +22,18 @@ inline double toldMargin(const Structure& structure, std::uint32_t first, std::u
   return std::max(structure.margin[first], structure.margin[second]);
 }
 
-/// [m] by how much that margin is wider since they are stale. Links of one robot that are equally old do not grow
-/// against each other.
+/// Whether two bodies are links of one robot that are equally old: they have not moved against each other.
+inline bool movedTogether(const Structure& structure, std::uint32_t first, std::uint32_t cohort_of_first,
+                          std::uint32_t second, std::uint32_t cohort_of_second) {
+  if (cohort_of_first == 0 || cohort_of_first != cohort_of_second) return false;
+  const std::string &robot_a = structure.bodies[first].robot, &robot_b = structure.bodies[second].robot;
+  return !robot_a.empty() && robot_a == robot_b;
+}
+
+/// [m] By how much that margin is wider since the bodies are stale.
 inline double widening(const Structure& structure, std::uint32_t first, Staleness a, std::uint32_t second,
                        Staleness b) {
-  if (a.cohort != 0 && a.cohort == b.cohort) {
-    const std::string &robot_a = structure.bodies[first].robot, &robot_b = structure.bodies[second].robot;
-    if (!robot_a.empty() && robot_a == robot_b) return 0.0;
-  }
-  return a.growth + b.growth;
+  return movedTogether(structure, first, a.cohort, second, b.cohort) ? 0.0 : a.growth + b.growth;
 }
 
 /// [m] the margin with what it is wider.

@@ -12,7 +12,7 @@ struct PlacedMap {
   const MapCells& cells;
   const Pose& world_from_map;
   Pose map_from_world;
-  double growth;  // [m]
+  double reach;  // [m] how far it may be from where its pose puts it
 
   double edgeOf(const Voxel& voxel) const { return hgrid::edgeOf(voxel, cells.grid->finestEdge()); }
   Eigen::AlignedBox3d cubeOf(const Voxel& voxel) const {
@@ -33,7 +33,7 @@ void Snapshot::forEachMap(const QueryScope& scope, Look&& look) const {
     const std::uint32_t body = structure_->maps[i];
     const BodyPose& pose = poses_[body];
     if (!cells_[i] || pose.state == Freshness::unplaced || !inScope(scope, body)) continue;
-    look(PlacedMap{body, *cells_[i], pose.world_from_body, pose.world_from_body.inverse(), pose.growth});
+    look(PlacedMap{body, *cells_[i], pose.world_from_body, pose.world_from_body.inverse(), pose.reach});
   }
 }
 

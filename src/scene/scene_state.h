@@ -70,7 +70,12 @@ struct Scene::State {
   void sortPairs(std::vector<NearPair>& pairs);
   void addPair(std::uint32_t first, std::uint32_t second, double gap, double margin, bool near,
                std::vector<NearPair>& pairs) const;
-  void fillCompleteness(Snapshot& snapshot, const std::vector<std::string>& missing) const;
+
+  // completeness.cpp: which sources are complete.
+
+  void fillSources(Structure& structure) const;
+  void fillCompleteness(Snapshot& snapshot, const std::vector<SourceGap>& gaps) const;
+  void fillDoubtful(Snapshot& snapshot) const;
 
   std::shared_ptr<const Structure> structure = std::make_shared<Structure>();
   std::vector<std::uint32_t> uncovered;  // bodies of the structure that leave a gap wherever they are

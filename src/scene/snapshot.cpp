@@ -55,32 +55,17 @@ bool Snapshot::inScope(const QueryScope& scope, std::uint32_t body) const {
   return (scope.include.empty() || matchesAny(scope.include, name)) && !matchesAny(scope.exclude, name);
 }
 
-std::string Snapshot::doubtOf(std::uint32_t body) const {
-  const BodyPose& pose = poses_[body];
-  return std::string(name(pose.state)) + " " + structure_->bodies[body].name + ": its pose is " +
-         secondsText(pose.age) + " old, it may have come here since";
-}
-
 QueryAnswer Snapshot::finished(std::vector<QueryHit>& hits, const QueryScope& scope, bool by_along,
-                               const std::string& doubt, bool unmapped) const {
+                               const Region& region) const {
   sortOnePerBody(hits, by_along ? earlier : nearer);
   QueryAnswer answer;
   answer.total = hits.size();
   if (scope.limit > 0 && hits.size() > scope.limit) hits.resize(scope.limit);
   answer.hits = std::move(hits);
+  if (answer.total == 0) doubt(scope, region, answer);
   if (answer.total > 0) {
     answer.verdict = Verdict::hit;
-  } else if (!complete()) {
-    answer.because = Unknown::incomplete;
-    answer.reason =
-        "the world is not complete: " + (reasons_.empty() ? std::string("see the status") : reasons_.front());
-  } else if (!doubt.empty()) {
-    answer.because = Unknown::stale_body;
-    answer.reason = doubt;
-  } else if (unmapped) {
-    answer.because = Unknown::unmapped;
-    answer.reason = "it passes through space that no map knows to be free";
-  } else {
+  } else if (answer.because == Unknown::no) {
     answer.verdict = Verdict::clear;
   }
   return answer;

@@ -72,42 +72,32 @@ double Snapshot::gapOf(std::uint32_t first, std::uint32_t second, double up_to) 
   return gap <= up_to ? gap : kInfinity;
 }
 
-void Snapshot::addMaps(const Sphere& sphere, const QueryScope& scope, std::vector<QueryHit>& hits,
-                       std::string& doubt) const {
+void Snapshot::addMaps(const Sphere& sphere, const QueryScope& scope, std::vector<QueryHit>& hits) const {
   const double radius = sphere.radius + touchSlack(sphere.center, sphere.radius);
   const std::size_t before = hits.size();
-  addMapsNear(sphere.center, radius, scope, hits, doubt);
+  addMapsNear(sphere.center, radius, scope, hits);
   for (std::size_t i = before; i < hits.size(); ++i) {
     hits[i].distance = std::max(0.0, hits[i].center_distance - sphere.radius);
   }
 }
 
 void Snapshot::addMapsNear(const Eigen::Vector3d& point, double limit, const QueryScope& scope,
-                           std::vector<QueryHit>& hits, std::string& doubt) const {
+                           std::vector<QueryHit>& hits) const {
   std::vector<NearVoxel> near;
   forEachMap(scope, [&](const PlacedMap& map) {
     const Eigen::Vector3d at = map.map_from_world * point;
-    map.cells.grid->nearest(Eigen::AlignedBox3d(at), 1, limit + map.growth, near);
+    map.cells.grid->nearest(Eigen::AlignedBox3d(at), 1, limit, near);
     if (near.empty()) return;
-    if (near.front().distance > limit) {
-      doubt = doubtOf(map.body);
-    } else {
-      hits.push_back(hitOf(map, near.front().voxel, at, near.front().distance, scope.exact != nullptr));
-    }
+    hits.push_back(hitOf(map, near.front().voxel, at, near.front().distance, scope.exact != nullptr));
   });
 }
 
-void Snapshot::addMaps(const Segment& segment, const QueryScope& scope, std::vector<QueryHit>& hits,
-                       std::string& doubt) const {
+void Snapshot::addMaps(const Segment& segment, const QueryScope& scope, std::vector<QueryHit>& hits) const {
   const double length = (segment.to - segment.from).norm();
   forEachMap(scope, [&](const PlacedMap& map) {
     const Segment in_map{map.map_from_world * segment.from, map.map_from_world * segment.to, segment.radius};
     const auto first = map.cells.grid->firstAlong(in_map);
-    if (!first) {
-      const Segment wider{in_map.from, in_map.to, in_map.radius + map.growth};
-      if (map.growth > 0.0 && map.cells.grid->firstAlong(wider)) doubt = doubtOf(map.body);
-      return;
-    }
+    if (!first) return;
     const Eigen::Vector3d way = in_map.to - in_map.from;
     const Eigen::Vector3d at = in_map.from + (length > 0.0 ? first->along / length : 0.0) * way;
     const double away = (map.nearestOf(first->voxel, at) - at).norm();
@@ -124,49 +114,39 @@ void Snapshot::addMaps(const Segment& segment, const QueryScope& scope, std::vec
 
 /// Cells are tried as they are near to the box's centre: the first that the box touches is the one that is told of.
 void Snapshot::addMaps(const QueryBox& box, const NarrowPhase& narrow_phase, const QueryScope& scope,
-                       std::vector<QueryHit>& hits, std::string& doubt) const {
+                       std::vector<QueryHit>& hits) const {
   const Eigen::Vector3d center = box.world_from_box.translation();
   const double slack = touchSlack(center, box.size.norm());
   const auto core = narrow_phase.block(box.size);
   forEachMap(scope, [&](const PlacedMap& map) {
     const Eigen::Vector3d middle = map.map_from_world * center;
-    bool perhaps = false;
     std::optional<NearVoxel> met;
-    const double half_diagonal = 0.5 * box.size.norm() + slack + map.growth;
+    const double half_diagonal = 0.5 * box.size.norm() + slack;
     map.cells.grid->visitNear(Eigen::AlignedBox3d(middle), half_diagonal, [&](const Voxel& voxel, double distance) {
       const Pose world_from_cube = map.worldFromCube(voxel);
       const Proximity found = narrow_phase.measure(
-          {*core, box.world_from_box, 0.0}, {*map.cells.cubes[voxel.level], world_from_cube, 0.0}, slack + map.growth);
-      if (found.distance <= slack) {
-        if (!met || distance < met->distance) met = NearVoxel{voxel, distance};
-      } else {
-        perhaps = perhaps || found.distance <= slack + map.growth;
-      }
+          {*core, box.world_from_box, 0.0}, {*map.cells.cubes[voxel.level], world_from_cube, 0.0}, slack);
+      if (found.distance <= slack && (!met || distance < met->distance)) met = NearVoxel{voxel, distance};
       return !met ? half_diagonal : met->distance > 0.0 ? met->distance : kNoFurther;
     });
-    if (met) {
-      QueryHit hit = hitOf(map, met->voxel, middle, met->distance, scope.exact != nullptr);
-      hit.distance = 0.0;
-      if (scope.exact != nullptr) hit.status = Measure::contact;
-      hits.push_back(hit);
-    } else if (perhaps) {
-      doubt = doubtOf(map.body);
-    }
+    if (!met) return;
+    QueryHit hit = hitOf(map, met->voxel, middle, met->distance, scope.exact != nullptr);
+    hit.distance = 0.0;
+    if (scope.exact != nullptr) hit.status = Measure::contact;
+    hits.push_back(hit);
   });
 }
 
-void Snapshot::addMapsNear(std::uint32_t from, double limit, const QueryScope& scope, std::vector<QueryHit>& hits,
-                           std::string& doubt) const {
+void Snapshot::addMapsNear(std::uint32_t from, double limit, const QueryScope& scope, std::vector<QueryHit>& hits) const {
   const Body& asking = structure_->bodies[from];
   forEachMap(scope, [&](const PlacedMap& map) {
-    const double growth = growthOf(from, map.body);
     QueryHit best;
     best.distance = kInfinity;
     for (std::uint32_t i = 0; i < asking.shapes.size(); ++i) {
       const BodyShape& shape = asking.shapes[i];
       const Pose world_from_shape = poses_[from].world_from_body * shape.body_from_shape;
       const Eigen::AlignedBox3d own = boxInMap(map.map_from_world, boxes_[structure_->first_proxy[from] + i], origin_);
-      const auto most = [&] { return best.distance > 0.0 ? std::min(limit + growth, best.distance) : kNoFurther; };
+      const auto most = [&] { return best.distance > 0.0 ? std::min(limit, best.distance) : kNoFurther; };
       if (most() < 0.0) break;
       map.cells.grid->visitNear(own, most(), [&](const Voxel& voxel, double gap) {
         Proximity found;
@@ -198,11 +178,7 @@ void Snapshot::addMapsNear(std::uint32_t from, double limit, const QueryScope& s
         return most();
       });
     }
-    if (best.distance <= limit) {
-      hits.push_back(best);
-    } else if (best.distance <= limit + growth) {
-      doubt = doubtOf(map.growth > 0.0 ? map.body : from);
-    }
+    if (best.distance <= limit) hits.push_back(best);
   });
 }
 

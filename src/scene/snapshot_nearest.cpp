@@ -7,13 +7,16 @@
 
 #include "hgrid_proximity/geometry/float_environment.h"
 #include "hgrid_proximity/refusal.h"
-#include "scene/probe.h"
+#include "scene/region.h"
 
 namespace hgrid {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kFirstLook = 16;  // boxes, beside four for each body that is wanted
+
+/// [m] How far a hit may be; 0 stands for no limit.
+double limitOf(double max_distance) { return max_distance > 0.0 ? max_distance : kInfinity; }
 
 bool nearer(const QueryHit& a, const QueryHit& b) {
   return a.distance != b.distance ? a.distance < b.distance : a.shape < b.shape;
@@ -24,18 +27,17 @@ bool nearer(const QueryHit& a, const QueryHit& b) {
 /// Boxes come from the grid by growing distance, which is a lower bound of the one that is asked for; it is over when
 /// no further box can be nearer than the last body that is wanted.
 /// @param reach  [m] of what is asked from, around `center`
-/// @param asking  the body that is asked from, or Structure::kNone
+/// @param region  what lies within the limit
 /// @param asked    a point or a body, from which maps are looked for
 template <class Asked, class Ask>
 QueryAnswer Snapshot::nearestBy(const Asked& asked, const Eigen::Vector3d& center, double reach, double max_distance,
-                                const QueryScope& scope, std::uint32_t asking, const Ask& measure) const {
+                                const QueryScope& scope, const Region& region, const Ask& measure) const {
   const std::size_t wanted = std::max<std::uint32_t>(1, scope.limit);
-  const double limit = max_distance > 0.0 ? max_distance : kInfinity;
+  const double limit = limitOf(max_distance);
   std::map<std::uint32_t, QueryHit> best;  // by body
-  std::string doubt;
   std::vector<NearHit> near;
   for (std::size_t look = 4 * wanted + kFirstLook, done = 0;; look *= 4) {
-    grid_.nearest(center - origin_, look, limit + reach + 2.0 * max_growth_, near);
+    grid_.nearest(center - origin_, look, limit + reach, near);
     for (; done < near.size(); ++done) {
       const ProxyId proxy = near[done].id;
       const std::uint32_t body = structure_->body_of_proxy[proxy];
@@ -43,13 +45,7 @@ QueryAnswer Snapshot::nearestBy(const Asked& asked, const Eigen::Vector3d& cente
       QueryHit hit;
       hit.body = body;
       hit.shape = proxy - structure_->first_proxy[body];
-      const double own = poses_[body].growth;  // both may have come nearer since their poses
-      const double growth = asking == Structure::kNone || asking == body ? own : growthOf(asking, body);
-      if (!measure(proxy, limit + growth, hit)) continue;
-      if (hit.distance > limit) {
-        if (hit.distance <= limit + growth) doubt = doubtOf(own > 0.0 ? body : asking);
-        continue;
-      }
+      if (!measure(proxy, limit, hit)) continue;
       const auto known = best.emplace(body, hit);
       if (!known.second && nearer(hit, known.first->second)) known.first->second = hit;
     }
@@ -62,12 +58,12 @@ QueryAnswer Snapshot::nearestBy(const Asked& asked, const Eigen::Vector3d& cente
   }
   std::vector<QueryHit> hits;
   for (const auto& hit : best) hits.push_back(hit.second);
-  addMapsNear(asked, limit, scope, hits, doubt);
+  addMapsNear(asked, limit, scope, hits);
   std::sort(hits.begin(), hits.end(), [](const QueryHit& a, const QueryHit& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.body < b.body;
   });
   if (hits.size() > wanted) hits.resize(wanted);
-  return finished(hits, scope, false, doubt, hits.empty() && unmappedNear(asked, limit, scope));
+  return finished(hits, scope, false, region);
 }
 
 QueryAnswer Snapshot::nearest(const Eigen::Vector3d& point, double max_distance, const QueryScope& scope) const {
@@ -88,7 +84,7 @@ QueryAnswer Snapshot::nearest(const Eigen::Vector3d& point, double max_distance,
     hit.normal = -found.normal;
     return found.distance <= up_to;
   };
-  return nearestBy(point, point, 0.0, max_distance, scope, Structure::kNone, measure);
+  return nearestBy(point, point, 0.0, max_distance, scope, SphereRegion(*this, {point, limitOf(max_distance)}), measure);
 }
 
 QueryAnswer Snapshot::nearest(std::uint32_t from, double max_distance, const QueryScope& scope) const {
@@ -106,7 +102,8 @@ QueryAnswer Snapshot::nearest(std::uint32_t from, double max_distance, const Que
     high = high.cwiseMax(boxes_[proxy].max.cast<double>());
   }
   const Eigen::Vector3d center = origin_ + 0.5 * (low + high);
-  return nearestBy(from, center, 0.5 * (high - low).norm(), max_distance, scope, from,
+  return nearestBy(from, center, 0.5 * (high - low).norm(), max_distance, scope,
+                   BodyRegion(*this, from, limitOf(max_distance)),
                    [&](ProxyId proxy, double up_to, QueryHit& hit) {
                      if (hit.body == from) return false;
                      hit.distance = kInfinity;

@@ -6,7 +6,7 @@
 
 #include "hgrid_proximity/geometry/float_environment.h"
 #include "hgrid_proximity/refusal.h"
-#include "scene/probe.h"
+#include "scene/region.h"
 
 namespace hgrid {
 namespace {
@@ -72,39 +72,31 @@ QueryAnswer Snapshot::query(const Sphere& sphere, const QueryScope& scope) const
   std::vector<ProxyId> candidates;
   grid_.overlapping(local, candidates);
   std::vector<QueryHit> hits;
-  std::string doubt;
   for (const ProxyId proxy : candidates) {
     const std::uint32_t body = structure_->body_of_proxy[proxy];
     if (!inScope(scope, body)) continue;
     const Aabb& box = boxes_[proxy];
-    const double growth = poses_[body].growth;
-    if (!touches({local.center, local.radius + growth}, box)) continue;
+    if (!touches(local, box)) continue;  // the grid holds it wider, by its margin
     QueryHit hit;
     hit.body = body;
     hit.shape = proxy - structure_->first_proxy[body];
     hit.center_distance = distance(box, local.center);
     hit.point = nearestPoint(box, local.center) + origin_;
-    bool met = touches(local, box);
     if (scope.exact != nullptr) {
       const Probe probe{*scope.exact, scope.exact->point(), Pose(Eigen::Translation3d(sphere.center))};
       const double radius = sphere.radius + touchSlack(sphere.center, sphere.radius);
-      const Proximity found = probe.measure(*this, body, hit.shape, radius + growth);
+      const Proximity found = probe.measure(*this, body, hit.shape, radius);
       if (found.status != Measure::not_measured) {
-        met = found.distance <= radius;
+        if (!(found.distance <= radius)) continue;
         hit.center_distance = found.distance;
         describe(hit, found);
-        if (!met && !(found.distance <= radius + growth)) continue;
       }
     }
     hit.distance = std::max(0.0, hit.center_distance - sphere.radius);
-    if (met) {
-      hits.push_back(hit);
-    } else if (growth > 0.0) {
-      doubt = doubtOf(body);
-    }
+    hits.push_back(hit);
   }
-  addMaps(sphere, scope, hits, doubt);
-  return finished(hits, scope, false, doubt, hits.empty() && unmapped(sphere, scope));
+  addMaps(sphere, scope, hits);
+  return finished(hits, scope, false, SphereRegion(*this, sphere));
 }
 
 QueryAnswer Snapshot::query(const Segment& segment, const QueryScope& scope) const {
@@ -114,39 +106,33 @@ QueryAnswer Snapshot::query(const Segment& segment, const QueryScope& scope) con
   checkQueryLength(segment.radius, "the query's radius");
   const Segment local{segment.from - origin_, segment.to - origin_, segment.radius};
   const double length = (segment.to - segment.from).norm();
+  const Pose core_pose = length > 0.0 ? alongSegment(segment) : Pose(Eigen::Translation3d(segment.from));
   const auto core = [&](const NarrowPhase& narrow_phase) {
-    return length > 0.0 ? Probe{narrow_phase, narrow_phase.needle(length), alongSegment(segment)}
-                        : Probe{narrow_phase, narrow_phase.point(), Pose(Eigen::Translation3d(segment.from))};
+    return Probe{narrow_phase, length > 0.0 ? narrow_phase.needle(length) : narrow_phase.point(), core_pose};
   };
   std::vector<SegmentHit> candidates;
   grid_.along(local, candidates);
   std::vector<QueryHit> hits;
-  std::string doubt;
   for (const SegmentHit& candidate : candidates) {
     const std::uint32_t body = structure_->body_of_proxy[candidate.id];
     if (!inScope(scope, body)) continue;
     const Aabb& box = boxes_[candidate.id];
-    const double growth = poses_[body].growth;
     const auto meeting = meet(local, box);
-    if (!meeting && !(growth > 0.0 && meet({local.from, local.to, local.radius + growth}, box))) continue;
+    if (!meeting) continue;  // the grid holds it wider, by its margin
     QueryHit hit;
     hit.body = body;
     hit.shape = candidate.id - structure_->first_proxy[body];
-    if (meeting) {
-      hit.center_distance = meeting->axis_distance;
-      hit.along = meeting->along;
-      hit.point = meeting->point + origin_;
-    }
-    bool met = meeting.has_value();
+    hit.center_distance = meeting->axis_distance;
+    hit.along = meeting->along;
+    hit.point = meeting->point + origin_;
     if (scope.exact != nullptr) {
       const double radius = segment.radius + touchSlack(segment.from, segment.radius + length);
-      Proximity found = core(*scope.exact).measure(*this, body, hit.shape, radius + growth);
+      Proximity found = core(*scope.exact).measure(*this, body, hit.shape, radius);
       if (found.status != Measure::not_measured) {
-        met = found.distance <= radius;
-        if (!met && !(found.distance <= radius + growth)) continue;
+        if (!(found.distance <= radius)) continue;
         hit.center_distance = found.distance;
         describe(hit, found);
-        if (met && found.status != Measure::failed) {
+        if (found.status != Measure::failed) {
           const double infinity = std::numeric_limits<double>::infinity();
           hit.along = firstTouch(
               segment,
@@ -163,14 +149,10 @@ QueryAnswer Snapshot::query(const Segment& segment, const QueryScope& scope) con
       }
     }
     hit.distance = std::max(0.0, hit.center_distance - segment.radius);
-    if (met) {
-      hits.push_back(hit);
-    } else if (growth > 0.0) {
-      doubt = doubtOf(body);
-    }
+    hits.push_back(hit);
   }
-  addMaps(segment, scope, hits, doubt);
-  return finished(hits, scope, true, doubt, hits.empty() && unmapped(segment, scope));
+  addMaps(segment, scope, hits);
+  return finished(hits, scope, true, SegmentRegion(*this, segment, core_pose));
 }
 
 QueryAnswer Snapshot::query(const QueryBox& box, const NarrowPhase& narrow_phase, const QueryScope& scope) const {
@@ -182,7 +164,7 @@ QueryAnswer Snapshot::query(const QueryBox& box, const NarrowPhase& narrow_phase
   const Probe middle{narrow_phase, narrow_phase.point(), Pose(Eigen::Translation3d(center))};
   const double slack = touchSlack(center, box.size.norm()), infinity = std::numeric_limits<double>::infinity();
   const Eigen::Vector3d half = box.world_from_box.linear().cwiseAbs() * (0.5 * box.size);
-  const Eigen::Vector3d reach = half.array() + (max_growth_ + 2.0 * slack);
+  const Eigen::Vector3d reach = half.array() + 2.0 * slack;
   Aabb around;
   for (int axis = 0; axis < 3; ++axis) {
     around.min[axis] = roundedDown(center[axis] - origin_[axis] - reach[axis]);
@@ -191,42 +173,34 @@ QueryAnswer Snapshot::query(const QueryBox& box, const NarrowPhase& narrow_phase
   std::vector<ProxyId> candidates;
   grid_.overlapping(around, candidates);
   std::vector<QueryHit> hits;
-  std::string doubt;
   for (const ProxyId proxy : candidates) {
     const std::uint32_t body = structure_->body_of_proxy[proxy];
     if (!inScope(scope, body)) continue;
     const Aabb& target = boxes_[proxy];
-    const double growth = poses_[body].growth;
     const Eigen::Vector3d low = target.min.cast<double>(), high = target.max.cast<double>();
     const Pose world_from_target(Eigen::Translation3d(origin_ + 0.5 * (low + high)));
     Proximity found = narrow_phase.measure({*probe.core, probe.world_from_core, 0.0},
-                                           {*narrow_phase.block(high - low), world_from_target, 0.0}, slack + growth);
-    if (!(found.distance <= slack + growth)) continue;
+                                           {*narrow_phase.block(high - low), world_from_target, 0.0}, slack);
+    if (!(found.distance <= slack)) continue;
     QueryHit hit;
     hit.body = body;
     hit.shape = proxy - structure_->first_proxy[body];
     hit.center_distance = distance(target, center - origin_);
     hit.point = nearestPoint(target, center - origin_) + origin_;
-    bool met = found.distance <= slack;
     if (scope.exact != nullptr) {
-      found = probe.measure(*this, body, hit.shape, slack + growth);
+      found = probe.measure(*this, body, hit.shape, slack);
       if (found.status != Measure::not_measured) {
-        if (!(found.distance <= slack + growth)) continue;
-        met = found.distance <= slack;
+        if (!(found.distance <= slack)) continue;
         const Proximity from_middle = middle.measure(*this, body, hit.shape, infinity);
         describe(hit, from_middle);
         hit.status = found.status;
         hit.center_distance = from_middle.distance;
       }
     }
-    if (met) {
-      hits.push_back(hit);
-    } else if (growth > 0.0) {
-      doubt = doubtOf(body);
-    }
+    hits.push_back(hit);
   }
-  addMaps(box, narrow_phase, scope, hits, doubt);
-  return finished(hits, scope, false, doubt, hits.empty() && unmapped(box, narrow_phase, scope));
+  addMaps(box, narrow_phase, scope, hits);
+  return finished(hits, scope, false, BoxRegion(*this, box, narrow_phase));
 }
 
 }  // namespace hgrid

@@ -39,7 +39,7 @@ bool Snapshot::knownToNone(const QueryScope& scope, const Knows& knows) const {
 
 bool Snapshot::unmapped(const Sphere& sphere, const QueryScope& scope) const {
   return knownToNone(scope, [&](const PlacedMap& map, const UnmappedSpace& space) {
-    const double radius = sphere.radius + map.growth + touchSlack(sphere.center, sphere.radius);
+    const double radius = sphere.radius + map.reach + touchSlack(sphere.center, sphere.radius);
     const Sphere ball{map.map_from_world * sphere.center, radius};
     return contains(space.extent, ball) && !space.cells.touches(ball);
   });
@@ -47,7 +47,7 @@ bool Snapshot::unmapped(const Sphere& sphere, const QueryScope& scope) const {
 
 bool Snapshot::unmapped(const Segment& segment, const QueryScope& scope) const {
   return knownToNone(scope, [&](const PlacedMap& map, const UnmappedSpace& space) {
-    const double radius = segment.radius + map.growth + touchSlack(segment.from, segment.radius);
+    const double radius = segment.radius + map.reach + touchSlack(segment.from, segment.radius);
     const Segment capsule{map.map_from_world * segment.from, map.map_from_world * segment.to, radius};
     return contains(space.extent, Sphere{capsule.from, radius}) && contains(space.extent, Sphere{capsule.to, radius}) &&
            !space.cells.firstAlong(capsule);
@@ -58,7 +58,7 @@ bool Snapshot::unmapped(const QueryBox& box, const NarrowPhase& narrow_phase, co
   const auto core = narrow_phase.block(box.size);
   return knownToNone(scope, [&](const PlacedMap& map, const UnmappedSpace& space) {
     const Eigen::Vector3d center = box.world_from_box.translation(), middle = map.map_from_world * center;
-    const double within = map.growth + touchSlack(center, box.size.norm());
+    const double within = map.reach + touchSlack(center, box.size.norm());
     const Pose map_from_box = map.map_from_world * box.world_from_box;
     const Eigen::Vector3d reach =
         (map_from_box.linear().cwiseAbs() * (0.5 * box.size)).array() + within;  // of the box around it
@@ -85,7 +85,7 @@ bool Snapshot::unmappedNear(std::uint32_t body, double limit, const QueryScope& 
     std::vector<NearVoxel> near;
     for (ProxyId proxy = structure_->first_proxy[body]; proxy < structure_->first_proxy[body + 1]; ++proxy) {
       const Eigen::AlignedBox3d own = boxInMap(map.map_from_world, boxes_[proxy], origin_);
-      const double within = limit + map.growth + poses_[body].growth + touchSlack(own.center(), limit);
+      const double within = limit + map.reach + poses_[body].reach + touchSlack(own.center(), limit);
       const Eigen::Vector3d reach = Eigen::Vector3d::Constant(within);
       if (!contains(space.extent, own.min() - reach, own.max() + reach)) return false;
       space.cells.nearest(own, 1, within, near);

@@ -101,7 +101,7 @@ TEST(Allocation, ASteadyCommitAllocatesNothing) {
                                test::at(random.uniform(-5, 5), random.uniform(-5, 5))));
   }
   std::shared_ptr<const Snapshot> latest;
-  const std::vector<std::string> missing;
+  const std::vector<SourceGap> gaps;
   std::size_t before = 0, events = 0;
   for (int tick = 1; tick <= kWarmUp + kFrames; ++tick) {
     if (tick == kWarmUp + 1) before = allocations;
@@ -112,7 +112,7 @@ TEST(Allocation, ASteadyCommitAllocatesNothing) {
       scene.place(bodies[i], pose, Time{tick});
       scene.setState(bodies[i], Freshness::fresh, 0.0);
     }
-    latest = scene.commit(Time{tick}, missing);
+    latest = scene.commit(Time{tick}, gaps);
     ASSERT_FALSE(latest->pairs().empty());
     events += latest->events().size();
   }

@@ -54,11 +54,13 @@ std::string serialized(const sensor_msgs::PointCloud2& cloud) {
 /// A robot's ball of 0.1 m at the origin of "base", and a cloud of cells of 0.1 m that is sent again and again.
 class Clouds : public ::testing::Test {
  protected:
-  void start(double lifetime, Value params = dict()) {
+  /// @param cloud  more of its configuration
+  void start(double lifetime, const std::map<std::string, Value>& cloud = {}, Value params = dict()) {
     NodeSetup setup;
     setup.params = params;
-    setup.params["clouds"] =
-        list({dict({{"name", "front"}, {"topic", "points"}, {"resolution", 0.1}, {"lifetime", lifetime}})});
+    Value front = dict({{"name", "front"}, {"topic", "points"}, {"resolution", 0.1}, {"lifetime", lifetime}});
+    for (const auto& entry : cloud) front[entry.first] = entry.second;
+    setup.params["clouds"] = list({front});
     setup.beside["robot_description"] = balls({"a"});
     transforms_.stream("base", "a", at(0));
     transforms_.fix({stamped("base", "camera", at(0, 0, 1.0))});
@@ -105,6 +107,72 @@ TEST_F(Clouds, MakePairsAndGoWithTheirLifetimeWhichLeavesTheWorldIncomplete) {
   EXPECT_EQ(answer.verdict, Answer::UNKNOWN) << "never CLEAR without the sensor";
   EXPECT_TRUE(says(answer.summary, "LOST cloud/front: what it saw is"));
   sendUntilComplete(point);
+}
+
+TEST_F(Clouds, WithoutFinitePointsDoNotKeepTheCloudFresh) {
+  start(1.0);
+  const float nan = std::nanf("");
+  const Points wall{{0.05f, 0.05f, 2.05f}};  // in "base" at z 3.05
+  for (const Points& blind : {Points{}, Points{{nan, nan, nan}, {nan, 0.0f, 0.0f}}}) {
+    SCOPED_TRACE(std::to_string(blind.size()) + " points");
+    sendUntilComplete(wall);
+    EXPECT_EQ(askedAt(0.05, 0.05, 3.05).verdict, Answer::HIT);
+    sendUntil(blind, "the cloud is lost", [](const msg::Status& status) {
+      return status.world.incomplete == Names({"cloud/front"}) && stateOf(status, "cloud/front") == msg::WorldState::LOST;
+    });
+    const Answer answer = askedAt(0.05, 0.05, 3.05);
+    EXPECT_EQ(answer.verdict, Answer::UNKNOWN) << "the wall is still there";
+    EXPECT_EQ(answer.unknown_because, Answer::INCOMPLETE);
+    EXPECT_TRUE(says(answer.summary, "finite points; min_points is 1"));
+  }
+}
+
+TEST_F(Clouds, WithTooFewPointsAddTheirCellsButDoNotKeepTheCloudFresh) {
+  start(1.0, {{"min_points", 2}});
+  const Points both{{0.05f, 0.05f, 2.05f}, {0.05f, 1.05f, 2.05f}};
+  sendUntilComplete(both);
+  bool seen = false;
+  sendUntil({{0.05f, 2.05f, 2.05f}}, "the cloud is lost", [&](const msg::Status& status) {
+    seen = seen || askedAt(0.05, 2.05, 3.05).verdict == Answer::HIT;
+    return status.world.incomplete == Names({"cloud/front"});
+  });
+  EXPECT_TRUE(seen) << "what a sensor sees is there, however little it sees";
+}
+
+TEST_F(Clouds, WithoutPointsAreClearWhereThatIsConfigured) {
+  start(0.5, {{"empty", "clear"}});
+  sendUntilComplete({});
+  EXPECT_EQ(askedAt(0.05, 0.05, 3.05).verdict, Answer::CLEAR);
+}
+
+TEST_F(Clouds, AnOlderStampNeverMakesTheCloudOlder) {
+  start(2.0);
+  const Points wall{{0.05f, 0.05f, 2.05f}};
+  sendUntilComplete(wall);
+  send(cloudOf("camera", transforms_.now() - ros::Duration(3.0), wall));
+  const auto late = node_->waitForStatus("the late message is counted", [](const msg::Status& status) {
+    return counter(status, "cloud/front.out_of_order") > 0;
+  });
+  EXPECT_LT(stateOf(*late, "cloud/front"), msg::WorldState::LOST);
+  EXPECT_TRUE(late->world.complete);
+  EXPECT_EQ(askedAt(0.05, 0.05, 3.05).verdict, Answer::HIT);
+}
+
+TEST_F(Clouds, ThatAreLostLeaveQuestionsAboutTheRobotClear) {
+  start(0.5, {{"range", 4.0}});
+  sendUntilComplete({{0.05f, 0.05f, 2.05f}});
+  node_->waitForStatus("the cloud is lost", [](const msg::Status& status) { return !status.world.complete; });
+  msg::QuerySphere::Request request;
+  request.center.z = 3.0;
+  request.radius = 0.1;
+  EXPECT_EQ(node_->ask(request).answer.verdict, Answer::UNKNOWN);
+  request.include = {"robot/*"};
+  const Answer robot = node_->ask(request).answer;
+  EXPECT_EQ(robot.verdict, Answer::CLEAR);
+  EXPECT_TRUE(says(robot.summary, "CLEAR"));
+  request.include = {};
+  request.center.z = 3000.0;
+  EXPECT_EQ(node_->ask(request).answer.verdict, Answer::CLEAR) << "beyond the range of the sensor";
 }
 
 TEST_F(Clouds, LieWhereTheSensorWasAtTheirStamp) {
@@ -154,7 +222,7 @@ TEST_F(Clouds, ThatCannotBePlacedAreRefusedAndSaidToBeMissed) {
 }
 
 TEST_F(Clouds, ThatLieLeaveTheCloudAsItWas) {
-  start(30.0, dict({{"map", dict({{"max_bytes", 100000}})}}));
+  start(30.0, {}, dict({{"map", dict({{"max_bytes", 100000}})}}));
   sendUntilComplete({{0.05f, 0.05f, -0.95f}});
   const std::string whole = serialized(cloudOf("camera", transforms_.now(), {{1, 1, 1}, {2, 2, 2}}));
   const std::size_t before = residentKilobytes(node_->process().pid());
@@ -190,7 +258,7 @@ TEST_F(Clouds, ThatLieLeaveTheCloudAsItWas) {
 }
 
 TEST_F(Clouds, ThatAreLostSayWhatWasWrongWithTheLastMessage) {
-  start(0.3, dict({{"map", dict({{"max_leaves", 2}})}}));
+  start(0.3, {}, dict({{"map", dict({{"max_leaves", 2}})}}));
   sendUntilComplete({{0.05f, 0.05f, 1.0f}});
   const auto refused = [&](const sensor_msgs::PointCloud2& cloud, const std::string& words) {
     node_->waitUntil(words, [&](const Heard& heard) {
@@ -230,7 +298,7 @@ TEST_F(Clouds, AreStaleAsSoonAfterAnOutageAsBeforeIt) {
 }
 
 TEST_F(Clouds, DoNotHoldTheRobotItself) {
-  start(20.0, dict({{"map", dict({{"self_filter", list({dict({{"pattern", "robot/a"}, {"padding", 0.09}})})}})}}));
+  start(20.0, {}, dict({{"map", dict({{"self_filter", list({dict({{"pattern", "robot/a"}, {"padding", 0.09}})})}})}}));
   Points points;
   for (int i = 0; i < 200; ++i) {  // on the ball, as a camera sees it
     const float angle = 0.0314f * static_cast<float>(i);

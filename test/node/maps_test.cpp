@@ -380,7 +380,9 @@ TEST_F(MapTopics, StayWhereTheyAreWhenTheirFrameIsLostOrTheNextOneIsUnknown) {
   node_->waitForStatus("a refusal",
                        [](const msg::Status& status) { return counter(status, "maps.refused.UNKNOWN_FRAME") > 0; });
   EXPECT_EQ(metAt(1.05), Names({"map/room"})) << "the old map stays";
-  EXPECT_TRUE(node_->heard().status.back()->world.complete);
+  node_->waitForStatus("the map is not complete", [](const msg::Status& status) {
+    return status.world.incomplete == Names({"map/room"});
+  });
   transforms_.stop("odom");
   const auto stale = [](std::uint8_t state) {
     return [state](const msg::Status& status) {
@@ -395,6 +397,69 @@ TEST_F(MapTopics, StayWhereTheyAreWhenTheirFrameIsLostOrTheNextOneIsUnknown) {
   transforms_.stream("base", "nowhere", at(2.0));
   node_->waitUntil("the next map, tried again", [&](const Heard&) { return metAt(2.45) == Names({"map/room"}); });
   node_->waitForComplete();
+}
+
+TEST_F(MapTopics, WhoseNewestMessageWasRefusedAreNotCompleteAndKeepTheirCells) {
+  send(messageOf("", nodesOfRow(1)));
+  node_->waitForComplete();
+  EXPECT_EQ(node_->sphere(3, 3, 3, 0.1).answer.verdict, Answer::CLEAR);
+  send(messageOf("", ""));
+  const auto status = node_->waitForStatus("the map is not complete", [](const msg::Status& now) {
+    return now.world.incomplete == Names({"map/room"});
+  });
+  EXPECT_TRUE(says(status->world.reasons.at(0), "REFUSED 'map/room': its newest message could not be used (PARSE"));
+  const auto source = std::find_if(status->sources.begin(), status->sources.end(),
+                                   [](const msg::SourceStatus& one) { return one.name == "map/room"; });
+  ASSERT_NE(source, status->sources.end());
+  EXPECT_FALSE(source->complete);
+  EXPECT_EQ(source->state, msg::WorldState::FRESH);
+  EXPECT_TRUE(says(source->reason, "PARSE"));
+  EXPECT_EQ(metAt(0.05), Names({"map/room"})) << "the old cells keep answering";
+  const Answer answer = node_->sphere(3, 3, 3, 0.1).answer;
+  EXPECT_EQ(answer.verdict, Answer::UNKNOWN);
+  EXPECT_TRUE(says(answer.summary, "REFUSED 'map/room'"));
+  send(messageOf("", nodesOfRow(5)));
+  node_->waitForComplete();
+  EXPECT_EQ(node_->sphere(3, 3, 3, 0.1).answer.verdict, Answer::CLEAR);
+}
+
+TEST_F(Maps, ThatMustKeepComingAreNotCompleteWhenTheyStop) {
+  start(list({dict({{"name", "room"}, {"topic", "octomap_binary"}, {"max_age", 0.5}})}));
+  ros::NodeHandle ros;
+  ros::Publisher publisher = ros.advertise<OctomapBytes>(node_->space() + "/octomap_binary", 1);
+  const std::string message = messageOf("", nodesOfRow(1));
+  node_->waitUntil("the map is complete", [&](const Heard& heard) {
+    publisher.publish(OctomapBytes{message});
+    return !heard.status.empty() && heard.status.back()->world.complete;
+  });
+  const auto status = node_->waitForStatus("the map is too old", [](const msg::Status& now) {
+    return now.world.incomplete == Names({"map/room"});
+  });
+  EXPECT_TRUE(says(status->world.reasons.at(0), "at most max_age, 0.5 s, is allowed"));
+  EXPECT_EQ(metAt(0.05), Names({"map/room"}));
+  EXPECT_EQ(node_->sphere(3, 3, 3, 0.1).answer.verdict, Answer::UNKNOWN);
+}
+
+TEST_F(Maps, ThatAreRequiredMakeUnknownWhatWasClearWhenTheyAreGone) {
+  NodeSetup setup;
+  setup.params = dict({{"map", dict({{"folder", folder_.path()}})}, {"required", list({Value("map/hall")})}});
+  setup.beside["robot_description"] = balls({"a"});
+  transforms_.stream("base", "a", at(0.05, 0.05, 0.3));
+  for (int life = 0; life < 2; ++life) {  // the second after the node was killed
+    node_ = std::make_unique<NodeUnderTest>(setup);
+    node_->waitForStatus("the robot is placed", [](const msg::Status& now) {
+      return now.body_count == 2 && now.bodies_total == 0 && now.world.incomplete == Names({"map/hall"});
+    });
+    const Answer answer = node_->sphere(0.05, 0.05, 0.05, 0.01).answer;
+    EXPECT_EQ(answer.verdict, Answer::UNKNOWN);
+    EXPECT_TRUE(says(answer.summary, "REQUIRED 'map/hall'"));
+    if (life == 1) break;
+    ASSERT_TRUE(load("hall", "row.bt").success);
+    node_->waitForComplete();
+    EXPECT_EQ(node_->sphere(0.05, 0.05, 0.05, 0.01).answer.verdict, Answer::HIT);
+    node_->process().signal(SIGKILL);
+    node_->process().waitForEnd(10.0);
+  }
 }
 
 TEST_F(MapTopics, ThatAnnounceMuchAndSendNothingCostAddressesOnly) {

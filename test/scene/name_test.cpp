@@ -122,5 +122,45 @@ TEST(Glob, AnyOfNoneIsNone) {
   EXPECT_FALSE(matchesAny({"b", "c"}, "a"));
 }
 
+/// Every word of at most `longest` letters of the alphabet.
+std::vector<std::string> wordsOf(const std::string& alphabet, std::size_t longest) {
+  std::vector<std::string> words{""};
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i].size() == longest) break;
+    for (const char letter : alphabet) words.push_back(words[i] + letter);
+  }
+  return words;
+}
+
+TEST(Name, TwoGlobsMatchTogetherExactlyIfSomeNameMatchesBoth) {
+  const std::vector<std::string> names = wordsOf("ab", 6);  // two globs of 3 letters need no longer name
+  const std::vector<std::string> globs = wordsOf("ab?*", 3);
+  for (const std::string& first : globs) {
+    for (const std::string& second : globs) {
+      bool together = false;
+      for (const std::string& name : names) together = together || (matches(first, name) && matches(second, name));
+      ASSERT_EQ(canMatchTogether(first, second), together) << first << " and " << second;
+    }
+  }
+}
+
+TEST(Name, AGlobThatCoversAnotherMatchesAllThatTheOtherMatches) {
+  const std::vector<std::string> names = wordsOf("ab", 5);
+  const std::vector<std::string> globs = wordsOf("ab?*", 3);
+  int covered = 0;
+  for (const std::string& wide : globs) {
+    for (const std::string& narrow : globs) {
+      if (!coversGlob(wide, narrow)) continue;
+      ++covered;
+      for (const std::string& name : names) {
+        ASSERT_TRUE(!matches(narrow, name) || matches(wide, name)) << wide << " and " << narrow << ": " << name;
+      }
+    }
+  }
+  EXPECT_GT(covered, 500);
+  EXPECT_TRUE(coversGlob("robot/*", "robot/*") && coversGlob("*", "robot/*") && coversGlob("r*", "robot/*"));
+  EXPECT_FALSE(coversGlob("robot/?", "robot/*") || coversGlob("robot/?*", "robot/*") || coversGlob("robot/a", "robot/*"));
+}
+
 }  // namespace
 }  // namespace hgrid

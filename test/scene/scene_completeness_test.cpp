@@ -19,8 +19,8 @@ struct Cell {
     good = test::put(scene, test::ball("good"), test::at(0));
     other = test::put(scene, test::ball("other"), test::at(0.2));
   }
-  const Snapshot& now(const std::vector<std::string>& missing = {}) {
-    snapshot = scene.commit(Time{++tick}, missing);
+  const Snapshot& now(const std::vector<SourceGap>& gaps = {}) {
+    snapshot = scene.commit(Time{++tick}, gaps);
     return *snapshot;
   }
   Scene scene;
@@ -146,7 +146,7 @@ TEST(Completeness, AnUncoveredBodyMakesDoubtUnlessItIsWaived) {
 
 TEST(Completeness, WhatElseIsMissingCounts) {
   Cell cell;
-  expectDoubt(cell.now({"robot 'left' has no description yet"}), "robot 'left'");
+  expectDoubt(cell.now({{"left", "left/*", "robot 'left' has no description yet"}}), "robot 'left'");
   EXPECT_TRUE(cell.now().complete());
 }
 
@@ -166,7 +166,7 @@ TEST(Completeness, ReasonsAreAllCountedAndTheWorstFewAreListed) {
   EXPECT_TRUE(says(snapshot->reasons()[0], "obstacle/z"));
   EXPECT_TRUE(says(snapshot->reasons()[1], "obstacle/b0"));
   EXPECT_TRUE(says(snapshot->reasons()[2], "obstacle/b3"));
-  const auto more = scene.commit(Time{2}, {"a", "b", "c", "d"});
+  const auto more = scene.commit(Time{2}, {{"a", "a/*", "a"}, {"b", "b/*", "b"}, {"c", "c/*", "c"}, {"d", "d/*", "d"}});
   EXPECT_EQ(more->reasonsTotal(), 9u);
   EXPECT_EQ(more->reasons().size(), 3u);
 }

@@ -24,6 +24,12 @@ std::string joined(const std::string& source, const std::string& local);
 /// the length of the name times the pattern, whatever the pattern.
 bool matches(const std::string& glob, const std::string& name);
 
+/// Whether there is a name that both globs match. Linear in the product of their lengths.
+bool canMatchTogether(const std::string& first, const std::string& second);
+
+/// Whether `wide` matches every name that `narrow` matches. May say false where that is true, never the other way.
+bool coversGlob(const std::string& wide, const std::string& narrow);
+
 /// Whether any of the globs matches.
 bool matchesAny(const std::vector<std::string>& globs, const std::string& name);
 

@@ -28,6 +28,8 @@ struct SceneOptions {
   std::vector<PairMargin> pair_margins;  ///< margins of pairs, 0 .. 1e3; what is below `margin` counts as that
   /// A CLEAR is said only of space that one of the maps asked about knows to be free; otherwise it becomes UNKNOWN.
   bool report_unmapped = false;
+  /// Globs of bodies without which the world is incomplete: each must match one.
+  std::vector<std::string> required;
   PairKinds pair_kinds;
   std::vector<PairRule> allowed_pairs;  ///< rules to begin with
 };
@@ -77,9 +79,8 @@ class Scene {
   void setRules(std::vector<PairRule> rules);
 
   /// Makes the snapshot of now.
-  /// @param missing  sentences of what else is missing from the world (a robot without a model); each
-  ///                 makes it incomplete
-  std::shared_ptr<const Snapshot> commit(Time stamp, const std::vector<std::string>& missing);
+  /// @param gaps  what sources lack beside the trouble of single bodies; each makes its source incomplete
+  std::shared_ptr<const Snapshot> commit(Time stamp, const std::vector<SourceGap>& gaps);
 
   /// A new epoch: the numbers of ticks and events start again and pairs forget since when they are near.
   void beginEpoch(std::uint64_t epoch);

@@ -15,6 +15,7 @@
 #include "hgrid_proximity/scene/pair_filter.h"
 #include "hgrid_proximity/scene/pair_margins.h"
 #include "hgrid_proximity/scene/pair_tracker.h"
+#include "hgrid_proximity/scene/source.h"
 
 namespace hgrid {
 
@@ -26,6 +27,9 @@ struct Structure {
   std::vector<std::uint32_t> first_proxy;  ///< proxies of body i: first_proxy[i] .. first_proxy[i + 1] - 1
   std::vector<std::uint32_t> body_of_proxy;
   std::vector<std::uint32_t> maps;  ///< bodies that are maps or clouds, ascending
+  std::vector<std::string> sources;       ///< where the bodies come from, as sourceOf() names it, sorted
+  std::vector<std::uint32_t> source_of;   ///< of each body: index into sources
+  std::vector<std::string> absent;        ///< globs of required bodies that no body matches
   std::vector<double> margin;       ///< [m] of each body, at least the global one
   double least_margin = 0.0;        ///< [m] the global one
   PairMargins pair_margins;         ///< of pairs that have one of their own
@@ -45,7 +49,9 @@ struct BodyPose {
   Time stamp{0};                            ///< of the pose; where nothing can move it, when it was put there
   Freshness state = Freshness::unplaced;
   double age = 0.0;          ///< [s] of the pose when the snapshot was made; 0 if fixed
-  double growth = 0.0;       ///< [m] by which the body's margins are widened since it is stale
+  /// [m] How far a point of the body may be from where this pose puts it, since the body is stale: max_speed * age.
+  double reach = 0.0;
+  double growth = 0.0;       ///< [m] by which the body's margins are widened: the reach, but at most a cap
   std::uint32_t cohort = 0;  ///< bodies of one robot with equal numbers (not 0) are equally old
 };
 
@@ -128,9 +134,16 @@ class Snapshot {
   double marginOf(std::uint32_t first, std::uint32_t second) const;
   /// [m] By how much it is wider since they are stale. Links of one robot that are equally old have not moved apart.
   double growthOf(std::uint32_t first, std::uint32_t second) const;
-  /// Whether every body is known, placed and covered, and none is lost, frozen or invalid.
+  /// Whether every source is complete: each of its bodies is known, placed and covered, and none is lost, frozen or
+  /// invalid.
   bool complete() const { return reasons_total_ == 0; }
-  /// Why not, the worst first, at most as many as the scene was told to keep.
+  /// Names of the sources that are not complete, sorted.
+  const std::vector<std::string>& incompleteSources() const { return incomplete_; }
+  /// Why this source is not complete, the worst reason; empty if it is complete.
+  std::string reasonOf(const std::string& source) const;
+  /// What sources lack beside the trouble of single bodies, as the scene was told.
+  const std::vector<SourceGap>& gaps() const { return gaps_; }
+  /// Why the world is not complete, the worst first, at most as many as the scene was told to keep.
   const std::vector<std::string>& reasons() const { return reasons_; }
   std::uint32_t reasonsTotal() const { return reasons_total_; }
   Freshness worstState() const { return worst_state_; }
@@ -159,6 +172,8 @@ class Snapshot {
 
   /// Whether a query is about a body.
   bool inScope(const QueryScope& scope, std::uint32_t body) const;
+  /// Whether a query is about bodies that a gap may hide.
+  bool inScope(const QueryScope& scope, const SourceGap& gap) const;
 
   /// [m] queries may reach this far from the world's origin.
   static constexpr double kQueryReach = 1e10;
@@ -167,22 +182,29 @@ class Snapshot {
   friend class Scene;
   Snapshot() = default;
   struct Probe;
-  QueryAnswer finished(std::vector<QueryHit>& hits, const QueryScope& scope, bool by_along, const std::string& doubt,
-                       bool unmapped) const;
-  std::string doubtOf(std::uint32_t body) const;
+  class Region;
+  class SphereRegion;
+  class SegmentRegion;
+  class BoxRegion;
+  class BodyRegion;
+  QueryAnswer finished(std::vector<QueryHit>& hits, const QueryScope& scope, bool by_along, const Region& region) const;
+  void doubt(const QueryScope& scope, const Region& region, QueryAnswer& answer) const;
+  bool doubtBody(std::uint32_t body, const QueryScope& scope, const Region& region, QueryAnswer& answer) const;
+  bool mayMeet(std::uint32_t body, const QueryScope& scope, const Region& region) const;
+  bool hasGap(const std::string& body) const;
+  double reachBetween(std::uint32_t first, std::uint32_t second) const;
   template <class Asked, class Ask>
   QueryAnswer nearestBy(const Asked& asked, const Eigen::Vector3d& center, double reach, double max_distance,
-                        const QueryScope& scope, std::uint32_t asking, const Ask& measure) const;
+                        const QueryScope& scope, const Region& region, const Ask& measure) const;
   template <class Look>
   void forEachMap(const QueryScope& scope, Look&& look) const;
-  void addMaps(const Sphere& sphere, const QueryScope& scope, std::vector<QueryHit>& hits, std::string& doubt) const;
-  void addMaps(const Segment& segment, const QueryScope& scope, std::vector<QueryHit>& hits, std::string& doubt) const;
+  void addMaps(const Sphere& sphere, const QueryScope& scope, std::vector<QueryHit>& hits) const;
+  void addMaps(const Segment& segment, const QueryScope& scope, std::vector<QueryHit>& hits) const;
   void addMaps(const QueryBox& box, const NarrowPhase& narrow_phase, const QueryScope& scope,
-               std::vector<QueryHit>& hits, std::string& doubt) const;
-  void addMapsNear(const Eigen::Vector3d& point, double limit, const QueryScope& scope, std::vector<QueryHit>& hits,
-                   std::string& doubt) const;
-  void addMapsNear(std::uint32_t body, double limit, const QueryScope& scope, std::vector<QueryHit>& hits,
-                   std::string& doubt) const;
+               std::vector<QueryHit>& hits) const;
+  void addMapsNear(const Eigen::Vector3d& point, double limit, const QueryScope& scope,
+                   std::vector<QueryHit>& hits) const;
+  void addMapsNear(std::uint32_t body, double limit, const QueryScope& scope, std::vector<QueryHit>& hits) const;
   template <class Knows>
   bool knownToNone(const QueryScope& scope, const Knows& knows) const;
   bool unmapped(const Sphere& sphere, const QueryScope& scope) const;
@@ -201,6 +223,9 @@ class Snapshot {
   std::vector<std::shared_ptr<const MapCells>> cells_;  // of structure_->maps
   std::vector<NearPair> pairs_;
   PairEventList events_;
+  std::vector<SourceGap> gaps_;
+  std::vector<std::uint32_t> doubtful_;  // bodies that are stale or worse, or not covered
+  std::vector<std::string> incomplete_;
   std::vector<std::string> reasons_;
   std::uint32_t reasons_total_ = 0;
   Freshness worst_state_ = Freshness::fresh;
