@@ -117,9 +117,9 @@ TEST(Freshness, NearAStaleBodyNothingIsClear) {
   transforms.stop("c");
   node.waitForStatus("c is stale", [](const msg::Status& s) { return stateOf(s, "robot/c") == WorldState::STALE; });
   const auto beside = node.sphere(9, 0.3, 0, 0.1).answer;
-  EXPECT_EQ(beside.verdict, msg::Answer::UNKNOWN) << "c may have moved by 0.25 m";
+  EXPECT_EQ(beside.verdict, msg::Answer::UNKNOWN) << "c may have moved there, at 10 m/s";
   EXPECT_TRUE(says(beside.code.text, "STALE robot/c"));
-  EXPECT_EQ(node.sphere(9, 1.3, 0, 0.1).answer.verdict, msg::Answer::CLEAR) << "but not so far";
+  EXPECT_EQ(node.sphere(9, 1e5, 0, 0.1).answer.verdict, msg::Answer::CLEAR) << "but not so far";
   EXPECT_EQ(node.sphere(9, 0, 0, 0.1).answer.verdict, msg::Answer::HIT) << "the last pose is kept";
   EXPECT_EQ(node.sphere(9, 0, 0, 0.1).answer.hits.at(0).state, WorldState::STALE);
   EXPECT_TRUE(node.heard().status.back()->world.complete) << "stale is not yet lost";

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include <gtest/gtest.h>
 
+#include "hgrid_proximity/scene/name.h"
 #include "test/support/maps.h"
 #include "test/support/refusals.h"
 #include "test/support/scenes.h"
@@ -237,7 +238,8 @@ class RandomScopes {
     const Body& body = snapshot_->structure().bodies[i];
     const BodyPose& pose = snapshot_->poses()[i];
     if (!isMeant(scope, body.name)) return;
-    const bool anywhere = (!body.covered && !body.waived) || pose.state == Freshness::unplaced;
+    const bool anywhere = (!body.covered && !body.waived) || pose.state == Freshness::unplaced ||
+                          pose.state == Freshness::frozen;
     const double reach = pose.state >= Freshness::stale && pose.age > 0.0 ? body.max_speed * pose.age : 0.0;
     const Aabb& box = snapshot_->boxes()[snapshot_->structure().first_proxy[i]];
     const double distance = anywhere ? 0.0 : double(test::approachOf(box, from, to, radius).least) - radius;
@@ -245,13 +247,18 @@ class RandomScopes {
     surely = surely || anywhere || (moved && distance < reach - 1e-6);
     perhaps = perhaps || anywhere || (moved && distance < reach + 1e-6);
   }
+  static bool coversAny(const std::vector<std::string>& globs, const std::string& bodies) {
+    return std::any_of(globs.begin(), globs.end(), [&](const std::string& glob) { return coversGlob(glob, bodies); });
+  }
   static void judgeGap(const SourceGap& gap, const QueryScope& scope, const Eigen::Vector3d& from,
                        const Eigen::Vector3d& to, double radius, bool& surely, bool& perhaps) {
-    bool meant = false;  // the globs of this test tell apart no more names than these
+    bool meant = false, included = false;  // the globs of this test tell apart no more names than these
     for (const char* name : {"cloud/front", "left/1", "left/2", "left/long"}) {
-      meant = meant || (matches(gap.bodies, name) && isMeant(scope, name));
+      if (!matches(gap.bodies, name)) continue;
+      meant = meant || isMeant(scope, name);
+      included = included || isMeant(scopeOf(scope.include), name);
     }
-    if (!meant) return;
+    if (!included || (!meant && coversAny(scope.exclude, gap.bodies))) return;
     const Eigen::Vector3d way = to - from;
     double distance = -1.0;
     if (gap.within) {
@@ -259,7 +266,7 @@ class RandomScopes {
       for (int k = 0; k <= 2000; ++k) least = std::min(least, (from + k / 2000.0 * way - gap.within->center).norm());
       distance = least - radius - gap.within->radius;
     }
-    surely = surely || distance < -0.02;
+    surely = surely || (meant && distance < -0.02);
     perhaps = perhaps || distance < 0.02;
   }
 
