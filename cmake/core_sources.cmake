@@ -4,6 +4,7 @@ set(HGRID_CORE_SOURCES
   src/broadphase/hgrid.cpp
   src/broadphase/isa.cpp
   src/broadphase/layer.cpp
+  src/broadphase/pair_collection.cpp
   src/broadphase/pair_search.cpp
   src/broadphase/plan.cpp
   src/broadphase/queries.cpp
@@ -33,6 +34,7 @@ set(HGRID_CORE_SOURCES
   src/scene/name.cpp
   src/scene/name_index.cpp
   src/scene/nearest_names.cpp
+  src/scene/pair_choice.cpp
   src/scene/pair_events.cpp
   src/scene/pair_filter.cpp
   src/scene/pair_margins.cpp

@@ -153,8 +153,9 @@ void HGrid::Engine::sortMoved() {
 
 void HGrid::Engine::keepPairs() {
   if (!pairs_wanted.load(std::memory_order_relaxed)) return;
-  if (!kept_valid) {
-    findKept(kept);
+  // Boxes that left may have had most of the overlaps that were counted, so a large count is taken again.
+  if (!kept_valid || (kept_dirty && kept_overlaps > bound.overlaps / 2)) {
+    findKept();
   } else if (kept_dirty) {
     kept.erase(std::remove_if(kept.begin(), kept.end(),
                               [this](const ProxyPair& pair) {
@@ -162,7 +163,6 @@ void HGrid::Engine::keepPairs() {
                               }),
                kept.end());
   }
-  kept_valid = true;
   kept_dirty = false;
 }
 

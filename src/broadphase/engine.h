@@ -68,6 +68,7 @@ struct HGrid::Engine {
   double finest_edge;
   Isa isa = bestIsa();
   PairTest filter;
+  PairBound bound;
   std::vector<Aabb> boxes;   // by id
   std::vector<Place> place;  // by id
   std::vector<bool> fixed;   // by id; may be shorter
@@ -83,15 +84,20 @@ struct HGrid::Engine {
   SortScratch scratch;
   std::unique_ptr<Workers> workers = std::make_unique<Workers>(1);
 
-  std::vector<ProxyPair> kept;  // pairs of resting boxes with resting and fixed ones
+  std::vector<ProxyPair> kept;    // pairs of resting boxes with resting and fixed ones
+  std::size_t kept_overlaps = 0;  // overlapping pairs that the search for them looked at
   bool kept_valid = false;
   bool kept_dirty = false;  // some of their boxes are in these layers no more
   mutable std::atomic<bool> pairs_wanted{false};
 
   // Search for pairs; pair_search.cpp. Threads and their buffers serve one search at a time; a second one that runs
   // beside it does without.
-  void findKept(std::vector<ProxyPair>& pairs) const;
-  void findPairs(std::vector<ProxyPair>& pairs) const;
+  /// Fills `kept`. It stays invalid and empty if there are more pairs than the bound.
+  void findKept();
+  /// @returns whether all pairs were found. If not, what stands in `pairs` means nothing.
+  bool findPairs(std::vector<ProxyPair>& pairs, const PairBound& up_to) const;
+  /// Collects pairs in the order that PairBound says, until the bound is reached. @returns whether these are all pairs
+  bool collectPairs(std::vector<ProxyPair>& pairs) const;
   mutable std::mutex search_mutex;
   mutable SearchBuffers buffers;
 };

@@ -6,45 +6,10 @@
 #include <limits>
 
 #include "broadphase/engine.h"
+#include "broadphase/found_boxes.h"
 
 namespace hgrid {
 namespace {
-
-/// Lets kernels write positions into a vector that belongs to the thread: a query allocates nothing once it is warm.
-class PositionWriter {
- public:
-  explicit PositionWriter(std::vector<std::uint32_t>& buffer) : buffer_(buffer) {
-    if (buffer_.empty()) buffer_.resize(1024);
-    sink_.owner = this;
-    sink_.grow = grow;
-    restart(0);
-  }
-  kernels::PositionSink* sink() { return &sink_; }
-  const std::uint32_t* begin() const { return buffer_.data(); }
-  const std::uint32_t* end() const { return sink_.next; }
-  std::size_t size() const { return static_cast<std::size_t>(end() - begin()); }
-  void clear() { sink_.next = buffer_.data(); }
-
- private:
-  void restart(std::size_t used) {
-    sink_.next = buffer_.data() + used;
-    sink_.limit = buffer_.data() + buffer_.size();
-  }
-  static void grow(kernels::PositionSink* sink) {
-    auto* self = static_cast<PositionWriter*>(sink->owner);
-    const auto used = static_cast<std::size_t>(sink->next - self->buffer_.data());
-    self->buffer_.resize(2 * self->buffer_.size());
-    self->restart(used);
-  }
-
-  std::vector<std::uint32_t>& buffer_;
-  kernels::PositionSink sink_{};
-};
-
-std::vector<std::uint32_t>& bufferOfThread() {
-  thread_local std::vector<std::uint32_t> buffer;
-  return buffer;
-}
 
 /// Lists of a few hits are the rule; std::sort has a price of its own.
 template <class Iterator, class Less>
@@ -81,10 +46,6 @@ kernels::Box boxAround(const Eigen::Vector3d& min, const Eigen::Vector3d& max) {
   return box;
 }
 
-kernels::Box boxOf(const Aabb& box) {
-  return {{box.min[0], box.min[1], box.min[2]}, {box.max[0], box.max[1], box.max[2]}};
-}
-
 kernels::Box boxOf(const Sphere& sphere) {
   const double reach = sphere.center.cwiseAbs().maxCoeff() + sphere.radius;
   const Eigen::Array3d half = Eigen::Array3d::Constant(sphere.radius + 2.0 * roundingSlack(reach));
@@ -103,28 +64,6 @@ kernels::Line lineOf(const Segment& segment) {
     line.way[axis] = segment.to[axis] - segment.from[axis];
   }
   return line;
-}
-
-/// Calls `visit` with each layer and the positions in it of the boxes that `search` finds on its levels.
-template <class Engine, class Search, class Visit>
-void visitFound(const Engine& engine, Search&& search, Visit&& visit) {
-  PositionWriter writer(bufferOfThread());
-  for (const Layer& layer : engine.layers) {
-    if (layer.size() == 0) continue;
-    for (const kernels::Level& level : layer.levels()) search(level, writer.sink());
-    visit(layer, writer);
-    writer.clear();
-  }
-}
-
-/// The same for what overlaps a box.
-template <class Engine, class Visit>
-void visitOverlapping(const Engine& engine, const kernels::Box& box, Visit&& visit) {
-  const kernels::Kernels& kernels = kernels::of(engine.isa);
-  visitFound(
-      engine,
-      [&](const kernels::Level& level, kernels::PositionSink* sink) { kernels.overlapping(&level, &box, sink); },
-      visit);
 }
 
 /// Appends the ids of the boxes that overlap a box and pass a test, ascending.

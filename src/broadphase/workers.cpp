@@ -7,9 +7,10 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <exception>
 #include <mutex>
-#include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace hgrid {
@@ -68,12 +69,26 @@ struct Workers::State {
   bool stop = false;
   std::unique_ptr<Share[]> shares;
   std::vector<std::thread> threads;
+  std::atomic_flag failed = ATOMIC_FLAG_INIT;  // a job of this round threw
+  std::exception_ptr error;                    // written by the thread that set `failed`
 
   void work(std::size_t self) {
     const std::size_t count = threads.size() + 1;
-    for (std::size_t i = 0; i < count; ++i) {
-      shares[(self + i) % count].workOff(i == 0, [&](std::size_t number) { call(job, number, self); });
+    try {
+      for (std::size_t i = 0; i < count; ++i) {
+        shares[(self + i) % count].workOff(i == 0, [&](std::size_t number) { call(job, number, self); });
+      }
+    } catch (...) {
+      if (!failed.test_and_set(std::memory_order_relaxed)) error = std::current_exception();
+      for (std::size_t i = 0; i < count; ++i) shares[i].set(0, 0);  // no thread begins another job
     }
+  }
+
+  /// Throws the first exception of the round, if there is one. All threads have left the round.
+  void rethrow() {
+    if (!error) return;
+    failed.clear(std::memory_order_relaxed);
+    std::rethrow_exception(std::exchange(error, nullptr));
   }
 
   /// Whether there is a round that this thread has not seen; it is inside then.
@@ -115,8 +130,8 @@ Workers::Workers(int threads) : state_(std::make_unique<State>()) {
     for (int i = 1; i < threads; ++i) {
       s.threads.emplace_back([&s, i] { s.live(static_cast<std::size_t>(i)); });
     }
-  } catch (const std::system_error&) {
-    // The system gives no more; fewer threads do the same work.
+  } catch (const std::exception&) {
+    // The system has no thread or no memory left for one. Fewer threads do the same work.
   }
 }
 
@@ -150,9 +165,11 @@ void Workers::runAll(std::size_t count, void (*call)(void*, std::size_t, std::si
   s.work(0);
   s.round.fetch_and(~State::kOpen, std::memory_order_relaxed);
   const auto all_left = [&s] { return (s.round.load(std::memory_order_acquire) & State::kInside) == 0; };
-  if (waitBriefly(all_left)) return;
-  std::unique_lock<std::mutex> lock(s.mutex);
-  s.done.wait(lock, all_left);
+  if (!waitBriefly(all_left)) {
+    std::unique_lock<std::mutex> lock(s.mutex);
+    s.done.wait(lock, all_left);
+  }
+  s.rethrow();
 }
 
 }  // namespace hgrid

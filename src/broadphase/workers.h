@@ -17,9 +17,12 @@ class Workers {
 
   int threads() const;
 
-  /// Calls job(0, thread) .. job(count - 1, thread), each once and in any order; returns when all are done. The thread
-  /// is a number below threads(); each of them begins with a share of its own, the same every time, of jobs that follow
-  /// each other. A job must not throw. Allocates nothing.
+  /// Calls job(0, thread) .. job(count - 1, thread), each once and in any order. Returns when all jobs are done.
+  /// `thread` is below threads(). Each thread begins with the same share of consecutive jobs every time.
+  /// Allocates nothing.
+  ///
+  /// When a job throws, no thread begins another job. After all threads have finished theirs, the first exception is
+  /// thrown to the caller. The workers can be used again.
   template <class Job>
   void run(std::size_t count, Job&& job) {
     runAll(

@@ -70,12 +70,8 @@ void ExplainService::explainTo(msg::ExplainPair::Response& response, const Snaps
     exact = measurePair(*narrow_phase_, snapshot, a, b, std::numeric_limits<double>::infinity());
   }
   const Explanation what = explain(snapshot, first, second, exact ? &*exact : nullptr);
-  response.reported = what.reported && what.position < static_cast<std::size_t>(params_.max_pairs);
+  response.reported = what.reported;
   response.explanation = what.text;
-  if (what.reported && !response.reported) {
-    response.explanation += " But it does not stand in ~pairs, which lists the first " +
-                            std::to_string(params_.max_pairs) + " pairs by name (~max_pairs).";
-  }
   if (what.reported) response.flags = snapshot.pairs()[what.position].flags;
   response.rule = toMsg(what.rule, PairRule::Clock::now());
   response.gap = what.gap;

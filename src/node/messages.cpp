@@ -96,6 +96,14 @@ std::vector<std::string> firstOf(const std::vector<std::string>& all, std::size_
   return {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), most))};
 }
 
+std::string truncationOf(const Snapshot& snapshot) {
+  if (!snapshot.truncated()) return {};
+  const std::string listed = std::to_string(snapshot.pairs().size());
+  const bool more = snapshot.pairsFound() > snapshot.pairs().size();
+  return "TRUNCATED: " + (more ? "more than " + listed + " pairs are near" : "more boxes overlap than are looked at") +
+         "; ~pairs lists " + listed + " of the pairs (~max_pairs)";
+}
+
 msg::WorldState worldState(const Tick& tick, const Params& params, std::uint64_t config_hash, double age_since) {
   msg::WorldState world;
   world.epoch = tick.epoch;
@@ -115,11 +123,15 @@ msg::WorldState worldState(const Tick& tick, const Params& params, std::uint64_t
   world.stamp = world.history_begin = toRos(snapshot.stamp());
   world.sequence = snapshot.sequence();
   world.bodies_revision = snapshot.structure().revision;
-  world.complete = snapshot.complete();
+  world.complete = snapshot.complete() && !snapshot.truncated();
   world.incomplete = firstOf(snapshot.incompleteSources(), static_cast<std::size_t>(params.max_listed));
   world.incomplete_total = static_cast<std::uint32_t>(snapshot.incompleteSources().size());
   world.reasons = snapshot.reasons();
   world.reasons_total = snapshot.reasonsTotal();
+  if (snapshot.truncated()) {
+    world.reasons.push_back(truncationOf(snapshot));
+    ++world.reasons_total;
+  }
   world.worst_state = static_cast<std::uint8_t>(snapshot.worstState());
   world.last_event = snapshot.lastEvent();
   world.max_age = snapshot.maxAge() > 0.0 ? snapshot.maxAge() + age_since : 0.0;

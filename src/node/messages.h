@@ -27,6 +27,8 @@ msg::Code toMsg(Code code, const std::string& sentence);
 
 /// Stamp and world frame of a tick; stamp 0 while there is no world.
 std_msgs::Header headerOf(const Tick& tick);
+/// Why candidate pairs may be missing from a snapshot's list, as a reason of an incomplete world. Empty if none are.
+std::string truncationOf(const Snapshot& snapshot);
 /// @param age_since  [s] that passed since the tick was made
 msg::WorldState worldState(const Tick& tick, const Params& params, std::uint64_t config_hash, double age_since);
 msg::Bodies bodies(const Tick& tick);

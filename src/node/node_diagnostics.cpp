@@ -39,6 +39,7 @@ void NodeDiagnostics::world(DiagnosticStatusWrapper& status) {
   } else {
     status.summary(DiagnosticStatus::OK, "complete");
   }
+  if (snapshot.truncated()) status.mergeSummary(DiagnosticStatus::ERROR, truncationOf(snapshot));
   const bool silenced = snapshot.structure().silenced;
   if (silenced) status.mergeSummary(DiagnosticStatus::WARN, "rules switch off every pair: nothing is reported");
   status.add("bodies", snapshot.poses().size());

@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hgrid {
 namespace {
 
-void fillPairs(const Snapshot& snapshot, const std::vector<std::uint32_t>& number, std::size_t shown,
-               msg::Pairs& message) {
+void fillPairs(const Snapshot& snapshot, const std::vector<std::uint32_t>& number, msg::Pairs& message) {
+  const std::size_t shown = snapshot.pairs().size();
   message.first.resize(shown);
   message.second.resize(shown);
   message.gap.resize(shown);
@@ -45,13 +46,11 @@ PairsMessages::Pooled& PairsMessages::unused() {
   return extra_ = Pooled{};
 }
 
-/// Bodies are sorted by name, so numbering those in use in their order gives a sorted dictionary.
-void PairsMessages::fillNames(const Snapshot& snapshot, std::size_t shown, Pooled& pooled) {
+/// Numbers the bodies that stand in a pair. Bodies are sorted by name, so their names come out sorted.
+void PairsMessages::fillNames(const Snapshot& snapshot, Pooled& pooled) {
   const Structure& structure = snapshot.structure();
   number_.assign(structure.bodies.size(), 0);
-  for (std::size_t i = 0; i < shown; ++i) {
-    number_[snapshot.pairs()[i].first] = number_[snapshot.pairs()[i].second] = 1;
-  }
+  for (const NearPair& pair : snapshot.pairs()) number_[pair.first] = number_[pair.second] = 1;
   if (pooled.revision != structure.revision) pooled.named.clear();
   pooled.revision = structure.revision;
   std::vector<std::string>& names = pooled.message->names;
@@ -83,11 +82,11 @@ boost::shared_ptr<msg::Pairs> PairsMessages::of(const Tick& tick, const msg::Wor
   message.world = world;
   if (!tick.snapshot) return pooled.message;
   const Snapshot& snapshot = *tick.snapshot;
-  const std::size_t shown = std::min(snapshot.pairs().size(), most_pairs_);
-  message.total = static_cast<std::uint32_t>(snapshot.pairs().size());
-  message.truncated = shown < snapshot.pairs().size();
-  fillNames(snapshot, shown, pooled);
-  fillPairs(snapshot, number_, shown, message);
+  constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
+  message.total = static_cast<std::uint32_t>(std::min(snapshot.pairsFound(), kMost));
+  message.truncated = snapshot.truncated();
+  fillNames(snapshot, pooled);
+  fillPairs(snapshot, number_, message);
   return pooled.message;
 }
 

@@ -14,8 +14,6 @@ namespace hgrid {
 /// then it is filled again, and the names that it has already are not copied anew. One thread.
 class PairsMessages {
  public:
-  explicit PairsMessages(const Params& params) : most_pairs_(static_cast<std::size_t>(params.max_pairs)) {}
-
   boost::shared_ptr<msg::Pairs> of(const Tick& tick, const msg::WorldState& world);
 
  private:
@@ -26,10 +24,9 @@ class PairsMessages {
   };
 
   Pooled& unused();
-  void fillNames(const Snapshot& snapshot, std::size_t shown, Pooled& pooled);
+  void fillNames(const Snapshot& snapshot, Pooled& pooled);
 
   static constexpr std::size_t kMostKept = 4;
-  std::size_t most_pairs_;
   std::vector<Pooled> pool_;
   Pooled extra_;                       // all of the pool is held by slow readers
   std::vector<std::uint32_t> number_;  // scratch: number of each body among the names

@@ -213,9 +213,13 @@ void ProximityNode::measure(const std::shared_ptr<const Tick>& tick) {
 
 /// One line when the world becomes complete or stops being so, or for another reason; not one per tick.
 void ProximityNode::logChange(const Tick& tick) {
-  const bool complete = tick.snapshot && tick.snapshot->complete();
+  const bool complete = tick.snapshot && tick.snapshot->complete() && !tick.snapshot->truncated();
   std::string reason;
-  if (!complete) reason = tick.snapshot ? tick.snapshot->reasons().front() : tick.not_ready.front();
+  if (!tick.snapshot) {
+    reason = tick.not_ready.front();
+  } else if (!complete) {
+    reason = tick.snapshot->complete() ? truncationOf(*tick.snapshot) : tick.snapshot->reasons().front();
+  }
   // The age in a sentence changes every tick; what comes before it names the thing.
   const std::string gist = reason.substr(0, reason.find(':'));
   if (complete == was_complete_ && gist == last_reason_) return;

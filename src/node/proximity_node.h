@@ -90,7 +90,7 @@ class ProximityNode {
   NodeHealth health_;
 
   // Of the update thread.
-  PairsMessages pairs_messages_{params_};
+  PairsMessages pairs_messages_;
   PairMeter meter_;
   std::uint64_t published_revision_ = 0, published_epoch_ = 0;
   std::chrono::nanoseconds tf_time_{0};  // spent on transforms since the last tick

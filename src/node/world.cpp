@@ -22,6 +22,7 @@ SceneOptions optionsOf(const Params& params) {
   options.world_limit = params.world_limit;
   options.growth_cap = params.growth_cap;
   options.max_bodies = static_cast<std::size_t>(params.max_bodies);
+  options.max_pairs = static_cast<std::size_t>(params.max_pairs);
   options.max_reasons = static_cast<std::size_t>(params.max_reasons);
   options.required = params.required;
   options.pair_kinds = params.pair_kinds;

@@ -134,48 +134,45 @@ void Scene::State::growBoxes(const Snapshot& snapshot) {
   }
 }
 
-/// Stores the grown boxes and looks for the pairs of them that the filter lets through.
+/// Stores the grown boxes and finds the pairs of them that the filter does not leave out, within the limits.
 void Scene::State::fillGrid(Snapshot& snapshot) {
   if (snapshot.grid_revision_ != structure->revision) {
     snapshot.grid_ = HGrid(scale);
     snapshot.grid_.setThreads(options.threads);
     snapshot.grid_.setFixed(fixed_proxies);
     snapshot.grid_.setFilter(PairTest::of<isReported>(structure.get()));  // the snapshot keeps it alive
+    snapshot.grid_.setPairBound(limits.boundOf(structure->body_of_proxy.size()));
     snapshot.grid_revision_ = structure->revision;
   }
   snapshot.grid_.update(ids, grown_boxes);
-  snapshot.grid_.overlappingPairs(proxy_pairs);
+  snapshot.search_cut_ = !snapshot.grid_.boundedPairs(proxy_pairs);
 }
 
-/// Sorts by (first, second, gap): counted by the first body, then each one's few among themselves.
-void Scene::State::sortPairs(std::vector<NearPair>& pairs) {
-  next_of_first.assign(structure->bodies.size() + 1, 0);
-  for (const NearPair& pair : pairs) ++next_of_first[pair.first + 1];
-  for (std::size_t i = 1; i < next_of_first.size(); ++i) next_of_first[i] += next_of_first[i - 1];
-  unsorted.swap(pairs);
-  pairs.resize(unsorted.size());
-  for (const NearPair& pair : unsorted) pairs[next_of_first[pair.first]++] = pair;
-  std::size_t begin = 0;
-  for (std::size_t body = 0; body + 1 < next_of_first.size(); ++body) {
-    const std::size_t end = next_of_first[body];
-    std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(begin), pairs.begin() + static_cast<std::ptrdiff_t>(end),
-              [](const NearPair& a, const NearPair& b) {
-                return a.second != b.second ? a.second < b.second : a.gap < b.gap;
-              });
-    begin = end;
-  }
-}
-
-void Scene::State::addPair(std::uint32_t first, std::uint32_t second, double gap, double margin, bool near,
-                           std::vector<NearPair>& pairs) const {
+void Scene::State::addPair(std::uint32_t first, std::uint32_t second, double gap, double margin, bool near) {
   const bool odd = horizon.teleported(first) || horizon.teleported(second);
   const auto flags = static_cast<std::uint8_t>((near ? 0 : kHorizonFlag) | (odd ? kTeleportFlag : 0));
-  pairs.push_back({first, second, near ? std::min(gap, margin) : gap, margin, Time{0}, flags});
+  choice.collected().push_back({first, second, near ? std::min(gap, margin) : gap, margin, Time{0}, flags});
+}
+
+/// Whether a pair of bodies would be listed by a tick that listed all pairs.
+bool Scene::State::isCandidate(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second) {
+  const BodyPose &a = snapshot.poses_[first], &b = snapshot.poses_[second];
+  if (a.state == Freshness::unplaced || b.state == Freshness::unplaced) return false;
+  if (structure->filter.allowed(first, second)) return false;
+  if (structure->isMap(first) || structure->isMap(second)) return map_pairs.isNear(snapshot, horizon, first, second);
+  const double margin = pairMargin(*structure, first, stalenessOf(a), second, stalenessOf(b));
+  for (ProxyId i = structure->first_proxy[first]; i < structure->first_proxy[first + 1]; ++i) {
+    for (ProxyId j = structure->first_proxy[second]; j < structure->first_proxy[second + 1]; ++j) {
+      const Aabb &one = snapshot.boxes_[i], &other = snapshot.boxes_[j];
+      if (withinDistance(one, other, margin)) return true;
+      if (horizon.on() && horizon.canMeet(*structure, i, j, distance(one, other), margin)) return true;
+    }
+  }
+  return false;
 }
 
 void Scene::State::fillPairs(Snapshot& snapshot) {
-  std::vector<NearPair>& pairs = snapshot.pairs_;
-  pairs.clear();
+  choice.collected().clear();
   for (const ProxyPair& proxies : proxy_pairs) {
     // Proxies are numbered in the order of their bodies.
     const std::uint32_t first = structure->body_of_proxy[proxies.first],
@@ -187,22 +184,22 @@ void Scene::State::fillPairs(Snapshot& snapshot) {
     if (!near && !horizon.on()) continue;
     const double gap = distance(a, b);
     if (!near && !horizon.canMeet(*structure, proxies.first, proxies.second, gap, margin)) continue;
-    addPair(first, second, gap, margin, near, pairs);
+    addPair(first, second, gap, margin, near);
   }
-  map_pairs.find(snapshot, horizon,
-                 [&](std::uint32_t first, std::uint32_t second, double gap, double margin, bool near) {
-                   addPair(first, second, gap, margin, near, pairs);
-                 });
-  sortPairs(pairs);
-  // One entry per pair of bodies, that of the nearest boxes.
-  pairs.erase(
-      std::unique(pairs.begin(), pairs.end(),
-                  [](const NearPair& a, const NearPair& b) { return a.first == b.first && a.second == b.second; }),
-      pairs.end());
-  tracker.update(structure->ids, snapshot.stamp_, pairs);
+  const bool all_with_maps = map_pairs.find(snapshot, horizon, limits.collected,
+                                            [&](std::uint32_t first, std::uint32_t second, double gap, double margin,
+                                                bool near) { addPair(first, second, gap, margin, near); });
+  snapshot.search_cut_ = snapshot.search_cut_ || !all_with_maps;
+  snapshot.pairs_found_ = choice.list(structure->bodies.size(), limits.listed, snapshot.pairs_);
+  IsCut is_cut;
+  if (snapshot.truncated()) {
+    is_cut = [&](std::uint32_t first, std::uint32_t second) { return isCandidate(snapshot, first, second); };
+  }
+  tracker.update(structure->ids, snapshot.stamp_, snapshot.pairs_, is_cut);
   pair_events.update(
-      {structure, snapshot.poses_, snapshot.boxes_, pairs, snapshot.worst_state_, snapshot.stamp_,
-       [&](std::uint32_t first, std::uint32_t second, double up_to) { return snapshot.gapOf(first, second, up_to); }},
+      {structure, snapshot.poses_, snapshot.boxes_, snapshot.pairs_, snapshot.worst_state_, snapshot.stamp_,
+       [&](std::uint32_t first, std::uint32_t second, double up_to) { return snapshot.gapOf(first, second, up_to); },
+       is_cut},
       snapshot.events_);
 }
 

@@ -40,6 +40,10 @@ class Words {
       result = pair + " are reported: " + nearness() + "." + enabled();
     } else if (off) {
       result = pair + " are not reported: " + switchedOff() + "." + without();
+    } else if (what_.cut) {
+      result = pair + " are not reported, although " + nearness() + ": there are more pairs than ~max_pairs allows. " +
+               "Of those that were found, contacts are kept, then the smallest gaps, then the first by name." +
+               enabled();
     } else {
       result = pair + " are not reported: " + (hasBoxes() ? nearness() : missing()) + "." + enabled();
     }
@@ -241,6 +245,7 @@ Explanation explain(const Snapshot& snapshot, const std::string& first, const st
     what.distance = exact->proximity.distance;
   }
   const bool near = fillGap(snapshot, what);
+  what.cut = near && !what.reported && !what.rule.allowed && snapshot.truncated();
   what.text = Words(structure, what, near).all();
   return what;
 }

@@ -19,8 +19,13 @@ class MapPairs {
  public:
   /// A pair, its gap and margin [m], and whether it is near or may soon be.
   using Add = std::function<void(std::uint32_t first, std::uint32_t second, double gap, double margin, bool near)>;
-  /// Tells each pair of shapes and map that is near or, by the horizon, may soon be; some pairs more than once.
-  void find(const Snapshot& snapshot, const Horizon& horizon, const Add& add);
+  /// Calls `add` for each shape and map that are near or, by the horizon, may soon be. So a pair of bodies may come
+  /// several times. Maps come in the order of their names, with each the bodies in the order of theirs.
+  /// @param most  calls of `add` at most
+  /// @returns whether that was all
+  bool find(const Snapshot& snapshot, const Horizon& horizon, std::size_t most, const Add& add);
+  /// Whether find() with the same snapshot and no limit adds a pair, one of which is a map. The filter is not asked.
+  bool isNear(const Snapshot& snapshot, const Horizon& horizon, std::uint32_t first, std::uint32_t second);
 
  private:
   struct Gap {
@@ -36,7 +41,8 @@ class MapPairs {
   };
   void recall(const Snapshot& snapshot);
   bool passed(const OfMap& map, ProxyId proxy, const Snapshot& snapshot, const Horizon& horizon, double margin) const;
-  void findFor(OfMap& map, std::uint32_t number, const Snapshot& snapshot, const Horizon& horizon, const Add& add);
+  bool addShapes(OfMap& map, std::uint32_t number, std::uint32_t body, const Snapshot& snapshot, const Horizon& horizon,
+                 std::size_t& left, const Add& add) const;
 
   std::uint64_t revision_ = 0;
   std::vector<OfMap> maps_;  // of the structure

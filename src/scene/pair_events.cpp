@@ -107,13 +107,18 @@ EventCause PairEvents::causeOfEnd(const On& on, double margin, double gap, const
   return told_narrower ? EventCause::filter : EventCause::staleness;
 }
 
-/// A pair that is on but not near: it stays on while it is within the hysteresis.
+/// Judges a pair that is on but not listed. It stays on while its gap is within the hysteresis, and while only
+/// truncation removed it.
 void PairEvents::judge(const On& on, const PairsNow& now, PairEventList& list) {
   if (epoch_began_) return;  // only what is near begins again
   const Structure& structure = *now.structure;
   const double margin =
       pairMargin(structure, on.first, stalenessOf(now.poses[on.first]), on.second, stalenessOf(now.poses[on.second]));
   if (within(now, on.first, on.second, margin + hysteresis_) && !structure.filter.allowed(on.first, on.second)) {
+    next_.push_back(on);
+    return;
+  }
+  if (now.is_cut && now.is_cut(on.first, on.second)) {  // by the horizon it may be farther away
     next_.push_back(on);
     return;
   }
@@ -148,7 +153,8 @@ void PairEvents::update(const PairsNow& now, PairEventList& list) {
     while (on != on_.end() && before(*on, pair)) judge(*on++, now, list);
     const bool was_on = on != on_.end() && !before(pair, *on);
     if (!was_on) {
-      begin(pair, causeOfBegin(pair, *now.structure), now);
+      const auto not_judged = static_cast<std::size_t>(on_.end() - on);
+      if (next_.size() + not_judged < most_) begin(pair, causeOfBegin(pair, *now.structure), now);
     } else if (epoch_began_) {
       begin(pair, EventCause::epoch, now);
     } else {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -20,16 +21,22 @@ struct PairsNow {
   Time stamp;
   /// [m] gap of a map and another body, infinite if more than `up_to`; asked of those pairs alone
   std::function<double(std::uint32_t first, std::uint32_t second, double up_to)> gap_to_map = nullptr;
+  IsCut is_cut = nullptr;  ///< asked about pairs that are on and not in `pairs`
 };
 
 /// Says which pairs began and which ended since the tick before, each once, and why.
 ///
-/// A pair that began stays on until its gap exceeds its margin by more than the hysteresis. The broad phase need not
-/// know of that: of the pairs that are on, only those that are not near any more are measured, shape by shape.
+/// A pair that began is on until its gap exceeds its margin by more than the hysteresis. The broad phase does not know
+/// the hysteresis: of the pairs that are on, only those that are not listed any more are measured, shape by shape.
+///
+/// A pair that only truncation removed stays on. So there may be more pairs that are on than pairs that are listed.
+/// While the limit of them is reached, listed pairs do not begin; each begins in the first tick that has room for it.
 class PairEvents {
  public:
   /// @param hysteresis  [m] >= 0
-  explicit PairEvents(double hysteresis) : hysteresis_(hysteresis) {}
+  /// @param most        pairs that are on at a time
+  explicit PairEvents(double hysteresis, std::size_t most = std::numeric_limits<std::size_t>::max())
+      : hysteresis_(hysteresis), most_(most) {}
 
   /// Replaces what stands in `list` by the events of this tick.
   void update(const PairsNow& now, PairEventList& list);
@@ -57,6 +64,7 @@ class PairEvents {
   double marginBefore(std::uint32_t first, std::uint32_t second) const;
 
   double hysteresis_;
+  std::size_t most_;
   std::uint64_t last_ = 0;
   bool epoch_began_ = false;
   std::vector<On> on_;  // sorted by (first, second)

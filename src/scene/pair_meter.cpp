@@ -305,8 +305,9 @@ std::shared_ptr<const PairDistances> PairMeter::measure(const Snapshot& snapshot
     const double key_a = unknown_a ? a.gap : a.proximity.distance, key_b = unknown_b ? b.gap : b.proximity.distance;
     return std::tie(key_a, a.first, a.second) < std::tie(key_b, b.first, b.second);
   });
+  s.known.reserve(s.jobs.size());  // from here on nothing throws
   s.known.clear();
-  for (const State::Job& job : s.jobs) s.known.push_back(job.known);
+  for (State::Job& job : s.jobs) s.known.push_back(std::move(job.known));
   std::sort(s.known.begin(), s.known.end(), [](const State::Known& a, const State::Known& b) {
     return std::tie(a.first, a.second) < std::tie(b.first, b.second);
   });

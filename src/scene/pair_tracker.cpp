@@ -40,19 +40,29 @@ void PairTracker::renumber(const std::vector<BodyId>& ids) {
   ids_ = ids;
 }
 
-void PairTracker::update(const std::vector<BodyId>& ids, Time stamp, std::vector<NearPair>& pairs) {
+void PairTracker::update(const std::vector<BodyId>& ids, Time stamp, std::vector<NearPair>& pairs,
+                         const IsCut& is_cut) {
   ended_.clear();
   if (ids != ids_) renumber(ids);
+  next_.clear();
   auto known = known_.begin();
-  const auto end = [this](const Known& pair) { ended_.emplace_back(ids_[pair.first], ids_[pair.second]); };
+  std::size_t room = most_ - std::min(most_, pairs.size());  // for pairs that are not listed
+  const auto keepOrEnd = [&](const Known& pair) {
+    if (is_cut && room > 0 && is_cut(pair.first, pair.second)) {
+      next_.push_back(pair);
+      --room;
+    } else {
+      ended_.emplace_back(ids_[pair.first], ids_[pair.second]);
+    }
+  };
   for (NearPair& pair : pairs) {
-    while (known != known_.end() && before(*known, pair)) end(*known++);
+    while (known != known_.end() && before(*known, pair)) keepOrEnd(*known++);
     const bool there = known != known_.end() && !before(pair, *known);
     pair.since = there ? (known++)->since : stamp;
+    next_.push_back({pair.first, pair.second, pair.since});
   }
-  while (known != known_.end()) end(*known++);
-  known_.clear();
-  for (const NearPair& pair : pairs) known_.push_back({pair.first, pair.second, pair.since});
+  while (known != known_.end()) keepOrEnd(*known++);
+  known_.swap(next_);
 }
 
 }  // namespace hgrid

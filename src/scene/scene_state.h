@@ -11,7 +11,9 @@
 #include "hgrid_proximity/scene/scene.h"
 #include "scene/horizon.h"
 #include "scene/map_pairs.h"
+#include "scene/pair_choice.h"
 #include "scene/pair_events.h"
+#include "scene/pair_limits.h"
 #include "scene/snapshot_pool.h"
 
 namespace hgrid {
@@ -42,8 +44,10 @@ struct Scene::State {
 
   explicit State(const SceneOptions& scene_options)
       : options(scene_options),
+        limits(PairLimits::of(scene_options.max_pairs)),
         horizon(scene_options.horizon, scene_options.growth_cap),
-        pair_events(scene_options.event_hysteresis) {}
+        tracker(limits.remembered),
+        pair_events(scene_options.event_hysteresis, limits.remembered) {}
 
   // scene.cpp: the bodies as they were told.
 
@@ -51,6 +55,7 @@ struct Scene::State {
   Slot& at(BodyId id);
 
   SceneOptions options;
+  PairLimits limits;
   std::vector<Slot> slots;
   std::vector<Body> bodies;  // by slot
   std::vector<std::uint32_t> free_slots;
@@ -67,9 +72,8 @@ struct Scene::State {
   void growBoxes(const Snapshot& snapshot);
   void fillGrid(Snapshot& snapshot);
   void fillPairs(Snapshot& snapshot);
-  void sortPairs(std::vector<NearPair>& pairs);
-  void addPair(std::uint32_t first, std::uint32_t second, double gap, double margin, bool near,
-               std::vector<NearPair>& pairs) const;
+  void addPair(std::uint32_t first, std::uint32_t second, double gap, double margin, bool near);
+  bool isCandidate(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second);
 
   // completeness.cpp: which sources are complete.
 
@@ -94,9 +98,8 @@ struct Scene::State {
   std::vector<ProxyId> ids;
   std::vector<Aabb> grown_boxes;
   std::vector<Grown> grown_of;  // by proxy: what was grown last time
-  std::vector<std::uint32_t> next_of_first;
-  std::vector<NearPair> unsorted;
   std::vector<ProxyPair> proxy_pairs;
+  PairChoice choice;
 };
 
 }  // namespace hgrid

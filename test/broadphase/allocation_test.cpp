@@ -3,6 +3,7 @@
 //
 // A program of its own, since it replaces operator new for all of it.
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <atomic>
 #include <cstdlib>
@@ -13,20 +14,31 @@
 
 namespace {
 std::atomic<std::size_t> allocations{0};
+std::atomic<std::size_t> fails_at{0};            // number of the allocation that finds no memory; 0: none
+std::atomic<std::size_t> held{0}, most_held{0};  // [bytes]
 
 void* counted(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
+  if (++allocations == fails_at) throw std::bad_alloc();
+  void* const memory = std::malloc(size);
+  if (memory == nullptr) throw std::bad_alloc();
+  const std::size_t now = held += malloc_usable_size(memory);
+  for (std::size_t most = most_held; now > most && !most_held.compare_exchange_weak(most, now);) {
+  }
+  return memory;
+}
+
+void giveBack(void* memory) {
+  held -= malloc_usable_size(memory);
+  std::free(memory);
 }
 }  // namespace
 
 __attribute__((noinline)) void* operator new(std::size_t size) { return counted(size); }
 __attribute__((noinline)) void* operator new[](std::size_t size) { return counted(size); }
-__attribute__((noinline)) void operator delete(void* memory) noexcept { std::free(memory); }
-__attribute__((noinline)) void operator delete[](void* memory) noexcept { std::free(memory); }
-__attribute__((noinline)) void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-__attribute__((noinline)) void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+__attribute__((noinline)) void operator delete(void* memory) noexcept { giveBack(memory); }
+__attribute__((noinline)) void operator delete[](void* memory) noexcept { giveBack(memory); }
+__attribute__((noinline)) void operator delete(void* memory, std::size_t) noexcept { giveBack(memory); }
+__attribute__((noinline)) void operator delete[](void* memory, std::size_t) noexcept { giveBack(memory); }
 
 namespace hgrid {
 namespace {
@@ -118,6 +130,100 @@ TEST(Allocation, ASteadyCommitAllocatesNothing) {
   }
   EXPECT_GT(events, 1000u) << "they take no memory either";
   EXPECT_EQ(allocations - before, 0u);
+}
+
+/// [bytes] The most that was held at a time while `work` ran, beyond what was held before.
+template <class Work>
+std::size_t peakOf(Work&& work) {
+  const std::size_t before = held;
+  most_held = before;
+  work();
+  return most_held - before;
+}
+
+constexpr std::size_t kMegabyte = 1 << 20;
+
+std::vector<ProxyId> idsOf(const std::vector<Aabb>& boxes) {
+  std::vector<ProxyId> ids;
+  for (ProxyId id = 0; id < boxes.size(); ++id) ids.push_back(id);
+  return ids;
+}
+
+/// Claim: a pile of 40,000 boxes (800 million pairs, 6 GB) costs the memory of its bound, also where boxes rest.
+TEST(Allocation, ABoundedSearchTakesBoundedMemory) {
+  const std::vector<Aabb> boxes(40000, test::boxAround(Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()));
+  std::vector<Aabb> moved = boxes;
+  for (std::size_t i = 0; i < boxes.size(); i += 100) moved[i].max.x() += 0.1f;
+  for (const int threads : {1, 3}) {
+    HGrid grid;
+    grid.setThreads(threads);
+    grid.setPairBound({10000, 100000});
+    std::vector<ProxyPair> pairs;
+    grid.update(idsOf(boxes), boxes);
+    const std::size_t peak = peakOf([&] {
+      for (int tick = 0; tick < 3; ++tick) {
+        EXPECT_FALSE(grid.boundedPairs(pairs));
+        grid.update(idsOf(boxes), tick % 2 == 0 ? moved : boxes);
+      }
+    });
+    EXPECT_EQ(pairs.size(), 10000u);
+    EXPECT_LT(peak, 10 * kMegabyte) << threads << " threads";
+  }
+}
+
+/// Claim: so does a commit of 3,000 moving bodies at one place (4.5 million pairs), and once its arrays have their size
+/// it allocates nothing.
+TEST(Allocation, ATruncatedCommitTakesBoundedMemory) {
+  SceneOptions options;
+  options.max_pairs = 1000;
+  Scene scene(options);
+  std::vector<BodyId> bodies;
+  for (int i = 0; i < 3000; ++i) bodies.push_back(test::put(scene, test::ball(std::to_string(1000 + i)), test::at(0)));
+  const std::vector<SourceGap> gaps;
+  std::shared_ptr<const Snapshot> latest;
+  std::size_t before = 0;
+  const std::size_t peak = peakOf([&] {
+    for (int tick = 1; tick <= 30; ++tick) {
+      if (tick == 21) before = allocations;
+      for (const BodyId id : bodies) scene.place(id, test::at(0.001 * tick), Time{tick});
+      latest = scene.commit(Time{tick}, gaps);
+    }
+  });
+  EXPECT_EQ(allocations - before, 0u);
+  EXPECT_TRUE(latest->truncated());
+  EXPECT_EQ(latest->pairs().size(), 1000u);
+  EXPECT_LT(peak, 40 * kMegabyte);
+}
+
+/// Claim: when any allocation of a search for pairs fails, on whichever thread, the caller gets std::bad_alloc and the
+/// grid finds the same pairs again.
+TEST(Allocation, ASearchForPairsThatFindsNoMemoryCanBeRepeated) {
+  test::Random random(9);
+  const std::vector<Aabb> boxes = hallOf(40000, random);
+  for (const int threads : {1, 2, 4}) {
+    std::vector<ProxyPair> expected;
+    for (std::size_t failing = 0, failed = 1; failed > 0; ++failing) {
+      HGrid grid;
+      grid.setThreads(threads);
+      grid.update(idsOf(boxes), boxes);
+      std::vector<ProxyPair> pairs;
+      failed = 0;
+      fails_at = failing == 0 ? 0 : allocations + failing;
+      try {
+        grid.boundedPairs(pairs);
+      } catch (const std::bad_alloc&) {
+        failed = failing;
+      }
+      fails_at = 0;
+      EXPECT_TRUE(grid.boundedPairs(pairs));
+      if (failing == 0) {
+        expected = pairs;
+        failed = 1;
+      }
+      ASSERT_TRUE(pairs == expected) << "allocation " << failing << ", threads " << threads;
+      EXPECT_TRUE(failed > 0 || failing > 5) << "there are that many allocations at least";
+    }
+  }
 }
 
 }  // namespace

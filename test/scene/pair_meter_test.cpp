@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <new>
 #include <thread>
 
 #include "test/support/scenes.h"
@@ -30,7 +31,7 @@ class BallPhase final : public NarrowPhase {
   std::shared_ptr<const Solid> needle(double) const override { return nullptr; }
   std::shared_ptr<const Solid> block(const Eigen::Vector3d&) const override { return nullptr; }
   Proximity measure(const PlacedSolid& first, const PlacedSolid& second, double up_to) const override {
-    ++asked;
+    if (++asked == throws_at) throw std::bad_alloc();
     std::this_thread::sleep_for(takes);
     const double around = static_cast<const Ball&>(first.solid).radius + first.padding +
                           static_cast<const Ball&>(second.solid).radius + second.padding;
@@ -55,6 +56,7 @@ class BallPhase final : public NarrowPhase {
   }
 
   mutable std::atomic<int> asked{0};
+  int throws_at = 0;  // number of the question that runs out of memory; 0: none
   std::chrono::microseconds takes{0};
   bool fails = false;
 };
@@ -271,6 +273,31 @@ TEST_F(PairMeterTest, ContactsTellTheirShapesDeepestFirst) {
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(found[i].first_shape, expected[i]);
   EXPECT_EQ(with("obstacle/floor", 3).size(), 3u);
   EXPECT_TRUE(with("obstacle/floor", 0).empty());
+}
+
+/// Claim: an exception at any question, on whichever thread, reaches the caller; afterwards the meter measures what a
+/// new one does.
+TEST_F(PairMeterTest, AnExceptionReachesTheCallerAndTheMeterWorksAgain) {
+  for (int i = 0; i < 40; ++i) add(std::to_string(10 + i), 1.05 * i);
+  for (const int threads : {1, 2, 4}) {
+    PairMeter meter = meterOf(0.2, 0.0, threads);
+    for (const int throws_at : {1, 2, 20, 38, 39}) {
+      SCOPED_TRACE("threads " + std::to_string(threads) + ", question " + std::to_string(throws_at));
+      PairMeter fresh = meterOf(0.2, 0.0, threads);
+      phase_->asked = 0;
+      phase_->throws_at = throws_at;
+      EXPECT_THROW(measure(fresh, 1), std::bad_alloc);
+      phase_->throws_at = 0;
+      const auto found = measure(fresh, 2), expected = measure(meter, 3);
+      ASSERT_EQ(found->pairs.size(), 39u);
+      ASSERT_EQ(expected->pairs.size(), 39u);
+      for (std::size_t i = 0; i < 39; ++i) {
+        EXPECT_EQ(found->pairs[i].first, expected->pairs[i].first);
+        EXPECT_EQ(found->pairs[i].second, expected->pairs[i].second);
+        EXPECT_EQ(found->pairs[i].proximity.distance, expected->pairs[i].proximity.distance);
+      }
+    }
+  }
 }
 
 }  // namespace

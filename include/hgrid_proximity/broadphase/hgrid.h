@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 
 #include "hgrid_proximity/broadphase/broad_phase.h"
@@ -44,6 +45,18 @@ struct PairTest {
   }
 };
 
+/// Bounds the work and the memory of HGrid::boundedPairs().
+///
+/// A search that would exceed the bound collects pairs in a fixed order instead. The boxes that are not fixed ask in
+/// the order of their ids. Each asks for the boxes that overlap it and are fixed or have larger ids, in the order of
+/// their ids. Pairs of two fixed boxes do not count.
+struct PairBound {
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+  std::size_t pairs = kNone;     ///< pairs that a search returns at most
+  std::size_t overlaps = kNone;  ///< overlapping pairs that it looks at, those that the PairTest leaves out included
+};
+
 /// A hierarchical grid (after Ericson, Real-Time Collision Detection, 2005, sections 7.1 and 7.2).
 ///
 /// A box lives in one cell of one level: its longest side picks the level, its minimum corner the cell. So what
@@ -78,6 +91,8 @@ class HGrid final : public BroadPhase {
 
   /// Pairs that the test does not want are left out where they are found, before they are kept or copied.
   void setFilter(const PairTest& test);
+  /// Bounds boundedPairs() and the pairs that are kept for resting boxes. Without it there is no bound.
+  void setPairBound(const PairBound& bound);
 
   void insert(ProxyId id, const Aabb& box) override;
   void update(ProxyId id, const Aabb& box) override;
@@ -87,6 +102,9 @@ class HGrid final : public BroadPhase {
   void move(const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) override;
   std::size_t size() const override;
   void overlappingPairs(std::vector<ProxyPair>& pairs) const override;
+  /// Finds the pairs within the bound. Which pairs these are depends only on the stored boxes, the fixed ones among
+  /// them, the test and the bound. @returns whether these are all pairs
+  bool boundedPairs(std::vector<ProxyPair>& pairs) const;
   void overlapping(const Aabb& box, std::vector<ProxyId>& found) const override;
   void overlapping(const Sphere& sphere, std::vector<ProxyId>& found) const override;
   void along(const Segment& segment, std::vector<SegmentHit>& found) const override;

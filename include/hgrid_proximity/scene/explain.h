@@ -16,6 +16,7 @@ struct Explanation {
   std::uint32_t first = 0, second = 0;             ///< indices into Structure::bodies
   bool reported = false;                           ///< stands in Snapshot::pairs()
   std::size_t position = 0;                        ///< where it stands there
+  bool cut = false;                                ///< it is within its margin, but truncation removed it
   std::string text;                                ///< a sentence or a few for people
   PairRule rule;                                   ///< what decided; Origin::none: nothing switches the pair off
   double gap = 0.0;                                ///< [m] distance of their boxes

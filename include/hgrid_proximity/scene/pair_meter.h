@@ -73,6 +73,8 @@ class PairMeter {
   PairMeter(std::shared_ptr<const NarrowPhase> narrow_phase, const MeterOptions& options);
   ~PairMeter();
 
+  /// An exception on any thread reaches the caller after all threads have stopped. The meter then knows what it knew
+  /// before, and can be used again.
   std::shared_ptr<const PairDistances> measure(const Snapshot& snapshot);
 
  private:

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <functional>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -25,15 +27,23 @@ struct NearPair {
   std::uint8_t flags = 0;  ///< of PairFlags
 };
 
-/// Remembers since when each pair is near. Bodies are known by their handles, so that a new numbering of
-/// the bodies does not interrupt a pair.
+/// Whether two bodies are a candidate pair that truncation removed. Asked only about pairs that are not listed. Empty:
+/// truncation removed none.
+using IsCut = std::function<bool(std::uint32_t first, std::uint32_t second)>;
+
+/// Remembers since when each pair is near. It knows bodies by their handles, so a new numbering of the bodies does not
+/// interrupt a pair.
 class PairTracker {
  public:
-  /// Fills `since` of every pair: kept where the pair was there in the last call, else `stamp`.
+  /// @param most  pairs that are remembered; of more, those that truncation removed are forgotten, the last first
+  explicit PairTracker(std::size_t most = std::numeric_limits<std::size_t>::max()) : most_(most) {}
+
+  /// Fills `since` of every pair: `stamp`, or an older one if the pair was not interrupted. Truncation does not
+  /// interrupt a pair that is remembered.
   /// @param ids    handle per body index
-  /// @param pairs  sorted by (first, second), each once
-  void update(const std::vector<BodyId>& ids, Time stamp, std::vector<NearPair>& pairs);
-  /// Pairs that were near before the last update() and are no more, by handle.
+  /// @param pairs  sorted by (first, second), each once; no more than are remembered
+  void update(const std::vector<BodyId>& ids, Time stamp, std::vector<NearPair>& pairs, const IsCut& is_cut = nullptr);
+  /// Pairs that were remembered before the last update() and are no more, by handle.
   const std::vector<std::pair<BodyId, BodyId>>& ended() const { return ended_; }
   void clear();
 
@@ -44,8 +54,10 @@ class PairTracker {
   };
   void renumber(const std::vector<BodyId>& ids);
 
+  std::size_t most_;
   std::vector<BodyId> ids_;
   std::vector<Known> known_;  // sorted by (first, second), which index ids_
+  std::vector<Known> next_;   // scratch
   std::vector<std::pair<BodyId, BodyId>> ended_;
 };
 

@@ -20,6 +20,10 @@ struct SceneOptions {
   double world_limit = 1e6;                          ///< [m] poses beyond are refused, per axis; at most 1e6
   double growth_cap = 1.0;                           ///< [m] most that a stale body's margins are widened by
   std::size_t max_bodies = 100000;
+  /// Pairs that a snapshot lists; 0: no limit. It also bounds the work and the memory of a tick: the search collects at
+  /// most 4 times as many pairs of boxes, or 65536 if that is more. Snapshot::truncated() says that a limit was
+  /// reached.
+  std::size_t max_pairs = 100000;
   std::size_t max_reasons = 8;  ///< reasons that a snapshot lists
   int threads = 1;              ///< that the broad phase may use, 1 .. 64
   /// [s] Pairs that can meet within it, by their bodies' max_speed, are candidates too, as are those that passed each

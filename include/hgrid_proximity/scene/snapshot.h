@@ -120,8 +120,15 @@ class Snapshot {
   /// the map's frame are held against the box around the other's box. Infinite if it is more than `up_to`, and where
   /// there are no boxes.
   double gapOf(std::uint32_t first, std::uint32_t second, double up_to = std::numeric_limits<double>::infinity()) const;
-  /// Candidates after the filter, sorted by (first, second).
+  /// Candidates that the filter does not leave out, sorted by (first, second). If truncated(), some are missing: of the
+  /// candidates that were collected, those with the smallest gaps are listed, and of equal gaps the first by name.
   const std::vector<NearPair>& pairs() const { return pairs_; }
+  /// Whether candidates may be missing from pairs(), because of SceneOptions::max_pairs. Queries miss nothing.
+  bool truncated() const { return searchCut() || pairs_found_ > pairs_.size(); }
+  /// Whether the search ended at its limit. Otherwise it found all candidates.
+  bool searchCut() const { return search_cut_; }
+  /// Number of candidates that the search found. If searchCut(), there may be more.
+  std::uint64_t pairsFound() const { return pairs_found_; }
   /// Pairs that began or ended since the snapshot before, by number: the ends, then the begins.
   const std::vector<PairEvent>& events() const { return events_.events; }
   /// Number of the newest event of the epoch; 0: there was none.
@@ -222,6 +229,8 @@ class Snapshot {
   std::vector<Aabb> boxes_;
   std::vector<std::shared_ptr<const MapCells>> cells_;  // of structure_->maps
   std::vector<NearPair> pairs_;
+  std::uint64_t pairs_found_ = 0;
+  bool search_cut_ = false;
   PairEventList events_;
   std::vector<SourceGap> gaps_;
   std::vector<std::uint32_t> doubtful_;  // bodies that are stale or worse, or not covered

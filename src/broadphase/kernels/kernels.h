@@ -55,13 +55,15 @@ struct Line {
   double around;
 };
 
-/// Where found things go: `next` is written and moved on; before fewer than 16 places are left `grow` makes room.
+/// Where kernels write what they find: they write at `next` and advance it. While fewer than 16 places are left before
+/// `limit`, they call `grow`, which makes room.
 template <class Found>
 struct Sink {
   Found* next;
   Found* limit;
   void* owner;
   void (*grow)(Sink*);
+  bool full;  ///< `grow` sets it when nothing more is wanted; a search for pairs then ends soon
 };
 using PairSink = Sink<Pair>;
 using PositionSink = Sink<std::uint32_t>;

@@ -24,6 +24,7 @@ class Output {
     return next_;
   }
   void wrote(Found* end) { next_ = end; }
+  bool full() const { return sink_->full; }
   void close() { sink_->next = next_; }
 
  private:

@@ -65,7 +65,7 @@ void pairsWithin(const Level* level, std::uint32_t begin, std::uint32_t end, Pai
   Output<Pair> found(sink);
   alignas(64) std::int32_t x_low[kBlock], x_high[kBlock], y_low[kBlock], y_own[kBlock], y_high[kBlock], z_own[kBlock],
       z_high[kBlock], own_row[kBlock], low_row[kBlock], own_span[kBlock], low_span[kBlock], z_span[kBlock];
-  for (std::uint32_t first = begin; first < end; first += kBlock) {
+  for (std::uint32_t first = begin; first < end && !found.full(); first += kBlock) {
     const std::uint32_t all = bitsBelow(end - first);
     cellsOf(l.bounds + first, l.reach[0], grid, 0, x_low);
     cellsOf(l.bounds + 3 * l.stride + first, 0.0f, grid, 0, x_high);
@@ -152,7 +152,7 @@ void pairsAcross(const Level* asking, std::uint32_t begin, std::uint32_t end, co
   alignas(64) std::int32_t x_low[kBlock], x_high[kBlock], y_low[kBlock], y_high[kBlock], z_low[kBlock], z_high[kBlock],
       row[kBlock];
   Encounters encounters(a, b);
-  for (std::uint32_t first = begin; first < end; first += kBlock) {
+  for (std::uint32_t first = begin; first < end && !found.full(); first += kBlock) {
     const std::uint32_t all = bitsBelow(end - first);
     cellsOf(a.bounds + first, b.reach[0], grid, 0, x_low);
     cellsOf(a.bounds + 3 * a.stride + first, 0.0f, grid, 0, x_high);
