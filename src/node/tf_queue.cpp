@@ -15,17 +15,16 @@ std::size_t chargeOf(const ReceivedTransforms& transforms) {
 }  // namespace
 
 std::string ReceivedTransforms::name() const {
-  return "the message of " + std::to_string(message->size) + " bytes on " + (is_static ? "/tf_static" : "/tf") +
-         " from '" + printable(publisher) + "'";
+  return std::string("the message on ") + (is_static ? "/tf_static" : "/tf") + " from '" + printable(publisher) + "'";
 }
 
 void TfQueue::push(ReceivedTransforms transforms) {
   const TransformBytes& message = *transforms.message;
   const std::size_t most_bytes = std::min(most_bytes_, message.most_bytes);
   if (message.size > most_bytes) {
-    return ledger_.refuse(
-        "tf.refused", Refusal(Code::limit, transforms.name() + " is too long; at most " + std::to_string(most_bytes) +
-                                               " bytes are accepted (~tf_queue_bytes)"));
+    const std::string rule = " bytes; at most " + std::to_string(most_bytes) + " are accepted (~tf_queue_bytes)";
+    const std::string size = std::to_string(message.size);
+    return ledger_.refuse("tf.refused", Refusal(Code::limit, transforms.name() + " has " + size + rule));
   }
   for (const ReceivedTransforms& dropped : store(std::move(transforms))) {
     ledger_.refuse(

@@ -23,7 +23,7 @@ struct ReceivedTransforms {
   std::string publisher;
   Moment received;
 
-  /// As in "the message of 20 bytes on /tf from '/robot'".
+  /// As in "the message on /tf from '/robot'".
   std::string name() const;
 };
 

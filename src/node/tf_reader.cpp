@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "checked.h"
+#include "hgrid_proximity/refusal.h"
 
 namespace hgrid {
 
@@ -66,32 +66,40 @@ void TfReader::wakeTickThread() {
   if (!woken_.exchange(true)) tick_queue_.addCallback(read_next_, reinterpret_cast<std::uint64_t>(this));
 }
 
-/// One message at a time, so that a tick that is due has to wait for one message at most.
+/// Reads one slice at a time, so that a tick that is due has to wait for one slice at most.
 void TfReader::readNext() {
   woken_ = false;
-  if (readOne() && !queue_.empty()) wakeTickThread();
+  if (readSlice()) wakeTickThread();
 }
 
 void TfReader::readFor(std::chrono::duration<double> most_time) {
   const auto begin = std::chrono::steady_clock::now();
-  while (readOne() && std::chrono::steady_clock::now() - begin < most_time) {
+  while (readSlice() && std::chrono::steady_clock::now() - begin < most_time) {
   }
 }
 
-/// @returns whether a message was waiting
-bool TfReader::readOne() {
-  const std::optional<ReceivedTransforms> next = queue_.pop();
-  if (!next) return false;
+/// @returns whether there may be more to read
+bool TfReader::readSlice() {
   try {
-    const std::string& bytes = next->message->bytes;
-    Checked<tf2_msgs::TFMessage> message;
-    message.read(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
-    sink_(message.value(), next->is_static, next->publisher, next->received);
+    if (!slices_.left() && !open()) return false;
+    sink_(slices_.next(), current_.is_static, current_.publisher, current_.received);
   } catch (const Refusal& refusal) {
-    ledger_.refuse("tf.refused", Refusal(refusal.code(), next->name() + " cannot be read: " + refusal.what()));
-  } catch (const std::exception& error) {  // out of memory; ticks go on without these transforms
+    ledger_.refuse("tf.refused", Refusal(refusal.code(), current_.name() + " cannot be read: " + refusal.what()));
+  } catch (const std::exception& error) {  // out of memory; ticks go on without the rest of the message
+    slices_ = TransformSlices();
     ledger_.refuse("tf.failed", Refusal(Code::internal, error.what()));
   }
+  if (slices_.left()) return true;
+  current_ = ReceivedTransforms();  // frees its bytes
+  return !queue_.empty();
+}
+
+/// Takes the next message from the queue. @returns whether there was one
+bool TfReader::open() {
+  std::optional<ReceivedTransforms> next = queue_.pop();
+  if (!next) return false;
+  current_ = std::move(*next);
+  slices_ = TransformSlices(current_.message->bytes);
   return true;
 }
 

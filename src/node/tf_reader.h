@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "tf_queue.h"
+#include "transform_slices.h"
 
 namespace hgrid {
 
@@ -28,7 +29,7 @@ class TfReader {
   using Sink = std::function<void(const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher,
                                   const Moment& received)>;
 
-  /// @param node  its callback queue is the tick thread's: between ticks, waiting messages are read there one by one
+  /// @param node  its callback queue is the tick thread's: between ticks, waiting messages are read there
   /// @param now   called by the thread that receives
   /// @param sink  called by the thread that runs the callback queue or calls readFor()
   TfReader(ros::NodeHandle node, std::size_t most_bytes, Now now, Sink sink, Ledger& ledger);
@@ -36,8 +37,8 @@ class TfReader {
   TfReader(const TfReader&) = delete;
   TfReader& operator=(const TfReader&) = delete;
 
-  /// Reads the messages that wait, in the order in which they were received. Stops when none is left, or after the
-  /// first message that ends later than `most_time` from now.
+  /// Reads the messages that wait, in the order in which they were received, until none is left or `most_time` has
+  /// passed. A long message may be read in several calls.
   void readFor(std::chrono::duration<double> most_time);
 
  private:
@@ -54,13 +55,16 @@ class TfReader {
   void onMessage(const ros::MessageEvent<const TransformBytes>& event, bool is_static);
   void wakeTickThread();
   void readNext();
-  bool readOne();
+  bool readSlice();
+  bool open();
 
   std::size_t most_bytes_;
   Now now_;
   Sink sink_;
   Ledger& ledger_;
   TfQueue queue_;
+  ReceivedTransforms current_;  ///< tick thread only: the message whose slices are read
+  TransformSlices slices_;      ///< tick thread only: refers to the bytes of current_
   ros::CallbackQueueInterface& tick_queue_;
   ros::CallbackInterfacePtr read_next_;
   std::atomic<bool> woken_{false};  ///< read_next_ stands in tick_queue_

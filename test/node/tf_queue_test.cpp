@@ -71,7 +71,7 @@ TEST_F(TfQueueTest, KeepsWhatAMessageArrivedWith) {
   EXPECT_TRUE(next->is_static);
   EXPECT_EQ(next->publisher, "/robot");
   EXPECT_EQ(next->message->bytes, std::string(10, 'x'));
-  EXPECT_EQ(next->name(), "the message of 10 bytes on /tf_static from '/robot'");
+  EXPECT_EQ(next->name(), "the message on /tf_static from '/robot'");
 }
 
 TEST_F(TfQueueTest, DropsTheOldestWhenTheBytesExceedTheBound) {
