@@ -60,15 +60,17 @@ std::vector<PairRule> AllowedServices::rulesAfter(const msg::SetAllowed::Request
   return book.rules();
 }
 
-bool AllowedServices::onSet(msg::SetAllowed::Request& request, msg::SetAllowed::Response& response) {
+bool AllowedServices::onSet(Checked<msg::SetAllowed::Request>& checked, msg::SetAllowed::Response& response) {
   return answer_("set_allowed", response, [&](std::shared_ptr<const Tick>& tick) {
+    const msg::SetAllowed::Request& request = checked.value();
     const std::vector<PairRule> rules = rulesAfter(request, structureOf(tick));
     tick = answer_.do_in_tick([rules](World& world) { world.setRules(rules); });
   });
 }
 
-bool AllowedServices::onGet(msg::GetAllowed::Request& request, msg::GetAllowed::Response& response) {
+bool AllowedServices::onGet(Checked<msg::GetAllowed::Request>& checked, msg::GetAllowed::Response& response) {
   return answer_("get_allowed", response, [&](const std::shared_ptr<const Tick>& tick) {
+    const msg::GetAllowed::Request& request = checked.value();
     const Structure& structure = structureOf(tick);
     checkGlob(request.first);
     checkGlob(request.second);

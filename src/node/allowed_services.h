@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "admin_answer.h"
+#include "checked.h"
 
 namespace hgrid {
 
@@ -19,8 +20,8 @@ class AllowedServices {
   AllowedServices(ros::NodeHandle& node, AdminAnswer answer);
 
  private:
-  bool onSet(msg::SetAllowed::Request& request, msg::SetAllowed::Response& response);
-  bool onGet(msg::GetAllowed::Request& request, msg::GetAllowed::Response& response);
+  bool onSet(Checked<msg::SetAllowed::Request>& checked, msg::SetAllowed::Response& response);
+  bool onGet(Checked<msg::GetAllowed::Request>& checked, msg::GetAllowed::Response& response);
   std::vector<PairRule> rulesAfter(const msg::SetAllowed::Request& request, const Structure& structure) const;
 
   AdminAnswer answer_;

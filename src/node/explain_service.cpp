@@ -91,7 +91,7 @@ void ExplainService::explainTo(msg::ExplainPair::Response& response, const Snaps
   if (exact && request.contacts > 0) listContacts(response, snapshot, what, request.contacts);
 }
 
-bool ExplainService::onExplain(msg::ExplainPair::Request& request, msg::ExplainPair::Response& response) {
+bool ExplainService::onExplain(Checked<msg::ExplainPair::Request>& checked, msg::ExplainPair::Response& response) {
   const std::shared_ptr<const Tick> tick = newest_();
   response = nothing();
   ledger_.count("explain_pair.asked");
@@ -103,6 +103,7 @@ bool ExplainService::onExplain(msg::ExplainPair::Request& request, msg::ExplainP
     const std::chrono::duration<double> age_since = std::chrono::steady_clock::now() - tick->made.steady;
     response.header = headerOf(*tick);
     response.world = worldState(*tick, params_, config_hash_, age_since.count());
+    const msg::ExplainPair::Request& request = checked.value();
     if (!tick->snapshot) throw Refusal(Code::not_ready, "there is no world yet: " + tick->not_ready.front());
     for (const std::string* name : {&request.first, &request.second}) {
       const std::vector<std::string>& bare = tick->models->without_collision;

@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 
+#include "checked.h"
 #include "hgrid_proximity/scene/explain.h"
 #include "ledger.h"
 #include "messages.h"
@@ -26,7 +27,7 @@ class ExplainService {
                  std::shared_ptr<const NarrowPhase> narrow_phase, Ledger& ledger);
 
  private:
-  bool onExplain(msg::ExplainPair::Request& request, msg::ExplainPair::Response& response);
+  bool onExplain(Checked<msg::ExplainPair::Request>& checked, msg::ExplainPair::Response& response);
   void listContacts(msg::ExplainPair::Response& response, const Snapshot& snapshot, const Explanation& what,
                     std::uint32_t most) const;
   void explainTo(msg::ExplainPair::Response& response, const Snapshot& snapshot,

@@ -14,9 +14,10 @@ MapServices::MapServices(ros::NodeHandle& node, const MapSource& source, AdminAn
   servers_.push_back(node.advertiseService("clear_map", &MapServices::onClear, this));
 }
 
-bool MapServices::onLoad(msg::LoadOctomap::Request& request, msg::LoadOctomap::Response& response) {
+bool MapServices::onLoad(Checked<msg::LoadOctomap::Request>& checked, msg::LoadOctomap::Response& response) {
   const auto begin = std::chrono::steady_clock::now();
   return answer_("load_octomap", response, [&](std::shared_ptr<const Tick>& tick) {
+    const msg::LoadOctomap::Request& request = checked.value();
     MapParams map;
     map.name = request.map;
     map.file = request.file;
@@ -35,10 +36,11 @@ bool MapServices::onLoad(msg::LoadOctomap::Request& request, msg::LoadOctomap::R
   });
 }
 
-bool MapServices::onClear(msg::ClearMap::Request& request, msg::ClearMap::Response& response) {
+bool MapServices::onClear(Checked<msg::ClearMap::Request>& checked, msg::ClearMap::Response& response) {
   return answer_("clear_map", response, [&](std::shared_ptr<const Tick>& tick) {
-    tick = answer_.do_in_tick([map = request.map](World& world) { world.clearMap(map); });
-    decided_(request.map);
+    const std::string map = checked.value().map;
+    tick = answer_.do_in_tick([map](World& world) { world.clearMap(map); });
+    decided_(map);
   });
 }
 

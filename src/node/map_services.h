@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "admin_answer.h"
+#include "checked.h"
 #include "map_source.h"
 
 namespace hgrid {
@@ -25,8 +26,8 @@ class MapServices {
   MapServices(ros::NodeHandle& node, const MapSource& source, AdminAnswer answer, Decided decided);
 
  private:
-  bool onLoad(msg::LoadOctomap::Request& request, msg::LoadOctomap::Response& response);
-  bool onClear(msg::ClearMap::Request& request, msg::ClearMap::Response& response);
+  bool onLoad(Checked<msg::LoadOctomap::Request>& checked, msg::LoadOctomap::Response& response);
+  bool onClear(Checked<msg::ClearMap::Request>& checked, msg::ClearMap::Response& response);
 
   const MapSource& source_;
   AdminAnswer answer_;

@@ -17,6 +17,7 @@ namespace hgrid {
 namespace {
 
 constexpr auto kGrace = std::chrono::seconds(1);         // after the start
+constexpr double kShareForTransforms = 0.5;              // of a period: a flood of transforms does not stop the ticks
 constexpr auto kJobPatience = std::chrono::seconds(10);  // a tick takes milliseconds; longer means that it hangs
 
 XmlRpc::XmlRpcValue valuesOf(const ros::NodeHandle& node) {
@@ -75,15 +76,12 @@ ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node,
   bodies_ = update_private_.advertise<msg::Bodies>("bodies", 1, true);
   markers_ = admin_private_.advertise<visualization_msgs::MarkerArray>("markers", 1);
 
-  const auto on_tf = [this](bool is_static) {
-    return boost::function<void(const ros::MessageEvent<tf2_msgs::TFMessage const>&)>(
-        [this, is_static](const ros::MessageEvent<tf2_msgs::TFMessage const>& event) {
-          onTransforms(event, is_static);
-        });
-  };
-  subscribers_.push_back(update_node_.subscribe<tf2_msgs::TFMessage>("/tf", 1000, on_tf(false), ros::VoidConstPtr(),
-                                                                     ros::TransportHints().tcpNoDelay()));
-  subscribers_.push_back(update_node_.subscribe<tf2_msgs::TFMessage>("/tf_static", 1000, on_tf(true)));
+  transforms_ = std::make_unique<TfReader>(
+      update_node_, static_cast<std::size_t>(params_.tf_queue_bytes), thisMoment,
+      [this](const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher, const Moment& received) {
+        takeTransforms(message, is_static, publisher, received);
+      },
+      ledger_);
 
   for (const MapParams& map : params_.maps) {
     if (map.topic.empty()) continue;
@@ -128,14 +126,16 @@ ProximityNode::~ProximityNode() {
   for (const auto& spinner : spinners_) spinner->stop();
 }
 
-void ProximityNode::onTransforms(const ros::MessageEvent<tf2_msgs::TFMessage const>& event, bool is_static) {
-  const Moment now = thisMoment();
-  world_.transforms().take(*event.getConstMessage(), is_static, event.getPublisherName(), now);
-  tf_time_ += std::chrono::steady_clock::now() - now.steady;
+void ProximityNode::takeTransforms(const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher,
+                                   const Moment& received) {
+  const auto begin = std::chrono::steady_clock::now();
+  world_.transforms().take(message, is_static, publisher, received);
+  tf_time_ += std::chrono::steady_clock::now() - begin;
 }
 
 void ProximityNode::onTick(const ros::SteadyTimerEvent& event) {
   try {
+    transforms_->readFor(std::chrono::duration<double>(kShareForTransforms / params_.rate));
     const auto begin = std::chrono::steady_clock::now();
     std::vector<Job> jobs;
     {
@@ -394,8 +394,9 @@ std::shared_ptr<const Tick> ProximityNode::tickAfter(const Job& job) {
   return *tick;
 }
 
-bool ProximityNode::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+bool ProximityNode::onReset(Checked<std_srvs::Trigger::Request>& checked, std_srvs::Trigger::Response& response) {
   try {
+    checked.value();
     runInTick([this](World& world) {
       world.reset();
       stopwatch_ = Stopwatch();
@@ -403,34 +404,48 @@ bool ProximityNode::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Resp
     waitForTick();
     response.success = true;
     response.message = "obstacles as configured, counters at 0, a new epoch";
+  } catch (const Refusal& refusal) {
+    ledger_.refuse("reset.refused", refusal);
+    response.message = std::string(name(refusal.code())) + ": " + refusal.what();
   } catch (const std::exception& error) {
     response.message = error.what();
   }
   return true;
 }
 
-bool ProximityNode::onReload(msg::ReloadRobot::Request& request, msg::ReloadRobot::Response& response) {
-  response.code = toMsg(Code::ok, "");
+/// Loads a robot's description again, or those of all robots if the name is empty. Returns after the tick that has
+/// them.
+/// @returns OK, or why the last robot that failed keeps its old model
+msg::Code ProximityNode::reload(const std::string& robot_name) {
+  msg::Code code = toMsg(Code::ok, "");
   bool found = false;
   for (const RobotParams& robot : params_.robots) {
-    if (!request.robot.empty() && robot.name != request.robot) continue;
+    if (!robot_name.empty() && robot.name != robot_name) continue;
     found = true;
     const Refusal result = loadRobot(robot);
     if (result.code() != Code::ok) {
-      response.code = toMsg(result.code(), "robot '" + robot.name + "': " + result.what());
+      code = toMsg(result.code(), "robot '" + robot.name + "': " + result.what());
     } else {
       to_load_.erase(std::remove(to_load_.begin(), to_load_.end(), robot.name), to_load_.end());
     }
   }
-  if (!found) {
-    response.code = toMsg(Code::unknown_id, "there is no robot '" + printable(request.robot) + "' in ~robots");
-  }
-  response.success = response.code.value == msg::Code::OK;
+  if (!found) code = toMsg(Code::unknown_id, "there is no robot '" + printable(robot_name) + "' in ~robots");
   try {
     waitForTick();
   } catch (const Refusal& refusal) {
     ledger_.refuse("reload", refusal);
   }
+  return code;
+}
+
+bool ProximityNode::onReload(Checked<msg::ReloadRobot::Request>& checked, msg::ReloadRobot::Response& response) {
+  try {
+    response.code = reload(checked.value().robot);
+  } catch (const Refusal& refusal) {
+    ledger_.refuse("reload_robot.refused", refusal);
+    response.code = toMsg(refusal.code(), refusal.what());
+  }
+  response.success = response.code.value == msg::Code::OK;
   if (const auto tick = newest()) {
     response.world = worldState(*tick, params_, config_hash_, 0.0);
     response.uncovered = tick->models->uncovered;

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "allowed_services.h"
+#include "checked.h"
 #include "cloud_source.h"
 #include "events_messages.h"
 #include "explain_service.h"
@@ -28,6 +29,7 @@
 #include "query_services.h"
 #include "robot_source.h"
 #include "stopwatch.h"
+#include "tf_reader.h"
 #include "world.h"
 
 namespace hgrid {
@@ -47,7 +49,8 @@ class ProximityNode {
   using Job = std::function<void(World&)>;
 
   std::shared_ptr<const Tick> newest() const { return std::atomic_load(&newest_); }
-  void onTransforms(const ros::MessageEvent<tf2_msgs::TFMessage const>& event, bool is_static);
+  void takeTransforms(const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher,
+                      const Moment& received);
   void onTick(const ros::SteadyTimerEvent& event);
   void noteConflicts();
   void publish(const std::shared_ptr<const Tick>& tick);
@@ -65,8 +68,9 @@ class ProximityNode {
   void runInTick(const Job& job);
   void waitForTick();
   std::shared_ptr<const Tick> tickAfter(const Job& job);
-  bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  bool onReload(msg::ReloadRobot::Request& request, msg::ReloadRobot::Response& response);
+  bool onReset(Checked<std_srvs::Trigger::Request>& checked, std_srvs::Trigger::Response& response);
+  bool onReload(Checked<msg::ReloadRobot::Request>& checked, msg::ReloadRobot::Response& response);
+  msg::Code reload(const std::string& robot_name);
   NodeHealth health() const;
 
   ros::CallbackQueue update_queue_, query_queue_, admin_queue_;  // first: what uses them goes before them
@@ -107,6 +111,7 @@ class ProximityNode {
   std::size_t viewers_ = 0;
 
   ros::Publisher pairs_, distances_, events_, status_, bodies_, markers_;
+  std::unique_ptr<TfReader> transforms_;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> servers_;
   std::unique_ptr<QueryServices> queries_;

@@ -143,7 +143,7 @@ std::size_t asked(const QueryScope& scope, const Snapshot& snapshot) {
 }  // namespace
 
 template <class Request, class Response, class Ask>
-bool QueryServices::answer(const Request& request, Response& response, Ask&& ask) {
+bool QueryServices::answer(const Checked<Request>& checked, Response& response, Ask&& ask) {
   const std::shared_ptr<const Tick> tick = newest_();
   msg::Answer& result = response.answer;
   ledger_.count("query.asked");
@@ -156,6 +156,7 @@ bool QueryServices::answer(const Request& request, Response& response, Ask&& ask
         std::chrono::duration<double>(std::chrono::steady_clock::now() - tick->made.steady).count();
     response.header = headerOf(*tick);
     response.world = worldState(*tick, params_, config_hash_, age_since);
+    const Request& request = checked.value();
     if (!tick->snapshot) throw Refusal(Code::not_ready, "there is no world yet: " + tick->not_ready.front());
     const Snapshot& snapshot = *tick->snapshot;
     const std::string frame = withoutSlash(request.header.frame_id);
@@ -165,7 +166,7 @@ bool QueryServices::answer(const Request& request, Response& response, Ask&& ask
     if (request.exact) scope.exact = narrow_phase_.get();
     const bool all = scope.include.empty() && scope.exclude.empty();
     const std::size_t count = all ? 0 : asked(scope, snapshot);
-    QueryAnswer found = ask(snapshot, world_from_frame, scope);
+    QueryAnswer found = ask(request, snapshot, world_from_frame, scope);
     if (found.verdict == Verdict::clear && age_since > params_.valid_for) {
       found.verdict = Verdict::unknown;
       found.because = Unknown::outdated;
@@ -201,30 +202,33 @@ bool QueryServices::answer(const Request& request, Response& response, Ask&& ask
   return true;
 }
 
-bool QueryServices::onSphere(msg::QuerySphere::Request& request, msg::QuerySphere::Response& response) {
-  return answer(request, response,
-                [&](const Snapshot& snapshot, const Pose& world_from_frame, const QueryScope& scope) {
-                  const Sphere sphere{world_from_frame * fromPoint(request.center), request.radius};
-                  QueryAnswer found = snapshot.query(sphere, scope);
-                  sketch_.show(sphere, found.verdict);
-                  return found;
-                });
-}
-
-bool QueryServices::onSegment(msg::QuerySegment::Request& request, msg::QuerySegment::Response& response) {
-  return answer(request, response,
-                [&](const Snapshot& snapshot, const Pose& world_from_frame, const QueryScope& scope) {
-                  const Segment segment{world_from_frame * fromPoint(request.start),
-                                        world_from_frame * fromPoint(request.end), request.radius};
-                  QueryAnswer found = snapshot.query(segment, scope);
-                  sketch_.show(segment, found.verdict);
-                  return found;
-                });
-}
-
-bool QueryServices::onBox(msg::QueryBox::Request& request, msg::QueryBox::Response& response) {
+bool QueryServices::onSphere(Checked<msg::QuerySphere::Request>& checked, msg::QuerySphere::Response& response) {
   return answer(
-      request, response, [&](const Snapshot& snapshot, const Pose& world_from_frame, const QueryScope& scope) {
+      checked, response,
+      [&](const auto& request, const Snapshot& snapshot, const Pose& world_from_frame, const QueryScope& scope) {
+        const Sphere sphere{world_from_frame * fromPoint(request.center), request.radius};
+        QueryAnswer found = snapshot.query(sphere, scope);
+        sketch_.show(sphere, found.verdict);
+        return found;
+      });
+}
+
+bool QueryServices::onSegment(Checked<msg::QuerySegment::Request>& checked, msg::QuerySegment::Response& response) {
+  return answer(
+      checked, response,
+      [&](const auto& request, const Snapshot& snapshot, const Pose& world_from_frame, const QueryScope& scope) {
+        const Segment segment{world_from_frame * fromPoint(request.start), world_from_frame * fromPoint(request.end),
+                              request.radius};
+        QueryAnswer found = snapshot.query(segment, scope);
+        sketch_.show(segment, found.verdict);
+        return found;
+      });
+}
+
+bool QueryServices::onBox(Checked<msg::QueryBox::Request>& checked, msg::QueryBox::Response& response) {
+  return answer(
+      checked, response,
+      [&](const auto& request, const Snapshot& snapshot, const Pose& world_from_frame, const QueryScope& scope) {
         const auto& q = request.pose.orientation;
         const bool unset = q.x == 0.0 && q.y == 0.0 && q.z == 0.0 && q.w == 0.0;  // as typed by hand
         const Pose frame_from_box = checkedPose(
@@ -235,20 +239,21 @@ bool QueryServices::onBox(msg::QueryBox::Request& request, msg::QueryBox::Respon
       });
 }
 
-bool QueryServices::onNearest(msg::QueryNearest::Request& request, msg::QueryNearest::Response& response) {
-  return answer(request, response,
-                [&](const Snapshot& snapshot, const Pose& world_from_frame, const QueryScope& given) {
-                  QueryScope scope = given;
-                  if (request.limit == 0) scope.limit = 1;
-                  if (request.body.empty()) {
-                    return snapshot.nearest(world_from_frame * fromPoint(request.point), request.max_distance, scope);
-                  }
-                  const std::uint32_t body = snapshot.structure().find(request.body);
-                  if (body == Structure::kNone) {
-                    throw Refusal(Code::unknown_id, "there is no body '" + printable(request.body) + "'");
-                  }
-                  return snapshot.nearest(body, request.max_distance, scope);
-                });
+bool QueryServices::onNearest(Checked<msg::QueryNearest::Request>& checked, msg::QueryNearest::Response& response) {
+  return answer(
+      checked, response,
+      [&](const auto& request, const Snapshot& snapshot, const Pose& world_from_frame, const QueryScope& given) {
+        QueryScope scope = given;
+        if (request.limit == 0) scope.limit = 1;
+        if (request.body.empty()) {
+          return snapshot.nearest(world_from_frame * fromPoint(request.point), request.max_distance, scope);
+        }
+        const std::uint32_t body = snapshot.structure().find(request.body);
+        if (body == Structure::kNone) {
+          throw Refusal(Code::unknown_id, "there is no body '" + printable(request.body) + "'");
+        }
+        return snapshot.nearest(body, request.max_distance, scope);
+      });
 }
 
 }  // namespace hgrid

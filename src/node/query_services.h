@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 
+#include "checked.h"
 #include "markers.h"
 #include "messages.h"
 #include "params.h"
@@ -29,12 +30,12 @@ class QueryServices {
                 Ledger& ledger);
 
  private:
-  bool onSphere(msg::QuerySphere::Request& request, msg::QuerySphere::Response& response);
-  bool onSegment(msg::QuerySegment::Request& request, msg::QuerySegment::Response& response);
-  bool onBox(msg::QueryBox::Request& request, msg::QueryBox::Response& response);
-  bool onNearest(msg::QueryNearest::Request& request, msg::QueryNearest::Response& response);
+  bool onSphere(Checked<msg::QuerySphere::Request>& request, msg::QuerySphere::Response& response);
+  bool onSegment(Checked<msg::QuerySegment::Request>& request, msg::QuerySegment::Response& response);
+  bool onBox(Checked<msg::QueryBox::Request>& request, msg::QueryBox::Response& response);
+  bool onNearest(Checked<msg::QueryNearest::Request>& request, msg::QueryNearest::Response& response);
   template <class Request, class Response, class Ask>
-  bool answer(const Request& request, Response& response, Ask&& ask);
+  bool answer(const Checked<Request>& checked, Response& response, Ask&& ask);
   Pose worldFromFrame(const Tick& tick, const std::string& frame) const;
   QueryScope scopeOf(const std::vector<std::string>& include, const std::vector<std::string>& exclude,
                      std::uint32_t limit) const;

@@ -55,6 +55,16 @@ inline std::pair<std::size_t, std::size_t> memoryOf(pid_t process) {
 inline std::size_t residentKilobytes(pid_t process) { return memoryOf(process).first; }
 inline std::size_t virtualKilobytes(pid_t process) { return memoryOf(process).second; }
 
+/// [kB] the most memory that a process has held since it was started.
+inline std::size_t peakKilobytes(pid_t process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/status");
+  std::string word;
+  while (file >> word && word != "VmHWM:") continue;
+  std::size_t kilobytes = 0;
+  file >> kilobytes;
+  return kilobytes;
+}
+
 /// x [m] of the centre of a ball-shaped body, found by a ray along the x axis through (y, z). NaN if it is not met.
 inline double xOf(NodeUnderTest& node, const std::string& body, double radius = 0.1, double y = 0.0, double z = 0.0) {
   msg::QuerySegment::Request request;

@@ -32,8 +32,17 @@ struct CloudKind {
       "std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\nbool is_bigendian\n"
       "uint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n";
 };
+struct TransformsKind {
+  static constexpr const char* kMd5 = "94810edda583a504dfda3829e70d7eec";
+  static constexpr const char* kType = "tf2_msgs/TFMessage";
+  static constexpr const char* kDefinition = "geometry_msgs/TransformStamped[] transforms\n";
+};
+/// For requests: their service has the type.
+struct RequestKind {};
 using OctomapBytes = RawMessage<OctomapKind>;
 using CloudBytes = RawMessage<CloudKind>;
+using TransformsBytes = RawMessage<TransformsKind>;
+using RequestBytes = RawMessage<RequestKind>;
 
 /// Pieces of such bytes.
 template <class Number>

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <ros/message_traits.h>
+#include <ros/serialization.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <cstdint>
+#include <string>
+
+namespace hgrid {
+
+/// The bytes of a tf2_msgs/TFMessage, not deserialized. roscpp takes this type in place of that one.
+struct TransformBytes {
+  std::size_t most_bytes = 0;  ///< longer messages are not stored
+  std::size_t size = 0;        ///< bytes that the message has
+  std::string bytes;           ///< empty if there are more than most_bytes
+
+  void read(const std::uint8_t* data, std::size_t count) {
+    size = count;
+    if (count <= most_bytes) bytes.assign(reinterpret_cast<const char*>(data), count);
+  }
+};
+
+}  // namespace hgrid
+
+namespace ros {
+namespace message_traits {
+
+template <>
+struct MD5Sum<hgrid::TransformBytes> : MD5Sum<tf2_msgs::TFMessage> {
+  using MD5Sum<tf2_msgs::TFMessage>::value;
+  static const char* value(const hgrid::TransformBytes&) { return value(); }
+};
+template <>
+struct DataType<hgrid::TransformBytes> : DataType<tf2_msgs::TFMessage> {
+  using DataType<tf2_msgs::TFMessage>::value;
+  static const char* value(const hgrid::TransformBytes&) { return value(); }
+};
+
+}  // namespace message_traits
+
+namespace serialization {
+
+template <>
+struct Serializer<hgrid::TransformBytes> {
+  template <typename Stream>
+  static void read(Stream& stream, hgrid::TransformBytes& message) {
+    message.read(stream.getData(), stream.getLength());
+    stream.advance(stream.getLength());
+  }
+};
+
+}  // namespace serialization
+}  // namespace ros

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// A running node that receives messages and requests whose declared lengths their bytes do not hold, or more
+// transforms than it can store.
+#include <hgrid_proximity/ClearMap.h>
+#include <hgrid_proximity/LoadOctomap.h>
+#include <hgrid_proximity/QueryBox.h>
+#include <hgrid_proximity/QueryNearest.h>
+
+#include <limits>
+#include <optional>
+
+#include "test/node/support/claims.h"
+#include "test/node/support/descriptions.h"
+#include "test/node/support/random_message.h"
+#include "test/node/support/raw_message.h"
+#include "test/node/support/transform_source.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+constexpr std::size_t kMostGrowth = 8000;  // kB that the node's memory may grow by while it refuses
+
+/// Transforms or messages of tf that the node has decided on.
+std::uint64_t decided(const msg::Status& status) {
+  std::uint64_t count = 0;
+  for (const msg::Counter& counter : status.counters) {
+    for (const char* verdict : {"tf.accepted", "tf.refused.", "tf.dropped.", "tf.ignored.", "tf.too_old"}) {
+      if (counter.name.rfind(verdict, 0) == 0) count += counter.value;
+    }
+  }
+  return count;
+}
+
+/// A robot's sphere of 0.1 m at the origin of "base", which is never lost, and publishers of any bytes.
+class Lengths : public ::testing::Test {
+ protected:
+  void start(std::optional<int> queue_bytes = std::nullopt) {
+    NodeSetup setup;
+    setup.params = dict({{"late_after", 3600.0}, {"stale_after", 3600.0}, {"lost_after", 3600.0}});
+    if (queue_bytes) setup.params["tf_queue_bytes"] = *queue_bytes;
+    setup.beside["robot_description"] = balls({"a"});
+    node_ = std::make_unique<NodeUnderTest>(setup);
+    moving_ = ros_.advertise<TransformsBytes>("/tf", 0);  // 0: the publisher drops nothing
+    static_ = ros_.advertise<TransformsBytes>("/tf_static", 0);
+    node_->waitUntil("listeners", [&](const Heard&) {
+      return moving_.getNumSubscribers() == 1 && static_.getNumSubscribers() == 1;
+    });
+    moving_.publish(bytesWith({stamped("base", "a", at(0), ros::Time::now())}));
+    node_->waitForComplete();
+    memory_ = peakKilobytes(node_->process().pid());
+  }
+  static TransformsBytes bytesWith(const std::vector<geometry_msgs::TransformStamped>& transforms) {
+    tf2_msgs::TFMessage message;
+    message.transforms = transforms;
+    return {serialized(message)};
+  }
+  /// 20 bytes that declare so many transforms.
+  static TransformsBytes lie(std::uint32_t count) { return {bytesOf(count) + std::string(16, '\0')}; }
+  void waitForRefusals(const std::string& code, std::uint64_t count) {
+    node_->waitForStatus(std::to_string(count) + " refusals with " + code,
+                         [&](const msg::Status& status) { return counter(status, "tf.refused." + code) == count; });
+  }
+  void expectUnharmed() {
+    EXPECT_LT(peakKilobytes(node_->process().pid()), memory_ + kMostGrowth) << "kB";
+    EXPECT_NEAR(xOf(*node_, "robot/a"), 0.0, 1e-6);
+    EXPECT_TRUE(node_->heard().status.back()->world.complete);
+  }
+  /// A request with these bytes is refused, and its connection serves the next one.
+  template <class Service>
+  void expectRefused(ros::ServiceClient& client, const std::string& bytes) {
+    typename Service::Response response;
+    ASSERT_TRUE(client.call(RequestBytes{bytes}, response, ros::service_traits::md5sum<Service>()));
+    EXPECT_EQ(codeOf(response), "TRUNCATED");
+    EXPECT_TRUE(client.isValid());
+  }
+  /// Requests with lengths that do not fit are refused by a service, and an honest one is answered.
+  template <class Service>
+  void expectChecked(const std::string& name) {
+    SCOPED_TRACE(name);
+    const std::string md5 = ros::service_traits::md5sum<Service>();
+    ros::ServiceClientOptions options(node_->named(name), md5, true, ros::M_string());
+    ros::ServiceClient client = ros_.serviceClient(options);
+    const typename Service::Request request;
+    const std::string honest = serialized(request);
+    for (const std::size_t at : LengthPositions::of(request)) {
+      for (const std::uint32_t length : {1u << 25, 0xffffffffu}) {
+        std::string lying = honest;
+        expectRefused<Service>(client, lying.replace(at, 4, bytesOf(length)));
+      }
+    }
+    expectRefused<Service>(client, honest + "x");
+    if (!honest.empty()) expectRefused<Service>(client, honest.substr(0, honest.size() - 1));
+    typename Service::Response response;
+    ASSERT_TRUE(client.call(RequestBytes{honest}, response, md5));
+    EXPECT_NE(codeOf(response), "TRUNCATED");
+  }
+  template <class Response>
+  static auto codeOf(const Response& response) -> decltype(response.answer.code.name) {
+    EXPECT_EQ(response.answer.verdict == msg::Answer::UNKNOWN, !response.answer.success) << "never CLEAR";
+    return response.answer.code.name;
+  }
+  template <class Response>
+  static auto codeOf(const Response& response) -> decltype(response.code.name) {
+    return response.code.name;
+  }
+  static std::string codeOf(const std_srvs::Trigger::Response& response) {
+    return response.success ? "OK" : response.message.substr(0, response.message.find(':'));
+  }
+
+  ros::NodeHandle ros_;
+  std::unique_ptr<NodeUnderTest> node_;
+  ros::Publisher moving_, static_;
+  std::size_t memory_ = 0;  // [kB]
+};
+
+TEST_F(Lengths, OfTransformsThatAMessageDoesNotHoldCostNoMemory) {
+  start();
+  std::uint64_t sent = 0;
+  for (const ros::Publisher* publisher : {&moving_, &static_}) {
+    for (const std::uint32_t count : {1u, 8388608u, 0x08000000u, 0xffffffffu}) {
+      for (int i = 0; i < 5; ++i, ++sent) publisher->publish(lie(count));
+    }
+  }
+  waitForRefusals("TRUNCATED", sent);
+  expectUnharmed();
+  EXPECT_TRUE(throttled(*node_, "tf.refused.TRUNCATED"));
+  EXPECT_GE(node_->lines("tf.refused.TRUNCATED: the message on /tf from '"), 1u);
+}
+
+TEST_F(Lengths, OfRequestsThatTheirBytesDoNotHoldAreRefused) {
+  start();
+  expectChecked<msg::QuerySphere>("query_sphere");
+  expectChecked<msg::QuerySegment>("query_segment");
+  expectChecked<msg::QueryBox>("query_box");
+  expectChecked<msg::QueryNearest>("query_nearest");
+  expectChecked<msg::ExplainPair>("explain_pair");
+  expectChecked<msg::SetAllowed>("set_allowed");
+  expectChecked<msg::GetAllowed>("get_allowed");
+  expectChecked<msg::LoadOctomap>("load_octomap");
+  expectChecked<msg::ClearMap>("clear_map");
+  expectChecked<msg::ReloadRobot>("reload_robot");
+  expectChecked<std_srvs::Trigger>("reset");
+  node_->waitForComplete();
+  expectUnharmed();
+}
+
+TEST_F(Lengths, OfMessagesThatExceedTheQueueAreRefusedByName) {
+  start(1000);
+  const geometry_msgs::TransformStamped transform = stamped("base", "b", at(1), ros::Time::now());
+  moving_.publish(bytesWith(std::vector<geometry_msgs::TransformStamped>(20, transform)));
+  waitForRefusals("LIMIT", 1);
+  EXPECT_GE(node_->lines(" bytes; at most 1000 are accepted (~tf_queue_bytes)"), 1u);
+  moving_.publish(bytesWith({transform}));
+  node_->waitForStatus("the one", [](const msg::Status& status) { return counter(status, "tf.accepted") == 2; });
+}
+
+TEST_F(Lengths, ManyMessagesAreEachAcceptedRefusedOrDropped) {
+  for (const std::optional<int> queue_bytes : {std::optional<int>(), std::optional<int>(1000)}) {
+    SCOPED_TRACE(queue_bytes ? "1000 bytes" : "the default");
+    start(queue_bytes);
+    const std::uint64_t before = decided(*node_->heard().status.back());
+    constexpr int kMessages = 20000;
+    const ros::Time begin = ros::Time::now() - ros::Duration(5.0);
+    for (int i = 0; i < kMessages; ++i) {
+      const bool good = i % 3 != 0;
+      const double x = good ? 1.0 : std::numeric_limits<double>::quiet_NaN();
+      moving_.publish(i % 10 == 0 ? lie(7) : bytesWith({stamped("base", "b", at(x), begin + ros::Duration(1e-4 * i))}));
+    }
+    const auto status = node_->waitForStatus(
+        "all were decided on", [&](const msg::Status& now) { return decided(now) - before == kMessages; });
+    EXPECT_GT(counter(*status, "tf.accepted"), 1u);
+    node_->waitForTicks(2);
+    EXPECT_EQ(decided(*node_->heard().status.back()) - before, kMessages);
+    expectUnharmed();
+    node_.reset();
+  }
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <ros/builtin_message_traits.h>
+#include <ros/serialization.h>
+
+#include <boost/array.hpp>
+#include <cstdint>
+#include <cstring>
+#include <random>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace hgrid {
+namespace test {
+
+/// Fills a message of any generated type: numbers of random bits, strings and lists of 0 to 3 elements.
+class RandomMessage {
+ public:
+  explicit RandomMessage(unsigned seed) : random_(seed) {}
+
+  template <class Message>
+  Message make() {
+    Message message;
+    next(message);
+    return message;
+  }
+  template <class Field>
+  void next(Field& field) {
+    if constexpr (std::is_arithmetic_v<Field>) {
+      const std::uint64_t bits = random_();
+      std::memcpy(&field, &bits, sizeof(field));
+    } else {
+      ros::serialization::Serializer<Field>::template allInOne<RandomMessage, Field&>(*this, field);
+    }
+  }
+  void next(ros::Time& time) { time = ros::Time(length(), length()); }
+  void next(ros::Duration& duration) { duration = ros::Duration(length(), length()); }
+  void next(std::string& text) { text.assign(length() * 7, static_cast<char>(random_())); }
+  template <class Element>
+  void next(std::vector<Element>& list) {
+    list.resize(length());
+    for (Element& element : list) next(element);
+  }
+  template <class Element, std::size_t Size>
+  void next(boost::array<Element, Size>& list) {
+    for (Element& element : list) next(element);
+  }
+
+ private:
+  std::uint32_t length() { return static_cast<std::uint32_t>(random_() % 4); }
+
+  std::mt19937_64 random_;
+};
+
+/// Finds where in the bytes of a message the lengths of its strings and lists stand.
+class LengthPositions {
+ public:
+  template <class Message>
+  static std::vector<std::size_t> of(Message message) {
+    LengthPositions positions;
+    positions.next(message);
+    return positions.found_;
+  }
+  template <class Field>
+  void next(Field& field) {
+    if constexpr (ros::message_traits::IsFixedSize<Field>::value) {
+      at_ += ros::serialization::serializationLength(field);
+    } else {
+      ros::serialization::Serializer<Field>::template allInOne<LengthPositions, Field&>(*this, field);
+    }
+  }
+  void next(std::string& text) {
+    found_.push_back(at_);
+    at_ += 4 + text.size();
+  }
+  template <class Element>
+  void next(std::vector<Element>& list) {
+    found_.push_back(at_);
+    at_ += 4;
+    for (Element& element : list) next(element);
+  }
+
+ private:
+  std::size_t at_ = 0;
+  std::vector<std::size_t> found_;
+};
+
+template <class Message>
+std::string serialized(const Message& message) {
+  std::string bytes(ros::serialization::serializationLength(message), '\0');
+  ros::serialization::OStream stream(reinterpret_cast<std::uint8_t*>(&bytes[0]),
+                                     static_cast<std::uint32_t>(bytes.size()));
+  ros::serialization::serialize(stream, message);
+  return bytes;
+}
+
+}  // namespace test
+}  // namespace hgrid
