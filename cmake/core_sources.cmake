@@ -25,6 +25,7 @@ set(HGRID_CORE_SOURCES
   src/scene/commit.cpp
   src/scene/completeness.cpp
   src/scene/explain.cpp
+  src/scene/group_tree.cpp
   src/scene/horizon.cpp
   src/scene/link_matrix.cpp
   src/scene/map_gap.cpp
@@ -45,6 +46,7 @@ set(HGRID_CORE_SOURCES
   src/scene/rule_book.cpp
   src/scene/scene.cpp
   src/scene/self_filter.cpp
+  src/scene/self_pairs.cpp
   src/scene/snapshot.cpp
   src/scene/snapshot_doubt.cpp
   src/scene/snapshot_maps.cpp
