@@ -150,7 +150,7 @@ void visit(Visitor& v, Params& p) {
             "that a tick's broad phase may use; worth more than 1 from some tens of thousands of shapes on");
   v.integer("max_bodies", p.max_bodies, 1, 1000000, "bodies");
   v.integer("max_frames", p.max_frames, 1, 1000000, "tf frames that are kept");
-  v.integer("max_pairs", p.max_pairs, 1, 10000000, "pairs that a tick lists; it bounds the work and the memory of a tick; more: truncated, and not complete");
+  v.integer("max_pairs", p.max_pairs, 1, 10000000, "pairs that a tick lists; more: truncated, and not complete");
   v.integer("max_events", p.max_events, 1, 1000000, "events in one message of ~events; more: several messages");
   v.integer("event_queue", p.event_queue, 1, 100000,
             "messages of ~events that wait for a slow subscriber; more: the oldest are lost");
