@@ -162,8 +162,7 @@ void visit(Visitor& v, Params& p) {
       "bytes of messages of /tf that wait for the tick thread, and as many of /tf_static; each message counts 256 "
       "bytes and its publisher's name more; when there are more, the oldest are dropped (tf.dropped.LIMIT in "
       "~status); a longer message is refused");
-  v.integer("max_pairs", p.max_pairs, 1, 10000000,
-            "pairs that a tick lists; it bounds the work and the memory of a tick; more: truncated, and not complete");
+  v.integer("max_pairs", p.max_pairs, 1, 10000000, "pairs that a tick lists; more: truncated, and not complete");
   v.integer("max_events", p.max_events, 1, 1000000, "events in one message of ~events; more: several messages");
   v.integer("event_queue", p.event_queue, 1, 100000,
             "messages of ~events that wait for a slow subscriber; more: the oldest are lost");

@@ -14,6 +14,7 @@ AVX2 = "broadphase/kernels/simd_avx2.h"
 LAYER = "broadphase/layer.cpp"
 ENGINE = "broadphase/engine.cpp"
 PAIRS = "broadphase/pair_search.cpp"
+COLLECTION = "broadphase/pair_collection.cpp"
 HGRID = "broadphase/hgrid.cpp"
 QUERIES = "broadphase/queries.cpp"
 SCENE = "scene/scene.cpp"
@@ -83,6 +84,19 @@ MUTANTS = [
      "wanted_end_ = sieve_.sift(pairs_, begin, end);", "wanted_end_ = end;"),
     ("what threads find goes where another thread found it", PAIRS,
      "task.thread = thread;", "task.thread = 0;"),
+    ("the search exceeds the bound of its pairs unnoticed", PAIRS,
+     "if (all_pairs > bound_.pairs || all_overlaps", "if (all_overlaps"),
+    ("the search exceeds the bound of its overlaps unnoticed", PAIRS,
+     "|| all_overlaps > bound_.overlaps) exceeded_.store", ") exceeded_.store"),
+    ("a search forgets the overlaps of boxes that rest", PAIRS,
+     "kept_valid ? kept_overlaps : 0", "0"),
+    ("beyond the bound any pairs are taken", COLLECTION,
+     "std::nth_element(from + static_cast<std::ptrdiff_t>(begin), from + static_cast<std::ptrdiff_t>(most), "
+     "pairs_.end());", ""),
+    ("beyond the bound fixed boxes with smaller ids are left out", COLLECTION,
+     "count += other > id || isFixed(other) ? 1 : 0;", "count += other > id ? 1 : 0;"),
+    ("beyond the bound overlaps are not counted", COLLECTION,
+     "overlaps_ += pairs_.size() - begin;", ""),
     ("what is fixed stays what it was", HGRID,
      "engine_->withdrawn = std::max<std::size_t>(1, engine_->withdrawn);", ""),
     ("small moves are skipped in bulk", HGRID,
@@ -128,6 +142,16 @@ MUTANTS = [
      "else if (!epoch_began_) {", "else if (false) {"),
     ("who takes the name of a body that is gone takes its pairs too", EVENTS,
      "order == 0 && was.ids[i] == now.ids[j]", "order == 0"),
+    ("a pair that truncation removed ends", EVENTS,
+     "if (now.is_cut && now.is_cut(", "if (false && now.is_cut("),
+    ("any number of pairs may be on", EVENTS,
+     "if (next_.size() + not_judged < most_) begin", "begin"),
+    ("a pair that truncation removed is interrupted", "scene/pair_tracker.cpp",
+     "if (is_cut && room > 0 &&", "if (false &&"),
+    ("truncation keeps the first pairs by name", "scene/pair_choice.cpp",
+     "return sorted_[a].gap != sorted_[b].gap ? sorted_[a].gap < sorted_[b].gap : a < b;", "return a < b;"),
+    ("pairs with maps that are left out are not said", COMMIT,
+     "snapshot.search_cut_ || !all_with_maps", "snapshot.search_cut_"),
     ("allowed patterns hold in one order only", "scene/pair_filter.cpp",
      "(as_first_[i] & as_second_[j]) | (as_second_[i] & as_first_[j])", "as_first_[i] & as_second_[j]"),
     ("a new numbering leaves the pairs unsorted", "scene/pair_tracker.cpp",

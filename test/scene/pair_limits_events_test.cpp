@@ -107,7 +107,6 @@ TEST_F(PairLimitsEvents, APairOfTheHorizonThatIsCutDoesNotEnd) {
   place(d, 11);
   next();
   place(b, 5.0);
-  next();
   EXPECT_EQ(next(), Events({"5 END MOVED obstacle/a obstacle/b"}));
 }
 
@@ -143,21 +142,23 @@ TEST(PairLimitsEventsModel, EventsAreConsistentWhateverIsTruncated) {
     options.max_pairs = std::size_t(random.between(1, 8));
     Scene scene(options);
     std::vector<BodyId> bodies;
-    for (int i = 0; i < 14; ++i) bodies.push_back(test::put(scene, test::ball(std::to_string(10 + i), 0.2), at(0)));
+    for (int i = 0; i < 14; ++i) bodies.push_back(test::put(scene, test::ball(std::to_string(10 + i), 0.1), at(0)));
     std::map<std::pair<std::uint32_t, std::uint32_t>, Time> on;
     for (int tick = 1; tick <= 60; ++tick) {
-      const double far = (tick / 15) % 2 == 0 ? 0.6 : 3.0;
+      // In a crowd most pairs stay near, and which of them are nearest changes.
+      const double far = (tick / 15) % 2 == 0 ? 0.3 : 3.0;
       for (const BodyId id : bodies) {
         if (random.chance(0.5)) scene.place(id, at(random.uniform(-far, far), random.uniform(-far, far)), Time{tick});
       }
       const auto snapshot = scene.commit(Time{tick}, {});
+      std::size_t ended = 0;
       for (const PairEvent& event : snapshot->events()) {
         const auto key = std::make_pair(event.first, event.second);
         if (event.kind == EventKind::begin) {
           EXPECT_TRUE(on.emplace(key, event.since).second) << "begins twice";
           continue;
         }
-        ++ends;
+        ++ended;
         ASSERT_EQ(on.count(key), 1u) << "ends without a beginning";
         EXPECT_EQ(on[key], event.since);
         EXPECT_GT(event.gap, options.margin + options.event_hysteresis);
@@ -167,18 +168,19 @@ TEST(PairLimitsEventsModel, EventsAreConsistentWhateverIsTruncated) {
       ASSERT_LE(on.size(), most);
       for (const NearPair& pair : snapshot->pairs()) {
         const auto found = on.find({pair.first, pair.second});
-        EXPECT_TRUE(found != on.end() || on.size() == most);
+        EXPECT_TRUE(found != on.end() || on.size() + ended >= most);
       }
       for (const auto& pair : on) {
         EXPECT_LE(distance(snapshot->boxes()[pair.first.first], snapshot->boxes()[pair.first.second]),
                   options.margin + options.event_hysteresis + 1e-6);
       }
+      ends += ended;
       cut += snapshot->truncated();
       full += on.size() == most;
     }
   }
   EXPECT_GT(cut, 300u);
-  EXPECT_GT(full, 50u);
+  EXPECT_GT(full, 20u);
   EXPECT_GT(ends, 1000u);
 }
 

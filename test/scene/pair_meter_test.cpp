@@ -32,6 +32,12 @@ class BallPhase final : public NarrowPhase {
   std::shared_ptr<const Solid> block(const Eigen::Vector3d&) const override { return nullptr; }
   Proximity measure(const PlacedSolid& first, const PlacedSolid& second, double up_to) const override {
     if (++asked == throws_at) throw std::bad_alloc();
+    if (throws_beside == std::this_thread::get_id()) {
+      while (!thrown) std::this_thread::yield();
+    } else if (throws_beside != std::thread::id()) {
+      thrown = true;
+      throw std::bad_alloc();
+    }
     std::this_thread::sleep_for(takes);
     const double around = static_cast<const Ball&>(first.solid).radius + first.padding +
                           static_cast<const Ball&>(second.solid).radius + second.padding;
@@ -56,7 +62,9 @@ class BallPhase final : public NarrowPhase {
   }
 
   mutable std::atomic<int> asked{0};
-  int throws_at = 0;  // number of the question that runs out of memory; 0: none
+  int throws_at = 0;              // number of the question that runs out of memory; 0: none
+  std::thread::id throws_beside;  // all other threads run out of memory, and this one waits until one has
+  mutable std::atomic<bool> thrown{false};
   std::chrono::microseconds takes{0};
   bool fails = false;
 };
@@ -297,6 +305,19 @@ TEST_F(PairMeterTest, AnExceptionReachesTheCallerAndTheMeterWorksAgain) {
         EXPECT_EQ(found->pairs[i].proximity.distance, expected->pairs[i].proximity.distance);
       }
     }
+  }
+}
+
+TEST_F(PairMeterTest, AnExceptionOfAnotherThreadReachesTheCaller) {
+  for (int i = 0; i < 40; ++i) add(std::to_string(10 + i), 1.05 * i);
+  for (const int threads : {2, 4}) {
+    SCOPED_TRACE("threads " + std::to_string(threads));
+    PairMeter meter = meterOf(0.2, 0.0, threads);
+    phase_->thrown = false;
+    phase_->throws_beside = std::this_thread::get_id();
+    EXPECT_THROW(measure(meter, 1), std::bad_alloc);
+    phase_->throws_beside = std::thread::id();
+    EXPECT_EQ(measure(meter, 2)->pairs.size(), 39u);
   }
 }
 
