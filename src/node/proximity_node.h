@@ -34,9 +34,13 @@
 
 namespace hgrid {
 
-/// The node: three queues that do not wait for each other. On the first, one thread reads tf and ticks; on the
-/// second, ~query_threads threads answer queries from the newest tick; on the third, one thread reads robots, serves
-/// ~reset, ~reload_robot, ~set_allowed and ~get_allowed and publishes diagnostics and markers.
+/// The node: three callback queues that do not wait for each other.
+///
+/// - On the first, one thread reads transforms and ticks.
+/// - On the second, ~query_threads threads answer queries from the newest tick.
+/// - On the third, one thread loads robots and maps, serves the requests that change the world, and publishes
+/// diagnostics
+///   and markers.
 class ProximityNode {
  public:
   /// @throws std::invalid_argument listing every wrong parameter

@@ -61,7 +61,7 @@ Checked<Message> received(std::string bytes) {
   ros::serialization::IStream stream(reinterpret_cast<std::uint8_t*>(&bytes[0]),
                                      static_cast<std::uint32_t>(bytes.size()));
   const std::size_t before = allocated;
-  ros::serialization::deserialize(stream, message);
+  EXPECT_NO_THROW(ros::serialization::deserialize(stream, message));
   EXPECT_LE(allocated - before, 64 * bytes.size() + kSentence) << "for " << bytes.size() << " bytes";
   EXPECT_EQ(stream.getLength(), 0u) << "roscpp's stream is at its end";
   return message;

@@ -43,14 +43,6 @@ sensor_msgs::PointCloud2 cloudOf(const std::string& frame, ros::Time stamp, cons
   return cloud;
 }
 
-std::string serialized(const sensor_msgs::PointCloud2& cloud) {
-  std::string bytes(ros::serialization::serializationLength(cloud), '\0');
-  ros::serialization::OStream stream(reinterpret_cast<std::uint8_t*>(&bytes[0]),
-                                     static_cast<std::uint32_t>(bytes.size()));
-  ros::serialization::serialize(stream, cloud);
-  return bytes;
-}
-
 /// A robot's ball of 0.1 m at the origin of "base", and a cloud of cells of 0.1 m that is sent again and again.
 class Clouds : public ::testing::Test {
  protected:

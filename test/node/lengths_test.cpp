@@ -157,6 +157,19 @@ TEST_F(Lengths, OfMessagesThatExceedTheQueueAreRefusedByName) {
   node_->waitForStatus("the one", [](const msg::Status& status) { return counter(status, "tf.accepted") == 2; });
 }
 
+TEST_F(Lengths, OfLongMessagesDoNotStopTheTicks) {
+  start();
+  constexpr std::uint32_t kTransforms = 200000;  // without names: each is refused
+  moving_.publish(TransformsBytes{bytesOf(kTransforms) + std::string(kTransforms * std::size_t{76}, '\0')});
+  waitForRefusals("BAD_ID", kTransforms);
+  bool ticked = false;
+  for (const auto& status : node_->heard().status) {
+    const std::uint64_t refused = counter(*status, "tf.refused.BAD_ID");
+    ticked = ticked || (refused > 0 && refused < kTransforms);
+  }
+  EXPECT_TRUE(ticked) << "no tick was made while the message was read";
+}
+
 TEST_F(Lengths, ManyMessagesAreEachAcceptedRefusedOrDropped) {
   for (const std::optional<int> queue_bytes : {std::optional<int>(), std::optional<int>(1000)}) {
     SCOPED_TRACE(queue_bytes ? "1000 bytes" : "the default");

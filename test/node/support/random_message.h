@@ -88,14 +88,5 @@ class LengthPositions {
   std::vector<std::size_t> found_;
 };
 
-template <class Message>
-std::string serialized(const Message& message) {
-  std::string bytes(ros::serialization::serializationLength(message), '\0');
-  ros::serialization::OStream stream(reinterpret_cast<std::uint8_t*>(&bytes[0]),
-                                     static_cast<std::uint32_t>(bytes.size()));
-  ros::serialization::serialize(stream, message);
-  return bytes;
-}
-
 }  // namespace test
 }  // namespace hgrid

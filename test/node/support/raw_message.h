@@ -51,6 +51,16 @@ std::string bytesOf(Number number) {
 }
 inline std::string stringOf(const std::string& text) { return bytesOf(static_cast<std::uint32_t>(text.size())) + text; }
 
+/// The bytes of a message of a generated type.
+template <class Message>
+std::string serialized(const Message& message) {
+  std::string bytes(ros::serialization::serializationLength(message), '\0');
+  ros::serialization::OStream stream(reinterpret_cast<std::uint8_t*>(&bytes[0]),
+                                     static_cast<std::uint32_t>(bytes.size()));
+  ros::serialization::serialize(stream, message);
+  return bytes;
+}
+
 /// A cloud of one point [m], in float, as most drivers send it.
 inline CloudBytes cloudOfOne(const std::string& frame, ros::Time stamp, float x, float y, float z) {
   std::string fields = bytesOf(std::uint32_t{3});
