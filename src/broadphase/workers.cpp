@@ -7,9 +7,11 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <exception>
 #include <mutex>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace hgrid {
@@ -65,14 +67,25 @@ struct Workers::State {
   void (*call)(void*, std::size_t, std::size_t) = nullptr;
   void* job = nullptr;
   std::atomic<std::uint64_t> round{0};
+  std::exception_ptr failure;  // of a job of this round
   bool stop = false;
   std::unique_ptr<Share[]> shares;
   std::vector<std::thread> threads;
 
+  /// Does one job. An exception must not leave the thread: it would end the process.
+  void perform(std::size_t number, std::size_t self) noexcept {
+    try {
+      call(job, number, self);
+    } catch (...) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      if (!failure) failure = std::current_exception();
+    }
+  }
+
   void work(std::size_t self) {
     const std::size_t count = threads.size() + 1;
     for (std::size_t i = 0; i < count; ++i) {
-      shares[(self + i) % count].workOff(i == 0, [&](std::size_t number) { call(job, number, self); });
+      shares[(self + i) % count].workOff(i == 0, [&](std::size_t number) { perform(number, self); });
     }
   }
 
@@ -150,9 +163,11 @@ void Workers::runAll(std::size_t count, void (*call)(void*, std::size_t, std::si
   s.work(0);
   s.round.fetch_and(~State::kOpen, std::memory_order_relaxed);
   const auto all_left = [&s] { return (s.round.load(std::memory_order_acquire) & State::kInside) == 0; };
-  if (waitBriefly(all_left)) return;
-  std::unique_lock<std::mutex> lock(s.mutex);
-  s.done.wait(lock, all_left);
+  if (!waitBriefly(all_left)) {
+    std::unique_lock<std::mutex> lock(s.mutex);
+    s.done.wait(lock, all_left);
+  }
+  if (s.failure) std::rethrow_exception(std::exchange(s.failure, nullptr));
 }
 
 }  // namespace hgrid

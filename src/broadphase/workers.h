@@ -19,7 +19,8 @@ class Workers {
 
   /// Calls job(0, thread) .. job(count - 1, thread), each once and in any order; returns when all are done. The thread
   /// is a number below threads(); each of them begins with a share of its own, the same every time, of jobs that follow
-  /// each other. A job must not throw. Allocates nothing.
+  /// each other. If jobs throw, one of their exceptions is thrown again when all are done; with one thread or one job,
+  /// the first exception ends the run at once. Allocates nothing unless a job throws.
   template <class Job>
   void run(std::size_t count, Job&& job) {
     runAll(
