@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "proximity_node.h"
 
+#include <ros/init.h>
 #include <ros/names.h>
 
 #include <future>
@@ -65,7 +66,7 @@ ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node,
       params_(readParams(valuesOf(private_node))),
       config_hash_(fnv1a(valuesOf(private_node).toXml())),
       narrow_phase_(std::move(narrow_phase)),
-      robot_source_(private_node, params_, narrow_phase_),
+      robot_source_(private_node, params_, narrow_phase_, [this] { return isEnding(); }),
       world_(params_, ros::Time::isSimTime(), newEpoch(), ledger_, narrow_phase_),
       own_shapes_(params_, world_.transforms().buffer(), [this] { return newest(); }),
       map_source_(params_, own_shapes_, narrow_phase_, ledger_),
@@ -237,6 +238,9 @@ void ProximityNode::logChange(const Tick& tick) {
   last_reason_ = gist;
 }
 
+/// Whether the node or its process is about to end, so that nothing may take long any more.
+bool ProximityNode::isEnding() const { return stopping_ || ros::isShuttingDown(); }
+
 void ProximityNode::runInTick(const Job& job) {
   const auto done = std::make_shared<std::promise<void>>();
   std::future<void> result = done->get_future();
@@ -253,7 +257,8 @@ void ProximityNode::runInTick(const Job& job) {
   }
   const auto deadline = std::chrono::steady_clock::now() + kJobPatience;
   while (result.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
-    if (stopping_ || std::chrono::steady_clock::now() > deadline) {
+    if (isEnding()) throw Refusal(Code::busy, "the node is about to end; it changes nothing any more");
+    if (std::chrono::steady_clock::now() > deadline) {
       throw Refusal(Code::busy, "no tick took this up within " + std::to_string(kJobPatience.count()) + " s");
     }
   }

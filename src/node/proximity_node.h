@@ -63,6 +63,7 @@ class ProximityNode {
   void addCloud(const CloudParams& cloud);
   void loadMissing();
   void runInTick(const Job& job);
+  bool isEnding() const;
   void waitForTick();
   std::shared_ptr<const Tick> tickAfter(const Job& job);
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
