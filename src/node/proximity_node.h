@@ -28,6 +28,7 @@
 #include "query_services.h"
 #include "robot_source.h"
 #include "stopwatch.h"
+#include "tick_jobs.h"
 #include "world.h"
 
 namespace hgrid {
@@ -44,11 +45,12 @@ class ProximityNode {
   ~ProximityNode();
 
  private:
-  using Job = std::function<void(World&)>;
+  using Job = TickJobs::Job;
 
   std::shared_ptr<const Tick> newest() const { return std::atomic_load(&newest_); }
   void onTransforms(const ros::MessageEvent<tf2_msgs::TFMessage const>& event, bool is_static);
   void onTick(const ros::SteadyTimerEvent& event);
+  void makeTick(const ros::SteadyTimerEvent& event);
   void noteConflicts();
   void publish(const std::shared_ptr<const Tick>& tick);
   void measure(const std::shared_ptr<const Tick>& tick);
@@ -63,6 +65,7 @@ class ProximityNode {
   void addCloud(const CloudParams& cloud);
   void loadMissing();
   void runInTick(const Job& job);
+  void noteMissing(const std::string& name, const std::string& sentence);
   bool isEnding() const;
   void waitForTick();
   std::shared_ptr<const Tick> tickAfter(const Job& job);
@@ -86,9 +89,9 @@ class ProximityNode {
   std::shared_ptr<const MeasuredTick> measured_;  // null while nobody asks for distances
   std::atomic<bool> stopping_{false};
 
-  mutable std::mutex mutex_;  // of what follows
-  std::vector<Job> jobs_;
-  NodeHealth health_;
+  TickJobs jobs_;
+  mutable std::mutex mutex_;
+  NodeHealth health_;  // guarded by mutex_
 
   // Of the update thread.
   PairsMessages pairs_messages_{params_};
