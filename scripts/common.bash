@@ -94,7 +94,7 @@ install_missing() {
 build() {
   local out=$root/build/release
   local -a options=(
-    -DCMAKE_BUILD_TYPE=Release "-DCATKIN_DEVEL_PREFIX=$root/build/devel"
+    -DCMAKE_BUILD_TYPE=Release "-DCATKIN_DEVEL_PREFIX=$root/devel"
     -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 "$@"
   )
   if [[ ! -f $out/Makefile || $(cat "$out/.options" 2>/dev/null) != "${options[*]}" ]]; then
@@ -110,7 +110,7 @@ build() {
 enter_build() {
   set +u  # the generated file reads variables that may not be set
   # shellcheck disable=SC1091
-  source "$root/build/devel/setup.bash"
+  source "$root/devel/setup.bash"
   set -u
   [[ :$ROS_PACKAGE_PATH: == *:$root:* ]] || export ROS_PACKAGE_PATH=$root:$ROS_PACKAGE_PATH
   export PATH="/usr/bin:$PATH"

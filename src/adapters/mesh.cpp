@@ -24,6 +24,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr std::int64_t kLookAgain = 50;  // [ms] between two looks whether the reading was cancelled
+
 std::string extensionOf(const std::string& path) {
   const std::size_t dot = path.find_last_of("./");
   std::string extension = dot == std::string::npos || path[dot] == '/' ? "" : path.substr(dot + 1);
@@ -36,7 +38,7 @@ std::string extensionOf(const std::string& path) {
 class Reader {
  public:
   Reader(const MeshPolicy& policy, const std::string& extension, int file, const std::string& what)
-      : what_(what), timeout_(policy.timeout), deadline_(Clock::now() + policy.timeout) {
+      : what_(what), policy_(policy), deadline_(Clock::now() + policy.timeout) {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0)
       throw Refusal(Code::limit, what_ + ": no pipe to the mesh reader: " + std::strerror(errno));
@@ -71,18 +73,21 @@ class Reader {
     }
   }
 
-  /// Fills the buffer. @throws Refusal budget after the deadline, truncated if the helper ends first
+  /// Fills the buffer. @throws Refusal budget after the deadline, busy if the reading was cancelled, truncated if the
+  /// helper ends first
   void read(void* buffer, std::size_t bytes) {
     auto* at = static_cast<char*>(buffer);
     while (bytes > 0) {
-      const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline_ - Clock::now()).count();
-      pollfd poll_output{output_, POLLIN, 0};
-      const int ready = left > 0 ? poll(&poll_output, 1, static_cast<int>(left)) : 0;
-      if (ready < 0 && errno == EINTR) continue;
-      if (ready == 0) {
+      if (policy_.cancelled && policy_.cancelled()) throw Refusal(Code::busy, what_ + ": reading it was cancelled");
+      const std::int64_t left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline_ - Clock::now()).count();
+      if (left <= 0) {
         throw Refusal(Code::budget, what_ + ": reading it took longer than " +
-                                        text(std::chrono::duration<double>(timeout_).count()) + " s; it was given up");
+                                        text(std::chrono::duration<double>(policy_.timeout).count()) +
+                                        " s; it was given up");
       }
+      pollfd poll_output{output_, POLLIN, 0};
+      const int ready = poll(&poll_output, 1, static_cast<int>(std::min(left, kLookAgain)));
+      if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
       const ssize_t got = ::read(output_, at, bytes);
       if (got < 0 && errno == EINTR) continue;
       if (got <= 0) {
@@ -97,7 +102,7 @@ class Reader {
 
  private:
   std::string what_;
-  std::chrono::milliseconds timeout_;
+  const MeshPolicy& policy_;
   Clock::time_point deadline_;
   pid_t process_ = -1;
   int output_ = -1;

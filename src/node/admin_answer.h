@@ -38,9 +38,9 @@ struct AdminAnswer {
     } catch (const Refusal& refusal) {
       response.code = toMsg(refusal.code(), refusal.what());
       ledger.refuse(what + ".refused", refusal);
-    } catch (const std::exception& error) {  // a fault of ours: the caller hears of it, the node goes on
-      response.code = toMsg(Code::internal, error.what());
-      ledger.refuse(what + ".failed", Refusal(Code::internal, error.what()));
+    } catch (...) {  // a fault of the node's own: the caller hears of it, the node goes on
+      const Refusal fault = ledger.fault((what + ".failed").c_str());
+      response.code = toMsg(fault.code(), fault.what());
     }
     if (tick) {
       const std::chrono::duration<double> age = std::chrono::steady_clock::now() - tick->made.steady;

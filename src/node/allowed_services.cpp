@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "guarded.h"
 #include "hgrid_proximity/scene/allowed_matrix.h"
 #include "hgrid_proximity/scene/rule_book.h"
 #include "rule_messages.h"
@@ -29,8 +30,8 @@ const Structure& structureOf(const std::shared_ptr<const Tick>& tick) {
 }  // namespace
 
 AllowedServices::AllowedServices(ros::NodeHandle& node, AdminAnswer answer) : answer_(std::move(answer)) {
-  servers_.push_back(node.advertiseService("set_allowed", &AllowedServices::onSet, this));
-  servers_.push_back(node.advertiseService("get_allowed", &AllowedServices::onGet, this));
+  servers_.push_back(advertiseGuarded(node, "set_allowed", &AllowedServices::onSet, this, answer_.ledger));
+  servers_.push_back(advertiseGuarded(node, "get_allowed", &AllowedServices::onGet, this, answer_.ledger));
 }
 
 /// All rules as they will be when the request is done. @throws Refusal if it may not be done

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 #include <thread>
 
 #include "frames.h"
+#include "guarded.h"
 #include "hgrid_proximity/refusal.h"
 #include "world.h"
 
@@ -29,6 +29,7 @@ CloudSource::CloudSource(const ros::NodeHandle& node, const CloudParams& cloud, 
     : cloud_(cloud),
       what_("cloud '" + cloud.name + "' of " + cloud.topic),
       counter_("cloud/" + cloud.name + "."),
+      failed_(counter_ + "failed"),
       simulated_(ros::Time::isSimTime()),
       params_(params),
       own_(own),
@@ -44,10 +45,14 @@ CloudSource::CloudSource(const ros::NodeHandle& node, const CloudParams& cloud, 
   loaded_.range = cloud.range;
   node_.setCallbackQueue(&queue_);
   const boost::function<void(const boost::shared_ptr<const CloudMessage>&)> on_message =
-      [this](const boost::shared_ptr<const CloudMessage>& message) { onMessage(*message); };
+      [this](const boost::shared_ptr<const CloudMessage>& message) {
+        guarded(ledger_, failed_.c_str(), [&] { onMessage(*message); });
+      };
   subscriber_ = node_.subscribe<CloudMessage>(cloud_.topic, 1, on_message);
   const double period = std::min(0.1, std::max(0.01, 0.25 * cloud_.lifetime));  // [s]
-  timer_ = node_.createSteadyTimer(ros::WallDuration(period), [this](const ros::SteadyTimerEvent&) { onTimer(); });
+  timer_ = node_.createSteadyTimer(ros::WallDuration(period), [this](const ros::SteadyTimerEvent&) {
+    guarded(ledger_, failed_.c_str(), [&] { onTimer(); });
+  });
   spinner_ = std::make_unique<ros::AsyncSpinner>(1, &queue_);
   spinner_->start();
 }
@@ -67,13 +72,12 @@ void CloudSource::onMessage(const CloudMessage& message) {
     return;
   } catch (const Refusal& refusal) {
     refused = refusal;
-  } catch (const std::bad_alloc&) {
-    refused = Refusal(Code::limit, what_ + " does not fit into the memory that is left");
-  } catch (const std::exception& error) {
-    refused = Refusal(Code::internal, what_ + ": " + error.what());
+  } catch (...) {
+    const Refusal fault = caughtRefusal();
+    refused = Refusal(fault.code(), what_ + ": " + fault.what());
   }
-  ledger_.refuse(counter_ + "refused", refused);
   sink_.miss(std::string(name(refused.code())) + " " + refused.what());
+  ledger_.refuse(counter_ + "refused", refused);
 }
 
 void CloudSource::take(const CloudMessage& message) {
@@ -188,11 +192,7 @@ std::vector<Voxel> CloudSource::voxelsOf(PointCloud cloud, const Pose& world_fro
 /// What is seen no more goes when its time is over, also if no message comes.
 void CloudSource::onTimer() {
   if (!loaded_.cells || cells_.forget(cellTime()) == 0) return;
-  try {
-    put();
-  } catch (const std::exception& error) {
-    ledger_.refuse(counter_ + "refused", Refusal(Code::internal, what_ + ": " + error.what()));
-  }
+  put();
 }
 
 void CloudSource::put() {

@@ -52,6 +52,7 @@ class CloudSource {
   CloudParams cloud_;
   std::string what_;     // in refusals
   std::string counter_;  // what the names of its counters begin with
+  std::string failed_;   // the counter of exceptions in its callbacks
   bool simulated_;       // /clock drives ROS time
   const Params& params_;
   const OwnShapes& own_;

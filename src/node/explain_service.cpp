@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "guarded.h"
 #include "rule_messages.h"
 #include "snapshot_stamp.h"
 
@@ -41,7 +42,7 @@ ExplainService::ExplainService(ros::NodeHandle& node, const Params& params, std:
       newest_(std::move(newest)),
       narrow_phase_(std::move(narrow_phase)),
       ledger_(ledger) {
-  server_ = node.advertiseService("explain_pair", &ExplainService::onExplain, this);
+  server_ = advertiseGuarded(node, "explain_pair", &ExplainService::onExplain, this, ledger_);
 }
 
 void ExplainService::listContacts(msg::ExplainPair::Response& response, const Snapshot& snapshot,
@@ -120,9 +121,9 @@ bool ExplainService::onExplain(Checked<msg::ExplainPair::Request>& checked, msg:
     response.code = toMsg(refusal.code(), refusal.what());
     response.explanation = refusal.what();
     ledger_.refuse("explain_pair.refused", refusal);
-  } catch (const std::exception& error) {  // a fault of ours: the caller hears of it, the node goes on
-    response.code = toMsg(Code::internal, error.what());
-    ledger_.refuse("explain_pair.failed", Refusal(Code::internal, error.what()));
+  } catch (...) {  // a fault of the node's own: the caller hears of it, the node goes on
+    const Refusal fault = ledger_.fault("explain_pair.failed");
+    response.code = toMsg(fault.code(), fault.what());
   }
   return true;
 }

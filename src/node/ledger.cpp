@@ -4,6 +4,8 @@
 
 #include <ros/console.h>
 
+#include <new>
+
 namespace hgrid {
 
 void Ledger::count(const std::string& what, std::uint64_t by) {
@@ -33,14 +35,42 @@ void Ledger::refuse(const std::string& where, const Refusal& refusal) {
   }
 }
 
+Refusal Ledger::fault(const char* where) noexcept {
+  try {
+    const Refusal what = caughtRefusal();
+    refuse(where, what);
+    return what;
+  } catch (...) {
+    ++unreported_;
+    return no_memory_;
+  }
+}
+
 std::map<std::string, std::uint64_t> Ledger::counters() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return counters_;
+  std::map<std::string, std::uint64_t> counters = counters_;
+  if (unreported_ > 0) counters["unreported"] = unreported_;
+  return counters;
 }
 
 void Ledger::clear() {
   const std::lock_guard<std::mutex> lock(mutex_);
   counters_.clear();
+  unreported_ = 0;
+}
+
+Refusal caughtRefusal() {
+  try {
+    throw;
+  } catch (const Refusal& refusal) {
+    return refusal;
+  } catch (const std::bad_alloc&) {
+    return {Code::limit, "the memory that is left does not suffice"};
+  } catch (const std::exception& error) {
+    return {Code::internal, error.what()};
+  } catch (...) {
+    return {Code::internal, "an exception of an unknown type was thrown"};
+  }
 }
 
 }  // namespace hgrid

@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 // proximity_node: which robot links and obstacles are near each other? See README.md.
+//
+// Exit codes: 0 after SIGINT, SIGTERM, SIGHUP or `rosnode kill`; 1 if the node cannot start, because a parameter is
+// wrong for example; NameWatch::kExitCode if another node has taken the name.
 
 #include <console_bridge/console.h>
 #include <ros/ros.h>
 
 #include <exception>
 
+#include "name_watch.h"
 #include "proximity_node.h"
+#include "shutdown.h"
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "proximity");
+  hgrid::shutDownOnSignals();  // first: ros::init() may wait for the master
+  ros::init(argc, argv, "proximity", ros::init_options::NoSigintHandler);
+  const hgrid::NameWatch name_watch;
   // tf2 warns of every single transform that is old or comes twice; the node counts them.
   console_bridge::setLogLevel(console_bridge::CONSOLE_BRIDGE_LOG_ERROR);
   ros::NodeHandle node, private_node("~");
@@ -21,5 +28,5 @@ int main(int argc, char** argv) {
     ROS_FATAL("%s", error.what());
     return 1;
   }
-  return 0;
+  return name_watch.nameTaken() ? hgrid::NameWatch::kExitCode : 0;
 }

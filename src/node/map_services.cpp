@@ -3,6 +3,7 @@
 #include "map_services.h"
 
 #include "frames.h"
+#include "guarded.h"
 #include "hgrid_proximity/refusal.h"
 #include "hgrid_proximity/scene/name.h"
 
@@ -10,8 +11,8 @@ namespace hgrid {
 
 MapServices::MapServices(ros::NodeHandle& node, const MapSource& source, AdminAnswer answer, Decided decided)
     : source_(source), answer_(std::move(answer)), decided_(std::move(decided)) {
-  servers_.push_back(node.advertiseService("load_octomap", &MapServices::onLoad, this));
-  servers_.push_back(node.advertiseService("clear_map", &MapServices::onClear, this));
+  servers_.push_back(advertiseGuarded(node, "load_octomap", &MapServices::onLoad, this, answer_.ledger));
+  servers_.push_back(advertiseGuarded(node, "clear_map", &MapServices::onClear, this, answer_.ledger));
 }
 
 bool MapServices::onLoad(Checked<msg::LoadOctomap::Request>& checked, msg::LoadOctomap::Response& response) {

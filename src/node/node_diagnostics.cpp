@@ -98,13 +98,17 @@ void NodeDiagnostics::transforms(DiagnosticStatusWrapper& status) {
 void NodeDiagnostics::ticks(DiagnosticStatusWrapper& status) {
   const NodeHealth health = health_();
   const auto tick = newest_();
-  if (health.late_ticks_in_a_row >= 3) {
+  if (health.failed_tick) {
+    status.summary(DiagnosticStatus::ERROR, std::string("the last tick failed: ") + name(health.failed_tick->code()) +
+                                                " " + health.failed_tick->what());
+  } else if (health.late_ticks_in_a_row >= 3) {
     status.summary(DiagnosticStatus::ERROR, std::to_string(health.late_ticks_in_a_row) + " ticks in a row were late");
   } else if (health.late_ticks_in_a_row > 0) {
     status.summary(DiagnosticStatus::WARN, "the last tick was late");
   } else {
     status.summary(DiagnosticStatus::OK, "on time");
   }
+  status.add("failed ticks", health.failed_ticks);
   if (tick && tick->snapshot) status.add("sequence", tick->snapshot->sequence());
 }
 

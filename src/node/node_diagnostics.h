@@ -7,7 +7,9 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "params.h"
 #include "world.h"
@@ -18,6 +20,8 @@ namespace hgrid {
 struct NodeHealth {
   std::map<std::string, std::string> failed_loads;  // sentence by robot: the last reading of its description failed
   std::size_t late_ticks_in_a_row = 0;
+  std::uint64_t failed_ticks = 0;      // since the node was started
+  std::optional<Refusal> failed_tick;  // why the last tick failed; nullopt if it did not
   std::vector<std::string> conflicts;  // frames on /tf and /tf_static
 };
 

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "proximity_node.h"
 
+#include <ros/init.h>
 #include <ros/names.h>
 
 #include <future>
@@ -9,6 +10,7 @@
 #include <utility>
 
 #include "distances_messages.h"
+#include "guarded.h"
 #include "hgrid_proximity/adapters/fcl.h"
 #include "hgrid_proximity/scene/name.h"
 #include "map_markers.h"
@@ -59,7 +61,7 @@ ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node,
       params_(readParams(valuesOf(private_node))),
       config_hash_(fnv1a(valuesOf(private_node).toXml())),
       narrow_phase_(std::move(narrow_phase)),
-      robot_source_(private_node, params_, narrow_phase_),
+      robot_source_(private_node, params_, narrow_phase_, [this] { return isEnding(); }),
       world_(params_, ros::Time::isSimTime(), newEpoch(), ledger_, narrow_phase_),
       own_shapes_(params_, world_.transforms().buffer(), [this] { return newest(); }),
       map_source_(params_, own_shapes_, narrow_phase_, ledger_),
@@ -79,14 +81,16 @@ ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node,
   transforms_ = std::make_unique<TfReader>(
       update_node_, static_cast<std::size_t>(params_.tf_queue_bytes), thisMoment,
       [this](const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher, const Moment& received) {
-        takeTransforms(message, is_static, publisher, received);
+        guarded(ledger_, "tf.failed", [&] { takeTransforms(message, is_static, publisher, received); });
       },
       ledger_);
 
   for (const MapParams& map : params_.maps) {
     if (map.topic.empty()) continue;
     const boost::function<void(const boost::shared_ptr<const OctomapMessage>&)> on_map =
-        [this, map](const boost::shared_ptr<const OctomapMessage>& message) { onMap(map, *message); };
+        [this, map](const boost::shared_ptr<const OctomapMessage>& message) {
+          guarded(ledger_, "maps.failed", [&] { onMap(map, *message); });
+        };
     subscribers_.push_back(admin_node_.subscribe<OctomapMessage>(map.topic, 1, on_map));
   }
 
@@ -100,8 +104,8 @@ ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node,
   allowed_ = std::make_unique<AllowedServices>(admin_private_, answer);
   maps_ = std::make_unique<MapServices>(admin_private_, map_source_, answer,
                                         [this](const std::string& map) { forgetPending(map); });
-  servers_.push_back(admin_private_.advertiseService("reset", &ProximityNode::onReset, this));
-  servers_.push_back(admin_private_.advertiseService("reload_robot", &ProximityNode::onReload, this));
+  servers_.push_back(advertiseGuarded(admin_private_, "reset", &ProximityNode::onReset, this, ledger_));
+  servers_.push_back(advertiseGuarded(admin_private_, "reload_robot", &ProximityNode::onReload, this, ledger_));
   diagnostics_ = std::make_unique<NodeDiagnostics>(
       admin_node_, admin_private_, private_node.getNamespace(), [this] { return newest(); },
       [this] { return health(); });
@@ -133,41 +137,43 @@ void ProximityNode::takeTransforms(const tf2_msgs::TFMessage& message, bool is_s
   tf_time_ += std::chrono::steady_clock::now() - begin;
 }
 
+/// Makes a tick. If that fails, the last tick goes on serving; its age shows that there is no newer one.
 void ProximityNode::onTick(const ros::SteadyTimerEvent& event) {
-  try {
-    transforms_->readFor(std::chrono::duration<double>(kShareForTransforms / params_.rate));
-    const auto begin = std::chrono::steady_clock::now();
-    std::vector<Job> jobs;
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      jobs.swap(jobs_);
-      const bool late = event.current_real - event.current_expected > ros::WallDuration(1.0 / params_.rate);
-      health_.late_ticks_in_a_row = late ? health_.late_ticks_in_a_row + 1 : 0;
-      if (late) ledger_.count("tick.late");
-    }
-    for (const Job& job : jobs) job(world_);
-    const std::shared_ptr<const Tick> tick = world_.tick(thisMoment());
-    std::atomic_store(&newest_, tick);
-    const auto made = std::chrono::steady_clock::now();
-    publish(tick);
-    const auto published = std::chrono::steady_clock::now();
-    measure(tick);
-    const auto measured = std::chrono::steady_clock::now();
-    logChange(*tick);
-    noteConflicts();
-    const auto end = std::chrono::steady_clock::now();
-    stopwatch_.add("tick", end - begin);
-    stopwatch_.add("tick.poses", tick->poses_time);
-    stopwatch_.add("tick.boxes", tick->times.boxes);
-    stopwatch_.add("tick.grid", tick->times.grid);
-    stopwatch_.add("tick.pairs", tick->times.pairs);
-    stopwatch_.add("tick.publish", published - made);
-    stopwatch_.add("tick.distances", measured - published);
-    stopwatch_.add("tf", std::exchange(tf_time_, std::chrono::nanoseconds(0)));
-    stopwatch_.summarise(end);
-  } catch (const std::exception& error) {  // the last tick goes on serving; its age shows that there is no newer one
-    ledger_.refuse("tick.failed", Refusal(Code::internal, error.what()));
+  const std::optional<Refusal> fault = guarded(ledger_, "tick.failed", [&] { makeTick(event); });
+  const std::lock_guard<std::mutex> lock(mutex_);
+  health_.failed_tick = fault;
+  if (fault) ++health_.failed_ticks;
+}
+
+void ProximityNode::makeTick(const ros::SteadyTimerEvent& event) {
+  transforms_->readFor(std::chrono::duration<double>(kShareForTransforms / params_.rate));
+  const auto begin = std::chrono::steady_clock::now();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const bool late = event.current_real - event.current_expected > ros::WallDuration(1.0 / params_.rate);
+    health_.late_ticks_in_a_row = late ? health_.late_ticks_in_a_row + 1 : 0;
+    if (late) ledger_.count("tick.late");
   }
+  jobs_.doAll(world_, ledger_);
+  const std::shared_ptr<const Tick> tick = world_.tick(thisMoment());
+  std::atomic_store(&newest_, tick);
+  const auto made = std::chrono::steady_clock::now();
+  publish(tick);
+  const auto published = std::chrono::steady_clock::now();
+  measure(tick);
+  const auto measured = std::chrono::steady_clock::now();
+  logChange(*tick);
+  noteConflicts();
+  const auto end = std::chrono::steady_clock::now();
+  stopwatch_.add("tick", end - begin);
+  stopwatch_.add("tick.poses", tick->poses_time);
+  stopwatch_.add("tick.boxes", tick->times.boxes);
+  stopwatch_.add("tick.grid", tick->times.grid);
+  stopwatch_.add("tick.pairs", tick->times.pairs);
+  stopwatch_.add("tick.publish", published - made);
+  stopwatch_.add("tick.distances", measured - published);
+  stopwatch_.add("tf", std::exchange(tf_time_, std::chrono::nanoseconds(0)));
+  stopwatch_.summarise(end);
 }
 
 /// Conflicts never go away, so their number says whether there are new ones.
@@ -234,27 +240,34 @@ void ProximityNode::logChange(const Tick& tick) {
   last_reason_ = gist;
 }
 
+/// Whether the node or its process is about to end, so that nothing may take long any more.
+bool ProximityNode::isEnding() const { return stopping_ || ros::isShuttingDown(); }
+
+/// Does a job at the begin of a tick and waits for it. @throws what the job throws; Refusal busy if no tick comes
 void ProximityNode::runInTick(const Job& job) {
   const auto done = std::make_shared<std::promise<void>>();
   std::future<void> result = done->get_future();
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    jobs_.push_back([job, done](World& world) {
-      try {
-        job(world);
-        done->set_value();
-      } catch (...) {
-        done->set_exception(std::current_exception());
-      }
-    });
-  }
+  jobs_.add([job, done](World& world) {
+    try {
+      job(world);
+      done->set_value();
+    } catch (...) {
+      done->set_exception(std::current_exception());
+    }
+  });
   const auto deadline = std::chrono::steady_clock::now() + kJobPatience;
   while (result.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
-    if (stopping_ || std::chrono::steady_clock::now() > deadline) {
+    if (isEnding()) throw Refusal(Code::busy, "the node is about to end; it changes nothing any more");
+    if (std::chrono::steady_clock::now() > deadline) {
       throw Refusal(Code::busy, "no tick took this up within " + std::to_string(kJobPatience.count()) + " s");
     }
   }
   result.get();
+}
+
+/// Has the next tick say why a robot, map or cloud is not in the world, or not as the newest data has it.
+void ProximityNode::noteMissing(const std::string& name, const std::string& sentence) {
+  jobs_.add([name, sentence](World& world) { world.setMissing(name, sentence); });
 }
 
 Refusal ProximityNode::loadRobot(const RobotParams& robot) {
@@ -262,21 +275,20 @@ Refusal ProximityNode::loadRobot(const RobotParams& robot) {
   try {
     const auto loaded = std::make_shared<LoadedRobot>(robot_source_.load(robot));
     runInTick([loaded](World& world) { world.setRobot(std::move(*loaded)); });
-  } catch (const Refusal& refusal) {
-    result = refusal;
-  } catch (const std::exception& error) {
-    result = Refusal(Code::internal, error.what());
+  } catch (...) {
+    result = caughtRefusal();
   }
-  const std::lock_guard<std::mutex> lock(mutex_);
   if (result.code() == Code::ok) {
+    const std::lock_guard<std::mutex> lock(mutex_);
     health_.failed_loads.erase(robot.name);
     ROS_INFO("Robot '%s' is loaded.", robot.name.c_str());
     return result;
   }
   const std::string sentence = std::string(name(result.code())) + " robot '" + robot.name + "': " + result.what();
+  noteMissing(robot.name, sentence);
+  const std::lock_guard<std::mutex> lock(mutex_);
   if (health_.failed_loads[robot.name] != sentence) ROS_WARN("%s", sentence.c_str());
   health_.failed_loads[robot.name] = sentence;
-  jobs_.push_back([robot, sentence](World& world) { world.setMissing(robot.name, sentence); });
   return result;
 }
 
@@ -287,15 +299,11 @@ Refusal ProximityNode::putMap(const MapParams& map, const std::function<LoadedMa
     const LoadedMap loaded = load();
     runInTick([loaded](World& world) { world.setMap(loaded); });
     return result;
-  } catch (const Refusal& refusal) {
-    result = refusal;
-  } catch (const std::exception& error) {
-    result = Refusal(Code::internal, error.what());
+  } catch (...) {
+    result = caughtRefusal();
   }
+  noteMissing(joined("map", map.name), std::string(name(result.code())) + " map '" + map.name + "': " + result.what());
   ledger_.refuse("maps.refused", result);
-  const std::string sentence = std::string(name(result.code())) + " map '" + map.name + "': " + result.what();
-  const std::lock_guard<std::mutex> lock(mutex_);
-  jobs_.push_back([body = joined("map", map.name), sentence](World& world) { world.setMissing(body, sentence); });
   return result;
 }
 
@@ -323,10 +331,7 @@ void ProximityNode::forgetPending(const std::string& map) {
 void ProximityNode::addCloud(const CloudParams& cloud) {
   CloudSource::Sink sink;
   sink.put = [this](const LoadedCloud& loaded) { runInTick([loaded](World& world) { world.setCloud(loaded); }); };
-  sink.miss = [this, body = joined("cloud", cloud.name)](const std::string& sentence) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    jobs_.push_back([body, sentence](World& world) { world.setMissing(body, sentence); });
-  };
+  sink.miss = [this, body = joined("cloud", cloud.name)](const std::string& sentence) { noteMissing(body, sentence); };
   clouds_.push_back(std::make_unique<CloudSource>(
       admin_node_, cloud, params_, own_shapes_, world_.transforms().buffer(), narrow_phase_,
       [this] { return newest(); }, sink, ledger_));
@@ -336,31 +341,37 @@ void ProximityNode::addCloud(const CloudParams& cloud) {
 void ProximityNode::loadMissing() {
   const auto now = std::chrono::steady_clock::now();
   if ((to_load_.empty() && maps_to_load_.empty() && arrived_maps_.empty()) || now < next_try_) return;
+  retry_after_ = std::min(10.0, std::max(0.5, 2.0 * retry_after_));
+  next_try_ = now + std::chrono::milliseconds(static_cast<int>(1e3 * retry_after_));
   std::vector<std::string> left;
   for (const RobotParams& robot : params_.robots) {
     const bool wanted = std::find(to_load_.begin(), to_load_.end(), robot.name) != to_load_.end();
     if (wanted && loadRobot(robot).code() != Code::ok) left.push_back(robot.name);
   }
   to_load_ = left;
-  const auto read = [this](const MapParams& map) {
-    return putMap(map, [&] { return map_source_.finished(map_source_.read(map)); }).code() == Code::ok;
+  const auto succeeds = [this](const MapParams& map, const std::function<LoadedMap()>& load) {
+    bool done = false;
+    guarded(ledger_, "maps.failed", [&] { done = putMap(map, load).code() == Code::ok; });
+    return done;
   };
-  const auto taken = [this](const ReadMap& map) {
-    return putMap(map.params, [&] { return map_source_.finished(map); }).code() == Code::ok;
+  const auto read = [&](const MapParams& map) {
+    return succeeds(map, [&] { return map_source_.finished(map_source_.read(map)); });
+  };
+  const auto taken = [&](const ReadMap& map) {
+    return succeeds(map.params, [&] { return map_source_.finished(map); });
   };
   maps_to_load_.erase(std::remove_if(maps_to_load_.begin(), maps_to_load_.end(), read), maps_to_load_.end());
   arrived_maps_.erase(std::remove_if(arrived_maps_.begin(), arrived_maps_.end(), taken), arrived_maps_.end());
-  retry_after_ = std::min(10.0, std::max(0.5, 2.0 * retry_after_));
-  next_try_ = now + std::chrono::milliseconds(static_cast<int>(1e3 * retry_after_));
 }
 
+/// Each part is guarded by itself, so that a fault in one of them leaves the others.
 void ProximityNode::onHousekeeping() {
-  loadMissing();
-  publishMarkers();
+  guarded(ledger_, "loading.failed", [&] { loadMissing(); });
+  guarded(ledger_, "markers.failed", [&] { publishMarkers(); });
   const auto now = std::chrono::steady_clock::now();
   if (now < next_diagnostics_) return;
   next_diagnostics_ = now + std::chrono::seconds(1);
-  diagnostics_->update();
+  guarded(ledger_, "diagnostics.failed", [&] { diagnostics_->update(); });
 }
 
 void ProximityNode::publishMarkers() {
@@ -404,11 +415,10 @@ bool ProximityNode::onReset(Checked<std_srvs::Trigger::Request>& checked, std_sr
     waitForTick();
     response.success = true;
     response.message = "obstacles as configured, counters at 0, a new epoch";
-  } catch (const Refusal& refusal) {
+  } catch (...) {
+    const Refusal refusal = caughtRefusal();
     ledger_.refuse("reset.refused", refusal);
     response.message = std::string(name(refusal.code())) + ": " + refusal.what();
-  } catch (const std::exception& error) {
-    response.message = error.what();
   }
   return true;
 }
@@ -432,8 +442,8 @@ msg::Code ProximityNode::reload(const std::string& robot_name) {
   if (!found) code = toMsg(Code::unknown_id, "there is no robot '" + printable(robot_name) + "' in ~robots");
   try {
     waitForTick();
-  } catch (const Refusal& refusal) {
-    ledger_.refuse("reload", refusal);
+  } catch (...) {
+    ledger_.refuse("reload", caughtRefusal());
   }
   return code;
 }

@@ -30,6 +30,7 @@
 #include "robot_source.h"
 #include "stopwatch.h"
 #include "tf_reader.h"
+#include "tick_jobs.h"
 #include "world.h"
 
 namespace hgrid {
@@ -50,12 +51,13 @@ class ProximityNode {
   ~ProximityNode();
 
  private:
-  using Job = std::function<void(World&)>;
+  using Job = TickJobs::Job;
 
   std::shared_ptr<const Tick> newest() const { return std::atomic_load(&newest_); }
   void takeTransforms(const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher,
                       const Moment& received);
   void onTick(const ros::SteadyTimerEvent& event);
+  void makeTick(const ros::SteadyTimerEvent& event);
   void noteConflicts();
   void publish(const std::shared_ptr<const Tick>& tick);
   void measure(const std::shared_ptr<const Tick>& tick);
@@ -70,6 +72,8 @@ class ProximityNode {
   void addCloud(const CloudParams& cloud);
   void loadMissing();
   void runInTick(const Job& job);
+  void noteMissing(const std::string& name, const std::string& sentence);
+  bool isEnding() const;
   void waitForTick();
   std::shared_ptr<const Tick> tickAfter(const Job& job);
   bool onReset(Checked<std_srvs::Trigger::Request>& checked, std_srvs::Trigger::Response& response);
@@ -93,9 +97,9 @@ class ProximityNode {
   std::shared_ptr<const MeasuredTick> measured_;  // null while nobody asks for distances
   std::atomic<bool> stopping_{false};
 
-  mutable std::mutex mutex_;  // of what follows
-  std::vector<Job> jobs_;
-  NodeHealth health_;
+  TickJobs jobs_;
+  mutable std::mutex mutex_;
+  NodeHealth health_;  // guarded by mutex_
 
   // Of the update thread.
   PairsMessages pairs_messages_;

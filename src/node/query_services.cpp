@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "frames.h"
+#include "guarded.h"
 #include "hgrid_proximity/scene/name.h"
 #include "snapshot_stamp.h"
 
@@ -65,10 +66,10 @@ QueryServices::QueryServices(ros::NodeHandle& node, const Params& params, std::u
       narrow_phase_(std::move(narrow_phase)),
       sketch_(sketch),
       ledger_(ledger) {
-  servers_.push_back(node.advertiseService("query_sphere", &QueryServices::onSphere, this));
-  servers_.push_back(node.advertiseService("query_segment", &QueryServices::onSegment, this));
-  servers_.push_back(node.advertiseService("query_box", &QueryServices::onBox, this));
-  servers_.push_back(node.advertiseService("query_nearest", &QueryServices::onNearest, this));
+  servers_.push_back(advertiseGuarded(node, "query_sphere", &QueryServices::onSphere, this, ledger_));
+  servers_.push_back(advertiseGuarded(node, "query_segment", &QueryServices::onSegment, this, ledger_));
+  servers_.push_back(advertiseGuarded(node, "query_box", &QueryServices::onBox, this, ledger_));
+  servers_.push_back(advertiseGuarded(node, "query_nearest", &QueryServices::onNearest, this, ledger_));
 }
 
 Pose QueryServices::worldFromFrame(const Tick& tick, const std::string& frame) const {
@@ -193,11 +194,11 @@ bool QueryServices::answer(const Checked<Request>& checked, Response& response, 
     result.unknown_because = msg::Answer::REFUSED;
     result.summary = std::string("refused, so UNKNOWN: ") + refusal.what();
     ledger_.refuse("query.refused", refusal);
-  } catch (const std::exception& error) {  // a fault of ours: the caller hears of it, the node goes on
+  } catch (...) {  // a fault of the node's own: the caller hears of it, the node goes on
+    const Refusal fault = ledger_.fault("query.failed");
     result = msg::Answer();
-    result.code = toMsg(Code::internal, error.what());
+    result.code = toMsg(fault.code(), fault.what());
     result.unknown_because = msg::Answer::REFUSED;
-    ledger_.refuse("query.failed", Refusal(Code::internal, error.what()));
   }
   return true;
 }

@@ -42,8 +42,9 @@ std::vector<std::string> fileRoots(const Params& params) {
   return roots;
 }
 
-MeshPolicy meshPolicy(const Params& params) {
+MeshPolicy meshPolicy(const Params& params, const std::function<bool()>& cancelled) {
   MeshPolicy policy;
+  policy.cancelled = cancelled;
   policy.reader = meshReader();
   policy.resources.package_path = [](const std::string& package) { return ros::package::getPath(package); };
   policy.resources.file_roots = fileRoots(params);
@@ -110,8 +111,12 @@ void makeSolids(NarrowPhase& narrow_phase, Body& body) {
   for (BodyShape& shape : body.shapes) shape.solid = narrow_phase.solidOf(shape.shape);
 }
 
-RobotSource::RobotSource(ros::NodeHandle node, const Params& params, std::shared_ptr<NarrowPhase> narrow_phase)
-    : node_(std::move(node)), params_(params), narrow_phase_(std::move(narrow_phase)) {}
+RobotSource::RobotSource(ros::NodeHandle node, const Params& params, std::shared_ptr<NarrowPhase> narrow_phase,
+                         std::function<bool()> cancelled)
+    : node_(std::move(node)),
+      params_(params),
+      narrow_phase_(std::move(narrow_phase)),
+      cancelled_(std::move(cancelled)) {}
 
 std::string RobotSource::description(const std::string& name) const {
   std::string key;
@@ -130,7 +135,7 @@ LoadedRobot RobotSource::load(const RobotParams& params) const {
                                  static_cast<std::size_t>(params_.max_description_depth),
                                  static_cast<std::size_t>(params_.max_links)};
   const std::string urdf = description(params.description);
-  MeshLoader meshes(meshPolicy(params_));
+  MeshLoader meshes(meshPolicy(params_, cancelled_));
   RobotModel model = readUrdf(
       urdf, [&](const std::string& uri, const Eigen::Vector3d& scale) { return meshes.load(uri, scale); }, limits,
       params_.shapeLimits());
@@ -153,6 +158,7 @@ LoadedRobot RobotSource::load(const RobotParams& params) const {
   }
   for (std::uint32_t i = 0; i < model.links.size(); ++i) {
     const RobotLink& link = model.links[i];
+    if (cancelled_()) throw Refusal(Code::busy, "robot '" + params.name + "' was not loaded: the node is about to end");
     if (!link.has_collision) {
       robot.without_collision.push_back(joined(robot.name, link.name));
       continue;

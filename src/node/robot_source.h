@@ -4,6 +4,7 @@
 
 #include <ros/node_handle.h>
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,10 +35,13 @@ struct LoadedRobot {
 class RobotSource {
  public:
   /// @param node  private node handle: parameters are searched from here upwards
-  RobotSource(ros::NodeHandle node, const Params& params, std::shared_ptr<NarrowPhase> narrow_phase);
+  /// @param cancelled  asked again and again during a load; once it returns true, the load is given up
+  RobotSource(ros::NodeHandle node, const Params& params, std::shared_ptr<NarrowPhase> narrow_phase,
+              std::function<bool()> cancelled);
 
   /// Slow (it reads files and asks the master); any one thread.
-  /// @throws Refusal not_ready while there is no description, or as readUrdf() and readSrdf().
+  /// @throws Refusal not_ready while there is no description, busy if it was cancelled, or as readUrdf() and
+  /// readSrdf().
   LoadedRobot load(const RobotParams& robot) const;
 
  private:
@@ -46,6 +50,7 @@ class RobotSource {
   ros::NodeHandle node_;
   const Params& params_;
   std::shared_ptr<NarrowPhase> narrow_phase_;
+  std::function<bool()> cancelled_;
 };
 
 /// The last value whose pattern matches the name, or `otherwise`.

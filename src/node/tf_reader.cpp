@@ -57,8 +57,8 @@ void TfReader::onMessage(const ros::MessageEvent<const TransformBytes>& event, b
   try {
     queue_.push({event.getConstMessage(), is_static, event.getPublisherName(), now_()});
     wakeTickThread();
-  } catch (const std::exception& error) {  // out of memory; the thread that receives must go on
-    ledger_.refuse("tf.failed", Refusal(Code::internal, error.what()));
+  } catch (...) {  // out of memory; the thread that receives must go on
+    ledger_.fault("tf.failed");
   }
 }
 
@@ -85,9 +85,9 @@ bool TfReader::readSlice() {
     sink_(slices_.next(), current_.is_static, current_.publisher, current_.received);
   } catch (const Refusal& refusal) {
     ledger_.refuse("tf.refused", Refusal(refusal.code(), current_.name() + " cannot be read: " + refusal.what()));
-  } catch (const std::exception& error) {  // out of memory; ticks go on without the rest of the message
+  } catch (...) {  // out of memory; ticks go on without the rest of the message
     slices_ = TransformSlices();
-    ledger_.refuse("tf.failed", Refusal(Code::internal, error.what()));
+    ledger_.fault("tf.failed");
   }
   if (slices_.left()) return true;
   current_ = ReceivedTransforms();  // frees its bytes

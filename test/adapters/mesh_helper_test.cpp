@@ -109,6 +109,20 @@ TEST_F(MeshHelper, AHangIsRefusedWhenItsTimeIsUp) {
   EXPECT_EQ(refusalWith("drip", false), Code::budget) << "the time is that of the whole file, not of a byte";
 }
 
+TEST_F(MeshHelper, AHangEndsWhenTheReadingIsCancelled) {
+  const std::string reader = folder_ / "hang";
+  fs::copy_file(HGRID_FAKE_MESH_READER, reader);
+  MeshPolicy policy = meshPolicy();
+  policy.reader = reader;
+  policy.timeout = std::chrono::hours(1);
+  int asked = 0;
+  policy.cancelled = [&] { return ++asked == 3; };
+  MeshLoader loader(policy);
+  EXPECT_EQ(refusalOf([&] { loader.load(kCorner, {1, 1, 1}); }, &sentence_), Code::busy);
+  EXPECT_TRUE(says(sentence_, "was cancelled"));
+  EXPECT_EQ(asked, 3);
+}
+
 TEST_F(MeshHelper, GarbageIsRefused) {
   EXPECT_NE(refusalWith("flood"), Code::ok);
   Random random(1);

@@ -6,6 +6,8 @@
 #include <ros/param.h>
 #include <ros/topic.h>
 
+#include <algorithm>
+
 #include "test/node/support/claims.h"
 #include "test/node/support/descriptions.h"
 #include "test/node/support/transform_source.h"
@@ -35,7 +37,18 @@ class Faults : public ::testing::Test {
     return urdf(content);
   }
   /// @param function  of the narrow phase; empty: none
-  void breakDown(const std::string& function) { ros::param::set(node_.named("fault"), function); }
+  /// @param kind      of the exception: "int", "memory" (std::bad_alloc), or else std::runtime_error
+  void breakDown(const std::string& function, const std::string& kind = "") {
+    ros::param::set(node_.named("fault_kind"), kind);
+    ros::param::set(node_.named("fault"), function);
+  }
+  /// Waits until the status "ticks" of /diagnostics is as wanted.
+  void waitForTicksStatus(int level, const std::string& words) {
+    node_.waitUntil("'" + words + "' of /diagnostics", [&](const Heard& all) {
+      const auto found = all.diagnostics.find("ticks");
+      return found != all.diagnostics.end() && found->second.level == level && says(found->second.message, words);
+    });
+  }
   msg::QuerySphere::Response exactSphere() {
     msg::QuerySphere::Request request;
     request.radius = 0.05;
@@ -93,6 +106,63 @@ TEST_F(Faults, InATickAreCountedAndPairsGoOn) {
   EXPECT_EQ(node_.heard().pairs.back()->first.size(), 1u);
   breakDown("");
   EXPECT_TRUE(next(20.0));
+}
+
+TEST_F(Faults, InATickAreOnDiagnosticsUntilATickSucceeds) {
+  waitForTicksStatus(diagnostic_msgs::DiagnosticStatus::OK, "");
+  const boost::function<void(const msg::Distances::ConstPtr&)> ignore = [](const msg::Distances::ConstPtr&) {};
+  const ros::Subscriber listener =  // distances are measured for a listener only
+      ros::NodeHandle().subscribe<msg::Distances>(node_.named("distances"), 1, ignore);
+  int b = 0;
+  for (const char* kind : {"", "memory", "int"}) {
+    breakDown("measure", kind);
+    transforms_.stream("base", "b", at(0.15 + 0.01 * ++b));  // what does not move is not measured again
+    waitForTicksStatus(diagnostic_msgs::DiagnosticStatus::ERROR, "the last tick failed");
+    breakDown("");
+    waitForTicksStatus(diagnostic_msgs::DiagnosticStatus::OK, "on time");
+  }
+  const diagnostic_msgs::DiagnosticStatus status = node_.heard().diagnostics.at("ticks");
+  const auto failed = std::find_if(status.values.begin(), status.values.end(),
+                                   [](const diagnostic_msgs::KeyValue& value) { return value.key == "failed ticks"; });
+  ASSERT_NE(failed, status.values.end());
+  EXPECT_GE(std::stoi(failed->value), 3);
+}
+
+TEST_F(Faults, OfEveryKindInAQueryAreSaidToWhoAsked) {
+  for (const char* kind : {"int", "memory"}) {
+    breakDown("measure", kind);
+    const auto answer = exactSphere().answer;
+    EXPECT_FALSE(answer.success) << kind;
+    EXPECT_EQ(answer.verdict, msg::Answer::UNKNOWN) << kind;
+    EXPECT_FALSE(node_.explain("robot/a", "robot/b").success) << kind;
+  }
+  breakDown("");
+  EXPECT_EQ(exactSphere().answer.verdict, msg::Answer::HIT);
+}
+
+TEST_F(Faults, OfEveryKindInAReloadLeaveTheOldModel) {
+  node_.setBeside("robot_description", description({"a"}));
+  breakDown("solidOf", "int");
+  EXPECT_EQ(node_.reload("robot").code.value, msg::Code::INTERNAL);
+  breakDown("solidOf", "memory");
+  EXPECT_EQ(node_.reload("robot").code.value, msg::Code::LIMIT);
+  breakDown("");
+  EXPECT_TRUE(node_.reload("robot").success);
+}
+
+TEST_F(Faults, InTheFirstLoadAreTriedAgain) {
+  NodeSetup late = setup();
+  late.beside.clear();
+  NodeUnderTest node(late);
+  ros::param::set(node.named("fault_kind"), "int");
+  ros::param::set(node.named("fault"), "solidOf");
+  node.setBeside("robot_description", description({"a", "b"}));
+  node.waitUntil("the fault in the status 'robots' of /diagnostics", [](const Heard& all) {
+    const auto found = all.diagnostics.find("robots");
+    return found != all.diagnostics.end() && says(found->second.message, "INTERNAL robot 'robot'");
+  });
+  ros::param::set(node.named("fault"), "");
+  node.waitForComplete();
 }
 
 TEST_F(Faults, InAReloadLeaveTheOldModel) {

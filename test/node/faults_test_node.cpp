@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// The node with a narrow phase that throws what it never should, while the parameter ~/fault names the function.
+// The node with a narrow phase that throws what it never should: from the function that the parameter ~fault names, an
+// exception of the kind that ~fault_kind names.
 #include <ros/ros.h>
 
-#include <atomic>
+#include <new>
 #include <stdexcept>
-#include <thread>
 
 #include "hgrid_proximity/adapters/fcl.h"
 #include "src/node/proximity_node.h"
@@ -22,7 +22,10 @@ class FaultyPhase final : public NarrowPhase {
   }
   std::shared_ptr<const Solid> point() const override { return sound_->point(); }
   std::shared_ptr<const Solid> needle(double length) const override { return sound_->needle(length); }
-  std::shared_ptr<const Solid> block(const Eigen::Vector3d& size) const override { return sound_->block(size); }
+  std::shared_ptr<const Solid> block(const Eigen::Vector3d& size) const override {
+    throwIf("block");
+    return sound_->block(size);
+  }
   Proximity measure(const PlacedSolid& first, const PlacedSolid& second, double up_to) const override {
     throwIf("measure");
     return sound_->measure(first, second, up_to);
@@ -34,8 +37,12 @@ class FaultyPhase final : public NarrowPhase {
 
  private:
   static void throwIf(const std::string& function) {
-    std::string fault;
-    if (ros::param::get("~fault", fault) && fault == function) throw std::runtime_error("a fault in " + function);
+    std::string fault, kind;
+    if (!ros::param::get("~fault", fault) || fault != function) return;
+    ros::param::get("~fault_kind", kind);
+    if (kind == "int") throw 1;
+    if (kind == "memory") throw std::bad_alloc();
+    throw std::runtime_error("a fault in " + function);
   }
   std::shared_ptr<NarrowPhase> sound_ = makeFclNarrowPhase();
 };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -19,6 +20,7 @@ struct MeshPolicy {
   std::size_t max_triangles = 1000000;
   std::chrono::milliseconds timeout{5000};  ///< per file; then the helper is killed
   std::size_t max_memory = 512u << 20;      ///< [bytes] address space of the helper
+  std::function<bool()> cancelled;          ///< asked at least every 50 ms; once it returns true, reading is given up
 };
 
 /// Reads STL, DAE and OBJ files in a helper process, since the library that parses them may crash or hang
@@ -32,7 +34,8 @@ class MeshLoader {
   /// The triangles of a file, each coordinate times `scale`; a mirroring scale turns the triangles round, so
   /// that they still face outward.
   /// @throws Refusal resource_denied, resource_missing, unsupported, limit, budget, parse, truncated (the
-  /// helper died), nonfinite, out_of_range, bad_geometry, internal (the helper answered with something else)
+  /// helper died), nonfinite, out_of_range, bad_geometry, internal (the helper answered with something else), busy (it
+  /// was cancelled)
   std::shared_ptr<const TriangleMesh> load(const std::string& uri, const Eigen::Vector3d& scale);
 
  private:

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "name_watch.h"
+
+#include <ros/console.h>
+#include <ros/init.h>
+#include <ros/this_node.h>
+#include <ros/xmlrpc_manager.h>
+
+#include <string>
+
+#include "hgrid_proximity/refusal.h"
+
+namespace hgrid {
+namespace {
+
+constexpr const char* kReasonOfMaster = "new node registered with same name";
+
+}  // namespace
+
+NameWatch::NameWatch() {
+  const auto on_shutdown = [taken = taken_](XmlRpc::XmlRpcValue& params, XmlRpc::XmlRpcValue& result) {
+    const bool has_reason = params.getType() == XmlRpc::XmlRpcValue::TypeArray && params.size() > 1 &&
+                            params[1].getType() == XmlRpc::XmlRpcValue::TypeString;
+    if (has_reason) {
+      const std::string reason = params[1];
+      if (reason.find(kReasonOfMaster) != std::string::npos) {
+        *taken = true;
+        ROS_ERROR(
+            "Another node has registered under the name '%s', so this node ends with exit code %d; a name belongs "
+            "to one node at a time: start one of the two with another __name.",
+            ros::this_node::getName().c_str(), kExitCode);
+      } else {
+        ROS_WARN("This node was asked to end; the reason given is '%s'.", printable(reason).c_str());
+      }
+      ros::requestShutdown();
+    }
+    result = ros::xmlrpc::responseInt(1, "", 0);
+  };
+  // roscpp binds its own handler of the same name later, which has no effect then.
+  ros::XMLRPCManager::instance()->bind("shutdown", on_shutdown);
+}
+
+}  // namespace hgrid

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "shutdown.h"
+
+#include <ros/init.h>
+#include <unistd.h>
+
+#include <csignal>
+
+namespace hgrid {
+namespace {
+
+constexpr unsigned kGrace = 2;  // [s] for an orderly end
+constexpr char kGaveUp[] =
+    "proximity_node: unregistering from the ROS master took longer than 2 s; the process ends without it\n";
+
+volatile std::sig_atomic_t g_ending = 0;
+
+// Both handlers call only what a signal handler may call: ros::requestShutdown() sets a flag.
+
+void onEndSignal(int) {
+  if (g_ending != 0) return;  // a second signal does not prolong the grace period
+  g_ending = 1;
+  ros::requestShutdown();
+  alarm(kGrace);
+}
+
+void onAlarm(int) {
+  if (write(STDERR_FILENO, kGaveUp, sizeof(kGaveUp) - 1) < 0) {
+    // Nobody listens any more.
+  }
+  _exit(0);
+}
+
+void handle(int number, void (*handler)(int)) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART;  // no system call of another library fails because of the signal
+  sigaction(number, &action, nullptr);
+}
+
+bool isIgnored(int number) {
+  struct sigaction now {};
+  return sigaction(number, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
+}
+
+}  // namespace
+
+void shutDownOnSignals() {
+  handle(SIGALRM, onAlarm);
+  handle(SIGINT, onEndSignal);
+  handle(SIGTERM, onEndSignal);
+  if (!isIgnored(SIGHUP)) handle(SIGHUP, onEndSignal);
+}
+
+}  // namespace hgrid

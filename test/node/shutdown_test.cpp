@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// The node ends in the same way after each signal that asks a process to end: it unregisters, and its exit code is 0.
+#include <ros/master.h>
+#include <ros/service.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "test/node/support/claims.h"
+#include "test/node/support/descriptions.h"
+#include "test/node/support/own_master.h"
+#include "test/node/support/registrations.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kEndSignals[] = {SIGINT, SIGTERM, SIGHUP};
+
+XmlRpc::XmlRpcValue stateOfMaster() {
+  XmlRpc::XmlRpcValue request, response, state;
+  request[0] = "/shutdown_test";
+  if (!ros::master::execute("getSystemState", request, response, state, false)) throw std::runtime_error("no master");
+  return state;
+}
+
+/// Holds if a node ends with exit code 0 and has nothing registered at the master then.
+::testing::AssertionResult endsAndUnregisters(NodeUnderTest& node) {
+  const std::optional<int> code = node.process().waitForEnd(20.0);
+  if (!code) return ::testing::AssertionFailure() << "it still runs";
+  if (*code != 0) return ::testing::AssertionFailure() << "exit code " << *code << "\n" << node.output();
+  const std::vector<std::string> left = registrationsOf(node.space() + "/proximity", stateOfMaster());
+  if (left.empty()) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << left.size() << " registrations are left; the first: it " << left.front();
+}
+
+NodeSetup setupOfWorld() {
+  NodeSetup setup;
+  setup.params = dict({{"world_frame", "world"}, {"obstacles", list({ball("post", 0, 0, 0, 0.1)})}});
+  setup.beside["robot_description"] = urdf(link("world", sphereOf(0.1, "0 0 -5")));
+  return setup;
+}
+
+TEST(Shutdown, OfAnIdleNodeUnregisters) {
+  for (const int number : kEndSignals) {
+    NodeUnderTest node(setupOfWorld());
+    ASSERT_FALSE(registrationsOf(node.space() + "/proximity", stateOfMaster()).empty());
+    node.process().signal(number);
+    EXPECT_TRUE(endsAndUnregisters(node)) << "signal " << number;
+  }
+}
+
+TEST(Shutdown, DuringQueriesUnregisters) {
+  for (const int number : kEndSignals) {
+    NodeUnderTest node(setupOfWorld());
+    node.waitForComplete();
+    std::atomic<std::uint64_t> answers{0};
+    std::thread client([&] {
+      try {
+        for (;; ++answers) node.sphere(0, 0, 0, 0.1);
+      } catch (const std::runtime_error&) {  // the node has ended
+      }
+    });
+    node.waitForTicks(5);
+    node.process().signal(number);
+    EXPECT_TRUE(endsAndUnregisters(node)) << "signal " << number;
+    client.join();
+    EXPECT_GT(answers, 0u);
+  }
+}
+
+/// A copy of the node's library beside a mesh reader that never ends: the node looks for the reader beside the library.
+class HangingReader {
+ public:
+  HangingReader() {
+    std::string folder = (fs::temp_directory_path() / "hanging_reader_XXXXXX").string();
+    if (mkdtemp(&folder[0]) == nullptr) throw std::runtime_error("no scratch folder");
+    folder_ = folder;
+    fs::create_directories(folder_ / "hgrid_proximity");
+    fs::copy_file(HGRID_NODE_LIBRARY, library());
+    const fs::path reader = folder_ / "hgrid_proximity" / "proximity_mesh_reader";
+    std::ofstream(reader) << "#!/bin/sh\n: >'" << started().string() << "'\nexec sleep 3600\n";
+    fs::permissions(reader, fs::perms::owner_all);
+    std::ofstream(folder_ / "part.stl") << "solid part\nendsolid part\n";
+  }
+  ~HangingReader() { fs::remove_all(folder_); }
+
+  /// A node that uses this reader, and may read the mesh of description().
+  NodeSetup setup() const {
+    NodeSetup setup = setupOfWorld();
+    setup.params["mesh_roots"] = list({folder_.string()});
+    setup.params["mesh_timeout"] = 600.0;
+    setup.environment["LD_PRELOAD"] = library().string();
+    return setup;
+  }
+  std::string description() const {
+    return urdf(link("world", collision("<mesh filename=\"file://" + (folder_ / "part.stl").string() + "\"/>")));
+  }
+  /// Waits until the node has started the reader. Polls: the reader can send no message.
+  void waitForStart() const {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (!fs::exists(started()) && std::chrono::steady_clock::now() < deadline) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    ASSERT_TRUE(fs::exists(started())) << "the node has not started the mesh reader";
+  }
+
+ private:
+  fs::path library() const { return folder_ / fs::path(HGRID_NODE_LIBRARY).filename(); }
+  fs::path started() const { return folder_ / "started"; }
+
+  fs::path folder_;
+};
+
+TEST(Shutdown, DuringTheFirstLoadOfASlowMeshUnregisters) {
+  const HangingReader reader;
+  NodeSetup setup = reader.setup();
+  setup.beside["robot_description"] = reader.description();
+  NodeUnderTest node(setup, false);
+  reader.waitForStart();
+  node.process().signal(SIGTERM);
+  EXPECT_TRUE(endsAndUnregisters(node));
+}
+
+TEST(Shutdown, DuringAReloadOfASlowMeshUnregisters) {
+  const HangingReader reader;
+  NodeUnderTest node(reader.setup());
+  node.waitForComplete();
+  node.setBeside("robot_description", reader.description());
+  std::thread client([&] {
+    try {
+      node.reload("");
+    } catch (const std::runtime_error&) {  // the node has ended
+    }
+  });
+  reader.waitForStart();
+  node.process().signal(SIGTERM);
+  EXPECT_TRUE(endsAndUnregisters(node));
+  client.join();
+}
+
+/// The node of a master of its own.
+struct NodeOfMaster {
+  static constexpr const char* kName = "/proximity";
+  explicit NodeOfMaster(const std::string& uri)
+      : process({HGRID_NODE, "_world_frame:=world"}, "/dev/null", {{"ROS_MASTER_URI", uri}}) {}
+  ChildProcess process;
+};
+
+TEST(Shutdown, NeedsNoMaster) {
+  OwnMaster master;
+  NodeOfMaster node(master.uri());
+  master.waitForRegistration(node.kName, "serves /proximity/reload_robot");
+  master.process().signal(SIGKILL);
+  master.process().waitForEnd(20.0);
+  node.process.signal(SIGTERM);
+  EXPECT_EQ(node.process.waitForEnd(20.0).value_or(-1), 0);
+}
+
+TEST(Shutdown, NeedsNoAnswerOfTheMaster) {
+  OwnMaster master;
+  NodeOfMaster node(master.uri());
+  master.waitForRegistration(node.kName, "serves /proximity/reload_robot");
+  master.process().signal(SIGSTOP);
+  node.process.signal(SIGTERM);
+  EXPECT_EQ(node.process.waitForEnd(20.0).value_or(-1), 0);
+  master.process().signal(SIGCONT);
+}
+
+TEST(Shutdown, EndsANodeThatWaitsForTheMaster) {
+  for (const int number : kEndSignals) {
+    const std::string output = (fs::temp_directory_path() / "waits_for_master.log").string();
+    fs::remove(output);
+    ChildProcess node({HGRID_NODE, "_world_frame:=world"}, output,
+                      {{"ROS_MASTER_URI", "http://127.0.0.1:" + std::to_string(freePort())},
+                       {"ROSCONSOLE_STDOUT_LINE_BUFFERED", "1"}});
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    std::string said;
+    while (said.find("Failed to contact master") == std::string::npos && std::chrono::steady_clock::now() < deadline) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));  // the output is a file
+      std::ifstream file(output);
+      said.assign(std::istreambuf_iterator<char>(file), {});
+    }
+    ASSERT_TRUE(says(said, "Failed to contact master"));
+    node.signal(number);
+    EXPECT_EQ(node.waitForEnd(20.0).value_or(-1), 0) << "signal " << number;
+    fs::remove(output);
+  }
+}
+
+/// Whether a process ignores a signal.
+bool ignores(pid_t process, int number) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/status");
+  for (std::string line; std::getline(file, line);) {
+    if (line.rfind("SigIgn:", 0) == 0) return (std::stoull(line.substr(7), nullptr, 16) >> (number - 1) & 1) != 0;
+  }
+  throw std::runtime_error("no process " + std::to_string(process));
+}
+
+TEST(Shutdown, LeavesAHangUpIgnoredThatNohupIgnores) {
+  OwnMaster master;
+  ChildProcess node({"nohup", HGRID_NODE, "_world_frame:=world"}, "/dev/null", {{"ROS_MASTER_URI", master.uri()}});
+  master.waitForRegistration("/proximity", "serves /proximity/reload_robot");
+  EXPECT_TRUE(ignores(node.pid(), SIGHUP));
+  EXPECT_FALSE(ignores(node.pid(), SIGTERM));
+  node.signal(SIGTERM);
+  EXPECT_EQ(node.waitForEnd(20.0).value_or(-1), 0);
+}
+
+TEST(Shutdown, OfANodeWhoseNameIsTakenSaysSoAndHasAnExitCodeOfItsOwn) {
+  NodeUnderTest first(setupOfWorld());
+  const std::string name = first.space() + "/proximity";
+  ChildProcess second({HGRID_NODE, "__ns:=" + first.space(), "__name:=proximity"}, "/dev/null", {});
+  EXPECT_EQ(first.process().waitForEnd(20.0).value_or(-1), 3);
+  EXPECT_EQ(first.lines("Another node has registered under the name '" + name + "'"), 1u) << first.output();
+  EXPECT_TRUE(second.alive());
+}
+
+TEST(Shutdown, ByRosnodeKillUnregisters) {
+  NodeUnderTest node(setupOfWorld());
+  ChildProcess killer({"rosnode", "kill", node.space() + "/proximity"}, "/dev/null", {});
+  EXPECT_TRUE(endsAndUnregisters(node));
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "own_master.h"
+
+#include <XmlRpcClient.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
+#include "registrations.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+constexpr auto kPatience = std::chrono::seconds(20);
+
+/// The state that the master tells. @returns an invalid value if the master gives no answer
+XmlRpc::XmlRpcValue stateOf(int port) {
+  XmlRpc::XmlRpcClient client("127.0.0.1", port, "/");
+  XmlRpc::XmlRpcValue request, answer;
+  request[0] = "/shutdown_test";
+  if (!client.execute("getSystemState", request, answer) || client.isFault()) return {};
+  return answer[2];
+}
+
+/// Polls: a master sends no message when it begins to serve, or when a node registers.
+template <class Condition>
+void waitFor(const std::string& what, Condition&& holds) {
+  const auto deadline = std::chrono::steady_clock::now() + kPatience;
+  while (!holds()) {
+    if (std::chrono::steady_clock::now() > deadline) throw std::runtime_error("waited 20 s for: " + what);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+}
+
+}  // namespace
+
+int freePort() {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof(address);
+  const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+  const bool bound = bind(socket, reinterpret_cast<sockaddr*>(&address), size) == 0 &&
+                     getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size) == 0;
+  close(socket);
+  if (!bound) throw std::runtime_error("no free port on 127.0.0.1");
+  return ntohs(address.sin_port);
+}
+
+OwnMaster::OwnMaster() : port_(freePort()) {
+  const std::vector<std::string> command{"rosmaster", "--core", "-p", std::to_string(port_)};
+  process_ = std::make_unique<ChildProcess>(command, "/dev/null", std::map<std::string, std::string>{});
+  waitFor("the first answer of a master", [&] { return stateOf(port_).valid(); });
+}
+
+std::vector<std::string> OwnMaster::registrations(const std::string& node) const {
+  const XmlRpc::XmlRpcValue state = stateOf(port_);
+  if (!state.valid()) throw std::runtime_error("the master gives no answer");
+  return registrationsOf(node, state);
+}
+
+void OwnMaster::waitForRegistration(const std::string& node, const std::string& what) const {
+  waitFor("'" + what + "' by " + node, [&] {
+    const std::vector<std::string> all = registrations(node);
+    return std::find(all.begin(), all.end(), what) != all.end();
+  });
+}
+
+}  // namespace test
+}  // namespace hgrid

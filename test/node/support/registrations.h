@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <XmlRpcValue.h>
+
+#include <string>
+#include <vector>
+
+namespace hgrid {
+namespace test {
+
+/// What a node has registered, as in "publishes /a/b", by the answer of a master to getSystemState.
+/// @param state  the third element of that answer: publishers, subscribers and services, each with its nodes
+inline std::vector<std::string> registrationsOf(const std::string& node, XmlRpc::XmlRpcValue state) {
+  std::vector<std::string> found;
+  const char* kinds[] = {"publishes ", "subscribes to ", "serves "};
+  for (int kind = 0; kind < 3; ++kind) {
+    for (int i = 0; i < state[kind].size(); ++i) {
+      XmlRpc::XmlRpcValue& nodes = state[kind][i][1];
+      for (int k = 0; k < nodes.size(); ++k) {
+        if (static_cast<std::string>(nodes[k]) == node) {
+          found.push_back(kinds[kind] + static_cast<std::string>(state[kind][i][0]));
+        }
+      }
+    }
+  }
+  return found;
+}
+
+}  // namespace test
+}  // namespace hgrid
