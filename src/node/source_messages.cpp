@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "source_messages.h"
 
+#include <hgrid_proximity/WorldState.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
