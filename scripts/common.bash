@@ -90,11 +90,11 @@ install_missing() {
 }
 
 # shellcheck disable=SC2120  # arguments are for callers that have some
-# Builds Release below build/; arguments go to cmake. Nothing is done again that was done before.
+# Builds Release in build/release and devel; arguments go to cmake. Nothing is done again that was done before.
 build() {
   local out=$root/build/release
   local -a options=(
-    -DCMAKE_BUILD_TYPE=Release "-DCATKIN_DEVEL_PREFIX=$root/devel"
+    -DCMAKE_BUILD_TYPE=Release "-DCATKIN_DEVEL_PREFIX=$root/devel" "-DCMAKE_INSTALL_PREFIX=$root/build/install"
     -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 "$@"
   )
   if [[ ! -f $out/Makefile || $(cat "$out/.options" 2>/dev/null) != "${options[*]}" ]]; then
