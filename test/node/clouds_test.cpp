@@ -73,6 +73,9 @@ class Clouds : public ::testing::Test {
   void sendUntilComplete(const Points& points) {
     sendUntil(points, "a complete world", [](const msg::Status& status) { return status.world.complete; });
   }
+  static bool isWithoutCells(const msg::Status& status) {
+    return status.gauges.front().name == "cells.cloud/front" && status.gauges.front().value == 0.0;
+  }
   Answer askedAt(double x, double y, double z) { return node_->sphere(x, y, z, 0.01).answer; }
 
   TransformSource transforms_;
@@ -110,7 +113,7 @@ TEST_F(Clouds, WithoutFinitePointsDoNotKeepTheCloudFresh) {
     sendUntilComplete(wall);
     EXPECT_EQ(askedAt(0.05, 0.05, 3.05).verdict, Answer::HIT);
     sendUntil(blind, "the cloud is lost", [](const msg::Status& status) {
-      return status.world.incomplete == Names({"cloud/front"}) && stateOf(status, "cloud/front") == msg::WorldState::LOST;
+      return status.world.incomplete == Names({"cloud/front"}) && isWithoutCells(status);
     });
     const Answer answer = askedAt(0.05, 0.05, 3.05);
     EXPECT_EQ(answer.verdict, Answer::UNKNOWN) << "the wall is still there";
@@ -153,7 +156,9 @@ TEST_F(Clouds, AnOlderStampNeverMakesTheCloudOlder) {
 TEST_F(Clouds, ThatAreLostLeaveQuestionsAboutTheRobotClear) {
   start(0.5, {{"range", 4.0}});
   sendUntilComplete({{0.05f, 0.05f, 2.05f}});
-  node_->waitForStatus("the cloud is lost", [](const msg::Status& status) { return !status.world.complete; });
+  node_->waitForStatus("the cloud is lost", [](const msg::Status& status) {
+    return !status.world.complete && isWithoutCells(status);
+  });
   msg::QuerySphere::Request request;
   request.center.z = 3.0;
   request.radius = 0.1;
@@ -256,7 +261,7 @@ TEST_F(Clouds, ThatAreLostSayWhatWasWrongWithTheLastMessage) {
     node_->waitUntil(words, [&](const Heard& heard) {
       if (heard.status.back()->world.sequence % 5 == 0) send(cloud);
       for (const std::string& reason : heard.status.back()->world.reasons) {
-        if (reason.find(words) == 0) return true;
+        if (reason.find(words) != std::string::npos) return true;
       }
       return false;
     });

@@ -43,10 +43,10 @@ TEST(PairsMessages, SayWhatTheSnapshotSaysAndDoNotChangeWhileTheyAreHeld) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
-    Params params;
-    params.max_pairs = kMost;
-    PairsMessages messages(params);
-    Scene scene{SceneOptions{}};
+    SceneOptions options;
+    options.max_pairs = kMost;
+    PairsMessages messages;
+    Scene scene(options);
     std::deque<Held> held;
     for (int tick = 1; tick <= 100; ++tick) {
       const std::string name = std::to_string(random.below(12));
@@ -65,7 +65,7 @@ TEST(PairsMessages, SayWhatTheSnapshotSaysAndDoNotChangeWhileTheyAreHeld) {
       const auto expected = made.snapshot ? saidBy(*made.snapshot, kMost) : std::vector<std::string>();
       EXPECT_EQ(saidBy(*message), expected);
       EXPECT_TRUE(std::is_sorted(message->names.begin(), message->names.end()));
-      EXPECT_EQ(message->total, made.snapshot ? made.snapshot->pairs().size() : 0u);
+      EXPECT_EQ(message->total, made.snapshot ? made.snapshot->pairsFound() : 0u);
       EXPECT_EQ(message->truncated, message->total > kMost);
       for (const std::size_t size : {message->second.size(), message->margin.size(), message->since.size(),
                                      message->no_contact_before.size(), message->flags.size(), message->state.size()}) {
