@@ -45,11 +45,25 @@ TEST(Pairs, AreThoseWithinTheMarginByNameWithGapMarginAndSince) {
   EXPECT_GT(later->header.stamp, later->since[0]);
 }
 
-TEST(Pairs, AreCutAtTheLimitAndSaySo) {
-  const msg::Pairs pairs = pairsWith({{"max_pairs", 1}});
-  EXPECT_EQ(namesOf(pairs), Names({"obstacle/near|robot/a"}));
-  EXPECT_EQ(pairs.total, 2u);
-  EXPECT_TRUE(pairs.truncated);
+/// Three pairs: obstacle/b in contact with robot/base, obstacle/a 0.02 m from it, obstacle/c 0.04 m.
+TEST(Pairs, AreTruncatedToTheNearestAndTheWorldIsThenNotComplete) {
+  NodeSetup setup;
+  setup.params = dict(
+      {{"world_frame", "base"},
+       {"max_pairs", 2},
+       {"obstacles", list({ball("a", 0, 0, -5.22, 0.1), ball("b", 0, 0, -5.15, 0.1), ball("c", 0, 0, -5.24, 0.1)})}});
+  setup.beside["robot_description"] = balls({});
+  NodeUnderTest node(setup);
+  const auto pairs = node.waitForPairs("all bodies", [](const msg::Pairs& p) { return p.total == 3; });
+  EXPECT_EQ(namesOf(*pairs), Names({"obstacle/a|robot/base", "obstacle/b|robot/base"}));
+  EXPECT_TRUE(pairs->truncated);
+  EXPECT_FALSE(pairs->world.complete);
+  EXPECT_EQ(pairs->world.reasons, Names({"TRUNCATED: more than 2 pairs are near; ~pairs lists 2 of the pairs "
+                                         "(~max_pairs)"}));
+  EXPECT_EQ(pairs->world.reasons_total, 1u);
+  const auto answer = node.sphere(5, 0, 0, 0.1).answer;
+  EXPECT_EQ(answer.verdict, msg::Answer::CLEAR) << "queries do not depend on pairs";
+  EXPECT_FALSE(answer.world.complete);
 }
 
 TEST(Pairs, ThatAreAllowedAreNotReported) {
