@@ -23,6 +23,7 @@ set(HGRID_CORE_SOURCES
   src/scene/cloud_cells.cpp
   src/scene/commit.cpp
   src/scene/explain.cpp
+  src/scene/group_tree.cpp
   src/scene/horizon.cpp
   src/scene/link_matrix.cpp
   src/scene/map_gap.cpp

@@ -101,13 +101,13 @@ AllowedList decidedPairs(const Structure& structure, const AllowedScope& scope) 
     }
     for (const std::uint32_t j : partners) {
       if (!inScope(matched[i], matched[j])) continue;
-      const PairDecision decision = structure.filter.decision(i, j);
+      PairDecision decision = structure.filter.decision(i, j);
       if (decision.origin == Origin::none || decision.origin == Origin::kind) continue;
       if (list.total++ >= scope.limit) continue;
       PairRule entry;
       entry.first = structure.bodies[i].name;
       entry.second = structure.bodies[j].name;
-      entry.reason = std::string(decision.reason);
+      entry.reason = std::move(decision.reason);
       entry.allowed = decision.allowed;
       entry.origin = decision.origin;
       if (decision.rule != PairDecision::kNoRule) entry.ends = structure.filter.rules()[decision.rule].ends;

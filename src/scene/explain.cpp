@@ -93,7 +93,7 @@ class Words {
       case Origin::rigid:
         return "both links are of one rigid group, so they move as one";
       case Origin::adjacent:
-        return "the links are adjacent: a joint joins them, perhaps through links without geometry";
+        return "the links are adjacent: " + what_.rule.reason;
       case Origin::srdf:
         return "the SRDF disables the pair" + because();
       default:

@@ -12,47 +12,39 @@ namespace {
 
 constexpr std::size_t kLongestReason = 512;  // bytes of an SRDF's reason that are kept
 
-/// Links with geometry that a joint joins to `start`, perhaps through links that have none.
-std::vector<std::uint32_t> joinedTo(const RobotModel& model, const std::vector<std::vector<std::uint32_t>>& neighbours,
-                                    std::uint32_t start) {
-  std::vector<std::uint32_t> found, open = {start};
-  std::vector<bool> seen(model.links.size());
-  seen[start] = true;
-  while (!open.empty()) {
-    const std::uint32_t link = open.back();
-    open.pop_back();
-    for (const std::uint32_t next : neighbours[link]) {
-      if (seen[next]) continue;
-      seen[next] = true;
-      (model.links[next].has_collision ? found : open).push_back(next);
-    }
-  }
-  return found;
-}
+constexpr std::size_t kMostNamed = 8;  // joints that a reason names
 
 }  // namespace
 
 LinkMatrix::LinkMatrix(const RobotModel& model, const LinkRules& rules, std::vector<std::string>& warnings)
     : size_(model.links.size()),
       words_((size_ + 63) / 64),
+      groups_(model),
       origins_(size_ * size_, Origin::none),
       allowed_(size_ * words_) {
-  std::vector<std::vector<std::uint32_t>> neighbours(size_);
-  for (std::uint32_t i = 0; i < size_; ++i) {
-    if (model.links[i].parent < 0) continue;
-    const auto parent = static_cast<std::uint32_t>(model.links[i].parent);
-    neighbours[i].push_back(parent);
-    neighbours[parent].push_back(i);
-  }
-  for (std::uint32_t i = 0; i < size_; ++i) {
-    for (const std::uint32_t other : joinedTo(model, neighbours, i)) set(i, other, Origin::adjacent);
-  }
-  for (std::uint32_t i = 0; i < size_; ++i) {
-    for (std::uint32_t j = 0; j < i; ++j) {
-      if (model.links[i].rigid_group == model.links[j].rigid_group) set(i, j, Origin::rigid);
-    }
-  }
+  setGroups(model);
+  applyRules(model, rules, warnings);
+  for (std::uint32_t i = 0; i < size_; ++i) set(i, i, Origin::self);  // last: no rule makes a link meet itself
+}
 
+void LinkMatrix::setGroups(const RobotModel& model) {
+  std::vector<std::vector<std::uint32_t>> members(groups_.size());
+  for (std::uint32_t i = 0; i < size_; ++i) {
+    group_of_.push_back(model.links[i].rigid_group);
+    members[group_of_[i]].push_back(i);
+  }
+  const auto setAll = [&](std::uint32_t first, std::uint32_t second, Origin origin) {
+    for (const std::uint32_t i : members[first]) {
+      for (const std::uint32_t j : members[second]) set(i, j, origin);
+    }
+  };
+  for (std::uint32_t group = 0; group < groups_.size(); ++group) {
+    setAll(group, group, Origin::rigid);
+    for (const std::uint32_t above : groups_.adjacentAbove(group)) setAll(group, above, Origin::adjacent);
+  }
+}
+
+void LinkMatrix::applyRules(const RobotModel& model, const LinkRules& rules, std::vector<std::string>& warnings) {
   const auto indexOf = [&](const std::string& link, const char* tag) {
     const int index = model.find(link);
     if (index < 0) {
@@ -74,12 +66,23 @@ LinkMatrix::LinkMatrix(const RobotModel& model, const LinkRules& rules, std::vec
   }
   for (const LinkRules::Pair& pair : rules.enabled) setPair(pair, "enable_collisions", Origin::none);
   for (const LinkRules::Pair& pair : rules.disabled) setPair(pair, "disable_collisions", Origin::srdf);
-  for (std::uint32_t i = 0; i < size_; ++i) set(i, i, Origin::self);  // last: no rule makes a link meet itself
 }
 
 const LinkMatrix::Tag* LinkMatrix::tag(std::uint32_t first, std::uint32_t second) const {
   const auto found = tags_.find(std::minmax(first, second));
   return found == tags_.end() ? nullptr : &found->second;
+}
+
+std::string LinkMatrix::adjacencyReason(std::uint32_t first, std::uint32_t second) const {
+  const std::vector<std::string> joints = groups_.jointsBetween(group_of_[first], group_of_[second]);
+  if (joints.size() == 1) return "joint '" + printable(joints.front()) + "' connects their rigid groups";
+  std::string names;
+  for (std::size_t i = 0; i < std::min(joints.size(), kMostNamed); ++i) {
+    names += (names.empty() ? "'" : ", '") + printable(joints[i]) + "'";
+  }
+  if (joints.size() > kMostNamed) names += ", ...";
+  return "the " + std::to_string(joints.size()) + " joints " + names +
+         " connect their rigid groups in one place, without geometry between them";
 }
 
 void LinkMatrix::set(std::uint32_t first, std::uint32_t second, Origin origin) {

@@ -144,7 +144,7 @@ PairDecision PairFilter::decision(std::uint32_t first, std::uint32_t second) con
   } else if (result.origin == Origin::srdf) {
     result.reason = "disable_default_collisions";
   } else if (result.origin == Origin::adjacent) {
-    result.reason = "a joint joins them";
+    result.reason = matrices_[a.matrix]->adjacencyReason(a.link, b.link);
   } else if (result.origin == Origin::rigid) {
     result.reason = "they move as one";
   }

@@ -81,7 +81,7 @@ TEST_F(ExplainPair, NamesTheReasonOfWhatIsSwitchedOff) {
   expectOff("robot/a", "robot/a", AllowedPair::ORIGIN_SELF, "they are the same body");
   expectOff("obstacle/post", "obstacle/wall", AllowedPair::ORIGIN_KIND, "both are fixed in the world");
   expectOff("robot/b", "robot/c", AllowedPair::ORIGIN_RIGID, "both links are of one rigid group");
-  expectOff("robot/base", "robot/a", AllowedPair::ORIGIN_ADJACENT, "a joint joins them");
+  expectOff("robot/base", "robot/a", AllowedPair::ORIGIN_ADJACENT, "joint 'base_a' connects their rigid groups");
   expectOff("robot/b", "robot/a", AllowedPair::ORIGIN_SRDF, "the SRDF disables the pair (Never)");
   expectOff("obstacle/wall", "robot/a", AllowedPair::ORIGIN_PARAMETER,
             "rule 'robot/a', 'obstacle/w*' of ~allowed_pairs allows them to touch (it leans there)");

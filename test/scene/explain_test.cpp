@@ -126,7 +126,20 @@ TEST_F(Explain, EveryOriginIsToldWithItsReason) {
   EXPECT_EQ(srdf.rule.reason, "Never");
   EXPECT_EQ(srdf.rule.first, "arm/base");
   EXPECT_EQ(adjacent.rule.origin, Origin::adjacent);
-  EXPECT_TRUE(says(adjacent.text, "the links are adjacent: a joint joins them"));
+  EXPECT_TRUE(says(adjacent.text, "the links are adjacent: joint 'elbow_joint' connects their rigid groups."));
+}
+
+TEST(ExplainAdjacent, AChainOfJointsIsNamedJointByJoint) {
+  const RobotModel model = test::humanoid();
+  const auto matrix = std::make_shared<const LinkMatrix>(test::matrixOf(model));
+  Scene scene{SceneOptions{}};
+  for (const Body& body : test::bodiesOf(model, "robot", matrix)) test::put(scene, body, test::at(0));
+  const auto snapshot = scene.commit(Time{1}, {});
+  const Explanation what = explain(*snapshot, "robot/torso_shape", "robot/left_upper_arm_shape", nullptr);
+  EXPECT_EQ(what.rule.origin, Origin::adjacent);
+  EXPECT_TRUE(says(what.text,
+                   "the links are adjacent: the 3 joints 'left_shoulder_swing_joint', 'left_shoulder_lift_joint', "
+                   "'left_upper_arm_joint' connect their rigid groups in one place, without geometry between them."));
 }
 
 TEST_F(Explain, WhatIsSwitchedOffSaysWhetherItWouldBeReported) {

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+
 #include "test/support/models.h"
 #include "test/support/refusals.h"
 
@@ -37,20 +40,93 @@ TEST(LinkMatrix, LinksJoinedByAJointMayTouchAndOthersMayNot) {
   }
 }
 
-TEST(LinkMatrix, LinksWithoutGeometryAreLookedThrough) {
+/// Names of the pairs of links with geometry that have this origin.
+std::set<std::pair<std::string, std::string>> pairsOf(const RobotModel& model, Origin origin) {
+  const LinkMatrix matrix = matrixOf(model);
+  std::set<std::pair<std::string, std::string>> pairs;
+  for (std::uint32_t i = 0; i < model.links.size(); ++i) {
+    for (std::uint32_t j = 0; j < i; ++j) {
+      if (!model.links[i].has_collision || !model.links[j].has_collision || matrix.origin(i, j) != origin) continue;
+      pairs.insert(std::minmax(model.links[i].name, model.links[j].name));
+    }
+  }
+  return pairs;
+}
+
+TEST(LinkMatrix, AHumanoidWithShapesOnLeafLinksHasOnlyThePairsOfItsOneJointsOff) {
+  const std::set<std::pair<std::string, std::string>> adjacent = {{"pelvis_shape", "torso_shape"},
+                                                                  {"left_upper_arm_shape", "torso_shape"},
+                                                                  {"right_upper_arm_shape", "torso_shape"},
+                                                                  {"left_forearm_shape", "left_upper_arm_shape"},
+                                                                  {"right_forearm_shape", "right_upper_arm_shape"},
+                                                                  {"left_forearm_shape", "left_hand_shape"},
+                                                                  {"right_forearm_shape", "right_hand_shape"}};
+  const RobotModel model = test::humanoid();
+  EXPECT_EQ(pairsOf(model, Origin::adjacent), adjacent);
+  EXPECT_EQ(pairsOf(model, Origin::none).size(), 36u - adjacent.size()) << "of 9 links with geometry";
+}
+
+/// a and b, connected by the joints of a chain of links without geometry; each joint at its offset from the one before.
+RobotModel chain(const std::vector<double>& offsets) {
   RobotModel model;
-  const int a = addLink(model, "a", -1);
-  const int empty = addLink(model, "empty", a, JointKind::revolute, false);
-  const int second = addLink(model, "second", empty, JointKind::prismatic, false);
-  const int b = addLink(model, "b", second), c = addLink(model, "c", empty), d = addLink(model, "d", b);
+  int link = addLink(model, "empty", addLink(model, "a", -1), JointKind::revolute, false);
+  model.links.back().parent_from_joint.translation().z() = 0.5;
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    const bool is_last = i + 1 == offsets.size();
+    link = addLink(model, is_last ? "b" : "empty" + std::to_string(i), link, JointKind::revolute, is_last);
+    model.links.back().parent_from_joint.translation().x() = offsets[i];
+  }
+  findRigidGroups(model);
+  return model;
+}
+
+TEST(LinkMatrix, SeveralJointsInOnePlaceAreOneJointAndOthersAreNot) {
+  const auto ends = [](const std::vector<double>& offsets) {
+    const RobotModel model = chain(offsets);
+    return matrixOf(model).origin(0, std::uint32_t(model.links.size() - 1));
+  };
+  EXPECT_EQ(ends({0.0}), Origin::adjacent) << "a universal joint written as two joints";
+  EXPECT_EQ(ends({0.0, 0.0}), Origin::adjacent) << "a spherical joint written as three joints";
+  EXPECT_EQ(ends({0.01}), Origin::adjacent) << "at most 1 cm apart";
+  EXPECT_EQ(ends({0.01, -0.01, 0.01}), Origin::adjacent) << "each from the one before";
+  EXPECT_EQ(ends({0.0101}), Origin::none);
+  EXPECT_EQ(ends({0.0, 0.0101}), Origin::none);
+  EXPECT_EQ(ends({0.0101, 0.0}), Origin::none);
+  EXPECT_EQ(ends({-0.3}), Origin::none);
+}
+
+TEST(LinkMatrix, JointOriginsAreComparedThroughFixedJoints) {
+  for (const double offset : {0.0, 0.02}) {
+    RobotModel model = chain({0.0});
+    const int bracket = addLink(model, "bracket", 1, JointKind::fixed, false);  // below the link "empty"
+    model.links.back().parent_from_joint.translation() << 0.1, 0.2, 0.3 + offset;
+    const int c = addLink(model, "c", bracket);
+    model.links.back().parent_from_joint.translation() << -0.1, -0.2, -0.3;
+    findRigidGroups(model);
+    EXPECT_EQ(matrixOf(model).origin(0, std::uint32_t(c)), offset == 0.0 ? Origin::adjacent : Origin::none);
+  }
+}
+
+TEST(LinkMatrix, GeometryAnywhereInAGroupBetweenEndsTheChain) {
+  RobotModel model = chain({0.0});
+  const auto b = std::uint32_t(model.find("b"));
+  EXPECT_EQ(matrixOf(model).origin(0, b), Origin::adjacent);
+  addLink(model, "sensor", 1, JointKind::fixed);  // on the link "empty"
   findRigidGroups(model);
   const LinkMatrix matrix = matrixOf(model);
-  const auto origin = [&](int i, int j) { return matrix.origin(std::uint32_t(i), std::uint32_t(j)); };
-  EXPECT_EQ(origin(a, b), Origin::adjacent) << "through two of them";
-  EXPECT_EQ(origin(a, c), Origin::adjacent);
-  EXPECT_EQ(origin(b, c), Origin::adjacent) << "siblings below an empty link";
-  EXPECT_EQ(origin(a, d), Origin::none) << "not through one that has geometry";
-  EXPECT_EQ(origin(c, d), Origin::none);
+  const auto sensor = std::uint32_t(model.find("sensor"));
+  EXPECT_EQ(matrix.origin(0, b), Origin::none);
+  EXPECT_EQ(matrix.origin(0, sensor), Origin::adjacent);
+  EXPECT_EQ(matrix.origin(sensor, b), Origin::adjacent);
+}
+
+TEST(LinkMatrix, GroupsOnDifferentBranchesAreNeverAdjacent) {
+  RobotModel model;
+  const int hub = addLink(model, "hub", -1, JointKind::fixed, false);
+  const auto left = std::uint32_t(addLink(model, "left", hub)), right = std::uint32_t(addLink(model, "right", hub));
+  findRigidGroups(model);
+  EXPECT_EQ(matrixOf(model).origin(left, right), Origin::none) << "though both joints are in one place";
+  EXPECT_EQ(matrixOf(model).origin(std::uint32_t(hub), right), Origin::adjacent);
 }
 
 TEST(LinkMatrix, GeometryThatCouldNotBeReadIsGeometry) {
@@ -73,7 +149,7 @@ TEST(LinkMatrix, LinksThatMoveAsOneMayTouch) {
   EXPECT_EQ(origin(camera, tip), Origin::rigid);
   EXPECT_TRUE(matrix.allowed(std::uint32_t(hand), std::uint32_t(palm)));
   EXPECT_EQ(origin(finger, tip), Origin::adjacent);
-  EXPECT_EQ(origin(finger, camera), Origin::none);
+  EXPECT_EQ(origin(finger, camera), Origin::adjacent) << "one joint connects their groups";
 }
 
 TEST(LinkMatrix, SrdfTagsDoWhatTheySay) {
@@ -158,38 +234,84 @@ TEST(LinkMatrix, RulesForUnknownLinksWarnAndDoNothing) {
   for (const char* word : {"tail", "horn", "wing\\x0a", "fin"}) EXPECT_TRUE(says(all, word));
 }
 
-/// Whether a walk from link to link over joints, with nothing but empty links between, leads from one to another.
-bool joined(const RobotModel& model, int from, int to, int came_from = -1) {
-  for (int next = 0; next < int(model.links.size()); ++next) {
-    const bool neighbours =
-        model.links[std::size_t(next)].parent == from || model.links[std::size_t(from)].parent == next;
-    if (!neighbours || next == came_from) continue;
-    if (next == to) return true;
-    if (!model.links[std::size_t(next)].has_collision && joined(model, next, to, from)) return true;
+/// Adjacency as the rule reads, without groups: the joints on the way from one link to another decide.
+class AdjacencyOracle {
+ public:
+  explicit AdjacencyOracle(const RobotModel& model) : model_(model) {
+    for (const RobotLink& link : model.links) {
+      root_from_link_.push_back(link.parent < 0 ? Pose::Identity()
+                                                : root_from_link_[std::size_t(link.parent)] * link.parent_from_joint);
+    }
   }
-  return false;
-}
+
+  bool rigid(int a, int b) const { return topOf(a) == topOf(b); }
+  bool adjacent(int a, int b) const { return isChain(a, b) || isChain(b, a); }
+
+ private:
+  const RobotLink& link(int index) const { return model_.links[std::size_t(index)]; }
+  bool moves(int index) const { return link(index).parent >= 0 && link(index).joint_kind != JointKind::fixed; }
+  /// The link of the group that is nearest to the root.
+  int topOf(int index) const {
+    while (link(index).parent >= 0 && !moves(index)) index = link(index).parent;
+    return index;
+  }
+  bool hasGeometry(int top) const {
+    for (int i = 0; i < int(model_.links.size()); ++i) {
+      if (topOf(i) == top && link(i).has_collision) return true;
+    }
+    return false;
+  }
+  /// Whether one moving joint, or several in one place with nothing between them, lead from `upper` down to `lower`.
+  bool isChain(int upper, int lower) const {
+    std::vector<int> tops = {topOf(lower)};
+    while (tops.back() != topOf(upper)) {
+      if (link(tops.back()).parent < 0) return false;  // `upper` is on another branch, or below
+      tops.push_back(topOf(link(tops.back()).parent));
+    }
+    for (std::size_t i = 1; i + 1 < tops.size(); ++i) {
+      const Eigen::Vector3d below = root_from_link_[std::size_t(tops[i - 1])].translation();
+      const Eigen::Vector3d here = root_from_link_[std::size_t(tops[i])].translation();
+      if (hasGeometry(tops[i]) || (below - here).norm() > 0.01) return false;
+    }
+    return tops.size() > 1;
+  }
+
+  const RobotModel& model_;
+  std::vector<Pose> root_from_link_;  // all joints at 0
+};
 
 TEST(LinkMatrix, IsRightAndSymmetricForAnyTree) {
-  int adjacent = 0, free = 0;
-  for (unsigned seed = 1; seed <= 300; ++seed) {
+  int rigid = 0, by_one = 0, by_several = 0, free = 0;
+  for (unsigned seed = 1; seed <= 600; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
-    const RobotModel model = test::randomModel(random, random.between(1, 20));
+    RobotModel model = test::randomModel(random, random.between(1, 20));
+    const double crowding = random.uniform(0, 1);
+    for (RobotLink& link : model.links) {
+      if (random.chance(crowding)) link.parent_from_joint.translation() *= 0.02;  // about as often beyond 1 cm as not
+      link.has_collision = link.has_collision && random.chance(0.6);
+    }
+    findRigidGroups(model);
     const LinkMatrix matrix = matrixOf(model);
+    const AdjacencyOracle oracle(model);
     for (int i = 0; i < int(model.links.size()); ++i) {
       for (int j = 0; j < int(model.links.size()); ++j) {
         const auto a = std::uint32_t(i), b = std::uint32_t(j);
         ASSERT_EQ(matrix.origin(a, b), matrix.origin(b, a));
-        if (i == j || !model.links[a].has_collision || !model.links[b].has_collision) continue;
-        const bool rigid = model.links[a].rigid_group == model.links[b].rigid_group;
-        ASSERT_EQ(matrix.allowed(a, b), rigid || joined(model, i, j)) << i << " " << j;
-        (matrix.allowed(a, b) ? adjacent : free)++;
+        const Origin expected = i == j                  ? Origin::self
+                                : oracle.rigid(i, j)    ? Origin::rigid
+                                : oracle.adjacent(i, j) ? Origin::adjacent
+                                                        : Origin::none;
+        ASSERT_EQ(matrix.origin(a, b), expected) << i << " " << j;
+        const bool direct = model.links[a].parent == j || model.links[b].parent == i;
+        rigid += expected == Origin::rigid;
+        by_one += expected == Origin::adjacent && direct;
+        by_several += expected == Origin::adjacent && !direct;
+        free += expected == Origin::none;
       }
     }
   }
-  EXPECT_GT(adjacent, 1000);
-  EXPECT_GT(free, 1000);
+  for (const int count : {rigid, by_one, by_several, free}) EXPECT_GT(count, 1000);
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ TEST(PairRules, WithoutRulesTheModelDecides) {
   const Row rows[] = {{base, base, Origin::self, true, ""},
                       {wall, floor_, Origin::kind, true, ""},
                       {base, shoulder, Origin::rigid, true, "they move as one"},
-                      {shoulder, elbow, Origin::adjacent, true, "a joint joins them"},
+                      {shoulder, elbow, Origin::adjacent, true, "joint 'elbow_joint' connects their rigid groups"},
                       {base, elbow, Origin::srdf, true, "Never"},
                       {base, hand, Origin::srdf, true, "disable_default_collisions"},
                       {elbow, hand, Origin::srdf, false, "it reaches back"},

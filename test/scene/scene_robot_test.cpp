@@ -8,28 +8,8 @@
 namespace hgrid {
 namespace {
 
+using test::bodiesOf;
 using test::Random;
-
-/// Bodies of a robot: one per link with geometry, as an importer would make them.
-std::vector<Body> bodiesOf(const RobotModel& model, const std::string& robot,
-                           const std::shared_ptr<const LinkMatrix>& matrix) {
-  std::vector<Body> bodies;
-  for (std::uint32_t i = 0; i < model.links.size(); ++i) {
-    if (!model.links[i].has_collision) continue;
-    Body body;
-    body.name = robot + "/" + model.links[i].name;
-    body.frame = model.links[i].name;
-    body.kind = BodyKind::link;
-    body.shapes = model.links[i].shapes;
-    body.robot = robot;
-    body.link = i;
-    body.rigid_group = model.links[i].rigid_group;
-    body.links = matrix;
-    body.max_speed = 0.5;
-    bodies.push_back(body);
-  }
-  return bodies;
-}
 
 TEST(SceneRobot, EqualRobotsShareTheirMatrixAndFindThePairsOfTheOracle) {
   std::size_t within = 0, between = 0;
@@ -72,6 +52,19 @@ TEST(SceneRobot, EqualRobotsShareTheirMatrixAndFindThePairsOfTheOracle) {
   }
   EXPECT_GT(within, 1000u);
   EXPECT_GT(between, 1000u);
+}
+
+TEST(SceneRobot, TheHandsOfAHumanoidAreReportedWhenTheyTouch) {
+  const RobotModel model = test::humanoid();
+  const auto matrix = std::make_shared<const LinkMatrix>(test::matrixOf(model));
+  Scene scene{SceneOptions{}};
+  double x = 0.0;
+  for (const Body& body : bodiesOf(model, "robot", matrix)) {
+    const bool is_hand = body.name.find("hand") != std::string::npos;
+    test::put(scene, body, test::at(is_hand ? 50.0 : x += 1.0));
+  }
+  EXPECT_EQ(test::namedPairs(*scene.commit(Time{1}, {})),
+            test::NamePairs({{"robot/left_hand_shape", "robot/right_hand_shape"}}));
 }
 
 TEST(SceneRobot, AllowedPatternsAndKindsSwitchPairsOff) {

@@ -27,6 +27,34 @@ inline int addLink(RobotModel& model, const std::string& name, int parent, Joint
   return int(model.links.size()) - 1;
 }
 
+/// A small humanoid whose moving links have no geometry: each shape is on a fixed leaf link "<part>_shape".
+///
+/// The waist and the wrists are universal joints written as two joints, the shoulders are spherical joints written as
+/// three joints. The two joints of the neck are 6 cm apart, so they are no universal joint.
+inline RobotModel humanoid() {
+  RobotModel model;
+  model.name = "humanoid";
+  const auto addPart = [&](const std::string& name, int parent, const Eigen::Vector3d& origin, bool has_shape) {
+    const int part = addLink(model, name, parent, JointKind::revolute, false);
+    model.links.back().parent_from_joint.translation() = origin;
+    if (has_shape) addLink(model, name + "_shape", part, JointKind::fixed);
+    return part;
+  };
+  const int pelvis = addPart("pelvis", -1, {0, 0, 0}, true);
+  const int torso = addPart("torso", addPart("waist", pelvis, {0, 0, 0.2}, false), {0, 0, 0}, true);
+  addPart("head", addPart("neck", torso, {0, 0, 0.5}, false), {0, 0, 0.06}, true);
+  for (const std::string side : {"left_", "right_"}) {
+    const double y = side == "left_" ? 0.2 : -0.2;
+    const int swing = addPart(side + "shoulder_swing", torso, {0, y, 0.4}, false);
+    const int lift = addPart(side + "shoulder_lift", swing, {0, 0, 0}, false);
+    const int upper_arm = addPart(side + "upper_arm", lift, {0, 0.005, 0}, true);
+    const int forearm = addPart(side + "forearm", upper_arm, {0, 0, -0.3}, true);
+    addPart(side + "hand", addPart(side + "wrist", forearm, {0, 0, -0.25}, false), {0, 0, -0.01}, true);
+  }
+  findRigidGroups(model);
+  return model;
+}
+
 /// A tree of `count` links with joints and geometry as it comes.
 inline RobotModel randomModel(Random& random, int count) {
   RobotModel model;
@@ -44,6 +72,27 @@ inline RobotModel randomModel(Random& random, int count) {
 inline LinkMatrix matrixOf(const RobotModel& model, const LinkRules& rules = {}) {
   std::vector<std::string> warnings;
   return LinkMatrix(model, rules, warnings);
+}
+
+/// Bodies of a robot: one per link with geometry, as an importer would make them.
+inline std::vector<Body> bodiesOf(const RobotModel& model, const std::string& robot,
+                                  const std::shared_ptr<const LinkMatrix>& matrix) {
+  std::vector<Body> bodies;
+  for (std::uint32_t i = 0; i < model.links.size(); ++i) {
+    if (!model.links[i].has_collision) continue;
+    Body body;
+    body.name = robot + "/" + model.links[i].name;
+    body.frame = model.links[i].name;
+    body.kind = BodyKind::link;
+    body.shapes = model.links[i].shapes;
+    body.robot = robot;
+    body.link = i;
+    body.rigid_group = model.links[i].rigid_group;
+    body.links = matrix;
+    body.max_speed = 0.5;
+    bodies.push_back(body);
+  }
+  return bodies;
 }
 
 }  // namespace test

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "hgrid_proximity/scene/group_tree.h"
+
 namespace hgrid {
 
 /// Where it comes from that a pair is not reported; the numbers are those of msg/AllowedPair.msg.
@@ -33,15 +35,14 @@ struct LinkRules {
   std::vector<Pair> enabled;                  ///< enable_collisions: undoes defaults, adjacency and rigid groups
 };
 
-struct RobotModel;
-
-/// Which links of one robot model may touch without being reported: one per model, shared by equal robots.
-/// Symmetric; a link with itself is Origin::self.
+/// Which links of one robot model may touch without being reported: one matrix per model, shared by equal robots.
+/// The matrix is symmetric. A link with itself is Origin::self.
 class LinkMatrix {
  public:
-  /// From the model's joints and an SRDF's rules. An explicit disable beats an enable; an enable beats a
-  /// default disable, adjacency and rigid groups. Rules that name links the model does not have are left
-  /// out, one sentence each in `warnings`.
+  /// Switches off all pairs of links of one rigid group and of two adjacent groups (see GroupTree), then applies the
+  /// rules of an SRDF. An explicit disable takes precedence over an enable. An enable takes precedence over a default
+  /// disable, adjacency and rigid groups. A rule that names a link that the model does not have is left out and adds
+  /// one sentence to `warnings`.
   LinkMatrix(const RobotModel& model, const LinkRules& rules, std::vector<std::string>& warnings);
 
   bool allowed(std::uint32_t first, std::uint32_t second) const { return isIn(allowedWith(first), second); }
@@ -61,11 +62,17 @@ class LinkMatrix {
   };
   /// The tag that decides of a pair; null: it has none.
   const Tag* tag(std::uint32_t first, std::uint32_t second) const;
+  /// Why two links of adjacent groups may touch, with the names of the joints that connect their groups.
+  std::string adjacencyReason(std::uint32_t first, std::uint32_t second) const;
 
  private:
+  void setGroups(const RobotModel& model);
+  void applyRules(const RobotModel& model, const LinkRules& rules, std::vector<std::string>& warnings);
   void set(std::uint32_t first, std::uint32_t second, Origin origin);
 
   std::size_t size_, words_;  // links; 64-bit words of a set of links
+  GroupTree groups_;
+  std::vector<std::uint32_t> group_of_;  // by link
   std::vector<Origin> origins_;
   std::vector<std::uint64_t> allowed_;                           // bit: there is an origin
   std::map<std::pair<std::uint32_t, std::uint32_t>, Tag> tags_;  // by links, the smaller first: few pairs have one

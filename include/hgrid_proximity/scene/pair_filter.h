@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <string_view>
+#include <string>
 #include <vector>
 
 #include "hgrid_proximity/scene/body.h"
@@ -28,7 +28,7 @@ struct PairDecision {
 
   Origin origin = Origin::none;  ///< of what decides; none: nothing speaks of the pair, so it is reported
   bool allowed = false;          ///< the pair may touch and is not reported
-  std::string_view reason;       ///< of the rule or of the SRDF; may be empty; alive as long as the filter
+  std::string reason;            ///< of the rule, of the SRDF or of the robot's joints; may be empty
   std::uint32_t rule = kNoRule;  ///< index into PairFilter::rules()
 };
 

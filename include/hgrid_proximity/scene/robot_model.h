@@ -25,10 +25,14 @@ struct RobotLink {
   double max_velocity = 0.0;                        ///< [rad/s] or [m/s]; 0: the description says none
   double lower = 0.0, upper = 0.0;                  ///< [rad] or [m]; both 0: no limits (continuous)
   bool has_collision = false;                       ///< its description has a <collision>
+  bool uses_visual = false;                         ///< its shapes are those of <visual>, since it has no <collision>
   std::vector<BodyShape> shapes;                    ///< those that could be read
   std::vector<Refusal> unreadable;                  ///< those that could not, a sentence each
   std::uint32_t rigid_group = 0;                    ///< links with equal numbers move as one
   Pose group_from_link = Pose::Identity();          ///< the link's pose in the first link of its group
+
+  /// Whether the description gives the link an extent, in shapes that could be read or not.
+  bool hasGeometry() const { return has_collision || uses_visual; }
 };
 
 /// A robot as its description tells it: links, parents before children.
