@@ -43,6 +43,7 @@ set(HGRID_CORE_SOURCES
   src/scene/rule_book.cpp
   src/scene/scene.cpp
   src/scene/self_filter.cpp
+  src/scene/self_pairs.cpp
   src/scene/snapshot.cpp
   src/scene/snapshot_maps.cpp
   src/scene/snapshot_nearest.cpp
