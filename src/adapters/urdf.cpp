@@ -51,9 +51,21 @@ Pose poseOf(const urdf::Pose& pose, const std::string& what) {
 
 Eigen::Vector3d vectorOf(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
 
-/// Reads one <collision> by urdfdom, in a robot of its own: what urdfdom would drop silently among others
-/// cannot go unnoticed, and does not spoil its neighbours.
-urdf::CollisionSharedPtr parseCollision(const tinyxml2::XMLElement& element, const std::string& what) {
+/// The text of a <collision> with the origin and the geometry of a <collision> or <visual> element.
+std::string asCollision(const tinyxml2::XMLElement& element) {
+  tinyxml2::XMLDocument document;
+  tinyxml2::XMLElement* collision = document.NewElement("collision");
+  document.InsertEndChild(collision);
+  for (auto* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+    const std::string tag = child->Name();
+    if (tag == "origin" || tag == "geometry") collision->InsertEndChild(child->DeepClone(&document));
+  }
+  return printed(document);
+}
+
+/// Reads one <collision> or <visual> with urdfdom, in a robot of its own. An element that urdfdom drops silently is
+/// noticed that way and does not affect the other elements of the link.
+urdf::CollisionSharedPtr parseShape(const tinyxml2::XMLElement& element, const std::string& what) {
   const tinyxml2::XMLElement* geometry = element.FirstChildElement("geometry");
   const std::string shown = printable(printed(element), 200);
   const tinyxml2::XMLElement* shape = geometry == nullptr ? nullptr : geometry->FirstChildElement();
@@ -62,7 +74,7 @@ urdf::CollisionSharedPtr parseCollision(const tinyxml2::XMLElement& element, con
     throw Refusal(Code::parse, what + " reads " + shown + "; it must have one <geometry> with one shape in it");
   }
   const UrdfdomErrors errors;
-  const auto robot = urdf::parseURDF("<robot name=\"r\"><link name=\"l\">" + printed(element) + "</link></robot>");
+  const auto robot = urdf::parseURDF("<robot name=\"r\"><link name=\"l\">" + asCollision(element) + "</link></robot>");
   const auto link = robot ? robot->getRoot() : nullptr;
   if (!link || link->collision_array.size() != 1 || !link->collision_array.front()->geometry) {
     throw Refusal(Code::parse,
@@ -102,20 +114,21 @@ BodyShape bodyShapeOf(const urdf::Collision& collision, const std::string& what,
   throw Refusal(Code::unsupported, what + " has a shape of a kind that is not supported");
 }
 
-void readCollisions(const tinyxml2::XMLElement& element, RobotLink& link, const MeshSource& meshes,
-                    const ShapeLimits& limits) {
+/// Reads all elements of a link with this tag, <collision> or <visual>. @returns whether there are any
+bool readShapes(const tinyxml2::XMLElement& element, const char* tag, RobotLink& link, const MeshSource& meshes,
+                const ShapeLimits& limits) {
   int number = 0;
-  for (auto* collision = element.FirstChildElement("collision"); collision != nullptr;
-       collision = collision->NextSiblingElement("collision")) {
-    link.has_collision = true;
-    const std::string what = "<collision> " + std::to_string(++number) + " of link '" + printable(link.name) + "'";
+  for (auto* shape = element.FirstChildElement(tag); shape != nullptr; shape = shape->NextSiblingElement(tag)) {
+    const std::string what =
+        "<" + std::string(tag) + "> " + std::to_string(++number) + " of link '" + printable(link.name) + "'";
     try {
-      link.shapes.push_back(bodyShapeOf(*parseCollision(*collision, what), what, meshes, limits));
+      link.shapes.push_back(bodyShapeOf(*parseShape(*shape, what), what, meshes, limits));
     } catch (const Refusal& refusal) {
       const std::string sentence = refusal.what();
       link.unreadable.emplace_back(refusal.code(), sentence.rfind(what, 0) == 0 ? sentence : what + ": " + sentence);
     }
   }
+  return number > 0;
 }
 
 /// Finds the joint that urdfdom cannot read, by reading each alone: its own message does not always name it.
@@ -201,7 +214,7 @@ RobotLink linkOf(const urdf::Link& source, int parent, const ShapeLimits& limits
 }  // namespace
 
 RobotModel readUrdf(const std::string& xml, const MeshSource& meshes, const DescriptionLimits& limits,
-                    const ShapeLimits& shape_limits) {
+                    const ShapeLimits& shape_limits, const VisualChoice& takes_visual) {
   tinyxml2::XMLDocument document;
   const tinyxml2::XMLElement& robot = parseXml(xml, limits, "the URDF", "robot", document);
   checkTree(robot);
@@ -224,8 +237,10 @@ RobotModel readUrdf(const std::string& xml, const MeshSource& meshes, const Desc
   }
   for (auto* element = robot.FirstChildElement("link"); element != nullptr;
        element = element->NextSiblingElement("link")) {
-    readCollisions(*element, model.links[static_cast<std::size_t>(index.at(element->Attribute("name")))], meshes,
-                   shape_limits);
+    RobotLink& link = model.links[static_cast<std::size_t>(index.at(element->Attribute("name")))];
+    link.has_collision = readShapes(*element, "collision", link, meshes, shape_limits);
+    if (link.has_collision || !takes_visual || !takes_visual(link.name)) continue;
+    link.uses_visual = readShapes(*element, "visual", link, meshes, shape_limits);
   }
   findRigidGroups(model);
   return model;
