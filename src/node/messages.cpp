@@ -170,6 +170,7 @@ msg::Status status(const Tick& tick, const msg::WorldState& world, const Params&
   message.uncovered = tick.models->uncovered;
   message.waived = tick.models->waived;
   message.without_collision = tick.models->without_collision;
+  message.uses_visual = tick.models->uses_visual;
   message.model_warnings = tick.models->warnings;
   message.robots = static_cast<std::uint32_t>(tick.models->robots);
   if (tick.snapshot) {

@@ -70,6 +70,7 @@ void NodeDiagnostics::robots(DiagnosticStatusWrapper& status) {
   addAll(status, "uncovered", report.uncovered);
   addAll(status, "waived", report.waived);
   addAll(status, "without collision", report.without_collision);
+  addAll(status, "uses visual geometry", report.uses_visual);
   addAll(status, "warning", report.warnings);
 }
 

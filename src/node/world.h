@@ -31,9 +31,9 @@ struct BodyTrouble {
   std::string sentence;
 };
 
-/// What is odd in the descriptions; changes with the bodies only.
+/// What the descriptions of the robots lack and what their models switch off; changes with the bodies only.
 struct ModelReport {
-  std::vector<std::string> uncovered, waived, without_collision, warnings;
+  std::vector<std::string> uncovered, waived, without_collision, uses_visual, warnings;
   std::size_t robots = 0;
 };
 
