@@ -45,6 +45,15 @@ std::uint64_t newEpoch() {
   return static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count());
 }
 
+void logLoaded(const std::string& robot, const SelfPairs& self_pairs) {
+  const std::string line = "Robot '" + robot + "' is loaded: " + text(self_pairs) + ".";
+  if (self_pairs.allOff()) {
+    ROS_WARN("%s", line.c_str());
+  } else {
+    ROS_INFO("%s", line.c_str());
+  }
+}
+
 ros::NodeHandle onQueue(ros::NodeHandle node, ros::CallbackQueue& queue) {
   node.setCallbackQueue(&queue);
   return node;
@@ -262,8 +271,10 @@ void ProximityNode::runInTick(const Job& job) {
 
 Refusal ProximityNode::loadRobot(const RobotParams& robot) {
   Refusal result(Code::ok, "");
+  SelfPairs self_pairs;
   try {
     const auto loaded = std::make_shared<LoadedRobot>(robot_source_.load(robot));
+    self_pairs = loaded->self_pairs;
     runInTick([loaded](World& world) { world.setRobot(std::move(*loaded)); });
   } catch (const Refusal& refusal) {
     result = refusal;
@@ -273,7 +284,7 @@ Refusal ProximityNode::loadRobot(const RobotParams& robot) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (result.code() == Code::ok) {
     health_.failed_loads.erase(robot.name);
-    ROS_INFO("Robot '%s' is loaded.", robot.name.c_str());
+    logLoaded(robot.name, self_pairs);
     return result;
   }
   const std::string sentence = std::string(name(result.code())) + " robot '" + robot.name + "': " + result.what();

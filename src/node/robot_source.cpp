@@ -174,6 +174,7 @@ LoadedRobot RobotSource::load(const RobotParams& params) const {
   robot.root_frame = prefixed(params.tf_prefix, model.links.front().name);
   robot.warnings = model.warnings;
   const auto links = std::make_shared<const LinkMatrix>(model, rules, robot.warnings);
+  robot.self_pairs = countSelfPairs(model, *links);
   robot.groups.resize(model.group_roots.size());
   for (std::size_t group = 0; group < robot.groups.size(); ++group) {
     robot.groups[group].frame = prefixed(params.tf_prefix, model.links[model.group_roots[group]].name);

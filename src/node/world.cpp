@@ -187,6 +187,7 @@ void World::rebuildReport() {
     report->without_collision.insert(report->without_collision.end(), robot.without_collision.begin(),
                                      robot.without_collision.end());
     report->uses_visual.insert(report->uses_visual.end(), robot.uses_visual.begin(), robot.uses_visual.end());
+    report->self_pairs.emplace_back(robot.name, robot.self_pairs);
     for (const std::string& warning : robot.warnings) report->warnings.push_back(robot.name + ": " + warning);
   }
   report->robots = robots_.size();

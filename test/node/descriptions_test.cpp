@@ -54,8 +54,9 @@ TEST(Description, ThatIsAbsentOrEmptyOrNoTextIsWaitedForAndObstaclesServe) {
     expectOnlyThePostServes(node);
     waitForDiagnostic(node, "robots", DiagnosticStatus::ERROR, one.second);
 
-    node.setBeside("robot_description", balls({"a"}));
+    node.setBeside("robot_description", balls({"a", "b"}));
     transforms.stream("base", "a", at(0));
+    transforms.stream("base", "b", at(9));
     node.waitForComplete();
     EXPECT_TRUE(node.heard().status.back()->not_ready.empty());
     EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Answer::HIT);
@@ -273,6 +274,64 @@ TEST(VisualGeometry, ThatCannotBeReadIsUncovered) {
   const auto status = node.waitForStatus("the robot", [](const msg::Status& s) { return s.robots == 1; });
   EXPECT_TRUE(oneSays(status->uncovered, "robot/base: RESOURCE_MISSING: <visual> 1 of link 'base'"));
   EXPECT_EQ(node.sphere(9, 0, 0, 0.05).answer.verdict, msg::Answer::UNKNOWN);
+}
+
+/// A torso and two arms of two joints, 0.3 m apart; each shape is on a fixed leaf link.
+std::string twoArms() {
+  std::string content = link("base") + link("torso", sphereOf(0.1, "0 0 -5")) + joint("base", "torso", "fixed");
+  for (const std::string side : {"left", "right"}) {
+    const std::string arm = side + "_arm", hand = side + "_hand", glove = side + "_glove";
+    content += link(arm) + link(hand) + link(glove, sphereOf(0.1)) + joint("base", arm, "continuous") +
+               joint(arm, hand, "continuous", "<origin xyz=\"0.3 0 0\"/>") + joint(hand, glove, "fixed");
+  }
+  return urdf(content);
+}
+
+TEST(SelfPairs, HandsWhoseArmsHaveNoGeometryAreReportedWhenTheyAreNear) {
+  TransformSource transforms;
+  transforms.fix({stamped("base", "left_hand", at(0)), stamped("base", "right_hand", at(0.25))});
+  NodeSetup setup = besidePost();
+  setup.beside["robot_description"] = twoArms();
+  NodeUnderTest node(setup);
+  node.waitForComplete();
+  const auto pairs = node.waitForPairs("the hands", [](const msg::Pairs& p) { return p.world.complete; });
+  EXPECT_EQ(namesOf(*pairs), std::vector<std::string>({"robot/left_glove|robot/right_glove"}));
+  const auto& counts = node.heard().status.back()->self_pairs;
+  ASSERT_EQ(counts.size(), 1u);
+  EXPECT_EQ(counts[0].robot, "robot");
+  EXPECT_EQ(counts[0].links, 3u);
+  EXPECT_EQ(counts[0].pairs, 3u);
+  EXPECT_EQ(counts[0].rigid + counts[0].adjacent + counts[0].srdf, 0u);
+}
+
+/// Waits until the log has one line with the text. It may be written after the tick that has the robot.
+void waitForLine(NodeUnderTest& node, const std::string& text) {
+  node.waitUntil("the log says " + text, [&](const Heard&) { return node.lines(text) == 1; });
+}
+
+TEST(SelfPairs, ARobotWhosePairsAreAllOffIsAWarning) {
+  TransformSource transforms;
+  transforms.fix({stamped("base", "a", at(0)), stamped("base", "b", at(9))});
+  NodeSetup setup = besidePost();
+  setup.environment["ROSCONSOLE_STDOUT_LINE_BUFFERED"] = "1";
+  setup.beside["robot_description"] = balls({"a", "b"});
+  setup.beside["robot_description_semantic"] =
+      std::string("<robot name=\"r\"><disable_collisions link1=\"a\" link2=\"b\"/></robot>");
+  NodeUnderTest node(setup);
+  node.waitForComplete();
+  const std::string all = "3 of the 3 pairs of its 3 links with geometry are off (0 rigid, 2 adjacent, 1 by SRDF)";
+  waitForLine(node, "Robot 'robot' is loaded: " + all);
+  const auto& counts = node.heard().status.back()->self_pairs;
+  ASSERT_EQ(counts.size(), 1u);
+  EXPECT_EQ(counts[0].pairs, 3u);
+  EXPECT_EQ(counts[0].adjacent, 2u);
+  EXPECT_EQ(counts[0].srdf, 1u);
+  waitForDiagnostic(node, "robots", DiagnosticStatus::WARN, "robot: " + all);
+
+  node.setBeside("robot_description_semantic", std::string("<robot name=\"r\"/>"));
+  ASSERT_TRUE(node.reload("robot").success);
+  waitForDiagnostic(node, "robots", DiagnosticStatus::OK, "every shape was read");
+  waitForLine(node, "2 of the 3 pairs of its 3 links with geometry are off (0 rigid, 2 adjacent, 0 by SRDF)");
 }
 
 TEST(TwoRobots, WithTheSameLinkNamesAreKeptApart) {

@@ -141,7 +141,7 @@ TEST(Streams, TwoNodesSayTheSameOfTheSameWorldByteForByte) {
 
 TEST(Diagnostics, HasFourStatuses) {
   NodeSetup setup;
-  setup.beside["robot_description"] = balls({"a"});
+  setup.beside["robot_description"] = balls({"a", "b"});
   NodeUnderTest node(setup);
   node.waitUntil("all statuses", [](const Heard& all) { return all.diagnostics.size() >= 4; });
   const auto all = node.heard().diagnostics;
@@ -154,7 +154,7 @@ TEST(Diagnostics, HasFourStatuses) {
            transforms.level == DiagnosticStatus::ERROR && transforms.message.find("'a'") != std::string::npos;
   });
   TransformSource transforms;
-  transforms.fix({stamped("base", "a", at(0))});
+  transforms.fix({stamped("base", "a", at(0)), stamped("base", "b", at(9))});
   node.waitUntil("all is well", [](const Heard& heard) {
     return heard.diagnostics.at("world").level == DiagnosticStatus::OK &&
            heard.diagnostics.at("transforms").level == DiagnosticStatus::OK &&
