@@ -27,6 +27,17 @@ msg::Shape toMsg(const BodyShape& source) {
   return shape;
 }
 
+msg::SelfPairs toMsg(const std::string& robot, const SelfPairs& counts) {
+  msg::SelfPairs message;
+  message.robot = robot;
+  message.links = static_cast<std::uint32_t>(counts.links);
+  message.pairs = static_cast<std::uint32_t>(counts.pairs);
+  message.rigid = static_cast<std::uint32_t>(counts.rigid);
+  message.adjacent = static_cast<std::uint32_t>(counts.adjacent);
+  message.srdf = static_cast<std::uint32_t>(counts.srdf);
+  return message;
+}
+
 msg::Body toMsg(const Body& source, double margin) {
   msg::Body body;
   body.name = source.name;
@@ -196,7 +207,9 @@ msg::Status status(const Tick& tick, const msg::WorldState& world, const Params&
   message.uncovered = tick.models->uncovered;
   message.waived = tick.models->waived;
   message.without_collision = tick.models->without_collision;
+  message.uses_visual = tick.models->uses_visual;
   message.model_warnings = tick.models->warnings;
+  for (const auto& robot : tick.models->self_pairs) message.self_pairs.push_back(toMsg(robot.first, robot.second));
   message.robots = static_cast<std::uint32_t>(tick.models->robots);
   if (tick.snapshot) {
     const Snapshot& snapshot = *tick.snapshot;

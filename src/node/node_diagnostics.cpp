@@ -14,6 +14,14 @@ void addAll(DiagnosticStatusWrapper& status, const std::string& key, const std::
   for (std::size_t i = 0; i < lines.size(); ++i) status.add(key + " " + std::to_string(i + 1), lines[i]);
 }
 
+/// Merges a WARN for each robot whose own links make no pair, and adds the counts of all robots.
+void addSelfPairs(DiagnosticStatusWrapper& status, const ModelReport& report) {
+  for (const auto& [robot, counts] : report.self_pairs) {
+    status.add("self pairs of " + robot, text(counts));
+    if (counts.allOff()) status.mergeSummary(DiagnosticStatus::WARN, robot + ": " + text(counts));
+  }
+}
+
 }  // namespace
 
 NodeDiagnostics::NodeDiagnostics(ros::NodeHandle node, ros::NodeHandle private_node, const std::string& name,
@@ -69,11 +77,13 @@ void NodeDiagnostics::robots(DiagnosticStatusWrapper& status) {
   } else {
     status.summary(DiagnosticStatus::OK, "every shape was read");
   }
+  addSelfPairs(status, report);
   status.add("robots loaded", report.robots);
   for (const auto& failure : health.failed_loads) status.add("not read: " + failure.first, failure.second);
   addAll(status, "uncovered", report.uncovered);
   addAll(status, "waived", report.waived);
   addAll(status, "without collision", report.without_collision);
+  addAll(status, "uses visual geometry", report.uses_visual);
   addAll(status, "warning", report.warnings);
 }
 

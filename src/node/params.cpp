@@ -43,7 +43,10 @@ void visit(Visitor& v, Params& p) {
            "and SRDF; name and description are required, without semantic there is no SRDF; "
            "empty list: one robot named 'robot' from robot_description and robot_description_semantic");
   v.waivers("accept_uncovered", p.accept_uncovered,
-            "list of {pattern, reason}: bodies with unreadable shapes that do not make the world incomplete");
+            "list of {pattern, reason}: bodies with unreadable shapes that do not make the world incomplete; a robot "
+            "without any collision geometry does not either if patterns match every one of its links");
+  v.strings("use_visual", p.use_visual,
+            "globs over body names: a link that matches and has no collision geometry uses its visual geometry");
   v.strings("mesh_roots", p.mesh_roots,
             "folders below which meshes may be read by file://; package:// is always allowed");
 

@@ -91,7 +91,7 @@ struct Params {
   std::vector<PairRule> allowed_pairs;
   PairKinds pair_kinds;
   std::vector<Waiver> accept_uncovered;
-  std::vector<std::string> required;
+  std::vector<std::string> required, use_visual;
   std::vector<PairMargin> pair_margins;
   std::vector<PatternValue> margins, padding, max_speed, map_self_filter;
   double event_hysteresis = 0.02;

@@ -41,6 +41,15 @@ std::uint64_t newEpoch() {
   return static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count());
 }
 
+void logLoaded(const std::string& robot, const SelfPairs& self_pairs) {
+  const std::string line = "Robot '" + robot + "' is loaded: " + text(self_pairs) + ".";
+  if (self_pairs.allOff()) {
+    ROS_WARN("%s", line.c_str());
+  } else {
+    ROS_INFO("%s", line.c_str());
+  }
+}
+
 ros::NodeHandle onQueue(ros::NodeHandle node, ros::CallbackQueue& queue) {
   node.setCallbackQueue(&queue);
   return node;
@@ -272,8 +281,10 @@ void ProximityNode::noteMissing(const std::string& name, const std::string& sent
 
 Refusal ProximityNode::loadRobot(const RobotParams& robot) {
   Refusal result(Code::ok, "");
+  SelfPairs self_pairs;
   try {
     const auto loaded = std::make_shared<LoadedRobot>(robot_source_.load(robot));
+    self_pairs = loaded->self_pairs;
     runInTick([loaded](World& world) { world.setRobot(std::move(*loaded)); });
   } catch (...) {
     result = caughtRefusal();
@@ -281,7 +292,7 @@ Refusal ProximityNode::loadRobot(const RobotParams& robot) {
   if (result.code() == Code::ok) {
     const std::lock_guard<std::mutex> lock(mutex_);
     health_.failed_loads.erase(robot.name);
-    ROS_INFO("Robot '%s' is loaded.", robot.name.c_str());
+    logLoaded(robot.name, self_pairs);
     return result;
   }
   const std::string sentence = std::string(name(result.code())) + " robot '" + robot.name + "': " + result.what();

@@ -5,9 +5,11 @@
 #include <dlfcn.h>
 #include <ros/package.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <set>
 #include <sstream>
 
 #include "frames.h"
@@ -63,6 +65,13 @@ std::string noteOf(const RobotLink& link) {
   return note;
 }
 
+/// The last waiver that matches the name, or null.
+const Waiver* waiverOf(const std::vector<Waiver>& waivers, const std::string& name) {
+  const auto found = std::find_if(waivers.rbegin(), waivers.rend(),
+                                  [&](const Waiver& waiver) { return matches(waiver.pattern, name); });
+  return found == waivers.rend() ? nullptr : &*found;
+}
+
 Body bodyOf(const LoadedRobot& robot, const RobotModel& model, std::uint32_t index, const Params& params) {
   const RobotLink& link = model.links[index];
   Body body;
@@ -75,11 +84,10 @@ Body bodyOf(const LoadedRobot& robot, const RobotModel& model, std::uint32_t ind
   body.shapes = link.shapes;
   body.covered = link.unreadable.empty();
   body.note = noteOf(link);
-  for (const Waiver& waiver : params.accept_uncovered) {
-    if (!body.covered && matches(waiver.pattern, body.name)) {
-      body.waived = true;
-      body.note = waiver.reason + " (" + noteOf(link) + ")";
-    }
+  const Waiver* waiver = body.covered ? nullptr : waiverOf(params.accept_uncovered, body.name);
+  if (waiver != nullptr) {
+    body.waived = true;
+    body.note = waiver->reason + " (" + noteOf(link) + ")";
   }
   applyPatterns(params, body);
   // A robot whose root is not the world may be carried about; that comes on top of its joints.
@@ -89,6 +97,24 @@ Body bodyOf(const LoadedRobot& robot, const RobotModel& model, std::uint32_t ind
   body.max_speed =
       lastMatch(params.max_speed, body.name, std::isfinite(joints) ? joints + carried : params.default_max_speed);
   return body;
+}
+
+/// Says that a robot without any geometry is incomplete, or that ~accept_uncovered waives every one of its links.
+void findGap(LoadedRobot& robot, const Params& params) {
+  if (!robot.bodies.empty()) return;
+  const std::string sentence = "robot '" + robot.name + "' has no collision geometry on any of its " +
+                               std::to_string(robot.without_collision.size()) + " links";
+  std::set<std::string> reasons;
+  for (const std::string& link : robot.without_collision) {
+    const Waiver* waiver = waiverOf(params.accept_uncovered, link);
+    if (waiver == nullptr) {
+      robot.gap = sentence + "; set ~use_visual or waive all of its links with ~accept_uncovered";
+      return;
+    }
+    reasons.insert(waiver->reason);
+  }
+  robot.waived_gap = sentence;
+  for (const std::string& reason : reasons) robot.waived_gap += (reason == *reasons.begin() ? ": " : "; ") + reason;
 }
 
 }  // namespace
@@ -138,7 +164,8 @@ LoadedRobot RobotSource::load(const RobotParams& params) const {
   MeshLoader meshes(meshPolicy(params_, cancelled_));
   RobotModel model = readUrdf(
       urdf, [&](const std::string& uri, const Eigen::Vector3d& scale) { return meshes.load(uri, scale); }, limits,
-      params_.shapeLimits());
+      params_.shapeLimits(),
+      [&](const std::string& link) { return matchesAny(params_.use_visual, joined(params.name, link)); });
   LinkRules rules;
   std::string key;
   if (!params.semantic.empty() && node_.searchParam(params.semantic, key)) {
@@ -152,6 +179,7 @@ LoadedRobot RobotSource::load(const RobotParams& params) const {
   robot.root_frame = prefixed(params.tf_prefix, model.links.front().name);
   robot.warnings = model.warnings;
   const auto links = std::make_shared<const LinkMatrix>(model, rules, robot.warnings);
+  robot.self_pairs = countSelfPairs(model, *links);
   robot.groups.resize(model.group_roots.size());
   for (std::size_t group = 0; group < robot.groups.size(); ++group) {
     robot.groups[group].frame = prefixed(params.tf_prefix, model.links[model.group_roots[group]].name);
@@ -159,7 +187,7 @@ LoadedRobot RobotSource::load(const RobotParams& params) const {
   for (std::uint32_t i = 0; i < model.links.size(); ++i) {
     const RobotLink& link = model.links[i];
     if (cancelled_()) throw Refusal(Code::busy, "robot '" + params.name + "' was not loaded: the node is about to end");
-    if (!link.has_collision) {
+    if (!link.hasGeometry()) {
       robot.without_collision.push_back(joined(robot.name, link.name));
       continue;
     }
@@ -168,7 +196,9 @@ LoadedRobot RobotSource::load(const RobotParams& params) const {
     makeSolids(*narrow_phase_, robot.bodies.back());
     robot.bodies.back().links = links;
     robot.bodies.back().frame = prefixed(params.tf_prefix, link.name);
+    if (link.uses_visual) robot.uses_visual.push_back(robot.bodies.back().name);
   }
+  findGap(robot, params_);
   return robot;
 }
 

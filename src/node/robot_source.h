@@ -11,6 +11,7 @@
 
 #include "hgrid_proximity/narrowphase/narrow_phase.h"
 #include "hgrid_proximity/scene/robot_model.h"
+#include "hgrid_proximity/scene/self_pairs.h"
 #include "params.h"
 
 namespace hgrid {
@@ -25,9 +26,13 @@ struct LoadedRobot {
 
   std::string name;
   std::string root_frame;
-  std::vector<Body> bodies;  // of the links that have <collision>
+  std::vector<Body> bodies;  // of the links that have geometry
   std::vector<Group> groups;
   std::vector<std::string> without_collision;  // names of the other links
+  std::vector<std::string> uses_visual;        // names of the bodies whose shapes are the link's visual geometry
+  std::string gap;                             // why the robot as a whole is incomplete; empty: it is not
+  std::string waived_gap;  // why it would be, and the reason of ~accept_uncovered; empty: nothing is waived
+  SelfPairs self_pairs;    // how many pairs of its own links its model switches off
   std::vector<std::string> warnings;
 };
 

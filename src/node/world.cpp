@@ -124,7 +124,11 @@ void World::setRobot(LoadedRobot robot) {
     }
     addMover(group.frame, robot.name, members);
   }
-  missing_.erase(robot.name);
+  if (robot.gap.empty()) {
+    missing_.erase(robot.name);
+  } else {
+    missing_[robot.name] = "UNCOVERED " + robot.gap;
+  }
   const std::string name = robot.name;
   robots_[name] = std::move(robot);
   rebuildReport();
@@ -154,7 +158,7 @@ std::vector<SourceGap> World::gaps(const Moment& now) const {
   return gaps;
 }
 
-/// A misspelt name in a parameter does nothing, and that would show nowhere.
+/// Warns of patterns that match nothing: a misspelled name in a parameter would otherwise go unnoticed.
 void World::warnOfIdlePatterns(ModelReport& report) const {
   std::vector<std::string> names;
   for (const auto& robot : robots_) {
@@ -162,17 +166,23 @@ void World::warnOfIdlePatterns(ModelReport& report) const {
   }
   for (const ObstacleParams& obstacle : params_.obstacles) names.push_back(obstacle.body.name);
   for (const CloudParams& cloud : params_.clouds) names.push_back(joined("cloud", cloud.name));
+  const auto matchesNone = [](const std::vector<std::string>& all, const std::string& pattern) {
+    return std::none_of(all.begin(), all.end(), [&](const std::string& name) { return matches(pattern, name); });
+  };
   const auto check = [&](const std::string& parameter, const std::string& pattern) {
     if (pattern.rfind("map/", 0) == 0) return;  // these come and go
-    const bool idle =
-        std::none_of(names.begin(), names.end(), [&](const std::string& name) { return matches(pattern, name); });
-    if (idle) report.warnings.push_back(parameter + ": '" + printable(pattern) + "' matches no body");
+    if (matchesNone(names, pattern))
+      report.warnings.push_back(parameter + ": '" + printable(pattern) + "' matches no body");
   };
   for (const PatternValue& value : params_.margins) check("~margins", value.pattern);
   for (const PatternValue& value : params_.padding) check("~padding", value.pattern);
   for (const PatternValue& value : params_.max_speed) check("~max_speed", value.pattern);
   for (const PatternValue& value : params_.map_self_filter) check("~map/self_filter", value.pattern);
-  for (const Waiver& waiver : params_.accept_uncovered) check("~accept_uncovered", waiver.pattern);
+  const auto checkOfLinks = [&](const std::string& parameter, const std::string& pattern) {
+    if (matchesNone(report.without_collision, pattern)) check(parameter, pattern);
+  };
+  for (const Waiver& waiver : params_.accept_uncovered) checkOfLinks("~accept_uncovered", waiver.pattern);
+  for (const std::string& pattern : params_.use_visual) checkOfLinks("~use_visual", pattern);
   for (const PairMargin& pair : params_.pair_margins) {
     check("~pair_margins", pair.first);
     check("~pair_margins", pair.second);
@@ -190,8 +200,12 @@ void World::rebuildReport() {
     for (const Body& body : robot.bodies) {
       if (!body.covered) (body.waived ? report->waived : report->uncovered).push_back(body.name + ": " + body.note);
     }
+    if (!robot.gap.empty()) report->uncovered.push_back(robot.gap);
+    if (!robot.waived_gap.empty()) report->waived.push_back(robot.waived_gap);
     report->without_collision.insert(report->without_collision.end(), robot.without_collision.begin(),
                                      robot.without_collision.end());
+    report->uses_visual.insert(report->uses_visual.end(), robot.uses_visual.begin(), robot.uses_visual.end());
+    report->self_pairs.emplace_back(robot.name, robot.self_pairs);
     for (const std::string& warning : robot.warnings) report->warnings.push_back(robot.name + ": " + warning);
   }
   report->robots = robots_.size();

@@ -32,9 +32,10 @@ struct BodyTrouble {
   std::string sentence;
 };
 
-/// What is odd in the descriptions; changes with the bodies only.
+/// What the descriptions of the robots lack and what their models switch off; changes with the bodies only.
 struct ModelReport {
-  std::vector<std::string> uncovered, waived, without_collision, warnings;
+  std::vector<std::string> uncovered, waived, without_collision, uses_visual, warnings;
+  std::vector<std::pair<std::string, SelfPairs>> self_pairs;  // by robot
   std::size_t robots = 0;
 };
 

@@ -197,8 +197,8 @@ TEST_F(AllowedRules, TheMatrixIsToldWithGlobsLimitAndSrdf) {
   EXPECT_EQ(all.srdf,
             "<robot name=\"robot\">\n"
             "  <disable_collisions link1=\"a\" link2=\"b\" reason=\"parked &amp; safe\"/>\n"
-            "  <disable_collisions link1=\"a\" link2=\"base\" reason=\"a joint joins them\"/>\n"
-            "  <disable_collisions link1=\"b\" link2=\"base\" reason=\"a joint joins them\"/>\n"
+            "  <disable_collisions link1=\"a\" link2=\"base\" reason=\"joint 'base_a' connects their rigid groups\"/>\n"
+            "  <disable_collisions link1=\"b\" link2=\"base\" reason=\"joint 'base_b' connects their rigid groups\"/>\n"
             "  <enable_collisions link1=\"base\" link2=\"c\" reason=\"\"/>\n"
             "</robot>\n");
   request.first = "robot/base";

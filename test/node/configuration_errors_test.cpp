@@ -49,6 +49,7 @@ TEST(ParamErrors, AWrongTypeIsNamed) {
   expectRefused(dict({{"origin", list({Value(1.0), Value("x"), Value(2)})}}),
                 "~origin[1] is a string ('x'); it must be a number");
   expectRefused(dict({{"mesh_roots", "x"}}), "~mesh_roots is a string ('x'); it must be a list");
+  expectRefused(dict({{"use_visual", "robot/*"}}), "~use_visual is a string ('robot/*'); it must be a list");
   expectRefused(dict({{"robots", list({Value("ur5")})}}), "~robots[0] is a string ('ur5'); it must be a dictionary");
 }
 

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "test/node/support/descriptions.h"
 
+#include <algorithm>
+
 #include "test/node/support/claims.h"
 #include "test/node/support/transform_source.h"
 
@@ -52,8 +54,9 @@ TEST(Description, ThatIsAbsentOrEmptyOrNoTextIsWaitedForAndObstaclesServe) {
     expectOnlyThePostServes(node);
     waitForDiagnostic(node, "robots", DiagnosticStatus::ERROR, one.second);
 
-    node.setBeside("robot_description", balls({"a"}));
+    node.setBeside("robot_description", balls({"a", "b"}));
     transforms.stream("base", "a", at(0));
+    transforms.stream("base", "b", at(9));
     node.waitForComplete();
     EXPECT_TRUE(node.heard().status.back()->not_ready.empty());
     EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Answer::HIT);
@@ -161,7 +164,7 @@ TEST(Uncovered, ALinkWhoseShapeCannotBeReadIsNamedAndNothingIsClear) {
 
 TEST(Uncovered, AWaiverMakesTheWorldCompleteAndIsListed) {
   NodeSetup setup = besidePost();
-  setup.params["accept_uncovered"] = list({dict({{"pattern", "robot/*"}, {"reason", "far from everything"}})});
+  setup.params["accept_uncovered"] = list({waiver("robot/*", "far from everything")});
   setup.beside["robot_description"] = holey();
   NodeUnderTest node(setup);
   node.waitForComplete();
@@ -174,6 +177,161 @@ TEST(Uncovered, AWaiverMakesTheWorldCompleteAndIsListed) {
   for (const msg::Body& body : bodies->bodies) {
     EXPECT_EQ(body.waived, body.name == "robot/torn" || body.name == "robot/meshless") << body.name;
   }
+}
+
+/// A robot that only has visual geometry, on its second link.
+std::string visualOnly() {
+  return urdf(link("base") + link("shell", visual("<sphere radius=\"0.1\"/>")) + joint("base", "shell", "fixed"));
+}
+
+const std::string kNoGeometry = "robot 'robot' has no collision geometry on any of its 2 links";
+
+NodeSetup withVisualOnly() {
+  NodeSetup setup = besidePost();
+  setup.beside["robot_description"] = visualOnly();
+  return setup;
+}
+
+TEST(NoGeometry, ARobotWithoutCollisionGeometryMakesTheWorldIncomplete) {
+  NodeUnderTest node(withVisualOnly());
+  const auto status = node.waitForStatus("the robot", [](const msg::Status& s) { return s.robots == 1; });
+  const std::string sentence = kNoGeometry + "; set ~use_visual or waive all of its links with ~accept_uncovered";
+  EXPECT_FALSE(status->world.complete);
+  EXPECT_EQ(status->world.reasons, std::vector<std::string>({"UNCOVERED " + sentence}));
+  EXPECT_EQ(status->not_ready, std::vector<std::string>({"UNCOVERED " + sentence}));
+  EXPECT_EQ(status->uncovered, std::vector<std::string>({sentence}));
+  EXPECT_EQ(status->without_collision, std::vector<std::string>({"robot/base", "robot/shell"}));
+  expectOnlyThePostServes(node);
+  waitForDiagnostic(node, "robots", DiagnosticStatus::ERROR, "UNCOVERED " + sentence);
+
+  node.setBeside("robot_description", balls({}));
+  ASSERT_TRUE(node.reload("robot").success);
+  node.waitForComplete();
+  node.setBeside("robot_description", visualOnly());
+  ASSERT_TRUE(node.reload("robot").success);
+  expectOnlyThePostServes(node);
+}
+
+TEST(NoGeometry, AWaiverForEveryLinkMakesTheWorldCompleteAndIsListed) {
+  NodeSetup setup = withVisualOnly();
+  setup.params["accept_uncovered"] = list({waiver("robot/base", "in the floor"), waiver("robot/sh*", "only shown")});
+  NodeUnderTest node(setup);
+  node.waitForComplete();
+  const auto status = node.heard().status.back();
+  EXPECT_EQ(status->waived, std::vector<std::string>({kNoGeometry + ": in the floor; only shown"}));
+  EXPECT_TRUE(status->uncovered.empty());
+  EXPECT_TRUE(status->model_warnings.empty()) << status->model_warnings.front();
+  EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Answer::CLEAR);
+}
+
+TEST(NoGeometry, AWaiverForSomeOfTheLinksIsNotEnough) {
+  NodeSetup setup = withVisualOnly();
+  setup.params["accept_uncovered"] = list({waiver("robot/shell", "only shown")});
+  NodeUnderTest node(setup);
+  const auto status = node.waitForStatus("the robot", [](const msg::Status& s) { return s.robots == 1; });
+  EXPECT_TRUE(oneSays(status->world.reasons, kNoGeometry));
+  EXPECT_TRUE(status->waived.empty());
+  EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Answer::UNKNOWN);
+}
+
+TEST(NoGeometry, AWaiverForALinkWithoutGeometryIsNotIdle) {
+  NodeSetup setup = besidePost();
+  setup.params["accept_uncovered"] = list({waiver("robot/bare", "a frame"), waiver("robot/bear", "misspelled")});
+  setup.beside["robot_description"] = holey();
+  NodeUnderTest node(setup);
+  const auto status = node.waitForStatus("the robot", [](const msg::Status& s) { return s.robots == 1; });
+  EXPECT_EQ(status->model_warnings, std::vector<std::string>({"~accept_uncovered: 'robot/bear' matches no body"}));
+  EXPECT_EQ(status->uncovered.size(), 2u) << "the links with unreadable shapes, not robot/bare";
+  EXPECT_TRUE(status->waived.empty());
+}
+
+TEST(VisualGeometry, IsUsedWhereAPatternMatchesAndIsListed) {
+  NodeSetup setup = withVisualOnly();
+  setup.params["use_visual"] = list({"robot/*", "robot/none"});
+  NodeUnderTest node(setup);
+  node.waitForComplete();
+  const auto status = node.heard().status.back();
+  EXPECT_EQ(namesOf(node.sphere(0, 0, 0, 0.05).answer), std::vector<std::string>({"robot/shell"}));
+  EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Answer::HIT);
+  EXPECT_EQ(node.sphere(0, 0, 1, 0.05).answer.verdict, msg::Answer::CLEAR);
+  EXPECT_EQ(status->uses_visual, std::vector<std::string>({"robot/shell"}));
+  EXPECT_EQ(status->without_collision, std::vector<std::string>({"robot/base"}));
+  EXPECT_EQ(status->model_warnings, std::vector<std::string>({"~use_visual: 'robot/none' matches no body"}));
+  node.waitUntil("/diagnostics list the link", [](const Heard& all) {
+    const auto found = all.diagnostics.find("robots");
+    if (found == all.diagnostics.end()) return false;
+    return std::any_of(found->second.values.begin(), found->second.values.end(), [](const auto& entry) {
+      return entry.key == "uses visual geometry 1" && entry.value == "robot/shell";
+    });
+  });
+}
+
+TEST(VisualGeometry, ThatCannotBeReadIsUncovered) {
+  NodeSetup setup = besidePost();
+  setup.params["use_visual"] = list({"*"});
+  setup.beside["robot_description"] = urdf(link("base", visual("<mesh filename=\"package://no_such/a.stl\"/>")));
+  NodeUnderTest node(setup);
+  const auto status = node.waitForStatus("the robot", [](const msg::Status& s) { return s.robots == 1; });
+  EXPECT_TRUE(oneSays(status->uncovered, "robot/base: RESOURCE_MISSING: <visual> 1 of link 'base'"));
+  EXPECT_EQ(node.sphere(9, 0, 0, 0.05).answer.verdict, msg::Answer::UNKNOWN);
+}
+
+/// A torso and two arms of two joints, 0.3 m apart; each shape is on a fixed leaf link.
+std::string twoArms() {
+  std::string content = link("base") + link("torso", sphereOf(0.1, "0 0 -5")) + joint("base", "torso", "fixed");
+  for (const std::string side : {"left", "right"}) {
+    const std::string arm = side + "_arm", hand = side + "_hand", glove = side + "_glove";
+    content += link(arm) + link(hand) + link(glove, sphereOf(0.1)) + joint("base", arm, "continuous") +
+               joint(arm, hand, "continuous", "<origin xyz=\"0.3 0 0\"/>") + joint(hand, glove, "fixed");
+  }
+  return urdf(content);
+}
+
+TEST(SelfPairs, HandsWhoseArmsHaveNoGeometryAreReportedWhenTheyAreNear) {
+  TransformSource transforms;
+  transforms.fix({stamped("base", "left_hand", at(0)), stamped("base", "right_hand", at(0.25))});
+  NodeSetup setup = besidePost();
+  setup.beside["robot_description"] = twoArms();
+  NodeUnderTest node(setup);
+  node.waitForComplete();
+  const auto pairs = node.waitForPairs("the hands", [](const msg::Pairs& p) { return p.world.complete; });
+  EXPECT_EQ(namesOf(*pairs), std::vector<std::string>({"robot/left_glove|robot/right_glove"}));
+  const auto& counts = node.heard().status.back()->self_pairs;
+  ASSERT_EQ(counts.size(), 1u);
+  EXPECT_EQ(counts[0].robot, "robot");
+  EXPECT_EQ(counts[0].links, 3u);
+  EXPECT_EQ(counts[0].pairs, 3u);
+  EXPECT_EQ(counts[0].rigid + counts[0].adjacent + counts[0].srdf, 0u);
+}
+
+/// Waits until the log has one line with the text. It may be written after the tick that has the robot.
+void waitForLine(NodeUnderTest& node, const std::string& text) {
+  node.waitUntil("the log says " + text, [&](const Heard&) { return node.lines(text) == 1; });
+}
+
+TEST(SelfPairs, ARobotWhosePairsAreAllOffIsAWarning) {
+  TransformSource transforms;
+  transforms.fix({stamped("base", "a", at(0)), stamped("base", "b", at(9))});
+  NodeSetup setup = besidePost();
+  setup.environment["ROSCONSOLE_STDOUT_LINE_BUFFERED"] = "1";
+  setup.beside["robot_description"] = balls({"a", "b"});
+  setup.beside["robot_description_semantic"] =
+      std::string("<robot name=\"r\"><disable_collisions link1=\"a\" link2=\"b\"/></robot>");
+  NodeUnderTest node(setup);
+  node.waitForComplete();
+  const std::string all = "3 of the 3 pairs of its 3 links with geometry are off (0 rigid, 2 adjacent, 1 by SRDF)";
+  waitForLine(node, "Robot 'robot' is loaded: " + all);
+  const auto& counts = node.heard().status.back()->self_pairs;
+  ASSERT_EQ(counts.size(), 1u);
+  EXPECT_EQ(counts[0].pairs, 3u);
+  EXPECT_EQ(counts[0].adjacent, 2u);
+  EXPECT_EQ(counts[0].srdf, 1u);
+  waitForDiagnostic(node, "robots", DiagnosticStatus::WARN, "robot: " + all);
+
+  node.setBeside("robot_description_semantic", std::string("<robot name=\"r\"/>"));
+  ASSERT_TRUE(node.reload("robot").success);
+  waitForDiagnostic(node, "robots", DiagnosticStatus::OK, "every shape was read");
+  waitForLine(node, "2 of the 3 pairs of its 3 links with geometry are off (0 rigid, 2 adjacent, 0 by SRDF)");
 }
 
 TEST(TwoRobots, WithTheSameLinkNamesAreKeptApart) {

@@ -37,6 +37,7 @@ class DistancesNode : public ::testing::Test {
          {"distances", dict({{"max", 0.15}})},
          {"max_speed", list({dict({{"pattern", "obstacle/ball"}, {"speed", 0.5}})})},
          {"robots", list({dict({{"name", "none"}, {"description", "robot_description"}})})},
+         {"accept_uncovered", list({waiver("none/*", "there is no robot")})},
          {"obstacles", list({box("table", xyz(0, 0, -0.5), xyz(2, 2, 1)), ball("ball", 0, 0, 0, 0.15, "rider"),
                              box("turned", xyz(0, 0, 0), xyz(1, 1, 1), "turned"), ball("post", 3.6, 0.6, 0, 0.05)})}});
     setup.beside["robot_description"] = urdf(link("world"));

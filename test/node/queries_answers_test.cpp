@@ -20,6 +20,7 @@ class QueryAnswers : public ::testing::Test {
     setup.params = dict(
         {{"world_frame", "world"},
          {"robots", list({dict({{"name", "none"}, {"description", "robot_description"}})})},
+         {"accept_uncovered", list({waiver("none/*", "there is no robot")})},
          {"obstacles", list({ball("post_5", 5, 0, 0, 0.1), ball("post_3", 3, 0, 0, 0.1), ball("post_2", 2, 0, 0, 0.1),
                              ball("post_4", 4, 0, 0, 0.1), ball("turned", 1, 0, 0, 0.1, "turned")})}});
     setup.beside["robot_description"] = urdf(link("world"));

@@ -14,7 +14,8 @@ using diagnostic_msgs::DiagnosticStatus;
 
 TEST(Streams, SpeakEveryTickAlsoWhenThereIsNothingToSay) {
   NodeSetup setup;
-  setup.params = dict({{"world_frame", "base"}, {"rate", 20.0}});
+  setup.params = dict(
+      {{"world_frame", "base"}, {"rate", 20.0}, {"accept_uncovered", list({waiver("robot/*", "there is no robot")})}});
   setup.beside["robot_description"] = urdf(link("base"));
   NodeUnderTest node(setup);
   node.waitForComplete();
@@ -140,7 +141,7 @@ TEST(Streams, TwoNodesSayTheSameOfTheSameWorldByteForByte) {
 
 TEST(Diagnostics, HasFourStatuses) {
   NodeSetup setup;
-  setup.beside["robot_description"] = balls({"a"});
+  setup.beside["robot_description"] = balls({"a", "b"});
   NodeUnderTest node(setup);
   node.waitUntil("all statuses", [](const Heard& all) { return all.diagnostics.size() >= 4; });
   const auto all = node.heard().diagnostics;
@@ -153,7 +154,7 @@ TEST(Diagnostics, HasFourStatuses) {
            transforms.level == DiagnosticStatus::ERROR && transforms.message.find("'a'") != std::string::npos;
   });
   TransformSource transforms;
-  transforms.fix({stamped("base", "a", at(0))});
+  transforms.fix({stamped("base", "a", at(0)), stamped("base", "b", at(9))});
   node.waitUntil("all is well", [](const Heard& heard) {
     return heard.diagnostics.at("world").level == DiagnosticStatus::OK &&
            heard.diagnostics.at("transforms").level == DiagnosticStatus::OK &&

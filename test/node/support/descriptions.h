@@ -30,8 +30,13 @@ inline std::string joint(const std::string& parent, const std::string& child, co
          "\"/><child link=\"" + child + "\"/>" + content + "</joint>";
 }
 
-/// Links a, b, ... of one ball of radius 0.1 m each, which float freely about the root link "base". Its own ball is
-/// 5 m below, out of the way; it has one since links joined through a link without geometry count as adjacent.
+/// A URDF <visual>, with a material that has no name, which urdfdom refuses.
+inline std::string visual(const std::string& geometry, const std::string& xyz = "0 0 0") {
+  return "<visual><origin xyz=\"" + xyz + "\"/><geometry>" + geometry + "</geometry><material/></visual>";
+}
+
+/// Links a, b, ... of one sphere of radius 0.1 m each, which float freely about the root link "base". The sphere of
+/// "base" is 5 m below the others, out of their reach. It makes "base" a body, also in a robot without other links.
 inline std::string balls(const std::vector<std::string>& names) {
   std::string content = link("base", sphereOf(0.1, "0 0 -5"));
   for (const std::string& name : names) content += link(name, sphereOf(0.1)) + joint("base", name);

@@ -48,6 +48,11 @@ inline Value box(const std::string& name, const Value& at, const Value& size, co
                {"shapes", list({dict({{"type", "box"}, {"size", size}})})}});
 }
 
+/// An entry of ~accept_uncovered.
+inline Value waiver(const std::string& pattern, const std::string& reason) {
+  return dict({{"pattern", pattern}, {"reason", reason}});
+}
+
 /// `params` with some of them changed or added.
 inline Value with(Value params, std::initializer_list<std::pair<const char*, Value>> members) {
   for (const auto& member : members) params[member.first] = member.second;
