@@ -8,6 +8,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
+#include <new>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -117,6 +118,8 @@ Workers::Workers(int threads) : state_(std::make_unique<State>()) {
     }
   } catch (const std::system_error&) {
     // The system gives no more; fewer threads do the same work.
+  } catch (const std::bad_alloc&) {
+    // The same holds where there is no memory for a thread. The threads that were started must be joined.
   }
 }
 
