@@ -14,7 +14,7 @@ void PairTracker::clear() {
   ended_.clear();
 }
 
-/// Known pairs in the numbers of the new ids; those of bodies that are gone have ended.
+/// Carries the known pairs over to the numbers of the new ids; those of bodies that are gone have ended.
 void PairTracker::renumber(const std::vector<BodyId>& ids) {
   constexpr std::uint32_t kGone = std::numeric_limits<std::uint32_t>::max();
   std::uint32_t slots = 0;
@@ -26,33 +26,40 @@ void PairTracker::renumber(const std::vector<BodyId>& ids) {
     const std::uint32_t i = id.slot < slots ? of_slot[id.slot] : kGone;
     return i != kGone && ids[i] == id ? i : kGone;
   };
-  std::size_t kept = 0;
+  carried_over_.clear();
   for (const Known& pair : known_) {
     const std::uint32_t a = now(pair.first), b = now(pair.second);
     if (a == kGone || b == kGone) {
       ended_.emplace_back(ids_[pair.first], ids_[pair.second]);
     } else {
-      known_[kept++] = {std::min(a, b), std::max(a, b), pair.since};
+      carried_over_.push_back({std::min(a, b), std::max(a, b), pair.since});
     }
   }
-  known_.resize(kept);
-  std::sort(known_.begin(), known_.end(), [](const Known& a, const Known& b) { return before(a, b); });
-  ids_ = ids;
+  std::sort(carried_over_.begin(), carried_over_.end(), [](const Known& a, const Known& b) { return before(a, b); });
+  next_ids_ = ids;
 }
 
 void PairTracker::update(const std::vector<BodyId>& ids, Time stamp, std::vector<NearPair>& pairs) {
   ended_.clear();
-  if (ids != ids_) renumber(ids);
-  auto known = known_.begin();
-  const auto end = [this](const Known& pair) { ended_.emplace_back(ids_[pair.first], ids_[pair.second]); };
+  renumbered_ = ids != ids_;
+  if (renumbered_) renumber(ids);
+  const std::vector<Known>& was = renumbered_ ? carried_over_ : known_;
+  auto known = was.begin();
+  const auto end = [&](const Known& pair) { ended_.emplace_back(ids[pair.first], ids[pair.second]); };
   for (NearPair& pair : pairs) {
-    while (known != known_.end() && before(*known, pair)) end(*known++);
-    const bool there = known != known_.end() && !before(pair, *known);
+    while (known != was.end() && before(*known, pair)) end(*known++);
+    const bool there = known != was.end() && !before(pair, *known);
     pair.since = there ? (known++)->since : stamp;
   }
-  while (known != known_.end()) end(*known++);
-  known_.clear();
-  for (const NearPair& pair : pairs) known_.push_back({pair.first, pair.second, pair.since});
+  while (known != was.end()) end(*known++);
+  next_known_.clear();
+  for (const NearPair& pair : pairs) next_known_.push_back({pair.first, pair.second, pair.since});
+}
+
+void PairTracker::accept() {
+  if (renumbered_) ids_.swap(next_ids_);
+  renumbered_ = false;
+  known_.swap(next_known_);
 }
 
 }  // namespace hgrid

@@ -29,10 +29,12 @@ struct NearPair {
 /// the bodies does not interrupt a pair.
 class PairTracker {
  public:
-  /// Fills `since` of every pair: kept where the pair was there in the last call, else `stamp`.
+  /// Fills `since` of every pair: kept where the pair was there in the last accepted call, else `stamp`.
   /// @param ids    handle per body index
   /// @param pairs  sorted by (first, second), each once
   void update(const std::vector<BodyId>& ids, Time stamp, std::vector<NearPair>& pairs);
+  /// Makes the last update() the one that the next update() goes by. Allocates nothing.
+  void accept();
   /// Pairs that were near before the last update() and are no more, by handle.
   const std::vector<std::pair<BodyId, BodyId>>& ended() const { return ended_; }
   void clear();
@@ -46,6 +48,12 @@ class PairTracker {
 
   std::vector<BodyId> ids_;
   std::vector<Known> known_;  // sorted by (first, second), which index ids_
+
+  // Of the last update(), until it is accepted.
+  bool renumbered_ = false;
+  std::vector<BodyId> next_ids_;     // if renumbered_
+  std::vector<Known> carried_over_;  // if renumbered_: known_ in the numbers of next_ids_
+  std::vector<Known> next_known_;
   std::vector<std::pair<BodyId, BodyId>> ended_;
 };
 
