@@ -6,16 +6,15 @@
 // repeated or left out, and every later snapshot is the one of a scene in which nothing ever failed.
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <functional>
 #include <iterator>
 #include <thread>
 
-#include "test/support/events.h"
 #include "test/support/failing_allocations.h"
 #include "test/support/maps.h"
 #include "test/support/rules.h"
 #include "test/support/scenes.h"
+#include "test/support/told.h"
 
 namespace hgrid {
 namespace {
@@ -27,83 +26,6 @@ struct Step {
   std::string name;
   std::function<void(Scene&, Snapshots&)> play;
 };
-
-std::string bytes(const void* data, std::size_t size) { return std::string(static_cast<const char*>(data), size); }
-
-/// All that a snapshot says, the revision of its structure apart: nobody counts these.
-struct Told {
-  std::string numbers, bodies, poses, boxes, pairs, grid, answers;
-  std::vector<std::string> events, reasons;
-};
-
-std::string numbersOf(const Snapshot& s) {
-  return "sequence " + std::to_string(s.sequence()) + ", epoch " + std::to_string(s.epoch()) + ", stamp " +
-         std::to_string(s.stamp().count()) + ", last event " + std::to_string(s.lastEvent()) + ", reasons " +
-         std::to_string(s.reasonsTotal()) + ", worst " + name(s.worstState());
-}
-
-std::string pairsOf(const Snapshot& s) {
-  std::string text;
-  for (const NearPair& pair : s.pairs()) {
-    text += s.structure().bodies[pair.first].name + " " + s.structure().bodies[pair.second].name + " " +
-            std::to_string(pair.gap) + " " + std::to_string(pair.margin) + " since " +
-            std::to_string(pair.since.count()) + " flags " + std::to_string(pair.flags) + "\n";
-  }
-  return text;
-}
-
-std::string gridOf(const Snapshot& s) {
-  s.grid().checkInvariants();
-  std::vector<ProxyPair> pairs;
-  s.grid().overlappingPairs(pairs);
-  std::sort(pairs.begin(), pairs.end());
-  return bytes(pairs.data(), pairs.size() * sizeof(ProxyPair));
-}
-
-std::string answersOf(const Snapshot& s) {
-  std::string text;
-  const Sphere sphere{{0, 0, 0}, 1.0};
-  const Segment segment{{-3, -3, -3}, {3, 3, 3}, 0.1};
-  for (const QueryAnswer& answer :
-       {s.query(sphere, {}), s.query(segment, {}), s.nearest(Eigen::Vector3d(1, 1, 1), 5, {})}) {
-    text += "verdict " + std::to_string(int(answer.verdict)) + "\n";
-    for (const QueryHit& hit : answer.hits)
-      text += std::to_string(hit.body) + " " + std::to_string(hit.distance) + "\n";
-  }
-  return text;
-}
-
-Told tell(const Snapshot& s) {
-  Told told;
-  told.numbers = numbersOf(s);
-  for (std::uint32_t i = 0; i < s.poses().size(); ++i) {
-    const BodyPose& pose = s.poses()[i];
-    told.bodies += s.structure().bodies[i].name + "\n";
-    told.poses += bytes(pose.world_from_body.data(), 16 * sizeof(double)) + bytes(&pose.stamp, sizeof(Time)) +
-                  name(pose.state) + std::to_string(pose.age) + std::to_string(pose.growth);
-    const bool placed = pose.state != Freshness::unplaced;
-    const std::uint32_t first = s.structure().first_proxy[i], last = s.structure().first_proxy[i + 1];
-    if (placed) told.boxes += bytes(s.boxes().data() + first, (last - first) * sizeof(Aabb));
-  }
-  told.pairs = pairsOf(s);
-  told.grid = gridOf(s);
-  told.answers = answersOf(s);
-  told.events = test::eventsOf(s);
-  told.reasons = s.reasons();
-  return told;
-}
-
-void expectEqual(const Told& told, const Told& expected) {
-  ASSERT_EQ(told.numbers, expected.numbers);
-  ASSERT_EQ(told.bodies, expected.bodies);
-  ASSERT_TRUE(told.poses == expected.poses);
-  ASSERT_TRUE(told.boxes == expected.boxes);
-  ASSERT_EQ(told.pairs, expected.pairs);
-  ASSERT_EQ(told.events, expected.events);
-  ASSERT_EQ(told.reasons, expected.reasons);
-  ASSERT_TRUE(told.grid == expected.grid);
-  ASSERT_EQ(told.answers, expected.answers);
-}
 
 // Steps.
 
@@ -270,7 +192,7 @@ struct Fault {
 
 /// The snapshots from a step on, and whether the fault has happened.
 struct Played {
-  std::vector<Told> told;
+  std::vector<test::Told> told;
   bool failed = false;
 };
 
@@ -292,7 +214,7 @@ Played play(const Script& script, std::size_t from, const Fault* fault, std::siz
     } else {
       act();
     }
-    if (snapshots.size() > before && i >= from) played.told.push_back(tell(*snapshots.back()));
+    if (snapshots.size() > before && i >= from) played.told.push_back(test::tell(*snapshots.back()));
     if (snapshots.size() > 2) snapshots[snapshots.size() - 3].reset();
   }
   return played;
@@ -325,7 +247,8 @@ void tryAll(const Script& script, std::size_t& failures) {
         ASSERT_EQ(played.told.size(), expected.told.size());
         for (std::size_t i = 0; i < played.told.size(); ++i) {
           SCOPED_TRACE("snapshot " + std::to_string(i));
-          expectEqual(played.told[i], expected.told[i]);
+          test::expectEqual(played.told[i], expected.told[i]);
+          ASSERT_TRUE(played.told[i].ages == expected.told[i].ages);
           if (::testing::Test::HasFatalFailure()) return;
         }
       }
@@ -350,13 +273,13 @@ TEST(SceneFailedAllocation, OfAQueryChangesNoLaterAnswer) {
   Snapshots snapshots;
   for (const Step& step : script.steps) step.play(scene, snapshots);
   const std::shared_ptr<const Snapshot> snapshot = snapshots.back();
-  const std::string expected = answersOf(*snapshot);
+  const std::string expected = test::answersOf(*snapshot);
   bool failed = true;
   std::size_t failures = 0;
   for (std::size_t k = 1; failed; ++k) {
     std::thread([&] {
-      failed = test::failsAt(k, test::Failing::one, [&] { answersOf(*snapshot); });
-      ASSERT_EQ(answersOf(*snapshot), expected) << "allocation " << k;
+      failed = test::failsAt(k, test::Failing::one, [&] { test::answersOf(*snapshot); });
+      ASSERT_EQ(test::answersOf(*snapshot), expected) << "allocation " << k;
     }).join();
     failures += failed ? 1 : 0;
   }
