@@ -35,6 +35,9 @@ struct SearchBuffers {
 ///   resting  did not move for a while; their pairs among themselves and with fixed ones are kept
 ///   moving   sorted anew whenever one of them moves
 ///   loose    came or moved one by one; few, until they are sorted with the moving
+///
+/// Every change allocates all that it needs before it changes a layer. So a change whose allocation fails throws, and
+/// the grid holds what it held before.
 struct HGrid::Engine {
   enum Place : std::uint8_t { kFixed, kResting, kMoving, kLoose, kLayers, kAbsent };
 
@@ -47,23 +50,37 @@ struct HGrid::Engine {
   Machine machine() { return {&kernels::of(isa), workers.get(), &scratch}; }
 
   // Changes; engine.cpp.
+  /// Makes room for a box of this id.
   void grow(ProxyId id);
+  /// Allocates what takeOut() of the box, if it is stored, and putLoose() need. They allocate nothing then.
+  void reserveLoose(ProxyId id);
   /// Takes a box out of its layer; `place` is then kAbsent.
   void takeOut(ProxyId id);
   /// Takes in a box that stands in no layer.
   void putLoose(ProxyId id);
-  void joinLoose();
-  void settleLoose();
-  /// Sorts all boxes into fixed and resting.
-  void sortAll();
-  /// Sorts anew the boxes that moved (`moved`, whose boxes are written already), with those that moved lately.
+  /// The boxes of these ids, and no others, are stored afterwards.
+  void replace(const std::vector<ProxyId>& ids, const std::vector<Aabb>& given);
+  /// Sorts all boxes into fixed and resting. If an allocation fails, the layers are as they were.
+  /// @param others  the layers do not hold exactly the stored boxes, or not in the right one of the two layers
+  void sortAll(bool others = false);
+  /// Sorts anew the boxes that moved (`moved`, whose boxes are written already), with those that moved lately. If an
+  /// allocation fails, the layers are as they were.
   void sortMoved();
+  /// Restores `boxes`, `place` and `stored` from the layers, which still hold what was there before.
+  void restoreFromLayers();
+  void reserveLayer(Place layer, std::size_t count);
   void sortLayer(Place layer);
   void locate(Place layer);
   /// By id, in its layer. Kept in the array that the resting are sorted to; when they are, so are all layers.
   std::vector<std::uint32_t>& positions() { return layers[kResting].spare(); }
   /// Pairs of what rests, so that they need not be looked for each time.
   void keepPairs();
+
+  std::size_t movingWithLoose() const;
+  bool settlesLoose(std::size_t loose, std::size_t withdrawn_then, std::size_t stored_then) const;
+  bool settlesAll(std::size_t moving, std::size_t withdrawn_then, std::size_t stored_then) const;
+  void joinLoose();
+  void settleLoose();
 
   double finest_edge;
   Isa isa = bestIsa();

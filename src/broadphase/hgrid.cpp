@@ -98,8 +98,12 @@ void HGrid::setFixed(const std::vector<ProxyId>& ids) {
   for (const ProxyId id : ids) fixed[id] = true;
   if (fixed == engine_->fixed) return;
   engine_->fixed.swap(fixed);
-  engine_->withdrawn = std::max<std::size_t>(1, engine_->withdrawn);  // layers no longer hold the right boxes
-  engine_->sortAll();
+  try {
+    engine_->sortAll(true);
+  } catch (...) {
+    engine_->fixed.swap(fixed);
+    throw;
+  }
 }
 
 void HGrid::setFilter(const PairTest& test) {
@@ -112,6 +116,7 @@ void HGrid::insert(ProxyId id, const Aabb& box) {
   Engine& e = *engine_;
   if (e.isStored(id)) throw std::invalid_argument("HGrid: box " + std::to_string(id) + " is stored already");
   e.grow(id);
+  e.reserveLoose(id);
   e.boxes[id] = box;
   e.putLoose(id);
 }
@@ -121,6 +126,7 @@ void HGrid::update(ProxyId id, const Aabb& box) {
   Engine& e = *engine_;
   e.requireStored(id);
   if (e.boxes[id] == box) return;  // exactly the same: never a tolerance
+  e.reserveLoose(id);
   e.takeOut(id);
   e.boxes[id] = box;
   e.putLoose(id);
@@ -135,56 +141,69 @@ void HGrid::clear() {
   Engine& e = *engine_;
   std::fill(e.place.begin(), e.place.end(), Engine::kAbsent);
   e.stored = 0;
-  e.withdrawn = 1;
-  e.sortAll();
+  e.sortAll(true);
 }
 
 void HGrid::update(const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) {
   Engine& e = *engine_;
   e.requireValid(ids, boxes);
   if (!ids.empty()) e.grow(ids.back());
-  bool same = e.stored == ids.size();
-  if (same && !(areAll(ids) && e.place.size() == ids.size())) {
-    for (std::size_t i = 0; same && i < ids.size(); ++i) same = e.place[ids[i]] != Engine::kAbsent;
+  try {
+    e.replace(ids, boxes);
+  } catch (...) {
+    e.restoreFromLayers();
+    throw;
+  }
+}
+
+/// The bulk update. It writes `boxes` and `place` before it sorts, so the caller restores them if it throws.
+void HGrid::Engine::replace(const std::vector<ProxyId>& ids, const std::vector<Aabb>& given) {
+  bool same = stored == ids.size();
+  if (same && !(areAll(ids) && place.size() == ids.size())) {
+    for (std::size_t i = 0; same && i < ids.size(); ++i) same = place[ids[i]] != kAbsent;
   }
   if (!same) {
-    std::fill(e.place.begin(), e.place.end(), Engine::kAbsent);
+    std::fill(place.begin(), place.end(), kAbsent);
     for (std::size_t i = 0; i < ids.size(); ++i) {
-      e.place[ids[i]] = Engine::kResting;
-      e.boxes[ids[i]] = boxes[i];
+      place[ids[i]] = kResting;
+      boxes[ids[i]] = given[i];
     }
-    e.stored = ids.size();
-    e.withdrawn = 1;
-    return e.sortAll();
+    stored = ids.size();
+    return sortAll(true);
   }
-  if (mostMoved(e.boxes, ids, boxes)) {
-    inParts(*e.workers, ids.size(), [&](std::size_t begin, std::size_t end) {
+  if (mostMoved(boxes, ids, given)) {
+    inParts(*workers, ids.size(), [&](std::size_t begin, std::size_t end) {
       if (areAll(ids)) {
-        std::copy(&boxes[begin], boxes.data() + end, &e.boxes[begin]);
+        std::copy(&given[begin], given.data() + end, &boxes[begin]);
       } else {
-        for (std::size_t i = begin; i < end; ++i) e.boxes[ids[i]] = boxes[i];
+        for (std::size_t i = begin; i < end; ++i) boxes[ids[i]] = given[i];
       }
     });
-    return e.sortAll();
+    return sortAll();
   }
-  e.moved.clear();
+  moved.clear();
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    Aabb& box = e.boxes[ids[i]];
-    if (box == boxes[i]) continue;
-    box = boxes[i];
-    e.moved.push_back(ids[i]);
+    Aabb& box = boxes[ids[i]];
+    if (box == given[i]) continue;
+    moved.push_back(ids[i]);
+    box = given[i];
   }
-  if (!e.moved.empty()) e.sortMoved();
+  if (!moved.empty()) sortMoved();
 }
 
 void HGrid::move(const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) {
   Engine& e = *engine_;
   e.requireValid(ids, boxes);
   for (const ProxyId id : ids) e.requireStored(id);
-  for (std::size_t i = 0; i < ids.size(); ++i) e.boxes[ids[i]] = boxes[i];
   if (ids.empty()) return;
   e.moved = ids;
-  e.sortMoved();
+  for (std::size_t i = 0; i < ids.size(); ++i) e.boxes[ids[i]] = boxes[i];
+  try {
+    e.sortMoved();
+  } catch (...) {
+    e.restoreFromLayers();
+    throw;
+  }
 }
 
 std::size_t HGrid::size() const { return engine_->stored; }

@@ -22,11 +22,28 @@ constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();  // no compa
 static_assert(sizeof(Aabb) == sizeof(kernels::Box), "kernels read a box as six floats");
 static_assert(sizeof(ProxyPair) == sizeof(kernels::Pair), "kernels write a pair as two numbers");
 
-/// Makes room for values that will all be written. Never smaller, and by more than is asked for: a steady tick
-/// allocates nothing.
+/// The first allocation is exact. Later ones are larger than asked for, so that a steady tick allocates nothing.
+std::size_t roomFor(std::size_t size, bool first) { return first ? size : size + size / 16; }
+
+/// Enlarges an array whose values the caller will all write. An array never shrinks.
 template <class Value>
 void growTo(std::vector<Value>& values, std::size_t size) {
-  if (values.size() < size) std::vector<Value>(values.empty() ? size : size + size / 16).swap(values);
+  if (values.size() < size) std::vector<Value>(roomFor(size, values.empty())).swap(values);
+}
+
+/// Enlarges an array and keeps its values. @returns whether the array was moved
+template <class Value>
+bool extendTo(std::vector<Value>& values, std::size_t size) {
+  if (values.size() >= size) return false;
+  const std::size_t room = roomFor(size, values.empty());
+  values.reserve(room);  // resize() alone would double the array
+  values.resize(room);
+  return true;
+}
+
+std::size_t threadsFor(std::size_t boxes, const Machine& machine) {
+  const auto most = static_cast<std::size_t>(machine.workers->threads());
+  return std::max<std::size_t>(1, std::min(most, boxes / kWorthAThread));
 }
 
 }  // namespace
@@ -35,25 +52,47 @@ void Layer::setIds(const std::vector<ProxyId>& ids) { std::copy(ids.begin(), ids
 
 ProxyId* Layer::setIds(std::size_t count) {
   count_ = count;
-  growTo(ids_, count_ + kReadBeyond);
   return ids_.data();
 }
 
-void Layer::sort(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine) {
-  SortScratch& scratch = *machine.scratch;
-  const std::size_t most = static_cast<std::size_t>(machine.workers->threads());
-  const std::size_t threads = std::max<std::size_t>(1, std::min(most, count_ / kWorthAThread));
-  growTo(ids_, count_ + kReadBeyond);
-  growTo(other_ids_, count_ + kReadBeyond);
-  if (boxes.size() >= kWorthCopying) growTo(scratch.copies, count_);
-  growTo(scratch.cells, count_);
-  if (count_ + kReadBeyond > stride_) {
-    stride_ = (count_ + (bounds_.empty() ? 0 : count_ / 16) + 2 * kReadBeyond) / 16 * 16;
-    // Far from a multiple of a page: reads at one place of six pages would compete for one set of the cache.
-    if (stride_ % 1024 < 64) stride_ += 160;
-    if (bounds_.size() < 6 * stride_) std::vector<float>(6 * stride_).swap(bounds_);
+/// Moves the six arrays farther apart, so that each has room for `count` boxes.
+void Layer::widen(std::size_t count) {
+  std::size_t stride = (count + (bounds_.empty() ? 0 : count / 16) + 2 * kReadBeyond) / 16 * 16;
+  // Far from a multiple of a page: reads at one place of six pages would compete for one set of the cache.
+  if (stride % 1024 < 64) stride += 160;
+  std::vector<float> bounds(6 * stride);
+  for (std::size_t i = 0; i < 6 && count_ > 0; ++i) {
+    std::copy_n(bounds_.data() + i * stride_, count_, bounds.data() + i * stride);
   }
+  bounds_.swap(bounds);
+  stride_ = stride;
+}
 
+void Layer::reserve(std::size_t count, std::size_t ids, const Machine& machine) {
+  if (count == 0) return;
+  SortScratch& scratch = *machine.scratch;
+  const std::size_t threads = threadsFor(count, machine), cells = Plan::mostCells(count);
+  if (ids >= kWorthCopying) growTo(scratch.copies, count);
+  growTo(scratch.cells, count);
+  growTo(scratch.counts, (threads - 1) * cells);
+  scratch.sizes.reserve(threads * 4 * Plan::kMostLevels);
+  scratch.keyings.reserve(threads);
+  scratch.sums.reserve(threads * threads);
+  levels_.reserve(Plan::kMostLevels);
+  extendTo(other_ids_, count + kReadBeyond);
+  if (extendTo(ids_, count + kReadBeyond)) point();
+  if (extendTo(start_, cells + 1)) point();
+  if (count + kReadBeyond > stride_) {
+    widen(count);
+    point();
+  }
+}
+
+void Layer::sort(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine) {
+  reserve(count_, boxes.size(), machine);
+  if (count_ == 0) return levels_.clear();
+  SortScratch& scratch = *machine.scratch;
+  const std::size_t threads = threadsFor(count_, machine);
   bool planned = false;
   if (!plan_.fits(count_) || ++sorts_with_plan_ > kSortsPerPlan || levels_.empty()) {
     plan_ = planFor(boxes, ids_.data(), count_, finest_edge);
@@ -81,9 +120,6 @@ std::uint32_t* Layer::countsOf(std::size_t thread, std::size_t threads, const Ma
 void Layer::count(const std::vector<Aabb>& boxes, const Machine& machine, std::size_t threads) {
   SortScratch& scratch = *machine.scratch;
   const std::size_t cells = plan_.cells, levels = plan_.levels;
-  const std::size_t some_more = cells + cells / 8 + 256;  // the next plan for as many boxes may want them
-  if (start_.size() < cells + 1) growTo(start_, some_more + 1);
-  if (scratch.counts.size() < (threads - 1) * cells) growTo(scratch.counts, (threads - 1) * some_more);
   scratch.sizes.assign(threads * 4 * levels, 0.0f);
   scratch.keyings.resize(threads);
   scratch.sums.resize(threads * threads);
@@ -174,12 +210,20 @@ void Layer::describe(const std::vector<float>& sizes) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       level.reach[axis] = std::nextafter(sizes[4 * i + axis], kInfinity);  // the difference may have been rounded down
     }
+    level.begin = start_[plan_.first_cells[i]];
+    level.end = i + 1 < levels_.size() ? start_[plan_.first_cells[i + 1]] : start_[plan_.cells];
+  }
+  point();
+}
+
+/// Tells the levels where the arrays are.
+void Layer::point() {
+  for (std::size_t i = 0; i < levels_.size(); ++i) {
+    kernels::Level& level = levels_[i];
     level.bounds = bounds_.data();
     level.stride = stride_;
     level.id = ids_.data();
     level.start = start_.data() + plan_.first_cells[i];
-    level.begin = *level.start;
-    level.end = i + 1 < levels_.size() ? start_[plan_.first_cells[i + 1]] : start_[plan_.cells];
   }
 }
 

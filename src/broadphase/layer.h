@@ -30,20 +30,27 @@ struct Machine {
 
 /// Boxes sorted by level and cell into structure of arrays: two passes of counting, no lists, no pointers (Ericson
 /// 2005, 7.1.4). Sorted anew as a whole; in between, boxes can be withdrawn.
+///
+/// Only reserve() allocates. The caller calls reserve() before it changes anything, so a failed allocation leaves the
+/// layer as it was.
 class Layer {
  public:
-  /// Which boxes there are, in any order. Must be followed by sort().
+  /// Allocates what setIds() and sort() of `count` boxes need. The layer keeps its boxes and their order.
+  /// @param ids  number of ids in use: the size of the array of boxes that sort() will get
+  void reserve(std::size_t count, std::size_t ids, const Machine& machine);
+  /// Which boxes there are, in any order. reserve() has made room for them. Must be followed by sort().
   void setIds(const std::vector<ProxyId>& ids);
   /// The same: room for so many ids, to be filled.
   ProxyId* setIds(std::size_t count);
-  /// Takes the boxes as they are now. The order of the last time is where it begins: boxes move little.
+  /// Takes the boxes as they are now. The order of the last time is where it begins: boxes move little. Allocates
+  /// nothing after reserve() of as many boxes.
   /// @param boxes  by id
   void sort(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine);
   /// Takes the box at a position out: from now on it overlaps nothing.
   void withdraw(std::uint32_t position);
   bool isWithdrawn(std::uint32_t position) const { return !(bounds_[position] <= bounds_[3 * stride_ + position]); }
 
-  /// An array that is at the caller's disposal until the next sort().
+  /// An array that is at the caller's disposal until the next sort(). reserve() keeps its values.
   std::vector<std::uint32_t>& spare() { return other_ids_; }
 
   std::size_t size() const { return count_; }  ///< positions, those withdrawn among them
@@ -64,6 +71,8 @@ class Layer {
   void count(const std::vector<Aabb>& boxes, const Machine& machine, std::size_t threads);
   void scatter(const std::vector<Aabb>& boxes, const Machine& machine, std::size_t threads);
   void describe(const std::vector<float>& sizes);
+  void widen(std::size_t count);
+  void point();
   std::uint32_t* countsOf(std::size_t thread, std::size_t threads, const Machine& machine);
 
   Plan plan_;

@@ -42,7 +42,7 @@ struct Cells {
 // Costs [ns], measured on one machine; only their ratios matter.
 constexpr double kPerBox = 4.0, kPerRow = 3.0, kPerAskedRow = 6.0, kPerTest = 3.0, kPerCell = 0.15;
 constexpr double kLanes = 8.0;  // boxes per test: one number for all instruction sets, since plans must not differ
-constexpr double kMostCellsPerBox = 1.0, kFewestCells = 64.0;
+constexpr double kMostCellsPerBox = 1.0, kFewestCells = 64.0;  // whole numbers: Plan::mostCells() counts on it
 
 double cellsAlong(double length, double edge) { return std::floor(length / edge) + 1.0; }
 
@@ -56,7 +56,9 @@ Cells cellsOf(const Census& level, const Window& window, double across) {
   const double rows = cells.count[1] * cells.count[2];
   const double most = kMostCellsPerBox * level.boxes + kFewestCells;
   if (rows > most) return cells;  // too many
-  cells.edge[0] = std::max(across / 12.0, window.length(0) / std::max(1.0, most / rows - 1.0));
+  // Where less than two cells per row are allowed, the edge is longer than the window: one cell.
+  const double along = most / rows - 1.0;
+  cells.edge[0] = std::max(across / 12.0, window.length(0) / (along < 1.0 ? 0.5 : along));
   if (!(cells.edge[0] > 0.0)) cells.edge[0] = 1.0;
   cells.count[0] = cellsAlong(window.length(0), cells.edge[0]);
 
@@ -218,6 +220,11 @@ Plan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t cou
     plan.cells += static_cast<std::uint32_t>(grid.slab) * (static_cast<std::uint32_t>(grid.last[2]) + 1);
   }
   return plan;
+}
+
+std::size_t Plan::mostCells(std::size_t count) {
+  const auto per_box = static_cast<std::size_t>(kMostCellsPerBox), per_level = static_cast<std::size_t>(kFewestCells);
+  return per_box * count + per_level * std::min(count, kMostLevels);
 }
 
 bool Plan::fits(std::size_t count) const {

@@ -34,6 +34,9 @@ struct Plan {
   std::array<float, 3> lower{}, upper{};  ///< [m] least and greatest minimum corner then
   bool windowed = false;                  ///< some boxes lay outside the window of the cells
 
+  /// The most cells that a plan for `count` boxes has.
+  static std::size_t mostCells(std::size_t count);
+
   /// Whether it is still a good plan for this many boxes.
   bool fits(std::size_t count) const;
   /// Whether it is still a good plan for boxes within these bounds; sizes in fours, per level.

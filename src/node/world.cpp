@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "hgrid_proximity/scene/name.h"
 
@@ -43,6 +44,24 @@ World::Member World::memberOf(BodyId body, const Pose& frame_from_body) {
   return {body, frame_from_body.matrix() == Pose::Identity().matrix(), frame_from_body};
 }
 
+/// A body of the mover that was added last.
+void World::Change::join(const Body& body, const Pose& frame_from_body) {
+  in.push_back(body);
+  members.push_back(memberOf({}, frame_from_body));
+  movers.back().last = members.size();
+}
+
+/// A mover with one body.
+void World::Change::add(const std::string& frame, const std::string& robot, const Body& body,
+                        const Pose& frame_from_body) {
+  Mover mover;
+  mover.frame = frame;
+  mover.robot = robot;
+  mover.first = mover.last = members.size();
+  movers.push_back(std::move(mover));
+  join(body, frame_from_body);
+}
+
 World::World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& ledger,
              std::shared_ptr<NarrowPhase> narrow_phase)
     : params_(params),
@@ -76,35 +95,31 @@ void World::beginEpoch() {
   last_time_ = Time(0);
 }
 
-void World::addMover(const std::string& frame, const std::string& robot, const std::vector<Member>& members) {
-  if (members.empty()) return;
-  Mover mover;
-  mover.frame = frame;
-  mover.robot = robot;
-  mover.first = members_.size();
-  members_.insert(members_.end(), members.begin(), members.end());
-  mover.last = members_.size();
-  movers_.push_back(std::move(mover));
-  movers_changed_ = true;
-}
-
-void World::removeMovers(const std::string& robot) {
-  std::vector<Mover> movers;
-  std::vector<Member> members;
-  for (Mover& mover : movers_) {
+World::Change World::changeWithout(const std::function<bool(const std::string& robot)>& chosen) const {
+  Change change;
+  for (const Mover& mover : movers_) {
     const auto first = members_.begin() + static_cast<std::ptrdiff_t>(mover.first);
     const auto last = members_.begin() + static_cast<std::ptrdiff_t>(mover.last);
-    if (mover.robot == robot) {
-      for (auto member = first; member != last; ++member) scene_.remove(member->body);
+    if (chosen(mover.robot)) {
+      for (auto member = first; member != last; ++member) change.out.push_back(member->body);
       continue;
     }
-    mover.first = members.size();
-    members.insert(members.end(), first, last);
-    mover.last = members.size();
-    movers.push_back(std::move(mover));
+    change.movers.push_back(mover);
+    change.movers.back().first = change.members.size();
+    change.members.insert(change.members.end(), first, last);
+    change.movers.back().last = change.members.size();
   }
-  movers_ = std::move(movers);
-  members_ = std::move(members);
+  return change;
+}
+
+/// Puts the change into the world: all of it or nothing.
+void World::exchange(Change change) {
+  const std::vector<BodyId> ids = scene_.exchange(change.out, std::move(change.in));
+  // Nothing below allocates.
+  auto member = change.members.end() - static_cast<std::ptrdiff_t>(ids.size());
+  for (const BodyId id : ids) (member++)->body = id;
+  movers_.swap(change.movers);
+  members_.swap(change.members);
   movers_changed_ = true;
 }
 
@@ -116,22 +131,30 @@ void World::setRobot(LoadedRobot robot) {
                                    " bodies, which would be more than ~max_bodies, " +
                                    std::to_string(params_.max_bodies));
   }
-  removeMovers(robot.name);
+  Change change = changeWithout([&](const std::string& other) { return other == robot.name; });
   for (const LoadedRobot::Group& group : robot.groups) {
-    std::vector<Member> members;
-    for (const auto& member : group.members) {
-      members.push_back(memberOf(scene_.add(robot.bodies[member.first]), member.second));
+    bool first = true;
+    for (const auto& [body, frame_from_body] : group.members) {
+      if (std::exchange(first, false)) {
+        change.add(group.frame, robot.name, robot.bodies[body], frame_from_body);
+      } else {
+        change.join(robot.bodies[body], frame_from_body);
+      }
     }
-    addMover(group.frame, robot.name, members);
   }
-  if (robot.gap.empty()) {
-    missing_.erase(robot.name);
-  } else {
-    missing_[robot.name] = "UNCOVERED " + robot.gap;
-  }
+  std::map<std::string, std::string> gap;
+  if (!robot.gap.empty()) gap.emplace(robot.name, "UNCOVERED " + robot.gap);
   const std::string name = robot.name;
-  robots_[name] = std::move(robot);
-  rebuildReport();
+  std::map<std::string, LoadedRobot> loaded;
+  loaded.emplace(name, std::move(robot));
+  std::shared_ptr<const ModelReport> report = reportWith(loaded.begin()->second);
+  exchange(std::move(change));
+  // Nothing below allocates.
+  missing_.erase(name);
+  missing_.merge(gap);
+  robots_.erase(name);
+  robots_.merge(loaded);
+  report_ = std::move(report);
 }
 
 void World::setMissing(const std::string& name, const std::string& sentence) {
@@ -141,7 +164,7 @@ void World::setMissing(const std::string& name, const std::string& sentence) {
   } else if (maps_.count(name) != 0) {
     map_news_.noteRefused(name, sentence);
   } else if (robots_.count(name) == 0) {
-    missing_[name] = sentence;
+    missing_.insert_or_assign(name, sentence);
   }
 }
 
@@ -159,10 +182,10 @@ std::vector<SourceGap> World::gaps(const Moment& now) const {
 }
 
 /// Warns of patterns that match nothing: a misspelled name in a parameter would otherwise go unnoticed.
-void World::warnOfIdlePatterns(ModelReport& report) const {
+void World::warnOfIdlePatterns(const RobotsByName& robots, ModelReport& report) const {
   std::vector<std::string> names;
-  for (const auto& robot : robots_) {
-    for (const Body& body : robot.second.bodies) names.push_back(body.name);
+  for (const auto& robot : robots) {
+    for (const Body& body : robot.second->bodies) names.push_back(body.name);
   }
   for (const ObstacleParams& obstacle : params_.obstacles) names.push_back(obstacle.body.name);
   for (const CloudParams& cloud : params_.clouds) names.push_back(joined("cloud", cloud.name));
@@ -193,10 +216,14 @@ void World::warnOfIdlePatterns(ModelReport& report) const {
   }
 }
 
-void World::rebuildReport() {
+/// The report of the world's robots, with this one in the place of the one of its name.
+std::shared_ptr<const ModelReport> World::reportWith(const LoadedRobot& loaded) const {
+  RobotsByName robots;
+  for (const auto& known : robots_) robots[known.first] = &known.second;
+  robots[loaded.name] = &loaded;
   auto report = std::make_shared<ModelReport>();
-  for (const auto& named : robots_) {
-    const LoadedRobot& robot = named.second;
+  for (const auto& named : robots) {
+    const LoadedRobot& robot = *named.second;
     for (const Body& body : robot.bodies) {
       if (!body.covered) (body.waived ? report->waived : report->uncovered).push_back(body.name + ": " + body.note);
     }
@@ -208,34 +235,51 @@ void World::rebuildReport() {
     report->self_pairs.emplace_back(robot.name, robot.self_pairs);
     for (const std::string& warning : robot.warnings) report->warnings.push_back(robot.name + ": " + warning);
   }
-  report->robots = robots_.size();
-  if (robots_.size() == params_.robots.size()) warnOfIdlePatterns(*report);
-  report_ = std::move(report);
+  report->robots = robots.size();
+  if (robots.size() == params_.robots.size()) warnOfIdlePatterns(robots, *report);
+  return report;
 }
 
+/// Adds the configured obstacles. If that fails, the next call goes on with the obstacle that failed.
 void World::addObstacles() {
-  for (const ObstacleParams& configured : params_.obstacles) {
-    Body body = configured.body;
-    if (body.frame.empty()) body.frame = world_frame_;
-    body.mobility = body.frame == world_frame_ ? Mobility::fixed : Mobility::moving;
-    body.max_speed = lastMatch(params_.max_speed, body.name, params_.default_max_speed);
-    applyPatterns(params_, body);
-    makeSolids(*narrow_phase_, body);
+  movers_.reserve(movers_.size() + params_.obstacles.size() - obstacles_done_);
+  members_.reserve(members_.size() + params_.obstacles.size() - obstacles_done_);
+  while (obstacles_done_ < params_.obstacles.size()) {
+    const ObstacleParams& configured = params_.obstacles[obstacles_done_];
     try {
-      const std::string frame = body.frame;
-      const Pose frame_from_body = body.frame_from_body;
-      addMover(frame, "", {memberOf(scene_.add(std::move(body)), frame_from_body)});
+      addObstacle(configured);
+      ++obstacles_done_;
     } catch (const Refusal& refusal) {
+      missing_.insert_or_assign(configured.body.name, std::string(name(refusal.code())) + " " + refusal.what());
+      ++obstacles_done_;
       ledger_.refuse("obstacles.refused", refusal);
-      missing_[configured.body.name] = std::string(name(refusal.code())) + " " + refusal.what();
     }
   }
-  obstacles_added_ = true;
+}
+
+/// Adds one obstacle: all of it or nothing. There is room for its mover.
+void World::addObstacle(const ObstacleParams& configured) {
+  Body body = configured.body;
+  if (body.frame.empty()) body.frame = world_frame_;
+  body.mobility = body.frame == world_frame_ ? Mobility::fixed : Mobility::moving;
+  body.max_speed = lastMatch(params_.max_speed, body.name, params_.default_max_speed);
+  applyPatterns(params_, body);
+  makeSolids(*narrow_phase_, body);
+  Mover mover;
+  mover.frame = body.frame;
+  mover.first = members_.size();
+  mover.last = mover.first + 1;
+  Member member = memberOf({}, body.frame_from_body);
+  member.body = scene_.add(std::move(body));
+  // Nothing below allocates.
+  members_.push_back(member);
+  movers_.push_back(std::move(mover));
+  movers_changed_ = true;
 }
 
 void World::reset() {
-  removeMovers("");
-  obstacles_added_ = false;
+  exchange(changeWithout([](const std::string& robot) { return robot.empty(); }));
+  obstacles_done_ = 0;
   for (const ObstacleParams& obstacle : params_.obstacles) missing_.erase(obstacle.body.name);
   ledger_.clear();
   beginEpoch();
@@ -243,7 +287,15 @@ void World::reset() {
 
 void World::setRules(std::vector<PairRule> rules) {
   rules_ = RuleBook(std::move(rules));
+  rules_changed_ = true;
+}
+
+/// Gives the scene the rules in force. If that fails, the next tick does it.
+void World::applyRules(const Moment& now) {
+  if (rules_.expire(now.steady)) rules_changed_ = true;
+  if (!rules_changed_) return;
   scene_.setRules(rules_.rules());
+  rules_changed_ = false;
 }
 
 bool World::findWorldFrame() {
@@ -256,17 +308,20 @@ bool World::findWorldFrame() {
 
 void World::handleClock(const Moment& now) {
   const ClockWatch::Event event = watch_.look(now);
-  if (event == ClockWatch::Event::none) return;
-  ledger_.refuse("clock", Refusal(Code::clock, std::string("ROS time jumped ") +
-                                                   (event == ClockWatch::Event::jumped_back ? "back" : "ahead") +
-                                                   "; a new epoch begins"));
-  beginEpoch();
+  // A jump that an earlier tick failed to handle is handled now; a jump back asks for more than one ahead.
+  if (clock_event_ != ClockWatch::Event::jumped_back && event != ClockWatch::Event::none) clock_event_ = event;
+  if (clock_event_ == ClockWatch::Event::none) return;
+  const bool back = clock_event_ == ClockWatch::Event::jumped_back;
+  const Refusal jump(Code::clock, std::string("ROS time jumped ") + (back ? "back" : "ahead") + "; a new epoch begins");
   if (!watch_.simulated()) {
     intake_.restamp();
-  } else if (event == ClockWatch::Event::jumped_back) {
+  } else if (back) {
     intake_.forgetMoving();
     for (Mover& mover : movers_) mover.jumped = mover.chain.moves;
   }
+  beginEpoch();
+  clock_event_ = ClockWatch::Event::none;
+  ledger_.refuse("clock", jump);
 }
 
 /// The newest time at which every frame that keeps up is known; those that lag more do not count.
@@ -300,6 +355,7 @@ void World::planWays() {
   unsettle();
   std::vector<std::string> frames;
   for (const Mover& mover : movers_) frames.push_back(mover.frame);
+  movers_changed_ = true;  // until the plan is complete
   ways_.plan(world_frame_, frames);
   movers_changed_ = false;
 }
@@ -421,10 +477,11 @@ void World::update(std::size_t index, Time time, const Moment& now, Tick& tick) 
 std::shared_ptr<const Tick> World::tick(const Moment& now) {
   auto tick = std::make_shared<Tick>();
   handleClock(now);
-  if (rules_.expire(now.steady)) scene_.setRules(rules_.rules());
+  applyRules(now);
   tick->made = now;
   tick->epoch = epoch_;
   const bool has_frame = findWorldFrame();
+  if (has_frame && watch_.running()) addObstacles();  // before what is missing is listed: some may be refused
   tick->world_frame = world_frame_;
   std::vector<SourceGap> lacking = gaps(now);
   for (const SourceGap& gap : lacking) tick->not_ready.push_back(gap.sentence);
@@ -434,7 +491,6 @@ std::shared_ptr<const Tick> World::tick(const Moment& now) {
     tick->not_ready.push_back("NOT_READY: there is no time yet; /use_sim_time is set and /clock is silent");
   if (!has_frame) tick->not_ready.push_back("NOT_READY: the world frame is the root of a robot that is not loaded yet");
   if (!has_frame || !watch_.running()) return tick;
-  if (!obstacles_added_) addObstacles();
 
   const auto begin = std::chrono::steady_clock::now();
   planWays();

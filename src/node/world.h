@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -62,6 +63,9 @@ struct MeasuredTick {
 
 /// Keeps the Scene up to date from tf: decides the time of a tick, places every body at it, says how far each
 /// pose can be trusted. One thread; Ticks may be read by any.
+///
+/// A call that throws, also for lack of memory, has changed nothing. tick() may throw for lack of memory; the next tick
+/// is right.
 class World {
  public:
   World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& ledger,
@@ -116,13 +120,28 @@ class World {
     std::string refused;  // why a message since then could not be read
   };
 
-  void addObstacles();
+  /// Movers and bodies that take the place of those there are. It is built beside them, then put in their place as a
+  /// whole: see exchange().
+  struct Change {
+    std::vector<Mover> movers;
+    std::vector<Member> members;  // those of `in` come last, without their handles
+    std::vector<BodyId> out;      // bodies that leave the scene
+    std::vector<Body> in;         // bodies that enter it
+    void add(const std::string& frame, const std::string& robot, const Body& body, const Pose& frame_from_body);
+    void join(const Body& body, const Pose& frame_from_body);
+  };
+  /// The change that removes the movers of the chosen robots (obstacles: "", maps: the body's name).
+  Change changeWithout(const std::function<bool(const std::string& robot)>& chosen) const;
+  void exchange(Change change);
   static Member memberOf(BodyId body, const Pose& frame_from_body);
-  void addMover(const std::string& frame, const std::string& robot, const std::vector<Member>& members);
-  void removeMovers(const std::string& robot);
+
+  void addObstacles();
+  void addObstacle(const ObstacleParams& configured);
   void beginEpoch();
-  void rebuildReport();
-  void warnOfIdlePatterns(ModelReport& report) const;
+  using RobotsByName = std::map<std::string, const LoadedRobot*>;
+  std::shared_ptr<const ModelReport> reportWith(const LoadedRobot& loaded) const;
+  void warnOfIdlePatterns(const RobotsByName& robots, ModelReport& report) const;
+  void applyRules(const Moment& now);
   bool findWorldFrame();
   void handleClock(const Moment& now);
   Time chooseTime(const Moment& now);
@@ -161,8 +180,10 @@ class World {
   std::map<std::string, std::string> missing_;  // sentence by robot, map/name, cloud/name
   std::shared_ptr<const ModelReport> report_ = std::make_shared<ModelReport>();
   RuleBook rules_;
+  bool rules_changed_ = false;  // the scene does not have them yet
   std::string world_frame_;
-  bool obstacles_added_ = false;
+  std::size_t obstacles_done_ = 0;                           // of the configured ones: added or refused
+  ClockWatch::Event clock_event_ = ClockWatch::Event::none;  // not handled yet
   std::uint64_t epoch_;
   Time last_time_{0};
 };

@@ -35,18 +35,24 @@ void World::setMap(const LoadedMap& map) {
     throw Refusal(Code::unknown_frame, "map '" + map.params.name + "': its frame '" + printable(body.frame) +
                                            "' is not connected to '" + world_frame_ + "'; the old map stays");
   }
+  if (!map.cells || !map.cells->grid) {
+    throw Refusal(Code::bad_geometry, "map '" + map.params.name + "' has no cells; a map must have them");
+  }
+  MapNews news = map_news_;
+  news.noteAccepted(body.name, map);
   if (!same) {  // otherwise only its cells are others: the structure stays, and nobody starts again
-    if (known != maps_.end()) {
-      removeMovers(body.name);
-      maps_.erase(known);
-    }
-    addMover(body.frame, body.name, {memberOf(scene_.add(body), body.frame_from_body)});
-    maps_[body.name] = body;
+    Change change = changeWithout([&](const std::string& other) { return other == body.name; });
+    change.add(body.frame, body.name, body, body.frame_from_body);
+    std::map<std::string, Body> loaded;
+    loaded.emplace(body.name, body);
+    exchange(std::move(change));
+    maps_.erase(body.name);
+    maps_.merge(loaded);
   }
   BodyId id;
   scene_.find(body.name, id);
-  scene_.setCells(id, map.cells);
-  map_news_.noteAccepted(body.name, map);
+  scene_.setCells(id, map.cells);  // cannot fail: the body is a map without shapes, and there are cells
+  map_news_ = std::move(news);
   missing_.erase(body.name);
 }
 
@@ -55,22 +61,25 @@ void World::clearMap(const std::string& name) {
   if (!name.empty() && maps_.count(body) + missing_.count(body) == 0) {
     throw Refusal(Code::unknown_id, "there is no map '" + printable(name) + "'");
   }
-  for (auto sentence = missing_.begin(); sentence != missing_.end();) {  // nobody waits for them any more
-    const bool chosen = name.empty() ? sentence->first.compare(0, 4, "map/") == 0 : sentence->first == body;
-    sentence = chosen ? missing_.erase(sentence) : std::next(sentence);
+  const auto chosen = [&](const std::string& other) {
+    return name.empty() ? other.compare(0, 4, "map/") == 0 : other == body;
+  };
+  exchange(changeWithout(chosen));
+  // Nothing below allocates.
+  const auto eraseChosen = [&](auto& by_name) {
+    for (auto one = by_name.begin(); one != by_name.end();)
+      one = chosen(one->first) ? by_name.erase(one) : std::next(one);
+  };
+  for (const auto& map : maps_) {
+    if (chosen(map.first)) map_news_.forget(map.first);
   }
-  for (auto map = maps_.begin(); map != maps_.end();) {
-    const bool chosen = name.empty() || map->first == body;
-    if (chosen) {
-      removeMovers(map->first);
-      map_news_.forget(map->first);
-    }
-    map = chosen ? maps_.erase(map) : std::next(map);
-  }
+  eraseChosen(missing_);  // nobody waits for them any more
+  eraseChosen(maps_);
 }
 
 void World::setCloud(const LoadedCloud& loaded) {
   const std::string name = joined("cloud", loaded.name);
+  LoadedCloud newest = loaded;
   auto known = clouds_.find(name);
   if (known == clouds_.end()) {
     Body body;
@@ -79,19 +88,22 @@ void World::setCloud(const LoadedCloud& loaded) {
     body.frame = world_frame_;
     body.max_speed = lastMatch(params_.max_speed, body.name, params_.default_max_speed);
     applyPatterns(params_, body);
-    const BodyId id = scene_.add(body);
-    known = clouds_.emplace(name, Cloud{}).first;
-    known->second.body = id;
+    std::map<std::string, Cloud> added;
+    added.emplace(name, Cloud{});
+    added.begin()->second.body = scene_.add(std::move(body));
+    clouds_.merge(added);
     missing_.erase(name);
+    known = clouds_.find(name);
   }
   Cloud& cloud = known->second;
+  scene_.setCells(cloud.body, newest.cells);
+  // Nothing below allocates.
   const double gap = seconds(loaded.stamp - cloud.newest.stamp);
   if (cloud.newest.cells && gap > 0.0 && gap <= loaded.lifetime) {  // a longer one is an outage
     cloud.period = cloud.period > 0.0 ? 0.8 * cloud.period + 0.2 * std::min(gap, 2.0 * cloud.period) : gap;
   }
   if (loaded.stamp != cloud.newest.stamp) cloud.refused.clear();
-  cloud.newest = loaded;
-  scene_.setCells(cloud.body, loaded.cells);
+  cloud.newest = std::move(newest);
 }
 
 Freshness World::judgeCloud(const Cloud& cloud, const Moment& now, double& age) const {

@@ -31,12 +31,11 @@ void Scene::State::rebuildStructure() {
   next->revision = structure->revision + 1;
   next->least_margin = options.margin;
   std::vector<Aabb> sizes;
-  uncovered.clear();
-  shapes.clear();
+  std::vector<std::uint32_t> next_uncovered;
+  std::vector<ShapeInBody> next_shapes;
   for (const auto& named : slot_of_name) {
-    slots[named.second].moved = true;  // its proxies may have other numbers now
     const Body& body = bodies[named.second];
-    if (!body.covered && !body.waived) uncovered.push_back(static_cast<std::uint32_t>(next->bodies.size()));
+    if (!body.covered && !body.waived) next_uncovered.push_back(static_cast<std::uint32_t>(next->bodies.size()));
     next->first_proxy.push_back(static_cast<std::uint32_t>(next->body_of_proxy.size()));
     next->body_of_proxy.insert(next->body_of_proxy.end(), body.shapes.size(),
                                static_cast<std::uint32_t>(next->bodies.size()));
@@ -45,21 +44,27 @@ void Scene::State::rebuildStructure() {
     next->ids.push_back({named.second, slots[named.second].generation});
     next->margin.push_back(std::max(options.margin, body.margin));
     for (const BodyShape& shape : body.shapes) {
-      shapes.push_back({shape.shape, shape.body_from_shape, shape.padding});
+      next_shapes.push_back({shape.shape, shape.body_from_shape, shape.padding});
       sizes.push_back(
           grown(boxOf(shape.shape, Pose::Identity(), shape.padding, Eigen::Vector3d::Zero()), 0.5 * options.margin));
     }
   }
   next->first_proxy.push_back(static_cast<std::uint32_t>(next->body_of_proxy.size()));
-  boxes.assign(shapes.size(), Aabb{});
+  std::vector<Aabb> next_boxes(next_shapes.size());
   next->pair_margins = PairMargins(next->bodies, options.pair_margins);
   next->filter = PairFilter(next->bodies, options.pair_kinds, options.allowed_pairs);
   next->silenced = silencesAll(next->bodies, options.pair_kinds, next->filter);
-  fixed_proxies.clear();
+  std::vector<ProxyId> next_fixed;
   for (ProxyId proxy = 0; proxy < next->body_of_proxy.size(); ++proxy) {
-    if (next->bodies[next->body_of_proxy[proxy]].mobility == Mobility::fixed) fixed_proxies.push_back(proxy);
+    if (next->bodies[next->body_of_proxy[proxy]].mobility == Mobility::fixed) next_fixed.push_back(proxy);
   }
   fillSources(*next);
+  // Nothing below allocates.
+  for (const auto& named : slot_of_name) slots[named.second].moved = true;  // its proxies may have other numbers now
+  uncovered.swap(next_uncovered);
+  shapes.swap(next_shapes);
+  boxes.swap(next_boxes);
+  fixed_proxies.swap(next_fixed);
   structure = std::move(next);
   scale = GridScale::fitting(sizes);
   if (options.finest_edge > 0.0) scale.finest_edge = options.finest_edge;
@@ -69,8 +74,12 @@ void Scene::State::rebuildStructure() {
 std::shared_ptr<Snapshot> Scene::State::freshSnapshot() const {
   std::unique_ptr<Snapshot> snapshot = pool->take();
   if (!snapshot) snapshot.reset(new Snapshot);
-  return {snapshot.release(), [kept = pool](Snapshot* used) { kept->giveBack(std::unique_ptr<Snapshot>(used)); },
-          PoolAllocator<Snapshot>(pool)};
+  snapshot->finished_ = false;
+  const auto give_back = [kept = pool](Snapshot* used) {
+    std::unique_ptr<Snapshot> owned(used);
+    if (owned->finished_) kept->giveBack(std::move(owned));
+  };
+  return {snapshot.release(), give_back, PoolAllocator<Snapshot>(pool)};
 }
 
 /// Makes the boxes of what moved since the last commit; what stands still keeps its own. Of the poses a snapshot that
@@ -78,7 +87,7 @@ std::shared_ptr<Snapshot> Scene::State::freshSnapshot() const {
 void Scene::State::fillBodies(Snapshot& snapshot) {
   const std::uint64_t known = snapshot.structure_ == structure ? snapshot.commit_ : 0;
   snapshot.structure_ = structure;
-  snapshot.commit_ = ++commits;
+  snapshot.commit_ = commits + 1;
   snapshot.poses_.resize(structure->ids.size());
   snapshot.worst_state_ = Freshness::fresh;
   snapshot.max_age_ = snapshot.max_growth_ = 0.0;
@@ -86,12 +95,12 @@ void Scene::State::fillBodies(Snapshot& snapshot) {
     Slot& slot = slots[structure->ids[i].slot];
     const bool placed = slot.pose.state != Freshness::unplaced;
     if (slot.moved && placed) {
-      slot.moved = false;
       for (std::uint32_t proxy = structure->first_proxy[i]; proxy < structure->first_proxy[i + 1]; ++proxy) {
         const ShapeInBody& shape = shapes[proxy];
         boxes[proxy] =
             boxOf(shape.shape, slot.pose.world_from_body * shape.body_from_shape, shape.padding, options.origin);
       }
+      slot.moved = false;
     }
     if (known == 0 || slot.changed > known) {
       snapshot.poses_[i] = slot.pose;
@@ -105,8 +114,7 @@ void Scene::State::fillBodies(Snapshot& snapshot) {
   snapshot.boxes_ = boxes;
   snapshot.cells_.clear();
   for (const std::uint32_t map : structure->maps) {
-    const auto known_cells = cells_of_slot.find(structure->ids[map].slot);
-    snapshot.cells_.push_back(known_cells == cells_of_slot.end() ? nullptr : known_cells->second);
+    snapshot.cells_.push_back(cells[structure->ids[map].slot]);
   }
   horizon.step(structure, snapshot.poses_, boxes);
 }
@@ -203,6 +211,17 @@ void Scene::State::fillPairs(Snapshot& snapshot) {
       snapshot.events_);
 }
 
+/// Makes the snapshot what the next commit goes by. Allocates nothing.
+void Scene::State::accept(Snapshot& snapshot) {
+  horizon.accept();
+  map_pairs.accept();
+  tracker.accept();
+  pair_events.accept();
+  commits = snapshot.commit_;
+  sequence = snapshot.sequence_;
+  snapshot.finished_ = true;
+}
+
 std::shared_ptr<const Snapshot> Scene::commit(Time stamp, const std::vector<SourceGap>& gaps) {
   const DefaultFloatEnvironment environment;
   using Clock = std::chrono::steady_clock;
@@ -219,9 +238,10 @@ std::shared_ptr<const Snapshot> Scene::commit(Time stamp, const std::vector<Sour
   s.fillGrid(*snapshot);
   const auto grid_done = Clock::now();
   s.fillPairs(*snapshot);
-  snapshot->sequence_ = ++s.sequence;
+  snapshot->sequence_ = s.sequence + 1;
   snapshot->epoch_ = s.epoch;
   s.fillCompleteness(*snapshot, gaps);
+  s.accept(*snapshot);
   s.times = {boxes_done - begin, grid_done - boxes_done, Clock::now() - grid_done};
   return snapshot;
 }

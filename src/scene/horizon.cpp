@@ -32,26 +32,29 @@ void Horizon::step(const std::shared_ptr<const Structure>& structure, const std:
                    const std::vector<Aabb>& boxes) {
   if (!on()) return;
   const std::size_t count = structure->bodies.size();
-  if (structure != structure_) last_stamps_.assign(count, kNever);
-  structure_ = structure;
-  before_ = swept_ = boxes;
+  const bool renumbered = structure != last_.structure;
+  now_.structure = structure;
+  now_.boxes = before_ = swept_ = boxes;
+  now_.stamps.assign(count, kNever);
   teleported_.assign(count, false);
   for (std::uint32_t body = 0; body < count; ++body) {
     const BodyPose& pose = poses[body];
     if (pose.state == Freshness::unplaced) continue;
-    const Time before = std::exchange(last_stamps_[body], pose.stamp);
+    now_.stamps[body] = pose.stamp;
+    const Time before = renumbered ? kNever : last_.stamps[body];
     if (before == kNever) continue;
     const double may = structure->bodies[body].max_speed * std::max(0.0, seconds(pose.stamp - before));
     for (ProxyId proxy = structure->first_proxy[body]; proxy < structure->first_proxy[body + 1]; ++proxy) {
-      const Aabb &from = last_[proxy], &to = boxes[proxy];
+      const Aabb &from = last_.boxes[proxy], &to = boxes[proxy];
       if (from == to) continue;
       before_[proxy] = from;
       swept_[proxy] = {from.min.cwiseMin(to.min), from.max.cwiseMax(to.max)};
       if (shiftOf(from, to) > may + roundingOf(to)) teleported_[body] = true;
     }
   }
-  last_ = boxes;
 }
+
+void Horizon::accept() { std::swap(last_, now_); }
 
 bool Horizon::canMeet(const Structure& structure, ProxyId first, ProxyId second, double gap, double margin) const {
   const Body &a = structure.bodies[structure.body_of_proxy[first]],

@@ -17,9 +17,12 @@ class Horizon {
   Horizon(double seconds, double cap) : seconds_(seconds), cap_(cap) {}
 
   bool on() const { return seconds_ > 0.0; }
-  /// Takes the boxes and poses of a new tick. What had no pose before, or is in a new structure, swept nothing.
+  /// Takes the boxes and poses of a new tick. What had no pose before, or is in a new structure, swept nothing. The
+  /// last tick stays the one that was accepted.
   void step(const std::shared_ptr<const Structure>& structure, const std::vector<BodyPose>& poses,
             const std::vector<Aabb>& boxes);
+  /// Makes the tick of the last step() the last tick. Allocates nothing.
+  void accept();
   /// [m] That a body can go within the horizon.
   double reachOf(const Body& body) const;
   /// The box around a proxy's boxes of this tick and the last.
@@ -33,10 +36,15 @@ class Horizon {
 
  private:
   double seconds_, cap_;
-  std::shared_ptr<const Structure> structure_;
-  std::vector<Aabb> last_, before_, swept_;  // by proxy
-  std::vector<Time> last_stamps_;            // by body; negative: it had no pose
-  std::vector<bool> teleported_;             // by body
+  /// What is kept of a tick.
+  struct Kept {
+    std::shared_ptr<const Structure> structure;
+    std::vector<Aabb> boxes;   // by proxy
+    std::vector<Time> stamps;  // by body; negative: it had no pose
+  };
+  Kept last_, now_;                   // now_: of the last step(), not accepted yet
+  std::vector<Aabb> before_, swept_;  // by proxy
+  std::vector<bool> teleported_;      // by body
 };
 
 }  // namespace hgrid

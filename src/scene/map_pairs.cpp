@@ -14,19 +14,24 @@ namespace hgrid {
 void MapPairs::recall(const Snapshot& snapshot) {
   const Structure& structure = snapshot.structure();
   if (revision_ != structure.revision) maps_.clear();  // proxies have other numbers
-  revision_ = structure.revision;
   maps_.resize(structure.maps.size());
+  revision_ = structure.revision;
   for (std::size_t i = 0; i < maps_.size(); ++i) {
     OfMap& map = maps_[i];
     const Pose& pose = snapshot.poses()[structure.maps[i]].world_from_body;
     const std::shared_ptr<const MapCells> cells = snapshot.cellsOf(structure.maps[i]);
-    map.map_from_world_before = map.map_from_world;
     if (map.cells == cells && map.world_from_map.matrix() == pose.matrix()) continue;
+    map.gaps.assign(structure.body_of_proxy.size(), Gap{});  // first, since it may fail
     map.world_from_map = pose;
     map.map_from_world = pose.inverse();
-    if (!map.cells) map.map_from_world_before = map.map_from_world;
     map.cells = cells;
-    map.gaps.assign(structure.body_of_proxy.size(), Gap{});
+  }
+}
+
+void MapPairs::accept() {
+  for (OfMap& map : maps_) {
+    map.map_from_world_last = map.map_from_world;
+    map.was_there = map.cells != nullptr;
   }
 }
 
@@ -49,8 +54,8 @@ bool MapPairs::find(const Snapshot& snapshot, const Horizon& horizon, std::size_
 bool MapPairs::passed(const OfMap& map, ProxyId proxy, const Snapshot& snapshot, const Horizon& horizon,
                       double margin) const {
   const Aabb &from = horizon.before(proxy), &to = snapshot.boxes()[proxy];
-  if (from == to && map.map_from_world_before.matrix() == map.map_from_world.matrix()) return false;
-  const Eigen::AlignedBox3d swept = boxInMap(map.map_from_world_before, from, snapshot.origin())
+  if (from == to && map.mapFromWorldBefore().matrix() == map.map_from_world.matrix()) return false;
+  const Eigen::AlignedBox3d swept = boxInMap(map.mapFromWorldBefore(), from, snapshot.origin())
                                         .merged(boxInMap(map.map_from_world, to, snapshot.origin()));
   return gapTo(*map.cells->grid, swept, margin) <= margin;
 }

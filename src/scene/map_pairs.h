@@ -26,6 +26,8 @@ class MapPairs {
   bool find(const Snapshot& snapshot, const Horizon& horizon, std::size_t most, const Add& add);
   /// Whether find() with the same snapshot and no limit adds a pair, one of which is a map. The filter is not asked.
   bool isNear(const Snapshot& snapshot, const Horizon& horizon, std::uint32_t first, std::uint32_t second);
+  /// Makes the tick of the last find() the last tick. Allocates nothing.
+  void accept();
 
  private:
   struct Gap {
@@ -36,8 +38,12 @@ class MapPairs {
   struct OfMap {
     std::shared_ptr<const MapCells> cells;
     Pose world_from_map = Pose::Identity(), map_from_world = Pose::Identity();
-    Pose map_from_world_before = Pose::Identity();  // of the last tick; of this one if it had no pose
-    std::vector<Gap> gaps;                          // by proxy
+    Pose map_from_world_last = Pose::Identity();  // of the last tick
+    bool was_there = false;                       // in the last tick, with cells
+    std::vector<Gap> gaps;                        // by proxy
+
+    /// Pose of the last tick; of this one if there were no cells then.
+    const Pose& mapFromWorldBefore() const { return was_there ? map_from_world_last : map_from_world; }
   };
   void recall(const Snapshot& snapshot);
   bool passed(const OfMap& map, ProxyId proxy, const Snapshot& snapshot, const Horizon& horizon, double margin) const;

@@ -66,17 +66,16 @@ void PairEvents::renumber(const Structure& now, PairEventList& list) {
     i += order <= 0 ? 1 : 0;
     j += order >= 0 ? 1 : 0;
   }
-  std::size_t kept = 0;
+  carried_over_.clear();
   for (const On& on : on_) {
     if (after_[on.first] != kNone && after_[on.second] != kNone) {
-      on_[kept++] = {after_[on.first], after_[on.second], on.since};
+      carried_over_.push_back({after_[on.first], after_[on.second], on.since});
     } else if (!epoch_began_) {
       list.before = structure_;
       list.events.push_back({0, EventKind::end, EventCause::bodies, on.first, on.second, on.since,
                              std::numeric_limits<double>::quiet_NaN()});
     }
   }
-  on_.erase(on_.begin() + static_cast<std::ptrdiff_t>(kept), on_.end());
 }
 
 double PairEvents::marginBefore(std::uint32_t first, std::uint32_t second) const {
@@ -133,11 +132,11 @@ void PairEvents::begin(const NearPair& pair, EventCause cause, const PairsNow& n
 }
 
 void PairEvents::remember(const PairsNow& now) {
-  structure_ = now.structure;
-  known_.clear();
+  next_structure_ = now.structure;
+  next_known_.clear();
   if (now.worst_state < Freshness::stale) return;
   for (const BodyPose& pose : now.poses) {
-    known_.push_back({pose.growth, pose.cohort, pose.state != Freshness::unplaced});
+    next_known_.push_back({pose.growth, pose.cohort, pose.state != Freshness::unplaced});
   }
 }
 
@@ -148,10 +147,11 @@ void PairEvents::update(const PairsNow& now, PairEventList& list) {
   if (renumbered_) renumber(*now.structure, list);
   next_.clear();
   begun_.clear();
-  auto on = on_.begin();
+  const std::vector<On>& before_now = renumbered_ ? carried_over_ : on_;
+  auto on = before_now.begin();
   for (const NearPair& pair : now.pairs) {
-    while (on != on_.end() && before(*on, pair)) judge(*on++, now, list);
-    const bool was_on = on != on_.end() && !before(pair, *on);
+    while (on != before_now.end() && before(*on, pair)) judge(*on++, now, list);
+    const bool was_on = on != before_now.end() && !before(pair, *on);
     if (!was_on) {
       const auto not_judged = static_cast<std::size_t>(on_.end() - on);
       if (next_.size() + not_judged < most_) begin(pair, causeOfBegin(pair, *now.structure), now);
@@ -162,13 +162,20 @@ void PairEvents::update(const PairsNow& now, PairEventList& list) {
     }
     if (was_on) ++on;
   }
-  while (on != on_.end()) judge(*on++, now, list);
-  on_.swap(next_);
+  while (on != before_now.end()) judge(*on++, now, list);
   list.events.insert(list.events.end(), begun_.begin(), begun_.end());
-  for (PairEvent& event : list.events) event.number = ++last_;
-  list.last = last_;
-  epoch_began_ = false;
+  next_last_ = last_;
+  for (PairEvent& event : list.events) event.number = ++next_last_;
+  list.last = next_last_;
   remember(now);
+}
+
+void PairEvents::accept() {
+  last_ = next_last_;
+  on_.swap(next_);
+  structure_ = next_structure_;
+  known_.swap(next_known_);
+  epoch_began_ = false;
 }
 
 }  // namespace hgrid

@@ -38,8 +38,10 @@ class PairEvents {
   explicit PairEvents(double hysteresis, std::size_t most = std::numeric_limits<std::size_t>::max())
       : hysteresis_(hysteresis), most_(most) {}
 
-  /// Replaces what stands in `list` by the events of this tick.
+  /// Replaces what stands in `list` by the events of this tick: what changed since the last accepted tick.
   void update(const PairsNow& now, PairEventList& list);
+  /// Makes the tick of the last update() the one that the next update() goes by. Allocates nothing.
+  void accept();
   /// Numbers start again; pairs that are still near begin again, the others are forgotten without an end.
   void beginEpoch();
 
@@ -67,17 +69,23 @@ class PairEvents {
   std::size_t most_;
   std::uint64_t last_ = 0;
   bool epoch_began_ = false;
-  std::vector<On> on_;  // sorted by (first, second)
 
-  // Of the tick before.
+  // Of the tick before, which was accepted.
+  std::vector<On> on_;  // sorted by (first, second)
   std::shared_ptr<const Structure> structure_ = std::make_shared<Structure>();
   std::vector<Known> known_;  // by body; empty: all were placed and none was stale
 
+  // Of this tick, until it is accepted.
+  std::uint64_t next_last_ = 0;
+  std::vector<On> next_;
+  std::shared_ptr<const Structure> next_structure_ = structure_;
+  std::vector<Known> next_known_;
+
   // Scratch of a tick.
   bool renumbered_ = false;
+  std::vector<On> carried_over_;       // if renumbered_: on_ in the numbers of this tick
   std::vector<std::uint32_t> before_;  // by body: its number before
   std::vector<std::uint32_t> after_;   // by body of the tick before: its number now
-  std::vector<On> next_;
   std::vector<PairEvent> begun_;
 };
 

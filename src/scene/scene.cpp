@@ -2,6 +2,9 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "hgrid_proximity/scene/scene.h"
 
+#include <algorithm>
+#include <set>
+
 #include "hgrid_proximity/refusal.h"
 #include "hgrid_proximity/scene/name.h"
 #include "scene/scene_state.h"
@@ -80,44 +83,113 @@ Scene::Scene(const SceneOptions& options) : state_(std::make_unique<State>(optio
 Scene::~Scene() = default;
 Scene::Scene(Scene&&) noexcept = default;
 
-BodyId Scene::add(Body body) {
-  State& s = *state_;
-  checkBody(body);
-  if (s.slot_of_name.count(body.name) != 0) {
-    throw Refusal(Code::dup_id, "body '" + body.name + "' is there already");
+/// Slots of the bodies that leave, ascending. @throws Refusal unknown_id, dup_id (a body is named twice)
+std::vector<std::uint32_t> Scene::State::checkedSlots(const std::vector<BodyId>& out) {
+  std::vector<std::uint32_t> leaving;
+  for (const BodyId id : out) {
+    at(id);
+    leaving.push_back(id.slot);
   }
-  if (s.slot_of_name.size() >= s.options.max_bodies) {
-    throw Refusal(Code::limit, "body '" + body.name + "' would be one more than max_bodies, which is " +
-                                   std::to_string(s.options.max_bodies));
+  std::sort(leaving.begin(), leaving.end());
+  const auto twice = std::adjacent_find(leaving.begin(), leaving.end());
+  if (twice != leaving.end()) {
+    throw Refusal(Code::dup_id, "body '" + bodies[*twice].name + "' is to be removed twice; name it once");
   }
-  if (s.free_slots.empty()) {
-    s.free_slots.push_back(static_cast<std::uint32_t>(s.slots.size()));
-    s.slots.emplace_back();
-    s.bodies.emplace_back();
-  }
-  const std::uint32_t number = s.free_slots.back();
-  s.slot_of_name.emplace(body.name, number);
-  s.free_slots.pop_back();
-  State::Slot& slot = s.slots[number];
-  slot.used = true;
-  slot.fixed = body.mobility == Mobility::fixed;
-  s.bodies[number] = std::move(body);
-  slot.pose = BodyPose{};
-  s.structure_changed = true;
-  return {number, slot.generation};
+  return leaving;
 }
 
-void Scene::remove(BodyId id) {
-  State& s = *state_;
-  State::Slot& slot = s.at(id);
-  s.free_slots.push_back(id.slot);
-  s.slot_of_name.erase(s.bodies[id.slot].name);
-  s.cells_of_slot.erase(id.slot);
-  s.bodies[id.slot] = Body{};
-  slot.used = slot.moved = false;
-  ++slot.generation;
-  s.structure_changed = true;
+/// Checks the bodies that come, and whether there is room for them and for their names.
+void Scene::State::checkIn(const std::vector<std::uint32_t>& leaving, const std::vector<Body>& in) const {
+  std::size_t count = slot_of_name.size() - leaving.size();
+  std::set<std::string> names;
+  for (const Body& body : in) {
+    checkBody(body);
+    const auto known = slot_of_name.find(body.name);
+    const bool stays =
+        known != slot_of_name.end() && !std::binary_search(leaving.begin(), leaving.end(), known->second);
+    if (stays || !names.insert(body.name).second) {
+      throw Refusal(Code::dup_id, "body '" + body.name + "' is there already");
+    }
+    if (count++ >= options.max_bodies) {
+      throw Refusal(Code::limit, "body '" + body.name + "' would be one more than max_bodies, which is " +
+                                     std::to_string(options.max_bodies));
+    }
+  }
 }
+
+/// Slots for bodies that come: those of the bodies that leave, then free ones, then new ones.
+std::vector<std::uint32_t> Scene::State::slotsFor(const std::vector<BodyId>& out, std::size_t count) const {
+  std::vector<std::uint32_t> numbers;
+  for (auto id = out.rbegin(); id != out.rend() && numbers.size() < count; ++id) numbers.push_back(id->slot);
+  for (auto number = free_slots.rbegin(); number != free_slots.rend() && numbers.size() < count; ++number) {
+    numbers.push_back(*number);
+  }
+  for (std::size_t number = slots.size(); numbers.size() < count; ++number) {
+    numbers.push_back(static_cast<std::uint32_t>(number));
+  }
+  return numbers;
+}
+
+void Scene::State::reserveSlots(std::size_t count) {
+  const auto reserve = [count](auto& values) {
+    if (values.capacity() < count) values.reserve(std::max(count, 2 * values.capacity()));
+  };
+  reserve(slots);
+  reserve(bodies);
+  reserve(cells);
+  reserve(free_slots);
+}
+
+void Scene::State::takeOut(std::uint32_t slot) {
+  slot_of_name.erase(bodies[slot].name);
+  bodies[slot] = Body{};
+  cells[slot].reset();
+  slots[slot].used = slots[slot].moved = false;
+  ++slots[slot].generation;
+  free_slots.push_back(slot);
+}
+
+void Scene::State::putIn(std::uint32_t slot, Body&& body) {
+  if (slot < slots.size()) {
+    free_slots.pop_back();
+  } else {
+    slots.emplace_back();
+    bodies.emplace_back();
+    cells.emplace_back();
+  }
+  slots[slot].used = true;
+  slots[slot].fixed = body.mobility == Mobility::fixed;
+  slots[slot].pose = BodyPose{};
+  bodies[slot] = std::move(body);
+}
+
+std::vector<BodyId> Scene::exchange(const std::vector<BodyId>& out, std::vector<Body> in) {
+  State& s = *state_;
+  s.checkIn(s.checkedSlots(out), in);
+  const std::vector<std::uint32_t> numbers = s.slotsFor(out, in.size());
+  std::map<std::string, std::uint32_t> names;
+  for (std::size_t i = 0; i < in.size(); ++i) names.emplace(in[i].name, numbers[i]);
+  std::vector<BodyId> ids(in.size());
+  const std::size_t last = numbers.empty() ? 0 : *std::max_element(numbers.begin(), numbers.end()) + std::size_t{1};
+  s.reserveSlots(std::max(s.slots.size(), last));
+  // Nothing below allocates.
+  for (const BodyId id : out) s.takeOut(id.slot);
+  s.slot_of_name.merge(names);
+  for (std::size_t i = 0; i < in.size(); ++i) {
+    s.putIn(numbers[i], std::move(in[i]));
+    ids[i] = {numbers[i], s.slots[numbers[i]].generation};
+  }
+  s.structure_changed = s.structure_changed || !out.empty() || !ids.empty();
+  return ids;
+}
+
+BodyId Scene::add(Body body) {
+  std::vector<Body> in;
+  in.push_back(std::move(body));
+  return exchange({}, std::move(in)).front();
+}
+
+void Scene::remove(BodyId id) { exchange({id}, {}); }
 
 bool Scene::find(const std::string& name, BodyId& id) const {
   const auto found = state_->slot_of_name.find(name);
@@ -170,7 +242,7 @@ void Scene::setCells(BodyId id, std::shared_ptr<const MapCells> cells) {
     throw Refusal(Code::bad_geometry,
                   "body '" + body.name + "' cannot have occupied cells; only a map without shapes can");
   }
-  s.cells_of_slot[id.slot] = std::move(cells);
+  s.cells[id.slot] = std::move(cells);
 }
 
 void Scene::setRules(std::vector<PairRule> rules) {

@@ -57,16 +57,25 @@ struct Scene::State {
   SceneOptions options;
   PairLimits limits;
   std::vector<Slot> slots;
-  std::vector<Body> bodies;  // by slot
-  std::vector<std::uint32_t> free_slots;
-  std::map<std::uint32_t, std::shared_ptr<const MapCells>> cells_of_slot;  // of maps
-  std::map<std::string, std::uint32_t> slot_of_name;                       // ordered: the structure is sorted by name
+  std::vector<Body> bodies;                            // by slot
+  std::vector<std::shared_ptr<const MapCells>> cells;  // by slot; of maps, else null
+  std::vector<std::uint32_t> free_slots;               // has room for all slots
+  std::map<std::string, std::uint32_t> slot_of_name;   // ordered: the structure is sorted by name
   bool structure_changed = true;
   std::uint64_t sequence = 0, epoch = 0, commits = 0;
 
-  // commit.cpp: the making of a snapshot.
+  std::vector<std::uint32_t> checkedSlots(const std::vector<BodyId>& out);
+  void checkIn(const std::vector<std::uint32_t>& leaving, const std::vector<Body>& in) const;
+  std::vector<std::uint32_t> slotsFor(const std::vector<BodyId>& out, std::size_t count) const;
+  void reserveSlots(std::size_t count);
+  void takeOut(std::uint32_t slot);
+  void putIn(std::uint32_t slot, Body&& body);
+
+  // commit.cpp: the making of a snapshot. Until accept(), which cannot fail, each step either writes what it would
+  // write again, or writes beside what the last commit left. So a commit that throws leaves no trace in the next one.
 
   void rebuildStructure();
+  void accept(Snapshot& snapshot);
   std::shared_ptr<Snapshot> freshSnapshot() const;
   void fillBodies(Snapshot& snapshot);
   void growBoxes(const Snapshot& snapshot);

@@ -36,6 +36,7 @@ class PairEventsFilter : public ::testing::Test {
     }
     PairEventList list;
     events_.update({structure_, std::vector<BodyPose>(2), boxes, pairs, Freshness::fresh, Time{++tick_}}, list);
+    events_.accept();
     Events told;
     for (const PairEvent& event : list.events) {
       told.push_back(test::told(event, *structure_));

@@ -17,6 +17,7 @@ using Ids = std::vector<BodyId>;
 std::vector<Time> sinceOf(PairTracker& tracker, const Ids& ids, int stamp, std::vector<NearPair> pairs) {
   for (NearPair& pair : pairs) pair.since = Time{-1};  // whatever stood there is not asked
   tracker.update(ids, Time{stamp}, pairs);
+  tracker.accept();
   std::vector<Time> since;
   for (const NearPair& pair : pairs) since.push_back(pair.since);
   return since;

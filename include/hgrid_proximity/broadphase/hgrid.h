@@ -69,6 +69,8 @@ struct PairBound {
 /// Boxes that move are sorted anew whenever they do; those that rest keep their places, and the pairs among them.
 /// Fixed boxes stand in a layer of their own that makes no pairs with itself.
 ///
+/// A change that throws, also for lack of memory, has changed nothing: the grid holds the boxes that it held before.
+///
 /// What is found depends neither on the order of insertion, nor on the instruction set, nor on the threads; for the
 /// same calls in the same order the pairs also come in the same order.
 class HGrid final : public BroadPhase {

@@ -47,6 +47,9 @@ struct TickTimes {
 /// makes may be read by any.
 ///
 /// Usage per tick: add, remove, place and setState as news come in, then commit().
+///
+/// A call that throws, also for lack of memory, has changed nothing. After a commit() that threw, the next one makes
+/// the snapshot that it would have made without it: numbers have no gap, no pair and no event is lost.
 class Scene {
  public:
   /// @throws Refusal out_of_range, naming the option
@@ -59,6 +62,11 @@ class Scene {
   BodyId add(Body body);
   /// @throws Refusal unknown_id if the handle is not (or no longer) valid.
   void remove(BodyId id);
+  /// Removes the bodies `out` and adds the bodies `in`, all of it or nothing. A body that comes may have the name of
+  /// one that leaves.
+  /// @returns the handles of `in`, in their order
+  /// @throws Refusal unknown_id, dup_id, or as add()
+  std::vector<BodyId> exchange(const std::vector<BodyId>& out, std::vector<Body> in);
   /// Handle of the body of this name, if there is one.
   bool find(const std::string& name, BodyId& id) const;
   /// @throws Refusal unknown_id

@@ -242,6 +242,7 @@ class Snapshot {
   bool report_unmapped_ = false;
   HGrid grid_;
   std::uint64_t grid_revision_ = 0;  // of the structure that grid_ was set up for
+  bool finished_ = false;            // false: a commit has failed to fill it, so nobody fills it again
 };
 
 }  // namespace hgrid

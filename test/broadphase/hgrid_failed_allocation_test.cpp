@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// Claim: a change of the grid for which there is no memory has changed nothing. Each allocation of each change fails
+// once; before and after that, the grid holds what a plain map of boxes holds and finds the same pairs.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <map>
+#include <string>
+
+#include "src/broadphase/plan.h"
+#include "test/support/failing_allocations.h"
+#include "test/support/grids.h"
+#include "test/support/worlds.h"
+
+namespace hgrid {
+namespace {
+
+using Boxes = std::map<ProxyId, Aabb>;
+
+/// One change, as the grid and as the model get it.
+struct Change {
+  std::string name;
+  std::function<void(HGrid&)> of_grid;
+  std::function<void(Boxes&)> of_model;
+};
+
+std::vector<ProxyId> idsOf(const Boxes& boxes) {
+  std::vector<ProxyId> ids;
+  for (const auto& box : boxes) ids.push_back(box.first);
+  return ids;
+}
+
+std::vector<Aabb> boxesOf(const Boxes& boxes) {
+  std::vector<Aabb> values;
+  for (const auto& box : boxes) values.push_back(box.second);
+  return values;
+}
+
+Aabb randomBox(test::Random& random) {
+  return test::boxAround(test::randomVector(random, -3, 3),
+                         random.logUniform(0.05, 4) * test::randomVector(random, 0, 1));
+}
+
+Change bulkUpdate(Boxes boxes) {
+  const std::vector<ProxyId> ids = idsOf(boxes);
+  const std::vector<Aabb> values = boxesOf(boxes);
+  return {"bulk update", [=](HGrid& grid) { grid.update(ids, values); }, [=](Boxes& model) { model = boxes; }};
+}
+
+/// A change that is possible in a world of these boxes, most of them of a few boxes.
+Change randomChange(const Boxes& now, test::Random& random) {
+  const auto some = [&] { return std::next(now.begin(), random.below(int(now.size())))->first; };
+  const double which = random.uniform(0, 1);
+  const Aabb box = randomBox(random);
+  if (now.empty() || which < 0.3) {
+    ProxyId id = ProxyId(random.below(200));
+    while (now.count(id) != 0) ++id;
+    return {"insert", [=](HGrid& grid) { grid.insert(id, box); }, [=](Boxes& model) { model[id] = box; }};
+  }
+  if (which < 0.5) {
+    const ProxyId id = some();
+    return {"update", [=](HGrid& grid) { grid.update(id, box); }, [=](Boxes& model) { model[id] = box; }};
+  }
+  if (which < 0.65) {
+    const ProxyId id = some();
+    return {"remove", [=](HGrid& grid) { grid.remove(id); }, [=](Boxes& model) { model.erase(id); }};
+  }
+  Boxes boxes = now;
+  if (which < 0.75) {  // bulk move of a few
+    Boxes moved;
+    for (int i = random.below(6); i >= 0; --i) moved[some()] = randomBox(random);
+    const std::vector<ProxyId> ids = idsOf(moved);
+    const std::vector<Aabb> values = boxesOf(moved);
+    return {"move", [=](HGrid& grid) { grid.move(ids, values); },
+            [=](Boxes& model) {
+              for (const auto& one : moved) model[one.first] = one.second;
+            }};
+  }
+  if (which < 0.95) {
+    const double share = random.chance(0.5) ? 0.05 : 0.8;
+    for (auto& one : boxes) {
+      if (random.chance(share)) one.second = randomBox(random);
+    }
+    if (random.chance(0.4)) boxes[ProxyId(random.below(300))] = box;
+    if (random.chance(0.4)) boxes.erase(some());
+    return bulkUpdate(boxes);
+  }
+  if (which < 0.96) {
+    return {"clear", [](HGrid& grid) { grid.clear(); }, [](Boxes& model) { model.clear(); }};
+  }
+  return {"setThreads", [threads = random.between(1, 3)](HGrid& grid) { grid.setThreads(threads); }, [](Boxes&) {}};
+}
+
+std::vector<ProxyPair> pairsOf(const HGrid& grid) {
+  std::vector<ProxyPair> pairs;
+  grid.overlappingPairs(pairs);
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+void expectHolds(const HGrid& grid, const Boxes& model) {
+  grid.checkInvariants();
+  ASSERT_EQ(grid.size(), model.size());
+  std::vector<ProxyPair> expected;
+  for (auto a = model.begin(); a != model.end(); ++a) {
+    for (auto b = std::next(a); b != model.end(); ++b) {
+      if (test::oracleOverlap(a->second, b->second)) expected.push_back({a->first, b->first});
+    }
+  }
+  ASSERT_EQ(pairsOf(grid), expected);
+}
+
+/// A grid after the first `count` changes. Pairs are asked for now and then, so that those of resting boxes are kept.
+HGrid gridAfter(const std::vector<Change>& changes, std::size_t count) {
+  HGrid grid;
+  for (std::size_t i = 0; i < count; ++i) {
+    changes[i].of_grid(grid);
+    if (i % 3 == 0) pairsOf(grid);
+  }
+  return grid;
+}
+
+TEST(HGridFailedAllocation, ChangesNothing) {
+  std::size_t failures = 0;
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    test::Random random(seed);
+    std::vector<Change> changes;
+    Boxes model;
+    for (std::size_t step = 0; step < 220; ++step) {
+      changes.push_back(randomChange(model, random));
+      const Change& change = changes.back();
+      Boxes then = model;
+      change.of_model(then);
+      HGrid counting = gridAfter(changes, step);
+      const std::size_t allocations = test::allocationsOf([&] { change.of_grid(counting); });
+      for (std::size_t k = 1; k <= allocations; ++k) {
+        for (const test::Failing which : {test::Failing::one, test::Failing::from_then_on}) {
+          SCOPED_TRACE("seed " + std::to_string(seed) + ", step " + std::to_string(step) + " (" + change.name +
+                       "), allocation " + std::to_string(k));
+          HGrid grid = gridAfter(changes, step);
+          if (test::failsAt(k, which, [&] { change.of_grid(grid); })) {
+            ++failures;
+            expectHolds(grid, model);
+            change.of_grid(grid);
+          }
+          expectHolds(grid, then);
+          if (HasFatalFailure()) return;
+        }
+      }
+      model = then;
+    }
+  }
+  EXPECT_GT(failures, 500u) << "what never failed proves nothing";
+}
+
+/// A search that fails leaves the grid as it was, pairs that it keeps included.
+TEST(HGridFailedAllocation, OfASearchLosesNoPair) {
+  test::Random random(3);
+  Boxes model;
+  for (ProxyId id = 0; id < 400; ++id) model[id] = randomBox(random);
+  HGrid grid;
+  for (int tick = 0; tick < 20; ++tick) {
+    for (int i = 0; i < 5; ++i) model[ProxyId(random.below(400))] = randomBox(random);
+    bulkUpdate(model).of_grid(grid);
+    for (std::size_t k = 1; test::failsAt(k, test::Failing::one, [&] { pairsOf(grid); }); ++k) {
+      expectHolds(grid, model);
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
+/// Many boxes: arrays for several threads are among what is allocated.
+TEST(HGridFailedAllocation, ChangesNothingOfALargeGridWithTwoThreads) {
+  test::Random random(4);
+  Boxes first, second;
+  for (ProxyId id = 0; id < 33000; ++id) {
+    const Eigen::Vector3d center = test::randomVector(random, -30, 30);
+    first[id] = test::boxAround(center, test::randomVector(random, 0.1, 1));
+    if (id % 10 != 0) second[id] = test::boxAround(2.0 * center, test::randomVector(random, 0.1, 2));
+  }
+  const Change to_first = bulkUpdate(first), to_second = bulkUpdate(second);
+  const auto gridOfFirst = [&] {
+    HGrid grid;
+    grid.setThreads(2);
+    to_first.of_grid(grid);
+    return grid;
+  };
+  HGrid reference = gridOfFirst();
+  const std::vector<ProxyPair> before = pairsOf(reference);
+  to_second.of_grid(reference);
+  const std::vector<ProxyPair> after = pairsOf(reference);
+  bool failed = true;
+  for (std::size_t k = 1; failed; ++k) {
+    SCOPED_TRACE("allocation " + std::to_string(k));
+    HGrid grid = gridOfFirst();
+    failed = test::failsAt(k, test::Failing::one, [&] { to_second.of_grid(grid); });
+    if (failed) {
+      grid.checkInvariants();
+      ASSERT_TRUE(pairsOf(grid) == before);
+      to_second.of_grid(grid);
+    }
+    grid.checkInvariants();
+    ASSERT_TRUE(pairsOf(grid) == after);
+  }
+}
+
+TEST(HGridFailedAllocation, OfSetFixedKeepsTheFixedOnes) {
+  test::Random random(5);
+  Boxes model;
+  for (ProxyId id = 0; id < 100; ++id) model[id] = randomBox(random);
+  const auto gridOfAll = [&] {
+    HGrid grid;
+    bulkUpdate(model).of_grid(grid);
+    return grid;
+  };
+  std::vector<ProxyId> fixed;
+  for (ProxyId id = 0; id < 100; id += 2) fixed.push_back(id);
+  HGrid reference = gridOfAll();
+  const std::vector<ProxyPair> before = pairsOf(reference);
+  reference.setFixed(fixed);
+  const std::vector<ProxyPair> after = pairsOf(reference);
+  ASSERT_NE(before, after);
+  for (std::size_t k = 1;; ++k) {
+    SCOPED_TRACE("allocation " + std::to_string(k));
+    HGrid grid = gridOfAll();
+    const bool failed = test::failsAt(k, test::Failing::one, [&] { grid.setFixed(fixed); });
+    grid.checkInvariants();
+    ASSERT_EQ(pairsOf(grid), failed ? before : after);
+    if (!failed) break;
+  }
+}
+
+/// What reserving relies on.
+TEST(HGridFailedAllocation, APlanHasNoMoreCellsThanItsBoundSays) {
+  for (int family = 0; family < test::kFamilies; ++family) {
+    for (unsigned seed = 1; seed <= 300; ++seed) {
+      const std::vector<Aabb> boxes = test::worldOf(test::Family(family), seed);
+      std::vector<ProxyId> ids;
+      for (ProxyId id = 0; id < boxes.size(); ++id) ids.push_back(id);
+      const Plan plan = planFor(boxes, ids.data(), ids.size(), 0.0625);
+      ASSERT_LE(plan.cells, Plan::mostCells(ids.size()))
+          << test::name(test::Family(family)) << ", seed " << seed << ", " << ids.size() << " boxes";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hgrid
