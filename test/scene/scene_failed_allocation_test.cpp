@@ -85,9 +85,9 @@ Step placing(const std::vector<Placing>& placings, Time stamp) {
 }
 
 /// Snapshots are held for a while, so that some come back to the scene.
-Step committing(Time stamp, const std::vector<std::string>& missing) {
+Step committing(Time stamp, const std::vector<SourceGap>& gaps) {
   return {"commit", [=](Scene& scene, Snapshots& snapshots) {
-            const std::shared_ptr<const Snapshot> snapshot = scene.commit(stamp, missing);
+            const std::shared_ptr<const Snapshot> snapshot = scene.commit(stamp, gaps);
             snapshots.push_back(snapshot);
           }};
 }
@@ -172,9 +172,9 @@ class Writer {
     script_.steps.push_back(placing(placings, Time{1000000 * ++stamp_}));
   }
   void commit() {
-    std::vector<std::string> missing;
-    if (random_.chance(0.2)) missing.push_back("NOT_READY robot 'other': its description was not read yet");
-    script_.steps.push_back(committing(Time{1000000 * stamp_}, missing));
+    std::vector<SourceGap> gaps;
+    if (random_.chance(0.2)) gaps.push_back({"other", "other/*", "NOT_READY robot 'other': its description was not read yet"});
+    script_.steps.push_back(committing(Time{1000000 * stamp_}, gaps));
   }
 
   test::Random random_;
