@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node_diagnostics.h"
 
+#include "messages.h"
+
 namespace hgrid {
 namespace {
 
