@@ -90,7 +90,7 @@ install_missing() {
 }
 
 # shellcheck disable=SC2120  # arguments are for callers that have some
-# Builds Release below build/; arguments go to cmake. Nothing is done again that was done before.
+# Builds Release in build/release and devel; arguments go to cmake. Nothing is done again that was done before.
 build() {
   local out=$root/build/release
   local -a options=(
