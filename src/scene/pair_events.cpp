@@ -153,7 +153,7 @@ void PairEvents::update(const PairsNow& now, PairEventList& list) {
     while (on != before_now.end() && before(*on, pair)) judge(*on++, now, list);
     const bool was_on = on != before_now.end() && !before(pair, *on);
     if (!was_on) {
-      const auto not_judged = static_cast<std::size_t>(on_.end() - on);
+      const auto not_judged = static_cast<std::size_t>(before_now.end() - on);
       if (next_.size() + not_judged < most_) begin(pair, causeOfBegin(pair, *now.structure), now);
     } else if (epoch_began_) {
       begin(pair, EventCause::epoch, now);
