@@ -12,9 +12,12 @@
 namespace hgrid {
 namespace {
 
-double growthOf(const BodyPose& pose, const Body& body, double cap) {
-  if (pose.state < Freshness::stale || pose.state == Freshness::unplaced || !(pose.age > 0.0)) return 0.0;
-  return std::min(body.max_speed * pose.age, cap);
+/// [m] How far a body can have gone since its pose, where that is old. A frame that comes seldom is old before its state
+/// says so.
+double growthOf(const BodyPose& pose, const Body& body, const SceneOptions& options) {
+  const bool old = pose.state >= Freshness::stale || pose.age > options.growth_after;
+  if (!old || pose.state == Freshness::unplaced || !(pose.age > 0.0)) return 0.0;
+  return std::min(body.max_speed * pose.age, options.growth_cap);
 }
 
 /// Why a body makes the world incomplete; empty if it does not.
@@ -106,7 +109,7 @@ void Scene::State::fillBodies(Snapshot& snapshot) {
     }
     if (known == 0 || slot.changed > known) {
       snapshot.poses_[i] = slot.pose;
-      snapshot.poses_[i].growth = growthOf(slot.pose, bodies[structure->ids[i].slot], options.growth_cap);
+      snapshot.poses_[i].growth = growthOf(slot.pose, bodies[structure->ids[i].slot], options);
     }
     snapshot.worst_state_ = std::max(snapshot.worst_state_, slot.pose.state);
     snapshot.max_growth_ = std::max(snapshot.max_growth_, snapshot.poses_[i].growth);
@@ -132,7 +135,7 @@ void Scene::State::growBoxes(const Snapshot& snapshot) {
     const BodyPose& pose = snapshot.poses_[body];
     if (pose.state == Freshness::unplaced) continue;
     const double own = std::max(structure->margin[body], structure->pair_margins.largestOf(body));
-    const double can_go = horizon.reachOf(structure->bodies[body]);
+    const double can_go = horizon.reachOf(body);
     const double by = 0.5 * options.margin + (own - options.margin) + pose.growth + can_go;
     const Aabb& box = horizon.on() ? horizon.swept(proxy) : snapshot.boxes_[proxy];
     Grown& known = grown_of[proxy];
@@ -211,7 +214,7 @@ void Scene::State::fillPairs(Snapshot& snapshot) {
       pairs.end());
   tracker.update(structure->ids, snapshot.stamp_, pairs);
   pair_events.update(
-      {structure, snapshot.poses_, snapshot.boxes_, pairs, snapshot.worst_state_, snapshot.stamp_,
+      {structure, snapshot.poses_, snapshot.boxes_, pairs, snapshot.worst_state_, snapshot.max_growth_, snapshot.stamp_,
        [&](std::uint32_t first, std::uint32_t second, double up_to) { return snapshot.gapOf(first, second, up_to); }},
       snapshot.events_);
 }

@@ -23,9 +23,10 @@ double roundingOf(const Aabb& box) {
 
 }  // namespace
 
-double Horizon::reachOf(const Body& body) const {
-  if (!on() || body.mobility == Mobility::fixed) return 0.0;
-  return std::isfinite(body.max_speed) ? body.max_speed * seconds_ : cap_;
+double Horizon::reachOf(const Body& body, const BodyPose& pose) const {
+  if (body.mobility == Mobility::fixed) return 0.0;
+  if (!std::isfinite(body.max_speed)) return cap_;
+  return body.max_speed * seconds_ + std::min(body.max_speed * pose.age, cap_);
 }
 
 void Horizon::step(const std::shared_ptr<const Structure>& structure, const std::vector<BodyPose>& poses,
@@ -36,8 +37,10 @@ void Horizon::step(const std::shared_ptr<const Structure>& structure, const std:
   structure_ = structure;
   before_ = swept_ = boxes;
   teleported_.assign(count, false);
+  reach_.resize(count);
   for (std::uint32_t body = 0; body < count; ++body) {
     const BodyPose& pose = poses[body];
+    reach_[body] = reachOf(structure->bodies[body], pose);
     if (pose.state == Freshness::unplaced) continue;
     const Time before = std::exchange(last_stamps_[body], pose.stamp);
     if (before == kNever) continue;
@@ -54,9 +57,8 @@ void Horizon::step(const std::shared_ptr<const Structure>& structure, const std:
 }
 
 bool Horizon::canMeet(const Structure& structure, ProxyId first, ProxyId second, double gap, double margin) const {
-  const Body &a = structure.bodies[structure.body_of_proxy[first]],
-             &b = structure.bodies[structure.body_of_proxy[second]];
-  return gap <= reachOf(a) + reachOf(b) || withinDistance(swept_[first], swept_[second], margin);
+  const double reach = reachOf(structure.body_of_proxy[first]) + reachOf(structure.body_of_proxy[second]);
+  return gap <= reach || withinDistance(swept_[first], swept_[second], margin);
 }
 
 }  // namespace hgrid

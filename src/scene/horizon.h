@@ -9,34 +9,38 @@
 namespace hgrid {
 
 /// What can happen between two ticks and soon after: the boxes that shapes swept since the last one, and how far bodies
-/// can go within a horizon, by their max_speed. Off while the horizon is 0.
+/// can go, by their max_speed, from the time of their poses until a horizon has passed. Off while the horizon is 0.
 class Horizon {
  public:
   /// @param seconds  [s] >= 0
-  /// @param cap      [m] how far a body without a bound of speed is taken to go
+  /// @param cap      [m] how far a body without a bound of speed is taken to go, and the most that one with a bound is
+  ///                 taken to have gone since its pose
   Horizon(double seconds, double cap) : seconds_(seconds), cap_(cap) {}
 
   bool on() const { return seconds_ > 0.0; }
   /// Takes the boxes and poses of a new tick. What had no pose before, or is in a new structure, swept nothing.
   void step(const std::shared_ptr<const Structure>& structure, const std::vector<BodyPose>& poses,
             const std::vector<Aabb>& boxes);
-  /// [m] That a body can go within the horizon.
-  double reachOf(const Body& body) const;
+  /// [m] How far a body can be from its pose when the horizon has passed.
+  double reachOf(std::uint32_t body) const { return on() ? reach_[body] : 0.0; }
   /// The box around a proxy's boxes of this tick and the last.
   const Aabb& swept(ProxyId proxy) const { return swept_[proxy]; }
   /// The proxy's box of the last tick; that of this one if it had none.
   const Aabb& before(ProxyId proxy) const { return before_[proxy]; }
-  /// Whether two proxies may have come within the margin since the last tick, or may meet within the horizon.
+  /// Whether two proxies may have come within the margin since the last tick, or may meet before the horizon has passed.
   bool canMeet(const Structure& structure, ProxyId first, ProxyId second, double gap, double margin) const;
   /// Whether a body moved farther since the last tick than its max_speed allows.
   bool teleported(std::uint32_t body) const { return on() && teleported_[body]; }
 
  private:
+  double reachOf(const Body& body, const BodyPose& pose) const;
+
   double seconds_, cap_;
   std::shared_ptr<const Structure> structure_;
   std::vector<Aabb> last_, before_, swept_;  // by proxy
   std::vector<Time> last_stamps_;            // by body; negative: it had no pose
   std::vector<bool> teleported_;             // by body
+  std::vector<double> reach_;                // [m] by body
 };
 
 }  // namespace hgrid

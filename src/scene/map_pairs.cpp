@@ -57,12 +57,12 @@ void MapPairs::findFor(OfMap& map, std::uint32_t number, const Snapshot& snapsho
     return gapTo(*map.cells->grid, boxInMap(map.map_from_world, box, snapshot.origin()), up_to);
   };
   const Staleness staleness = stalenessOf(snapshot.poses()[number]);
-  const double map_can_go = horizon.reachOf(structure.bodies[number]);
+  const double map_can_go = horizon.reachOf(number);
   for (std::uint32_t body = 0; body < structure.bodies.size(); ++body) {
     if (snapshot.poses()[body].state == Freshness::unplaced || structure.filter.allowed(body, number)) continue;
     const std::uint32_t first = std::min(body, number), second = std::max(body, number);
     const double margin = pairMargin(structure, body, stalenessOf(snapshot.poses()[body]), number, staleness);
-    const double can_go = map_can_go + horizon.reachOf(structure.bodies[body]), up_to = std::max(margin, can_go);
+    const double can_go = map_can_go + horizon.reachOf(body), up_to = std::max(margin, can_go);
     for (ProxyId proxy = structure.first_proxy[body]; proxy < structure.first_proxy[body + 1]; ++proxy) {
       const Aabb& box = snapshot.boxes()[proxy];
       Gap& known = map.gaps[proxy];

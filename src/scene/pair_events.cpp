@@ -130,7 +130,7 @@ void PairEvents::begin(const NearPair& pair, EventCause cause, const PairsNow& n
 void PairEvents::remember(const PairsNow& now) {
   structure_ = now.structure;
   known_.clear();
-  if (now.worst_state < Freshness::stale) return;
+  if (now.worst_state < Freshness::stale && now.max_growth == 0.0) return;
   for (const BodyPose& pose : now.poses) {
     known_.push_back({pose.growth, pose.cohort, pose.state != Freshness::unplaced});
   }
