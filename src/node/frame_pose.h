@@ -32,6 +32,14 @@ struct FramePose {
   }
 };
 
+/// The pose at a fraction (0 .. 1) of the way from one pose to another, as tf2 interpolates.
+inline FramePose between(const FramePose& from, const FramePose& to, double fraction) {
+  FramePose result;
+  result.rotation = from.rotation.slerp(fraction, to.rotation);
+  result.translation = from.translation + fraction * (to.translation - from.translation);
+  return result;
+}
+
 /// @param transform  checked: finite, the quaternion nearly of length 1
 inline FramePose toFramePose(const geometry_msgs::Transform& transform) {
   const auto& t = transform.translation;

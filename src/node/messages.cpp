@@ -204,6 +204,7 @@ msg::Status status(const Tick& tick, const msg::WorldState& world, const Params&
     message.bodies.push_back(body);
   }
   message.missing_frames = tick.missing_frames;
+  message.contested_frames = tick.contested_frames;
   message.uncovered = tick.models->uncovered;
   message.waived = tick.models->waived;
   message.without_collision = tick.models->without_collision;

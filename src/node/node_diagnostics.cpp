@@ -95,13 +95,16 @@ void NodeDiagnostics::transforms(DiagnosticStatusWrapper& status) {
     status.summary(DiagnosticStatus::WARN, "frame '" + health.conflicts.front() + "' comes on /tf and on /tf_static");
   }
   if (!tick) return;
+  for (const std::string& fight : tick->contested_frames) status.mergeSummary(DiagnosticStatus::WARN, fight);
   for (const BodyTrouble& trouble : tick->troubles) {
+    if (trouble.code == Code::conflict && !tick->contested_frames.empty()) continue;  // told already
     const bool grave = trouble.state >= Freshness::lost;
     status.mergeSummary(grave ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN, trouble.sentence);
     break;  // the worst; the others stand below and in ~status
   }
   addAll(status, "missing frame", tick->missing_frames);
   addAll(status, "conflict", health.conflicts);
+  addAll(status, "contested frame", tick->contested_frames);
   status.add("bodies not fresh", tick->troubles.size());
 }
 

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "tf_intake.h"
 
+#include <tf2/exceptions.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,6 +15,11 @@ namespace {
 
 constexpr double kFarthest = 1e9;           // [m] translations beyond are no place on earth
 constexpr std::size_t kLongestFrame = 256;  // bytes of a frame's name
+constexpr std::size_t kMostSeams = 16;      // of a frame; with more, publishers fight over it
+constexpr double kSameDistance = 1e-3;      // [m] poses that differ by less agree
+constexpr double kSameAngle = 1e-3;         // [rad]
+constexpr Time kLeastPatience{50000000};    // [ns] a frame's holder may be silent for so long
+constexpr Time kMostPatience{3000000000};
 
 Time timeOf(const ros::Time& time) { return Time(static_cast<std::int64_t>(time.toNSec())); }
 
@@ -59,27 +66,38 @@ geometry_msgs::TransformStamped normalised(geometry_msgs::TransformStamped trans
 TfIntake::TfIntake(double max_future, double cache, std::size_t max_frames, bool simulated, Ledger& ledger)
     : max_future_(max_future),
       max_frames_(max_frames),
-      simulated_(simulated),
       ledger_(ledger),
+      ages_(simulated),
       buffer_(ros::Duration(cache)) {}
 
 void TfIntake::take(const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher,
                     const Moment& now) {
   accepted_ = 0;
+  const Time reading = ages_.read(now);
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {
     try {
       if (hasSlash(transform.header.frame_id) || hasSlash(transform.child_frame_id)) {
-        takeOne(withoutSlashes(transform), is_static, publisher, now);
+        const geometry_msgs::TransformStamped clean = withoutSlashes(transform);
+        takeOne({clean, publisher, now, reading}, is_static);
       } else {
-        takeOne(transform, is_static, publisher, now);
+        takeOne({transform, publisher, now, reading}, is_static);
       }
     } catch (const Refusal& refusal) {
-      ledger_.refuse("tf.refused", refusal);
-      const std::uint32_t known = find(withoutSlash(transform.child_frame_id));
-      if (known != kNone && frames_[known].placed) frames_[known].refused = refusal;
+      noteRefusal(refusal, withoutSlash(transform.child_frame_id), is_static, publisher);
     }
   }
   if (accepted_ > 0) ledger_.count("tf.accepted", accepted_);
+}
+
+/// A refused transform makes a frame INVALID until a good one comes. A static frame gets no other one by itself, so only
+/// the publisher that placed it can make it INVALID, on /tf_static.
+void TfIntake::noteRefusal(const Refusal& refusal, const std::string& child, bool is_static,
+                           const std::string& publisher) {
+  ledger_.refuse("tf.refused", refusal);
+  const std::uint32_t number = find(child);
+  if (number == kNone || !frames_[number].placed) return;
+  Frame& frame = frames_[number];
+  if (frame.moves ? !is_static : is_static && frame.publisher == publisher) frame.refused = refusal;
 }
 
 std::uint32_t TfIntake::find(const std::string& frame) const {
@@ -122,6 +140,9 @@ void TfIntake::check(const geometry_msgs::TransformStamped& transform, bool is_s
   if (!is_static) {
     const double ahead = seconds(timeOf(transform.header.stamp) - now.ros);
     if (now.ros.count() == 0) throw Refusal(Code::clock, what() + " came before the clock; there is no time yet");
+    if (transform.header.stamp.isZero()) {
+      throw Refusal(Code::clock, what() + " has stamp 0; a transform on /tf must have the time of its data");
+    }
     if (ahead > max_future_) {
       throw Refusal(Code::clock, what() + " is stamped " + secondsText(ahead) + " in the future; at most " +
                                      text(max_future_) + " s are allowed");
@@ -168,7 +189,7 @@ void TfIntake::noteSource(Frame& frame, bool is_static) {
 }
 
 void TfIntake::hangOn(std::uint32_t number, const std::string& parent) {
-  if (frames_[number].parent != kNone && frames_[frames_[number].parent].name == parent) return;
+  if (isInParent(frames_[number], parent)) return;
   std::uint32_t known = find(parent);
   if (known == kNone) known = add(parent);
   if (!frames_[known].is_parent) {
@@ -179,78 +200,255 @@ void TfIntake::hangOn(std::uint32_t number, const std::string& parent) {
   ++revision_;
 }
 
+bool TfIntake::isInParent(const Frame& frame, const std::string& parent) const {
+  return frame.parent != kNone && frames_[frame.parent].name == parent;
+}
+
+FrameClaim TfIntake::claimOf(const Frame& frame) const {
+  return {frame.publisher, frame.parent == kNone ? std::string() : frames_[frame.parent].name};
+}
+
 bool TfIntake::feed(const geometry_msgs::TransformStamped& transform, bool is_static, const std::string& publisher) {
   if (isUnit(transform.transform.rotation)) return buffer_.setTransform(transform, publisher, is_static);
   ledger_.count("tf.renormalised");
   return buffer_.setTransform(normalised(transform), publisher, is_static);
 }
 
-void TfIntake::takeOne(const geometry_msgs::TransformStamped& transform, bool is_static, const std::string& publisher,
-                       const Moment& now) {
-  check(transform, is_static, now);
-  const std::uint32_t number = admit(transform);
+void TfIntake::takeOne(const Arrival& arrival, bool is_static) {
+  check(arrival.transform, is_static, arrival.now);
+  const std::uint32_t number = admit(arrival.transform);
   noteSource(frames_[number], is_static);
-  const Time stamp = timeOf(transform.header.stamp);
-  if (!is_static) {
-    Frame& frame = frames_[number];
-    if (stamp == frame.newest.stamp && frame.parent != kNone &&
-        frames_[frame.parent].name == transform.header.frame_id) {
-      if (!equal(transform.transform, frame.last)) {
-        ledger_.refuse("tf.ignored",
-                       Refusal(Code::dup_id, "frame '" + printable(frame.name) + "' came twice with stamp " +
-                                                 text(seconds(stamp)) + " s and another pose (from " +
-                                                 printable(publisher) + "); the first is kept"));
-      }
-      return;
-    }
-    if (frame.newest.stamp.count() > 0 && stamp > frame.newest.stamp) {
-      const double step = seconds(stamp - frame.newest.stamp);
-      frame.period = frame.period == 0.0 ? step : 0.9 * frame.period + 0.1 * step;
-    }
-    if (stamp < frame.newest.stamp) ledger_.count("tf.out_of_order");
+  if (is_static) {
+    takeStatic(number, arrival);
+  } else {
+    takeMoving(number, arrival);
   }
-  if (!feed(transform, is_static, publisher)) {
+}
+
+void TfIntake::accept(Frame& frame) {
+  ++accepted_;
+  frame.refused.reset();
+}
+
+/// The stamp of a static transform means nothing. A frame that moves becomes static again when /tf is silent.
+void TfIntake::takeStatic(std::uint32_t number, const Arrival& arrival) {
+  Frame& frame = frames_[number];
+  const bool moved = frame.moves;
+  if (moved && arrival.reading - frame.received <= kMostPatience) {
+    ledger_.count("tf.ignored.CONFLICT");
+    return;
+  }
+  if (!moved || frame.static_in_buffer) {  // tf2 cannot make a static frame of one that moved
+    frame.static_in_buffer = feed(arrival.transform, true, arrival.publisher);
+  }
+  hangOn(number, arrival.parent());
+  Frame& placed = frames_[number];  // hangOn() may have added a frame
+  const Sample sample{Time(0), placed.parent, toFramePose(arrival.transform.transform)};
+  const bool same = !moved && sample.parent_from_frame == placed.newest.parent_from_frame;
+  if (!same) ++static_revision_;
+  placed.newest = sample;
+  placed.before = placed.stray = Sample{};
+  placed.seams.clear();
+  placed.publisher = arrival.publisher;
+  placed.moves = false;
+  placed.period = 0.0;
+  accept(placed);
+}
+
+/// Whether what comes on /tf of a static frame is more than a single transform.
+bool TfIntake::isStream(Frame& frame, const Arrival& arrival) const {
+  const bool again = frame.stray.stamp.count() > 0 && arrival.stamp() > frame.stray.stamp &&
+                     arrival.reading - frame.received <= kMostPatience;
+  frame.stray.stamp = arrival.stamp();
+  frame.received = arrival.reading;
+  return again;
+}
+
+/// Whether another publisher holds the frame. A holder may be silent for two periods; over a contested frame for longer,
+/// so that nobody wins by a moment of silence.
+bool TfIntake::isHeld(std::uint32_t number, const Arrival& arrival) const {
+  const Frame& frame = frames_[number];
+  if (!frame.moves || frame.newest.stamp.count() == 0 || frame.publisher == arrival.publisher) return false;
+  const Time periods(static_cast<std::int64_t>(2e9 * frame.period));
+  const Time patience = isContested(number, arrival.reading)
+                            ? kMostPatience
+                            : std::min(kMostPatience, std::max(kLeastPatience, periods));
+  return arrival.reading - frame.received <= patience;
+}
+
+/// Whether the frame's newest transform came again. If its pose is another one, that is counted or is a contradiction.
+bool TfIntake::isRepeated(std::uint32_t number, const Arrival& arrival) {
+  const Frame& frame = frames_[number];
+  if (arrival.stamp() != frame.newest.stamp || !isInParent(frame, arrival.parent())) return false;
+  if (equal(arrival.transform.transform, frame.last)) return true;
+  if (frame.publisher != arrival.publisher) {
+    hearRival(number, arrival);
+  } else {
+    ledger_.refuse("tf.ignored", Refusal(Code::dup_id, "frame '" + printable(frame.name) + "' came twice with stamp " +
+                                                           text(seconds(arrival.stamp())) +
+                                                           " s and another pose (from " +
+                                                           printable(arrival.publisher) + "); the first is kept"));
+  }
+  return true;
+}
+
+void TfIntake::takeMoving(std::uint32_t number, const Arrival& arrival) {
+  if (frames_[number].from_static && !frames_[number].moves && !isStream(frames_[number], arrival)) {
+    ledger_.count("tf.ignored.CONFLICT");
+    return;
+  }
+  if (frames_[number].moves && isRepeated(number, arrival)) return;
+  if (isHeld(number, arrival)) return hearRival(number, arrival);
+  const Frame& frame = frames_[number];
+  const Time stamp = arrival.stamp();
+  // A stamp ahead of the clock counts as the newest only until the frame comes with a time that has been.
+  const bool was_ahead = frame.newest.stamp > arrival.now.ros && stamp <= arrival.now.ros;
+  const bool first = !frame.moves || frame.newest.stamp.count() == 0;
+  if (!first && stamp < frame.newest.stamp && !was_ahead) return takeOlder(number, arrival);
+  const bool other = !first && (frame.publisher != arrival.publisher || !isInParent(frame, arrival.parent()));
+  if (other) changeClaim(number, arrival);
+  takeNewest(number, arrival, !first && !other && !was_ahead);
+}
+
+/// @param continues  the frame moved from its newest transform so far to this one
+void TfIntake::takeNewest(std::uint32_t number, const Arrival& arrival, bool continues) {
+  const bool fed = feed(arrival.transform, false, arrival.publisher);
+  if (!fed) ledger_.count("tf.too_old");
+  const bool same_parent = isInParent(frames_[number], arrival.parent());
+  hangOn(number, arrival.parent());
+  Frame& frame = frames_[number];
+  const Time stamp = arrival.stamp();
+  if (!frame.moves) frame.newest = Sample{};
+  if (continues) {
+    const double step = seconds(stamp - frame.newest.stamp);  // an outage is no period
+    frame.period = frame.period == 0.0 ? step : 0.9 * frame.period + 0.1 * std::min(step, 2.0 * frame.period);
+  } else if (frame.publisher != arrival.publisher || !same_parent) {
+    frame.period = 0.0;
+  }
+  const bool behind = stamp < frame.newest.stamp;
+  frame.before = behind ? Sample{} : frame.newest;
+  frame.newest = {stamp, frame.parent, toFramePose(arrival.transform.transform)};
+  frame.received = arrival.reading;
+  frame.lead = arrival.reading - arrival.now.ros;
+  if (frame.publisher != arrival.publisher) frame.publisher = arrival.publisher;
+  frame.last = arrival.transform.transform;
+  frame.moves = true;
+  accept(frame);
+  if (frame.claimed) compareWithRival(number, arrival.reading);
+}
+
+/// What is not newer makes nothing fresh, but the frame is known at that time.
+void TfIntake::takeOlder(std::uint32_t number, const Arrival& arrival) {
+  Frame& frame = frames_[number];
+  if (frame.publisher != arrival.publisher || !isInParent(frame, arrival.parent())) return hearRival(number, arrival);
+  ledger_.count("tf.out_of_order");
+  if (!feed(arrival.transform, false, arrival.publisher)) {
     ledger_.count("tf.too_old");
     return;
   }
-  hangOn(number, transform.header.frame_id);
-  ++accepted_;
-  Frame& frame = frames_[number];
-  frame.refused.reset();
-  if (is_static) {
-    const Sample sample{Time(0), frame.parent, toFramePose(transform.transform)};
-    if (frame.from_tf || !(sample.parent_from_frame == frame.newest.parent_from_frame)) ++static_revision_;
-    if (!frame.from_tf) frame.newest = sample;
-    return;
+  const Time stamp = arrival.stamp();
+  const bool in_seam = !frame.seams.empty() && stamp <= frame.seams.back().end;
+  if (stamp > frame.before.stamp && !in_seam) {
+    frame.before = {stamp, frame.parent, toFramePose(arrival.transform.transform)};
   }
-  if (stamp < frame.newest.stamp) return;  // what is not newer makes nothing fresh
-  frame.before = frame.newest;
-  frame.newest = {stamp, frame.parent, toFramePose(transform.transform)};
-  frame.received = now.steady;
-  frame.last = transform.transform;
-  frame.latency = std::max(0.0, seconds(now.ros - stamp));
+  accept(frame);
+}
+
+/// A publisher that does not hold the frame has spoken.
+void TfIntake::hearRival(std::uint32_t number, const Arrival& arrival) {
+  Frame& frame = frames_[number];
+  frame.claimed = true;
+  ledger_.count("tf.rival");
+  const FrameClaims::Word word{
+      {arrival.publisher, arrival.parent()}, arrival.stamp(), toFramePose(arrival.transform.transform)};
+  if (word.stamp <= frame.newest.stamp) {
+    judge(number, word, arrival.reading);
+  } else {
+    claims_.keep(number, word);
+  }
+}
+
+/// Compares what a rival said with what the holder has said of the same time.
+void TfIntake::compareWithRival(std::uint32_t number, Time reading) {
+  const auto word = claims_.take(number, frames_[number].newest.stamp);
+  if (word) judge(number, *word, reading);
+}
+
+void TfIntake::judge(std::uint32_t number, const FrameClaims::Word& word, Time reading) {
+  const Frame& frame = frames_[number];
+  if (word.claim.publisher == frame.publisher) return;
+  if (isInParent(frame, word.claim.parent)) {
+    const std::optional<FramePose> held = parentFromFrame(frame, word.stamp);
+    if (!held) return;  // a time of which the holder said nothing
+    const double turn = held->rotation.angularDistance(word.parent_from_frame.rotation);
+    const double apart = (held->translation - word.parent_from_frame.translation).norm();
+    if (apart <= kSameDistance && turn <= kSameAngle) return;
+  }
+  contradict(number, word.claim, reading);
+}
+
+/// Another publisher or parent places the frame from now on. Between the two transforms its pose is not known.
+void TfIntake::changeClaim(std::uint32_t number, const Arrival& arrival) {
+  Frame& frame = frames_[number];
+  const FrameClaim before = claimOf(frame), after{arrival.publisher, arrival.parent()};
+  frame.claimed = true;
+  if (claims_.change(number, before, after, arrival.reading)) contradict(number, after, arrival.reading);
+  if (frame.seams.size() >= kMostSeams) frame.seams.erase(frame.seams.begin());
+  frame.seams.push_back({frame.newest.stamp, arrival.stamp()});
+  if (before.parent != after.parent) return;
+  geometry_msgs::TransformStamped held;  // so that tf2 does not interpolate from one publisher to the other
+  held.header.frame_id = after.parent;
+  held.child_frame_id = frame.name;
+  held.header.stamp.fromNSec(static_cast<std::uint64_t>(arrival.stamp().count() - 1));
+  held.transform = frame.last;
+  feed(held, false, before.publisher);
+}
+
+void TfIntake::contradict(std::uint32_t number, const FrameClaim& other, Time reading) {
+  claims_.contradict(number, frames_[number].name, claimOf(frames_[number]), other, reading);
+  ledger_.refuse("tf.fight", Refusal(Code::conflict, claims_.sentence(number)));
+}
+
+std::optional<FramePose> TfIntake::parentFromFrame(const Frame& frame, Time time) const {
+  const Sample &newest = frame.newest, &before = frame.before;
+  if (!frame.moves || time == newest.stamp) return newest.parent_from_frame;
+  if (time > newest.stamp) return std::nullopt;
+  for (const Seam& seam : frame.seams) {
+    if (time > seam.begin && time < seam.end) return std::nullopt;
+  }
+  if (before.stamp.count() > 0 && before.parent == newest.parent && time >= before.stamp) {
+    const double way = static_cast<double>((newest.stamp - before.stamp).count());
+    return between(before.parent_from_frame, newest.parent_from_frame,
+                   static_cast<double>((time - before.stamp).count()) / way);
+  }
+  if (frame.static_in_buffer) return std::nullopt;  // tf2 has no times for it
+  try {
+    return toFramePose(buffer_
+                           .lookupTransform(frames_[frame.parent].name, frame.name,
+                                            ros::Time().fromNSec(static_cast<std::uint64_t>(time.count())))
+                           .transform);
+  } catch (const tf2::TransformException&) {
+    return std::nullopt;
+  }
 }
 
 void TfIntake::forgetStamps() {
   buffer_.clear();  // tf2 keeps static transforms
-  for (Frame& frame : frames_) frame.newest.stamp = frame.before.stamp = Time(0);
+  claims_.forgetWords();
+  for (Frame& frame : frames_) {
+    frame.newest.stamp = frame.before.stamp = frame.stray.stamp = Time(0);
+    frame.seams.clear();
+  }
 }
 
 void TfIntake::forgetMoving() {
   forgetStamps();
   for (Frame& frame : frames_) {
     frame.period = 0.0;
-    frame.refused.reset();
+    if (frame.moves) frame.refused.reset();
   }
 }
 
 void TfIntake::restamp() { forgetStamps(); }
-
-double TfIntake::ageOf(const Frame& frame, const Moment& now) const {
-  // Under /clock ages are in its time. Otherwise they are counted on the steady clock from the moment of
-  // reception, so that setting the wall clock ages nothing.
-  if (simulated_) return std::max(0.0, seconds(now.ros - frame.newest.stamp));
-  return frame.latency + std::chrono::duration<double>(now.steady - frame.received).count();
-}
 
 }  // namespace hgrid

@@ -10,15 +10,18 @@
 #include <unordered_map>
 #include <vector>
 
-#include "clock_watch.h"
+#include "age_clock.h"
+#include "frame_claims.h"
 #include "frame_pose.h"
 #include "ledger.h"
 
 namespace hgrid {
 
-/// The node's own reading of /tf and /tf_static: checks every transform, remembers when it came and from whom,
-/// and feeds a tf2 buffer with what is good. One writer; buffer() may be asked from any thread.
+/// The node's own reading of /tf and /tf_static: checks every transform, remembers when it came and from whom, and feeds a
+/// tf2 buffer with what is good. One thread writes; any thread may use buffer().
 ///
+/// One publisher at a time holds a frame of /tf. Only its transforms are used, until it is silent. So no pose is made of
+/// what two publishers say. A frame that comes on /tf_static stays static until /tf has brought it twice.
 /// Frames have numbers that stay, in the order in which they were first heard of.
 class TfIntake {
  public:
@@ -31,17 +34,28 @@ class TfIntake {
     FramePose parent_from_frame;
   };
 
+  /// A time between two transforms that do not continue each other: the frame's pose is not known then.
+  struct Seam {
+    Time begin{0}, end{0};
+  };
+
   /// What is known of a frame and of the transform that places it in its parent.
   struct Frame {
     std::string name;
-    std::uint32_t parent = kNone;  // of the transform that came last; none: only known as a parent of others
+    std::string publisher;         // of the newest transform
+    std::uint32_t parent = kNone;  // of the newest transform; none: only known as a parent of others
     Sample newest, before;         // before: the one that was newest until then
-    std::chrono::steady_clock::time_point received;
-    double latency = 0.0;  // [s] age when it was received
-    double period = 0.0;   // [s] between stamps, smoothed
-    bool placed = false;   // something placed it in a parent
+    Time received{0};              // reading of the age clock when the newest came
+    Time lead{0};                  // by how much that reading was ahead of ROS time
+    double period = 0.0;           // [s] between stamps, smoothed
+    bool moves = false;            // /tf places it, not /tf_static
+    bool placed = false;           // something placed it in a parent
     bool is_parent = false;
-    bool from_tf = false, from_static = false;
+    bool from_tf = false, from_static = false;  // it came there once
+    bool static_in_buffer = false;              // tf2 takes it for static, for good
+    bool claimed = false;                       // more than one claim was made: see claims()
+    Sample stray;                               // on /tf, while it is static
+    std::vector<Seam> seams;                    // the newest last
     std::optional<Refusal> refused;
     geometry_msgs::Transform last;  // newest as it came
     std::uint32_t next = kNone;     // frame that came after it in a message
@@ -57,13 +71,22 @@ class TfIntake {
   void restamp();
 
   const tf2::BufferCore& buffer() const { return buffer_; }
+  /// The clock by which poses age. Whoever ticks keeps it going.
+  AgeClock& ages() { return ages_; }
+  const AgeClock& ages() const { return ages_; }
+  /// Frames that several publishers place.
+  const FrameClaims& claims() const { return claims_; }
+  /// Whether publishers fight over a frame.
+  bool isContested(std::uint32_t number, Time reading) const {
+    return frames_[number].claimed && claims_.isContested(number, reading);
+  }
   /// Number of a frame that was heard of, or kNone.
   std::uint32_t find(const std::string& frame) const;
   /// Frames that were heard of; their numbers are smaller.
   std::size_t known() const { return frames_.size(); }
   const Frame& frame(std::uint32_t number) const { return frames_[number]; }
-  /// [s] age of the newest transform of a frame that comes on /tf.
-  double ageOf(const Frame& frame, const Moment& now) const;
+  /// The pose of a frame in its parent at a time. Empty: it is not known for that time.
+  std::optional<FramePose> parentFromFrame(const Frame& frame, Time time) const;
   /// One more whenever a frame is new or has another parent.
   std::uint64_t revision() const { return revision_; }
   /// One more whenever a transform on /tf_static was another than before.
@@ -74,25 +97,51 @@ class TfIntake {
   const std::vector<std::string>& conflicts() const { return conflicts_; }
 
  private:
-  void takeOne(const geometry_msgs::TransformStamped& transform, bool is_static, const std::string& publisher,
-               const Moment& now);
+  /// A transform of the message that is being taken in.
+  struct Arrival {
+    const geometry_msgs::TransformStamped& transform;
+    const std::string& publisher;
+    const Moment& now;
+    Time reading;
+    Time stamp() const { return Time(static_cast<std::int64_t>(transform.header.stamp.toNSec())); }
+    const std::string& parent() const { return transform.header.frame_id; }
+  };
+
+  void takeOne(const Arrival& arrival, bool is_static);
+  void takeStatic(std::uint32_t number, const Arrival& arrival);
+  void takeMoving(std::uint32_t number, const Arrival& arrival);
+  void takeNewest(std::uint32_t number, const Arrival& arrival, bool continues);
+  void takeOlder(std::uint32_t number, const Arrival& arrival);
   void check(const geometry_msgs::TransformStamped& transform, bool is_static, const Moment& now) const;
+  void noteRefusal(const Refusal& refusal, const std::string& child, bool is_static, const std::string& publisher);
   std::uint32_t admit(const geometry_msgs::TransformStamped& transform);
   void checkRoom(std::uint32_t parent, std::uint32_t number, const std::string& child) const;
   std::uint32_t guess(const std::string& child) const;
   std::uint32_t add(const std::string& frame);
   void noteSource(Frame& frame, bool is_static);
+  bool isInParent(const Frame& frame, const std::string& parent) const;
+  FrameClaim claimOf(const Frame& frame) const;
+  bool isHeld(std::uint32_t number, const Arrival& arrival) const;
+  bool isStream(Frame& frame, const Arrival& arrival) const;
+  bool isRepeated(std::uint32_t number, const Arrival& arrival);
+  void hearRival(std::uint32_t number, const Arrival& arrival);
+  void compareWithRival(std::uint32_t number, Time reading);
+  void judge(std::uint32_t number, const FrameClaims::Word& word, Time reading);
+  void changeClaim(std::uint32_t number, const Arrival& arrival);
+  void contradict(std::uint32_t number, const FrameClaim& other, Time reading);
   void hangOn(std::uint32_t number, const std::string& parent);
   bool feed(const geometry_msgs::TransformStamped& transform, bool is_static, const std::string& publisher);
+  void accept(Frame& frame);
   void forgetStamps();
 
   double max_future_;
   std::size_t max_frames_;
-  bool simulated_;
   Ledger& ledger_;
+  AgeClock ages_;
   tf2::BufferCore buffer_;
   std::vector<Frame> frames_;
   std::unordered_map<std::string, std::uint32_t> numbers_;
+  FrameClaims claims_;
   std::size_t placed_count_ = 0, parent_count_ = 0;
   std::uint64_t revision_ = 0, static_revision_ = 0;
   std::vector<std::string> conflicts_;

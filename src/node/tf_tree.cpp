@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "tf_tree.h"
 
-#include <tf2/exceptions.h>
-
 #include <algorithm>
 
 namespace hgrid {
@@ -12,14 +10,17 @@ namespace {
 constexpr std::size_t kLongestChain = 1000;
 
 /// What is known of a way that is longer by the transform of one frame.
-void extend(ChainState& state, const TfIntake& intake, const TfIntake::Frame& frame, bool upwards, const Moment& now) {
+void extend(ChainState& state, const TfIntake& intake, std::uint32_t number, bool upwards, Time reading) {
+  const TfIntake::Frame& frame = intake.frame(number);
   if (frame.refused && (upwards || state.refused == nullptr)) state.refused = &*frame.refused;
-  if (!frame.from_tf) return;
+  if (frame.from_static && frame.from_tf) state.conflict = true;
+  if (frame.claimed && intake.isContested(number, reading)) state.contested = number;
+  if (!frame.moves) return;
   const Time stamp = frame.newest.stamp;
-  if (frame.from_static) state.conflict = true;
   if (stamp.count() == 0) state.connected = false;  // nothing since the clock jumped
   state.newest = state.moves ? std::min(state.newest, stamp) : stamp;
-  state.age = std::max(state.age, intake.ageOf(frame, now));
+  state.received = state.moves ? std::min(state.received, frame.received) : frame.received;
+  state.lead = state.moves ? std::min(state.lead, frame.lead) : frame.lead;
   state.period = std::max(state.period, frame.period);
   state.moves = true;
 }
@@ -81,6 +82,7 @@ void TfTree::plan(const std::string& world_frame, const std::vector<std::string>
   for (const std::string& frame : frames) {
     const std::uint32_t number = intake_.find(frame);
     Way way;
+    way.number = number;
     if (frame == world_frame) {
       way.step = kWorld;
     } else if (number != TfIntake::kNone) {
@@ -92,43 +94,35 @@ void TfTree::plan(const std::string& world_frame, const std::vector<std::string>
   }
 }
 
-void TfTree::look(const Moment& now) {
+void TfTree::look(Time reading) {
   for (std::size_t i = 2; i < steps_.size(); ++i) {
     Step& step = steps_[i];
     step.state = steps_[step.from].state;
-    extend(step.state, intake_, intake_.frame(step.moved), step.upwards, now);
+    extend(step.state, intake_, step.moved, step.upwards, reading);
   }
-}
-
-bool TfTree::parentFromFrame(const TfIntake::Frame& frame, Time time, FramePose& pose) const {
-  // Most ticks fall on a time at which every joint was measured: then tf2 would only hand back what came.
-  if (!(frame.from_tf && frame.from_static)) {
-    for (const TfIntake::Sample* sample : {&frame.newest, &frame.before}) {
-      if (sample->parent != frame.parent || (frame.from_tf && sample->stamp != time)) continue;
-      pose = sample->parent_from_frame;
-      return true;
-    }
-    if (frame.newest.stamp < time) return false;
-  }
-  try {
-    pose = toFramePose(intake_.buffer()
-                           .lookupTransform(intake_.frame(frame.parent).name, frame.name,
-                                            ros::Time().fromNSec(static_cast<std::uint64_t>(time.count())))
-                           .transform);
-  } catch (const tf2::TransformException&) {
-    return false;
-  }
-  return true;
 }
 
 void TfTree::place(Time time) {
   for (std::size_t i = 2; i < steps_.size(); ++i) {
     Step& step = steps_[i];
     const Step& from = steps_[step.from];
-    FramePose pose;
-    step.placed = from.placed && from.state.connected && parentFromFrame(intake_.frame(step.moved), time, pose);
-    if (step.placed) step.world_from_frame = from.world_from_frame * (step.upwards ? pose.inverse() : pose);
+    step.placed = from.placed && step.state.connected;
+    if (!step.placed) continue;
+    const std::optional<FramePose> pose = intake_.parentFromFrame(intake_.frame(step.moved), time);
+    step.placed = pose.has_value();
+    if (pose) step.world_from_frame = from.world_from_frame * (step.upwards ? pose->inverse() : *pose);
   }
+}
+
+std::optional<FramePose> TfTree::along(std::size_t number, Time time) const {
+  if (number == kWorld) return FramePose{};
+  const Step& step = steps_[number];
+  if (!step.state.connected) return std::nullopt;
+  const std::optional<FramePose> from = along(step.from, time);
+  if (!from) return std::nullopt;
+  const std::optional<FramePose> pose = intake_.parentFromFrame(intake_.frame(step.moved), time);
+  if (!pose) return std::nullopt;
+  return *from * (step.upwards ? pose->inverse() : *pose);
 }
 
 }  // namespace hgrid

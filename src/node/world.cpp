@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "world.h"
 
-#include <tf2/exceptions.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -22,6 +20,7 @@ SceneOptions optionsOf(const Params& params) {
   options.threads = params.threads;
   options.world_limit = params.world_limit;
   options.growth_cap = params.growth_cap;
+  options.growth_after = params.stale_after;
   options.max_bodies = static_cast<std::size_t>(params.max_bodies);
   options.max_pairs = static_cast<std::size_t>(params.max_pairs);
   options.max_reasons = static_cast<std::size_t>(params.max_reasons);
@@ -32,10 +31,6 @@ SceneOptions optionsOf(const Params& params) {
   options.horizon = params.horizon;
   options.report_unmapped = params.map_unknown == UnknownSpace::report;
   return options;
-}
-
-double elapsed(std::chrono::steady_clock::time_point since, const Moment& now) {
-  return std::chrono::duration<double>(now.steady - since).count();
 }
 
 }  // namespace
@@ -68,7 +63,7 @@ World::World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& 
       ledger_(ledger),
       narrow_phase_(std::move(narrow_phase)),
       intake_(params.max_future, params.tf_cache, static_cast<std::size_t>(params.max_frames), simulated, ledger),
-      ways_(intake_),
+      poses_(intake_, params.max_sync_wait),
       watch_(simulated, params.clock_jump, params.stale_after),
       scene_(optionsOf(params)),
       map_news_(simulated),
@@ -92,7 +87,7 @@ World::World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& 
 
 void World::beginEpoch() {
   scene_.beginEpoch(++epoch_);
-  last_time_ = Time(0);
+  poses_.beginEpoch();
 }
 
 World::Change World::changeWithout(const std::function<bool(const std::string& robot)>& chosen) const {
@@ -308,6 +303,7 @@ bool World::findWorldFrame() {
 
 void World::handleClock(const Moment& now) {
   const ClockWatch::Event event = watch_.look(now);
+  intake_.ages().look(now, watch_.frozen());
   // A jump that an earlier tick failed to handle is handled now; a jump back asks for more than one ahead.
   if (clock_event_ != ClockWatch::Event::jumped_back && event != ClockWatch::Event::none) clock_event_ = event;
   if (clock_event_ == ClockWatch::Event::none) return;
@@ -315,84 +311,57 @@ void World::handleClock(const Moment& now) {
   const Refusal jump(Code::clock, std::string("ROS time jumped ") + (back ? "back" : "ahead") + "; a new epoch begins");
   if (!watch_.simulated()) {
     intake_.restamp();
+    restamp(now);
   } else if (back) {
     intake_.forgetMoving();
-    for (Mover& mover : movers_) mover.jumped = mover.chain.moves;
+    restamp(now);
   }
   beginEpoch();
   clock_event_ = ClockWatch::Event::none;
   ledger_.refuse("clock", jump);
 }
 
-/// The newest time at which every frame that keeps up is known; those that lag more do not count.
-Time World::chooseTime(const Moment& now) {
-  Time newest{0};
-  for (const Mover& mover : movers_) {
-    if (mover.chain.connected && mover.chain.moves) newest = std::max(newest, mover.chain.newest);
-  }
-  if (newest.count() == 0) return last_time_ = std::max(last_time_, now.ros);
-  Time common = newest;
-  const auto wait = std::chrono::nanoseconds(std::llround(1e9 * params_.max_sync_wait));
-  for (const Mover& mover : movers_) {
-    if (mover.chain.connected && mover.chain.moves && newest - mover.chain.newest <= wait) {
-      common = std::min(common, mover.chain.newest);
+/// The clock was set: gives the poses in use stamps of the new time. Under /clock they are of another run of the time.
+void World::restamp(const Moment& now) {
+  for (Mover& mover : movers_) {
+    if (!mover.pose.exists() || mover.pose.settled()) continue;
+    mover.pose.restamp(intake_.ages().read(now), now.ros, watch_.simulated());
+    for (std::size_t i = mover.first; i < mover.last; ++i) {
+      const Pose same = scene_.poseOf(members_[i].body).world_from_body;
+      scene_.place(members_[i].body, same, mover.pose.stamp());
     }
   }
-  last_time_ = std::max(last_time_, common);  // the time of the world does not run back when a laggard rejoins
-  return last_time_;
-}
-
-Refusal World::noWay(const std::string& frame, const std::string& unknown) const {
-  return Refusal(Code::unknown_frame,
-                 "frame '" + frame + "' is not connected to '" + world_frame_ + "'" +
-                     (unknown.empty() ? std::string(": there is no way of transforms between them now")
-                                      : ": frame '" + unknown + "' was never published"));
 }
 
 void World::planWays() {
   if (settled_revision_ != intake_.staticRevision()) unsettle();
-  if (!movers_changed_ && !ways_.stale()) return;
+  if (!movers_changed_ && !poses_.stale()) return;
   unsettle();
   std::vector<std::string> frames;
   for (const Mover& mover : movers_) frames.push_back(mover.frame);
   movers_changed_ = true;  // until the plan is complete
-  ways_.plan(world_frame_, frames);
+  poses_.plan(world_frame_, frames);
   movers_changed_ = false;
 }
 
-/// The pose of a frame that keeps a time of its own, from all of its way at that time.
-Pose World::lookUp(const Mover& mover, Time& stamp) const {
-  const auto at = [&](Time time) {
-    return intake_.buffer().lookupTransform(world_frame_, mover.frame,
-                                            ros::Time().fromNSec(static_cast<std::uint64_t>(time.count())));
-  };
-  geometry_msgs::TransformStamped transform;
+/// Places all bodies of the mover or, if one of them cannot be there, none.
+void World::place(Mover& mover, const FramePoses::Found& found, bool moves) {
   try {
-    transform = mover.chain.moves ? at(stamp) : at(Time(0));
-  } catch (const tf2::ExtrapolationException&) {  // its first data is younger than the tick
-    stamp = mover.chain.newest;
-    transform = at(stamp);
-  }
-  const auto& t = transform.transform.translation;
-  const auto& q = transform.transform.rotation;
-  return checkedPose({t.x, t.y, t.z}, {q.x, q.y, q.z, q.w}, "frame '" + mover.frame + "'");
-}
-
-void World::place(Mover& mover, const FramePose* world_from_frame, Time time, const Moment& now) {
-  Time stamp = mover.chain.moves ? std::min(time, mover.chain.newest) : time;
-  try {
-    // What lags stays where it was as a whole: its way is taken at its own time, not at that of the others.
-    const Pose pose = world_from_frame != nullptr && stamp == time ? world_from_frame->pose() : lookUp(mover, stamp);
+    const Pose world_from_frame = found.world_from_frame.pose();
+    placed_.clear();
     for (std::size_t i = mover.first; i < mover.last; ++i) {
       const Member& member = members_[i];
-      scene_.place(member.body, member.at_frame ? pose : pose * member.frame_from_body, stamp);
+      placed_.push_back(member.at_frame ? world_from_frame : world_from_frame * member.frame_from_body);
+      scene_.checkPlace(member.body, placed_.back());
     }
-    mover.placed = true;
-    mover.jumped = false;
-    if (!watch_.frozen()) mover.placed_at = now.steady;  // under a frozen clock the same pose again is not newer
-    mover.age_when_placed = mover.chain.moves ? mover.chain.age : 0.0;
-  } catch (const tf2::TransformException& error) {
-    mover.trouble = Refusal(Code::unknown_frame, "frame '" + mover.frame + "': " + printable(error.what(), 300));
+    for (std::size_t i = mover.first; i < mover.last; ++i) {
+      scene_.place(members_[i].body, placed_[i - mover.first], found.stamp);
+    }
+    if (moves) {
+      mover.pose.renew(found.stamp, found.born);
+    } else {
+      mover.pose.settle(found.stamp);
+    }
   } catch (const Refusal& refusal) {
     ledger_.refuse("pose.refused", refusal);
     mover.trouble = refusal;
@@ -400,18 +369,12 @@ void World::place(Mover& mover, const FramePose* world_from_frame, Time time, co
 }
 
 /// How far the mover's pose can be trusted now, after place().
-Freshness World::judge(Mover& mover, Time time, const Moment& now, double& age) const {
-  age = 0.0;
-  const bool settled = mover.chain.connected && !mover.chain.moves && !mover.trouble;
-  if (settled) return Freshness::fresh;
-  age = mover.chain.connected && !watch_.frozen() ? mover.chain.age
-                                                  : mover.age_when_placed + elapsed(mover.placed_at, now);
-  if (mover.jumped || watch_.frozen()) return Freshness::frozen;
-  if (mover.trouble && mover.trouble->code() != Code::unknown_frame) return Freshness::invalid;
-  if (age > params_.lost_after) return Freshness::lost;
-  if (age > params_.stale_after) return Freshness::stale;
-  const bool behind = mover.chain.connected && mover.chain.newest < time;
-  return behind || age > std::max(params_.late_after, 1.5 * mover.chain.period) ? Freshness::late : Freshness::fresh;
+Freshness World::judge(const Mover& mover, const ChainState& chain) const {
+  const bool invalid = mover.trouble && mover.trouble->code() != Code::unknown_frame;
+  const AgeLimits limits{params_.late_after, params_.stale_after, params_.lost_after};
+  const Freshness by_age = mover.pose.state(poses_.reading(), poses_.tickTime(), chain.period, limits);
+  if (by_age == Freshness::frozen || (watch_.frozen() && !mover.settled)) return Freshness::frozen;
+  return invalid ? Freshness::invalid : by_age;
 }
 
 void World::setState(const Mover& mover, Freshness state, double age) {
@@ -428,7 +391,7 @@ void World::setState(const Mover& mover, Freshness state, double age) {
 void World::describeTrouble(const Mover& mover, Tick& tick) const {
   for (std::size_t i = mover.first; i < mover.last; ++i) {
     const BodyPose& pose = scene_.poseOf(members_[i].body);
-    if (pose.state == Freshness::fresh && !mover.chain.conflict) continue;
+    if (pose.state == Freshness::fresh && !mover.conflict) continue;
     const Body& body = scene_.body(members_[i].body);
     BodyTrouble trouble{body.name, body.frame, pose.state, pose.age, pose.stamp, Code::tf_timeout, {}};
     if (mover.trouble) {
@@ -455,22 +418,20 @@ void World::unsettle() {
   settled_revision_ = intake_.staticRevision();
 }
 
-void World::update(std::size_t index, Time time, const Moment& now, Tick& tick) {
+void World::update(std::size_t index, Tick& tick) {
   Mover& mover = movers_[index];
-  if (mover.settled && mover.chain.connected && !mover.chain.moves && mover.chain.refused == nullptr) return;
-  mover.trouble.reset();
-  if (mover.chain.refused != nullptr) mover.trouble = *mover.chain.refused;
-  if (mover.chain.connected) {
-    place(mover, ways_.worldFrom(index), time, now);
-  } else {
-    const std::string& unknown = ways_.unknownFrame(index);
-    mover.trouble = noWay(mover.frame, unknown);
-    if (!mover.placed && !unknown.empty()) tick.missing_frames.push_back(unknown);
+  const ChainState& chain = poses_.chain(index);
+  const bool stands = chain.connected && !chain.moves && chain.refused == nullptr && chain.contested == TfIntake::kNone;
+  if (mover.settled && stands) return;
+  mover.trouble = poses_.troubleOf(index);
+  mover.conflict = chain.conflict;
+  if (!chain.connected || chain.moves) mover.pose.unsettle(poses_.readingBefore());
+  if (const auto found = poses_.find(index, mover.pose.exists())) place(mover, *found, chain.moves);
+  if (!mover.pose.exists() && !poses_.unknownFrame(index).empty()) {
+    tick.missing_frames.push_back(poses_.unknownFrame(index));
   }
-  double age = 0.0;
-  const Freshness state = judge(mover, time, now, age);
-  mover.settled = mover.chain.connected && !mover.chain.moves && !mover.trouble;
-  setState(mover, state, age);
+  mover.settled = stands && !mover.trouble;
+  setState(mover, judge(mover, chain), mover.pose.age(poses_.reading()));
   describeTrouble(mover, tick);
 }
 
@@ -494,12 +455,11 @@ std::shared_ptr<const Tick> World::tick(const Moment& now) {
 
   const auto begin = std::chrono::steady_clock::now();
   planWays();
-  ways_.look(now);
-  for (std::size_t i = 0; i < movers_.size(); ++i) movers_[i].chain = ways_.state(i);
-  const Time time = chooseTime(now);
-  ways_.place(time);
+  poses_.look(now);
+  const Time time = poses_.tickTime();
   cohorts_.clear();
-  for (std::size_t i = 0; i < movers_.size(); ++i) update(i, time, now, *tick);
+  for (std::size_t i = 0; i < movers_.size(); ++i) update(i, *tick);
+  tick->contested_frames = intake_.claims().sentences(poses_.reading());
   updateClouds(time, now, *tick, lacking);
   std::stable_sort(tick->troubles.begin(), tick->troubles.end(),
                    [](const BodyTrouble& a, const BodyTrouble& b) { return a.state > b.state; });

@@ -9,17 +9,18 @@
 #include <vector>
 
 #include "clock_watch.h"
+#include "frame_poses.h"
 #include "hgrid_proximity/narrowphase/narrow_phase.h"
 #include "hgrid_proximity/scene/pair_meter.h"
 #include "hgrid_proximity/scene/rule_book.h"
 #include "hgrid_proximity/scene/scene.h"
+#include "kept_pose.h"
 #include "ledger.h"
 #include "loaded_map.h"
 #include "map_news.h"
 #include "params.h"
 #include "robot_source.h"
 #include "tf_intake.h"
-#include "tf_tree.h"
 
 namespace hgrid {
 
@@ -49,6 +50,7 @@ struct Tick {
   std::vector<std::string> not_ready;
   std::vector<BodyTrouble> troubles;  // the worst first
   std::vector<std::string> missing_frames;
+  std::vector<std::string> contested_frames;  // a sentence for each frame over which publishers fight
   std::shared_ptr<const ModelReport> models;
   TickTimes times;
   std::size_t frames = 0;  // that tf knows
@@ -61,8 +63,8 @@ struct MeasuredTick {
   std::shared_ptr<const PairDistances> distances;
 };
 
-/// Keeps the Scene up to date from tf: decides the time of a tick, places every body at it, says how far each
-/// pose can be trusted. One thread; Ticks may be read by any.
+/// Keeps the Scene up to date: gives it the poses that FramePoses finds, and says how far each can be trusted. One thread
+/// writes; any thread may read a Tick.
 ///
 /// A call that throws, also for lack of memory, has changed nothing. tick() may throw for lack of memory; the next tick
 /// is right.
@@ -104,11 +106,9 @@ class World {
     std::string frame;
     std::string robot;                // empty: an obstacle
     std::size_t first = 0, last = 0;  // its members in members_, last excluded
-    ChainState chain;                 // of this tick
-    bool placed = false, jumped = false;
-    bool settled = false;  // where it is, and nothing can move it but a new transform on /tf_static
-    double age_when_placed = 0.0;
-    std::chrono::steady_clock::time_point placed_at{};
+    KeptPose pose;
+    bool settled = false;  // nothing can move it but a new transform on /tf_static, and nothing is wrong
+    bool conflict = false;  // a frame on its way comes on /tf and on /tf_static
     std::optional<Refusal> trouble;
   };
 
@@ -144,13 +144,11 @@ class World {
   void applyRules(const Moment& now);
   bool findWorldFrame();
   void handleClock(const Moment& now);
-  Time chooseTime(const Moment& now);
+  void restamp(const Moment& now);
   void planWays();
-  void place(Mover& mover, const FramePose* world_from_frame, Time time, const Moment& now);
-  Refusal noWay(const std::string& frame, const std::string& unknown) const;
-  Pose lookUp(const Mover& mover, Time& stamp) const;
-  Freshness judge(Mover& mover, Time time, const Moment& now, double& age) const;
-  void update(std::size_t index, Time time, const Moment& now, Tick& tick);
+  void place(Mover& mover, const FramePoses::Found& found, bool moves);
+  Freshness judge(const Mover& mover, const ChainState& chain) const;
+  void update(std::size_t index, Tick& tick);
   bool isConnected(const std::string& frame) const;
   std::vector<SourceGap> gaps(const Moment& now) const;
   SourceGap gapOf(const std::string& thing, const std::string& sentence) const;
@@ -165,11 +163,12 @@ class World {
   Ledger& ledger_;
   std::shared_ptr<NarrowPhase> narrow_phase_;
   TfIntake intake_;
-  TfTree ways_;  // to the frames of movers_, in their order
+  FramePoses poses_;  // of the frames of movers_, in their order
   ClockWatch watch_;
   Scene scene_;
   std::vector<Mover> movers_;
   std::vector<Member> members_;  // of all movers, in their order: a tick runs through them
+  std::vector<Pose> placed_;     // scratch of place()
   bool movers_changed_ = true;
   std::uint64_t settled_revision_ = 0;     // of /tf_static
   std::map<Time, std::uint32_t> cohorts_;  // of this tick: bodies of one stamp are equally old
@@ -185,7 +184,6 @@ class World {
   std::size_t obstacles_done_ = 0;                           // of the configured ones: added or refused
   ClockWatch::Event clock_event_ = ClockWatch::Event::none;  // not handled yet
   std::uint64_t epoch_;
-  Time last_time_{0};
 };
 
 }  // namespace hgrid

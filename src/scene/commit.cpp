@@ -12,9 +12,11 @@
 namespace hgrid {
 namespace {
 
-/// [m] How far a point of the body may be from where its pose puts it.
-double reachOf(const BodyPose& pose, const Body& body) {
-  if (pose.state < Freshness::stale || pose.state == Freshness::unplaced || !(pose.age > 0.0)) return 0.0;
+/// [m] How far a point of the body may be from where its pose puts it, if the pose is old. A frame that comes seldom is
+/// old before its state says so.
+double reachOf(const BodyPose& pose, const Body& body, double growth_after) {
+  const bool old = pose.state >= Freshness::stale || pose.age > growth_after;
+  if (!old || pose.state == Freshness::unplaced || !(pose.age > 0.0)) return 0.0;
   return body.max_speed * pose.age;
 }
 
@@ -104,7 +106,7 @@ void Scene::State::fillBodies(Snapshot& snapshot) {
     }
     if (known == 0 || slot.changed > known) {
       snapshot.poses_[i] = slot.pose;
-      snapshot.poses_[i].reach = reachOf(slot.pose, bodies[structure->ids[i].slot]);
+      snapshot.poses_[i].reach = reachOf(slot.pose, bodies[structure->ids[i].slot], options.growth_after);
       snapshot.poses_[i].growth = std::min(snapshot.poses_[i].reach, options.growth_cap);
     }
     snapshot.worst_state_ = std::max(snapshot.worst_state_, slot.pose.state);
@@ -130,7 +132,7 @@ void Scene::State::growBoxes(const Snapshot& snapshot) {
     const BodyPose& pose = snapshot.poses_[body];
     if (pose.state == Freshness::unplaced) continue;
     const double own = std::max(structure->margin[body], structure->pair_margins.largestOf(body));
-    const double can_go = horizon.reachOf(structure->bodies[body]);
+    const double can_go = horizon.reachOf(body);
     const double by = 0.5 * options.margin + (own - options.margin) + pose.growth + can_go;
     const Aabb& box = horizon.on() ? horizon.swept(proxy) : snapshot.boxes_[proxy];
     Grown& known = grown_of[proxy];
@@ -205,7 +207,8 @@ void Scene::State::fillPairs(Snapshot& snapshot) {
   }
   tracker.update(structure->ids, snapshot.stamp_, snapshot.pairs_, is_cut);
   pair_events.update(
-      {structure, snapshot.poses_, snapshot.boxes_, snapshot.pairs_, snapshot.worst_state_, snapshot.stamp_,
+      {structure, snapshot.poses_, snapshot.boxes_, snapshot.pairs_, snapshot.worst_state_, snapshot.max_growth_,
+       snapshot.stamp_,
        [&](std::uint32_t first, std::uint32_t second, double up_to) { return snapshot.gapOf(first, second, up_to); },
        is_cut},
       snapshot.events_);

@@ -23,9 +23,10 @@ double roundingOf(const Aabb& box) {
 
 }  // namespace
 
-double Horizon::reachOf(const Body& body) const {
-  if (!on() || body.mobility == Mobility::fixed) return 0.0;
-  return std::isfinite(body.max_speed) ? body.max_speed * seconds_ : cap_;
+double Horizon::reachOf(const Body& body, const BodyPose& pose) const {
+  if (body.mobility == Mobility::fixed) return 0.0;
+  if (!std::isfinite(body.max_speed)) return cap_;
+  return body.max_speed * seconds_ + std::min(body.max_speed * pose.age, cap_);
 }
 
 void Horizon::step(const std::shared_ptr<const Structure>& structure, const std::vector<BodyPose>& poses,
@@ -37,8 +38,10 @@ void Horizon::step(const std::shared_ptr<const Structure>& structure, const std:
   now_.boxes = before_ = swept_ = boxes;
   now_.stamps.assign(count, kNever);
   teleported_.assign(count, false);
+  reach_.resize(count);
   for (std::uint32_t body = 0; body < count; ++body) {
     const BodyPose& pose = poses[body];
+    reach_[body] = reachOf(structure->bodies[body], pose);
     if (pose.state == Freshness::unplaced) continue;
     now_.stamps[body] = pose.stamp;
     const Time before = renumbered ? kNever : last_.stamps[body];
@@ -57,9 +60,8 @@ void Horizon::step(const std::shared_ptr<const Structure>& structure, const std:
 void Horizon::accept() { std::swap(last_, now_); }
 
 bool Horizon::canMeet(const Structure& structure, ProxyId first, ProxyId second, double gap, double margin) const {
-  const Body &a = structure.bodies[structure.body_of_proxy[first]],
-             &b = structure.bodies[structure.body_of_proxy[second]];
-  return gap <= reachOf(a) + reachOf(b) || withinDistance(swept_[first], swept_[second], margin);
+  const double reach = reachOf(structure.body_of_proxy[first]) + reachOf(structure.body_of_proxy[second]);
+  return gap <= reach || withinDistance(swept_[first], swept_[second], margin);
 }
 
 }  // namespace hgrid

@@ -71,7 +71,7 @@ bool MapPairs::addShapes(OfMap& map, std::uint32_t number, std::uint32_t body, c
   const std::uint32_t first = std::min(body, number), second = std::max(body, number);
   const double margin =
       pairMargin(structure, body, stalenessOf(snapshot.poses()[body]), number, stalenessOf(snapshot.poses()[number]));
-  const double can_go = horizon.reachOf(structure.bodies[number]) + horizon.reachOf(structure.bodies[body]),
+  const double can_go = horizon.reachOf(number) + horizon.reachOf(body),
                up_to = std::max(margin, can_go);
   for (ProxyId proxy = structure.first_proxy[body]; proxy < structure.first_proxy[body + 1]; ++proxy) {
     const Aabb& box = snapshot.boxes()[proxy];

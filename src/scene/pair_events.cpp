@@ -134,7 +134,7 @@ void PairEvents::begin(const NearPair& pair, EventCause cause, const PairsNow& n
 void PairEvents::remember(const PairsNow& now) {
   next_structure_ = now.structure;
   next_known_.clear();
-  if (now.worst_state < Freshness::stale) return;
+  if (now.worst_state < Freshness::stale && now.max_growth == 0.0) return;
   for (const BodyPose& pose : now.poses) {
     next_known_.push_back({pose.growth, pose.cohort, pose.state != Freshness::unplaced});
   }

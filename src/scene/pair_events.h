@@ -18,6 +18,7 @@ struct PairsNow {
   const std::vector<Aabb>& boxes;
   const std::vector<NearPair>& pairs;  ///< sorted by (first, second), each once
   Freshness worst_state;
+  double max_growth;  ///< [m] of any body
   Time stamp;
   /// [m] gap of a map and another body, infinite if more than `up_to`; asked of those pairs alone
   std::function<double(std::uint32_t first, std::uint32_t second, double up_to)> gap_to_map = nullptr;

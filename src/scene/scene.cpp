@@ -205,8 +205,8 @@ const Body& Scene::body(BodyId id) const {
 std::size_t Scene::size() const { return state_->slot_of_name.size(); }
 const BodyPose& Scene::poseOf(BodyId id) const { return state_->at(id).pose; }
 
-void Scene::place(BodyId id, const Pose& world_from_body, Time stamp) {
-  State::Slot& slot = state_->at(id);
+void Scene::checkPlace(BodyId id, const Pose& world_from_body) const {
+  state_->at(id);
   if (!world_from_body.matrix().allFinite()) {
     throw Refusal(Code::nonfinite,
                   "pose of body '" + state_->bodies[id.slot].name + "' is not finite; every number must be");
@@ -215,6 +215,11 @@ void Scene::place(BodyId id, const Pose& world_from_body, Time stamp) {
   if (!(world_from_body.translation().cwiseAbs().maxCoeff() <= limit)) {  // only then make the words for it
     checkWithin(world_from_body.translation(), limit, "pose of body '" + state_->bodies[id.slot].name + "'");
   }
+}
+
+void Scene::place(BodyId id, const Pose& world_from_body, Time stamp) {
+  checkPlace(id, world_from_body);
+  State::Slot& slot = state_->at(id);
   const bool first = slot.pose.state == Freshness::unplaced;
   slot.changed = state_->commits + 1;
   slot.pose.stamp = stamp;

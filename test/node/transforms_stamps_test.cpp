@@ -32,9 +32,15 @@ class Stamps : public ::testing::Test {
   geometry_msgs::TransformStamped frame(const std::string& child, double x, double after) const {
     return stamped("base", child, at(x), begin_ + ros::Duration(after));
   }
+  /// Waits until they are taken in, and until the clock has reached their stamps: before that no tick is at that time.
   msg::Status::ConstPtr take(const std::vector<geometry_msgs::TransformStamped>& transforms) {
     transforms_.send(transforms);
-    return node_.waitForTransforms(transforms_.sent());
+    for (const auto& transform : transforms) {
+      const ros::Time stamp = transform.header.stamp;
+      if (stamp < transforms_.now() + ros::Duration(1.5)) newest_ = std::max(newest_, stamp);
+    }
+    node_.waitForTransforms(transforms_.sent());
+    return node_.waitForStatus("a tick after the stamps", [&](const msg::Status& s) { return s.made > newest_; });
   }
   /// [s] after the first stamp
   double after(const ros::Time& time) const { return (time - begin_).toSec(); }
@@ -42,6 +48,7 @@ class Stamps : public ::testing::Test {
   TransformSource transforms_;
   NodeUnderTest node_;
   ros::Time begin_;  // ahead of the clock: until something moves, the time of the world is the clock's
+  ros::Time newest_;
 };
 
 TEST_F(Stamps, TheTimeOfTheWorldIsTheNewestThatAllFreshFramesHave) {

@@ -47,6 +47,23 @@ TEST_F(HorizonTest, PairsThatCanMeetWithinItAreCandidates) {
   }
 }
 
+TEST_F(HorizonTest, CountsWhatABodyCanHaveMovedSinceItsPose) {
+  for (const double age : {0.0, 0.19, 0.21, 0.5, 100.0}) {
+    SCOPED_TRACE(age);
+    SceneOptions options = withHorizon(0.5);
+    options.growth_cap = 0.75;
+    options.growth_after = 0.25;
+    Scene scene(options);
+    const BodyId a = put(scene, ballOf("a", 1.0), at(0.0));
+    put(scene, ballOf("b", 0.0), at(1.7));   // boxes 0.7 m apart
+    put(scene, ballOf("c", 0.0), at(-2.5));  // 1.5 m apart: farther than horizon and cap allow
+    scene.setState(a, Freshness::late, age);
+    const auto pairs = test::namedPairs(*commit(scene, 1));
+    EXPECT_EQ(pairs.count({"obstacle/a", "obstacle/b"}), age > 0.2 ? 1u : 0u);
+    EXPECT_EQ(pairs.count({"obstacle/a", "obstacle/c"}), 0u);
+  }
+}
+
 TEST_F(HorizonTest, FixedBodiesGoNowhereAndWithoutAHorizonNothingDoes) {
   for (const double horizon : {0.0, 10.0}) {
     Scene scene(withHorizon(horizon));

@@ -34,6 +34,28 @@ class Growth : public ::testing::Test {
   int tick_ = 0;
 };
 
+TEST_F(Growth, BeginsWhenThePoseIsOldWhateverTheStateIsCalled) {
+  const BodyId id = test::put(scene_, slowBall("a", 2.0), test::at(0));
+  test::put(scene_, slowBall("b", 2.0), test::at(1.75));  // boxes 0.75 m apart
+  scene_.setState(id, Freshness::fresh, 0.25);
+  EXPECT_EQ(now().poses()[0].growth, 0.0);
+  EXPECT_TRUE(snapshot_->pairs().empty());
+  for (const Freshness state : {Freshness::fresh, Freshness::late}) {  // the frame of a comes seldom
+    scene_.setState(id, state, 0.375);
+    EXPECT_EQ(now().poses()[0].growth, 0.75);
+    ASSERT_EQ(snapshot_->pairs().size(), 1u);
+    ASSERT_EQ(snapshot_->events().size(), state == Freshness::fresh ? 1u : 0u);
+    if (state == Freshness::fresh) {
+      EXPECT_EQ(snapshot_->events()[0].cause, EventCause::staleness);
+    }
+  }
+  EXPECT_NE(snapshot_->query(Sphere{Eigen::Vector3d(-1.0, 0.0, 0.0), 0.1}, {}).verdict, Verdict::clear);
+  scene_.setState(id, Freshness::fresh, 0.0);
+  EXPECT_TRUE(now().pairs().empty());
+  ASSERT_EQ(snapshot_->events().size(), 1u);
+  EXPECT_EQ(snapshot_->events()[0].cause, EventCause::staleness);
+}
+
 TEST_F(Growth, WidensTheMarginBySpeedTimesAgeUpToTheCap) {
   const BodyId id = test::put(scene_, slowBall("a", 0.5), test::at(0));
   test::put(scene_, slowBall("b", 0.5), test::at(2));

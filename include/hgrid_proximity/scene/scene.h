@@ -18,7 +18,8 @@ struct SceneOptions {
   double event_hysteresis = 0.02;                    ///< [m] a pair's end is told this far beyond its margin, 0 .. 1e3
   double finest_edge = 0.0;                          ///< [m] HGrid's finest level, 1e-6 .. 1e3; 0: from the bodies
   double world_limit = 1e6;                          ///< [m] poses beyond are refused, per axis; at most 1e6
-  double growth_cap = 1.0;                           ///< [m] most that a stale body's margins are widened by
+  double growth_cap = 1.0;                           ///< [m] most that an old body's margins are widened by
+  double growth_after = 0.25;  ///< [s] margins of a body whose pose is older are widened, whatever its state
   std::size_t max_bodies = 100000;
   /// Pairs that a snapshot lists; 0: no limit. It also bounds the work and the memory of a tick: the search collects at
   /// most 4 times as many pairs of boxes, or 65536 if that is more. Snapshot::truncated() says that a limit was
@@ -76,6 +77,8 @@ class Scene {
   /// Puts a body at a pose taken at `stamp`. Its state does not change.
   /// @throws Refusal unknown_id, nonfinite, out_of_range; then it stays where it was.
   void place(BodyId id, const Pose& world_from_body, Time stamp);
+  /// Throws what place() would throw.
+  void checkPlace(BodyId id, const Pose& world_from_body) const;
   /// Says how far the body's pose can be trusted. `age` [s]; `cohort` as in BodyPose.
   /// A body without a pose stays unplaced whatever is said.
   void setState(BodyId id, Freshness state, double age, std::uint32_t cohort = 0);

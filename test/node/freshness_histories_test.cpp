@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// Random histories of transforms against a simple model of where each body was last known to be, and when.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <limits>
+
+#include "test/node/support/freshness_model.h"
+#include "test/node/support/simulated_world.h"
+#include "test/support/random.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+const std::vector<std::string> kFrames = {"m", "a", "b"};
+constexpr double kLate = 0.1, kStale = 0.25, kLost = 1.0, kCap = 0.7, kSpeed = 2.0, kMargin = 0.1;
+constexpr double kRounding = 2e-6;  // [m] of boxes stored as float
+
+/// What was covered, so that the test shows that it looks at every case.
+struct Coverage {
+  std::size_t ticks = 0, fresh = 0, late = 0, stale = 0, lost = 0, disputed = 0, fought = 0, kept = 0, pairs = 0,
+              grown_pairs = 0, jumps = 0;
+};
+
+Params paramsOf(Random& random) {
+  Params params;
+  params.late_after = kLate;
+  params.stale_after = kStale;
+  params.lost_after = kLost;
+  params.growth_cap = kCap;
+  params.default_max_speed = kSpeed;
+  params.margin = kMargin;
+  const double waits[] = {0.0, 0.03, 0.1, 0.3};
+  params.max_sync_wait = waits[random.below(4)];
+  return params;
+}
+
+class RandomHistory {
+ public:
+  RandomHistory(std::uint64_t seed, Ledger& ledger, Coverage& coverage)
+      : random_(seed),
+        simulated_(random_.chance(0.3)),
+        world_(kFrames, simulated_ ? SimulatedWorld::Clock::simulated : SimulatedWorld::Clock::wall,
+               paramsOf(random_), ledger),
+        model_(kFrames),
+        coverage_(coverage) {
+    for (std::size_t i = 0; i < kFrames.size(); ++i) begin(sources_[i], kFrames[i], random_.chance(0.15));
+    faulty_ = random_.chance(0.8);
+  }
+
+  void run() {
+    const int steps = random_.between(10, 45);
+    for (int i = 0; i < steps && !::testing::Test::HasFailure(); ++i) step();
+  }
+
+ private:
+  /// A publisher of one frame.
+  struct Source {
+    Segment1d segment;
+    double delay = 0.0;  // [s] of its stamps; negative: they are ahead
+    double period = 0.0, next = 0.0;
+    bool silent = false;
+  };
+
+  std::string parentFor(const std::string& frame) {
+    if (random_.chance(0.06)) return "island";
+    if (frame == "m" || random_.chance(0.4)) return "base";
+    return frame == "a" || random_.chance(0.5) ? "m" : "a";
+  }
+
+  void begin(Source& source, const std::string& frame, bool is_static) {
+    source.segment = {++segments_,
+                      frame,
+                      parentFor(frame),
+                      random_.chance(0.5) ? "/one" : "/two",
+                      random_.uniform(-0.3, 0.3),
+                      is_static || random_.chance(0.4) ? 0.0 : random_.uniform(-0.5, 0.5),
+                      is_static};
+    source.segment.x -= source.segment.speed * world_.now();
+    const double delays[] = {0.0, 0.0, 0.0, 0.02, 0.07, 0.15, -0.03, -0.3};
+    source.delay = delays[random_.below(8)];
+    source.period = random_.uniform(0.01, 0.03);
+    source.next = world_.now();
+    source.silent = false;
+  }
+
+  void speak(const Source& source, double stamp) {
+    const Segment1d& segment = source.segment;
+    stamp = std::round(stamp * 1e6) / 1e6;
+    if (segment.is_static) {
+      world_.fix(segment.publisher, segment.parent, segment.frame, segment.x, random_.chance(0.1) ? 1e8 : 0.0);
+    } else {
+      world_.send(segment.publisher, segment.parent, segment.frame, segment.at(stamp), stamp);
+    }
+    model_.hear(segment, stamp, world_.now());
+  }
+
+  /// Something goes wrong, or just changes.
+  void upset(Source& source) {
+    const std::string frame = source.segment.frame;
+    switch (random_.below(9)) {
+      case 0:  // the same publisher, elsewhere
+        source.segment.number = ++segments_;
+        source.segment.parent = parentFor(frame);
+        source.segment.x = random_.uniform(-0.3, 0.3) - source.segment.speed * world_.now();
+        if (source.segment.is_static) source.next = world_.now();
+        break;
+      case 1:
+        source.silent = !source.silent;
+        break;
+      case 2:  // another publisher, at once
+        begin(source, frame, source.segment.is_static && random_.chance(0.7));
+        break;
+      case 3:  // another publisher after a while
+        begin(source, frame, source.segment.is_static);
+        source.next = world_.now() + 0.7;
+        break;
+      case 4:  // two at a time
+        rival_ = source;
+        begin(rival_, frame, false);
+        has_rival_ = !has_rival_;
+        break;
+      case 5:  // far in the future: refused
+        if (source.segment.is_static) break;
+        world_.send(source.segment.publisher, source.segment.parent, frame, 9.0, world_.now() + 2.0);
+        model_.hearRefused(frame, world_.now());
+        break;
+      case 6:
+        world_.send(source.segment.publisher, source.segment.parent, frame, std::numeric_limits<double>::quiet_NaN(),
+                    world_.now());
+        model_.hearRefused(frame, world_.now());
+        break;
+      case 7:  // late, or early
+        if (!source.segment.is_static) speak(source, world_.now() + random_.uniform(-0.2, 0.4));
+        break;
+      case 8:
+        jump();
+        break;
+    }
+  }
+
+  void jump() {
+    if (random_.chance(0.7)) return;
+    const double by = random_.chance(0.5) ? -random_.uniform(0.5, 100.0) : random_.uniform(20.0, 1000.0);
+    ++coverage_.jumps;
+    world_.setRosClock(world_.now() + by);
+    if (!simulated_ || by < 0.0) model_.forgetStamps(by);
+    elapsed_ += simulated_ ? std::max(0.0, by) : 0.0;
+    for (Source* source : {&sources_[0], &sources_[1], &sources_[2], &rival_}) source->next = world_.now();
+    tick();  // what arrives before the node notices is of no interest here
+  }
+
+  void step() {
+    const double duration = random_.chance(0.05) ? random_.uniform(0.1, 0.6) : random_.uniform(0.005, 0.04);
+    world_.wait(duration);
+    elapsed_ += duration;
+    if (faulty_ && random_.chance(0.15)) upset(sources_[random_.below(3)]);
+    for (Source* source : {&sources_[0], &sources_[1], &sources_[2], &rival_}) {
+      if ((source == &rival_ && !has_rival_) || source->silent || source->next > world_.now()) continue;
+      speak(*source, world_.now() - source->delay);
+      source->next = source->segment.is_static ? 1e12 : world_.now() + source->period;
+    }
+    if (random_.chance(0.8)) tick();
+  }
+
+  void tick() {
+    world_.tick();
+    ASSERT_NE(world_.last().snapshot, nullptr);
+    const double time = seconds(world_.snapshot().stamp()) - SimulatedWorld::kStart;
+    model_.tick(std::round(time * 1e6) / 1e6, world_.now(), elapsed_);
+    elapsed_ = 0.0;
+    ++coverage_.ticks;
+    for (const std::string& frame : kFrames) {
+      SCOPED_TRACE("body of " + frame);
+      judge(frame, std::round(time * 1e6) / 1e6);
+    }
+    judgePair("a", "b");
+    judgePair("m", "a");
+    judgePair("m", "b");
+  }
+
+  void judge(const std::string& frame, double time) {
+    const BodyPose& pose = world_.pose(frame);
+    const FreshnessModel::Known& known = model_.known(frame);
+    count(pose, known);
+    if (pose.state == Freshness::unplaced) {
+      EXPECT_FALSE(known.placed && !known.disputed);
+      EXPECT_FALSE(world_.snapshot().complete());
+      return;
+    }
+    const double x = pose.world_from_body.translation().x();
+    if (pose.age > kStale + 1e-6) {
+      EXPECT_GE(pose.growth, std::min(kCap, kSpeed * kStale));
+    }
+    if (known.fought) {
+      EXPECT_NE(pose.state, Freshness::fresh);
+    }
+    if (known.disputed) {
+      // Whoever is right: the pose is what somebody said of its own stamp, and no younger than that.
+      if (known.moves && pose.age < kLost && coverage_.jumps == jumps_before_) {
+        EXPECT_TRUE(model_.isSupported(frame, x, world_.stamp(frame)))
+            << "x = " << x << " at " << world_.stamp(frame);
+      }
+      return;
+    }
+    EXPECT_TRUE(known.placed);
+    EXPECT_GE(pose.age, known.age - 1e-5) << "at " << world_.now() << ", tick at " << time;
+    EXPECT_NEAR(x, known.x, 1e-6) << "at " << world_.now() << ", tick at " << time;
+    if (known.moves && known.age > kLate + 1e-5) {
+      EXPECT_NE(pose.state, Freshness::fresh) << "known at " << known.stamp << ", now " << world_.now();
+    }
+    if (known.moves && known.age > kStale + 1e-5) {
+      EXPECT_GE(pose.state, Freshness::stale);
+    }
+    if (known.moves && known.age > kLost + 1e-5) {
+      EXPECT_GE(pose.state, Freshness::lost);
+    }
+    const bool well = known.at_tick && (!known.moves || (time <= world_.now() && known.age < 0.05 && !ahead()));
+    if (well) {
+      EXPECT_EQ(pose.state, Freshness::fresh) << "age " << pose.age << ", by the model " << known.age;
+    }
+  }
+
+  bool ahead() const {
+    for (const Source& source : sources_) {
+      if (source.delay < 0.0) return true;
+    }
+    return false;
+  }
+
+  void count(const BodyPose& pose, const FreshnessModel::Known& known) {
+    coverage_.fresh += pose.state == Freshness::fresh;
+    coverage_.late += pose.state == Freshness::late;
+    coverage_.stale += pose.state == Freshness::stale;
+    coverage_.lost += pose.state == Freshness::lost;
+    coverage_.disputed += known.disputed;
+    coverage_.fought += known.fought;
+    coverage_.kept += known.placed && !known.connected;
+  }
+
+  static double growthOf(const FreshnessModel::Known& known) {
+    return known.moves && known.age > kStale + 1e-5 ? std::min(kCap, kSpeed * known.age) : 0.0;
+  }
+
+  void judgePair(const std::string& first, const std::string& second) {
+    const FreshnessModel::Known &a = model_.known(first), &b = model_.known(second);
+    if (!a.placed || !b.placed || a.disputed || b.disputed) return;
+    const double gap = std::max(0.0, std::abs(a.x - b.x) - 0.2);
+    if (gap > kMargin + growthOf(a) + growthOf(b) - kRounding) return;
+    ++coverage_.pairs;
+    coverage_.grown_pairs += gap > kMargin;
+    EXPECT_TRUE(world_.near(first, second)) << first << " and " << second << ", gap " << gap;
+  }
+
+  Random random_;
+  bool simulated_;
+  SimulatedWorld world_;
+  FreshnessModel model_;
+  Coverage& coverage_;
+  const std::size_t jumps_before_ = coverage_.jumps;
+  Source sources_[3], rival_;
+  bool has_rival_ = false, faulty_ = false;
+  int segments_ = 0;
+  double elapsed_ = 0.0;
+};
+
+TEST(FreshnessHistories, ABodyIsNeverFresherThanTheDataAndNoPairIsLost) {
+  const int histories = countFromEnvironment("HGRID_TEST_HISTORIES", 10000);
+  Ledger ledger;  // one for all, so that it logs a line per second
+  Coverage coverage;
+  for (int seed = 1; seed <= histories; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    RandomHistory(static_cast<std::uint64_t>(seed), ledger, coverage).run();
+    if (HasFailure()) break;
+  }
+  std::printf("%d histories, %zu ticks; bodies: %zu fresh, %zu late, %zu stale, %zu lost, %zu disputed, %zu fought over, "
+              "%zu kept; pairs that must be there: %zu, of which %zu by growth; %zu jumps of the clock\n",
+              histories, coverage.ticks, coverage.fresh, coverage.late, coverage.stale, coverage.lost,
+              coverage.disputed, coverage.fought, coverage.kept, coverage.pairs, coverage.grown_pairs, coverage.jumps);
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid

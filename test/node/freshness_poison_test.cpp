@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// No single message, and no stamp, makes a frame useless for longer than it says itself.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "test/node/support/simulated_world.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+class Poison : public ::testing::Test {
+ protected:
+  Poison() : world_({"a", "b"}) {}
+
+  /// Streams a for some seconds at 50 Hz.
+  void stream(double duration, double x = 1.0) {
+    const double end = world_.now() + duration - 1e-9;
+    while (world_.now() < end) {
+      world_.wait(0.02);
+      world_.sendNow("/robot", "base", "a", x);
+      world_.tick();
+    }
+  }
+  void idle(double duration) {
+    const double end = world_.now() + duration - 1e-9;
+    while (world_.now() < end) {
+      world_.wait(0.02);
+      world_.tick();
+    }
+  }
+  void expectFollowed(const std::string& frame, double x) {
+    EXPECT_EQ(world_.pose(frame).state, Freshness::fresh);
+    EXPECT_NEAR(world_.x(frame), x, 1e-9);
+  }
+
+  SimulatedWorld world_;
+};
+
+TEST_F(Poison, AStaticTransformStampedInTheFutureDoesNotEndAMovingFrame) {
+  stream(0.5, 1.0);
+  world_.fix("/mistake", "base", "a", 7.0, 1e9);
+  stream(0.5, 2.0);
+  expectFollowed("a", 2.0);
+  ASSERT_NE(world_.trouble("a"), nullptr) << "that it comes on both topics is told";
+  EXPECT_EQ(world_.trouble("a")->code, Code::conflict);
+}
+
+TEST_F(Poison, AStaticTransformStampedInTheFutureIsAsGoodAsAnyOther) {
+  for (const double stamp : {1e9, -900.0}) {
+    world_.fix("/setup", "base", "a", stamp > 0 ? 3.0 : 4.0, stamp);
+    idle(0.1);
+    expectFollowed("a", stamp > 0 ? 3.0 : 4.0);
+  }
+}
+
+TEST_F(Poison, OneTransformOnTfDoesNotEndAStaticFrame) {
+  world_.fix("/setup", "base", "a", 3.0);
+  idle(0.1);
+  world_.sendNow("/mistake", "base", "a", 7.0);
+  idle(5.0);
+  expectFollowed("a", 3.0);
+}
+
+TEST_F(Poison, AFrameThatMovedForAWhileIsStaticAgainWhenItIsFixedAnew) {
+  world_.fix("/setup", "base", "a", 3.0);
+  idle(0.1);
+  stream(0.5, 5.0);
+  expectFollowed("a", 5.0);
+  idle(5.0);
+  EXPECT_EQ(world_.pose("a").state, Freshness::lost) << "it is where it moved to last, a while ago";
+  EXPECT_NEAR(world_.x("a"), 5.0, 1e-9);
+  world_.fix("/setup", "base", "a", 3.0);
+  idle(0.1);
+  expectFollowed("a", 3.0);
+}
+
+TEST_F(Poison, OneBadTransformOnTfDoesNotInvalidateAStaticFrame) {
+  world_.fix("/setup", "base", "a", 3.0);
+  idle(0.1);
+  world_.sendNow("/mistake", "base", "a", std::numeric_limits<double>::quiet_NaN());
+  idle(0.1);
+  expectFollowed("a", 3.0);
+}
+
+TEST_F(Poison, AnotherPublishersStampsFromTheFutureDoNotSilenceAFrame) {
+  stream(0.5, 1.0);
+  for (int i = 0; i < 200; ++i) {
+    world_.wait(0.02);
+    if (i % 10 == 0) world_.send("/ahead", "base", "a", 7.0, world_.now() + 0.45);
+    world_.sendNow("/robot", "base", "a", 2.0);
+    world_.tick();
+    ASSERT_NE(world_.x("a"), 7.0);
+    ASSERT_LT(world_.pose("a").age, 0.1) << i;
+  }
+  EXPECT_NEAR(world_.x("a"), 2.0, 1e-9);
+  stream(3.5, 2.0);
+  expectFollowed("a", 2.0);
+}
+
+TEST_F(Poison, AStampAheadOfTheClockHoldsOnlyUntilItsPublisherSpeaksAgain) {
+  Params params;
+  params.max_future = 3600.0;
+  SimulatedWorld world({"a"}, SimulatedWorld::Clock::wall, params);
+  for (int i = 0; i < 200; ++i) {
+    world.wait(0.02);
+    world.send("/robot", "base", "a", 1.0, world.now() + (i == 100 ? 3000.0 : 0.0));
+    world.tick();
+  }
+  EXPECT_EQ(world.pose("a").state, Freshness::fresh);
+  EXPECT_LT(world.pose("a").age, 0.05);
+}
+
+TEST_F(Poison, AStampOfZeroIsRefusedAndNamed) {
+  world_.send("/mistake", "base", "a", 7.0, -SimulatedWorld::kStart);  // the time 0
+  idle(0.1);
+  EXPECT_EQ(world_.pose("a").state, Freshness::unplaced);
+  EXPECT_EQ(world_.counter("tf.refused.CLOCK"), 1u);
+  stream(0.5, 1.0);
+  expectFollowed("a", 1.0);
+  world_.send("/mistake", "base", "a", 7.0, -SimulatedWorld::kStart);
+  EXPECT_EQ(world_.counter("tf.refused.CLOCK"), 2u);
+  stream(0.1, 1.0);
+  expectFollowed("a", 1.0);
+}
+
+TEST_F(Poison, AFrameStampedAheadOfTheClockDoesNotMakeTheOthersLate) {
+  for (int i = 0; i < 100; ++i) {
+    world_.wait(0.02);
+    world_.sendNow("/robot", "base", "a", 1.0);
+    world_.send("/postdating", "base", "b", 5.0, world_.now() + 0.45);
+    world_.tick();
+  }
+  expectFollowed("a", 1.0);
+  expectFollowed("b", 5.0);
+}
+
+TEST_F(Poison, AFrameThatWasStaticBeforeItMovedIsTakenAtTheTimeOfTheTick) {
+  world_.fix("/setup", "base", "a", 3.0);
+  idle(0.1);
+  for (int i = 0; i < 100; ++i) {  // a moves at 1 m/s; b lags by 50 ms, so the tick does too
+    world_.wait(0.02);
+    world_.sendNow("/robot", "base", "a", world_.now());
+    world_.send("/slow", "base", "b", 5.0, world_.now() - 0.05);
+    world_.tick();
+  }
+  EXPECT_NEAR(world_.x("a"), world_.stamp("a"), 1e-6) << "where it was at the stamp of its pose";
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid
