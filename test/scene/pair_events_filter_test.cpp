@@ -35,7 +35,7 @@ class PairEventsFilter : public ::testing::Test {
       pairs.push_back({0, 1, gap, structure_->margin[1], Time{0}});
     }
     PairEventList list;
-    events_.update({structure_, std::vector<BodyPose>(2), boxes, pairs, Freshness::fresh, Time{++tick_}}, list);
+    events_.update({structure_, std::vector<BodyPose>(2), boxes, pairs, Freshness::fresh, 0.0, Time{++tick_}}, list);
     events_.accept();
     Events told;
     for (const PairEvent& event : list.events) {
