@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include <gtest/gtest.h>
 
-#include "map_news.h"
+#include "src/node/map_news.h"
 
 namespace hgrid {
 namespace {
