@@ -22,7 +22,7 @@ void FreshnessModel::noteSource(Frame& frame, const Statement& statement, double
   const std::string source = statement.is_static ? "/tf_static" : statement.publisher;
   const bool same_parent = !frame.last || frame.last->parent == statement.parent;
   const bool other = !frame.source.empty() && frame.source != source;
-  if ((other || (!same_parent && !statement.is_static)) && now - frame.heard < kOverlap) {
+  if ((other || (!same_parent && !statement.is_static)) && now - frame.heard < std::max(kOverlap, 2.5 * frame.longest_period)) {
     if (other || frame.former_parent == statement.parent) frame.turns.push_back(now);
     if (other) frame.disputed_until = std::max(frame.disputed_until, now + kMemory);
   }
@@ -62,6 +62,10 @@ void FreshnessModel::hear(const Statement& statement, double now) {
   }
   if (older) return;
   if (frame.newest) {
+    // A period is a step between stamps that comes twice in a row. A single long step is an outage.
+    const double step = statement.stamp - *frame.newest;
+    frame.longest_period = std::max(frame.longest_period, std::min(frame.step, step));
+    frame.step = step;
     const Statement& before = frame.statements.at(*frame.newest);
     const bool same = before.publisher == statement.publisher && before.parent == statement.parent;
     if (!same || statement.stamp - before.stamp > kLongestGap) frame.claim_begin = statement.stamp;
@@ -147,18 +151,6 @@ std::optional<double> FreshnessModel::newestTime(const std::string& frame, doubl
   return newestTime(heard.statements.at(*heard.newest).parent, std::min(time, *heard.newest));
 }
 
-/// [s] A period is a step between stamps that comes twice in a row. A single long step is an outage.
-double FreshnessModel::longestPeriod(const ByStamp& statements) {
-  double longest = 0.0, step = 0.0;
-  for (auto next = statements.begin(); next != statements.end(); ++next) {
-    if (next == statements.begin()) continue;
-    const double before = step;
-    step = next->first - std::prev(next)->first;
-    longest = std::max(longest, std::min(before, step));
-  }
-  return longest;
-}
-
 /// What else there is to say of the chain that the newest statements make.
 void FreshnessModel::look(const std::string& name, double now, Known& known) const {
   if (name == "base") {
@@ -181,7 +173,7 @@ void FreshnessModel::look(const std::string& name, double now, Known& known) con
     look(frame.fixed->parent, now, known);
   } else if (frame.newest) {
     known.moves = true;
-    known.period = std::max(known.period, longestPeriod(frame.statements));
+    known.period = std::max(known.period, frame.longest_period);
     look(frame.statements.at(*frame.newest).parent, now, known);
   }
 }
@@ -203,10 +195,10 @@ void FreshnessModel::tick(double time, double now, double elapsed) {
       stamp = newestTime(name, known.placed ? time : 1e9);
       x = stamp && known.connected && isChainKnown(name, *stamp) ? positionAt(name, *stamp) : std::nullopt;
     }
+    if (!known.at_tick && was_disputed) known.disputed = true;  // the pose may still be that of the dispute
     const bool older = x && stamp && known.placed && !known.at_tick && *stamp < known.stamp;
     if (!x || !stamp || older || (!known.placed && !known.connected)) {
       if (!moved_before && known.placed && !known.connected) known.moves = true;
-      known.disputed = known.disputed || was_disputed;  // the pose is still that of the dispute
       continue;
     }
     known.placed = true;

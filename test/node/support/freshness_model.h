@@ -58,6 +58,7 @@ class FreshnessModel {
     ByStamp statements;  // on /tf
     std::optional<Statement> fixed, last;
     std::optional<double> newest;
+    double step = 0.0, longest_period = 0.0;  // [s]
     double claim_begin = -1e18;  // stamp of the first statement in a row of one publisher in one parent
     double heard = -1e9, disputed_until = -1e9;
     std::string source, former_parent;
@@ -67,7 +68,6 @@ class FreshnessModel {
   };
 
   void noteSource(Frame& frame, const Statement& statement, double now);
-  static double longestPeriod(const ByStamp& statements);
   static std::optional<Statement> interpolated(const ByStamp& statements, double time);
   static std::optional<Statement> between(const Statement& from, const Statement& to, double time);
   std::optional<Statement> statementAt(const Frame& frame, double time) const;
