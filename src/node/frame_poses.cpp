@@ -17,6 +17,7 @@ void FramePoses::plan(const std::string& world_frame, const std::vector<std::str
 
 void FramePoses::look(const Moment& now) {
   reading_before_ = reading_;
+  tick_time_before_ = tick_time_;
   reading_ = intake_.ages().read(now);
   ways_.look(reading_);
   newest_.clear();
@@ -28,12 +29,12 @@ void FramePoses::look(const Moment& now) {
   ways_.place(tick_time_);
 }
 
-std::optional<FramePoses::Found> FramePoses::find(std::size_t frame, bool has_pose) const {
+std::optional<FramePoses::Found> FramePoses::find(std::size_t frame, const KeptPose& in_use) const {
   const ChainState& state = chain(frame);
   if (!state.connected) return std::nullopt;
   if (const FramePose* pose = ways_.worldFrom(frame)) return Found{*pose, tick_time_, state.bornAt(tick_time_)};
   // What lags stays where it was as a whole: its way is taken at its own time, not at that of the others.
-  if (has_pose && state.newest >= tick_time_) return std::nullopt;
+  if (in_use.exists() && (state.newest >= tick_time_ || state.newest < in_use.stamp())) return std::nullopt;
   const std::optional<FramePose> pose = ways_.worldFrom(frame, state.newest);
   if (!pose) return std::nullopt;
   return Found{*pose, state.newest, state.bornAt(state.newest)};

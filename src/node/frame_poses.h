@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "kept_pose.h"
 #include "tf_intake.h"
 #include "tf_tree.h"
 #include "tick_time.h"
@@ -35,16 +36,18 @@ class FramePoses {
   void look(const Moment& now);
   void beginEpoch() { time_.beginEpoch(); }
 
-  /// [ROS time] Of the tick.
+  /// [ROS time] Of this tick, and of the one before.
   Time tickTime() const { return tick_time_; }
+  Time tickTimeBefore() const { return tick_time_before_; }
   /// Reading of the age clock in this tick, and in the one before.
   Time reading() const { return reading_; }
   Time readingBefore() const { return reading_before_; }
   const ChainState& chain(std::size_t frame) const { return ways_.state(frame); }
   /// The pose of a frame at the time of the tick; of a frame that lags, at the newest time at which its way is known.
   /// Empty: no pose can be computed, and the one in use stays.
-  /// @param has_pose  false: the frame never had one, so its newest will do even if that is younger than the tick
-  std::optional<Found> find(std::size_t frame, bool has_pose) const;
+  /// @param in_use  the pose in use: an older one does not replace it, except at the time of the tick. If there is none,
+  ///                the newest will do even if it is younger than the tick
+  std::optional<Found> find(std::size_t frame, const KeptPose& in_use) const;
   /// What is wrong with the data of a frame; its bodies cannot be trusted. Or, with code unknown_frame, why there is no
   /// way to it. Empty: nothing.
   std::optional<Refusal> troubleOf(std::size_t frame) const;
@@ -61,7 +64,7 @@ class FramePoses {
   std::string world_frame_;
   std::vector<std::string> frames_;
   std::vector<Time> newest_;  // of the chains that move: scratch of look()
-  Time tick_time_{0}, reading_{0}, reading_before_{0};
+  Time tick_time_{0}, tick_time_before_{0}, reading_{0}, reading_before_{0};
 };
 
 }  // namespace hgrid

@@ -22,9 +22,8 @@ void KeptPose::settle(Time stamp) {
   settled_ = true;
 }
 
-void KeptPose::unsettle(Time reading) {
-  if (settled_) born_ = reading;
-  settled_ = false;
+void KeptPose::unsettle(Time stamp, Time reading) {
+  if (settled_) renew(stamp, reading);
 }
 
 void KeptPose::restamp(Time reading, Time ros, bool lost) {

@@ -31,8 +31,9 @@ class KeptPose {
   void renew(Time stamp, Time born);
   /// A pose is in use that only static transforms give.
   void settle(Time stamp);
-  /// The static transforms that gave the pose gave it until `reading`. From then on it ages.
-  void unsettle(Time reading);
+  /// The static transforms that gave a settled pose gave it until the time `stamp`, which was `reading`. From then on it
+  /// ages.
+  void unsettle(Time stamp, Time reading);
   /// ROS time was set: the stamp becomes one of the new time. The age stays.
   /// @param lost  the data that would give another pose is lost, too: FROZEN until there is one
   void restamp(Time reading, Time ros, bool lost);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "frames.h"
 #include "hgrid_proximity/geometry/pose.h"
@@ -16,8 +17,9 @@ namespace {
 constexpr double kFarthest = 1e9;           // [m] translations beyond are no place on earth
 constexpr std::size_t kLongestFrame = 256;  // bytes of a frame's name
 constexpr std::size_t kMostSeams = 16;      // of a frame; with more, publishers fight over it
-constexpr double kSameDistance = 1e-3;      // [m] poses that differ by less agree
-constexpr double kSameAngle = 1e-3;         // [rad]
+constexpr std::size_t kMostHistory = 64;    // transforms of a frame that tf2 takes for static
+constexpr double kSameDistance = 0.01;      // [m] poses that differ by less agree: frames move between two transforms
+constexpr double kSameAngle = 0.01;         // [rad]
 constexpr Time kLeastPatience{50000000};    // [ns] a frame's holder may be silent for so long
 constexpr Time kMostPatience{3000000000};
 
@@ -46,6 +48,12 @@ geometry_msgs::TransformStamped withoutSlashes(geometry_msgs::TransformStamped t
   return transform;
 }
 
+/// The pose between two samples.
+FramePose interpolated(const TfIntake::Sample& from, const TfIntake::Sample& to, Time time) {
+  const double way = static_cast<double>((to.stamp - from.stamp).count());
+  return between(from.parent_from_frame, to.parent_from_frame, static_cast<double>((time - from.stamp).count()) / way);
+}
+
 /// tf2 wants a quaternion of length 1.
 bool isUnit(const geometry_msgs::Quaternion& q) {
   return std::abs(std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w) - 1.0) <= 1e-6;
@@ -65,6 +73,7 @@ geometry_msgs::TransformStamped normalised(geometry_msgs::TransformStamped trans
 
 TfIntake::TfIntake(double max_future, double cache, std::size_t max_frames, bool simulated, Ledger& ledger)
     : max_future_(max_future),
+      cache_(std::llround(1e9 * cache)),
       max_frames_(max_frames),
       ledger_(ledger),
       ages_(simulated),
@@ -249,9 +258,10 @@ void TfIntake::takeStatic(std::uint32_t number, const Arrival& arrival) {
   placed.newest = sample;
   placed.before = placed.stray = Sample{};
   placed.seams.clear();
+  placed.history.clear();
   placed.publisher = arrival.publisher;
   placed.moves = false;
-  placed.period = 0.0;
+  placed.period = placed.step = 0.0;
   accept(placed);
 }
 
@@ -276,21 +286,28 @@ bool TfIntake::isHeld(std::uint32_t number, const Arrival& arrival) const {
   return arrival.reading - frame.received <= patience;
 }
 
-/// Whether the frame's newest transform came again. If its pose is another one, that is counted or is a contradiction.
+/// Whether the frame's newest stamp came again. If the rest is not the same, that is counted or is a contradiction.
 bool TfIntake::isRepeated(std::uint32_t number, const Arrival& arrival) {
   const Frame& frame = frames_[number];
-  if (arrival.stamp() != frame.newest.stamp || !isInParent(frame, arrival.parent())) return false;
-  if (equal(arrival.transform.transform, frame.last)) return true;
+  if (arrival.stamp() != frame.newest.stamp) return false;
+  const bool same_parent = isInParent(frame, arrival.parent());
+  if (same_parent && equal(arrival.transform.transform, frame.last)) return true;
   if (frame.publisher != arrival.publisher) {
     hearRival(number, arrival);
-  } else {
-    ledger_.refuse("tf.ignored", Refusal(Code::dup_id, "frame '" + printable(frame.name) + "' came twice with stamp " +
-                                                           text(seconds(arrival.stamp())) +
-                                                           " s and another pose (from " +
-                                                           printable(arrival.publisher) + "); the first is kept"));
+    return true;
+  }
+  ledger_.refuse("tf.ignored", Refusal(Code::dup_id, "frame '" + printable(frame.name) + "' came twice with stamp " +
+                                                         text(seconds(arrival.stamp())) + " s and another " +
+                                                         (same_parent ? "pose" : "parent") + " (from " +
+                                                         printable(arrival.publisher) + "); the first is kept"));
+  if (!same_parent) {
+    frames_[number].claimed = true;
+    contradict(number, {arrival.publisher, arrival.parent()}, arrival.reading);
   }
   return true;
 }
+
+bool TfIntake::isFarAhead(Time stamp, const Arrival& arrival) const { return stamp > arrival.now.ros + cache_ / 2; }
 
 void TfIntake::takeMoving(std::uint32_t number, const Arrival& arrival) {
   if (frames_[number].from_static && !frames_[number].moves && !isStream(frames_[number], arrival)) {
@@ -301,31 +318,34 @@ void TfIntake::takeMoving(std::uint32_t number, const Arrival& arrival) {
   if (isHeld(number, arrival)) return hearRival(number, arrival);
   const Frame& frame = frames_[number];
   const Time stamp = arrival.stamp();
-  // A stamp ahead of the clock counts as the newest only until the frame comes with a time that has been.
-  const bool was_ahead = frame.newest.stamp > arrival.now.ros && stamp <= arrival.now.ros;
+  // A stamp far ahead of the clock counts as the newest only until the frame comes with a time that has been.
+  const bool was_ahead = isFarAhead(frame.newest.stamp, arrival) && stamp <= arrival.now.ros;
   const bool first = !frame.moves || frame.newest.stamp.count() == 0;
   if (!first && stamp < frame.newest.stamp && !was_ahead) return takeOlder(number, arrival);
   const bool other = !first && (frame.publisher != arrival.publisher || !isInParent(frame, arrival.parent()));
   if (other) changeClaim(number, arrival);
+  if (!first && !other && stamp > frame.newest.stamp + cache_) addSeam(frames_[number], stamp);  // tf2 forgot the old one
   takeNewest(number, arrival, !first && !other && !was_ahead);
 }
 
 /// @param continues  the frame moved from its newest transform so far to this one
 void TfIntake::takeNewest(std::uint32_t number, const Arrival& arrival, bool continues) {
-  const bool fed = feed(arrival.transform, false, arrival.publisher);
-  if (!fed) ledger_.count("tf.too_old");
+  // tf2 would refuse all that comes after a stamp far ahead.
+  if (!isFarAhead(arrival.stamp(), arrival)) feed(arrival.transform, false, arrival.publisher);
   const bool same_parent = isInParent(frames_[number], arrival.parent());
   hangOn(number, arrival.parent());
   Frame& frame = frames_[number];
   const Time stamp = arrival.stamp();
   if (!frame.moves) frame.newest = Sample{};
   if (continues) {
-    const double step = seconds(stamp - frame.newest.stamp);  // an outage is no period
-    frame.period = frame.period == 0.0 ? step : 0.9 * frame.period + 0.1 * std::min(step, 2.0 * frame.period);
+    const double before = std::exchange(frame.step, seconds(stamp - frame.newest.stamp));
+    const double usual = std::min(before, frame.step);  // a single long step is an outage, not a period
+    frame.period = frame.period == 0.0 ? usual : 0.9 * frame.period + 0.1 * usual;
   } else if (frame.publisher != arrival.publisher || !same_parent) {
-    frame.period = 0.0;
+    frame.period = frame.step = 0.0;
   }
   const bool behind = stamp < frame.newest.stamp;
+  if (!same_parent) frame.parent_since = frame.placed && frame.newest.stamp.count() > 0 ? stamp : Time(0);
   frame.before = behind ? Sample{} : frame.newest;
   frame.newest = {stamp, frame.parent, toFramePose(arrival.transform.transform)};
   frame.received = arrival.reading;
@@ -333,6 +353,7 @@ void TfIntake::takeNewest(std::uint32_t number, const Arrival& arrival, bool con
   if (frame.publisher != arrival.publisher) frame.publisher = arrival.publisher;
   frame.last = arrival.transform.transform;
   frame.moves = true;
+  if (frame.static_in_buffer) remember(frame);
   accept(frame);
   if (frame.claimed) compareWithRival(number, arrival.reading);
 }
@@ -342,15 +363,14 @@ void TfIntake::takeOlder(std::uint32_t number, const Arrival& arrival) {
   Frame& frame = frames_[number];
   if (frame.publisher != arrival.publisher || !isInParent(frame, arrival.parent())) return hearRival(number, arrival);
   ledger_.count("tf.out_of_order");
-  if (!feed(arrival.transform, false, arrival.publisher)) {
+  const Time stamp = arrival.stamp();
+  const bool before_claim = !frame.seams.empty() && stamp < frame.seams.back().end;
+  if (before_claim || !feed(arrival.transform, false, arrival.publisher)) {
     ledger_.count("tf.too_old");
     return;
   }
-  const Time stamp = arrival.stamp();
-  const bool in_seam = !frame.seams.empty() && stamp <= frame.seams.back().end;
-  if (stamp > frame.before.stamp && !in_seam) {
-    frame.before = {stamp, frame.parent, toFramePose(arrival.transform.transform)};
-  }
+  if (stamp >= arrival.now.ros) frame.received = arrival.reading;  // the newest is stamped far ahead; this is news
+  if (stamp > frame.before.stamp) frame.before = {stamp, frame.parent, toFramePose(arrival.transform.transform)};
   accept(frame);
 }
 
@@ -376,8 +396,8 @@ void TfIntake::compareWithRival(std::uint32_t number, Time reading) {
 
 void TfIntake::judge(std::uint32_t number, const FrameClaims::Word& word, Time reading) {
   const Frame& frame = frames_[number];
-  if (word.claim.publisher == frame.publisher) return;
   if (isInParent(frame, word.claim.parent)) {
+    if (word.claim.publisher == frame.publisher) return;  // it holds the frame by now
     const std::optional<FramePose> held = parentFromFrame(frame, word.stamp);
     if (!held) return;  // a time of which the holder said nothing
     const double turn = held->rotation.angularDistance(word.parent_from_frame.rotation);
@@ -393,8 +413,7 @@ void TfIntake::changeClaim(std::uint32_t number, const Arrival& arrival) {
   const FrameClaim before = claimOf(frame), after{arrival.publisher, arrival.parent()};
   frame.claimed = true;
   if (claims_.change(number, before, after, arrival.reading)) contradict(number, after, arrival.reading);
-  if (frame.seams.size() >= kMostSeams) frame.seams.erase(frame.seams.begin());
-  frame.seams.push_back({frame.newest.stamp, arrival.stamp()});
+  addSeam(frame, arrival.stamp());
   if (before.parent != after.parent) return;
   geometry_msgs::TransformStamped held;  // so that tf2 does not interpolate from one publisher to the other
   held.header.frame_id = after.parent;
@@ -404,24 +423,44 @@ void TfIntake::changeClaim(std::uint32_t number, const Arrival& arrival) {
   feed(held, false, before.publisher);
 }
 
+/// From the newest transform so far to one of the time `until` the pose is not known.
+void TfIntake::addSeam(Frame& frame, Time until) {
+  if (frame.seams.size() >= kMostSeams) frame.seams.erase(frame.seams.begin());
+  frame.seams.push_back({frame.newest.stamp, until});
+}
+
 void TfIntake::contradict(std::uint32_t number, const FrameClaim& other, Time reading) {
   claims_.contradict(number, frames_[number].name, claimOf(frames_[number]), other, reading);
   ledger_.refuse("tf.fight", Refusal(Code::conflict, claims_.sentence(number)));
 }
 
+void TfIntake::remember(Frame& frame) {
+  if (frame.newest.stamp < frame.before.stamp || frame.before.stamp.count() == 0) frame.history.clear();
+  if (frame.history.size() >= kMostHistory) frame.history.erase(frame.history.begin());
+  frame.history.push_back(frame.newest);
+}
+
+std::optional<FramePose> TfIntake::recall(const Frame& frame, Time time) {
+  for (std::size_t i = frame.history.size(); i > 1; --i) {
+    const Sample &from = frame.history[i - 2], &to = frame.history[i - 1];
+    if (time < from.stamp) continue;
+    if (time > to.stamp || from.parent != frame.parent || to.parent != frame.parent) return std::nullopt;
+    return interpolated(from, to, time);
+  }
+  return std::nullopt;
+}
+
 std::optional<FramePose> TfIntake::parentFromFrame(const Frame& frame, Time time) const {
   const Sample &newest = frame.newest, &before = frame.before;
   if (!frame.moves || time == newest.stamp) return newest.parent_from_frame;
-  if (time > newest.stamp) return std::nullopt;
+  if (time > newest.stamp || time < frame.parent_since) return std::nullopt;
   for (const Seam& seam : frame.seams) {
     if (time > seam.begin && time < seam.end) return std::nullopt;
   }
   if (before.stamp.count() > 0 && before.parent == newest.parent && time >= before.stamp) {
-    const double way = static_cast<double>((newest.stamp - before.stamp).count());
-    return between(before.parent_from_frame, newest.parent_from_frame,
-                   static_cast<double>((time - before.stamp).count()) / way);
+    return interpolated(before, newest, time);
   }
-  if (frame.static_in_buffer) return std::nullopt;  // tf2 has no times for it
+  if (frame.static_in_buffer) return recall(frame, time);
   try {
     return toFramePose(buffer_
                            .lookupTransform(frames_[frame.parent].name, frame.name,
@@ -436,15 +475,16 @@ void TfIntake::forgetStamps() {
   buffer_.clear();  // tf2 keeps static transforms
   claims_.forgetWords();
   for (Frame& frame : frames_) {
-    frame.newest.stamp = frame.before.stamp = frame.stray.stamp = Time(0);
+    frame.newest.stamp = frame.before.stamp = frame.stray.stamp = frame.parent_since = Time(0);
     frame.seams.clear();
+    frame.history.clear();
   }
 }
 
 void TfIntake::forgetMoving() {
   forgetStamps();
   for (Frame& frame : frames_) {
-    frame.period = 0.0;
+    frame.period = frame.step = 0.0;
     if (frame.moves) frame.refused.reset();
   }
 }

@@ -47,15 +47,18 @@ class TfIntake {
     Sample newest, before;         // before: the one that was newest until then
     Time received{0};              // reading of the age clock when the newest came
     Time lead{0};                  // by how much that reading was ahead of ROS time
-    double period = 0.0;           // [s] between stamps, smoothed
+    double period = 0.0;           // [s] between stamps, smoothed; 0: not known yet
+    double step = 0.0;             // [s] between the two newest stamps
     bool moves = false;            // /tf places it, not /tf_static
     bool placed = false;           // something placed it in a parent
     bool is_parent = false;
     bool from_tf = false, from_static = false;  // it came there once
-    bool static_in_buffer = false;              // tf2 takes it for static, for good
+    bool static_in_buffer = false;              // tf2 takes it for static, for good, and keeps one pose of it
+    std::vector<Sample> history;                // static_in_buffer, moves: the newest transforms, the newest last
     bool claimed = false;                       // more than one claim was made: see claims()
     Sample stray;                               // on /tf, while it is static
     std::vector<Seam> seams;                    // the newest last
+    Time parent_since{0};                       // stamp of the first transform in the newest parent
     std::optional<Refusal> refused;
     geometry_msgs::Transform last;  // newest as it came
     std::uint32_t next = kNone;     // frame that came after it in a message
@@ -121,6 +124,7 @@ class TfIntake {
   void noteSource(Frame& frame, bool is_static);
   bool isInParent(const Frame& frame, const std::string& parent) const;
   FrameClaim claimOf(const Frame& frame) const;
+  bool isFarAhead(Time stamp, const Arrival& arrival) const;
   bool isHeld(std::uint32_t number, const Arrival& arrival) const;
   bool isStream(Frame& frame, const Arrival& arrival) const;
   bool isRepeated(std::uint32_t number, const Arrival& arrival);
@@ -128,13 +132,17 @@ class TfIntake {
   void compareWithRival(std::uint32_t number, Time reading);
   void judge(std::uint32_t number, const FrameClaims::Word& word, Time reading);
   void changeClaim(std::uint32_t number, const Arrival& arrival);
+  static void addSeam(Frame& frame, Time until);
   void contradict(std::uint32_t number, const FrameClaim& other, Time reading);
   void hangOn(std::uint32_t number, const std::string& parent);
   bool feed(const geometry_msgs::TransformStamped& transform, bool is_static, const std::string& publisher);
   void accept(Frame& frame);
+  static void remember(Frame& frame);
+  static std::optional<FramePose> recall(const Frame& frame, Time time);
   void forgetStamps();
 
   double max_future_;
+  Time cache_;  // how long tf2 keeps transforms
   std::size_t max_frames_;
   Ledger& ledger_;
   AgeClock ages_;

@@ -326,10 +326,15 @@ void World::restamp(const Moment& now) {
   for (Mover& mover : movers_) {
     if (!mover.pose.exists() || mover.pose.settled()) continue;
     mover.pose.restamp(intake_.ages().read(now), now.ros, watch_.simulated());
-    for (std::size_t i = mover.first; i < mover.last; ++i) {
-      const Pose same = scene_.poseOf(members_[i].body).world_from_body;
-      scene_.place(members_[i].body, same, mover.pose.stamp());
-    }
+    tellStamp(mover);
+  }
+}
+
+/// Gives the bodies of the mover, where they are, the stamp of its pose.
+void World::tellStamp(const Mover& mover) {
+  for (std::size_t i = mover.first; i < mover.last; ++i) {
+    const Pose same = scene_.poseOf(members_[i].body).world_from_body;
+    scene_.place(members_[i].body, same, mover.pose.stamp());
   }
 }
 
@@ -425,8 +430,11 @@ void World::update(std::size_t index, Tick& tick) {
   if (mover.settled && stands) return;
   mover.trouble = poses_.troubleOf(index);
   mover.conflict = chain.conflict;
-  if (!chain.connected || chain.moves) mover.pose.unsettle(poses_.readingBefore());
-  if (const auto found = poses_.find(index, mover.pose.exists())) place(mover, *found, chain.moves);
+  if (mover.pose.settled() && (!chain.connected || chain.moves)) {
+    mover.pose.unsettle(poses_.tickTimeBefore(), poses_.readingBefore());
+    tellStamp(mover);
+  }
+  if (const auto found = poses_.find(index, mover.pose)) place(mover, *found, chain.moves);
   if (!mover.pose.exists() && !poses_.unknownFrame(index).empty()) {
     tick.missing_frames.push_back(poses_.unknownFrame(index));
   }

@@ -145,6 +145,7 @@ class World {
   bool findWorldFrame();
   void handleClock(const Moment& now);
   void restamp(const Moment& now);
+  void tellStamp(const Mover& mover);
   void planWays();
   void place(Mover& mover, const FramePoses::Found& found, bool moves);
   Freshness judge(const Mover& mover, const ChainState& chain) const;

@@ -106,8 +106,9 @@ TEST(KeptPose, DoesNotAgeWhileOnlyStaticTransformsGiveIt) {
   pose.settle(s(50));
   EXPECT_EQ(pose.age(s(1000)), 0.0);
   EXPECT_EQ(pose.state(s(1000), s(2000), 0.0, {}), Freshness::fresh);
-  pose.unsettle(s(1000));
-  pose.unsettle(s(1001));
+  pose.unsettle(s(1999), s(1000));
+  pose.unsettle(s(2000), s(1001));
+  EXPECT_EQ(pose.stamp(), s(1999));
   EXPECT_EQ(pose.age(s(1001)), 1.0);
   EXPECT_EQ(pose.state(s(1001), s(2000), 0.0, {}), Freshness::stale);
 }

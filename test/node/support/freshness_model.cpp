@@ -10,44 +10,67 @@ namespace test {
 namespace {
 
 constexpr double kOverlap = 0.6;   // [s] sources that speak within this of each other may be in a dispute
+constexpr double kOfAnotherTime = -1e9;
+constexpr double kLongestGap = 10.0;  // [s] ~tf_cache: nothing is known between statements that are farther apart
 constexpr double kMemory = 4.0;    // [s] how long a dispute lasts at most after its last turn
-constexpr double kTurns = 1.0;     // [s] in which turns are counted
-constexpr std::size_t kFight = 6;  // as many turns within that time are a fight
+constexpr double kNotice = 0.5;  // [s] their stamps may be so far apart, and what is compared first may agree by chance
+constexpr std::ptrdiff_t kFight = 4;  // as many turns before that, and since, are a fight that goes on
 
 }  // namespace
 
-void FreshnessModel::noteSource(Frame& frame, const Segment1d& segment, double now) {
-  const std::string source = segment.is_static ? "/tf_static" : segment.publisher;
-  const bool same_parent = frame.segments.empty() || frame.segments.back().parent == segment.parent;
+void FreshnessModel::noteSource(Frame& frame, const Statement& statement, double now) {
+  const std::string source = statement.is_static ? "/tf_static" : statement.publisher;
+  const bool same_parent = !frame.last || frame.last->parent == statement.parent;
   const bool other = !frame.source.empty() && frame.source != source;
-  const bool on_both = frame.fixed && !segment.is_static;
-  if ((other || (!same_parent && !segment.is_static)) && now - frame.heard < kOverlap) {
-    if (other || frame.former_parent == segment.parent) frame.turns.push_back(now);
-    if (other) frame.disputed_until = now + kMemory;
+  if ((other || (!same_parent && !statement.is_static)) && now - frame.heard < std::max(kOverlap, 2.5 * frame.longest_period)) {
+    if (other || frame.former_parent == statement.parent) frame.turns.push_back(now);
+    if (other) frame.disputed_until = std::max(frame.disputed_until, now + kMemory);
   }
-  if (other && (segment.is_static || frame.source == "/tf_static")) frame.disputed_until = 1e9;
+  const bool on_both = (other && (statement.is_static || frame.source == "/tf_static")) ||
+                       (frame.fixed && !statement.is_static);
   if (on_both) frame.disputed_until = 1e9;
   if (!same_parent) {
     // A parent that was left a short while ago and comes again is an alternation, whoever says it.
-    if (frame.former_parent == segment.parent) frame.disputed_until = std::max(frame.disputed_until, now + kMemory);
-    frame.former_parent = frame.segments.back().parent;
+    if (frame.former_parent == statement.parent) frame.disputed_until = std::max(frame.disputed_until, now + kMemory);
+    frame.former_parent = frame.last->parent;
   }
   frame.source = source;
   frame.heard = now;
+  frame.last = statement;
 }
 
-void FreshnessModel::hear(const Segment1d& segment, double stamp, double now) {
-  Frame& frame = heard_[segment.frame];
-  noteSource(frame, segment, now);
-  if (frame.segments.empty() || frame.segments.back().number != segment.number) frame.segments.push_back(segment);
-  if (segment.is_static) {
-    frame.fixed = segment;
+void FreshnessModel::hear(const Statement& statement, double now) {
+  Frame& frame = heard_[statement.frame];
+  noteSource(frame, statement, now);
+  if (statement.is_static) {
+    frame.fixed = statement;
+    frame.all_fixed.push_back(statement);
     return;
   }
-  if (!frame.statements.emplace(stamp, segment).second) return;  // of two with one stamp the first counts
-  const bool newer = !frame.newest || stamp > *frame.newest;
-  const bool from_ahead = frame.newest && *frame.newest > now && stamp <= now;
-  if (newer || from_ahead) frame.newest = stamp;
+  frame.all.push_back(statement);
+  frame.by_claim[{statement.publisher, statement.parent}].emplace(statement.stamp, statement);
+  if (statement.stamp < frame.claim_begin) return;  // another one held the frame then
+  const auto stored = frame.statements.emplace(statement.stamp, statement);
+  if (!stored.second) {  // of two with one stamp the first counts
+    if (stored.first->second.parent != statement.parent) frame.disputed_until = now + kMemory;
+    return;
+  }
+  const bool older = frame.newest && statement.stamp <= *frame.newest;
+  // It places the frame elsewhere at a time that somebody spoke of already.
+  if (older && frame.statements.at(*frame.newest).parent != statement.parent) {
+    frame.disputed_until = std::max(frame.disputed_until, now + kMemory);
+  }
+  if (older) return;
+  if (frame.newest) {
+    // A period is a step between stamps that comes twice in a row. A single long step is an outage.
+    const double step = statement.stamp - *frame.newest;
+    frame.longest_period = std::max(frame.longest_period, std::min(frame.step, step));
+    frame.step = step;
+    const Statement& before = frame.statements.at(*frame.newest);
+    const bool same = before.publisher == statement.publisher && before.parent == statement.parent;
+    if (!same || statement.stamp - before.stamp > kLongestGap) frame.claim_begin = statement.stamp;
+  }
+  frame.newest = statement.stamp;
 }
 
 void FreshnessModel::hearRefused(const std::string& frame, double now) {
@@ -55,36 +78,66 @@ void FreshnessModel::hearRefused(const std::string& frame, double now) {
 }
 
 void FreshnessModel::forgetStamps(double jump) {
+  for (auto& named : known_) named.second.stamp = kOfAnotherTime;
   for (auto& named : heard_) {
     named.second.statements.clear();
     named.second.newest.reset();
+    named.second.claim_begin = -1e18;
     named.second.heard = -1e9;  // of another time
     named.second.turns.clear();
     if (named.second.disputed_until < 1e8) named.second.disputed_until += jump;
   }
 }
 
-/// The segment that says where the frame is at a time: one that spoke before it and after it, nobody in between.
-const Segment1d* FreshnessModel::segmentAt(const Frame& frame, double time) const {
-  if (frame.fixed) return &*frame.fixed;
-  if (!frame.newest || time > *frame.newest) return nullptr;
-  const auto after = frame.statements.lower_bound(time);
-  if (after == frame.statements.end()) return nullptr;
-  if (after->first == time) return &after->second;
-  if (after == frame.statements.begin()) return nullptr;
-  const auto before = std::prev(after);
-  return before->second.number == after->second.number ? &after->second : nullptr;
+/// What the statement at a time would be, where one before it and one after it allow to say.
+std::optional<Statement> FreshnessModel::interpolated(const ByStamp& statements, double time) {
+  const auto after = statements.lower_bound(time);
+  if (after == statements.end()) return std::nullopt;
+  if (after->first == time) return after->second;
+  if (after == statements.begin()) return std::nullopt;
+  return between(std::prev(after)->second, after->second, time);
+}
+
+std::optional<Statement> FreshnessModel::between(const Statement& from, const Statement& to, double time) {
+  const bool one_claim =
+      from.publisher == to.publisher && from.parent == to.parent && to.stamp - from.stamp <= kLongestGap;
+  if (!one_claim || !(from.stamp < to.stamp) || time < from.stamp || time > to.stamp) return std::nullopt;
+  Statement result = to;
+  result.stamp = time;
+  result.x = from.x + (to.x - from.x) * (time - from.stamp) / (to.stamp - from.stamp);
+  return result;
+}
+
+std::optional<Statement> FreshnessModel::statementAt(const Frame& frame, double time) const {
+  if (frame.fixed) return frame.fixed;
+  if (!frame.newest || time > *frame.newest) return std::nullopt;
+  return interpolated(frame.statements, time);
 }
 
 std::optional<double> FreshnessModel::positionAt(const std::string& frame, double time) const {
   if (frame == "base") return 0.0;
   const auto found = heard_.find(frame);
   if (found == heard_.end()) return std::nullopt;
-  const Segment1d* segment = segmentAt(found->second, time);
-  if (segment == nullptr) return std::nullopt;
-  const std::optional<double> parent = positionAt(segment->parent, time);
+  const std::optional<Statement> statement = statementAt(found->second, time);
+  if (!statement) return std::nullopt;
+  const std::optional<double> parent = positionAt(statement->parent, time);
   if (!parent) return std::nullopt;
-  return *parent + segment->at(segment->is_static ? 0.0 : time);
+  return *parent + statement->x;
+}
+
+/// Whether all frames of the chain that the newest statements make are known at a time, in the parents of now.
+bool FreshnessModel::isChainKnown(const std::string& frame, double time) const {
+  if (frame == "base") return true;
+  if (!positionAt(frame, time)) return false;
+  const Frame& heard = heard_.at(frame);
+  if (heard.fixed) return isChainKnown(heard.fixed->parent, time);
+  if (!heard.newest) return false;
+  const std::string& parent = heard.statements.at(*heard.newest).parent;
+  for (auto since = heard.statements.find(*heard.newest); since->first > time; --since) {
+    if (since->second.parent != parent) return false;
+    if (since == heard.statements.begin()) break;
+  }
+  return statementAt(heard, time)->parent == parent && isChainKnown(parent, time);
 }
 
 /// The newest time, at most `time`, at which the newest statements of all the chain reach. Empty: it leads nowhere.
@@ -108,13 +161,19 @@ void FreshnessModel::look(const std::string& name, double now, Known& known) con
   if (found == heard_.end()) return;
   const Frame& frame = found->second;
   known.disputed = known.disputed || now < frame.disputed_until;
-  const auto recent = std::count_if(frame.turns.begin(), frame.turns.end(),
-                                    [&](double turn) { return turn > now - kTurns && turn <= now; });
-  known.fought = known.fought || static_cast<std::size_t>(recent) >= kFight;
+  const auto turnsIn = [&](double from, double to) {
+    return std::count_if(frame.turns.begin(), frame.turns.end(),
+                         [&](double turn) { return turn > from && turn <= to; });
+  };
+  known.fought = known.fought || (turnsIn(now - 3.0 * kNotice, now - 2.0 * kNotice) >= kFight &&
+                                  turnsIn(now - 2.0 * kNotice, now - kNotice) >= kFight &&
+                                  turnsIn(now - kNotice, now - 0.5 * kNotice) >= kFight / 2 &&
+                                  turnsIn(now - 0.5 * kNotice, now) >= kFight / 2);
   if (frame.fixed) {
     look(frame.fixed->parent, now, known);
   } else if (frame.newest) {
     known.moves = true;
+    known.period = std::max(known.period, frame.longest_period);
     look(frame.statements.at(*frame.newest).parent, now, known);
   }
 }
@@ -122,19 +181,23 @@ void FreshnessModel::look(const std::string& name, double now, Known& known) con
 void FreshnessModel::tick(double time, double now, double elapsed) {
   for (const std::string& name : frames_) {
     Known& known = known_[name];
-    const bool moved_before = known.moves;
+    const bool moved_before = known.moves, was_disputed = known.disputed;
     known.age += elapsed;
+    if (known.stamp == kOfAnotherTime) known.stamp = now - known.age;
+    known.period = 0.0;
     known.at_tick = known.moves = known.disputed = known.fought = known.connected = false;
     look(name, now, known);
     if (known.disputed) known.moves = true;
     std::optional<double> stamp = time;
     std::optional<double> x = positionAt(name, time);
-    known.at_tick = x.has_value() && known.connected;
+    known.at_tick = x.has_value() && known.connected && isChainKnown(name, time);
     if (!known.at_tick) {
       stamp = newestTime(name, known.placed ? time : 1e9);
-      x = stamp && known.connected ? positionAt(name, *stamp) : std::nullopt;
+      x = stamp && known.connected && isChainKnown(name, *stamp) ? positionAt(name, *stamp) : std::nullopt;
     }
-    if (!x || !stamp || (!known.placed && !known.connected)) {
+    if (!known.at_tick && was_disputed) known.disputed = true;  // the pose may still be that of the dispute
+    const bool older = x && stamp && known.placed && !known.at_tick && *stamp < known.stamp;
+    if (!x || !stamp || older || (!known.placed && !known.connected)) {
       if (!moved_before && known.placed && !known.connected) known.moves = true;
       continue;
     }
@@ -149,9 +212,18 @@ bool FreshnessModel::isSupported(const std::string& frame, double x, double stam
   if (frame == "base") return std::abs(x) < 1e-6;
   const auto found = heard_.find(frame);
   if (found == heard_.end()) return false;
-  const auto& segments = found->second.segments;
-  return std::any_of(segments.begin(), segments.end(), [&](const Segment1d& segment) {
-    return isSupported(segment.parent, x - segment.at(segment.is_static ? 0.0 : stamp), stamp);
+  const Frame& heard = found->second;
+  const auto supports = [&](const Statement& statement) { return isSupported(statement.parent, x - statement.x, stamp); };
+  if (std::any_of(heard.all_fixed.begin(), heard.all_fixed.end(), supports)) return true;
+  for (const Statement& from : heard.all) {
+    for (const Statement& to : heard.all) {
+      const std::optional<Statement> statement = between(from, to, stamp);
+      if (statement && supports(*statement)) return true;
+    }
+  }
+  return std::any_of(heard.by_claim.begin(), heard.by_claim.end(), [&](const auto& claim) {
+    const std::optional<Statement> statement = interpolated(claim.second, stamp);
+    return statement && supports(*statement);
   });
 }
 

@@ -10,19 +10,17 @@
 namespace hgrid {
 namespace test {
 
-/// A stretch of what one publisher says of one frame: it moves along x in one parent at a constant speed. So whatever
-/// lies between two of its statements is known exactly.
-struct Segment1d {
-  int number = 0;
+/// What a publisher says of a frame: where it is in its parent, along x.
+struct Statement {
   std::string frame, parent, publisher;
-  double x = 0.0, speed = 0.0;  ///< [m] at time 0, [m/s]
+  double x = 0.0;      ///< [m]
+  double stamp = 0.0;  ///< [s]
   bool is_static = false;
-
-  double at(double time) const { return x + speed * time; }
 };
 
 /// Where each frame was last known to be, and when: the witness for the node. It keeps every statement and reads
-/// definitions off them; it shares no code with the node.
+/// definitions off them; it shares no code with the node. A frame is known between two statements of one publisher in one
+/// parent that follow each other.
 ///
 /// Times are in s. All frames move along x; the world frame is "base".
 class FreshnessModel {
@@ -35,12 +33,13 @@ class FreshnessModel {
     bool disputed = false;   ///< several sources speak of a frame of its chain: nothing is said of its state
     bool fought = false;     ///< they take turns, so that it cannot be fresh
     bool connected = false;  ///< the newest statements lead to the world frame
+    double period = 0.0;     ///< [s] the frames of its chain may have this period, but no longer one
   };
 
   explicit FreshnessModel(std::vector<std::string> frames) : frames_(std::move(frames)) {}
 
   /// A statement arrives.
-  void hear(const Segment1d& segment, double stamp, double now);
+  void hear(const Statement& statement, double now);
   /// A refused statement arrives: until the next good one the frame is disputed.
   void hearRefused(const std::string& frame, double now);
   /// The ROS clock was set, and with it all stamps lose their meaning. Static statements stay.
@@ -49,23 +48,31 @@ class FreshnessModel {
   void tick(double time, double now, double elapsed);
 
   const Known& known(const std::string& frame) const { return known_.at(frame); }
-  /// Whether segments that were ever spoken of put the frame at x at the time `stamp`.
+  /// Whether any choice of one publisher for each frame puts the frame at x at the time `stamp`.
   bool isSupported(const std::string& frame, double x, double stamp) const;
 
  private:
+  using ByStamp = std::map<double, Statement>;
+
   struct Frame {
-    std::map<double, Segment1d> statements;  // by stamp; of the /tf
-    std::optional<Segment1d> fixed;
+    ByStamp statements;  // on /tf
+    std::optional<Statement> fixed, last;
     std::optional<double> newest;
+    double step = 0.0, longest_period = 0.0;  // [s]
+    double claim_begin = -1e18;  // stamp of the first statement in a row of one publisher in one parent
     double heard = -1e9, disputed_until = -1e9;
     std::string source, former_parent;
-    std::vector<double> turns;  // when another source than before spoke
-    std::vector<Segment1d> segments;
+    std::vector<double> turns;                                           // when another source than before spoke
+    std::map<std::pair<std::string, std::string>, ByStamp> by_claim;     // by publisher and parent, never forgotten
+    std::vector<Statement> all_fixed, all;  // as they arrived
   };
 
-  void noteSource(Frame& frame, const Segment1d& segment, double now);
-  const Segment1d* segmentAt(const Frame& frame, double time) const;
+  void noteSource(Frame& frame, const Statement& statement, double now);
+  static std::optional<Statement> interpolated(const ByStamp& statements, double time);
+  static std::optional<Statement> between(const Statement& from, const Statement& to, double time);
+  std::optional<Statement> statementAt(const Frame& frame, double time) const;
   std::optional<double> positionAt(const std::string& frame, double time) const;
+  bool isChainKnown(const std::string& frame, double time) const;
   std::optional<double> newestTime(const std::string& frame, double time) const;
   void look(const std::string& frame, double now, Known& known) const;
 

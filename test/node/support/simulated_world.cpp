@@ -94,7 +94,9 @@ const BodyPose& SimulatedWorld::pose(const std::string& frame) const {
   return snapshot().poses()[body];
 }
 
-double SimulatedWorld::stamp(const std::string& frame) const { return seconds(pose(frame).stamp) - kStart; }
+double SimulatedWorld::stamp(const std::string& frame) const { return seconds(pose(frame).stamp - atStart(0.0)); }
+
+double SimulatedWorld::tickTime() const { return seconds(snapshot().stamp() - atStart(0.0)); }
 
 const BodyTrouble* SimulatedWorld::trouble(const std::string& frame) const {
   for (const BodyTrouble& trouble : tick_->troubles) {
@@ -105,9 +107,9 @@ const BodyTrouble* SimulatedWorld::trouble(const std::string& frame) const {
 
 bool SimulatedWorld::near(const std::string& first, const std::string& second) const {
   const Structure& structure = snapshot().structure();
-  const auto key = std::minmax(structure.find("obstacle/" + first), structure.find("obstacle/" + second));
+  const std::uint32_t a = structure.find("obstacle/" + first), b = structure.find("obstacle/" + second);
   return std::any_of(snapshot().pairs().begin(), snapshot().pairs().end(), [&](const NearPair& pair) {
-    return pair.first == key.first && pair.second == key.second;
+    return pair.first == std::min(a, b) && pair.second == std::max(a, b);
   });
 }
 

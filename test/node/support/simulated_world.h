@@ -54,6 +54,8 @@ class SimulatedWorld {
   double x(const std::string& frame) const { return pose(frame).world_from_body.translation().x(); }
   /// [s] since the start: the stamp of the pose in use.
   double stamp(const std::string& frame) const;
+  /// [s] since the start: the time of the newest tick.
+  double tickTime() const;
   /// The newest tick's entry about the body at a frame; null if there is none.
   const BodyTrouble* trouble(const std::string& frame) const;
   /// Whether the newest tick reports the bodies at two frames as near.
