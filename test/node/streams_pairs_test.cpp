@@ -61,9 +61,9 @@ TEST(Pairs, AreTruncatedToTheNearestAndTheWorldIsThenNotComplete) {
   EXPECT_EQ(pairs->world.reasons, Names({"TRUNCATED: more than 2 pairs are near; ~pairs lists 2 of the pairs "
                                          "(~max_pairs)"}));
   EXPECT_EQ(pairs->world.reasons_total, 1u);
-  const auto answer = node.sphere(5, 0, 0, 0.1).answer;
-  EXPECT_EQ(answer.verdict, msg::Answer::CLEAR) << "queries do not depend on pairs";
-  EXPECT_FALSE(answer.world.complete);
+  const auto response = node.sphere(5, 0, 0, 0.1);
+  EXPECT_EQ(response.answer.verdict, msg::Answer::CLEAR) << "queries do not depend on pairs";
+  EXPECT_FALSE(response.world.complete);
 }
 
 TEST(Pairs, ThatAreAllowedAreNotReported) {
