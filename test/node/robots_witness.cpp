@@ -136,7 +136,6 @@ WitnessRobot::WitnessRobot(const std::string& urdf, const std::string& srdf,
     roots.erase(joint.FirstChildElement("child")->Attribute("link"));
   });
   root_ = *roots.begin();
-  connect();
   forEach(semantic.RootElement(), "disable_collisions",
           [&](const XMLElement& rule) { may_touch_.emplace(rule.Attribute("link1"), rule.Attribute("link2")); });
 }
@@ -167,30 +166,33 @@ void WitnessRobot::readJoint(const XMLElement& element) {
   joints_[joint.child] = joint;
 }
 
-/// From each link with shapes up to the next one that has some, and from one to the other below a link without.
-void WitnessRobot::connect() {
-  std::map<std::string, std::vector<std::string>> below;  // links with shapes by what holds them, itself without shapes
-  for (const auto& named : shapes_) {
-    std::string link = named.first;
-    while (link != root_) {
-      link = joints_.at(link).parent;
-      if (shapes_.count(link) > 0) {
-        may_touch_.emplace(named.first, link);
-        break;
-      }
-      for (const std::string& other : below[link]) may_touch_.emplace(named.first, other);
-      below[link].push_back(named.first);
-    }
-  }
-}
-
 std::string WitnessRobot::rigidGroup(std::string link) const {
   while (link != root_ && joints_.at(link).type == "fixed") link = joints_.at(link).parent;
   return link;
 }
 
+/// Whether one moving joint connects the groups, the first above the second. A chain of joints counts as one if the
+/// groups between them have no shapes and the origins of consecutive joints are at most 1 cm apart.
+bool WitnessRobot::isAdjacent(const std::string& upper, std::string group) const {
+  while (group != root_) {
+    const Joint& joint = joints_.at(group);
+    const std::string parent = rigidGroup(joint.parent);
+    if (parent == upper) return true;
+    Eigen::Isometry3d group_from_joint = joint.origin;
+    for (std::string link = joint.parent; link != parent; link = joints_.at(link).parent) {
+      group_from_joint = joints_.at(link).origin * group_from_joint;
+    }
+    const bool has_shapes = std::any_of(shapes_.begin(), shapes_.end(),
+                                        [&](const auto& named) { return rigidGroup(named.first) == parent; });
+    if (has_shapes || group_from_joint.translation().norm() > 0.01) return false;
+    group = parent;
+  }
+  return false;
+}
+
 bool WitnessRobot::mayTouch(const std::string& first, const std::string& second) const {
-  return rigidGroup(first) == rigidGroup(second) || may_touch_.count({first, second}) > 0 ||
+  const std::string a = rigidGroup(first), b = rigidGroup(second);
+  return a == b || isAdjacent(a, b) || isAdjacent(b, a) || may_touch_.count({first, second}) > 0 ||
          may_touch_.count({second, first}) > 0;
 }
 

@@ -60,7 +60,7 @@ class WitnessRobot {
   /// Boxes of the links that have shapes, in the world, by link.
   std::map<std::string, WitnessBody> bodiesAt(const Poses& world_from_links) const;
   std::size_t shapeCount() const;
-  /// Whether two links may touch: one rigid group, joined by a joint (through links without shapes), or by the SRDF.
+  /// Whether two links may touch: they belong to one rigid group or to adjacent groups, or the SRDF says so.
   bool mayTouch(const std::string& first, const std::string& second) const;
 
  private:
@@ -69,7 +69,7 @@ class WitnessRobot {
   double position(const Joint& joint, const Positions& positions) const;
   std::string rigidGroup(std::string link) const;
   void readJoint(const tinyxml2::XMLElement& element);
-  void connect();
+  bool isAdjacent(const std::string& upper, std::string group) const;
 
   std::string root_;
   std::map<std::string, std::vector<Points>> shapes_;  // by link, each as the corners of its hull or more

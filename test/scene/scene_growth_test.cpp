@@ -79,7 +79,7 @@ TEST_F(Growth, OfBothBodiesAddsUp) {
   scene_.setState(b, Freshness::lost, 1.25);
   ASSERT_EQ(now().pairs().size(), 1u) << "1/8 + 5/8 + 5/16 m reach over 1 m";
   EXPECT_EQ(snapshot_->pairs()[0].margin, 0.125 + 0.625 + 0.3125);
-  scene_.setState(b, Freshness::late, 1.25);
+  scene_.setState(b, Freshness::late, 0.125);
   EXPECT_TRUE(now().pairs().empty()) << "late only flags";
 }
 

@@ -49,11 +49,12 @@ void expectRecorded(const Snapshot& snapshot, const World& world, const SceneOpt
   ASSERT_EQ(structure.body_of_proxy.size(), proxy);
 }
 
-void expectGrownByTheRule(const Snapshot& snapshot, double cap) {
+void expectGrownByTheRule(const Snapshot& snapshot, double cap, double after) {
   for (std::uint32_t i = 0; i < snapshot.poses().size(); ++i) {
     const BodyPose& pose = snapshot.poses()[i];
     const double speed = snapshot.structure().bodies[i].max_speed;
-    if (pose.state <= Freshness::late || pose.state == Freshness::unplaced) {
+    const bool young = pose.state <= Freshness::late && pose.age <= after;
+    if (young || pose.state == Freshness::unplaced) {
       ASSERT_EQ(pose.growth, 0.0);
     } else if (pose.state <= Freshness::lost) {
       ASSERT_EQ(pose.growth, pose.age > 0 ? std::min(cap, speed * pose.age) : 0.0);
@@ -76,7 +77,7 @@ class Story {
       ASSERT_EQ(snapshot->sequence(), std::uint64_t(tick));
       ASSERT_EQ(snapshot->stamp(), Time{tick});
       ASSERT_NO_FATAL_FAILURE(expectRecorded(*snapshot, world_, options_));
-      ASSERT_NO_FATAL_FAILURE(expectGrownByTheRule(*snapshot, options_.growth_cap));
+      ASSERT_NO_FATAL_FAILURE(expectGrownByTheRule(*snapshot, options_.growth_cap, options_.growth_after));
       ASSERT_NO_FATAL_FAILURE(test::expectPairsOfTheOracle(*snapshot, options_.margin));
       ASSERT_NO_THROW(snapshot->grid().checkInvariants());
       pairs_ += snapshot->pairs().size();

@@ -240,7 +240,8 @@ class RandomScopes {
     if (!isMeant(scope, body.name)) return;
     const bool anywhere = (!body.covered && !body.waived) || pose.state == Freshness::unplaced ||
                           pose.state == Freshness::frozen;
-    const double reach = pose.state >= Freshness::stale && pose.age > 0.0 ? body.max_speed * pose.age : 0.0;
+    const bool old = pose.state >= Freshness::stale || pose.age > SceneOptions().growth_after;
+    const double reach = old && pose.age > 0.0 ? body.max_speed * pose.age : 0.0;
     const Aabb& box = snapshot_->boxes()[snapshot_->structure().first_proxy[i]];
     const double distance = anywhere ? 0.0 : double(test::approachOf(box, from, to, radius).least) - radius;
     const bool moved = reach > 0.0;
