@@ -60,8 +60,8 @@ struct MeasuredTick {
   std::shared_ptr<const PairDistances> distances;
 };
 
-/// Keeps the Scene up to date: gives it the poses that FramePoses finds, and says how far each can be trusted. One thread
-/// writes; any thread may read a Tick.
+/// Keeps the Scene up to date: gives it the poses that FramePoses finds, and says how far each can be trusted. One
+/// thread writes; any thread may read a Tick.
 class World {
  public:
   World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& ledger,
@@ -101,7 +101,7 @@ class World {
     std::string robot;                // empty: an obstacle
     std::size_t first = 0, last = 0;  // its members in members_, last excluded
     KeptPose pose;
-    bool settled = false;  // nothing can move it but a new transform on /tf_static, and nothing is wrong
+    bool settled = false;   // nothing can move it but a new transform on /tf_static, and nothing is wrong
     bool conflict = false;  // a frame on its way comes on /tf and on /tf_static
     std::optional<Refusal> trouble;
   };

@@ -12,8 +12,8 @@
 namespace hgrid {
 namespace {
 
-/// [m] How far a body can have gone since its pose, where that is old. A frame that comes seldom is old before its state
-/// says so.
+/// [m] How far a body can have gone since its pose, where that is old. A frame that comes seldom is old before its
+/// state says so.
 double growthOf(const BodyPose& pose, const Body& body, const SceneOptions& options) {
   const bool old = pose.state >= Freshness::stale || pose.age > options.growth_after;
   if (!old || pose.state == Freshness::unplaced || !(pose.age > 0.0)) return 0.0;
