@@ -9,8 +9,8 @@ namespace hgrid {
 /// The clock by which poses age.
 ///
 /// It is the steady clock, so that setting the wall clock ages nothing. Under /clock it advances with ROS time instead.
-/// While that stands still or runs back, it advances with the steady clock. So no reading is ever before an earlier one,
-/// and only differences of readings have a meaning.
+/// While that stands still or runs back, it advances with the steady clock. So no reading is ever before an earlier
+/// one, and only differences of readings have a meaning.
 class AgeClock {
  public:
   explicit AgeClock(bool simulated) : simulated_(simulated) {}
@@ -24,8 +24,8 @@ class AgeClock {
  private:
   bool simulated_;
   bool frozen_ = false;
-  Time reading_{0};                                    // at the last look()
-  Moment last_;                                        // of the last look()
+  Time reading_{0};                                   // at the last look()
+  Moment last_;                                       // of the last look()
   std::chrono::steady_clock::time_point advanced_{};  // when ROS time was last seen to advance
 };
 

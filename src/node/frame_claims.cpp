@@ -9,9 +9,7 @@
 namespace hgrid {
 namespace {
 
-bool samePlaceInTree(const FrameClaim& a, const FrameClaim& b) {
-  return a.publisher == b.publisher && a.parent == b.parent;
-}
+bool isSame(const FrameClaim& a, const FrameClaim& b) { return a.publisher == b.publisher && a.parent == b.parent; }
 
 std::string sentenceOf(const std::string& frame, const FrameClaim& a, const FrameClaim& b) {
   const std::string who = "frame '" + printable(frame) + "' comes from " + printable(a.publisher) + " with parent '" +
@@ -22,24 +20,24 @@ std::string sentenceOf(const std::string& frame, const FrameClaim& a, const Fram
 
 }  // namespace
 
-void FrameClaims::keep(std::uint32_t frame, const Word& word) {
+void FrameClaims::keep(std::uint32_t frame, const RivalTransform& transform) {
   Entry& entry = entries_[frame];
-  if (!entry.waiting) entry.waiting = word;
+  if (!entry.waiting) entry.waiting = transform;
 }
 
-std::optional<FrameClaims::Word> FrameClaims::take(std::uint32_t frame, Time holders_newest) {
+std::optional<FrameClaims::RivalTransform> FrameClaims::take(std::uint32_t frame, Time holders_newest) {
   const auto found = entries_.find(frame);
   if (found == entries_.end() || !found->second.waiting || found->second.waiting->stamp > holders_newest) {
     return std::nullopt;
   }
-  std::optional<Word> word;
-  word.swap(found->second.waiting);
-  return word;
+  std::optional<RivalTransform> transform;
+  transform.swap(found->second.waiting);
+  return transform;
 }
 
 bool FrameClaims::change(std::uint32_t frame, const FrameClaim& from, const FrameClaim& to, Time reading) {
   Entry& entry = entries_[frame];
-  const bool back = entry.left && samePlaceInTree(*entry.left, to) && reading - entry.left_at <= kMemory;
+  const bool back = entry.left && isSame(*entry.left, to) && reading - entry.left_at <= kMemory;
   entry.left = from;
   entry.left_at = reading;
   entry.waiting.reset();
@@ -49,13 +47,13 @@ bool FrameClaims::change(std::uint32_t frame, const FrameClaim& from, const Fram
 void FrameClaims::contradict(std::uint32_t frame, const std::string& name, const FrameClaim& holder,
                              const FrameClaim& rival, Time reading) {
   Entry& entry = entries_[frame];
-  const bool in_order = holder.publisher != rival.publisher ? holder.publisher < rival.publisher
-                                                            : holder.parent < rival.parent;
+  const bool in_order =
+      holder.publisher != rival.publisher ? holder.publisher < rival.publisher : holder.parent < rival.parent;
   entry.sentence = in_order ? sentenceOf(name, holder, rival) : sentenceOf(name, rival, holder);
   entry.contested_until = reading + kMemory;
 }
 
-void FrameClaims::forgetWords() {
+void FrameClaims::forgetTransforms() {
   for (auto& numbered : entries_) {
     numbered.second.waiting.reset();
     numbered.second.left.reset();

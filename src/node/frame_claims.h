@@ -17,15 +17,15 @@ struct FrameClaim {
   std::string publisher, parent;
 };
 
-/// Remembers frames that more than one publisher places, and reports those over which publishers fight.
+/// Keeps track of frames that more than one publisher places, and reports those over which publishers fight.
 ///
-/// One publisher at a time holds a frame: its transforms are used. Another one is a rival. The rival's transform waits
-/// here until the holder has spoken of the same time, since only then can the two be compared.
-/// Frames are known by their numbers in the TfIntake. Readings are those of the AgeClock.
+/// One publisher at a time holds a frame: its transforms are used. Any other publisher of the frame is a rival. A
+/// transform of a rival waits here until the holder has sent one with that stamp or a newer one. Only then can the two
+/// be compared. Frames are known by their numbers in the TfIntake. Readings are those of the AgeClock.
 class FrameClaims {
  public:
-  /// What a rival said.
-  struct Word {
+  /// A transform of a rival.
+  struct RivalTransform {
     FrameClaim claim;
     Time stamp{0};
     FramePose parent_from_frame;
@@ -34,17 +34,18 @@ class FrameClaims {
   /// [ns] A frame is contested for this long after publishers contradicted each other.
   static constexpr Time kMemory{3000000000};
 
-  /// Keeps what a rival said, unless a word of a rival waits already.
-  void keep(std::uint32_t frame, const Word& word);
-  /// Returns the word that waits and that the holder has caught up with, and forgets it.
-  std::optional<Word> take(std::uint32_t frame, Time holders_newest);
-  /// Another claim is used from now on. Returns whether it was left less than kMemory ago: the two take turns.
+  /// Stores a rival's transform, unless one of this frame waits already.
+  void keep(std::uint32_t frame, const RivalTransform& transform);
+  /// Returns and removes the transform that waits, if its stamp is not newer than the holder's newest.
+  std::optional<RivalTransform> take(std::uint32_t frame, Time holders_newest);
+  /// The claim `to` replaces the claim `from`. Returns whether `from` replaced `to` less than kMemory ago: the two take
+  /// turns.
   bool change(std::uint32_t frame, const FrameClaim& from, const FrameClaim& to, Time reading);
   /// Two claims contradict each other: the frame is contested for a while.
   void contradict(std::uint32_t frame, const std::string& name, const FrameClaim& holder, const FrameClaim& rival,
                   Time reading);
-  /// Forgets words and changes, since the clock jumped. Fights go on.
-  void forgetWords();
+  /// Drops all transforms and changes, since the clock jumped. Fights go on.
+  void forgetTransforms();
 
   bool isContested(std::uint32_t frame, Time reading) const;
   /// What is wrong with a frame that was contested.
@@ -54,8 +55,8 @@ class FrameClaims {
 
  private:
   struct Entry {
-    std::optional<Word> waiting;
-    std::optional<FrameClaim> left;  // the claim that was used before
+    std::optional<RivalTransform> waiting;
+    std::optional<FrameClaim> left;  // the claim that was replaced last
     Time left_at{0};
     std::string sentence;
     std::optional<Time> contested_until;

@@ -45,13 +45,14 @@ class FramePoses {
   const ChainState& chain(std::size_t frame) const { return ways_.state(frame); }
   /// The pose of a frame at the time of the tick; of a frame that lags, at the newest time at which its way is known.
   /// Empty: no pose can be computed, and the one in use stays.
-  /// @param in_use  the pose in use: an older one does not replace it, except at the time of the tick. If there is none,
+  /// @param in_use  the pose in use: an older one does not replace it, except at the time of the tick. If there is
+  /// none,
   ///                the newest will do even if it is younger than the tick
   std::optional<Found> find(std::size_t frame, const KeptPose& in_use) const;
-  /// What is wrong with the data of a frame; its bodies cannot be trusted. Or, with code unknown_frame, why there is no
-  /// way to it. Empty: nothing.
+  /// What is wrong with the transforms of a frame: its newest one was refused, or publishers fight. With code
+  /// unknown_frame: why there is no way to the frame. Empty: nothing is wrong.
   std::optional<Refusal> troubleOf(std::size_t frame) const;
-  /// No way: a frame that was never heard of, empty if all were.
+  /// No way: the frame that was never published; empty if all were.
   const std::string& unknownFrame(std::size_t frame) const { return ways_.unknownFrame(frame); }
 
  private:

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "kept_pose.h"
 
-
 namespace hgrid {
 namespace {
 

@@ -18,7 +18,7 @@ struct AgeLimits {
 /// The pose itself is where it is used, in the Scene. Readings are those of the AgeClock.
 class KeptPose {
  public:
-  /// A pose is in use, whatever its age.
+  /// Whether a pose is in use, whatever its age.
   bool exists() const { return exists_; }
   /// Nothing but another static transform can move it: it does not age.
   bool settled() const { return settled_; }
@@ -31,11 +31,11 @@ class KeptPose {
   void renew(Time stamp, Time born);
   /// A pose is in use that only static transforms give.
   void settle(Time stamp);
-  /// The static transforms that gave a settled pose gave it until the time `stamp`, which was `reading`. From then on it
-  /// ages.
+  /// The static transforms that gave a settled pose gave it until the time `stamp`, which was `reading`. From then on
+  /// it ages.
   void unsettle(Time stamp, Time reading);
   /// ROS time was set: the stamp becomes one of the new time. The age stays.
-  /// @param lost  the data that would give another pose is lost, too: FROZEN until there is one
+  /// @param lost  the transforms are dropped as well, so the pose is FROZEN until there is another one
   void restamp(Time reading, Time ros, bool lost);
 
   /// How far the pose can be trusted, by its age alone. LATE and STALE begin at their limits, or at one and a half

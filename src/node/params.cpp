@@ -124,8 +124,9 @@ void visit(Visitor& v, Params& p) {
            "most that the time of a tick stays behind the newest transform to wait for slower ones");
   v.number("late_after", p.late_after, "s", 0.001, 3600.0,
            "a pose older than this, and than 1.5 of its periods, is LATE");
-  v.number("stale_after", p.stale_after, "s", 0.001, 3600.0,
-           "a pose older than this is STALE: the body's margins widen");
+  v.number(
+      "stale_after", p.stale_after, "s", 0.001, 3600.0,
+      "a pose older than this, and than 1.5 of its periods, is STALE; the margins of a body with an older pose widen");
   v.number("lost_after", p.lost_after, "s", 0.001, 86400.0, "a pose older than this is LOST: the world is incomplete");
   v.values("max_speed", p.max_speed, "speed", "m/s", 0.0, 1e6,
            "list of {pattern, speed}: bound of the speed of any point of these bodies; the last match counts");

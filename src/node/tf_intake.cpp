@@ -98,8 +98,8 @@ void TfIntake::take(const tf2_msgs::TFMessage& message, bool is_static, const st
   if (accepted_ > 0) ledger_.count("tf.accepted", accepted_);
 }
 
-/// A refused transform makes a frame INVALID until a good one comes. A static frame gets no other one by itself, so only
-/// the publisher that placed it can make it INVALID, on /tf_static.
+/// A refused transform makes a frame INVALID until a good one comes. A static frame gets no other one by itself, so
+/// only the publisher that placed it can make it INVALID, on /tf_static.
 void TfIntake::noteRefusal(const Refusal& refusal, const std::string& child, bool is_static,
                            const std::string& publisher) {
   ledger_.refuse("tf.refused", refusal);
@@ -239,7 +239,8 @@ void TfIntake::accept(Frame& frame) {
   frame.refused.reset();
 }
 
-/// The stamp of a static transform means nothing. A frame that moves becomes static again when /tf is silent.
+/// The stamp of a static transform means nothing. A frame that moved becomes static again if nothing comes on /tf any
+/// more.
 void TfIntake::takeStatic(std::uint32_t number, const Arrival& arrival) {
   Frame& frame = frames_[number];
   const bool moved = frame.moves;
@@ -265,7 +266,7 @@ void TfIntake::takeStatic(std::uint32_t number, const Arrival& arrival) {
   accept(placed);
 }
 
-/// Whether what comes on /tf of a static frame is more than a single transform.
+/// Whether this is more than a single transform on /tf of a static frame.
 bool TfIntake::isStream(Frame& frame, const Arrival& arrival) const {
   const bool again = frame.stray.stamp.count() > 0 && arrival.stamp() > frame.stray.stamp &&
                      arrival.reading - frame.received <= kMostPatience;
@@ -274,15 +275,14 @@ bool TfIntake::isStream(Frame& frame, const Arrival& arrival) const {
   return again;
 }
 
-/// Whether another publisher holds the frame. A holder may be silent for two periods; over a contested frame for longer,
-/// so that nobody wins by a moment of silence.
+/// Whether another publisher holds the frame. A holder may send nothing for two periods. It may do so for longer while
+/// the frame is contested, so that the holder does not change at each gap in its stream.
 bool TfIntake::isHeld(std::uint32_t number, const Arrival& arrival) const {
   const Frame& frame = frames_[number];
   if (!frame.moves || frame.newest.stamp.count() == 0 || frame.publisher == arrival.publisher) return false;
   const Time periods(static_cast<std::int64_t>(2e9 * frame.period));
-  const Time patience = isContested(number, arrival.reading)
-                            ? kMostPatience
-                            : std::min(kMostPatience, std::max(kLeastPatience, periods));
+  const Time patience =
+      isContested(number, arrival.reading) ? kMostPatience : std::min(kMostPatience, std::max(kLeastPatience, periods));
   return arrival.reading - frame.received <= patience;
 }
 
@@ -293,7 +293,7 @@ bool TfIntake::isRepeated(std::uint32_t number, const Arrival& arrival) {
   const bool same_parent = isInParent(frame, arrival.parent());
   if (same_parent && equal(arrival.transform.transform, frame.last)) return true;
   if (frame.publisher != arrival.publisher) {
-    hearRival(number, arrival);
+    takeRival(number, arrival);
     return true;
   }
   ledger_.refuse("tf.ignored", Refusal(Code::dup_id, "frame '" + printable(frame.name) + "' came twice with stamp " +
@@ -315,16 +315,17 @@ void TfIntake::takeMoving(std::uint32_t number, const Arrival& arrival) {
     return;
   }
   if (frames_[number].moves && isRepeated(number, arrival)) return;
-  if (isHeld(number, arrival)) return hearRival(number, arrival);
+  if (isHeld(number, arrival)) return takeRival(number, arrival);
   const Frame& frame = frames_[number];
   const Time stamp = arrival.stamp();
-  // A stamp far ahead of the clock counts as the newest only until the frame comes with a time that has been.
+  // A stamp far ahead of the clock is the newest only until a transform comes whose stamp is not ahead.
   const bool was_ahead = isFarAhead(frame.newest.stamp, arrival) && stamp <= arrival.now.ros;
   const bool first = !frame.moves || frame.newest.stamp.count() == 0;
   if (!first && stamp < frame.newest.stamp && !was_ahead) return takeOlder(number, arrival);
   const bool other = !first && (frame.publisher != arrival.publisher || !isInParent(frame, arrival.parent()));
   if (other) changeClaim(number, arrival);
-  if (!first && !other && stamp > frame.newest.stamp + cache_) addSeam(frames_[number], stamp);  // tf2 forgot the old one
+  if (!first && !other && stamp > frame.newest.stamp + cache_)
+    addSeam(frames_[number], stamp);  // tf2 dropped the old one
   takeNewest(number, arrival, !first && !other && !was_ahead);
 }
 
@@ -358,10 +359,10 @@ void TfIntake::takeNewest(std::uint32_t number, const Arrival& arrival, bool con
   if (frame.claimed) compareWithRival(number, arrival.reading);
 }
 
-/// What is not newer makes nothing fresh, but the frame is known at that time.
+/// Takes a transform that is not the newest. It makes no pose fresh, but the frame is known at its time.
 void TfIntake::takeOlder(std::uint32_t number, const Arrival& arrival) {
   Frame& frame = frames_[number];
-  if (frame.publisher != arrival.publisher || !isInParent(frame, arrival.parent())) return hearRival(number, arrival);
+  if (frame.publisher != arrival.publisher || !isInParent(frame, arrival.parent())) return takeRival(number, arrival);
   ledger_.count("tf.out_of_order");
   const Time stamp = arrival.stamp();
   const bool before_claim = !frame.seams.empty() && stamp < frame.seams.back().end;
@@ -369,45 +370,47 @@ void TfIntake::takeOlder(std::uint32_t number, const Arrival& arrival) {
     ledger_.count("tf.too_old");
     return;
   }
-  if (stamp >= arrival.now.ros) frame.received = arrival.reading;  // the newest is stamped far ahead; this is news
+  if (stamp >= arrival.now.ros) frame.received = arrival.reading;  // the newest is stamped farther ahead
   if (stamp > frame.before.stamp) frame.before = {stamp, frame.parent, toFramePose(arrival.transform.transform)};
   accept(frame);
 }
 
-/// A publisher that does not hold the frame has spoken.
-void TfIntake::hearRival(std::uint32_t number, const Arrival& arrival) {
+/// Takes a transform of a publisher that does not hold the frame. It is compared, not used.
+void TfIntake::takeRival(std::uint32_t number, const Arrival& arrival) {
   Frame& frame = frames_[number];
   frame.claimed = true;
   ledger_.count("tf.rival");
-  const FrameClaims::Word word{
+  const FrameClaims::RivalTransform rival{
       {arrival.publisher, arrival.parent()}, arrival.stamp(), toFramePose(arrival.transform.transform)};
-  if (word.stamp <= frame.newest.stamp) {
-    judge(number, word, arrival.reading);
+  if (rival.stamp <= frame.newest.stamp) {
+    judge(number, rival, arrival.reading);
   } else {
-    claims_.keep(number, word);
+    claims_.keep(number, rival);
   }
 }
 
-/// Compares what a rival said with what the holder has said of the same time.
+/// Compares the transform of a rival that waits, if the holder has caught up with its stamp.
 void TfIntake::compareWithRival(std::uint32_t number, Time reading) {
-  const auto word = claims_.take(number, frames_[number].newest.stamp);
-  if (word) judge(number, *word, reading);
+  const auto rival = claims_.take(number, frames_[number].newest.stamp);
+  if (rival) judge(number, *rival, reading);
 }
 
-void TfIntake::judge(std::uint32_t number, const FrameClaims::Word& word, Time reading) {
+/// Compares a transform of a rival with the holder's pose at its stamp.
+void TfIntake::judge(std::uint32_t number, const FrameClaims::RivalTransform& rival, Time reading) {
   const Frame& frame = frames_[number];
-  if (isInParent(frame, word.claim.parent)) {
-    if (word.claim.publisher == frame.publisher) return;  // it holds the frame by now
-    const std::optional<FramePose> held = parentFromFrame(frame, word.stamp);
-    if (!held) return;  // a time of which the holder said nothing
-    const double turn = held->rotation.angularDistance(word.parent_from_frame.rotation);
-    const double apart = (held->translation - word.parent_from_frame.translation).norm();
+  if (isInParent(frame, rival.claim.parent)) {
+    if (rival.claim.publisher == frame.publisher) return;  // it holds the frame by now
+    const std::optional<FramePose> held = parentFromFrame(frame, rival.stamp);
+    if (!held) return;  // the holder's transforms do not reach back to that time
+    const double turn = held->rotation.angularDistance(rival.parent_from_frame.rotation);
+    const double apart = (held->translation - rival.parent_from_frame.translation).norm();
     if (apart <= kSameDistance && turn <= kSameAngle) return;
   }
-  contradict(number, word.claim, reading);
+  contradict(number, rival.claim, reading);
 }
 
-/// Another publisher or parent places the frame from now on. Between the two transforms its pose is not known.
+/// Another publisher or parent places the frame from this transform on. Between the transform before and this one the
+/// pose of the frame is not known.
 void TfIntake::changeClaim(std::uint32_t number, const Arrival& arrival) {
   Frame& frame = frames_[number];
   const FrameClaim before = claimOf(frame), after{arrival.publisher, arrival.parent()};
@@ -473,7 +476,7 @@ std::optional<FramePose> TfIntake::parentFromFrame(const Frame& frame, Time time
 
 void TfIntake::forgetStamps() {
   buffer_.clear();  // tf2 keeps static transforms
-  claims_.forgetWords();
+  claims_.forgetTransforms();
   for (Frame& frame : frames_) {
     frame.newest.stamp = frame.before.stamp = frame.stray.stamp = frame.parent_since = Time(0);
     frame.seams.clear();

@@ -17,12 +17,12 @@
 
 namespace hgrid {
 
-/// The node's own reading of /tf and /tf_static: checks every transform, remembers when it came and from whom, and feeds a
-/// tf2 buffer with what is good. One thread writes; any thread may use buffer().
+/// Reads /tf and /tf_static: checks every transform, stores when it came and from whom, and feeds a tf2 buffer with the
+/// good ones. One thread writes; any thread may use buffer().
 ///
-/// One publisher at a time holds a frame of /tf. Only its transforms are used, until it is silent. So no pose is made of
-/// what two publishers say. A frame that comes on /tf_static stays static until /tf has brought it twice.
-/// Frames have numbers that stay, in the order in which they were first heard of.
+/// One publisher at a time holds a frame of /tf. Only its transforms are used, until it stops sending. So no pose mixes
+/// the transforms of two publishers. A frame of /tf_static stays static until two transforms of it have come on /tf. A
+/// frame gets a number when its name first occurs, and keeps it.
 class TfIntake {
  public:
   static constexpr std::uint32_t kNone = 0xffffffff;
@@ -52,11 +52,11 @@ class TfIntake {
     bool moves = false;            // /tf places it, not /tf_static
     bool placed = false;           // something placed it in a parent
     bool is_parent = false;
-    bool from_tf = false, from_static = false;  // it came there once
-    bool static_in_buffer = false;              // tf2 takes it for static, for good, and keeps one pose of it
+    bool from_tf = false, from_static = false;  // it came there at least once
+    bool static_in_buffer = false;              // tf2 stores it as static, for good: one pose without a time
     std::vector<Sample> history;                // static_in_buffer, moves: the newest transforms, the newest last
-    bool claimed = false;                       // more than one claim was made: see claims()
-    Sample stray;                               // on /tf, while it is static
+    bool claimed = false;                       // claims() may know of it
+    Sample stray;                               // the newest on /tf while it is static
     std::vector<Seam> seams;                    // the newest last
     Time parent_since{0};                       // stamp of the first transform in the newest parent
     std::optional<Refusal> refused;
@@ -74,7 +74,7 @@ class TfIntake {
   void restamp();
 
   const tf2::BufferCore& buffer() const { return buffer_; }
-  /// The clock by which poses age. Whoever ticks keeps it going.
+  /// The clock by which poses age. The tick calls its look().
   AgeClock& ages() { return ages_; }
   const AgeClock& ages() const { return ages_; }
   /// Frames that several publishers place.
@@ -128,9 +128,9 @@ class TfIntake {
   bool isHeld(std::uint32_t number, const Arrival& arrival) const;
   bool isStream(Frame& frame, const Arrival& arrival) const;
   bool isRepeated(std::uint32_t number, const Arrival& arrival);
-  void hearRival(std::uint32_t number, const Arrival& arrival);
+  void takeRival(std::uint32_t number, const Arrival& arrival);
   void compareWithRival(std::uint32_t number, Time reading);
-  void judge(std::uint32_t number, const FrameClaims::Word& word, Time reading);
+  void judge(std::uint32_t number, const FrameClaims::RivalTransform& rival, Time reading);
   void changeClaim(std::uint32_t number, const Arrival& arrival);
   static void addSeam(Frame& frame, Time until);
   void contradict(std::uint32_t number, const FrameClaim& other, Time reading);

@@ -13,13 +13,13 @@ namespace hgrid {
 
 /// What is known of the way of transforms between two frames.
 struct ChainState {
-  bool connected = false;  ///< there is a way
-  bool moves = false;      ///< a transform on the way comes from /tf
-  bool conflict = false;   ///< a frame on the way comes on /tf and on /tf_static
-  Time newest{0};          ///< moves: newest time at which all of the way is known
-  Time received{0};        ///< moves: least reading of the age clock when a newest transform came
-  Time lead{0};            ///< moves: least lead of that clock over ROS time then
-  double period = 0.0;     ///< [s] moves: longest of the measured periods on the way
+  bool connected = false;            ///< there is a way
+  bool moves = false;                ///< a transform on the way comes from /tf
+  bool conflict = false;             ///< a frame on the way comes on /tf and on /tf_static
+  Time newest{0};                    ///< moves: newest time at which all of the way is known
+  Time received{0};                  ///< moves: least reading of the age clock when a newest transform came
+  Time lead{0};                      ///< moves: least lead of that clock over ROS time then
+  double period = 0.0;               ///< [s] moves: longest of the measured periods on the way
   const Refusal* refused = nullptr;  ///< the newest transform of a frame on the way was refused; until the next take()
   std::uint32_t contested = TfIntake::kNone;  ///< a frame on the way over which publishers fight
 
@@ -47,7 +47,7 @@ class TfTree {
   void place(Time time);
 
   const ChainState& state(std::size_t frame) const { return steps_[ways_[frame].step].state; }
-  /// No way: the frame itself, if it was heard of; else TfIntake::kNone.
+  /// The frame's number in the TfIntake; kNone if it was never published.
   std::uint32_t numberOf(std::size_t frame) const { return ways_[frame].number; }
   /// No way: a frame that was never heard of, empty if all were.
   const std::string& unknownFrame(std::size_t frame) const { return ways_[frame].unknown; }

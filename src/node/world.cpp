@@ -321,7 +321,8 @@ void World::handleClock(const Moment& now) {
   ledger_.refuse("clock", jump);
 }
 
-/// The clock was set: gives the poses in use stamps of the new time. Under /clock they are of another run of the time.
+/// The clock was set: gives the poses in use stamps of the new time. Under /clock those poses belong to an earlier run
+/// of the simulation.
 void World::restamp(const Moment& now) {
   for (Mover& mover : movers_) {
     if (!mover.pose.exists() || mover.pose.settled()) continue;

@@ -107,7 +107,7 @@ class World {
     std::string robot;                // empty: an obstacle
     std::size_t first = 0, last = 0;  // its members in members_, last excluded
     KeptPose pose;
-    bool settled = false;  // nothing can move it but a new transform on /tf_static, and nothing is wrong
+    bool settled = false;   // nothing can move it but a new transform on /tf_static, and nothing is wrong
     bool conflict = false;  // a frame on its way comes on /tf and on /tf_static
     std::optional<Refusal> trouble;
   };

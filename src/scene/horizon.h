@@ -30,7 +30,8 @@ class Horizon {
   const Aabb& swept(ProxyId proxy) const { return swept_[proxy]; }
   /// The proxy's box of the last tick; that of this one if it had none.
   const Aabb& before(ProxyId proxy) const { return before_[proxy]; }
-  /// Whether two proxies may have come within the margin since the last tick, or may meet before the horizon has passed.
+  /// Whether two proxies may have come within the margin since the last tick, or may meet before the horizon has
+  /// passed.
   bool canMeet(const Structure& structure, ProxyId first, ProxyId second, double gap, double margin) const;
   /// Whether a body moved farther since the last tick than its max_speed allows.
   bool teleported(std::uint32_t body) const { return on() && teleported_[body]; }

@@ -126,15 +126,15 @@ TEST(KeptPose, KeepsItsAgeWhenTheClockIsSet) {
   EXPECT_EQ(pose.state(s(9), s(11), 0.0, {}), Freshness::fresh);
 }
 
-TEST(FrameClaims, KeepTheFirstWordUntilTheHolderHasCaughtUp) {
+TEST(FrameClaims, KeepARivalsFirstTransformUntilTheHolderHasCaughtUp) {
   FrameClaims claims;
   EXPECT_FALSE(claims.take(3, s(9)));
   claims.keep(3, {{"/b", "base"}, s(5), {}});
   claims.keep(3, {{"/b", "base"}, s(6), {}});
   EXPECT_FALSE(claims.take(3, s(4.9)));
-  const auto word = claims.take(3, s(5));
-  ASSERT_TRUE(word);
-  EXPECT_EQ(word->stamp, s(5));
+  const auto rival = claims.take(3, s(5));
+  ASSERT_TRUE(rival);
+  EXPECT_EQ(rival->stamp, s(5));
   EXPECT_FALSE(claims.take(3, s(9)));
 }
 

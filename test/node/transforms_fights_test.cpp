@@ -15,9 +15,7 @@ using msg::WorldState;
 std::unique_ptr<ChildProcess> rivalOf(const std::string& parent) {
   const std::string message = "{transforms: [{header: {stamp: now, frame_id: " + parent +
                               "}, child_frame_id: b, transform: {translation: {x: 3.0}, rotation: {w: 1.0}}}]}";
-  const std::vector<std::string> command = {"rostopic", "pub",  "-s",
-                                            "-r",       "20",   "/tf",
-                                            "tf2_msgs/TFMessage", message};
+  const std::vector<std::string> command = {"rostopic", "pub", "-s", "-r", "20", "/tf", "tf2_msgs/TFMessage", message};
   return std::make_unique<ChildProcess>(command, "/dev/null", std::map<std::string, std::string>{});
 }
 
@@ -41,8 +39,8 @@ TEST(TransformFights, AreReportedWithBothPublishersWhileTheyLastAndNotForLong) {
     EXPECT_TRUE(node.heard().status.back()->contested_frames.empty());
 
     std::unique_ptr<ChildProcess> rival = rivalOf(parent);
-    const auto status = node.waitForStatus("the fight is listed",
-                                           [](const msg::Status& s) { return !s.contested_frames.empty(); });
+    const auto status =
+        node.waitForStatus("the fight is listed", [](const msg::Status& s) { return !s.contested_frames.empty(); });
     const std::string sentence = status->contested_frames.at(0);
     EXPECT_TRUE(says(sentence, "frame 'b' comes from /"));
     EXPECT_TRUE(says(sentence, ros::this_node::getName() + " with parent 'base'"));

@@ -9,10 +9,10 @@ namespace hgrid {
 namespace test {
 namespace {
 
-constexpr double kOverlap = 0.6;   // [s] sources that speak within this of each other may be in a dispute
+constexpr double kOverlap = 0.6;  // [s] sources that speak within this of each other may be in a dispute
 constexpr double kOfAnotherTime = -1e9;
 constexpr double kLongestGap = 10.0;  // [s] ~tf_cache: nothing is known between statements that are farther apart
-constexpr double kMemory = 4.0;    // [s] how long a dispute lasts at most after its last turn
+constexpr double kMemory = 4.0;       // [s] how long a dispute lasts at most after its last turn
 constexpr double kNotice = 0.5;  // [s] their stamps may be so far apart, and what is compared first may agree by chance
 constexpr std::ptrdiff_t kFight = 4;  // as many turns before that, and since, are a fight that goes on
 
@@ -22,12 +22,13 @@ void FreshnessModel::noteSource(Frame& frame, const Statement& statement, double
   const std::string source = statement.is_static ? "/tf_static" : statement.publisher;
   const bool same_parent = !frame.last || frame.last->parent == statement.parent;
   const bool other = !frame.source.empty() && frame.source != source;
-  if ((other || (!same_parent && !statement.is_static)) && now - frame.heard < std::max(kOverlap, 2.5 * frame.longest_period)) {
+  if ((other || (!same_parent && !statement.is_static)) &&
+      now - frame.heard < std::max(kOverlap, 2.5 * frame.longest_period)) {
     if (other || frame.former_parent == statement.parent) frame.turns.push_back(now);
     if (other) frame.disputed_until = std::max(frame.disputed_until, now + kMemory);
   }
-  const bool on_both = (other && (statement.is_static || frame.source == "/tf_static")) ||
-                       (frame.fixed && !statement.is_static);
+  const bool on_both =
+      (other && (statement.is_static || frame.source == "/tf_static")) || (frame.fixed && !statement.is_static);
   if (on_both) frame.disputed_until = 1e9;
   if (!same_parent) {
     // A parent that was left a short while ago and comes again is an alternation, whoever says it.
@@ -213,7 +214,9 @@ bool FreshnessModel::isSupported(const std::string& frame, double x, double stam
   const auto found = heard_.find(frame);
   if (found == heard_.end()) return false;
   const Frame& heard = found->second;
-  const auto supports = [&](const Statement& statement) { return isSupported(statement.parent, x - statement.x, stamp); };
+  const auto supports = [&](const Statement& statement) {
+    return isSupported(statement.parent, x - statement.x, stamp);
+  };
   if (std::any_of(heard.all_fixed.begin(), heard.all_fixed.end(), supports)) return true;
   for (const Statement& from : heard.all) {
     for (const Statement& to : heard.all) {

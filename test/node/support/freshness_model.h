@@ -19,8 +19,8 @@ struct Statement {
 };
 
 /// Where each frame was last known to be, and when: the witness for the node. It keeps every statement and reads
-/// definitions off them; it shares no code with the node. A frame is known between two statements of one publisher in one
-/// parent that follow each other.
+/// definitions off them; it shares no code with the node. A frame is known between two statements of one publisher in
+/// one parent that follow each other.
 ///
 /// Times are in s. All frames move along x; the world frame is "base".
 class FreshnessModel {
@@ -59,12 +59,12 @@ class FreshnessModel {
     std::optional<Statement> fixed, last;
     std::optional<double> newest;
     double step = 0.0, longest_period = 0.0;  // [s]
-    double claim_begin = -1e18;  // stamp of the first statement in a row of one publisher in one parent
+    double claim_begin = -1e18;               // stamp of the first statement in a row of one publisher in one parent
     double heard = -1e9, disputed_until = -1e9;
     std::string source, former_parent;
-    std::vector<double> turns;                                           // when another source than before spoke
-    std::map<std::pair<std::string, std::string>, ByStamp> by_claim;     // by publisher and parent, never forgotten
-    std::vector<Statement> all_fixed, all;  // as they arrived
+    std::vector<double> turns;                                        // when another source than before spoke
+    std::map<std::pair<std::string, std::string>, ByStamp> by_claim;  // by publisher and parent, never forgotten
+    std::vector<Statement> all_fixed, all;                            // as they arrived
   };
 
   void noteSource(Frame& frame, const Statement& statement, double now);

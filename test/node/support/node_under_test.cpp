@@ -158,7 +158,8 @@ msg::Status::ConstPtr NodeUnderTest::waitForTransforms(std::uint64_t count) {
     std::uint64_t processed = 0;
     for (const msg::Counter& counter : status.counters) {
       const bool verdict = counter.name == "tf.accepted" || counter.name == "tf.too_old" ||
-                           counter.name == "tf.rival" || counter.name.rfind("tf.refused.", 0) == 0 || counter.name.rfind("tf.ignored.", 0) == 0;
+                           counter.name == "tf.rival" || counter.name.rfind("tf.refused.", 0) == 0 ||
+                           counter.name.rfind("tf.ignored.", 0) == 0;
       if (verdict) processed += counter.value;
     }
     return processed >= count;

@@ -50,7 +50,8 @@ void SimulatedWorld::wait(double duration) {
 Moment SimulatedWorld::moment() const {
   Moment moment;
   moment.ros = atStart(now_);
-  moment.steady = std::chrono::steady_clock::time_point(std::chrono::nanoseconds(std::llround(1e9 * (500.0 + steady_))));
+  moment.steady =
+      std::chrono::steady_clock::time_point(std::chrono::nanoseconds(std::llround(1e9 * (500.0 + steady_))));
   return moment;
 }
 
