@@ -24,6 +24,8 @@ class TransformNumbers : public ::testing::Test {
     setup.params = dict({{"stale_after", 3600.0}, {"lost_after", 3600.0}, {"late_after", 3600.0}});
     setup.beside["robot_description"] = balls({"a", "b", "c"});
     node_ = std::make_unique<NodeUnderTest>(setup);
+    send(at(0));
+    node_->waitForComplete();  // the robot may be loaded after its first transforms
   }
   static void TearDownTestSuite() {
     node_.reset();
