@@ -24,7 +24,7 @@ class Output {
     return next_;
   }
   void wrote(Found* end) { next_ = end; }
-  bool full() const { return sink_->full; }
+  bool full() const { return full_; }
   void close() { sink_->next = next_; }
 
  private:
@@ -33,9 +33,11 @@ class Output {
     sink_->grow(sink_);
     next_ = sink_->next;
     limit_ = sink_->limit;
+    full_ = sink_->full;
   }
   Sink<Found>* sink_;
   Found *next_, *limit_;
+  bool full_ = false;
 };
 
 }  // namespace
