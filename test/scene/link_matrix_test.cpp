@@ -95,6 +95,17 @@ TEST(LinkMatrix, SeveralJointsInOnePlaceAreOneJointAndOthersAreNot) {
   EXPECT_EQ(ends({-0.3}), Origin::none);
 }
 
+TEST(LinkMatrix, TheReasonOfAnAdjacentPairNamesAtMostEightJoints) {
+  const RobotModel two = chain({0.0});
+  EXPECT_EQ(matrixOf(two).adjacencyReason(2, 0),
+            "the 2 joints 'empty_joint', 'b_joint' connect their rigid groups in one place, without geometry between "
+            "them");
+  const RobotModel many = chain(std::vector<double>(10, 0.0));
+  const std::string reason = matrixOf(many).adjacencyReason(0, std::uint32_t(many.links.size() - 1));
+  EXPECT_TRUE(says(reason, "the 11 joints 'empty_joint', 'empty0_joint',"));
+  EXPECT_TRUE(says(reason, "'empty6_joint', ... connect their rigid groups"));
+}
+
 TEST(LinkMatrix, JointOriginsAreComparedThroughFixedJoints) {
   for (const double offset : {0.0, 0.02}) {
     RobotModel model = chain({0.0});
