@@ -16,7 +16,8 @@ namespace {
 /// Whether nothing bounds where the body can be, or how far it extends.
 bool canBeAnywhere(const Body& body, const BodyPose& pose) {
   if (!body.covered && !body.waived) return true;
-  if (pose.state == Freshness::frozen) return true;  // the clock does not say how old the pose is
+  // FROZEN: the clock does not say how old the pose is. INVALID: newer data was refused, or publishers contradict it.
+  if (pose.state == Freshness::frozen || pose.state == Freshness::invalid) return true;
   if (isCloud(body) && pose.state >= Freshness::lost) return true;  // its cells are gone
   return pose.state == Freshness::unplaced || !(pose.reach <= Snapshot::kQueryReach);
 }

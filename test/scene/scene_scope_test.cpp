@@ -101,6 +101,18 @@ TEST(Scope, ALostBodyMakesUnknownOnlyWhatItCanHaveReached) {
   EXPECT_EQ(snapshot.nearest(Eigen::Vector3d(0, 6.1, 0), 0.5, {}).verdict, Verdict::clear);
 }
 
+TEST(Scope, ABodyWhoseNewestDataContradictsItsPoseCanBeAnywhere) {
+  for (const Freshness state : {Freshness::frozen, Freshness::invalid}) {
+    SCOPED_TRACE(name(state));
+    Cell cell;
+    cell.scene.setState(cell.link, state, 0.01);
+    const QueryAnswer answer = cell.now().query(kPlace, {});
+    EXPECT_EQ(answer.verdict, Verdict::unknown);
+    EXPECT_EQ(answer.because, Unknown::incomplete);
+    EXPECT_EQ(cell.snapshot->query(kPlace, scopeOf({"robot/arm"})).verdict, Verdict::clear);
+  }
+}
+
 TEST(Scope, WhatIsNearALostBodyIsUnknownAsFarAsTheBodyCanHaveMoved) {
   Cell cell;
   cell.scene.setState(cell.link, Freshness::lost, 6.0);  // 3 m; the table is 4 m away
@@ -239,7 +251,7 @@ class RandomScopes {
     const BodyPose& pose = snapshot_->poses()[i];
     if (!isMeant(scope, body.name)) return;
     const bool anywhere = (!body.covered && !body.waived) || pose.state == Freshness::unplaced ||
-                          pose.state == Freshness::frozen;
+                          pose.state == Freshness::frozen || pose.state == Freshness::invalid;
     const bool old = pose.state >= Freshness::stale || pose.age > SceneOptions().growth_after;
     const double reach = old && pose.age > 0.0 ? body.max_speed * pose.age : 0.0;
     const Aabb& box = snapshot_->boxes()[snapshot_->structure().first_proxy[i]];
