@@ -94,7 +94,7 @@ install_missing() {
 build() {
   local out=$root/build/release
   local -a options=(
-    -DCMAKE_BUILD_TYPE=Release "-DCATKIN_DEVEL_PREFIX=$root/devel" "-DCMAKE_INSTALL_PREFIX=$root/build/install"
+    -DCMAKE_BUILD_TYPE=Release "-DCATKIN_DEVEL_PREFIX=$root/devel"
     -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 "$@"
   )
   if [[ ! -f $out/Makefile || $(cat "$out/.options" 2>/dev/null) != "${options[*]}" ]]; then

@@ -248,7 +248,9 @@ void TfIntake::takeStatic(std::uint32_t number, const Arrival& arrival) {
     ledger_.count("tf.ignored.CONFLICT");
     return;
   }
-  if (!frame.moving_in_buffer) frame.static_in_buffer = feed(arrival.transform, true, arrival.publisher);
+  if (!moved || frame.static_in_buffer) {  // tf2 cannot make a static frame of one that moved
+    frame.static_in_buffer = feed(arrival.transform, true, arrival.publisher);
+  }
   hangOn(number, arrival.parent());
   Frame& placed = frames_[number];  // hangOn() may have added a frame
   const Sample sample{Time(0), placed.parent, toFramePose(arrival.transform.transform)};
@@ -322,8 +324,8 @@ void TfIntake::takeMoving(std::uint32_t number, const Arrival& arrival) {
   if (!first && stamp < frame.newest.stamp && !was_ahead) return takeOlder(number, arrival);
   const bool other = !first && (frame.publisher != arrival.publisher || !isInParent(frame, arrival.parent()));
   if (other) changeClaim(number, arrival);
-  const bool outage = !first && !other && stamp > frame.newest.stamp + cache_;
-  if (outage) addSeam(frames_[number], stamp);  // tf2 dropped the transform before
+  if (!first && !other && stamp > frame.newest.stamp + cache_)
+    addSeam(frames_[number], stamp);  // tf2 dropped the old one
   takeNewest(number, arrival, !first && !other && !was_ahead);
 }
 
@@ -353,7 +355,6 @@ void TfIntake::takeNewest(std::uint32_t number, const Arrival& arrival, bool con
   frame.last = arrival.transform.transform;
   frame.moves = true;
   if (frame.static_in_buffer) remember(frame);
-  if (!frame.static_in_buffer) frame.moving_in_buffer = true;
   accept(frame);
   if (frame.claimed) compareWithRival(number, arrival.reading);
 }
@@ -365,7 +366,7 @@ void TfIntake::takeOlder(std::uint32_t number, const Arrival& arrival) {
   ledger_.count("tf.out_of_order");
   const Time stamp = arrival.stamp();
   const bool before_claim = !frame.seams.empty() && stamp < frame.seams.back().end;
-  if (before_claim || frame.static_in_buffer || !feed(arrival.transform, false, arrival.publisher)) {
+  if (before_claim || !feed(arrival.transform, false, arrival.publisher)) {
     ledger_.count("tf.too_old");
     return;
   }

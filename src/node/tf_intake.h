@@ -53,7 +53,6 @@ class TfIntake {
     bool placed = false;           // something placed it in a parent
     bool is_parent = false;
     bool from_tf = false, from_static = false;  // it came there at least once
-    bool moving_in_buffer = false;              // tf2 stores it with times, for good
     bool static_in_buffer = false;              // tf2 stores it as static, for good: one pose without a time
     std::vector<Sample> history;                // static_in_buffer, moves: the newest transforms, the newest last
     bool claimed = false;                       // claims() may know of it

@@ -78,21 +78,6 @@ TEST_F(Poison, AFrameThatMovedForAWhileIsStaticAgainWhenItIsFixedAnew) {
   expectFollowed("a", 3.0);
 }
 
-TEST_F(Poison, AStaticTransformDoesNotEndTheHistoryOfAFrameThatMovesAgain) {
-  stream(0.5, 1.0);
-  idle(4.0);
-  for (int i = 0; i < 2; ++i) world_.fix("/setup", "base", "a", 3.0, 1e9);
-  idle(0.1);
-  expectFollowed("a", 3.0);
-  for (int i = 0; i < 100; ++i) {  // b lags by 50 ms, so the tick does too
-    world_.wait(0.02);
-    world_.sendNow("/robot", "base", "a", 7.0);
-    world_.send("/slow", "base", "b", 5.0, world_.now() - 0.05);
-    world_.tick();
-  }
-  expectFollowed("a", 7.0);
-}
-
 TEST_F(Poison, OneBadTransformOnTfDoesNotInvalidateAStaticFrame) {
   world_.fix("/setup", "base", "a", 3.0);
   idle(0.1);
