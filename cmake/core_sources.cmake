@@ -1,73 +1,73 @@
 # The core: C++17 and Eigen, no ROS. Shared by the package and by the project in test/.
 set(HGRID_CORE_SOURCES
-  src/broadphase/engine.cpp
-  src/broadphase/hgrid.cpp
-  src/broadphase/isa.cpp
-  src/broadphase/layer.cpp
-  src/broadphase/pair_collection.cpp
-  src/broadphase/pair_search.cpp
-  src/broadphase/plan.cpp
-  src/broadphase/queries.cpp
-  src/broadphase/static_grid.cpp
-  src/broadphase/static_grid_search.cpp
-  src/broadphase/workers.cpp
+  src/refusal.cpp
   src/geometry/aabb.cpp
   src/geometry/pose.cpp
   src/geometry/segment.cpp
   src/geometry/shape.cpp
   src/geometry/sphere.cpp
-  src/narrowphase/enclosure.cpp
-  src/narrowphase/gjk.cpp
-  src/narrowphase/narrow_phase.cpp
-  src/refusal.cpp
-  src/scene/allowed_matrix.cpp
-  src/scene/cloud_cells.cpp
-  src/scene/commit.cpp
-  src/scene/completeness.cpp
-  src/scene/explain.cpp
-  src/scene/group_tree.cpp
-  src/scene/horizon.cpp
-  src/scene/link_matrix.cpp
-  src/scene/map_gap.cpp
-  src/scene/map_meter.cpp
-  src/scene/map_pairs.cpp
-  src/scene/motion_bound.cpp
-  src/scene/name.cpp
-  src/scene/name_index.cpp
-  src/scene/nearest_names.cpp
-  src/scene/pair_choice.cpp
-  src/scene/pair_events.cpp
-  src/scene/pair_filter.cpp
-  src/scene/pair_margins.cpp
-  src/scene/pair_meter.cpp
-  src/scene/pair_rule.cpp
-  src/scene/pair_tracker.cpp
-  src/scene/robot_model.cpp
-  src/scene/rule_book.cpp
-  src/scene/scene.cpp
-  src/scene/self_filter.cpp
-  src/scene/self_pairs.cpp
-  src/scene/snapshot.cpp
-  src/scene/snapshot_doubt.cpp
-  src/scene/snapshot_maps.cpp
-  src/scene/snapshot_nearest.cpp
-  src/scene/snapshot_queries.cpp
-  src/scene/snapshot_unmapped.cpp
-  src/scene/source.cpp
+  src/broadphase/hgrid/engine.cpp
+  src/broadphase/hgrid/hgrid.cpp
+  src/broadphase/hgrid/layer.cpp
+  src/broadphase/hgrid/pair_collection.cpp
+  src/broadphase/hgrid/pair_search.cpp
+  src/broadphase/hgrid/plan.cpp
+  src/broadphase/hgrid/queries.cpp
+  src/broadphase/isa.cpp
+  src/broadphase/workers.cpp
+  src/maps/cloud_cells.cpp
+  src/maps/map_gap.cpp
+  src/maps/self_filter.cpp
+  src/maps/static_grid.cpp
+  src/maps/static_grid_search.cpp
+  src/narrow/enclosure.cpp
+  src/narrow/gjk.cpp
+  src/narrow/narrow_phase.cpp
+  src/bodies/group_tree.cpp
+  src/bodies/link_matrix.cpp
+  src/bodies/motion_bound.cpp
+  src/bodies/name.cpp
+  src/bodies/name_index.cpp
+  src/bodies/nearest_names.cpp
+  src/bodies/robot_model.cpp
+  src/bodies/self_pairs.cpp
+  src/bodies/source.cpp
+  src/pairs/pair_choice.cpp
+  src/pairs/pair_filter.cpp
+  src/pairs/pair_margins.cpp
+  src/pairs/pair_rule.cpp
+  src/pairs/pair_tracker.cpp
+  src/pairs/rule_book.cpp
+  src/world/commit.cpp
+  src/world/completeness.cpp
+  src/world/horizon.cpp
+  src/world/map_pairs.cpp
+  src/world/pair_events.cpp
+  src/world/scene.cpp
+  src/world/snapshot.cpp
+  src/queries/snapshot_doubt.cpp
+  src/queries/snapshot_maps.cpp
+  src/queries/snapshot_nearest.cpp
+  src/queries/snapshot_queries.cpp
+  src/queries/snapshot_unmapped.cpp
+  src/distances/map_meter.cpp
+  src/distances/pair_meter.cpp
+  src/explain/allowed_matrix.cpp
+  src/explain/explain.cpp
 )
 set(HGRID_ADAPTER_SOURCES
-  src/adapters/fcl.cpp
-  src/adapters/fcl_mesh.cpp
-  src/adapters/fcl_solid.cpp
-  src/adapters/mesh.cpp
-  src/adapters/octomap.cpp
-  src/adapters/octomap_header.cpp
-  src/adapters/point_cloud.cpp
-  src/adapters/resource.cpp
-  src/adapters/srdf.cpp
-  src/adapters/urdf.cpp
-  src/adapters/urdf_tree.cpp
-  src/adapters/xml.cpp
+  src/adapters/fcl/fcl.cpp
+  src/adapters/fcl/fcl_mesh.cpp
+  src/adapters/fcl/fcl_solid.cpp
+  src/adapters/mesh/mesh.cpp
+  src/adapters/mesh/resource.cpp
+  src/adapters/octomap/octomap.cpp
+  src/adapters/octomap/octomap_header.cpp
+  src/adapters/point_cloud/point_cloud.cpp
+  src/adapters/urdf/srdf.cpp
+  src/adapters/urdf/urdf.cpp
+  src/adapters/urdf/urdf_tree.cpp
+  src/adapters/urdf/xml.cpp
 )
 
 # The inner loops of the broad phase, once per instruction set; which is used is decided when the program runs.

@@ -10,8 +10,8 @@
 
 #include "bench/measure/turns.h"
 #include "hgrid_proximity/adapters/point_cloud.h"
-#include "hgrid_proximity/broadphase/static_grid.h"
-#include "hgrid_proximity/scene/cloud_cells.h"
+#include "hgrid_proximity/maps/cloud_cells.h"
+#include "hgrid_proximity/maps/static_grid.h"
 
 namespace hgrid {
 namespace bench {

@@ -7,7 +7,7 @@
 
 #include "bench/maps/map.h"
 #include "bench/maps/map_peer.h"
-#include "hgrid_proximity/broadphase/static_grid.h"
+#include "hgrid_proximity/maps/static_grid.h"
 
 namespace hgrid {
 namespace bench {

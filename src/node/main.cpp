@@ -10,9 +10,9 @@
 
 #include <exception>
 
-#include "name_watch.h"
-#include "proximity_node.h"
-#include "shutdown.h"
+#include "node/name_watch.h"
+#include "node/proximity_node.h"
+#include "node/shutdown.h"
 
 int main(int argc, char** argv) {
   hgrid::shutDownOnSignals();  // first: ros::init() may wait for the master

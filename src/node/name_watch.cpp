@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "name_watch.h"
+#include "node/name_watch.h"
 
 #include <ros/console.h>
 #include <ros/init.h>

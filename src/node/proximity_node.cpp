@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "proximity_node.h"
+#include "node/proximity_node.h"
 
 #include <ros/init.h>
 #include <ros/names.h>
@@ -9,11 +9,11 @@
 #include <optional>
 #include <utility>
 
-#include "distances_messages.h"
-#include "guarded.h"
 #include "hgrid_proximity/adapters/fcl.h"
-#include "hgrid_proximity/scene/name.h"
-#include "map_markers.h"
+#include "hgrid_proximity/bodies/name.h"
+#include "node/messages/distances_messages.h"
+#include "node/messages/map_markers.h"
+#include "node/services/guarded.h"
 
 namespace hgrid {
 namespace {

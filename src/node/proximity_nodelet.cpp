@@ -5,7 +5,7 @@
 #include <memory>
 #include <pluginlib/class_list_macros.hpp>
 
-#include "proximity_node.h"
+#include "node/proximity_node.h"
 
 namespace hgrid_proximity {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "shutdown.h"
+#include "node/shutdown.h"
 
 #include <ros/init.h>
 #include <unistd.h>

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "../adapters/mesh_stream.h"
+#include "adapters/mesh/mesh_stream.h"
 #include "hgrid_proximity/refusal.h"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "hgrid_proximity/scene/body.h"
+#include "hgrid_proximity/bodies/body.h"
 
 namespace hgrid {
 namespace test {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "hgrid_proximity/adapters/fcl.h"
-#include "hgrid_proximity/scene/pair_meter.h"
+#include "hgrid_proximity/distances/pair_meter.h"
 #include "test/support/maps.h"
 #include "test/support/solids.h"
 

@@ -13,7 +13,7 @@
 #include <cstring>
 #include <iterator>
 
-#include "src/adapters/mesh_stream.h"
+#include "src/adapters/mesh/mesh_stream.h"
 #include "test/adapters/temporary_folder.h"
 #include "test/support/refusals.h"
 #include "test/support/robots.h"

@@ -12,7 +12,7 @@
 
 #include "hgrid_proximity/adapters/fcl.h"
 #include "hgrid_proximity/adapters/srdf.h"
-#include "hgrid_proximity/scene/pair_meter.h"
+#include "hgrid_proximity/distances/pair_meter.h"
 #include "test/adapters/fcl_tree.h"
 #include "test/adapters/fcl_witness.h"
 #include "test/support/robots.h"

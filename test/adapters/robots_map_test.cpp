@@ -11,7 +11,7 @@
 
 #include "hgrid_proximity/adapters/fcl.h"
 #include "hgrid_proximity/adapters/octomap.h"
-#include "hgrid_proximity/scene/pair_meter.h"
+#include "hgrid_proximity/distances/pair_meter.h"
 #include "test/support/robots.h"
 
 namespace hgrid {

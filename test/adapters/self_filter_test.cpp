@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
 // What is left of a map without the robot's own cells: against a look at every finest cell.
-#include "hgrid_proximity/scene/self_filter.h"
+#include "hgrid_proximity/maps/self_filter.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "hgrid_proximity/scene/allowed_matrix.h"
+#include "hgrid_proximity/explain/allowed_matrix.h"
 #include "test/support/refusals.h"
 #include "test/support/robots.h"
 

@@ -9,7 +9,7 @@
 #include <map>
 #include <string>
 
-#include "src/broadphase/plan.h"
+#include "src/broadphase/hgrid/plan.h"
 #include "test/support/failing_allocations.h"
 #include "test/support/grids.h"
 #include "test/support/worlds.h"

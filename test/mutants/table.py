@@ -11,20 +11,20 @@ BOXES_BODY = "broadphase/kernels/boxes_body.h"
 LINE_BODY = "broadphase/kernels/line_body.h"
 LINE_FILTER = "broadphase/kernels/line_filter_body.h"
 AVX2 = "broadphase/kernels/simd_avx2.h"
-LAYER = "broadphase/layer.cpp"
-ENGINE = "broadphase/engine.cpp"
-PAIRS = "broadphase/pair_search.cpp"
-COLLECTION = "broadphase/pair_collection.cpp"
-HGRID = "broadphase/hgrid.cpp"
-QUERIES = "broadphase/queries.cpp"
-SCENE = "scene/scene.cpp"
-COMMIT = "scene/commit.cpp"
-EVENTS = "scene/pair_events.cpp"
-BRICKS = "broadphase/static_grid_bricks.h"
-LINE = "broadphase/static_grid_line.h"
-MAPS = "scene/map_pairs.cpp"
-UNMAPPED = "scene/snapshot_unmapped.cpp"
-CLOUD = "scene/cloud_cells.cpp"
+LAYER = "broadphase/hgrid/layer.cpp"
+ENGINE = "broadphase/hgrid/engine.cpp"
+PAIRS = "broadphase/hgrid/pair_search.cpp"
+COLLECTION = "broadphase/hgrid/pair_collection.cpp"
+HGRID = "broadphase/hgrid/hgrid.cpp"
+QUERIES = "broadphase/hgrid/queries.cpp"
+SCENE = "world/scene.cpp"
+COMMIT = "world/commit.cpp"
+EVENTS = "world/pair_events.cpp"
+BRICKS = "maps/static_grid_bricks.h"
+LINE = "maps/static_grid_line.h"
+MAPS = "world/map_pairs.cpp"
+UNMAPPED = "queries/snapshot_unmapped.cpp"
+CLOUD = "maps/cloud_cells.cpp"
 
 MUTANTS = [
     ("boxes of a level look around without its reach", PAIRS_BODY,
@@ -132,7 +132,7 @@ MUTANTS = [
      "0.5 * options.margin + (", "0.25 * options.margin + ("),
     ("stale bodies do not grow in the grid", COMMIT,
      " + pose.growth", ""),
-    ("the gap is that of the farthest shapes", "scene/pair_choice.cpp",
+    ("the gap is that of the farthest shapes", "pairs/pair_choice.cpp",
      ": a.gap < b.gap", ": a.gap > b.gap"),
     ("a tick computes in the caller's rounding mode", COMMIT,
      "const DefaultFloatEnvironment environment;\n  using Clock", "using Clock"),
@@ -146,15 +146,15 @@ MUTANTS = [
      "if (now.is_cut && now.is_cut(", "if (false && now.is_cut("),
     ("any number of pairs may be on", EVENTS,
      "if (next_.size() + not_judged < most_) begin", "begin"),
-    ("a pair that truncation removed is interrupted", "scene/pair_tracker.cpp",
+    ("a pair that truncation removed is interrupted", "pairs/pair_tracker.cpp",
      "if (is_cut && room > 0 &&", "if (false &&"),
-    ("truncation keeps the first pairs by name", "scene/pair_choice.cpp",
+    ("truncation keeps the first pairs by name", "pairs/pair_choice.cpp",
      "return sorted_[a].gap != sorted_[b].gap ? sorted_[a].gap < sorted_[b].gap : a < b;", "return a < b;"),
     ("pairs with maps that are left out are not said", COMMIT,
      "snapshot.search_cut_ || !all_with_maps", "snapshot.search_cut_"),
-    ("allowed patterns hold in one order only", "scene/pair_filter.cpp",
+    ("allowed patterns hold in one order only", "pairs/pair_filter.cpp",
      "(as_first_[i] & as_second_[j]) | (as_second_[i] & as_first_[j])", "as_first_[i] & as_second_[j]"),
-    ("a new numbering leaves the pairs unsorted", "scene/pair_tracker.cpp",
+    ("a new numbering leaves the pairs unsorted", "pairs/pair_tracker.cpp",
      "{std::min(a, b), std::max(a, b), pair.since}", "{a, b, pair.since}"),
     ("every brick of a map is taken for the first below its parent", BRICKS,
      "level.first_below[brick.number] + before", "level.first_below[brick.number]"),
@@ -179,6 +179,6 @@ MUTANTS = [
      "newest = std::max(newest, (known++)->stamp);", "newest = (known++)->stamp;"),
     ("just below zero lies in the cell above", CLOUD,
      "whole - (cells < static_cast<double>(whole) ? 1 : 0)", "whole"),
-    ("the box around a turned box is too small", "scene/map_gap.cpp",
+    ("the box around a turned box is too small", "maps/map_gap.cpp",
      "map_from_world.linear().cwiseAbs()", "map_from_world.linear()"),
 ]

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
-#include "hgrid_proximity/scene/body.h"
+#include "hgrid_proximity/bodies/body.h"
 
 namespace hgrid {
 namespace test {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "hgrid_proximity/scene/snapshot.h"
+#include "hgrid_proximity/world/snapshot.h"
 
 namespace hgrid {
 namespace test {

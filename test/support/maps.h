@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "hgrid_proximity/scene/map_cells.h"
+#include "hgrid_proximity/maps/map_cells.h"
 #include "test/support/random.h"
 #include "test/support/scenes.h"
 

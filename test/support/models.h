@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "hgrid_proximity/scene/link_matrix.h"
-#include "hgrid_proximity/scene/robot_model.h"
+#include "hgrid_proximity/bodies/link_matrix.h"
+#include "hgrid_proximity/bodies/robot_model.h"
 #include "test/support/bodies.h"
 #include "test/support/shapes.h"
 

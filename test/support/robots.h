@@ -11,7 +11,7 @@
 
 #include "hgrid_proximity/adapters/mesh.h"
 #include "hgrid_proximity/adapters/urdf.h"
-#include "hgrid_proximity/scene/scene.h"
+#include "hgrid_proximity/world/scene.h"
 #include "test/support/random.h"
 
 namespace hgrid {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "hgrid_proximity/scene/pair_rule.h"
+#include "hgrid_proximity/pairs/pair_rule.h"
 #include "test/support/models.h"
 
 namespace hgrid {

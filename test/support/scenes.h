@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "hgrid_proximity/scene/scene.h"
+#include "hgrid_proximity/world/scene.h"
 #include "test/support/bodies.h"
 #include "test/support/oracle.h"
 #include "test/support/shapes.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "hgrid_proximity/scene/snapshot.h"
+#include "hgrid_proximity/world/snapshot.h"
 #include "test/support/events.h"
 
 namespace hgrid {

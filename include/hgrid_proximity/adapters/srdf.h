@@ -5,7 +5,7 @@
 #include <string>
 
 #include "hgrid_proximity/adapters/urdf.h"
-#include "hgrid_proximity/scene/link_matrix.h"
+#include "hgrid_proximity/bodies/link_matrix.h"
 
 namespace hgrid {
 

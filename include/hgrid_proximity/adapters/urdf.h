@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "hgrid_proximity/scene/robot_model.h"
+#include "hgrid_proximity/bodies/robot_model.h"
 
 namespace hgrid {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "src/node/world.h"
+#include "src/node/tick/world.h"
 
 namespace hgrid {
 namespace test {

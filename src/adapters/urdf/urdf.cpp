@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "hgrid_proximity/adapters/urdf.h"
+
+#include <console_bridge/console.h>
+#include <urdf_model/model.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <map>
+#include <mutex>
+
+#include "adapters/urdf/urdf_tree.h"
+#include "adapters/urdf/xml.h"
+#include "hgrid_proximity/bodies/name.h"
+
+namespace hgrid {
+namespace {
+
+/// urdfdom reports through a global log: while this lives, its first error is kept here, not printed.
+/// One at a time, since the log has one handler.
+class UrdfdomErrors : private console_bridge::OutputHandler {
+ public:
+  UrdfdomErrors() : lock_(mutex()) { console_bridge::useOutputHandler(this); }
+  ~UrdfdomErrors() override { console_bridge::restorePreviousOutputHandler(); }
+  const std::string& first() const { return first_; }
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex instance;
+    return instance;
+  }
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && first_.empty()) first_ = printable(text, 200);
+  }
+
+  std::lock_guard<std::mutex> lock_;
+  std::string first_;
+};
+
+std::string printed(const tinyxml2::XMLNode& node) {
+  tinyxml2::XMLPrinter printer(nullptr, true);
+  node.Accept(&printer);
+  return printer.CStr();
+}
+
+Pose poseOf(const urdf::Pose& pose, const std::string& what) {
+  double x = 0.0, y = 0.0, z = 0.0, w = 1.0;
+  pose.rotation.getQuaternion(x, y, z, w);
+  return checkedPose({pose.position.x, pose.position.y, pose.position.z}, {x, y, z, w}, what);
+}
+
+Eigen::Vector3d vectorOf(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
+
+/// The text of a <collision> with the origin and the geometry of a <collision> or <visual> element.
+std::string asCollision(const tinyxml2::XMLElement& element) {
+  tinyxml2::XMLDocument document;
+  tinyxml2::XMLElement* collision = document.NewElement("collision");
+  document.InsertEndChild(collision);
+  for (auto* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+    const std::string tag = child->Name();
+    if (tag == "origin" || tag == "geometry") collision->InsertEndChild(child->DeepClone(&document));
+  }
+  return printed(document);
+}
+
+/// Reads one <collision> or <visual> with urdfdom, in a robot of its own. An element that urdfdom drops silently is
+/// noticed that way and does not affect the other elements of the link.
+urdf::CollisionSharedPtr parseShape(const tinyxml2::XMLElement& element, const std::string& what) {
+  const tinyxml2::XMLElement* geometry = element.FirstChildElement("geometry");
+  const std::string shown = printable(printed(element), 200);
+  const tinyxml2::XMLElement* shape = geometry == nullptr ? nullptr : geometry->FirstChildElement();
+  if (shape == nullptr || shape->NextSiblingElement() != nullptr ||
+      geometry->NextSiblingElement("geometry") != nullptr) {
+    throw Refusal(Code::parse, what + " reads " + shown + "; it must have one <geometry> with one shape in it");
+  }
+  const UrdfdomErrors errors;
+  const auto robot = urdf::parseURDF("<robot name=\"r\"><link name=\"l\">" + asCollision(element) + "</link></robot>");
+  const auto link = robot ? robot->getRoot() : nullptr;
+  if (!link || link->collision_array.size() != 1 || !link->collision_array.front()->geometry) {
+    throw Refusal(Code::parse,
+                  what + " cannot be read: " + shown + (errors.first().empty() ? "" : ": " + errors.first()));
+  }
+  return link->collision_array.front();
+}
+
+BodyShape bodyShapeOf(const urdf::Collision& collision, const std::string& what, const MeshSource& meshes,
+                      const ShapeLimits& limits) {
+  const Pose origin = poseOf(collision.origin, what + ": origin");
+  checkWithin(origin.translation(), limits.max_size, what + ": origin");
+  const urdf::Geometry& geometry = *collision.geometry;
+  switch (geometry.type) {
+    case urdf::Geometry::SPHERE:
+      return {Shape::sphere(dynamic_cast<const urdf::Sphere&>(geometry).radius, limits),
+              origin,
+              0.0,
+              {},
+              Eigen::Vector3d::Ones()};
+    case urdf::Geometry::BOX:
+      return {Shape::box(vectorOf(dynamic_cast<const urdf::Box&>(geometry).dim), limits),
+              origin,
+              0.0,
+              {},
+              Eigen::Vector3d::Ones()};
+    case urdf::Geometry::CYLINDER: {
+      const auto& cylinder = dynamic_cast<const urdf::Cylinder&>(geometry);
+      return {Shape::cylinder(cylinder.length, cylinder.radius, limits), origin, 0.0, {}, Eigen::Vector3d::Ones()};
+    }
+    case urdf::Geometry::MESH: {
+      const auto& mesh = dynamic_cast<const urdf::Mesh&>(geometry);
+      const Eigen::Vector3d scale = vectorOf(mesh.scale);
+      return {Shape::mesh(meshes(mesh.filename, scale), limits), origin, 0.0, mesh.filename, scale};
+    }
+  }
+  throw Refusal(Code::unsupported, what + " has a shape of a kind that is not supported");
+}
+
+/// Reads all elements of a link with this tag, <collision> or <visual>. @returns whether there are any
+bool readShapes(const tinyxml2::XMLElement& element, const char* tag, RobotLink& link, const MeshSource& meshes,
+                const ShapeLimits& limits) {
+  int number = 0;
+  for (auto* shape = element.FirstChildElement(tag); shape != nullptr; shape = shape->NextSiblingElement(tag)) {
+    const std::string what =
+        "<" + std::string(tag) + "> " + std::to_string(++number) + " of link '" + printable(link.name) + "'";
+    try {
+      link.shapes.push_back(bodyShapeOf(*parseShape(*shape, what), what, meshes, limits));
+    } catch (const Refusal& refusal) {
+      const std::string sentence = refusal.what();
+      link.unreadable.emplace_back(refusal.code(), sentence.rfind(what, 0) == 0 ? sentence : what + ": " + sentence);
+    }
+  }
+  return number > 0;
+}
+
+/// Finds the joint that urdfdom cannot read, by reading each alone: its own message does not always name it.
+[[noreturn]] void nameUnreadableJoint(const tinyxml2::XMLElement& robot) {
+  for (auto* joint = robot.FirstChildElement("joint"); joint != nullptr; joint = joint->NextSiblingElement("joint")) {
+    tinyxml2::XMLDocument alone;
+    tinyxml2::XMLElement* root = alone.NewElement("robot");
+    alone.InsertEndChild(root);
+    root->SetAttribute("name", "r");
+    for (const char* end : {"parent", "child"}) {
+      tinyxml2::XMLElement* link = alone.NewElement("link");
+      link->SetAttribute("name", joint->FirstChildElement(end)->Attribute("link"));
+      root->InsertEndChild(link);
+    }
+    root->InsertEndChild(joint->DeepClone(&alone));
+    if (urdf::parseURDF(printed(alone))) continue;
+    throw Refusal(Code::parse, "joint '" + printable(joint->Attribute("name")) +
+                                   "' cannot be read: " + printable(printed(*joint), 300));
+  }
+  throw Refusal(Code::parse, "the URDF's links and joints cannot be read");
+}
+
+/// The robot's links and joints as urdfdom has them, without anything that could not matter to them.
+urdf::ModelInterfaceSharedPtr parseTree(const tinyxml2::XMLElement& robot) {
+  const UrdfdomErrors errors;
+  tinyxml2::XMLDocument bare;
+  tinyxml2::XMLElement* root = robot.ShallowClone(&bare)->ToElement();
+  bare.InsertEndChild(root);
+  for (auto* child = robot.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+    const std::string tag = child->Name();
+    if (tag == "link") root->InsertEndChild(child->ShallowClone(&bare));
+    if (tag == "joint") root->InsertEndChild(child->DeepClone(&bare));
+  }
+  if (const auto model = urdf::parseURDF(printed(bare))) {
+    if (model->getRoot()) return model;
+  }
+  nameUnreadableJoint(*root);
+}
+
+JointKind kindOf(const urdf::Joint& joint) {
+  switch (joint.type) {
+    case urdf::Joint::REVOLUTE:
+    case urdf::Joint::CONTINUOUS:
+      return JointKind::revolute;
+    case urdf::Joint::PRISMATIC:
+      return JointKind::prismatic;
+    case urdf::Joint::PLANAR:
+      return JointKind::planar;
+    case urdf::Joint::FLOATING:
+      return JointKind::floating;
+    default:
+      return JointKind::fixed;
+  }
+}
+
+RobotLink linkOf(const urdf::Link& source, int parent, const ShapeLimits& limits, std::vector<std::string>& warnings) {
+  checkLocal(source.name, "link name");
+  RobotLink link;
+  link.name = source.name;
+  link.parent = parent;
+  if (!source.parent_joint) return link;
+  const urdf::Joint& joint = *source.parent_joint;
+  const std::string what = "joint '" + printable(joint.name) + "'";
+  link.joint = joint.name;
+  link.joint_kind = kindOf(joint);
+  link.parent_from_joint = poseOf(joint.parent_to_joint_origin_transform, what + ": origin");
+  checkWithin(link.parent_from_joint.translation(), limits.max_size, what + ": origin");
+  const Eigen::Vector3d axis = vectorOf(joint.axis);
+  const bool has_axis = link.joint_kind != JointKind::fixed && link.joint_kind != JointKind::floating;
+  if (has_axis && axis.allFinite() && axis.norm() > 0.0) {
+    link.axis = axis.normalized();
+  } else if (has_axis) {
+    warnings.push_back(what + " has an axis of length " + text(axis.norm()) + "; x is taken for it");
+  }
+  if (joint.limits) {
+    link.max_velocity = joint.limits->velocity;
+    link.lower = joint.limits->lower;
+    link.upper = joint.limits->upper;
+  }
+  return link;
+}
+
+}  // namespace
+
+RobotModel readUrdf(const std::string& xml, const MeshSource& meshes, const DescriptionLimits& limits,
+                    const ShapeLimits& shape_limits, const VisualChoice& takes_visual) {
+  tinyxml2::XMLDocument document;
+  const tinyxml2::XMLElement& robot = parseXml(xml, limits, "the URDF", "robot", document);
+  checkTree(robot);
+  const urdf::ModelInterfaceSharedPtr tree = parseTree(robot);
+  if (tree->links_.size() > limits.max_links) {
+    throw Refusal(Code::limit, "the URDF has " + std::to_string(tree->links_.size()) + " links; at most " +
+                                   std::to_string(limits.max_links) + " are allowed");
+  }
+
+  RobotModel model;
+  model.name = tree->getName();
+  std::vector<urdf::LinkConstSharedPtr> open = {tree->getRoot()};
+  std::map<std::string, int> index;
+  for (std::size_t i = 0; i < open.size(); ++i) {  // breadth first: parents before children
+    const urdf::LinkConstSharedPtr link = open[i];
+    const int parent = link->getParent() ? index.at(link->getParent()->name) : -1;
+    index.emplace(link->name, static_cast<int>(i));
+    model.links.push_back(linkOf(*link, parent, shape_limits, model.warnings));
+    open.insert(open.end(), link->child_links.begin(), link->child_links.end());
+  }
+  for (auto* element = robot.FirstChildElement("link"); element != nullptr;
+       element = element->NextSiblingElement("link")) {
+    RobotLink& link = model.links[static_cast<std::size_t>(index.at(element->Attribute("name")))];
+    link.has_collision = readShapes(*element, "collision", link, meshes, shape_limits);
+    if (link.has_collision || !takes_visual || !takes_visual(link.name)) continue;
+    link.uses_visual = readShapes(*element, "visual", link, meshes, shape_limits);
+  }
+  findRigidGroups(model);
+  return model;
+}
+
+}  // namespace hgrid

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "adapters/urdf/urdf_tree.h"
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "hgrid_proximity/refusal.h"
+
+namespace hgrid {
+namespace {
+
+[[noreturn]] void refuse(const std::string& sentence) { throw Refusal(Code::parse, sentence); }
+
+std::string nameOf(const tinyxml2::XMLElement& element) {
+  const char* name = element.Attribute("name");
+  if (name == nullptr || *name == '\0') {
+    refuse(std::string("a <") + element.Name() + "> in line " + std::to_string(element.GetLineNum()) + " has no name");
+  }
+  return name;
+}
+
+std::string linkOf(const tinyxml2::XMLElement& joint, const char* end, const std::set<std::string>& links) {
+  const tinyxml2::XMLElement* element = joint.FirstChildElement(end);
+  const char* link = element == nullptr ? nullptr : element->Attribute("link");
+  const std::string what = "joint '" + printable(nameOf(joint)) + "'";
+  if (link == nullptr) refuse(what + " names no " + end + " link");
+  if (links.count(link) == 0) refuse(what + " names " + end + " link '" + printable(link) + "', which does not exist");
+  return link;
+}
+
+}  // namespace
+
+void checkTree(const tinyxml2::XMLElement& robot) {
+  std::set<std::string> links, joints;
+  for (auto* link = robot.FirstChildElement("link"); link != nullptr; link = link->NextSiblingElement("link")) {
+    const std::string name = nameOf(*link);
+    if (!links.insert(name).second) refuse("link '" + printable(name) + "' stands there twice; names must differ");
+  }
+  if (links.empty()) refuse("the URDF has no <link>; it must have at least one");
+
+  std::map<std::string, std::string> joint_of_child;
+  std::map<std::string, std::vector<std::string>> children;
+  for (auto* joint = robot.FirstChildElement("joint"); joint != nullptr; joint = joint->NextSiblingElement("joint")) {
+    const std::string name = nameOf(*joint);
+    if (!joints.insert(name).second) refuse("joint '" + printable(name) + "' stands there twice; names must differ");
+    const std::string parent = linkOf(*joint, "parent", links), child = linkOf(*joint, "child", links);
+    if (parent == child) refuse("joint '" + printable(name) + "' joins link '" + printable(child) + "' to itself");
+    const auto added = joint_of_child.emplace(child, name);
+    if (!added.second) {
+      refuse("link '" + printable(child) + "' is the child of joint '" + printable(added.first->second) +
+             "' and of joint '" + printable(name) + "'; a link has one parent");
+    }
+    children[parent].push_back(child);
+  }
+
+  std::vector<std::string> reached;
+  for (const std::string& link : links) {
+    if (joint_of_child.count(link) != 0) continue;
+    if (!reached.empty()) {
+      refuse("links '" + printable(reached.front()) + "' and '" + printable(link) +
+             "' both have no parent; there must be one root");
+    }
+    reached.push_back(link);
+  }
+  const std::string root = reached.empty() ? "" : reached.front();
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    const std::vector<std::string> next = children[reached[i]];
+    reached.insert(reached.end(), next.begin(), next.end());
+  }
+  const std::set<std::string> hanging(reached.begin(), reached.end());
+  for (const std::string& link : links) {
+    if (hanging.count(link) != 0) continue;
+    refuse("link '" + printable(link) + "' " +
+           (root.empty() ? "stands in a circle of joints, and there is no root link"
+                         : "is not reachable from the root link '" + printable(root) + "'") +
+           "; joints must form a tree");
+  }
+}
+
+}  // namespace hgrid

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "hgrid_proximity/bodies/link_matrix.h"
+
+#include <algorithm>
+
+#include "hgrid_proximity/bodies/robot_model.h"
+#include "hgrid_proximity/refusal.h"
+
+namespace hgrid {
+namespace {
+
+constexpr std::size_t kLongestReason = 512;  // bytes of an SRDF's reason that are kept
+
+constexpr std::size_t kMostNamed = 8;  // joints that a reason names
+
+}  // namespace
+
+LinkMatrix::LinkMatrix(const RobotModel& model, const LinkRules& rules, std::vector<std::string>& warnings)
+    : size_(model.links.size()),
+      words_((size_ + 63) / 64),
+      groups_(model),
+      origins_(size_ * size_, Origin::none),
+      allowed_(size_ * words_) {
+  setGroups(model);
+  applyRules(model, rules, warnings);
+  for (std::uint32_t i = 0; i < size_; ++i) set(i, i, Origin::self);  // last: no rule makes a link meet itself
+}
+
+void LinkMatrix::setGroups(const RobotModel& model) {
+  std::vector<std::vector<std::uint32_t>> members(groups_.size());
+  for (std::uint32_t i = 0; i < size_; ++i) {
+    group_of_.push_back(model.links[i].rigid_group);
+    members[group_of_[i]].push_back(i);
+  }
+  const auto setAll = [&](std::uint32_t first, std::uint32_t second, Origin origin) {
+    for (const std::uint32_t i : members[first]) {
+      for (const std::uint32_t j : members[second]) set(i, j, origin);
+    }
+  };
+  for (std::uint32_t group = 0; group < groups_.size(); ++group) {
+    setAll(group, group, Origin::rigid);
+    for (const std::uint32_t above : groups_.adjacentAbove(group)) setAll(group, above, Origin::adjacent);
+  }
+}
+
+void LinkMatrix::applyRules(const RobotModel& model, const LinkRules& rules, std::vector<std::string>& warnings) {
+  const auto indexOf = [&](const std::string& link, const char* tag) {
+    const int index = model.find(link);
+    if (index < 0) {
+      warnings.push_back(std::string(tag) + " names link '" + printable(link) + "', which robot '" +
+                         printable(model.name) + "' does not have");
+    }
+    return index;
+  };
+  const auto setPair = [&](const LinkRules::Pair& pair, const char* tag, Origin origin) {
+    const int first = indexOf(pair.first, tag), second = indexOf(pair.second, tag);
+    if (first < 0 || second < 0) return;
+    const auto a = static_cast<std::uint32_t>(first), b = static_cast<std::uint32_t>(second);
+    set(a, b, origin);
+    if (a != b) tags_[std::minmax(a, b)] = {origin == Origin::srdf, printable(pair.reason, kLongestReason)};
+  };
+  for (const std::string& link : rules.disabled_default) {
+    const int index = indexOf(link, "disable_default_collisions");
+    for (std::uint32_t j = 0; index >= 0 && j < size_; ++j) set(static_cast<std::uint32_t>(index), j, Origin::srdf);
+  }
+  for (const LinkRules::Pair& pair : rules.enabled) setPair(pair, "enable_collisions", Origin::none);
+  for (const LinkRules::Pair& pair : rules.disabled) setPair(pair, "disable_collisions", Origin::srdf);
+}
+
+const LinkMatrix::Tag* LinkMatrix::tag(std::uint32_t first, std::uint32_t second) const {
+  const auto found = tags_.find(std::minmax(first, second));
+  return found == tags_.end() ? nullptr : &found->second;
+}
+
+std::string LinkMatrix::adjacencyReason(std::uint32_t first, std::uint32_t second) const {
+  const std::vector<std::string> joints = groups_.jointsBetween(group_of_[first], group_of_[second]);
+  if (joints.size() == 1) return "joint '" + printable(joints.front()) + "' connects their rigid groups";
+  std::string names;
+  for (std::size_t i = 0; i < std::min(joints.size(), kMostNamed); ++i) {
+    names += (names.empty() ? "'" : ", '") + printable(joints[i]) + "'";
+  }
+  if (joints.size() > kMostNamed) names += ", ...";
+  return "the " + std::to_string(joints.size()) + " joints " + names +
+         " connect their rigid groups in one place, without geometry between them";
+}
+
+void LinkMatrix::set(std::uint32_t first, std::uint32_t second, Origin origin) {
+  for (const auto& [a, b] : {std::pair(first, second), std::pair(second, first)}) {
+    origins_[a * size_ + b] = origin;
+    std::uint64_t& word = allowed_[a * words_ + b / 64];
+    const std::uint64_t bit = std::uint64_t{1} << (b % 64);
+    word = origin != Origin::none ? word | bit : word & ~bit;
+  }
+}
+
+}  // namespace hgrid

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "bodies/motion_bound.h"
+
+#include <algorithm>
+
+namespace hgrid {
+
+double reachOf(const Body& body) {
+  double reach = 0.0;
+  for (const BodyShape& shape : body.shapes) {
+    reach = std::max(reach, shape.body_from_shape.translation().norm() + shape.shape.reach() + shape.padding);
+  }
+  return reach;
+}
+
+double relativeMotion(const Pose& world_from_first, const Pose& world_from_second, const Pose& world_from_first_now,
+                      const Pose& world_from_second_now, double reach) {
+  const Pose before = world_from_first.inverse() * world_from_second;
+  const Pose now = world_from_first_now.inverse() * world_from_second_now;
+  // The norm of the difference of two rotations bounds how far they take a unit vector apart. Rounding is that of
+  // coordinates in the world.
+  const double rounding = 1e-14 * (world_from_first_now.translation().norm() +
+                                   world_from_second_now.translation().norm() + now.translation().norm() + reach);
+  return (now.translation() - before.translation()).norm() + (now.linear() - before.linear()).norm() * reach + rounding;
+}
+
+}  // namespace hgrid

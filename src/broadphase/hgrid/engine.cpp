@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "broadphase/hgrid/engine.h"
+
+#include <algorithm>
+#include <new>
+#include <stdexcept>
+#include <string>
+
+namespace hgrid {
+namespace {
+
+constexpr std::size_t kMostLoose = 64;
+
+// A box that moves is looked for in two or three layers; from about this share on, sorting all is cheaper.
+constexpr std::size_t kShareOfMoving = 4;
+
+/// Reserves like push_back(), which at least doubles the capacity.
+void makeRoom(std::vector<ProxyId>& ids, std::size_t count) {
+  if (ids.capacity() < count) ids.reserve(std::max(count, 2 * ids.capacity()));
+}
+
+}  // namespace
+
+HGrid::Engine::Engine(double finest) : finest_edge(finest) {}
+
+void HGrid::Engine::requireStored(ProxyId id) const {
+  if (!isStored(id)) throw std::invalid_argument("HGrid: box " + std::to_string(id) + " is not stored");
+}
+
+void HGrid::Engine::grow(ProxyId id) {
+  const std::size_t count = id + std::size_t{1};
+  if (boxes.size() < count) boxes.resize(count);
+  if (place.size() < count) place.resize(count, kAbsent);  // one resize may have failed after the other
+}
+
+void HGrid::Engine::reserveLayer(Place layer, std::size_t count) {
+  layers[layer].reserve(count, boxes.size(), machine());
+}
+
+void HGrid::Engine::sortLayer(Place layer) {
+  layers[layer].sort(boxes, finest_edge, machine());
+  located[layer] = false;
+}
+
+void HGrid::Engine::locate(Place layer) {
+  if (located[layer]) return;
+  std::vector<std::uint32_t>& position = positions();
+  if (position.size() < place.size()) position.resize(place.size());
+  const ProxyId* ids = layers[layer].ids();
+  for (std::uint32_t i = 0; i < layers[layer].size(); ++i) position[ids[i]] = i;
+  located[layer] = true;
+}
+
+void HGrid::Engine::restoreFromLayers() {
+  std::fill(place.begin(), place.end(), kAbsent);
+  stored = 0;
+  for (const Place number : {kFixed, kResting, kMoving, kLoose}) {
+    const Layer& layer = layers[number];
+    for (std::uint32_t i = 0; i < layer.size(); ++i) {
+      if (layer.isWithdrawn(i)) continue;
+      boxes[layer.ids()[i]] = layer.boxAt(i);
+      place[layer.ids()[i]] = number;
+      ++stored;
+    }
+  }
+}
+
+std::size_t HGrid::Engine::movingWithLoose() const {
+  const std::vector<ProxyId>& moving = members[kMoving];
+  std::size_t standing = moving.size();
+  if (moving_changed) {
+    standing = static_cast<std::size_t>(
+        std::count_if(moving.begin(), moving.end(), [this](ProxyId id) { return place[id] == kMoving; }));
+  }
+  return standing + members[kLoose].size();
+}
+
+/// Whether so many loose boxes are too many.
+bool HGrid::Engine::settlesLoose(std::size_t loose, std::size_t withdrawn_then, std::size_t stored_then) const {
+  return loose > kMostLoose || withdrawn_then > stored_then;
+}
+
+/// Whether the loose are settled by sorting all boxes.
+bool HGrid::Engine::settlesAll(std::size_t moving, std::size_t withdrawn_then, std::size_t stored_then) const {
+  return moving > std::max(kMostLoose, stored_then / kShareOfMoving) || withdrawn_then > stored_then;
+}
+
+void HGrid::Engine::reserveLoose(ProxyId id) {
+  const bool comes = !isStored(id), leaves_layer = !comes && place[id] != kLoose;
+  if (leaves_layer) locate(place[id]);
+  const std::size_t stored_then = stored + (comes ? 1 : 0), withdrawn_then = withdrawn + (leaves_layer ? 1 : 0);
+  const std::size_t loose = members[kLoose].size() + (comes || leaves_layer ? 1 : 0);
+  members[kLoose].reserve(kMostLoose + 1);
+  reserveLayer(kLoose, loose);
+  if (!settlesLoose(loose, withdrawn_then, stored_then)) return;
+  const std::size_t moving = members[kMoving].size() + loose;  // or fewer, if some of them were taken out
+  makeRoom(members[kMoving], moving);
+  reserveLayer(kMoving, moving);
+  if (!settlesAll(moving, withdrawn_then, stored_then)) return;
+  std::size_t fixed_ones = comes && isFixed(id) ? 1 : 0;
+  for (ProxyId other = 0; other < place.size(); ++other) fixed_ones += place[other] != kAbsent && isFixed(other);
+  reserveLayer(kFixed, fixed_ones);
+  reserveLayer(kResting, stored_then - fixed_ones);
+}
+
+void HGrid::Engine::takeOut(ProxyId id) {
+  const Place from = place[id];
+  if (from == kLoose) {
+    members[kLoose].erase(std::find(members[kLoose].begin(), members[kLoose].end(), id));
+    layers[kLoose].setIds(members[kLoose]);
+    sortLayer(kLoose);
+  } else {
+    locate(from);
+    layers[from].withdraw(positions()[id]);
+    ++withdrawn;
+    if (from == kMoving) {
+      moving_changed = true;
+    } else {
+      kept_dirty = true;
+    }
+  }
+  place[id] = kAbsent;
+  --stored;
+}
+
+void HGrid::Engine::putLoose(ProxyId id) {
+  place[id] = kLoose;
+  fixed_astray = fixed_astray || isFixed(id);
+  ++stored;
+  members[kLoose].push_back(id);
+  if (settlesLoose(members[kLoose].size(), withdrawn, stored)) return settleLoose();
+  layers[kLoose].setIds(members[kLoose]);
+  sortLayer(kLoose);
+}
+
+/// Makes the loose boxes moving ones and drops from the moving those that were taken out.
+void HGrid::Engine::joinLoose() {
+  std::vector<ProxyId>& moving = members[kMoving];
+  moving.erase(std::remove_if(moving.begin(), moving.end(), [this](ProxyId id) { return place[id] != kMoving; }),
+               moving.end());
+  for (const ProxyId id : members[kLoose]) {
+    place[id] = kMoving;
+    moving.push_back(id);
+  }
+  members[kLoose].clear();
+  layers[kLoose].setIds(members[kLoose]);
+  sortLayer(kLoose);
+  moving_changed = false;
+}
+
+void HGrid::Engine::settleLoose() {
+  joinLoose();
+  if (settlesAll(members[kMoving].size(), withdrawn, stored)) return sortAll();
+  layers[kMoving].setIds(members[kMoving]);
+  sortLayer(kMoving);
+}
+
+void HGrid::Engine::sortAll(bool others) {
+  const bool same = !others && members[kMoving].empty() && members[kLoose].empty() && withdrawn == 0 &&
+                    layers[kFixed].size() + layers[kResting].size() == stored;
+  std::array<std::size_t, kLayers> counts{};
+  if (same) {  // the layers hold the right ids, in a good order
+    for (const Place layer : {kFixed, kResting}) counts[layer] = layers[layer].size();
+  } else {
+    for (ProxyId id = 0; id < place.size(); ++id) {
+      if (place[id] != kAbsent) ++counts[isFixed(id) ? kFixed : kResting];
+    }
+  }
+  for (const Place layer : {kFixed, kResting}) reserveLayer(layer, counts[layer]);
+  // Nothing below allocates.
+  if (!same) {
+    members[kMoving].clear();
+    members[kLoose].clear();
+    std::array<ProxyId*, kLayers> next{};
+    for (const Place layer : {kFixed, kResting, kMoving, kLoose}) next[layer] = layers[layer].setIds(counts[layer]);
+    for (ProxyId id = 0; id < place.size(); ++id) {
+      if (place[id] == kAbsent) continue;
+      place[id] = isFixed(id) ? kFixed : kResting;
+      *next[place[id]]++ = id;
+    }
+  }
+  for (const Place layer : {kFixed, kResting, kMoving, kLoose}) sortLayer(layer);
+  withdrawn = 0;
+  waste = 0.0;
+  fixed_astray = false;
+  moving_changed = false;
+  kept_valid = kept_dirty = false;
+  kept.clear();
+}
+
+void HGrid::Engine::sortMoved() {
+  if (moved.size() > stored / kShareOfMoving) return sortAll();
+  std::size_t started = 0;
+  for (const ProxyId id : moved) {
+    if (place[id] == kFixed) return sortAll();  // it was said to be rare
+    started += place[id] == kResting;
+  }
+  std::vector<ProxyId>& moving = members[kMoving];
+  const bool regroup = started > 0 || moving_changed || !members[kLoose].empty();
+  const std::size_t count = regroup ? movingWithLoose() + started : moving.size();
+  const double wasted = waste + static_cast<double>(count - moved.size());
+  if (count > stored / kShareOfMoving || withdrawn + started > stored || wasted > 2.0 * static_cast<double>(stored)) {
+    return sortAll();
+  }
+  if (regroup) makeRoom(moving, count);
+  reserveLayer(kMoving, count);
+  if (started > 0) locate(kResting);
+  // Nothing below allocates, but for the pairs that are kept.
+  if (regroup) {
+    joinLoose();
+    for (const ProxyId id : moved) {
+      if (place[id] != kResting) continue;
+      layers[kResting].withdraw(positions()[id]);
+      ++withdrawn;
+      kept_dirty = true;
+      place[id] = kMoving;
+      moving.push_back(id);
+    }
+    layers[kMoving].setIds(moving);
+  }
+  waste = wasted;
+  sortLayer(kMoving);
+  keepPairs();
+}
+
+void HGrid::Engine::keepPairs() {
+  if (!pairs_wanted.load(std::memory_order_relaxed)) return;
+  // Boxes that left may have had most of the overlaps that were counted, so a large count is taken again.
+  if (!kept_valid || (kept_dirty && kept_overlaps > bound.overlaps / 2)) {
+    kept_valid = false;
+    try {
+      findKept();
+    } catch (const std::bad_alloc&) {
+      return;  // without the kept pairs, each search finds these pairs itself
+    }
+  } else if (kept_dirty) {
+    kept.erase(std::remove_if(kept.begin(), kept.end(),
+                              [this](const ProxyPair& pair) {
+                                return place[pair.first] > kResting || place[pair.second] > kResting;
+                              }),
+               kept.end());
+  }
+  kept_dirty = false;
+}
+
+}  // namespace hgrid

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <vector>
+
+#include "broadphase/hgrid/layer.h"
+
+namespace hgrid {
+
+/// Lets kernels write positions into a vector, which it enlarges as they need.
+class PositionWriter {
+ public:
+  explicit PositionWriter(std::vector<std::uint32_t>& buffer) : buffer_(buffer) {
+    if (buffer_.empty()) buffer_.resize(1024);
+    sink_.owner = this;
+    sink_.grow = grow;
+    restart(0);
+  }
+  kernels::PositionSink* sink() { return &sink_; }
+  const std::uint32_t* begin() const { return buffer_.data(); }
+  const std::uint32_t* end() const { return sink_.next; }
+  std::size_t size() const { return static_cast<std::size_t>(end() - begin()); }
+  void clear() { sink_.next = buffer_.data(); }
+
+ private:
+  void restart(std::size_t used) {
+    sink_.next = buffer_.data() + used;
+    sink_.limit = buffer_.data() + buffer_.size();
+  }
+  static void grow(kernels::PositionSink* sink) {
+    auto* self = static_cast<PositionWriter*>(sink->owner);
+    const auto used = static_cast<std::size_t>(sink->next - self->buffer_.data());
+    self->buffer_.resize(2 * self->buffer_.size());
+    self->restart(used);
+  }
+
+  std::vector<std::uint32_t>& buffer_;
+  kernels::PositionSink sink_{};
+};
+
+/// A vector for positions. It keeps its memory, so a query allocates nothing after the first few.
+inline std::vector<std::uint32_t>& bufferOfThread() {
+  thread_local std::vector<std::uint32_t> buffer;
+  return buffer;
+}
+
+inline kernels::Box boxOf(const Aabb& box) {
+  return {{box.min[0], box.min[1], box.min[2]}, {box.max[0], box.max[1], box.max[2]}};
+}
+
+/// Calls `visit` once per layer with the positions of the boxes that `search` finds on the layer's levels.
+template <class Engine, class Search, class Visit>
+void visitFound(const Engine& engine, Search&& search, Visit&& visit) {
+  PositionWriter writer(bufferOfThread());
+  for (const Layer& layer : engine.layers) {
+    if (layer.size() == 0) continue;
+    for (const kernels::Level& level : layer.levels()) search(level, writer.sink());
+    visit(layer, writer);
+    writer.clear();
+  }
+}
+
+/// Calls `visit` once per layer with the positions of the boxes that overlap `box`.
+template <class Engine, class Visit>
+void visitOverlapping(const Engine& engine, const kernels::Box& box, Visit&& visit) {
+  const kernels::Kernels& kernels = kernels::of(engine.isa);
+  visitFound(
+      engine,
+      [&](const kernels::Level& level, kernels::PositionSink* sink) { kernels.overlapping(&level, &box, sink); },
+      visit);
+}
+
+}  // namespace hgrid

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "hgrid_proximity/broadphase/hgrid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "broadphase/hgrid/engine.h"
+
+namespace hgrid {
+namespace {
+
+void requireValid(const Aabb& box) {
+  if (!isValid(box)) throw std::invalid_argument("HGrid: a box is not finite or has min > max");
+}
+
+constexpr std::size_t kPerJob = 4096;  // boxes that one job checks or copies
+
+/// Calls job(begin, end) for parts of 0 .. count - 1.
+template <class Job>
+void inParts(Workers& workers, std::size_t count, Job&& job) {
+  workers.run((count + kPerJob - 1) / kPerJob,
+              [&](std::size_t part, std::size_t) { job(part * kPerJob, std::min((part + 1) * kPerJob, count)); });
+}
+
+/// Whether the ids are 0 .. count - 1, which ascending ids are if the last is.
+bool areAll(const std::vector<ProxyId>& ids) { return !ids.empty() && ids.back() + std::size_t{1} == ids.size(); }
+
+/// Of boxes that are to be updated, looked at here and there: whether so many moved that all are to be sorted.
+bool mostMoved(const std::vector<Aabb>& stored, const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) {
+  const std::size_t stride = std::max<std::size_t>(1, ids.size() / 256);
+  std::size_t seen = 0, moved = 0;
+  for (std::size_t i = 0; i < ids.size(); i += stride, ++seen) moved += stored[ids[i]] != boxes[i];
+  return 2 * moved > seen;
+}
+
+}  // namespace
+
+GridScale GridScale::fitting(const std::vector<Aabb>& boxes) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Aabb& box : boxes) {
+    const double side = (box.max.cast<double>() - box.min.cast<double>()).maxCoeff();
+    if (side > 0.0) smallest = std::min(smallest, side);
+  }
+  GridScale scale;
+  scale.finest_edge = std::isfinite(smallest) ? std::clamp(2.0 * smallest, 0x1p-20, 0x1p10) : 1.0;
+  return scale;
+}
+
+void HGrid::Engine::requireValid(const std::vector<ProxyId>& ids, const std::vector<Aabb>& given) {
+  if (ids.size() != given.size()) throw std::invalid_argument("HGrid: as many ids as boxes are needed");
+  std::atomic<bool> all_ascend{true}, all_sound{true};
+  inParts(*workers, ids.size(), [&](std::size_t begin, std::size_t end) {
+    bool ascend = true;
+    for (std::size_t i = std::max<std::size_t>(begin, 1); i < end; ++i) ascend = ascend & (ids[i - 1] < ids[i]);
+    if (!ascend) all_ascend = false;
+    const auto* first = reinterpret_cast<const kernels::Box*>(given.data()) + begin;
+    if (!kernels::of(isa).sound(first, end - begin)) all_sound = false;
+  });
+  if (!all_ascend) throw std::invalid_argument("HGrid: ids must ascend");
+  if (!all_sound) throw std::invalid_argument("HGrid: a box is not finite or has min > max");
+}
+
+HGrid::HGrid(const GridScale& scale) {
+  if (!(scale.finest_edge >= 0x1p-30 && scale.finest_edge <= 0x1p30)) {
+    throw std::invalid_argument("HGrid: the finest edge is " + std::to_string(scale.finest_edge) +
+                                " m; it must be within 2^-30 .. 2^30");
+  }
+  engine_ = std::make_unique<Engine>(std::ldexp(1.0, std::ilogb(scale.finest_edge)));
+}
+
+HGrid::~HGrid() = default;
+HGrid::HGrid(HGrid&&) noexcept = default;
+HGrid& HGrid::operator=(HGrid&&) noexcept = default;
+
+void HGrid::setIsa(Isa isa) {
+  if (!isSupported(isa)) {
+    throw std::invalid_argument(std::string("HGrid: this processor or build has no ") + hgrid::name(isa));
+  }
+  engine_->isa = isa;
+}
+
+Isa HGrid::isa() const { return engine_->isa; }
+
+void HGrid::setThreads(int threads) {
+  if (threads < 1 || threads > 64) {
+    throw std::invalid_argument("HGrid: threads is " + std::to_string(threads) + "; it must be within 1 .. 64");
+  }
+  if (threads != engine_->workers->threads()) engine_->workers = std::make_unique<Workers>(threads);
+}
+
+void HGrid::setFixed(const std::vector<ProxyId>& ids) {
+  if (!std::is_sorted(ids.begin(), ids.end())) throw std::invalid_argument("HGrid: ids must ascend");
+  std::vector<bool> fixed(ids.empty() ? 0 : ids.back() + std::size_t{1});
+  for (const ProxyId id : ids) fixed[id] = true;
+  if (fixed == engine_->fixed) return;
+  engine_->fixed.swap(fixed);
+  try {
+    engine_->sortAll(true);
+  } catch (...) {
+    engine_->fixed.swap(fixed);
+    throw;
+  }
+}
+
+void HGrid::setFilter(const PairTest& test) {
+  engine_->filter = test;
+  engine_->kept_valid = false;
+}
+
+void HGrid::insert(ProxyId id, const Aabb& box) {
+  requireValid(box);
+  Engine& e = *engine_;
+  if (e.isStored(id)) throw std::invalid_argument("HGrid: box " + std::to_string(id) + " is stored already");
+  e.grow(id);
+  e.reserveLoose(id);
+  e.boxes[id] = box;
+  e.putLoose(id);
+}
+
+void HGrid::update(ProxyId id, const Aabb& box) {
+  requireValid(box);
+  Engine& e = *engine_;
+  e.requireStored(id);
+  if (e.boxes[id] == box) return;  // exactly the same: never a tolerance
+  e.reserveLoose(id);
+  e.takeOut(id);
+  e.boxes[id] = box;
+  e.putLoose(id);
+}
+
+void HGrid::remove(ProxyId id) {
+  engine_->requireStored(id);
+  engine_->takeOut(id);
+}
+
+void HGrid::clear() {
+  Engine& e = *engine_;
+  std::fill(e.place.begin(), e.place.end(), Engine::kAbsent);
+  e.stored = 0;
+  e.sortAll(true);
+}
+
+void HGrid::update(const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) {
+  Engine& e = *engine_;
+  e.requireValid(ids, boxes);
+  if (!ids.empty()) e.grow(ids.back());
+  try {
+    e.replace(ids, boxes);
+  } catch (...) {
+    e.restoreFromLayers();
+    throw;
+  }
+}
+
+/// The bulk update. It writes `boxes` and `place` before it sorts, so the caller restores them if it throws.
+void HGrid::Engine::replace(const std::vector<ProxyId>& ids, const std::vector<Aabb>& given) {
+  bool same = stored == ids.size();
+  if (same && !(areAll(ids) && place.size() == ids.size())) {
+    for (std::size_t i = 0; same && i < ids.size(); ++i) same = place[ids[i]] != kAbsent;
+  }
+  if (!same) {
+    std::fill(place.begin(), place.end(), kAbsent);
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      place[ids[i]] = kResting;
+      boxes[ids[i]] = given[i];
+    }
+    stored = ids.size();
+    return sortAll(true);
+  }
+  if (mostMoved(boxes, ids, given)) {
+    inParts(*workers, ids.size(), [&](std::size_t begin, std::size_t end) {
+      if (areAll(ids)) {
+        std::copy(&given[begin], given.data() + end, &boxes[begin]);
+      } else {
+        for (std::size_t i = begin; i < end; ++i) boxes[ids[i]] = given[i];
+      }
+    });
+    return sortAll();
+  }
+  moved.clear();
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    Aabb& box = boxes[ids[i]];
+    if (box == given[i]) continue;
+    moved.push_back(ids[i]);
+    box = given[i];
+  }
+  if (!moved.empty()) sortMoved();
+}
+
+void HGrid::move(const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) {
+  Engine& e = *engine_;
+  e.requireValid(ids, boxes);
+  for (const ProxyId id : ids) e.requireStored(id);
+  if (ids.empty()) return;
+  e.moved = ids;
+  for (std::size_t i = 0; i < ids.size(); ++i) e.boxes[ids[i]] = boxes[i];
+  try {
+    e.sortMoved();
+  } catch (...) {
+    e.restoreFromLayers();
+    throw;
+  }
+}
+
+std::size_t HGrid::size() const { return engine_->stored; }
+
+double HGrid::edge(int level) const { return engine_->finest_edge * std::pow(GridScale::kRatio, level); }
+
+int HGrid::levelFor(const Aabb& box) const {
+  const double side = longestSide(box);
+  double edge = engine_->finest_edge;
+  int level = 0;
+  for (; level < GridScale::kLevels && side > edge; ++level) edge *= GridScale::kRatio;
+  return level;
+}
+
+int HGrid::levelOf(ProxyId id) const { return engine_->isStored(id) ? levelFor(engine_->boxes[id]) : -1; }
+
+std::vector<std::size_t> HGrid::levelCounts() const {
+  std::vector<std::size_t> counts(GridScale::kLevels + 1);
+  for (ProxyId id = 0; id < engine_->place.size(); ++id) {
+    if (engine_->isStored(id)) ++counts[static_cast<std::size_t>(levelFor(engine_->boxes[id]))];
+  }
+  return counts;
+}
+
+std::size_t HGrid::bytes() const {
+  const Engine& e = *engine_;
+  std::size_t sum = sizeof(Engine) + e.boxes.capacity() * sizeof(Aabb) + e.place.capacity() + e.fixed.capacity() / 8 +
+                    e.moved.capacity() * sizeof(ProxyId) + e.scratch.copies.capacity() * sizeof(Aabb) +
+                    (e.scratch.cells.capacity() + e.scratch.counts.capacity()) * sizeof(std::uint32_t);
+  for (const Layer& layer : e.layers) sum += layer.bytes();
+  for (const std::vector<ProxyId>& ids : e.members) sum += ids.capacity() * sizeof(ProxyId);
+  return sum;
+}
+
+void HGrid::checkInvariants() const {
+  Engine& e = *engine_;
+  const auto require = [](bool holds, const char* promise) {
+    if (!holds) throw std::logic_error(std::string("HGrid: ") + promise);
+  };
+  std::size_t stored = 0, standing = 0;
+  for (ProxyId id = 0; id < e.place.size(); ++id) {
+    if (e.place[id] == Engine::kAbsent) continue;
+    ++stored;
+    require(isValid(e.boxes[id]), "a stored box is valid");
+  }
+  require(stored == e.stored, "size() counts the stored boxes");
+  std::vector<bool> seen(e.place.size());
+  for (std::size_t number = 0; number < e.layers.size(); ++number) {
+    const Layer& layer = e.layers[number];
+    layer.checkInvariants(e.boxes);
+    for (std::uint32_t i = 0; i < layer.size(); ++i) {
+      if (layer.isWithdrawn(i)) continue;
+      const ProxyId id = layer.ids()[i];
+      require(e.place[id] == number, "a box stands in the layer that it is said to be in");
+      require(!seen[id], "a box stands in one layer only");
+      require(!e.located[number] || e.positions()[id] == i, "a located box stands at its position");
+      seen[id] = true;
+      ++standing;
+    }
+  }
+  require(standing == stored, "every stored box stands in a layer");
+}
+
+}  // namespace hgrid

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "broadphase/hgrid/layer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+namespace hgrid {
+namespace {
+
+constexpr std::size_t kReadBeyond = 16;                      // places that kernels may read beyond the last box
+constexpr std::size_t kWorthCopying = std::size_t{1} << 18;  // boxes; of fewer most are still in the cache
+constexpr std::size_t kWorthAThread = 16384;                 // boxes
+constexpr int kSortsPerPlan = 64;                            // then a plan is made anew, since boxes may have gathered
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();  // no comparison with it holds
+
+static_assert(sizeof(Aabb) == sizeof(kernels::Box), "kernels read a box as six floats");
+static_assert(sizeof(ProxyPair) == sizeof(kernels::Pair), "kernels write a pair as two numbers");
+
+/// The first allocation is exact. Later ones are larger than asked for, so that a steady tick allocates nothing.
+std::size_t roomFor(std::size_t size, bool first) { return first ? size : size + size / 16; }
+
+/// Enlarges an array whose values the caller will all write. An array never shrinks.
+template <class Value>
+void growTo(std::vector<Value>& values, std::size_t size) {
+  if (values.size() < size) std::vector<Value>(roomFor(size, values.empty())).swap(values);
+}
+
+/// Enlarges an array and keeps its values. @returns whether the array was moved
+template <class Value>
+bool extendTo(std::vector<Value>& values, std::size_t size) {
+  if (values.size() >= size) return false;
+  const std::size_t room = roomFor(size, values.empty());
+  values.reserve(room);  // resize() alone would double the array
+  values.resize(room);
+  return true;
+}
+
+std::size_t threadsFor(std::size_t boxes, const Machine& machine) {
+  const auto most = static_cast<std::size_t>(machine.workers->threads());
+  return std::max<std::size_t>(1, std::min(most, boxes / kWorthAThread));
+}
+
+}  // namespace
+
+void Layer::setIds(const std::vector<ProxyId>& ids) { std::copy(ids.begin(), ids.end(), setIds(ids.size())); }
+
+ProxyId* Layer::setIds(std::size_t count) {
+  count_ = count;
+  return ids_.data();
+}
+
+/// Moves the six arrays farther apart, so that each has room for `count` boxes.
+void Layer::widen(std::size_t count) {
+  std::size_t stride = (count + (bounds_.empty() ? 0 : count / 16) + 2 * kReadBeyond) / 16 * 16;
+  // Far from a multiple of a page: reads at one place of six pages would compete for one set of the cache.
+  if (stride % 1024 < 64) stride += 160;
+  std::vector<float> bounds(6 * stride);
+  for (std::size_t i = 0; i < 6 && count_ > 0; ++i) {
+    std::copy_n(bounds_.data() + i * stride_, count_, bounds.data() + i * stride);
+  }
+  bounds_.swap(bounds);
+  stride_ = stride;
+}
+
+void Layer::reserve(std::size_t count, std::size_t ids, const Machine& machine) {
+  if (count == 0) return;
+  SortScratch& scratch = *machine.scratch;
+  const std::size_t threads = threadsFor(count, machine), cells = Plan::mostCells(count);
+  if (ids >= kWorthCopying) growTo(scratch.copies, count);
+  growTo(scratch.cells, count);
+  growTo(scratch.counts, (threads - 1) * cells);
+  scratch.sizes.reserve(threads * 4 * Plan::kMostLevels);
+  scratch.keyings.reserve(threads);
+  scratch.sums.reserve(threads * threads);
+  levels_.reserve(Plan::kMostLevels);
+  extendTo(other_ids_, count + kReadBeyond);
+  if (extendTo(ids_, count + kReadBeyond)) point();
+  if (extendTo(start_, cells + 1)) point();
+  if (count + kReadBeyond > stride_) {
+    widen(count);
+    point();
+  }
+}
+
+void Layer::sort(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine) {
+  reserve(count_, boxes.size(), machine);
+  if (count_ == 0) return levels_.clear();
+  SortScratch& scratch = *machine.scratch;
+  const std::size_t threads = threadsFor(count_, machine);
+  bool planned = false;
+  if (!plan_.fits(count_) || ++sorts_with_plan_ > kSortsPerPlan || levels_.empty()) {
+    plan_ = planFor(boxes, ids_.data(), count_, finest_edge);
+    planned = true;
+  }
+  count(boxes, machine, threads);
+  const kernels::Keying& total = scratch.keyings.front();
+  if (!planned && !plan_.fits(total.lower, total.upper, total.sizes)) {  // the boxes have changed too much
+    plan_ = planFor(boxes, ids_.data(), count_, finest_edge);
+    planned = true;
+    count(boxes, machine, threads);
+  }
+  if (planned) sorts_with_plan_ = 0;
+  scatter(boxes, machine, threads);
+  ids_.swap(other_ids_);
+  describe(scratch.sizes);
+}
+
+/// Cells are counted one place late: when the boxes have been placed, the end of each cell is the start of the next.
+/// Every thread counts for itself; the last does it in place.
+std::uint32_t* Layer::countsOf(std::size_t thread, std::size_t threads, const Machine& machine) {
+  return thread + 1 == threads ? start_.data() + 1 : machine.scratch->counts.data() + thread * plan_.cells;
+}
+
+void Layer::count(const std::vector<Aabb>& boxes, const Machine& machine, std::size_t threads) {
+  SortScratch& scratch = *machine.scratch;
+  const std::size_t cells = plan_.cells, levels = plan_.levels;
+  scratch.sizes.assign(threads * 4 * levels, 0.0f);
+  scratch.keyings.resize(threads);
+  scratch.sums.resize(threads * threads);
+  start_[0] = 0;
+  machine.workers->run(threads, [&](std::size_t thread, std::size_t) {
+    std::uint32_t* counts = countsOf(thread, threads, machine);
+    std::fill_n(counts, cells, 0u);
+    kernels::Keying& keying = scratch.keyings[thread];
+    keying.boxes = reinterpret_cast<const kernels::Box*>(boxes.data());
+    keying.order = ids_.data();
+    keying.begin = count_ * thread / threads;
+    keying.end = count_ * (thread + 1) / threads;
+    keying.readable = count_;
+    keying.copies = boxes.size() < kWorthCopying ? nullptr : reinterpret_cast<kernels::Box*>(scratch.copies.data());
+    keying.cells = scratch.cells.data();
+    keying.counts = counts;
+    keying.grids = plan_.grids.data();
+    keying.sides = plan_.sides.data();
+    keying.first_cells = plan_.first_cells.data();
+    keying.levels = static_cast<int>(levels);
+    keying.sizes = scratch.sizes.data() + 4 * levels * thread;
+    std::fill_n(keying.lower, 4, kInfinity);
+    std::fill_n(keying.upper, 4, -kInfinity);
+    machine.kernels->key(&keying);
+    for (std::size_t range = 0; range + 1 < threads; ++range) {
+      const std::uint32_t *begin = counts + cells * range / threads, *end = counts + cells * (range + 1) / threads;
+      scratch.sums[thread * threads + range] = std::accumulate(begin, end, 0u);
+    }
+  });
+  for (std::size_t thread = 1; thread < threads; ++thread) {
+    kernels::Keying &total = scratch.keyings.front(), &part = scratch.keyings[thread];
+    for (std::size_t i = 0; i < 4 * levels; ++i) total.sizes[i] = std::max(total.sizes[i], part.sizes[i]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      total.lower[i] = std::min(total.lower[i], part.lower[i]);
+      total.upper[i] = std::max(total.upper[i], part.upper[i]);
+    }
+  }
+}
+
+void Layer::scatter(const std::vector<Aabb>& boxes, const Machine& machine, std::size_t threads) {
+  const SortScratch& scratch = *machine.scratch;
+  machine.workers->run(threads, [&](std::size_t range, std::size_t) {  // counts become places, by ranges of cells
+    std::uint32_t sum = 0;
+    for (std::size_t i = 0; i < threads * threads; ++i) sum += i % threads < range ? scratch.sums[i] : 0;
+    std::uint32_t* last = countsOf(threads - 1, threads, machine);
+    const std::size_t end = plan_.cells * (range + 1) / threads;
+    for (std::size_t cell = plan_.cells * range / threads; cell < end; ++cell) {
+      for (std::size_t thread = 0; thread + 1 < threads; ++thread) {
+        std::uint32_t& place = machine.scratch->counts[thread * plan_.cells + cell];
+        const std::uint32_t count = place;
+        place = sum;
+        sum += count;
+      }
+      const std::uint32_t count = last[cell];
+      last[cell] = sum;
+      sum += count;
+    }
+  });
+  machine.workers->run(threads, [&](std::size_t thread, std::size_t) {
+    std::uint32_t* next = countsOf(thread, threads, machine);
+    float* const bounds = bounds_.data();
+    const std::size_t stride = stride_;
+    const std::uint32_t* cells = scratch.cells.data();
+    const ProxyId* from = ids_.data();
+    const Aabb* by_id = boxes.data();
+    const Aabb* copies = boxes.size() < kWorthCopying ? nullptr : scratch.copies.data();
+    ProxyId* to = other_ids_.data();
+    const std::size_t end = scratch.keyings[thread].end;
+    for (std::size_t i = scratch.keyings[thread].begin; i < end; ++i) {
+      const std::uint32_t position = next[cells[i]]++;
+      const Aabb& box = copies == nullptr ? by_id[from[i]] : copies[i];
+      bounds[position] = box.min[0];
+      bounds[stride + position] = box.min[1];
+      bounds[2 * stride + position] = box.min[2];
+      bounds[3 * stride + position] = box.max[0];
+      bounds[4 * stride + position] = box.max[1];
+      bounds[5 * stride + position] = box.max[2];
+      to[position] = from[i];
+    }
+  });
+}
+
+void Layer::describe(const std::vector<float>& sizes) {
+  levels_.resize(plan_.levels);
+  for (std::size_t i = 0; i < levels_.size(); ++i) {
+    kernels::Level& level = levels_[i];
+    level.grid = plan_.grids[i];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      level.reach[axis] = std::nextafter(sizes[4 * i + axis], kInfinity);  // the difference may have been rounded down
+    }
+    level.begin = start_[plan_.first_cells[i]];
+    level.end = i + 1 < levels_.size() ? start_[plan_.first_cells[i + 1]] : start_[plan_.cells];
+  }
+  point();
+}
+
+/// Tells the levels where the arrays are.
+void Layer::point() {
+  for (std::size_t i = 0; i < levels_.size(); ++i) {
+    kernels::Level& level = levels_[i];
+    level.bounds = bounds_.data();
+    level.stride = stride_;
+    level.id = ids_.data();
+    level.start = start_.data() + plan_.first_cells[i];
+  }
+}
+
+void Layer::withdraw(std::uint32_t position) {
+  // The minimum stays: it says which row the position is in, beyond whose end a search must not look.
+  for (std::size_t axis = 3; axis < 6; ++axis) bounds_[axis * stride_ + position] = kNothing;
+}
+
+std::size_t Layer::bytes() const {
+  return (ids_.capacity() + other_ids_.capacity() + start_.capacity()) * sizeof(std::uint32_t) +
+         bounds_.capacity() * sizeof(float);
+}
+
+void Layer::checkInvariants(const std::vector<Aabb>& boxes) const {
+  const auto require = [](bool holds, const char* promise) {
+    if (!holds) throw std::logic_error(std::string("HGrid: ") + promise);
+  };
+  std::uint32_t position = 0;
+  for (const kernels::Level& level : levels_) {
+    require(level.begin == position, "levels follow each other");
+    const auto slabs = static_cast<std::int32_t>(level.grid.last[2]) + 1;
+    const std::int32_t cells = level.grid.slab * slabs;
+    for (std::int32_t cell = 0; cell < cells; ++cell) {
+      require(level.start[cell] == position && level.start[cell + 1] >= position, "cells follow each other");
+      for (; position < level.start[cell + 1]; ++position) {
+        if (isWithdrawn(position)) continue;
+        const Aabb& box = boxes[ids_[position]];
+        std::int32_t number[3];
+        for (int axis = 0; axis < 3; ++axis) {
+          const auto i = static_cast<std::size_t>(axis);
+          require(bounds_[i * stride_ + position] == box.min[axis] &&
+                      bounds_[(i + 3) * stride_ + position] == box.max[axis],
+                  "a box stands in the layer as it is");
+          require(box.max[axis] - box.min[axis] <= level.reach[axis], "a box is no longer than its level's reach");
+          const float place = box.min[axis] * level.grid.inverse[axis] - level.grid.origin[axis];
+          number[axis] = static_cast<std::int32_t>(std::min(place > 0.0f ? place : 0.0f, level.grid.last[axis]));
+        }
+        require(cell == number[2] * level.grid.slab + number[1] * level.grid.row + number[0],
+                "a box lives in the cell of its minimum corner");
+      }
+    }
+    require(level.end == position, "a level ends with its last cell");
+  }
+  require(position == count_, "every box has a place");
+}
+
+}  // namespace hgrid

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "broadphase/hgrid/plan.h"
+#include "broadphase/kernels/kernels.h"
+#include "broadphase/workers.h"
+
+namespace hgrid {
+
+/// What sorting works with; one for all layers of a grid.
+struct SortScratch {
+  std::vector<Aabb> copies;           // by position before; only of so many that they are in no cache any more
+  std::vector<std::uint32_t> cells;   // by position before
+  std::vector<std::uint32_t> counts;  // boxes per cell, for each thread but the last
+  std::vector<std::uint32_t> sums;    // per thread and range of cells: boxes counted there
+  std::vector<float> sizes;           // per thread and level, in fours
+  std::vector<kernels::Keying> keyings;
+};
+
+/// What does the work.
+struct Machine {
+  const kernels::Kernels* kernels = nullptr;
+  Workers* workers = nullptr;
+  SortScratch* scratch = nullptr;
+};
+
+/// Boxes sorted by level and cell into structure of arrays: two passes of counting, no lists, no pointers (Ericson
+/// 2005, 7.1.4). Sorted anew as a whole; in between, boxes can be withdrawn.
+///
+/// Only reserve() allocates. The caller calls reserve() before it changes anything, so a failed allocation leaves the
+/// layer as it was.
+class Layer {
+ public:
+  /// Allocates what setIds() and sort() of `count` boxes need. The layer keeps its boxes and their order.
+  /// @param ids  number of ids in use: the size of the array of boxes that sort() will get
+  void reserve(std::size_t count, std::size_t ids, const Machine& machine);
+  /// Which boxes there are, in any order. reserve() has made room for them. Must be followed by sort().
+  void setIds(const std::vector<ProxyId>& ids);
+  /// The same: room for so many ids, to be filled.
+  ProxyId* setIds(std::size_t count);
+  /// Takes the boxes as they are now. The order of the last time is where it begins: boxes move little. Allocates
+  /// nothing after reserve() of as many boxes.
+  /// @param boxes  by id
+  void sort(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine);
+  /// Takes the box at a position out: from now on it overlaps nothing.
+  void withdraw(std::uint32_t position);
+  bool isWithdrawn(std::uint32_t position) const { return !(bounds_[position] <= bounds_[3 * stride_ + position]); }
+
+  /// An array that is at the caller's disposal until the next sort(). reserve() keeps its values.
+  std::vector<std::uint32_t>& spare() { return other_ids_; }
+
+  std::size_t size() const { return count_; }  ///< positions, those withdrawn among them
+  const ProxyId* ids() const { return ids_.data(); }
+  /// The box at a position.
+  Aabb boxAt(std::uint32_t position) const {
+    const float* bound = bounds_.data() + position;
+    return {{bound[0], bound[stride_], bound[2 * stride_]},
+            {bound[3 * stride_], bound[4 * stride_], bound[5 * stride_]}};
+  }
+  const std::vector<kernels::Level>& levels() const { return levels_; }
+  const Plan& plan() const { return plan_; }
+  std::size_t bytes() const;
+  /// @throws std::logic_error naming the promise that does not hold
+  void checkInvariants(const std::vector<Aabb>& boxes) const;
+
+ private:
+  void count(const std::vector<Aabb>& boxes, const Machine& machine, std::size_t threads);
+  void scatter(const std::vector<Aabb>& boxes, const Machine& machine, std::size_t threads);
+  void describe(const std::vector<float>& sizes);
+  void widen(std::size_t count);
+  void point();
+  std::uint32_t* countsOf(std::size_t thread, std::size_t threads, const Machine& machine);
+
+  Plan plan_;
+  int sorts_with_plan_ = 0;
+  std::size_t count_ = 0;
+  std::vector<ProxyId> ids_, other_ids_;  // by position; the one is read while the other is written
+  std::vector<float> bounds_;             // six arrays, stride_ apart: min x y z, max x y z by position
+  std::size_t stride_ = 0;
+  std::vector<std::uint32_t> start_;  // of each cell, and the end of the last
+  std::vector<kernels::Level> levels_;
+};
+
+}  // namespace hgrid

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// The pairs of a world that has more of them than the bound.
+#include <algorithm>
+
+#include "broadphase/hgrid/engine.h"
+#include "broadphase/hgrid/found_boxes.h"
+
+namespace hgrid {
+namespace {
+
+/// Appends pairs in the order that PairBound says, until one would exceed the bound.
+class Collection {
+ public:
+  Collection(const PairBound& bound, const PairTest& test, std::vector<ProxyPair>& pairs)
+      : bound_(bound), test_(test), pairs_(pairs) {}
+
+  bool isCut() const { return cut_; }
+
+  /// Takes the pairs of a box from number `begin` on, which are in any order: only the box that meets the bound needs
+  /// them sorted.
+  void take(std::size_t begin) {
+    cutAt(begin + std::min(bound_.overlaps - overlaps_, pairs_.size() - begin), begin);
+    overlaps_ += pairs_.size() - begin;
+    if (test_.sift != nullptr) {
+      pairs_.resize(begin + test_.sift(test_.context, pairs_.data() + begin, pairs_.size() - begin));
+    }
+    cutAt(bound_.pairs, begin);
+  }
+
+ private:
+  /// Keeps the first `most` pairs, where those from `begin` on are taken in ascending order.
+  void cutAt(std::size_t most, std::size_t begin) {
+    if (pairs_.size() <= most) return;
+    const auto from = pairs_.begin();
+    std::nth_element(from + static_cast<std::ptrdiff_t>(begin), from + static_cast<std::ptrdiff_t>(most), pairs_.end());
+    pairs_.resize(most);
+    cut_ = true;
+  }
+
+  const PairBound& bound_;
+  const PairTest& test_;
+  std::vector<ProxyPair>& pairs_;
+  std::size_t overlaps_ = 0;
+  bool cut_ = false;
+};
+
+}  // namespace
+
+// A pair of two boxes that are not fixed is met twice and taken once. So this looks at no more than twice the bound and
+// the overlaps of one box.
+bool HGrid::Engine::collectPairs(std::vector<ProxyPair>& pairs) const {
+  pairs.clear();
+  Collection collection(bound, filter, pairs);
+  for (ProxyId id = 0; id < place.size() && !collection.isCut(); ++id) {
+    if (!isStored(id) || isFixed(id)) continue;
+    const std::size_t begin = pairs.size();
+    visitOverlapping(*this, boxOf(boxes[id]), [&](const Layer& layer, const PositionWriter& positions) {
+      std::size_t count = pairs.size();
+      pairs.resize(count + positions.size());
+      for (const std::uint32_t position : positions) {
+        const ProxyId other = layer.ids()[position];
+        pairs[count] = {std::min(id, other), std::max(id, other)};
+        count += other > id || isFixed(other) ? 1 : 0;  // Store unconditionally: a branch would be mispredicted.
+      }
+      pairs.resize(count);
+    });
+    collection.take(begin);
+  }
+  return !collection.isCut();
+}
+
+}  // namespace hgrid

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "broadphase/hgrid/engine.h"
+#include "broadphase/hgrid/found_boxes.h"
+
+namespace hgrid {
+namespace {
+
+/// Lists of a few hits are the rule; std::sort has a price of its own.
+template <class Iterator, class Less>
+void sortFew(Iterator begin, Iterator end, Less less) {
+  if (end - begin > 24) return std::sort(begin, end, less);
+  for (Iterator i = begin; i != end; ++i) {
+    auto value = *i;
+    Iterator j = i;
+    for (; j != begin && less(value, *(j - 1)); --j) *j = *(j - 1);
+    *j = value;
+  }
+}
+
+/// Sorts ids, each of which is there once. That of each place is counted: more steps than other ways, but none that a
+/// processor could guess wrong.
+void sortIds(ProxyId* ids, std::size_t count) {
+  constexpr std::size_t kFew = 32;
+  if (count > kFew) return std::sort(ids, ids + count);
+  std::array<ProxyId, kFew> unsorted;
+  std::copy_n(ids, count, unsorted.begin());
+  for (std::size_t i = 0; i < count; ++i) {
+    std::uint32_t before = 0;
+    for (std::size_t k = 0; k < count; ++k) before += unsorted[k] < unsorted[i] ? 1u : 0u;
+    ids[before] = unsorted[i];
+  }
+}
+
+kernels::Box boxAround(const Eigen::Vector3d& min, const Eigen::Vector3d& max) {
+  kernels::Box box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.min[axis] = roundedDown(min[axis]);
+    box.max[axis] = roundedUp(max[axis]);
+  }
+  return box;
+}
+
+kernels::Box boxOf(const Sphere& sphere) {
+  const double reach = sphere.center.cwiseAbs().maxCoeff() + sphere.radius;
+  const Eigen::Array3d half = Eigen::Array3d::Constant(sphere.radius + 2.0 * roundingSlack(reach));
+  return boxAround(sphere.center.array() - half, sphere.center.array() + half);
+}
+
+bool earlier(const SegmentHit& a, const SegmentHit& b) { return a.along != b.along ? a.along < b.along : a.id < b.id; }
+
+/// The segment as kernels take it.
+kernels::Line lineOf(const Segment& segment) {
+  kernels::Line line;
+  const double reach = std::max(segment.from.cwiseAbs().maxCoeff(), segment.to.cwiseAbs().maxCoeff()) + segment.radius;
+  line.around = segment.radius + 4.0 * roundingSlack(reach);
+  for (int axis = 0; axis < 3; ++axis) {
+    line.from[axis] = segment.from[axis];
+    line.way[axis] = segment.to[axis] - segment.from[axis];
+  }
+  return line;
+}
+
+/// Appends the ids of the boxes that overlap a box and pass a test, ascending.
+template <class Engine, class Test>
+void appendOverlapping(const Engine& engine, const kernels::Box& box, std::vector<ProxyId>& found, Test&& test) {
+  const std::size_t before = found.size();
+  visitOverlapping(engine, box, [&](const Layer& layer, const PositionWriter& positions) {
+    std::size_t count = found.size();
+    found.resize(count + positions.size());
+    for (const std::uint32_t position : positions) {  // written first, then kept or not: no branch to guess
+      found[count] = layer.ids()[position];
+      count += test(layer.boxAt(position)) ? 1 : 0;
+    }
+    found.resize(count);
+  });
+  sortIds(found.data() + before, found.size() - before);
+}
+
+// Answers to one question, appended. Several threads may ask at once.
+template <class Engine>
+void answer(const Engine& engine, const Aabb& query, std::vector<ProxyId>& found) {
+  appendOverlapping(engine, boxOf(query), found, [](const Aabb&) { return true; });
+}
+
+template <class Engine>
+void answer(const Engine& engine, const Sphere& query, std::vector<ProxyId>& found) {
+  const double near = touchingDistance(query);
+  appendOverlapping(engine, boxOf(query), found,
+                    [&](const Aabb& box) { return squaredDistance(box, query.center) <= near * near; });
+}
+
+template <class Engine>
+void answer(const Engine& engine, const Segment& query, std::vector<SegmentHit>& found) {
+  const kernels::Kernels& kernels = kernels::of(engine.isa);
+  const kernels::Line line = lineOf(query);
+  const FirstTouch firstTouch(query);
+  const std::size_t before = found.size();
+  visitFound(
+      engine, [&](const kernels::Level& level, kernels::PositionSink* sink) { kernels.along(&level, &line, sink); },
+      [&](const Layer& layer, const PositionWriter& positions) {
+        for (const std::uint32_t position : positions) {
+          const auto along = firstTouch(layer.boxAt(position));
+          if (along) found.push_back({layer.ids()[position], *along});
+        }
+      });
+  sortFew(found.begin() + static_cast<std::ptrdiff_t>(before), found.end(), earlier);
+}
+
+Eigen::Vector3f placeOf(const Aabb& box) { return box.min; }
+Eigen::Vector3f placeOf(const Sphere& sphere) { return sphere.center.cast<float>(); }
+Eigen::Vector3f placeOf(const Segment& segment) { return segment.from.cast<float>(); }
+
+/// Numbers of the questions, ordered by their places in buckets of a coarse grid over a layer, so that those that
+/// look at the same boxes follow each other.
+template <class Query>
+std::vector<std::uint32_t> byPlace(const std::vector<Query>& queries, const kernels::Grid& grid) {
+  constexpr float kAcross = 16.0f;
+  std::vector<std::uint32_t> next(static_cast<std::size_t>(kAcross * kAcross * kAcross) + 1, 0);
+  std::vector<std::uint32_t> buckets(queries.size()), order(queries.size());
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    const Eigen::Vector3f place = placeOf(queries[i]);
+    std::uint32_t bucket = 0;
+    for (const int axis : {2, 1, 0}) {
+      const float share = (place[axis] * grid.inverse[axis] - grid.origin[axis]) * (kAcross / (grid.last[axis] + 1.0f));
+      const float number = std::min(share > 0.0f ? share : 0.0f, kAcross - 1.0f);  // 0 for NaN too
+      bucket = bucket * static_cast<std::uint32_t>(kAcross) + static_cast<std::uint32_t>(number);
+    }
+    buckets[i] = bucket;
+    ++next[bucket + 1];
+  }
+  for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
+  for (std::uint32_t i = 0; i < queries.size(); ++i) order[next[buckets[i]]++] = i;
+  return order;
+}
+
+/// [m] Half the way between boxes where they stand densest, if they stood evenly; of a ball that holds `count` of them.
+template <class Engine>
+double likelyRadius(const Engine& engine, std::size_t count) {
+  double radius = std::numeric_limits<double>::infinity();
+  for (const Layer& layer : engine.layers) {
+    for (const kernels::Level& level : layer.levels()) {
+      if (level.begin == level.end) continue;
+      double volume = static_cast<double>(count) / (level.end - level.begin);
+      for (int i = 0; i < 3; ++i) volume *= (level.grid.last[i] + 1.0) / static_cast<double>(level.grid.inverse[i]);
+      radius = std::min(radius, 0.5 * std::cbrt(volume));
+    }
+  }
+  return radius;
+}
+
+template <class Engine, class Query, class Found>
+void answerAll(const Engine& engine, const std::vector<Query>& queries, BatchOf<Found>& batch) {
+  constexpr std::size_t kFitsTheCache = std::size_t{1} << 18;  // boxes: finding an order takes longer than it saves
+  constexpr std::size_t kAhead = 8;                            // questions fetched before they are answered
+  batch.begin.resize(queries.size());
+  batch.count.resize(queries.size());
+  batch.found.clear();
+  const Layer& largest = *std::max_element(engine.layers.begin(), engine.layers.end(),
+                                           [](const Layer& a, const Layer& b) { return a.size() < b.size(); });
+  const auto answerOne = [&](std::size_t i) {
+    batch.begin[i] = static_cast<std::uint32_t>(batch.found.size());
+    answer(engine, queries[i], batch.found);
+    batch.count[i] = static_cast<std::uint32_t>(batch.found.size()) - batch.begin[i];
+  };
+  if (largest.size() < kFitsTheCache) {
+    for (std::size_t i = 0; i < queries.size(); ++i) answerOne(i);
+  } else {
+    const std::vector<std::uint32_t> order = byPlace(queries, largest.levels().front().grid);
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      const char* const ahead = reinterpret_cast<const char*>(&queries[order[std::min(k + kAhead, order.size() - 1)]]);
+      __builtin_prefetch(ahead);
+      __builtin_prefetch(ahead + sizeof(Query) - 1);
+      answerOne(order[k]);
+    }
+  }
+}
+
+}  // namespace
+
+void HGrid::overlapping(const Aabb& box, std::vector<ProxyId>& found) const {
+  found.clear();
+  answer(*engine_, box, found);
+}
+
+void HGrid::overlapping(const Sphere& sphere, std::vector<ProxyId>& found) const {
+  found.clear();
+  answer(*engine_, sphere, found);
+}
+
+void HGrid::along(const Segment& segment, std::vector<SegmentHit>& found) const {
+  found.clear();
+  answer(*engine_, segment, found);
+}
+
+void HGrid::overlapping(const std::vector<Aabb>& boxes, IdBatch& found) const { answerAll(*engine_, boxes, found); }
+
+void HGrid::overlapping(const std::vector<Sphere>& spheres, IdBatch& found) const {
+  answerAll(*engine_, spheres, found);
+}
+
+void HGrid::along(const std::vector<Segment>& segments, SegmentBatch& found) const {
+  answerAll(*engine_, segments, found);
+}
+
+void HGrid::nearest(const Eigen::Vector3d& point, std::size_t count, double limit, std::vector<NearHit>& found) const {
+  found.clear();
+  const Engine& e = *engine_;
+  count = std::min(count, e.stored);
+  if (count == 0 || !(limit >= 0.0)) return;
+  const auto nearer = [](const NearHit& a, const NearHit& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.id < b.id;
+  };
+  // Balls that grow until one holds enough boxes; what a ball finds is all that is as near as its radius.
+  for (double radius = std::min(likelyRadius(e, count), limit);;) {
+    const bool all = !(radius < 1e30);  // coordinates of such a ball would not be floats
+    found.clear();
+    const auto consider = [&](ProxyId id, const Aabb& box) {
+      const double away = distance(box, point);
+      if (away <= limit) found.push_back({id, away});
+    };
+    if (all) {
+      for (ProxyId id = 0; id < e.place.size(); ++id) {
+        if (e.isStored(id)) consider(id, e.boxes[id]);
+      }
+    } else {
+      visitOverlapping(e, boxOf(Sphere{point, radius}), [&](const Layer& layer, const PositionWriter& positions) {
+        for (const std::uint32_t i : positions) consider(layer.ids()[i], layer.boxAt(i));
+      });
+    }
+    const std::size_t kept = std::min(count, found.size());
+    std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(kept), found.end(), nearer);
+    // Those in the corners of the box around the ball are farther than its radius; enough of them are a bound.
+    const bool enough = kept == count;
+    if (all || radius >= limit || (enough && found[kept - 1].distance <= radius)) return found.resize(kept);
+    radius = std::min(enough ? found[kept - 1].distance : 2.0 * radius, limit);
+  }
+}
+
+}  // namespace hgrid

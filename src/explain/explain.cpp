@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "hgrid_proximity/explain/explain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bodies/nearest_names.h"
+#include "explain/decided_rule.h"
+#include "hgrid_proximity/geometry/float_environment.h"
+#include "hgrid_proximity/refusal.h"
+
+namespace hgrid {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// A length to the micrometre, which is finer than a box.
+std::string metres(double length) { return text(std::round(length * 1e6) / 1e6) + " m"; }
+
+std::uint32_t known(const Structure& structure, const std::string& name) {
+  const std::uint32_t body = structure.find(name);
+  if (body == Structure::kNone) throw Refusal(Code::unknown_id, noSuchBody(name, structure.bodies));
+  return body;
+}
+
+/// The sentences, made of what the explanation has besides them.
+class Words {
+ public:
+  /// @param near  their boxes are within the margin
+  Words(const Structure& structure, const Explanation& what, bool near)
+      : what_(what), a_(structure.bodies[what.first]), b_(structure.bodies[what.second]), near_(near) {}
+
+  std::string all() const {
+    const std::string pair = a_.name + " and " + b_.name;
+    const bool off = what_.rule.origin != Origin::none && what_.rule.allowed;
+    std::string result;
+    if (what_.reported) {
+      result = pair + " are reported: " + nearness() + "." + enabled();
+    } else if (off) {
+      result = pair + " are not reported: " + switchedOff() + "." + without();
+    } else if (what_.cut) {
+      result = pair + " are not reported, although " + nearness() + ": there are more pairs than ~max_pairs allows. " +
+               "Of those that were found, contacts are kept, then the smallest gaps, then the first by name." +
+               enabled();
+    } else {
+      result = pair + " are not reported: " + (hasBoxes() ? nearness() : missing()) + "." + enabled();
+    }
+    result += grown() + freshness(a_, what_.state_first, what_.age_first);
+    if (what_.first != what_.second) result += freshness(b_, what_.state_second, what_.age_second);
+    result += measured() + unread(a_);
+    return what_.first == what_.second ? result : result + unread(b_);
+  }
+
+ private:
+  bool hasBoxes() const { return !std::isnan(what_.gap); }
+
+  std::string nearness() const {
+    const std::string margin = "the margin of " + metres(what_.margin);
+    if (!(what_.gap > 0.0)) return "their boxes touch or overlap, which is within " + margin;
+    const std::string soon = what_.reported && !near_
+                                 ? ", but by their bounds of speed they can meet within ~horizon, or they passed each "
+                                   "other since the tick before"
+                                 : "";
+    return "their boxes are " + metres(what_.gap) + " apart, " + (near_ ? "within " : "more than ") + margin + soon;
+  }
+
+  /// That what was said may not be all.
+  static std::string unread(const Body& body) {
+    if (body.covered || body.shapes.empty()) return {};
+    return " Not all shapes of " + body.name + " could be read, so it may be nearer: " + body.note + ".";
+  }
+
+  /// Why there is no gap.
+  std::string missing() const {
+    for (const auto* body : {&a_, &b_}) {
+      const Freshness state = body == &a_ ? what_.state_first : what_.state_second;
+      if (state == Freshness::unplaced) {
+        return body->name + " is UNPLACED: it never had a pose (frame '" + printable(body->frame) + "')";
+      }
+    }
+    for (const auto* body : {&a_, &b_}) {
+      if (body->kind == BodyKind::map) return body->name + " has no occupied cells";
+    }
+    const Body& body = a_.shapes.empty() ? a_ : b_;
+    return body.name + " has no shape that could be read" + (body.note.empty() ? "" : ": " + body.note);
+  }
+
+  std::string switchedOff() const {
+    const PairRule& rule = what_.rule;
+    switch (rule.origin) {
+      case Origin::self:
+        return "they are the same body, which makes no pair with itself";
+      case Origin::kind:
+        return kind();
+      case Origin::rigid:
+        return "both links are of one rigid group, so they move as one";
+      case Origin::adjacent:
+        return "the links are adjacent: " + what_.rule.reason;
+      case Origin::srdf:
+        return "the SRDF disables the pair" + because();
+      default:
+        return theRule("rule") + " allows them to touch" + because();
+    }
+  }
+
+  std::string because() const {
+    return what_.rule.reason.empty() ? "" : " (" + printable(what_.rule.reason, kLongestRuleText) + ")";
+  }
+
+  std::string kind() const {
+    if (a_.mobility == Mobility::fixed && b_.mobility == Mobility::fixed) {
+      return "both are fixed in the world, and bodies that never move make no pair";
+    }
+    const bool links = a_.kind == BodyKind::link && b_.kind == BodyKind::link;
+    const bool link = a_.kind == BodyKind::link || b_.kind == BodyKind::link;
+    const bool map = a_.kind == BodyKind::map || b_.kind == BodyKind::map;
+    const auto moving_obstacle = [](const Body& body) {
+      return body.kind == BodyKind::obstacle && body.mobility == Mobility::moving;
+    };
+    if (!link && !moving_obstacle(a_) && !moving_obstacle(b_)) {
+      return "without a robot's link a pair needs an obstacle that moves";
+    }
+    const char* name = links  ? (a_.robot == b_.robot ? "self" : "robot_robot")
+                       : link ? (map ? "robot_map" : "robot_obstacle")
+                              : "moving_obstacle";
+    return std::string("~pair_kinds does not name their kind, ") + name + ", and no rule beats that";
+  }
+
+  std::string theRule(const std::string& begin) const {
+    const PairRule& rule = what_.rule;
+    std::string words = begin + " '" + printable(rule.first) + "', '" + printable(rule.second) + "' of ";
+    words += rule.origin == Origin::service ? "~set_allowed" : "~allowed_pairs";
+    if (rule.ends != PairRule::Clock::time_point::max()) {
+      const double left = std::chrono::duration<double>(rule.ends - PairRule::Clock::now()).count();
+      words += ", which ends in " + secondsText(std::max(0.0, left)) + ",";
+    }
+    return words;
+  }
+
+  /// What would be if nothing switched the pair off.
+  std::string without() const {
+    if (what_.rule.origin == Origin::self) return {};
+    if (!hasBoxes()) return " Besides, " + missing() + ".";
+    return near_ ? " Without that they would be reported: " + nearness() + "." : " Besides, " + nearness() + ".";
+  }
+
+  /// That a rule or an SRDF says that the pair is to be reported.
+  std::string enabled() const {
+    const PairRule& rule = what_.rule;
+    if (rule.origin == Origin::none) return {};
+    const std::string who = rule.origin == Origin::srdf ? "The SRDF's enable_collisions" : theRule("Rule");
+    return " " + who + " says that it is to be reported when near" + because() + ".";
+  }
+
+  std::string grown() const {
+    if (!(what_.growth > 0.0) || !hasBoxes()) return {};
+    return " " + metres(what_.growth) + " of the margin are there because data is old.";
+  }
+
+  static std::string freshness(const Body& body, Freshness state, double age) {
+    if (state == Freshness::fresh || state == Freshness::unplaced) return {};
+    return " " + body.name + " is " + name(state) + ": its pose is " + secondsText(age) + " old.";
+  }
+
+  std::string measured() const {
+    switch (what_.measured) {
+      case Measure::not_measured:
+        return {};
+      case Measure::apart:
+        return std::isinf(what_.distance) ? " Their shapes are farther apart than was asked for."
+                                          : " Their shapes are " + metres(what_.distance) + " apart.";
+      case Measure::contact:
+        return " Their shapes are in contact.";
+      case Measure::contained:
+        return " One shape lies inside the other, which is contact.";
+      case Measure::containment_unknown:
+        return " One shape may lie inside the other, an open mesh; that is taken as contact.";
+      case Measure::failed:
+        break;
+    }
+    return " Their distance could not be computed; that is taken as contact.";
+  }
+
+  const Explanation& what_;
+  const Body &a_, &b_;
+  bool near_;
+};
+
+/// Gap of the nearest boxes, and whether it is within the margin; of a reported pair as it stands in the snapshot.
+bool fillGap(const Snapshot& snapshot, Explanation& what) {
+  const Structure& s = snapshot.structure();
+  const auto key = std::minmax(what.first, what.second);
+  const std::vector<NearPair>& pairs = snapshot.pairs();
+  const auto found = std::lower_bound(pairs.begin(), pairs.end(), key, [](const NearPair& pair, const auto& wanted) {
+    return pair.first != wanted.first ? pair.first < wanted.first : pair.second < wanted.second;
+  });
+  if (found != pairs.end() && found->first == key.first && found->second == key.second) {
+    what.reported = true;
+    what.position = static_cast<std::size_t>(found - pairs.begin());
+    what.gap = found->gap;
+    what.margin = found->margin;
+    what.since = found->since;
+    return (found->flags & kHorizonFlag) == 0;
+  }
+  what.gap = kNan;
+  if (what.state_first == Freshness::unplaced || what.state_second == Freshness::unplaced) return false;
+  const double gap = snapshot.gapOf(what.first, what.second);
+  if (!std::isfinite(gap)) return false;
+  what.gap = gap;
+  bool near = gap <= what.margin && (s.isMap(what.first) || s.isMap(what.second));
+  for (std::uint32_t i = s.first_proxy[what.first]; i < s.first_proxy[what.first + 1]; ++i) {
+    for (std::uint32_t j = s.first_proxy[what.second]; j < s.first_proxy[what.second + 1]; ++j) {
+      near = near || withinDistance(snapshot.boxes()[i], snapshot.boxes()[j], what.margin);
+    }
+  }
+  if (near) what.gap = std::min(what.gap, what.margin);  // as in a reported pair
+  return near;
+}
+
+}  // namespace
+
+Explanation explain(const Snapshot& snapshot, const std::string& first, const std::string& second,
+                    const PairDistance* exact) {
+  const DefaultFloatEnvironment environment;
+  const Structure& structure = snapshot.structure();
+  Explanation what;
+  what.first = known(structure, first);
+  what.second = known(structure, second);
+  what.rule = decidedRule(structure, what.first, what.second);
+  const BodyPose &a = snapshot.poses()[what.first], &b = snapshot.poses()[what.second];
+  what.state_first = a.state;
+  what.state_second = b.state;
+  what.age_first = a.state == Freshness::unplaced ? kNan : a.age;
+  what.age_second = b.state == Freshness::unplaced ? kNan : b.age;
+  what.margin_pair = structure.pair_margins.of(what.first, what.second).value_or(Proximity::kUnknown);
+  what.margin_first = structure.margin[what.first];
+  what.margin_second = structure.margin[what.second];
+  what.growth = snapshot.growthOf(what.first, what.second);
+  what.margin = snapshot.marginOf(what.first, what.second) + what.growth;
+  what.distance = kNan;
+  if (exact != nullptr) {
+    what.measured = exact->proximity.status;
+    what.distance = exact->proximity.distance;
+  }
+  const bool near = fillGap(snapshot, what);
+  what.cut = near && !what.reported && !what.rule.allowed && snapshot.truncated();
+  what.text = Words(structure, what, near).all();
+  return what;
+}
+
+}  // namespace hgrid

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "maps/map_gap.h"
+
+#include <limits>
+
+namespace hgrid {
+
+std::shared_ptr<const MapCells> makeMapCells(std::shared_ptr<const StaticGrid> grid, const NarrowPhase& narrow_phase,
+                                             std::shared_ptr<const UnmappedSpace> unmapped) {
+  auto cells = std::make_shared<MapCells>();
+  for (std::size_t level = 0; level < cells->cubes.size(); ++level) {
+    const double edge = std::ldexp(grid->finestEdge(), static_cast<int>(level));
+    cells->cubes[level] = narrow_phase.block(Eigen::Vector3d::Constant(edge));
+  }
+  cells->grid = std::move(grid);
+  cells->unmapped = std::move(unmapped);
+  return cells;
+}
+
+Eigen::AlignedBox3d boxInMap(const Pose& map_from_world, const Aabb& box, const Eigen::Vector3d& origin) {
+  const Eigen::Vector3d low = box.min.cast<double>(), high = box.max.cast<double>();
+  const Eigen::Vector3d center = map_from_world * (origin + 0.5 * (low + high));
+  const Eigen::Vector3d half = map_from_world.linear().cwiseAbs() * (0.5 * (high - low));
+  return {center - half, center + half};
+}
+
+double gapTo(const StaticGrid& grid, const Eigen::AlignedBox3d& box, double up_to) {
+  double least = std::numeric_limits<double>::infinity();
+  const double rounding = 1e-9 * (box.min().cwiseAbs().maxCoeff() + box.max().cwiseAbs().maxCoeff());
+  grid.visitNear(box, up_to + rounding, [&](const Voxel&, double distance) {
+    least = std::min(least, distance);
+    return distance > 0.0 ? distance : kNoFurther;
+  });
+  return least;
+}
+
+}  // namespace hgrid

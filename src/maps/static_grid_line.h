@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// How a StaticGrid is searched along a segment.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "hgrid_proximity/maps/static_grid.h"
+#include "maps/brick.h"
+#include "maps/static_grid_bricks.h"
+#include "maps/static_grid_four.h"
+
+namespace hgrid {
+
+/// Slices of a brick across a main axis, cut to a range along one of the other axes: by main axis, by which other axis
+/// (the next one, the one after), by slice, and by 5 * first + end of the range, each 0 .. 4.
+struct SliceRanges {
+  using Slice = std::array<std::uint64_t, 25>;
+  std::array<std::array<std::array<Slice, 4>, 2>, 3> sets{};
+
+  constexpr SliceRanges() {
+    for (std::size_t main = 0; main < 3; ++main) {
+      for (std::size_t other = 0; other < 2; ++other) {
+        for (std::size_t slice = 0; slice < 4; ++slice) {
+          for (std::size_t range = 0; range < 25; ++range) {
+            sets[main][other][slice][range] = kCellRanges.sets[main][slice][slice + 1] &
+                                              kCellRanges.sets[(main + 1 + other) % 3][range / 5][range % 5];
+          }
+        }
+      }
+    }
+  }
+};
+inline constexpr SliceRanges kSliceRanges;
+
+/// Where each cell of a brick is: by axis, and as keys of 16 bits, x lowest.
+struct CellPlaces {
+  std::array<std::array<float, 64>, 3> along{};
+  std::array<std::uint64_t, 64> keys{};
+
+  constexpr CellPlaces() {
+    for (unsigned cell = 0; cell < 64; ++cell) {
+      for (int axis = 0; axis < 3; ++axis) {
+        along[static_cast<std::size_t>(axis)][cell] = static_cast<float>(cellAlong(cell, axis));
+        keys[cell] |= static_cast<std::uint64_t>(cellAlong(cell, axis)) << 16 * axis;
+      }
+    }
+  }
+};
+inline constexpr CellPlaces kCellPlaces;
+
+/// Goes from brick to brick as a segment passes them, and of each takes the cells that it passes at once: slice by
+/// slice across the main axis, along which the segment is longest, those between where it enters the slice and leaves
+/// it.
+///
+/// Where the segment is in a brick, told in its cells, follows from where it is in the brick around it. Floats do,
+/// since they only choose cells, with more room than they round away: what is touched is decided voxel by voxel, in
+/// double.
+class StaticGrid::LineSearch {
+ public:
+  /// @param segment  in keys, counted from the map's origin
+  LineSearch(const StaticGrid& grid, const Segment& segment) : grid_(grid), segment_(segment) {
+    const Eigen::Vector3d way = segment.to - segment.from;
+    const double longest = way.cwiseAbs().maxCoeff(&main_);
+    const double farthest = std::max(segment.from.cwiseAbs().maxCoeff(), segment.to.cwiseAbs().maxCoeff());
+    around_ = segment.radius + 2e-12 * (farthest + segment.radius);  // twice what FirstTouch adds
+    length_ = way.norm();
+    way_ = way[main_];
+    const double per_way = longest > 1e-100 ? 1.0 / way_ : 0.0;
+    const std::array<double, 2> slopes{way[axisOf(0)] * per_way, way[axisOf(1)] * per_way};
+    begin(slopes);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto slope = static_cast<float>(slopes[i]);
+      const Four slices = Four{0.0f, 1.0f, 2.0f, 3.0f} * slope;
+      others_[i] = {slices + std::min(slope, 0.0f), slices + std::max(slope, 0.0f), Four{slope, slope, 0.0f, 0.0f},
+                    &kCellPlaces.along[static_cast<std::size_t>(axisOf(i))]};
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t slice = way_ < 0.0 ? 3 - i : i;
+      slices_[i] = kCellRanges.sets[static_cast<std::size_t>(main_)][slice][slice + 1];
+    }
+  }
+
+  /// The voxel that is touched first, and where, as a share of the segment; infinity if there is none.
+  VoxelTouch first() {
+    const int top = grid_.start_.level;
+    Frame* frame = &frames_[static_cast<std::size_t>(top)];
+    enter(*frame, top);
+    for (int level = top;;) {
+      while (frame->left == 0) {
+        if (++level > top) return first_;
+        ++frame;
+      }
+      const unsigned cell = firstCell(firstSlice(frame->left));
+      if (frame->full >> cell & 1u) {
+        touch(*frame, level, cell);
+      } else {
+        frame->left &= ~(std::uint64_t{1} << cell);
+        goBelow(*frame, level, cell, *(frame - 1));
+        --level;
+        --frame;
+      }
+    }
+  }
+
+ private:
+  /// [cells] Added where the search starts, and four times as many cells on each level below. Numbers that decide are
+  /// less than 8, so that what one level rounds is less than 2^-20 of its cells.
+  static constexpr float kRoom = 1.0f / (1 << 18);
+
+  /// A brick, and the segment in its cells, counted from its corner.
+  struct Frame {
+    std::uint64_t left;         // cells that the segment passes and that are not yet looked at
+    std::uint64_t cells, full;  // as of BrickLevel
+    std::uint64_t keys;         // of its corner, as of CellPlaces but from 0
+    std::uint32_t number;
+    Four main;                   // from .. to along the main axis; the rest is not used
+    std::array<Four, 2> others;  // from .. to along another axis where the main one is 0; from .. to of all the segment
+  };
+  /// An axis that is not the main one.
+  struct Other {
+    Four from, to;  // how far each slice begins and ends from where the main axis is 0
+    Four slope;     // what is added to Frame::others per cell along the main axis
+    const std::array<float, 64>* along;
+  };
+
+  int axisOf(std::size_t other) const { return (main_ + 1 + static_cast<int>(other)) % 3; }
+  static double edgeOf(int level) { return static_cast<double>(std::int64_t{1} << 2 * level); }
+
+  /// The frame of the brick where searches start.
+  void begin(const std::array<double, 2>& slopes) {
+    const Brick& start = grid_.start_;
+    Frame& frame = frames_[static_cast<std::size_t>(start.level)];
+    frame.number = start.number;
+    frame.keys = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      frame.keys |= static_cast<std::uint64_t>(start.corner[axis] + Voxel::kOriginKey) << 16 * axis;
+    }
+    const double per_edge = 1.0 / edgeOf(start.level);
+    const auto least = [&](int axis, double key) {
+      return static_cast<float>((key - start.corner[static_cast<std::size_t>(axis)]) * per_edge) - kRoom;
+    };
+    const auto greatest = [&](int axis, double key) { return least(axis, key) + 2.0f * kRoom; };
+    const Eigen::Vector3d min = segment_.from.cwiseMin(segment_.to), max = segment_.from.cwiseMax(segment_.to);
+    frame.main = Four{least(main_, min[main_] - around_), greatest(main_, max[main_] + around_), 0.0f, 0.0f};
+    const double to_corner = start.corner[static_cast<std::size_t>(main_)] - segment_.from[main_];
+    for (std::size_t i = 0; i < 2; ++i) {
+      const int axis = axisOf(i);
+      const double at = segment_.from[axis] + to_corner * slopes[i], around = around_ * (1.0 + std::abs(slopes[i]));
+      frame.others[i] = Four{least(axis, at - around), greatest(axis, at + around), least(axis, min[axis] - around_),
+                             greatest(axis, max[axis] + around_)};
+    }
+  }
+
+  void goBelow(const Frame& frame, int level, unsigned cell, Frame& below) const {
+    const std::uint64_t before = frame.cells & ~frame.full & ((std::uint64_t{1} << cell) - 1);
+    below.number = grid_.levels_[static_cast<std::size_t>(level)].first_below[frame.number] +
+                   static_cast<std::uint32_t>(bitCount(before));
+    below.keys = frame.keys + (kCellPlaces.keys[cell] << 2 * level);
+    const float main = kCellPlaces.along[static_cast<std::size_t>(main_)][cell];
+    below.main = (frame.main - main) * 4.0f;
+    for (std::size_t i = 0; i < 2; ++i) {
+      below.others[i] = (frame.others[i] - (*others_[i].along)[cell] + others_[i].slope * main) * 4.0f;
+    }
+    enter(below, level - 1);
+  }
+
+  void enter(Frame& frame, int level) const {
+    const BrickLevel& bricks = grid_.levels_[static_cast<std::size_t>(level)];
+    frame.cells = bricks.cells[frame.number];
+    frame.full = level == 0 ? frame.cells : bricks.full[frame.number];
+    frame.left = frame.cells & alongMain(frame) & alongOther(frame, 0) & alongOther(frame, 1);
+  }
+
+  std::uint64_t alongMain(const Frame& frame) const {
+    const FourCounts range = countsOf(frame.main + Four{0.0f, 1.0f, 0.0f, 0.0f});
+    return kCellRanges.sets[static_cast<std::size_t>(main_)][range[0]][range[1]];
+  }
+
+  std::uint64_t alongOther(const Frame& frame, std::size_t i) const {
+    const Four line = frame.others[i];
+    const Four from = greatest(others_[i].from + line[0], allFour(line[2]));
+    const Four to = least(others_[i].to + line[1], allFour(line[3]));
+    const FourCounts first = countsOf(from), range = first * 4 + first + countsOf(to + 1.0f);
+    const auto& sets = kSliceRanges.sets[static_cast<std::size_t>(main_)][i];
+    return sets[0][range[0]] | sets[1][range[1]] | sets[2][range[2]] | sets[3][range[3]];
+  }
+
+  /// Of some cells those in the first slice on the way that has any.
+  std::uint64_t firstSlice(std::uint64_t cells) const {
+    std::uint64_t first = cells;
+    for (const std::size_t i : {2u, 1u, 0u}) {
+      const std::uint64_t here = cells & slices_[i];
+      first = here != 0 ? here : first;
+    }
+    return first;
+  }
+
+  void touch(Frame& frame, int level, unsigned cell) {
+    const Brick brick = brickOf(frame, level);
+    frame.left &= ~grid_.restOfVoxel(brick, cell);
+    const Voxel voxel = grid_.voxelAt(brick, cell);
+    const auto along = FirstTouch(segment_)(keysOf(voxel));
+    if (!along) return;
+    const double share = length_ > 0.0 ? *along / length_ : 0.0;
+    if (!(share < first_.along)) return;
+    first_ = {voxel, share};
+    endAt(segment_.from + share * (segment_.to - segment_.from), level);
+  }
+
+  /// Leaves out, of this brick and those around it, what the segment passes only beyond `end` [keys].
+  void endAt(const Eigen::Vector3d& end, int level) {
+    for (; level <= grid_.start_.level; ++level) {
+      Frame& frame = frames_[static_cast<std::size_t>(level)];
+      if (frame.left == 0) continue;
+      const Brick brick = brickOf(frame, level);
+      const auto shorten = [&](int axis, float& from, float& to) {
+        const double at = end[axis] - brick.corner[static_cast<std::size_t>(axis)];
+        const bool falls = segment_.to[axis] < segment_.from[axis];
+        const auto last = static_cast<float>((falls ? at - around_ : at + around_) / edgeOf(level));
+        falls ? from = std::max(from, last - kRoom) : to = std::min(to, last + kRoom);
+      };
+      float from = frame.main[0], to = frame.main[1];
+      shorten(main_, from, to);
+      frame.main = Four{from, to, 0.0f, 0.0f};
+      frame.left &= alongMain(frame);
+      for (std::size_t i = 0; i < 2 && frame.left != 0; ++i) {
+        from = frame.others[i][2], to = frame.others[i][3];
+        shorten(axisOf(i), from, to);
+        frame.others[i] = Four{frame.others[i][0], frame.others[i][1], from, to};
+        frame.left &= alongOther(frame, i);
+      }
+    }
+  }
+
+  static Brick brickOf(const Frame& frame, int level) {
+    const auto corner = [&](int axis) {
+      return static_cast<std::uint16_t>(frame.keys >> 16 * axis) - Voxel::kOriginKey;
+    };
+    return {level, frame.number, {corner(0), corner(1), corner(2)}};
+  }
+
+  const StaticGrid& grid_;
+  const Segment segment_;
+  int main_ = 0;
+  double around_, length_;  // [keys] its radius and what may have been rounded; its length
+  double way_;              // [keys] along the main axis
+  std::array<Other, 2> others_;
+  std::array<std::uint64_t, 4> slices_;  // across the main axis, as they are passed
+  std::array<Frame, kBrickLevels> frames_;
+  VoxelTouch first_{{}, std::numeric_limits<double>::infinity()};
+};
+
+}  // namespace hgrid

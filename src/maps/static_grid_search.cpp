@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// The questions that a StaticGrid answers; static_grid.cpp has how it is built.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hgrid_proximity/maps/static_grid.h"
+#include "maps/brick.h"
+#include "maps/static_grid_bricks.h"
+#include "maps/static_grid_line.h"
+
+namespace hgrid {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+/// Searches in keys, counted from the map's origin: finest edges, of which all corners of cells are whole numbers.
+class StaticGrid::Search {
+ public:
+  explicit Search(const StaticGrid& grid) : grid_(grid) {}
+
+  Eigen::Vector3d keysAt(const Eigen::Vector3d& point) const { return point / grid_.finest_edge_; }
+  double metres(double keys) const { return keys * grid_.finest_edge_; }
+  double keys(double metres) const { return metres / grid_.finest_edge_; }
+
+  /// A box in keys, wider by what may have been rounded.
+  struct Range {
+    Eigen::Array3d min, max;
+  };
+  static Range rangeAround(const Eigen::Vector3d& min, const Eigen::Vector3d& max, double by) {
+    const double rounded = 1e-9 + 1e-12 * (std::max(min.cwiseAbs().maxCoeff(), max.cwiseAbs().maxCoeff()) + by);
+    return {min.array() - (by + rounded), max.array() + (by + rounded)};
+  }
+
+  /// Calls `look` with every voxel of the cells that `chosen` leaves of a brick, in Morton order, until it returns
+  /// false. @returns whether it never did
+  template <class Chosen, class Look>
+  bool visit(const Brick& brick, const Chosen& chosen, const Look& look) const {
+    const std::uint64_t full = grid_.fullOf(brick);
+    std::uint64_t cells = grid_.cellsOf(brick) & chosen(brick, full != 0);
+    while (cells != 0) {
+      const unsigned cell = firstCell(cells);
+      if (full >> cell & 1u) {
+        cells &= ~grid_.restOfVoxel(brick, cell);
+        if (!look(grid_.voxelAt(brick, cell))) return false;
+      } else {
+        cells &= cells - 1;
+        if (!visit(grid_.below(brick, cell), chosen, look)) return false;
+      }
+    }
+    return true;
+  }
+
+  /// Chooses the cells of a brick that have a part of a range.
+  static auto inRange(const Range& range) {
+    return [range](const Brick& brick, bool) { return cellsWithin(brick, range); };
+  }
+  /// Chooses the cells that touch a ball in keys; of bricks without voxels of their own, those around it.
+  static auto inBall(const Sphere& ball) {
+    const double near = touchingDistance(ball);
+    return [range = rangeAround(ball.center, ball.center, ball.radius), ball, near](const Brick& brick, bool exactly) {
+      return exactly ? cellsTouching(brick, ball.center, near * near) : cellsWithin(brick, range);
+    };
+  }
+
+  /// Of what lies within `limit` keys of a box in keys, the nearer cells first.
+  template <class Look>
+  void near(const Brick& brick, const Eigen::AlignedBox3d& box, double& limit, const Look& look) const {
+    struct Cell {
+      double distance;
+      unsigned number;
+    };
+    std::array<Cell, 64> cells;
+    std::size_t count = 0;
+    std::uint64_t left = grid_.cellsOf(brick) & cellsWithin(brick, rangeAround(box.min(), box.max(), limit));
+    const std::uint64_t full = grid_.fullOf(brick);
+    while (left != 0) {
+      const unsigned cell = firstCell(left);
+      left &= full >> cell & 1u ? ~grid_.restOfVoxel(brick, cell) : left - 1;
+      const double distance =
+          distanceTo(box, full >> cell & 1u ? keysOf(grid_.voxelAt(brick, cell)) : cubeOf(grid_.below(brick, cell)));
+      if (distance <= limit) cells[count++] = {distance, cell};
+    }
+    std::sort(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(count), [](const Cell& a, const Cell& b) {
+      return a.distance != b.distance ? a.distance < b.distance : a.number < b.number;
+    });
+    for (std::size_t i = 0; i < count && cells[i].distance <= limit; ++i) {
+      if (full >> cells[i].number & 1u) {
+        limit = std::min(limit, look(grid_.voxelAt(brick, cells[i].number), cells[i].distance));
+      } else {
+        near(grid_.below(brick, cells[i].number), box, limit, look);
+      }
+    }
+  }
+
+ private:
+  static std::uint64_t cellsWithin(const Brick& brick, const Range& range) {
+    const double per_key = 1.0 / static_cast<double>(std::int64_t{1} << 2 * brick.level);
+    std::uint64_t cells = ~std::uint64_t{0};
+    for (int axis = 0; axis < 3; ++axis) {
+      const double corner = brick.corner[static_cast<std::size_t>(axis)];
+      cells &= cellsBetween(axis, (range.min[axis] - corner) * per_key, (range.max[axis] - corner) * per_key);
+    }
+    return cells;
+  }
+
+  /// Along each axis the square of a cell's distance is one of four; of three of them each cell's is made.
+  static std::uint64_t cellsTouching(const Brick& brick, const Eigen::Vector3d& center, double most_squared) {
+    const double edge = static_cast<double>(std::int64_t{1} << 2 * brick.level);
+    std::array<std::array<double, 4>, 3> squared;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double at = center[static_cast<Eigen::Index>(axis)] - brick.corner[axis];
+      for (std::size_t i = 0; i < 4; ++i) {
+        const double low = static_cast<double>(i) * edge;
+        const double gap = std::max(std::max(low - at, at - (low + edge)), 0.0);
+        squared[axis][i] = gap * gap;
+      }
+    }
+    std::uint64_t cells = 0;
+    for (unsigned z = 0; z < 4; ++z) {
+      for (unsigned y = 0; y < 4; ++y) {
+        const double rest = most_squared - (squared[2][z] + squared[1][y]);
+        std::uint64_t row = 0;  // cells 0, 1, 8 and 9 stand beside each other along x
+        for (const unsigned x : {0u, 1u, 2u, 3u}) {
+          row |= static_cast<std::uint64_t>(squared[0][x] <= rest) << ((x & 1) + (x >> 1) * 8);
+        }
+        cells |= row << ((y & 1) * 2 + (y >> 1) * 16 + (z & 1) * 4 + (z >> 1) * 32);
+      }
+    }
+    return cells;
+  }
+
+  static Aabb cubeOf(const Brick& brick) {
+    const Eigen::Vector3f min(static_cast<float>(brick.corner[0]), static_cast<float>(brick.corner[1]),
+                              static_cast<float>(brick.corner[2]));
+    return {min, min + Eigen::Vector3f::Constant(static_cast<float>(std::int64_t{4} << 2 * brick.level))};
+  }
+
+  static double distanceTo(const Eigen::AlignedBox3d& box, const Aabb& cube) {
+    double sum = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double gap = std::max(std::max(static_cast<double>(cube.min[axis]) - box.max()[axis],
+                                           box.min()[axis] - static_cast<double>(cube.max[axis])),
+                                  0.0);
+      sum += gap * gap;
+    }
+    return std::sqrt(sum);
+  }
+
+  const StaticGrid& grid_;
+};
+
+std::vector<Voxel> StaticGrid::voxels() const {
+  std::vector<Voxel> all;
+  all.reserve(size_);
+  overlapping(Eigen::AlignedBox3d(Eigen::Vector3d::Constant(-kInfinity), Eigen::Vector3d::Constant(kInfinity)), size_,
+              all);
+  return all;
+}
+
+namespace {
+
+/// Keeps voxels until there are more than `most`.
+auto keepIn(std::vector<Voxel>& found, std::size_t most) {
+  found.clear();
+  return [&found, most](const Voxel& voxel) {
+    if (found.size() == most) return false;
+    found.push_back(voxel);
+    return true;
+  };
+}
+
+}  // namespace
+
+bool StaticGrid::overlapping(const Eigen::AlignedBox3d& box, std::size_t most, std::vector<Voxel>& found) const {
+  const Search search(*this);
+  const auto range = Search::rangeAround(search.keysAt(box.min()), search.keysAt(box.max()), 0.0);
+  return search.visit(start_, Search::inRange(range), keepIn(found, most));
+}
+
+bool StaticGrid::overlapping(const Sphere& sphere, std::size_t most, std::vector<Voxel>& found) const {
+  const Search search(*this);
+  const Sphere in_keys{search.keysAt(sphere.center), search.keys(sphere.radius)};
+  return search.visit(start_, Search::inBall(in_keys), keepIn(found, most));
+}
+
+bool StaticGrid::touches(const Sphere& sphere) const {
+  const Search search(*this);
+  const Sphere in_keys{search.keysAt(sphere.center), search.keys(sphere.radius)};
+  return !search.visit(start_, Search::inBall(in_keys), [](const Voxel&) { return false; });
+}
+
+std::optional<VoxelTouch> StaticGrid::firstAlong(const Segment& segment) const {
+  const Search search(*this);
+  LineSearch line(*this, {search.keysAt(segment.from), search.keysAt(segment.to), search.keys(segment.radius)});
+  VoxelTouch first = line.first();
+  if (std::isinf(first.along)) return std::nullopt;
+  first.along *= (segment.to - segment.from).norm();
+  return first;
+}
+
+void StaticGrid::visitNear(const Eigen::AlignedBox3d& box, double limit, const Look& look) const {
+  const Search search(*this);
+  const Eigen::AlignedBox3d in_keys(search.keysAt(box.min()), search.keysAt(box.max()));
+  const double farthest = std::max(in_keys.min().cwiseAbs().maxCoeff(), in_keys.max().cwiseAbs().maxCoeff());
+  const double rounded = 1e-12 * (farthest + 1.0);  // what is no farther away touches
+  double limit_in_keys = search.keys(limit) + rounded;
+  search.near(start_, in_keys, limit_in_keys, [&](const Voxel& voxel, double distance) {
+    return search.keys(look(voxel, distance > rounded ? search.metres(distance) : 0.0)) + rounded;
+  });
+}
+
+void StaticGrid::nearest(const Eigen::AlignedBox3d& box, std::size_t count, double limit,
+                         std::vector<NearVoxel>& found) const {
+  found.clear();
+  if (count == 0) return;
+  const auto nearer = [](const NearVoxel& a, const NearVoxel& b) {
+    return a.distance != b.distance ? a.distance < b.distance : mortonOf(a.voxel) < mortonOf(b.voxel);
+  };
+  visitNear(box, limit, [&](const Voxel& voxel, double distance) {
+    if (found.size() == count) found.pop_back();
+    const NearVoxel one{voxel, distance};
+    found.insert(std::upper_bound(found.begin(), found.end(), one, nearer), one);
+    return found.size() < count ? limit : found.back().distance;
+  });
+}
+
+}  // namespace hgrid

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "narrow/enclosure.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace hgrid {
+namespace {
+
+using Index = std::uint32_t;
+
+/// The same number for vertices at the same place: files repeat a vertex for every triangle that has it.
+std::vector<Index> weldedNumbers(const std::vector<Eigen::Vector3d>& vertices) {
+  std::vector<Index> order(vertices.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto before = [&](Index i, Index j) {
+    return std::lexicographical_compare(vertices[i].data(), vertices[i].data() + 3, vertices[j].data(),
+                                        vertices[j].data() + 3);
+  };
+  std::sort(order.begin(), order.end(), before);
+  std::vector<Index> numbers(vertices.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const bool same = k > 0 && vertices[order[k]] == vertices[order[k - 1]];
+    numbers[order[k]] = same ? numbers[order[k - 1]] : order[k];
+  }
+  return numbers;
+}
+
+/// Whether there are as many edges from a to b as from b to a, for all a and b.
+bool isBalanced(const std::vector<std::array<Index, 3>>& triangles) {
+  std::vector<std::pair<Index, Index>> there, back;
+  for (const auto& triangle : triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      there.emplace_back(triangle[i], triangle[(i + 1) % 3]);
+      back.emplace_back(triangle[(i + 1) % 3], triangle[i]);
+    }
+  }
+  std::sort(there.begin(), there.end());
+  std::sort(back.begin(), back.end());
+  return !there.empty() && there == back;
+}
+
+Index rootOf(std::vector<Index>& parent, Index i) {
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+}  // namespace
+
+Enclosure::Enclosure(const TriangleMesh& mesh) {
+  const std::vector<Index> numbers = weldedNumbers(mesh.vertices);
+  std::vector<std::array<Index, 3>> triangles;
+  std::vector<Index> parent(mesh.vertices.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  for (const auto& given : mesh.triangles) {
+    const std::array<Index, 3> t{numbers[given[0]], numbers[given[1]], numbers[given[2]]};
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;  // a line: it encloses nothing
+    triangles.push_back(t);
+    triangles_.push_back({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
+    const Index root = rootOf(parent, t[0]);
+    parent[rootOf(parent, t[1])] = root;
+    parent[rootOf(parent, t[2])] = root;
+  }
+  closed_ = isBalanced(triangles);
+  low_.setConstant(std::numeric_limits<double>::infinity());
+  high_ = -low_;
+  std::vector<std::size_t> part_of(parent.size(), parts_.max_size());
+  for (const auto& triangle : triangles) {
+    const Index root = rootOf(parent, triangle[0]);
+    if (part_of[root] == parts_.max_size()) {
+      part_of[root] = parts_.size();
+      parts_.emplace_back();
+      parts_.back().fill(mesh.vertices[root]);
+    }
+    Part& part = parts_[part_of[root]];
+    for (const Index i : triangle) {
+      const Eigen::Vector3d& vertex = mesh.vertices[i];
+      low_ = low_.cwiseMin(vertex);
+      high_ = high_.cwiseMax(vertex);
+      for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        const auto least = static_cast<std::size_t>(axis), most = least + 3;
+        if (vertex[axis] < part[least][axis]) part[least] = vertex;
+        if (vertex[axis] > part[most][axis]) part[most] = vertex;
+      }
+    }
+  }
+}
+
+double Enclosure::windingNumber(const Eigen::Vector3d& point) const {
+  double half_angles = 0.0;
+  for (const Corners& triangle : triangles_) {
+    const Eigen::Vector3d a = triangle.a - point, b = triangle.b - point, c = triangle.c - point;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    half_angles += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return half_angles / (2.0 * M_PI);
+}
+
+}  // namespace hgrid

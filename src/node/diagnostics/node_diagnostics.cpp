@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/diagnostics/node_diagnostics.h"
+
+#include "node/messages/messages.h"
+
+namespace hgrid {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+using diagnostic_updater::DiagnosticStatusWrapper;
+
+void addAll(DiagnosticStatusWrapper& status, const std::string& key, const std::vector<std::string>& lines) {
+  for (std::size_t i = 0; i < lines.size(); ++i) status.add(key + " " + std::to_string(i + 1), lines[i]);
+}
+
+/// Merges a WARN for each robot whose own links make no pair, and adds the counts of all robots.
+void addSelfPairs(DiagnosticStatusWrapper& status, const ModelReport& report) {
+  for (const auto& [robot, counts] : report.self_pairs) {
+    status.add("self pairs of " + robot, text(counts));
+    if (counts.allOff()) status.mergeSummary(DiagnosticStatus::WARN, robot + ": " + text(counts));
+  }
+}
+
+}  // namespace
+
+NodeDiagnostics::NodeDiagnostics(ros::NodeHandle node, ros::NodeHandle private_node, const std::string& name,
+                                 NewestTick newest, std::function<NodeHealth()> health)
+    : newest_(std::move(newest)), health_(std::move(health)), updater_(node, private_node, name) {
+  updater_.setHardwareID("none");
+  updater_.add("world", this, &NodeDiagnostics::world);
+  updater_.add("robots", this, &NodeDiagnostics::robots);
+  updater_.add("transforms", this, &NodeDiagnostics::transforms);
+  updater_.add("ticks", this, &NodeDiagnostics::ticks);
+}
+
+void NodeDiagnostics::world(DiagnosticStatusWrapper& status) {
+  const auto tick = newest_();
+  if (!tick || !tick->snapshot) {
+    status.summary(DiagnosticStatus::ERROR, "there is no world yet");
+    if (tick) addAll(status, "reason", tick->not_ready);
+    return;
+  }
+  const Snapshot& snapshot = *tick->snapshot;
+  if (!snapshot.complete()) {
+    status.summary(DiagnosticStatus::ERROR, "the world is not complete: " + snapshot.reasons().front());
+  } else if (snapshot.worstState() >= Freshness::stale) {
+    status.summary(DiagnosticStatus::WARN, std::string("some bodies are ") + name(snapshot.worstState()));
+  } else {
+    status.summary(DiagnosticStatus::OK, "complete");
+  }
+  if (snapshot.truncated()) status.mergeSummary(DiagnosticStatus::ERROR, truncationOf(snapshot));
+  const bool silenced = snapshot.structure().silenced;
+  if (silenced) status.mergeSummary(DiagnosticStatus::WARN, "rules switch off every pair: nothing is reported");
+  status.add("bodies", snapshot.poses().size());
+  status.add("near pairs", snapshot.pairs().size());
+  status.add("age of the oldest pose [s]", snapshot.maxAge());
+  status.add("rules of the allowed-pair matrix", snapshot.structure().filter.rules().size());
+  status.add("rules switch off every pair", silenced ? "yes" : "no");
+  addAll(status, "source that is not complete", snapshot.incompleteSources());
+  addAll(status, "reason", snapshot.reasons());
+}
+
+void NodeDiagnostics::robots(DiagnosticStatusWrapper& status) {
+  const auto tick = newest_();
+  const NodeHealth health = health_();
+  const ModelReport report = tick ? *tick->models : ModelReport{};
+  if (!health.failed_loads.empty()) {
+    status.summary(DiagnosticStatus::ERROR, health.failed_loads.begin()->second);
+  } else if (!report.uncovered.empty()) {
+    status.summary(DiagnosticStatus::ERROR, "UNCOVERED " + report.uncovered.front());
+  } else if (!report.warnings.empty()) {
+    status.summary(DiagnosticStatus::WARN, report.warnings.front());
+  } else if (!report.without_collision.empty()) {
+    status.summary(DiagnosticStatus::WARN, std::to_string(report.without_collision.size()) +
+                                               " links have no <collision>; nothing is known of their extent");
+  } else {
+    status.summary(DiagnosticStatus::OK, "every shape was read");
+  }
+  addSelfPairs(status, report);
+  status.add("robots loaded", report.robots);
+  for (const auto& failure : health.failed_loads) status.add("not read: " + failure.first, failure.second);
+  addAll(status, "uncovered", report.uncovered);
+  addAll(status, "waived", report.waived);
+  addAll(status, "without collision", report.without_collision);
+  addAll(status, "uses visual geometry", report.uses_visual);
+  addAll(status, "warning", report.warnings);
+}
+
+void NodeDiagnostics::transforms(DiagnosticStatusWrapper& status) {
+  const auto tick = newest_();
+  const NodeHealth health = health_();
+  status.summary(DiagnosticStatus::OK, "every frame is known and fresh");
+  if (!health.conflicts.empty()) {
+    status.summary(DiagnosticStatus::WARN, "frame '" + health.conflicts.front() + "' comes on /tf and on /tf_static");
+  }
+  if (!tick) return;
+  for (const std::string& fight : tick->contested_frames) status.mergeSummary(DiagnosticStatus::WARN, fight);
+  for (const BodyTrouble& trouble : tick->troubles) {
+    if (trouble.code == Code::conflict && !tick->contested_frames.empty()) continue;  // told already
+    const bool grave = trouble.state >= Freshness::lost;
+    status.mergeSummary(grave ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN, trouble.sentence);
+    break;  // the worst; the others stand below and in ~status
+  }
+  addAll(status, "missing frame", tick->missing_frames);
+  addAll(status, "conflict", health.conflicts);
+  addAll(status, "contested frame", tick->contested_frames);
+  status.add("bodies not fresh", tick->troubles.size());
+}
+
+void NodeDiagnostics::ticks(DiagnosticStatusWrapper& status) {
+  const NodeHealth health = health_();
+  const auto tick = newest_();
+  if (health.failed_tick) {
+    status.summary(DiagnosticStatus::ERROR, std::string("the last tick failed: ") + name(health.failed_tick->code()) +
+                                                " " + health.failed_tick->what());
+  } else if (health.late_ticks_in_a_row >= 3) {
+    status.summary(DiagnosticStatus::ERROR, std::to_string(health.late_ticks_in_a_row) + " ticks in a row were late");
+  } else if (health.late_ticks_in_a_row > 0) {
+    status.summary(DiagnosticStatus::WARN, "the last tick was late");
+  } else {
+    status.summary(DiagnosticStatus::OK, "on time");
+  }
+  status.add("failed ticks", health.failed_ticks);
+  if (tick && tick->snapshot) status.add("sequence", tick->snapshot->sequence());
+}
+
+}  // namespace hgrid

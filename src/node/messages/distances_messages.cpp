@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/messages/distances_messages.h"
+
+#include <algorithm>
+
+namespace hgrid {
+namespace {
+
+/// Number of each body among the names; those in use stand in the order of all, which is that of their names.
+std::vector<std::uint32_t> fillNames(const Structure& structure, const PairDistances& distances, std::size_t shown,
+                                     std::vector<std::string>& names) {
+  std::vector<std::uint32_t> numbers;
+  for (std::size_t i = 0; i < shown; ++i) {
+    numbers.push_back(distances.pairs[i].first);
+    numbers.push_back(distances.pairs[i].second);
+  }
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  for (const std::uint32_t body : numbers) names.push_back(structure.bodies[body].name);
+  return numbers;
+}
+
+}  // namespace
+
+boost::shared_ptr<msg::Distances> distancesMessage(const Tick& tick, const msg::WorldState& world,
+                                                   const PairDistances* distances, const Params& params) {
+  auto message = boost::make_shared<msg::Distances>();
+  message->header = headerOf(tick);
+  message->world = world;
+  if (!tick.snapshot || distances == nullptr) return message;
+  const Snapshot& snapshot = *tick.snapshot;
+  const std::size_t shown = std::min(distances->pairs.size(), static_cast<std::size_t>(params.max_pairs));
+  message->total = static_cast<std::uint32_t>(distances->pairs.size());
+  message->truncated = shown < distances->pairs.size() || snapshot.truncated();
+  const std::vector<std::uint32_t> named = fillNames(snapshot.structure(), *distances, shown, message->names);
+  const auto number = [&](std::uint32_t body) {
+    return static_cast<std::uint32_t>(std::lower_bound(named.begin(), named.end(), body) - named.begin());
+  };
+  for (std::size_t i = 0; i < shown; ++i) {
+    const PairDistance& pair = distances->pairs[i];
+    message->first.push_back(number(pair.first));
+    message->second.push_back(number(pair.second));
+    message->status.push_back(static_cast<std::uint8_t>(pair.proximity.status));
+    message->distance.push_back(pair.proximity.distance);
+    message->gap.push_back(pair.gap);
+    message->point_on_first.push_back(toPoint(pair.proximity.on_first));
+    message->point_on_second.push_back(toPoint(pair.proximity.on_second));
+    message->normal.push_back(toVector(pair.proximity.normal));
+    message->depth.push_back(pair.proximity.depth);
+    message->closing_speed.push_back(pair.closing_speed);
+    message->time_to_contact.push_back(pair.time_to_contact);
+    message->no_contact_before.push_back(pair.no_contact_before);
+    message->flags.push_back(pair.flags);
+    message->first_shape.push_back(pair.first_shape);
+    message->second_shape.push_back(pair.second_shape);
+    message->first_state.push_back(static_cast<std::uint8_t>(snapshot.poses()[pair.first].state));
+    message->second_state.push_back(static_cast<std::uint8_t>(snapshot.poses()[pair.second].state));
+    for (const NearCell& cell : pair.cells) {
+      message->cell_center.push_back(toPoint(cell.center));
+      message->cell_edge.push_back(cell.edge);
+      message->cell_distance.push_back(cell.distance);
+    }
+    message->cells_end.push_back(static_cast<std::uint32_t>(message->cell_edge.size()));
+  }
+  return message;
+}
+
+}  // namespace hgrid

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/messages/rule_messages.h"
+
+#include <algorithm>
+
+#include "hgrid_proximity/refusal.h"
+
+namespace hgrid {
+
+std::vector<PairRule> rulesOf(const std::vector<msg::AllowedPair>& pairs, PairRule::Clock::time_point now) {
+  std::vector<PairRule> rules;
+  for (const msg::AllowedPair& pair : pairs) {
+    PairRule rule;
+    rule.first = pair.first;
+    rule.second = pair.second;
+    rule.reason = pair.reason;
+    rule.allowed = pair.allowed;
+    rule.origin = Origin::service;
+    checkRule(rule);
+    const std::int64_t lifetime = pair.lifetime.toNSec();
+    if (lifetime < 0) {
+      throw Refusal(Code::out_of_range, "the lifetime of rule '" + rule.first + "', '" + rule.second + "' is " +
+                                            text(pair.lifetime.toSec()) + " s; it must not be negative (0: forever)");
+    }
+    if (lifetime > 0 && lifetime < 1000000) {
+      throw Refusal(Code::out_of_range, "the lifetime of rule '" + rule.first + "', '" + rule.second + "' is " +
+                                            std::to_string(lifetime) +
+                                            " ns; it must be 0 (forever) or at least 0.001 s; by hand: {secs: 20}");
+    }
+    if (lifetime > 0) rule.ends = now + std::chrono::nanoseconds(lifetime);
+    rules.push_back(rule);
+  }
+  return rules;
+}
+
+msg::AllowedPair toMsg(const PairRule& rule, PairRule::Clock::time_point now) {
+  msg::AllowedPair pair;
+  pair.first = rule.first;
+  pair.second = rule.second;
+  pair.allowed = rule.allowed;
+  pair.reason = rule.reason;
+  pair.origin = static_cast<std::uint8_t>(rule.origin);
+  if (rule.ends != PairRule::Clock::time_point::max()) {
+    const std::chrono::nanoseconds left = rule.ends - now;
+    pair.lifetime.fromNSec(std::max<std::int64_t>(1, left.count()));  // 0 would mean forever
+  }
+  return pair;
+}
+
+}  // namespace hgrid

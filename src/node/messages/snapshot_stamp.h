@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include "hgrid_proximity/refusal.h"
+#include "hgrid_proximity/world/snapshot.h"
+#include "node/messages/messages.h"
+
+namespace hgrid {
+
+/// Only "now" can be asked: the range of times that are available is the one stamp of the newest snapshot.
+/// @throws Refusal extrapolation
+inline void checkStamp(const ros::Time& stamp, const Snapshot& snapshot) {
+  const ros::Time available = toRos(snapshot.stamp());
+  if (stamp.isZero() || stamp == available) return;
+  throw Refusal(Code::extrapolation, "the query asks for time " + text(stamp.toSec()) + " s; available is " +
+                                         text(available.toSec()) + " .. " + text(available.toSec()) +
+                                         " s (stamp 0 asks for now)");
+}
+
+}  // namespace hgrid

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/messages/source_messages.h"
+
+#include <hgrid_proximity/WorldState.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "hgrid_proximity/bodies/name.h"
+
+namespace hgrid {
+namespace {
+
+using Sources = std::map<std::string, msg::SourceStatus>;
+
+/// The source's entry; a new one says that nothing is known of the source.
+msg::SourceStatus& entryOf(Sources& sources, const std::string& name) {
+  const auto known = sources.emplace(name, msg::SourceStatus());
+  msg::SourceStatus& source = known.first->second;
+  if (known.second) {
+    source.name = name;
+    source.state = msg::WorldState::UNPLACED;
+    source.age = std::nan("");
+  }
+  return source;
+}
+
+void addConfigured(const Params& params, Sources& sources) {
+  for (const RobotParams& robot : params.robots) entryOf(sources, robot.name);
+  if (!params.obstacles.empty()) entryOf(sources, "obstacle");
+  for (const MapParams& map : params.maps) entryOf(sources, joined("map", map.name));
+  for (const CloudParams& cloud : params.clouds) entryOf(sources, joined("cloud", cloud.name));
+}
+
+void addBodies(const Snapshot& snapshot, Sources& sources) {
+  const Structure& structure = snapshot.structure();
+  std::vector<msg::SourceStatus*> entries;
+  for (const std::string& source : structure.sources) {
+    entries.push_back(&entryOf(sources, source));
+    entries.back()->state = msg::WorldState::FRESH;
+  }
+  for (std::size_t body = 0; body < structure.bodies.size(); ++body) {
+    msg::SourceStatus& source = *entries[structure.source_of[body]];
+    const BodyPose& pose = snapshot.poses()[body];
+    ++source.bodies;
+    source.state = std::max(source.state, static_cast<std::uint8_t>(pose.state));
+    if (pose.state != Freshness::unplaced) source.age = std::fmax(source.age, pose.age);
+  }
+}
+
+void addReasons(const Snapshot& snapshot, Sources& sources) {
+  for (auto& source : sources) source.second.complete = true;
+  for (const std::string& name : snapshot.incompleteSources()) {
+    msg::SourceStatus& source = entryOf(sources, name);
+    source.complete = false;
+    source.reason = snapshot.reasonOf(name);
+  }
+}
+
+}  // namespace
+
+std::vector<msg::SourceStatus> sourcesOf(const Tick& tick, const Params& params) {
+  Sources sources;
+  addConfigured(params, sources);
+  if (tick.snapshot) {
+    addBodies(*tick.snapshot, sources);
+    addReasons(*tick.snapshot, sources);
+  }
+  std::vector<msg::SourceStatus> list;
+  for (const auto& source : sources) list.push_back(source.second);
+  return list;
+}
+
+}  // namespace hgrid

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <XmlRpcValue.h>
+
+#include <string>
+#include <vector>
+
+#include "hgrid_proximity/adapters/octomap.h"
+#include "hgrid_proximity/bodies/body.h"
+#include "hgrid_proximity/pairs/pair_filter.h"
+#include "hgrid_proximity/pairs/pair_margins.h"
+
+namespace hgrid {
+
+/// A robot to load, from ~robots.
+struct RobotParams {
+  std::string name = "robot";                           ///< source of its bodies' names
+  std::string description = "robot_description";        ///< parameter that holds the URDF; searched upwards
+  std::string semantic = "robot_description_semantic";  ///< parameter that holds the SRDF, if there is one
+  std::string tf_prefix;                                ///< its frames are tf_prefix/link; empty: link
+};
+
+/// A static obstacle, from ~obstacles; an empty frame stands for the world frame.
+struct ObstacleParams {
+  Body body;
+};
+
+/// A map from a file or a topic.
+struct MapParams {
+  std::string name;   ///< the body map/name
+  std::string file;   ///< name of a file in ~map/folder; empty: from a topic
+  std::string topic;  ///< of octomap_msgs/Octomap messages; their frame is the map's
+  std::string frame;  ///< that the map follows; empty: the world frame
+  Pose frame_from_map = Pose::Identity();
+  double max_age = 0.0;  ///< [s] of a topic: without a message for longer the map is not complete; 0: off
+};
+
+/// What a cloud message means that has fewer finite points than CloudParams::min_points.
+enum class EmptyCloud : std::uint8_t {
+  unknown,  ///< the sensor did not see: the message makes nothing fresh
+  clear,    ///< the sensor saw that nothing is there
+};
+
+/// A point cloud of a topic.
+struct CloudParams {
+  std::string name;             ///< the body cloud/name
+  std::string topic = "cloud";  ///< of sensor_msgs/PointCloud2 messages
+  double resolution = 0.05;     ///< [m] edge of its cells
+  double lifetime = 1.0;        ///< [s] how long a cell stays after it was seen
+  EmptyCloud empty = EmptyCloud::unknown;
+  int min_points = 1;  ///< finite points that a message must have to count as seen
+  double range = 0.0;  ///< [m] the sensor sees no farther, so that a lost cloud hides nothing beyond; 0: no bound
+};
+
+/// [m] Farther than the ends of any map.
+constexpr double kNoCrop = 1e7;
+
+/// A value for all bodies whose name matches a glob.
+struct PatternValue {
+  std::string pattern;
+  double value = 0.0;
+};
+
+/// Bodies that may be uncovered, and why that is all right.
+struct Waiver {
+  std::string pattern, reason;
+};
+
+/// All the node can be told. Defaults, units, ranges and meanings stand once, in visit() in params.cpp, and are
+/// shown in config/params.yaml; a test holds the two together.
+struct Params {
+  std::string world_frame;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  double rate = 50.0;
+  double margin = 0.10;
+  double finest_edge = 0.0;
+
+  std::vector<RobotParams> robots;
+  std::vector<ObstacleParams> obstacles;
+  std::vector<MapParams> maps;
+  std::vector<CloudParams> clouds;
+  std::string map_folder;
+  double map_occupied_from = 0.5;
+  bool map_nan_is_occupied = false, map_allow_empty = false;
+  UnknownSpace map_unknown = UnknownSpace::ignore;
+  Eigen::Vector3d map_crop_min = Eigen::Vector3d::Constant(-kNoCrop), map_crop_max = Eigen::Vector3d::Constant(kNoCrop);
+  int map_max_bytes = 256 << 20, map_max_leaves = 20000000, map_max_shown = 20000;
+  double map_shown_within = 1.0;
+  std::vector<PairRule> allowed_pairs;
+  PairKinds pair_kinds;
+  std::vector<Waiver> accept_uncovered;
+  std::vector<std::string> required, use_visual;
+  std::vector<PairMargin> pair_margins;
+  std::vector<PatternValue> margins, padding, max_speed, map_self_filter;
+  double event_hysteresis = 0.02;
+
+  double late_after = 0.1, stale_after = 0.25, lost_after = 2.0;
+  double horizon = 0.0;
+  double growth_cap = 1.0, default_max_speed = 2.0;
+  double max_sync_wait = 0.1, max_future = 0.5, tf_cache = 10.0, clock_jump = 10.0, valid_for = 0.1;
+
+  double world_limit = 1e6, min_size = 1e-4, max_size = 1e5;
+  bool allow_flat = false;
+  int threads = 1;
+  int max_bodies = 100000, max_frames = 10000, tf_queue_bytes = 16 << 20;
+  int max_pairs = 100000, max_events = 10000, event_queue = 100;
+  int max_hits = 10000, max_listed = 100, max_reasons = 8, max_rules = 1000;
+  int max_description_bytes = 16 << 20, max_description_depth = 256, max_links = 2000;
+  std::vector<std::string> mesh_roots;
+  int max_mesh_bytes = 64 << 20, max_mesh_triangles = 1000000, mesh_memory = 512 << 20;
+  double mesh_timeout = 5.0;
+  int query_threads = 2;
+  double marker_rate = 5.0;
+
+  double distances_max = 0.0, distances_budget = 0.005;
+  int distances_threads = 1;
+
+  ShapeLimits shapeLimits() const { return {min_size, max_size, allow_flat}; }
+};
+
+/// Reads all parameters of the node's private namespace, given as one struct value.
+/// @throws std::invalid_argument with one message that lists every wrong, out-of-range and unknown parameter.
+Params readParams(XmlRpc::XmlRpcValue values);
+
+/// The text of config/params.yaml: every parameter with unit, default, range and meaning.
+std::string paramsAsYaml();
+
+}  // namespace hgrid

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/sources/cloud_source.h"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "hgrid_proximity/refusal.h"
+#include "node/services/guarded.h"
+#include "node/tf/frames.h"
+#include "node/tick/world.h"
+
+namespace hgrid {
+namespace {
+
+constexpr auto kLookAgain = std::chrono::milliseconds(2);  // for a transform that is on its way
+
+Time steadyNow() { return std::chrono::steady_clock::now().time_since_epoch(); }
+Time rosNow() { return Time(static_cast<std::int64_t>(ros::Time::now().toNSec())); }
+Time durationOf(double length) { return Time(std::llround(1e9 * length)); }
+
+}  // namespace
+
+CloudSource::CloudSource(const ros::NodeHandle& node, const CloudParams& cloud, const Params& params,
+                         const OwnShapes& own, const tf2::BufferCore& buffer,
+                         std::shared_ptr<const NarrowPhase> narrow_phase, OwnShapes::NewestTick newest, Sink sink,
+                         Ledger& ledger)
+    : cloud_(cloud),
+      what_("cloud '" + cloud.name + "' of " + cloud.topic),
+      counter_("cloud/" + cloud.name + "."),
+      failed_(counter_ + "failed"),
+      simulated_(ros::Time::isSimTime()),
+      params_(params),
+      own_(own),
+      buffer_(buffer),
+      narrow_phase_(std::move(narrow_phase)),
+      newest_(std::move(newest)),
+      sink_(std::move(sink)),
+      ledger_(ledger),
+      cells_(cloud.resolution, durationOf(cloud.lifetime), static_cast<std::size_t>(params.map_max_leaves)),
+      node_(node) {
+  loaded_.name = cloud.name;
+  loaded_.lifetime = cloud.lifetime;
+  loaded_.range = cloud.range;
+  node_.setCallbackQueue(&queue_);
+  const boost::function<void(const boost::shared_ptr<const CloudMessage>&)> on_message =
+      [this](const boost::shared_ptr<const CloudMessage>& message) {
+        guarded(ledger_, failed_.c_str(), [&] { onMessage(*message); });
+      };
+  subscriber_ = node_.subscribe<CloudMessage>(cloud_.topic, 1, on_message);
+  const double period = std::min(0.1, std::max(0.01, 0.25 * cloud_.lifetime));  // [s]
+  timer_ = node_.createSteadyTimer(ros::WallDuration(period), [this](const ros::SteadyTimerEvent&) {
+    guarded(ledger_, failed_.c_str(), [&] { onTimer(); });
+  });
+  spinner_ = std::make_unique<ros::AsyncSpinner>(1, &queue_);
+  spinner_->start();
+}
+
+CloudSource::~CloudSource() {
+  stopping_ = true;
+  timer_.stop();
+  subscriber_.shutdown();
+  spinner_->stop();
+}
+
+void CloudSource::onMessage(const CloudMessage& message) {
+  Refusal refused(Code::ok, "");
+  try {
+    take(message);
+    ledger_.count(counter_ + "accepted");
+    return;
+  } catch (const Refusal& refusal) {
+    refused = refusal;
+  } catch (...) {
+    const Refusal fault = caughtRefusal();
+    refused = Refusal(fault.code(), what_ + ": " + fault.what());
+  }
+  sink_.miss(std::string(name(refused.code())) + " " + refused.what());
+  ledger_.refuse(counter_ + "refused", refused);
+}
+
+void CloudSource::take(const CloudMessage& message) {
+  const auto received = std::chrono::steady_clock::now();
+  if (!message.flaw.empty()) throw Refusal(Code::truncated, what_ + ": " + printable(message.flaw, 200));
+  if (message.data.size() > static_cast<std::size_t>(params_.map_max_bytes)) {
+    throw Refusal(Code::limit, what_ + " has " + std::to_string(message.data.size()) + " bytes; at most " +
+                                   std::to_string(params_.map_max_bytes) + " are allowed");
+  }
+  const std::shared_ptr<const Tick> tick = newest_();
+  if (!tick || tick->world_frame.empty()) {
+    throw Refusal(Code::not_ready, what_ + " cannot be placed yet: there is no world frame");
+  }
+  const Time now = rosNow();
+  const Time given(static_cast<std::int64_t>(message.stamp.toNSec()));
+  const Time stamp = given.count() == 0 ? now : given;  // of those who do not stamp, the time when it came
+  if (seconds(stamp - now) > params_.max_future) {
+    throw Refusal(Code::clock, what_ + " is stamped " + secondsText(seconds(stamp - now)) +
+                                   " in the future; at most ~max_future, " + secondsText(params_.max_future) +
+                                   ", is allowed");
+  }
+  PointCloud cloud = readPointCloud(message.format, message.data, what_);
+  const std::size_t points = cloud.points.size();
+  const std::string frame = message.frame.empty() ? tick->world_frame : withoutSlash(message.frame);
+  const Pose world_from_sensor = sensorPose(frame, tick->world_frame, stamp);
+  const std::vector<Voxel> voxels = voxelsOf(std::move(cloud), world_from_sensor, stamp);
+  const Time latency = std::max(Time{0}, now - stamp);
+  try {
+    cells_.see(voxels, simulated_ ? stamp : Time(received.time_since_epoch()) - latency);
+  } catch (const Refusal& refusal) {
+    throw Refusal(refusal.code(), what_ + ": " + refusal.what() + " by ~map/max_leaves");
+  }
+  cells_.forget(cellTime());
+  const bool seen = cloud_.empty == EmptyCloud::clear || points >= static_cast<std::size_t>(cloud_.min_points);
+  if (seen) noteNewest(stamp, now, received, world_from_sensor.translation());
+  if (seen || loaded_.cells) put();
+  if (!seen) {
+    throw Refusal(Code::out_of_range, what_ + " has a message with " + std::to_string(points) +
+                                          " finite points; min_points is " + std::to_string(cloud_.min_points) +
+                                          ", so the message does not count (set empty: clear if it should)");
+  }
+}
+
+/// Remembers how old the cloud is. A message that is stamped earlier than another one adds its points but makes the
+/// cloud neither fresher nor older, unless the clock was set back.
+void CloudSource::noteNewest(Time stamp, Time now, std::chrono::steady_clock::time_point received,
+                             const Eigen::Vector3d& sensor) {
+  const bool clock_went_back = seconds(loaded_.stamp - now) > params_.max_future;
+  if (stamp <= loaded_.stamp && !clock_went_back) {
+    ledger_.count(counter_ + "out_of_order");
+    return;
+  }
+  loaded_.received = received;
+  loaded_.stamp = stamp;
+  loaded_.latency = std::max(0.0, seconds(now - stamp));
+  loaded_.sensor = sensor;
+}
+
+/// The clock that cells grow old by: /clock, or else the steady clock, so that setting the wall clock ages nothing.
+Time CloudSource::cellTime() const { return simulated_ ? rosNow() : steadyNow(); }
+
+/// Waits until tf knows where the sensor and the robot's own shapes were at the stamp, or it takes too long.
+void CloudSource::waitFor(const std::string& world_frame, const std::string& frame, Time stamp) const {
+  std::vector<std::string> frames;
+  if (own_.wanted()) frames = own_.frames();
+  frames.push_back(frame);
+  const ros::Time time = ros::Time().fromNSec(static_cast<std::uint64_t>(stamp.count()));
+  const auto known = [&](const std::string& one) {
+    return one == world_frame || buffer_.canTransform(world_frame, one, time);
+  };
+  const auto deadline = std::chrono::steady_clock::now() + durationOf(params_.max_sync_wait);
+  while (!stopping_ && !frames.empty() && std::chrono::steady_clock::now() < deadline) {
+    while (!frames.empty() && known(frames.back())) frames.pop_back();
+    if (!frames.empty()) std::this_thread::sleep_for(kLookAgain);
+  }
+}
+
+/// Where the sensor was when it saw. @throws Refusal extrapolation or unknown_frame if tf does not say so in time
+Pose CloudSource::sensorPose(const std::string& frame, const std::string& world_frame, Time stamp) const {
+  waitFor(world_frame, frame, stamp);
+  std::string why;
+  const auto world_from_sensor = poseAt(buffer_, world_frame, frame, stamp, &why);
+  if (!world_from_sensor) {
+    throw Refusal(poseAt(buffer_, world_frame, frame, Time(0)) ? Code::extrapolation : Code::unknown_frame,
+                  what_ + ": where its frame '" + printable(frame) + "' was in '" + world_frame + "' at its stamp, " +
+                      text(seconds(stamp)) + " s, is not known after ~max_sync_wait, " +
+                      secondsText(params_.max_sync_wait) + ": " + printable(why, 300));
+  }
+  checkWithin(world_from_sensor->translation(), params_.world_limit, what_ + ": the pose of its sensor");
+  return *world_from_sensor;
+}
+
+/// The cells of a message's points without those of the robot itself.
+std::vector<Voxel> CloudSource::voxelsOf(PointCloud cloud, const Pose& world_from_sensor, Time stamp) {
+  for (Eigen::Vector3d& point : cloud.points) point = world_from_sensor * point;
+  const Eigen::Vector3d sensor = world_from_sensor.translation();
+  std::size_t out_of_reach = 0;
+  const std::size_t forgotten = cells_.follow(sensor);
+  std::vector<Voxel> voxels = cells_.cellsOf(cloud.points, sensor, out_of_reach);
+  ledger_.count(counter_ + "points", cloud.points.size());
+  if (cloud.not_finite > 0) ledger_.count(counter_ + "points_not_finite", cloud.not_finite);
+  if (out_of_reach > 0) ledger_.count(counter_ + "points_out_of_reach", out_of_reach);
+  if (forgotten > 0) ledger_.count(counter_ + "cells_out_of_reach", forgotten);
+  if (!own_.wanted()) return voxels;
+  const Pose world_from_keys(Eigen::Translation3d(cells_.corner()));
+  OthersCells others = withoutSelf(voxels, cells_.edge(), world_from_keys, own_.at(stamp), *narrow_phase_);
+  if (others.left_out > 0) ledger_.count(counter_ + "own_cells", others.left_out);
+  if (others.undecided > 0) ledger_.count(counter_ + "cells_undecided", others.undecided);
+  return std::move(others.voxels);
+}
+
+/// What is seen no more goes when its time is over, also if no message comes.
+void CloudSource::onTimer() {
+  if (!loaded_.cells || cells_.forget(cellTime()) == 0) return;
+  put();
+}
+
+void CloudSource::put() {
+  loaded_.cells = makeMapCells(std::make_shared<StaticGrid>(cells_.edge(), cells_.cells()), *narrow_phase_);
+  loaded_.corner = cells_.corner();
+  sink_.put(loaded_);
+}
+
+}  // namespace hgrid

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/sources/own_shapes.h"
+
+#include <tf2/exceptions.h>
+
+#include "hgrid_proximity/bodies/name.h"
+#include "hgrid_proximity/refusal.h"
+#include "node/tf/frame_pose.h"
+#include "node/tick/world.h"
+
+namespace hgrid {
+
+std::optional<Pose> poseAt(const tf2::BufferCore& buffer, const std::string& target, const std::string& frame,
+                           Time stamp, std::string* why_not) {
+  if (frame == target) return Pose::Identity();
+  try {
+    const ros::Time time = ros::Time().fromNSec(static_cast<std::uint64_t>(stamp.count()));
+    return toFramePose(buffer.lookupTransform(target, frame, time).transform).pose();
+  } catch (const tf2::TransformException& error) {
+    if (why_not != nullptr) *why_not = error.what();
+    return std::nullopt;
+  }
+}
+
+/// Looks at each body in question of the newest tick, and its padding.
+template <class Look>
+void OwnShapes::forEach(const Look& look) const {
+  const std::shared_ptr<const Tick> tick = newest_();
+  if (!tick || !tick->snapshot) return;
+  const Snapshot& snapshot = *tick->snapshot;
+  for (std::size_t i = 0; i < snapshot.structure().bodies.size(); ++i) {
+    const Body& body = snapshot.structure().bodies[i];
+    if (body.shapes.empty()) continue;
+    const double padding = lastMatch(params_.map_self_filter, body.name, -1.0);
+    if (padding >= 0.0) look(*tick, body, snapshot.poses()[i], padding);
+  }
+}
+
+void OwnShapes::require() const {
+  const std::shared_ptr<const Tick> tick = newest_();
+  if (!tick || !tick->snapshot || tick->models->robots < params_.robots.size()) {
+    throw Refusal(Code::not_ready, "the robots whose cells ~map/self_filter leaves out are not all loaded yet");
+  }
+  forEach([](const Tick&, const Body& body, const BodyPose& pose, double) {
+    if (pose.state != Freshness::unplaced) return;
+    throw Refusal(Code::not_ready, "body '" + body.name +
+                                       "' had no pose yet, so that its cells cannot be left out as ~map/self_filter "
+                                       "demands");
+  });
+}
+
+std::vector<std::string> OwnShapes::frames() const {
+  std::vector<std::string> frames;
+  forEach([&](const Tick&, const Body& body, const BodyPose& pose, double) {
+    if (pose.state < Freshness::lost) frames.push_back(body.frame);
+  });
+  return frames;
+}
+
+std::vector<SelfShape> OwnShapes::at(Time stamp) const {
+  std::vector<SelfShape> shapes;
+  forEach([&](const Tick& tick, const Body& body, const BodyPose& pose, double padding) {
+    std::optional<Pose> world_from_body = poseAt(buffer_, tick.world_frame, body.frame, stamp);
+    if (world_from_body) {
+      *world_from_body = *world_from_body * body.frame_from_body;
+    } else if (pose.state != Freshness::unplaced) {
+      world_from_body = pose.world_from_body;
+    } else {
+      return;
+    }
+    for (const BodyShape& shape : body.shapes) {
+      shapes.push_back({shape.shape, shape.solid, *world_from_body * shape.body_from_shape, shape.padding + padding});
+    }
+  });
+  return shapes;
+}
+
+Pose OwnShapes::worldFrom(const std::string& frame, Time stamp) const {
+  const std::shared_ptr<const Tick> tick = newest_();
+  if (tick && !tick->world_frame.empty()) {
+    if (frame.empty()) return Pose::Identity();
+    for (const Time time : {stamp, Time(0)}) {
+      if (const auto pose = poseAt(buffer_, tick->world_frame, frame, time)) return *pose;
+    }
+  }
+  throw Refusal(Code::not_ready, "frame '" + printable(frame) +
+                                     "' is not connected to the world frame yet, so that the robot's own cells cannot "
+                                     "be left out as ~map/self_filter demands");
+}
+
+}  // namespace hgrid

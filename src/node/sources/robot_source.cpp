@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/sources/robot_source.h"
+
+#include <dlfcn.h>
+#include <ros/package.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include "hgrid_proximity/adapters/mesh.h"
+#include "hgrid_proximity/adapters/srdf.h"
+#include "hgrid_proximity/adapters/urdf.h"
+#include "hgrid_proximity/bodies/name.h"
+#include "node/tf/frames.h"
+
+namespace hgrid {
+namespace {
+
+/// The helper executable lies in the package's folder beside this library: lib/hgrid_proximity below lib/.
+std::string meshReader() {
+  Dl_info info{};
+  const auto here = reinterpret_cast<void*>(&meshReader);
+  std::string library = dladdr(here, &info) != 0 && info.dli_fname != nullptr ? info.dli_fname : "";
+  if (char* resolved = realpath(library.c_str(), nullptr)) {
+    library = resolved;
+    std::free(resolved);
+  }
+  return library.substr(0, library.find_last_of('/')) + "/hgrid_proximity/proximity_mesh_reader";
+}
+
+/// file:// may read below package roots and below ~mesh_roots.
+std::vector<std::string> fileRoots(const Params& params) {
+  std::vector<std::string> roots = params.mesh_roots;
+  const char* path = std::getenv("ROS_PACKAGE_PATH");
+  std::istringstream folders(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    if (!folder.empty()) roots.push_back(folder);
+  }
+  return roots;
+}
+
+MeshPolicy meshPolicy(const Params& params, const std::function<bool()>& cancelled) {
+  MeshPolicy policy;
+  policy.cancelled = cancelled;
+  policy.reader = meshReader();
+  policy.resources.package_path = [](const std::string& package) { return ros::package::getPath(package); };
+  policy.resources.file_roots = fileRoots(params);
+  policy.resources.max_bytes = static_cast<std::size_t>(params.max_mesh_bytes);
+  policy.max_triangles = static_cast<std::size_t>(params.max_mesh_triangles);
+  policy.timeout = std::chrono::milliseconds(std::llround(1e3 * params.mesh_timeout));
+  policy.max_memory = static_cast<std::size_t>(params.mesh_memory);
+  return policy;
+}
+
+std::string noteOf(const RobotLink& link) {
+  std::string note;
+  for (const Refusal& refusal : link.unreadable) {
+    note += (note.empty() ? "" : "; ") + std::string(name(refusal.code())) + ": " + refusal.what();
+  }
+  return note;
+}
+
+/// The last waiver that matches the name, or null.
+const Waiver* waiverOf(const std::vector<Waiver>& waivers, const std::string& name) {
+  const auto found = std::find_if(waivers.rbegin(), waivers.rend(),
+                                  [&](const Waiver& waiver) { return matches(waiver.pattern, name); });
+  return found == waivers.rend() ? nullptr : &*found;
+}
+
+Body bodyOf(const LoadedRobot& robot, const RobotModel& model, std::uint32_t index, const Params& params) {
+  const RobotLink& link = model.links[index];
+  Body body;
+  body.name = joined(robot.name, link.name);
+  body.kind = BodyKind::link;
+  body.mobility = Mobility::moving;
+  body.robot = robot.name;
+  body.link = index;
+  body.rigid_group = link.rigid_group;
+  body.shapes = link.shapes;
+  body.covered = link.unreadable.empty();
+  body.note = noteOf(link);
+  const Waiver* waiver = body.covered ? nullptr : waiverOf(params.accept_uncovered, body.name);
+  if (waiver != nullptr) {
+    body.waived = true;
+    body.note = waiver->reason + " (" + noteOf(link) + ")";
+  }
+  applyPatterns(params, body);
+  // A robot whose root is not the world may be carried about; that comes on top of its joints.
+  const double joints = speedBound(model, index);
+  const double carried =
+      robot.root_frame == params.world_frame || params.world_frame.empty() ? 0.0 : params.default_max_speed;
+  body.max_speed =
+      lastMatch(params.max_speed, body.name, std::isfinite(joints) ? joints + carried : params.default_max_speed);
+  return body;
+}
+
+/// Says that a robot without any geometry is incomplete, or that ~accept_uncovered waives every one of its links.
+void findGap(LoadedRobot& robot, const Params& params) {
+  if (!robot.bodies.empty()) return;
+  const std::string sentence = "robot '" + robot.name + "' has no collision geometry on any of its " +
+                               std::to_string(robot.without_collision.size()) + " links";
+  std::set<std::string> reasons;
+  for (const std::string& link : robot.without_collision) {
+    const Waiver* waiver = waiverOf(params.accept_uncovered, link);
+    if (waiver == nullptr) {
+      robot.gap = sentence + "; set ~use_visual or waive all of its links with ~accept_uncovered";
+      return;
+    }
+    reasons.insert(waiver->reason);
+  }
+  robot.waived_gap = sentence;
+  for (const std::string& reason : reasons) robot.waived_gap += (reason == *reasons.begin() ? ": " : "; ") + reason;
+}
+
+}  // namespace
+
+double lastMatch(const std::vector<PatternValue>& values, const std::string& name, double otherwise) {
+  for (const PatternValue& value : values) {
+    if (matches(value.pattern, name)) otherwise = value.value;
+  }
+  return otherwise;
+}
+
+void applyPatterns(const Params& params, Body& body) {
+  body.margin = lastMatch(params.margins, body.name, 0.0);
+  body.speed_bound = lastMatch(params.max_speed, body.name, std::numeric_limits<double>::infinity());
+  const double padding = lastMatch(params.padding, body.name, 0.0);
+  for (BodyShape& shape : body.shapes) shape.padding = padding;
+}
+
+void makeSolids(NarrowPhase& narrow_phase, Body& body) {
+  for (BodyShape& shape : body.shapes) shape.solid = narrow_phase.solidOf(shape.shape);
+}
+
+RobotSource::RobotSource(ros::NodeHandle node, const Params& params, std::shared_ptr<NarrowPhase> narrow_phase,
+                         std::function<bool()> cancelled)
+    : node_(std::move(node)),
+      params_(params),
+      narrow_phase_(std::move(narrow_phase)),
+      cancelled_(std::move(cancelled)) {}
+
+std::string RobotSource::description(const std::string& name) const {
+  std::string key;
+  XmlRpc::XmlRpcValue value;
+  if (!node_.searchParam(name, key) || !node_.getParam(key, value)) {
+    throw Refusal(Code::not_ready, "parameter '" + printable(name) + "' is not set; it must hold a robot's URDF");
+  }
+  if (value.getType() != XmlRpc::XmlRpcValue::TypeString || static_cast<std::string&>(value).empty()) {
+    throw Refusal(Code::not_ready, "parameter '" + printable(key) + "' is empty or not a string; it must hold XML");
+  }
+  return value;
+}
+
+LoadedRobot RobotSource::load(const RobotParams& params) const {
+  const DescriptionLimits limits{static_cast<std::size_t>(params_.max_description_bytes),
+                                 static_cast<std::size_t>(params_.max_description_depth),
+                                 static_cast<std::size_t>(params_.max_links)};
+  const std::string urdf = description(params.description);
+  MeshLoader meshes(meshPolicy(params_, cancelled_));
+  RobotModel model = readUrdf(
+      urdf, [&](const std::string& uri, const Eigen::Vector3d& scale) { return meshes.load(uri, scale); }, limits,
+      params_.shapeLimits(),
+      [&](const std::string& link) { return matchesAny(params_.use_visual, joined(params.name, link)); });
+  LinkRules rules;
+  std::string key;
+  if (!params.semantic.empty() && node_.searchParam(params.semantic, key)) {
+    rules = readSrdf(description(params.semantic), limits);
+  } else if (!params.semantic.empty() && params.semantic != RobotParams{}.semantic) {
+    model.warnings.push_back("parameter '" + printable(params.semantic) + "' is not set; it was to hold the SRDF");
+  }
+
+  LoadedRobot robot;
+  robot.name = params.name;
+  robot.root_frame = prefixed(params.tf_prefix, model.links.front().name);
+  robot.warnings = model.warnings;
+  const auto links = std::make_shared<const LinkMatrix>(model, rules, robot.warnings);
+  robot.self_pairs = countSelfPairs(model, *links);
+  robot.groups.resize(model.group_roots.size());
+  for (std::size_t group = 0; group < robot.groups.size(); ++group) {
+    robot.groups[group].frame = prefixed(params.tf_prefix, model.links[model.group_roots[group]].name);
+  }
+  for (std::uint32_t i = 0; i < model.links.size(); ++i) {
+    const RobotLink& link = model.links[i];
+    if (cancelled_()) throw Refusal(Code::busy, "robot '" + params.name + "' was not loaded: the node is about to end");
+    if (!link.hasGeometry()) {
+      robot.without_collision.push_back(joined(robot.name, link.name));
+      continue;
+    }
+    robot.groups[link.rigid_group].members.emplace_back(robot.bodies.size(), link.group_from_link);
+    robot.bodies.push_back(bodyOf(robot, model, i, params_));
+    makeSolids(*narrow_phase_, robot.bodies.back());
+    robot.bodies.back().links = links;
+    robot.bodies.back().frame = prefixed(params.tf_prefix, link.name);
+    if (link.uses_visual) robot.uses_visual.push_back(robot.bodies.back().name);
+  }
+  findGap(robot, params_);
+  return robot;
+}
+
+}  // namespace hgrid

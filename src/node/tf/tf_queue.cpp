@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/tf/tf_queue.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace hgrid {
+namespace {
+
+std::size_t chargeOf(const ReceivedTransforms& transforms) {
+  return transforms.message->bytes.size() + transforms.publisher.size() + TfQueue::kOverhead;
+}
+
+}  // namespace
+
+std::string ReceivedTransforms::name() const {
+  return std::string("the message on ") + (is_static ? "/tf_static" : "/tf") + " from '" + printable(publisher) + "'";
+}
+
+void TfQueue::push(ReceivedTransforms transforms) {
+  const TransformBytes& message = *transforms.message;
+  const std::size_t most_bytes = std::min(most_bytes_, message.most_bytes);
+  if (message.size > most_bytes) {
+    const std::string rule = " bytes; at most " + std::to_string(most_bytes) + " are accepted (~tf_queue_bytes)";
+    const std::string size = std::to_string(message.size);
+    return ledger_.refuse("tf.refused", Refusal(Code::limit, transforms.name() + " has " + size + rule));
+  }
+  for (const ReceivedTransforms& dropped : store(std::move(transforms))) {
+    ledger_.refuse(
+        "tf.dropped",
+        Refusal(Code::limit, dropped.name() + " is dropped: transforms arrive faster than they are read; at most " +
+                                 std::to_string(most_bytes_) + " bytes may wait (~tf_queue_bytes)"));
+  }
+}
+
+/// Appends a message. @returns the messages that had to go for it; never the new one
+std::vector<ReceivedTransforms> TfQueue::store(ReceivedTransforms transforms) {
+  std::vector<ReceivedTransforms> dropped;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  Lane& lane = transforms.is_static ? static_ : moving_;
+  lane.waiting.push_back(std::move(transforms));
+  lane.bytes += chargeOf(lane.waiting.back());
+  while (lane.bytes > most_bytes_ && lane.waiting.size() > 1) dropped.push_back(takeOldest(lane));
+  return dropped;
+}
+
+ReceivedTransforms TfQueue::takeOldest(Lane& lane) {
+  ReceivedTransforms oldest = std::move(lane.waiting.front());
+  lane.waiting.pop_front();
+  lane.bytes -= chargeOf(oldest);
+  return oldest;
+}
+
+std::optional<ReceivedTransforms> TfQueue::pop() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const bool has_moving = !moving_.waiting.empty(), has_static = !static_.waiting.empty();
+  if (!has_moving && !has_static) return std::nullopt;
+  const bool static_is_first =
+      has_static && (!has_moving || static_.waiting.front().received.steady <= moving_.waiting.front().received.steady);
+  return takeOldest(static_is_first ? static_ : moving_);
+}
+
+bool TfQueue::empty() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return moving_.waiting.empty() && static_.waiting.empty();
+}
+
+}  // namespace hgrid

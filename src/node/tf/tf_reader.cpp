@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/tf/tf_reader.h"
+
+#include <boost/make_shared.hpp>
+#include <optional>
+#include <utility>
+
+#include "hgrid_proximity/refusal.h"
+
+namespace hgrid {
+
+struct TfReader::ReadNext : ros::CallbackInterface {
+  explicit ReadNext(TfReader& owner) : reader(owner) {}
+  CallResult call() override {
+    reader.readNext();
+    return Success;
+  }
+  TfReader& reader;
+};
+
+TfReader::TfReader(ros::NodeHandle node, std::size_t most_bytes, Now now, Sink sink, Ledger& ledger)
+    : most_bytes_(most_bytes),
+      now_(std::move(now)),
+      sink_(std::move(sink)),
+      ledger_(ledger),
+      queue_(most_bytes, ledger),
+      tick_queue_(*node.getCallbackQueue()),
+      read_next_(boost::make_shared<ReadNext>(*this)) {
+  node.setCallbackQueue(&immediately_);
+  subscribe(node, "/tf", false);
+  subscribe(node, "/tf_static", true);
+}
+
+TfReader::~TfReader() {
+  subscribers_.clear();  // from here on nobody wakes the tick thread
+  tick_queue_.removeByID(reinterpret_cast<std::uint64_t>(this));
+}
+
+void TfReader::subscribe(const ros::NodeHandle& node, const std::string& topic, bool is_static) {
+  using Event = ros::MessageEvent<const TransformBytes>;
+  const boost::function<void(const Event&)> on_message = [this, is_static](const Event& event) {
+    onMessage(event, is_static);
+  };
+  const auto new_message = [most_bytes = most_bytes_] {
+    const auto message = boost::make_shared<TransformBytes>();
+    message->most_bytes = most_bytes;
+    return message;
+  };
+  ros::SubscribeOptions options;
+  options.initByFullCallbackType<const Event&>(topic, 1, on_message, new_message);
+  options.transport_hints = ros::TransportHints().tcpNoDelay();
+  subscribers_.push_back(ros::NodeHandle(node).subscribe(options));
+}
+
+void TfReader::onMessage(const ros::MessageEvent<const TransformBytes>& event, bool is_static) {
+  try {
+    queue_.push({event.getConstMessage(), is_static, event.getPublisherName(), now_()});
+    wakeTickThread();
+  } catch (...) {  // out of memory; the thread that receives must go on
+    ledger_.fault("tf.failed");
+  }
+}
+
+void TfReader::wakeTickThread() {
+  if (!woken_.exchange(true)) tick_queue_.addCallback(read_next_, reinterpret_cast<std::uint64_t>(this));
+}
+
+/// Reads one slice at a time, so that a tick that is due has to wait for one slice at most.
+void TfReader::readNext() {
+  woken_ = false;
+  if (readSlice()) wakeTickThread();
+}
+
+void TfReader::readFor(std::chrono::duration<double> most_time) {
+  const auto begin = std::chrono::steady_clock::now();
+  while (readSlice() && std::chrono::steady_clock::now() - begin < most_time) {
+  }
+}
+
+/// @returns whether there may be more to read
+bool TfReader::readSlice() {
+  try {
+    if (!slices_.left() && !open()) return false;
+    sink_(slices_.next(), current_.is_static, current_.publisher, current_.received);
+  } catch (const Refusal& refusal) {
+    ledger_.refuse("tf.refused", Refusal(refusal.code(), current_.name() + " cannot be read: " + refusal.what()));
+  } catch (...) {  // out of memory; ticks go on without the rest of the message
+    slices_ = TransformSlices();
+    ledger_.fault("tf.failed");
+  }
+  if (slices_.left()) return true;
+  current_ = ReceivedTransforms();  // frees its bytes
+  return !queue_.empty();
+}
+
+/// Takes the next message from the queue. @returns whether there was one
+bool TfReader::open() {
+  std::optional<ReceivedTransforms> next = queue_.pop();
+  if (!next) return false;
+  current_ = std::move(*next);
+  slices_ = TransformSlices(current_.message->bytes);
+  return true;
+}
+
+}  // namespace hgrid

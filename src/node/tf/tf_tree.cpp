@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/tf/tf_tree.h"
+
+#include <algorithm>
+
+namespace hgrid {
+namespace {
+
+constexpr std::size_t kLongestChain = 1000;
+
+/// What is known of a way that is longer by the transform of one frame.
+void extend(ChainState& state, const TfIntake& intake, std::uint32_t number, bool upwards, Time reading) {
+  const TfIntake::Frame& frame = intake.frame(number);
+  if (frame.refused && (upwards || state.refused == nullptr)) state.refused = &*frame.refused;
+  if (frame.from_static && frame.from_tf) state.conflict = true;
+  if (frame.claimed && intake.isContested(number, reading)) state.contested = number;
+  if (!frame.moves) return;
+  const Time stamp = frame.newest.stamp;
+  if (stamp.count() == 0) state.connected = false;  // nothing since the clock jumped
+  state.newest = state.moves ? std::min(state.newest, stamp) : stamp;
+  state.received = state.moves ? std::min(state.received, frame.received) : frame.received;
+  state.lead = state.moves ? std::min(state.lead, frame.lead) : frame.lead;
+  state.period = std::max(state.period, frame.period);
+  state.moves = true;
+}
+
+}  // namespace
+
+/// Steps from the world frame up to its ancestors, only as far as some way goes through them.
+void TfTree::addAncestors(std::size_t count) {
+  for (; ancestors_ < count; ++ancestors_) {
+    Step step;
+    step.moved = above_[ancestors_];
+    step.from = step_to_[step.moved];
+    step.upwards = true;
+    step_to_[above_[ancestors_ + 1]] = steps_.size();
+    steps_.push_back(step);
+  }
+}
+
+/// Up from the frame until something known is met, then down again step by step.
+std::size_t TfTree::wayTo(std::uint32_t frame) {
+  std::vector<std::uint32_t> down;
+  while (step_to_[frame] == kNowhere) {
+    const auto ancestor = std::find(above_.begin(), above_.end(), frame);
+    if (ancestor != above_.end()) {
+      addAncestors(static_cast<std::size_t>(ancestor - above_.begin()));
+      break;
+    }
+    const std::uint32_t parent = intake_.frame(frame).parent;
+    if (parent == TfIntake::kNone || down.size() >= kLongestChain) return kNowhere;
+    down.push_back(frame);
+    frame = parent;
+  }
+  for (auto next = down.rbegin(); next != down.rend(); ++next) {
+    Step step;
+    step.moved = *next;
+    step.from = step_to_[frame];
+    frame = *next;
+    step_to_[frame] = steps_.size();
+    steps_.push_back(step);
+  }
+  return step_to_[frame];
+}
+
+void TfTree::plan(const std::string& world_frame, const std::vector<std::string>& frames) {
+  revision_ = intake_.revision();
+  steps_.assign(2, Step{});
+  steps_[kWorld].state.connected = steps_[kWorld].placed = true;
+  step_to_.assign(intake_.known(), kNowhere);
+  above_.clear();
+  ancestors_ = 0;
+  const std::uint32_t world = intake_.find(world_frame);
+  for (std::uint32_t frame = world; frame != TfIntake::kNone; frame = intake_.frame(frame).parent) {
+    if (std::find(above_.begin(), above_.end(), frame) != above_.end()) break;
+    above_.push_back(frame);
+  }
+  if (world != TfIntake::kNone) step_to_[world] = kWorld;
+
+  ways_.clear();
+  for (const std::string& frame : frames) {
+    const std::uint32_t number = intake_.find(frame);
+    Way way;
+    way.number = number;
+    if (frame == world_frame) {
+      way.step = kWorld;
+    } else if (number != TfIntake::kNone) {
+      way.step = wayTo(number);
+    }
+    if (way.step == kNowhere && world == TfIntake::kNone) way.unknown = world_frame;
+    if (way.step == kNowhere && number == TfIntake::kNone) way.unknown = frame;
+    ways_.push_back(std::move(way));
+  }
+}
+
+void TfTree::look(Time reading) {
+  for (std::size_t i = 2; i < steps_.size(); ++i) {
+    Step& step = steps_[i];
+    step.state = steps_[step.from].state;
+    extend(step.state, intake_, step.moved, step.upwards, reading);
+  }
+}
+
+void TfTree::place(Time time) {
+  for (std::size_t i = 2; i < steps_.size(); ++i) {
+    Step& step = steps_[i];
+    const Step& from = steps_[step.from];
+    step.placed = from.placed && step.state.connected;
+    if (!step.placed) continue;
+    const std::optional<FramePose> pose = intake_.parentFromFrame(intake_.frame(step.moved), time);
+    step.placed = pose.has_value();
+    if (pose) step.world_from_frame = from.world_from_frame * (step.upwards ? pose->inverse() : *pose);
+  }
+}
+
+std::optional<FramePose> TfTree::along(std::size_t number, Time time) const {
+  if (number == kWorld) return FramePose{};
+  const Step& step = steps_[number];
+  if (!step.state.connected) return std::nullopt;
+  const std::optional<FramePose> from = along(step.from, time);
+  if (!from) return std::nullopt;
+  const std::optional<FramePose> pose = intake_.parentFromFrame(intake_.frame(step.moved), time);
+  if (!pose) return std::nullopt;
+  return *from * (step.upwards ? pose->inverse() : *pose);
+}
+
+}  // namespace hgrid

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/tf/tick_time.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hgrid {
+
+TickTime::TickTime(double max_wait) : max_wait_(std::llround(1e9 * max_wait)) {}
+
+Time TickTime::choose(const std::vector<Time>& newest, Time now) {
+  if (newest.empty()) return last_ = std::max(last_, now);
+  const Time latest = now + max_wait_;
+  Time pace{-1};
+  for (const Time time : newest) {
+    if (time <= latest) pace = std::max(pace, time);
+  }
+  if (pace.count() < 0) pace = latest;  // every frame is stamped ahead
+  Time common = pace;
+  for (const Time time : newest) {
+    if (pace - time <= max_wait_) common = std::min(common, time);
+  }
+  return last_ = std::max(last_, common);
+}
+
+}  // namespace hgrid

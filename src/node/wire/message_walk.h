@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <ros/builtin_message_traits.h>
+#include <ros/message_traits.h>
+#include <ros/serialization.h>
+
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "node/wire/wire_walk.h"
+
+namespace hgrid {
+
+/// Checks the lengths in the bytes of a serialized message of any generated type, before anything is deserialized.
+///
+/// The generated serializers resize a list to its declared length before they know whether the bytes hold so many
+/// elements. This class stands in for their stream: they show it every field, and it passes the field's bytes. The
+/// fields themselves are neither read nor written, so one message of each type serves for all of its elements.
+class MessageWalk {
+ public:
+  MessageWalk(const std::uint8_t* bytes, std::size_t size) : walk_(bytes, size) {}
+
+  /// Passes the bytes of a field. The generated serializers call this.
+  template <class Field>
+  void next(Field& field) {
+    if constexpr (ros::message_traits::IsFixedSize<Field>::value) {
+      walk_.skip(ros::serialization::serializationLength(field), "a value");
+    } else {
+      ros::serialization::Serializer<Field>::template allInOne<MessageWalk, Field&>(*this, field);
+    }
+  }
+  void next(std::string&) { walk_.skipString("a string"); }
+  template <class Element, class Allocator>
+  void next(std::vector<Element, Allocator>&) {
+    Element element{};  // its lists and strings are empty, so it has the least length
+    const std::size_t least_bytes = ros::serialization::serializationLength(element);
+    std::uint32_t count = walk_.count("a list", least_bytes);
+    if constexpr (ros::message_traits::IsFixedSize<Element>::value) {
+      walk_.skip(count * least_bytes, "a list");
+    } else {
+      for (; count > 0 && walk_.fits(); --count) next(element);
+    }
+  }
+  /// As WireWalk::flaw().
+  std::string flaw() const { return walk_.flaw(); }
+
+ private:
+  WireWalk walk_;
+};
+
+/// Why the bytes are not those of a message of type `Message`; empty if they are.
+template <class Message>
+std::string flawOf(const std::uint8_t* bytes, std::size_t size) {
+  MessageWalk walk(bytes, size);
+  Message message;
+  walk.next(message);
+  return walk.flaw();
+}
+
+}  // namespace hgrid

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "hgrid_proximity/pairs/pair_filter.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "bodies/name_index.h"
+
+namespace hgrid {
+
+namespace {
+
+struct Type {
+  BodyKind kind;
+  Mobility mobility;
+};
+
+std::uint8_t numberOf(const Type& type) {
+  return static_cast<std::uint8_t>(2 * static_cast<int>(type.kind) + static_cast<int>(type.mobility));
+}
+
+Type typeOf(std::size_t number) { return {static_cast<BodyKind>(number / 2), static_cast<Mobility>(number % 2)}; }
+
+bool exists(const PairKinds& kinds, const Type& a, const Type& b, bool same_robot) {
+  if (a.mobility == Mobility::fixed && b.mobility == Mobility::fixed) return false;
+  if (a.kind == BodyKind::link && b.kind == BodyKind::link) return same_robot ? kinds.self : kinds.robot_robot;
+  if (a.kind == BodyKind::link || b.kind == BodyKind::link) {
+    const BodyKind other = a.kind == BodyKind::link ? b.kind : a.kind;
+    return other == BodyKind::map ? kinds.robot_map : kinds.robot_obstacle;
+  }
+  const auto moving_obstacle = [](const Type& type) {
+    return type.kind == BodyKind::obstacle && type.mobility == Mobility::moving;
+  };
+  return kinds.moving_obstacle && (moving_obstacle(a) || moving_obstacle(b));  // a moving map shows the fixed ones too
+}
+
+std::uint64_t keyOf(std::uint32_t first, std::uint32_t second) {
+  return std::uint64_t{std::min(first, second)} << 32 | std::max(first, second);
+}
+
+}  // namespace
+
+PairFilter::PairFilter(const std::vector<Body>& bodies, PairKinds kinds, std::vector<PairRule> rules)
+    : rules_(std::move(rules)) {
+  for (std::size_t a = 0; a < kTypes; ++a) {
+    for (std::size_t b = 0; b < kTypes; ++b) {
+      for (const bool same_robot : {false, true})
+        exists_[same_robot][a][b] = exists(kinds, typeOf(a), typeOf(b), same_robot);
+    }
+  }
+  std::map<std::string, std::uint32_t> robots;
+  for (const Body& body : bodies) {
+    Subject subject;
+    subject.type = numberOf({body.kind, body.mobility});
+    subject.link = body.link;
+    if (body.kind == BodyKind::link) {
+      subject.robot = robots.emplace(body.robot, static_cast<std::uint32_t>(robots.size())).first->second;
+    }
+    if (body.links) {
+      if (matrices_.empty() || matrices_.back() != body.links) matrices_.push_back(body.links);
+      subject.matrix = static_cast<std::uint32_t>(matrices_.size() - 1);
+      subject.allowed = body.links->allowedWith(body.link);
+    }
+    subjects_.push_back(subject);
+  }
+  if (!rules_.empty()) resolve(bodies);
+}
+
+/// Finds the bodies that each rule speaks of.
+void PairFilter::resolve(const std::vector<Body>& bodies) {
+  const NameIndex names(bodies);
+  for (std::uint32_t rule = 0; rule < rules_.size(); ++rule) {
+    const PairRule& r = rules_[rule];
+    verdicts_.push_back(r.allowed ? r.origin : Origin::none);
+    if (isGlob(r.first) || isGlob(r.second)) {
+      glob_rules_.push_back(rule);
+      continue;
+    }
+    const std::uint32_t first = names.find(r.first), second = names.find(r.second);
+    if (first == NameIndex::kNone || second == NameIndex::kNone) continue;  // it may come later
+    subjects_[first].ruled |= kByName;
+    subjects_[second].ruled |= kByName;
+    named_.push_back({keyOf(first, second), rule});
+  }
+  std::sort(named_.begin(), named_.end(), [](const NamedPair& a, const NamedPair& b) {
+    return a.bodies != b.bodies ? a.bodies < b.bodies : a.rule > b.rule;
+  });
+  const auto same_bodies = [](const NamedPair& a, const NamedPair& b) { return a.bodies == b.bodies; };
+  named_.erase(std::unique(named_.begin(), named_.end(), same_bodies), named_.end());
+  if (!glob_rules_.empty()) fillSets(names, bodies.size());
+}
+
+void PairFilter::fillSets(const NameIndex& names, std::size_t bodies) {
+  words_ = (glob_rules_.size() + 63) / 64;
+  as_first_.resize(bodies * words_);
+  as_second_.resize(bodies * words_);
+  std::vector<std::uint32_t> found;
+  const auto note = [&](const std::string& glob, std::size_t bit, std::vector<std::uint64_t>& sets) {
+    names.matching(glob, found);
+    for (const std::uint32_t body : found) {
+      sets[body * words_ + bit / 64] |= std::uint64_t{1} << (bit % 64);
+      subjects_[body].ruled |= kByGlob;
+    }
+  };
+  for (std::size_t bit = 0; bit < glob_rules_.size(); ++bit) {
+    note(rules_[glob_rules_[bit]].first, bit, as_first_);
+    note(rules_[glob_rules_[bit]].second, bit, as_second_);
+  }
+}
+
+/// The strongest rule for a pair, or kNoRule.
+std::uint32_t PairFilter::ruleOf(std::uint32_t first, std::uint32_t second) const {
+  const std::uint64_t key = keyOf(first, second);
+  const auto named = std::lower_bound(named_.begin(), named_.end(), key,
+                                      [](const NamedPair& pair, std::uint64_t wanted) { return pair.bodies < wanted; });
+  if (named != named_.end() && named->bodies == key) return named->rule;
+  for (std::size_t word = words_; word-- > 0;) {
+    const std::size_t i = first * words_ + word, j = second * words_ + word;
+    const std::uint64_t both = (as_first_[i] & as_second_[j]) | (as_second_[i] & as_first_[j]);
+    if (both != 0) return glob_rules_[64 * word + 63 - static_cast<std::size_t>(__builtin_clzll(both))];
+  }
+  return kNoRule;
+}
+
+PairDecision PairFilter::decision(std::uint32_t first, std::uint32_t second) const {
+  PairDecision result;
+  result.origin = origin(first, second);
+  result.allowed = result.origin != Origin::none;
+  if (result.origin == Origin::self || result.origin == Origin::kind) return result;
+  result.rule = ruleOf(first, second);
+  if (result.rule != kNoRule) {
+    result.origin = rules_[result.rule].origin;
+    result.reason = rules_[result.rule].reason;
+    return result;
+  }
+  const Subject &a = subjects_[first], &b = subjects_[second];
+  if (a.robot != b.robot || a.allowed == nullptr) return result;
+  if (const LinkMatrix::Tag* tag = matrices_[a.matrix]->tag(a.link, b.link)) {
+    result.origin = Origin::srdf;
+    result.reason = tag->reason;
+  } else if (result.origin == Origin::srdf) {
+    result.reason = "disable_default_collisions";
+  } else if (result.origin == Origin::adjacent) {
+    result.reason = matrices_[a.matrix]->adjacencyReason(a.link, b.link);
+  } else if (result.origin == Origin::rigid) {
+    result.reason = "they move as one";
+  }
+  return result;
+}
+
+/// Bodies that stand for all others in pairs of two robots or none: of those that neither kind nor rules tell apart
+/// one, and where there are, another that is not of its robot.
+std::vector<std::uint32_t> PairFilter::representatives() const {
+  struct Class {
+    std::uint8_t type;
+    std::uint32_t named;  // a body that a rule names is like no other
+    std::vector<std::uint64_t> sets;
+    bool operator<(const Class& other) const {
+      return std::tie(type, named, sets) < std::tie(other.type, other.named, other.sets);
+    }
+  };
+  const auto part = [&](const std::vector<std::uint64_t>& sets, std::size_t body, std::vector<std::uint64_t>& to) {
+    const auto begin = sets.begin() + static_cast<std::ptrdiff_t>(body * words_);
+    to.insert(to.end(), begin, begin + static_cast<std::ptrdiff_t>(words_));
+  };
+  struct Chosen {
+    std::uint32_t robot;  // of the first
+    bool two;
+  };
+  std::map<Class, Chosen> classes;
+  std::vector<std::uint32_t> result;
+  for (std::uint32_t i = 0; i < subjects_.size(); ++i) {
+    const Subject& subject = subjects_[i];
+    Class key{subject.type, (subject.ruled & kByName) != 0 ? i : kNoRule, {}};
+    part(as_first_, i, key.sets);
+    part(as_second_, i, key.sets);
+    const auto [found, is_new] = classes.emplace(std::move(key), Chosen{subject.robot, false});
+    const bool stranger = !is_new && (found->second.robot != subject.robot || subject.robot == kNoRobot);
+    const bool second = stranger && !std::exchange(found->second.two, true);
+    if (is_new || second) result.push_back(i);
+  }
+  return result;
+}
+
+bool PairFilter::reportsAny() const {
+  const std::size_t count = subjects_.size();
+  for (std::size_t i = 0; i < count; ++i) {  // nearly always this finds one at once
+    for (const std::size_t j : {(i + 1) % count, (i + count / 2) % count}) {
+      if (!allowed(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j))) return true;
+    }
+  }
+  const std::vector<std::uint32_t> chosen = representatives();
+  for (const std::uint32_t i : chosen) {
+    for (const std::uint32_t j : chosen) {
+      if (!allowed(i, j)) return true;
+    }
+  }
+  std::map<std::uint32_t, std::vector<std::uint32_t>> robots;  // their links differ by the model's matrix
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (subjects_[i].robot != kNoRobot) robots[subjects_[i].robot].push_back(i);
+  }
+  for (const auto& robot : robots) {
+    for (const std::uint32_t i : robot.second) {
+      for (const std::uint32_t j : robot.second) {
+        if (!allowed(i, j)) return true;
+      }
+    }
+  }
+  return false;
+}
+
+bool silencesAll(const std::vector<Body>& bodies, const PairKinds& kinds, const PairFilter& filter) {
+  return !filter.rules().empty() && !filter.reportsAny() && PairFilter(bodies, kinds, {}).reportsAny();
+}
+
+}  // namespace hgrid

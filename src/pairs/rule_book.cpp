@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "hgrid_proximity/pairs/rule_book.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "hgrid_proximity/refusal.h"
+
+namespace hgrid {
+namespace {
+
+using Names = std::pair<std::string, std::string>;
+
+/// The two names or globs in an order that does not depend on which came first.
+Names namesOf(const PairRule& rule) { return std::minmax(rule.first, rule.second); }
+
+std::string shown(const PairRule& rule) { return "'" + printable(rule.first) + "', '" + printable(rule.second) + "'"; }
+
+}  // namespace
+
+RuleBook::RuleBook(std::vector<PairRule> rules, std::size_t most) : rules_(std::move(rules)), most_(most) {}
+
+void RuleBook::add(const std::vector<PairRule>& rules) {
+  std::vector<PairRule> all = rules_;
+  for (PairRule rule : rules) {
+    checkRule(rule);
+    rule.origin = Origin::service;
+    all.push_back(std::move(rule));
+  }
+  std::map<Names, PairRule::Clock::time_point> decided;  // until when a later rule decides
+  std::vector<PairRule> kept;
+  for (auto rule = all.rbegin(); rule != all.rend(); ++rule) {
+    if (rule->origin == Origin::service) {
+      const auto later = decided.emplace(namesOf(*rule), rule->ends);
+      if (!later.second && rule->ends <= later.first->second) continue;
+      later.first->second = rule->ends;
+    }
+    kept.push_back(std::move(*rule));
+  }
+  if (kept.size() > most_) {
+    throw Refusal(Code::limit, "there would be " + std::to_string(kept.size()) +
+                                   " rules, those that were configured included; at most " + std::to_string(most_) +
+                                   " are allowed (max_rules)");
+  }
+  std::reverse(kept.begin(), kept.end());
+  rules_ = std::move(kept);
+}
+
+void RuleBook::remove(const std::vector<PairRule>& rules) {
+  std::set<Names> given, wanted;
+  for (const PairRule& rule : rules_) {
+    if (rule.origin == Origin::service) given.insert(namesOf(rule));
+  }
+  for (const PairRule& rule : rules) {
+    wanted.insert(namesOf(rule));
+    if (given.count(namesOf(rule)) != 0) continue;
+    const bool configured = std::any_of(rules_.begin(), rules_.end(),
+                                        [&](const PairRule& other) { return namesOf(other) == namesOf(rule); });
+    throw Refusal(Code::unknown_id,
+                  configured ? "rule " + shown(rule) + " was configured and stays; one with allowed = false beats it"
+                             : "there is no rule " + shown(rule));
+  }
+  const auto unwanted = [&](const PairRule& rule) {
+    return rule.origin == Origin::service && wanted.count(namesOf(rule)) != 0;
+  };
+  rules_.erase(std::remove_if(rules_.begin(), rules_.end(), unwanted), rules_.end());
+}
+
+bool RuleBook::expire(PairRule::Clock::time_point now) {
+  const auto begin =
+      std::remove_if(rules_.begin(), rules_.end(), [&](const PairRule& rule) { return rule.ends <= now; });
+  const bool any = begin != rules_.end();
+  rules_.erase(begin, rules_.end());
+  return any;
+}
+
+}  // namespace hgrid

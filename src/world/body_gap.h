@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <string>
+
+#include "hgrid_proximity/world/snapshot.h"
+
+namespace hgrid {
+
+/// Why a body makes its source incomplete, as "LOST robot/tool0: its pose is 3 s old (frame 'tool0')". Empty if the
+/// body does not.
+std::string gapLeftBy(const Body& body, const BodyPose& pose);
+
+}  // namespace hgrid

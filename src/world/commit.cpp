@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// The making of a snapshot from what the scene was told.
+#include <algorithm>
+
+#include "hgrid_proximity/geometry/float_environment.h"
+#include "hgrid_proximity/refusal.h"
+#include "world/pair_margin.h"
+#include "world/scene_state.h"
+
+namespace hgrid {
+namespace {
+
+/// [m] How far a point of the body may be from where its pose puts it, if the pose is old. A frame that comes seldom is
+/// old before its state says so.
+double reachOf(const BodyPose& pose, const Body& body, double growth_after) {
+  const bool old = pose.state >= Freshness::stale || pose.age > growth_after;
+  if (!old || pose.state == Freshness::unplaced || !(pose.age > 0.0)) return 0.0;
+  return body.max_speed * pose.age;
+}
+
+/// Whether the grid may report a pair of proxies: its filter.
+bool isReported(const void* structure, ProxyId first, ProxyId second) {
+  const Structure& s = *static_cast<const Structure*>(structure);
+  return !s.filter.allowed(s.body_of_proxy[first], s.body_of_proxy[second]);
+}
+
+}  // namespace
+
+void Scene::State::rebuildStructure() {
+  auto next = std::make_shared<Structure>();
+  next->revision = structure->revision + 1;
+  next->least_margin = options.margin;
+  std::vector<Aabb> sizes;
+  std::vector<std::uint32_t> next_uncovered;
+  std::vector<ShapeInBody> next_shapes;
+  for (const auto& named : slot_of_name) {
+    const Body& body = bodies[named.second];
+    if (!body.covered && !body.waived) next_uncovered.push_back(static_cast<std::uint32_t>(next->bodies.size()));
+    next->first_proxy.push_back(static_cast<std::uint32_t>(next->body_of_proxy.size()));
+    next->body_of_proxy.insert(next->body_of_proxy.end(), body.shapes.size(),
+                               static_cast<std::uint32_t>(next->bodies.size()));
+    if (body.kind == BodyKind::map) next->maps.push_back(static_cast<std::uint32_t>(next->bodies.size()));
+    next->bodies.push_back(body);
+    next->ids.push_back({named.second, slots[named.second].generation});
+    next->margin.push_back(std::max(options.margin, body.margin));
+    for (const BodyShape& shape : body.shapes) {
+      next_shapes.push_back({shape.shape, shape.body_from_shape, shape.padding});
+      sizes.push_back(
+          grown(boxOf(shape.shape, Pose::Identity(), shape.padding, Eigen::Vector3d::Zero()), 0.5 * options.margin));
+    }
+  }
+  next->first_proxy.push_back(static_cast<std::uint32_t>(next->body_of_proxy.size()));
+  std::vector<Aabb> next_boxes(next_shapes.size());
+  next->pair_margins = PairMargins(next->bodies, options.pair_margins);
+  next->filter = PairFilter(next->bodies, options.pair_kinds, options.allowed_pairs);
+  next->silenced = silencesAll(next->bodies, options.pair_kinds, next->filter);
+  std::vector<ProxyId> next_fixed;
+  for (ProxyId proxy = 0; proxy < next->body_of_proxy.size(); ++proxy) {
+    if (next->bodies[next->body_of_proxy[proxy]].mobility == Mobility::fixed) next_fixed.push_back(proxy);
+  }
+  fillSources(*next);
+  // Nothing below allocates.
+  for (const auto& named : slot_of_name) slots[named.second].moved = true;  // its proxies may have other numbers now
+  uncovered.swap(next_uncovered);
+  shapes.swap(next_shapes);
+  boxes.swap(next_boxes);
+  fixed_proxies.swap(next_fixed);
+  structure = std::move(next);
+  scale = GridScale::fitting(sizes);
+  if (options.finest_edge > 0.0) scale.finest_edge = options.finest_edge;
+  structure_changed = false;
+}
+
+std::shared_ptr<Snapshot> Scene::State::freshSnapshot() const {
+  std::unique_ptr<Snapshot> snapshot = pool->take();
+  if (!snapshot) snapshot.reset(new Snapshot);
+  snapshot->finished_ = false;
+  const auto give_back = [kept = pool](Snapshot* used) {
+    std::unique_ptr<Snapshot> owned(used);
+    if (owned->finished_) kept->giveBack(std::move(owned));
+  };
+  return {snapshot.release(), give_back, PoolAllocator<Snapshot>(pool)};
+}
+
+/// Makes the boxes of what moved since the last commit; what stands still keeps its own. Of the poses a snapshot that
+/// was used before takes those that changed since then.
+void Scene::State::fillBodies(Snapshot& snapshot) {
+  const std::uint64_t known = snapshot.structure_ == structure ? snapshot.commit_ : 0;
+  snapshot.structure_ = structure;
+  snapshot.commit_ = commits + 1;
+  snapshot.poses_.resize(structure->ids.size());
+  snapshot.worst_state_ = Freshness::fresh;
+  snapshot.max_age_ = snapshot.max_growth_ = 0.0;
+  for (std::size_t i = 0; i < structure->ids.size(); ++i) {
+    Slot& slot = slots[structure->ids[i].slot];
+    const bool placed = slot.pose.state != Freshness::unplaced;
+    if (slot.moved && placed) {
+      for (std::uint32_t proxy = structure->first_proxy[i]; proxy < structure->first_proxy[i + 1]; ++proxy) {
+        const ShapeInBody& shape = shapes[proxy];
+        boxes[proxy] =
+            boxOf(shape.shape, slot.pose.world_from_body * shape.body_from_shape, shape.padding, options.origin);
+      }
+      slot.moved = false;
+    }
+    if (known == 0 || slot.changed > known) {
+      snapshot.poses_[i] = slot.pose;
+      snapshot.poses_[i].reach = reachOf(slot.pose, bodies[structure->ids[i].slot], options.growth_after);
+      snapshot.poses_[i].growth = std::min(snapshot.poses_[i].reach, options.growth_cap);
+    }
+    snapshot.worst_state_ = std::max(snapshot.worst_state_, slot.pose.state);
+    snapshot.max_growth_ = std::max(snapshot.max_growth_, snapshot.poses_[i].growth);
+    if (placed) snapshot.max_age_ = std::max(snapshot.max_age_, slot.pose.age);
+  }
+  snapshot.boxes_ = boxes;
+  snapshot.cells_.clear();
+  for (const std::uint32_t map : structure->maps) {
+    snapshot.cells_.push_back(cells[structure->ids[map].slot]);
+  }
+  horizon.step(structure, snapshot.poses_, boxes);
+}
+
+/// Grows the placed boxes by their shares of the margins: half of the global one, and all by which a body's own is
+/// larger, or a pair of it may have. So two that are within their pair's margin plus their growth overlap.
+void Scene::State::growBoxes(const Snapshot& snapshot) {
+  ids.clear();
+  grown_boxes.clear();
+  grown_of.resize(snapshot.boxes_.size());
+  for (ProxyId proxy = 0; proxy < snapshot.boxes_.size(); ++proxy) {
+    const std::uint32_t body = structure->body_of_proxy[proxy];
+    const BodyPose& pose = snapshot.poses_[body];
+    if (pose.state == Freshness::unplaced) continue;
+    const double own = std::max(structure->margin[body], structure->pair_margins.largestOf(body));
+    const double can_go = horizon.reachOf(body);
+    const double by = 0.5 * options.margin + (own - options.margin) + pose.growth + can_go;
+    const Aabb& box = horizon.on() ? horizon.swept(proxy) : snapshot.boxes_[proxy];
+    Grown& known = grown_of[proxy];
+    if (known.by != by || known.box != box) {
+      known = {box, by, grown(box, by)};
+    }
+    ids.push_back(proxy);
+    grown_boxes.push_back(known.result);
+  }
+}
+
+/// Stores the grown boxes and finds the pairs of them that the filter does not leave out, within the limits.
+void Scene::State::fillGrid(Snapshot& snapshot) {
+  if (snapshot.grid_revision_ != structure->revision) {
+    snapshot.grid_ = HGrid(scale);
+    snapshot.grid_.setThreads(options.threads);
+    snapshot.grid_.setFixed(fixed_proxies);
+    snapshot.grid_.setFilter(PairTest::of<isReported>(structure.get()));  // the snapshot keeps it alive
+    snapshot.grid_.setPairBound(limits.boundOf(structure->body_of_proxy.size()));
+    snapshot.grid_revision_ = structure->revision;
+  }
+  snapshot.grid_.update(ids, grown_boxes);
+  snapshot.search_cut_ = !snapshot.grid_.boundedPairs(proxy_pairs);
+}
+
+void Scene::State::addPair(std::uint32_t first, std::uint32_t second, double gap, double margin, bool near) {
+  const bool odd = horizon.teleported(first) || horizon.teleported(second);
+  const auto flags = static_cast<std::uint8_t>((near ? 0 : kHorizonFlag) | (odd ? kTeleportFlag : 0));
+  choice.collected().push_back({first, second, near ? std::min(gap, margin) : gap, margin, Time{0}, flags});
+}
+
+/// Whether a pair of bodies would be listed by a tick that listed all pairs.
+bool Scene::State::isCandidate(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second) {
+  const BodyPose &a = snapshot.poses_[first], &b = snapshot.poses_[second];
+  if (a.state == Freshness::unplaced || b.state == Freshness::unplaced) return false;
+  if (structure->filter.allowed(first, second)) return false;
+  if (structure->isMap(first) || structure->isMap(second)) return map_pairs.isNear(snapshot, horizon, first, second);
+  const double margin = pairMargin(*structure, first, stalenessOf(a), second, stalenessOf(b));
+  for (ProxyId i = structure->first_proxy[first]; i < structure->first_proxy[first + 1]; ++i) {
+    for (ProxyId j = structure->first_proxy[second]; j < structure->first_proxy[second + 1]; ++j) {
+      const Aabb &one = snapshot.boxes_[i], &other = snapshot.boxes_[j];
+      if (withinDistance(one, other, margin)) return true;
+      if (horizon.on() && horizon.canMeet(*structure, i, j, distance(one, other), margin)) return true;
+    }
+  }
+  return false;
+}
+
+void Scene::State::fillPairs(Snapshot& snapshot) {
+  choice.collected().clear();
+  for (const ProxyPair& proxies : proxy_pairs) {
+    // Proxies are numbered in the order of their bodies.
+    const std::uint32_t first = structure->body_of_proxy[proxies.first],
+                        second = structure->body_of_proxy[proxies.second];
+    const Aabb &a = snapshot.boxes_[proxies.first], &b = snapshot.boxes_[proxies.second];
+    const double margin = pairMargin(*structure, first, stalenessOf(snapshot.poses_[first]), second,
+                                     stalenessOf(snapshot.poses_[second]));
+    const bool near = withinDistance(a, b, margin);
+    if (!near && !horizon.on()) continue;
+    const double gap = distance(a, b);
+    if (!near && !horizon.canMeet(*structure, proxies.first, proxies.second, gap, margin)) continue;
+    addPair(first, second, gap, margin, near);
+  }
+  const bool all_with_maps = map_pairs.find(snapshot, horizon, limits.collected,
+                                            [&](std::uint32_t first, std::uint32_t second, double gap, double margin,
+                                                bool near) { addPair(first, second, gap, margin, near); });
+  snapshot.search_cut_ = snapshot.search_cut_ || !all_with_maps;
+  snapshot.pairs_found_ = choice.list(structure->bodies.size(), limits.listed, snapshot.pairs_);
+  IsCut is_cut;
+  if (snapshot.truncated()) {
+    is_cut = [&](std::uint32_t first, std::uint32_t second) { return isCandidate(snapshot, first, second); };
+  }
+  tracker.update(structure->ids, snapshot.stamp_, snapshot.pairs_, is_cut);
+  pair_events.update(
+      {structure, snapshot.poses_, snapshot.boxes_, snapshot.pairs_, snapshot.worst_state_, snapshot.max_growth_,
+       snapshot.stamp_,
+       [&](std::uint32_t first, std::uint32_t second, double up_to) { return snapshot.gapOf(first, second, up_to); },
+       is_cut},
+      snapshot.events_);
+}
+
+/// Makes the snapshot what the next commit goes by. Allocates nothing.
+void Scene::State::accept(Snapshot& snapshot) {
+  horizon.accept();
+  map_pairs.accept();
+  tracker.accept();
+  pair_events.accept();
+  commits = snapshot.commit_;
+  sequence = snapshot.sequence_;
+  snapshot.finished_ = true;
+}
+
+std::shared_ptr<const Snapshot> Scene::commit(Time stamp, const std::vector<SourceGap>& gaps) {
+  const DefaultFloatEnvironment environment;
+  using Clock = std::chrono::steady_clock;
+  State& s = *state_;
+  const auto begin = Clock::now();
+  if (s.structure_changed) s.rebuildStructure();
+  std::shared_ptr<Snapshot> snapshot = s.freshSnapshot();
+  snapshot->origin_ = s.options.origin;
+  snapshot->stamp_ = stamp;
+  snapshot->report_unmapped_ = s.options.report_unmapped;
+  s.fillBodies(*snapshot);
+  s.growBoxes(*snapshot);
+  const auto boxes_done = Clock::now();
+  s.fillGrid(*snapshot);
+  const auto grid_done = Clock::now();
+  s.fillPairs(*snapshot);
+  snapshot->sequence_ = s.sequence + 1;
+  snapshot->epoch_ = s.epoch;
+  s.fillCompleteness(*snapshot, gaps);
+  s.accept(*snapshot);
+  s.times = {boxes_done - begin, grid_done - boxes_done, Clock::now() - grid_done};
+  return snapshot;
+}
+
+}  // namespace hgrid

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// Which sources of a snapshot are complete, and why others are not.
+#include <algorithm>
+
+#include "hgrid_proximity/bodies/name.h"
+#include "hgrid_proximity/refusal.h"
+#include "world/body_gap.h"
+#include "world/scene_state.h"
+
+namespace hgrid {
+namespace {
+
+/// What is missing where no body matches a pattern of required ones.
+SourceGap gapOfAbsent(const std::string& pattern) {
+  const std::string source = pattern.substr(0, pattern.find('/'));
+  const bool one_of_many = source == "map" || source == "cloud";  // each of these is a source of its own
+  return {
+      one_of_many ? pattern : source, pattern,
+      "REQUIRED '" + printable(pattern) + "': no body of the world matches it; add that body, or do not require it"};
+}
+
+void sortNames(std::vector<std::string>& names) {
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+}
+
+}  // namespace
+
+std::string gapLeftBy(const Body& body, const BodyPose& pose) {
+  if (pose.state == Freshness::unplaced) {
+    return "UNPLACED " + body.name + ": it never had a pose (frame '" + printable(body.frame) + "')";
+  }
+  if (!body.covered && !body.waived) return "UNCOVERED " + body.name + ": " + body.note;
+  if (pose.state >= Freshness::lost) {
+    return std::string(name(pose.state)) + " " + body.name + (isCloud(body) ? ": what it saw is " : ": its pose is ") +
+           secondsText(pose.age) + " old (frame '" + printable(body.frame) + "')";
+  }
+  return {};
+}
+
+/// Says where the bodies come from, and which of the required ones are absent.
+void Scene::State::fillSources(Structure& structure) const {
+  for (const Body& body : structure.bodies) structure.sources.push_back(sourceOf(body));
+  const std::vector<std::string> of_body = structure.sources;
+  sortNames(structure.sources);
+  for (const std::string& source : of_body) {
+    const auto found = std::lower_bound(structure.sources.begin(), structure.sources.end(), source);
+    structure.source_of.push_back(static_cast<std::uint32_t>(found - structure.sources.begin()));
+  }
+  for (const std::string& pattern : options.required) {
+    const bool present = std::any_of(structure.bodies.begin(), structure.bodies.end(),
+                                     [&](const Body& body) { return matches(pattern, body.name); });
+    if (!present) structure.absent.push_back(pattern);
+  }
+}
+
+void Scene::State::fillCompleteness(Snapshot& snapshot, const std::vector<SourceGap>& gaps) const {
+  snapshot.gaps_ = gaps;
+  for (const std::string& pattern : structure->absent) snapshot.gaps_.push_back(gapOfAbsent(pattern));
+  snapshot.doubtful_.clear();
+  snapshot.incomplete_.clear();
+  snapshot.reasons_.clear();
+  snapshot.reasons_total_ = static_cast<std::uint32_t>(snapshot.gaps_.size());
+  for (const SourceGap& gap : snapshot.gaps_) {
+    snapshot.incomplete_.push_back(gap.source);
+    if (snapshot.reasons_.size() < options.max_reasons) snapshot.reasons_.push_back(gap.sentence);
+  }
+  if (snapshot.worst_state_ >= Freshness::stale || snapshot.max_growth_ > 0.0 || !uncovered.empty()) {
+    fillDoubtful(snapshot);
+  }
+  sortNames(snapshot.incomplete_);
+}
+
+/// Lists the bodies that no CLEAR may overlook, and of those that make their source incomplete the worst as reasons.
+void Scene::State::fillDoubtful(Snapshot& snapshot) const {
+  std::vector<std::pair<int, std::uint32_t>> worst_first;  // the worse the state, the smaller the number
+  std::vector<bool> incomplete(structure->sources.size());
+  auto next_uncovered = uncovered.begin();
+  for (std::uint32_t i = 0; i < snapshot.poses_.size(); ++i) {
+    const BodyPose& pose = snapshot.poses_[i];
+    const bool covered = next_uncovered == uncovered.end() || *next_uncovered != i;
+    if (!covered) ++next_uncovered;
+    if (covered && pose.state < Freshness::stale && pose.reach == 0.0) continue;
+    snapshot.doubtful_.push_back(i);
+    if (covered && pose.state < Freshness::lost) continue;
+    if (snapshot.hasGap(structure->bodies[i].name)) continue;  // it is counted already
+    worst_first.emplace_back(-static_cast<int>(pose.state), i);
+    incomplete[structure->source_of[i]] = true;
+  }
+  for (std::size_t source = 0; source < incomplete.size(); ++source) {
+    if (incomplete[source]) snapshot.incomplete_.push_back(structure->sources[source]);
+  }
+  snapshot.reasons_total_ += static_cast<std::uint32_t>(worst_first.size());
+  const std::size_t listed = std::min(worst_first.size(), options.max_reasons - snapshot.reasons_.size());
+  std::partial_sort(worst_first.begin(), worst_first.begin() + static_cast<std::ptrdiff_t>(listed), worst_first.end());
+  for (std::size_t i = 0; i < listed; ++i) {
+    const std::uint32_t body = worst_first[i].second;
+    snapshot.reasons_.push_back(gapLeftBy(structure->bodies[body], snapshot.poses_[body]));
+  }
+}
+
+std::string Snapshot::reasonOf(const std::string& source) const {
+  for (const SourceGap& gap : gaps_) {
+    if (gap.source == source) return gap.sentence;
+  }
+  std::uint32_t worst = Structure::kNone;
+  for (const std::uint32_t body : doubtful_) {
+    if (structure_->sources[structure_->source_of[body]] != source) continue;
+    if (worst == Structure::kNone || poses_[body].state > poses_[worst].state) worst = body;
+  }
+  return worst == Structure::kNone ? std::string() : gapLeftBy(structure_->bodies[worst], poses_[worst]);
+}
+
+}  // namespace hgrid

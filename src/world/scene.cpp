@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "hgrid_proximity/world/scene.h"
+
+#include <algorithm>
+#include <set>
+
+#include "hgrid_proximity/bodies/name.h"
+#include "hgrid_proximity/refusal.h"
+#include "world/scene_state.h"
+
+namespace hgrid {
+namespace {
+
+constexpr double kLargestMargin = 1e3;  // [m]
+constexpr double kFarthestShape = 1e6;  // [m] from its body's origin, and of a body from the world's
+
+void checkLength(double value, double limit, const std::string& what) {
+  if (!(value >= 0.0 && value <= limit)) {
+    throw Refusal(Code::out_of_range, what + " is " + text(value) + " m; it must be within 0 .. " + text(limit) + " m");
+  }
+}
+
+void checkBody(const Body& body) {
+  const std::size_t slash = body.name.find('/');
+  if (slash == std::string::npos) {
+    throw Refusal(Code::bad_id, "body name is '" + printable(body.name) + "'; it must be source/local");
+  }
+  checkSource(body.name.substr(0, slash), "source of body '" + printable(body.name) + "'");
+  checkLocal(body.name.substr(slash + 1), "local name of body '" + printable(body.name) + "'");
+  checkLength(body.margin, kLargestMargin, "margin of body '" + body.name + "'");
+  if (!(body.max_speed >= 0.0)) {
+    throw Refusal(Code::out_of_range,
+                  "max_speed of body '" + body.name + "' is " + text(body.max_speed) + " m/s; it must not be negative");
+  }
+  if (body.links && body.link >= body.links->size()) {
+    throw Refusal(Code::out_of_range, "body '" + body.name + "' is link " + std::to_string(body.link) +
+                                          " of a robot that has " + std::to_string(body.links->size()));
+  }
+  for (const BodyShape& shape : body.shapes) {
+    const std::string what = "pose of a shape of body '" + body.name + "'";
+    if (!shape.body_from_shape.matrix().allFinite()) {
+      throw Refusal(Code::nonfinite, what + " is not finite; every number must be");
+    }
+    checkWithin(shape.body_from_shape.translation(), kFarthestShape, what);
+    checkLength(shape.padding, kLargestMargin, "padding of a shape of body '" + body.name + "'");
+  }
+}
+
+}  // namespace
+
+const char* name(Freshness state) {
+  static constexpr const char* kNames[] = {"FRESH", "LATE", "STALE", "LOST", "FROZEN", "INVALID", "UNPLACED"};
+  return kNames[static_cast<int>(state)];
+}
+
+Scene::State::Slot& Scene::State::at(BodyId id) {
+  if (id.slot >= slots.size() || !slots[id.slot].used || slots[id.slot].generation != id.generation) {
+    throw Refusal(Code::unknown_id, "body handle " + std::to_string(id.slot) + " (use " +
+                                        std::to_string(id.generation) + ") is not valid any more");
+  }
+  return slots[id.slot];
+}
+
+Scene::Scene(const SceneOptions& options) : state_(std::make_unique<State>(options)) {
+  checkLength(options.margin, kLargestMargin, "margin");
+  checkLength(options.event_hysteresis, kLargestMargin, "event_hysteresis");
+  for (const PairMargin& pair : options.pair_margins) {
+    checkLength(pair.margin, kLargestMargin,
+                "margin of the pair '" + printable(pair.first) + "', '" + printable(pair.second) + "'");
+  }
+  if (!(options.horizon >= 0.0 && options.horizon <= 60.0)) {
+    throw Refusal(Code::out_of_range, "horizon is " + text(options.horizon) + " s; it must be within 0 .. 60 s");
+  }
+  checkLength(options.growth_cap, kLargestMargin, "growth_cap");
+  checkLength(options.world_limit, kFarthestShape, "world_limit");
+  checkLength(options.finest_edge, kLargestMargin, "finest_edge");
+  if (options.finest_edge > 0.0 && options.finest_edge < 1e-6) {
+    throw Refusal(Code::out_of_range,
+                  "finest_edge is " + text(options.finest_edge) + " m; it must be 0 or at least 1e-06 m");
+  }
+}
+Scene::~Scene() = default;
+Scene::Scene(Scene&&) noexcept = default;
+
+/// Slots of the bodies that leave, ascending. @throws Refusal unknown_id, dup_id (a body is named twice)
+std::vector<std::uint32_t> Scene::State::checkedSlots(const std::vector<BodyId>& out) {
+  std::vector<std::uint32_t> leaving;
+  for (const BodyId id : out) {
+    at(id);
+    leaving.push_back(id.slot);
+  }
+  std::sort(leaving.begin(), leaving.end());
+  const auto twice = std::adjacent_find(leaving.begin(), leaving.end());
+  if (twice != leaving.end()) {
+    throw Refusal(Code::dup_id, "body '" + bodies[*twice].name + "' is to be removed twice; name it once");
+  }
+  return leaving;
+}
+
+/// Checks the bodies that come, and whether there is room for them and for their names.
+void Scene::State::checkIn(const std::vector<std::uint32_t>& leaving, const std::vector<Body>& in) const {
+  std::size_t count = slot_of_name.size() - leaving.size();
+  std::set<std::string> names;
+  for (const Body& body : in) {
+    checkBody(body);
+    const auto known = slot_of_name.find(body.name);
+    const bool stays =
+        known != slot_of_name.end() && !std::binary_search(leaving.begin(), leaving.end(), known->second);
+    if (stays || !names.insert(body.name).second) {
+      throw Refusal(Code::dup_id, "body '" + body.name + "' is there already");
+    }
+    if (count++ >= options.max_bodies) {
+      throw Refusal(Code::limit, "body '" + body.name + "' would be one more than max_bodies, which is " +
+                                     std::to_string(options.max_bodies));
+    }
+  }
+}
+
+/// Slots for bodies that come: those of the bodies that leave, then free ones, then new ones.
+std::vector<std::uint32_t> Scene::State::slotsFor(const std::vector<BodyId>& out, std::size_t count) const {
+  std::vector<std::uint32_t> numbers;
+  for (auto id = out.rbegin(); id != out.rend() && numbers.size() < count; ++id) numbers.push_back(id->slot);
+  for (auto number = free_slots.rbegin(); number != free_slots.rend() && numbers.size() < count; ++number) {
+    numbers.push_back(*number);
+  }
+  for (std::size_t number = slots.size(); numbers.size() < count; ++number) {
+    numbers.push_back(static_cast<std::uint32_t>(number));
+  }
+  return numbers;
+}
+
+void Scene::State::reserveSlots(std::size_t count) {
+  const auto reserve = [count](auto& values) {
+    if (values.capacity() < count) values.reserve(std::max(count, 2 * values.capacity()));
+  };
+  reserve(slots);
+  reserve(bodies);
+  reserve(cells);
+  reserve(free_slots);
+}
+
+void Scene::State::takeOut(std::uint32_t slot) {
+  slot_of_name.erase(bodies[slot].name);
+  bodies[slot] = Body{};
+  cells[slot].reset();
+  slots[slot].used = slots[slot].moved = false;
+  ++slots[slot].generation;
+  free_slots.push_back(slot);
+}
+
+void Scene::State::putIn(std::uint32_t slot, Body&& body) {
+  if (slot < slots.size()) {
+    free_slots.pop_back();
+  } else {
+    slots.emplace_back();
+    bodies.emplace_back();
+    cells.emplace_back();
+  }
+  slots[slot].used = true;
+  slots[slot].fixed = body.mobility == Mobility::fixed;
+  slots[slot].pose = BodyPose{};
+  bodies[slot] = std::move(body);
+}
+
+std::vector<BodyId> Scene::exchange(const std::vector<BodyId>& out, std::vector<Body> in) {
+  State& s = *state_;
+  s.checkIn(s.checkedSlots(out), in);
+  const std::vector<std::uint32_t> numbers = s.slotsFor(out, in.size());
+  std::map<std::string, std::uint32_t> names;
+  for (std::size_t i = 0; i < in.size(); ++i) names.emplace(in[i].name, numbers[i]);
+  std::vector<BodyId> ids(in.size());
+  const std::size_t last = numbers.empty() ? 0 : *std::max_element(numbers.begin(), numbers.end()) + std::size_t{1};
+  s.reserveSlots(std::max(s.slots.size(), last));
+  // Nothing below allocates.
+  for (const BodyId id : out) s.takeOut(id.slot);
+  s.slot_of_name.merge(names);
+  for (std::size_t i = 0; i < in.size(); ++i) {
+    s.putIn(numbers[i], std::move(in[i]));
+    ids[i] = {numbers[i], s.slots[numbers[i]].generation};
+  }
+  s.structure_changed = s.structure_changed || !out.empty() || !ids.empty();
+  return ids;
+}
+
+BodyId Scene::add(Body body) {
+  std::vector<Body> in;
+  in.push_back(std::move(body));
+  return exchange({}, std::move(in)).front();
+}
+
+void Scene::remove(BodyId id) { exchange({id}, {}); }
+
+bool Scene::find(const std::string& name, BodyId& id) const {
+  const auto found = state_->slot_of_name.find(name);
+  if (found == state_->slot_of_name.end()) return false;
+  id = {found->second, state_->slots[found->second].generation};
+  return true;
+}
+
+const Body& Scene::body(BodyId id) const {
+  state_->at(id);
+  return state_->bodies[id.slot];
+}
+std::size_t Scene::size() const { return state_->slot_of_name.size(); }
+const BodyPose& Scene::poseOf(BodyId id) const { return state_->at(id).pose; }
+
+void Scene::checkPlace(BodyId id, const Pose& world_from_body) const {
+  state_->at(id);
+  if (!world_from_body.matrix().allFinite()) {
+    throw Refusal(Code::nonfinite,
+                  "pose of body '" + state_->bodies[id.slot].name + "' is not finite; every number must be");
+  }
+  const double limit = state_->options.world_limit;
+  if (!(world_from_body.translation().cwiseAbs().maxCoeff() <= limit)) {  // only then make the words for it
+    checkWithin(world_from_body.translation(), limit, "pose of body '" + state_->bodies[id.slot].name + "'");
+  }
+}
+
+void Scene::place(BodyId id, const Pose& world_from_body, Time stamp) {
+  checkPlace(id, world_from_body);
+  State::Slot& slot = state_->at(id);
+  const bool first = slot.pose.state == Freshness::unplaced;
+  slot.changed = state_->commits + 1;
+  slot.pose.stamp = stamp;
+  if (!first && slot.pose.world_from_body.matrix() == world_from_body.matrix()) return;  // never a tolerance
+  slot.pose.world_from_body = world_from_body;
+  if (first) slot.pose.state = Freshness::fresh;
+  slot.moved = true;
+}
+
+void Scene::setState(BodyId id, Freshness state, double age, std::uint32_t cohort) {
+  State::Slot& slot = state_->at(id);
+  BodyPose& pose = slot.pose;
+  if (pose.state == Freshness::unplaced) return;
+  slot.changed = state_->commits + 1;
+  pose.state = state == Freshness::unplaced ? Freshness::invalid : state;  // what had a pose keeps it
+  pose.age = slot.fixed ? 0.0 : age;
+  pose.cohort = cohort;
+}
+
+void Scene::setCells(BodyId id, std::shared_ptr<const MapCells> cells) {
+  State& s = *state_;
+  s.at(id);
+  const Body& body = s.bodies[id.slot];
+  if (body.kind != BodyKind::map || !body.shapes.empty() || !cells || !cells->grid) {
+    throw Refusal(Code::bad_geometry,
+                  "body '" + body.name + "' cannot have occupied cells; only a map without shapes can");
+  }
+  s.cells[id.slot] = std::move(cells);
+}
+
+void Scene::setRules(std::vector<PairRule> rules) {
+  state_->options.allowed_pairs = std::move(rules);
+  state_->structure_changed = true;
+}
+
+void Scene::beginEpoch(std::uint64_t epoch) {
+  state_->epoch = epoch;
+  state_->sequence = 0;
+  state_->tracker.clear();
+  state_->pair_events.beginEpoch();
+}
+
+std::uint64_t Scene::revision() const { return state_->structure->revision; }
+const TickTimes& Scene::lastTimes() const { return state_->times; }
+
+}  // namespace hgrid

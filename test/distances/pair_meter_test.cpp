@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "hgrid_proximity/distances/pair_meter.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <new>
+#include <thread>
+
+#include "test/support/scenes.h"
+
+namespace hgrid {
+namespace {
+
+using test::at;
+using test::put;
+
+/// Measures balls only, counts how often it is asked, and takes as long as it is told.
+class BallPhase final : public NarrowPhase {
+ public:
+  struct Ball final : Solid {
+    explicit Ball(double given) : radius(given) {}
+    double radius;
+  };
+
+  std::shared_ptr<const Solid> solidOf(const Shape& shape) override {
+    return std::make_shared<Ball>(shape.dimensions()[0]);
+  }
+  std::shared_ptr<const Solid> point() const override { return std::make_shared<Ball>(0.0); }
+  std::shared_ptr<const Solid> needle(double) const override { return nullptr; }
+  std::shared_ptr<const Solid> block(const Eigen::Vector3d&) const override { return nullptr; }
+  Proximity measure(const PlacedSolid& first, const PlacedSolid& second, double up_to) const override {
+    if (++asked == throws_at) throw std::bad_alloc();
+    if (throws_beside == std::this_thread::get_id()) {
+      while (!thrown) std::this_thread::yield();
+    } else if (throws_beside != std::thread::id()) {
+      thrown = true;
+      throw std::bad_alloc();
+    }
+    std::this_thread::sleep_for(takes);
+    const double around = static_cast<const Ball&>(first.solid).radius + first.padding +
+                          static_cast<const Ball&>(second.solid).radius + second.padding;
+    const Eigen::Vector3d way = second.world_from_shape.translation() - first.world_from_shape.translation();
+    Proximity result;
+    if (fails) {
+      result.status = Measure::failed;
+      result.distance = 0.0;
+      return result;
+    }
+    result.distance = std::max(0.0, way.norm() - around);
+    result.status = result.distance > 0.0 ? Measure::apart : Measure::contact;
+    if (result.distance > up_to) result.distance = std::numeric_limits<double>::infinity();
+    return result;
+  }
+
+  std::vector<Contact> contacts(const PlacedSolid& first, const PlacedSolid& second, std::size_t most) const override {
+    if (most == 0 || measure(first, second, 0.0).status != Measure::contact) return {};
+    Contact contact;
+    contact.depth = static_cast<const Ball&>(first.solid).radius;  // tells which one it is
+    return {contact};
+  }
+
+  mutable std::atomic<int> asked{0};
+  int throws_at = 0;              // number of the question that runs out of memory; 0: none
+  std::thread::id throws_beside;  // all other threads run out of memory, and this one waits until one has
+  mutable std::atomic<bool> thrown{false};
+  std::chrono::microseconds takes{0};
+  bool fails = false;
+};
+
+class PairMeterTest : public ::testing::Test {
+ protected:
+  static Body ballOf(BallPhase& phase, const std::string& name, double radius) {
+    Body body = test::ball(name, radius);
+    for (BodyShape& shape : body.shapes) shape.solid = phase.solidOf(shape.shape);
+    return body;
+  }
+  BodyId add(const std::string& name, double x, double radius = 0.5) {
+    return put(scene_, ballOf(*phase_, name, radius), at(x));
+  }
+  std::shared_ptr<const PairDistances> measure(PairMeter& meter, std::int64_t milliseconds) {
+    snapshot_ = scene_.commit(std::chrono::milliseconds(milliseconds), {});
+    return meter.measure(*snapshot_);
+  }
+  PairMeter meterOf(double report, double budget = 0.0, int threads = 1) {
+    return PairMeter(phase_, {report, budget, threads});
+  }
+
+  std::shared_ptr<BallPhase> phase_ = std::make_shared<BallPhase>();
+  Scene scene_ = [] {
+    SceneOptions options;
+    options.margin = 1.0;
+    return Scene(options);
+  }();
+  std::shared_ptr<const Snapshot> snapshot_;
+};
+
+TEST_F(PairMeterTest, ReportsWhatIsWithinTheReportDistanceNearestFirst) {
+  add("a", 0.0);
+  add("b", 1.3);
+  add("c", 2.4);   // 0.1 from b
+  add("d", 20.0);  // far from all
+  add("e", 20.9);  // in contact with d
+  PairMeter meter = meterOf(0.2);
+  const auto found = measure(meter, 1);
+  ASSERT_EQ(found->pairs.size(), 2u);
+  EXPECT_EQ(found->pairs[0].proximity.status, Measure::contact);
+  EXPECT_EQ(found->pairs[0].proximity.distance, 0.0);
+  EXPECT_NEAR(found->pairs[1].proximity.distance, 0.1, 1e-12);
+  EXPECT_EQ(snapshot_->structure().bodies[found->pairs[1].first].name, "obstacle/b");
+  EXPECT_EQ(snapshot_->structure().bodies[found->pairs[1].second].name, "obstacle/c");
+}
+
+TEST_F(PairMeterTest, AsksNobodyWhatItKnowsWhileNothingMoves) {
+  add("a", 0.0);
+  const BodyId b = add("b", 1.05);
+  PairMeter meter = meterOf(0.2);
+  const auto first = measure(meter, 1);
+  const int asked = phase_->asked;
+  EXPECT_EQ(asked, 1);
+  const auto second = measure(meter, 2);
+  EXPECT_EQ(phase_->asked, asked);
+  ASSERT_EQ(second->pairs.size(), 1u);
+  EXPECT_EQ(second->pairs[0].proximity.distance, first->pairs[0].proximity.distance);
+  scene_.place(b, at(1.06), std::chrono::milliseconds(3));
+  measure(meter, 3);
+  EXPECT_EQ(phase_->asked, asked + 1) << "it moved";
+}
+
+/// Claim: leaving out measurements, since the pair cannot have come near enough, never leaves out a pair.
+TEST_F(PairMeterTest, NeverLosesAPairThatCreepsUp) {
+  const BodyId a = add("a", 0.0);
+  const BodyId b = add("b", 1.3);
+  PairMeter meter = meterOf(0.2), fresh = meterOf(0.2);
+  for (int step = 0; step < 400; ++step) {
+    const double turn = 0.01 * step, distance = 0.3 - 0.001 * step;  // both also turn and travel together
+    Pose carried = Pose::Identity();
+    carried.linear() = Eigen::AngleAxisd(turn, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+    carried.translation() << 5.0 * turn, -turn, 0.0;
+    scene_.place(a, carried, std::chrono::milliseconds(step + 1));
+    scene_.place(b, carried * at(1.0 + distance), std::chrono::milliseconds(step + 1));
+    const auto found = measure(meter, step + 1);
+    PairMeter forgetful = meterOf(0.2);
+    const auto expected = forgetful.measure(*snapshot_);
+    ASSERT_EQ(found->pairs.size(), expected->pairs.size()) << "step " << step;
+    for (std::size_t i = 0; i < found->pairs.size(); ++i) {
+      ASSERT_EQ(found->pairs[i].proximity.distance, expected->pairs[i].proximity.distance) << "step " << step;
+    }
+  }
+}
+
+TEST_F(PairMeterTest, WhatDoesNotFitIntoTheBudgetStaysACandidateNearestFirst) {
+  phase_->takes = std::chrono::milliseconds(5);
+  for (int i = 0; i < 8; ++i) add(std::string(1, static_cast<char>('a' + i)), (1.0 + 0.02 * i) * i);
+  PairMeter meter = meterOf(0.5, 0.012);
+  const auto found = measure(meter, 1);
+  EXPECT_GT(found->measured, 0u);
+  EXPECT_GT(found->left_out, 0u);
+  EXPECT_EQ(found->pairs.size(), found->measured + found->left_out) << "all of them are within the report distance";
+  for (std::size_t i = 0; i < found->pairs.size(); ++i) {
+    const bool measured = i < found->measured;
+    EXPECT_EQ(found->pairs[i].proximity.status == Measure::not_measured, !measured);
+    EXPECT_EQ(std::isnan(found->pairs[i].proximity.distance), !measured);
+    if (i > found->measured) {
+      EXPECT_GE(found->pairs[i].gap, found->pairs[i - 1].gap);
+    }
+  }
+  for (std::size_t i = found->measured; i < found->pairs.size(); ++i) {
+    EXPECT_GE(found->pairs[i].gap, found->pairs[found->measured - 1].gap) << "the nearest boxes were measured";
+  }
+}
+
+TEST_F(PairMeterTest, EstimatesHowFastTheyComeNearerAndWhen) {
+  add("a", 0.0);
+  const BodyId b = add("b", 1.19);
+  PairMeter meter = meterOf(0.3);
+  std::shared_ptr<const PairDistances> found;
+  for (int step = 0; step <= 50; ++step) {  // 0.5 m/s
+    scene_.place(b, at(1.19 - 0.001 * step), std::chrono::milliseconds(2 * step + 1));
+    found = measure(meter, 2 * step + 1);
+  }
+  ASSERT_EQ(found->pairs.size(), 1u);
+  EXPECT_NEAR(found->pairs[0].closing_speed, 0.5, 1e-6);
+  EXPECT_NEAR(found->pairs[0].time_to_contact, 0.14 / 0.5, 1e-6);
+  for (int step = 51; step <= 300; ++step) {
+    scene_.place(b, at(1.14 + 0.0005 * (step - 50)), std::chrono::milliseconds(2 * step + 1));
+    found = measure(meter, 2 * step + 1);
+  }
+  EXPECT_NEAR(found->pairs[0].closing_speed, -0.25, 1e-3);
+  EXPECT_TRUE(std::isinf(found->pairs[0].time_to_contact));
+}
+
+TEST_F(PairMeterTest, NoContactBeforeRestsOnBoundsThatSomebodyVouchesFor) {
+  Body slow = ballOf(*phase_, "slow", 0.5), still = test::ball("still", 0.5, Mobility::fixed);
+  still.shapes[0].solid = phase_->solidOf(still.shapes[0].shape);
+  slow.speed_bound = 0.5;
+  Body unknown = ballOf(*phase_, "unknown", 0.5);
+  put(scene_, slow, at(0.0), std::chrono::milliseconds(100));
+  put(scene_, still, at(1.1), std::chrono::milliseconds(100));
+  put(scene_, unknown, at(-1.1), std::chrono::milliseconds(100));
+  PairMeter meter = meterOf(0.3);
+  const auto found = measure(meter, 120);  // the poses are 20 ms old
+  ASSERT_EQ(found->pairs.size(), 2u);
+  for (const PairDistance& pair : found->pairs) {
+    const bool with_unknown = snapshot_->structure().bodies[pair.second].name == "obstacle/unknown";
+    if (with_unknown) {
+      EXPECT_TRUE(std::isnan(pair.no_contact_before));
+    } else {
+      EXPECT_NEAR(pair.no_contact_before, (0.1 - 0.5 * 0.02) / 0.5, 1e-9);
+    }
+  }
+}
+
+TEST_F(PairMeterTest, APairThatTheSolverFailsOnIsKeptAsContactAndCounted) {
+  add("a", 0.0);
+  add("b", 1.1);
+  phase_->fails = true;
+  PairMeter meter = meterOf(0.3);
+  const auto found = measure(meter, 1);
+  ASSERT_EQ(found->pairs.size(), 1u);
+  EXPECT_EQ(found->failed, 1u);
+  EXPECT_TRUE(isContact(found->pairs[0].proximity.status));
+  EXPECT_EQ(found->pairs[0].time_to_contact, 0.0);
+}
+
+TEST_F(PairMeterTest, ShapesWithoutASolidAreNotMeasured) {
+  put(scene_, test::ball("a"), at(0.0));
+  add("b", 1.1);
+  PairMeter meter = meterOf(0.3);
+  const auto found = measure(meter, 1);
+  ASSERT_EQ(found->pairs.size(), 1u);
+  EXPECT_EQ(found->pairs[0].proximity.status, Measure::not_measured);
+}
+
+TEST_F(PairMeterTest, ThreadsDoNotShow) {
+  test::Random random(4);
+  for (int i = 0; i < 120; ++i) add(std::to_string(i), random.uniform(0, 100), random.uniform(0.2, 0.6));
+  PairMeter one = meterOf(0.3), three = meterOf(0.3, 0.0, 3);
+  const auto a = measure(one, 1);
+  const auto b = three.measure(*snapshot_);
+  ASSERT_GT(a->pairs.size(), 20u);
+  ASSERT_EQ(a->pairs.size(), b->pairs.size());
+  for (std::size_t i = 0; i < a->pairs.size(); ++i) {
+    EXPECT_EQ(a->pairs[i].first, b->pairs[i].first);
+    EXPECT_EQ(a->pairs[i].second, b->pairs[i].second);
+    EXPECT_EQ(a->pairs[i].proximity.distance, b->pairs[i].proximity.distance);
+  }
+}
+
+TEST_F(PairMeterTest, ABodyOfWhichNothingWasReadIsNotMeasured) {
+  put(scene_, test::obstacle("bare"), at(0));
+  add("ball", 0.0);
+  snapshot_ = scene_.commit(std::chrono::milliseconds(1), {});
+  const PairDistance found = measurePair(*phase_, *snapshot_, 0, 1, 1.0);
+  EXPECT_EQ(found.proximity.status, Measure::not_measured);
+  EXPECT_TRUE(std::isnan(found.proximity.distance));
+}
+
+TEST_F(PairMeterTest, ContactsTellTheirShapesDeepestFirst) {
+  Body pile = ballOf(*phase_, "pile", 0.3);
+  for (const double radius : {0.1, 0.5, 0.2}) {
+    Body one = ballOf(*phase_, "one", radius);
+    pile.shapes.push_back(one.shapes.front());
+  }
+  put(scene_, pile, at(0.0));
+  add("wall", 0.75, 0.4);  // meets the balls of 0.5 only
+  add("floor", 0.2, 0.4);  // meets all
+  snapshot_ = scene_.commit(std::chrono::milliseconds(1), {});
+  const Structure& structure = snapshot_->structure();
+  const std::uint32_t pile_number = structure.find("obstacle/pile");
+  const auto with = [&](const char* other, std::size_t most) {
+    return contactsOf(*phase_, *snapshot_, pile_number, structure.find(other), most);
+  };
+  std::vector<PairContact> found = with("obstacle/wall", 10);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].first_shape, 2u);
+  found = with("obstacle/floor", 10);
+  ASSERT_EQ(found.size(), 4u);
+  const std::vector<std::uint32_t> expected{2, 0, 3, 1};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(found[i].first_shape, expected[i]);
+  EXPECT_EQ(with("obstacle/floor", 3).size(), 3u);
+  EXPECT_TRUE(with("obstacle/floor", 0).empty());
+}
+
+/// Claim: an exception at any question, on whichever thread, reaches the caller; afterwards the meter measures what a
+/// new one does.
+TEST_F(PairMeterTest, AnExceptionReachesTheCallerAndTheMeterWorksAgain) {
+  for (int i = 0; i < 40; ++i) add(std::to_string(10 + i), 1.05 * i);
+  for (const int threads : {1, 2, 4}) {
+    PairMeter meter = meterOf(0.2, 0.0, threads);
+    for (const int throws_at : {1, 2, 20, 38, 39}) {
+      SCOPED_TRACE("threads " + std::to_string(threads) + ", question " + std::to_string(throws_at));
+      PairMeter fresh = meterOf(0.2, 0.0, threads);
+      phase_->asked = 0;
+      phase_->throws_at = throws_at;
+      EXPECT_THROW(measure(fresh, 1), std::bad_alloc);
+      phase_->throws_at = 0;
+      const auto found = measure(fresh, 2), expected = measure(meter, 3);
+      ASSERT_EQ(found->pairs.size(), 39u);
+      ASSERT_EQ(expected->pairs.size(), 39u);
+      for (std::size_t i = 0; i < 39; ++i) {
+        EXPECT_EQ(found->pairs[i].first, expected->pairs[i].first);
+        EXPECT_EQ(found->pairs[i].second, expected->pairs[i].second);
+        EXPECT_EQ(found->pairs[i].proximity.distance, expected->pairs[i].proximity.distance);
+      }
+    }
+  }
+}
+
+TEST_F(PairMeterTest, AnExceptionOfAnotherThreadReachesTheCaller) {
+  for (int i = 0; i < 40; ++i) add(std::to_string(10 + i), 1.05 * i);
+  for (const int threads : {2, 4}) {
+    SCOPED_TRACE("threads " + std::to_string(threads));
+    PairMeter meter = meterOf(0.2, 0.0, threads);
+    phase_->thrown = false;
+    phase_->throws_beside = std::this_thread::get_id();
+    EXPECT_THROW(measure(meter, 1), std::bad_alloc);
+    phase_->throws_beside = std::thread::id();
+    EXPECT_EQ(measure(meter, 2)->pairs.size(), 39u);
+  }
+}
+
+}  // namespace
+}  // namespace hgrid

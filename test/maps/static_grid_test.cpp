@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// StaticGrid against a scan of all voxels in extended precision, on maps of every make.
+#include "hgrid_proximity/maps/static_grid.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "test/support/random.h"
+#include "test/support/refusals.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+using Real = long double;
+
+/// Voxels below a cube of some level: each of its eight children is left out, kept whole, or divided.
+void divide(const Voxel& cube, Random& random, double kept, double divided, int least, std::vector<Voxel>& voxels) {
+  for (unsigned child = 0; child < 8; ++child) {
+    const auto level = static_cast<std::uint8_t>(cube.level - 1);
+    const auto half = [&](std::uint16_t key, unsigned axis) {
+      return static_cast<std::uint16_t>(key + ((child >> axis & 1u) << level));
+    };
+    const Voxel part{half(cube.x, 0), half(cube.y, 1), half(cube.z, 2), level};
+    const double lot = random.uniform(0.0, 1.0);
+    if (lot < kept || (lot < kept + divided && level == least)) {
+      voxels.push_back(part);
+    } else if (lot < kept + divided) {
+      divide(part, random, kept, divided, least, voxels);
+    }
+  }
+}
+
+struct Map {
+  std::string name;
+  double edge;
+  std::vector<Voxel> voxels;
+};
+
+std::vector<Voxel> inOrder(std::vector<Voxel> voxels) {
+  std::sort(voxels.begin(), voxels.end(), [](const Voxel& a, const Voxel& b) { return mortonOf(a) < mortonOf(b); });
+  voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
+  return voxels;
+}
+
+std::vector<Voxel> scattered(Random& random, std::size_t count, std::uint64_t low, std::uint64_t high) {
+  std::vector<Voxel> voxels;
+  const auto key = [&] {
+    return static_cast<std::uint16_t>(low + static_cast<std::uint64_t>(random.below(static_cast<int>(high - low))));
+  };
+  for (std::size_t i = 0; i < count; ++i) voxels.push_back({key(), key(), key(), 0});
+  return inOrder(std::move(voxels));
+}
+
+std::vector<Map> maps() {
+  std::vector<Map> maps{{"empty", 0.1, {}},
+                        {"one voxel is all", 0.05, {{0, 0, 0, 16}}},
+                        {"half of all", 0.05, {{32768, 0, 0, 15}, {32768, 32768, 0, 15}}},
+                        {"first and last", 0.001, {{0, 0, 0, 0}, {65535, 65535, 65535, 0}}}};
+  Random random(3);
+  maps.push_back({"near the origin", 0.05, scattered(random, 400, 32768 - 12, 32768 + 12)});
+  maps.push_back({"dense", 0.3, scattered(random, 3000, 32768 - 8, 32768 + 8)});
+  maps.push_back({"far apart", 100.0, scattered(random, 300, 0, 65536)});
+  maps.push_back({"millimetres", 0.001, scattered(random, 300, 60000, 60200)});
+  for (int i = 0; i < 6; ++i) {
+    Map map{"divided " + std::to_string(i), i % 2 == 0 ? 0.05 : 0.1, {}};
+    const auto level = static_cast<std::uint8_t>(4 + i);
+    divide({static_cast<std::uint16_t>(32768), static_cast<std::uint16_t>(32768 - (1u << level)), 32768, level}, random,
+           0.1, 0.35, i % 3, map.voxels);
+    maps.push_back(map);
+  }
+  Map floor{"floor", 0.05, {}};
+  for (std::uint16_t x = 0; x < 40; ++x) {
+    for (std::uint16_t y = 0; y < 40; ++y) {
+      floor.voxels.push_back(
+          {static_cast<std::uint16_t>(32768 - 20 + x), static_cast<std::uint16_t>(32768 - 20 + y), 32767, 0});
+    }
+  }
+  floor.voxels = inOrder(floor.voxels);
+  maps.push_back(floor);
+  return maps;
+}
+
+/// Positions around the map: within, on borders of voxels, far off.
+Eigen::Vector3d somewhere(const Map& map, Random& random) {
+  if (map.voxels.empty() || random.chance(0.05)) {
+    return {random.uniform(-1e4, 1e4), random.uniform(-1e4, 1e4), random.uniform(-1e4, 1e4)};
+  }
+  const Voxel& voxel = map.voxels[static_cast<std::size_t>(random.below(static_cast<int>(map.voxels.size())))];
+  const Eigen::Vector3d min = minCorner(voxel, map.edge), max = maxCorner(voxel, map.edge);
+  if (random.chance(0.3)) return random.chance(0.5) ? min : max;  // on borders
+  const double around = std::ldexp(map.edge, random.below(6));
+  Eigen::Vector3d point;
+  for (int axis = 0; axis < 3; ++axis) point[axis] = random.uniform(min[axis] - around, max[axis] + around);
+  return point;
+}
+
+double length(const Map& map, Random& random) {
+  return random.chance(0.2) ? 0.0 : std::ldexp(map.edge, random.below(8)) * random.uniform(0.0, 1.0);
+}
+
+/// The distance of a voxel from a box.
+Real distanceOf(const Map& map, const Voxel& voxel, const Eigen::AlignedBox3d& box) {
+  Real sum = 0;
+  const Eigen::Vector3d min = minCorner(voxel, map.edge), max = maxCorner(voxel, map.edge);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Real gap =
+        std::max({Real(0), Real(min[axis]) - Real(box.max()[axis]), Real(box.min()[axis]) - Real(max[axis])});
+    sum += gap * gap;
+  }
+  return std::sqrt(sum);
+}
+
+double slack(const Eigen::AlignedBox3d& box, double around) {
+  return 1e-9 * (box.min().cwiseAbs().maxCoeff() + box.max().cwiseAbs().maxCoeff() + around + 1.0);
+}
+
+/// All that is surely within is there, and nothing that is surely not.
+void expectRight(const Map& map, const std::vector<Voxel>& found, const Eigen::AlignedBox3d& box, double within) {
+  std::vector<Voxel> surely, perhaps;
+  for (const Voxel& voxel : map.voxels) {
+    const Real distance = distanceOf(map, voxel, box);
+    if (distance <= within) surely.push_back(voxel);
+    if (distance <= within + slack(box, within)) perhaps.push_back(voxel);
+  }
+  const auto before = [](const Voxel& a, const Voxel& b) { return mortonOf(a) < mortonOf(b); };
+  ASSERT_TRUE(std::is_sorted(found.begin(), found.end(), before));
+  ASSERT_TRUE(std::includes(found.begin(), found.end(), surely.begin(), surely.end(), before))
+      << "something is missing";
+  ASSERT_TRUE(std::includes(perhaps.begin(), perhaps.end(), found.begin(), found.end(), before))
+      << "something is not there";
+}
+
+class StaticGridOracle : public ::testing::TestWithParam<std::size_t> {
+ protected:
+  const Map map_ = maps()[GetParam()];
+  const StaticGrid grid_{map_.edge, map_.voxels};
+  Random random_{GetParam() + 1};
+};
+
+INSTANTIATE_TEST_SUITE_P(Maps, StaticGridOracle, ::testing::Range<std::size_t>(0, maps().size()), [](const auto& info) {
+  std::string name = maps()[info.param].name;
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+});
+
+TEST_P(StaticGridOracle, HasTheVoxelsThatItWasMadeOf) {
+  EXPECT_EQ(grid_.size(), map_.voxels.size());
+  EXPECT_EQ(grid_.voxels(), map_.voxels);
+  for (const Voxel& voxel : map_.voxels) {
+    ASSERT_TRUE(grid_.bounds().contains(minCorner(voxel, map_.edge)));
+    ASSERT_TRUE(grid_.bounds().contains(maxCorner(voxel, map_.edge)));
+  }
+  EXPECT_EQ(grid_.bounds().isEmpty(), map_.voxels.empty());
+}
+
+TEST_P(StaticGridOracle, FindsWhatBoxesAndBallsTouch) {
+  std::vector<Voxel> found, fewer;
+  for (int i = 0; i < 500; ++i) {
+    const Eigen::Vector3d at = somewhere(map_, random_);
+    Eigen::AlignedBox3d box(at);
+    if (random_.chance(0.8)) box.extend(somewhere(map_, random_));
+    ASSERT_TRUE(grid_.overlapping(box, 1000000, found));
+    ASSERT_NO_FATAL_FAILURE(expectRight(map_, found, box, 0.0));
+    if (!found.empty()) {
+      EXPECT_FALSE(grid_.overlapping(box, found.size() - 1, fewer));
+      EXPECT_EQ(fewer.size(), found.size() - 1);
+    }
+    const Sphere sphere{at, length(map_, random_)};
+    ASSERT_TRUE(grid_.overlapping(sphere, 1000000, found));
+    ASSERT_NO_FATAL_FAILURE(expectRight(map_, found, Eigen::AlignedBox3d(at), sphere.radius));
+    ASSERT_EQ(grid_.touches(sphere), !found.empty());
+  }
+}
+
+TEST_P(StaticGridOracle, FindsTheNearest) {
+  std::vector<NearVoxel> found;
+  for (int i = 0; i < 300; ++i) {
+    Eigen::AlignedBox3d box(somewhere(map_, random_));
+    if (random_.chance(0.5)) box.extend(somewhere(map_, random_));
+    const auto count = static_cast<std::size_t>(random_.between(1, 10));
+    const double limit = random_.chance(0.5) ? std::numeric_limits<double>::infinity() : length(map_, random_);
+    grid_.nearest(box, count, limit, found);
+    std::vector<Real> distances;
+    for (const Voxel& voxel : map_.voxels) distances.push_back(distanceOf(map_, voxel, box));
+    std::sort(distances.begin(), distances.end());
+    const double rounding = slack(box, 0.0);
+    for (std::size_t k = 0; k < std::min(count, distances.size()); ++k) {
+      if (distances[k] > limit + rounding) break;
+      if (k >= found.size()) {
+        ASSERT_GT(distances[k], std::max(0.0, limit - rounding)) << "one is missing";
+        break;
+      }
+      ASSERT_NEAR(found[k].distance, static_cast<double>(distances[k]), rounding);
+      ASSERT_NEAR(static_cast<double>(distanceOf(map_, found[k].voxel, box)), found[k].distance, rounding);
+    }
+    ASSERT_LE(found.size(), std::min(count, map_.voxels.size()));
+    for (std::size_t k = 1; k < found.size(); ++k) ASSERT_FALSE(found[k].voxel == found[k - 1].voxel);
+  }
+}
+
+/// Where a ball that moves along a segment first touches a voxel, or nothing; by nested intervals of the distance,
+/// which is convex along a line.
+std::optional<Real> touchOf(const Map& map, const Voxel& voxel, const Segment& segment, Real radius) {
+  const auto distanceAt = [&](Real share) {
+    const Eigen::Vector3d min = minCorner(voxel, map.edge), max = maxCorner(voxel, map.edge);
+    Real sum = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Real at = Real(segment.from[axis]) + share * (Real(segment.to[axis]) - Real(segment.from[axis]));
+      const Real gap = std::max({Real(0), Real(min[axis]) - at, at - Real(max[axis])});
+      sum += gap * gap;
+    }
+    return std::sqrt(sum);
+  };
+  Real low = 0, high = 1;
+  for (int i = 0; i < 120; ++i) {
+    const Real a = low + (high - low) / 3, b = high - (high - low) / 3;
+    const Real at_a = distanceAt(a), at_b = distanceAt(b);
+    if (at_a <= radius || at_a <= at_b) {
+      high = b;
+      if (at_a <= radius) high = a;
+    } else {
+      low = a;
+    }
+    if (distanceAt(high) <= radius) break;
+  }
+  if (distanceAt(high) > radius) return std::nullopt;
+  for (Real outside = 0; distanceAt(0) > radius;) {
+    const Real middle = (outside + high) / 2;
+    if (middle == outside || middle == high) return high;
+    (distanceAt(middle) <= radius ? high : outside) = middle;
+  }
+  return Real(0);
+}
+
+TEST_P(StaticGridOracle, FindsWhatASegmentTouchesFirst) {
+  std::size_t hits = 0;
+  for (int i = 0; i < 200; ++i) {
+    Segment segment{somewhere(map_, random_), somewhere(map_, random_), 0.0};
+    if (random_.chance(0.3)) segment.radius = length(map_, random_);
+    if (random_.chance(0.2)) segment.to = segment.from;
+    if (random_.chance(0.3)) segment.to[random_.below(3)] = segment.from[1];  // along borders
+    const Eigen::AlignedBox3d around = Eigen::AlignedBox3d(segment.from).extend(segment.to);
+    const double rounding = slack(around, segment.radius), whole = (segment.to - segment.from).norm();
+    std::optional<Real> surely, perhaps;
+    for (const Voxel& voxel : map_.voxels) {
+      if (distanceOf(map_, voxel, around) > segment.radius + rounding) continue;
+      if (const auto at = touchOf(map_, voxel, segment, segment.radius)) surely = std::min(surely.value_or(2), *at);
+      if (const auto at = touchOf(map_, voxel, segment, segment.radius + rounding)) {
+        perhaps = std::min(perhaps.value_or(2), *at);
+      }
+    }
+    const auto found = grid_.firstAlong(segment);
+    ASSERT_TRUE(found || !surely) << "something is missing";
+    if (!found) continue;
+    ++hits;
+    ASSERT_TRUE(perhaps) << "something is not there";
+    ASSERT_LE(found->along, static_cast<double>(surely.value_or(1)) * whole + rounding);
+    ASSERT_GE(found->along, static_cast<double>(*perhaps) * whole - rounding);
+    const Eigen::Vector3d at = segment.from + (whole > 0.0 ? found->along / whole : 0.0) * (segment.to - segment.from);
+    ASSERT_LE(static_cast<double>(distanceOf(map_, found->voxel, Eigen::AlignedBox3d(at))),
+              segment.radius + 10.0 * rounding);
+  }
+  if (!map_.voxels.empty()) {
+    EXPECT_GT(hits, 10u);
+  }
+}
+
+/// Ends of segments where rounding is hardest: on planes, edges and corners of cells, far off, next to each other.
+Segment hardSegment(const Map& map, Random& random) {
+  Segment segment{somewhere(map, random), somewhere(map, random), 0.0};
+  const int kind = random.below(8);
+  if (kind == 0) segment.to = segment.from + std::ldexp(map.edge, random.below(12)) * Eigen::Vector3d::Ones();
+  if (kind == 1) segment.from -= 1e4 * (segment.to - segment.from);
+  if (kind == 2) segment.to = segment.from + 1e-13 * (segment.to - segment.from);
+  if (kind <= 4) segment.to[random.below(3)] = segment.from[random.below(3)];
+  if (kind == 5) segment.to[0] = segment.from[0], segment.to[2] = segment.from[2];
+  if (random.chance(0.5)) std::swap(segment.from, segment.to);
+  if (random.chance(0.2)) segment.radius = length(map, random);
+  return segment;
+}
+
+TEST_P(StaticGridOracle, LeavesNoVoxelOutAlongASegment) {
+  const int count = std::max(100, countFromEnvironment("HGRID_TEST_WORLDS", 10000) / 10);
+  std::vector<Aabb> boxes;  // in keys
+  for (const Voxel& voxel : map_.voxels) {
+    const auto key = [](std::uint16_t at) { return static_cast<float>(at - Voxel::kOriginKey); };
+    const Eigen::Vector3f min(key(voxel.x), key(voxel.y), key(voxel.z));
+    boxes.push_back({min, min + Eigen::Vector3f::Constant(static_cast<float>(keysAlong(voxel)))});
+  }
+  for (int i = 0; i < count; ++i) {
+    const Segment segment = hardSegment(map_, random_);
+    const Segment in_keys{segment.from / map_.edge, segment.to / map_.edge, segment.radius / map_.edge};
+    const double length = (in_keys.to - in_keys.from).norm();
+    std::optional<double> share;
+    for (const Aabb& box : boxes) {
+      const auto along = FirstTouch(in_keys)(box);
+      if (along) share = std::min(share.value_or(1e9), length > 0.0 ? *along / length : 0.0);
+    }
+    const auto found = grid_.firstAlong(segment);
+    ASSERT_EQ(found.has_value(), share.has_value()) << "question " << i;
+    if (found) {
+      ASSERT_EQ(found->along, *share * (segment.to - segment.from).norm()) << "question " << i;
+    }
+  }
+}
+
+TEST(StaticGrid, RefusesVoxelsThatAreNotAsSaid) {
+  const auto expectRefusal = [](Code code, const std::string& words, double edge, const std::vector<Voxel>& voxels) {
+    std::string sentence;
+    EXPECT_EQ(refusalOf([&] { StaticGrid(edge, voxels); }, &sentence), code);
+    EXPECT_TRUE(says(sentence, words));
+  };
+  expectRefusal(Code::bad_geometry, "voxel 0 (keys 1, 0, 0, level 1) is not a multiple of its edge", 0.1,
+                {{1, 0, 0, 1}});
+  expectRefusal(Code::bad_geometry, "voxel 0 (keys 0, 0, 0, level 17)", 0.1, {{0, 0, 0, 17}});
+  const std::vector<Voxel> twice{{0, 0, 0, 0}, {0, 0, 0, 0}}, back{{1, 0, 0, 0}, {0, 0, 0, 0}},
+      inside{{0, 0, 0, 1}, {1, 1, 1, 0}};
+  for (const auto& voxels : {twice, back, inside}) {
+    expectRefusal(Code::bad_geometry, "begins before the one before it ends; voxels must be disjoint", 0.1, voxels);
+  }
+  for (const double edge : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    expectRefusal(Code::out_of_range, "m; it must be greater than 0", edge, {});
+  }
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid

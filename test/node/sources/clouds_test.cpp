@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// Point clouds: their cells come, go with their lifetime, lie where the sensor was at the stamp, and are refused
+// without harm.
+#include <ros/topic.h>
+#include <sensor_msgs/PointCloud2.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "test/node/support/claims.h"
+#include "test/node/support/descriptions.h"
+#include "test/node/support/raw_message.h"
+#include "test/node/support/transform_source.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+using msg::Answer;
+using Names = std::vector<std::string>;
+using Points = std::vector<std::array<float, 3>>;
+
+sensor_msgs::PointCloud2 cloudOf(const std::string& frame, ros::Time stamp, const Points& points) {
+  sensor_msgs::PointCloud2 cloud;
+  cloud.header.frame_id = frame;
+  cloud.header.stamp = stamp;
+  cloud.height = 1;
+  cloud.width = static_cast<std::uint32_t>(points.size());
+  for (const char* name : {"x", "y", "z"}) {
+    sensor_msgs::PointField field;
+    field.name = name;
+    field.offset = static_cast<std::uint32_t>(4 * cloud.fields.size());
+    field.datatype = sensor_msgs::PointField::FLOAT32;
+    field.count = 1;
+    cloud.fields.push_back(field);
+  }
+  cloud.point_step = 12;
+  cloud.row_step = 12 * cloud.width;
+  cloud.data.resize(cloud.row_step);
+  if (!points.empty()) std::memcpy(cloud.data.data(), points.data(), cloud.data.size());
+  return cloud;
+}
+
+/// A robot's ball of 0.1 m at the origin of "base", and a cloud of cells of 0.1 m that is sent again and again.
+class Clouds : public ::testing::Test {
+ protected:
+  /// @param cloud  more of its configuration
+  void start(double lifetime, const std::map<std::string, Value>& cloud = {}, Value params = dict()) {
+    NodeSetup setup;
+    setup.params = params;
+    Value front = dict({{"name", "front"}, {"topic", "points"}, {"resolution", 0.1}, {"lifetime", lifetime}});
+    for (const auto& entry : cloud) front[entry.first] = entry.second;
+    setup.params["clouds"] = list({front});
+    setup.beside["robot_description"] = balls({"a"});
+    transforms_.stream("base", "a", at(0));
+    transforms_.fix({stamped("base", "camera", at(0, 0, 1.0))});
+    node_ = std::make_unique<NodeUnderTest>(setup);
+    publisher_ = ros_.advertise<CloudBytes>(node_->space() + "/points", 1);
+    node_->waitUntil("a listener", [this](const Heard&) { return publisher_.getNumSubscribers() > 0; });
+  }
+  void send(const std::string& bytes) { publisher_.publish(CloudBytes{bytes}); }
+  void send(const sensor_msgs::PointCloud2& cloud) { send(serialized(cloud)); }
+  /// Sends points of the camera, stamped now, until the condition holds.
+  void sendUntil(const Points& points, const std::string& what, const std::function<bool(const msg::Status&)>& holds) {
+    node_->waitUntil(what, [&](const Heard& heard) {
+      if (heard.status.empty()) return false;
+      if (heard.status.back()->world.sequence % 5 == 0) send(cloudOf("camera", transforms_.now(), points));
+      return holds(*heard.status.back());
+    });
+  }
+  void sendUntilComplete(const Points& points) {
+    sendUntil(points, "a complete world", [](const msg::Status& status) { return status.world.complete; });
+  }
+  static bool isWithoutCells(const msg::Status& status) {
+    return status.gauges.front().name == "cells.cloud/front" && status.gauges.front().value == 0.0;
+  }
+  Answer askedAt(double x, double y, double z) { return node_->sphere(x, y, z, 0.01).answer; }
+
+  TransformSource transforms_;
+  ros::NodeHandle ros_;
+  std::unique_ptr<NodeUnderTest> node_;
+  ros::Publisher publisher_;
+};
+
+TEST_F(Clouds, MakePairsAndGoWithTheirLifetimeWhichLeavesTheWorldIncomplete) {
+  start(0.5);
+  node_->waitForStatus("the cloud is missed", [](const msg::Status& status) {
+    return !status.world.reasons.empty() && status.world.reasons[0].find("NOT_READY cloud 'front'") == 0;
+  });
+  const Points point{{0.05f, 0.05f, -0.85f}};  // in "base" at z 0.15
+  sendUntil(point, "a pair", [](const msg::Status& status) { return status.pair_count == 1; });
+  const auto pairs = node_->waitForPairs("the ball and the cell", [](const msg::Pairs& now) {
+    return now.names == Names({"cloud/front", "robot/a"});
+  });
+  EXPECT_NEAR(pairs->gap[0], 0.0, 1e-6) << "the cell from z 0.1 on touches the ball's box";
+  EXPECT_TRUE(pairs->world.complete);
+  node_->waitForStatus("nothing is seen any more",
+                       [](const msg::Status& status) { return status.pair_count == 0 && !status.world.complete; });
+  const Answer answer = askedAt(0.05, 0.05, 0.15);
+  EXPECT_EQ(answer.verdict, Answer::UNKNOWN) << "never CLEAR without the sensor";
+  EXPECT_TRUE(says(answer.summary, "LOST cloud/front: what it saw is"));
+  sendUntilComplete(point);
+}
+
+TEST_F(Clouds, WithoutFinitePointsDoNotKeepTheCloudFresh) {
+  start(1.0);
+  const float nan = std::nanf("");
+  const Points wall{{0.05f, 0.05f, 2.05f}};  // in "base" at z 3.05
+  for (const Points& blind : {Points{}, Points{{nan, nan, nan}, {nan, 0.0f, 0.0f}}}) {
+    SCOPED_TRACE(std::to_string(blind.size()) + " points");
+    sendUntilComplete(wall);
+    EXPECT_EQ(askedAt(0.05, 0.05, 3.05).verdict, Answer::HIT);
+    sendUntil(blind, "the cloud is lost", [](const msg::Status& status) {
+      return status.world.incomplete == Names({"cloud/front"}) && isWithoutCells(status);
+    });
+    const Answer answer = askedAt(0.05, 0.05, 3.05);
+    EXPECT_EQ(answer.verdict, Answer::UNKNOWN) << "the wall is still there";
+    EXPECT_EQ(answer.unknown_because, Answer::INCOMPLETE);
+    EXPECT_TRUE(says(answer.summary, "finite points; min_points is 1"));
+  }
+}
+
+TEST_F(Clouds, WithTooFewPointsAddTheirCellsButDoNotKeepTheCloudFresh) {
+  start(1.0, {{"min_points", 2}});
+  const Points both{{0.05f, 0.05f, 2.05f}, {0.05f, 1.05f, 2.05f}};
+  sendUntilComplete(both);
+  bool seen = false;
+  sendUntil({{0.05f, 2.05f, 2.05f}}, "the cloud is lost", [&](const msg::Status& status) {
+    seen = seen || askedAt(0.05, 2.05, 3.05).verdict == Answer::HIT;
+    return status.world.incomplete == Names({"cloud/front"});
+  });
+  EXPECT_TRUE(seen) << "what a sensor sees is there, however little it sees";
+}
+
+TEST_F(Clouds, WithoutPointsAreClearWhereThatIsConfigured) {
+  start(0.5, {{"empty", "clear"}});
+  sendUntilComplete({});
+  EXPECT_EQ(askedAt(0.05, 0.05, 3.05).verdict, Answer::CLEAR);
+}
+
+TEST_F(Clouds, AnOlderStampNeverMakesTheCloudOlder) {
+  start(2.0);
+  const Points wall{{0.05f, 0.05f, 2.05f}};
+  sendUntilComplete(wall);
+  send(cloudOf("camera", transforms_.now() - ros::Duration(3.0), wall));
+  const auto late = node_->waitForStatus("the late message is counted", [](const msg::Status& status) {
+    return counter(status, "cloud/front.out_of_order") > 0;
+  });
+  EXPECT_LT(stateOf(*late, "cloud/front"), msg::WorldState::LOST);
+  EXPECT_TRUE(late->world.complete);
+  EXPECT_EQ(askedAt(0.05, 0.05, 3.05).verdict, Answer::HIT);
+}
+
+TEST_F(Clouds, ThatAreLostLeaveQuestionsAboutTheRobotClear) {
+  start(0.5, {{"range", 4.0}});
+  sendUntilComplete({{0.05f, 0.05f, 2.05f}});
+  node_->waitForStatus("the cloud is lost",
+                       [](const msg::Status& status) { return !status.world.complete && isWithoutCells(status); });
+  msg::QuerySphere::Request request;
+  request.center.z = 3.0;
+  request.radius = 0.1;
+  EXPECT_EQ(node_->ask(request).answer.verdict, Answer::UNKNOWN);
+  request.include = {"robot/*"};
+  const Answer robot = node_->ask(request).answer;
+  EXPECT_EQ(robot.verdict, Answer::CLEAR);
+  EXPECT_TRUE(says(robot.summary, "CLEAR"));
+  request.include = {};
+  request.center.z = 3000.0;
+  EXPECT_EQ(node_->ask(request).answer.verdict, Answer::CLEAR) << "beyond the range of the sensor";
+}
+
+TEST_F(Clouds, LieWhereTheSensorWasAtTheirStamp) {
+  start(20.0);
+  const ros::Time before = transforms_.now() - ros::Duration(0.5), later = transforms_.now();
+  transforms_.send({stamped("base", "arm", at(3.0), before), stamped("base", "arm", at(7.0), later)});
+  node_->waitForTransforms(2);
+  send(cloudOf("arm", before, {{0.05f, 0.05f, 0.05f}}));
+  node_->waitUntil("a hit", [&](const Heard&) { return askedAt(3.05, 0.05, 0.05).verdict == Answer::HIT; });
+  EXPECT_EQ(askedAt(7.05, 0.05, 0.05).hits.size(), 0u);
+  send(cloudOf("arm", later, {{0.05f, 0.05f, 0.05f}}));
+  node_->waitUntil("a hit", [&](const Heard&) { return askedAt(7.05, 0.05, 0.05).verdict == Answer::HIT; });
+  EXPECT_EQ(askedAt(3.05, 0.05, 0.05).verdict, Answer::HIT) << "seen less than its lifetime ago";
+}
+
+TEST_F(Clouds, PointsThatAreNoneAreLeftOut) {
+  start(20.0);
+  const float nan = std::nanf(""), infinity = INFINITY;
+  sendUntilComplete({{nan, nan, nan}, {0.05f, 0.05f, -0.95f}, {0.0f, infinity, 0.0f}, {-infinity, nan, 0.0f}});
+  EXPECT_EQ(askedAt(0.05, 0.05, 0.05).verdict, Answer::HIT);
+  sendUntil({{nan, nan, nan}}, "all counted",
+            [](const msg::Status& status) { return counter(status, "cloud/front.points_not_finite") >= 4; });
+  EXPECT_EQ(counter(*node_->heard().status.back(), "cloud/front.refused.NONFINITE"), 0u);
+}
+
+TEST_F(Clouds, ThatCannotBePlacedAreRefusedAndSaidToBeMissed) {
+  start(20.0);
+  send(cloudOf("nowhere", transforms_.now(), {{0, 0, 0}}));
+  const auto refused = [&](const std::string& code) {
+    return [code](const msg::Status& status) { return counter(status, "cloud/front.refused." + code) > 0; };
+  };
+  node_->waitUntil("a refusal", [&](const Heard& heard) {
+    send(cloudOf("nowhere", transforms_.now(), {{0, 0, 0}}));
+    return !heard.status.empty() && refused("UNKNOWN_FRAME")(*heard.status.back());
+  });
+  const auto status = node_->waitForStatus("why", [](const msg::Status& now) {
+    return !now.world.reasons.empty() && now.world.reasons[0].find("UNKNOWN_FRAME cloud 'front' of points") == 0;
+  });
+  EXPECT_TRUE(says(status->world.reasons[0], "where its frame 'nowhere' was"));
+  send(cloudOf("camera", transforms_.now() + ros::Duration(100.0), {{0, 0, 0}}));
+  node_->waitForStatus("a refusal", refused("CLOCK"));
+  transforms_.send({stamped("base", "arm", at(3.0), transforms_.now())});
+  node_->waitUntil("a refusal", [&](const Heard& heard) {
+    send(cloudOf("arm", transforms_.now() - ros::Duration(100.0), {{0, 0, 0}}));
+    return refused("EXTRAPOLATION")(*heard.status.back());
+  });
+}
+
+TEST_F(Clouds, ThatLieLeaveTheCloudAsItWas) {
+  start(30.0, {}, dict({{"map", dict({{"max_bytes", 100000}})}}));
+  sendUntilComplete({{0.05f, 0.05f, -0.95f}});
+  const std::string whole = serialized(cloudOf("camera", transforms_.now(), {{1, 1, 1}, {2, 2, 2}}));
+  const std::size_t before = residentKilobytes(node_->process().pid());
+  std::uint64_t sent = 0;
+  const auto refuse = [&](const std::string& bytes, const std::string& code) {
+    send(bytes);
+    ++sent;
+    node_->waitForStatus("refusal " + std::to_string(sent) + " with " + code, [&](const msg::Status& status) {
+      std::uint64_t all = 0;
+      for (const char* each : {"TRUNCATED", "PARSE", "UNSUPPORTED", "LIMIT"}) {
+        all += counter(status, std::string("cloud/front.refused.") + each);
+      }
+      return all == sent && counter(status, "cloud/front.refused." + code) > 0;
+    });
+  };
+  const std::size_t frame_at = 12, fields_at = frame_at + 4 + 6 + 8;  // seq and stamp; height and width
+  const auto with = [&](std::size_t at, std::uint32_t number) {
+    return whole.substr(0, at) + bytesOf(number) + whole.substr(at + 4);
+  };
+  refuse(with(frame_at, 0xffffffff), "TRUNCATED");   // a frame_id of 4 GB
+  refuse(with(fields_at, 0x08000000), "TRUNCATED");  // 134 million fields
+  refuse(with(fields_at + 4, 0xfffffff0), "TRUNCATED");
+  for (std::size_t cut = 0; cut < whole.size(); cut += 7) refuse(whole.substr(0, cut), "TRUNCATED");
+  refuse(whole + "x", "TRUNCATED");
+  refuse(with(frame_at + 10, 0xffffffff), "TRUNCATED");  // a height of 4 thousand million rows
+  auto cloud = cloudOf("camera", transforms_.now(), {{1, 1, 1}});
+  cloud.fields.pop_back();
+  refuse(serialized(cloud), "UNSUPPORTED");
+  refuse(serialized(cloudOf("camera", transforms_.now(), Points(9000))), "LIMIT");
+  EXPECT_EQ(askedAt(0.05, 0.05, 0.05).verdict, Answer::HIT);
+  EXPECT_EQ(askedAt(1.05, 1.05, 2.05).verdict, Answer::CLEAR) << "nothing of what was refused is there";
+  EXPECT_LT(residentKilobytes(node_->process().pid()), before + 4000) << "kB";
+}
+
+TEST_F(Clouds, ThatAreLostSayWhatWasWrongWithTheLastMessage) {
+  start(0.3, {}, dict({{"map", dict({{"max_leaves", 2}})}}));
+  sendUntilComplete({{0.05f, 0.05f, 1.0f}});
+  const auto refused = [&](const sensor_msgs::PointCloud2& cloud, const std::string& words) {
+    node_->waitUntil(words, [&](const Heard& heard) {
+      if (heard.status.back()->world.sequence % 5 == 0) send(cloud);
+      for (const std::string& reason : heard.status.back()->world.reasons) {
+        if (reason.find(words) != std::string::npos) return true;
+      }
+      return false;
+    });
+  };
+  refused(cloudOf("nowhere", ros::Time(), {{0, 0, 0}}), "UNKNOWN_FRAME cloud 'front' of points: where its frame");
+  refused(cloudOf("camera", ros::Time(), {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}),
+          "LIMIT cloud 'front' of points: there would be 3 cells; at most 2 are allowed by ~map/max_leaves");
+  for (const auto& status : node_->heard().status) {
+    if (status->gauges.front().name != "cells.cloud/front" || status->gauges.front().value > 0.0) continue;
+    ASSERT_FALSE(status->world.complete) << "what was refused keeps nothing fresh";
+  }
+  sendUntilComplete({{0.05f, 0.05f, 1.0f}});
+}
+
+TEST_F(Clouds, AreStaleAsSoonAfterAnOutageAsBeforeIt) {
+  start(2.0);  // ~stale_after is 0.25 s
+  const Points point{{0.05f, 0.05f, 1.0f}};
+  sendUntilComplete(point);
+  std::uint64_t accepted = 0;
+  sendUntil(point, "a rhythm of 10 Hz",
+            [&](const msg::Status& status) { return (accepted = counter(status, "cloud/front.accepted")) >= 10; });
+  node_->waitForTicks(200);  // an outage of 4 s
+  const std::size_t begin = node_->heard().status.size();
+  send(cloudOf("camera", transforms_.now(), point));
+  node_->waitUntil("STALE after that message", [&](const Heard& heard) {
+    const auto& status = *heard.status.back();
+    if (heard.status.size() <= begin || counter(status, "cloud/front.accepted") <= accepted) return false;
+    return !status.bodies.empty() && status.bodies[0].state == msg::WorldState::STALE;
+  });
+  EXPECT_LT(node_->heard().status.back()->bodies[0].age, 1.0) << "s";
+}
+
+TEST_F(Clouds, DoNotHoldTheRobotItself) {
+  start(20.0, {}, dict({{"map", dict({{"self_filter", list({dict({{"pattern", "robot/a"}, {"padding", 0.09}})})}})}}));
+  Points points;
+  for (int i = 0; i < 200; ++i) {  // on the ball, as a camera sees it
+    const float angle = 0.0314f * static_cast<float>(i);
+    points.push_back({0.1f * std::cos(angle), 0.1f * std::sin(angle), -1.0f});
+  }
+  points.push_back({0.0f, 0.35f, -1.0f});  // not the robot's
+  sendUntilComplete(points);
+  EXPECT_EQ(askedAt(0.05, 0.35, 0.05).verdict, Answer::HIT);
+  EXPECT_EQ(namesOf(askedAt(0.1, 0.0, 0.0)), Names({"robot/a"}));
+  EXPECT_GT(counter(*node_->heard().status.back(), "cloud/front.own_cells"), 3u);
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// Needs no ROS master.
+#include "src/node/tf/transform_slices.h"
+
+#include <gtest/gtest.h>
+
+#include "hgrid_proximity/refusal.h"
+#include "test/node/support/random_message.h"
+#include "test/node/support/raw_message.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+tf2_msgs::TFMessage messageOf(std::size_t count) {
+  RandomMessage random(static_cast<unsigned>(count));
+  tf2_msgs::TFMessage message;
+  while (message.transforms.size() < count) {
+    message.transforms.push_back(random.make<geometry_msgs::TransformStamped>());
+  }
+  return message;
+}
+
+TEST(TransformSlices, AreTogetherTheMessage) {
+  constexpr std::size_t kSlice = TransformSlices::kSlice;
+  for (const std::size_t count : {std::size_t{0}, std::size_t{1}, kSlice - 1, kSlice, kSlice + 1, 5 * kSlice}) {
+    SCOPED_TRACE(count);
+    const std::string bytes = serialized(messageOf(count));
+    tf2_msgs::TFMessage whole;
+    TransformSlices slices(bytes);
+    while (slices.left()) {
+      const tf2_msgs::TFMessage slice = slices.next();
+      ASSERT_FALSE(slice.transforms.empty());
+      ASSERT_LE(slice.transforms.size(), kSlice);
+      whole.transforms.insert(whole.transforms.end(), slice.transforms.begin(), slice.transforms.end());
+    }
+    EXPECT_EQ(serialized(whole), bytes);
+    EXPECT_TRUE(slices.next().transforms.empty());
+  }
+}
+
+TEST(TransformSlices, OfBytesThatAreNoMessageAreRefused) {
+  const std::string bytes = serialized(messageOf(3));
+  for (const std::string& flawed :
+       {std::string(), bytes.substr(0, bytes.size() - 1), bytes + "x", bytesOf(8388608u) + std::string(16, '\0')}) {
+    try {
+      TransformSlices slices(flawed);
+      ADD_FAILURE() << "accepted " << flawed.size() << " bytes";
+    } catch (const Refusal& refusal) {
+      EXPECT_EQ(refusal.code(), Code::truncated);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// The node multiplies transforms down its own tree; tf2 is the witness of where every frame is.
+#include <gtest/gtest.h>
+#include <tf2/exceptions.h>
+
+#include <algorithm>
+#include <map>
+
+#include "src/node/tf/tf_tree.h"
+#include "test/support/random.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+constexpr std::int64_t kStart = 1000000000;  // [ns]
+constexpr std::int64_t kStep = 10000000;
+
+std::string frameName(int number) { return "a_frame_with_a_long_name_" + std::to_string(number); }
+
+geometry_msgs::Transform randomTransform(Random& random) {
+  geometry_msgs::Transform transform;
+  transform.translation.x = random.uniform(-2.0, 2.0);
+  transform.translation.y = random.uniform(-2.0, 2.0);
+  transform.translation.z = random.uniform(-2.0, 2.0);
+  const Eigen::Quaterniond turn = Eigen::Quaterniond(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0),
+                                                     random.uniform(-1.0, 1.0), random.uniform(0.1, 1.0))
+                                      .normalized();
+  transform.rotation.x = turn.x();
+  transform.rotation.y = turn.y();
+  transform.rotation.z = turn.z();
+  transform.rotation.w = turn.w();
+  return transform;
+}
+
+/// A tree of frames: some are static, some move at paces of their own, some change their parent. Each message has its
+/// transforms in another order.
+class RandomTree {
+ public:
+  RandomTree(std::uint64_t seed, Ledger& ledger) : random_(seed), intake_(1e9, 10.0, 1000, false, ledger) {
+    for (int frame = 1; frame < kFrames; ++frame) {
+      parent_[frame] = random_.below(4) > 0 ? frame - 1 : random_.below(frame);
+      if (random_.below(4) == 0) send({frame}, kStart, true);
+      pace_[frame] = random_.below(4) > 0 ? 1 : 1 + random_.below(5);
+    }
+    changes_ = random_.below(2) == 0;
+    const int cycles = random_.between(1, 12);
+    for (int cycle = 0; cycle < cycles; ++cycle) {
+      std::vector<int> moved;
+      for (int frame = 1; frame < kFrames; ++frame) {
+        const bool is_fixed = intake_.find(frameName(frame)) != TfIntake::kNone &&
+                              intake_.frame(intake_.find(frameName(frame))).from_static;
+        if (is_fixed || cycle % pace_[frame] != 0) continue;
+        if (changes_ && random_.below(200) == 0) parent_[frame] = random_.below(frame);
+        moved.insert(moved.begin() + random_.below(static_cast<int>(moved.size()) + 1), frame);
+      }
+      send(moved, kStart + cycle * kStep, false);
+    }
+    world_ = random_.below(kFrames);
+  }
+
+  void expectTheSameAsTf2() {
+    std::vector<std::string> frames;
+    for (int frame = 0; frame < kFrames; ++frame) frames.push_back(frameName(frame));
+    TfTree tree(intake_);
+    tree.plan(frameName(world_), frames);
+    EXPECT_FALSE(tree.stale());
+    tree.look(intake_.ages().read(Moment{Time(kStart), {}}));
+    for (int i = 0; i < 8; ++i) {
+      const std::int64_t between = random_.below(2) == 0 ? 0 : random_.below(kStep);
+      const Time time(kStart + random_.between(-1, 13) * kStep + between);
+      SCOPED_TRACE("at " + std::to_string(time.count()));
+      tree.place(time);
+      for (std::size_t frame = 0; frame < frames.size(); ++frame) expectTheSame(tree, frames[frame], frame, time);
+    }
+    for (std::size_t frame = 0; frame < frames.size(); ++frame)
+      expectNewest(tree.state(frame), static_cast<int>(frame));
+  }
+
+ private:
+  static constexpr int kFrames = 60;
+
+  void send(const std::vector<int>& frames, std::int64_t stamp, bool is_static) {
+    tf2_msgs::TFMessage message;
+    for (const int frame : frames) {
+      geometry_msgs::TransformStamped transform;
+      transform.header.stamp.fromNSec(static_cast<std::uint64_t>(stamp));
+      transform.header.frame_id = frameName(parent_[frame]);
+      transform.child_frame_id = frameName(frame);
+      transform.transform = randomTransform(random_);
+      message.transforms.push_back(transform);
+      if (!is_static) newest_[frame] = stamp;
+    }
+    intake_.take(message, is_static, "test", Moment{Time(stamp), {}});
+  }
+
+  void expectTheSame(const TfTree& tree, const std::string& frame, std::size_t index, Time time) {
+    SCOPED_TRACE(frame + " in " + frameName(world_));
+    ASSERT_TRUE(tree.state(index).connected);
+    const FramePose* ours = tree.worldFrom(index);
+    FramePose witness;
+    try {
+      witness = toFramePose(
+          intake_.buffer()
+              .lookupTransform(frameName(world_), frame, ros::Time().fromNSec(static_cast<std::uint64_t>(time.count())))
+              .transform);
+    } catch (const tf2::TransformException& error) {
+      EXPECT_EQ(ours, nullptr) << error.what();
+      return;
+    }
+    // Where parents changed, the way that was there at that time may be known while that of now is not.
+    if (ours == nullptr && changes_) return;
+    ASSERT_NE(ours, nullptr);
+    ++compared_;
+    EXPECT_LE((ours->translation - witness.translation).norm(), 1e-12 * kFrames);
+    EXPECT_LE((ours->pose().linear() - witness.pose().linear()).norm(), 1e-12);
+    EXPECT_LE((ours->pose().linear() * ours->pose().linear().transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-14);
+  }
+
+  /// The newest time of a way is the oldest of the newest of its moving frames.
+  void expectNewest(const ChainState& state, int frame) const {
+    const auto upFrom = [&](int at) {
+      std::vector<int> way = {at};
+      while (way.back() != 0) way.push_back(parent_.at(way.back()));
+      return way;
+    };
+    std::vector<int> up = upFrom(frame), down = upFrom(world_);
+    while (!up.empty() && !down.empty() && up.back() == down.back()) up.pop_back(), down.pop_back();
+    up.insert(up.end(), down.begin(), down.end());
+    Time newest = Time::max();
+    for (const int at : up) {
+      if (newest_.count(at) > 0) newest = std::min(newest, Time(newest_.at(at)));
+    }
+    EXPECT_EQ(state.moves, newest != Time::max());
+    if (state.moves) {
+      EXPECT_EQ(state.newest, newest);
+    }
+  }
+
+ public:
+  /// Poses that both knew.
+  std::size_t compared() const { return compared_; }
+
+ private:
+  std::size_t compared_ = 0;
+  Random random_;
+  TfIntake intake_;
+  std::map<int, int> parent_, pace_;
+  std::map<int, std::int64_t> newest_;  // stamp by frame that came on /tf
+  int world_ = 0;
+  bool changes_ = false;  // frames change their parents
+};
+
+TEST(TransformWays, LeadToWhereTf2SaysAtAnyTime) {
+  std::size_t compared = 0;
+  Ledger ledger;  // one for all, so that it logs a line per second and not per tree
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    RandomTree tree(seed, ledger);
+    tree.expectTheSameAsTf2();
+    compared += tree.compared();
+    if (::testing::Test::HasFailure()) return;
+  }
+  EXPECT_GT(compared, 20000u);
+}
+
+TEST(TransformWays, NameTheFrameThatWasNeverHeardOf) {
+  Ledger ledger;
+  TfIntake intake(1.0, 10.0, 100, false, ledger);
+  TfTree tree(intake);
+  EXPECT_TRUE(tree.stale()) << "never planned";
+  tree.plan("world", {"world", "arm"});
+  EXPECT_TRUE(tree.state(0).connected) << "a frame is always connected to itself";
+  EXPECT_FALSE(tree.state(1).connected);
+  EXPECT_EQ(tree.unknownFrame(1), "arm");
+
+  tf2_msgs::TFMessage message;
+  message.transforms.resize(1);
+  message.transforms[0].header.frame_id = "/base";
+  message.transforms[0].child_frame_id = "arm";
+  message.transforms[0].transform.rotation.w = 1.0;
+  intake.take(message, true, "test", Moment{Time(1), {}});
+  EXPECT_TRUE(tree.stale());
+  tree.plan("world", {"world", "arm", "base", "hand"});
+  EXPECT_EQ(tree.unknownFrame(1), "world");
+  EXPECT_EQ(tree.unknownFrame(3), "hand");
+  tree.plan("base", {"arm"});
+  tree.look(Time(0));
+  EXPECT_TRUE(tree.state(0).connected);
+  intake.take(message, true, "test", Moment{Time(2), {}});
+  EXPECT_FALSE(tree.stale()) << "nothing new";
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid

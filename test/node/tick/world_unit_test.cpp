@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// Claim: a change or a tick of the world for which there is no memory leaves no trace. A script of changes and ticks is
+// played again and again. Each time another allocation of another step fails. Then the step is either repeated or left
+// out, and every later tick is the one of a world in which nothing ever failed. No ROS master is needed.
+#include <gtest/gtest.h>
+#include <ros/console.h>
+
+#include <functional>
+
+#include "hgrid_proximity/adapters/fcl.h"
+#include "src/node/tick/world.h"
+#include "test/support/failing_allocations.h"
+#include "test/support/maps.h"
+#include "test/support/rules.h"
+#include "test/support/told.h"
+
+namespace hgrid {
+namespace {
+
+using Ticks = std::vector<std::shared_ptr<const Tick>>;
+
+struct Step {
+  std::string name;
+  std::function<void(World&, Ticks&)> play;
+  bool may_fail = true;
+  bool may_be_left_out = true;
+};
+
+/// The moment so many seconds after a start, by both clocks; `jump` [s] sets ROS time alone.
+Moment momentAt(double time, double jump = 0.0) {
+  Moment moment;
+  moment.ros = Time(std::int64_t(1e9 * (1000.0 + time + jump)));
+  moment.steady = std::chrono::steady_clock::time_point(std::chrono::milliseconds(std::int64_t(1e3 * (50.0 + time))));
+  return moment;
+}
+
+LoadedRobot armOf(const std::string& name, double margin) {
+  LoadedRobot robot;
+  robot.name = name;
+  robot.root_frame = name + "_base";
+  robot.bodies = test::armBodies(name);
+  for (std::size_t i = 0; i < robot.bodies.size(); ++i) {
+    robot.bodies[i].margin = margin;
+    if (robot.bodies[i].frame == "shoulder") {  // moves as one with the link before it
+      robot.groups.back().members.push_back({i, test::at(0.1)});
+    } else {
+      robot.groups.push_back({name + "_" + robot.bodies[i].frame, {{i, Pose::Identity()}}});
+    }
+  }
+  robot.warnings = {"of margin " + std::to_string(margin)};
+  return robot;
+}
+
+LoadedMap mapOf(const std::string& name, double x, unsigned seed) {
+  test::Random random(seed);
+  LoadedMap map;
+  map.params.name = name;
+  map.params.frame_from_map = test::at(x);
+  map.cells = test::cellsOf(0.25, test::randomVoxels(random, 20, 4));
+  return map;
+}
+
+LoadedCloud cloudOf(double time, unsigned seed) {
+  test::Random random(seed);
+  LoadedCloud cloud;
+  cloud.name = "eye";
+  cloud.lifetime = 1000.0;
+  cloud.cells = test::cellsOf(0.25, test::randomVoxels(random, 20, 4));
+  cloud.stamp = momentAt(time).ros;
+  cloud.received = momentAt(time).steady;
+  return cloud;
+}
+
+Step settingRobot(const std::string& name, double margin) {
+  return {"setRobot " + name, [=](World& world, Ticks&) { world.setRobot(armOf(name, margin)); }};
+}
+Step settingMap(const std::string& name, double x, unsigned seed) {
+  const LoadedMap map = mapOf(name, x, seed);
+  return {"setMap " + name, [=](World& world, Ticks&) { world.setMap(map); }};
+}
+Step clearingMap(const std::string& name) {
+  return {"clearMap " + name, [=](World& world, Ticks&) {
+            try {
+              world.clearMap(name);
+            } catch (const Refusal&) {  // the step that would have set the map was left out
+            }
+          }};
+}
+Step settingCloud(double time, unsigned seed) {
+  const LoadedCloud cloud = cloudOf(time, seed);
+  return {"setCloud", [=](World& world, Ticks&) { world.setCloud(cloud); }};
+}
+Step settingRules(const std::vector<PairRule>& rules) {
+  return {"setRules", [=](World& world, Ticks&) { world.setRules(rules); }};
+}
+Step settingMissing(const std::string& name) {
+  return {"setMissing " + name,
+          [=](World& world, Ticks&) { world.setMissing(name, "NOT_READY " + name + ": a sentence of some length"); }};
+}
+Step resetting() {
+  return {"reset", [](World& world, Ticks&) { world.reset(); }};
+}
+Step ticking(const Moment& now) {
+  return {"tick", [=](World& world, Ticks& ticks) { ticks.push_back(world.tick(now)); }};
+}
+
+/// Transforms to all frames: the first link of each robot moves, the others stand on it.
+Step hearing(const Moment& now, double x) {
+  tf2_msgs::TFMessage moving, standing;
+  for (const std::string robot : {"arm", "other"}) {
+    for (const std::string link : {"base", "elbow", "hand"}) {
+      geometry_msgs::TransformStamped transform;
+      transform.header.frame_id = link == "base" ? "world" : robot + "_base";
+      transform.header.stamp.fromNSec(std::uint64_t(now.ros.count()));
+      transform.child_frame_id = robot + "_" + link;
+      transform.transform.rotation.w = 1.0;
+      transform.transform.translation.x = link == "base" ? (robot == "arm" ? x : -x) : 0.2 * double(link.size()) - 0.8;
+      (link == "base" ? moving : standing).transforms.push_back(transform);
+    }
+  }
+  return {"transforms",
+          [=](World& world, Ticks&) {
+            world.transforms().take(standing, true, "/publisher", now);
+            world.transforms().take(moving, false, "/publisher", now);
+          },
+          false};
+}
+
+Params paramsOfTheWorld() {
+  Params params;
+  params.world_frame = "world";
+  params.margin = 0.2;
+  params.horizon = 0.1;
+  for (const char* robot : {"arm", "other"}) params.robots.push_back({robot, "", "", ""});
+  params.clouds.push_back({"eye"});
+  ObstacleParams post{test::ball("post", 0.3)}, gripped{test::ball("gripped", 0.1)}, twin{test::ball("post", 0.5)};
+  post.body.frame.clear();
+  gripped.body.frame = "arm_hand";
+  for (const ObstacleParams& obstacle : {post, gripped, twin}) params.obstacles.push_back(obstacle);  // one is refused
+  return params;
+}
+
+std::vector<Step> script() {
+  std::vector<Step> steps;
+  double time = 0.0, jump = 0.0;
+  const auto tick = [&](double x) {
+    time += 0.02;
+    steps.push_back(hearing(momentAt(time, jump), x));
+    steps.push_back(ticking(momentAt(time, jump)));
+  };
+  steps.push_back(settingRobot("arm", 0.1));
+  tick(0.0);
+  steps.push_back(settingMissing("other"));
+  steps.push_back(settingMap("room", 0.5, 1));
+  tick(0.1);
+  steps.push_back(settingRobot("other", 0.0));
+  steps.push_back(settingRules({test::until(test::allow("arm/*", "other/*"), momentAt(time + 0.05).steady)}));
+  tick(0.2);
+  steps.push_back(settingRobot("arm", 0.4));
+  steps.push_back(settingCloud(time, 2));
+  tick(2.0);
+  tick(-2.0);  // the rule has ended
+  steps.push_back(settingMap("room", -0.5, 3));
+  steps.push_back(settingMap("shelf", 1.0, 4));
+  steps.push_back(settingCloud(time, 5));
+  tick(0.3);
+  steps.push_back(resetting());
+  tick(0.2);
+  tick(0.2);
+  steps.back().may_be_left_out = false;  // after the jump, the poses of the last tick are all that is known
+  jump = -5.0;
+  tick(0.1);
+  steps.back().may_be_left_out = false;  // the jump forgets the transforms that came until it is noticed
+  steps.push_back(clearingMap("room"));
+  steps.push_back(clearingMap(""));
+  tick(0.0);
+  return steps;
+}
+
+struct Told {
+  test::Told snapshot;
+  std::uint64_t epoch = 0;
+  std::vector<std::string> not_ready, troubles, warnings, missing_frames;
+};
+
+Told tell(const Tick& tick) {
+  Told told;
+  if (tick.snapshot) told.snapshot = test::tell(*tick.snapshot);
+  told.epoch = tick.epoch;
+  told.not_ready = tick.not_ready;
+  for (const BodyTrouble& trouble : tick.troubles) told.troubles.push_back(trouble.name + " " + name(trouble.state));
+  told.warnings = tick.models->warnings;
+  told.missing_frames = tick.missing_frames;
+  return told;
+}
+
+void expectEqual(const Told& told, const Told& expected) {
+  ASSERT_EQ(told.epoch, expected.epoch);
+  ASSERT_EQ(told.not_ready, expected.not_ready);
+  ASSERT_EQ(told.troubles, expected.troubles);
+  ASSERT_EQ(told.warnings, expected.warnings);
+  ASSERT_EQ(told.missing_frames, expected.missing_frames);
+  test::expectEqual(told.snapshot, expected.snapshot);
+}
+
+constexpr std::size_t kNone = ~std::size_t{0};
+
+/// What goes wrong: the k-th allocation of a step.
+struct Fault {
+  std::size_t step = kNone, k = 0;
+  test::Failing which = test::Failing::one;
+  bool again = true;  // the step is repeated at once; otherwise it is left out
+};
+
+struct Played {
+  std::vector<Told> told;  // of the ticks from a step on
+  bool failed = false;
+};
+
+class WorldFailedAllocation : public ::testing::TestWithParam<bool> {
+ protected:
+  void SetUp() override {  // a line for each refusal of each time that the script is played would be thousands
+    if (ros::console::set_logger_level(ROSCONSOLE_DEFAULT_NAME, ros::console::levels::Fatal)) {
+      ros::console::notifyLoggerLevelsChanged();
+    }
+  }
+
+  Played play(std::size_t from, const Fault& fault, std::size_t left_out = kNone) const {
+    Played played;
+    Ledger ledger;
+    World world(params_, GetParam(), 5, ledger, narrow_phase_);
+    Ticks ticks;
+    ticks.reserve(steps_.size());
+    for (std::size_t i = 0; i < steps_.size(); ++i) {
+      if (i == left_out) continue;
+      const std::size_t before = ticks.size();
+      const auto act = [&] { steps_[i].play(world, ticks); };
+      if (fault.step == i) {
+        played.failed = test::failsAt(fault.k, fault.which, act);
+        if (played.failed && fault.again) act();
+      } else {
+        act();
+      }
+      if (ticks.size() > before && i >= from) played.told.push_back(tell(*ticks.back()));
+      if (ticks.size() > 1) ticks[ticks.size() - 2].reset();
+    }
+    return played;
+  }
+
+  /// Lets each allocation of a step fail, one after the other. @returns how many there are
+  std::size_t tryStep(std::size_t step) const {
+    const Played all_well = play(step, {}), without = play(step, {}, step);
+    bool failed = true;
+    std::size_t k = 0;
+    while (failed) {
+      failed = false;
+      ++k;
+      for (const bool again : {true, false}) {
+        if (!again && !steps_[step].may_be_left_out) continue;
+        SCOPED_TRACE("step " + std::to_string(step) + " (" + steps_[step].name + "), allocation " + std::to_string(k) +
+                     (again ? ", then repeated" : ", then left out"));
+        const Played played =
+            play(step, {step, k, k % 2 == 0 ? test::Failing::from_then_on : test::Failing::one, again});
+        failed = failed || played.failed;
+        const Played& expected = played.failed && !again ? without : all_well;
+        EXPECT_EQ(played.told.size(), expected.told.size());
+        for (std::size_t i = 0; i < played.told.size() && !HasFailure(); ++i) {
+          SCOPED_TRACE("tick " + std::to_string(i));
+          expectEqual(played.told[i], expected.told[i]);
+        }
+        if (HasFailure()) return k;
+      }
+    }
+    return k - 1;
+  }
+
+  Params params_ = paramsOfTheWorld();
+  std::shared_ptr<NarrowPhase> narrow_phase_ = makeFclNarrowPhase();
+  std::vector<Step> steps_ = script();
+};
+
+TEST_P(WorldFailedAllocation, LeavesNoTraceInLaterTicks) {
+  std::size_t failures = 0;
+  for (std::size_t step = 0; step < steps_.size(); ++step) {
+    if (!steps_[step].may_fail) continue;
+    failures += tryStep(step);
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(failures, 500u) << "what never failed proves nothing";
+}
+
+/// The script is about what its steps are called after.
+TEST_P(WorldFailedAllocation, IsTriedOnAWorldThatHasPairsEventsAndSeveralEpochs) {
+  const Played played = play(0, {});
+  std::size_t pairs = 0, events = 0;
+  for (const Told& told : played.told) {
+    pairs += told.snapshot.pairs.empty() ? 0 : 1;
+    events += told.snapshot.events.size();
+  }
+  EXPECT_EQ(pairs, played.told.size());
+  EXPECT_GT(events, 20u);
+  EXPECT_EQ(played.told.back().epoch, 7u) << "one ~reset and one jump of the clock";
+}
+
+INSTANTIATE_TEST_SUITE_P(Clock, WorldFailedAllocation, ::testing::Values(false, true),
+                         [](const auto& info) { return info.param ? "Simulated" : "Wall"; });
+
+}  // namespace
+}  // namespace hgrid

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// Every type of message and request that the node reads by its generated deserializer. This program replaces operator
+// new, and needs no ROS master.
+#include "src/node/wire/checked.h"
+
+#include <gtest/gtest.h>
+#include <hgrid_proximity/ApplyObstacles.h>
+#include <hgrid_proximity/ClearMap.h>
+#include <hgrid_proximity/ExplainPair.h>
+#include <hgrid_proximity/GetAllowed.h>
+#include <hgrid_proximity/LoadOctomap.h>
+#include <hgrid_proximity/QueryBatch.h>
+#include <hgrid_proximity/QueryBox.h>
+#include <hgrid_proximity/QueryNearest.h>
+#include <hgrid_proximity/QuerySegment.h>
+#include <hgrid_proximity/QuerySphere.h>
+#include <hgrid_proximity/ReloadRobot.h>
+#include <hgrid_proximity/SetAllowed.h>
+#include <std_srvs/Trigger.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "test/node/support/random_message.h"
+#include "test/node/support/raw_message.h"
+
+namespace {
+std::atomic<std::size_t> allocated{0};  // bytes, in all
+
+void* counted(std::size_t size) {
+  allocated += size;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+}  // namespace
+
+__attribute__((noinline)) void* operator new(std::size_t size) { return counted(size); }
+__attribute__((noinline)) void* operator new[](std::size_t size) { return counted(size); }
+__attribute__((noinline)) void operator delete(void* memory) noexcept { std::free(memory); }
+__attribute__((noinline)) void operator delete[](void* memory) noexcept { std::free(memory); }
+__attribute__((noinline)) void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+__attribute__((noinline)) void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace hgrid {
+namespace test {
+namespace {
+
+namespace msg = ::hgrid_proximity;
+
+constexpr unsigned kMessages = 50;
+constexpr std::size_t kSentence = 2048;  // bytes that the sentence of a refusal may allocate
+
+/// Deserializes as roscpp does, and checks that the memory for it is in proportion to the bytes.
+template <class Message>
+Checked<Message> received(std::string bytes) {
+  Checked<Message> message;
+  ros::serialization::IStream stream(reinterpret_cast<std::uint8_t*>(&bytes[0]),
+                                     static_cast<std::uint32_t>(bytes.size()));
+  const std::size_t before = allocated;
+  EXPECT_NO_THROW(ros::serialization::deserialize(stream, message));
+  EXPECT_LE(allocated - before, 64 * bytes.size() + kSentence) << "for " << bytes.size() << " bytes";
+  EXPECT_EQ(stream.getLength(), 0u) << "roscpp's stream is at its end";
+  return message;
+}
+
+template <class Message>
+::testing::AssertionResult refused(const std::string& bytes) {
+  try {
+    received<Message>(bytes).value();
+  } catch (const Refusal& refusal) {
+    if (refusal.code() == Code::truncated) return ::testing::AssertionSuccess();
+    return ::testing::AssertionFailure() << "refused with " << name(refusal.code());
+  }
+  return ::testing::AssertionFailure() << "accepted";
+}
+
+/// Holds if the bytes are refused, or are exactly those of the message that they are read as.
+template <class Message>
+::testing::AssertionResult refusedOrEqual(const std::string& bytes) {
+  const Checked<Message> message = received<Message>(bytes);
+  try {
+    if (serialized(message.value()) == bytes) return ::testing::AssertionSuccess();
+  } catch (const Refusal&) {
+    return ::testing::AssertionSuccess();
+  }
+  return ::testing::AssertionFailure() << "read as another message";
+}
+
+template <class Message>
+class CheckedMessage : public ::testing::Test {};
+
+using Messages = ::testing::Types<tf2_msgs::TFMessage, msg::ApplyObstacles::Request, msg::ClearMap::Request,
+                                  msg::ExplainPair::Request, msg::GetAllowed::Request, msg::LoadOctomap::Request,
+                                  msg::QueryBatch::Request, msg::QueryBox::Request, msg::QueryNearest::Request,
+                                  msg::QuerySegment::Request, msg::QuerySphere::Request, msg::ReloadRobot::Request,
+                                  msg::SetAllowed::Request, std_srvs::Trigger::Request>;
+
+class TypeName {
+ public:
+  template <class Message>
+  static std::string GetName(int) {
+    const std::string type = ros::message_traits::datatype<Message>();
+    return type.substr(type.find('/') + 1);
+  }
+};
+TYPED_TEST_SUITE(CheckedMessage, Messages, TypeName);
+
+TYPED_TEST(CheckedMessage, IsReadAsItWasSent) {
+  for (unsigned seed = 0; seed < kMessages; ++seed) {
+    const std::string bytes = serialized(RandomMessage(seed).make<TypeParam>());
+    EXPECT_EQ(serialized(received<TypeParam>(bytes).value()), bytes) << "seed " << seed;
+  }
+}
+
+TYPED_TEST(CheckedMessage, IsRefusedWhereverItIsCut) {
+  for (unsigned seed = 0; seed < kMessages; ++seed) {
+    const std::string bytes = serialized(RandomMessage(seed).make<TypeParam>());
+    for (std::size_t cut = 0; cut < bytes.size(); ++cut) {
+      ASSERT_TRUE(refused<TypeParam>(bytes.substr(0, cut))) << "seed " << seed << ", cut at byte " << cut;
+    }
+  }
+}
+
+TYPED_TEST(CheckedMessage, IsRefusedWithALengthThatItsBytesDoNotHold) {
+  for (unsigned seed = 0; seed < kMessages; ++seed) {
+    const auto message = RandomMessage(seed).make<TypeParam>();
+    const std::string bytes = serialized(message);
+    const auto size = static_cast<std::uint32_t>(bytes.size());
+    for (const std::size_t at : LengthPositions::of(message)) {
+      for (const std::uint32_t length : {size + 1, 1u << 23, 1u << 27, 1u << 31, 0xffffffffu}) {
+        std::string lying = bytes;
+        lying.replace(at, 4, bytesOf(length));
+        ASSERT_TRUE(refused<TypeParam>(lying)) << "seed " << seed << ", length " << length << " at byte " << at;
+      }
+    }
+  }
+}
+
+TYPED_TEST(CheckedMessage, IsRefusedWithBytesAfterItsEnd) {
+  EXPECT_TRUE(refused<TypeParam>(serialized(RandomMessage(1).make<TypeParam>()) + "x"));
+}
+
+TYPED_TEST(CheckedMessage, WithBytesThatChangedIsRefusedOrReadAsTheyAre) {
+  std::mt19937 random(1);
+  for (unsigned seed = 0; seed < kMessages; ++seed) {
+    const std::string bytes = serialized(RandomMessage(seed).make<TypeParam>());
+    for (int change = 0; change < 100 && !bytes.empty(); ++change) {
+      std::string changed = bytes;
+      for (int i = 0; i < 3; ++i) changed[random() % changed.size()] = static_cast<char>(random());
+      ASSERT_TRUE(refusedOrEqual<TypeParam>(changed)) << "seed " << seed << ", change " << change;
+    }
+  }
+}
+
+TYPED_TEST(CheckedMessage, ConnectsAsItsOwnType) {
+  namespace traits = ros::message_traits;
+  EXPECT_STREQ(traits::datatype<Checked<TypeParam>>(), traits::datatype<TypeParam>());
+  EXPECT_STREQ(traits::md5sum<Checked<TypeParam>>(), traits::md5sum<TypeParam>());
+}
+
+TEST(CheckedRequest, ConnectsAsItsOwnService) {
+  namespace traits = ros::service_traits;
+  EXPECT_STREQ(traits::datatype<Checked<msg::SetAllowed::Request>>(), traits::datatype<msg::SetAllowed>());
+  EXPECT_STREQ(traits::md5sum<Checked<msg::SetAllowed::Request>>(), traits::md5sum<msg::SetAllowed>());
+}
+
+TEST(CheckedFlaw, SaysWhatTheBytesDeclareAndWhatTheyHold) {
+  const auto sentence = [](const std::string& bytes) -> std::string {
+    try {
+      received<tf2_msgs::TFMessage>(bytes).value();
+    } catch (const Refusal& refusal) {
+      return refusal.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(sentence(bytesOf(8388608u) + std::string(16, '\0')),
+            "the message is 20 bytes long; from byte 4 on, a list of 8388608 elements needs at least 637534208 bytes");
+  EXPECT_EQ(sentence(bytesOf(1u) + std::string(12, '\0') + bytesOf(100u) + std::string(72, '\0')),
+            "the message is 92 bytes long; from byte 20 on, a string needs 100 bytes");
+  EXPECT_EQ(sentence("abc"), "the message is 3 bytes long; from byte 0 on, a list needs 4 bytes");
+  EXPECT_EQ(sentence(bytesOf(0u) + "xyz"), "the message is 7 bytes long; it must end at byte 4");
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid

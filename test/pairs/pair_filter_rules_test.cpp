@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "hgrid_proximity/bodies/name.h"
+#include "test/support/models.h"
+#include "test/support/rules.h"
+#include "test/support/scenes.h"
+
+namespace hgrid {
+namespace {
+
+using test::allow;
+using test::enable;
+using test::Random;
+
+enum Index : std::uint32_t { base, shoulder, elbow, hand, box, crate, wall, floor_ };
+
+/// An arm whose first two links are one, with an SRDF; two obstacles that move and two that do not.
+std::vector<Body> cell() {
+  LinkRules srdf;
+  srdf.disabled = {{"elbow", "base", "Never"}};
+  srdf.disabled_default = {"hand"};
+  srdf.enabled = {{"hand", "elbow", "it reaches back"}};
+  std::vector<Body> bodies = test::armBodies("arm", srdf);
+  for (const char* name : {"box", "crate"}) bodies.push_back(test::ball(name));
+  for (const char* name : {"wall", "floor"}) bodies.push_back(test::ball(name, 0.5, Mobility::fixed));
+  return bodies;
+}
+
+/// Asks both ways round, which must agree.
+PairDecision decided(const PairFilter& filter, std::uint32_t a, std::uint32_t b) {
+  const PairDecision there = filter.decision(a, b), back = filter.decision(b, a);
+  EXPECT_EQ(there.origin, back.origin);
+  EXPECT_EQ(there.allowed, back.allowed);
+  EXPECT_EQ(there.rule, back.rule);
+  EXPECT_EQ(there.reason, back.reason);
+  EXPECT_EQ(there.allowed, filter.allowed(a, b)) << "what the tick asks is what is told";
+  EXPECT_EQ(filter.origin(a, b), there.allowed ? there.origin : Origin::none);
+  return there;
+}
+
+TEST(PairRules, WithoutRulesTheModelDecides) {
+  const PairFilter filter(cell(), {}, {});
+  struct Row {
+    Index first, second;
+    Origin origin;
+    bool allowed;
+    const char* reason;
+  };
+  const Row rows[] = {{base, base, Origin::self, true, ""},
+                      {wall, floor_, Origin::kind, true, ""},
+                      {base, shoulder, Origin::rigid, true, "they move as one"},
+                      {shoulder, elbow, Origin::adjacent, true, "joint 'elbow_joint' connects their rigid groups"},
+                      {base, elbow, Origin::srdf, true, "Never"},
+                      {base, hand, Origin::srdf, true, "disable_default_collisions"},
+                      {elbow, hand, Origin::srdf, false, "it reaches back"},
+                      {hand, box, Origin::none, false, ""},
+                      {box, crate, Origin::none, false, ""}};
+  for (const Row& row : rows) {
+    SCOPED_TRACE(std::to_string(row.first) + " " + std::to_string(row.second));
+    const PairDecision decision = decided(filter, row.first, row.second);
+    EXPECT_EQ(decision.origin, row.origin);
+    EXPECT_EQ(decision.allowed, row.allowed);
+    EXPECT_EQ(decision.reason, row.reason);
+    EXPECT_EQ(decision.rule, PairDecision::kNoRule);
+  }
+}
+
+TEST(PairRules, ARuleBeatsTheModelBothWays) {
+  for (const auto& pair : {std::pair<Index, Index>{base, shoulder}, {shoulder, elbow}, {base, elbow}, {base, hand}}) {
+    const std::vector<Body> bodies = cell();
+    for (const bool swapped : {false, true}) {
+      const std::string &a = bodies[swapped ? pair.second : pair.first].name,
+                        &b = bodies[swapped ? pair.first : pair.second].name;
+      const PairFilter enabling(bodies, {}, {enable(a, b, "test")});
+      const PairDecision on = decided(enabling, pair.first, pair.second);
+      EXPECT_FALSE(on.allowed) << a << " " << b;
+      EXPECT_EQ(on.origin, Origin::service);
+      EXPECT_EQ(on.reason, "test");
+      const PairDecision off = decided(PairFilter(bodies, {}, {allow(a, b, "test")}), pair.first, pair.second);
+      EXPECT_TRUE(off.allowed);
+      EXPECT_EQ(off.origin, Origin::service);
+    }
+  }
+  const PairFilter filter(cell(), {}, {allow("arm/hand", "arm/elbow", "")});
+  EXPECT_TRUE(decided(filter, hand, elbow).allowed) << "it beats enable_collisions";
+}
+
+TEST(PairRules, NoRuleBeatsSelfOrKind) {
+  PairKinds kinds;
+  kinds.robot_obstacle = false;
+  const PairFilter filter(cell(), kinds,
+                          {enable("*", "*", ""), enable("obstacle/wall", "obstacle/floor", ""),
+                           enable("arm/hand", "obstacle/box", ""), enable("arm/hand", "arm/hand", "")});
+  EXPECT_EQ(decided(filter, wall, floor_).origin, Origin::kind);
+  EXPECT_EQ(decided(filter, hand, box).origin, Origin::kind);
+  EXPECT_EQ(decided(filter, hand, hand).origin, Origin::self);
+  EXPECT_FALSE(decided(filter, base, shoulder).allowed);
+}
+
+TEST(PairRules, NamesBeatGlobsAndLaterBeatsEarlier) {
+  struct Row {
+    std::vector<PairRule> rules;
+    std::uint32_t decides;
+  };
+  const PairRule off_names = allow("arm/hand", "obstacle/box", ""), on_names = enable("obstacle/box", "arm/hand", ""),
+                 off_glob = allow("arm/*", "obstacle/b?x", ""), on_glob = enable("obstacle/*", "*", ""),
+                 half_glob = enable("arm/hand", "obstacle/*", ""), other = allow("arm/elbow", "obstacle/box", "");
+  PairRule configured = allow("arm/hand", "obstacle/box", "");
+  configured.origin = Origin::parameter;
+  const Row rows[] = {{{off_names}, 0},
+                      {{off_names, on_names}, 1},
+                      {{on_names, off_names}, 1},
+                      {{off_names, on_glob}, 0},
+                      {{on_glob, off_names}, 1},
+                      {{off_names, half_glob}, 0},
+                      {{off_glob, on_glob}, 1},
+                      {{on_glob, off_glob}, 1},
+                      {{half_glob, on_glob, off_glob, other}, 2},
+                      {{off_glob, off_names, on_names, on_glob, other}, 2},
+                      {{configured, on_glob}, 0},
+                      {{configured, on_names}, 1}};
+  int number = 0;
+  for (const Row& row : rows) {
+    SCOPED_TRACE("row " + std::to_string(number++));
+    const PairFilter filter(cell(), {}, row.rules);
+    const PairDecision decision = decided(filter, hand, box);
+    EXPECT_EQ(decision.rule, row.decides);
+    EXPECT_EQ(decision.allowed, row.rules[row.decides].allowed);
+    EXPECT_EQ(decision.origin, row.rules[row.decides].origin);
+  }
+}
+
+TEST(PairRules, OfBodiesThatAreNotThereDoNothing) {
+  const PairFilter filter(cell(), {}, {allow("arm/hand", "obstacle/ghost", ""), allow("ghost/*", "*", "")});
+  const PairFilter plain(cell(), {}, {});
+  for (std::uint32_t i = 0; i <= floor_; ++i) {
+    for (std::uint32_t j = 0; j <= floor_; ++j) EXPECT_EQ(decided(filter, i, j).origin, plain.decision(i, j).origin);
+  }
+}
+
+/// The rule of the header, told once more: by looking at every rule.
+std::uint32_t strongest(const std::vector<PairRule>& rules, const std::string& a, const std::string& b) {
+  std::uint32_t best = PairDecision::kNoRule;
+  for (std::uint32_t k = 0; k < rules.size(); ++k) {
+    const PairRule& rule = rules[k];
+    const bool here =
+        (matches(rule.first, a) && matches(rule.second, b)) || (matches(rule.first, b) && matches(rule.second, a));
+    const bool named = !isGlob(rule.first) && !isGlob(rule.second);
+    const bool best_named = best != PairDecision::kNoRule && !isGlob(rules[best].first) && !isGlob(rules[best].second);
+    if (here && (named || !best_named)) best = k;
+  }
+  return best;
+}
+
+TEST(PairRules, TheStrongestDecidesAndWhetherAnythingIsReportedIsKnownForAnyRules) {
+  const std::vector<std::string> names = {"*",        "arm/*",        "obstacle/*",     "?rm/elbow",
+                                          "arm/hand", "obstacle/box", "obstacle/crate", "*/?a*",
+                                          "arm/base", "nobody"};
+  int silent = 0, loud = 0;
+  for (unsigned seed = 1; seed <= 2000; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    std::vector<Body> bodies = cell();
+    for (Body& body : test::armBodies("leg")) bodies.push_back(body);
+    bodies.resize(std::size_t(random.between(1, int(bodies.size()))));
+    std::vector<PairRule> rules;
+    for (int i = random.chance(0.1) ? 150 : random.between(0, 8); i > 0; --i) {
+      const std::string &a = names[std::size_t(random.below(10))], &b = names[std::size_t(random.below(10))];
+      rules.push_back(random.chance(0.7) ? allow(a, b, "") : enable(a, b, ""));
+    }
+    const PairFilter filter(bodies, {}, rules), plain(bodies, {}, {});
+    bool any = false, any_plain = false;
+    for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+      for (std::uint32_t j = 0; j < bodies.size(); ++j) {
+        const PairDecision decision = filter.decision(i, j), without = plain.decision(i, j);
+        any = any || !decision.allowed;
+        any_plain = any_plain || !without.allowed;
+        if (without.origin == Origin::self || without.origin == Origin::kind) {
+          ASSERT_EQ(decision.origin, without.origin);
+          continue;
+        }
+        const std::uint32_t rule = strongest(rules, bodies[i].name, bodies[j].name);
+        ASSERT_EQ(decision.rule, rule) << bodies[i].name << " " << bodies[j].name;
+        ASSERT_EQ(filter.allowed(i, j), rule == PairDecision::kNoRule ? without.allowed : rules[rule].allowed);
+      }
+    }
+    ASSERT_EQ(filter.reportsAny(), any);
+    ASSERT_EQ(silencesAll(bodies, {}, filter), any_plain && !any);
+    (any_plain && !any ? silent : loud)++;
+  }
+  EXPECT_GT(silent, 50);
+  EXPECT_GT(loud, 500);
+}
+
+}  // namespace
+}  // namespace hgrid

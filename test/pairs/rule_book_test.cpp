@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "hgrid_proximity/pairs/rule_book.h"
+
+#include <gtest/gtest.h>
+
+#include "test/support/refusals.h"
+#include "test/support/rules.h"
+
+namespace hgrid {
+namespace {
+
+using std::chrono::seconds;
+using test::allow;
+using test::enable;
+using test::refusalOf;
+using test::says;
+using test::until;
+
+const PairRule::Clock::time_point kNow{std::chrono::hours(1)};
+
+std::vector<PairRule> configured() {
+  PairRule rule = allow("arm/*", "obstacle/table", "bolted to it");
+  rule.origin = Origin::parameter;
+  return {rule};
+}
+
+/// Every rule as "first second +" (allowed) or "-".
+std::vector<std::string> gist(const RuleBook& book) {
+  std::vector<std::string> lines;
+  for (const PairRule& rule : book.rules()) {
+    lines.push_back(rule.first + " " + rule.second + (rule.allowed ? " +" : " -"));
+  }
+  return lines;
+}
+
+using Lines = std::vector<std::string>;
+
+TEST(RuleBook, KeepsRulesInTheOrderInWhichTheyCame) {
+  RuleBook book(configured());
+  book.add({allow("c", "d"), allow("a", "b")});
+  book.add({enable("b*", "a")});
+  EXPECT_EQ(gist(book), Lines({"arm/* obstacle/table +", "c d +", "a b +", "b* a -"}));
+  EXPECT_EQ(book.rules()[0].origin, Origin::parameter);
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ(book.rules()[i].origin, Origin::service);
+}
+
+TEST(RuleBook, WhatCanNeverDecideAgainIsDropped) {
+  RuleBook book(configured());
+  book.add({allow("a", "b"), allow("c", "d")});
+  book.add({enable("b", "a")});
+  EXPECT_EQ(gist(book), Lines({"arm/* obstacle/table +", "c d +", "b a -"})) << "in either order";
+  book.add({enable("arm/*", "obstacle/table")});
+  EXPECT_EQ(book.rules().size(), 4u) << "what was configured stays";
+  for (int i = 1; i <= 100; ++i) book.add({until(allow("e", "f"), kNow + seconds(i))});
+  EXPECT_EQ(book.rules().size(), 5u) << "a rule that is renewed takes no more room";
+  EXPECT_EQ(book.rules().back().ends, kNow + seconds(100));
+}
+
+TEST(RuleBook, WhatOutlivesALaterRuleComesBack) {
+  RuleBook book;
+  book.add({allow("a", "b")});
+  book.add({until(enable("a", "b"), kNow + seconds(2))});
+  EXPECT_EQ(gist(book), Lines({"a b +", "a b -"}));
+  EXPECT_FALSE(book.expire(kNow + seconds(1)));
+  EXPECT_TRUE(book.expire(kNow + seconds(2)));
+  EXPECT_EQ(gist(book), Lines({"a b +"}));
+  EXPECT_FALSE(book.expire(kNow + seconds(1000000)));
+}
+
+TEST(RuleBook, RulesEndEachAtItsTime) {
+  RuleBook book(configured());
+  book.add({until(allow("a", "b"), kNow + seconds(3)), until(allow("c", "d"), kNow + seconds(1)), allow("e", "f")});
+  EXPECT_FALSE(book.expire(kNow));
+  EXPECT_TRUE(book.expire(kNow + seconds(1)));
+  EXPECT_EQ(gist(book), Lines({"arm/* obstacle/table +", "a b +", "e f +"}));
+  EXPECT_TRUE(book.expire(kNow + seconds(9)));
+  EXPECT_EQ(gist(book), Lines({"arm/* obstacle/table +", "e f +"}));
+}
+
+TEST(RuleBook, RemovesByTheTwoNamesInEitherOrder) {
+  RuleBook book(configured());
+  book.add({allow("a", "b*"), enable("c", "d"), until(allow("c", "d"), kNow)});
+  book.remove({allow("b*", "a"), allow("d", "c")});
+  EXPECT_EQ(gist(book), Lines({"arm/* obstacle/table +"})) << "all that was said of c and d";
+}
+
+TEST(RuleBook, RemovesAllOrNone) {
+  RuleBook book(configured());
+  book.add({allow("a", "b")});
+  std::string sentence;
+  EXPECT_EQ(refusalOf([&] { book.remove({allow("a", "b"), allow("a", "c\n")}); }, &sentence), Code::unknown_id);
+  EXPECT_TRUE(says(sentence, "there is no rule 'a', 'c\\x0a'"));
+  EXPECT_EQ(refusalOf([&] { book.remove({allow("arm/*", "obstacle/table")}); }, &sentence), Code::unknown_id);
+  EXPECT_TRUE(says(sentence, "was configured and stays; one with allowed = false beats it"));
+  EXPECT_EQ(gist(book), Lines({"arm/* obstacle/table +", "a b +"}));
+}
+
+TEST(RuleBook, HoldsNoMoreThanItMay) {
+  RuleBook book(configured(), 3);
+  book.add({allow("a", "b"), allow("c", "d")});
+  std::string sentence;
+  EXPECT_EQ(refusalOf([&] { book.add({enable("a", "b"), allow("e", "f")}); }, &sentence), Code::limit);
+  EXPECT_TRUE(says(sentence, "there would be 4 rules"));
+  EXPECT_TRUE(says(sentence, "at most 3"));
+  EXPECT_EQ(gist(book), Lines({"arm/* obstacle/table +", "a b +", "c d +"})) << "all of them or none";
+  book.add({enable("a", "b")});
+  EXPECT_EQ(book.rules().size(), 3u);
+}
+
+TEST(RuleBook, RefusesWhatIsNoRuleAndKeepsTheOthersOut) {
+  RuleBook book;
+  std::string sentence;
+  EXPECT_EQ(refusalOf([&] { book.add({allow("a", "b"), allow("", "b")}); }, &sentence), Code::bad_id);
+  EXPECT_TRUE(says(sentence, "first of a rule is ''; it must not be empty"));
+  EXPECT_EQ(refusalOf([&] { book.add({allow("a", "b\x01")}); }, &sentence), Code::bad_id);
+  EXPECT_TRUE(says(sentence, "second of a rule is 'b\\x01'"));
+  EXPECT_EQ(refusalOf([&] { book.add({allow(std::string(513, 'x'), "b")}); }), Code::bad_id);
+  EXPECT_EQ(refusalOf([&] { book.add({allow("a", "b", std::string(513, 'x'))}); }), Code::out_of_range);
+  EXPECT_EQ(refusalOf([&] { book.add({allow("a", "b", "\xff")}); }), Code::out_of_range);
+  EXPECT_TRUE(book.rules().empty());
+}
+
+}  // namespace
+}  // namespace hgrid
