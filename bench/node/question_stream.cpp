@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "question_stream.h"
 
+#include <hgrid_proximity/Verdict.h>
+
 #include <chrono>
 
 #include "map_stream.h"
@@ -87,7 +89,7 @@ void QuestionStream::askForMark() {
     ++failures_;
     return;
   }
-  const bool marked = question.response.answer.verdict == msg::Answer::HIT;
+  const bool marked = question.response.answer.verdict == msg::Verdict::HIT;
   if (looked_ && marked != marked_) ++replacements_;
   looked_ = true;
   marked_ = marked;

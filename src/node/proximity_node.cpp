@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/proximity_node.h"
 
+#include <hgrid_proximity/CodeNames.h>
 #include <ros/init.h>
 #include <ros/names.h>
 
@@ -466,7 +467,7 @@ bool ProximityNode::onReload(Checked<msg::ReloadRobot::Request>& checked, msg::R
     ledger_.refuse("reload_robot.refused", refusal);
     response.code = toMsg(refusal.code(), refusal.what());
   }
-  response.success = response.code.value == msg::Code::OK;
+  response.success = response.code.value == msg::CodeNames::OK;
   if (const auto tick = newest()) {
     response.world = worldState(*tick, params_, config_hash_, 0.0);
     response.uncovered = tick->models->uncovered;

@@ -2,6 +2,9 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/messages/messages.h"
 
+#include <hgrid_proximity/BodyState.h>
+#include <hgrid_proximity/ShapeKind.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -124,7 +127,7 @@ msg::WorldState worldState(const Tick& tick, const Params& params, std::uint64_t
   if (!tick.snapshot) {
     world.reasons = tick.not_ready;
     world.reasons_total = static_cast<std::uint32_t>(tick.not_ready.size());
-    world.worst_state = msg::WorldState::UNPLACED;
+    world.worst_state = msg::BodyState::UNPLACED;
     for (const msg::SourceStatus& source : sourcesOf(tick, params)) world.incomplete.push_back(source.name);
     world.incomplete_total = static_cast<std::uint32_t>(world.incomplete.size());
     world.incomplete = firstOf(world.incomplete, static_cast<std::size_t>(params.max_listed));
@@ -152,7 +155,7 @@ msg::WorldState worldState(const Tick& tick, const Params& params, std::uint64_t
 /// The cells of a map, as one shape.
 msg::Shape shapeOf(const StaticGrid& grid) {
   msg::Shape shape;
-  shape.kind = msg::Shape::CELLS;
+  shape.kind = msg::ShapeKind::CELLS;
   shape.dimensions = {grid.finestEdge(), 0.0, 0.0, 0.0};
   shape.pose.orientation.w = 1.0;
   shape.scale.x = shape.scale.y = shape.scale.z = 1.0;

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/messages/source_messages.h"
 
+#include <hgrid_proximity/BodyState.h>
 #include <hgrid_proximity/WorldState.h>
 
 #include <algorithm>
@@ -22,7 +23,7 @@ msg::SourceStatus& entryOf(Sources& sources, const std::string& name) {
   msg::SourceStatus& source = known.first->second;
   if (known.second) {
     source.name = name;
-    source.state = msg::WorldState::UNPLACED;
+    source.state = msg::BodyState::UNPLACED;
     source.age = std::nan("");
   }
   return source;
@@ -40,7 +41,7 @@ void addBodies(const Snapshot& snapshot, Sources& sources) {
   std::vector<msg::SourceStatus*> entries;
   for (const std::string& source : structure.sources) {
     entries.push_back(&entryOf(sources, source));
-    entries.back()->state = msg::WorldState::FRESH;
+    entries.back()->state = msg::BodyState::FRESH;
   }
   for (std::size_t body = 0; body < structure.bodies.size(); ++body) {
     msg::SourceStatus& source = *entries[structure.source_of[body]];

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <hgrid_proximity/BodyState.h>
+
 #include <functional>
 #include <memory>
 #include <string>
@@ -46,7 +48,7 @@ struct AdminAnswer {
       const std::chrono::duration<double> age = std::chrono::steady_clock::now() - tick->made.steady;
       response.world = worldState(*tick, params, config_hash, age.count());
     } else {
-      response.world.worst_state = msg::WorldState::UNPLACED;
+      response.world.worst_state = msg::BodyState::UNPLACED;
     }
     return true;
   }

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/services/explain_service.h"
 
+#include <hgrid_proximity/BodyState.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -29,7 +31,7 @@ msg::ExplainPair::Response nothing() {
   response.gap = response.margin = response.margin_first = response.margin_second = std::nan("");
   response.margin_pair = response.growth = response.distance = std::nan("");
   response.age_first = response.age_second = std::nan("");
-  response.state_first = response.state_second = msg::WorldState::UNPLACED;
+  response.state_first = response.state_second = msg::BodyState::UNPLACED;
   return response;
 }
 
@@ -98,7 +100,7 @@ bool ExplainService::onExplain(Checked<msg::ExplainPair::Request>& checked, msg:
   ledger_.count("explain_pair.asked");
   try {
     if (!tick) {
-      response.world.worst_state = msg::WorldState::UNPLACED;
+      response.world.worst_state = msg::BodyState::UNPLACED;
       throw Refusal(Code::not_ready, "there is no world yet: the first tick was not made");
     }
     const std::chrono::duration<double> age_since = std::chrono::steady_clock::now() - tick->made.steady;

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/services/query_services.h"
 
+#include <hgrid_proximity/BodyState.h>
+#include <hgrid_proximity/UnknownReason.h>
 #include <tf2/exceptions.h>
 
 #include <algorithm>
@@ -149,7 +151,7 @@ bool QueryServices::answer(const Checked<Request>& checked, Response& response, 
   ledger_.count("query.asked");
   try {
     if (!tick) {
-      response.world.worst_state = msg::WorldState::UNPLACED;
+      response.world.worst_state = msg::BodyState::UNPLACED;
       throw Refusal(Code::not_ready, "there is no world yet: the first tick was not made");
     }
     const double age_since =
@@ -190,14 +192,14 @@ bool QueryServices::answer(const Checked<Request>& checked, Response& response, 
   } catch (const Refusal& refusal) {
     result = msg::Answer();
     result.code = toMsg(refusal.code(), refusal.what());
-    result.unknown_because = msg::Answer::REFUSED;
+    result.unknown_because = msg::UnknownReason::REFUSED;
     result.summary = std::string("refused, so UNKNOWN: ") + refusal.what();
     ledger_.refuse("query.refused", refusal);
   } catch (...) {  // a fault of the node's own: the caller hears of it, the node goes on
     const Refusal fault = ledger_.fault("query.failed");
     result = msg::Answer();
     result.code = toMsg(fault.code(), fault.what());
-    result.unknown_because = msg::Answer::REFUSED;
+    result.unknown_because = msg::UnknownReason::REFUSED;
   }
   return true;
 }

@@ -2,8 +2,10 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include <hgrid_proximity/Distances.h>
 #include <hgrid_proximity/ExplainPair.h>
+#include <hgrid_proximity/MeasureStatus.h>
 #include <hgrid_proximity/QueryBox.h>
 #include <hgrid_proximity/QueryNearest.h>
+#include <hgrid_proximity/Verdict.h>
 #include <ros/service.h>
 #include <ros/topic.h>
 
@@ -65,7 +67,7 @@ TEST_F(DistancesNode, SayHowFarShapesAreApart) {
   EXPECT_EQ(message->header.frame_id, "world");
   ASSERT_EQ(message->names, std::vector<std::string>({"obstacle/ball", "obstacle/table"}));
   ASSERT_EQ(message->status.size(), 1u);
-  EXPECT_EQ(message->status[0], Distances::MEASURED);
+  EXPECT_EQ(message->status[0], msg::MeasureStatus::MEASURED);
   EXPECT_NEAR(message->distance[0], 0.1, 1e-9);
   EXPECT_NEAR(message->gap[0], 0.1, 1e-6);
   EXPECT_NEAR(message->point_on_first[0].z, 0.1, 1e-9);
@@ -87,7 +89,7 @@ TEST_F(DistancesNode, AreEmptyWhereNothingIsNearAndSayContactWhereThereIs) {
                      [](const msg::Pairs& pairs) { return pairs.total == 2 && pairs.gap[0] == 0.0; });
   const auto message = next();
   ASSERT_EQ(message->status.size(), 1u);
-  EXPECT_EQ(message->status[0], Distances::CONTACT);
+  EXPECT_EQ(message->status[0], msg::MeasureStatus::CONTACT);
   EXPECT_EQ(message->distance[0], 0.0);
   EXPECT_NEAR(message->depth[0], 0.05, 1e-9);
   EXPECT_EQ(message->time_to_contact[0], 0.0);
@@ -99,13 +101,13 @@ TEST_F(DistancesNode, ExactQueriesMeetShapesNotTheirBoxes) {
   sphere.center.y = 0.6;
   sphere.radius = 0.1;
   sphere.exclude = {"obstacle/post"};
-  EXPECT_EQ(node_.ask(sphere).answer.verdict, Answer::HIT);
+  EXPECT_EQ(node_.ask(sphere).answer.verdict, msg::Verdict::HIT);
   sphere.exact = true;
-  EXPECT_EQ(node_.ask(sphere).answer.verdict, Answer::CLEAR);
+  EXPECT_EQ(node_.ask(sphere).answer.verdict, msg::Verdict::CLEAR);
   sphere.radius = 0.4;
   const Answer answer = node_.ask(sphere).answer;
   ASSERT_EQ(answer.hits.size(), 1u);
-  EXPECT_EQ(answer.hits[0].status, Distances::MEASURED);
+  EXPECT_EQ(answer.hits[0].status, msg::MeasureStatus::MEASURED);
   EXPECT_NEAR(answer.hits[0].center_distance, 0.6 * std::sqrt(2.0) - 0.5, 1e-9);
   EXPECT_NEAR(answer.hits[0].normal.x, std::sqrt(0.5), 1e-6);
   msg::QuerySegment::Request segment;
@@ -146,7 +148,7 @@ TEST_F(DistancesNode, BoxesAndNearestAnswer) {
   nearest.body.clear();
   nearest.point.x = 100.0;
   nearest.max_distance = 1.0;
-  EXPECT_EQ(call<msg::QueryNearest>("query_nearest", nearest).answer.verdict, Answer::CLEAR);
+  EXPECT_EQ(call<msg::QueryNearest>("query_nearest", nearest).answer.verdict, msg::Verdict::CLEAR);
 }
 
 TEST_F(DistancesNode, ExplainPairMeasures) {
@@ -156,7 +158,7 @@ TEST_F(DistancesNode, ExplainPairMeasures) {
   const auto answer = call<msg::ExplainPair>("explain_pair", request);
   EXPECT_TRUE(answer.success);
   EXPECT_TRUE(answer.reported);
-  EXPECT_EQ(answer.narrow_status, Distances::MEASURED);
+  EXPECT_EQ(answer.narrow_status, msg::MeasureStatus::MEASURED);
   EXPECT_NEAR(answer.distance, 0.1, 1e-9);
 }
 

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <hgrid_proximity/BodyState.h>
+#include <hgrid_proximity/Mobility.h>
+#include <hgrid_proximity/Verdict.h>
+
 #include "test/node/support/claims.h"
 #include "test/node/support/descriptions.h"
 #include "test/node/support/transform_source.h"
@@ -62,7 +66,7 @@ TEST(Pairs, AreTruncatedToTheNearestAndTheWorldIsThenNotComplete) {
                                          "(~max_pairs)"}));
   EXPECT_EQ(pairs->world.reasons_total, 1u);
   const auto response = node.sphere(5, 0, 0, 0.1);
-  EXPECT_EQ(response.answer.verdict, msg::Answer::CLEAR) << "queries do not depend on pairs";
+  EXPECT_EQ(response.answer.verdict, msg::Verdict::CLEAR) << "queries do not depend on pairs";
   EXPECT_FALSE(response.world.complete);
 }
 
@@ -111,7 +115,7 @@ TEST(Pairs, OfStaleBodiesWidenByTheSpeedThatIsSet) {
   transforms.stop("a");
   transforms.stop("b");
   const auto pairs = node.waitForPairs(
-      "a is stale", [](const msg::Pairs& p) { return p.world.worst_state == msg::WorldState::STALE && p.total == 3; });
+      "a is stale", [](const msg::Pairs& p) { return p.world.worst_state == msg::BodyState::STALE && p.total == 3; });
   EXPECT_EQ(namesOf(*pairs), Names({"obstacle/far|robot/a", "obstacle/near|robot/a", "robot/a|robot/b"}));
   EXPECT_DOUBLE_EQ(pairs->margin[0], 0.45);
   const auto bodies = node.heard().bodies.back();
@@ -133,7 +137,7 @@ TEST(Pairs, OfAStaleLinkWidenAlsoAgainstLinksOfItsRobotThatStandStill) {
   node.waitForTicks(3);
   transforms.stop("a");
   const auto pairs = node.waitForPairs(
-      "a is stale", [](const msg::Pairs& p) { return p.world.worst_state == msg::WorldState::STALE && p.total == 3; });
+      "a is stale", [](const msg::Pairs& p) { return p.world.worst_state == msg::BodyState::STALE && p.total == 3; });
   EXPECT_EQ(namesOf(*pairs), Names({"obstacle/far|robot/a", "obstacle/near|robot/a", "robot/a|robot/b"}));
   for (const double margin : pairs->margin) EXPECT_DOUBLE_EQ(margin, 0.45);
 }
@@ -191,7 +195,7 @@ TEST(Obstacles, FollowTheirFrame) {
   }
   const msg::Body crate = node.heard().bodies.back()->bodies.at(0);
   EXPECT_EQ(crate.name, "obstacle/crate");
-  EXPECT_EQ(crate.mobility, msg::Body::MOVING);
+  EXPECT_EQ(crate.mobility, msg::Mobility::MOVING);
   EXPECT_EQ(crate.frame, "cart");
 }
 

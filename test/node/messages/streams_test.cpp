@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <hgrid_proximity/Mobility.h>
+#include <hgrid_proximity/ShapeKind.h>
 #include <ros/serialization.h>
 
 #include "test/node/support/claims.h"
@@ -85,14 +87,14 @@ TEST(Streams, ALateSubscriberGetsTheStructureAtOnceAndTheNextTick) {
   const msg::Body &post = bodies->bodies[0], &base = bodies->bodies[1];
   EXPECT_EQ(post.name, "obstacle/post");
   EXPECT_EQ(post.frame, "base");
-  EXPECT_EQ(post.mobility, msg::Body::FIXED);
+  EXPECT_EQ(post.mobility, msg::Mobility::FIXED);
   EXPECT_EQ(post.robot, "");
   ASSERT_EQ(post.shapes.size(), 1u);
-  EXPECT_EQ(post.shapes[0].kind, msg::Shape::SPHERE);
+  EXPECT_EQ(post.shapes[0].kind, msg::ShapeKind::SPHERE);
   EXPECT_EQ(post.shapes[0].dimensions, std::vector<double>({0.1}));
   EXPECT_EQ(base.name, "robot/base");
   EXPECT_EQ(base.robot, "robot");
-  EXPECT_EQ(base.mobility, msg::Body::MOVING);
+  EXPECT_EQ(base.mobility, msg::Mobility::MOVING);
   EXPECT_EQ(base.shapes.at(0).pose.position.z, -5.0);
   EXPECT_EQ(base.shapes.at(0).scale.x, 1.0);
   EXPECT_EQ(base.margin, 0.1);

@@ -4,9 +4,16 @@
 #include <hgrid_proximity/AllowedPair.h>
 #include <hgrid_proximity/Answer.h>
 #include <hgrid_proximity/Body.h>
-#include <hgrid_proximity/Code.h>
+#include <hgrid_proximity/BodyState.h>
+#include <hgrid_proximity/CodeNames.h>
+#include <hgrid_proximity/EventCause.h>
+#include <hgrid_proximity/EventKind.h>
 #include <hgrid_proximity/Events.h>
+#include <hgrid_proximity/Mobility.h>
+#include <hgrid_proximity/RuleOrigin.h>
 #include <hgrid_proximity/Shape.h>
+#include <hgrid_proximity/ShapeKind.h>
+#include <hgrid_proximity/Verdict.h>
 #include <hgrid_proximity/WorldState.h>
 
 #include "hgrid_proximity/refusal.h"
@@ -32,7 +39,7 @@ TEST(Constants, CodesAreThoseOfTheLibraryByNumberAndByName) {
     const char* name;
   };
 #define ROW(UPPER, lower) \
-  { msg::Code::UPPER, Code::lower, #UPPER }
+  { msg::CodeNames::UPPER, Code::lower, #UPPER }
   const Row rows[] = {ROW(OK, ok),
                       ROW(BAD_ID, bad_id),
                       ROW(DUP_ID, dup_id),
@@ -70,55 +77,55 @@ TEST(Constants, CodesAreThoseOfTheLibraryByNumberAndByName) {
 }
 
 TEST(Constants, StatesAreThoseOfTheLibraryByNumberAndByName) {
-  EXPECT_EQ(msg::WorldState::FRESH, number(Freshness::fresh));
-  EXPECT_EQ(msg::WorldState::LATE, number(Freshness::late));
-  EXPECT_EQ(msg::WorldState::STALE, number(Freshness::stale));
-  EXPECT_EQ(msg::WorldState::LOST, number(Freshness::lost));
-  EXPECT_EQ(msg::WorldState::FROZEN, number(Freshness::frozen));
-  EXPECT_EQ(msg::WorldState::INVALID, number(Freshness::invalid));
-  EXPECT_EQ(msg::WorldState::UNPLACED, number(Freshness::unplaced));
+  EXPECT_EQ(msg::BodyState::FRESH, number(Freshness::fresh));
+  EXPECT_EQ(msg::BodyState::LATE, number(Freshness::late));
+  EXPECT_EQ(msg::BodyState::STALE, number(Freshness::stale));
+  EXPECT_EQ(msg::BodyState::LOST, number(Freshness::lost));
+  EXPECT_EQ(msg::BodyState::FROZEN, number(Freshness::frozen));
+  EXPECT_EQ(msg::BodyState::INVALID, number(Freshness::invalid));
+  EXPECT_EQ(msg::BodyState::UNPLACED, number(Freshness::unplaced));
   const char* const names[] = {"FRESH", "LATE", "STALE", "LOST", "FROZEN", "INVALID", "UNPLACED"};
   for (int i = 0; i < 7; ++i) EXPECT_STREQ(name(static_cast<Freshness>(i)), names[i]);
 }
 
 TEST(Constants, ShapesAreThoseOfTheLibrary) {
-  EXPECT_EQ(msg::Shape::SPHERE, number(ShapeKind::sphere));
-  EXPECT_EQ(msg::Shape::BOX, number(ShapeKind::box));
-  EXPECT_EQ(msg::Shape::CYLINDER, number(ShapeKind::cylinder));
-  EXPECT_EQ(msg::Shape::CONE, number(ShapeKind::cone));
-  EXPECT_EQ(msg::Shape::CAPSULE, number(ShapeKind::capsule));
-  EXPECT_EQ(msg::Shape::HULL, number(ShapeKind::hull));
-  EXPECT_EQ(msg::Shape::MESH, number(ShapeKind::mesh));
+  EXPECT_EQ(msg::ShapeKind::SPHERE, number(ShapeKind::sphere));
+  EXPECT_EQ(msg::ShapeKind::BOX, number(ShapeKind::box));
+  EXPECT_EQ(msg::ShapeKind::CYLINDER, number(ShapeKind::cylinder));
+  EXPECT_EQ(msg::ShapeKind::CONE, number(ShapeKind::cone));
+  EXPECT_EQ(msg::ShapeKind::CAPSULE, number(ShapeKind::capsule));
+  EXPECT_EQ(msg::ShapeKind::HULL, number(ShapeKind::hull));
+  EXPECT_EQ(msg::ShapeKind::MESH, number(ShapeKind::mesh));
 }
 
 TEST(Constants, VerdictsAndMobilitiesAreThoseOfTheLibrary) {
-  EXPECT_EQ(msg::Answer::UNKNOWN, number(Verdict::unknown));
-  EXPECT_EQ(msg::Answer::CLEAR, number(Verdict::clear));
-  EXPECT_EQ(msg::Answer::HIT, number(Verdict::hit));
-  EXPECT_EQ(msg::Body::FIXED, number(Mobility::fixed));
-  EXPECT_EQ(msg::Body::MOVING, number(Mobility::moving));
+  EXPECT_EQ(msg::Verdict::UNKNOWN, number(Verdict::unknown));
+  EXPECT_EQ(msg::Verdict::CLEAR, number(Verdict::clear));
+  EXPECT_EQ(msg::Verdict::HIT, number(Verdict::hit));
+  EXPECT_EQ(msg::Mobility::FIXED, number(Mobility::fixed));
+  EXPECT_EQ(msg::Mobility::MOVING, number(Mobility::moving));
 }
 
 TEST(Constants, KindsAndCausesOfEventsAreThoseOfTheLibrary) {
-  EXPECT_EQ(msg::Events::BEGIN, number(EventKind::begin));
-  EXPECT_EQ(msg::Events::END, number(EventKind::end));
-  EXPECT_EQ(msg::Events::MOVED, number(EventCause::moved));
-  EXPECT_EQ(msg::Events::BODIES, number(EventCause::bodies));
-  EXPECT_EQ(msg::Events::FILTER, number(EventCause::filter));
-  EXPECT_EQ(msg::Events::STALENESS, number(EventCause::staleness));
-  EXPECT_EQ(msg::Events::EPOCH, number(EventCause::epoch));
+  EXPECT_EQ(msg::EventKind::BEGIN, number(EventKind::begin));
+  EXPECT_EQ(msg::EventKind::END, number(EventKind::end));
+  EXPECT_EQ(msg::EventCause::MOVED, number(EventCause::moved));
+  EXPECT_EQ(msg::EventCause::BODIES, number(EventCause::bodies));
+  EXPECT_EQ(msg::EventCause::FILTER, number(EventCause::filter));
+  EXPECT_EQ(msg::EventCause::STALENESS, number(EventCause::staleness));
+  EXPECT_EQ(msg::EventCause::EPOCH, number(EventCause::epoch));
 }
 
 TEST(Constants, OriginsOfAllowedPairsAreThoseOfTheLibrary) {
-  EXPECT_EQ(msg::AllowedPair::ORIGIN_NONE, number(Origin::none));
-  EXPECT_EQ(msg::AllowedPair::ORIGIN_RIGID, number(Origin::rigid));
-  EXPECT_EQ(msg::AllowedPair::ORIGIN_ADJACENT, number(Origin::adjacent));
-  EXPECT_EQ(msg::AllowedPair::ORIGIN_SRDF, number(Origin::srdf));
-  EXPECT_EQ(msg::AllowedPair::ORIGIN_PARAMETER, number(Origin::parameter));
-  EXPECT_EQ(msg::AllowedPair::ORIGIN_SERVICE, number(Origin::service));
-  EXPECT_EQ(msg::AllowedPair::ORIGIN_KIND, number(Origin::kind));
-  EXPECT_EQ(msg::AllowedPair::ORIGIN_ATTACHED, number(Origin::attached));
-  EXPECT_EQ(msg::AllowedPair::ORIGIN_SELF, number(Origin::self));
+  EXPECT_EQ(msg::RuleOrigin::NONE, number(Origin::none));
+  EXPECT_EQ(msg::RuleOrigin::RIGID, number(Origin::rigid));
+  EXPECT_EQ(msg::RuleOrigin::ADJACENT, number(Origin::adjacent));
+  EXPECT_EQ(msg::RuleOrigin::SRDF, number(Origin::srdf));
+  EXPECT_EQ(msg::RuleOrigin::PARAMETER, number(Origin::parameter));
+  EXPECT_EQ(msg::RuleOrigin::SERVICE, number(Origin::service));
+  EXPECT_EQ(msg::RuleOrigin::KIND, number(Origin::kind));
+  EXPECT_EQ(msg::RuleOrigin::ATTACHED, number(Origin::attached));
+  EXPECT_EQ(msg::RuleOrigin::SELF, number(Origin::self));
 }
 
 }  // namespace

@@ -2,7 +2,10 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
 // A fault of the node's own: whoever asked hears INTERNAL, nothing is changed, and the node goes on.
+#include <hgrid_proximity/CodeNames.h>
 #include <hgrid_proximity/Distances.h>
+#include <hgrid_proximity/UnknownReason.h>
+#include <hgrid_proximity/Verdict.h>
 #include <ros/param.h>
 #include <ros/topic.h>
 
@@ -65,29 +68,29 @@ class Faults : public ::testing::Test {
 };
 
 TEST_F(Faults, InAQueryAreSaidToWhoAskedAndNobodyElse) {
-  ASSERT_EQ(exactSphere().answer.verdict, msg::Answer::HIT);
+  ASSERT_EQ(exactSphere().answer.verdict, msg::Verdict::HIT);
   breakDown("measure");
   const auto answer = exactSphere().answer;
   EXPECT_FALSE(answer.success);
-  EXPECT_EQ(answer.code.value, msg::Code::INTERNAL);
+  EXPECT_EQ(answer.code.value, msg::CodeNames::INTERNAL);
   EXPECT_TRUE(says(answer.code.text, "a fault in measure"));
-  EXPECT_EQ(answer.verdict, msg::Answer::UNKNOWN);
-  EXPECT_EQ(answer.unknown_because, msg::Answer::REFUSED);
+  EXPECT_EQ(answer.verdict, msg::Verdict::UNKNOWN);
+  EXPECT_EQ(answer.unknown_because, msg::UnknownReason::REFUSED);
   EXPECT_TRUE(answer.hits.empty());
   EXPECT_GE(counted("query.failed.INTERNAL"), 1u);
-  EXPECT_EQ(node_.sphere(0, 0, 0, 0.05).answer.verdict, msg::Answer::HIT) << "by boxes all is well";
+  EXPECT_EQ(node_.sphere(0, 0, 0, 0.05).answer.verdict, msg::Verdict::HIT) << "by boxes all is well";
   breakDown("");
-  EXPECT_EQ(exactSphere().answer.verdict, msg::Answer::HIT);
+  EXPECT_EQ(exactSphere().answer.verdict, msg::Verdict::HIT);
 }
 
 TEST_F(Faults, InAnExplanationAreSaidToWhoAsked) {
   breakDown("measure");
   const auto response = node_.explain("robot/a", "robot/b");
   EXPECT_FALSE(response.success);
-  EXPECT_EQ(response.code.value, msg::Code::INTERNAL);
+  EXPECT_EQ(response.code.value, msg::CodeNames::INTERNAL);
   breakDown("contacts");
   EXPECT_TRUE(node_.explain("robot/a", "robot/b").success) << "no contacts were asked for";
-  EXPECT_EQ(node_.explain("robot/a", "robot/b", 5).code.value, msg::Code::INTERNAL);
+  EXPECT_EQ(node_.explain("robot/a", "robot/b", 5).code.value, msg::CodeNames::INTERNAL);
   breakDown("");
   EXPECT_TRUE(node_.explain("robot/a", "robot/b", 5).success);
 }
@@ -133,19 +136,19 @@ TEST_F(Faults, OfEveryKindInAQueryAreSaidToWhoAsked) {
     breakDown("measure", kind);
     const auto answer = exactSphere().answer;
     EXPECT_FALSE(answer.success) << kind;
-    EXPECT_EQ(answer.verdict, msg::Answer::UNKNOWN) << kind;
+    EXPECT_EQ(answer.verdict, msg::Verdict::UNKNOWN) << kind;
     EXPECT_FALSE(node_.explain("robot/a", "robot/b").success) << kind;
   }
   breakDown("");
-  EXPECT_EQ(exactSphere().answer.verdict, msg::Answer::HIT);
+  EXPECT_EQ(exactSphere().answer.verdict, msg::Verdict::HIT);
 }
 
 TEST_F(Faults, OfEveryKindInAReloadLeaveTheOldModel) {
   node_.setBeside("robot_description", description({"a"}));
   breakDown("solidOf", "int");
-  EXPECT_EQ(node_.reload("robot").code.value, msg::Code::INTERNAL);
+  EXPECT_EQ(node_.reload("robot").code.value, msg::CodeNames::INTERNAL);
   breakDown("solidOf", "memory");
-  EXPECT_EQ(node_.reload("robot").code.value, msg::Code::LIMIT);
+  EXPECT_EQ(node_.reload("robot").code.value, msg::CodeNames::LIMIT);
   breakDown("");
   EXPECT_TRUE(node_.reload("robot").success);
 }
@@ -170,7 +173,7 @@ TEST_F(Faults, InAReloadLeaveTheOldModel) {
   breakDown("solidOf");
   const auto refused = node_.reload("robot");
   EXPECT_FALSE(refused.success);
-  EXPECT_EQ(refused.code.value, msg::Code::INTERNAL);
+  EXPECT_EQ(refused.code.value, msg::CodeNames::INTERNAL);
   EXPECT_TRUE(says(refused.code.text, "a fault in solidOf"));
   node_.waitForTicks(2);
   EXPECT_EQ(node_.heard().status.back()->body_count, 3u);

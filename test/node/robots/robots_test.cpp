@@ -7,9 +7,11 @@
 
 #include <gtest/gtest.h>
 #include <hgrid_proximity/Bodies.h>
+#include <hgrid_proximity/BodyState.h>
 #include <hgrid_proximity/QuerySegment.h>
 #include <hgrid_proximity/QuerySphere.h>
 #include <hgrid_proximity/Status.h>
+#include <hgrid_proximity/Verdict.h>
 #include <ros/ros.h>
 
 #include <cstdio>
@@ -35,7 +37,7 @@ class Robots : public RobotsTest {
     const ros::Time from = cell_->puppeteer->holdAnother() + ros::Duration(0.2);
     near_ = cell_->pairs->waitFor(
         [&](const hgrid_proximity::Pairs& pairs) {
-          return pairs.header.stamp >= from && pairs.world.worst_state == WorldState::FRESH;
+          return pairs.header.stamp >= from && pairs.world.worst_state == msg::BodyState::FRESH;
         },
         kPatience);
     ASSERT_TRUE(near_) << "no tick had fresh poses of all links";
@@ -126,7 +128,7 @@ void Robots::compareAnswer(const hgrid_proximity::Answer& answer, double reach, 
   ASSERT_TRUE(answer.success) << answer.code.text;
   EXPECT_FALSE(answer.truncated);
   EXPECT_EQ(answer.total, answer.hits.size());
-  EXPECT_EQ(answer.verdict, answer.hits.empty() ? hgrid_proximity::Answer::CLEAR : hgrid_proximity::Answer::HIT);
+  EXPECT_EQ(answer.verdict, answer.hits.empty() ? hgrid_proximity::Verdict::CLEAR : hgrid_proximity::Verdict::HIT);
   std::map<std::string, const Hit*> told;
   for (std::size_t i = 0; i < answer.hits.size(); ++i) {
     const Hit& hit = answer.hits[i];
@@ -156,7 +158,7 @@ template <class Query>
 void Robots::ask(const std::string& service, Query& query) {
   for (int i = 0; i < 10; ++i) {
     const bool answered = ros::service::call(service, query);
-    if (answered && query.response.answer.verdict != hgrid_proximity::Answer::UNKNOWN) return;
+    if (answered && query.response.answer.verdict != hgrid_proximity::Verdict::UNKNOWN) return;
   }
 }
 

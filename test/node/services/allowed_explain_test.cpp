@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include <hgrid_proximity/AllowedPair.h>
+#include <hgrid_proximity/BodyState.h>
 #include <hgrid_proximity/Distances.h>
+#include <hgrid_proximity/MeasureStatus.h>
+#include <hgrid_proximity/RuleOrigin.h>
 
 #include "test/node/support/claims.h"
 #include "test/node/support/descriptions.h"
@@ -10,9 +13,6 @@
 namespace hgrid {
 namespace test {
 namespace {
-
-using msg::AllowedPair;
-using msg::WorldState;
 
 /// Balls that all touch, but for "far" and for "ghost", which nobody publishes; "c" hangs on a fixed joint below "b".
 class ExplainPair : public ::testing::Test {
@@ -43,7 +43,7 @@ class ExplainPair : public ::testing::Test {
     node_ = std::make_unique<NodeUnderTest>(setup);
     node_->waitForStatus("all but the ghost are placed", [](const msg::Status& status) {
       return status.body_count == 9 && status.bodies_total == 1 &&
-             stateOf(status, "robot/ghost") == WorldState::UNPLACED;
+             stateOf(status, "robot/ghost") == msg::BodyState::UNPLACED;
     });
   }
   static void TearDownTestSuite() {
@@ -56,9 +56,9 @@ class ExplainPair : public ::testing::Test {
     EXPECT_EQ(response.header.frame_id, "base");
     EXPECT_EQ(response.header.stamp, response.world.stamp);
     EXPECT_TRUE(std::isnan(response.margin_pair));
-    const bool measured = response.state_first != WorldState::UNPLACED &&
-                          response.state_second != WorldState::UNPLACED && first != second;
-    EXPECT_EQ(response.narrow_status != msg::Distances::NOT_MEASURED, measured);
+    const bool measured = response.state_first != msg::BodyState::UNPLACED &&
+                          response.state_second != msg::BodyState::UNPLACED && first != second;
+    EXPECT_EQ(response.narrow_status != msg::MeasureStatus::NOT_MEASURED, measured);
     EXPECT_EQ(std::isnan(response.distance), !measured);
     return response;
   }
@@ -78,12 +78,12 @@ std::unique_ptr<TransformSource> ExplainPair::transforms_;
 std::unique_ptr<NodeUnderTest> ExplainPair::node_;
 
 TEST_F(ExplainPair, NamesTheReasonOfWhatIsSwitchedOff) {
-  expectOff("robot/a", "robot/a", AllowedPair::ORIGIN_SELF, "they are the same body");
-  expectOff("obstacle/post", "obstacle/wall", AllowedPair::ORIGIN_KIND, "both are fixed in the world");
-  expectOff("robot/b", "robot/c", AllowedPair::ORIGIN_RIGID, "both links are of one rigid group");
-  expectOff("robot/base", "robot/a", AllowedPair::ORIGIN_ADJACENT, "joint 'base_a' connects their rigid groups");
-  expectOff("robot/b", "robot/a", AllowedPair::ORIGIN_SRDF, "the SRDF disables the pair (Never)");
-  expectOff("obstacle/wall", "robot/a", AllowedPair::ORIGIN_PARAMETER,
+  expectOff("robot/a", "robot/a", msg::RuleOrigin::SELF, "they are the same body");
+  expectOff("obstacle/post", "obstacle/wall", msg::RuleOrigin::KIND, "both are fixed in the world");
+  expectOff("robot/b", "robot/c", msg::RuleOrigin::RIGID, "both links are of one rigid group");
+  expectOff("robot/base", "robot/a", msg::RuleOrigin::ADJACENT, "joint 'base_a' connects their rigid groups");
+  expectOff("robot/b", "robot/a", msg::RuleOrigin::SRDF, "the SRDF disables the pair (Never)");
+  expectOff("obstacle/wall", "robot/a", msg::RuleOrigin::PARAMETER,
             "rule 'robot/a', 'obstacle/w*' of ~allowed_pairs allows them to touch (it leans there)");
 }
 
@@ -96,7 +96,7 @@ TEST_F(ExplainPair, NamesTheRuleOfAService) {
   request.rules[0].reason = "being loaded";
   request.rules[0].lifetime = ros::Duration(3600);
   ASSERT_TRUE(node_->setAllowed(request).success);
-  expectOff("robot/b", "obstacle/post", AllowedPair::ORIGIN_SERVICE,
+  expectOff("robot/b", "obstacle/post", msg::RuleOrigin::SERVICE,
             "rule 'obstacle/*', 'robot/b' of ~set_allowed, which ends in 35");
   const auto response = explained("robot/b", "obstacle/post");
   EXPECT_TRUE(
@@ -112,7 +112,7 @@ TEST_F(ExplainPair, NamesTheRuleOfAService) {
 TEST_F(ExplainPair, WhatIsReportedHasTheNumbersOfThePair) {
   const auto response = explained("robot/d", "robot/a");
   EXPECT_TRUE(response.reported);
-  EXPECT_EQ(response.rule.origin, AllowedPair::ORIGIN_NONE);
+  EXPECT_EQ(response.rule.origin, msg::RuleOrigin::NONE);
   EXPECT_TRUE(says(response.explanation, "robot/d and robot/a are reported: their boxes touch or overlap"));
   EXPECT_EQ(response.gap, 0.0);
   EXPECT_EQ(response.margin, 0.3);
@@ -130,7 +130,7 @@ TEST_F(ExplainPair, WhatIsReportedHasTheNumbersOfThePair) {
 TEST_F(ExplainPair, WhatIsFarSaysHowFar) {
   const auto response = explained("robot/far", "robot/a");
   EXPECT_FALSE(response.reported);
-  EXPECT_EQ(response.rule.origin, AllowedPair::ORIGIN_NONE);
+  EXPECT_EQ(response.rule.origin, msg::RuleOrigin::NONE);
   EXPECT_NEAR(response.gap, 1.8, 1e-6);
   EXPECT_TRUE(says(response.explanation, "their boxes are 1.8 m apart, more than the margin of 0.1 m"));
 }
@@ -140,7 +140,7 @@ TEST_F(ExplainPair, WhatWasNeverPlacedSaysSo) {
   EXPECT_FALSE(response.reported);
   EXPECT_TRUE(std::isnan(response.gap));
   EXPECT_TRUE(std::isnan(response.age_second));
-  EXPECT_EQ(response.state_second, WorldState::UNPLACED);
+  EXPECT_EQ(response.state_second, msg::BodyState::UNPLACED);
   EXPECT_TRUE(says(response.explanation, "robot/ghost is UNPLACED: it never had a pose (frame 'ghost')"));
 }
 
@@ -148,12 +148,12 @@ TEST_F(ExplainPair, WhatIsStaleSaysHowOldAndWhatThatDoes) {
   transforms_->stop("d");
   node_->waitForStatus("d is stale and at the cap", [](const msg::Status& status) {
     const auto* d = entryOf(status, "robot/d");
-    return d != nullptr && d->state == WorldState::STALE && d->age > 0.6;
+    return d != nullptr && d->state == msg::BodyState::STALE && d->age > 0.6;
   });
   const auto response = explained("robot/d", "obstacle/post");
   EXPECT_TRUE(response.reported);
-  EXPECT_EQ(response.state_first, WorldState::STALE);
-  EXPECT_EQ(response.state_second, WorldState::FRESH);
+  EXPECT_EQ(response.state_first, msg::BodyState::STALE);
+  EXPECT_EQ(response.state_second, msg::BodyState::FRESH);
   EXPECT_GT(response.age_first, 0.6);
   EXPECT_DOUBLE_EQ(response.growth, 0.05);
   EXPECT_DOUBLE_EQ(response.margin, 0.35);
@@ -166,7 +166,7 @@ TEST_F(ExplainPair, WhatIsStaleSaysHowOldAndWhatThatDoes) {
 TEST_F(ExplainPair, ListsPlacesOfContactOnRequest) {
   EXPECT_TRUE(node_->explain("robot/d", "obstacle/post").contact_point.empty()) << "none were asked for";
   const auto response = node_->explain("robot/d", "obstacle/post", 3);
-  EXPECT_EQ(response.narrow_status, msg::Distances::CONTACT);
+  EXPECT_EQ(response.narrow_status, msg::MeasureStatus::CONTACT);
   ASSERT_EQ(response.contact_point.size(), 1u) << "balls touch in one place";
   EXPECT_NEAR(response.contact_point[0].y, 0.05, 1e-6);
   EXPECT_NEAR(response.contact_normal.at(0).y, 1.0, 1e-6) << "from the first to the second";

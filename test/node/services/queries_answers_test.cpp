@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <hgrid_proximity/Verdict.h>
+
 #include "test/node/support/claims.h"
 #include "test/node/support/descriptions.h"
 #include "test/node/support/transform_source.h"
@@ -43,7 +45,7 @@ TEST_F(QueryAnswers, ABallMeetsBodiesByDistanceThenNearnessOfItsCentre) {
   const Answer& answer = response.answer;
   EXPECT_TRUE(answer.success);
   EXPECT_EQ(answer.code.name, "OK");
-  EXPECT_EQ(answer.verdict, Answer::HIT);
+  EXPECT_EQ(answer.verdict, msg::Verdict::HIT);
   EXPECT_EQ(namesOf(answer), std::vector<std::string>({"obstacle/post_3", "obstacle/post_4"}));
   EXPECT_EQ(answer.total, 2u);
   EXPECT_FALSE(answer.truncated);
@@ -70,17 +72,17 @@ TEST_F(QueryAnswers, ASegmentMeetsBodiesInOrderAlongIt) {
             std::vector<std::string>({"obstacle/post_5", "obstacle/post_4", "obstacle/post_3", "obstacle/post_2"}));
   EXPECT_NEAR(back.hits[0].along, 3.9, 1e-6);
   const auto beside = node_->segment(xyz(0, 0.3, 0), xyz(9, 0.3, 0), 0.0).answer;
-  EXPECT_EQ(beside.verdict, Answer::CLEAR);
+  EXPECT_EQ(beside.verdict, msg::Verdict::CLEAR);
   EXPECT_EQ(beside.summary, "CLEAR: nothing is there");
   EXPECT_EQ(node_->segment(xyz(0, 0.3, 0), xyz(9, 0.3, 0), 0.25).answer.total, 4u);
 }
 
 TEST_F(QueryAnswers, ARadiusOfZeroAsksForAPointAndEqualEndsForABall) {
   EXPECT_EQ(namesOf(node_->sphere(2.05, 0, 0, 0.0).answer), std::vector<std::string>({"obstacle/post_2"}));
-  EXPECT_EQ(node_->sphere(2.2, 0, 0, 0.0).answer.verdict, Answer::CLEAR);
+  EXPECT_EQ(node_->sphere(2.2, 0, 0, 0.0).answer.verdict, msg::Verdict::CLEAR);
   EXPECT_EQ(namesOf(node_->segment(xyz(2.2, 0, 0), xyz(2.2, 0, 0), 0.15).answer),
             std::vector<std::string>({"obstacle/post_2"}));
-  EXPECT_EQ(node_->segment(xyz(2.2, 0, 0), xyz(2.2, 0, 0), 0.05).answer.verdict, Answer::CLEAR);
+  EXPECT_EQ(node_->segment(xyz(2.2, 0, 0), xyz(2.2, 0, 0), 0.05).answer.verdict, msg::Verdict::CLEAR);
 }
 
 TEST_F(QueryAnswers, ASegmentMayBeAMillionKilometresLong) {
@@ -110,7 +112,7 @@ TEST_F(QueryAnswers, PatternsChooseAndExcludeBeatsInclude) {
   EXPECT_EQ(namesOf(node_->ask(request).answer), std::vector<std::string>({"obstacle/post_2", "obstacle/post_4"}));
   request.include = {"obstacle/post_4"};
   request.center.x = 1e3;
-  EXPECT_EQ(node_->ask(request).answer.verdict, Answer::CLEAR) << "of what was asked for, nothing is there";
+  EXPECT_EQ(node_->ask(request).answer.verdict, msg::Verdict::CLEAR) << "of what was asked for, nothing is there";
 }
 
 TEST_F(QueryAnswers, AQuestionInATurnedFrameIsAnsweredInIt) {

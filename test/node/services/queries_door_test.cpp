@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <hgrid_proximity/BodyState.h>
+#include <hgrid_proximity/Verdict.h>
+
 #include <limits>
 
 #include "test/node/support/claims.h"
@@ -40,7 +43,7 @@ class QueryDoor : public ::testing::Test {
     EXPECT_FALSE(answer.success);
     EXPECT_EQ(answer.code.name, code);
     EXPECT_TRUE(says(answer.code.text, words));
-    EXPECT_EQ(answer.verdict, Answer::UNKNOWN) << "never CLEAR";
+    EXPECT_EQ(answer.verdict, msg::Verdict::UNKNOWN) << "never CLEAR";
     EXPECT_TRUE(answer.hits.empty());
     EXPECT_EQ(answer.total, 0u);
     EXPECT_GT(response.world.sequence, 0u) << "what the world is like is said all the same";
@@ -85,7 +88,7 @@ TEST_F(QueryDoor, PatternsThatNobodyMatchesDoNotReadAsClear) {
   expectRefused(ask({""}, {}), "UNKNOWN_ID", "no body matches ''");
   expectRefused(ask({}, {"*"}), "UNKNOWN_ID", "exclude leaves no body to ask for");
   const auto clear = ask({"obstacle/*"}, {"nobody"}).answer;
-  EXPECT_EQ(clear.verdict, Answer::CLEAR);
+  EXPECT_EQ(clear.verdict, msg::Verdict::CLEAR);
   EXPECT_EQ(clear.summary, "CLEAR: none of the 1 bodies asked for is there");
 }
 
@@ -140,13 +143,13 @@ TEST(QueryBeforeTheWorld, IsNotReadyAndNeverClear) {
     EXPECT_EQ(answer.code.name, "NOT_READY");
     EXPECT_TRUE(says(answer.code.text, "there is no world yet"));
     EXPECT_TRUE(says(answer.code.text, "robot_description"));
-    EXPECT_EQ(answer.verdict, Answer::UNKNOWN);
+    EXPECT_EQ(answer.verdict, msg::Verdict::UNKNOWN);
     EXPECT_TRUE(answer.hits.empty());
   }
   const auto response = node.sphere(0, 0, 0, 1);
   EXPECT_EQ(response.world.sequence, 0u);
   EXPECT_FALSE(response.world.complete);
-  EXPECT_EQ(response.world.worst_state, msg::WorldState::UNPLACED);
+  EXPECT_EQ(response.world.worst_state, msg::BodyState::UNPLACED);
 }
 
 }  // namespace

@@ -3,6 +3,9 @@
 //
 // Point clouds: their cells come, go with their lifetime, lie where the sensor was at the stamp, and are refused
 // without harm.
+#include <hgrid_proximity/BodyState.h>
+#include <hgrid_proximity/UnknownReason.h>
+#include <hgrid_proximity/Verdict.h>
 #include <ros/topic.h>
 #include <sensor_msgs/PointCloud2.h>
 
@@ -99,7 +102,7 @@ TEST_F(Clouds, MakePairsAndGoWithTheirLifetimeWhichLeavesTheWorldIncomplete) {
   node_->waitForStatus("nothing is seen any more",
                        [](const msg::Status& status) { return status.pair_count == 0 && !status.world.complete; });
   const Answer answer = askedAt(0.05, 0.05, 0.15);
-  EXPECT_EQ(answer.verdict, Answer::UNKNOWN) << "never CLEAR without the sensor";
+  EXPECT_EQ(answer.verdict, msg::Verdict::UNKNOWN) << "never CLEAR without the sensor";
   EXPECT_TRUE(says(answer.summary, "LOST cloud/front: what it saw is"));
   sendUntilComplete(point);
 }
@@ -111,13 +114,13 @@ TEST_F(Clouds, WithoutFinitePointsDoNotKeepTheCloudFresh) {
   for (const Points& blind : {Points{}, Points{{nan, nan, nan}, {nan, 0.0f, 0.0f}}}) {
     SCOPED_TRACE(std::to_string(blind.size()) + " points");
     sendUntilComplete(wall);
-    EXPECT_EQ(askedAt(0.05, 0.05, 3.05).verdict, Answer::HIT);
+    EXPECT_EQ(askedAt(0.05, 0.05, 3.05).verdict, msg::Verdict::HIT);
     sendUntil(blind, "the cloud is lost", [](const msg::Status& status) {
       return status.world.incomplete == Names({"cloud/front"}) && isWithoutCells(status);
     });
     const Answer answer = askedAt(0.05, 0.05, 3.05);
-    EXPECT_EQ(answer.verdict, Answer::UNKNOWN) << "the wall is still there";
-    EXPECT_EQ(answer.unknown_because, Answer::INCOMPLETE);
+    EXPECT_EQ(answer.verdict, msg::Verdict::UNKNOWN) << "the wall is still there";
+    EXPECT_EQ(answer.unknown_because, msg::UnknownReason::INCOMPLETE);
     EXPECT_TRUE(says(answer.summary, "finite points; min_points is 1"));
   }
 }
@@ -128,7 +131,7 @@ TEST_F(Clouds, WithTooFewPointsAddTheirCellsButDoNotKeepTheCloudFresh) {
   sendUntilComplete(both);
   bool seen = false;
   sendUntil({{0.05f, 2.05f, 2.05f}}, "the cloud is lost", [&](const msg::Status& status) {
-    seen = seen || askedAt(0.05, 2.05, 3.05).verdict == Answer::HIT;
+    seen = seen || askedAt(0.05, 2.05, 3.05).verdict == msg::Verdict::HIT;
     return status.world.incomplete == Names({"cloud/front"});
   });
   EXPECT_TRUE(seen) << "what a sensor sees is there, however little it sees";
@@ -137,7 +140,7 @@ TEST_F(Clouds, WithTooFewPointsAddTheirCellsButDoNotKeepTheCloudFresh) {
 TEST_F(Clouds, WithoutPointsAreClearWhereThatIsConfigured) {
   start(0.5, {{"empty", "clear"}});
   sendUntilComplete({});
-  EXPECT_EQ(askedAt(0.05, 0.05, 3.05).verdict, Answer::CLEAR);
+  EXPECT_EQ(askedAt(0.05, 0.05, 3.05).verdict, msg::Verdict::CLEAR);
 }
 
 TEST_F(Clouds, AnOlderStampNeverMakesTheCloudOlder) {
@@ -148,9 +151,9 @@ TEST_F(Clouds, AnOlderStampNeverMakesTheCloudOlder) {
   const auto late = node_->waitForStatus("the late message is counted", [](const msg::Status& status) {
     return counter(status, "cloud/front.out_of_order") > 0;
   });
-  EXPECT_LT(stateOf(*late, "cloud/front"), msg::WorldState::LOST);
+  EXPECT_LT(stateOf(*late, "cloud/front"), msg::BodyState::LOST);
   EXPECT_TRUE(late->world.complete);
-  EXPECT_EQ(askedAt(0.05, 0.05, 3.05).verdict, Answer::HIT);
+  EXPECT_EQ(askedAt(0.05, 0.05, 3.05).verdict, msg::Verdict::HIT);
 }
 
 TEST_F(Clouds, ThatAreLostLeaveQuestionsAboutTheRobotClear) {
@@ -161,14 +164,14 @@ TEST_F(Clouds, ThatAreLostLeaveQuestionsAboutTheRobotClear) {
   msg::QuerySphere::Request request;
   request.center.z = 3.0;
   request.radius = 0.1;
-  EXPECT_EQ(node_->ask(request).answer.verdict, Answer::UNKNOWN);
+  EXPECT_EQ(node_->ask(request).answer.verdict, msg::Verdict::UNKNOWN);
   request.include = {"robot/*"};
   const Answer robot = node_->ask(request).answer;
-  EXPECT_EQ(robot.verdict, Answer::CLEAR);
+  EXPECT_EQ(robot.verdict, msg::Verdict::CLEAR);
   EXPECT_TRUE(says(robot.summary, "CLEAR"));
   request.include = {};
   request.center.z = 3000.0;
-  EXPECT_EQ(node_->ask(request).answer.verdict, Answer::CLEAR) << "beyond the range of the sensor";
+  EXPECT_EQ(node_->ask(request).answer.verdict, msg::Verdict::CLEAR) << "beyond the range of the sensor";
 }
 
 TEST_F(Clouds, LieWhereTheSensorWasAtTheirStamp) {
@@ -177,18 +180,18 @@ TEST_F(Clouds, LieWhereTheSensorWasAtTheirStamp) {
   transforms_.send({stamped("base", "arm", at(3.0), before), stamped("base", "arm", at(7.0), later)});
   node_->waitForTransforms(2);
   send(cloudOf("arm", before, {{0.05f, 0.05f, 0.05f}}));
-  node_->waitUntil("a hit", [&](const Heard&) { return askedAt(3.05, 0.05, 0.05).verdict == Answer::HIT; });
+  node_->waitUntil("a hit", [&](const Heard&) { return askedAt(3.05, 0.05, 0.05).verdict == msg::Verdict::HIT; });
   EXPECT_EQ(askedAt(7.05, 0.05, 0.05).hits.size(), 0u);
   send(cloudOf("arm", later, {{0.05f, 0.05f, 0.05f}}));
-  node_->waitUntil("a hit", [&](const Heard&) { return askedAt(7.05, 0.05, 0.05).verdict == Answer::HIT; });
-  EXPECT_EQ(askedAt(3.05, 0.05, 0.05).verdict, Answer::HIT) << "seen less than its lifetime ago";
+  node_->waitUntil("a hit", [&](const Heard&) { return askedAt(7.05, 0.05, 0.05).verdict == msg::Verdict::HIT; });
+  EXPECT_EQ(askedAt(3.05, 0.05, 0.05).verdict, msg::Verdict::HIT) << "seen less than its lifetime ago";
 }
 
 TEST_F(Clouds, PointsThatAreNoneAreLeftOut) {
   start(20.0);
   const float nan = std::nanf(""), infinity = INFINITY;
   sendUntilComplete({{nan, nan, nan}, {0.05f, 0.05f, -0.95f}, {0.0f, infinity, 0.0f}, {-infinity, nan, 0.0f}});
-  EXPECT_EQ(askedAt(0.05, 0.05, 0.05).verdict, Answer::HIT);
+  EXPECT_EQ(askedAt(0.05, 0.05, 0.05).verdict, msg::Verdict::HIT);
   sendUntil({{nan, nan, nan}}, "all counted",
             [](const msg::Status& status) { return counter(status, "cloud/front.points_not_finite") >= 4; });
   EXPECT_EQ(counter(*node_->heard().status.back(), "cloud/front.refused.NONFINITE"), 0u);
@@ -248,8 +251,8 @@ TEST_F(Clouds, ThatLieLeaveTheCloudAsItWas) {
   cloud.fields.pop_back();
   refuse(serialized(cloud), "UNSUPPORTED");
   refuse(serialized(cloudOf("camera", transforms_.now(), Points(9000))), "LIMIT");
-  EXPECT_EQ(askedAt(0.05, 0.05, 0.05).verdict, Answer::HIT);
-  EXPECT_EQ(askedAt(1.05, 1.05, 2.05).verdict, Answer::CLEAR) << "nothing of what was refused is there";
+  EXPECT_EQ(askedAt(0.05, 0.05, 0.05).verdict, msg::Verdict::HIT);
+  EXPECT_EQ(askedAt(1.05, 1.05, 2.05).verdict, msg::Verdict::CLEAR) << "nothing of what was refused is there";
   EXPECT_LT(residentKilobytes(node_->process().pid()), before + 4000) << "kB";
 }
 
@@ -288,7 +291,7 @@ TEST_F(Clouds, AreStaleAsSoonAfterAnOutageAsBeforeIt) {
   node_->waitUntil("STALE after that message", [&](const Heard& heard) {
     const auto& status = *heard.status.back();
     if (heard.status.size() <= begin || counter(status, "cloud/front.accepted") <= accepted) return false;
-    return !status.bodies.empty() && status.bodies[0].state == msg::WorldState::STALE;
+    return !status.bodies.empty() && status.bodies[0].state == msg::BodyState::STALE;
   });
   EXPECT_LT(node_->heard().status.back()->bodies[0].age, 1.0) << "s";
 }
@@ -302,7 +305,7 @@ TEST_F(Clouds, DoNotHoldTheRobotItself) {
   }
   points.push_back({0.0f, 0.35f, -1.0f});  // not the robot's
   sendUntilComplete(points);
-  EXPECT_EQ(askedAt(0.05, 0.35, 0.05).verdict, Answer::HIT);
+  EXPECT_EQ(askedAt(0.05, 0.35, 0.05).verdict, msg::Verdict::HIT);
   EXPECT_EQ(namesOf(askedAt(0.1, 0.0, 0.0)), Names({"robot/a"}));
   EXPECT_GT(counter(*node_->heard().status.back(), "cloud/front.own_cells"), 3u);
 }

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "test/node/support/descriptions.h"
 
+#include <hgrid_proximity/Verdict.h>
+
 #include <algorithm>
 
 #include "test/node/support/claims.h"
@@ -29,7 +31,7 @@ void waitForDiagnostic(NodeUnderTest& node, const std::string& name, int level, 
 
 void expectOnlyThePostServes(NodeUnderTest& node) {
   EXPECT_EQ(namesOf(node.sphere(2, 0, 0, 0.05).answer), std::vector<std::string>({"obstacle/post"}));
-  EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Answer::UNKNOWN) << "the robot may be there";
+  EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Verdict::UNKNOWN) << "the robot may be there";
 }
 
 TEST(Description, ThatIsAbsentOrEmptyOrNoTextIsWaitedForAndObstaclesServe) {
@@ -59,7 +61,7 @@ TEST(Description, ThatIsAbsentOrEmptyOrNoTextIsWaitedForAndObstaclesServe) {
     transforms.stream("base", "b", at(9));
     node.waitForComplete();
     EXPECT_TRUE(node.heard().status.back()->not_ready.empty());
-    EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Answer::HIT);
+    EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Verdict::HIT);
     waitForDiagnostic(node, "robots", DiagnosticStatus::OK, "");
     EXPECT_LE(node.lines("NOT_READY robot 'robot'"), 4u) << "said when it changes, not at every try";
   }
@@ -104,7 +106,7 @@ TEST(Reload, TakesTheNewModelAndKeepsTheOldOneWhereThatFails) {
   EXPECT_EQ(answer.code.name, "PARSE");
   EXPECT_TRUE(says(answer.code.text, "robot 'robot': the URDF is not well-formed XML"));
   EXPECT_EQ(answer.world.bodies_revision, revision);
-  EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Answer::HIT) << "the old model serves";
+  EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Verdict::HIT) << "the old model serves";
   EXPECT_TRUE(node.heard().status.back()->world.complete);
   waitForDiagnostic(node, "robots", DiagnosticStatus::ERROR, "PARSE robot 'robot'");
 
@@ -153,7 +155,7 @@ TEST(Uncovered, ALinkWhoseShapeCannotBeReadIsNamedAndNothingIsClear) {
   EXPECT_EQ(status->without_collision, std::vector<std::string>({"robot/bare"})) << "listed; no reason to doubt";
   EXPECT_EQ(namesOf(node.sphere(0, 0, 0, 0.05).answer), std::vector<std::string>({"robot/base", "robot/torn"}))
       << "what was read serves, the rest of a torn link too";
-  EXPECT_EQ(node.sphere(9, 0, 0, 0.05).answer.verdict, msg::Answer::UNKNOWN);
+  EXPECT_EQ(node.sphere(9, 0, 0, 0.05).answer.verdict, msg::Verdict::UNKNOWN);
   waitForDiagnostic(node, "robots", DiagnosticStatus::ERROR, "UNCOVERED robot/meshless");
   const auto bodies = node.waitForBodies("structure", [](const msg::Bodies& b) { return b.bodies.size() == 4; });
   EXPECT_EQ(bodies->without_collision, std::vector<std::string>({"robot/bare"}));
@@ -172,7 +174,7 @@ TEST(Uncovered, AWaiverMakesTheWorldCompleteAndIsListed) {
   EXPECT_TRUE(status->uncovered.empty());
   EXPECT_EQ(status->waived.size(), 2u);
   EXPECT_TRUE(oneSays(status->waived, "robot/torn: far from everything (PARSE: <collision> 2 of link 'torn'"));
-  EXPECT_EQ(node.sphere(9, 0, 0, 0.05).answer.verdict, msg::Answer::CLEAR);
+  EXPECT_EQ(node.sphere(9, 0, 0, 0.05).answer.verdict, msg::Verdict::CLEAR);
   const auto bodies = node.waitForBodies("structure", [](const msg::Bodies& b) { return b.bodies.size() == 4; });
   for (const msg::Body& body : bodies->bodies) {
     EXPECT_EQ(body.waived, body.name == "robot/torn" || body.name == "robot/meshless") << body.name;
@@ -221,7 +223,7 @@ TEST(NoGeometry, AWaiverForEveryLinkMakesTheWorldCompleteAndIsListed) {
   EXPECT_EQ(status->waived, std::vector<std::string>({kNoGeometry + ": in the floor; only shown"}));
   EXPECT_TRUE(status->uncovered.empty());
   EXPECT_TRUE(status->model_warnings.empty()) << status->model_warnings.front();
-  EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Answer::CLEAR);
+  EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Verdict::CLEAR);
 }
 
 TEST(NoGeometry, AWaiverForSomeOfTheLinksIsNotEnough) {
@@ -231,7 +233,7 @@ TEST(NoGeometry, AWaiverForSomeOfTheLinksIsNotEnough) {
   const auto status = node.waitForStatus("the robot", [](const msg::Status& s) { return s.robots == 1; });
   EXPECT_TRUE(oneSays(status->world.reasons, kNoGeometry));
   EXPECT_TRUE(status->waived.empty());
-  EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Answer::UNKNOWN);
+  EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Verdict::UNKNOWN);
 }
 
 TEST(NoGeometry, AWaiverForALinkWithoutGeometryIsNotIdle) {
@@ -252,8 +254,8 @@ TEST(VisualGeometry, IsUsedWhereAPatternMatchesAndIsListed) {
   node.waitForComplete();
   const auto status = node.heard().status.back();
   EXPECT_EQ(namesOf(node.sphere(0, 0, 0, 0.05).answer), std::vector<std::string>({"robot/shell"}));
-  EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Answer::HIT);
-  EXPECT_EQ(node.sphere(0, 0, 1, 0.05).answer.verdict, msg::Answer::CLEAR);
+  EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Verdict::HIT);
+  EXPECT_EQ(node.sphere(0, 0, 1, 0.05).answer.verdict, msg::Verdict::CLEAR);
   EXPECT_EQ(status->uses_visual, std::vector<std::string>({"robot/shell"}));
   EXPECT_EQ(status->without_collision, std::vector<std::string>({"robot/base"}));
   EXPECT_EQ(status->model_warnings, std::vector<std::string>({"~use_visual: 'robot/none' matches no body"}));
@@ -273,7 +275,7 @@ TEST(VisualGeometry, ThatCannotBeReadIsUncovered) {
   NodeUnderTest node(setup);
   const auto status = node.waitForStatus("the robot", [](const msg::Status& s) { return s.robots == 1; });
   EXPECT_TRUE(oneSays(status->uncovered, "robot/base: RESOURCE_MISSING: <visual> 1 of link 'base'"));
-  EXPECT_EQ(node.sphere(9, 0, 0, 0.05).answer.verdict, msg::Answer::UNKNOWN);
+  EXPECT_EQ(node.sphere(9, 0, 0, 0.05).answer.verdict, msg::Verdict::UNKNOWN);
 }
 
 /// A torso and two arms of two joints, 0.3 m apart; each shape is on a fixed leaf link.

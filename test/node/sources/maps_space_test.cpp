@@ -3,6 +3,9 @@
 //
 // What becomes of space that maps do not know, and of what lies outside the crop.
 #include <gtest/gtest.h>
+#include <hgrid_proximity/UnknownReason.h>
+#include <hgrid_proximity/UnknownSpace.h>
+#include <hgrid_proximity/Verdict.h>
 
 #include "test/adapters/octomap_bytes.h"
 #include "test/adapters/octomap_oracle.h"
@@ -43,30 +46,30 @@ class MapSpace : public ::testing::Test {
 
 TEST_F(MapSpace, ThatIsUnknownIsFreeUnlessSaidOtherwise) {
   start(dict());
-  EXPECT_EQ(asked(10, 10, 10).verdict, Answer::CLEAR);
-  EXPECT_EQ(asked(10, 10, -10).verdict, Answer::CLEAR);
+  EXPECT_EQ(asked(10, 10, 10).verdict, msg::Verdict::CLEAR);
+  EXPECT_EQ(asked(10, 10, -10).verdict, msg::Verdict::CLEAR);
   EXPECT_EQ(namesOf(asked(-10, 10, 10)), Names({"map/octants"}));
-  EXPECT_EQ(node_->heard().status.back()->world.unknown_space, msg::WorldState::UNKNOWN_SPACE_IGNORE);
+  EXPECT_EQ(node_->heard().status.back()->world.unknown_space, msg::UnknownSpace::IGNORE);
 }
 
 TEST_F(MapSpace, ThatIsUnknownIsReported) {
   start(dict({{"unknown", "report"}}));
-  EXPECT_EQ(asked(10, 10, 10).verdict, Answer::CLEAR);
+  EXPECT_EQ(asked(10, 10, 10).verdict, msg::Verdict::CLEAR);
   for (const double z : {-10.0, 0.4, 5000.0}) {
     const Answer answer = asked(10, 10, z);
-    EXPECT_EQ(answer.verdict, Answer::UNKNOWN);
-    EXPECT_EQ(answer.unknown_because, Answer::UNMAPPED);
+    EXPECT_EQ(answer.verdict, msg::Verdict::UNKNOWN);
+    EXPECT_EQ(answer.unknown_because, msg::UnknownReason::UNMAPPED);
     EXPECT_TRUE(says(answer.summary, "space that no map knows to be free"));
   }
-  EXPECT_EQ(asked(-10, 10, 10).verdict, Answer::HIT);
-  EXPECT_EQ(node_->heard().status.back()->world.unknown_space, msg::WorldState::UNKNOWN_SPACE_REPORT);
+  EXPECT_EQ(asked(-10, 10, 10).verdict, msg::Verdict::HIT);
+  EXPECT_EQ(node_->heard().status.back()->world.unknown_space, msg::UnknownSpace::REPORT);
 }
 
 TEST_F(MapSpace, ThatIsUnknownIsOccupied) {
   start(dict({{"unknown", "occupied"}}));
-  EXPECT_EQ(asked(10, 10, 10).verdict, Answer::CLEAR);
+  EXPECT_EQ(asked(10, 10, 10).verdict, msg::Verdict::CLEAR);
   EXPECT_EQ(namesOf(asked(10, 10, -10)), Names({"map/octants"}));
-  EXPECT_EQ(node_->heard().status.back()->world.unknown_space, msg::WorldState::UNKNOWN_SPACE_OCCUPIED);
+  EXPECT_EQ(node_->heard().status.back()->world.unknown_space, msg::UnknownSpace::OCCUPIED);
   node_->waitForPairs("the ball in unknown space", [](const msg::Pairs& pairs) {
     return pairs.names == Names({"map/octants", "robot/a", "robot/base"});
   });
@@ -75,8 +78,8 @@ TEST_F(MapSpace, ThatIsUnknownIsOccupied) {
 TEST_F(MapSpace, OutsideTheCropIsNotRead) {
   folder_.write("octants.bt", btHeader(usualLines("4")) + btNode(".......n") + btNode("o......o"));
   start(dict({{"crop_min", list({1.0, 1.0, 1.0})}, {"crop_max", list({20.0, 20.0, 20.0})}, {"unknown", "report"}}));
-  EXPECT_EQ(asked(10, 10, 10).verdict, Answer::HIT);
-  EXPECT_EQ(asked(3000, 3000, 3000).unknown_because, Answer::UNMAPPED) << "the far cell is left out";
+  EXPECT_EQ(asked(10, 10, 10).verdict, msg::Verdict::HIT);
+  EXPECT_EQ(asked(3000, 3000, 3000).unknown_because, msg::UnknownReason::UNMAPPED) << "the far cell is left out";
 }
 
 TEST_F(MapSpace, TheRobotsOwnCellsAreLeftOutOnceItIsKnownWhereItIs) {

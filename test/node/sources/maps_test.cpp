@@ -2,9 +2,12 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
 // OctoMaps from files: at the start and on request, replaced without a gap, refused without harm.
+#include <hgrid_proximity/BodyState.h>
 #include <hgrid_proximity/ClearMap.h>
 #include <hgrid_proximity/Distances.h>
 #include <hgrid_proximity/LoadOctomap.h>
+#include <hgrid_proximity/ShapeKind.h>
+#include <hgrid_proximity/Verdict.h>
 #include <ros/service.h>
 #include <ros/topic.h>
 #include <sys/resource.h>
@@ -100,7 +103,7 @@ TEST_F(Maps, MakePairsAnswersAndDistances) {
     return now.bodies.front().name == "map/room" && now.bodies.front().shapes.size() == 1;
   });
   const msg::Shape& shape = bodies->bodies.front().shapes[0];
-  EXPECT_EQ(shape.kind, msg::Shape::CELLS);
+  EXPECT_EQ(shape.kind, msg::ShapeKind::CELLS);
   EXPECT_EQ(shape.dimensions, std::vector<double>({0.1, 0.1, 0.1, 0.1}));
   EXPECT_EQ(shape.vertex_count, 1u);
   EXPECT_NEAR(shape.pose.position.z, 0.05, 1e-12);
@@ -208,7 +211,7 @@ TEST_F(Maps, ThatAreMissingAtTheStartLeaveTheWorldIncompleteUntilTheyCome) {
     return !status.world.complete && !status.world.reasons.empty() &&
            status.world.reasons[0].find("RESOURCE_MISSING map 'room'") == 0;
   });
-  EXPECT_EQ(node_->sphere(3, 3, 3, 0.1).answer.verdict, Answer::UNKNOWN);
+  EXPECT_EQ(node_->sphere(3, 3, 3, 0.1).answer.verdict, msg::Verdict::UNKNOWN);
   folder_.write("late.bt", rowOf(1));
   node_->waitForComplete();
   EXPECT_EQ(metAt(0.05), Names({"map/room"}));
@@ -363,13 +366,13 @@ TEST_F(MapTopics, MayHaveProbabilitiesAndColours) {
   };
   send(messageOf("", octants(2.0f, ""), "OcTree", false));
   node_->waitForComplete();
-  EXPECT_EQ(node_->sphere(5, 5, 5, 0.1).answer.verdict, Answer::HIT);
+  EXPECT_EQ(node_->sphere(5, 5, 5, 0.1).answer.verdict, msg::Verdict::HIT);
   send(messageOf("", octants(-2.0f, ""), "OcTree", false));
   node_->waitUntil("it is free",
-                   [&](const Heard&) { return node_->sphere(5, 5, 5, 0.1).answer.verdict == Answer::CLEAR; });
+                   [&](const Heard&) { return node_->sphere(5, 5, 5, 0.1).answer.verdict == msg::Verdict::CLEAR; });
   send(messageOf("", octants(2.0f, colour), "ColorOcTree", false));
   node_->waitUntil("it is occupied",
-                   [&](const Heard&) { return node_->sphere(5, 5, 5, 0.1).answer.verdict == Answer::HIT; });
+                   [&](const Heard&) { return node_->sphere(5, 5, 5, 0.1).answer.verdict == msg::Verdict::HIT; });
 }
 
 TEST_F(MapTopics, StayWhereTheyAreWhenTheirFrameIsLostOrTheNextOneIsUnknown) {
@@ -388,11 +391,11 @@ TEST_F(MapTopics, StayWhereTheyAreWhenTheirFrameIsLostOrTheNextOneIsUnknown) {
       return !status.bodies.empty() && status.bodies[0].name == "map/room" && status.bodies[0].state == state;
     };
   };
-  node_->waitForStatus("it is STALE", stale(msg::WorldState::STALE));
+  node_->waitForStatus("it is STALE", stale(msg::BodyState::STALE));
   EXPECT_EQ(metAt(1.05), Names({"map/room"}));
-  node_->waitForStatus("it is LOST", stale(msg::WorldState::LOST));
+  node_->waitForStatus("it is LOST", stale(msg::BodyState::LOST));
   EXPECT_EQ(metAt(1.05), Names({"map/room"})) << "never dropped";
-  EXPECT_EQ(node_->sphere(-3, -3, -3, 0.1).answer.verdict, Answer::UNKNOWN);
+  EXPECT_EQ(node_->sphere(-3, -3, -3, 0.1).answer.verdict, msg::Verdict::UNKNOWN);
   transforms_.stream("base", "nowhere", at(2.0));
   node_->waitUntil("the next map, tried again", [&](const Heard&) { return metAt(2.45) == Names({"map/room"}); });
   node_->waitForComplete();
@@ -401,7 +404,7 @@ TEST_F(MapTopics, StayWhereTheyAreWhenTheirFrameIsLostOrTheNextOneIsUnknown) {
 TEST_F(MapTopics, WhoseNewestMessageWasRefusedAreNotCompleteAndKeepTheirCells) {
   send(messageOf("", nodesOfRow(1)));
   node_->waitForComplete();
-  EXPECT_EQ(node_->sphere(3, 3, 3, 0.1).answer.verdict, Answer::CLEAR);
+  EXPECT_EQ(node_->sphere(3, 3, 3, 0.1).answer.verdict, msg::Verdict::CLEAR);
   send(messageOf("", ""));
   const auto status = node_->waitForStatus(
       "the map is not complete", [](const msg::Status& now) { return now.world.incomplete == Names({"map/room"}); });
@@ -410,15 +413,15 @@ TEST_F(MapTopics, WhoseNewestMessageWasRefusedAreNotCompleteAndKeepTheirCells) {
                                    [](const msg::SourceStatus& one) { return one.name == "map/room"; });
   ASSERT_NE(source, status->sources.end());
   EXPECT_FALSE(source->complete);
-  EXPECT_EQ(source->state, msg::WorldState::FRESH);
+  EXPECT_EQ(source->state, msg::BodyState::FRESH);
   EXPECT_TRUE(says(source->reason, "PARSE"));
   EXPECT_EQ(metAt(0.05), Names({"map/room"})) << "the old cells keep answering";
   const Answer answer = node_->sphere(3, 3, 3, 0.1).answer;
-  EXPECT_EQ(answer.verdict, Answer::UNKNOWN);
+  EXPECT_EQ(answer.verdict, msg::Verdict::UNKNOWN);
   EXPECT_TRUE(says(answer.summary, "REFUSED 'map/room'"));
   send(messageOf("", nodesOfRow(5)));
   node_->waitForComplete();
-  EXPECT_EQ(node_->sphere(3, 3, 3, 0.1).answer.verdict, Answer::CLEAR);
+  EXPECT_EQ(node_->sphere(3, 3, 3, 0.1).answer.verdict, msg::Verdict::CLEAR);
 }
 
 TEST_F(Maps, ThatMustKeepComingAreNotCompleteWhenTheyStop) {
@@ -434,7 +437,7 @@ TEST_F(Maps, ThatMustKeepComingAreNotCompleteWhenTheyStop) {
       "the map is too old", [](const msg::Status& now) { return now.world.incomplete == Names({"map/room"}); });
   EXPECT_TRUE(says(status->world.reasons.at(0), "at most max_age, 0.5 s, is allowed"));
   EXPECT_EQ(metAt(0.05), Names({"map/room"}));
-  EXPECT_EQ(node_->sphere(3, 3, 3, 0.1).answer.verdict, Answer::UNKNOWN);
+  EXPECT_EQ(node_->sphere(3, 3, 3, 0.1).answer.verdict, msg::Verdict::UNKNOWN);
 }
 
 TEST_F(Maps, ThatAreRequiredMakeUnknownWhatWasClearWhenTheyAreGone) {
@@ -448,12 +451,12 @@ TEST_F(Maps, ThatAreRequiredMakeUnknownWhatWasClearWhenTheyAreGone) {
       return now.body_count == 2 && now.bodies_total == 0 && now.world.incomplete == Names({"map/hall"});
     });
     const Answer answer = node_->sphere(0.05, 0.05, 0.05, 0.01).answer;
-    EXPECT_EQ(answer.verdict, Answer::UNKNOWN);
+    EXPECT_EQ(answer.verdict, msg::Verdict::UNKNOWN);
     EXPECT_TRUE(says(answer.summary, "REQUIRED 'map/hall'"));
     if (life == 1) break;
     ASSERT_TRUE(load("hall", "row.bt").success);
     node_->waitForComplete();
-    EXPECT_EQ(node_->sphere(0.05, 0.05, 0.05, 0.01).answer.verdict, Answer::HIT);
+    EXPECT_EQ(node_->sphere(0.05, 0.05, 0.05, 0.01).answer.verdict, msg::Verdict::HIT);
     node_->process().signal(SIGKILL);
     node_->process().waitForEnd(10.0);
   }

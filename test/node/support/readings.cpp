@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "readings.h"
 
+#include <hgrid_proximity/BodyState.h>
+
 namespace hgrid {
 namespace test {
 
@@ -14,7 +16,7 @@ const msg::BodyStatus* entryOf(const msg::Status& status, const std::string& bod
 
 int stateOf(const msg::Status& status, const std::string& body) {
   const msg::BodyStatus* entry = entryOf(status, body);
-  return entry == nullptr ? int(msg::WorldState::FRESH) : entry->state;
+  return entry == nullptr ? int(msg::BodyState::FRESH) : entry->state;
 }
 
 std::uint64_t counter(const msg::Status& status, const std::string& name) {

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <hgrid_proximity/BodyState.h>
+#include <hgrid_proximity/Verdict.h>
+
 #include "test/node/support/claims.h"
 #include "test/node/support/descriptions.h"
 #include "test/node/support/simulated_clock.h"
@@ -8,8 +11,6 @@
 namespace hgrid {
 namespace test {
 namespace {
-
-using msg::WorldState;
 
 /// Under /use_sim_time, which the launch file sets: two near balls that move, and a post that does not.
 class Clock : public ::testing::Test {
@@ -34,9 +35,9 @@ class Clock : public ::testing::Test {
     node_.waitForTicks(2);  // nothing is under way any more
   }
   void expectTheObstacleServes() {
-    EXPECT_EQ(node_.sphere(2, 0, 0, 0.05).answer.verdict, msg::Answer::HIT);
+    EXPECT_EQ(node_.sphere(2, 0, 0, 0.05).answer.verdict, msg::Verdict::HIT);
     EXPECT_EQ(namesOf(node_.sphere(0, 0, 0, 0.05).answer), std::vector<std::string>({"robot/a"}));
-    EXPECT_EQ(node_.sphere(50, 0, 0, 0.05).answer.verdict, msg::Answer::UNKNOWN);
+    EXPECT_EQ(node_.sphere(50, 0, 0, 0.05).answer.verdict, msg::Verdict::UNKNOWN);
   }
 
   SimulatedClock clock_;
@@ -61,7 +62,7 @@ TEST_F(Clock, AJumpBackBeginsAnEpochInWhichNothingIsFreshUntilItIsHeardOfAgain) 
     const auto status =
         node_.waitForStatus("a new epoch", [&](const msg::Status& s) { return s.world.epoch != before.epoch; });
     EXPECT_EQ(status->world.sequence, 1u);
-    EXPECT_EQ(stateOf(*status, "robot/a"), WorldState::FROZEN);
+    EXPECT_EQ(stateOf(*status, "robot/a"), msg::BodyState::FROZEN);
     EXPECT_EQ(entryOf(*status, "robot/a")->code.name, "UNKNOWN_FRAME");
     EXPECT_FALSE(status->world.complete);
     EXPECT_EQ(status->body_count, 4u);
@@ -71,7 +72,7 @@ TEST_F(Clock, AJumpBackBeginsAnEpochInWhichNothingIsFreshUntilItIsHeardOfAgain) 
     stream();
     node_.waitForComplete();
     EXPECT_LT(std::chrono::steady_clock::now() - resumed, std::chrono::seconds(2));
-    EXPECT_EQ(node_.sphere(50, 0, 0, 0.05).answer.verdict, msg::Answer::CLEAR);
+    EXPECT_EQ(node_.sphere(50, 0, 0, 0.05).answer.verdict, msg::Verdict::CLEAR);
     EXPECT_EQ(namesOf(*node_.heard().pairs.back()), std::vector<std::string>({"robot/a|robot/b"}));
   }
   EXPECT_TRUE(says(node_.output(), "ROS time jumped back; a new epoch begins"));
@@ -84,7 +85,7 @@ TEST_F(Clock, AJumpAheadMakesEverythingOldAtOnce) {
   const auto status =
       node_.waitForStatus("a new epoch", [&](const msg::Status& s) { return s.world.epoch != before.epoch; });
   for (const char* body : {"robot/a", "robot/b"}) {
-    EXPECT_GE(stateOf(*status, body), WorldState::STALE);
+    EXPECT_GE(stateOf(*status, body), msg::BodyState::STALE);
     ASSERT_NE(entryOf(*status, body), nullptr);
     EXPECT_GT(entryOf(*status, body)->age, 999.0);
   }
@@ -97,12 +98,12 @@ TEST_F(Clock, AJumpAheadMakesEverythingOldAtOnce) {
 
 TEST_F(Clock, AClockThatStandsStillIsSaidAndTicksGoOn) {
   clock_.run(false);
-  const auto status =
-      node_.waitForStatus("frozen", [](const msg::Status& s) { return stateOf(s, "robot/a") == WorldState::FROZEN; });
+  const auto status = node_.waitForStatus(
+      "frozen", [](const msg::Status& s) { return stateOf(s, "robot/a") == msg::BodyState::FROZEN; });
   EXPECT_EQ(entryOf(*status, "robot/a")->code.name, "CLOCK");
   EXPECT_TRUE(says(entryOf(*status, "robot/a")->code.text, "the clock stands still"));
   EXPECT_FALSE(status->world.complete);
-  EXPECT_EQ(status->world.worst_state, WorldState::FROZEN);
+  EXPECT_EQ(status->world.worst_state, msg::BodyState::FROZEN);
   node_.waitForTicks(10);
   const auto later = node_.heard().status.back();
   EXPECT_GE(later->world.sequence, status->world.sequence + 10);
@@ -134,7 +135,7 @@ TEST(NoClock, WithoutAnyTimeThereIsNoWorldAndServicesSaySo) {
   const auto answer = node.sphere(2, 0, 0, 0.05).answer;
   EXPECT_FALSE(answer.success);
   EXPECT_EQ(answer.code.name, "NOT_READY");
-  EXPECT_EQ(answer.verdict, msg::Answer::UNKNOWN);
+  EXPECT_EQ(answer.verdict, msg::Verdict::UNKNOWN);
   EXPECT_TRUE(node.reset().success);
 
   SimulatedClock clock(500.0);

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <hgrid_proximity/BodyState.h>
+#include <hgrid_proximity/Verdict.h>
+
 #include "test/node/support/claims.h"
 #include "test/node/support/descriptions.h"
 #include "test/node/support/transform_source.h"
@@ -9,7 +12,6 @@ namespace test {
 namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
-using msg::WorldState;
 
 /// Another node that publishes b in another parent, 20 times per second.
 std::unique_ptr<ChildProcess> rivalOf(const std::string& parent) {
@@ -49,10 +51,10 @@ TEST(TransformFights, AreReportedWithBothPublishersWhileTheyLastAndNotForLong) {
     ASSERT_NE(entryOf(*status, "robot/b"), nullptr);
     EXPECT_EQ(entryOf(*status, "robot/b")->code.name, "CONFLICT");
     EXPECT_EQ(entryOf(*status, "robot/b")->code.text, sentence);
-    EXPECT_EQ(stateOf(*status, "robot/b"), WorldState::INVALID);
+    EXPECT_EQ(stateOf(*status, "robot/b"), msg::BodyState::INVALID);
     EXPECT_EQ(entryOf(*status, "robot/a"), nullptr);
     EXPECT_FALSE(status->world.complete);
-    EXPECT_EQ(node.sphere(20, 0, 0, 0.1).answer.verdict, msg::Answer::UNKNOWN);
+    EXPECT_EQ(node.sphere(20, 0, 0, 0.1).answer.verdict, msg::Verdict::UNKNOWN);
     EXPECT_NEAR(xOf(node, "robot/b"), 0.25, 1e-6) << "the publisher that held the frame is followed";
     node.waitUntil("diagnostics warn", isWarned);
     EXPECT_GT(counter(*node.heard().status.back(), "tf.fight.CONFLICT"), 0u);

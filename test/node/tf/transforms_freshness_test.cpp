@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <hgrid_proximity/BodyState.h>
+#include <hgrid_proximity/Verdict.h>
+
 #include "test/node/support/claims.h"
 #include "test/node/support/descriptions.h"
 #include "test/node/support/transform_source.h"
@@ -7,8 +10,6 @@
 namespace hgrid {
 namespace test {
 namespace {
-
-using msg::WorldState;
 
 NodeSetup ageing() {
   NodeSetup setup;
@@ -33,29 +34,29 @@ TEST(Freshness, AFrameThatWasNeverPublishedIsNamedAndTheRestServes) {
   streamAll(transforms);
   transforms.stop("c");
   const auto status = node.waitForStatus("a and b are placed", [](const msg::Status& s) {
-    return stateOf(s, "robot/a") == WorldState::FRESH && stateOf(s, "robot/b") == WorldState::FRESH &&
+    return stateOf(s, "robot/a") == msg::BodyState::FRESH && stateOf(s, "robot/b") == msg::BodyState::FRESH &&
            entryOf(s, "robot/c") != nullptr;
   });
-  EXPECT_EQ(stateOf(*status, "robot/c"), WorldState::UNPLACED);
+  EXPECT_EQ(stateOf(*status, "robot/c"), msg::BodyState::UNPLACED);
   EXPECT_EQ(entryOf(*status, "robot/c")->code.name, "UNKNOWN_FRAME");
   EXPECT_TRUE(says(entryOf(*status, "robot/c")->code.text, "'c'"));
   EXPECT_TRUE(std::isnan(entryOf(*status, "robot/c")->age));
   EXPECT_EQ(status->missing_frames, std::vector<std::string>({"c"}));
   EXPECT_FALSE(status->world.complete);
-  EXPECT_EQ(status->world.worst_state, WorldState::UNPLACED);
+  EXPECT_EQ(status->world.worst_state, msg::BodyState::UNPLACED);
   EXPECT_TRUE(oneSays(status->world.reasons, "UNPLACED robot/c"));
 
   const auto pairs = node.waitForPairs("the others are near", [](const msg::Pairs& p) { return p.total > 0; });
   EXPECT_EQ(namesOf(*pairs), std::vector<std::string>({"robot/a|robot/b"}));
-  EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Answer::HIT);
+  EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Verdict::HIT);
   const auto far = node.sphere(20, 0, 0, 0.1).answer;
   EXPECT_TRUE(far.success);
-  EXPECT_EQ(far.verdict, msg::Answer::UNKNOWN) << "c may be there";
+  EXPECT_EQ(far.verdict, msg::Verdict::UNKNOWN) << "c may be there";
   EXPECT_TRUE(says(far.code.text, "robot/c"));
 
   transforms.stream("base", "c", at(9));
   node.waitForComplete();
-  EXPECT_EQ(node.sphere(20, 0, 0, 0.1).answer.verdict, msg::Answer::CLEAR);
+  EXPECT_EQ(node.sphere(20, 0, 0, 0.1).answer.verdict, msg::Verdict::CLEAR);
 }
 
 TEST(Freshness, AFrameThatStopsGrowsOldStepByStepAndKeepsItsPairs) {
@@ -67,10 +68,10 @@ TEST(Freshness, AFrameThatStopsGrowsOldStepByStepAndKeepsItsPairs) {
   transforms.stop("b");
   node.waitForStatus("b is lost and at the cap", [](const msg::Status& s) {
     const auto* b = entryOf(s, "robot/b");
-    return b != nullptr && b->state == WorldState::LOST && b->age > 1.4;
+    return b != nullptr && b->state == msg::BodyState::LOST && b->age > 1.4;
   });
   const Heard all = node.heard();
-  int state = WorldState::FRESH;
+  int state = msg::BodyState::FRESH;
   double margin = 0.0;
   std::vector<bool> seen(7, false);
   for (std::size_t k = before; k < all.pairs.size(); ++k) {
@@ -81,18 +82,19 @@ TEST(Freshness, AFrameThatStopsGrowsOldStepByStepAndKeepsItsPairs) {
     EXPECT_NEAR(pairs.gap[n], 0.05, 1e-6) << "the gap is never falsified";
     EXPECT_GE(pairs.state[n], state) << "it only gets worse";
     EXPECT_GE(pairs.margin[n], margin);
-    EXPECT_EQ(pairs.margin[n] > 0.1, pairs.state[n] >= WorldState::STALE) << "LATE only flags";
+    EXPECT_EQ(pairs.margin[n] > 0.1, pairs.state[n] >= msg::BodyState::STALE) << "LATE only flags";
     EXPECT_LE(pairs.margin[n], 0.1 + 0.25) << "~growth_cap";
-    EXPECT_EQ(pairs.world.complete, pairs.state[n] < WorldState::LOST);
+    EXPECT_EQ(pairs.world.complete, pairs.state[n] < msg::BodyState::LOST);
     EXPECT_EQ(pairs.world.worst_state, pairs.state[n]);
     state = pairs.state[n];
     margin = pairs.margin[n];
     seen[pairs.state[n]] = true;
   }
-  EXPECT_TRUE(seen[WorldState::FRESH] && seen[WorldState::LATE] && seen[WorldState::STALE] && seen[WorldState::LOST]);
+  EXPECT_TRUE(seen[msg::BodyState::FRESH] && seen[msg::BodyState::LATE] && seen[msg::BodyState::STALE] &&
+              seen[msg::BodyState::LOST]);
   EXPECT_DOUBLE_EQ(margin, 0.35);
   const auto status = node.heard().status.back();
-  EXPECT_EQ(stateOf(*status, "robot/a"), WorldState::FRESH);
+  EXPECT_EQ(stateOf(*status, "robot/a"), msg::BodyState::FRESH);
   EXPECT_EQ(entryOf(*status, "robot/b")->code.name, "TF_TIMEOUT");
   EXPECT_TRUE(says(entryOf(*status, "robot/b")->code.text, "frame 'b' is"));
   EXPECT_TRUE(oneSays(status->world.reasons, "LOST robot/b"));
@@ -113,15 +115,15 @@ TEST(Freshness, NearAStaleBodyNothingIsClear) {
   NodeUnderTest node(setup);
   streamAll(transforms);
   node.waitForComplete();
-  EXPECT_EQ(node.sphere(9, 0.3, 0, 0.1).answer.verdict, msg::Answer::CLEAR);
+  EXPECT_EQ(node.sphere(9, 0.3, 0, 0.1).answer.verdict, msg::Verdict::CLEAR);
   transforms.stop("c");
-  node.waitForStatus("c is stale", [](const msg::Status& s) { return stateOf(s, "robot/c") == WorldState::STALE; });
+  node.waitForStatus("c is stale", [](const msg::Status& s) { return stateOf(s, "robot/c") == msg::BodyState::STALE; });
   const auto beside = node.sphere(9, 0.3, 0, 0.1).answer;
-  EXPECT_EQ(beside.verdict, msg::Answer::UNKNOWN) << "c may have moved there, at 10 m/s";
+  EXPECT_EQ(beside.verdict, msg::Verdict::UNKNOWN) << "c may have moved there, at 10 m/s";
   EXPECT_TRUE(says(beside.code.text, "STALE robot/c"));
-  EXPECT_EQ(node.sphere(9, 1e5, 0, 0.1).answer.verdict, msg::Answer::CLEAR) << "but not so far";
-  EXPECT_EQ(node.sphere(9, 0, 0, 0.1).answer.verdict, msg::Answer::HIT) << "the last pose is kept";
-  EXPECT_EQ(node.sphere(9, 0, 0, 0.1).answer.hits.at(0).state, WorldState::STALE);
+  EXPECT_EQ(node.sphere(9, 1e5, 0, 0.1).answer.verdict, msg::Verdict::CLEAR) << "but not so far";
+  EXPECT_EQ(node.sphere(9, 0, 0, 0.1).answer.verdict, msg::Verdict::HIT) << "the last pose is kept";
+  EXPECT_EQ(node.sphere(9, 0, 0, 0.1).answer.hits.at(0).state, msg::BodyState::STALE);
   EXPECT_TRUE(node.heard().status.back()->world.complete) << "stale is not yet lost";
 }
 
@@ -134,8 +136,8 @@ TEST(Freshness, LinksThatAreEquallyOldDoNotGrowAgainstEachOther) {
   node.waitForComplete();
   for (const char* frame : {"a", "b", "c"}) transforms.stop(frame);
   const auto pairs = node.waitForPairs("all are stale", [](const msg::Pairs& p) {
-    return p.world.worst_state == WorldState::STALE && p.total >= 2 && p.state[0] == WorldState::STALE &&
-           p.state[1] == WorldState::STALE;
+    return p.world.worst_state == msg::BodyState::STALE && p.total >= 2 && p.state[0] == msg::BodyState::STALE &&
+           p.state[1] == msg::BodyState::STALE;
   });
   const int self = indexOf(*pairs, "robot/a", "robot/b"), post = indexOf(*pairs, "obstacle/post", "robot/a");
   ASSERT_GE(self, 0);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <hgrid_proximity/BodyState.h>
+
 #include <cmath>
 #include <limits>
 
@@ -52,14 +54,14 @@ class TransformNumbers : public ::testing::Test {
     const msg::BodyStatus& a = *entryOf(*status, "robot/a");
     EXPECT_EQ(a.code.name, code);
     EXPECT_TRUE(says(a.code.text, "a"));
-    EXPECT_EQ(a.state, msg::WorldState::INVALID);
+    EXPECT_EQ(a.state, msg::BodyState::INVALID);
     EXPECT_EQ(entryOf(*status, "robot/b"), nullptr) << "b was in the same message";
     EXPECT_FALSE(status->world.complete);
     EXPECT_TRUE(oneSays(status->world.reasons, "INVALID robot/a"));
     EXPECT_NEAR(xOf(*node_, "robot/a"), 0.0, 1e-6) << "the last good pose is kept";
     const auto pairs = node_->waitForPairs("the pair is flagged", [](const msg::Pairs& p) {
       const int i = indexOf(p, "robot/a", "robot/b");
-      return i >= 0 && p.state[static_cast<std::size_t>(i)] == msg::WorldState::INVALID;
+      return i >= 0 && p.state[static_cast<std::size_t>(i)] == msg::BodyState::INVALID;
     });
     EXPECT_NEAR(pairs->gap.at(0), 0.05, 1e-6);
     EXPECT_TRUE(node_->process().alive());

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <hgrid_proximity/BodyState.h>
+
 #include "test/node/support/claims.h"
 #include "test/node/support/descriptions.h"
 #include "test/node/support/transform_source.h"
@@ -7,8 +9,6 @@
 namespace hgrid {
 namespace test {
 namespace {
-
-using msg::WorldState;
 
 /// Nothing ages.
 NodeSetup ageless() {
@@ -69,14 +69,14 @@ TEST_F(Stamps, ALaggardKeepsItsOwnStampAndHoldsNobodyBack) {
   EXPECT_NEAR(after(status->header.stamp), 0.4, 1e-6);
   EXPECT_NEAR(xOf(node_, "robot/a"), 1.0, 1e-5);
   ASSERT_NE(entryOf(*status, "robot/c"), nullptr);
-  EXPECT_EQ(stateOf(*status, "robot/c"), WorldState::LATE);
+  EXPECT_EQ(stateOf(*status, "robot/c"), msg::BodyState::LATE);
   EXPECT_NEAR(after(entryOf(*status, "robot/c")->stamp), 0.1, 1e-6);
   EXPECT_NEAR(xOf(node_, "robot/c"), 9.0, 1e-5);
   EXPECT_TRUE(status->world.complete);
 
   status = take({frame("c", 8.0, 0.35)});
   EXPECT_NEAR(after(status->header.stamp), 0.4, 1e-6) << "time does not run back when it rejoins";
-  EXPECT_EQ(stateOf(*status, "robot/c"), WorldState::LATE);
+  EXPECT_EQ(stateOf(*status, "robot/c"), msg::BodyState::LATE);
   EXPECT_NEAR(after(entryOf(*status, "robot/c")->stamp), 0.35, 1e-6);
   EXPECT_NEAR(xOf(node_, "robot/c"), 8.0, 1e-5);
 
@@ -98,7 +98,7 @@ TEST_F(Stamps, ATransformFromTheFutureIsRefusedAndDoesNotPoisonItsFrame) {
     EXPECT_EQ(entryOf(*status, "robot/a")->code.name, "CLOCK");
     EXPECT_TRUE(says(entryOf(*status, "robot/a")->code.text, "frame 'a' is stamped"));
     EXPECT_TRUE(says(entryOf(*status, "robot/a")->code.text, "s in the future; at most 1.5 s are allowed"));
-    EXPECT_EQ(stateOf(*status, "robot/a"), WorldState::INVALID);
+    EXPECT_EQ(stateOf(*status, "robot/a"), msg::BodyState::INVALID);
     EXPECT_NEAR(xOf(node_, "robot/a"), 0.0, 1e-6);
     status = send(1.0);
     EXPECT_TRUE(status->world.complete);

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <hgrid_proximity/BodyState.h>
+#include <hgrid_proximity/Verdict.h>
+
 #include "test/node/support/claims.h"
 #include "test/node/support/descriptions.h"
 #include "test/node/support/transform_source.h"
@@ -7,8 +10,6 @@
 namespace hgrid {
 namespace test {
 namespace {
-
-using msg::WorldState;
 
 NodeSetup threeBalls() {
   NodeSetup setup;
@@ -40,8 +41,8 @@ TEST(TransformTree, AFrameFirstFixedThenMovingIsAConflict) {
   expectConflict(node);
   transforms.stop("a");
   node.waitForStatus("its age is that of what came last, not that of something fixed",
-                     [](const msg::Status& s) { return stateOf(s, "robot/a") == WorldState::STALE; });
-  EXPECT_EQ(stateOf(*node.heard().status.back(), "robot/b"), WorldState::FRESH);
+                     [](const msg::Status& s) { return stateOf(s, "robot/a") == msg::BodyState::STALE; });
+  EXPECT_EQ(stateOf(*node.heard().status.back(), "robot/b"), msg::BodyState::FRESH);
 }
 
 TEST(TransformTree, AFrameFirstMovingThenFixedIsAConflict) {
@@ -64,14 +65,14 @@ TEST(TransformTree, ALoopCostsItsLinksTheirWayAndNobodyElse) {
   transforms.stream("c", "b", at(1));
   transforms.stream("b", "c", at(1));
   const auto status = node.waitForStatus("b and c are stale", [](const msg::Status& s) {
-    return stateOf(s, "robot/b") == WorldState::STALE && stateOf(s, "robot/c") == WorldState::STALE;
+    return stateOf(s, "robot/b") == msg::BodyState::STALE && stateOf(s, "robot/c") == msg::BodyState::STALE;
   });
   for (const char* body : {"robot/b", "robot/c"}) {
     EXPECT_EQ(entryOf(*status, body)->code.name, "UNKNOWN_FRAME");
     EXPECT_TRUE(says(entryOf(*status, body)->code.text, "is not connected to 'base'"));
   }
-  EXPECT_EQ(stateOf(*status, "robot/a"), WorldState::FRESH);
-  EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Answer::HIT);
+  EXPECT_EQ(stateOf(*status, "robot/a"), msg::BodyState::FRESH);
+  EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Verdict::HIT);
   EXPECT_NEAR(xOf(node, "robot/b"), 0.25, 1e-6) << "the last pose is kept";
   EXPECT_EQ(node.sphere(0, 0, 0, 0.05, "b").answer.code.name, "UNKNOWN_FRAME");
   EXPECT_LE(node.lines(""), 10u + 3u * static_cast<std::size_t>(node.uptime()));
@@ -100,7 +101,7 @@ TEST(TransformTree, AFrameWhoseParentAlternatesIsNeverFreshAndRecovers) {
   alternate(36);
   const Heard all = node.heard();
   for (std::size_t i = begin; i < all.status.size(); ++i) {
-    ASSERT_EQ(stateOf(*all.status[i], "robot/b"), WorldState::INVALID);
+    ASSERT_EQ(stateOf(*all.status[i], "robot/b"), msg::BodyState::INVALID);
     ASSERT_EQ(entryOf(*all.status[i], "robot/b")->code.name, "CONFLICT");
   }
   for (const auto& pairs : all.pairs) EXPECT_EQ(indexOf(*pairs, "robot/a", "robot/b"), -1);
@@ -108,7 +109,7 @@ TEST(TransformTree, AFrameWhoseParentAlternatesIsNeverFreshAndRecovers) {
   node.waitForPairs("b is beside a", [](const msg::Pairs& p) { return p.total > 0; });
   const auto pairs = node.waitForPairs("all is well", [](const msg::Pairs& p) { return p.world.complete; });
   EXPECT_EQ(namesOf(*pairs), std::vector<std::string>({"robot/a|robot/b"}));
-  EXPECT_EQ(pairs->world.worst_state, WorldState::FRESH);
+  EXPECT_EQ(pairs->world.worst_state, msg::BodyState::FRESH);
 }
 
 TEST(TransformTree, OneFrameTooManyIsRefused) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <hgrid_proximity/BodyState.h>
+#include <hgrid_proximity/Verdict.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -62,14 +64,14 @@ TEST_F(WallClock, SettingItTakesNoCellOfACloudAway) {
   const auto verdict = [&] { return node.sphere(3.0, 0.0, 0.0, 0.1).answer.verdict; };
   node.waitUntil("a hit", [&](const Heard&) {
     publisher.publish(cloudOfOne("base", transforms_.now(), 3.0f, 0.0f, 0.0f));
-    return verdict() == msg::Answer::HIT;
+    return verdict() == msg::Verdict::HIT;
   });
   for (const double shift : {3600.0, 0.0, -3600.0}) {
     SCOPED_TRACE(shift);
     write(shift);
     for (int look = 0; look < 20; ++look) {
       node.waitForTicks(1);
-      ASSERT_EQ(verdict(), msg::Answer::HIT);
+      ASSERT_EQ(verdict(), msg::Verdict::HIT);
     }
   }
 }
@@ -99,7 +101,7 @@ TEST_F(WallClock, SettingItAgesNothing) {
     EXPECT_LT((status->made - status->header.stamp).toSec(), 1.0);
     const Heard all = node.heard();
     for (std::size_t i = begin; i < all.status.size(); ++i) {
-      EXPECT_LE(all.status[i]->world.worst_state, msg::WorldState::LATE);
+      EXPECT_LE(all.status[i]->world.worst_state, msg::BodyState::LATE);
       EXPECT_LT(all.status[i]->world.max_age, 1.0);
       EXPECT_TRUE(all.status[i]->world.complete);
     }

@@ -7,6 +7,7 @@
 #include <hgrid_proximity/LoadOctomap.h>
 #include <hgrid_proximity/QueryBox.h>
 #include <hgrid_proximity/QueryNearest.h>
+#include <hgrid_proximity/Verdict.h>
 
 #include <limits>
 #include <optional>
@@ -99,7 +100,7 @@ class Lengths : public ::testing::Test {
   }
   template <class Response>
   static auto codeOf(const Response& response) -> decltype(response.answer.code.name) {
-    EXPECT_EQ(response.answer.verdict == msg::Answer::UNKNOWN, !response.answer.success) << "never CLEAR";
+    EXPECT_EQ(response.answer.verdict == msg::Verdict::UNKNOWN, !response.answer.success) << "never CLEAR";
     return response.answer.code.name;
   }
   template <class Response>
