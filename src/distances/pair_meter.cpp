@@ -134,7 +134,8 @@ struct PairMeter::State {
   /// What was found when a pair was measured last.
   struct Known {
     std::uint32_t first = 0, second = 0;
-    bool measured = false;
+    bool measured = false;  // the pair was measured; then all of this holds
+    Time measured_at{0};    // time of the data that was measured
     Pose world_from_first = Pose::Identity(), world_from_second = Pose::Identity();
     std::uint32_t first_shape = 0, second_shape = 0;
     Proximity proximity;
@@ -156,6 +157,8 @@ struct PairMeter::State {
       : narrow_phase(std::move(phase)), options(given), workers(given.threads) {}
 
   void recall(const Snapshot& snapshot);
+  static double motionSince(const Snapshot& snapshot, const Known& known);
+  static double boundOf(const Snapshot& snapshot, const Known& known);
   void perform(const Snapshot& snapshot, Job& job, std::vector<ShapePair>& shape_pairs) const;
   PairDistance entryOf(const Snapshot& snapshot, const Job& job) const;
 
@@ -197,22 +200,39 @@ void PairMeter::State::recall(const Snapshot& snapshot) {
   std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.pair->gap < b.pair->gap; });
 }
 
+/// [m] By how much the distance of a pair may have changed since it was measured, at most. Infinite if it was never
+/// measured, or if the map has other cells now.
+double PairMeter::State::motionSince(const Snapshot& snapshot, const Known& known) {
+  const Structure& structure = snapshot.structure();
+  const bool map_first = structure.isMap(known.first);
+  const auto map = snapshot.cellsOf(map_first ? known.first : known.second);
+  if (!known.measured || known.map != map) return std::numeric_limits<double>::infinity();
+  const Pose &first = snapshot.poses()[known.first].world_from_body,
+             &second = snapshot.poses()[known.second].world_from_body;
+  if (first.matrix() == known.world_from_first.matrix() && second.matrix() == known.world_from_second.matrix())
+    return 0.0;
+  if (map_first || !map) {
+    return relativeMotion(known.world_from_first, known.world_from_second, first, second,
+                          reachOf(structure.bodies[known.second]));
+  }
+  return relativeMotion(known.world_from_second, known.world_from_first, second, first,
+                        reachOf(structure.bodies[known.first]));
+}
+
+/// [m] A lower bound of the distance of a pair that is not measured now: its last measured distance, less what both
+/// bodies can have moved since. 0 if it was never measured.
+double PairMeter::State::boundOf(const Snapshot& snapshot, const Known& known) {
+  if (known.proximity.status == Measure::not_measured) return 0.0;
+  return std::max(0.0, std::min(known.proximity.distance, known.up_to) - motionSince(snapshot, known));
+}
+
 void PairMeter::State::perform(const Snapshot& snapshot, Job& job, std::vector<ShapePair>& shape_pairs) const {
   const Pose &first = snapshot.poses()[job.pair->first].world_from_body,
              &second = snapshot.poses()[job.pair->second].world_from_body;
   Known& now = job.known;
-  double moved = std::numeric_limits<double>::infinity();
   const bool map_first = snapshot.structure().isMap(job.pair->first);
   const auto map = snapshot.cellsOf(map_first ? job.pair->first : job.pair->second);
-  if (now.measured && now.map == map) {
-    const bool same =
-        first.matrix() == now.world_from_first.matrix() && second.matrix() == now.world_from_second.matrix();
-    moved = same                ? 0.0
-            : map_first || !map ? relativeMotion(now.world_from_first, now.world_from_second, first, second,
-                                                 reachOf(snapshot.structure().bodies[job.pair->second]))
-                                : relativeMotion(now.world_from_second, now.world_from_first, second, first,
-                                                 reachOf(snapshot.structure().bodies[job.pair->first]));
-  }
+  const double moved = motionSince(snapshot, now);
   const double at_least = std::min(now.proximity.distance, now.up_to) - moved;
   const bool enough_known = moved == 0.0 ? now.up_to >= job.report : at_least > job.report;
   if (!now.measured || !enough_known) {
@@ -231,6 +251,7 @@ void PairMeter::State::perform(const Snapshot& snapshot, Job& job, std::vector<S
     now.map = map;
     now.measured = true;
   }
+  if (moved == 0.0 || !enough_known) now.measured_at = snapshot.stamp();
   job.shown = now.proximity.status == Measure::not_measured || now.proximity.distance <= job.report;
 }
 
@@ -247,6 +268,9 @@ PairDistance PairMeter::State::entryOf(const Snapshot& snapshot, const Job& job)
     entry.second_shape = job.known.second_shape;
     entry.closing_speed = job.known.speed;
   }
+  const bool has_distance = entry.proximity.status != Measure::not_measured;
+  if (job.known.proximity.status != Measure::not_measured) entry.measured = job.known.measured_at;
+  entry.lower_bound = has_distance ? entry.proximity.distance : std::max(entry.gap, boundOf(snapshot, job.known));
   const double least = std::isnan(entry.proximity.distance) ? entry.gap : entry.proximity.distance;
   if (isContact(entry.proximity.status)) {
     entry.time_to_contact = 0.0;
@@ -274,7 +298,6 @@ std::shared_ptr<const PairDistances> PairMeter::measure(const Snapshot& snapshot
       State::Job& job = s.jobs[i];
       if (s.options.budget > 0.0 && !out_of_time && Clock::now() - begin > budget) out_of_time = true;
       if (out_of_time) {
-        job.known.measured = false;
         job.shown = job.left_out = true;
       } else {
         s.perform(snapshot, job, s.scratch[thread]);

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "bodies/nearest_names.h"
-#include "explain/decided_rule.h"
+#include "hgrid_proximity/explain/decided_rule.h"
 #include "hgrid_proximity/geometry/float_environment.h"
 #include "hgrid_proximity/refusal.h"
 

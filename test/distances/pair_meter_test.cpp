@@ -8,6 +8,7 @@
 #include <new>
 #include <thread>
 
+#include "test/support/random.h"
 #include "test/support/scenes.h"
 
 namespace hgrid {
@@ -169,6 +170,40 @@ TEST_F(PairMeterTest, WhatDoesNotFitIntoTheBudgetStaysACandidateNearestFirst) {
   for (std::size_t i = found->measured; i < found->pairs.size(); ++i) {
     EXPECT_GE(found->pairs[i].gap, found->pairs[found->measured - 1].gap) << "the nearest boxes were measured";
   }
+}
+
+/// Claim: the lower bound of a pair that there is no time for never exceeds its true distance, and it is better than
+/// the gap if the pair was measured before and moved little.
+TEST_F(PairMeterTest, APairThatIsNotMeasuredHasALowerBoundFromItsLastMeasurement) {
+  const BodyId slow = add("slow", -20.0), other = add("slow_too", -20.5);  // in contact: always measured first
+  const BodyId a = add("a", 0.0), b = add("b", 1.0);
+  PairMeter meter = meterOf(3.0, 0.002);
+  test::Random random(7);
+  std::size_t better = 0;
+  for (int step = 1; step <= 100; ++step) {
+    const bool in_time = step % 2 == 1;
+    phase_->takes = in_time ? std::chrono::microseconds(0) : std::chrono::microseconds(5000);
+    const Time now = std::chrono::milliseconds(step);
+    scene_.place(slow, at(-20.0 + random.uniform(-0.1, 0.1)), now);
+    scene_.place(other, at(-20.5), now);
+    const double from_y = 0.55 + random.uniform(0.0, 0.02), to_y = -0.55 - random.uniform(0.0, 0.02);
+    scene_.place(a, Pose(Eigen::Translation3d(0.0, from_y, 0.0)), now);
+    scene_.place(b, Pose(Eigen::Translation3d(1.1, to_y, 0.0)), now);
+    const auto found = measure(meter, step);
+    ASSERT_EQ(found->pairs.size(), 2u);
+    const PairDistance& pair = found->pairs[1];
+    const double distance = std::hypot(1.1, from_y - to_y) - 1.0;
+    EXPECT_LE(pair.lower_bound, distance + 1e-9) << "step " << step;
+    EXPECT_GE(pair.lower_bound, pair.gap);
+    if (pair.proximity.status == Measure::apart) {
+      EXPECT_EQ(pair.lower_bound, pair.proximity.distance);
+      EXPECT_EQ(pair.measured, now);
+    } else {
+      EXPECT_LT(pair.measured, now);
+      better += pair.lower_bound > pair.gap + 0.1 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(better, 40u);
 }
 
 TEST_F(PairMeterTest, EstimatesHowFastTheyComeNearerAndWhen) {

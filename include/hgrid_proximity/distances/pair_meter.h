@@ -28,7 +28,11 @@ struct PairDistance {
   double gap = 0.0;                                 ///< [m] distance of their boxes
   std::uint8_t flags = 0;                           ///< as NearPair::flags
   Proximity proximity;
-  std::vector<NearCell> cells;                     ///< pairs with a map: its nearest cells, nearest first
+  /// [m] The pair is not nearer than this: its distance if it was measured, otherwise the larger of `gap` and the last
+  /// measured distance less what both bodies can have moved since.
+  double lower_bound = 0.0;
+  Time measured{0};             ///< time of the data of the last measurement of this pair; 0: there was none
+  std::vector<NearCell> cells;  ///< pairs with a map: its nearest cells, nearest first
   double closing_speed = Proximity::kUnknown;      ///< [m/s] estimate from past ticks; > 0: they come closer
   double time_to_contact = Proximity::kUnknown;    ///< [s] estimate; infinite if they do not come closer
   double no_contact_before = Proximity::kUnknown;  ///< [s] bound by max_speed, from the stamp on

@@ -43,7 +43,9 @@ boost::shared_ptr<msg::Distances> distancesMessage(const Tick& tick, const msg::
     message->second.push_back(number(pair.second));
     message->status.push_back(static_cast<std::uint8_t>(pair.proximity.status));
     message->distance.push_back(pair.proximity.distance);
+    message->lower_bound.push_back(pair.lower_bound);
     message->gap.push_back(pair.gap);
+    message->measured.push_back(toRos(pair.measured));
     message->point_on_first.push_back(toPoint(pair.proximity.on_first));
     message->point_on_second.push_back(toPoint(pair.proximity.on_second));
     message->normal.push_back(toVector(pair.proximity.normal));

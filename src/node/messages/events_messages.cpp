@@ -2,16 +2,30 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/messages/events_messages.h"
 
+#include <hgrid_proximity/BodyState.h>
+#include <hgrid_proximity/RuleOrigin.h>
+
 #include <algorithm>
 #include <chrono>
 #include <limits>
 
 #include "hgrid_proximity/distances/pair_meter.h"
+#include "hgrid_proximity/explain/decided_rule.h"
 
 namespace hgrid {
 namespace {
 
+/// A rule as a sentence for people: "robot/* obstacle/table: it is bolted on".
+std::string textOf(const PairRule& rule) {
+  return rule.first + " " + rule.second + (rule.reason.empty() ? "" : ": " + rule.reason);
+}
+
 constexpr double kShareOfBudget = 0.2;  // of ~distances/budget: ~pairs waits for it
+
+/// Whether a body of the event is no longer in the world; then its indices refer to the structure before.
+bool hasLostABody(const PairEvent& event, const Snapshot& snapshot) {
+  return &snapshot.structureOf(event) != &snapshot.structure();
+}
 
 /// Names of the bodies of some events, sorted, each once.
 std::vector<std::string> namesOf(const Snapshot& snapshot, const PairEvent* first, const PairEvent* last) {
@@ -37,11 +51,11 @@ class EventMeter {
                    ? Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(budget))
                    : Clock::time_point::max()) {}
 
-  /// [m] NaN if a body is gone, or no time is left.
-  double distanceOf(const PairEvent& event) const {
-    if (&snapshot_.structureOf(event) != &snapshot_.structure() || Clock::now() >= until_) return Proximity::kUnknown;
+  /// All of it is NaN if a body is gone, or no time is left.
+  Proximity measure(const PairEvent& event) const {
+    if (hasLostABody(event, snapshot_) || Clock::now() >= until_) return Proximity{};
     constexpr double kFar = std::numeric_limits<double>::infinity();
-    return measurePair(narrow_phase_, snapshot_, event.first, event.second, kFar).proximity.distance;
+    return measurePair(narrow_phase_, snapshot_, event.first, event.second, kFar).proximity;
   }
 
  private:
@@ -51,7 +65,27 @@ class EventMeter {
   Clock::time_point until_;
 };
 
-void add(const PairEvent& event, const Structure& structure, double distance, msg::Events& message) {
+/// Adds what holds only while both bodies are in the world.
+void addState(const PairEvent& event, const Snapshot& snapshot, msg::Events& message) {
+  const auto stateOf = [&](std::uint32_t body) { return static_cast<std::uint8_t>(snapshot.poses()[body].state); };
+  if (hasLostABody(event, snapshot)) {
+    message.margin.push_back(Proximity::kUnknown);
+    message.first_state.push_back(msg::BodyState::UNPLACED);
+    message.second_state.push_back(msg::BodyState::UNPLACED);
+    message.rule_origin.push_back(msg::RuleOrigin::NONE);
+    message.rule.emplace_back();
+    return;
+  }
+  message.margin.push_back(snapshot.marginOf(event.first, event.second) + snapshot.growthOf(event.first, event.second));
+  message.first_state.push_back(stateOf(event.first));
+  message.second_state.push_back(stateOf(event.second));
+  const PairRule rule = decidedRule(snapshot.structure(), event.first, event.second);
+  message.rule_origin.push_back(static_cast<std::uint8_t>(rule.origin));
+  message.rule.push_back(rule.origin == Origin::none ? std::string() : textOf(rule));
+}
+
+void add(const PairEvent& event, const Snapshot& snapshot, const Proximity& measured, msg::Events& message) {
+  const Structure& structure = snapshot.structureOf(event);
   const auto indexOf = [&](std::uint32_t body) {
     const std::string& name = structure.bodies[body].name;
     const auto found = std::lower_bound(message.names.begin(), message.names.end(), name);
@@ -64,7 +98,10 @@ void add(const PairEvent& event, const Structure& structure, double distance, ms
   message.second.push_back(indexOf(event.second));
   message.since.push_back(toRos(event.since));
   message.gap.push_back(event.gap);
-  message.distance.push_back(distance);
+  message.distance.push_back(measured.distance);
+  message.point_on_first.push_back(toPoint(measured.on_first));
+  message.point_on_second.push_back(toPoint(measured.on_second));
+  addState(event, snapshot, message);
 }
 
 }  // namespace
@@ -86,7 +123,7 @@ std::vector<boost::shared_ptr<msg::Events>> eventsMessages(const Tick& tick, con
     message->world.last_event = (last - 1)->number;
     message->names = namesOf(snapshot, first, last);
     for (const PairEvent* event = first; event != last; ++event) {
-      add(*event, snapshot.structureOf(*event), meter.distanceOf(*event), *message);
+      add(*event, snapshot, meter.measure(*event), *message);
     }
     messages.push_back(message);
   }

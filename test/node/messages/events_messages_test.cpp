@@ -3,6 +3,10 @@
 #include "src/node/messages/events_messages.h"
 
 #include <gtest/gtest.h>
+#include <hgrid_proximity/BodyState.h>
+#include <hgrid_proximity/EventCause.h>
+#include <hgrid_proximity/EventKind.h>
+#include <hgrid_proximity/RuleOrigin.h>
 
 #include "hgrid_proximity/adapters/fcl.h"
 #include "test/node/support/readings.h"
@@ -24,8 +28,11 @@ void expectWellFormed(const msg::Events& message, std::size_t most) {
   const std::size_t count = message.number.size();
   EXPECT_GT(count, 0u);
   EXPECT_LE(count, most);
-  for (const std::size_t size : {message.kind.size(), message.cause.size(), message.first.size(), message.second.size(),
-                                 message.since.size(), message.gap.size(), message.distance.size()}) {
+  for (const std::size_t size :
+       {message.kind.size(), message.cause.size(), message.first.size(), message.second.size(), message.since.size(),
+        message.gap.size(), message.distance.size(), message.margin.size(), message.point_on_first.size(),
+        message.point_on_second.size(), message.first_state.size(), message.second_state.size(),
+        message.rule_origin.size(), message.rule.size()}) {
     EXPECT_EQ(size, count);
   }
   std::set<std::uint32_t> used;
@@ -34,6 +41,14 @@ void expectWellFormed(const msg::Events& message, std::size_t most) {
     used.insert({message.first[i], message.second[i]});
     EXPECT_EQ(std::isnan(message.distance[i]), std::isnan(message.gap[i])) << "measured unless a body is gone";
     EXPECT_FALSE(message.distance[i] < message.gap[i] - 1e-6);
+    const bool gone = std::isnan(message.gap[i]);
+    EXPECT_EQ(std::isnan(message.margin[i]), gone);
+    EXPECT_EQ(message.first_state[i], gone ? msg::BodyState::UNPLACED : msg::BodyState::FRESH);
+    EXPECT_EQ(message.second_state[i], gone ? msg::BodyState::UNPLACED : msg::BodyState::FRESH);
+    if (message.kind[i] == msg::EventKind::BEGIN) EXPECT_LE(message.gap[i], message.margin[i]);
+    if (message.distance[i] > 0.0) {
+      EXPECT_NEAR(std::abs(message.point_on_first[i].x - message.point_on_second[i].x), message.distance[i], 1e-6);
+    }
   }
   EXPECT_EQ(used.size(), message.names.size()) << "every name stands in an event";
   EXPECT_EQ(std::set<std::string>(message.names.begin(), message.names.end()).size(), message.names.size());
@@ -84,6 +99,33 @@ TEST(EventsMessages, SayAllThatTheSnapshotSaysInAsManyMessagesAsItTakes) {
   }
   EXPECT_GT(split, 100u);
   EXPECT_GT(none, 100u);
+}
+
+TEST(EventsMessages, SayWhichRuleDecidesAboutThePair) {
+  const std::shared_ptr<NarrowPhase> narrow_phase = makeFclNarrowPhase();
+  Scene scene{SceneOptions{}};
+  scene.place(scene.add(solidBall(*narrow_phase, "a")), at(0.0), Time{1});
+  scene.place(scene.add(solidBall(*narrow_phase, "b")), at(0.5), Time{1});
+  Tick tick;
+  tick.snapshot = scene.commit(Time{1}, {});
+  auto messages = eventsMessages(tick, msg::WorldState(), Params(), *narrow_phase);
+  ASSERT_EQ(messages.size(), 1u);
+  EXPECT_EQ(messages[0]->rule_origin, std::vector<std::uint8_t>{msg::RuleOrigin::NONE});
+  EXPECT_EQ(messages[0]->rule, std::vector<std::string>{""});
+
+  PairRule rule;
+  rule.first = "obstacle/*";
+  rule.second = "obstacle/b";
+  rule.reason = "they are glued";
+  rule.allowed = true;
+  rule.origin = Origin::service;
+  scene.setRules({rule});
+  tick.snapshot = scene.commit(Time{2}, {});
+  messages = eventsMessages(tick, msg::WorldState(), Params(), *narrow_phase);
+  ASSERT_EQ(messages.size(), 1u);
+  EXPECT_EQ(messages[0]->cause, std::vector<std::uint8_t>{msg::EventCause::FILTER});
+  EXPECT_EQ(messages[0]->rule_origin, std::vector<std::uint8_t>{msg::RuleOrigin::SERVICE});
+  EXPECT_EQ(messages[0]->rule, std::vector<std::string>{"obstacle/* obstacle/b: they are glued"});
 }
 
 TEST(EventsMessages, AreNoneWhileThereIsNoWorld) {
