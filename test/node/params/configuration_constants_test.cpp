@@ -9,6 +9,7 @@
 #include <hgrid_proximity/Shape.h>
 #include <hgrid_proximity/WorldState.h>
 
+#include "hgrid_proximity/queries/query_answer.h"
 #include "hgrid_proximity/refusal.h"
 #include "hgrid_proximity/world/snapshot.h"
 
