@@ -21,7 +21,7 @@ bool canBeAnywhere(const Body& body, const BodyPose& pose) {
   if (!body.covered && !body.waived) return true;
   // FROZEN: the clock does not say how old the pose is. INVALID: newer data was refused, or publishers contradict it.
   if (pose.state == Freshness::frozen || pose.state == Freshness::invalid) return true;
-  if (isCloud(body) && pose.state >= Freshness::lost) return true;  // its cells are gone
+  if (body.kind == BodyKind::cloud && pose.state >= Freshness::lost) return true;  // its cells are gone
   return pose.state == Freshness::unplaced || !(pose.reach <= kQueryReach);
 }
 
@@ -122,7 +122,7 @@ bool noteBodies(const Question& question, QueryAnswer& answer) {
 bool asksMaps(const Snapshot& snapshot, const QueryScope& scope) {
   bool has_maps = false;
   for (const std::uint32_t map : snapshot.structure().maps) {
-    if (isCloud(snapshot.structure().bodies[map])) continue;
+    if (snapshot.structure().bodies[map].kind == BodyKind::cloud) continue;
     if (inScope(snapshot, scope, map)) return true;
     has_maps = true;
   }

@@ -169,6 +169,27 @@ TEST(Aabb, BoxesWithinAMarginOverlapWhenEachIsGrownByHalf) {
   }
 }
 
+TEST(Aabb, NearestPointsLieInTheirBoxesAtTheDistanceOfTheBoxes) {
+  Random random(9);
+  for (int i = 0; i < 2000; ++i) {
+    const auto [a, b] = randomBoxes(random, random.logUniform(1e-3, 1e3), 10.0);
+    const Eigen::AlignedBox3d first = inDouble(a), second = inDouble(b);
+    const BoxPoints points = nearestPoints(first, second), swapped = nearestPoints(second, first);
+    ASSERT_TRUE(first.contains(points.on_first));
+    ASSERT_TRUE(second.contains(points.on_second));
+    ASSERT_DOUBLE_EQ((points.on_first - points.on_second).norm(), distance(a, b));
+    ASSERT_EQ(points.on_first, swapped.on_second);
+    ASSERT_EQ(points.on_second, swapped.on_first);
+    ASSERT_EQ(nearestPoint(second, points.on_first), points.on_second);
+    for (int axis = 0; axis < 3; ++axis) {
+      const double low = std::max(a.min[axis], b.min[axis]), high = std::min(a.max[axis], b.max[axis]);
+      if (low <= high) {
+        ASSERT_EQ(points.on_first[axis], 0.5 * (low + high)) << "the middle of the overlap";
+      }
+    }
+  }
+}
+
 TEST(Aabb, IsValidOnlyIfFiniteAndOrderedOnEveryAxis) {
   EXPECT_TRUE(isValid(Aabb{}));
   EXPECT_TRUE(isValid({{-0.f, 0, 0}, {0.f, 0, 0}}));

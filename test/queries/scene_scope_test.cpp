@@ -144,6 +144,7 @@ TEST(Scope, ALostCloudWithoutAGapOfItsOwnHidesAnything) {
   Cell cell;
   Body body = test::mapBody("front", Mobility::moving);
   body.name = "cloud/front";
+  body.kind = BodyKind::cloud;
   const BodyId cloud = test::put(cell.scene, body, test::at(0));
   cell.scene.setState(cloud, Freshness::lost, 0.01);
   EXPECT_EQ(query(cell.now(), kPlace, {}).verdict, Verdict::unknown);

@@ -123,6 +123,7 @@ TEST(Unmapped, ACloudIsNoMap) {
   Scene scene(reporting());
   Body cloud = mapBody("x");
   cloud.name = "cloud/x";
+  cloud.kind = BodyKind::cloud;
   scene.setCells(put(scene, cloud, at(0)), cellsOf(kEdge, {}));
   const auto snapshot = scene.commit(Time{1}, {});
   QueryScope scope;

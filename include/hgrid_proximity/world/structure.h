@@ -33,7 +33,7 @@ struct Structure {
   bool silenced = false;                     ///< rules switch off every pair that would be reported without them
 
   /// Whether the body is a map or a cloud, which has cells instead of shapes.
-  bool isMap(std::uint32_t body) const { return bodies[body].kind == BodyKind::map; }
+  bool isMap(std::uint32_t body) const { return hasCells(bodies[body].kind); }
   /// Index of the shape that a proxy was made of, in the shapes of its body.
   std::uint32_t shapeOf(std::uint32_t proxy) const { return proxy - first_proxy[body_of_proxy[proxy]]; }
   /// Index of the body of this name, or kNone.
