@@ -121,6 +121,11 @@ Aabb grown(const Aabb& box, double by) {
   return result;
 }
 
+double penetrationDepth(const Eigen::AlignedBox3d& first, const Eigen::AlignedBox3d& second) {
+  const Eigen::Vector3d up = first.max() - second.min(), down = second.max() - first.min();  // to move the second
+  return std::max(0.0, up.cwiseMin(down).minCoeff());
+}
+
 BoxPoints nearestPoints(const Eigen::AlignedBox3d& first, const Eigen::AlignedBox3d& second) {
   const Eigen::Vector3d low = first.min().cwiseMax(second.min()), high = first.max().cwiseMin(second.max());
   BoxPoints points;

@@ -11,9 +11,11 @@ namespace {
 void findBodies(Question& question, std::vector<QueryHit>& hits) {
   const Structure& structure = question.snapshot.structure();
   const QueryScope& scope = question.scope;
+  const TimeBudget::Step step = scope.exact == nullptr ? TimeBudget::Step::fast : TimeBudget::Step::slow;
   std::vector<ProxyId> candidates;
   for (std::size_t round = 0; question.gather(round, hits, candidates); ++round) {
     for (const ProxyId proxy : candidates) {
+      if (question.time.isOver(step)) return;
       QueryHit hit;
       hit.body = structure.body_of_proxy[proxy];
       hit.shape = structure.shapeOf(proxy);
@@ -27,6 +29,7 @@ void findBodies(Question& question, std::vector<QueryHit>& hits) {
 /// Appends the cells of maps that the question hits.
 void findCells(const Question& question, std::vector<QueryHit>& hits) {
   forEachMap(question.snapshot, question.scope, [&](const PlacedMap& map) {
+    if (question.time.isOver(TimeBudget::Step::slow)) return;
     QueryHit hit;
     if (question.hitsMap(map, hit)) hits.push_back(hit);
   });
@@ -51,6 +54,7 @@ void sortOnePerBody(const Question& question, std::vector<QueryHit>& hits) {
 }
 
 QueryAnswer answerTo(Question& question) {
+  checkScope(question.snapshot, question.scope);
   QueryAnswer answer;
   std::vector<QueryHit>& hits = answer.hits;
   findBodies(question, hits);
@@ -60,7 +64,12 @@ QueryAnswer answerTo(Question& question) {
   if (wanted > 0 && hits.size() > wanted) hits.resize(wanted);
   answer.total = hits.size();
   if (limit > 0 && hits.size() > limit) hits.resize(limit);
-  if (answer.total == 0) noteDoubt(question, answer);
+  if (answer.total == 0 && !question.time.wasOver()) noteDoubt(question, answer);
+  answer.examined_all = !question.time.wasOver();
+  if (answer.total == 0 && answer.because == Unknown::no && !answer.examined_all) {
+    answer.because = Unknown::budget;
+    answer.reason = "the time for the query ended before everything was examined";
+  }
   if (answer.total > 0) {
     answer.verdict = Verdict::hit;
   } else if (answer.because == Unknown::no) {

@@ -56,13 +56,16 @@ bool mayBeInRegion(const Question& question, std::uint32_t body) {
   if (!(reach > 0.0)) return false;
   if (!(reach <= kQueryReach)) return true;
   for (ProxyId proxy = structure.first_proxy[body]; proxy < structure.first_proxy[body + 1]; ++proxy) {
+    if (question.time.isOver(TimeBudget::Step::slow)) return false;
     if (!question.isBoxWithin(proxy, reach)) continue;
     if (exact == nullptr || question.isShapeWithin(proxy, reach, *exact)) return true;
   }
   if (!structure.isMap(body)) return false;
   bool met = false;
-  forEachMap(snapshot, question.scope,
-             [&](const PlacedMap& map) { met = met || (map.body == body && question.isCellWithin(map, reach)); });
+  forEachMap(snapshot, question.scope, [&](const PlacedMap& map) {
+    if (met || map.body != body || question.time.isOver(TimeBudget::Step::slow)) return;
+    met = question.isCellWithin(map, reach);
+  });
   return met;
 }
 
@@ -80,6 +83,7 @@ bool noteGap(const Question& question, QueryAnswer& answer) {
 /// The same because of one body.
 bool noteBody(const Question& question, std::uint32_t body, QueryAnswer& answer) {
   const Snapshot& snapshot = question.snapshot;
+  if (question.time.isOver(TimeBudget::Step::fast)) return false;
   if (body == question.askingBody() || !inScope(snapshot, question.scope, body)) return false;
   const Body& what = snapshot.structure().bodies[body];
   const BodyPose& pose = snapshot.poses()[body];
@@ -136,9 +140,10 @@ bool noteUnmapped(const Question& question, QueryAnswer& answer) {
   if (!snapshot.reportsUnmapped() || !asksMaps(snapshot, question.scope)) return false;
   bool known = false;
   forEachMap(snapshot, question.scope, [&](const PlacedMap& map) {
-    if (!known && map.cells.unmapped) known = question.isFreeIn(map, *map.cells.unmapped);
+    if (known || !map.cells.unmapped || question.time.isOver(TimeBudget::Step::slow)) return;
+    known = question.isFreeIn(map, *map.cells.unmapped);
   });
-  if (known) return false;
+  if (known || question.time.wasOver()) return false;
   note(answer, Unknown::unmapped, "it passes through space that no map knows to be free");
   return true;
 }

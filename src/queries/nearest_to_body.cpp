@@ -102,8 +102,10 @@ class NearestToBody final : public Question {
 /// Makes the two boxes the hit, at distance `gap`, if they are nearer than the hit so far.
 void NearestToBody::takeNearerBox(ProxyId own, ProxyId proxy, double gap, QueryHit& hit) const {
   if (!(gap < hit.distance)) return;
-  const BoxPoints nearest = nearestPoints(inDouble(boxOf(own)), inDouble(boxOf(proxy)));
-  hit.distance = hit.center_distance = gap;
+  const Eigen::AlignedBox3d own_box = inDouble(boxOf(own)), box = inDouble(boxOf(proxy));
+  const BoxPoints nearest = nearestPoints(own_box, box);
+  setDistance(hit, signedDistance(own_box, box, gap));
+  hit.center_distance = gap;
   hit.own_point = origin() + nearest.on_first;
   hit.point = origin() + nearest.on_second;
 }
@@ -112,7 +114,8 @@ void NearestToBody::takeNearerBox(ProxyId own, ProxyId proxy, double gap, QueryH
 void NearestToBody::takeNearer(const Proximity& found, QueryHit& hit) {
   if (!(found.distance < hit.distance)) return;
   describe(hit, found);
-  hit.distance = hit.center_distance = found.distance;
+  setDistance(hit, signedDistanceOf(found));
+  hit.center_distance = found.distance;
   hit.own_point = found.on_first;
 }
 
@@ -153,12 +156,14 @@ bool NearestToBody::hitsMap(const PlacedMap& map, QueryHit& hit) const {
     std::optional<Probe> shape;
     if (isExact() && shapeOf(own).solid) shape.emplace(probe(own, *scope.exact));
     map.cells.grid->visitNear(own_box, farthest(hit), [&](const Voxel& voxel, double gap) {
+      if (time.isOver(TimeBudget::Step::slow)) return kNoFurther;
       Proximity found;
       if (shape) {
         found = shape->measure(map.solidOf(voxel), map.worldFromCube(voxel), 0.0, farthest(hit));
       } else {
         const BoxPoints nearest = nearestPoints(own_box, map.cubeOf(voxel));
         found.distance = gap;
+        if (!(gap > 0.0)) found.depth = penetrationDepth(own_box, map.cubeOf(voxel));
         found.on_first = map.world_from_map * nearest.on_first;
         found.on_second = map.world_from_map * nearest.on_second;
       }

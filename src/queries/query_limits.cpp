@@ -23,4 +23,12 @@ void checkQueryLength(double length, const std::string& what) {
   }
 }
 
+void checkScope(const Snapshot& snapshot, const QueryScope& scope) {
+  const std::size_t bodies = snapshot.structure().bodies.size();
+  if (scope.respect_allowed == Structure::kNone || scope.respect_allowed < bodies) return;
+  throw Refusal(Code::unknown_id, "the query respects the allowed pairs of body " +
+                                      std::to_string(scope.respect_allowed) + "; there are " + std::to_string(bodies) +
+                                      " bodies");
+}
+
 }  // namespace hgrid

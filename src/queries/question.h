@@ -2,12 +2,14 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "queries/placed_map.h"
 #include "queries/probe.h"
+#include "queries/time_budget.h"
 
 namespace hgrid {
 
@@ -15,6 +17,9 @@ namespace hgrid {
 void checkQueryPoint(const Eigen::Vector3d& point, const std::string& what);
 /// @throws Refusal bad_geometry, out_of_range: naming `what` and the value
 void checkQueryLength(double length, const std::string& what);
+
+/// @throws Refusal unknown_id if `respect_allowed` is not the index of a body
+void checkScope(const Snapshot& snapshot, const QueryScope& scope);
 
 /// [m] Bounds what rounding may take from a distance at such coordinates. A query that misses by less counts as a hit.
 inline double touchSlack(const Eigen::Vector3d& at, double radius) { return 1e-9 * (at.norm() + radius); }
@@ -24,6 +29,23 @@ inline void describe(QueryHit& hit, const Proximity& found) {
   hit.status = found.status;
   hit.point = found.on_second;
   hit.normal = -found.normal;
+}
+
+/// [m] Minus the depth if two things touch, otherwise their distance. NaN if they touch at an unknown depth.
+inline double signedDistanceOf(const Proximity& found) {
+  return found.distance > 0.0 ? found.distance : 0.0 - found.depth;
+}
+
+/// The same for two boxes, or a box and a point (a box without size), whose distance [m] is known.
+inline double signedDistance(const Eigen::AlignedBox3d& first, const Eigen::AlignedBox3d& second, double distance) {
+  return distance > 0.0 ? distance : 0.0 - penetrationDepth(first, second);
+}
+
+/// Sets the distances from the query's surface. @param signed_distance  [m] NaN if they touch at an unknown depth
+inline void setDistance(QueryHit& hit, double signed_distance) {
+  hit.distance = std::max(0.0, signed_distance);  // 0 for NaN
+  hit.signed_distance = signed_distance;
+  hit.depth = signed_distance <= 0.0 ? 0.0 - signed_distance : QueryHit::kUnknown;
 }
 
 /// A question that is asked of one snapshot: a sphere, a segment, a solid, or what is nearest to something.
@@ -68,11 +90,12 @@ class Question {
 
   const Snapshot& snapshot;
   const QueryScope& scope;
+  mutable TimeBudget time;  // whoever examines something asks it first; what it leaves out counts as not hit
 
  protected:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-  Question(const Snapshot& asked, const QueryScope& given) : snapshot(asked), scope(given) {}
+  Question(const Snapshot& asked, const QueryScope& given) : snapshot(asked), scope(given), time(given.deadline) {}
   const Structure& structure() const { return snapshot.structure(); }
   const Eigen::Vector3d& origin() const { return snapshot.origin(); }
   const Aabb& boxOf(ProxyId proxy) const { return snapshot.boxes()[proxy]; }

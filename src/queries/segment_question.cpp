@@ -79,7 +79,6 @@ class SegmentQuestion final : public Question {
   Segment inMap(const PlacedMap& map, double radius) const {
     return {map.map_from_world * segment_.from, map.map_from_world * segment_.to, radius};
   }
-  double distanceFromSurface(double axis_distance) const { return std::max(0.0, axis_distance - segment_.radius); }
   double firstTouch(ProxyId proxy, const NarrowPhase& exact, Proximity& found) const;
 
   const Segment segment_;  // in the world
@@ -104,7 +103,7 @@ bool SegmentQuestion::hitsBox(ProxyId proxy, QueryHit& hit) const {
   if (!meeting) return false;  // the grid's box is larger, by the margin
   hit.along = meeting->along;
   hit.center_distance = meeting->axis_distance;
-  hit.distance = distanceFromSurface(hit.center_distance);
+  setDistance(hit, meeting->axis_distance > 0.0 ? meeting->axis_distance - segment_.radius : QueryHit::kUnknown);
   hit.point = meeting->point + origin();
   return true;
 }
@@ -132,7 +131,7 @@ bool SegmentQuestion::hitsShape(ProxyId proxy, const NarrowPhase& exact, QueryHi
   if (!(found.distance <= segment_.radius + slack_)) return false;
   describe(hit, found);
   hit.center_distance = found.distance;
-  hit.distance = distanceFromSurface(hit.center_distance);
+  setDistance(hit, signedDistanceOf(found) - segment_.radius);
   if (found.status == Measure::failed) return true;
   hit.along = firstTouch(proxy, exact, found);
   if (found.on_second.allFinite()) {
@@ -151,7 +150,8 @@ bool SegmentQuestion::hitsMap(const PlacedMap& map, QueryHit& hit) const {
   const Eigen::AlignedBox3d cube = map.cubeOf(first->voxel);
   hit = map.hitOf(first->voxel, at, (nearestPoint(cube, at) - at).norm(), isExact());
   hit.along = first->along;
-  hit.distance = distanceFromSurface(hit.center_distance);
+  const double gap = hit.center_distance - segment_.radius;  // where the cell is first touched, not where it is nearest
+  setDistance(hit, gap > 0.0 ? gap : QueryHit::kUnknown);
   if (isExact() && (segment_.radius == 0.0 || hit.normal.hasNaN())) {
     hit.normal = map.world_from_map.linear() * normalWhereEntered(cube, at, step);
   }

@@ -57,6 +57,11 @@ class SolidQuestion final : public Question {
   Aabb boxAround(double by) const { return hgrid::boxOf(shape_, world_from_shape_, padding_ + by, origin()); }
   Probe probe(const NarrowPhase& narrow_phase) const { return {narrow_phase, *solid_, world_from_shape_, padding_}; }
   Proximity measureBox(ProxyId proxy, double up_to) const;
+  /// What the solid hits it touches, within rounding.
+  static void setDistance(QueryHit& hit, const Proximity& found) {
+    hgrid::setDistance(hit, signedDistanceOf(found));
+    hit.distance = 0.0;
+  }
   Proximity measureCell(const PlacedMap& map, const Voxel& voxel, double up_to) const {
     return probe(narrow_phase_).measure(map.solidOf(voxel), map.worldFromCube(voxel), 0.0, up_to);
   }
@@ -80,7 +85,9 @@ Proximity SolidQuestion::measureBox(ProxyId proxy, double up_to) const {
 }
 
 bool SolidQuestion::hitsBox(ProxyId proxy, QueryHit& hit) const {
-  if (!(measureBox(proxy, slack_).distance <= slack_)) return false;
+  const Proximity found = measureBox(proxy, slack_);
+  if (!(found.distance <= slack_)) return false;
+  setDistance(hit, found);
   hit.center_distance = distance(boxOf(proxy), center_ - origin());
   hit.point = nearestPoint(boxOf(proxy), center_ - origin()) + origin();
   return true;
@@ -92,6 +99,7 @@ bool SolidQuestion::hitsShape(ProxyId proxy, const NarrowPhase& exact, QueryHit&
   if (!(found.distance <= slack_)) return false;
   const Probe center{exact, *exact.point(), Pose(Eigen::Translation3d(center_))};
   const Proximity from_center = center.measure(snapshot, proxy, kInfinity);
+  setDistance(hit, found);
   describe(hit, from_center);
   hit.status = found.status;
   hit.center_distance = from_center.distance;
@@ -103,14 +111,19 @@ bool SolidQuestion::hitsMap(const PlacedMap& map, QueryHit& hit) const {
   const Eigen::Vector3d center = map.map_from_world * center_;
   const double most = reach_ + slack_;
   std::optional<NearVoxel> met;
+  Proximity contact;
   map.cells.grid->visitNear(Eigen::AlignedBox3d(center), most, [&](const Voxel& voxel, double distance) {
-    const bool touches = measureCell(map, voxel, slack_).distance <= slack_;
-    if (touches && (!met || distance < met->distance)) met = NearVoxel{voxel, distance};
+    if (time.isOver(TimeBudget::Step::slow)) return kNoFurther;
+    const Proximity found = measureCell(map, voxel, slack_);
+    if (found.distance <= slack_ && (!met || distance < met->distance)) {
+      met = NearVoxel{voxel, distance};
+      contact = found;
+    }
     return !met ? most : met->distance > 0.0 ? met->distance : kNoFurther;
   });
   if (!met) return false;
   hit = map.hitOf(met->voxel, center, met->distance, isExact());
-  hit.distance = 0.0;
+  setDistance(hit, contact);
   if (isExact()) hit.status = Measure::contact;
   return true;
 }
@@ -121,6 +134,7 @@ bool SolidQuestion::meetsCell(const PlacedMap& map, const StaticGrid& cells, dou
   bool met = false;
   cells.visitNear(Eigen::AlignedBox3d(Eigen::Vector3d(map.map_from_world * center_)), reach_ + limit,
                   [&](const Voxel& voxel, double) {
+                    if (time.isOver(TimeBudget::Step::slow)) return kNoFurther;
                     met = met || measureCell(map, voxel, limit).distance <= limit;
                     return met ? kNoFurther : reach_ + limit;
                   });
@@ -146,6 +160,16 @@ QueryAnswer query(const Snapshot& snapshot, const QueryBox& box, const NarrowPha
   const ShapeLimits any_size{0.0, kQueryReach};
   SolidQuestion question(snapshot, scope, narrow_phase, narrow_phase.block(box.size), Shape::box(box.size, any_size),
                          box.world_from_box, 0.0);
+  return answerTo(question);
+}
+
+QueryAnswer query(const Snapshot& snapshot, const QueryShape& shape, NarrowPhase& narrow_phase,
+                  const QueryScope& scope) {
+  const DefaultFloatEnvironment environment;
+  checkQueryPoint(shape.world_from_shape.translation(), "the query's center");
+  checkQueryLength(shape.padding, "the padding of the query's shape");
+  SolidQuestion question(snapshot, scope, narrow_phase, narrow_phase.solidOf(shape.shape), shape.shape,
+                         shape.world_from_shape, shape.padding);
   return answerTo(question);
 }
 

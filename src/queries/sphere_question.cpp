@@ -46,18 +46,29 @@ class AroundPoint : public Question {
   Probe center(const NarrowPhase& narrow_phase) const {
     return {narrow_phase, *narrow_phase.point(), Pose(Eigen::Translation3d(region_.center))};
   }
-  /// The nearest cell that is at most `limit` [m] from the center.
-  bool hitsNearestCell(const PlacedMap& map, double limit, QueryHit& hit) const {
+  // Below, distances of a hit are those from a sphere of `radius` [m] around the center.
+
+  /// Whether a cell is at most `limit` [m] from the center. If so, the hit is the nearest cell.
+  bool hitsNearestCell(const PlacedMap& map, double limit, double radius, QueryHit& hit) const {
     const Eigen::Vector3d in_map = map.map_from_world * region_.center;
     std::vector<NearVoxel> near;
     map.cells.grid->nearest(Eigen::AlignedBox3d(in_map), 1, limit, near);
     if (near.empty()) return false;
-    hit = map.hitOf(near.front().voxel, in_map, near.front().distance, isExact());
+    const Voxel& voxel = near.front().voxel;
+    hit = map.hitOf(voxel, in_map, near.front().distance, isExact());
+    setDistance(hit, signedDistance(map.cubeOf(voxel), Eigen::AlignedBox3d(in_map), hit.center_distance) - radius);
     return true;
   }
-  void measureBox(ProxyId proxy, QueryHit& hit) const {
+  void measureBox(ProxyId proxy, double radius, QueryHit& hit) const {
+    const Eigen::AlignedBox3d box = inDouble(boxOf(proxy)), point(local_.center);
     hit.center_distance = distance(boxOf(proxy), local_.center);
-    hit.point = nearestPoint(boxOf(proxy), local_.center) + origin();
+    hit.point = nearestPoint(box, local_.center) + origin();
+    setDistance(hit, signedDistance(box, point, hit.center_distance) - radius);
+  }
+  static void take(const Proximity& from_center, double radius, QueryHit& hit) {
+    describe(hit, from_center);
+    hit.center_distance = from_center.distance;
+    setDistance(hit, signedDistanceOf(from_center) - radius);
   }
 
   const Sphere region_;  // in the world
@@ -75,27 +86,19 @@ class SphereQuestion final : public AroundPoint {
   }
   bool hitsBox(ProxyId proxy, QueryHit& hit) const override {
     if (!touches(local_, boxOf(proxy))) return false;  // the grid's box is larger, by the margin
-    measureBox(proxy, hit);
-    hit.distance = distanceFromSurface(hit);
+    measureBox(proxy, region_.radius, hit);
     return true;
   }
   bool hitsShape(ProxyId proxy, const NarrowPhase& exact, QueryHit& hit) const override {
     const Proximity found = center(exact).measure(snapshot, proxy, radius_);
     if (found.status == Measure::not_measured) return true;
     if (!(found.distance <= radius_)) return false;
-    describe(hit, found);
-    hit.center_distance = found.distance;
-    hit.distance = distanceFromSurface(hit);
+    take(found, region_.radius, hit);
     return true;
   }
   bool hitsMap(const PlacedMap& map, QueryHit& hit) const override {
-    if (!hitsNearestCell(map, radius_, hit)) return false;
-    hit.distance = distanceFromSurface(hit);
-    return true;
+    return hitsNearestCell(map, radius_, region_.radius, hit);
   }
-
- private:
-  double distanceFromSurface(const QueryHit& hit) const { return std::max(0.0, hit.center_distance - region_.radius); }
 };
 
 class NearestToPoint final : public AroundPoint {
@@ -108,19 +111,17 @@ class NearestToPoint final : public AroundPoint {
     return rounds_.gather(round, hits, candidates);
   }
   bool hitsBox(ProxyId proxy, QueryHit& hit) const override {
-    measureBox(proxy, hit);
-    hit.distance = hit.center_distance;
+    measureBox(proxy, 0.0, hit);
     return hit.distance <= rounds_.limit();
   }
   bool hitsShape(ProxyId proxy, const NarrowPhase& exact, QueryHit& hit) const override {
     const Proximity found = center(exact).measure(snapshot, proxy, rounds_.limit());
     if (found.status == Measure::not_measured) return true;
-    describe(hit, found);
-    hit.center_distance = hit.distance = found.distance;
+    take(found, 0.0, hit);
     return hit.distance <= rounds_.limit();
   }
   bool hitsMap(const PlacedMap& map, QueryHit& hit) const override {
-    return hitsNearestCell(map, rounds_.limit(), hit);
+    return hitsNearestCell(map, rounds_.limit(), 0.0, hit);
   }
 
  private:

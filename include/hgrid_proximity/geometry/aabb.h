@@ -56,6 +56,9 @@ inline Eigen::Vector3d nearestPoint(const Aabb& box, const Eigen::Vector3d& poin
   return nearestPoint(inDouble(box), point);
 }
 
+/// [m] Length of the shortest move that separates two boxes that overlap; 0 if they do not.
+double penetrationDepth(const Eigen::AlignedBox3d& first, const Eigen::AlignedBox3d& second);
+
 /// A point of each of two boxes [m].
 struct BoxPoints {
   Eigen::Vector3d on_first, on_second;

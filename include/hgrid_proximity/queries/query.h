@@ -6,6 +6,7 @@
 
 #include "hgrid_proximity/geometry/pose.h"
 #include "hgrid_proximity/geometry/segment.h"
+#include "hgrid_proximity/geometry/shape.h"
 #include "hgrid_proximity/geometry/sphere.h"
 #include "hgrid_proximity/queries/query_answer.h"
 #include "hgrid_proximity/queries/query_scope.h"
@@ -28,8 +29,16 @@ struct QueryBox {
   Eigen::Vector3d size;                    ///< [m] full lengths, >= 0
 };
 
+/// A shape of any kind in any pose.
+struct QueryShape {
+  Shape shape;
+  Pose world_from_shape = Pose::Identity();
+  double padding = 0.0;  ///< [m] by which the shape is grown on all sides, >= 0
+};
+
 /// Finds the bodies whose boxes (exact: shapes) touch the sphere.
-/// @throws Refusal nonfinite, bad_geometry (negative radius), out_of_range (beyond kQueryReach)
+/// @throws Refusal nonfinite, bad_geometry (negative radius), out_of_range (beyond kQueryReach), unknown_id
+/// (QueryScope::respect_allowed is not the index of a body)
 QueryAnswer query(const Snapshot& snapshot, const Sphere& sphere, const QueryScope& scope);
 
 /// Finds the bodies whose boxes (exact: shapes) the segment meets, in the order in which it meets them.
@@ -40,6 +49,12 @@ QueryAnswer query(const Snapshot& snapshot, const Segment& segment, const QueryS
 /// @param narrow_phase  measures the query's box against the boxes of bodies, also if the query is not exact
 /// @throws Refusal as for a sphere
 QueryAnswer query(const Snapshot& snapshot, const QueryBox& box, const NarrowPhase& narrow_phase,
+                  const QueryScope& scope);
+
+/// Finds the bodies whose boxes (exact: shapes) touch the shape. Its center is the origin of its frame.
+/// @param narrow_phase  as for a box; makes the shape ready to be measured
+/// @throws Refusal as for a sphere, and as NarrowPhase::solidOf()
+QueryAnswer query(const Snapshot& snapshot, const QueryShape& shape, NarrowPhase& narrow_phase,
                   const QueryScope& scope);
 
 /// Finds the bodies nearest to a point: as many as scope.limit says (0: one). QueryAnswer::total counts only these.

@@ -21,7 +21,8 @@ enum class Unknown : std::uint8_t {
   incomplete = 2,  ///< a source lacks something that may be there, or nothing bounds where a body can be
   stale_body = 3,  ///< a body may have moved there since its pose was last known
   outdated = 4,    ///< the snapshot is too old; for callers that judge its age
-  unmapped = 5,    ///< it is not known to be free by a map, and maps are to report that
+  unmapped = 5,    ///< no map knows the space to be free, and maps are to report that
+  budget = 6,      ///< QueryScope::deadline passed before everything was examined
 };
 
 /// One body that a query hit. Points and normals are in the world frame. NaN: unknown or not applicable.
@@ -33,6 +34,14 @@ struct QueryHit {
   Measure status = Measure::not_measured;  ///< result of the narrow phase, if the query is exact
   /// [m] from the query's surface to the body's box, or to its shape if the query is exact; 0 where they overlap.
   double distance = 0.0;
+  /// [m] As `distance`, but -depth where they overlap. Of a sphere or point and a shape: the distance of the shape from
+  /// the center minus the radius.
+  double signed_distance = kUnknown;
+  /// [m] Penetration depth, >= 0: a move of this length separates the query from the box, shape or cell that this hit
+  /// names. The move may have to be longer for a mesh, and for a body of which other shapes are penetrated deeper. NaN
+  /// where they are apart, and where the depth is unknown: inside a mesh, where the axis of a segment meets the box,
+  /// for the cell that a segment meets, and where the narrow phase gives none.
+  double depth = kUnknown;
   /// [m] The same from the query's center, or from the axis of a segment. Between two bodies it equals `distance`.
   double center_distance = 0.0;
   /// [m] Segment only: how far along the segment its sphere first touches. In an open mesh, which the segment may enter
@@ -54,6 +63,7 @@ struct QueryAnswer {
   /// One per body, by distance, then center_distance, then name. Of a segment query: by `along`, then name.
   std::vector<QueryHit> hits;
   std::uint64_t total = 0;        ///< bodies hit; more than hits.size() if QueryScope::limit cut the list
+  bool examined_all = true;       ///< false: the deadline passed first, so there may be more hits, or nearer ones
   Unknown because = Unknown::no;  ///< why the verdict is unknown
   std::string reason;             ///< the same as a sentence; empty if the verdict is not unknown
 };
