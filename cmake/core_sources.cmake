@@ -5,7 +5,6 @@ set(HGRID_CORE_SOURCES
   src/geometry/pose.cpp
   src/geometry/segment.cpp
   src/geometry/shape.cpp
-  src/geometry/sphere.cpp
   src/broadphase/hgrid/engine.cpp
   src/broadphase/hgrid/hgrid.cpp
   src/broadphase/hgrid/layer.cpp
@@ -45,11 +44,17 @@ set(HGRID_CORE_SOURCES
   src/world/pair_events.cpp
   src/world/scene.cpp
   src/world/snapshot.cpp
-  src/queries/snapshot_doubt.cpp
-  src/queries/snapshot_maps.cpp
-  src/queries/snapshot_nearest.cpp
-  src/queries/snapshot_queries.cpp
-  src/queries/snapshot_unmapped.cpp
+  src/world/structure.cpp
+  src/queries/answer.cpp
+  src/queries/doubt.cpp
+  src/queries/nearest_rounds.cpp
+  src/queries/nearest_to_body.cpp
+  src/queries/placed_map.cpp
+  src/queries/query_limits.cpp
+  src/queries/query_scope.cpp
+  src/queries/segment_question.cpp
+  src/queries/solid_question.cpp
+  src/queries/sphere_question.cpp
   src/distances/map_meter.cpp
   src/distances/pair_meter.cpp
   src/explain/allowed_matrix.cpp

@@ -13,6 +13,7 @@ std::string sourceOf(const Body& body) {
     case BodyKind::obstacle:
       return "obstacle";
     case BodyKind::map:
+    case BodyKind::cloud:
       return body.name;
   }
   return body.name;

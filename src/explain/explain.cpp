@@ -81,7 +81,7 @@ class Words {
       }
     }
     for (const auto* body : {&a_, &b_}) {
-      if (body->kind == BodyKind::map) return body->name + " has no occupied cells";
+      if (hasCells(body->kind)) return body->name + " has no occupied cells";
     }
     const Body& body = a_.shapes.empty() ? a_ : b_;
     return body.name + " has no shape that could be read" + (body.note.empty() ? "" : ": " + body.note);
@@ -115,7 +115,7 @@ class Words {
     }
     const bool links = a_.kind == BodyKind::link && b_.kind == BodyKind::link;
     const bool link = a_.kind == BodyKind::link || b_.kind == BodyKind::link;
-    const bool map = a_.kind == BodyKind::map || b_.kind == BodyKind::map;
+    const bool map = hasCells(a_.kind) || hasCells(b_.kind);
     const auto moving_obstacle = [](const Body& body) {
       return body.kind == BodyKind::obstacle && body.mobility == Mobility::moving;
     };

@@ -121,4 +121,21 @@ Aabb grown(const Aabb& box, double by) {
   return result;
 }
 
+double penetrationDepth(const Eigen::AlignedBox3d& first, const Eigen::AlignedBox3d& second) {
+  const Eigen::Vector3d up = first.max() - second.min(), down = second.max() - first.min();  // to move the second
+  return std::max(0.0, up.cwiseMin(down).minCoeff());
+}
+
+BoxPoints nearestPoints(const Eigen::AlignedBox3d& first, const Eigen::AlignedBox3d& second) {
+  const Eigen::Vector3d low = first.min().cwiseMax(second.min()), high = first.max().cwiseMin(second.max());
+  BoxPoints points;
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool apart = low[axis] > high[axis], first_is_lower = first.max()[axis] < second.min()[axis];
+    const double middle = 0.5 * (low[axis] + high[axis]);
+    points.on_first[axis] = !apart ? middle : first_is_lower ? high[axis] : low[axis];
+    points.on_second[axis] = !apart ? middle : first_is_lower ? low[axis] : high[axis];
+  }
+  return points;
+}
+
 }  // namespace hgrid

@@ -11,12 +11,12 @@ namespace {
 
 void checkSize(double value, const char* shape, const char* field, const ShapeLimits& limits,
                bool may_be_flat = false) {
-  const std::string what = std::string(shape) + ": " + field + " is " + text(value) + " m; it must be ";
-  if (!std::isfinite(value)) throw Refusal(Code::bad_geometry, what + "finite");
   if (may_be_flat && value == 0.0) return;
-  if (!(value >= limits.min_size && value <= limits.max_size)) {
-    throw Refusal(Code::bad_geometry, what + "within " + text(limits.min_size) + " .. " + text(limits.max_size) + " m");
-  }
+  if (value >= limits.min_size && value <= limits.max_size && std::isfinite(value)) return;
+  throw Refusal(Code::bad_geometry,
+                std::string(shape) + ": " + field + " is " + text(value) + " m; it must be " +
+                    (std::isfinite(value) ? "within " + text(limits.min_size) + " .. " + text(limits.max_size) + " m"
+                                          : "finite"));
 }
 
 void checkVertices(const TriangleMesh& mesh, double max_size, const std::string& what) {

@@ -29,7 +29,7 @@ bool exists(const PairKinds& kinds, const Type& a, const Type& b, bool same_robo
   if (a.kind == BodyKind::link && b.kind == BodyKind::link) return same_robot ? kinds.self : kinds.robot_robot;
   if (a.kind == BodyKind::link || b.kind == BodyKind::link) {
     const BodyKind other = a.kind == BodyKind::link ? b.kind : a.kind;
-    return other == BodyKind::map ? kinds.robot_map : kinds.robot_obstacle;
+    return hasCells(other) ? kinds.robot_map : kinds.robot_obstacle;
   }
   const auto moving_obstacle = [](const Type& type) {
     return type.kind == BodyKind::obstacle && type.mobility == Mobility::moving;

@@ -2,38 +2,42 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
-#include "hgrid_proximity/world/snapshot.h"
+#include "hgrid_proximity/maps/map_cells.h"
+#include "hgrid_proximity/queries/query_answer.h"
+#include "hgrid_proximity/queries/query_scope.h"
 
 namespace hgrid {
 
-/// A map as it lies in the world.
+/// The occupied cells of a map or cloud at its pose in the world.
 struct PlacedMap {
   std::uint32_t body;
   const MapCells& cells;
   const Pose& world_from_map;
   Pose map_from_world;
-  double reach;  // [m] how far it may be from where its pose puts it
+  double reach;  // [m] how far the map may be from its pose by now
 
   double edgeOf(const Voxel& voxel) const { return hgrid::edgeOf(voxel, cells.grid->finestEdge()); }
+  /// The voxel as a box, in the map's frame.
   Eigen::AlignedBox3d cubeOf(const Voxel& voxel) const {
     return {minCorner(voxel, cells.grid->finestEdge()), maxCorner(voxel, cells.grid->finestEdge())};
   }
-  /// The point of a voxel, in the map's frame, that is nearest to another.
-  Eigen::Vector3d nearestOf(const Voxel& voxel, const Eigen::Vector3d& point) const {
-    const Eigen::AlignedBox3d cube = cubeOf(voxel);
-    return point.cwiseMax(cube.min()).cwiseMin(cube.max());
-  }
+  const Solid& solidOf(const Voxel& voxel) const { return *cells.cubes[voxel.level]; }
   Pose worldFromCube(const Voxel& voxel) const { return world_from_map * Eigen::Translation3d(cells.centerOf(voxel)); }
+  /// The voxel as a hit whose point is the nearest to `center`.
+  /// @param center    [m] of the query, in the map's frame
+  /// @param distance  [m] of the voxel from that center
+  QueryHit hitOf(const Voxel& voxel, const Eigen::Vector3d& center, double distance, bool exact) const;
 };
 
-/// Those in scope that have a pose and cells.
+/// Calls `look` with each map in the scope that has a pose and cells.
 template <class Look>
-void Snapshot::forEachMap(const QueryScope& scope, Look&& look) const {
-  for (std::size_t i = 0; i < cells_.size(); ++i) {
-    const std::uint32_t body = structure_->maps[i];
-    const BodyPose& pose = poses_[body];
-    if (!cells_[i] || pose.state == Freshness::unplaced || !inScope(scope, body)) continue;
-    look(PlacedMap{body, *cells_[i], pose.world_from_body, pose.world_from_body.inverse(), pose.reach});
+void forEachMap(const Snapshot& snapshot, const QueryScope& scope, Look&& look) {
+  for (std::size_t i = 0; i < snapshot.cells().size(); ++i) {
+    const std::uint32_t body = snapshot.structure().maps[i];
+    const BodyPose& pose = snapshot.poses()[body];
+    const std::shared_ptr<const MapCells>& cells = snapshot.cells()[i];
+    if (!cells || pose.state == Freshness::unplaced || !inScope(snapshot, scope, body)) continue;
+    look(PlacedMap{body, *cells, pose.world_from_body, pose.world_from_body.inverse(), pose.reach});
   }
 }
 

@@ -2,36 +2,32 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
-#include <cmath>
 #include <memory>
-#include <string>
 
+#include "hgrid_proximity/narrow/narrow_phase.h"
 #include "hgrid_proximity/world/snapshot.h"
 
 namespace hgrid {
 
-/// @throws Refusal nonfinite, out_of_range: naming `what` and the value
-void checkQueryPoint(const Eigen::Vector3d& point, const std::string& what);
-/// @throws Refusal bad_geometry, out_of_range
-void checkQueryLength(double length, const std::string& what);
-
-/// [m] What rounding may take from a distance at such coordinates: a question that touches within it hits.
-inline double touchSlack(const Eigen::Vector3d& at, double radius) { return 1e-9 * (at.norm() + radius); }
-
-/// A question's core somewhere in the world, to be measured against shapes.
-struct Snapshot::Probe {
+/// A solid at a pose in the world that is measured against the shapes of a snapshot.
+struct Probe {
   const NarrowPhase& narrow_phase;
-  std::shared_ptr<const Solid> core;
-  Pose world_from_core;
+  const Solid& solid;
+  Pose world_from_solid;
   double padding = 0.0;  // [m]
 
-  /// From the core to a shape of a body of the snapshot; `not_measured` if the shape has no solid.
-  Proximity measure(const Snapshot& snapshot, std::uint32_t body, std::uint32_t shape, double up_to) const {
-    const BodyShape& what = snapshot.structure().bodies[body].shapes[shape];
-    if (!what.solid) return {};
-    const Pose world_from_shape = snapshot.poses()[body].world_from_body * what.body_from_shape;
-    return narrow_phase.measure({*core, world_from_core, padding}, {*what.solid, world_from_shape, what.padding},
-                                up_to);
+  /// How the solid lies to a shape, the solid being the first; `not_measured` if the shape has no solid.
+  /// @param up_to  [m] as in NarrowPhase::measure()
+  Proximity measure(const Snapshot& snapshot, ProxyId proxy, double up_to) const {
+    const std::uint32_t body = snapshot.structure().body_of_proxy[proxy];
+    const BodyShape& shape = snapshot.structure().bodies[body].shapes[snapshot.structure().shapeOf(proxy)];
+    if (!shape.solid) return {};
+    const Pose world_from_shape = snapshot.poses()[body].world_from_body * shape.body_from_shape;
+    return measure(*shape.solid, world_from_shape, shape.padding, up_to);
+  }
+  /// The same for another solid.
+  Proximity measure(const Solid& other, const Pose& world_from_other, double other_padding, double up_to) const {
+    return narrow_phase.measure({solid, world_from_solid, padding}, {other, world_from_other, other_padding}, up_to);
   }
 };
 

@@ -41,7 +41,7 @@ void Scene::State::rebuildStructure() {
     next->first_proxy.push_back(static_cast<std::uint32_t>(next->body_of_proxy.size()));
     next->body_of_proxy.insert(next->body_of_proxy.end(), body.shapes.size(),
                                static_cast<std::uint32_t>(next->bodies.size()));
-    if (body.kind == BodyKind::map) next->maps.push_back(static_cast<std::uint32_t>(next->bodies.size()));
+    if (hasCells(body.kind)) next->maps.push_back(static_cast<std::uint32_t>(next->bodies.size()));
     next->bodies.push_back(body);
     next->ids.push_back({named.second, slots[named.second].generation});
     next->margin.push_back(std::max(options.margin, body.margin));

@@ -34,8 +34,9 @@ std::string gapLeftBy(const Body& body, const BodyPose& pose) {
   }
   if (!body.covered && !body.waived) return "UNCOVERED " + body.name + ": " + body.note;
   if (pose.state >= Freshness::lost) {
-    return std::string(name(pose.state)) + " " + body.name + (isCloud(body) ? ": what it saw is " : ": its pose is ") +
-           secondsText(pose.age) + " old (frame '" + printable(body.frame) + "')";
+    return std::string(name(pose.state)) + " " + body.name +
+           (body.kind == BodyKind::cloud ? ": what it saw is " : ": its pose is ") + secondsText(pose.age) +
+           " old (frame '" + printable(body.frame) + "')";
   }
   return {};
 }

@@ -243,9 +243,9 @@ void Scene::setCells(BodyId id, std::shared_ptr<const MapCells> cells) {
   State& s = *state_;
   s.at(id);
   const Body& body = s.bodies[id.slot];
-  if (body.kind != BodyKind::map || !body.shapes.empty() || !cells || !cells->grid) {
+  if (!hasCells(body.kind) || !body.shapes.empty() || !cells || !cells->grid) {
     throw Refusal(Code::bad_geometry,
-                  "body '" + body.name + "' cannot have occupied cells; only a map without shapes can");
+                  "body '" + body.name + "' cannot have occupied cells; only a map or cloud without shapes can");
   }
   s.cells[id.slot] = std::move(cells);
 }

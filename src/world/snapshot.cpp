@@ -4,42 +4,36 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "hgrid_proximity/bodies/name.h"
-#include "hgrid_proximity/geometry/float_environment.h"
-#include "hgrid_proximity/refusal.h"
+#include "maps/map_gap.h"
 #include "world/pair_margin.h"
 
 namespace hgrid {
-namespace {
 
-bool nearer(const QueryHit& a, const QueryHit& b) {
-  if (a.distance != b.distance) return a.distance < b.distance;
-  if (a.center_distance != b.center_distance) return a.center_distance < b.center_distance;
-  return a.body != b.body ? a.body < b.body : a.shape < b.shape;
+std::shared_ptr<const MapCells> Snapshot::cellsOf(std::uint32_t body) const {
+  const std::vector<std::uint32_t>& maps = structure_->maps;
+  const auto found = std::lower_bound(maps.begin(), maps.end(), body);
+  return found != maps.end() && *found == body ? cells_[static_cast<std::size_t>(found - maps.begin())] : nullptr;
 }
 
-bool earlier(const QueryHit& a, const QueryHit& b) {
-  if (a.along != b.along) return a.along < b.along;
-  return a.body != b.body ? a.body < b.body : a.shape < b.shape;
-}
-
-/// Keeps of several hits on shapes of one body the first in `order`, then sorts by `order`.
-void sortOnePerBody(std::vector<QueryHit>& hits, bool (*order)(const QueryHit&, const QueryHit&)) {
-  std::sort(hits.begin(), hits.end(),
-            [order](const QueryHit& a, const QueryHit& b) { return a.body != b.body ? a.body < b.body : order(a, b); });
-  const auto same_body = [](const QueryHit& a, const QueryHit& b) { return a.body == b.body; };
-  hits.erase(std::unique(hits.begin(), hits.end(), same_body), hits.end());
-  std::sort(hits.begin(), hits.end(), order);
-}
-
-}  // namespace
-
-std::uint32_t Structure::find(const std::string& name) const {
-  const auto found = std::lower_bound(bodies.begin(), bodies.end(), name,
-                                      [](const Body& body, const std::string& wanted) { return body.name < wanted; });
-  const bool here = found != bodies.end() && found->name == name;
-  return here ? static_cast<std::uint32_t>(found - bodies.begin()) : kNone;
+double Snapshot::gapOf(std::uint32_t first, std::uint32_t second, double up_to) const {
+  double gap = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t body : {first, second}) {
+    if (poses_[body].state == Freshness::unplaced) return gap;
+  }
+  if (structure_->isMap(first)) std::swap(first, second);
+  const auto cells = cellsOf(second);
+  const Pose map_from_world = poses_[second].world_from_body.inverse();
+  for (ProxyId a = structure_->first_proxy[first]; a < structure_->first_proxy[first + 1]; ++a) {
+    if (cells) {
+      gap = std::min(gap, gapTo(*cells->grid, boxInMap(map_from_world, boxes_[a], origin_), std::min(gap, up_to)));
+    }
+    for (ProxyId b = structure_->first_proxy[second]; b < structure_->first_proxy[second + 1]; ++b) {
+      gap = std::min(gap, distance(boxes_[a], boxes_[b]));
+    }
+  }
+  return gap <= up_to ? gap : std::numeric_limits<double>::infinity();
 }
 
 double Snapshot::marginOf(std::uint32_t first, std::uint32_t second) const {
@@ -50,25 +44,8 @@ double Snapshot::growthOf(std::uint32_t first, std::uint32_t second) const {
   return widening(*structure_, first, stalenessOf(poses_[first]), second, stalenessOf(poses_[second]));
 }
 
-bool Snapshot::inScope(const QueryScope& scope, std::uint32_t body) const {
-  const std::string& name = structure_->bodies[body].name;
-  return (scope.include.empty() || matchesAny(scope.include, name)) && !matchesAny(scope.exclude, name);
-}
-
-QueryAnswer Snapshot::finished(std::vector<QueryHit>& hits, const QueryScope& scope, bool by_along,
-                               const Region& region) const {
-  sortOnePerBody(hits, by_along ? earlier : nearer);
-  QueryAnswer answer;
-  answer.total = hits.size();
-  if (scope.limit > 0 && hits.size() > scope.limit) hits.resize(scope.limit);
-  answer.hits = std::move(hits);
-  if (answer.total == 0) doubt(scope, region, answer);
-  if (answer.total > 0) {
-    answer.verdict = Verdict::hit;
-  } else if (answer.because == Unknown::no) {
-    answer.verdict = Verdict::clear;
-  }
-  return answer;
+bool Snapshot::hasGap(const std::string& body) const {
+  return std::any_of(gaps_.begin(), gaps_.end(), [&](const SourceGap& gap) { return gap.bodies == body; });
 }
 
 double Snapshot::noContactBefore(std::uint32_t first, std::uint32_t second, double distance) const {

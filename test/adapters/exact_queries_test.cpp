@@ -7,6 +7,7 @@
 #include <map>
 
 #include "hgrid_proximity/adapters/fcl.h"
+#include "hgrid_proximity/queries/query.h"
 #include "test/support/scenes.h"
 #include "test/support/worlds.h"
 
@@ -96,14 +97,14 @@ TEST_F(ExactQueries, SpheresFindExactlyTheShapesTheyTouch) {
   Random random(2);
   for (int i = 0; i < 300; ++i) {
     const Sphere sphere{test::randomVector(random, -3, 3), i % 5 == 0 ? 0.0 : random.uniform(0, 1)};
-    const QueryAnswer answer = snapshot_->query(sphere, exactly());
+    const QueryAnswer answer = query(*snapshot_, sphere, exactly());
     expectHits(
         answer,
         [&](std::uint32_t body) {
           return distanceTo(*phase_->point(), at(sphere.center.x(), sphere.center.y(), sphere.center.z()), 0.0, body);
         },
         sphere.radius);
-    EXPECT_LE(answer.total, snapshot_->query(sphere, QueryScope{}).total) << "boxes find no less";
+    EXPECT_LE(answer.total, query(*snapshot_, sphere, QueryScope{}).total) << "boxes find no less";
   }
 }
 
@@ -115,7 +116,7 @@ TEST_F(ExactQueries, SegmentsFindTheFirstTouchOnTheShape) {
     const Segment segment{test::randomVector(random, -3, 3), test::randomVector(random, -3, 3),
                           i % 2 == 0 ? 0.0 : random.uniform(0, 0.3)};
     const double length = (segment.to - segment.from).norm();
-    const QueryAnswer answer = snapshot_->query(segment, exactly());
+    const QueryAnswer answer = query(*snapshot_, segment, exactly());
     const auto ball = [&](double along, std::uint32_t body, bool surely) {
       const Eigen::Vector3d center = segment.from + along / length * (segment.to - segment.from);
       return distanceTo(*phase_->point(), at(center.x(), center.y(), center.z()), 0.0, body, surely);
@@ -141,7 +142,7 @@ TEST_F(ExactQueries, ARayMeetsABoxWhereItsFaceIs) {
   turned.linear() = Eigen::AngleAxisd(M_PI / 4, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   add(box, turned);
   snapshot_ = scene_.commit(Time{1}, {});
-  const QueryAnswer answer = snapshot_->query(Segment{{0, 0.1, 0.2}, {10, 0.1, 0.2}, 0.0}, exactly());
+  const QueryAnswer answer = query(*snapshot_, Segment{{0, 0.1, 0.2}, {10, 0.1, 0.2}, 0.0}, exactly());
   ASSERT_EQ(answer.hits.size(), 1u);
   const double expected = 3.0 - std::sqrt(0.5) + 0.1;  // a corner of the turned box looks at the ray
   EXPECT_NEAR(answer.hits[0].along, expected, 1e-6);
@@ -156,7 +157,7 @@ TEST_F(ExactQueries, BoxesFindExactlyTheShapesTheyTouch) {
     QueryBox box{test::randomPose(random, 3.0),
                  {random.uniform(0.01, 1), random.uniform(0.01, 1), random.uniform(0.01, 1)}};
     const auto solid = phase_->block(box.size);
-    const QueryAnswer answer = snapshot_->query(box, *phase_, exactly());
+    const QueryAnswer answer = query(*snapshot_, box, *phase_, exactly());
     std::map<std::uint32_t, bool> hits;
     for (const QueryHit& hit : answer.hits) hits[hit.body] = true;
     for (std::uint32_t body = 0; body < snapshot_->structure().bodies.size(); ++body) {
@@ -167,7 +168,7 @@ TEST_F(ExactQueries, BoxesFindExactlyTheShapesTheyTouch) {
         ASSERT_LE(distance, 1e-7) << "too much " << body;
       }
     }
-    const QueryAnswer by_boxes = snapshot_->query(box, *phase_, QueryScope{});
+    const QueryAnswer by_boxes = query(*snapshot_, box, *phase_, QueryScope{});
     ASSERT_GE(by_boxes.total, answer.total);
   }
 }
@@ -187,7 +188,7 @@ TEST_F(ExactQueries, NearestAreTheNearestOfAll) {
       const bool from_body = i % 2 == 1;
       const auto from = static_cast<std::uint32_t>(random.between(0, 79));
       const QueryAnswer answer =
-          from_body ? snapshot_->nearest(from, bound, scope) : snapshot_->nearest(point, bound, scope);
+          from_body ? nearest(*snapshot_, from, bound, scope) : nearest(*snapshot_, point, bound, scope);
       std::vector<double> all;
       for (std::uint32_t body = 0; body < 80; ++body) {
         if (from_body && body == from) continue;

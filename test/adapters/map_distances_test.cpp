@@ -6,6 +6,7 @@
 
 #include "hgrid_proximity/adapters/fcl.h"
 #include "hgrid_proximity/distances/pair_meter.h"
+#include "hgrid_proximity/queries/query.h"
 #include "test/support/maps.h"
 #include "test/support/solids.h"
 
@@ -181,7 +182,7 @@ TEST_P(MapDistances, OfExactQueriesAreThoseOfTheNearestCells) {
   scope.limit = 2;
   for (std::uint32_t body = 0; body < snapshot->structure().bodies.size(); ++body) {
     if (snapshot->structure().bodies[body].kind == BodyKind::map) continue;
-    const QueryAnswer answer = snapshot->nearest(body, 0.0, scope);
+    const QueryAnswer answer = nearest(*snapshot, body, 0.0, scope);
     ASSERT_EQ(answer.hits.size(), 2u);
     for (const QueryHit& hit : answer.hits) {
       EXPECT_NEAR(hit.distance, distancesByHand(*snapshot, hit.body, body).front(), 1e-8);
@@ -189,7 +190,7 @@ TEST_P(MapDistances, OfExactQueriesAreThoseOfTheNearestCells) {
   }
   for (int i = 0; i < 50; ++i) {
     const QueryBox box{pose(), {random_.uniform(0.0, 1.0), random_.uniform(0.0, 1.0), random_.uniform(0.0, 1.0)}};
-    const QueryAnswer answer = snapshot->query(box, *narrow_phase_, scope);
+    const QueryAnswer answer = query(*snapshot, box, *narrow_phase_, scope);
     const auto core = narrow_phase_->block(box.size);
     for (const std::uint32_t map : snapshot->structure().maps) {
       bool met = false;
@@ -247,7 +248,7 @@ TEST(UnmappedBoxes, AreThoseOfAScanOfAllUnknownCells) {
                       .distance);
       }
       if (std::abs(room) < 1e-3 && room != 0.0) continue;
-      const QueryAnswer answer = snapshot->query(box, *narrow_phase, {});
+      const QueryAnswer answer = query(*snapshot, box, *narrow_phase, {});
       ASSERT_EQ(answer.because, room > 0.0 ? Unknown::no : Unknown::unmapped) << "seed " << seed << ", " << room;
       ASSERT_EQ(answer.verdict, room > 0.0 ? Verdict::clear : Verdict::unknown);
       ++(room > 0.0 ? clear : unknown_space);

@@ -169,6 +169,59 @@ TEST(Aabb, BoxesWithinAMarginOverlapWhenEachIsGrownByHalf) {
   }
 }
 
+TEST(Aabb, NearestPointsLieInTheirBoxesAtTheDistanceOfTheBoxes) {
+  Random random(9);
+  for (int i = 0; i < 2000; ++i) {
+    const auto [a, b] = randomBoxes(random, random.logUniform(1e-3, 1e3), 10.0);
+    const Eigen::AlignedBox3d first = inDouble(a), second = inDouble(b);
+    const BoxPoints points = nearestPoints(first, second), swapped = nearestPoints(second, first);
+    ASSERT_TRUE(first.contains(points.on_first));
+    ASSERT_TRUE(second.contains(points.on_second));
+    ASSERT_DOUBLE_EQ((points.on_first - points.on_second).norm(), distance(a, b));
+    ASSERT_EQ(points.on_first, swapped.on_second);
+    ASSERT_EQ(points.on_second, swapped.on_first);
+    ASSERT_EQ(nearestPoint(second, points.on_first), points.on_second);
+    for (int axis = 0; axis < 3; ++axis) {
+      const double low = std::max(a.min[axis], b.min[axis]), high = std::min(a.max[axis], b.max[axis]);
+      if (low <= high) {
+        ASSERT_EQ(points.on_first[axis], 0.5 * (low + high)) << "the middle of the overlap";
+      }
+    }
+  }
+}
+
+TEST(Aabb, PenetrationDepthIsTheLengthOfTheShortestMoveThatSeparates) {
+  Random random(10);
+  int deep = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const auto [a, b] = randomBoxes(random, 1.0, 10.0);
+    const Eigen::AlignedBox3d first = inDouble(a), second = inDouble(b);
+    const double depth = penetrationDepth(first, second);
+    ASSERT_EQ(depth, penetrationDepth(second, first));
+    const auto separates = [&](const Eigen::Vector3d& move) {
+      return !first.intersects(Eigen::AlignedBox3d(second).translate(move));
+    };
+    bool some_axis = false;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const double sign : {-1.0, 1.0}) {
+        some_axis = some_axis || separates(sign * (depth + 1e-6) * Eigen::Vector3d::Unit(axis));
+      }
+    }
+    if (!first.intersects(second)) {
+      ASSERT_EQ(depth, 0.0);
+      continue;
+    }
+    ASSERT_TRUE(some_axis) << depth;
+    if (depth < 1e-5) continue;
+    for (int k = 0; k < 50; ++k) {
+      const Eigen::Vector3d direction(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+      ASSERT_FALSE(separates((depth - 1e-6) * direction.normalized())) << depth;
+    }
+    deep += depth > 0.01;
+  }
+  EXPECT_GT(deep, 20);
+}
+
 TEST(Aabb, IsValidOnlyIfFiniteAndOrderedOnEveryAxis) {
   EXPECT_TRUE(isValid(Aabb{}));
   EXPECT_TRUE(isValid({{-0.f, 0, 0}, {0.f, 0, 0}}));

@@ -23,7 +23,7 @@ EVENTS = "world/pair_events.cpp"
 BRICKS = "maps/static_grid_bricks.h"
 LINE = "maps/static_grid_line.h"
 MAPS = "world/map_pairs.cpp"
-UNMAPPED = "queries/snapshot_unmapped.cpp"
+SPHERE = "queries/sphere_question.cpp"
 CLOUD = "maps/cloud_cells.cpp"
 
 MUTANTS = [
@@ -171,10 +171,10 @@ MUTANTS = [
      "known.up_to < up_to || known.box != box", "known.up_to < up_to"),
     ("a map's own moves are not swept", MAPS,
      "boxInMap(map.mapFromWorldBefore(), from", "boxInMap(map.map_from_world, from"),
-    ("what lies beyond a map counts as known", UNMAPPED,
-     "return contains(space.extent, ball) && !", "return !"),
-    ("a stale map knows as much as a fresh one", UNMAPPED,
-     "sphere.radius + map.reach + touchSlack(sphere", "sphere.radius + touchSlack(sphere"),
+    ("what lies beyond a map counts as known", SPHERE,
+     "return unmapped.extent.contains(grown(Eigen::AlignedBox3d(in_map.center), radius)) &&", "return"),
+    ("a stale map knows as much as a fresh one", SPHERE,
+     "region_.radius + map.reach + touchSlack(region_", "region_.radius + touchSlack(region_"),
     ("what a sensor sees again goes as if it had not", CLOUD,
      "newest = std::max(newest, (known++)->stamp);", "newest = (known++)->stamp;"),
     ("just below zero lies in the cell above", CLOUD,

@@ -27,9 +27,9 @@ std::shared_ptr<const LinkMatrix> armMatrix() {
   return std::make_shared<const LinkMatrix>(test::matrixOf(model));
 }
 
-enum Index : std::uint32_t { base, arm, hand, other_base, other_hand, box, crate, shelf, room, raft };
+enum Index : std::uint32_t { base, arm, hand, other_base, other_hand, box, crate, shelf, room, raft, cloud };
 
-/// Two equal robots, moving and fixed obstacles, a fixed and a moving map.
+/// Two equal robots, moving and fixed obstacles, a fixed and a moving map, a cloud.
 std::vector<Body> cell() {
   const auto matrix = armMatrix();
   std::vector<Body> bodies;
@@ -47,6 +47,7 @@ std::vector<Body> cell() {
   bodies.push_back(bodyOf("obstacle/shelf", BodyKind::obstacle, Mobility::fixed));
   bodies.push_back(bodyOf("map/room", BodyKind::map, Mobility::fixed));
   bodies.push_back(bodyOf("map/raft", BodyKind::map));
+  bodies.push_back(bodyOf("cloud/front", BodyKind::cloud));
   return bodies;
 }
 
@@ -64,15 +65,17 @@ TEST(PairFilter, ByDefaultEveryKindOfPairIsReportedButFixedWithFixed) {
   EXPECT_EQ(originOf(filter, base, other_base), Origin::none);
   EXPECT_EQ(originOf(filter, hand, other_hand), Origin::none) << "the matrix is about one robot";
   EXPECT_EQ(originOf(filter, arm, other_base), Origin::none) << "links 1 and 0, but of two robots";
-  for (const std::uint32_t other : {box, crate, shelf, room, raft})
+  for (const std::uint32_t other : {box, crate, shelf, room, raft, cloud})
     EXPECT_EQ(originOf(filter, hand, other), Origin::none);
   EXPECT_EQ(originOf(filter, box, crate), Origin::none);
   EXPECT_EQ(originOf(filter, box, room), Origin::none);
   EXPECT_EQ(originOf(filter, box, raft), Origin::none);
+  EXPECT_EQ(originOf(filter, box, cloud), Origin::none);
+  EXPECT_EQ(originOf(filter, raft, cloud), Origin::kind);
   EXPECT_EQ(originOf(filter, crate, raft), Origin::kind) << "a map that moves shows the fixed ones too";
   EXPECT_EQ(originOf(filter, crate, shelf), Origin::kind);
   EXPECT_EQ(originOf(filter, crate, room), Origin::kind);
-  for (std::uint32_t i = 0; i < 10; ++i) EXPECT_EQ(originOf(filter, i, i), Origin::self);
+  for (std::uint32_t i = 0; i < 11; ++i) EXPECT_EQ(originOf(filter, i, i), Origin::self);
 }
 
 TEST(PairFilter, EachKindCanBeSwitchedOffAlone) {
@@ -83,8 +86,8 @@ TEST(PairFilter, EachKindCanBeSwitchedOffAlone) {
   const Case cases[] = {{&PairKinds::self, {{base, hand}, {other_base, other_hand}, {base, arm}}},
                         {&PairKinds::robot_robot, {{base, other_base}, {hand, other_hand}}},
                         {&PairKinds::robot_obstacle, {{hand, box}, {hand, crate}}},
-                        {&PairKinds::robot_map, {{hand, room}, {base, raft}}},
-                        {&PairKinds::moving_obstacle, {{box, crate}, {box, room}, {box, raft}}}};
+                        {&PairKinds::robot_map, {{hand, room}, {base, raft}, {hand, cloud}}},
+                        {&PairKinds::moving_obstacle, {{box, crate}, {box, room}, {box, raft}, {box, cloud}}}};
   const PairFilter all(cell(), {}, {});
   for (const Case& one : cases) {
     PairKinds kinds;

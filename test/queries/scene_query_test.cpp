@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include <gtest/gtest.h>
 
+#include "hgrid_proximity/queries/query.h"
 #include "test/support/refusals.h"
 #include "test/support/scenes.h"
 
@@ -103,11 +104,11 @@ TEST(SceneQuery, BallsAndSegmentsFindWhatBruteForceFinds) {
       Segment axis;
       for (int k = 0; k < 3; ++k) axis.from[k] = random.uniform(-5, 5), axis.to[k] = random.uniform(-5, 5);
       axis.radius = random.chance(0.3) ? 0.0 : random.uniform(0, 2);
-      const QueryAnswer segment = snapshot->query(axis, {});
+      const QueryAnswer segment = query(*snapshot, axis, {});
       ASSERT_NO_FATAL_FAILURE(expectRightHits(*snapshot, axis, segment, true));
       ASSERT_NO_FATAL_FAILURE(expectInOrder(segment, true));
       axis.to = axis.from;
-      const QueryAnswer ball = snapshot->query(Sphere{axis.from, axis.radius}, {});
+      const QueryAnswer ball = query(*snapshot, Sphere{axis.from, axis.radius}, {});
       ASSERT_NO_FATAL_FAILURE(expectRightHits(*snapshot, axis, ball, false));
       ASSERT_NO_FATAL_FAILURE(expectInOrder(ball, false));
       for (const QueryAnswer& answer : {segment, ball}) {
@@ -126,12 +127,12 @@ TEST(SceneQuery, ALimitKeepsTheFirstAndTellsTheTotal) {
     const auto snapshot = randomSnapshot(seed);
     const Segment axis{{-5, 0, 0}, {5, 0, 0}, 2.0};
     const Sphere ball{{0, 0, 0}, 3.0};
-    const QueryAnswer all[] = {snapshot->query(ball, {}), snapshot->query(axis, {})};
+    const QueryAnswer all[] = {query(*snapshot, ball, {}), query(*snapshot, axis, {})};
     ASSERT_GT(all[0].total, 3u);
     for (const std::uint32_t limit : {1u, 2u, std::uint32_t(all[0].total), 1000u}) {
       QueryScope scope;
       scope.limit = limit;
-      const QueryAnswer some[] = {snapshot->query(ball, scope), snapshot->query(axis, scope)};
+      const QueryAnswer some[] = {query(*snapshot, ball, scope), query(*snapshot, axis, scope)};
       for (int kind = 0; kind < 2; ++kind) {
         ASSERT_EQ(some[kind].total, all[kind].total);
         ASSERT_EQ(some[kind].verdict, all[kind].verdict);
@@ -149,8 +150,8 @@ TEST(SceneQuery, IncludeAndExcludeChooseByName) {
   const auto snapshot = scene.commit(Time{1}, {});
   const auto found = [&](const QueryScope& scope) {
     std::string names;
-    const QueryAnswer ball = snapshot->query(Sphere{{0, 0, 0}, 1}, scope);
-    const QueryAnswer ray = snapshot->query(Segment{{-1, 0, 0}, {1, 0, 0}, 0}, scope);
+    const QueryAnswer ball = query(*snapshot, Sphere{{0, 0, 0}, 1}, scope);
+    const QueryAnswer ray = query(*snapshot, Segment{{-1, 0, 0}, {1, 0, 0}, 0}, scope);
     EXPECT_EQ(ball.total, ray.total);
     EXPECT_EQ(ball.verdict, ball.total > 0 ? Verdict::hit : Verdict::clear);
     for (const QueryHit& hit : ball.hits) names += snapshot->structure().bodies[hit.body].name.substr(9) + " ";
@@ -176,10 +177,10 @@ TEST(SceneQuery, PaddingCountsMarginsAndTheFilterDoNot) {
   padded.margin = 9.0;
   test::put(scene, padded, test::at(0));
   const auto snapshot = scene.commit(Time{1}, {});
-  EXPECT_EQ(snapshot->query(Sphere{{1.0, 0, 0}, 0.2501}, {}).verdict, Verdict::hit);
-  EXPECT_EQ(snapshot->query(Sphere{{1.0, 0, 0}, 0.2499}, {}).verdict, Verdict::clear);
-  EXPECT_EQ(snapshot->query(Segment{{1.0, -9, 0}, {1.0, 9, 0}, 0.2501}, {}).verdict, Verdict::hit);
-  EXPECT_EQ(snapshot->query(Segment{{1.0, -9, 0}, {1.0, 9, 0}, 0.2499}, {}).verdict, Verdict::clear);
+  EXPECT_EQ(query(*snapshot, Sphere{{1.0, 0, 0}, 0.2501}, {}).verdict, Verdict::hit);
+  EXPECT_EQ(query(*snapshot, Sphere{{1.0, 0, 0}, 0.2499}, {}).verdict, Verdict::clear);
+  EXPECT_EQ(query(*snapshot, Segment{{1.0, -9, 0}, {1.0, 9, 0}, 0.2501}, {}).verdict, Verdict::hit);
+  EXPECT_EQ(query(*snapshot, Segment{{1.0, -9, 0}, {1.0, 9, 0}, 0.2499}, {}).verdict, Verdict::clear);
 }
 
 TEST(SceneQuery, ABodyOfManyShapesIsHitOnceAtTheNearest) {
@@ -191,14 +192,14 @@ TEST(SceneQuery, ABodyOfManyShapesIsHitOnceAtTheNearest) {
   }
   test::put(scene, body, test::at(10));
   const auto snapshot = scene.commit(Time{1}, {});
-  const QueryAnswer ball = snapshot->query(Sphere{{12.25, 0, 1}, 5.0}, {});
+  const QueryAnswer ball = query(*snapshot, Sphere{{12.25, 0, 1}, 5.0}, {});
   ASSERT_EQ(ball.total, 1u);
   EXPECT_EQ(ball.hits[0].shape, 2u);
   EXPECT_EQ(ball.hits[0].distance, 0.0);
   EXPECT_NEAR(ball.hits[0].center_distance, 0.5, 1e-6);
   EXPECT_NEAR(ball.hits[0].point.z(), 0.5, 1e-6) << "in world coordinates";
-  const QueryAnswer there = snapshot->query(Segment{{0, 0, 0}, {20, 0, 0}, 0}, {}),
-                    back = snapshot->query(Segment{{20, 0, 0}, {0, 0, 0}, 0}, {});
+  const QueryAnswer there = query(*snapshot, Segment{{0, 0, 0}, {20, 0, 0}, 0}, {}),
+                    back = query(*snapshot, Segment{{20, 0, 0}, {0, 0, 0}, 0}, {});
   ASSERT_EQ(there.total, 1u);
   EXPECT_EQ(there.hits[0].shape, 1u) << "first met";
   EXPECT_NEAR(there.hits[0].along, 9.5, 1e-6);
@@ -213,10 +214,10 @@ TEST(SceneQuery, RefusesWhatIsNoQuestion) {
   const auto snapshot = scene.commit(Time{1}, {});
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
   const auto ball = [&](const Eigen::Vector3d& center, double radius) {
-    return refusalOf([&] { snapshot->query(Sphere{center, radius}, {}); });
+    return refusalOf([&] { query(*snapshot, Sphere{center, radius}, {}); });
   };
   const auto segment = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius) {
-    return refusalOf([&] { snapshot->query(Segment{from, to, radius}, {}); });
+    return refusalOf([&] { query(*snapshot, Segment{from, to, radius}, {}); });
   };
   for (int k = 0; k < 3; ++k) {
     for (const double bad : {nan, infinity, -infinity}) {
@@ -227,10 +228,10 @@ TEST(SceneQuery, RefusesWhatIsNoQuestion) {
       EXPECT_EQ(segment({0, 0, 0}, point, 1), Code::nonfinite);
     }
     Eigen::Vector3d far = Eigen::Vector3d::Zero();
-    far[k] = std::nextafter(Snapshot::kQueryReach, 1e300);
+    far[k] = std::nextafter(kQueryReach, 1e300);
     EXPECT_EQ(ball(far, 1), Code::out_of_range);
     EXPECT_EQ(segment({0, 0, 0}, far, 1), Code::out_of_range);
-    far[k] = -Snapshot::kQueryReach;
+    far[k] = -kQueryReach;
     EXPECT_EQ(ball(far, 1), Code::ok);
     EXPECT_EQ(segment({0, 0, 0}, far, 1), Code::ok);
   }
@@ -250,8 +251,8 @@ TEST(SceneQuery, RefusesWhatIsNoQuestion) {
 
 TEST(SceneQuery, QuestionsLargerThanTheWorldFindAll) {
   const auto snapshot = randomSnapshot(3);
-  EXPECT_EQ(snapshot->query(Sphere{{0, 0, 0}, 1e9}, {}).total, 40u);
-  EXPECT_EQ(snapshot->query(Segment{{-1e9, 0, 0}, {1e9, 0, 0}, 1e3}, {}).total, 40u);
+  EXPECT_EQ(query(*snapshot, Sphere{{0, 0, 0}, 1e9}, {}).total, 40u);
+  EXPECT_EQ(query(*snapshot, Segment{{-1e9, 0, 0}, {1e9, 0, 0}, 1e3}, {}).total, 40u);
 }
 
 }  // namespace

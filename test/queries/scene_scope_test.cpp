@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "hgrid_proximity/bodies/name.h"
+#include "hgrid_proximity/queries/query.h"
 #include "test/support/maps.h"
 #include "test/support/refusals.h"
 #include "test/support/scenes.h"
@@ -59,11 +60,11 @@ TEST(Scope, ALostCameraLeavesQuestionsAboutTheRobotClear) {
   EXPECT_EQ(snapshot.reasonOf("robot"), "");
   for (const auto& scope : {scopeOf({"robot/*"}), scopeOf({"robot/*", "obstacle/*"}), scopeOf({}, {"cloud/*"}),
                             scopeOf({"*"}, {"cloud/f*"}), scopeOf({}, {"cloud/front"})}) {
-    EXPECT_EQ(snapshot.query(kPlace, scope).verdict, Verdict::clear);
+    EXPECT_EQ(query(snapshot, kPlace, scope).verdict, Verdict::clear);
   }
   for (const auto& scope : {scopeOf({}), scopeOf({"*"}), scopeOf({"cloud/*"}), scopeOf({}, {"cloud/rear"}),
                             scopeOf({}, {"cloud/??????"}), scopeOf({"robot/*", "*front"})}) {
-    const QueryAnswer answer = snapshot.query(kPlace, scope);
+    const QueryAnswer answer = query(snapshot, kPlace, scope);
     EXPECT_EQ(answer.verdict, Verdict::unknown);
     EXPECT_EQ(answer.because, Unknown::incomplete);
     EXPECT_TRUE(says(answer.reason, kLostCamera.sentence));
@@ -74,11 +75,11 @@ TEST(Scope, ARobotWithoutAModelMakesUnknownWhatCanBeOneOfItsLinks) {
   Cell cell;
   const Snapshot& snapshot = cell.now({kNoRobot});
   for (const auto& scope : {scopeOf({"robot/*"}), scopeOf({}, {"left/*"}), scopeOf({}, {"l*"}), scopeOf({"?obot/*"})}) {
-    EXPECT_EQ(snapshot.query(kPlace, scope).verdict, Verdict::clear);
+    EXPECT_EQ(query(snapshot, kPlace, scope).verdict, Verdict::clear);
   }
   for (const auto& scope : {scopeOf({}), scopeOf({"*/tool"}), scopeOf({"left/gripper"}), scopeOf({}, {"left/gripper"}),
                             scopeOf({}, {"left/?*"})}) {
-    EXPECT_EQ(snapshot.query(kPlace, scope).verdict, Verdict::unknown);
+    EXPECT_EQ(query(snapshot, kPlace, scope).verdict, Verdict::unknown);
   }
 }
 
@@ -89,16 +90,16 @@ TEST(Scope, ALostBodyMakesUnknownOnlyWhatItCanHaveReached) {
   EXPECT_EQ(snapshot.incompleteSources(), std::vector<std::string>({"robot"}));
   EXPECT_EQ(snapshot.poses()[test::indexOf(snapshot, "robot/tool")].reach, 5.0);
   EXPECT_EQ(snapshot.poses()[test::indexOf(snapshot, "robot/tool")].growth, 1.0) << "pairs keep to the cap";
-  const QueryAnswer near = snapshot.query(Sphere{{0, 5.9, 0}, 0.5}, {});
+  const QueryAnswer near = query(snapshot, Sphere{{0, 5.9, 0}, 0.5}, {});
   EXPECT_EQ(near.verdict, Verdict::unknown);
   EXPECT_EQ(near.because, Unknown::stale_body);
   EXPECT_TRUE(says(near.reason, "LOST robot/tool"));
-  EXPECT_EQ(snapshot.query(Sphere{{0, 6.1, 0}, 0.5}, {}).verdict, Verdict::clear);
-  EXPECT_EQ(snapshot.query(Sphere{{0, 5.9, 0}, 0.5}, scopeOf({"robot/arm", "obstacle/*"})).verdict, Verdict::clear);
-  EXPECT_EQ(snapshot.query(Segment{{-9, 5.9, 0}, {9, 5.9, 0}, 0.5}, {}).verdict, Verdict::unknown);
-  EXPECT_EQ(snapshot.query(Segment{{-9, 6.1, 0}, {9, 6.1, 0}, 0.5}, {}).verdict, Verdict::clear);
-  EXPECT_EQ(snapshot.nearest(Eigen::Vector3d(0, 5.9, 0), 0.5, {}).verdict, Verdict::unknown);
-  EXPECT_EQ(snapshot.nearest(Eigen::Vector3d(0, 6.1, 0), 0.5, {}).verdict, Verdict::clear);
+  EXPECT_EQ(query(snapshot, Sphere{{0, 6.1, 0}, 0.5}, {}).verdict, Verdict::clear);
+  EXPECT_EQ(query(snapshot, Sphere{{0, 5.9, 0}, 0.5}, scopeOf({"robot/arm", "obstacle/*"})).verdict, Verdict::clear);
+  EXPECT_EQ(query(snapshot, Segment{{-9, 5.9, 0}, {9, 5.9, 0}, 0.5}, {}).verdict, Verdict::unknown);
+  EXPECT_EQ(query(snapshot, Segment{{-9, 6.1, 0}, {9, 6.1, 0}, 0.5}, {}).verdict, Verdict::clear);
+  EXPECT_EQ(nearest(snapshot, Eigen::Vector3d(0, 5.9, 0), 0.5, {}).verdict, Verdict::unknown);
+  EXPECT_EQ(nearest(snapshot, Eigen::Vector3d(0, 6.1, 0), 0.5, {}).verdict, Verdict::clear);
 }
 
 TEST(Scope, ABodyWhoseNewestDataContradictsItsPoseCanBeAnywhere) {
@@ -106,10 +107,10 @@ TEST(Scope, ABodyWhoseNewestDataContradictsItsPoseCanBeAnywhere) {
     SCOPED_TRACE(name(state));
     Cell cell;
     cell.scene.setState(cell.link, state, 0.01);
-    const QueryAnswer answer = cell.now().query(kPlace, {});
+    const QueryAnswer answer = query(cell.now(), kPlace, {});
     EXPECT_EQ(answer.verdict, Verdict::unknown);
     EXPECT_EQ(answer.because, Unknown::incomplete);
-    EXPECT_EQ(cell.snapshot->query(kPlace, scopeOf({"robot/arm"})).verdict, Verdict::clear);
+    EXPECT_EQ(query(*cell.snapshot, kPlace, scopeOf({"robot/arm"})).verdict, Verdict::clear);
   }
 }
 
@@ -117,8 +118,8 @@ TEST(Scope, WhatIsNearALostBodyIsUnknownAsFarAsTheBodyCanHaveMoved) {
   Cell cell;
   cell.scene.setState(cell.link, Freshness::lost, 6.0);  // 3 m; the table is 4 m away
   const std::uint32_t tool = test::indexOf(cell.now(), "robot/tool");
-  EXPECT_EQ(cell.snapshot->nearest(tool, 0.9, scopeOf({"obstacle/*"})).verdict, Verdict::clear);
-  const QueryAnswer answer = cell.snapshot->nearest(tool, 1.1, scopeOf({"obstacle/*"}));
+  EXPECT_EQ(nearest(*cell.snapshot, tool, 0.9, scopeOf({"obstacle/*"})).verdict, Verdict::clear);
+  const QueryAnswer answer = nearest(*cell.snapshot, tool, 1.1, scopeOf({"obstacle/*"}));
   EXPECT_EQ(answer.verdict, Verdict::unknown);
   EXPECT_TRUE(says(answer.reason, "robot/tool"));
 }
@@ -130,26 +131,27 @@ TEST(Scope, ALostCameraWithARangeHidesNothingBeyondIt) {
   const Snapshot& snapshot = cell.now({camera});
   EXPECT_FALSE(snapshot.complete());
   for (const double x : {44.0, 45.4}) {
-    EXPECT_EQ(snapshot.query(Sphere{{x, 0, 0}, 0.5}, {}).verdict, Verdict::unknown) << x;
-    EXPECT_EQ(snapshot.query(Segment{{x, -9, 0}, {x, 9, 0}, 0.5}, {}).verdict, Verdict::unknown) << x;
-    EXPECT_EQ(snapshot.nearest(Eigen::Vector3d(x, 0, 0), 0.5, {}).verdict, Verdict::unknown) << x;
+    EXPECT_EQ(query(snapshot, Sphere{{x, 0, 0}, 0.5}, {}).verdict, Verdict::unknown) << x;
+    EXPECT_EQ(query(snapshot, Segment{{x, -9, 0}, {x, 9, 0}, 0.5}, {}).verdict, Verdict::unknown) << x;
+    EXPECT_EQ(nearest(snapshot, Eigen::Vector3d(x, 0, 0), 0.5, {}).verdict, Verdict::unknown) << x;
   }
-  EXPECT_EQ(snapshot.query(Sphere{{45.6, 0, 0}, 0.5}, {}).verdict, Verdict::clear);
-  EXPECT_EQ(snapshot.query(Segment{{45.6, -9, 0}, {45.6, 9, 0}, 0.5}, {}).verdict, Verdict::clear);
-  EXPECT_EQ(snapshot.nearest(Eigen::Vector3d(45.6, 0, 0), 0.5, {}).verdict, Verdict::clear);
+  EXPECT_EQ(query(snapshot, Sphere{{45.6, 0, 0}, 0.5}, {}).verdict, Verdict::clear);
+  EXPECT_EQ(query(snapshot, Segment{{45.6, -9, 0}, {45.6, 9, 0}, 0.5}, {}).verdict, Verdict::clear);
+  EXPECT_EQ(nearest(snapshot, Eigen::Vector3d(45.6, 0, 0), 0.5, {}).verdict, Verdict::clear);
 }
 
 TEST(Scope, ALostCloudWithoutAGapOfItsOwnHidesAnything) {
   Cell cell;
   Body body = test::mapBody("front", Mobility::moving);
   body.name = "cloud/front";
+  body.kind = BodyKind::cloud;
   const BodyId cloud = test::put(cell.scene, body, test::at(0));
   cell.scene.setState(cloud, Freshness::lost, 0.01);
-  EXPECT_EQ(cell.now().query(kPlace, {}).verdict, Verdict::unknown);
-  EXPECT_EQ(cell.snapshot->query(kPlace, scopeOf({"robot/*"})).verdict, Verdict::clear);
+  EXPECT_EQ(query(cell.now(), kPlace, {}).verdict, Verdict::unknown);
+  EXPECT_EQ(query(*cell.snapshot, kPlace, scopeOf({"robot/*"})).verdict, Verdict::clear);
   SourceGap gap = kLostCamera;
   gap.within = Sphere{{0, 0, 0}, 5.0};
-  EXPECT_EQ(cell.now({gap}).query(kPlace, {}).verdict, Verdict::clear);
+  EXPECT_EQ(query(cell.now({gap}), kPlace, {}).verdict, Verdict::clear);
   EXPECT_EQ(cell.snapshot->reasonsTotal(), 1u) << "one thing is wrong, told once";
 }
 
@@ -162,16 +164,16 @@ TEST(Scope, ARequiredBodyThatIsNotThereMakesItsSourceIncomplete) {
   auto snapshot = scene.commit(Time{1}, {});
   EXPECT_EQ(snapshot->incompleteSources(), std::vector<std::string>({"map/hall"}));
   EXPECT_TRUE(says(snapshot->reasons().at(0), "REQUIRED 'map/hall'"));
-  EXPECT_EQ(snapshot->query(kPlace, {}).verdict, Verdict::unknown);
-  EXPECT_EQ(snapshot->query(kPlace, scopeOf({"robot/*"})).verdict, Verdict::clear);
+  EXPECT_EQ(query(*snapshot, kPlace, {}).verdict, Verdict::unknown);
+  EXPECT_EQ(query(*snapshot, kPlace, scopeOf({"robot/*"})).verdict, Verdict::clear);
   const BodyId map = test::put(scene, test::mapBody("hall"), test::at(0));
   scene.setCells(map, test::cellsOf(0.1, {}));
   EXPECT_TRUE(scene.commit(Time{2}, {})->complete());
   scene.remove(tool);
   snapshot = scene.commit(Time{3}, {});
   EXPECT_EQ(snapshot->incompleteSources(), std::vector<std::string>({"robot"}));
-  EXPECT_EQ(snapshot->query(kPlace, {}).verdict, Verdict::unknown);
-  EXPECT_EQ(snapshot->query(kPlace, scopeOf({"obstacle/*"})).verdict, Verdict::clear);
+  EXPECT_EQ(query(*snapshot, kPlace, {}).verdict, Verdict::unknown);
+  EXPECT_EQ(query(*snapshot, kPlace, scopeOf({"obstacle/*"})).verdict, Verdict::clear);
 }
 
 TEST(Scope, AnUncoveredBodyCountsOnlyWhereItIsAskedAbout) {
@@ -180,10 +182,11 @@ TEST(Scope, AnUncoveredBodyCountsOnlyWhereItIsAskedAbout) {
   broken.covered = false;
   broken.note = "mesh 'x.stl' is missing";
   test::put(cell.scene, broken, test::at(0));
-  EXPECT_EQ(cell.now().query(kPlace, {}).because, Unknown::incomplete);
-  EXPECT_EQ(cell.snapshot->query(kPlace, scopeOf({"robot/tool"})).verdict, Verdict::clear);
-  EXPECT_EQ(cell.snapshot->nearest(test::indexOf(*cell.snapshot, "robot/broken"), 0.1, scopeOf({"obstacle/*"})).verdict,
-            Verdict::unknown)
+  EXPECT_EQ(query(cell.now(), kPlace, {}).because, Unknown::incomplete);
+  EXPECT_EQ(query(*cell.snapshot, kPlace, scopeOf({"robot/tool"})).verdict, Verdict::clear);
+  EXPECT_EQ(
+      nearest(*cell.snapshot, test::indexOf(*cell.snapshot, "robot/broken"), 0.1, scopeOf({"obstacle/*"})).verdict,
+      Verdict::unknown)
       << "what is near to a body of unknown extent";
 }
 
@@ -207,8 +210,8 @@ class RandomScopes {
     const QueryScope scope = scopeOf(globs[std::size_t(random_.below(7))], globs[std::size_t(random_.below(7))]);
     const Eigen::Vector3d from = somewhere(), to = random_.chance(0.5) ? from : somewhere();
     const double radius = random_.uniform(0, 2);
-    const QueryAnswer answer =
-        from == to ? snapshot_->query(Sphere{from, radius}, scope) : snapshot_->query(Segment{from, to, radius}, scope);
+    const QueryAnswer answer = from == to ? query(*snapshot_, Sphere{from, radius}, scope)
+                                          : query(*snapshot_, Segment{from, to, radius}, scope);
     if (answer.verdict == Verdict::hit) return;
     bool surely = false, perhaps = false;  // unknown
     for (std::uint32_t i = 0; i < snapshot_->poses().size(); ++i)

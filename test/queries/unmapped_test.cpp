@@ -4,6 +4,7 @@
 // Where maps are to say what they know to be free, CLEAR is said of nothing else.
 #include <gtest/gtest.h>
 
+#include "hgrid_proximity/queries/query.h"
 #include "test/support/maps.h"
 
 namespace hgrid {
@@ -58,13 +59,13 @@ TEST(Unmapped, ClearIsSaidExactlyOfWhatTheMapKnowsToBeFree) {
       const Eigen::Vector3d from = point(), to = from + 0.3 * point();
       const double radius = random.chance(0.3) ? 0.0 : random.uniform(0.0, 0.3);
       const double room = clearance(unknown, extent, from, radius);
-      check(room, snapshot->query(Sphere{world_from_map * from, radius}, {}), "ball");
-      if (radius > 0.0) check(room, snapshot->nearest(world_from_map * from, radius, {}), "nearest");
+      check(room, query(*snapshot, Sphere{world_from_map * from, radius}, {}), "ball");
+      if (radius > 0.0) check(room, nearest(*snapshot, world_from_map * from, radius, {}), "nearest");
       double along = room;
       for (int step = 1; step <= 1000; ++step) {
         along = std::min(along, clearance(unknown, extent, from + 1e-3 * step * (to - from), radius));
       }
-      check(along, snapshot->query(Segment{world_from_map * from, world_from_map * to, radius}, {}), "segment");
+      check(along, query(*snapshot, Segment{world_from_map * from, world_from_map * to, radius}, {}), "segment");
     }
   }
   EXPECT_GT(clear, 300u);
@@ -76,7 +77,7 @@ TEST(Unmapped, WhatTouchesTheUnknownIsNotClear) {
   scene.setCells(put(scene, mapBody("room"), at(0)), knowing({{32778, 32768, 32768, 0}}, cube(2.0)));  // x 1 .. 1.1
   const auto snapshot = scene.commit(Time{1}, {});
   const auto verdict = [&](double x, double radius) {
-    return snapshot->query(Sphere{{x, 0.05, 0.05}, radius}, {}).verdict;
+    return query(*snapshot, Sphere{{x, 0.05, 0.05}, radius}, {}).verdict;
   };
   EXPECT_EQ(verdict(0.5, 0.4999), Verdict::clear);
   EXPECT_EQ(verdict(0.5, 0.5), Verdict::unknown);
@@ -87,7 +88,7 @@ TEST(Unmapped, WhatTouchesTheUnknownIsNotClear) {
 TEST(Unmapped, AHitStaysAHit) {
   Scene scene(reporting());
   put(scene, ball("post", 0.5), at(0));
-  EXPECT_EQ(scene.commit(Time{1}, {})->query(Sphere{{0, 0, 0}, 0.1}, {}).verdict, Verdict::hit);
+  EXPECT_EQ(query(*scene.commit(Time{1}, {}), Sphere{{0, 0, 0}, 0.1}, {}).verdict, Verdict::hit);
 }
 
 TEST(Unmapped, OfSeveralMapsOneMustKnowAll) {
@@ -95,7 +96,7 @@ TEST(Unmapped, OfSeveralMapsOneMustKnowAll) {
   scene.setCells(put(scene, mapBody("west"), at(-1)), knowing({}, cube(1.0)));
   scene.setCells(put(scene, mapBody("east"), at(1)), knowing({}, cube(1.0)));
   const auto snapshot = scene.commit(Time{1}, {});
-  const auto asked = [&](double x, const QueryScope& scope) { return snapshot->query(Sphere{{x, 0, 0}, 0.5}, scope); };
+  const auto asked = [&](double x, const QueryScope& scope) { return query(*snapshot, Sphere{{x, 0, 0}, 0.5}, scope); };
   EXPECT_EQ(asked(-1.0, {}).verdict, Verdict::clear);
   EXPECT_EQ(asked(1.0, {}).verdict, Verdict::clear);
   EXPECT_EQ(asked(0.0, {}).because, Unknown::unmapped) << "each knows a half";
@@ -111,10 +112,10 @@ TEST(Unmapped, OfSeveralMapsOneMustKnowAll) {
 
 TEST(Unmapped, WithoutAMapNothingIsKnown) {
   Scene scene(reporting());
-  EXPECT_EQ(scene.commit(Time{1}, {})->query(Sphere{{0, 0, 0}, 0.1}, {}).because, Unknown::unmapped);
+  EXPECT_EQ(query(*scene.commit(Time{1}, {}), Sphere{{0, 0, 0}, 0.1}, {}).because, Unknown::unmapped);
   const BodyId cloud = put(scene, mapBody("cloud"), at(0));
   scene.setCells(cloud, cellsOf(kEdge, {}));
-  EXPECT_EQ(scene.commit(Time{2}, {})->query(Sphere{{0, 0, 0}, 0.1}, {}).because, Unknown::unmapped)
+  EXPECT_EQ(query(*scene.commit(Time{2}, {}), Sphere{{0, 0, 0}, 0.1}, {}).because, Unknown::unmapped)
       << "a map that knows no free space";
 }
 
@@ -122,25 +123,26 @@ TEST(Unmapped, ACloudIsNoMap) {
   Scene scene(reporting());
   Body cloud = mapBody("x");
   cloud.name = "cloud/x";
+  cloud.kind = BodyKind::cloud;
   scene.setCells(put(scene, cloud, at(0)), cellsOf(kEdge, {}));
   const auto snapshot = scene.commit(Time{1}, {});
   QueryScope scope;
   scope.exclude = {"cloud/*"};
-  EXPECT_EQ(snapshot->query(Sphere{{0, 0, 0}, 0.1}, scope).because, Unknown::unmapped);
-  EXPECT_EQ(snapshot->query(Sphere{{0, 0, 0}, 0.1}, {}).because, Unknown::unmapped);
+  EXPECT_EQ(query(*snapshot, Sphere{{0, 0, 0}, 0.1}, scope).because, Unknown::unmapped);
+  EXPECT_EQ(query(*snapshot, Sphere{{0, 0, 0}, 0.1}, {}).because, Unknown::unmapped);
 }
 
 TEST(Unmapped, IsNotAskedUnlessMapsAreToReport) {
   Scene scene{SceneOptions{}};
   scene.setCells(put(scene, mapBody("room"), at(0)), knowing({}, cube(1.0)));
-  EXPECT_EQ(scene.commit(Time{1}, {})->query(Sphere{{5, 0, 0}, 0.1}, {}).verdict, Verdict::clear);
+  EXPECT_EQ(query(*scene.commit(Time{1}, {}), Sphere{{5, 0, 0}, 0.1}, {}).verdict, Verdict::clear);
 }
 
 TEST(Unmapped, AStaleMapKnowsLess) {
   Scene scene(reporting());
   const BodyId room = put(scene, mapBody("room", Mobility::moving), at(0));  // 1 m/s
   scene.setCells(room, knowing({}, cube(1.0)));
-  const auto because = [&] { return scene.commit(Time{1}, {})->query(Sphere{{0.5, 0, 0}, 0.2}, {}).because; };
+  const auto because = [&] { return query(*scene.commit(Time{1}, {}), Sphere{{0.5, 0, 0}, 0.2}, {}).because; };
   EXPECT_EQ(because(), Unknown::no);
   scene.setState(room, Freshness::stale, 0.4);
   EXPECT_EQ(because(), Unknown::unmapped);
@@ -152,7 +154,7 @@ TEST(Unmapped, NearestToABodyLooksAroundAllOfIt) {
   put(scene, ball("tool", 0.25), at(0));
   const auto snapshot = scene.commit(Time{1}, {});
   const auto because = [&](double limit) {
-    return snapshot->nearest(snapshot->structure().find("obstacle/tool"), limit, {}).because;
+    return nearest(*snapshot, snapshot->structure().find("obstacle/tool"), limit, {}).because;
   };
   EXPECT_EQ(because(0.7), Unknown::no);
   EXPECT_EQ(because(0.8), Unknown::unmapped);

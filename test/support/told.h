@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "hgrid_proximity/queries/query.h"
 #include "hgrid_proximity/world/snapshot.h"
 #include "test/support/events.h"
 
@@ -53,7 +54,7 @@ inline std::string answersOf(const Snapshot& s) {
   const Sphere sphere{{0, 0, 0}, 1.0};
   const Segment segment{{-3, -3, -3}, {3, 3, 3}, 0.1};
   for (const QueryAnswer& answer :
-       {s.query(sphere, {}), s.query(segment, {}), s.nearest(Eigen::Vector3d(1, 1, 1), 5, {})}) {
+       {query(s, sphere, {}), query(s, segment, {}), nearest(s, Eigen::Vector3d(1, 1, 1), 5, {})}) {
     text += "verdict " + std::to_string(int(answer.verdict)) + "\n";
     for (const QueryHit& hit : answer.hits) {
       text += std::to_string(hit.body) + " " + std::to_string(hit.distance) + "\n";

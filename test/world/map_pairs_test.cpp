@@ -4,6 +4,7 @@
 // Maps are bodies whose boxes are cells: pairs, gaps and queries against a scan of all cells.
 #include <gtest/gtest.h>
 
+#include "hgrid_proximity/queries/query.h"
 #include "test/support/maps.h"
 #include "test/support/refusals.h"
 
@@ -198,7 +199,7 @@ TEST(MapQueries, OfBallsAndPointsAreThoseOfAScanOfAllCells) {
       const Sphere sphere{point, world.random().uniform(0.0, 1.0)};
       QueryScope scope;
       scope.include = {"map/*"};
-      const QueryAnswer answer = snapshot->query(sphere, scope), near = snapshot->nearest(point, 0.0, scope);
+      const QueryAnswer answer = query(*snapshot, sphere, scope), near = nearest(*snapshot, point, 0.0, scope);
       std::size_t expected = 0, all = 0;
       double nearest = std::numeric_limits<double>::infinity();
       for (const std::uint32_t map : snapshot->structure().maps) {
@@ -240,14 +241,14 @@ TEST(MapQueries, OfSegmentsTellWhatIsMetFirst) {
                  cellsOf(1.0, {{32773, 32768, 32768, 0}}));  // x 5 .. 6, y 0 .. 1: in the world y 5 .. 6, x -1 .. 0
   const auto snapshot = scene.commit(Time{1}, {});
   QueryScope scope;
-  QueryAnswer answer = snapshot->query(Segment{{-0.5, 0, 0.5}, {-0.5, 10, 0.5}, 0.0}, scope);
+  QueryAnswer answer = query(*snapshot, Segment{{-0.5, 0, 0.5}, {-0.5, 10, 0.5}, 0.0}, scope);
   ASSERT_EQ(answer.hits.size(), 1u);
   EXPECT_NEAR(answer.hits[0].along, 5.0, 1e-9);
   EXPECT_TRUE(answer.hits[0].point.isApprox(Eigen::Vector3d(-0.5, 5.0, 0.5), 1e-9));
-  answer = snapshot->query(Segment{{0.25, 0, 0.5}, {0.25, 10, 0.5}, 0.5}, scope);
+  answer = query(*snapshot, Segment{{0.25, 0, 0.5}, {0.25, 10, 0.5}, 0.5}, scope);
   ASSERT_EQ(answer.hits.size(), 1u);
   EXPECT_NEAR(answer.hits[0].along, 5.0 - std::sqrt(0.25 - 0.0625), 1e-9);
-  EXPECT_EQ(snapshot->query(Segment{{0.25, 0, 0.5}, {0.25, 10, 0.5}, 0.0}, scope).verdict, Verdict::clear);
+  EXPECT_EQ(query(*snapshot, Segment{{0.25, 0, 0.5}, {0.25, 10, 0.5}, 0.0}, scope).verdict, Verdict::clear);
 }
 
 TEST(MapQueries, AStaleMapIsNeverClearWhereItMayBe) {
@@ -258,12 +259,12 @@ TEST(MapQueries, AStaleMapIsNeverClearWhereItMayBe) {
   scene.setCells(room, cellsOf(1.0, {{32768, 32768, 32768, 0}}));
   scene.setState(room, Freshness::stale, 0.5);  // may have moved 0.5 m
   const auto snapshot = scene.commit(Time{1}, {});
-  const auto verdict = [&](double x) { return snapshot->query(Sphere{{x, 0.5, 0.5}, 0.1}, {}).verdict; };
+  const auto verdict = [&](double x) { return query(*snapshot, Sphere{{x, 0.5, 0.5}, 0.1}, {}).verdict; };
   EXPECT_EQ(verdict(1.05), Verdict::hit);
   EXPECT_EQ(verdict(1.5), Verdict::unknown);
   EXPECT_EQ(verdict(1.7), Verdict::clear);
-  EXPECT_EQ(snapshot->query(Segment{{1.5, -5, 0.5}, {1.5, 5, 0.5}, 0.0}, {}).verdict, Verdict::unknown);
-  EXPECT_EQ(snapshot->nearest({1.5, 0.5, 0.5}, 0.3, {}).verdict, Verdict::unknown);
+  EXPECT_EQ(query(*snapshot, Segment{{1.5, -5, 0.5}, {1.5, 5, 0.5}, 0.0}, {}).verdict, Verdict::unknown);
+  EXPECT_EQ(nearest(*snapshot, {1.5, 0.5, 0.5}, 0.3, {}).verdict, Verdict::unknown);
 }
 
 TEST(MapQueries, NearestToAStaleBodyIsNeverClearWhereThatMayBe) {
@@ -279,7 +280,7 @@ TEST(MapQueries, NearestToAStaleBodyIsNeverClearWhereThatMayBe) {
     QueryScope scope;
     scope.include = {what};
     const auto snapshot = scene.commit(Time{1}, {});
-    return snapshot->nearest(snapshot->structure().find("obstacle/tool"), limit, scope).because;
+    return nearest(*snapshot, snapshot->structure().find("obstacle/tool"), limit, scope).because;
   };
   EXPECT_EQ(because("obstacle/*", 0.5), Unknown::no);
   EXPECT_EQ(because("map/*", 0.5), Unknown::no);

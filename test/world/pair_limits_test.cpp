@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "hgrid_proximity/explain/explain.h"
+#include "hgrid_proximity/queries/query.h"
 #include "test/support/maps.h"
 #include "test/support/rules.h"
 
@@ -223,8 +224,8 @@ TEST(PairLimits, LeaveQueriesAlone) {
   const auto snapshot = pile.commit();
   ASSERT_TRUE(snapshot->truncated());
   EXPECT_TRUE(snapshot->complete());
-  EXPECT_EQ(snapshot->query(Sphere{{5, 0, 0}, 0.5}, {}).verdict, Verdict::clear);
-  EXPECT_EQ(snapshot->query(Sphere{{0, 0, 0}, 0.5}, {}).total, std::uint64_t(Pile::kBodies));
+  EXPECT_EQ(query(*snapshot, Sphere{{5, 0, 0}, 0.5}, {}).verdict, Verdict::clear);
+  EXPECT_EQ(query(*snapshot, Sphere{{0, 0, 0}, 0.5}, {}).total, std::uint64_t(Pile::kBodies));
 }
 
 TEST(PairLimits, AreNamedWhereAPairIsExplained) {

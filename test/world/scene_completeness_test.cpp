@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include <gtest/gtest.h>
 
+#include "hgrid_proximity/queries/query.h"
 #include "test/support/refusals.h"
 #include "test/support/scenes.h"
 
@@ -35,12 +36,12 @@ void expectDoubt(const Snapshot& snapshot, const std::string& word) {
   ASSERT_FALSE(snapshot.reasons().empty());
   EXPECT_TRUE(says(snapshot.reasons()[0], word));
   EXPECT_GE(snapshot.reasonsTotal(), 1u);
-  for (const QueryAnswer& answer : {snapshot.query(kFarAway, {}), snapshot.query(kFarRay, {})}) {
+  for (const QueryAnswer& answer : {query(snapshot, kFarAway, {}), query(snapshot, kFarRay, {})}) {
     EXPECT_EQ(answer.verdict, Verdict::unknown);
     EXPECT_FALSE(answer.reason.empty());
     EXPECT_TRUE(answer.hits.empty());
   }
-  EXPECT_EQ(snapshot.query(kHere, {}).verdict, Verdict::hit);
+  EXPECT_EQ(query(snapshot, kHere, {}).verdict, Verdict::hit);
 }
 
 TEST(Completeness, AWorldOfFreshBodiesIsComplete) {
@@ -49,8 +50,8 @@ TEST(Completeness, AWorldOfFreshBodiesIsComplete) {
   EXPECT_EQ(cell.snapshot->reasonsTotal(), 0u);
   EXPECT_TRUE(cell.snapshot->reasons().empty());
   EXPECT_EQ(cell.snapshot->worstState(), Freshness::fresh);
-  EXPECT_EQ(cell.snapshot->query(kFarAway, {}).verdict, Verdict::clear);
-  EXPECT_EQ(cell.snapshot->query(kFarRay, {}).verdict, Verdict::clear);
+  EXPECT_EQ(query(*cell.snapshot, kFarAway, {}).verdict, Verdict::clear);
+  EXPECT_EQ(query(*cell.snapshot, kFarRay, {}).verdict, Verdict::clear);
   EXPECT_EQ(cell.snapshot->pairs().size(), 1u);
 }
 
@@ -58,7 +59,7 @@ TEST(Completeness, AnEmptyWorldIsCompleteAndClear) {
   Scene scene{SceneOptions{}};
   const auto snapshot = scene.commit(Time{1}, {});
   EXPECT_TRUE(snapshot->complete());
-  EXPECT_EQ(snapshot->query(kHere, {}).verdict, Verdict::clear);
+  EXPECT_EQ(query(*snapshot, kHere, {}).verdict, Verdict::clear);
   EXPECT_TRUE(snapshot->pairs().empty());
 }
 
@@ -70,7 +71,7 @@ TEST(Completeness, ABodyThatNeverHadAPoseIsMissedByName) {
   EXPECT_EQ(cell.snapshot->poses()[test::indexOf(*cell.snapshot, "obstacle/ghost")].state, Freshness::unplaced);
   EXPECT_EQ(cell.snapshot->worstState(), Freshness::unplaced);
   EXPECT_EQ(cell.snapshot->pairs().size(), 1u) << "it is in no pair";
-  EXPECT_EQ(cell.snapshot->query(kHere, {}).total, 2u) << "and in no hit";
+  EXPECT_EQ(query(*cell.snapshot, kHere, {}).total, 2u) << "and in no hit";
   cell.scene.place(ghost, test::at(0), Time{1});
   cell.scene.setState(ghost, Freshness::fresh, 0.0);
   EXPECT_TRUE(cell.now().complete());
@@ -86,7 +87,7 @@ TEST(Completeness, LostFrozenAndInvalidBodiesStayWhereTheyWereAndMakeDoubt) {
     EXPECT_TRUE(says(cell.snapshot->reasons()[0], name(state)));
     EXPECT_EQ(cell.snapshot->worstState(), state);
     EXPECT_EQ(cell.snapshot->pairs().size(), 1u);
-    EXPECT_EQ(cell.snapshot->query(kHere, {}).total, 2u);
+    EXPECT_EQ(query(*cell.snapshot, kHere, {}).total, 2u);
     cell.scene.setState(cell.other, Freshness::fresh, 0.0);
     EXPECT_TRUE(cell.now().complete());
   }
@@ -110,20 +111,20 @@ TEST(Completeness, WhereAStaleBodyMayHaveComeIsNotClear) {
   const BodyId drifter = test::put(cell.scene, body, test::at(100));
   const Sphere near{{102, 0, 0}, 1.0};
   const Segment beside{{102, -5, 0}, {102, 5, 0}, 1.0};
-  EXPECT_EQ(cell.now().query(near, {}).verdict, Verdict::clear);
+  EXPECT_EQ(query(cell.now(), near, {}).verdict, Verdict::clear);
   cell.scene.setState(drifter, Freshness::stale, 1.5);  // up to 0.75 m of the 0.5 m that are missing
   cell.now();
-  for (const QueryAnswer& answer : {cell.snapshot->query(near, {}), cell.snapshot->query(beside, {})}) {
+  for (const QueryAnswer& answer : {query(*cell.snapshot, near, {}), query(*cell.snapshot, beside, {})}) {
     EXPECT_EQ(answer.verdict, Verdict::unknown);
     EXPECT_TRUE(says(answer.reason, "obstacle/drifter"));
     EXPECT_EQ(answer.total, 0u);
   }
-  EXPECT_EQ(cell.snapshot->query(kFarAway, {}).verdict, Verdict::clear);
+  EXPECT_EQ(query(*cell.snapshot, kFarAway, {}).verdict, Verdict::clear);
   QueryScope others;
   others.exclude = {"*/drifter"};
-  EXPECT_EQ(cell.snapshot->query(near, others).verdict, Verdict::clear);
+  EXPECT_EQ(query(*cell.snapshot, near, others).verdict, Verdict::clear);
   cell.scene.setState(drifter, Freshness::stale, 0.5);
-  EXPECT_EQ(cell.now().query(near, {}).verdict, Verdict::clear) << "0.25 m are not enough";
+  EXPECT_EQ(query(cell.now(), near, {}).verdict, Verdict::clear) << "0.25 m are not enough";
 }
 
 TEST(Completeness, AnUncoveredBodyMakesDoubtUnlessItIsWaived) {
@@ -139,7 +140,7 @@ TEST(Completeness, AnUncoveredBodyMakesDoubtUnlessItIsWaived) {
   broken.waived = true;
   const BodyId waived = test::put(cell.scene, broken, test::at(300));
   EXPECT_TRUE(cell.now().complete());
-  EXPECT_EQ(cell.snapshot->query(kFarAway, {}).verdict, Verdict::clear);
+  EXPECT_EQ(query(*cell.snapshot, kFarAway, {}).verdict, Verdict::clear);
   cell.scene.setState(waived, Freshness::lost, 9.0);
   EXPECT_FALSE(cell.now().complete()) << "the waiver is about its shapes";
 }

@@ -9,6 +9,7 @@
 #include <immintrin.h>
 #endif
 
+#include "hgrid_proximity/queries/query.h"
 #include "test/support/scenes.h"
 
 namespace hgrid {
@@ -61,7 +62,7 @@ Outcome outcomeOf(World& world) {
   for (int i = 0; i < 20; ++i) {
     const Eigen::Vector3d from(0.1 * i - 1, 0.3, -0.7), to(3.1, -0.1 * i, 1e-310);
     for (const QueryAnswer& answer :
-         {snapshot->query(Sphere{from, 0.1 * i}, {}), snapshot->query(Segment{from, to, 0.01 * i}, {})}) {
+         {query(*snapshot, Sphere{from, 0.1 * i}, {}), query(*snapshot, Segment{from, to, 0.01 * i}, {})}) {
       for (const QueryHit& hit : answer.hits) {
         outcome.hits.emplace_back(hit.body, hit.distance, hit.center_distance, std::isnan(hit.along) ? -1 : hit.along);
       }
@@ -137,9 +138,9 @@ TEST(SceneFloatEnvironment, CommitAndQueriesFindTheSameInEveryRoundingMode) {
       snapshot = world.scene.commit(Time{2}, {});
       kept = kept && mode.is_set();
       for (int i = 0; i < 20; ++i) {
-        answers.push_back(snapshot->query(Sphere{questions[std::size_t(i)].from, radii[std::size_t(i)]}, {}));
+        answers.push_back(query(*snapshot, Sphere{questions[std::size_t(i)].from, radii[std::size_t(i)]}, {}));
         kept = kept && mode.is_set();
-        answers.push_back(snapshot->query(questions[std::size_t(i)], {}));
+        answers.push_back(query(*snapshot, questions[std::size_t(i)], {}));
         kept = kept && mode.is_set();
       }
     }

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include <gtest/gtest.h>
 
+#include "hgrid_proximity/queries/query.h"
 #include "test/support/models.h"
 #include "test/support/scenes.h"
 
@@ -49,7 +50,7 @@ TEST_F(Growth, BeginsWhenThePoseIsOldWhateverTheStateIsCalled) {
       EXPECT_EQ(snapshot_->events()[0].cause, EventCause::staleness);
     }
   }
-  EXPECT_NE(snapshot_->query(Sphere{Eigen::Vector3d(-1.0, 0.0, 0.0), 0.1}, {}).verdict, Verdict::clear);
+  EXPECT_NE(query(*snapshot_, Sphere{Eigen::Vector3d(-1.0, 0.0, 0.0), 0.1}, {}).verdict, Verdict::clear);
   scene_.setState(id, Freshness::fresh, 0.0);
   EXPECT_TRUE(now().pairs().empty());
   ASSERT_EQ(snapshot_->events().size(), 1u);

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <thread>
 
+#include "hgrid_proximity/queries/query.h"
 #include "test/support/scenes.h"
 
 namespace hgrid {
@@ -24,7 +25,7 @@ struct Copy {
     for (const BodyPose& pose : snapshot.poses())
       states.emplace_back(pose.state, pose.world_from_body.translation().x());
     for (const QueryAnswer& answer :
-         {snapshot.query(Sphere{{0, 0, 0}, 2}, {}), snapshot.query(Segment{{-3, 0, 0}, {3, 0, 0}, 0.5}, {})}) {
+         {query(snapshot, Sphere{{0, 0, 0}, 2}, {}), query(snapshot, Segment{{-3, 0, 0}, {3, 0, 0}, 0.5}, {})}) {
       for (const QueryHit& hit : answer.hits) hits.emplace_back(hit.body, hit.distance);
     }
   }
@@ -81,7 +82,7 @@ TEST(SceneThreads, ASnapshotOutlivesItsScene) {
     snapshot = moved.commit(Time{1}, {});
   }
   EXPECT_FALSE(snapshot->pairs().empty());
-  EXPECT_GT(snapshot->query(Sphere{{0, 0, 0}, 5}, {}).total, 5u);
+  EXPECT_GT(query(*snapshot, Sphere{{0, 0, 0}, 5}, {}).total, 5u);
 }
 
 /// Under ThreadSanitizer this also says that readers and the writer share nothing unguarded.

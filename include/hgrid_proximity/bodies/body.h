@@ -22,7 +22,7 @@ using Time = std::chrono::nanoseconds;
 
 inline double seconds(std::chrono::nanoseconds duration) { return std::chrono::duration<double>(duration).count(); }
 
-/// Whether the pose of a body can be trusted; the numbers are those of msg/WorldState.msg, from good to bad.
+/// Whether the pose of a body can be trusted, from good to bad. The numbers are stable: interfaces send them.
 enum class Freshness : std::uint8_t {
   fresh = 0,
   late = 1,
@@ -39,8 +39,12 @@ const char* name(Freshness state);
 /// A fixed body never moves in the world frame: two fixed bodies make no pair.
 enum class Mobility : std::uint8_t { fixed = 0, moving = 1 };
 
-/// What a body is, by its source.
-enum class BodyKind : std::uint8_t { link, obstacle, map };
+/// What a body is, by its source. Maps and clouds have occupied cells instead of shapes. The cells of a cloud come and
+/// go, and a cloud does not know which space is free.
+enum class BodyKind : std::uint8_t { link, obstacle, map, cloud };
+
+/// Whether bodies of this kind have occupied cells instead of shapes.
+inline bool hasCells(BodyKind kind) { return kind == BodyKind::map || kind == BodyKind::cloud; }
 
 /// Handle of a body in a Scene: a slot, and how often the slot was used before.
 struct BodyId {
@@ -81,8 +85,5 @@ struct Body {
   std::uint32_t rigid_group = 0;            ///< links: those with equal numbers move as one
   std::shared_ptr<const LinkMatrix> links;  ///< links: the model's matrix; equal robots share it
 };
-
-/// Whether a body of kind map is a cloud, whose cells come and go and say nothing of space that is free.
-inline bool isCloud(const Body& body) { return body.name.compare(0, 6, "cloud/") == 0; }
 
 }  // namespace hgrid

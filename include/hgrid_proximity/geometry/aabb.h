@@ -3,11 +3,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace hgrid {
 
-/// An axis-aligned box [m], both faces included: boxes that touch overlap. In float, to be small;
-/// coordinates are relative to the world's origin (a double), so that far worlds keep precision.
+/// An axis-aligned box [m]. Its faces belong to it: boxes that touch overlap. Coordinates are floats, which keeps the
+/// box small. They are relative to the world's origin (a double), so that boxes far away keep their precision.
 struct Aabb {
   Eigen::Vector3f min = Eigen::Vector3f::Zero();
   Eigen::Vector3f max = Eigen::Vector3f::Zero();
@@ -32,13 +33,39 @@ inline bool overlap(const Aabb& a, const Aabb& b) {
 /// Euclidean distance of the boxes [m], 0 if they overlap; exact to a few units in the last place.
 double distance(const Aabb& a, const Aabb& b);
 
-/// Whether the distance of the boxes is at most `margin` [m], margin >= 0: decided exactly, as if
-/// computed with real numbers. A filter in double answers nearly always; the rest is settled by
-/// expansion arithmetic (Shewchuk, Adaptive Precision Floating-Point Arithmetic, 1997).
+/// Whether the distance of the boxes is at most `margin` [m], margin >= 0. Decided exactly, as if computed with real
+/// numbers: doubles suffice nearly always, and expansion arithmetic decides the rest (Shewchuk, Adaptive Precision
+/// Floating-Point Arithmetic, 1997).
 bool withinDistance(const Aabb& a, const Aabb& b, double margin);
 
 /// A box that contains every point within `by` [m], by >= 0, of `box` along the axes. Two boxes within
 /// m of each other overlap when grown by a and b with a + b >= m.
 Aabb grown(const Aabb& box, double by);
+inline Eigen::AlignedBox3d grown(const Eigen::AlignedBox3d& box, double by) {
+  return {box.min().array() - by, box.max().array() + by};
+}
+
+/// The same box in double, without rounding.
+inline Eigen::AlignedBox3d inDouble(const Aabb& box) { return {box.min.cast<double>(), box.max.cast<double>()}; }
+
+/// The point of the box that is nearest to `point` [m]: `point` itself if it is inside.
+inline Eigen::Vector3d nearestPoint(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& point) {
+  return point.cwiseMax(box.min()).cwiseMin(box.max());
+}
+inline Eigen::Vector3d nearestPoint(const Aabb& box, const Eigen::Vector3d& point) {
+  return nearestPoint(inDouble(box), point);
+}
+
+/// [m] Length of the shortest move that separates two boxes that overlap; 0 if they do not.
+double penetrationDepth(const Eigen::AlignedBox3d& first, const Eigen::AlignedBox3d& second);
+
+/// A point of each of two boxes [m].
+struct BoxPoints {
+  Eigen::Vector3d on_first, on_second;
+};
+
+/// Points at which two boxes are nearest to each other. Where many are, these lie in the middle of them: on an axis on
+/// which the boxes overlap, both points are in the middle of the overlap.
+BoxPoints nearestPoints(const Eigen::AlignedBox3d& first, const Eigen::AlignedBox3d& second);
 
 }  // namespace hgrid

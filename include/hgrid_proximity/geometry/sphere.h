@@ -8,22 +8,19 @@
 
 namespace hgrid {
 
-/// A ball [m] in the coordinates of the boxes that it is asked about; radius 0 is a point.
+/// A sphere [m], in the same coordinates as the boxes that it is compared with. With radius 0 it is a point.
 struct Sphere {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double radius = 0.0;
 };
 
-/// The point of the box nearest to `point` [m]; the point itself inside.
-Eigen::Vector3d nearestPoint(const Aabb& box, const Eigen::Vector3d& point);
-
 /// Squared distance of the point from the box [m²]; 0 inside.
 inline double squaredDistance(const Aabb& box, const Eigen::Vector3d& point) {
-  double sum = 0.0;  // axis by axis, without vectors and without branches: queries ask it of every candidate
+  double sum = 0.0;  // axis by axis, without vectors and without branches: queries call this for every candidate
   for (int axis = 0; axis < 3; ++axis) {
     const double under = box.min[axis] - point[axis], over = point[axis] - box.max[axis];
     const double off = under > over ? under : over;
-    const double gap = 0.5 * (off + std::abs(off));  // the greater of off and 0; asked that way, compilers branch
+    const double gap = 0.5 * (off + std::abs(off));  // not std::max(off, 0.0): compilers make a branch of that
     sum += gap * gap;
   }
   return sum;
@@ -32,16 +29,17 @@ inline double squaredDistance(const Aabb& box, const Eigen::Vector3d& point) {
 /// Distance of the point from the box [m]; 0 inside.
 inline double distance(const Aabb& box, const Eigen::Vector3d& point) { return std::sqrt(squaredDistance(box, point)); }
 
-/// What a query adds to its size so that rounding can only add hits, never lose one: a bound of the
-/// rounding errors for coordinates up to `reach` [m] and far below the promised 1e-9 * reach.
+/// [m] What a query adds to its size, so that rounding can add hits but never lose one. It bounds the rounding errors
+/// for coordinates up to `reach` [m] and is far below the promised 1e-9 * reach.
 inline double roundingSlack(double reach) { return 1e-12 * reach; }
 
-/// Boxes no farther than this [m] from the centre touch the ball; squares of both are compared.
+/// [m] A box touches the sphere if it is at most this far from the sphere's center.
 inline double touchingDistance(const Sphere& sphere) {
   return sphere.radius + roundingSlack(sphere.center.cwiseAbs().maxCoeff() + sphere.radius);
 }
 
-/// Whether ball and box touch. Superset of the exact answer; an extra lies within 1e-9 * (|x| + r) of touching.
+/// Whether sphere and box touch. True for every box that touches, and perhaps for one that misses by less than
+/// 1e-9 * (|x| + r).
 inline bool touches(const Sphere& sphere, const Aabb& box) {
   const double near = touchingDistance(sphere);
   return squaredDistance(box, sphere.center) <= near * near;

@@ -68,7 +68,7 @@ class PairFilter {
 
  private:
   static constexpr std::uint32_t kNoRobot = 0xffffffff;
-  static constexpr std::size_t kTypes = 6;                 // kinds of body, each fixed or moving
+  static constexpr std::size_t kTypes = 8;                 // kinds of body, each fixed or moving
   static constexpr std::uint8_t kByName = 1, kByGlob = 2;  // bits of Subject::ruled
   struct Subject {
     const std::uint64_t* allowed = nullptr;  // links of its robot that it may touch, by the model; null: no model

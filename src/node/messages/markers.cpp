@@ -72,22 +72,6 @@ void addEdges(Marker& lines, const Aabb& box, const Eigen::Vector3d& origin, con
   }
 }
 
-/// Nearest points of two boxes; in the middle of what they share on axes where they overlap.
-std::pair<Eigen::Vector3d, Eigen::Vector3d> nearestPoints(const Aabb& a, const Aabb& b) {
-  std::pair<Eigen::Vector3d, Eigen::Vector3d> points;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (a.max[axis] < b.min[axis]) {
-      points.first[axis] = a.max[axis], points.second[axis] = b.min[axis];
-    } else if (b.max[axis] < a.min[axis]) {
-      points.first[axis] = a.min[axis], points.second[axis] = b.max[axis];
-    } else {
-      points.first[axis] = points.second[axis] =
-          0.5 * (std::max(a.min[axis], b.min[axis]) + std::min(a.max[axis], b.max[axis]));
-    }
-  }
-  return points;
-}
-
 void addPair(Marker& lines, const Snapshot& snapshot, const NearPair& pair) {
   const Structure& structure = snapshot.structure();
   double least = std::numeric_limits<double>::infinity();
@@ -99,13 +83,13 @@ void addPair(Marker& lines, const Snapshot& snapshot, const NearPair& pair) {
     }
   }
   if (std::isinf(least)) return;  // a map has no boxes; its pairs are drawn where they are measured
-  auto points = nearestPoints(snapshot.boxes()[first], snapshot.boxes()[second]);
+  BoxPoints points = nearestPoints(inDouble(snapshot.boxes()[first]), inDouble(snapshot.boxes()[second]));
   if (least == 0.0) {  // they overlap: from the middle of one to the middle of the other
-    points.first = 0.5 * (snapshot.boxes()[first].min + snapshot.boxes()[first].max).cast<double>();
-    points.second = 0.5 * (snapshot.boxes()[second].min + snapshot.boxes()[second].max).cast<double>();
+    points.on_first = inDouble(snapshot.boxes()[first]).center();
+    points.on_second = inDouble(snapshot.boxes()[second]).center();
   }
   const double nearness = pair.margin > 0.0 ? 1.0 - pair.gap / pair.margin : 1.0;
-  addLine(lines, points.first + snapshot.origin(), points.second + snapshot.origin(),
+  addLine(lines, points.on_first + snapshot.origin(), points.on_second + snapshot.origin(),
           color(1.0, 1.0 - 0.9 * nearness, 0.1, 1.0));
 }
 

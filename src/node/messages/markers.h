@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "hgrid_proximity/queries/query_answer.h"
 #include "node/tick/world.h"
 
 namespace hgrid {

@@ -135,9 +135,9 @@ std::size_t asked(const QueryScope& scope, const Snapshot& snapshot) {
     if (!known && !awaited) throw Refusal(Code::unknown_id, "no body matches '" + printable(pattern) + "' of include");
   }
   std::size_t count = 0;
-  for (std::uint32_t body = 0; body < bodies.size(); ++body) count += snapshot.inScope(scope, body) ? 1 : 0;
+  for (std::uint32_t body = 0; body < bodies.size(); ++body) count += inScope(snapshot, scope, body) ? 1 : 0;
   const bool awaits =
-      std::any_of(gaps.begin(), gaps.end(), [&](const SourceGap& gap) { return snapshot.inScope(scope, gap); });
+      std::any_of(gaps.begin(), gaps.end(), [&](const SourceGap& gap) { return inScope(snapshot, scope, gap); });
   if (count == 0 && !awaits) throw Refusal(Code::unknown_id, "exclude leaves no body to ask for");
   return count;
 }
@@ -209,7 +209,7 @@ bool QueryServices::onSphere(Checked<msg::QuerySphere::Request>& checked, msg::Q
       checked, response,
       [&](const auto& request, const Snapshot& snapshot, const Pose& world_from_frame, const QueryScope& scope) {
         const Sphere sphere{world_from_frame * fromPoint(request.center), request.radius};
-        QueryAnswer found = snapshot.query(sphere, scope);
+        QueryAnswer found = query(snapshot, sphere, scope);
         sketch_.show(sphere, found.verdict);
         return found;
       });
@@ -221,7 +221,7 @@ bool QueryServices::onSegment(Checked<msg::QuerySegment::Request>& checked, msg:
       [&](const auto& request, const Snapshot& snapshot, const Pose& world_from_frame, const QueryScope& scope) {
         const Segment segment{world_from_frame * fromPoint(request.start), world_from_frame * fromPoint(request.end),
                               request.radius};
-        QueryAnswer found = snapshot.query(segment, scope);
+        QueryAnswer found = query(snapshot, segment, scope);
         sketch_.show(segment, found.verdict);
         return found;
       });
@@ -237,7 +237,7 @@ bool QueryServices::onBox(Checked<msg::QueryBox::Request>& checked, msg::QueryBo
             fromPoint(request.pose.position),
             unset ? Eigen::Vector4d(0.0, 0.0, 0.0, 1.0) : Eigen::Vector4d(q.x, q.y, q.z, q.w), "the query's box");
         const Eigen::Vector3d size(request.size.x, request.size.y, request.size.z);
-        return snapshot.query(QueryBox{world_from_frame * frame_from_box, size}, *narrow_phase_, scope);
+        return query(snapshot, QueryBox{world_from_frame * frame_from_box, size}, *narrow_phase_, scope);
       });
 }
 
@@ -248,13 +248,13 @@ bool QueryServices::onNearest(Checked<msg::QueryNearest::Request>& checked, msg:
         QueryScope scope = given;
         if (request.limit == 0) scope.limit = 1;
         if (request.body.empty()) {
-          return snapshot.nearest(world_from_frame * fromPoint(request.point), request.max_distance, scope);
+          return nearest(snapshot, world_from_frame * fromPoint(request.point), request.max_distance, scope);
         }
         const std::uint32_t body = snapshot.structure().find(request.body);
         if (body == Structure::kNone) {
           throw Refusal(Code::unknown_id, "there is no body '" + printable(request.body) + "'");
         }
-        return snapshot.nearest(body, request.max_distance, scope);
+        return nearest(snapshot, body, request.max_distance, scope);
       });
 }
 

@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 
+#include "hgrid_proximity/queries/query.h"
 #include "node/messages/markers.h"
 #include "node/messages/messages.h"
 #include "node/params/params.h"

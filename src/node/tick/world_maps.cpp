@@ -84,7 +84,7 @@ void World::setCloud(const LoadedCloud& loaded) {
   if (known == clouds_.end()) {
     Body body;
     body.name = name;
-    body.kind = BodyKind::map;
+    body.kind = BodyKind::cloud;
     body.frame = world_frame_;
     body.max_speed = lastMatch(params_.max_speed, body.name, params_.default_max_speed);
     applyPatterns(params_, body);

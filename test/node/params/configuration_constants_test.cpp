@@ -16,6 +16,7 @@
 #include <hgrid_proximity/Verdict.h>
 #include <hgrid_proximity/WorldState.h>
 
+#include "hgrid_proximity/queries/query_answer.h"
 #include "hgrid_proximity/refusal.h"
 #include "hgrid_proximity/world/snapshot.h"
 

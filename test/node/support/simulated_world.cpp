@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "hgrid_proximity/adapters/fcl.h"
+#include "hgrid_proximity/queries/query.h"
 #include "test/support/bodies.h"
 
 namespace hgrid {
@@ -115,7 +116,7 @@ bool SimulatedWorld::near(const std::string& first, const std::string& second) c
 }
 
 Verdict SimulatedWorld::sphere(double x, double radius) const {
-  return snapshot().query(Sphere{Eigen::Vector3d(x, 0.0, 0.0), radius}, QueryScope{}).verdict;
+  return query(snapshot(), Sphere{Eigen::Vector3d(x, 0.0, 0.0), radius}, QueryScope{}).verdict;
 }
 
 std::uint64_t SimulatedWorld::counter(const std::string& name) const {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "hgrid_proximity/queries/query_answer.h"
 #include "src/node/tick/world.h"
 
 namespace hgrid {

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "queries/nearest_rounds.h"
+
+namespace hgrid {
+namespace {
+
+constexpr std::size_t kFirstRound = 16;  // boxes, in addition to four for each body that is wanted
+
+}  // namespace
+
+/// Whether all boxes that were not gathered yet are farther than the hits that are wanted.
+bool NearestRounds::isEnough(std::vector<QueryHit>& hits) const {
+  if (near_.size() < count_) return true;  // there are no more boxes
+  sortOnePerBody(question_, hits);
+  return hits.size() >= wanted() && hits[wanted() - 1].distance < near_.back().distance - reach_;
+}
+
+bool NearestRounds::gather(std::size_t round, std::vector<QueryHit>& hits, std::vector<ProxyId>& candidates) {
+  if (round > 0 && isEnough(hits)) return false;
+  const std::size_t known = near_.size();
+  count_ = round == 0 ? 4 * wanted() + kFirstRound : 4 * count_;
+  question_.snapshot.grid().nearest(center_ - question_.snapshot.origin(), count_, limit_ + reach_, near_);
+  candidates.clear();
+  for (std::size_t i = known; i < near_.size(); ++i) candidates.push_back(near_[i].id);
+  return true;
+}
+
+}  // namespace hgrid

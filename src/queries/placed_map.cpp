@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "queries/placed_map.h"
+
+namespace hgrid {
+
+QueryHit PlacedMap::hitOf(const Voxel& voxel, const Eigen::Vector3d& center, double distance, bool exact) const {
+  QueryHit hit;
+  hit.body = body;
+  hit.cell_edge = edgeOf(voxel);
+  hit.center_distance = hit.distance = distance;
+  const Eigen::Vector3d point = nearestPoint(cubeOf(voxel), center);
+  hit.point = world_from_map * point;
+  if (!exact) return hit;
+  hit.status = distance > 0.0 ? Measure::apart : Measure::contact;
+  if (distance > 0.0) hit.normal = world_from_map.linear() * (center - point).normalized();
+  return hit;
+}
+
+}  // namespace hgrid

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// What a segment with a radius meets.
+#include <algorithm>
+#include <cmath>
+
+#include "hgrid_proximity/geometry/float_environment.h"
+#include "hgrid_proximity/queries/query.h"
+#include "queries/question.h"
+
+namespace hgrid {
+namespace {
+
+constexpr int kMostSteps = 500;  // towards the first touch; each at least halves what a straight approach leaves
+
+/// The pose of a solid segment along z that is centered in its frame: it lies on the segment.
+Pose poseAlong(const Segment& segment) {
+  Pose pose = Pose::Identity();
+  const Eigen::Vector3d step = segment.to - segment.from;
+  pose.translation() = segment.from + 0.5 * step;
+  pose.linear() = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), step).toRotationMatrix();
+  return pose;
+}
+
+/// The outward normal of the face through which a line in `direction` enters a cube at `at`. NaN if `at` is on no
+/// such face.
+Eigen::Vector3d normalWhereEntered(const Eigen::AlignedBox3d& cube, const Eigen::Vector3d& at,
+                                   const Eigen::Vector3d& direction) {
+  Eigen::Vector3d normal = Eigen::Vector3d::Constant(QueryHit::kUnknown);
+  double nearest = 1e-6 * cube.sizes().maxCoeff();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (direction[axis] == 0.0) continue;
+    const double off = std::abs(at[axis] - (direction[axis] > 0.0 ? cube.min()[axis] : cube.max()[axis]));
+    if (off > nearest) continue;
+    nearest = off;
+    normal = Eigen::Vector3d::Unit(axis) * (direction[axis] > 0.0 ? -1.0 : 1.0);
+  }
+  return normal;
+}
+
+class SegmentQuestion final : public Question {
+ public:
+  SegmentQuestion(const Snapshot& asked, const QueryScope& given, const Segment& segment)
+      : Question(asked, given),
+        segment_(segment),
+        local_{segment.from - origin(), segment.to - origin(), segment.radius},
+        length_((segment.to - segment.from).norm()),
+        slack_(touchSlack(segment.from, segment.radius + length_)),
+        world_from_axis_(length_ > 0.0 ? poseAlong(segment) : Pose(Eigen::Translation3d(segment.from))) {}
+
+  bool gather(std::size_t round, std::vector<QueryHit>&, std::vector<ProxyId>& candidates) override;
+  bool hitsBox(ProxyId proxy, QueryHit& hit) const override;
+  bool hitsShape(ProxyId proxy, const NarrowPhase& exact, QueryHit& hit) const override;
+  bool hitsMap(const PlacedMap& map, QueryHit& hit) const override;
+  bool goesBefore(const QueryHit& a, const QueryHit& b) const override {
+    if (a.along != b.along) return a.along < b.along;
+    return a.body != b.body ? a.body < b.body : a.shape < b.shape;
+  }
+
+  bool isBoxWithin(ProxyId proxy, double distance) const override {
+    return meet({local_.from, local_.to, local_.radius + distance}, boxOf(proxy)).has_value();
+  }
+  bool isShapeWithin(ProxyId proxy, double distance, const NarrowPhase& exact) const override {
+    const double limit = segment_.radius + slack_ + distance;
+    return isWithin(axis(exact).measure(snapshot, proxy, limit), limit);
+  }
+  bool isCellWithin(const PlacedMap& map, double distance) const override {
+    return map.cells.grid->firstAlong(inMap(map, segment_.radius + distance)).has_value();
+  }
+  bool isTouchedBy(const Sphere& sphere) const override;
+  bool isFreeIn(const PlacedMap& map, const UnmappedSpace& unmapped) const override;
+
+ private:
+  Probe axis(const NarrowPhase& narrow_phase) const {
+    if (!axis_) axis_ = length_ > 0.0 ? narrow_phase.needle(length_) : narrow_phase.point();
+    return {narrow_phase, *axis_, world_from_axis_};
+  }
+  Segment inMap(const PlacedMap& map, double radius) const {
+    return {map.map_from_world * segment_.from, map.map_from_world * segment_.to, radius};
+  }
+  double firstTouch(ProxyId proxy, const NarrowPhase& exact, Proximity& found) const;
+
+  const Segment segment_;  // in the world
+  const Segment local_;    // the same, relative to the snapshot's origin
+  const double length_;    // [m]
+  const double slack_;     // [m]
+  const Pose world_from_axis_;
+  mutable std::shared_ptr<const Solid> axis_;  // made when it is measured first
+};
+
+bool SegmentQuestion::gather(std::size_t round, std::vector<QueryHit>&, std::vector<ProxyId>& candidates) {
+  if (round > 0) return false;
+  std::vector<SegmentHit> hits;
+  snapshot.grid().along(local_, hits);
+  candidates.clear();
+  for (const SegmentHit& hit : hits) candidates.push_back(hit.id);
+  return true;
+}
+
+bool SegmentQuestion::hitsBox(ProxyId proxy, QueryHit& hit) const {
+  const auto meeting = meet(local_, boxOf(proxy));
+  if (!meeting) return false;  // the grid's box is larger, by the margin
+  hit.along = meeting->along;
+  hit.center_distance = meeting->axis_distance;
+  setDistance(hit, meeting->axis_distance > 0.0 ? meeting->axis_distance - segment_.radius : QueryHit::kUnknown);
+  hit.point = meeting->point + origin();
+  return true;
+}
+
+/// How far along the segment a sphere that moves along it first touches a shape [m]. Each step is as long as the sphere
+/// can go without a touch (conservative advancement; after Mirtich 1996, section 2.3).
+/// @param found  becomes how the sphere's center lies to the shape there
+double SegmentQuestion::firstTouch(ProxyId proxy, const NarrowPhase& exact, Proximity& found) const {
+  const Eigen::Vector3d step = segment_.to - segment_.from;
+  double along = 0.0;
+  for (int count = 0; count < kMostSteps; ++count) {
+    const Eigen::Vector3d at = length_ > 0.0 ? Eigen::Vector3d(segment_.from + along / length_ * step) : segment_.from;
+    const Probe center{exact, *exact.point(), Pose(Eigen::Translation3d(at))};
+    found = center.measure(snapshot, proxy, kInfinity);
+    const double left = found.distance - segment_.radius;
+    if (!(left > slack_) || along >= length_) break;
+    along = std::min(along + left, length_);
+  }
+  return along;
+}
+
+bool SegmentQuestion::hitsShape(ProxyId proxy, const NarrowPhase& exact, QueryHit& hit) const {
+  Proximity found = axis(exact).measure(snapshot, proxy, segment_.radius + slack_);
+  if (found.status == Measure::not_measured) return true;
+  if (!(found.distance <= segment_.radius + slack_)) return false;
+  describe(hit, found);
+  hit.center_distance = found.distance;
+  setDistance(hit, signedDistanceOf(found) - segment_.radius);
+  if (found.status == Measure::failed) return true;
+  hit.along = firstTouch(proxy, exact, found);
+  if (found.on_second.allFinite()) {
+    hit.point = found.on_second;
+    hit.normal = -found.normal;
+  }
+  return true;
+}
+
+bool SegmentQuestion::hitsMap(const PlacedMap& map, QueryHit& hit) const {
+  const Segment in_map = inMap(map, segment_.radius);
+  const auto first = map.cells.grid->firstAlong(in_map);
+  if (!first) return false;
+  const Eigen::Vector3d step = in_map.to - in_map.from;
+  const Eigen::Vector3d at = in_map.from + (length_ > 0.0 ? first->along / length_ : 0.0) * step;
+  const Eigen::AlignedBox3d cube = map.cubeOf(first->voxel);
+  hit = map.hitOf(first->voxel, at, (nearestPoint(cube, at) - at).norm(), isExact());
+  hit.along = first->along;
+  const double gap = hit.center_distance - segment_.radius;  // where the cell is first touched, not where it is nearest
+  setDistance(hit, gap > 0.0 ? gap : QueryHit::kUnknown);
+  if (isExact() && (segment_.radius == 0.0 || hit.normal.hasNaN())) {
+    hit.normal = map.world_from_map.linear() * normalWhereEntered(cube, at, step);
+  }
+  return true;
+}
+
+bool SegmentQuestion::isTouchedBy(const Sphere& sphere) const {
+  const Eigen::Vector3d step = segment_.to - segment_.from, to_center = sphere.center - segment_.from;
+  const double square = step.squaredNorm();
+  const double fraction = square > 0.0 ? std::clamp(to_center.dot(step) / square, 0.0, 1.0) : 0.0;
+  const double limit = segment_.radius + sphere.radius;
+  return (to_center - fraction * step).norm() <= limit + touchSlack(sphere.center, limit);
+}
+
+bool SegmentQuestion::isFreeIn(const PlacedMap& map, const UnmappedSpace& unmapped) const {
+  const Segment capsule = inMap(map, segment_.radius + map.reach + touchSlack(segment_.from, segment_.radius));
+  const auto speaksOf = [&](const Eigen::Vector3d& end) {
+    return unmapped.extent.contains(grown(Eigen::AlignedBox3d(end), capsule.radius));
+  };
+  return speaksOf(capsule.from) && speaksOf(capsule.to) && !unmapped.cells.firstAlong(capsule);
+}
+
+}  // namespace
+
+QueryAnswer query(const Snapshot& snapshot, const Segment& segment, const QueryScope& scope) {
+  const DefaultFloatEnvironment environment;
+  checkQueryPoint(segment.from, "the segment's start");
+  checkQueryPoint(segment.to, "the segment's end");
+  checkQueryLength(segment.radius, "the query's radius");
+  SegmentQuestion question(snapshot, scope, segment);
+  return answerTo(question);
+}
+
+}  // namespace hgrid

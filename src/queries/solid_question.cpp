@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// What touches a solid in any pose, such as a box.
+#include <optional>
+
+#include "hgrid_proximity/geometry/float_environment.h"
+#include "hgrid_proximity/queries/query.h"
+#include "maps/map_gap.h"
+#include "queries/question.h"
+
+namespace hgrid {
+namespace {
+
+class SolidQuestion final : public Question {
+ public:
+  /// @param shape  what `solid` was made of
+  SolidQuestion(const Snapshot& asked, const QueryScope& given, const NarrowPhase& narrow_phase,
+                std::shared_ptr<const Solid> solid, const Shape& shape, const Pose& world_from_shape, double padding)
+      : Question(asked, given),
+        narrow_phase_(narrow_phase),
+        solid_(std::move(solid)),
+        shape_(shape),
+        world_from_shape_(world_from_shape),
+        center_(world_from_shape.translation()),
+        padding_(padding),
+        reach_(shape.reach() + padding),
+        slack_(touchSlack(center_, 2.0 * reach_)) {}
+
+  bool gather(std::size_t round, std::vector<QueryHit>&, std::vector<ProxyId>& candidates) override {
+    if (round == 0) snapshot.grid().overlapping(boxAround(2.0 * slack_), candidates);
+    return round == 0;
+  }
+  bool hitsBox(ProxyId proxy, QueryHit& hit) const override;
+  bool hitsShape(ProxyId proxy, const NarrowPhase& exact, QueryHit& hit) const override;
+  bool hitsMap(const PlacedMap& map, QueryHit& hit) const override;
+
+  bool isBoxWithin(ProxyId proxy, double distance) const override {
+    return measureBox(proxy, slack_ + distance).distance <= slack_ + distance;
+  }
+  bool isShapeWithin(ProxyId proxy, double distance, const NarrowPhase& exact) const override {
+    return isWithin(probe(exact).measure(snapshot, proxy, slack_ + distance), slack_ + distance);
+  }
+  bool isCellWithin(const PlacedMap& map, double distance) const override {
+    return meetsCell(map, *map.cells.grid, distance);
+  }
+  bool isTouchedBy(const Sphere& sphere) const override {
+    const double limit = slack_ + touchSlack(sphere.center, sphere.radius);
+    const Pose world_from_sphere(Eigen::Translation3d(sphere.center));
+    return probe(narrow_phase_).measure(*narrow_phase_.point(), world_from_sphere, sphere.radius, limit).distance <=
+           limit;
+  }
+  bool isFreeIn(const PlacedMap& map, const UnmappedSpace& unmapped) const override;
+
+ private:
+  /// A box around the solid grown by `by` [m], relative to the snapshot's origin.
+  Aabb boxAround(double by) const { return hgrid::boxOf(shape_, world_from_shape_, padding_ + by, origin()); }
+  Probe probe(const NarrowPhase& narrow_phase) const { return {narrow_phase, *solid_, world_from_shape_, padding_}; }
+  Proximity measureBox(ProxyId proxy, double up_to) const;
+  /// What the solid hits it touches, within rounding.
+  static void setDistance(QueryHit& hit, const Proximity& found) {
+    hgrid::setDistance(hit, signedDistanceOf(found));
+    hit.distance = 0.0;
+  }
+  Proximity measureCell(const PlacedMap& map, const Voxel& voxel, double up_to) const {
+    return probe(narrow_phase_).measure(map.solidOf(voxel), map.worldFromCube(voxel), 0.0, up_to);
+  }
+  bool meetsCell(const PlacedMap& map, const StaticGrid& cells, double distance) const;
+
+  const NarrowPhase& narrow_phase_;
+  const std::shared_ptr<const Solid> solid_;
+  const Shape shape_;
+  const Pose world_from_shape_;
+  const Eigen::Vector3d center_;  // [m, world] origin of the shape
+  const double padding_;          // [m]
+  const double reach_;            // [m] from the center to the farthest point, padding included
+  const double slack_;            // [m]
+};
+
+/// How the solid lies to a box of the snapshot.
+Proximity SolidQuestion::measureBox(ProxyId proxy, double up_to) const {
+  const Eigen::AlignedBox3d box = inDouble(boxOf(proxy));
+  const Pose world_from_box(Eigen::Translation3d(origin() + 0.5 * (box.min() + box.max())));
+  return probe(narrow_phase_).measure(*narrow_phase_.block(box.max() - box.min()), world_from_box, 0.0, up_to);
+}
+
+bool SolidQuestion::hitsBox(ProxyId proxy, QueryHit& hit) const {
+  const Proximity found = measureBox(proxy, slack_);
+  if (!(found.distance <= slack_)) return false;
+  setDistance(hit, found);
+  hit.center_distance = distance(boxOf(proxy), center_ - origin());
+  hit.point = nearestPoint(boxOf(proxy), center_ - origin()) + origin();
+  return true;
+}
+
+bool SolidQuestion::hitsShape(ProxyId proxy, const NarrowPhase& exact, QueryHit& hit) const {
+  const Proximity found = probe(exact).measure(snapshot, proxy, slack_);
+  if (found.status == Measure::not_measured) return true;
+  if (!(found.distance <= slack_)) return false;
+  const Probe center{exact, *exact.point(), Pose(Eigen::Translation3d(center_))};
+  const Proximity from_center = center.measure(snapshot, proxy, kInfinity);
+  setDistance(hit, found);
+  describe(hit, from_center);
+  hit.status = found.status;
+  hit.center_distance = from_center.distance;
+  return true;
+}
+
+/// Looks at the cells that are nearest to the center first. The hit is the nearest of those that the solid touches.
+bool SolidQuestion::hitsMap(const PlacedMap& map, QueryHit& hit) const {
+  const Eigen::Vector3d center = map.map_from_world * center_;
+  const double most = reach_ + slack_;
+  std::optional<NearVoxel> met;
+  Proximity contact;
+  map.cells.grid->visitNear(Eigen::AlignedBox3d(center), most, [&](const Voxel& voxel, double distance) {
+    if (time.isOver(TimeBudget::Step::slow)) return kNoFurther;
+    const Proximity found = measureCell(map, voxel, slack_);
+    if (found.distance <= slack_ && (!met || distance < met->distance)) {
+      met = NearVoxel{voxel, distance};
+      contact = found;
+    }
+    return !met ? most : met->distance > 0.0 ? met->distance : kNoFurther;
+  });
+  if (!met) return false;
+  hit = map.hitOf(met->voxel, center, met->distance, isExact());
+  setDistance(hit, contact);
+  if (isExact()) hit.status = Measure::contact;
+  return true;
+}
+
+/// Whether one of the cells, which are in the map's frame, is at most `distance` [m] from the solid.
+bool SolidQuestion::meetsCell(const PlacedMap& map, const StaticGrid& cells, double distance) const {
+  const double limit = slack_ + distance;
+  bool met = false;
+  cells.visitNear(Eigen::AlignedBox3d(Eigen::Vector3d(map.map_from_world * center_)), reach_ + limit,
+                  [&](const Voxel& voxel, double) {
+                    if (time.isOver(TimeBudget::Step::slow)) return kNoFurther;
+                    met = met || measureCell(map, voxel, limit).distance <= limit;
+                    return met ? kNoFurther : reach_ + limit;
+                  });
+  return met;
+}
+
+bool SolidQuestion::isFreeIn(const PlacedMap& map, const UnmappedSpace& unmapped) const {
+  const Pose map_from_shape = map.map_from_world * world_from_shape_;
+  const Eigen::Vector3d center = map.map_from_world * center_;
+  const Eigen::AlignedBox3d around =
+      inDouble(hgrid::boxOf(shape_, map_from_shape, padding_ + map.reach + slack_, center));
+  return unmapped.extent.contains(Eigen::AlignedBox3d(around.min() + center, around.max() + center)) &&
+         !meetsCell(map, unmapped.cells, map.reach);
+}
+
+}  // namespace
+
+QueryAnswer query(const Snapshot& snapshot, const QueryBox& box, const NarrowPhase& narrow_phase,
+                  const QueryScope& scope) {
+  const DefaultFloatEnvironment environment;
+  checkQueryPoint(box.world_from_box.translation(), "the query's center");
+  for (int axis = 0; axis < 3; ++axis) checkQueryLength(box.size[axis], "a side of the query's box");
+  const ShapeLimits any_size{0.0, kQueryReach};
+  SolidQuestion question(snapshot, scope, narrow_phase, narrow_phase.block(box.size), Shape::box(box.size, any_size),
+                         box.world_from_box, 0.0);
+  return answerTo(question);
+}
+
+QueryAnswer query(const Snapshot& snapshot, const QueryShape& shape, NarrowPhase& narrow_phase,
+                  const QueryScope& scope) {
+  const DefaultFloatEnvironment environment;
+  checkQueryPoint(shape.world_from_shape.translation(), "the query's center");
+  checkQueryLength(shape.padding, "the padding of the query's shape");
+  SolidQuestion question(snapshot, scope, narrow_phase, narrow_phase.solidOf(shape.shape), shape.shape,
+                         shape.world_from_shape, shape.padding);
+  return answerTo(question);
+}
+
+}  // namespace hgrid

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// What touches a sphere, and what is nearest to a point.
+#include <algorithm>
+
+#include "hgrid_proximity/geometry/float_environment.h"
+#include "hgrid_proximity/queries/query.h"
+#include "queries/nearest_rounds.h"
+
+namespace hgrid {
+namespace {
+
+/// A question about what is around a point. Its region is a sphere.
+class AroundPoint : public Question {
+ public:
+  AroundPoint(const Snapshot& asked, const QueryScope& given, const Sphere& region)
+      : Question(asked, given),
+        region_(region),
+        local_{region.center - origin(), region.radius},
+        radius_(region.radius + touchSlack(region.center, region.radius)) {}
+
+  bool isBoxWithin(ProxyId proxy, double distance) const final {
+    return touches({local_.center, local_.radius + distance}, boxOf(proxy));
+  }
+  bool isShapeWithin(ProxyId proxy, double distance, const NarrowPhase& exact) const final {
+    return isWithin(center(exact).measure(snapshot, proxy, radius_ + distance), radius_ + distance);
+  }
+  bool isCellWithin(const PlacedMap& map, double distance) const final {
+    std::vector<NearVoxel> near;
+    map.cells.grid->nearest(Eigen::AlignedBox3d(map.map_from_world * region_.center), 1, radius_ + distance, near);
+    return !near.empty();
+  }
+  bool isTouchedBy(const Sphere& sphere) const final {
+    return (sphere.center - region_.center).norm() <= radius_ + sphere.radius;
+  }
+  bool isFreeIn(const PlacedMap& map, const UnmappedSpace& unmapped) const final {
+    const double radius = region_.radius + map.reach + touchSlack(region_.center, region_.radius);
+    const Sphere in_map{map.map_from_world * region_.center, radius};
+    return unmapped.extent.contains(grown(Eigen::AlignedBox3d(in_map.center), radius)) &&
+           !unmapped.cells.touches(in_map);
+  }
+
+ protected:
+  /// The center, to be measured against shapes.
+  Probe center(const NarrowPhase& narrow_phase) const {
+    return {narrow_phase, *narrow_phase.point(), Pose(Eigen::Translation3d(region_.center))};
+  }
+  // Below, distances of a hit are those from a sphere of `radius` [m] around the center.
+
+  /// Whether a cell is at most `limit` [m] from the center. If so, the hit is the nearest cell.
+  bool hitsNearestCell(const PlacedMap& map, double limit, double radius, QueryHit& hit) const {
+    const Eigen::Vector3d in_map = map.map_from_world * region_.center;
+    std::vector<NearVoxel> near;
+    map.cells.grid->nearest(Eigen::AlignedBox3d(in_map), 1, limit, near);
+    if (near.empty()) return false;
+    const Voxel& voxel = near.front().voxel;
+    hit = map.hitOf(voxel, in_map, near.front().distance, isExact());
+    setDistance(hit, signedDistance(map.cubeOf(voxel), Eigen::AlignedBox3d(in_map), hit.center_distance) - radius);
+    return true;
+  }
+  void measureBox(ProxyId proxy, double radius, QueryHit& hit) const {
+    const Eigen::AlignedBox3d box = inDouble(boxOf(proxy)), point(local_.center);
+    hit.center_distance = distance(boxOf(proxy), local_.center);
+    hit.point = nearestPoint(box, local_.center) + origin();
+    setDistance(hit, signedDistance(box, point, hit.center_distance) - radius);
+  }
+  static void take(const Proximity& from_center, double radius, QueryHit& hit) {
+    describe(hit, from_center);
+    hit.center_distance = from_center.distance;
+    setDistance(hit, signedDistanceOf(from_center) - radius);
+  }
+
+  const Sphere region_;  // in the world
+  const Sphere local_;   // the same, relative to the snapshot's origin
+  const double radius_;  // [m] of the region, with room for rounding
+};
+
+class SphereQuestion final : public AroundPoint {
+ public:
+  using AroundPoint::AroundPoint;
+
+  bool gather(std::size_t round, std::vector<QueryHit>&, std::vector<ProxyId>& candidates) override {
+    if (round == 0) snapshot.grid().overlapping(local_, candidates);
+    return round == 0;
+  }
+  bool hitsBox(ProxyId proxy, QueryHit& hit) const override {
+    if (!touches(local_, boxOf(proxy))) return false;  // the grid's box is larger, by the margin
+    measureBox(proxy, region_.radius, hit);
+    return true;
+  }
+  bool hitsShape(ProxyId proxy, const NarrowPhase& exact, QueryHit& hit) const override {
+    const Proximity found = center(exact).measure(snapshot, proxy, radius_);
+    if (found.status == Measure::not_measured) return true;
+    if (!(found.distance <= radius_)) return false;
+    take(found, region_.radius, hit);
+    return true;
+  }
+  bool hitsMap(const PlacedMap& map, QueryHit& hit) const override {
+    return hitsNearestCell(map, radius_, region_.radius, hit);
+  }
+};
+
+class NearestToPoint final : public AroundPoint {
+ public:
+  NearestToPoint(const Snapshot& asked, const QueryScope& given, const Eigen::Vector3d& point, double limit)
+      : AroundPoint(asked, given, {point, limit}), rounds_(*this, point, 0.0, limit) {}
+
+  std::size_t wanted() const override { return rounds_.wanted(); }
+  bool gather(std::size_t round, std::vector<QueryHit>& hits, std::vector<ProxyId>& candidates) override {
+    return rounds_.gather(round, hits, candidates);
+  }
+  bool hitsBox(ProxyId proxy, QueryHit& hit) const override {
+    measureBox(proxy, 0.0, hit);
+    return hit.distance <= rounds_.limit();
+  }
+  bool hitsShape(ProxyId proxy, const NarrowPhase& exact, QueryHit& hit) const override {
+    const Proximity found = center(exact).measure(snapshot, proxy, rounds_.limit());
+    if (found.status == Measure::not_measured) return true;
+    take(found, 0.0, hit);
+    return hit.distance <= rounds_.limit();
+  }
+  bool hitsMap(const PlacedMap& map, QueryHit& hit) const override {
+    return hitsNearestCell(map, rounds_.limit(), 0.0, hit);
+  }
+
+ private:
+  NearestRounds rounds_;
+};
+
+}  // namespace
+
+QueryAnswer query(const Snapshot& snapshot, const Sphere& sphere, const QueryScope& scope) {
+  const DefaultFloatEnvironment environment;
+  checkQueryPoint(sphere.center, "the query's center");
+  checkQueryLength(sphere.radius, "the query's radius");
+  SphereQuestion question(snapshot, scope, sphere);
+  return answerTo(question);
+}
+
+QueryAnswer nearest(const Snapshot& snapshot, const Eigen::Vector3d& point, double max_distance,
+                    const QueryScope& scope) {
+  const DefaultFloatEnvironment environment;
+  checkQueryPoint(point, "the query's point");
+  checkQueryLength(max_distance, "max_distance");
+  NearestToPoint question(snapshot, scope, point, NearestRounds::limitOf(max_distance));
+  return answerTo(question);
+}
+
+}  // namespace hgrid
