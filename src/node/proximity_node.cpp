@@ -73,7 +73,7 @@ ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node,
       narrow_phase_(std::move(narrow_phase)),
       robot_source_(private_node, params_, narrow_phase_, [this] { return isEnding(); }),
       world_(params_, ros::Time::isSimTime(), newEpoch(), ledger_, narrow_phase_),
-      own_shapes_(params_, world_.transforms().buffer(), [this] { return newest(); }),
+      own_shapes_(params_, world_.transforms().lookup(), [this] { return newest(); }),
       map_source_(params_, own_shapes_, narrow_phase_, ledger_),
       meter_(narrow_phase_, {params_.distances_max, params_.distances_budget, params_.distances_threads}) {
   for (const RobotParams& robot : params_.robots) to_load_.push_back(robot.name);
@@ -105,7 +105,7 @@ ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node,
   }
 
   queries_ = std::make_unique<QueryServices>(
-      query_private_, params_, config_hash_, [this] { return newest(); }, world_.transforms().buffer(), narrow_phase_,
+      query_private_, params_, config_hash_, [this] { return newest(); }, world_.transforms().lookup(), narrow_phase_,
       sketch_, ledger_);
   explain_ = std::make_unique<ExplainService>(
       query_private_, params_, config_hash_, [this] { return newest(); }, narrow_phase_, ledger_);
@@ -276,8 +276,8 @@ void ProximityNode::runInTick(const Job& job) {
 }
 
 /// Has the next tick say why a robot, map or cloud is not in the world, or not as the newest data has it.
-void ProximityNode::noteMissing(const std::string& name, const std::string& sentence) {
-  jobs_.add([name, sentence](World& world) { world.setMissing(name, sentence); });
+void ProximityNode::noteMissing(const SourceId& source, const std::string& sentence) {
+  jobs_.add([source, sentence](World& world) { world.setMissing(source, sentence); });
 }
 
 Refusal ProximityNode::loadRobot(const RobotParams& robot) {
@@ -297,7 +297,7 @@ Refusal ProximityNode::loadRobot(const RobotParams& robot) {
     return result;
   }
   const std::string sentence = std::string(name(result.code())) + " robot '" + robot.name + "': " + result.what();
-  noteMissing(robot.name, sentence);
+  noteMissing(SourceId::ofRobot(robot.name), sentence);
   const std::lock_guard<std::mutex> lock(mutex_);
   if (health_.failed_loads[robot.name] != sentence) ROS_WARN("%s", sentence.c_str());
   health_.failed_loads[robot.name] = sentence;
@@ -314,7 +314,8 @@ Refusal ProximityNode::putMap(const MapParams& map, const std::function<LoadedMa
   } catch (...) {
     result = caughtRefusal();
   }
-  noteMissing(joined("map", map.name), std::string(name(result.code())) + " map '" + map.name + "': " + result.what());
+  noteMissing(SourceId::ofMap(map.name),
+              std::string(name(result.code())) + " map '" + map.name + "': " + result.what());
   ledger_.refuse("maps.refused", result);
   return result;
 }
@@ -343,9 +344,11 @@ void ProximityNode::forgetPending(const std::string& map) {
 void ProximityNode::addCloud(const CloudParams& cloud) {
   CloudSource::Sink sink;
   sink.put = [this](const LoadedCloud& loaded) { runInTick([loaded](World& world) { world.setCloud(loaded); }); };
-  sink.miss = [this, body = joined("cloud", cloud.name)](const std::string& sentence) { noteMissing(body, sentence); };
+  sink.miss = [this, source = SourceId::ofCloud(cloud.name)](const std::string& sentence) {
+    noteMissing(source, sentence);
+  };
   clouds_.push_back(std::make_unique<CloudSource>(
-      admin_node_, cloud, params_, own_shapes_, world_.transforms().buffer(), narrow_phase_,
+      admin_node_, cloud, params_, own_shapes_, world_.transforms().lookup(), narrow_phase_,
       [this] { return newest(); }, sink, ledger_));
 }
 

@@ -72,7 +72,7 @@ class ProximityNode {
   void addCloud(const CloudParams& cloud);
   void loadMissing();
   void runInTick(const Job& job);
-  void noteMissing(const std::string& name, const std::string& sentence);
+  void noteMissing(const SourceId& source, const std::string& sentence);
   bool isEnding() const;
   void waitForTick();
   std::shared_ptr<const Tick> tickAfter(const Job& job);

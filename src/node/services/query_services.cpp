@@ -59,7 +59,7 @@ std::string summaryOf(const QueryAnswer& found, const Snapshot& snapshot) {
 }  // namespace
 
 QueryServices::QueryServices(ros::NodeHandle& node, const Params& params, std::uint64_t config_hash, NewestTick newest,
-                             const tf2::BufferCore& transforms, std::shared_ptr<const NarrowPhase> narrow_phase,
+                             const TransformLookup& transforms, std::shared_ptr<const NarrowPhase> narrow_phase,
                              QuerySketch& sketch, Ledger& ledger)
     : params_(params),
       config_hash_(config_hash),
@@ -76,29 +76,9 @@ QueryServices::QueryServices(ros::NodeHandle& node, const Params& params, std::u
 
 Pose QueryServices::worldFromFrame(const Tick& tick, const std::string& frame) const {
   if (frame.empty() || frame == tick.world_frame) return Pose::Identity();
-  geometry_msgs::TransformStamped transform;
-  try {
-    const ros::Time stamp = toRos(tick.snapshot->stamp());
-    try {
-      transform = transforms_.lookupTransform(tick.world_frame, frame, stamp);
-    } catch (const tf2::ExtrapolationException&) {
-      // The frame keeps another pace than the robot: its newest pose will do while it would be fresh for a body.
-      transform = transforms_.lookupTransform(tick.world_frame, frame, ros::Time(0));
-      const double apart = std::abs((transform.header.stamp - stamp).toSec());
-      if (!transform.header.stamp.isZero() && apart > params_.stale_after) {
-        throw Refusal(Code::extrapolation, "the query's frame '" + printable(frame) + "' is known at " +
-                                               text(transform.header.stamp.toSec()) + " s, the world at " +
-                                               text(stamp.toSec()) + " s; they may be " + text(params_.stale_after) +
-                                               " s apart (~stale_after)");
-      }
-    }
-  } catch (const tf2::TransformException& error) {
-    throw Refusal(Code::unknown_frame, "the query's frame '" + printable(frame) + "' is not connected to '" +
-                                           tick.world_frame + "': " + printable(error.what(), 300));
-  }
-  const auto& t = transform.transform.translation;
-  const auto& q = transform.transform.rotation;
-  return checkedPose({t.x, t.y, t.z}, {q.x, q.y, q.z, q.w}, "the query's frame '" + printable(frame) + "'");
+  // The frame may be published at another rate than the robot: its newest pose will do while a body's would be fresh.
+  return transforms_.atOrNewest(tick.world_frame, frame, tick.snapshot->stamp(), params_.stale_after,
+                                "the query's frame '" + printable(frame) + "'");
 }
 
 QueryScope QueryServices::scopeOf(const std::vector<std::string>& include, const std::vector<std::string>& exclude,

@@ -27,7 +27,7 @@ class QueryServices {
   using NewestTick = std::function<std::shared_ptr<const Tick>()>;
 
   QueryServices(ros::NodeHandle& node, const Params& params, std::uint64_t config_hash, NewestTick newest,
-                const tf2::BufferCore& transforms, std::shared_ptr<const NarrowPhase> narrow_phase, QuerySketch& sketch,
+                const TransformLookup& transforms, std::shared_ptr<const NarrowPhase> narrow_phase, QuerySketch& sketch,
                 Ledger& ledger);
 
  private:
@@ -44,7 +44,7 @@ class QueryServices {
   const Params& params_;
   std::uint64_t config_hash_;
   NewestTick newest_;
-  const tf2::BufferCore& transforms_;
+  const TransformLookup& transforms_;
   std::shared_ptr<const NarrowPhase> narrow_phase_;
   QuerySketch& sketch_;
   Ledger& ledger_;

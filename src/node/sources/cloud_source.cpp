@@ -9,7 +9,7 @@
 #include "hgrid_proximity/refusal.h"
 #include "node/services/guarded.h"
 #include "node/tf/frames.h"
-#include "node/tick/world.h"
+#include "node/tick/tick.h"
 
 namespace hgrid {
 namespace {
@@ -23,7 +23,7 @@ Time durationOf(double length) { return Time(std::llround(1e9 * length)); }
 }  // namespace
 
 CloudSource::CloudSource(const ros::NodeHandle& node, const CloudParams& cloud, const Params& params,
-                         const OwnShapes& own, const tf2::BufferCore& buffer,
+                         const OwnShapes& own, const TransformLookup& transforms,
                          std::shared_ptr<const NarrowPhase> narrow_phase, OwnShapes::NewestTick newest, Sink sink,
                          Ledger& ledger)
     : cloud_(cloud),
@@ -33,7 +33,7 @@ CloudSource::CloudSource(const ros::NodeHandle& node, const CloudParams& cloud, 
       simulated_(ros::Time::isSimTime()),
       params_(params),
       own_(own),
-      buffer_(buffer),
+      transforms_(transforms),
       narrow_phase_(std::move(narrow_phase)),
       newest_(std::move(newest)),
       sink_(std::move(sink)),
@@ -93,7 +93,7 @@ void CloudSource::take(const CloudMessage& message) {
   }
   const Time now = rosNow();
   const Time given(static_cast<std::int64_t>(message.stamp.toNSec()));
-  const Time stamp = given.count() == 0 ? now : given;  // of those who do not stamp, the time when it came
+  const Time stamp = given.count() == 0 ? now : given;  // a message without a stamp gets the time when it arrived
   if (seconds(stamp - now) > params_.max_future) {
     throw Refusal(Code::clock, what_ + " is stamped " + secondsText(seconds(stamp - now)) +
                                    " in the future; at most ~max_future, " + secondsText(params_.max_future) +
@@ -121,8 +121,8 @@ void CloudSource::take(const CloudMessage& message) {
   }
 }
 
-/// Remembers how old the cloud is. A message that is stamped earlier than another one adds its points but makes the
-/// cloud neither fresher nor older, unless the clock was set back.
+/// Stores the age of the newest message. A message with an earlier stamp than another one adds its points, but the
+/// cloud gets neither fresher nor older by it, unless the clock was set back.
 void CloudSource::noteNewest(Time stamp, Time now, std::chrono::steady_clock::time_point received,
                              const Eigen::Vector3d& sensor) {
   const bool clock_went_back = seconds(loaded_.stamp - now) > params_.max_future;
@@ -136,18 +136,15 @@ void CloudSource::noteNewest(Time stamp, Time now, std::chrono::steady_clock::ti
   loaded_.sensor = sensor;
 }
 
-/// The clock that cells grow old by: /clock, or else the steady clock, so that setting the wall clock ages nothing.
+/// The clock by which cells age: /clock, or else the steady clock, so that setting the wall clock ages nothing.
 Time CloudSource::cellTime() const { return simulated_ ? rosNow() : steadyNow(); }
 
-/// Waits until tf knows where the sensor and the robot's own shapes were at the stamp, or it takes too long.
+/// Waits until tf knows where the sensor and the robot's own shapes were at the stamp, at most ~max_sync_wait.
 void CloudSource::waitFor(const std::string& world_frame, const std::string& frame, Time stamp) const {
   std::vector<std::string> frames;
   if (own_.wanted()) frames = own_.frames();
   frames.push_back(frame);
-  const ros::Time time = ros::Time().fromNSec(static_cast<std::uint64_t>(stamp.count()));
-  const auto known = [&](const std::string& one) {
-    return one == world_frame || buffer_.canTransform(world_frame, one, time);
-  };
+  const auto known = [&](const std::string& one) { return transforms_.isKnown(world_frame, one, stamp); };
   const auto deadline = std::chrono::steady_clock::now() + durationOf(params_.max_sync_wait);
   while (!stopping_ && !frames.empty() && std::chrono::steady_clock::now() < deadline) {
     while (!frames.empty() && known(frames.back())) frames.pop_back();
@@ -155,22 +152,22 @@ void CloudSource::waitFor(const std::string& world_frame, const std::string& fra
   }
 }
 
-/// Where the sensor was when it saw. @throws Refusal extrapolation or unknown_frame if tf does not say so in time
+/// Where the sensor was at the stamp. @throws Refusal extrapolation or unknown_frame if tf does not know that in time
 Pose CloudSource::sensorPose(const std::string& frame, const std::string& world_frame, Time stamp) const {
   waitFor(world_frame, frame, stamp);
   std::string why;
-  const auto world_from_sensor = poseAt(buffer_, world_frame, frame, stamp, &why);
+  const auto world_from_sensor = transforms_.at(world_frame, frame, stamp, &why);
   if (!world_from_sensor) {
-    throw Refusal(poseAt(buffer_, world_frame, frame, Time(0)) ? Code::extrapolation : Code::unknown_frame,
+    throw Refusal(transforms_.newest(world_frame, frame) ? Code::extrapolation : Code::unknown_frame,
                   what_ + ": where its frame '" + printable(frame) + "' was in '" + world_frame + "' at its stamp, " +
                       text(seconds(stamp)) + " s, is not known after ~max_sync_wait, " +
                       secondsText(params_.max_sync_wait) + ": " + printable(why, 300));
   }
-  checkWithin(world_from_sensor->translation(), params_.world_limit, what_ + ": the pose of its sensor");
-  return *world_from_sensor;
+  checkWithin(world_from_sensor->translation, params_.world_limit, what_ + ": the pose of its sensor");
+  return world_from_sensor->pose();
 }
 
-/// The cells of a message's points without those of the robot itself.
+/// The cells of a message's points, without the cells of the robot itself.
 std::vector<Voxel> CloudSource::voxelsOf(PointCloud cloud, const Pose& world_from_sensor, Time stamp) {
   for (Eigen::Vector3d& point : cloud.points) point = world_from_sensor * point;
   const Eigen::Vector3d sensor = world_from_sensor.translation();
@@ -189,7 +186,7 @@ std::vector<Voxel> CloudSource::voxelsOf(PointCloud cloud, const Pose& world_fro
   return std::move(others.voxels);
 }
 
-/// What is seen no more goes when its time is over, also if no message comes.
+/// Removes cells that were not seen for their lifetime, even if no message arrives.
 void CloudSource::onTimer() {
   if (!loaded_.cells || cells_.forget(cellTime()) == 0) return;
   put();

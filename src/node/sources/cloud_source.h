@@ -21,19 +21,21 @@
 
 namespace hgrid {
 
-/// Makes the cells of one cloud of its messages, on a thread of its own: ticks and queries do not wait for it, and what
-/// comes faster than it can be read is dropped, the oldest first.
+/// Turns the messages of one cloud into cells, on a thread of its own.
+///
+/// Ticks and queries do not wait for that thread. If messages arrive faster than it can read them, the oldest are
+/// dropped.
 class CloudSource {
  public:
-  /// What becomes of it. Both may be called on the source's thread only.
+  /// Receives the results. The source calls both on its own thread.
   struct Sink {
-    std::function<void(const LoadedCloud&)> put;            // into the world; throws Refusal
-    std::function<void(const std::string& sentence)> miss;  // why nothing could be put
+    std::function<void(const LoadedCloud&)> put;            // puts the cells into the world; throws Refusal
+    std::function<void(const std::string& sentence)> miss;  // says why a message could not be used
   };
 
-  /// @param node  in whose namespace the topic is
+  /// @param node  its namespace is that of the topic
   CloudSource(const ros::NodeHandle& node, const CloudParams& cloud, const Params& params, const OwnShapes& own,
-              const tf2::BufferCore& buffer, std::shared_ptr<const NarrowPhase> narrow_phase,
+              const TransformLookup& transforms, std::shared_ptr<const NarrowPhase> narrow_phase,
               OwnShapes::NewestTick newest, Sink sink, Ledger& ledger);
   ~CloudSource();
 
@@ -49,13 +51,13 @@ class CloudSource {
   Time cellTime() const;
 
   CloudParams cloud_;
-  std::string what_;     // in refusals
-  std::string counter_;  // what the names of its counters begin with
-  std::string failed_;   // the counter of exceptions in its callbacks
+  std::string what_;     // names the cloud in refusals
+  std::string counter_;  // the names of its counters begin with this
+  std::string failed_;   // name of the counter of exceptions in its callbacks
   bool simulated_;       // /clock drives ROS time
   const Params& params_;
   const OwnShapes& own_;
-  const tf2::BufferCore& buffer_;
+  const TransformLookup& transforms_;
   std::shared_ptr<const NarrowPhase> narrow_phase_;
   OwnShapes::NewestTick newest_;
   Sink sink_;

@@ -22,7 +22,7 @@ void MapNews::noteRefused(const std::string& body, const std::string& sentence) 
 }
 
 double MapNews::ageOf(const News& news, const Moment& now) const {
-  // A simulated clock that went back says nothing of the age; the map then counts as old as when it came.
+  // If a simulated clock went back, it says nothing about the age. The map then counts as old as when it arrived.
   if (simulated_) return news.latency + std::max(0.0, seconds(now.ros - news.received.ros));
   return news.latency + std::chrono::duration<double>(now.steady - news.received.steady).count();
 }

@@ -8,19 +8,22 @@
 
 #include "hgrid_proximity/bodies/source.h"
 #include "node/sources/loaded_map.h"
-#include "node/tf/clock_watch.h"
+#include "node/time/clock_watch.h"
 
 namespace hgrid {
 
-/// Judges whether the cells of each map can be trusted, by the messages that brought them: a map whose newest message
-/// was refused, or that has had none for longer than its max_age, is not complete. One thread.
+/// Judges whether the cells of each map can be trusted, by the messages that brought them.
+///
+/// A map is not complete if its newest message was refused, or if no message arrived for longer than its max_age. One
+/// thread.
 class MapNews {
  public:
-  /// @param simulated  /clock drives ROS time; ages are then counted in it, otherwise on the steady clock
+  /// @param simulated  /clock drives ROS time, and ages are counted by it; otherwise they are counted by the steady
+  /// clock
   explicit MapNews(bool simulated) : simulated_(simulated) {}
 
   /// The cells of this map are in the world now.
-  /// @param body  name of the map's body, as in all that follows
+  /// @param body  name of the map's body, here and in the other functions
   void noteAccepted(const std::string& body, const LoadedMap& map);
   /// The newest message of a map that is in the world could not be used.
   void noteRefused(const std::string& body, const std::string& sentence);
@@ -34,7 +37,7 @@ class MapNews {
  private:
   struct News {
     double max_age = 0.0;  // [s] 0: off
-    double latency = 0.0;  // [s] age of the message when it came
+    double latency = 0.0;  // [s] age of the message when it arrived
     Moment received;
     std::string refused;  // why the newest message could not be used; empty: it could
   };

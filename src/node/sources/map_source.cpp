@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kLongestFileName = 64;  // bytes
 
-/// A name and no path: whoever may call a service may not choose what is read.
+/// Accepts a plain file name only, because a caller of a service must not read files outside the folder.
 void checkFileName(const std::string& file) {
   const bool plain = !file.empty() && file.size() <= kLongestFileName && file.front() != '.' &&
                      std::all_of(file.begin(), file.end(), [](char c) {

@@ -15,7 +15,7 @@
 
 namespace hgrid {
 
-/// A map that was read.
+/// A map that was read, with all its cells.
 struct ReadMap {
   MapParams params;
   Octomap octomap;
@@ -32,11 +32,11 @@ class MapSource {
   /// @throws Refusal naming the map: bad_id (the file's name has other than letters, digits, . _ -), resource_denied
   /// (no folder is configured, or the file leads out of it), and as readOctomapFile()
   ReadMap read(const MapParams& map) const;
-  /// What a message says of a map. @throws Refusal naming the map: truncated (the message lies about its lengths), and
+  /// Reads the map of a message. @throws Refusal naming the map: truncated (the message lies about its lengths), and
   /// as readOctomapData()
   ReadMap read(const MapParams& map, const OctomapMessage& message) const;
-  /// Makes a map's cells, the robot's own left out if ~map/self_filter says so. @throws Refusal not_ready if it is not
-  /// known where the robot was, limit if memory runs out
+  /// Builds the cells of a map. Leaves out the robot's own if ~map/self_filter says so.
+  /// @throws Refusal not_ready if it is not known where the robot was, limit if memory runs out
   LoadedMap finished(ReadMap map) const;
 
  private:

@@ -2,28 +2,14 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/sources/own_shapes.h"
 
-#include <tf2/exceptions.h>
-
 #include "hgrid_proximity/bodies/name.h"
 #include "hgrid_proximity/refusal.h"
-#include "node/tf/frame_pose.h"
-#include "node/tick/world.h"
+#include "node/sources/body_params.h"
+#include "node/tick/tick.h"
 
 namespace hgrid {
 
-std::optional<Pose> poseAt(const tf2::BufferCore& buffer, const std::string& target, const std::string& frame,
-                           Time stamp, std::string* why_not) {
-  if (frame == target) return Pose::Identity();
-  try {
-    const ros::Time time = ros::Time().fromNSec(static_cast<std::uint64_t>(stamp.count()));
-    return toFramePose(buffer.lookupTransform(target, frame, time).transform).pose();
-  } catch (const tf2::TransformException& error) {
-    if (why_not != nullptr) *why_not = error.what();
-    return std::nullopt;
-  }
-}
-
-/// Looks at each body in question of the newest tick, and its padding.
+/// Calls `look` for each named body of the newest tick, with the padding that ~map/self_filter has for it.
 template <class Look>
 void OwnShapes::forEach(const Look& look) const {
   const std::shared_ptr<const Tick> tick = newest_();
@@ -61,16 +47,12 @@ std::vector<std::string> OwnShapes::frames() const {
 std::vector<SelfShape> OwnShapes::at(Time stamp) const {
   std::vector<SelfShape> shapes;
   forEach([&](const Tick& tick, const Body& body, const BodyPose& pose, double padding) {
-    std::optional<Pose> world_from_body = poseAt(buffer_, tick.world_frame, body.frame, stamp);
-    if (world_from_body) {
-      *world_from_body = *world_from_body * body.frame_from_body;
-    } else if (pose.state != Freshness::unplaced) {
-      world_from_body = pose.world_from_body;
-    } else {
-      return;
-    }
+    const std::optional<FramePose> world_from_frame = transforms_.at(tick.world_frame, body.frame, stamp);
+    if (!world_from_frame && pose.state == Freshness::unplaced) return;
+    const Pose world_from_body =
+        world_from_frame ? world_from_frame->pose() * body.frame_from_body : pose.world_from_body;
     for (const BodyShape& shape : body.shapes) {
-      shapes.push_back({shape.shape, shape.solid, *world_from_body * shape.body_from_shape, shape.padding + padding});
+      shapes.push_back({shape.shape, shape.solid, world_from_body * shape.body_from_shape, shape.padding + padding});
     }
   });
   return shapes;
@@ -80,9 +62,8 @@ Pose OwnShapes::worldFrom(const std::string& frame, Time stamp) const {
   const std::shared_ptr<const Tick> tick = newest_();
   if (tick && !tick->world_frame.empty()) {
     if (frame.empty()) return Pose::Identity();
-    for (const Time time : {stamp, Time(0)}) {
-      if (const auto pose = poseAt(buffer_, tick->world_frame, frame, time)) return *pose;
-    }
+    if (const auto pose = transforms_.at(tick->world_frame, frame, stamp)) return pose->pose();
+    if (const auto pose = transforms_.newest(tick->world_frame, frame)) return pose->pose();
   }
   throw Refusal(Code::not_ready, "frame '" + printable(frame) +
                                      "' is not connected to the world frame yet, so that the robot's own cells cannot "

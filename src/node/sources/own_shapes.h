@@ -2,43 +2,42 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
-#include <tf2/buffer_core.h>
-
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "hgrid_proximity/bodies/body.h"
 #include "hgrid_proximity/maps/self_filter.h"
 #include "node/params/params.h"
+#include "node/tf/transform_lookup.h"
 
 namespace hgrid {
 
 struct Tick;
 
-/// The pose of a frame in another at a time (0: the newest), if tf knows it.
-std::optional<Pose> poseAt(const tf2::BufferCore& buffer, const std::string& target, const std::string& frame,
-                           Time stamp, std::string* why_not = nullptr);
-
-/// Where the shapes were that ~map/self_filter names: what sensors may have seen of the robot itself. Any thread.
+/// Finds out where the bodies were that ~map/self_filter names, so that the cells that sensors made of the robot itself
+/// can be left out. Any thread.
 class OwnShapes {
  public:
   using NewestTick = std::function<std::shared_ptr<const Tick>()>;
 
-  OwnShapes(const Params& params, const tf2::BufferCore& buffer, NewestTick newest)
-      : params_(params), buffer_(buffer), newest_(std::move(newest)) {}
+  OwnShapes(const Params& params, const TransformLookup& transforms, NewestTick newest)
+      : params_(params), transforms_(transforms), newest_(std::move(newest)) {}
 
+  /// Whether ~map/self_filter names any bodies.
   bool wanted() const { return !params_.map_self_filter.empty(); }
-  /// @throws Refusal not_ready if robots are not loaded, or a body in question never had a pose
+  /// Checks that at() can be complete.
+  /// @throws Refusal not_ready if a robot is not loaded, or a named body never had a pose
   void require() const;
-  /// The tf frames of the bodies in question whose poses keep coming.
+  /// The tf frames of the named bodies whose poses keep arriving.
   std::vector<std::string> frames() const;
-  /// The shapes at a time (0: the newest), padded; where tf does not know that, at the newest tick. What never had a
-  /// pose is left out.
+  /// The padded shapes at a time (0: the newest). If tf does not know the pose of a body at that time, its pose in the
+  /// newest tick is used. Bodies that never had a pose are left out.
   std::vector<SelfShape> at(Time stamp) const;
-  /// Where a map that follows a frame was. @throws Refusal not_ready if that is not known
+  /// The pose of a frame in the world at a time or, if that is not known, the newest one. An empty name is the world
+  /// frame.
+  /// @throws Refusal not_ready if neither is known
   Pose worldFrom(const std::string& frame, Time stamp) const;
 
  private:
@@ -46,7 +45,7 @@ class OwnShapes {
   void forEach(const Look& look) const;
 
   const Params& params_;
-  const tf2::BufferCore& buffer_;
+  const TransformLookup& transforms_;
   NewestTick newest_;
 };
 

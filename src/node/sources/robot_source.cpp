@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <set>
 #include <sstream>
 
@@ -16,6 +15,7 @@
 #include "hgrid_proximity/adapters/srdf.h"
 #include "hgrid_proximity/adapters/urdf.h"
 #include "hgrid_proximity/bodies/name.h"
+#include "node/sources/body_params.h"
 #include "node/tf/frames.h"
 
 namespace hgrid {
@@ -90,7 +90,7 @@ Body bodyOf(const LoadedRobot& robot, const RobotModel& model, std::uint32_t ind
     body.note = waiver->reason + " (" + noteOf(link) + ")";
   }
   applyPatterns(params, body);
-  // A robot whose root is not the world may be carried about; that comes on top of its joints.
+  // A robot whose root is not the world frame may be carried. That speed is added to the speed of its joints.
   const double joints = speedBound(model, index);
   const double carried =
       robot.root_frame == params.world_frame || params.world_frame.empty() ? 0.0 : params.default_max_speed;
@@ -118,24 +118,6 @@ void findGap(LoadedRobot& robot, const Params& params) {
 }
 
 }  // namespace
-
-double lastMatch(const std::vector<PatternValue>& values, const std::string& name, double otherwise) {
-  for (const PatternValue& value : values) {
-    if (matches(value.pattern, name)) otherwise = value.value;
-  }
-  return otherwise;
-}
-
-void applyPatterns(const Params& params, Body& body) {
-  body.margin = lastMatch(params.margins, body.name, 0.0);
-  body.speed_bound = lastMatch(params.max_speed, body.name, std::numeric_limits<double>::infinity());
-  const double padding = lastMatch(params.padding, body.name, 0.0);
-  for (BodyShape& shape : body.shapes) shape.padding = padding;
-}
-
-void makeSolids(NarrowPhase& narrow_phase, Body& body) {
-  for (BodyShape& shape : body.shapes) shape.solid = narrow_phase.solidOf(shape.shape);
-}
 
 RobotSource::RobotSource(ros::NodeHandle node, const Params& params, std::shared_ptr<NarrowPhase> narrow_phase,
                          std::function<bool()> cancelled)

@@ -16,9 +16,9 @@
 
 namespace hgrid {
 
-/// A robot ready to be put into the world.
+/// A robot that was read and can be put into the world.
 struct LoadedRobot {
-  /// Links that move as one and the tf frame that places them all.
+  /// Links that move as one, and the tf frame that places them all.
   struct Group {
     std::string frame;
     std::vector<std::pair<std::size_t, Pose>> members;  // index into bodies, and its pose in the frame
@@ -31,7 +31,8 @@ struct LoadedRobot {
   std::vector<std::string> without_collision;  // names of the other links
   std::vector<std::string> uses_visual;        // names of the bodies whose shapes are the link's visual geometry
   std::string gap;                             // why the robot as a whole is incomplete; empty: it is not
-  std::string waived_gap;  // why it would be, and the reason of ~accept_uncovered; empty: nothing is waived
+  std::string waived_gap;  // why it would be incomplete without ~accept_uncovered, and the waiver's reason; empty:
+                           // nothing is waived
   SelfPairs self_pairs;    // how many pairs of its own links its model switches off
   std::vector<std::string> warnings;
 };
@@ -40,7 +41,7 @@ struct LoadedRobot {
 class RobotSource {
  public:
   /// @param node  private node handle: parameters are searched from here upwards
-  /// @param cancelled  asked again and again during a load; once it returns true, the load is given up
+  /// @param cancelled  called again and again during a load; once it returns true, the load is given up
   RobotSource(ros::NodeHandle node, const Params& params, std::shared_ptr<NarrowPhase> narrow_phase,
               std::function<bool()> cancelled);
 
@@ -57,14 +58,5 @@ class RobotSource {
   std::shared_ptr<NarrowPhase> narrow_phase_;
   std::function<bool()> cancelled_;
 };
-
-/// The last value whose pattern matches the name, or `otherwise`.
-double lastMatch(const std::vector<PatternValue>& values, const std::string& name, double otherwise);
-
-/// Gives a body the margin, padding and bound of speed that parameters have for it.
-void applyPatterns(const Params& params, Body& body);
-
-/// Makes a body's shapes ready for exact distances. May take long for large meshes.
-void makeSolids(NarrowPhase& narrow_phase, Body& body);
 
 }  // namespace hgrid

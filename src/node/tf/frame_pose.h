@@ -8,8 +8,10 @@
 
 namespace hgrid {
 
-/// A pose as tf has it, translation [m] and unit quaternion. Along a chain of many frames quaternions are multiplied,
-/// not matrices: one normalisation at the end makes a rotation of them again, however long the chain is.
+/// A pose as tf has it: translation [m] and unit quaternion.
+///
+/// Along a chain of frames, quaternions are multiplied instead of matrices. Then one normalization at the end makes a
+/// rotation again, however long the chain is.
 struct FramePose {
   Eigen::Quaternion<double, Eigen::DontAlign> rotation = Eigen::Quaternion<double, Eigen::DontAlign>::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
@@ -32,7 +34,7 @@ struct FramePose {
   }
 };
 
-/// The pose at a fraction (0 .. 1) of the way from one pose to another, as tf2 interpolates.
+/// Interpolates between two poses as tf2 does. `fraction` is 0 at `from` and 1 at `to`.
 inline FramePose between(const FramePose& from, const FramePose& to, double fraction) {
   FramePose result;
   result.rotation = from.rotation.slerp(fraction, to.rotation);

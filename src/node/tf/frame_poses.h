@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "node/tf/kept_pose.h"
 #include "node/tf/tf_intake.h"
 #include "node/tf/tf_tree.h"
-#include "node/tf/tick_time.h"
+#include "node/time/kept_pose.h"
+#include "node/time/tick_time.h"
 
 namespace hgrid {
 
@@ -26,11 +26,11 @@ class FramePoses {
   };
 
   /// @param max_wait  as in TickTime
-  FramePoses(const TfIntake& intake, double max_wait) : intake_(intake), ways_(intake), time_(max_wait) {}
+  FramePoses(const TfIntake& intake, double max_wait) : intake_(intake), tree_(intake), time_(max_wait) {}
 
-  /// Whether tf knows of frames or parents that it did not know of at the last plan().
-  bool stale() const { return ways_.stale(); }
-  /// Lays out the ways to `frames`; what follows knows them by their index.
+  /// Whether tf has learned of frames or parents since the last plan().
+  bool stale() const { return tree_.stale(); }
+  /// Lays out the chains to `frames`. All other functions refer to a frame by its index in `frames`.
   void plan(const std::string& world_frame, const std::vector<std::string>& frames);
   /// Reads what is known, chooses the time of the tick and computes all poses at that time.
   void look(const Moment& now);
@@ -42,25 +42,24 @@ class FramePoses {
   /// Reading of the age clock in this tick, and in the one before.
   Time reading() const { return reading_; }
   Time readingBefore() const { return reading_before_; }
-  const ChainState& chain(std::size_t frame) const { return ways_.state(frame); }
-  /// The pose of a frame at the time of the tick; of a frame that lags, at the newest time at which its way is known.
+  const ChainState& chain(std::size_t frame) const { return tree_.state(frame); }
+  /// The pose of a frame at the time of the tick. A frame that lags: at the newest time at which its chain is known.
   /// Empty: no pose can be computed, and the one in use stays.
-  /// @param in_use  the pose in use: an older one does not replace it, except at the time of the tick. If there is
-  /// none,
-  ///                the newest will do even if it is younger than the tick
+  /// @param in_use  the pose in use. An older one does not replace it, except at the time of the tick. If there is
+  ///                none, the newest pose is found even if it is younger than the tick.
   std::optional<Found> find(std::size_t frame, const KeptPose& in_use) const;
-  /// What is wrong with the transforms of a frame: its newest one was refused, or publishers fight. With code
-  /// unknown_frame: why there is no way to the frame. Empty: nothing is wrong.
+  /// What is wrong with the transforms of a frame: the newest one was refused, or publishers fight. With code
+  /// unknown_frame: why the frame is not connected to the world frame. Empty: nothing is wrong.
   std::optional<Refusal> troubleOf(std::size_t frame) const;
-  /// No way: the frame that was never published; empty if all were.
-  const std::string& unknownFrame(std::size_t frame) const { return ways_.unknownFrame(frame); }
+  /// If the frame is not connected: the frame that was never published; empty if all were.
+  const std::string& unknownFrame(std::size_t frame) const { return tree_.unknownFrame(frame); }
 
  private:
-  Refusal noWay(std::size_t frame) const;
+  Refusal notConnected(std::size_t frame) const;
   std::uint32_t contestedFrom(std::uint32_t number) const;
 
   const TfIntake& intake_;
-  TfTree ways_;
+  TfTree tree_;
   TickTime time_;
   std::string world_frame_;
   std::vector<std::string> frames_;

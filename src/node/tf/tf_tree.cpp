@@ -9,25 +9,25 @@ namespace {
 
 constexpr std::size_t kLongestChain = 1000;
 
-/// What is known of a way that is longer by the transform of one frame.
+/// Adds the transform of one more frame to what is known of a chain.
 void extend(ChainState& state, const TfIntake& intake, std::uint32_t number, bool upwards, Time reading) {
   const TfIntake::Frame& frame = intake.frame(number);
   if (frame.refused && (upwards || state.refused == nullptr)) state.refused = &*frame.refused;
-  if (frame.from_static && frame.from_tf) state.conflict = true;
+  if (frame.hasConflict()) state.conflict = true;
   if (frame.claimed && intake.isContested(number, reading)) state.contested = number;
-  if (!frame.moves) return;
-  const Time stamp = frame.newest.stamp;
+  if (!frame.history.moves()) return;
+  const Time stamp = frame.history.newest().stamp;
   if (stamp.count() == 0) state.connected = false;  // nothing since the clock jumped
   state.newest = state.moves ? std::min(state.newest, stamp) : stamp;
-  state.received = state.moves ? std::min(state.received, frame.received) : frame.received;
-  state.lead = state.moves ? std::min(state.lead, frame.lead) : frame.lead;
-  state.period = std::max(state.period, frame.period);
+  state.received = state.moves ? std::min(state.received, frame.pace.received()) : frame.pace.received();
+  state.lead = state.moves ? std::min(state.lead, frame.pace.lead()) : frame.pace.lead();
+  state.period = std::max(state.period, frame.pace.period());
   state.moves = true;
 }
 
 }  // namespace
 
-/// Steps from the world frame up to its ancestors, only as far as some way goes through them.
+/// Adds steps from the world frame up to its ancestors, as many as a chain needs.
 void TfTree::addAncestors(std::size_t count) {
   for (; ancestors_ < count; ++ancestors_) {
     Step step;
@@ -39,8 +39,8 @@ void TfTree::addAncestors(std::size_t count) {
   }
 }
 
-/// Up from the frame until something known is met, then down again step by step.
-std::size_t TfTree::wayTo(std::uint32_t frame) {
+/// Goes up from the frame until a frame that has a step already, then adds the steps down again.
+std::size_t TfTree::lastStepTo(std::uint32_t frame) {
   std::vector<std::uint32_t> down;
   while (step_to_[frame] == kNowhere) {
     const auto ancestor = std::find(above_.begin(), above_.end(), frame);
@@ -48,7 +48,7 @@ std::size_t TfTree::wayTo(std::uint32_t frame) {
       addAncestors(static_cast<std::size_t>(ancestor - above_.begin()));
       break;
     }
-    const std::uint32_t parent = intake_.frame(frame).parent;
+    const std::uint32_t parent = intake_.table().parent(frame);
     if (parent == TfIntake::kNone || down.size() >= kLongestChain) return kNowhere;
     down.push_back(frame);
     frame = parent;
@@ -65,32 +65,32 @@ std::size_t TfTree::wayTo(std::uint32_t frame) {
 }
 
 void TfTree::plan(const std::string& world_frame, const std::vector<std::string>& frames) {
-  revision_ = intake_.revision();
+  revision_ = intake_.table().revision();
   steps_.assign(2, Step{});
   steps_[kWorld].state.connected = steps_[kWorld].placed = true;
-  step_to_.assign(intake_.known(), kNowhere);
+  step_to_.assign(intake_.table().size(), kNowhere);
   above_.clear();
   ancestors_ = 0;
-  const std::uint32_t world = intake_.find(world_frame);
-  for (std::uint32_t frame = world; frame != TfIntake::kNone; frame = intake_.frame(frame).parent) {
+  const std::uint32_t world = intake_.table().find(world_frame);
+  for (std::uint32_t frame = world; frame != TfIntake::kNone; frame = intake_.table().parent(frame)) {
     if (std::find(above_.begin(), above_.end(), frame) != above_.end()) break;
     above_.push_back(frame);
   }
   if (world != TfIntake::kNone) step_to_[world] = kWorld;
 
-  ways_.clear();
+  chains_.clear();
   for (const std::string& frame : frames) {
-    const std::uint32_t number = intake_.find(frame);
-    Way way;
-    way.number = number;
+    const std::uint32_t number = intake_.table().find(frame);
+    Chain chain;
+    chain.number = number;
     if (frame == world_frame) {
-      way.step = kWorld;
+      chain.step = kWorld;
     } else if (number != TfIntake::kNone) {
-      way.step = wayTo(number);
+      chain.step = lastStepTo(number);
     }
-    if (way.step == kNowhere && world == TfIntake::kNone) way.unknown = world_frame;
-    if (way.step == kNowhere && number == TfIntake::kNone) way.unknown = frame;
-    ways_.push_back(std::move(way));
+    if (chain.step == kNowhere && world == TfIntake::kNone) chain.unknown = world_frame;
+    if (chain.step == kNowhere && number == TfIntake::kNone) chain.unknown = frame;
+    chains_.push_back(std::move(chain));
   }
 }
 
@@ -108,7 +108,7 @@ void TfTree::place(Time time) {
     const Step& from = steps_[step.from];
     step.placed = from.placed && step.state.connected;
     if (!step.placed) continue;
-    const std::optional<FramePose> pose = intake_.parentFromFrame(intake_.frame(step.moved), time);
+    const std::optional<FramePose> pose = intake_.parentFromFrame(step.moved, time);
     step.placed = pose.has_value();
     if (pose) step.world_from_frame = from.world_from_frame * (step.upwards ? pose->inverse() : *pose);
   }
@@ -120,7 +120,7 @@ std::optional<FramePose> TfTree::along(std::size_t number, Time time) const {
   if (!step.state.connected) return std::nullopt;
   const std::optional<FramePose> from = along(step.from, time);
   if (!from) return std::nullopt;
-  const std::optional<FramePose> pose = intake_.parentFromFrame(intake_.frame(step.moved), time);
+  const std::optional<FramePose> pose = intake_.parentFromFrame(step.moved, time);
   if (!pose) return std::nullopt;
   return *from * (step.upwards ? pose->inverse() : *pose);
 }

@@ -95,9 +95,9 @@ Step settingCloud(double time, unsigned seed) {
 Step settingRules(const std::vector<PairRule>& rules) {
   return {"setRules", [=](World& world, Ticks&) { world.setRules(rules); }};
 }
-Step settingMissing(const std::string& name) {
-  return {"setMissing " + name,
-          [=](World& world, Ticks&) { world.setMissing(name, "NOT_READY " + name + ": a sentence of some length"); }};
+Step settingMissing(const SourceId& source) {
+  const std::string sentence = "NOT_READY " + source.name + ": a sentence of some length";
+  return {"setMissing " + source.name, [=](World& world, Ticks&) { world.setMissing(source, sentence); }};
 }
 Step resetting() {
   return {"reset", [](World& world, Ticks&) { world.reset(); }};
@@ -152,7 +152,7 @@ std::vector<Step> script() {
   };
   steps.push_back(settingRobot("arm", 0.1));
   tick(0.0);
-  steps.push_back(settingMissing("other"));
+  steps.push_back(settingMissing(SourceId::ofRobot("other")));
   steps.push_back(settingMap("room", 0.5, 1));
   tick(0.1);
   steps.push_back(settingRobot("other", 0.0));

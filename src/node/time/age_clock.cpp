@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "node/tf/age_clock.h"
+#include "node/time/age_clock.h"
 
 #include <algorithm>
 

@@ -2,13 +2,13 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
 // The node multiplies transforms down its own tree; tf2 is the witness of where every frame is.
+#include "src/node/tf/tf_tree.h"
+
 #include <gtest/gtest.h>
-#include <tf2/exceptions.h>
 
 #include <algorithm>
 #include <map>
 
-#include "src/node/tf/tf_tree.h"
 #include "test/support/random.h"
 
 namespace hgrid {
@@ -50,8 +50,8 @@ class RandomTree {
     for (int cycle = 0; cycle < cycles; ++cycle) {
       std::vector<int> moved;
       for (int frame = 1; frame < kFrames; ++frame) {
-        const bool is_fixed = intake_.find(frameName(frame)) != TfIntake::kNone &&
-                              intake_.frame(intake_.find(frameName(frame))).from_static;
+        const bool is_fixed = intake_.table().find(frameName(frame)) != TfIntake::kNone &&
+                              intake_.frame(intake_.table().find(frameName(frame))).from_static;
         if (is_fixed || cycle % pace_[frame] != 0) continue;
         if (changes_ && random_.below(200) == 0) parent_[frame] = random_.below(frame);
         moved.insert(moved.begin() + random_.below(static_cast<int>(moved.size()) + 1), frame);
@@ -100,31 +100,27 @@ class RandomTree {
     SCOPED_TRACE(frame + " in " + frameName(world_));
     ASSERT_TRUE(tree.state(index).connected);
     const FramePose* ours = tree.worldFrom(index);
-    FramePose witness;
-    try {
-      witness = toFramePose(
-          intake_.buffer()
-              .lookupTransform(frameName(world_), frame, ros::Time().fromNSec(static_cast<std::uint64_t>(time.count())))
-              .transform);
-    } catch (const tf2::TransformException& error) {
-      EXPECT_EQ(ours, nullptr) << error.what();
+    std::string why_not;
+    const std::optional<FramePose> witness = intake_.lookup().at(frameName(world_), frame, time, &why_not);
+    if (!witness) {
+      EXPECT_EQ(ours, nullptr) << why_not;
       return;
     }
-    // Where parents changed, the way that was there at that time may be known while that of now is not.
+    // Where parents changed, the chain of that time may be known while the chain of now is not.
     if (ours == nullptr && changes_) return;
     ASSERT_NE(ours, nullptr);
     ++compared_;
-    EXPECT_LE((ours->translation - witness.translation).norm(), 1e-12 * kFrames);
-    EXPECT_LE((ours->pose().linear() - witness.pose().linear()).norm(), 1e-12);
+    EXPECT_LE((ours->translation - witness->translation).norm(), 1e-12 * kFrames);
+    EXPECT_LE((ours->pose().linear() - witness->pose().linear()).norm(), 1e-12);
     EXPECT_LE((ours->pose().linear() * ours->pose().linear().transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-14);
   }
 
-  /// The newest time of a way is the oldest of the newest of its moving frames.
+  /// The newest time of a chain is the oldest of the newest of its moving frames.
   void expectNewest(const ChainState& state, int frame) const {
     const auto upFrom = [&](int at) {
-      std::vector<int> way = {at};
-      while (way.back() != 0) way.push_back(parent_.at(way.back()));
-      return way;
+      std::vector<int> chain = {at};
+      while (chain.back() != 0) chain.push_back(parent_.at(chain.back()));
+      return chain;
     };
     std::vector<int> up = upFrom(frame), down = upFrom(world_);
     while (!up.empty() && !down.empty() && up.back() == down.back()) up.pop_back(), down.pop_back();
@@ -153,7 +149,7 @@ class RandomTree {
   bool changes_ = false;  // frames change their parents
 };
 
-TEST(TransformWays, LeadToWhereTf2SaysAtAnyTime) {
+TEST(TfTree, PutsFramesWhereTf2SaysAtAnyTime) {
   std::size_t compared = 0;
   Ledger ledger;  // one for all, so that it logs a line per second and not per tree
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
@@ -166,7 +162,7 @@ TEST(TransformWays, LeadToWhereTf2SaysAtAnyTime) {
   EXPECT_GT(compared, 20000u);
 }
 
-TEST(TransformWays, NameTheFrameThatWasNeverHeardOf) {
+TEST(TfTree, NamesTheFrameThatWasNeverHeardOf) {
   Ledger ledger;
   TfIntake intake(1.0, 10.0, 100, false, ledger);
   TfTree tree(intake);

@@ -2,23 +2,23 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
-#include "node/tf/clock_watch.h"
+#include "node/time/clock_watch.h"
 
 namespace hgrid {
 
 /// The clock by which poses age.
 ///
-/// It is the steady clock, so that setting the wall clock ages nothing. Under /clock it advances with ROS time instead.
-/// While that stands still or runs back, it advances with the steady clock. So no reading is ever before an earlier
-/// one, and only differences of readings have a meaning.
+/// It is the steady clock, so that setting the wall clock ages nothing. Under /clock it advances with ROS time instead;
+/// while ROS time stands still or runs back, it advances with the steady clock. No reading is ever smaller than an
+/// earlier one. Only differences of readings have a meaning.
 class AgeClock {
  public:
   explicit AgeClock(bool simulated) : simulated_(simulated) {}
 
-  /// Takes notice of a moment. A tick calls this first.
-  /// @param frozen  ROS time has stood still for so long that the steady clock counts
+  /// Advances the clock to a moment. A tick calls this first.
+  /// @param frozen  ROS time has stood still for so long that the clock advances with the steady clock
   void look(const Moment& now, bool frozen);
-  /// The reading at a moment that is not before the last look().
+  /// The reading at a moment. The moment must not be before the last look().
   Time read(const Moment& moment) const;
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include <gtest/gtest.h>
-
 #include "src/node/sources/map_news.h"
+
+#include <gtest/gtest.h>
 
 namespace hgrid {
 namespace {

@@ -17,7 +17,9 @@ struct Moment {
 /// Both clocks now.
 Moment thisMoment();
 
-/// Compares ROS time with the steady clock and says when it jumped or stands still.
+/// Detects jumps and standstills of ROS time by comparing it with the steady clock.
+///
+/// A jump stays pending until noteHandled(), so that a tick that fails while it handles the jump is made up for.
 class ClockWatch {
  public:
   enum class Event { none, jumped_back, jumped_ahead };
@@ -28,17 +30,23 @@ class ClockWatch {
   ClockWatch(bool simulated, double jump, double frozen_after)
       : simulated_(simulated), jump_(jump), frozen_after_(frozen_after) {}
 
+  /// Reads both clocks. @returns the jump that is pending; of two pending jumps, the one back
   Event look(const Moment& now);
-  /// A simulated clock that was seen and stands still.
+  /// The pending jump was handled.
+  void noteHandled() { pending_ = Event::none; }
+  /// Whether a simulated clock was seen and now stands still.
   bool frozen() const { return frozen_; }
-  /// There is a time at all: a simulated clock has been heard of.
+  /// Whether there is a time at all. Under /use_sim_time there is none before the first message on /clock.
   bool running() const { return last_.ros.count() > 0; }
   bool simulated() const { return simulated_; }
 
  private:
+  Event jumpTo(const Moment& now) const;
+
   bool simulated_;
   double jump_, frozen_after_;
   bool frozen_ = false;
+  Event pending_ = Event::none;
   Moment last_;
   std::chrono::steady_clock::time_point advanced_{};
 };

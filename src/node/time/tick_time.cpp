@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "node/tf/tick_time.h"
+#include "node/time/tick_time.h"
 
 #include <algorithm>
 #include <cmath>

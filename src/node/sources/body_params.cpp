@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/sources/body_params.h"
+
+#include <limits>
+
+#include "hgrid_proximity/bodies/name.h"
+
+namespace hgrid {
+
+double lastMatch(const std::vector<PatternValue>& values, const std::string& name, double otherwise) {
+  for (const PatternValue& value : values) {
+    if (matches(value.pattern, name)) otherwise = value.value;
+  }
+  return otherwise;
+}
+
+void applyPatterns(const Params& params, Body& body) {
+  body.margin = lastMatch(params.margins, body.name, 0.0);
+  body.speed_bound = lastMatch(params.max_speed, body.name, std::numeric_limits<double>::infinity());
+  const double padding = lastMatch(params.padding, body.name, 0.0);
+  for (BodyShape& shape : body.shapes) shape.padding = padding;
+}
+
+void applyMaxSpeed(const Params& params, Body& body) {
+  body.max_speed = lastMatch(params.max_speed, body.name, params.default_max_speed);
+}
+
+void makeSolids(NarrowPhase& narrow_phase, Body& body) {
+  for (BodyShape& shape : body.shapes) shape.solid = narrow_phase.solidOf(shape.shape);
+}
+
+}  // namespace hgrid

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/sources/cloud_news.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "hgrid_proximity/refusal.h"
+
+namespace hgrid {
+
+void CloudNews::noteAccepted(LoadedCloud loaded) noexcept {
+  const double gap = seconds(loaded.stamp - newest_.stamp);
+  if (newest_.cells && gap > 0.0 && gap <= loaded.lifetime) {  // a longer gap is an outage, not a period
+    period_ = period_ > 0.0 ? 0.8 * period_ + 0.2 * std::min(gap, 2.0 * period_) : gap;
+  }
+  if (loaded.stamp != newest_.stamp) refused_.clear();
+  newest_ = std::move(loaded);
+}
+
+double CloudNews::ageOf(const Moment& now) const {
+  // If /clock went back, a stamp that is too far ahead is as bad as one that is too old.
+  if (simulated_) return std::abs(seconds(newest_.stamp - now.ros));
+  return newest_.latency + std::chrono::duration<double>(now.steady - newest_.received).count();
+}
+
+Freshness CloudNews::judge(const Moment& now, bool clock_frozen, AgeLimits limits) const {
+  limits.lost_after = newest_.lifetime;
+  return judgeCloud(ageOf(now), period_, clock_frozen, limits);
+}
+
+std::string CloudNews::sentence(const std::string& body, Freshness state, double age) const {
+  return "cloud '" + body + "': the newest message that counts is " + secondsText(age) + " old" +
+         (state == Freshness::lost ? "; its cells have expired" : "") + sinceThen();
+}
+
+SourceGap CloudNews::gap(const std::string& body, Freshness state, double age, double max_speed) const {
+  SourceGap gap{body, body,
+                std::string(name(state)) + " " + body + ": what it saw is " + secondsText(age) + " old" + sinceThen()};
+  if (newest_.range > 0.0) gap.within = Sphere{newest_.sensor, newest_.range + max_speed * age};
+  return gap;
+}
+
+}  // namespace hgrid

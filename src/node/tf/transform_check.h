@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <geometry_msgs/TransformStamped.h>
+
+#include "node/time/clock_watch.h"
+
+namespace hgrid {
+
+/// Checks a transform as it came: the names of its frames, its numbers and, if it came on /tf, its stamp.
+/// @param max_future  [s] the most by which a stamp may be ahead of the clock
+/// @throws Refusal bad_id, nonfinite, out_of_range, bad_rotation or clock, naming the frame
+void checkTransform(const geometry_msgs::TransformStamped& transform, bool is_static, const Moment& now,
+                    double max_future);
+
+/// The stamp of a transform.
+inline Time stampOf(const geometry_msgs::TransformStamped& transform) {
+  return Time(static_cast<std::int64_t>(transform.header.stamp.toNSec()));
+}
+
+/// Whether the two are the same, bit by bit.
+bool isSame(const geometry_msgs::Transform& a, const geometry_msgs::Transform& b);
+
+}  // namespace hgrid

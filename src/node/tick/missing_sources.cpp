@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/tick/missing_sources.h"
+
+namespace hgrid {
+
+MissingSources::MissingSources(const Params& params) {
+  for (const RobotParams& robot : params.robots) {
+    set(SourceId::ofRobot(robot.name), "NOT_READY robot '" + robot.name + "': its description was not read yet");
+  }
+  for (const MapParams& map : params.maps) {
+    set(SourceId::ofMap(map.name),
+        "NOT_READY map '" + map.name +
+            "': " + (map.topic.empty() ? "its file was not read yet" : "nothing came on " + map.topic + " yet"));
+  }
+  for (const CloudParams& cloud : params.clouds) {
+    set(SourceId::ofCloud(cloud.name), "NOT_READY cloud '" + cloud.name + "': nothing came on " + cloud.topic + " yet");
+  }
+}
+
+void MissingSources::appendGaps(std::vector<SourceGap>& gaps) const {
+  for (const auto& [source, sentence] : sentences_) gaps.push_back(gapOf(source, sentence));
+}
+
+}  // namespace hgrid

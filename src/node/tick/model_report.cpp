@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/tick/model_report.h"
+
+#include "hgrid_proximity/bodies/name.h"
+#include "node/tick/idle_patterns.h"
+
+namespace hgrid {
+namespace {
+
+void append(std::vector<std::string>& all, const std::vector<std::string>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+void addRobot(const LoadedRobot& robot, ModelReport& report) {
+  for (const Body& body : robot.bodies) {
+    if (!body.covered) (body.waived ? report.waived : report.uncovered).push_back(body.name + ": " + body.note);
+  }
+  if (!robot.gap.empty()) report.uncovered.push_back(robot.gap);
+  if (!robot.waived_gap.empty()) report.waived.push_back(robot.waived_gap);
+  append(report.without_collision, robot.without_collision);
+  append(report.uses_visual, robot.uses_visual);
+  report.self_pairs.emplace_back(robot.name, robot.self_pairs);
+  for (const std::string& warning : robot.warnings) report.warnings.push_back(robot.name + ": " + warning);
+}
+
+/// Names of all bodies that patterns may be meant for. Those of maps are missing, because maps come and go.
+std::vector<std::string> bodyNames(const RobotsByName& robots, const Params& params) {
+  std::vector<std::string> names;
+  for (const auto& robot : robots) {
+    for (const Body& body : robot.second->bodies) names.push_back(body.name);
+  }
+  for (const ObstacleParams& obstacle : params.obstacles) names.push_back(obstacle.body.name);
+  for (const CloudParams& cloud : params.clouds) names.push_back(joined("cloud", cloud.name));
+  return names;
+}
+
+}  // namespace
+
+std::shared_ptr<const ModelReport> makeModelReport(const RobotsByName& robots, const Params& params) {
+  auto report = std::make_shared<ModelReport>();
+  for (const auto& robot : robots) addRobot(*robot.second, *report);
+  report->robots = robots.size();
+  if (robots.size() == params.robots.size()) {
+    append(report->warnings, idlePatterns(params, bodyNames(robots, params), report->without_collision));
+  }
+  return report;
+}
+
+}  // namespace hgrid

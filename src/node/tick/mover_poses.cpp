@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/tick/mover_poses.h"
+
+namespace hgrid {
+
+MoverPoses::MoverPoses(const Params& params, const TfIntake& intake, Scene& scene, Movers& movers, Ledger& ledger)
+    : limits_{params.late_after, params.stale_after, params.lost_after},
+      intake_(intake),
+      scene_(scene),
+      movers_(movers),
+      ledger_(ledger),
+      frames_(intake, params.max_sync_wait) {}
+
+Time MoverPoses::update(const Moment& now, bool clock_frozen, Tick& tick) {
+  planChains(tick.world_frame);
+  frames_.look(now);
+  cohorts_.clear();
+  for (std::size_t i = 0; i < movers_.size(); ++i) updateOne(i, clock_frozen, tick);
+  return frames_.tickTime();
+}
+
+void MoverPoses::planChains(const std::string& world_frame) {
+  if (settled_revision_ != intake_.staticRevision()) unsettleAll();
+  if (planned_revision_ == movers_.revision() && !frames_.stale()) return;
+  unsettleAll();
+  std::vector<std::string> frames;
+  for (const Mover& mover : movers_.all()) frames.push_back(mover.frame);
+  planned_revision_ = kNever;  // until the plan is complete
+  frames_.plan(world_frame, frames);
+  planned_revision_ = movers_.revision();
+}
+
+/// A new chain, or a new transform on /tf_static, can move a body that was settled.
+void MoverPoses::unsettleAll() {
+  for (Mover& mover : movers_.all()) mover.settled = false;
+  settled_revision_ = intake_.staticRevision();
+}
+
+void MoverPoses::updateOne(std::size_t index, bool clock_frozen, Tick& tick) {
+  Mover& mover = movers_[index];
+  const ChainState& chain = frames_.chain(index);
+  const bool is_static =
+      chain.connected && !chain.moves && chain.refused == nullptr && chain.contested == TfIntake::kNone;
+  if (mover.settled && is_static) return;
+  mover.trouble = frames_.troubleOf(index);
+  mover.conflict = chain.conflict;
+  if (mover.pose.settled() && (!chain.connected || chain.moves)) {
+    mover.pose.unsettle(frames_.tickTimeBefore(), frames_.readingBefore());
+    setStamp(mover);
+  }
+  if (const auto found = frames_.find(index, mover.pose)) place(mover, *found, chain.moves);
+  if (!mover.pose.exists() && !frames_.unknownFrame(index).empty()) {
+    tick.missing_frames.push_back(frames_.unknownFrame(index));
+  }
+  mover.settled = is_static && !mover.trouble;
+  setState(mover, judge(mover, chain.period, clock_frozen));
+  appendTroubles(mover, tick);
+}
+
+/// Places all bodies of the mover. If one of them cannot be there, none is moved.
+void MoverPoses::place(Mover& mover, const FramePoses::Found& found, bool moves) {
+  try {
+    const Pose world_from_frame = found.world_from_frame.pose();
+    placed_.clear();
+    for (std::size_t i = mover.first; i < mover.last; ++i) {
+      const Member& member = movers_.members()[i];
+      placed_.push_back(member.at_frame ? world_from_frame : world_from_frame * member.frame_from_body);
+      scene_.checkPlace(member.body, placed_.back());
+    }
+    for (std::size_t i = mover.first; i < mover.last; ++i) {
+      scene_.place(movers_.members()[i].body, placed_[i - mover.first], found.stamp);
+    }
+    if (moves) {
+      mover.pose.renew(found.stamp, found.born);
+    } else {
+      mover.pose.settle(found.stamp);
+    }
+  } catch (const Refusal& refusal) {
+    ledger_.refuse("pose.refused", refusal);
+    mover.trouble = refusal;
+  }
+}
+
+Freshness MoverPoses::judge(const Mover& mover, double period, bool clock_frozen) const {
+  PoseCircumstances circumstances;
+  circumstances.reading = frames_.reading();
+  circumstances.tick_time = frames_.tickTime();
+  circumstances.period = period;
+  circumstances.refused = mover.trouble && mover.trouble->code() != Code::unknown_frame;
+  circumstances.clock_frozen = clock_frozen && !mover.settled;  // a settled mover needs nothing new
+  return judgePose(mover.pose, circumstances, limits_);
+}
+
+void MoverPoses::setState(const Mover& mover, Freshness state) {
+  for (std::size_t i = mover.first; i < mover.last; ++i) {
+    const BodyId body = movers_.members()[i].body;
+    std::uint32_t cohort = 0;  // a settled body keeps this number while those of the others change
+    if (!mover.settled) {
+      const Time stamp = scene_.poseOf(body).stamp;
+      cohort = cohorts_.emplace(stamp, static_cast<std::uint32_t>(cohorts_.size() + 1)).first->second;
+    }
+    scene_.setState(body, state, mover.pose.age(frames_.reading()), cohort);
+  }
+}
+
+void MoverPoses::appendTroubles(const Mover& mover, Tick& tick) const {
+  for (std::size_t i = mover.first; i < mover.last; ++i) {
+    const BodyId body = movers_.members()[i].body;
+    const BodyPose& pose = scene_.poseOf(body);
+    if (pose.state == Freshness::fresh && !mover.conflict) continue;
+    tick.troubles.push_back(troubleOf(scene_.body(body), pose, mover, tick.world_frame));
+  }
+}
+
+void MoverPoses::restamp(const Moment& now, bool lost) {
+  for (Mover& mover : movers_.all()) {
+    if (!mover.pose.exists() || mover.pose.settled()) continue;
+    mover.pose.restamp(intake_.ages().read(now), now.ros, lost);
+    setStamp(mover);
+  }
+}
+
+/// Gives the bodies of the mover the stamp of its pose. They stay where they are.
+void MoverPoses::setStamp(const Mover& mover) {
+  for (std::size_t i = mover.first; i < mover.last; ++i) {
+    const BodyId body = movers_.members()[i].body;
+    const Pose same = scene_.poseOf(body).world_from_body;
+    scene_.place(body, same, mover.pose.stamp());
+  }
+}
+
+}  // namespace hgrid

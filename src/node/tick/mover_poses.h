@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "hgrid_proximity/world/scene.h"
+#include "node/diagnostics/ledger.h"
+#include "node/params/params.h"
+#include "node/tf/frame_poses.h"
+#include "node/tick/movers.h"
+#include "node/tick/tick.h"
+#include "node/time/freshness.h"
+
+namespace hgrid {
+
+/// Moves the bodies in the scene to where their frames are in each tick, and marks how far each pose can be trusted.
+///
+/// If a call throws for lack of memory, the next update() makes up for it.
+class MoverPoses {
+ public:
+  MoverPoses(const Params& params, const TfIntake& intake, Scene& scene, Movers& movers, Ledger& ledger);
+
+  /// Takes all poses of this tick. Appends to the troubles and the missing frames of `tick`.
+  /// @param clock_frozen  ROS time stands still
+  /// @returns the time of the tick
+  Time update(const Moment& now, bool clock_frozen, Tick& tick);
+  /// The clock was set: moves the stamps of the poses in use to the new time.
+  /// @param lost  the transforms were dropped, because they belong to an earlier run of a simulation
+  void restamp(const Moment& now, bool lost);
+  void beginEpoch() { frames_.beginEpoch(); }
+  /// Reading of the age clock in the newest update().
+  Time reading() const { return frames_.reading(); }
+
+ private:
+  void planChains(const std::string& world_frame);
+  void updateOne(std::size_t index, bool clock_frozen, Tick& tick);
+  void place(Mover& mover, const FramePoses::Found& found, bool moves);
+  void setState(const Mover& mover, Freshness state);
+  void setStamp(const Mover& mover);
+  void unsettleAll();
+  Freshness judge(const Mover& mover, double period, bool clock_frozen) const;
+  void appendTroubles(const Mover& mover, Tick& tick) const;
+
+  const AgeLimits limits_;
+  const TfIntake& intake_;
+  Scene& scene_;
+  Movers& movers_;
+  Ledger& ledger_;
+  FramePoses frames_;                        // of the movers, in their order
+  std::uint64_t planned_revision_ = kNever;  // of the movers, at the newest complete plan
+  std::uint64_t settled_revision_ = 0;       // of /tf_static, when movers could settle
+  std::map<Time, std::uint32_t> cohorts_;    // of this tick: bodies whose poses have the same stamp are equally old
+  std::vector<Pose> placed_;                 // scratch of place()
+
+  static constexpr std::uint64_t kNever = ~std::uint64_t{0};
+};
+
+}  // namespace hgrid

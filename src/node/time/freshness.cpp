@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/time/freshness.h"
+
+#include <algorithm>
+
+#include "node/time/kept_pose.h"
+
+namespace hgrid {
+namespace {
+
+constexpr double kPeriods = 1.5;  // data of this age are not LATE yet, however short the limits are
+
+Freshness judgeByAge(const KeptPose& pose, const PoseCircumstances& circumstances, const AgeLimits& limits) {
+  if (pose.settled()) return Freshness::fresh;
+  if (pose.frozen()) return Freshness::frozen;
+  const Freshness by_age = freshnessOf(pose.age(circumstances.reading), circumstances.period, limits);
+  return pose.stamp() < circumstances.tick_time ? std::max(by_age, Freshness::late) : by_age;
+}
+
+}  // namespace
+
+Freshness freshnessOf(double age, double period, const AgeLimits& limits) {
+  const double usual = kPeriods * period;
+  if (age > limits.lost_after) return Freshness::lost;
+  if (age > std::max(limits.stale_after, usual)) return Freshness::stale;
+  return age > std::max(limits.late_after, usual) ? Freshness::late : Freshness::fresh;
+}
+
+Freshness judgePose(const KeptPose& pose, const PoseCircumstances& circumstances, const AgeLimits& limits) {
+  const Freshness by_age = judgeByAge(pose, circumstances, limits);
+  if (by_age == Freshness::frozen || circumstances.clock_frozen) return Freshness::frozen;
+  return circumstances.refused ? Freshness::invalid : by_age;
+}
+
+Freshness judgeCloud(double age, double period, bool clock_frozen, const AgeLimits& limits) {
+  return clock_frozen ? Freshness::frozen : freshnessOf(age, period, limits);
+}
+
+}  // namespace hgrid

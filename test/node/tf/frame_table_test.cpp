@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "src/node/tf/frame_table.h"
+
+#include <gtest/gtest.h>
+
+#include "test/support/refusals.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+constexpr std::uint32_t kNone = FrameTable::kNone;
+
+std::uint32_t put(FrameTable& table, const std::string& parent, const std::string& child) {
+  const std::uint32_t frame = table.admit(parent, child);
+  table.setParent(frame, parent);
+  return frame;
+}
+
+TEST(FrameTable, NumbersFramesInTheOrderInWhichTheyOccur) {
+  FrameTable table(10);
+  EXPECT_EQ(table.find("arm"), kNone);
+  const std::uint32_t arm = put(table, "base", "arm"), hand = put(table, "arm", "hand");
+  EXPECT_EQ(arm, 0u);
+  EXPECT_EQ(table.find("base"), 1u);
+  EXPECT_EQ(hand, 2u);
+  EXPECT_EQ(put(table, "base", "arm"), arm) << "a number stays";
+  EXPECT_EQ(table.size(), 3u);
+  EXPECT_EQ(table.placed(), 2u) << "the base is only a parent";
+  EXPECT_FALSE(table.isPlaced(1));
+  EXPECT_EQ(table.name(hand), "hand");
+}
+
+TEST(FrameTable, KnowsTheNewestParent) {
+  FrameTable table(10);
+  const std::uint32_t box = table.admit("shelf", "box");
+  EXPECT_EQ(table.parent(box), kNone);
+  EXPECT_EQ(table.parentName(box), "");
+  EXPECT_FALSE(table.isInParent(box, ""));
+  table.setParent(box, "shelf");
+  table.setParent(box, "gripper");
+  EXPECT_EQ(table.parentName(box), "gripper");
+  EXPECT_TRUE(table.isInParent(box, "gripper"));
+  EXPECT_FALSE(table.isInParent(box, "shelf"));
+}
+
+TEST(FrameTable, HasAnotherRevisionOnlyIfAFrameOrAParentIsNew) {
+  FrameTable table(10);
+  put(table, "base", "arm");
+  std::uint64_t before = table.revision();
+  put(table, "base", "arm");
+  EXPECT_EQ(table.revision(), before);
+  put(table, "base", "hand");
+  EXPECT_GT(table.revision(), before);
+  before = table.revision();
+  put(table, "arm", "hand");
+  EXPECT_GT(table.revision(), before);
+}
+
+TEST(FrameTable, RefusesOneFrameMoreThanTheLimitAndGoesOnWithTheOthers) {
+  FrameTable table(2);
+  put(table, "base", "a");
+  put(table, "base", "b");
+  std::string sentence;
+  EXPECT_EQ(refusalOf([&] { put(table, "base", "c"); }, &sentence), Code::limit);
+  EXPECT_EQ(sentence, "transform of frame 'c' would be one more than ~max_frames, which is 2");
+  EXPECT_EQ(table.find("c"), kNone) << "nothing has changed";
+  EXPECT_EQ(put(table, "a", "b"), table.find("b"));
+  EXPECT_EQ(refusalOf([&] { put(table, "b", "a"); }), Code::limit) << "one more parent";
+}
+
+/// admit() guesses the next frame by the order of the last message. The guess must not matter.
+TEST(FrameTable, FindsFramesInAnyOrder) {
+  FrameTable table(100);
+  const auto name = [](int i) { return "frame" + std::to_string(i); };
+  std::vector<std::uint32_t> numbers;
+  for (int i = 0; i < 20; ++i) numbers.push_back(put(table, "base", name(i)));
+  for (int step : {1, 3, 7, 19}) {
+    for (int i = 0; i < 20; ++i) {
+      const int frame = i * step % 20;
+      ASSERT_EQ(put(table, "base", name(frame)), numbers[static_cast<std::size_t>(frame)]);
+    }
+  }
+  EXPECT_EQ(table.size(), 21u);
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "src/node/tick/idle_patterns.h"
+
+#include <gtest/gtest.h>
+
+namespace hgrid {
+namespace {
+
+const std::vector<std::string> kBodies = {"arm/hand", "obstacle/post"};
+const std::vector<std::string> kBare = {"arm/flange"};  // links without collision geometry
+
+using Warnings = std::vector<std::string>;
+
+TEST(IdlePatterns, AreNamedWithTheirParameter) {
+  Params params;
+  params.margins = {{"arm/*", 0.1}, {"amr/*", 0.2}};
+  params.padding = {{"arm/flange", 0.1}};
+  EXPECT_EQ(idlePatterns(params, kBodies, kBare),
+            (Warnings{"~margins: 'amr/*' matches no body", "~padding: 'arm/flange' matches no body"}));
+}
+
+TEST(IdlePatterns, ForMapsAreNotTold) {
+  Params params;
+  params.margins = {{"map/hall", 0.1}, {"map/*", 0.1}, {"map*", 0.1}};
+  EXPECT_EQ(idlePatterns(params, kBodies, kBare), (Warnings{"~margins: 'map*' matches no body"}))
+      << "a pattern that may mean other bodies is told";
+}
+
+TEST(IdlePatterns, OfWaiversAndVisualGeometryMayMeanLinksWithoutBodies) {
+  Params params;
+  params.accept_uncovered = {{"arm/flange", "thin"}, {"arm/nothing", "thin"}};
+  params.use_visual = {"arm/flange", "arm/hand", "none"};
+  EXPECT_EQ(idlePatterns(params, kBodies, kBare),
+            (Warnings{"~accept_uncovered: 'arm/nothing' matches no body", "~use_visual: 'none' matches no body"}));
+}
+
+TEST(IdlePatterns, OfPairsAreCheckedOnBothSides) {
+  Params params;
+  PairMargin margin{};
+  margin.first = "arm/hand";
+  margin.second = "obstacle/pots";
+  params.pair_margins = {margin};
+  PairRule rule;
+  rule.first = "none";
+  rule.second = "obstacle/*";
+  params.allowed_pairs = {rule};
+  EXPECT_EQ(idlePatterns(params, kBodies, kBare),
+            (Warnings{"~pair_margins: 'obstacle/pots' matches no body", "~allowed_pairs: 'none' matches no body"}));
+}
+
+}  // namespace
+}  // namespace hgrid

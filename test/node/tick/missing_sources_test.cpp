@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "src/node/tick/missing_sources.h"
+
+#include <gtest/gtest.h>
+
+namespace hgrid {
+namespace {
+
+std::vector<std::string> namesOf(const MissingSources& missing) {
+  std::vector<SourceGap> gaps;
+  missing.appendGaps(gaps);
+  std::vector<std::string> names;
+  for (const SourceGap& gap : gaps) names.push_back(gap.source);
+  return names;
+}
+
+Params cell() {
+  Params params;
+  params.robots.push_back({"arm", "", "", ""});
+  params.maps.emplace_back();
+  params.maps.back().name = "hall";
+  params.clouds.push_back({"eye"});
+  return params;
+}
+
+TEST(MissingSources, AreAtFirstAllThatAreConfigured) {
+  const MissingSources missing(cell());
+  EXPECT_EQ(namesOf(missing), (std::vector<std::string>{"arm", "cloud/eye", "map/hall"}));
+  EXPECT_TRUE(missing.has(SourceId::ofRobot("arm")));
+  EXPECT_FALSE(missing.has(SourceId::ofRobot("hall")));
+}
+
+TEST(MissingSources, HaveTheNewestSentence) {
+  MissingSources missing(cell());
+  missing.set(SourceId::ofRobot("arm"), "PARSE robot 'arm': broken");
+  std::vector<SourceGap> gaps(1);
+  missing.appendGaps(gaps);
+  ASSERT_EQ(gaps.size(), 4u) << "it appends";
+  EXPECT_EQ(gaps[1].sentence, "PARSE robot 'arm': broken");
+}
+
+TEST(MissingSources, AreErasedOneByOneOrByKind) {
+  MissingSources missing(cell());
+  missing.set(SourceId::ofMap("yard"), "NOT_READY");
+  missing.erase(SourceId::ofRobot("arm"));
+  missing.erase(SourceId::ofRobot("nobody"));
+  EXPECT_EQ(namesOf(missing), (std::vector<std::string>{"cloud/eye", "map/hall", "map/yard"}));
+  missing.eraseIf([](const SourceId& source) { return source.kind == SourceKind::map; });
+  EXPECT_EQ(namesOf(missing), (std::vector<std::string>{"cloud/eye"}));
+}
+
+}  // namespace
+}  // namespace hgrid

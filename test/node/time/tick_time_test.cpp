@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "src/node/time/tick_time.h"
+
+#include <gtest/gtest.h>
+
+#include "test/node/support/moments.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+TEST(TickTime, IsTheNewestThatAllFramesHaveThatKeepUp) {
+  TickTime time(0.1);
+  EXPECT_EQ(time.choose({}, s(5)), s(5)) << "nothing moves";
+  EXPECT_EQ(time.choose({s(6), s(5.95)}, s(6)), s(5.95));
+  EXPECT_EQ(time.choose({s(6.2), s(6.0)}, s(6.2)), s(6.2)) << "a laggard holds nobody back";
+  EXPECT_EQ(time.choose({s(6.1), s(6.15)}, s(6.2)), s(6.2)) << "it never runs back";
+  time.beginEpoch();
+  EXPECT_EQ(time.choose({s(1)}, s(1)), s(1));
+}
+
+TEST(TickTime, IsNotSetByFramesThatAreStampedAhead) {
+  TickTime time(0.1);
+  EXPECT_EQ(time.choose({s(5), s(9)}, s(5)), s(5));
+  EXPECT_EQ(time.choose({s(5.08), s(9)}, s(5)), s(5.08)) << "clocks differ a little";
+  EXPECT_EQ(time.choose({s(9)}, s(6)), s(6.1)) << "also where all are";
+  EXPECT_EQ(time.choose({s(6.2)}, s(6.2)), s(6.2)) << "and they do not hold it there";
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid
