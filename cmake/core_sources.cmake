@@ -6,6 +6,7 @@ set(HGRID_CORE_SOURCES
   src/geometry/segment.cpp
   src/geometry/shape.cpp
   src/geometry/sphere.cpp
+  src/broadphase/broad_phase_reader.cpp
   src/broadphase/hgrid/engine.cpp
   src/broadphase/hgrid/hgrid.cpp
   src/broadphase/hgrid/layer.cpp

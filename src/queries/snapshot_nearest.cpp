@@ -37,7 +37,7 @@ QueryAnswer Snapshot::nearestBy(const Asked& asked, const Eigen::Vector3d& cente
   std::map<std::uint32_t, QueryHit> best;  // by body
   std::vector<NearHit> near;
   for (std::size_t look = 4 * wanted + kFirstLook, done = 0;; look *= 4) {
-    grid_.nearest(center - origin_, look, limit + reach, near);
+    broad_phase_->nearest(center - origin_, look, limit + reach, near);
     for (; done < near.size(); ++done) {
       const ProxyId proxy = near[done].id;
       const std::uint32_t body = structure_->body_of_proxy[proxy];

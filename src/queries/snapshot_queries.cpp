@@ -70,7 +70,7 @@ QueryAnswer Snapshot::query(const Sphere& sphere, const QueryScope& scope) const
   checkQueryLength(sphere.radius, "the query's radius");
   const Sphere local{sphere.center - origin_, sphere.radius};
   std::vector<ProxyId> candidates;
-  grid_.overlapping(local, candidates);
+  broad_phase_->overlapping(local, candidates);
   std::vector<QueryHit> hits;
   for (const ProxyId proxy : candidates) {
     const std::uint32_t body = structure_->body_of_proxy[proxy];
@@ -111,7 +111,7 @@ QueryAnswer Snapshot::query(const Segment& segment, const QueryScope& scope) con
     return Probe{narrow_phase, length > 0.0 ? narrow_phase.needle(length) : narrow_phase.point(), core_pose};
   };
   std::vector<SegmentHit> candidates;
-  grid_.along(local, candidates);
+  broad_phase_->along(local, candidates);
   std::vector<QueryHit> hits;
   for (const SegmentHit& candidate : candidates) {
     const std::uint32_t body = structure_->body_of_proxy[candidate.id];
@@ -171,7 +171,7 @@ QueryAnswer Snapshot::query(const QueryBox& box, const NarrowPhase& narrow_phase
     around.max[axis] = roundedUp(center[axis] - origin_[axis] + reach[axis]);
   }
   std::vector<ProxyId> candidates;
-  grid_.overlapping(around, candidates);
+  broad_phase_->overlapping(around, candidates);
   std::vector<QueryHit> hits;
   for (const ProxyId proxy : candidates) {
     const std::uint32_t body = structure_->body_of_proxy[proxy];

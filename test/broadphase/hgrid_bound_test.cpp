@@ -20,12 +20,12 @@ struct Divisible {
   ProxyId divisor = 1;
   mutable std::atomic<std::size_t> asked{0};
 
-  static bool reported(const void* context, ProxyId first, ProxyId second) {
+  static bool isKept(const void* context, ProxyId first, ProxyId second) {
     const auto& test = *static_cast<const Divisible*>(context);
     ++test.asked;
     return (first + second) % test.divisor == 0;
   }
-  PairTest test() const { return PairTest::of<reported>(this); }
+  OverlapFilter filter() const { return OverlapFilter::of<isKept>(this); }
 };
 
 /// Boxes by id, those that are fixed, and what of their pairs is wanted and how many.
@@ -83,7 +83,7 @@ std::vector<ProxyId> idsOf(const std::vector<Aabb>& boxes) {
 
 void setUp(HGrid& grid, const Task& task, const Divisible& divisible) {
   grid.setFixed(task.fixed);
-  grid.setFilter(divisible.test());
+  grid.setOverlapFilter(divisible.filter());
   grid.setPairBound(task.bound);
 }
 
@@ -251,7 +251,7 @@ TEST(HGridBound, BoundsTheWorkOfPilesWhosePairsAreAllLeftOut) {
     divisible.divisor = 1u << 30;
     HGrid grid;
     grid.setThreads(threads);
-    grid.setFilter(divisible.test());
+    grid.setOverlapFilter(divisible.filter());
     grid.setPairBound({1000, kOverlaps});
     for (int tick = 0; tick < 4; ++tick) {
       divisible.asked = 0;

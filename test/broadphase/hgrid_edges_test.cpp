@@ -132,7 +132,7 @@ TEST(HGridEdges, BoxesLargerThanEveryLevelPairWithEverythingTheyOverlap) {
   grid.insert(2, {{-far, 2, 2}, {far, 3, 3}});
   grid.insert(3, {{1e30f, 0, 0}, {1e30f, 0, 0}});
   grid.insert(4, {{-far, 2.5f, 2.5f}, {0, 9, 9}});
-  EXPECT_EQ(grid.levelCounts()[GridScale::kLevels], 3u);
+  EXPECT_EQ(grid.levels()[GridScale::kLevels].boxes, 3u);
   EXPECT_EQ(test::pairsOf(grid), test::Pairs({{0, 1}, {0, 2}, {0, 3}, {0, 4}, {2, 4}}));
   EXPECT_EQ(foundBy(grid, Aabb{{0, 0, 0}, {1, 1, 1}}), std::vector<ProxyId>({0, 1}));
   EXPECT_EQ(test::alongOf(grid, Segment{{0, 0, 0}, {0, 5, 5}, 0.0}).size(), 4u);

@@ -201,7 +201,7 @@ TEST(HGridUse, LevelsHoldBoxesOfTheirSize) {
         ASSERT_GT(side, grid.edge(level - 1));
       }
     }
-    ASSERT_EQ(grid.levelCounts(), counts);
+    ASSERT_EQ(test::levelCounts(grid), counts);
     ASSERT_EQ(grid.levelOf(ProxyId(boxes.size())), -1);
   }
 }

@@ -81,7 +81,7 @@ MUTANTS = [
      "used += place[pair.first] <= kResting && place[pair.second] <= kResting;",
      "used += place[pair.first] <= kResting;"),
     ("pairs that threads find are not filtered", PAIRS,
-     "wanted_end_ = sieve_.sift(pairs_, begin, end);", "wanted_end_ = end;"),
+     "wanted_end_ = filter_.keep(pairs_, begin, end);", "wanted_end_ = end;"),
     ("what threads find goes where another thread found it", PAIRS,
      "task.thread = thread;", "task.thread = 0;"),
     ("the search exceeds the bound of its pairs unnoticed", PAIRS,

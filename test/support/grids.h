@@ -30,6 +30,13 @@ inline HGrid gridOf(const std::vector<Aabb>& boxes, const GridScale& scale) {
   return grid;
 }
 
+/// Stored boxes per level.
+inline std::vector<std::size_t> levelCounts(const BroadPhaseReader& broad_phase) {
+  std::vector<std::size_t> counts;
+  for (const BroadPhaseLevel& level : broad_phase.levels()) counts.push_back(level.boxes);
+  return counts;
+}
+
 inline std::vector<Isa> supportedIsas() {
   std::vector<Isa> isas;
   for (const Isa isa : {Isa::portable, Isa::sse2, Isa::avx2, Isa::avx512}) {

@@ -9,7 +9,7 @@
 
 #include "hgrid_proximity/bodies/body.h"
 #include "hgrid_proximity/bodies/source.h"
-#include "hgrid_proximity/broadphase/hgrid.h"
+#include "hgrid_proximity/broadphase/broad_phase_reader.h"
 #include "hgrid_proximity/maps/map_cells.h"
 #include "hgrid_proximity/narrow/narrow_phase.h"
 #include "hgrid_proximity/pairs/pair_event.h"
@@ -156,8 +156,8 @@ class Snapshot {
   Freshness worstState() const { return worst_state_; }
   /// [s] of the oldest pose of a moving body.
   double maxAge() const { return max_age_; }
-  /// The broad phase; its boxes are those of the placed proxies, grown by their margins.
-  const HGrid& grid() const { return grid_; }
+  /// The broad phase. It stores the boxes of the placed proxies, each grown by its share of the margins.
+  const BroadPhaseReader& broadPhase() const { return *broad_phase_; }
 
   /// [s] From stamp() on, two bodies that are at least so far apart [m] at their poses do not meet earlier, by their
   /// bounds of speed; by how much a pose is older than stamp() counts. NaN where a bound is missing, infinite where
@@ -187,6 +187,7 @@ class Snapshot {
 
  private:
   friend class Scene;
+  friend struct PooledSnapshot;
   Snapshot() = default;
   struct Probe;
   class Region;
@@ -240,9 +241,7 @@ class Snapshot {
   Freshness worst_state_ = Freshness::fresh;
   double max_age_ = 0.0, max_growth_ = 0.0;
   bool report_unmapped_ = false;
-  HGrid grid_;
-  std::uint64_t grid_revision_ = 0;  // of the structure that grid_ was set up for
-  bool finished_ = false;            // false: a commit has failed to fill it, so nobody fills it again
+  const BroadPhaseReader* broad_phase_ = nullptr;  // lives as long as the snapshot: see PooledSnapshot
 };
 
 }  // namespace hgrid

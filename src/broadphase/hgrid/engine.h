@@ -84,7 +84,7 @@ struct HGrid::Engine {
 
   double finest_edge;
   Isa isa = bestIsa();
-  PairTest filter;
+  OverlapFilter filter;
   PairBound bound;
   std::vector<Aabb> boxes;   // by id
   std::vector<Place> place;  // by id

@@ -106,8 +106,8 @@ void HGrid::setFixed(const std::vector<ProxyId>& ids) {
   }
 }
 
-void HGrid::setFilter(const PairTest& test) {
-  engine_->filter = test;
+void HGrid::setOverlapFilter(const OverlapFilter& filter) {
+  engine_->filter = filter;
   engine_->kept_valid = false;
 }
 
@@ -220,12 +220,14 @@ int HGrid::levelFor(const Aabb& box) const {
 
 int HGrid::levelOf(ProxyId id) const { return engine_->isStored(id) ? levelFor(engine_->boxes[id]) : -1; }
 
-std::vector<std::size_t> HGrid::levelCounts() const {
-  std::vector<std::size_t> counts(GridScale::kLevels + 1);
+std::vector<BroadPhaseLevel> HGrid::levels() const {
+  std::vector<BroadPhaseLevel> levels;
+  for (int level = 0; level < GridScale::kLevels; ++level) levels.push_back({edge(level), 0});
+  levels.push_back({std::numeric_limits<double>::infinity(), 0});
   for (ProxyId id = 0; id < engine_->place.size(); ++id) {
-    if (engine_->isStored(id)) ++counts[static_cast<std::size_t>(levelFor(engine_->boxes[id]))];
+    if (engine_->isStored(id)) ++levels[static_cast<std::size_t>(levelFor(engine_->boxes[id]))].boxes;
   }
-  return counts;
+  return levels;
 }
 
 std::size_t HGrid::bytes() const {
