@@ -11,29 +11,30 @@
 namespace hgrid {
 namespace {
 
-/// Ways in [0, 1] at which the point from + way * step crosses a plane of one of the box's faces, with 0 and 1.
+/// Fractions of the segment, within [0, 1], at which the point from + fraction * step crosses the plane of one of the
+/// box's faces. 0 and 1 are among them.
 struct Breaks {
-  std::array<double, 8> way{};
+  std::array<double, 8> fraction{};
   std::size_t count = 0;
 };
 
 Breaks breaksOf(const Eigen::Vector3d& from, const Eigen::Vector3d& step, const Aabb& box) {
   Breaks breaks;
-  breaks.way[breaks.count++] = 0.0;
+  breaks.fraction[breaks.count++] = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     if (step[axis] == 0.0) continue;
     for (const double plane : {static_cast<double>(box.min[axis]), static_cast<double>(box.max[axis])}) {
-      const double way = (plane - from[axis]) / step[axis];
-      if (way > 0.0 && way < 1.0) breaks.way[breaks.count++] = way;
+      const double fraction = (plane - from[axis]) / step[axis];
+      if (fraction > 0.0 && fraction < 1.0) breaks.fraction[breaks.count++] = fraction;
     }
   }
-  breaks.way[breaks.count++] = 1.0;
-  std::sort(breaks.way.begin(), breaks.way.begin() + static_cast<std::ptrdiff_t>(breaks.count));
+  breaks.fraction[breaks.count++] = 1.0;
+  std::sort(breaks.fraction.begin(), breaks.fraction.begin() + static_cast<std::ptrdiff_t>(breaks.count));
   return breaks;
 }
 
-/// The squared distance from the box between two breaks: least + a * (way - lowest)². Kept around its lowest
-/// point, which may lie outside of the piece, since a * way² + b * way + c loses digits from far away.
+/// The squared distance from the box between two breaks: least + a * (fraction - lowest)². Kept around its lowest
+/// point, which may lie outside of the piece, since a * way² + b * fraction + c loses digits from far away.
 struct Piece {
   double a = 0.0, lowest = 0.0, least = 0.0;
 };
@@ -61,29 +62,29 @@ std::optional<Meeting> meet(const Segment& segment, const Aabb& box) {
   const Eigen::Vector3d step = segment.to - segment.from;
   const double reach = std::max(segment.from.cwiseAbs().maxCoeff(), segment.to.cwiseAbs().maxCoeff()) + segment.radius;
   const double radius = segment.radius + roundingSlack(reach);
-  const auto distanceAt = [&](double way) { return distance(box, segment.from + way * step); };
+  const auto distanceAt = [&](double fraction) { return distance(box, segment.from + fraction * step); };
 
   const Breaks breaks = breaksOf(segment.from, step, box);
-  double best = distanceAt(0.0), best_way = 0.0;
+  double best = distanceAt(0.0), best_fraction = 0.0;
   std::optional<double> first;
   if (best <= radius) first = 0.0;
   for (std::size_t i = 0; i + 1 < breaks.count; ++i) {
-    const double begin = breaks.way[i], end = breaks.way[i + 1];
+    const double begin = breaks.fraction[i], end = breaks.fraction[i + 1];
     const Piece piece = pieceBetween(begin, end, segment.from, step, box);
     const double lowest = piece.a > 0.0 ? std::clamp(piece.lowest, begin, end) : end;
-    for (const double way : {lowest, end}) {  // the end too: rounding may have moved the lowest point
-      const double here = distanceAt(way);
+    for (const double fraction : {lowest, end}) {  // the end too: rounding may have moved the lowest point
+      const double here = distanceAt(fraction);
       if (here <= radius && !first) {
-        // The smaller root of least + a * (way - lowest)² = radius².
+        // The smaller root of least + a * (fraction - lowest)² = radius².
         const double rise = std::max(radius * radius - piece.least, 0.0);
         const double root = piece.a > 0.0 ? piece.lowest - std::sqrt(rise / piece.a) : begin;
-        first = std::clamp(root, begin, way);
+        first = std::clamp(root, begin, fraction);
       }
-      if (here < best) best = here, best_way = way;
+      if (here < best) best = here, best_fraction = fraction;
     }
   }
   if (!first) return std::nullopt;
-  return Meeting{*first * step.norm(), best, nearestPoint(box, segment.from + best_way * step)};
+  return Meeting{*first * step.norm(), best, nearestPoint(box, segment.from + best_fraction * step)};
 }
 
 FirstTouch::FirstTouch(const Segment& segment) : segment_(segment), clips_(segment.radius == 0.0) {

@@ -11,6 +11,7 @@
 #include "hgrid_proximity/world/scene.h"
 #include "pairs/pair_choice.h"
 #include "pairs/pair_limits.h"
+#include "pairs/pair_tracker.h"
 #include "world/horizon.h"
 #include "world/map_pairs.h"
 #include "world/pair_events.h"

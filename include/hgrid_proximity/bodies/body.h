@@ -22,7 +22,8 @@ using Time = std::chrono::nanoseconds;
 
 inline double seconds(std::chrono::nanoseconds duration) { return std::chrono::duration<double>(duration).count(); }
 
-/// Whether the pose of a body can be trusted; the numbers are those of msg/WorldState.msg, from good to bad.
+/// How far the pose of a body can be trusted, from good to bad. The numbers are part of the interface: do not change
+/// them.
 enum class Freshness : std::uint8_t {
   fresh = 0,
   late = 1,

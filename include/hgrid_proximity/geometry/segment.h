@@ -8,8 +8,8 @@
 
 namespace hgrid {
 
-/// A segment [m] in the coordinates of the boxes that it is asked about, swept by a ball of `radius`:
-/// 0 is a thin ray, equal ends are a ball.
+/// A segment [m] in the coordinates of the boxes that it is asked about, swept by a sphere of `radius`:
+/// 0 is a thin ray, equal ends are a sphere.
 struct Segment {
   Eigen::Vector3d from = Eigen::Vector3d::Zero();
   Eigen::Vector3d to = Eigen::Vector3d::Zero();
@@ -18,7 +18,7 @@ struct Segment {
 
 /// How a segment meets a box.
 struct Meeting {
-  double along = 0.0;          ///< [m] from the segment's start to where its ball first touches the box
+  double along = 0.0;          ///< [m] from the segment's start to where its sphere first touches the box
   double axis_distance = 0.0;  ///< [m] least distance of the segment's axis from the box; 0: it goes through
   Eigen::Vector3d point;       ///< [m] point of the box nearest to the axis
 };
@@ -26,8 +26,8 @@ struct Meeting {
 /// How the segment first touches the box, or nullopt if it does not.
 ///
 /// Superset of the exact answer; an extra lies within 1e-9 * (|x| + r) of touching. The squared distance
-/// from a moving point to a box is a convex, piecewise quadratic function of the way; its at most six
-/// breaks are where the point crosses a face's plane, and each piece is solved in closed form.
+/// from a moving point to a box is a convex, piecewise quadratic function of the fraction of the segment; its at most
+/// six breaks are where the point crosses a face's plane, and each piece is solved in closed form.
 std::optional<Meeting> meet(const Segment& segment, const Aabb& box);
 
 /// Meeting::along of meet(), within its rounding, without the rest and faster: a thin segment that plainly enters a box
@@ -43,7 +43,7 @@ class FirstTouch {
   const Segment& segment_;
   bool clips_;  // it is thin, and of sane length on every axis
   double length_;
-  Eigen::Vector3d inverse_, rounded_;  // of the step on each axis; in units of the whole way
+  Eigen::Vector3d inverse_, rounded_;  // of the step on each axis; as a fraction of the segment
 };
 
 }  // namespace hgrid

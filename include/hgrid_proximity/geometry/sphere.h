@@ -8,7 +8,7 @@
 
 namespace hgrid {
 
-/// A ball [m] in the coordinates of the boxes that it is asked about; radius 0 is a point.
+/// A sphere, filled [m], in the coordinates of the boxes that it is asked about; radius 0 is a point.
 struct Sphere {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double radius = 0.0;
@@ -23,7 +23,8 @@ inline double squaredDistance(const Aabb& box, const Eigen::Vector3d& point) {
   for (int axis = 0; axis < 3; ++axis) {
     const double under = box.min[axis] - point[axis], over = point[axis] - box.max[axis];
     const double off = under > over ? under : over;
-    const double gap = 0.5 * (off + std::abs(off));  // the greater of off and 0; asked that way, compilers branch
+    const double gap =
+        0.5 * (off + std::abs(off));  // the greater of off and 0; written with std::max, compilers branch
     sum += gap * gap;
   }
   return sum;
@@ -36,12 +37,12 @@ inline double distance(const Aabb& box, const Eigen::Vector3d& point) { return s
 /// rounding errors for coordinates up to `reach` [m] and far below the promised 1e-9 * reach.
 inline double roundingSlack(double reach) { return 1e-12 * reach; }
 
-/// Boxes no farther than this [m] from the centre touch the ball; squares of both are compared.
+/// Boxes no farther than this [m] from the center touch the sphere; squares of both are compared.
 inline double touchingDistance(const Sphere& sphere) {
   return sphere.radius + roundingSlack(sphere.center.cwiseAbs().maxCoeff() + sphere.radius);
 }
 
-/// Whether ball and box touch. Superset of the exact answer; an extra lies within 1e-9 * (|x| + r) of touching.
+/// Whether sphere and box touch. Superset of the exact answer; an extra lies within 1e-9 * (|x| + r) of touching.
 inline bool touches(const Sphere& sphere, const Aabb& box) {
   const double near = touchingDistance(sphere);
   return squaredDistance(box, sphere.center) <= near * near;

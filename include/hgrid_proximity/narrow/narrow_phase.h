@@ -14,7 +14,7 @@
 
 namespace hgrid {
 
-/// What became of the question how far two shapes are apart; the numbers are those of msg/Distances.msg.
+/// The outcome of measuring how far two shapes are apart. The numbers are part of the interface: do not change them.
 enum class Measure : std::uint8_t {
   not_measured = 0,         ///< not asked, or no time was left for it
   apart = 1,                ///< distance, points and normal hold

@@ -12,10 +12,10 @@
 #include "hgrid_proximity/broadphase/broad_phase_reader.h"
 #include "hgrid_proximity/maps/map_cells.h"
 #include "hgrid_proximity/narrow/narrow_phase.h"
+#include "hgrid_proximity/pairs/near_pair.h"
 #include "hgrid_proximity/pairs/pair_event.h"
 #include "hgrid_proximity/pairs/pair_filter.h"
 #include "hgrid_proximity/pairs/pair_margins.h"
-#include "hgrid_proximity/pairs/pair_tracker.h"
 
 namespace hgrid {
 
@@ -57,7 +57,7 @@ struct BodyPose {
 
 enum class Verdict : std::uint8_t { unknown = 0, clear = 1, hit = 2 };
 
-/// Why a verdict is unknown; the numbers are those of msg/Answer.msg.
+/// Why a verdict is unknown. The numbers are part of the interface: do not change them.
 enum class Unknown : std::uint8_t { no = 0, refused = 1, incomplete = 2, stale_body = 3, outdated = 4, unmapped = 5 };
 
 /// Which bodies a query is about, and how many hits it wants.

@@ -52,7 +52,7 @@ class Collection {
 bool HGrid::Engine::collectPairs(std::vector<ProxyPair>& pairs) const {
   pairs.clear();
   Collection collection(bound, filter, pairs);
-  for (ProxyId id = 0; id < place.size() && !collection.isCut(); ++id) {
+  for (ProxyId id = 0; id < layer_of.size() && !collection.isCut(); ++id) {
     if (!isStored(id) || isFixed(id)) continue;
     const std::size_t begin = pairs.size();
     visitOverlapping(*this, boxOf(boxes[id]), [&](const Layer& layer, const PositionWriter& positions) {

@@ -235,14 +235,14 @@ bool HGrid::Engine::findPairs(std::vector<ProxyPair>& pairs, const PairBound& up
     } else {
       for (const ProxyPair& pair : kept) {
         pairs[used] = pair;
-        used += place[pair.first] <= kResting && place[pair.second] <= kResting;
+        used += layer_of[pair.first] <= kResting && layer_of[pair.second] <= kResting;
       }
     }
   } else {
     addWithin(tasks, layers[kResting]);
     addAcross(tasks, layers[kResting], layers[kFixed]);
   }
-  for (const Place mobile : {kMoving, kLoose}) {
+  for (const LayerNumber mobile : {kMoving, kLoose}) {
     addWithin(tasks, layers[mobile]);
     for (int other = kFixed; other < mobile; ++other)
       addAcross(tasks, layers[mobile], layers[static_cast<std::size_t>(other)]);

@@ -16,7 +16,7 @@
 #include "node/diagnostics/ledger.h"
 #include "node/params/params.h"
 #include "node/sources/loaded_map.h"
-#include "node/sources/own_shapes.h"
+#include "node/sources/self_shapes.h"
 #include "node/wire/cloud_message.h"
 
 namespace hgrid {
@@ -32,9 +32,10 @@ class CloudSource {
   };
 
   /// @param node  in whose namespace the topic is
-  CloudSource(const ros::NodeHandle& node, const CloudParams& cloud, const Params& params, const OwnShapes& own,
-              const tf2::BufferCore& buffer, std::shared_ptr<const NarrowPhase> narrow_phase,
-              OwnShapes::NewestTick newest, Sink sink, Ledger& ledger);
+  CloudSource(const ros::NodeHandle& node, const CloudParams& cloud, const Params& params,
+              const SelfShapes& self_shapes, const tf2::BufferCore& buffer,
+              std::shared_ptr<const NarrowPhase> narrow_phase, SelfShapes::NewestTick newest, Sink sink,
+              Ledger& ledger);
   ~CloudSource();
 
  private:
@@ -54,10 +55,10 @@ class CloudSource {
   std::string failed_;   // the counter of exceptions in its callbacks
   bool simulated_;       // /clock drives ROS time
   const Params& params_;
-  const OwnShapes& own_;
+  const SelfShapes& self_shapes_;
   const tf2::BufferCore& buffer_;
   std::shared_ptr<const NarrowPhase> narrow_phase_;
-  OwnShapes::NewestTick newest_;
+  SelfShapes::NewestTick newest_;
   Sink sink_;
   Ledger& ledger_;
 

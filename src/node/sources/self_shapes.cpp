@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "node/sources/own_shapes.h"
+#include "node/sources/self_shapes.h"
 
 #include <tf2/exceptions.h>
 
@@ -25,7 +25,7 @@ std::optional<Pose> poseAt(const tf2::BufferCore& buffer, const std::string& tar
 
 /// Looks at each body in question of the newest tick, and its padding.
 template <class Look>
-void OwnShapes::forEach(const Look& look) const {
+void SelfShapes::forEach(const Look& look) const {
   const std::shared_ptr<const Tick> tick = newest_();
   if (!tick || !tick->snapshot) return;
   const Snapshot& snapshot = *tick->snapshot;
@@ -37,7 +37,7 @@ void OwnShapes::forEach(const Look& look) const {
   }
 }
 
-void OwnShapes::require() const {
+void SelfShapes::require() const {
   const std::shared_ptr<const Tick> tick = newest_();
   if (!tick || !tick->snapshot || tick->models->robots < params_.robots.size()) {
     throw Refusal(Code::not_ready, "the robots whose cells ~map/self_filter leaves out are not all loaded yet");
@@ -50,7 +50,7 @@ void OwnShapes::require() const {
   });
 }
 
-std::vector<std::string> OwnShapes::frames() const {
+std::vector<std::string> SelfShapes::frames() const {
   std::vector<std::string> frames;
   forEach([&](const Tick&, const Body& body, const BodyPose& pose, double) {
     if (pose.state < Freshness::lost) frames.push_back(body.frame);
@@ -58,7 +58,7 @@ std::vector<std::string> OwnShapes::frames() const {
   return frames;
 }
 
-std::vector<SelfShape> OwnShapes::at(Time stamp) const {
+std::vector<SelfShape> SelfShapes::at(Time stamp) const {
   std::vector<SelfShape> shapes;
   forEach([&](const Tick& tick, const Body& body, const BodyPose& pose, double padding) {
     std::optional<Pose> world_from_body = poseAt(buffer_, tick.world_frame, body.frame, stamp);
@@ -76,7 +76,7 @@ std::vector<SelfShape> OwnShapes::at(Time stamp) const {
   return shapes;
 }
 
-Pose OwnShapes::worldFrom(const std::string& frame, Time stamp) const {
+Pose SelfShapes::worldFrom(const std::string& frame, Time stamp) const {
   const std::shared_ptr<const Tick> tick = newest_();
   if (tick && !tick->world_frame.empty()) {
     if (frame.empty()) return Pose::Identity();

@@ -22,12 +22,13 @@ struct Tick;
 std::optional<Pose> poseAt(const tf2::BufferCore& buffer, const std::string& target, const std::string& frame,
                            Time stamp, std::string* why_not = nullptr);
 
-/// Where the shapes were that ~map/self_filter names: what sensors may have seen of the robot itself. Any thread.
-class OwnShapes {
+/// Finds the poses of the shapes that ~map/self_filter names: sensors may have seen these parts of the robot. Any
+/// thread.
+class SelfShapes {
  public:
   using NewestTick = std::function<std::shared_ptr<const Tick>()>;
 
-  OwnShapes(const Params& params, const tf2::BufferCore& buffer, NewestTick newest)
+  SelfShapes(const Params& params, const tf2::BufferCore& buffer, NewestTick newest)
       : params_(params), buffer_(buffer), newest_(std::move(newest)) {}
 
   bool wanted() const { return !params_.map_self_filter.empty(); }
