@@ -5,6 +5,7 @@ set(HGRID_CORE_SOURCES
   src/geometry/pose.cpp
   src/geometry/segment.cpp
   src/geometry/shape.cpp
+  src/broadphase/broad_phase_reader.cpp
   src/broadphase/hgrid/engine.cpp
   src/broadphase/hgrid/hgrid.cpp
   src/broadphase/hgrid/layer.cpp
@@ -19,9 +20,13 @@ set(HGRID_CORE_SOURCES
   src/maps/self_filter.cpp
   src/maps/static_grid.cpp
   src/maps/static_grid_search.cpp
+  src/narrow/convex_narrow_phase.cpp
+  src/narrow/convex_pair.cpp
+  src/narrow/convex_solid.cpp
   src/narrow/enclosure.cpp
   src/narrow/gjk.cpp
   src/narrow/narrow_phase.cpp
+  src/narrow/ordered_solid.cpp
   src/bodies/group_tree.cpp
   src/bodies/link_matrix.cpp
   src/bodies/motion_bound.cpp

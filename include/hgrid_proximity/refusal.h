@@ -8,7 +8,7 @@
 
 namespace hgrid {
 
-/// Why something was refused. The numbers are those of msg/Code.msg; a test holds the two together.
+/// Why something was refused. The numbers are part of the interface: do not change them.
 enum class Code : std::uint16_t {
   ok = 0,
   bad_id = 1,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "hgrid_proximity/bodies/group_tree.h"
+#include "bodies/group_tree.h"
 
 #include <algorithm>
 

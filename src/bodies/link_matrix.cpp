@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "bodies/group_tree.h"
 #include "hgrid_proximity/bodies/robot_model.h"
 #include "hgrid_proximity/refusal.h"
 
@@ -19,7 +20,7 @@ constexpr std::size_t kMostNamed = 8;  // joints that a reason names
 LinkMatrix::LinkMatrix(const RobotModel& model, const LinkRules& rules, std::vector<std::string>& warnings)
     : size_(model.links.size()),
       words_((size_ + 63) / 64),
-      groups_(model),
+      groups_(std::make_shared<const GroupTree>(model)),
       origins_(size_ * size_, Origin::none),
       allowed_(size_ * words_) {
   setGroups(model);
@@ -28,7 +29,7 @@ LinkMatrix::LinkMatrix(const RobotModel& model, const LinkRules& rules, std::vec
 }
 
 void LinkMatrix::setGroups(const RobotModel& model) {
-  std::vector<std::vector<std::uint32_t>> members(groups_.size());
+  std::vector<std::vector<std::uint32_t>> members(groups_->size());
   for (std::uint32_t i = 0; i < size_; ++i) {
     group_of_.push_back(model.links[i].rigid_group);
     members[group_of_[i]].push_back(i);
@@ -38,9 +39,9 @@ void LinkMatrix::setGroups(const RobotModel& model) {
       for (const std::uint32_t j : members[second]) set(i, j, origin);
     }
   };
-  for (std::uint32_t group = 0; group < groups_.size(); ++group) {
+  for (std::uint32_t group = 0; group < groups_->size(); ++group) {
     setAll(group, group, Origin::rigid);
-    for (const std::uint32_t above : groups_.adjacentAbove(group)) setAll(group, above, Origin::adjacent);
+    for (const std::uint32_t above : groups_->adjacentAbove(group)) setAll(group, above, Origin::adjacent);
   }
 }
 
@@ -74,7 +75,7 @@ const LinkMatrix::Tag* LinkMatrix::tag(std::uint32_t first, std::uint32_t second
 }
 
 std::string LinkMatrix::adjacencyReason(std::uint32_t first, std::uint32_t second) const {
-  const std::vector<std::string> joints = groups_.jointsBetween(group_of_[first], group_of_[second]);
+  const std::vector<std::string> joints = groups_->jointsBetween(group_of_[first], group_of_[second]);
   if (joints.size() == 1) return "joint '" + printable(joints.front()) + "' connects their rigid groups";
   std::string names;
   for (std::size_t i = 0; i < std::min(joints.size(), kMostNamed); ++i) {

@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// A length to the micrometre, which is finer than a box.
-std::string metres(double length) { return text(std::round(length * 1e6) / 1e6) + " m"; }
+/// A length, rounded to the micrometer: boxes are coarser.
+std::string meters(double length) { return text(std::round(length * 1e6) / 1e6) + " m"; }
 
 std::uint32_t known(const Structure& structure, const std::string& name) {
   const std::uint32_t body = structure.find(name);
@@ -25,12 +25,16 @@ std::uint32_t known(const Structure& structure, const std::string& name) {
   return body;
 }
 
-/// The sentences, made of what the explanation has besides them.
+/// Makes the sentences of an explanation from its other fields.
 class Words {
  public:
   /// @param near  their boxes are within the margin
-  Words(const Structure& structure, const Explanation& what, bool near)
-      : what_(what), a_(structure.bodies[what.first]), b_(structure.bodies[what.second]), near_(near) {}
+  Words(const Structure& structure, const Explanation& what, bool near, const OptionNames& options)
+      : what_(what),
+        a_(structure.bodies[what.first]),
+        b_(structure.bodies[what.second]),
+        near_(near),
+        options_(options) {}
 
   std::string all() const {
     const std::string pair = a_.name + " and " + b_.name;
@@ -41,7 +45,8 @@ class Words {
     } else if (off) {
       result = pair + " are not reported: " + switchedOff() + "." + without();
     } else if (what_.cut) {
-      result = pair + " are not reported, although " + nearness() + ": there are more pairs than ~max_pairs allows. " +
+      result = pair + " are not reported, although " + nearness() + ": there are more pairs than " +
+               options_.max_pairs + " allows. " +
                "Of those that were found, contacts are kept, then the smallest gaps, then the first by name." +
                enabled();
     } else {
@@ -57,13 +62,13 @@ class Words {
   bool hasBoxes() const { return !std::isnan(what_.gap); }
 
   std::string nearness() const {
-    const std::string margin = "the margin of " + metres(what_.margin);
+    const std::string margin = "the margin of " + meters(what_.margin);
     if (!(what_.gap > 0.0)) return "their boxes touch or overlap, which is within " + margin;
     const std::string soon = what_.reported && !near_
-                                 ? ", but by their bounds of speed they can meet within ~horizon, or they passed each "
-                                   "other since the tick before"
+                                 ? std::string(", but by their bounds of speed they can meet within ") +
+                                       options_.horizon + ", or they passed each other since the tick before"
                                  : "";
-    return "their boxes are " + metres(what_.gap) + " apart, " + (near_ ? "within " : "more than ") + margin + soon;
+    return "their boxes are " + meters(what_.gap) + " apart, " + (near_ ? "within " : "more than ") + margin + soon;
   }
 
   /// That what was said may not be all.
@@ -125,13 +130,13 @@ class Words {
     const char* name = links  ? (a_.robot == b_.robot ? "self" : "robot_robot")
                        : link ? (map ? "robot_map" : "robot_obstacle")
                               : "moving_obstacle";
-    return std::string("~pair_kinds does not name their kind, ") + name + ", and no rule beats that";
+    return std::string(options_.pair_kinds) + " does not name their kind, " + name + ", and no rule beats that";
   }
 
   std::string theRule(const std::string& begin) const {
     const PairRule& rule = what_.rule;
     std::string words = begin + " '" + printable(rule.first) + "', '" + printable(rule.second) + "' of ";
-    words += rule.origin == Origin::service ? "~set_allowed" : "~allowed_pairs";
+    words += rule.origin == Origin::service ? options_.added_rules : options_.allowed_pairs;
     if (rule.ends != PairRule::Clock::time_point::max()) {
       const double left = std::chrono::duration<double>(rule.ends - PairRule::Clock::now()).count();
       words += ", which ends in " + secondsText(std::max(0.0, left)) + ",";
@@ -156,7 +161,7 @@ class Words {
 
   std::string grown() const {
     if (!(what_.growth > 0.0) || !hasBoxes()) return {};
-    return " " + metres(what_.growth) + " of the margin are there because data is old.";
+    return " " + meters(what_.growth) + " of the margin are there because data is old.";
   }
 
   static std::string freshness(const Body& body, Freshness state, double age) {
@@ -170,7 +175,7 @@ class Words {
         return {};
       case Measure::apart:
         return std::isinf(what_.distance) ? " Their shapes are farther apart than was asked for."
-                                          : " Their shapes are " + metres(what_.distance) + " apart.";
+                                          : " Their shapes are " + meters(what_.distance) + " apart.";
       case Measure::contact:
         return " Their shapes are in contact.";
       case Measure::contained:
@@ -186,6 +191,7 @@ class Words {
   const Explanation& what_;
   const Body &a_, &b_;
   bool near_;
+  const OptionNames& options_;
 };
 
 /// Gap of the nearest boxes, and whether it is within the margin; of a reported pair as it stands in the snapshot.
@@ -222,7 +228,7 @@ bool fillGap(const Snapshot& snapshot, Explanation& what) {
 }  // namespace
 
 Explanation explain(const Snapshot& snapshot, const std::string& first, const std::string& second,
-                    const PairDistance* exact) {
+                    const PairDistance* exact, const OptionNames& options) {
   const DefaultFloatEnvironment environment;
   const Structure& structure = snapshot.structure();
   Explanation what;
@@ -246,7 +252,7 @@ Explanation explain(const Snapshot& snapshot, const std::string& first, const st
   }
   const bool near = fillGap(snapshot, what);
   what.cut = near && !what.reported && !what.rule.allowed && snapshot.truncated();
-  what.text = Words(structure, what, near).all();
+  what.text = Words(structure, what, near, options).all();
   return what;
 }
 

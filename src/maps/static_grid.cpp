@@ -10,10 +10,12 @@
 #include "maps/static_grid_bricks.h"
 
 namespace hgrid {
-/// Takes voxels in Morton order; the bricks that are not yet complete are those around the last one.
-class StaticGrid::Builder {
+namespace {
+
+/// Builds bricks from voxels in Morton order. The bricks that are not complete yet are those around the last voxel.
+class Builder {
  public:
-  explicit Builder(StaticGrid& grid) : grid_(grid) {}
+  explicit Builder(Bricks& bricks) : bricks_(bricks) {}
 
   void add(const Voxel& voxel, std::size_t number) {
     const std::uint64_t code = mortonOf(voxel), after = code + (std::uint64_t{1} << 3 * voxel.level);
@@ -32,7 +34,7 @@ class StaticGrid::Builder {
 
   void finish() {
     for (int open = 0; open < kBrickLevels; ++open) close(open);
-    BrickLevel& top = grid_.levels_.back();
+    BrickLevel& top = bricks_.levels.back();
     if (!top.cells.empty()) return;
     top.cells.push_back(0);  // a root that holds nothing
     top.full.push_back(0);
@@ -63,7 +65,7 @@ class StaticGrid::Builder {
     if (voxel.level == Voxel::kLevels) {
       cells = ~std::uint64_t{0};
       brick.blocks = 0xff;
-      grid_.is_whole_ = true;
+      bricks_.is_whole = true;
     } else if (voxel.level % 2 == 1) {
       cells = std::uint64_t{0xff} << cell;
       brick.blocks = static_cast<std::uint8_t>(brick.blocks | 1u << cell / 8);
@@ -83,14 +85,14 @@ class StaticGrid::Builder {
   /// Bricks below a brick come between its begin and its end.
   void begin(int level) {
     if (level == 0) return;
-    const std::size_t below = grid_.levels_[static_cast<std::size_t>(level) - 1].cells.size();
+    const std::size_t below = bricks_.levels[static_cast<std::size_t>(level) - 1].cells.size();
     open_[static_cast<std::size_t>(level)].first_below = static_cast<std::uint32_t>(below);
   }
 
   void close(int number) {
     Open& brick = open_[static_cast<std::size_t>(number)];
     if (brick.cells == 0) return;
-    BrickLevel& level = grid_.levels_[static_cast<std::size_t>(number)];
+    BrickLevel& level = bricks_.levels[static_cast<std::size_t>(number)];
     level.cells.push_back(brick.cells);
     level.blocks.push_back(brick.blocks);
     if (number > 0) {
@@ -100,37 +102,42 @@ class StaticGrid::Builder {
     brick = Open{};
   }
 
-  StaticGrid& grid_;
+  Bricks& bricks_;
   std::array<Open, kBrickLevels> open_;
   std::uint64_t last_ = 0, end_ = 0;
 };
+
+}  // namespace
 
 StaticGrid::StaticGrid(double finest_edge, const std::vector<Voxel>& voxels)
     : finest_edge_(finest_edge), size_(voxels.size()) {
   if (!(finest_edge > 0.0 && std::isfinite(finest_edge))) {
     throw Refusal(Code::out_of_range, "the finest edge is " + text(finest_edge) + " m; it must be greater than 0");
   }
-  Builder builder(*this);
+  auto bricks = std::make_shared<Bricks>();
+  Builder builder(*bricks);
   for (std::size_t i = 0; i < voxels.size(); ++i) {
     builder.add(voxels[i], i);
     bounds_.extend(minCorner(voxels[i], finest_edge));
     bounds_.extend(maxCorner(voxels[i], finest_edge));
   }
   builder.finish();
-  while (start_.level > 0 && bitCount(cellsOf(start_)) == 1 && fullOf(start_) == 0) {
-    start_ = below(start_, firstCell(cellsOf(start_)));
+  Brick& start = bricks->start;
+  while (start.level > 0 && bitCount(bricks->cellsOf(start)) == 1 && bricks->fullOf(start) == 0) {
+    start = bricks->below(start, firstCell(bricks->cellsOf(start)));
   }
-  for (BrickLevel& level : levels_) {
+  for (BrickLevel& level : bricks->levels) {
     level.cells.shrink_to_fit();
     level.full.shrink_to_fit();
     level.first_below.shrink_to_fit();
     level.blocks.shrink_to_fit();
   }
+  bricks_ = std::move(bricks);
 }
 
 std::size_t StaticGrid::bytes() const {
-  std::size_t bytes = sizeof(*this);
-  for (const BrickLevel& level : levels_) {
+  std::size_t bytes = sizeof(*this) + sizeof(Bricks);
+  for (const BrickLevel& level : bricks_->levels) {
     bytes += 8 * (level.cells.capacity() + level.full.capacity()) + 4 * level.first_below.capacity() +
              level.blocks.capacity();
   }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-//
-// How a StaticGrid is walked, brick by brick; inline, since every search does little else.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <vector>
+
 #include "hgrid_proximity/geometry/aabb.h"
-#include "hgrid_proximity/maps/static_grid.h"
+#include "hgrid_proximity/geometry/voxel.h"
 #include "maps/brick.h"
 
 namespace hgrid {
@@ -19,13 +21,50 @@ inline Aabb keysOf(const Voxel& voxel) {
   return {min, min + Eigen::Vector3f::Constant(along)};
 }
 
-inline std::uint64_t StaticGrid::fullOf(const Brick& brick) const {
-  const BrickLevel& level = levels_[static_cast<std::size_t>(brick.level)];
+constexpr int kBrickLevels = Voxel::kLevels / 2;
+
+/// The bricks whose cells have an edge of 4^level finest ones. Arrays by brick.
+struct BrickLevel {
+  std::vector<std::uint64_t> cells;        // those that hold something
+  std::vector<std::uint64_t> full;         // of them: voxels; the others have a brick. Empty on level 0: all are full
+  std::vector<std::uint32_t> first_below;  // number of the brick below the first cell that has one; empty on level 0
+  std::vector<std::uint8_t> blocks;        // bit b: cells 8 b .. 8 b + 7 are one voxel
+};
+
+/// A brick and its position.
+struct Brick {
+  int level;
+  std::uint32_t number;
+  std::array<std::int32_t, 3> corner;  // keys, counted from the map's origin
+};
+
+/// The storage of a StaticGrid, walked brick by brick. Everything is inline, since searches do little else.
+class Bricks {
+ public:
+  std::uint64_t cellsOf(const Brick& brick) const {
+    return levels[static_cast<std::size_t>(brick.level)].cells[brick.number];
+  }
+  std::uint64_t fullOf(const Brick& brick) const;
+  /// The brick that a cell of a brick is.
+  Brick below(const Brick& brick, unsigned cell) const;
+  /// The voxel that a full cell belongs to.
+  Voxel voxelAt(const Brick& brick, unsigned cell) const;
+  /// All cells of the voxel that a full cell belongs to.
+  std::uint64_t cellsOfVoxel(const Brick& brick, unsigned cell) const;
+
+  bool is_whole = false;  ///< one voxel is the whole map; it is stored as eight voxels of half its edge
+  std::array<BrickLevel, kBrickLevels> levels;
+  /// The deepest brick that holds everything: searches start here.
+  Brick start{kBrickLevels - 1, 0, {-Voxel::kOriginKey, -Voxel::kOriginKey, -Voxel::kOriginKey}};
+};
+
+inline std::uint64_t Bricks::fullOf(const Brick& brick) const {
+  const BrickLevel& level = levels[static_cast<std::size_t>(brick.level)];
   return brick.level == 0 ? level.cells[brick.number] : level.full[brick.number];
 }
 
-inline StaticGrid::Brick StaticGrid::below(const Brick& brick, unsigned cell) const {
-  const BrickLevel& level = levels_[static_cast<std::size_t>(brick.level)];
+inline Brick Bricks::below(const Brick& brick, unsigned cell) const {
+  const BrickLevel& level = levels[static_cast<std::size_t>(brick.level)];
   const std::uint64_t with_brick = level.cells[brick.number] & ~level.full[brick.number];
   const auto before = static_cast<std::uint32_t>(bitCount(with_brick & ((std::uint64_t{1} << cell) - 1)));
   Brick result{brick.level - 1, level.first_below[brick.number] + before, brick.corner};
@@ -34,9 +73,9 @@ inline StaticGrid::Brick StaticGrid::below(const Brick& brick, unsigned cell) co
   return result;
 }
 
-inline Voxel StaticGrid::voxelAt(const Brick& brick, unsigned cell) const {
-  if (is_whole_) return {0, 0, 0, Voxel::kLevels};
-  const bool is_block = levels_[static_cast<std::size_t>(brick.level)].blocks[brick.number] >> cell / 8 & 1u;
+inline Voxel Bricks::voxelAt(const Brick& brick, unsigned cell) const {
+  if (is_whole) return {0, 0, 0, Voxel::kLevels};
+  const bool is_block = levels[static_cast<std::size_t>(brick.level)].blocks[brick.number] >> cell / 8 & 1u;
   if (is_block) cell &= ~7u;
   const auto key = [&](int axis) {
     return static_cast<std::uint16_t>(brick.corner[static_cast<std::size_t>(axis)] + Voxel::kOriginKey +
@@ -45,10 +84,9 @@ inline Voxel StaticGrid::voxelAt(const Brick& brick, unsigned cell) const {
   return {key(0), key(1), key(2), static_cast<std::uint8_t>(2 * brick.level + (is_block ? 1 : 0))};
 }
 
-/// The cells of the voxel that this one is of.
-inline std::uint64_t StaticGrid::restOfVoxel(const Brick& brick, unsigned cell) const {
-  if (is_whole_) return ~std::uint64_t{0};
-  const bool is_block = levels_[static_cast<std::size_t>(brick.level)].blocks[brick.number] >> cell / 8 & 1u;
+inline std::uint64_t Bricks::cellsOfVoxel(const Brick& brick, unsigned cell) const {
+  if (is_whole) return ~std::uint64_t{0};
+  const bool is_block = levels[static_cast<std::size_t>(brick.level)].blocks[brick.number] >> cell / 8 & 1u;
   return is_block ? std::uint64_t{0xff} << (cell & ~7u) : std::uint64_t{1} << cell;
 }
 

@@ -54,25 +54,27 @@ struct CellPlaces {
 };
 inline constexpr CellPlaces kCellPlaces;
 
-/// Goes from brick to brick as a segment passes them, and of each takes the cells that it passes at once: slice by
-/// slice across the main axis, along which the segment is longest, those between where it enters the slice and leaves
-/// it.
+/// Searches a grid along a segment.
 ///
-/// Where the segment is in a brick, told in its cells, follows from where it is in the brick around it. Floats do,
-/// since they only choose cells, with more room than they round away: what is touched is decided voxel by voxel, in
-/// double.
-class StaticGrid::LineSearch {
+/// Goes through the bricks in the order in which the segment passes them, and selects all cells of a brick that the
+/// segment passes at once. For each slice across the main axis (along which the segment is longest), these are the
+/// cells between where the segment enters the slice and where it leaves it.
+///
+/// The position of the segment in the cells of a brick follows from its position in the brick around it. Floats are
+/// enough for that: they only select cells, with more room than their rounding. Which voxel is touched is decided in
+/// double, voxel by voxel.
+class LineSearch {
  public:
   /// @param segment  in keys, counted from the map's origin
-  LineSearch(const StaticGrid& grid, const Segment& segment) : grid_(grid), segment_(segment) {
-    const Eigen::Vector3d way = segment.to - segment.from;
-    const double longest = way.cwiseAbs().maxCoeff(&main_);
+  LineSearch(const Bricks& bricks, const Segment& segment) : bricks_(bricks), segment_(segment) {
+    const Eigen::Vector3d step = segment.to - segment.from;
+    const double longest = step.cwiseAbs().maxCoeff(&main_);
     const double farthest = std::max(segment.from.cwiseAbs().maxCoeff(), segment.to.cwiseAbs().maxCoeff());
     around_ = segment.radius + 2e-12 * (farthest + segment.radius);  // twice what FirstTouch adds
-    length_ = way.norm();
-    way_ = way[main_];
-    const double per_way = longest > 1e-100 ? 1.0 / way_ : 0.0;
-    const std::array<double, 2> slopes{way[axisOf(0)] * per_way, way[axisOf(1)] * per_way};
+    length_ = step.norm();
+    step_ = step[main_];
+    const double per_step = longest > 1e-100 ? 1.0 / step_ : 0.0;
+    const std::array<double, 2> slopes{step[axisOf(0)] * per_step, step[axisOf(1)] * per_step};
     begin(slopes);
     for (std::size_t i = 0; i < 2; ++i) {
       const auto slope = static_cast<float>(slopes[i]);
@@ -81,14 +83,14 @@ class StaticGrid::LineSearch {
                     &kCellPlaces.along[static_cast<std::size_t>(axisOf(i))]};
     }
     for (std::size_t i = 0; i < 4; ++i) {
-      const std::size_t slice = way_ < 0.0 ? 3 - i : i;
+      const std::size_t slice = step_ < 0.0 ? 3 - i : i;
       slices_[i] = kCellRanges.sets[static_cast<std::size_t>(main_)][slice][slice + 1];
     }
   }
 
   /// The voxel that is touched first, and where, as a share of the segment; infinity if there is none.
   VoxelTouch first() {
-    const int top = grid_.start_.level;
+    const int top = bricks_.start.level;
     Frame* frame = &frames_[static_cast<std::size_t>(top)];
     enter(*frame, top);
     for (int level = top;;) {
@@ -134,7 +136,7 @@ class StaticGrid::LineSearch {
 
   /// The frame of the brick where searches start.
   void begin(const std::array<double, 2>& slopes) {
-    const Brick& start = grid_.start_;
+    const Brick& start = bricks_.start;
     Frame& frame = frames_[static_cast<std::size_t>(start.level)];
     frame.number = start.number;
     frame.keys = 0;
@@ -159,7 +161,7 @@ class StaticGrid::LineSearch {
 
   void goBelow(const Frame& frame, int level, unsigned cell, Frame& below) const {
     const std::uint64_t before = frame.cells & ~frame.full & ((std::uint64_t{1} << cell) - 1);
-    below.number = grid_.levels_[static_cast<std::size_t>(level)].first_below[frame.number] +
+    below.number = bricks_.levels[static_cast<std::size_t>(level)].first_below[frame.number] +
                    static_cast<std::uint32_t>(bitCount(before));
     below.keys = frame.keys + (kCellPlaces.keys[cell] << 2 * level);
     const float main = kCellPlaces.along[static_cast<std::size_t>(main_)][cell];
@@ -171,9 +173,9 @@ class StaticGrid::LineSearch {
   }
 
   void enter(Frame& frame, int level) const {
-    const BrickLevel& bricks = grid_.levels_[static_cast<std::size_t>(level)];
-    frame.cells = bricks.cells[frame.number];
-    frame.full = level == 0 ? frame.cells : bricks.full[frame.number];
+    const BrickLevel& here = bricks_.levels[static_cast<std::size_t>(level)];
+    frame.cells = here.cells[frame.number];
+    frame.full = level == 0 ? frame.cells : here.full[frame.number];
     frame.left = frame.cells & alongMain(frame) & alongOther(frame, 0) & alongOther(frame, 1);
   }
 
@@ -191,7 +193,7 @@ class StaticGrid::LineSearch {
     return sets[0][range[0]] | sets[1][range[1]] | sets[2][range[2]] | sets[3][range[3]];
   }
 
-  /// Of some cells those in the first slice on the way that has any.
+  /// Of some cells those in the first slice along the segment that has any.
   std::uint64_t firstSlice(std::uint64_t cells) const {
     std::uint64_t first = cells;
     for (const std::size_t i : {2u, 1u, 0u}) {
@@ -203,8 +205,8 @@ class StaticGrid::LineSearch {
 
   void touch(Frame& frame, int level, unsigned cell) {
     const Brick brick = brickOf(frame, level);
-    frame.left &= ~grid_.restOfVoxel(brick, cell);
-    const Voxel voxel = grid_.voxelAt(brick, cell);
+    frame.left &= ~bricks_.cellsOfVoxel(brick, cell);
+    const Voxel voxel = bricks_.voxelAt(brick, cell);
     const auto along = FirstTouch(segment_)(keysOf(voxel));
     if (!along) return;
     const double share = length_ > 0.0 ? *along / length_ : 0.0;
@@ -215,7 +217,7 @@ class StaticGrid::LineSearch {
 
   /// Leaves out, of this brick and those around it, what the segment passes only beyond `end` [keys].
   void endAt(const Eigen::Vector3d& end, int level) {
-    for (; level <= grid_.start_.level; ++level) {
+    for (; level <= bricks_.start.level; ++level) {
       Frame& frame = frames_[static_cast<std::size_t>(level)];
       if (frame.left == 0) continue;
       const Brick brick = brickOf(frame, level);
@@ -245,11 +247,11 @@ class StaticGrid::LineSearch {
     return {level, frame.number, {corner(0), corner(1), corner(2)}};
   }
 
-  const StaticGrid& grid_;
+  const Bricks& bricks_;
   const Segment segment_;
   int main_ = 0;
   double around_, length_;  // [keys] its radius and what may have been rounded; its length
-  double way_;              // [keys] along the main axis
+  double step_;             // [keys] along the main axis
   std::array<Other, 2> others_;
   std::array<std::uint64_t, 4> slices_;  // across the main axis, as they are passed
   std::array<Frame, kBrickLevels> frames_;

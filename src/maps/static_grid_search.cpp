@@ -16,16 +16,14 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-}  // namespace
-
-/// Searches in keys, counted from the map's origin: finest edges, of which all corners of cells are whole numbers.
-class StaticGrid::Search {
+/// Searches in keys, which count finest edges from the map's origin. In keys, the corners of cells are whole numbers.
+class Search {
  public:
-  explicit Search(const StaticGrid& grid) : grid_(grid) {}
+  Search(const Bricks& bricks, double finest_edge) : bricks_(bricks), finest_edge_(finest_edge) {}
 
-  Eigen::Vector3d keysAt(const Eigen::Vector3d& point) const { return point / grid_.finest_edge_; }
-  double metres(double keys) const { return keys * grid_.finest_edge_; }
-  double keys(double metres) const { return metres / grid_.finest_edge_; }
+  Eigen::Vector3d keysAt(const Eigen::Vector3d& point) const { return point / finest_edge_; }
+  double meters(double keys) const { return keys * finest_edge_; }
+  double keys(double meters) const { return meters / finest_edge_; }
 
   /// A box in keys, wider by what may have been rounded.
   struct Range {
@@ -40,16 +38,16 @@ class StaticGrid::Search {
   /// false. @returns whether it never did
   template <class Chosen, class Look>
   bool visit(const Brick& brick, const Chosen& chosen, const Look& look) const {
-    const std::uint64_t full = grid_.fullOf(brick);
-    std::uint64_t cells = grid_.cellsOf(brick) & chosen(brick, full != 0);
+    const std::uint64_t full = bricks_.fullOf(brick);
+    std::uint64_t cells = bricks_.cellsOf(brick) & chosen(brick, full != 0);
     while (cells != 0) {
       const unsigned cell = firstCell(cells);
       if (full >> cell & 1u) {
-        cells &= ~grid_.restOfVoxel(brick, cell);
-        if (!look(grid_.voxelAt(brick, cell))) return false;
+        cells &= ~bricks_.cellsOfVoxel(brick, cell);
+        if (!look(bricks_.voxelAt(brick, cell))) return false;
       } else {
         cells &= cells - 1;
-        if (!visit(grid_.below(brick, cell), chosen, look)) return false;
+        if (!visit(bricks_.below(brick, cell), chosen, look)) return false;
       }
     }
     return true;
@@ -59,11 +57,12 @@ class StaticGrid::Search {
   static auto inRange(const Range& range) {
     return [range](const Brick& brick, bool) { return cellsWithin(brick, range); };
   }
-  /// Chooses the cells that touch a ball in keys; of bricks without voxels of their own, those around it.
-  static auto inBall(const Sphere& ball) {
-    const double near = touchingDistance(ball);
-    return [range = rangeAround(ball.center, ball.center, ball.radius), ball, near](const Brick& brick, bool exactly) {
-      return exactly ? cellsTouching(brick, ball.center, near * near) : cellsWithin(brick, range);
+  /// Chooses the cells that touch a sphere in keys; of bricks without voxels of their own, those around it.
+  static auto inSphere(const Sphere& sphere) {
+    const double near = touchingDistance(sphere);
+    return [range = rangeAround(sphere.center, sphere.center, sphere.radius), sphere, near](const Brick& brick,
+                                                                                            bool exactly) {
+      return exactly ? cellsTouching(brick, sphere.center, near * near) : cellsWithin(brick, range);
     };
   }
 
@@ -76,13 +75,13 @@ class StaticGrid::Search {
     };
     std::array<Cell, 64> cells;
     std::size_t count = 0;
-    std::uint64_t left = grid_.cellsOf(brick) & cellsWithin(brick, rangeAround(box.min(), box.max(), limit));
-    const std::uint64_t full = grid_.fullOf(brick);
+    std::uint64_t left = bricks_.cellsOf(brick) & cellsWithin(brick, rangeAround(box.min(), box.max(), limit));
+    const std::uint64_t full = bricks_.fullOf(brick);
     while (left != 0) {
       const unsigned cell = firstCell(left);
-      left &= full >> cell & 1u ? ~grid_.restOfVoxel(brick, cell) : left - 1;
-      const double distance =
-          distanceTo(box, full >> cell & 1u ? keysOf(grid_.voxelAt(brick, cell)) : cubeOf(grid_.below(brick, cell)));
+      left &= full >> cell & 1u ? ~bricks_.cellsOfVoxel(brick, cell) : left - 1;
+      const double distance = distanceTo(
+          box, full >> cell & 1u ? keysOf(bricks_.voxelAt(brick, cell)) : cubeOf(bricks_.below(brick, cell)));
       if (distance <= limit) cells[count++] = {distance, cell};
     }
     std::sort(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(count), [](const Cell& a, const Cell& b) {
@@ -90,9 +89,9 @@ class StaticGrid::Search {
     });
     for (std::size_t i = 0; i < count && cells[i].distance <= limit; ++i) {
       if (full >> cells[i].number & 1u) {
-        limit = std::min(limit, look(grid_.voxelAt(brick, cells[i].number), cells[i].distance));
+        limit = std::min(limit, look(bricks_.voxelAt(brick, cells[i].number), cells[i].distance));
       } else {
-        near(grid_.below(brick, cells[i].number), box, limit, look);
+        near(bricks_.below(brick, cells[i].number), box, limit, look);
       }
     }
   }
@@ -151,8 +150,11 @@ class StaticGrid::Search {
     return std::sqrt(sum);
   }
 
-  const StaticGrid& grid_;
+  const Bricks& bricks_;
+  double finest_edge_;  // [m]
 };
+
+}  // namespace
 
 std::vector<Voxel> StaticGrid::voxels() const {
   std::vector<Voxel> all;
@@ -177,26 +179,26 @@ auto keepIn(std::vector<Voxel>& found, std::size_t most) {
 }  // namespace
 
 bool StaticGrid::overlapping(const Eigen::AlignedBox3d& box, std::size_t most, std::vector<Voxel>& found) const {
-  const Search search(*this);
+  const Search search(*bricks_, finest_edge_);
   const auto range = Search::rangeAround(search.keysAt(box.min()), search.keysAt(box.max()), 0.0);
-  return search.visit(start_, Search::inRange(range), keepIn(found, most));
+  return search.visit(bricks_->start, Search::inRange(range), keepIn(found, most));
 }
 
 bool StaticGrid::overlapping(const Sphere& sphere, std::size_t most, std::vector<Voxel>& found) const {
-  const Search search(*this);
+  const Search search(*bricks_, finest_edge_);
   const Sphere in_keys{search.keysAt(sphere.center), search.keys(sphere.radius)};
-  return search.visit(start_, Search::inBall(in_keys), keepIn(found, most));
+  return search.visit(bricks_->start, Search::inSphere(in_keys), keepIn(found, most));
 }
 
 bool StaticGrid::touches(const Sphere& sphere) const {
-  const Search search(*this);
+  const Search search(*bricks_, finest_edge_);
   const Sphere in_keys{search.keysAt(sphere.center), search.keys(sphere.radius)};
-  return !search.visit(start_, Search::inBall(in_keys), [](const Voxel&) { return false; });
+  return !search.visit(bricks_->start, Search::inSphere(in_keys), [](const Voxel&) { return false; });
 }
 
 std::optional<VoxelTouch> StaticGrid::firstAlong(const Segment& segment) const {
-  const Search search(*this);
-  LineSearch line(*this, {search.keysAt(segment.from), search.keysAt(segment.to), search.keys(segment.radius)});
+  const Search search(*bricks_, finest_edge_);
+  LineSearch line(*bricks_, {search.keysAt(segment.from), search.keysAt(segment.to), search.keys(segment.radius)});
   VoxelTouch first = line.first();
   if (std::isinf(first.along)) return std::nullopt;
   first.along *= (segment.to - segment.from).norm();
@@ -204,13 +206,13 @@ std::optional<VoxelTouch> StaticGrid::firstAlong(const Segment& segment) const {
 }
 
 void StaticGrid::visitNear(const Eigen::AlignedBox3d& box, double limit, const Look& look) const {
-  const Search search(*this);
+  const Search search(*bricks_, finest_edge_);
   const Eigen::AlignedBox3d in_keys(search.keysAt(box.min()), search.keysAt(box.max()));
   const double farthest = std::max(in_keys.min().cwiseAbs().maxCoeff(), in_keys.max().cwiseAbs().maxCoeff());
   const double rounded = 1e-12 * (farthest + 1.0);  // what is no farther away touches
   double limit_in_keys = search.keys(limit) + rounded;
-  search.near(start_, in_keys, limit_in_keys, [&](const Voxel& voxel, double distance) {
-    return search.keys(look(voxel, distance > rounded ? search.metres(distance) : 0.0)) + rounded;
+  search.near(bricks_->start, in_keys, limit_in_keys, [&](const Voxel& voxel, double distance) {
+    return search.keys(look(voxel, distance > rounded ? search.meters(distance) : 0.0)) + rounded;
   });
 }
 

@@ -73,8 +73,8 @@ ProximityNode::ProximityNode(ros::NodeHandle node, ros::NodeHandle private_node,
       narrow_phase_(std::move(narrow_phase)),
       robot_source_(private_node, params_, narrow_phase_, [this] { return isEnding(); }),
       world_(params_, ros::Time::isSimTime(), newEpoch(), ledger_, narrow_phase_),
-      own_shapes_(params_, world_.transforms().lookup(), [this] { return newest(); }),
-      map_source_(params_, own_shapes_, narrow_phase_, ledger_),
+      self_shapes_(params_, world_.transforms().lookup(), [this] { return newest(); }),
+      map_source_(params_, self_shapes_, narrow_phase_, ledger_),
       meter_(narrow_phase_, {params_.distances_max, params_.distances_budget, params_.distances_threads}) {
   for (const RobotParams& robot : params_.robots) to_load_.push_back(robot.name);
   for (const MapParams& map : params_.maps) {
@@ -348,7 +348,7 @@ void ProximityNode::addCloud(const CloudParams& cloud) {
     noteMissing(source, sentence);
   };
   clouds_.push_back(std::make_unique<CloudSource>(
-      admin_node_, cloud, params_, own_shapes_, world_.transforms().lookup(), narrow_phase_,
+      admin_node_, cloud, params_, self_shapes_, world_.transforms().lookup(), narrow_phase_,
       [this] { return newest(); }, sink, ledger_));
 }
 

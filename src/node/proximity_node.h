@@ -90,7 +90,7 @@ class ProximityNode {
   std::shared_ptr<NarrowPhase> narrow_phase_;
   RobotSource robot_source_;
   World world_;  // of the update thread, see runInTick()
-  OwnShapes own_shapes_;
+  SelfShapes self_shapes_;
   MapSource map_source_;
   Stopwatch stopwatch_;
   std::shared_ptr<const Tick> newest_;

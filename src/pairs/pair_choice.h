@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "hgrid_proximity/pairs/pair_tracker.h"
+#include "hgrid_proximity/pairs/near_pair.h"
 
 namespace hgrid {
 

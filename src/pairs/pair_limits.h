@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "hgrid_proximity/broadphase/hgrid.h"
+#include "hgrid_proximity/broadphase/broad_phase.h"
 
 namespace hgrid {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "hgrid_proximity/pairs/pair_tracker.h"
+#include "pairs/pair_tracker.h"
 
 #include <algorithm>
 #include <limits>

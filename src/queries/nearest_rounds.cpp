@@ -20,7 +20,7 @@ bool NearestRounds::gather(std::size_t round, std::vector<QueryHit>& hits, std::
   if (round > 0 && isEnough(hits)) return false;
   const std::size_t known = near_.size();
   count_ = round == 0 ? 4 * wanted() + kFirstRound : 4 * count_;
-  question_.snapshot.grid().nearest(center_ - question_.snapshot.origin(), count_, limit_ + reach_, near_);
+  question_.snapshot.broadPhase().nearest(center_ - question_.snapshot.origin(), count_, limit_ + reach_, near_);
   candidates.clear();
   for (std::size_t i = known; i < near_.size(); ++i) candidates.push_back(near_[i].id);
   return true;

@@ -92,7 +92,7 @@ class SegmentQuestion final : public Question {
 bool SegmentQuestion::gather(std::size_t round, std::vector<QueryHit>&, std::vector<ProxyId>& candidates) {
   if (round > 0) return false;
   std::vector<SegmentHit> hits;
-  snapshot.grid().along(local_, hits);
+  snapshot.broadPhase().along(local_, hits);
   candidates.clear();
   for (const SegmentHit& hit : hits) candidates.push_back(hit.id);
   return true;

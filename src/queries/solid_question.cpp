@@ -28,7 +28,7 @@ class SolidQuestion final : public Question {
         slack_(touchSlack(center_, 2.0 * reach_)) {}
 
   bool gather(std::size_t round, std::vector<QueryHit>&, std::vector<ProxyId>& candidates) override {
-    if (round == 0) snapshot.grid().overlapping(boxAround(2.0 * slack_), candidates);
+    if (round == 0) snapshot.broadPhase().overlapping(boxAround(2.0 * slack_), candidates);
     return round == 0;
   }
   bool hitsBox(ProxyId proxy, QueryHit& hit) const override;

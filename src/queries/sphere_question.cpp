@@ -81,7 +81,7 @@ class SphereQuestion final : public AroundPoint {
   using AroundPoint::AroundPoint;
 
   bool gather(std::size_t round, std::vector<QueryHit>&, std::vector<ProxyId>& candidates) override {
-    if (round == 0) snapshot.grid().overlapping(local_, candidates);
+    if (round == 0) snapshot.broadPhase().overlapping(local_, candidates);
     return round == 0;
   }
   bool hitsBox(ProxyId proxy, QueryHit& hit) const override {

@@ -73,15 +73,15 @@ void Scene::State::rebuildStructure() {
   structure_changed = false;
 }
 
-std::shared_ptr<Snapshot> Scene::State::freshSnapshot() const {
-  std::unique_ptr<Snapshot> snapshot = pool->take();
-  if (!snapshot) snapshot.reset(new Snapshot);
-  snapshot->finished_ = false;
-  const auto give_back = [kept = pool](Snapshot* used) {
-    std::unique_ptr<Snapshot> owned(used);
-    if (owned->finished_) kept->giveBack(std::move(owned));
+std::shared_ptr<PooledSnapshot> Scene::State::freshSnapshot() const {
+  std::unique_ptr<PooledSnapshot> pooled = pool->take();
+  if (!pooled) pooled = std::make_unique<PooledSnapshot>();
+  pooled->finished = false;
+  const auto give_back = [kept = pool](PooledSnapshot* used) {
+    std::unique_ptr<PooledSnapshot> owned(used);
+    if (owned->finished) kept->giveBack(std::move(owned));
   };
-  return {snapshot.release(), give_back, PoolAllocator<Snapshot>(pool)};
+  return {pooled.release(), give_back, PoolAllocator<PooledSnapshot>(pool)};
 }
 
 /// Makes the boxes of what moved since the last commit; what stands still keeps its own. Of the poses a snapshot that
@@ -144,18 +144,19 @@ void Scene::State::growBoxes(const Snapshot& snapshot) {
   }
 }
 
-/// Stores the grown boxes and finds the pairs of them that the filter does not leave out, within the limits.
-void Scene::State::fillGrid(Snapshot& snapshot) {
-  if (snapshot.grid_revision_ != structure->revision) {
-    snapshot.grid_ = HGrid(scale);
-    snapshot.grid_.setThreads(options.threads);
-    snapshot.grid_.setFixed(fixed_proxies);
-    snapshot.grid_.setFilter(PairTest::of<isReported>(structure.get()));  // the snapshot keeps it alive
-    snapshot.grid_.setPairBound(limits.boundOf(structure->body_of_proxy.size()));
-    snapshot.grid_revision_ = structure->revision;
+/// Stores the grown boxes and finds those of their pairs that the filter keeps, within the limits.
+void Scene::State::fillGrid(PooledSnapshot& pooled) {
+  HGrid& grid = pooled.grid;
+  if (pooled.grid_revision != structure->revision) {
+    grid = HGrid(scale);
+    grid.setThreads(options.threads);
+    grid.setFixed(fixed_proxies);
+    grid.setOverlapFilter(OverlapFilter::of<isReported>(structure.get()));  // the snapshot keeps it alive
+    grid.setPairBound(limits.boundOf(structure->body_of_proxy.size()));
+    pooled.grid_revision = structure->revision;
   }
-  snapshot.grid_.update(ids, grown_boxes);
-  snapshot.search_cut_ = !snapshot.grid_.boundedPairs(proxy_pairs);
+  grid.update(ids, grown_boxes);
+  pooled.snapshot.search_cut_ = !grid.boundedPairs(proxy_pairs);
 }
 
 void Scene::State::addPair(std::uint32_t first, std::uint32_t second, double gap, double margin, bool near) {
@@ -214,15 +215,15 @@ void Scene::State::fillPairs(Snapshot& snapshot) {
       snapshot.events_);
 }
 
-/// Makes the snapshot what the next commit goes by. Allocates nothing.
-void Scene::State::accept(Snapshot& snapshot) {
+/// Makes the snapshot the one that the next commit starts from. Allocates nothing.
+void Scene::State::accept(PooledSnapshot& pooled) {
   horizon.accept();
   map_pairs.accept();
   tracker.accept();
   pair_events.accept();
-  commits = snapshot.commit_;
-  sequence = snapshot.sequence_;
-  snapshot.finished_ = true;
+  commits = pooled.snapshot.commit_;
+  sequence = pooled.snapshot.sequence_;
+  pooled.finished = true;
 }
 
 std::shared_ptr<const Snapshot> Scene::commit(Time stamp, const std::vector<SourceGap>& gaps) {
@@ -231,22 +232,23 @@ std::shared_ptr<const Snapshot> Scene::commit(Time stamp, const std::vector<Sour
   State& s = *state_;
   const auto begin = Clock::now();
   if (s.structure_changed) s.rebuildStructure();
-  std::shared_ptr<Snapshot> snapshot = s.freshSnapshot();
-  snapshot->origin_ = s.options.origin;
-  snapshot->stamp_ = stamp;
-  snapshot->report_unmapped_ = s.options.report_unmapped;
-  s.fillBodies(*snapshot);
-  s.growBoxes(*snapshot);
+  const std::shared_ptr<PooledSnapshot> pooled = s.freshSnapshot();
+  Snapshot& snapshot = pooled->snapshot;
+  snapshot.origin_ = s.options.origin;
+  snapshot.stamp_ = stamp;
+  snapshot.report_unmapped_ = s.options.report_unmapped;
+  s.fillBodies(snapshot);
+  s.growBoxes(snapshot);
   const auto boxes_done = Clock::now();
-  s.fillGrid(*snapshot);
+  s.fillGrid(*pooled);
   const auto grid_done = Clock::now();
-  s.fillPairs(*snapshot);
-  snapshot->sequence_ = s.sequence + 1;
-  snapshot->epoch_ = s.epoch;
-  s.fillCompleteness(*snapshot, gaps);
-  s.accept(*snapshot);
+  s.fillPairs(snapshot);
+  snapshot.sequence_ = s.sequence + 1;
+  snapshot.epoch_ = s.epoch;
+  s.fillCompleteness(snapshot, gaps);
+  s.accept(*pooled);
   s.times = {boxes_done - begin, grid_done - boxes_done, Clock::now() - grid_done};
-  return snapshot;
+  return {pooled, &snapshot};
 }
 
 }  // namespace hgrid

@@ -52,7 +52,7 @@ void PairEvents::beginEpoch() {
 }
 
 /// Numbers of the bodies before and now. Both structures are sorted by name, so pairs keep their order; those of which
-/// a body is gone or is another one under its name have ended. In a new epoch the name alone counts, since ~reset
+/// a body is gone or is another one under its name have ended. In a new epoch the name alone counts, since the reset
 /// replaces obstacles by their equals.
 void PairEvents::renumber(const Structure& now, PairEventList& list) {
   const Structure& was = *structure_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hgrid_proximity/world/snapshot.h"
+#include "pairs/pair_tracker.h"
 
 namespace hgrid {
 

@@ -11,6 +11,7 @@
 #include "hgrid_proximity/world/scene.h"
 #include "pairs/pair_choice.h"
 #include "pairs/pair_limits.h"
+#include "pairs/pair_tracker.h"
 #include "world/horizon.h"
 #include "world/map_pairs.h"
 #include "world/pair_events.h"
@@ -75,11 +76,11 @@ struct Scene::State {
   // write again, or writes beside what the last commit left. So a commit that throws leaves no trace in the next one.
 
   void rebuildStructure();
-  void accept(Snapshot& snapshot);
-  std::shared_ptr<Snapshot> freshSnapshot() const;
+  void accept(PooledSnapshot& pooled);
+  std::shared_ptr<PooledSnapshot> freshSnapshot() const;
   void fillBodies(Snapshot& snapshot);
   void growBoxes(const Snapshot& snapshot);
-  void fillGrid(Snapshot& snapshot);
+  void fillGrid(PooledSnapshot& pooled);
   void fillPairs(Snapshot& snapshot);
   void addPair(std::uint32_t first, std::uint32_t second, double gap, double margin, bool near);
   bool isCandidate(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second);

@@ -8,12 +8,23 @@
 #include <utility>
 #include <vector>
 
+#include "hgrid_proximity/broadphase/hgrid.h"
 #include "hgrid_proximity/world/snapshot.h"
 
 namespace hgrid {
 
-/// Snapshots that nobody reads any more, to be filled again, and the memory that shared pointers to them took: a
-/// steady tick allocates nothing. The lock is held for a push or a pop only.
+/// A snapshot together with the grid that it reads. Only Scene writes them, before it hands out the snapshot.
+struct PooledSnapshot {
+  PooledSnapshot() { snapshot.broad_phase_ = &grid; }
+
+  Snapshot snapshot;
+  HGrid grid;
+  std::uint64_t grid_revision = 0;  ///< of the structure that `grid` was set up for
+  bool finished = false;            ///< false while a commit fills it, and after one that failed: it is not used again
+};
+
+/// Keeps the snapshots that nobody reads any more, so that the next ticks fill them again without allocating. Also
+/// keeps the memory blocks of the shared pointers to them. The lock is held only for a push or a pop.
 class SnapshotPool {
  public:
   SnapshotPool() {
@@ -26,14 +37,14 @@ class SnapshotPool {
   SnapshotPool(const SnapshotPool&) = delete;
   SnapshotPool& operator=(const SnapshotPool&) = delete;
 
-  std::unique_ptr<Snapshot> take() {
+  std::unique_ptr<PooledSnapshot> take() {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (free_.empty()) return nullptr;
-    std::unique_ptr<Snapshot> snapshot = std::move(free_.back());
+    std::unique_ptr<PooledSnapshot> snapshot = std::move(free_.back());
     free_.pop_back();
     return snapshot;
   }
-  void giveBack(std::unique_ptr<Snapshot> snapshot) {
+  void giveBack(std::unique_ptr<PooledSnapshot> snapshot) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (free_.size() < kMostKept) free_.push_back(std::move(snapshot));
   }
@@ -58,7 +69,7 @@ class SnapshotPool {
  private:
   static constexpr std::size_t kMostKept = 4;
   std::mutex mutex_;
-  std::vector<std::unique_ptr<Snapshot>> free_;
+  std::vector<std::unique_ptr<PooledSnapshot>> free_;
   std::vector<void*> free_blocks_;
 };
 

@@ -4,7 +4,7 @@
 // A closed mesh is solid: what lies wholly within it is in contact. What an open one encloses nobody can say.
 #include <gtest/gtest.h>
 
-#include "test/adapters/narrow_phase_judge.h"
+#include "test/narrow/narrow_phase_judge.h"
 
 namespace hgrid {
 namespace test {

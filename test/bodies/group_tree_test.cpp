@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "hgrid_proximity/bodies/group_tree.h"
+#include "src/bodies/group_tree.h"
 
 #include <gtest/gtest.h>
 

@@ -28,7 +28,7 @@ void ChurnWorld::begin(std::size_t most_boxes) {
   grid_.setIsa(isas[std::size_t(random_.below(int(isas.size())))]);
   if (random_.chance(0.2)) grid_.setThreads(random_.between(1, 3));
   filtered_ = random_.chance(0.3);
-  grid_.setFilter(filtered_ ? PairTest::of<isReported>(nullptr) : PairTest{});
+  grid_.setOverlapFilter(filtered_ ? OverlapFilter::of<isReported>(nullptr) : OverlapFilter{});
   lattice_ = random_.chance(0.15) && most_ < 5000;
   largest_ = random_.logUniform(0.1, 3);
   smallest_ = random_.chance(0.3) ? 1e-4 * largest_ : 0.2 * largest_;

@@ -45,7 +45,8 @@ TEST(HGridInvariance, TheWayToAWorldDoesNotShow) {
     const std::vector<Aabb> boxes = someWorld(seed);
     const GridScale scale = test::scaleFor(boxes, random);
     const Answers expected = answersOf(test::gridOf(boxes, scale), boxes);
-    for (int way = 0; way < 5; ++way) ASSERT_TRUE(answersOf(test::gridComeTo(boxes, scale, random), boxes) == expected);
+    for (int round = 0; round < 5; ++round)
+      ASSERT_TRUE(answersOf(test::gridBroughtTo(boxes, scale, random), boxes) == expected);
   }
 }
 

@@ -196,7 +196,7 @@ TEST(HGridLayers, AFilterHoldsInAllLayersAndThreads) {
     HGrid grid;
     grid.setThreads(3);
     grid.setFixed(fixed);
-    grid.setFilter(PairTest::of<sameRemainder>(nullptr));
+    grid.setOverlapFilter(OverlapFilter::of<sameRemainder>(nullptr));
     grid.update(allIds(count), boxes);
     const auto expectFiltered = [&](auto&& reported) {
       test::Pairs expected;
@@ -217,9 +217,9 @@ TEST(HGridLayers, AFilterHoldsInAllLayersAndThreads) {
       grid.update(id, boxes[id]);
     }
     ASSERT_NO_FATAL_FAILURE(expectFiltered(sameRemainder));
-    grid.setFilter(PairTest::of<otherRemainder>(nullptr));
+    grid.setOverlapFilter(OverlapFilter::of<otherRemainder>(nullptr));
     ASSERT_NO_FATAL_FAILURE(expectFiltered(otherRemainder));
-    grid.setFilter({});
+    grid.setOverlapFilter({});
     ASSERT_NO_FATAL_FAILURE(expectFiltered([](const void*, ProxyId, ProxyId) { return true; }));
   }
 }

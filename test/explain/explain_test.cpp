@@ -108,9 +108,9 @@ TEST_F(Explain, EveryOriginIsToldWithItsReason) {
       {"arm/base", "arm/shoulder", Origin::rigid, "both links are of one rigid group"},
       {"arm/hand", "arm/base", Origin::srdf, "the SRDF disables the pair (disable_default_collisions)"},
       {"arm/base", "arm/elbow", Origin::service,
-       "rule 'arm/*', 'arm/elbow' of ~set_allowed allows them to touch (while it is serviced)"},
+       "rule 'arm/*', 'arm/elbow' of Scene::setRules() allows them to touch (while it is serviced)"},
       {"obstacle/box", "obstacle/near", Origin::parameter,
-       "rule 'obstacle/box', 'obstacle/n*' of ~allowed_pairs allows them to touch (it stands on it)"},
+       "rule 'obstacle/box', 'obstacle/n*' of SceneOptions::allowed_pairs allows them to touch (it stands on it)"},
   };
   for (const Row& row : rows) {
     const Explanation what = ask(row.first, row.second);
@@ -163,13 +163,13 @@ TEST_F(Explain, WhatIsSwitchedOnAgainstTheModelSaysSo) {
   EXPECT_EQ(rule.rule.origin, Origin::service);
   EXPECT_TRUE(says(rule.text, "their boxes touch or overlap"));
   EXPECT_TRUE(says(rule.text,
-                   "Rule 'arm/base', 'arm/shoulder' of ~set_allowed says that it is to be reported when "
+                   "Rule 'arm/base', 'arm/shoulder' of Scene::setRules() says that it is to be reported when "
                    "near (they came loose)."));
 }
 
 TEST_F(Explain, ARuleThatEndsSaysWhen) {
   scene_.setRules({test::until(allow("*", "*"), PairRule::Clock::now() + std::chrono::milliseconds(3599500))});
-  EXPECT_TRUE(says(ask("obstacle/box", "obstacle/near").text, "of ~set_allowed, which ends in 3599."));
+  EXPECT_TRUE(says(ask("obstacle/box", "obstacle/near").text, "of Scene::setRules(), which ends in 3599."));
 }
 
 TEST_F(Explain, AKindThatIsNotNamedIsNamed) {
@@ -197,7 +197,7 @@ TEST_F(Explain, AKindThatIsNotNamedIsNamed) {
   for (const Row& row : rows) {
     const Explanation what = explain(*snapshot, row.first, row.second, nullptr);
     EXPECT_EQ(what.rule.origin, Origin::kind);
-    EXPECT_TRUE(says(what.text, std::string("~pair_kinds does not name their kind, ") + row.kind + ","));
+    EXPECT_TRUE(says(what.text, std::string("SceneOptions::pair_kinds does not name their kind, ") + row.kind + ","));
   }
 }
 
@@ -287,7 +287,7 @@ TEST(ExplainHorizon, APairThatIsReportedForItSaysSo) {
   EXPECT_TRUE(what.reported);
   EXPECT_TRUE(says(what.text,
                    "are reported: their boxes are 0.5 m apart, more than the margin of 0.125 m, but by their "
-                   "bounds of speed they can meet within ~horizon"));
+                   "bounds of speed they can meet within SceneOptions::horizon"));
 }
 
 TEST_F(Explain, NamesThatNobodyHasAreRefusedWithWhatIsCalledNearlySo) {

@@ -30,6 +30,13 @@ inline HGrid gridOf(const std::vector<Aabb>& boxes, const GridScale& scale) {
   return grid;
 }
 
+/// Stored boxes per level.
+inline std::vector<std::size_t> levelCounts(const BroadPhaseReader& broad_phase) {
+  std::vector<std::size_t> counts;
+  for (const BroadPhaseLevel& level : broad_phase.levels()) counts.push_back(level.boxes);
+  return counts;
+}
+
 inline std::vector<Isa> supportedIsas() {
   std::vector<Isa> isas;
   for (const Isa isa : {Isa::portable, Isa::sse2, Isa::avx2, Isa::avx512}) {
@@ -38,51 +45,56 @@ inline std::vector<Isa> supportedIsas() {
   return isas;
 }
 
-/// The same, but come to in one of several ways, on some instruction set: whatever was before must not show.
-inline HGrid gridComeTo(const std::vector<Aabb>& boxes, const GridScale& scale, Random& random) {
-  HGrid grid(scale);
-  const std::vector<Isa> isas = supportedIsas();
-  grid.setIsa(isas[std::size_t(random.below(int(isas.size())))]);
-  const int way = random.below(5);
+/// Stores these boxes, box i under id i, by one of several sequences of calls: the sequence must not show.
+inline void bringTo(BroadPhase& broad_phase, const std::vector<Aabb>& boxes, Random& random) {
+  const int sequence = random.below(5);
   std::vector<ProxyId> ids, some;
   std::vector<Aabb> before = boxes, moved;
   for (ProxyId id = 0; id < boxes.size(); ++id) {
     ids.push_back(id);
-    const bool few = way == 3 || way == 4;
+    const bool few = sequence == 3 || sequence == 4;
     if (!random.chance(few ? 0.1 : 0.7)) continue;
     before[id] = boxes[std::size_t(random.below(int(boxes.size())))];  // elsewhere, another size
     some.push_back(id);
     moved.push_back(boxes[id]);
   }
   std::vector<ProxyPair> pairs;
-  if (way == 0) {  // one by one, in any order
+  if (sequence == 0) {  // one by one, in any order
     for (std::size_t i = ids.size(); i > 1; --i) std::swap(ids[i - 1], ids[std::size_t(random.below(int(i)))]);
-    for (const ProxyId id : ids) grid.insert(id, boxes[id]);
-    return grid;
+    for (const ProxyId id : ids) broad_phase.insert(id, boxes[id]);
+    return;
   }
-  grid.update(ids, before);
-  if (random.chance(0.5)) grid.overlappingPairs(pairs);  // from now on pairs are kept
-  if (way == 1 || way == 3) {
-    grid.update(ids, boxes);
-  } else if (way == 4) {
-    grid.move(some, moved);
+  broad_phase.update(ids, before);
+  if (random.chance(0.5)) broad_phase.overlappingPairs(pairs);  // from now on HGrid keeps pairs
+  if (sequence == 1 || sequence == 3) {
+    broad_phase.update(ids, boxes);
+  } else if (sequence == 4) {
+    broad_phase.move(some, moved);
   } else {
     for (std::size_t i = 0; i < some.size(); ++i) {
       if (random.chance(0.5)) {
-        grid.update(some[i], moved[i]);
+        broad_phase.update(some[i], moved[i]);
       } else {
-        grid.remove(some[i]);
-        grid.insert(some[i], moved[i]);
+        broad_phase.remove(some[i]);
+        broad_phase.insert(some[i], moved[i]);
       }
     }
   }
+}
+
+/// A grid on a random instruction set that was brought to these boxes.
+inline HGrid gridBroughtTo(const std::vector<Aabb>& boxes, const GridScale& scale, Random& random) {
+  HGrid grid(scale);
+  const std::vector<Isa> isas = supportedIsas();
+  grid.setIsa(isas[std::size_t(random.below(int(isas.size())))]);
+  bringTo(grid, boxes, random);
   return grid;
 }
 
-/// The grid's pairs, sorted. A pair met twice or the wrong way round stays visible.
-inline Pairs pairsOf(const HGrid& grid) {
+/// All pairs, sorted. A pair met twice or the wrong way round stays visible.
+inline Pairs pairsOf(const BroadPhaseReader& broad_phase) {
   std::vector<ProxyPair> found = {{7, 7}};  // what the buffer held before must go
-  grid.overlappingPairs(found);
+  broad_phase.overlappingPairs(found);
   Pairs pairs;
   for (const ProxyPair& pair : found) pairs.emplace_back(pair.first, pair.second);
   std::sort(pairs.begin(), pairs.end());
@@ -90,15 +102,15 @@ inline Pairs pairsOf(const HGrid& grid) {
 }
 
 template <class Query>
-std::vector<ProxyId> foundBy(const HGrid& grid, const Query& query) {
+std::vector<ProxyId> foundBy(const BroadPhaseReader& broad_phase, const Query& query) {
   std::vector<ProxyId> found = {7, 7, 7};
-  grid.overlapping(query, found);
+  broad_phase.overlapping(query, found);
   return found;
 }
 
-inline std::vector<SegmentHit> alongOf(const HGrid& grid, const Segment& segment) {
+inline std::vector<SegmentHit> alongOf(const BroadPhaseReader& broad_phase, const Segment& segment) {
   std::vector<SegmentHit> found = {{7, 7.0}};
-  grid.along(segment, found);
+  broad_phase.along(segment, found);
   return found;
 }
 

@@ -42,9 +42,9 @@ inline std::string pairsOf(const Snapshot& s) {
 }
 
 inline std::string gridOf(const Snapshot& s) {
-  s.grid().checkInvariants();
+  s.broadPhase().checkInvariants();
   std::vector<ProxyPair> pairs;
-  s.grid().overlappingPairs(pairs);
+  s.broadPhase().overlappingPairs(pairs);
   std::sort(pairs.begin(), pairs.end());
   return bytes(pairs.data(), pairs.size() * sizeof(ProxyPair));
 }

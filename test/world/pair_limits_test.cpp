@@ -241,7 +241,7 @@ TEST(PairLimits, AreNamedWhereAPairIsExplained) {
   EXPECT_FALSE(cut.reported);
   EXPECT_TRUE(cut.cut);
   EXPECT_NE(cut.text.find("obstacle/a and obstacle/b are not reported, although their boxes are 0.05 m apart, within "
-                          "the margin of 0.1 m: there are more pairs than ~max_pairs allows."),
+                          "the margin of 0.1 m: there are more pairs than SceneOptions::max_pairs allows."),
             std::string::npos)
       << cut.text;
   EXPECT_TRUE(explain(*snapshot, "obstacle/a", "obstacle/c", nullptr).reported);

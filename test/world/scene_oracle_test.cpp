@@ -79,7 +79,7 @@ class Story {
       ASSERT_NO_FATAL_FAILURE(expectRecorded(*snapshot, world_, options_));
       ASSERT_NO_FATAL_FAILURE(expectGrownByTheRule(*snapshot, options_.growth_cap, options_.growth_after));
       ASSERT_NO_FATAL_FAILURE(test::expectPairsOfTheOracle(*snapshot, options_.margin));
-      ASSERT_NO_THROW(snapshot->grid().checkInvariants());
+      ASSERT_NO_THROW(snapshot->broadPhase().checkInvariants());
       pairs_ += snapshot->pairs().size();
       if (random_.chance(0.3)) kept_.push_back(snapshot);  // readers may hold any of them for any time
       if (kept_.size() > 3) kept_.erase(kept_.begin());

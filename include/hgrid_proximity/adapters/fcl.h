@@ -8,15 +8,13 @@
 
 namespace hgrid {
 
-/// The narrow phase that FCL (flexible-collision-library 0.6 or 0.7) does part of the work of: two meshes, the trees
-/// over the triangles of one, and depth and normal of contacts, which count only where moving the shapes apart by them
-/// was tried.
+/// Makes the narrow phase of all shapes, meshes included. It needs FCL (flexible-collision-library 0.6 or 0.7).
 ///
-/// The distance of convex shapes, and of triangles to them, is our own (src/narrow/gjk.h) and ends with a proof:
-/// FCL's solvers end when the distance shrinks no more, which in ordinary poses is up to centimetres too early. A ball
-/// is a point, a capsule a segment, each with a radius around it, and so is padding: what is round is measured exactly,
-/// into contact too. Every pair is asked in one order, in the frame of one of the two, so that the order of the
-/// question does not matter and nothing is lost far from the origin.
+/// - Convex shapes are measured as makeConvexNarrowPhase() measures them. FCL's own solvers for them end when the
+///   distance stops shrinking, which in ordinary poses is up to centimeters too early.
+/// - FCL measures two meshes, and provides the trees over the triangles of a mesh.
+/// - FCL proposes depth and normal where convex cores overlap. They are reported only if moving the shapes apart by
+///   them was verified to separate the shapes.
 std::shared_ptr<NarrowPhase> makeFclNarrowPhase();
 
 }  // namespace hgrid

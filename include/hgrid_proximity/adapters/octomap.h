@@ -15,7 +15,8 @@
 
 namespace hgrid {
 
-/// What becomes of space that a map has no leaf for, out to the ends of the keys; as msg/WorldState.msg numbers it.
+/// How space is treated for which a map has no leaf, out to the ends of the keys. The numbers are part of the
+/// interface: do not change them.
 enum class UnknownSpace : std::uint8_t {
   ignore = 0,    ///< it counts as free
   report = 1,    ///< it is kept apart, so that answers can say that nothing is known of it

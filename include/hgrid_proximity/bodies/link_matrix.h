@@ -4,15 +4,17 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "hgrid_proximity/bodies/group_tree.h"
-
 namespace hgrid {
 
-/// Where it comes from that a pair is not reported; the numbers are those of msg/AllowedPair.msg.
+class GroupTree;
+struct RobotModel;
+
+/// What switches a pair off. The numbers are part of the interface: do not change them.
 enum class Origin : std::uint8_t {
   none = 0,
   rigid = 1,
@@ -39,10 +41,15 @@ struct LinkRules {
 /// The matrix is symmetric. A link with itself is Origin::self.
 class LinkMatrix {
  public:
-  /// Switches off all pairs of links of one rigid group and of two adjacent groups (see GroupTree), then applies the
-  /// rules of an SRDF. An explicit disable takes precedence over an enable. An enable takes precedence over a default
-  /// disable, adjacency and rigid groups. A rule that names a link that the model does not have is left out and adds
-  /// one sentence to `warnings`.
+  /// Switches off all pairs of links of one rigid group and of two adjacent groups, then applies the rules of an SRDF.
+  ///
+  /// Two groups are adjacent if exactly one moving joint connects them. They are also adjacent if several moving joints
+  /// connect them in one chain from parent to child, no link of a group between them has geometry, and the origins of
+  /// consecutive joints (all joints at zero) are at most 1 cm apart.
+  ///
+  /// An explicit disable takes precedence over an enable. An enable takes precedence over a default disable, adjacency
+  /// and rigid groups. A rule that names a link that the model does not have is left out and adds one sentence to
+  /// `warnings`.
   LinkMatrix(const RobotModel& model, const LinkRules& rules, std::vector<std::string>& warnings);
 
   bool allowed(std::uint32_t first, std::uint32_t second) const { return isIn(allowedWith(first), second); }
@@ -71,7 +78,7 @@ class LinkMatrix {
   void set(std::uint32_t first, std::uint32_t second, Origin origin);
 
   std::size_t size_, words_;  // links; 64-bit words of a set of links
-  GroupTree groups_;
+  std::shared_ptr<const GroupTree> groups_;
   std::vector<std::uint32_t> group_of_;  // by link
   std::vector<Origin> origins_;
   std::vector<std::uint64_t> allowed_;                           // bit: there is an origin

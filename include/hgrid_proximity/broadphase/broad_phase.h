@@ -2,93 +2,88 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
-#include <cstdint>
+#include <limits>
 #include <vector>
 
-#include "hgrid_proximity/geometry/aabb.h"
-#include "hgrid_proximity/geometry/segment.h"
-#include "hgrid_proximity/geometry/sphere.h"
+#include "hgrid_proximity/broadphase/broad_phase_reader.h"
 
 namespace hgrid {
 
-/// Number of one box in a broad phase, chosen by the caller; small numbers, since they index arrays.
-using ProxyId = std::uint32_t;
+/// Selects the overlapping pairs that a broad phase reports.
+///
+/// Any thread may call it. The broad phase may remember the answer for a pair while neither box moves, so the answer
+/// for a pair must not change. (PairFilter is something else: it decides which pairs of bodies exist.)
+struct OverlapFilter {
+  /// Moves the kept ones of `count` pairs to the front, in their order, and returns their number. Null keeps all.
+  std::size_t (*keep)(const void* context, ProxyPair* pairs, std::size_t count) = nullptr;
+  const void* context = nullptr;
 
-/// Two boxes that overlap, the smaller id first.
-struct ProxyPair {
-  ProxyId first = 0;
-  ProxyId second = 0;
-  bool operator==(const ProxyPair& other) const { return first == other.first && second == other.second; }
-  bool operator<(const ProxyPair& other) const {
-    return first != other.first ? first < other.first : second < other.second;
+  /// The same for the pairs from `begin` to `end`. @returns the end of the kept ones
+  ProxyPair* operator()(ProxyPair* begin, ProxyPair* end) const {
+    return keep == nullptr ? end : begin + keep(context, begin, static_cast<std::size_t>(end - begin));
+  }
+
+  /// A filter that calls a function for each pair.
+  template <bool (*isKept)(const void* context, ProxyId first, ProxyId second)>
+  static OverlapFilter of(const void* context) {
+    return {[](const void* context, ProxyPair* pairs, std::size_t count) {
+              std::size_t kept = 0;
+              for (std::size_t i = 0; i < count; ++i) {
+                const ProxyPair pair = pairs[i];
+                pairs[kept] = pair;  // Store unconditionally and advance by 0 or 1: a branch would be mispredicted.
+                kept += isKept(context, pair.first, pair.second) ? 1 : 0;
+              }
+              return kept;
+            },
+            context};
   }
 };
 
-/// A box that a segment meets, and how far along [m].
-struct SegmentHit {
-  ProxyId id = 0;
-  double along = 0.0;
+/// Bounds the work and the memory of BroadPhaseReader::boundedPairs().
+///
+/// A search that would exceed the bound collects pairs in a fixed order instead. It goes through the boxes that are not
+/// fixed, in the order of their ids. For each box it looks at the overlapping boxes that are fixed or have a larger id,
+/// in the order of their ids. Pairs of two fixed boxes do not count.
+struct PairBound {
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+  std::size_t pairs = kNone;     ///< largest number of pairs that a search returns
+  std::size_t overlaps = kNone;  ///< largest number of overlapping pairs that it looks at before the overlap filter
 };
 
-/// A box near a point, and how far away [m]; 0 if the point is inside.
-struct NearHit {
-  ProxyId id = 0;
-  double distance = 0.0;
-};
-
-/// Answers to many questions at once, structure of arrays: those to question q are found[begin[q]] ..
-/// found[begin[q] + count[q] - 1], ordered as a single question would have them.
-template <class Found>
-struct BatchOf {
-  std::vector<std::uint32_t> begin, count;
-  std::vector<Found> found;
-};
-using IdBatch = BatchOf<ProxyId>;
-using SegmentBatch = BatchOf<SegmentHit>;
-
-/// Answers "which boxes overlap?". One writer at a time; const calls may run side by side and give the
-/// same results. Boxes that only touch overlap. Results replace what the caller's buffer held.
-class BroadPhase {
+/// A set of boxes that can be changed.
+///
+/// One thread may change it at a time. Wrong use throws std::invalid_argument. A change that throws, also for lack of
+/// memory, has changed nothing. A box is valid if isValid() accepts it.
+///
+/// What a new partition has to implement: single and bulk changes, the three settings, and the questions of
+/// BroadPhaseReader that have no default.
+class BroadPhase : public BroadPhaseReader {
  public:
-  virtual ~BroadPhase() = default;
-
   /// @throws std::invalid_argument if `id` is stored already or the box is not valid.
   virtual void insert(ProxyId id, const Aabb& box) = 0;
   /// Moves a box. @throws std::invalid_argument if `id` is not stored or the box is not valid.
   virtual void update(ProxyId id, const Aabb& box) = 0;
   /// @throws std::invalid_argument if `id` is not stored.
   virtual void remove(ProxyId id) = 0;
+  /// Removes all boxes. The settings stay.
   virtual void clear() = 0;
 
-  /// Bulk update: afterwards exactly these boxes are stored, boxes[i] under ids[i]; ids ascending.
-  /// @throws std::invalid_argument if the arrays do not match, ids do not ascend or a box is not valid;
-  /// then nothing has changed.
+  /// Bulk update: afterwards exactly these boxes are stored, boxes[i] under ids[i]. The ids ascend.
+  /// @throws std::invalid_argument if the arrays differ in length, the ids do not ascend or a box is not valid.
   virtual void update(const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) = 0;
-  /// Bulk move: ids[i] is now boxes[i], everything else rests; ids ascending. Costs what moves, not what is stored.
-  /// @throws std::invalid_argument as above, or if an id is not stored; then nothing has changed.
+  /// Bulk move: the box of ids[i] becomes boxes[i]; all other boxes stay. The ids ascend. HGrid's cost depends on the
+  /// number of boxes that move, not on the number that is stored.
+  /// @throws std::invalid_argument as above, or if an id is not stored.
   virtual void move(const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) = 0;
 
-  virtual std::size_t size() const = 0;
-
-  /// Every overlapping pair once, in no promised order.
-  virtual void overlappingPairs(std::vector<ProxyPair>& pairs) const = 0;
-  /// Boxes that overlap `box`, ids ascending.
-  virtual void overlapping(const Aabb& box, std::vector<ProxyId>& found) const = 0;
-  /// Boxes that touch the ball, ids ascending; superset within rounding as touches() says.
-  virtual void overlapping(const Sphere& sphere, std::vector<ProxyId>& found) const = 0;
-  /// Boxes that the segment meets, by `along`, then id; superset within rounding as meet() says.
-  virtual void along(const Segment& segment, std::vector<SegmentHit>& found) const = 0;
-  /// The `count` boxes nearest to a point, none farther than `limit` [m], by distance, then id.
-  virtual void nearest(const Eigen::Vector3d& point, std::size_t count, double limit,
-                       std::vector<NearHit>& found) const = 0;
-
-  /// Many questions at once, answered in an order of their places, which spares the memory.
-  virtual void overlapping(const std::vector<Aabb>& boxes, IdBatch& found) const = 0;
-  virtual void overlapping(const std::vector<Sphere>& spheres, IdBatch& found) const = 0;
-  virtual void along(const std::vector<Segment>& segments, SegmentBatch& found) const = 0;
-
-  /// @throws std::logic_error naming the first promise of the structure that does not hold.
-  virtual void checkInvariants() const = 0;
+  /// Sets which boxes make no pairs among each other. The ids ascend. They need not be stored yet.
+  /// @throws std::invalid_argument if the ids do not ascend.
+  virtual void setFixed(const std::vector<ProxyId>& ids) = 0;
+  /// Sets the filter of all later searches for pairs.
+  virtual void setOverlapFilter(const OverlapFilter& filter) = 0;
+  /// Sets the bound of all later calls of boundedPairs(). Initially there is none.
+  virtual void setPairBound(const PairBound& bound) = 0;
 };
 
 }  // namespace hgrid

@@ -31,9 +31,19 @@ struct Explanation {
   Time since{0};          ///< of a reported pair, as NearPair::since
 };
 
-/// @param exact  what was measured of this pair, in either order of its bodies; null: nothing was
-/// @throws Refusal unknown_id, naming what is called nearly so
+/// How the sentences of explain() name what a user can set. A program with options of its own gives their names.
+struct OptionNames {
+  const char* max_pairs = "SceneOptions::max_pairs";
+  const char* horizon = "SceneOptions::horizon";
+  const char* pair_kinds = "SceneOptions::pair_kinds";
+  const char* allowed_pairs = "SceneOptions::allowed_pairs";  ///< rules of Origin::parameter
+  const char* added_rules = "Scene::setRules()";              ///< rules of Origin::service
+};
+
+/// Explains why a pair of bodies is reported or not.
+/// @param exact  what was measured of this pair, in either order of its bodies; null if nothing was measured
+/// @throws Refusal unknown_id, naming the bodies with the most similar names
 Explanation explain(const Snapshot& snapshot, const std::string& first, const std::string& second,
-                    const PairDistance* exact);
+                    const PairDistance* exact, const OptionNames& options = {});
 
 }  // namespace hgrid

@@ -13,7 +13,7 @@
 
 namespace hgrid {
 
-/// Kinds of collision shape; the numbers are those of msg/Shape.msg.
+/// Kinds of collision shape. The numbers are part of the interface: do not change them.
 enum class ShapeKind : std::uint8_t { sphere = 1, box = 2, cylinder = 3, cone = 4, capsule = 5, hull = 6, mesh = 7 };
 
 /// The kind as a word, as in "cylinder".
@@ -49,12 +49,12 @@ class Shape {
   static Shape hull(std::shared_ptr<const TriangleMesh> vertices, const ShapeLimits& limits = {});
   static Shape mesh(std::shared_ptr<const TriangleMesh> mesh, const ShapeLimits& limits = {});
 
-  /// A primitive from a kind and the dimensions of msg/Shape.msg.
+  /// A primitive from a kind and its dimensions, in the order of the parameters of its maker above. A box has three.
   /// @throws Refusal unsupported for a kind that is none, bad_geometry for a wrong number of dimensions.
   static Shape primitive(int kind, const std::vector<double>& dimensions, const ShapeLimits& limits = {});
 
   ShapeKind kind() const { return kind_; }
-  /// [m] in the order of msg/Shape.msg; empty for hull and mesh.
+  /// [m] in the order that primitive() takes; empty for hull and mesh.
   std::vector<double> dimensions() const;
   /// Of hull and mesh; null otherwise.
   const std::shared_ptr<const TriangleMesh>& mesh() const { return mesh_; }

@@ -14,7 +14,7 @@
 
 namespace hgrid {
 
-/// What became of the question how far two shapes are apart; the numbers are those of msg/Distances.msg.
+/// The outcome of measuring how far two shapes are apart. The numbers are part of the interface: do not change them.
 enum class Measure : std::uint8_t {
   not_measured = 0,         ///< not asked, or no time was left for it
   apart = 1,                ///< distance, points and normal hold
@@ -75,23 +75,29 @@ class NarrowPhase {
  public:
   virtual ~NarrowPhase() = default;
 
-  /// Makes a shape ready. What a mesh is made into is kept as long as somebody holds it, and shared. Any thread.
+  /// Makes a shape ready to be measured. The narrow phase shares what it makes of a mesh as long as somebody holds it.
+  /// Any thread may call this.
+  /// @returns null if this narrow phase cannot measure shapes of this kind (see makeConvexNarrowPhase())
   /// @throws Refusal bad_geometry
   virtual std::shared_ptr<const Solid> solidOf(const Shape& shape) = 0;
 
-  /// What questions are made of: a point, a segment along z and centred, a box; padding gives them a radius.
+  // Solids of which questions are made. Padding gives them a radius.
+  /// A point at the origin.
   virtual std::shared_ptr<const Solid> point() const = 0;
-  virtual std::shared_ptr<const Solid> needle(double length) const = 0;               ///< [m] > 0
-  virtual std::shared_ptr<const Solid> block(const Eigen::Vector3d& size) const = 0;  ///< [m] full lengths, >= 0
+  /// A segment along z, centered. @param length [m] > 0
+  virtual std::shared_ptr<const Solid> needle(double length) const = 0;
+  /// A box, centered. @param size [m] full lengths, >= 0
+  virtual std::shared_ptr<const Solid> block(const Eigen::Vector3d& size) const = 0;
 
-  /// How two solids of this narrow phase lie to each other. Never throws: what goes wrong is Measure::failed. The same
-  /// with the order of both exchanged, but for the exchange.
-  /// @param up_to  [m] beyond this distance the answer is `apart` and infinitely far, which may take much less time
+  /// Measures two solids that this narrow phase made. Never throws: an error gives Measure::failed. If the two solids
+  /// are exchanged, so are their points, the normal changes its sign, and everything else stays the same.
+  /// @param up_to  [m] if the distance is larger, the answer is `apart` with an infinite distance, which can be much
+  /// faster
   virtual Proximity measure(const PlacedSolid& first, const PlacedSolid& second, double up_to) const = 0;
 
-  /// Places where two solids of this narrow phase are in contact, deepest first: one for each two parts that meet, and
-  /// one if a solid lies wholly inside the other. None where they are apart, and where the solver failed. Never throws.
-  /// @param most  the search ends with so many, whichever they are
+  /// Lists the contacts of two solids that this narrow phase made, deepest first: one for each two parts that meet, or
+  /// one if a solid lies wholly inside the other. Empty if the two are apart or the solver failed. Never throws.
+  /// @param most  the search ends after this many contacts
   virtual std::vector<Contact> contacts(const PlacedSolid& first, const PlacedSolid& second,
                                         std::size_t most) const = 0;
 };

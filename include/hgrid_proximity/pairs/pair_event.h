@@ -13,10 +13,10 @@ namespace hgrid {
 
 struct Structure;
 
-/// The numbers are those of msg/Events.msg.
+/// The numbers are part of the interface: do not change them.
 enum class EventKind : std::uint8_t { begin = 0, end = 1 };
 
-/// Why a pair began or ended; the numbers are those of msg/Events.msg.
+/// Why a pair began or ended. The numbers are part of the interface: do not change them.
 enum class EventCause : std::uint8_t {
   moved = 0,      ///< the bodies came near or moved apart
   bodies = 1,     ///< a body is new, has its first pose, was replaced or is gone

@@ -49,8 +49,9 @@ struct TickTimes {
 ///
 /// Usage per tick: add, remove, place and setState as news come in, then commit().
 ///
-/// A call that throws, also for lack of memory, has changed nothing. After a commit() that threw, the next one makes
-/// the snapshot that it would have made without it: numbers have no gap, no pair and no event is lost.
+/// Wrong input throws Refusal, here as everywhere in the core but the broad phase. A call that throws, also for lack of
+/// memory, has changed nothing. After a commit() that threw, the next one makes the snapshot that it would have made
+/// without it: numbers have no gap, and no pair and no event is lost.
 class Scene {
  public:
   /// @throws Refusal out_of_range, naming the option

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "hgrid_proximity/bodies/source.h"
-#include "hgrid_proximity/broadphase/hgrid.h"
+#include "hgrid_proximity/broadphase/broad_phase_reader.h"
 #include "hgrid_proximity/maps/map_cells.h"
 #include "hgrid_proximity/pairs/pair_event.h"
-#include "hgrid_proximity/pairs/pair_tracker.h"
+#include "hgrid_proximity/pairs/near_pair.h"
 #include "hgrid_proximity/world/body_pose.h"
 #include "hgrid_proximity/world/structure.h"
 
@@ -82,8 +82,8 @@ class Snapshot {
   Freshness worstState() const { return worst_state_; }
   /// [s] of the oldest pose of a moving body.
   double maxAge() const { return max_age_; }
-  /// The broad phase; its boxes are those of the placed proxies, grown by their margins.
-  const HGrid& grid() const { return grid_; }
+  /// The broad phase. It stores the boxes of the placed proxies, each grown by its share of the margins.
+  const BroadPhaseReader& broadPhase() const { return *broad_phase_; }
 
   /// [s] Two bodies that are at least `distance` [m] apart at their poses do not meet within this time after stamp().
   /// It follows from their bounds of speed; a pose that is older than stamp() shortens it. NaN if a bound is missing,
@@ -92,6 +92,7 @@ class Snapshot {
 
  private:
   friend class Scene;
+  friend struct PooledSnapshot;
   Snapshot() = default;
 
   std::shared_ptr<const Structure> structure_;
@@ -113,9 +114,7 @@ class Snapshot {
   Freshness worst_state_ = Freshness::fresh;
   double max_age_ = 0.0, max_growth_ = 0.0;
   bool report_unmapped_ = false;
-  HGrid grid_;
-  std::uint64_t grid_revision_ = 0;  // of the structure that grid_ was set up for
-  bool finished_ = false;            // false: a commit has failed to fill it, so nobody fills it again
+  const BroadPhaseReader* broad_phase_ = nullptr;  // lives as long as the snapshot: see PooledSnapshot
 };
 
 }  // namespace hgrid

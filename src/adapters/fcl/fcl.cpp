@@ -6,51 +6,27 @@
 #include <fcl/narrowphase/distance.h>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <map>
 #include <mutex>
 #include <optional>
-#include <tuple>
 
 #include "adapters/fcl/fcl_solid.h"
-#include "hgrid_proximity/refusal.h"
+#include "narrow/convex_pair.h"
 
 namespace hgrid {
 namespace {
 
 using Vector = Eigen::Vector3d;
 
-constexpr double kTolerance = 1e-10;    // [m] of FCL's iterations
-constexpr double kDisagreement = 1e-6;  // [m] between nearest points and distance, beside their rounding
-constexpr double kTouching = 1e-9;      // [m] as far apart is in contact, for one way or another of rounding
-constexpr double kHair = 1e-6;          // [m] moved apart by so much more, two solids must be free of each other
-constexpr double kMaybeInside = 0.25;   // winding number from which an open mesh may enclose a point
+constexpr double kTolerance = 1e-10;   // [m] of FCL's iterations
+constexpr double kMaybeInside = 0.25;  // winding number from which on an open mesh may enclose a point
 
-/// A solid, its core's pose, and all that is around the core.
-struct Side {
-  explicit Side(const PlacedSolid& placed)
-      : solid(static_cast<const FclSolid&>(placed.solid)),
-        world_from_shape(placed.world_from_shape),
-        around(solid.radius() + placed.padding) {}
-  const FclSolid& solid;
-  const Pose& world_from_shape;
-  double around;
-};
+bool isMesh(const Side& side) { return side.solid.kind() == ShapeKind::mesh; }
+const FclMesh& meshOf(const Side& side) { return static_cast<const FclMeshSolid&>(side.solid).mesh(); }
+const FclConvexSolid& convexOf(const Side& side) { return static_cast<const FclConvexSolid&>(side.solid); }
 
-/// Whether the two are to be asked in the other order, so that the order of the question does not show: they are sorted
-/// by what they are, then by what is around them and where they are.
-bool goesAfter(const Side& a, const Side& b) {
-  if (b.solid.before(a.solid)) return true;
-  if (a.solid.before(b.solid)) return false;
-  if (a.around != b.around) return b.around < a.around;
-  const auto &m = a.world_from_shape.matrix(), &n = b.world_from_shape.matrix();
-  for (Eigen::Index i = 0; i < 16; ++i) {
-    if (m.data()[i] != n.data()[i]) return n.data()[i] < m.data()[i];
-  }
-  return false;
-}
-
-/// Two meshes, by FCL: triangles against triangles, which it measures rightly.
+/// The gap of two meshes in the frame of the first. FCL measures triangles against triangles correctly.
 CoreGap gapOfMeshes(const FclMesh& a, const FclMesh& b, const Pose& a_from_b, double up_to) {
   fcl::DistanceRequestd request;
   request.enable_nearest_points = true;
@@ -58,7 +34,7 @@ CoreGap gapOfMeshes(const FclMesh& a, const FclMesh& b, const Pose& a_from_b, do
   request.distance_tolerance = kTolerance;
   request.gjk_solver_type = fcl::GST_LIBCCD;
   fcl::DistanceResultd result;
-  result.min_distance = std::nextafter(up_to, std::numeric_limits<double>::infinity());  // FCL looks no farther
+  result.min_distance = std::nextafter(up_to, std::numeric_limits<double>::infinity());  // FCL searches no farther
   fcl::distance(&a.model(), fcl::Transform3d::Identity(), &b.model(), fcl::Transform3d(a_from_b.matrix()), request,
                 result);
   CoreGap gap;
@@ -70,29 +46,24 @@ CoreGap gapOfMeshes(const FclMesh& a, const FclMesh& b, const Pose& a_from_b, do
   return gap;
 }
 
-/// How far the cores are apart, in the first one's frame; infinite if it is more than `up_to`.
-CoreGap gapOfCores(const FclSolid& a, const FclSolid& b, const Pose& a_from_b, double up_to) {
-  CoreGap gap = b.mesh()   ? gapOfMeshes(*a.mesh(), *b.mesh(), a_from_b, up_to)
-                : a.mesh() ? a.mesh()->gapTo(b.core(), b.volume(), a_from_b, up_to)
-                           : gapOf(a.core(), b.core(), a_from_b, up_to);
+/// The gap of a mesh and another solid, in the frame of the mesh; infinite if it is more than `up_to` [m].
+CoreGap gapOfMesh(const Side& mesh, const Side& other, const Pose& mesh_from_other, double up_to) {
+  CoreGap gap = isMesh(other)
+                    ? gapOfMeshes(meshOf(mesh), meshOf(other), mesh_from_other, up_to)
+                    : meshOf(mesh).gapTo(convexOf(other).core(), convexOf(other).volume(), mesh_from_other, up_to);
   if (gap.lower > up_to) gap.lower = gap.upper = std::numeric_limits<double>::infinity();
   return gap;
 }
 
-/// Depth and normal of two convex cores that meet, of FCL where it says something.
-struct Overlap {
-  double depth = 0.0;  // [m] of the cores
-  Vector normal = Vector::Zero(), point = Vector::Zero();
-};
-
-std::optional<Overlap> overlapByFcl(const Side& a, const Side& b, const Pose& a_from_b) {
+/// The overlap of two convex cores that FCL finds. Only asked for solids that were made of shapes.
+std::optional<Overlap> overlapByFcl(const ConvexSolid& a, const ConvexSolid& b, const Pose& a_from_b) {
   fcl::CollisionRequestd request;
   request.num_max_contacts = 1;
   request.enable_contact = true;
   request.gjk_solver_type = fcl::GST_LIBCCD;
   fcl::CollisionResultd found;
-  fcl::collide(a.solid.geometry(), fcl::Transform3d::Identity(), b.solid.geometry(),
-               fcl::Transform3d(a_from_b.matrix()), request, found);
+  fcl::collide(static_cast<const FclConvexSolid&>(a).geometry(), fcl::Transform3d::Identity(),
+               static_cast<const FclConvexSolid&>(b).geometry(), fcl::Transform3d(a_from_b.matrix()), request, found);
   if (!found.isCollision()) return std::nullopt;
   const fcl::Contactd& contact = found.getContact(0);
   const double depth = contact.penetration_depth, length = contact.normal.norm();
@@ -101,52 +72,28 @@ std::optional<Overlap> overlapByFcl(const Side& a, const Side& b, const Pose& a_
   return Overlap{depth, contact.normal / length, contact.pos};
 }
 
-/// Of cores that do no more than touch, as what stands on something does: a hair's breadth farther apart they have
-/// nearest points.
-std::optional<Overlap> touchOf(const Side& a, const Side& b, const Pose& a_from_b) {
-  const double distance = a_from_b.translation().norm();
-  if (!(distance > 0.0)) return std::nullopt;
-  Pose apart = a_from_b;
-  apart.translation() += kHair / distance * a_from_b.translation();
-  const CoreGap gap = gapOf(a.solid.core(), b.solid.core(), apart, kHair);
-  if (!(gap.lower > 0.0)) return std::nullopt;
-  const Vector between = gap.on_second - gap.on_first;
-  return Overlap{0.0, between.normalized(), gap.on_first + 0.5 * between};
-}
-
-/// Depth, normal and place of two convex cores that meet, where they stand the test of moving the solids apart by them.
-void describeContact(const Side& a, const Side& b, const Pose& a_from_b, Proximity& result) {
-  if (a.solid.geometry() == nullptr || b.solid.geometry() == nullptr) return;
-  const double around = a.around + b.around;
-  for (const auto& describe : {overlapByFcl, touchOf}) {
-    const std::optional<Overlap> overlap = describe(a, b, a_from_b);
-    if (!overlap) continue;
-    const double depth = overlap->depth;
-    const Vector& normal = overlap->normal;
-    Pose apart = a_from_b;
-    apart.translation() += (depth + around + kHair) * normal;
-    if (!(gapOf(a.solid.core(), b.solid.core(), apart, around).lower > around)) continue;
-    result.normal = normal;
-    result.depth = depth + around;
-    result.on_first = overlap->point + (0.5 * depth + a.around) * normal;
-    result.on_second = overlap->point - (0.5 * depth + b.around) * normal;
-    return;
-  }
-}
-
-/// Whether one solid lies within the other, and a point of it.
+/// Whether one solid lies inside the other, and a point of the inner one.
 struct Enclosed {
   Measure status = Measure::apart;
   Vector point = Vector::Zero();
 };
 
-/// Whether a part of `inner` lies within the mesh `outer`, the surfaces being apart; in the frame of `outer`.
-Enclosed enclosedBy(const FclSolid& outer, const FclSolid& inner, const Pose& outer_from_inner) {
+/// Calls ask(begin, end) with some points of each part of the solid, until it returns true. @returns whether it did
+template <class Ask>
+bool anyPart(const Side& side, const Ask& ask) {
+  if (!isMesh(side)) return ask(&convexOf(side).somePoint(), &convexOf(side).somePoint() + 1);
+  const std::vector<Enclosure::Part>& parts = meshOf(side).enclosure().parts();
+  return std::any_of(parts.begin(), parts.end(),
+                     [&](const Enclosure::Part& part) { return ask(part.data(), part.data() + part.size()); });
+}
+
+/// Whether a part of `inner` lies inside the mesh `outer`, in the frame of `outer`. The surfaces are apart.
+Enclosed enclosedBy(const Side& outer, const Side& inner, const Pose& outer_from_inner) {
   Enclosed result;
-  if (!outer.mesh()) return result;  // what is not a mesh is solid: its core was met
-  const Enclosure& enclosure = outer.mesh()->enclosure();
+  if (!isMesh(outer)) return result;  // a convex solid is filled: its core would have been met
+  const Enclosure& enclosure = meshOf(outer).enclosure();
   const double least = enclosure.closed() ? 0.5 : kMaybeInside;
-  const bool inside = inner.anyPart([&](const Vector* begin, const Vector* end) {
+  const bool inside = anyPart(inner, [&](const Vector* begin, const Vector* end) {
     const auto in_box = [&](const Vector& point) { return enclosure.boxHolds(outer_from_inner * point); };
     result.point = outer_from_inner * *begin;
     return std::all_of(begin, end, in_box) && std::abs(enclosure.windingNumber(result.point)) >= least;
@@ -155,8 +102,8 @@ Enclosed enclosedBy(const FclSolid& outer, const FclSolid& inner, const Pose& ou
   return result;
 }
 
-/// The same either way round, in the frame of the first.
-Enclosed enclosed(const FclSolid& a, const FclSolid& b, const Pose& a_from_b) {
+/// Whether either solid lies inside the other, in the frame of the first.
+Enclosed enclosed(const Side& a, const Side& b, const Pose& a_from_b) {
   const Enclosed second = enclosedBy(a, b, a_from_b);
   if (second.status != Measure::apart) return second;
   Enclosed first = enclosedBy(b, a, a_from_b.inverse());
@@ -164,96 +111,38 @@ Enclosed enclosed(const FclSolid& a, const FclSolid& b, const Pose& a_from_b) {
   return first;
 }
 
-/// Where two parts are in contact whose cores are not farther apart than what is around them.
-Contact contactOf(const Side& a, const Side& b, const CoreGap& gap) {
-  const double around = a.around + b.around;
-  const Vector between = gap.on_second - gap.on_first;
-  const double length = between.norm();
-  Contact contact;
-  if (length <= around + kDisagreement) {  // otherwise that they meet was not disproved, but no more
-    contact.point = gap.on_first + (around > 0.0 ? a.around / around : 0.5) * between;
-  }
-  if (gap.lower > 0.0) {
-    contact.normal = between / length;
-    contact.depth = std::max(0.0, around - length);
-  }
-  return contact;
+/// Measures a mesh and another solid, in the frame of the mesh. A contact gets no depth: it is not known whether the
+/// rest of the mesh is in the way of moving apart.
+Proximity measureMesh(const Side& mesh, const Side& other, double up_to) {
+  const Pose mesh_from_other = mesh.world_from_shape.inverse() * other.world_from_shape;
+  if (const auto answer = answerByReach(mesh, other, mesh_from_other, up_to)) return *answer;
+  const double around = mesh.around + other.around;
+  const CoreGap gap = gapOfMesh(mesh, other, mesh_from_other, std::max(0.0, up_to) + around + kTouchingGap);
+  if (std::isnan(gap.lower) || std::isnan(gap.upper)) return answerOf(Measure::failed, 0.0);
+  if (gap.lower <= 0.0) return answerOf(Measure::contact, 0.0);
+  const Measure inside = enclosed(mesh, other, mesh_from_other).status;
+  if (inside != Measure::apart) return answerOf(inside, 0.0);
+  return answerByGap(mesh, other, mesh_from_other, gap, up_to);
 }
 
-Proximity answer(Measure status, double distance) {
-  Proximity result;
-  result.status = status;
-  result.distance = distance;
-  return result;
-}
-
-/// The pair in the order of goesAfter(), in the frame of the first.
-Proximity measured(const Side& a, const Side& b, double up_to) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const Pose a_from_b = a.world_from_shape.inverse() * b.world_from_shape;
-  const double around = a.around + b.around;
-  if (!a_from_b.matrix().allFinite() || !(around >= 0.0)) return answer(Measure::failed, 0.0);
-  const bool has_mesh = a.solid.mesh() || b.solid.mesh();
-  if (a_from_b.translation().norm() - (a.solid.reach() + b.solid.reach()) - around > up_to) {
-    return answer(Measure::apart, kInfinity);
-  }
-  const CoreGap gap = gapOfCores(a.solid, b.solid, a_from_b, std::max(0.0, up_to) + around + kTouching);
-  if (std::isnan(gap.lower) || std::isnan(gap.upper)) return answer(Measure::failed, 0.0);
-  if (gap.lower <= 0.0) {
-    Proximity result = answer(Measure::contact, 0.0);
-    if (!has_mesh) describeContact(a, b, a_from_b, result);
-    return result;
-  }
-  if (has_mesh) {
-    const Measure inside = enclosed(a.solid, b.solid, a_from_b).status;
-    if (inside != Measure::apart) return answer(inside, 0.0);
-  }
-  Proximity result = answer(Measure::apart, std::max(0.0, gap.upper - around));
-  if (result.distance > up_to) return answer(Measure::apart, kInfinity);
-  const Vector between = gap.on_second - gap.on_first;
-  const double length = between.norm();
-  const double rounding = 1e-12 * (a.solid.reach() + b.solid.reach() + a_from_b.translation().norm());
-  if (!(std::abs(length - gap.upper) <= kDisagreement + rounding)) return answer(Measure::failed, 0.0);
-  if (!(std::min(gap.lower, gap.upper) > around)) {  // their rounding may have crossed
-    result.status = Measure::contact;
-    result.distance = 0.0;
-    if (!has_mesh) result.depth = std::max(0.0, around - gap.upper);  // a mesh may be in the way of moving apart
-  }
-  if (length > 0.0) {
-    result.normal = between / length;
-    result.on_first = gap.on_first + a.around * result.normal;
-    result.on_second = gap.on_second - b.around * result.normal;
-  }
-  return result;
-}
-
-/// At most so many, of the pair in the order of goesAfter(), in the frame of the first.
-std::vector<Contact> contactsOf(const Side& a, const Side& b, std::size_t most) {
-  const Pose a_from_b = a.world_from_shape.inverse() * b.world_from_shape;
-  const double reach = a.around + b.around + kTouching;
+/// At most `most` contacts of a mesh with another solid, in the frame of the mesh.
+std::vector<Contact> contactsOfMesh(const Side& mesh, const Side& other, std::size_t most) {
+  const Measure status = most > 0 ? measureMesh(mesh, other, 0.0).status : Measure::not_measured;
+  if (!isContact(status) || status == Measure::failed) return {};
+  const Pose mesh_from_other = mesh.world_from_shape.inverse() * other.world_from_shape;
+  const double reach = mesh.around + other.around + kTouchingGap;
   std::vector<Contact> contacts;
-  const Measure status = most > 0 ? measured(a, b, 0.0).status : Measure::not_measured;
-  if (!isContact(status) || status == Measure::failed) return contacts;
   const auto met = [&](const CoreGap& gap) {
-    contacts.push_back(contactOf(a, b, gap));
+    contacts.push_back(contactByGap(mesh, other, gap));
     return contacts.size() < most;
   };
-  if (b.solid.mesh()) {
-    a.solid.mesh()->meetings(*b.solid.mesh(), a_from_b, reach, met);
-  } else if (a.solid.mesh()) {
-    a.solid.mesh()->meetings(b.solid.core(), b.solid.volume(), a_from_b, reach, met);
+  if (isMesh(other)) {
+    meshOf(mesh).meetings(meshOf(other), mesh_from_other, reach, met);
   } else {
-    const CoreGap gap = gapOf(a.solid.core(), b.solid.core(), a_from_b, reach);
-    met(gap);
-    if (gap.lower <= 0.0) {
-      Proximity described;
-      describeContact(a, b, a_from_b, described);
-      contacts.front().normal = described.normal;
-      contacts.front().depth = described.depth;
-    }
+    meshOf(mesh).meetings(convexOf(other).core(), convexOf(other).volume(), mesh_from_other, reach, met);
   }
   if (!contacts.empty()) return contacts;
-  const Enclosed inside = enclosed(a.solid, b.solid, a_from_b);
+  const Enclosed inside = enclosed(mesh, other, mesh_from_other);
   if (inside.status != Measure::apart) {
     contacts.emplace_back();
     contacts.back().point = inside.point;
@@ -261,71 +150,38 @@ std::vector<Contact> contactsOf(const Side& a, const Side& b, std::size_t most) 
   return contacts;
 }
 
-class FclNarrowPhase final : public NarrowPhase {
+/// Measures meshes by FCL, and convex shapes as the core does. FCL also describes the overlap of convex shapes.
+class FclNarrowPhase final : public OrderedNarrowPhase {
  public:
   std::shared_ptr<const Solid> solidOf(const Shape& shape) override {
-    std::shared_ptr<const FclMesh> mesh;
-    if (shape.kind() == ShapeKind::mesh) mesh = meshOf(shape.mesh());
-    return std::make_shared<FclSolid>(shape, mesh);
+    if (shape.kind() == ShapeKind::mesh) return std::make_shared<FclMeshSolid>(shape, treeOf(shape.mesh()));
+    return std::make_shared<FclConvexSolid>(shape);
   }
 
   std::shared_ptr<const Solid> point() const override { return point_; }
   std::shared_ptr<const Solid> needle(double length) const override {
-    return std::make_shared<FclSolid>(ConvexCore::segment(length), std::vector<double>{length});
+    return std::make_shared<FclConvexSolid>(ConvexCore::segment(length), std::vector<double>{length});
   }
   std::shared_ptr<const Solid> block(const Eigen::Vector3d& size) const override {
-    return std::make_shared<FclSolid>(ConvexCore::box(size), std::vector<double>{size.x(), size.y(), size.z()});
+    return std::make_shared<FclConvexSolid>(ConvexCore::box(size), std::vector<double>{size.x(), size.y(), size.z()});
   }
 
-  Proximity measure(const PlacedSolid& first, const PlacedSolid& second, double up_to) const override {
-    Side a(first), b(second);
-    Proximity result;
-    try {
-      if (!goesAfter(a, b)) return inWorld(measured(a, b, up_to), a);
-      result = inWorld(measured(b, a, up_to), b);
-      std::swap(result.on_first, result.on_second);
-      result.normal = -result.normal;
-    } catch (const std::exception&) {
-      result = Proximity{};
-      result.status = Measure::failed;
-      result.distance = 0.0;
-    }
-    return result;
+ protected:
+  // Meshes come first in the order.
+  Proximity measureInOrder(const Side& a, const Side& b, double up_to) const override {
+    return isMesh(a) ? measureMesh(a, b, up_to) : measureConvex(a, b, up_to, overlapByFcl);
   }
-
-  std::vector<Contact> contacts(const PlacedSolid& first, const PlacedSolid& second, std::size_t most) const override {
-    Side a(first), b(second);
-    const bool exchanged = goesAfter(a, b);
-    const Pose& world_from_frame = exchanged ? b.world_from_shape : a.world_from_shape;
-    std::vector<Contact> found;
-    try {
-      found = exchanged ? contactsOf(b, a, most) : contactsOf(a, b, most);
-    } catch (const std::exception&) {
-      return {};
-    }
-    for (Contact& contact : found) {
-      contact.point = world_from_frame * contact.point;
-      contact.normal = world_from_frame.linear() * contact.normal;
-      if (exchanged) contact.normal = -contact.normal;
-    }
-    std::stable_sort(found.begin(), found.end(), [](const Contact& m, const Contact& n) { return deeper(m, n); });
-    return found;
+  std::vector<Contact> contactsInOrder(const Side& a, const Side& b, std::size_t most) const override {
+    return isMesh(a) ? contactsOfMesh(a, b, most) : contactsOfConvex(a, b, most, overlapByFcl);
   }
 
  private:
-  static Proximity inWorld(Proximity result, const Side& frame) {
-    result.on_first = frame.world_from_shape * result.on_first;
-    result.on_second = frame.world_from_shape * result.on_second;
-    result.normal = frame.world_from_shape.linear() * result.normal;
-    return result;
-  }
-
-  std::shared_ptr<const FclMesh> meshOf(const std::shared_ptr<const TriangleMesh>& mesh) {
+  std::shared_ptr<const FclMesh> treeOf(const std::shared_ptr<const TriangleMesh>& mesh) {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       if (auto known = meshes_[mesh.get()].lock()) return known;
     }
-    auto made = std::make_shared<const FclMesh>(mesh);  // takes long: others need not wait
+    auto made = std::make_shared<const FclMesh>(mesh);  // takes long, so other threads do not wait for it
     const std::lock_guard<std::mutex> lock(mutex_);
     for (auto known = meshes_.begin(); known != meshes_.end();) {
       known = known->second.expired() ? meshes_.erase(known) : std::next(known);
@@ -334,7 +190,8 @@ class FclNarrowPhase final : public NarrowPhase {
     return made;
   }
 
-  const std::shared_ptr<const Solid> point_ = std::make_shared<FclSolid>(ConvexCore::point(), std::vector<double>{});
+  const std::shared_ptr<const Solid> point_ =
+      std::make_shared<FclConvexSolid>(ConvexCore::point(), std::vector<double>{});
   std::mutex mutex_;
   std::map<const TriangleMesh*, std::weak_ptr<const FclMesh>> meshes_;
 };

@@ -13,78 +13,55 @@
 #include <array>
 
 namespace hgrid {
+namespace {
 
 using Vector = Eigen::Vector3d;
 
-FclSolid::FclSolid(const Shape& shape, std::shared_ptr<const FclMesh> mesh)
-    : kind_(shape.kind()), size_(shape.dimensions()), source_(shape.mesh()), mesh_(std::move(mesh)) {
-  switch (kind_) {
+/// The core of a convex shape. The radius of a sphere or a capsule is left out.
+std::unique_ptr<const fcl::CollisionGeometryd> geometryOf(const Shape& shape) {
+  const std::vector<double> size = shape.dimensions();
+  switch (shape.kind()) {
     case ShapeKind::sphere:
-      radius_ = size_[0];
-      core_ = ConvexCore::point();
-      geometry_ = std::make_unique<fcl::Sphered>(0.0);
-      break;
+      return std::make_unique<fcl::Sphered>(0.0);
     case ShapeKind::box:
-      core_ = ConvexCore::box({size_[0], size_[1], size_[2]});
-      geometry_ = std::make_unique<fcl::Boxd>(size_[0], size_[1], size_[2]);
-      break;
+      return std::make_unique<fcl::Boxd>(size[0], size[1], size[2]);
     case ShapeKind::cylinder:
-      core_ = ConvexCore::cylinder(size_[0], size_[1]);
-      geometry_ = std::make_unique<fcl::Cylinderd>(size_[1], size_[0]);
-      break;
+      return std::make_unique<fcl::Cylinderd>(size[1], size[0]);
     case ShapeKind::cone:
-      core_ = ConvexCore::cone(size_[0], size_[1]);
-      geometry_ = std::make_unique<fcl::Coned>(size_[1], size_[0]);
-      break;
+      return std::make_unique<fcl::Coned>(size[1], size[0]);
     case ShapeKind::capsule:
-      radius_ = size_[1];
-      core_ = ConvexCore::segment(size_[0]);
-      geometry_ = std::make_unique<fcl::Capsuled>(0.0, size_[0]);
-      break;
+      return std::make_unique<fcl::Capsuled>(0.0, size[0]);
     case ShapeKind::hull:
-      core_ = ConvexCore::hull(source_->vertices.data(), source_->vertices.size());
-      // Without faces: FCL then goes through all vertices, which is right whatever they are.
-      geometry_ = std::make_unique<fcl::Convexd>(std::make_shared<const std::vector<Vector>>(source_->vertices), 0,
-                                                 std::make_shared<const std::vector<int>>());
-      some_point_ = source_->vertices.front();
-      break;
+      // Without faces. FCL then looks at all vertices, which is right whatever the faces are.
+      return std::make_unique<fcl::Convexd>(std::make_shared<const std::vector<Vector>>(shape.mesh()->vertices), 0,
+                                            std::make_shared<const std::vector<int>>());
     case ShapeKind::mesh:
       break;
   }
-  finish(shape.reach());
+  return nullptr;
 }
 
-FclSolid::FclSolid(const ConvexCore& core, const std::vector<double>& size)
-    : kind_(ShapeKind::box), size_(size), core_(core), geometry_(nullptr) {
-  finish(core.reach());
-}
-
-bool FclSolid::before(const FclSolid& other) const {
-  if (kind_ != other.kind_) return kind_ > other.kind_;  // meshes go first
-  if (size_ != other.size_) return size_ < other.size_;
-  if (source_ == other.source_ || !source_ || !other.source_) return false;
-  const auto &v = source_->vertices, &w = other.source_->vertices;
-  const auto less = [](const Vector& a, const Vector& b) {
-    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
-  };
-  if (std::lexicographical_compare(v.begin(), v.end(), w.begin(), w.end(), less)) return true;
-  if (std::lexicographical_compare(w.begin(), w.end(), v.begin(), v.end(), less)) return false;
-  return source_->triangles < other.source_->triangles;
-}
-
-void FclSolid::finish(double reach) {
-  reach_ = reach;
-  if (mesh_) return;
+fcl::OBBRSSd volumeAround(const ConvexCore& core) {
   Vector low, high;
   for (int axis = 0; axis < 3; ++axis) {
-    low[axis] = core_.support(-Vector::Unit(axis))[axis];
-    high[axis] = core_.support(Vector::Unit(axis))[axis];
+    low[axis] = core.support(-Vector::Unit(axis))[axis];
+    high[axis] = core.support(Vector::Unit(axis))[axis];
   }
   std::array<Vector, 8> corners;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     corners[i] = {i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(), i & 4 ? high.z() : low.z()};
   }
-  fcl::fit(corners.data(), static_cast<int>(corners.size()), volume_);
+  fcl::OBBRSSd volume;
+  fcl::fit(corners.data(), static_cast<int>(corners.size()), volume);
+  return volume;
 }
+
+}  // namespace
+
+FclConvexSolid::FclConvexSolid(const Shape& shape)
+    : ConvexSolid(shape), volume_(volumeAround(core())), geometry_(geometryOf(shape)) {}
+
+FclConvexSolid::FclConvexSolid(const ConvexCore& core, const std::vector<double>& size)
+    : ConvexSolid(core, size), volume_(volumeAround(core)) {}
 
 }  // namespace hgrid

@@ -31,36 +31,36 @@ void HGrid::Engine::requireStored(ProxyId id) const {
 void HGrid::Engine::grow(ProxyId id) {
   const std::size_t count = id + std::size_t{1};
   if (boxes.size() < count) boxes.resize(count);
-  if (place.size() < count) place.resize(count, kAbsent);  // one resize may have failed after the other
+  if (layer_of.size() < count) layer_of.resize(count, kAbsent);  // one resize may have failed after the other
 }
 
-void HGrid::Engine::reserveLayer(Place layer, std::size_t count) {
+void HGrid::Engine::reserveLayer(LayerNumber layer, std::size_t count) {
   layers[layer].reserve(count, boxes.size(), machine());
 }
 
-void HGrid::Engine::sortLayer(Place layer) {
+void HGrid::Engine::sortLayer(LayerNumber layer) {
   layers[layer].sort(boxes, finest_edge, machine());
   located[layer] = false;
 }
 
-void HGrid::Engine::locate(Place layer) {
+void HGrid::Engine::locate(LayerNumber layer) {
   if (located[layer]) return;
   std::vector<std::uint32_t>& position = positions();
-  if (position.size() < place.size()) position.resize(place.size());
+  if (position.size() < layer_of.size()) position.resize(layer_of.size());
   const ProxyId* ids = layers[layer].ids();
   for (std::uint32_t i = 0; i < layers[layer].size(); ++i) position[ids[i]] = i;
   located[layer] = true;
 }
 
 void HGrid::Engine::restoreFromLayers() {
-  std::fill(place.begin(), place.end(), kAbsent);
+  std::fill(layer_of.begin(), layer_of.end(), kAbsent);
   stored = 0;
-  for (const Place number : {kFixed, kResting, kMoving, kLoose}) {
+  for (const LayerNumber number : {kFixed, kResting, kMoving, kLoose}) {
     const Layer& layer = layers[number];
     for (std::uint32_t i = 0; i < layer.size(); ++i) {
       if (layer.isWithdrawn(i)) continue;
       boxes[layer.ids()[i]] = layer.boxAt(i);
-      place[layer.ids()[i]] = number;
+      layer_of[layer.ids()[i]] = number;
       ++stored;
     }
   }
@@ -71,7 +71,7 @@ std::size_t HGrid::Engine::movingWithLoose() const {
   std::size_t standing = moving.size();
   if (moving_changed) {
     standing = static_cast<std::size_t>(
-        std::count_if(moving.begin(), moving.end(), [this](ProxyId id) { return place[id] == kMoving; }));
+        std::count_if(moving.begin(), moving.end(), [this](ProxyId id) { return layer_of[id] == kMoving; }));
   }
   return standing + members[kLoose].size();
 }
@@ -87,8 +87,8 @@ bool HGrid::Engine::settlesAll(std::size_t moving, std::size_t withdrawn_then, s
 }
 
 void HGrid::Engine::reserveLoose(ProxyId id) {
-  const bool comes = !isStored(id), leaves_layer = !comes && place[id] != kLoose;
-  if (leaves_layer) locate(place[id]);
+  const bool comes = !isStored(id), leaves_layer = !comes && layer_of[id] != kLoose;
+  if (leaves_layer) locate(layer_of[id]);
   const std::size_t stored_then = stored + (comes ? 1 : 0), withdrawn_then = withdrawn + (leaves_layer ? 1 : 0);
   const std::size_t loose = members[kLoose].size() + (comes || leaves_layer ? 1 : 0);
   members[kLoose].reserve(kMostLoose + 1);
@@ -99,13 +99,13 @@ void HGrid::Engine::reserveLoose(ProxyId id) {
   reserveLayer(kMoving, moving);
   if (!settlesAll(moving, withdrawn_then, stored_then)) return;
   std::size_t fixed_ones = comes && isFixed(id) ? 1 : 0;
-  for (ProxyId other = 0; other < place.size(); ++other) fixed_ones += place[other] != kAbsent && isFixed(other);
+  for (ProxyId other = 0; other < layer_of.size(); ++other) fixed_ones += layer_of[other] != kAbsent && isFixed(other);
   reserveLayer(kFixed, fixed_ones);
   reserveLayer(kResting, stored_then - fixed_ones);
 }
 
 void HGrid::Engine::takeOut(ProxyId id) {
-  const Place from = place[id];
+  const LayerNumber from = layer_of[id];
   if (from == kLoose) {
     members[kLoose].erase(std::find(members[kLoose].begin(), members[kLoose].end(), id));
     layers[kLoose].setIds(members[kLoose]);
@@ -120,12 +120,12 @@ void HGrid::Engine::takeOut(ProxyId id) {
       kept_dirty = true;
     }
   }
-  place[id] = kAbsent;
+  layer_of[id] = kAbsent;
   --stored;
 }
 
 void HGrid::Engine::putLoose(ProxyId id) {
-  place[id] = kLoose;
+  layer_of[id] = kLoose;
   fixed_astray = fixed_astray || isFixed(id);
   ++stored;
   members[kLoose].push_back(id);
@@ -137,10 +137,10 @@ void HGrid::Engine::putLoose(ProxyId id) {
 /// Makes the loose boxes moving ones and drops from the moving those that were taken out.
 void HGrid::Engine::joinLoose() {
   std::vector<ProxyId>& moving = members[kMoving];
-  moving.erase(std::remove_if(moving.begin(), moving.end(), [this](ProxyId id) { return place[id] != kMoving; }),
+  moving.erase(std::remove_if(moving.begin(), moving.end(), [this](ProxyId id) { return layer_of[id] != kMoving; }),
                moving.end());
   for (const ProxyId id : members[kLoose]) {
-    place[id] = kMoving;
+    layer_of[id] = kMoving;
     moving.push_back(id);
   }
   members[kLoose].clear();
@@ -161,26 +161,27 @@ void HGrid::Engine::sortAll(bool others) {
                     layers[kFixed].size() + layers[kResting].size() == stored;
   std::array<std::size_t, kLayers> counts{};
   if (same) {  // the layers hold the right ids, in a good order
-    for (const Place layer : {kFixed, kResting}) counts[layer] = layers[layer].size();
+    for (const LayerNumber layer : {kFixed, kResting}) counts[layer] = layers[layer].size();
   } else {
-    for (ProxyId id = 0; id < place.size(); ++id) {
-      if (place[id] != kAbsent) ++counts[isFixed(id) ? kFixed : kResting];
+    for (ProxyId id = 0; id < layer_of.size(); ++id) {
+      if (layer_of[id] != kAbsent) ++counts[isFixed(id) ? kFixed : kResting];
     }
   }
-  for (const Place layer : {kFixed, kResting}) reserveLayer(layer, counts[layer]);
+  for (const LayerNumber layer : {kFixed, kResting}) reserveLayer(layer, counts[layer]);
   // Nothing below allocates.
   if (!same) {
     members[kMoving].clear();
     members[kLoose].clear();
     std::array<ProxyId*, kLayers> next{};
-    for (const Place layer : {kFixed, kResting, kMoving, kLoose}) next[layer] = layers[layer].setIds(counts[layer]);
-    for (ProxyId id = 0; id < place.size(); ++id) {
-      if (place[id] == kAbsent) continue;
-      place[id] = isFixed(id) ? kFixed : kResting;
-      *next[place[id]]++ = id;
+    for (const LayerNumber layer : {kFixed, kResting, kMoving, kLoose})
+      next[layer] = layers[layer].setIds(counts[layer]);
+    for (ProxyId id = 0; id < layer_of.size(); ++id) {
+      if (layer_of[id] == kAbsent) continue;
+      layer_of[id] = isFixed(id) ? kFixed : kResting;
+      *next[layer_of[id]]++ = id;
     }
   }
-  for (const Place layer : {kFixed, kResting, kMoving, kLoose}) sortLayer(layer);
+  for (const LayerNumber layer : {kFixed, kResting, kMoving, kLoose}) sortLayer(layer);
   withdrawn = 0;
   waste = 0.0;
   fixed_astray = false;
@@ -193,8 +194,8 @@ void HGrid::Engine::sortMoved() {
   if (moved.size() > stored / kShareOfMoving) return sortAll();
   std::size_t started = 0;
   for (const ProxyId id : moved) {
-    if (place[id] == kFixed) return sortAll();  // it was said to be rare
-    started += place[id] == kResting;
+    if (layer_of[id] == kFixed) return sortAll();  // it was said to be rare
+    started += layer_of[id] == kResting;
   }
   std::vector<ProxyId>& moving = members[kMoving];
   const bool regroup = started > 0 || moving_changed || !members[kLoose].empty();
@@ -210,11 +211,11 @@ void HGrid::Engine::sortMoved() {
   if (regroup) {
     joinLoose();
     for (const ProxyId id : moved) {
-      if (place[id] != kResting) continue;
+      if (layer_of[id] != kResting) continue;
       layers[kResting].withdraw(positions()[id]);
       ++withdrawn;
       kept_dirty = true;
-      place[id] = kMoving;
+      layer_of[id] = kMoving;
       moving.push_back(id);
     }
     layers[kMoving].setIds(moving);
@@ -237,7 +238,7 @@ void HGrid::Engine::keepPairs() {
   } else if (kept_dirty) {
     kept.erase(std::remove_if(kept.begin(), kept.end(),
                               [this](const ProxyPair& pair) {
-                                return place[pair.first] > kResting || place[pair.second] > kResting;
+                                return layer_of[pair.first] > kResting || layer_of[pair.second] > kResting;
                               }),
                kept.end());
   }

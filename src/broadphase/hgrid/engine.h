@@ -39,12 +39,12 @@ struct SearchBuffers {
 /// Every change allocates all that it needs before it changes a layer. So a change whose allocation fails throws, and
 /// the grid holds what it held before.
 struct HGrid::Engine {
-  enum Place : std::uint8_t { kFixed, kResting, kMoving, kLoose, kLayers, kAbsent };
+  enum LayerNumber : std::uint8_t { kFixed, kResting, kMoving, kLoose, kLayers, kAbsent };
 
   explicit Engine(double finest);
 
   bool isFixed(ProxyId id) const { return id < fixed.size() && fixed[id]; }
-  bool isStored(ProxyId id) const { return id < place.size() && place[id] != kAbsent; }
+  bool isStored(ProxyId id) const { return id < layer_of.size() && layer_of[id] != kAbsent; }
   void requireStored(ProxyId id) const;
   void requireValid(const std::vector<ProxyId>& ids, const std::vector<Aabb>& given);
   Machine machine() { return {&kernels::of(isa), workers.get(), &scratch}; }
@@ -54,7 +54,7 @@ struct HGrid::Engine {
   void grow(ProxyId id);
   /// Allocates what takeOut() of the box, if it is stored, and putLoose() need. They allocate nothing then.
   void reserveLoose(ProxyId id);
-  /// Takes a box out of its layer; `place` is then kAbsent.
+  /// Takes a box out of its layer; `layer_of` is then kAbsent.
   void takeOut(ProxyId id);
   /// Takes in a box that stands in no layer.
   void putLoose(ProxyId id);
@@ -66,11 +66,11 @@ struct HGrid::Engine {
   /// Sorts anew the boxes that moved (`moved`, whose boxes are written already), with those that moved lately. If an
   /// allocation fails, the layers are as they were.
   void sortMoved();
-  /// Restores `boxes`, `place` and `stored` from the layers, which still hold what was there before.
+  /// Restores `boxes`, `layer_of` and `stored` from the layers, which still hold what was there before.
   void restoreFromLayers();
-  void reserveLayer(Place layer, std::size_t count);
-  void sortLayer(Place layer);
-  void locate(Place layer);
+  void reserveLayer(LayerNumber layer, std::size_t count);
+  void sortLayer(LayerNumber layer);
+  void locate(LayerNumber layer);
   /// By id, in its layer. Kept in the array that the resting are sorted to; when they are, so are all layers.
   std::vector<std::uint32_t>& positions() { return layers[kResting].spare(); }
   /// Pairs of what rests, so that they need not be looked for each time.
@@ -84,11 +84,11 @@ struct HGrid::Engine {
 
   double finest_edge;
   Isa isa = bestIsa();
-  PairTest filter;
+  OverlapFilter filter;
   PairBound bound;
-  std::vector<Aabb> boxes;   // by id
-  std::vector<Place> place;  // by id
-  std::vector<bool> fixed;   // by id; may be shorter
+  std::vector<Aabb> boxes;            // by id
+  std::vector<LayerNumber> layer_of;  // by id
+  std::vector<bool> fixed;            // by id; may be shorter
   std::array<Layer, kLayers> layers;
   std::array<std::vector<ProxyId>, kLayers> members;  // moving and loose: ids
   std::array<bool, kLayers> located{};                // layers whose boxes have their positions in positions()

@@ -106,8 +106,8 @@ void HGrid::setFixed(const std::vector<ProxyId>& ids) {
   }
 }
 
-void HGrid::setFilter(const PairTest& test) {
-  engine_->filter = test;
+void HGrid::setOverlapFilter(const OverlapFilter& filter) {
+  engine_->filter = filter;
   engine_->kept_valid = false;
 }
 
@@ -139,7 +139,7 @@ void HGrid::remove(ProxyId id) {
 
 void HGrid::clear() {
   Engine& e = *engine_;
-  std::fill(e.place.begin(), e.place.end(), Engine::kAbsent);
+  std::fill(e.layer_of.begin(), e.layer_of.end(), Engine::kAbsent);
   e.stored = 0;
   e.sortAll(true);
 }
@@ -156,16 +156,16 @@ void HGrid::update(const std::vector<ProxyId>& ids, const std::vector<Aabb>& box
   }
 }
 
-/// The bulk update. It writes `boxes` and `place` before it sorts, so the caller restores them if it throws.
+/// The bulk update. It writes `boxes` and `layer_of` before it sorts, so the caller restores them if it throws.
 void HGrid::Engine::replace(const std::vector<ProxyId>& ids, const std::vector<Aabb>& given) {
   bool same = stored == ids.size();
-  if (same && !(areAll(ids) && place.size() == ids.size())) {
-    for (std::size_t i = 0; same && i < ids.size(); ++i) same = place[ids[i]] != kAbsent;
+  if (same && !(areAll(ids) && layer_of.size() == ids.size())) {
+    for (std::size_t i = 0; same && i < ids.size(); ++i) same = layer_of[ids[i]] != kAbsent;
   }
   if (!same) {
-    std::fill(place.begin(), place.end(), kAbsent);
+    std::fill(layer_of.begin(), layer_of.end(), kAbsent);
     for (std::size_t i = 0; i < ids.size(); ++i) {
-      place[ids[i]] = kResting;
+      layer_of[ids[i]] = kResting;
       boxes[ids[i]] = given[i];
     }
     stored = ids.size();
@@ -220,18 +220,21 @@ int HGrid::levelFor(const Aabb& box) const {
 
 int HGrid::levelOf(ProxyId id) const { return engine_->isStored(id) ? levelFor(engine_->boxes[id]) : -1; }
 
-std::vector<std::size_t> HGrid::levelCounts() const {
-  std::vector<std::size_t> counts(GridScale::kLevels + 1);
-  for (ProxyId id = 0; id < engine_->place.size(); ++id) {
-    if (engine_->isStored(id)) ++counts[static_cast<std::size_t>(levelFor(engine_->boxes[id]))];
+std::vector<BroadPhaseLevel> HGrid::levels() const {
+  std::vector<BroadPhaseLevel> levels;
+  for (int level = 0; level < GridScale::kLevels; ++level) levels.push_back({edge(level), 0});
+  levels.push_back({std::numeric_limits<double>::infinity(), 0});
+  for (ProxyId id = 0; id < engine_->layer_of.size(); ++id) {
+    if (engine_->isStored(id)) ++levels[static_cast<std::size_t>(levelFor(engine_->boxes[id]))].boxes;
   }
-  return counts;
+  return levels;
 }
 
 std::size_t HGrid::bytes() const {
   const Engine& e = *engine_;
-  std::size_t sum = sizeof(Engine) + e.boxes.capacity() * sizeof(Aabb) + e.place.capacity() + e.fixed.capacity() / 8 +
-                    e.moved.capacity() * sizeof(ProxyId) + e.scratch.copies.capacity() * sizeof(Aabb) +
+  std::size_t sum = sizeof(Engine) + e.boxes.capacity() * sizeof(Aabb) + e.layer_of.capacity() +
+                    e.fixed.capacity() / 8 + e.moved.capacity() * sizeof(ProxyId) +
+                    e.scratch.copies.capacity() * sizeof(Aabb) +
                     (e.scratch.cells.capacity() + e.scratch.counts.capacity()) * sizeof(std::uint32_t);
   for (const Layer& layer : e.layers) sum += layer.bytes();
   for (const std::vector<ProxyId>& ids : e.members) sum += ids.capacity() * sizeof(ProxyId);
@@ -244,20 +247,20 @@ void HGrid::checkInvariants() const {
     if (!holds) throw std::logic_error(std::string("HGrid: ") + promise);
   };
   std::size_t stored = 0, standing = 0;
-  for (ProxyId id = 0; id < e.place.size(); ++id) {
-    if (e.place[id] == Engine::kAbsent) continue;
+  for (ProxyId id = 0; id < e.layer_of.size(); ++id) {
+    if (e.layer_of[id] == Engine::kAbsent) continue;
     ++stored;
     require(isValid(e.boxes[id]), "a stored box is valid");
   }
   require(stored == e.stored, "size() counts the stored boxes");
-  std::vector<bool> seen(e.place.size());
+  std::vector<bool> seen(e.layer_of.size());
   for (std::size_t number = 0; number < e.layers.size(); ++number) {
     const Layer& layer = e.layers[number];
     layer.checkInvariants(e.boxes);
     for (std::uint32_t i = 0; i < layer.size(); ++i) {
       if (layer.isWithdrawn(i)) continue;
       const ProxyId id = layer.ids()[i];
-      require(e.place[id] == number, "a box stands in the layer that it is said to be in");
+      require(e.layer_of[id] == number, "a box stands in the layer that it is said to be in");
       require(!seen[id], "a box stands in one layer only");
       require(!e.located[number] || e.positions()[id] == i, "a located box stands at its position");
       seen[id] = true;

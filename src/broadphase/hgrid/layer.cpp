@@ -12,7 +12,7 @@
 namespace hgrid {
 namespace {
 
-constexpr std::size_t kReadBeyond = 16;                      // places that kernels may read beyond the last box
+constexpr std::size_t kReadBeyond = 16;                      // positions that kernels may read beyond the last box
 constexpr std::size_t kWorthCopying = std::size_t{1} << 18;  // boxes; of fewer most are still in the cache
 constexpr std::size_t kWorthAThread = 16384;                 // boxes
 constexpr int kSortsPerPlan = 64;                            // then a plan is made anew, since boxes may have gathered
@@ -111,7 +111,8 @@ void Layer::sort(const std::vector<Aabb>& boxes, double finest_edge, const Machi
   describe(scratch.sizes);
 }
 
-/// Cells are counted one place late: when the boxes have been placed, the end of each cell is the start of the next.
+/// The counter of a cell is stored one entry later. So after the second pass, the end of each cell is the start of the
+/// next cell.
 /// Every thread counts for itself; the last does it in place.
 std::uint32_t* Layer::countsOf(std::size_t thread, std::size_t threads, const Machine& machine) {
   return thread + 1 == threads ? start_.data() + 1 : machine.scratch->counts.data() + thread * plan_.cells;
@@ -161,16 +162,16 @@ void Layer::count(const std::vector<Aabb>& boxes, const Machine& machine, std::s
 
 void Layer::scatter(const std::vector<Aabb>& boxes, const Machine& machine, std::size_t threads) {
   const SortScratch& scratch = *machine.scratch;
-  machine.workers->run(threads, [&](std::size_t range, std::size_t) {  // counts become places, by ranges of cells
+  machine.workers->run(threads, [&](std::size_t range, std::size_t) {  // counts become positions, by ranges of cells
     std::uint32_t sum = 0;
     for (std::size_t i = 0; i < threads * threads; ++i) sum += i % threads < range ? scratch.sums[i] : 0;
     std::uint32_t* last = countsOf(threads - 1, threads, machine);
     const std::size_t end = plan_.cells * (range + 1) / threads;
     for (std::size_t cell = plan_.cells * range / threads; cell < end; ++cell) {
       for (std::size_t thread = 0; thread + 1 < threads; ++thread) {
-        std::uint32_t& place = machine.scratch->counts[thread * plan_.cells + cell];
-        const std::uint32_t count = place;
-        place = sum;
+        std::uint32_t& entry = machine.scratch->counts[thread * plan_.cells + cell];
+        const std::uint32_t count = entry;
+        entry = sum;
         sum += count;
       }
       const std::uint32_t count = last[cell];
@@ -258,8 +259,9 @@ void Layer::checkInvariants(const std::vector<Aabb>& boxes) const {
                       bounds_[(i + 3) * stride_ + position] == box.max[axis],
                   "a box stands in the layer as it is");
           require(box.max[axis] - box.min[axis] <= level.reach[axis], "a box is no longer than its level's reach");
-          const float place = box.min[axis] * level.grid.inverse[axis] - level.grid.origin[axis];
-          number[axis] = static_cast<std::int32_t>(std::min(place > 0.0f ? place : 0.0f, level.grid.last[axis]));
+          const float cell_number = box.min[axis] * level.grid.inverse[axis] - level.grid.origin[axis];
+          number[axis] =
+              static_cast<std::int32_t>(std::min(cell_number > 0.0f ? cell_number : 0.0f, level.grid.last[axis]));
         }
         require(cell == number[2] * level.grid.slab + number[1] * level.grid.row + number[0],
                 "a box lives in the cell of its minimum corner");
@@ -267,7 +269,7 @@ void Layer::checkInvariants(const std::vector<Aabb>& boxes) const {
     }
     require(level.end == position, "a level ends with its last cell");
   }
-  require(position == count_, "every box has a place");
+  require(position == count_, "every box has a position");
 }
 
 }  // namespace hgrid

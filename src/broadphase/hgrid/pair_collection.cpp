@@ -13,8 +13,8 @@ namespace {
 /// Appends pairs in the order that PairBound says, until one would exceed the bound.
 class Collection {
  public:
-  Collection(const PairBound& bound, const PairTest& test, std::vector<ProxyPair>& pairs)
-      : bound_(bound), test_(test), pairs_(pairs) {}
+  Collection(const PairBound& bound, const OverlapFilter& filter, std::vector<ProxyPair>& pairs)
+      : bound_(bound), filter_(filter), pairs_(pairs) {}
 
   bool isCut() const { return cut_; }
 
@@ -23,9 +23,8 @@ class Collection {
   void take(std::size_t begin) {
     cutAt(begin + std::min(bound_.overlaps - overlaps_, pairs_.size() - begin), begin);
     overlaps_ += pairs_.size() - begin;
-    if (test_.sift != nullptr) {
-      pairs_.resize(begin + test_.sift(test_.context, pairs_.data() + begin, pairs_.size() - begin));
-    }
+    ProxyPair* const first = pairs_.data();
+    pairs_.resize(static_cast<std::size_t>(filter_(first + begin, first + pairs_.size()) - first));
     cutAt(bound_.pairs, begin);
   }
 
@@ -40,7 +39,7 @@ class Collection {
   }
 
   const PairBound& bound_;
-  const PairTest& test_;
+  const OverlapFilter& filter_;
   std::vector<ProxyPair>& pairs_;
   std::size_t overlaps_ = 0;
   bool cut_ = false;
@@ -53,7 +52,7 @@ class Collection {
 bool HGrid::Engine::collectPairs(std::vector<ProxyPair>& pairs) const {
   pairs.clear();
   Collection collection(bound, filter, pairs);
-  for (ProxyId id = 0; id < place.size() && !collection.isCut(); ++id) {
+  for (ProxyId id = 0; id < layer_of.size() && !collection.isCut(); ++id) {
     if (!isStored(id) || isFixed(id)) continue;
     const std::size_t begin = pairs.size();
     visitOverlapping(*this, boxOf(boxes[id]), [&](const Layer& layer, const PositionWriter& positions) {

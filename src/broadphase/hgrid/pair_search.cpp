@@ -16,17 +16,16 @@ bool notBothFixed(const void* fixed, ProxyId first, ProxyId second) {
   return !(first < is.size() && is[first] && second < is.size() && is[second]);
 }
 
-/// Leaves out the pairs that are not wanted.
-struct Sieve {
-  const PairTest& filter;
-  const std::vector<bool>* fixed;  // by id; null if fixed boxes stand in their own layer only, which makes no pairs
+/// Leaves out the pairs of two fixed boxes, then those that the overlap filter does not keep.
+struct CombinedFilter {
+  const OverlapFilter& overlaps;
+  const std::vector<bool>* fixed;  // by id; null if all fixed boxes are in the fixed layer, which makes no pairs
 
-  /// Moves the wanted ones of the pairs from number `from` up to `end` to the front. @returns their end
-  std::size_t sift(std::vector<ProxyPair>& pairs, std::size_t from, std::size_t end) const {
-    for (const PairTest& test : {fixed != nullptr ? PairTest::of<notBothFixed>(fixed) : PairTest{}, filter}) {
-      if (test.sift != nullptr) end = from + test.sift(test.context, pairs.data() + from, end - from);
-    }
-    return end;
+  /// Moves the kept ones of the pairs from index `from` to `end` to the front. @returns their end
+  std::size_t keep(std::vector<ProxyPair>& pairs, std::size_t from, std::size_t end) const {
+    ProxyPair *const first = pairs.data() + from, *last = pairs.data() + end;
+    if (fixed != nullptr) last = OverlapFilter::of<notBothFixed>(fixed)(first, last);
+    return static_cast<std::size_t>(overlaps(first, last) - pairs.data());
   }
 };
 
@@ -61,8 +60,8 @@ class Tally {
 /// room. When the bound is exceeded, nothing more is wanted. The vector ends up as large as it ever was.
 class PairWriter {
  public:
-  PairWriter(std::vector<ProxyPair>& pairs, std::size_t used, const Sieve& sieve, Tally& tally)
-      : pairs_(pairs), wanted_end_(used), sieve_(sieve), tally_(tally) {
+  PairWriter(std::vector<ProxyPair>& pairs, std::size_t used, const CombinedFilter& filter, Tally& tally)
+      : pairs_(pairs), wanted_end_(used), filter_(filter), tally_(tally) {
     pairs_.resize(std::max<std::size_t>({pairs_.capacity(), used + 64, 256}));
     sink_.owner = this;
     sink_.grow = grow;
@@ -76,7 +75,7 @@ class PairWriter {
   std::size_t filter() {
     if (tally_.exceeded()) return wanted_end_;
     const std::size_t end = used(), begin = wanted_end_;
-    wanted_end_ = sieve_.sift(pairs_, begin, end);
+    wanted_end_ = filter_.keep(pairs_, begin, end);
     tally_.add(wanted_end_ - begin, end - begin);
     return wanted_end_;
   }
@@ -108,7 +107,7 @@ class PairWriter {
 
   std::vector<ProxyPair>& pairs_;
   std::size_t wanted_end_;  // pairs before it are filtered and counted
-  const Sieve& sieve_;
+  const CombinedFilter& filter_;
   Tally& tally_;
   kernels::PairSink sink_{};
 };
@@ -161,13 +160,13 @@ void perform(const SearchTask& task, const kernels::Kernels& kernels, kernels::P
 
 /// Performs the tasks. Writes the pairs after the first `used` of the vector, in the order of the tasks.
 /// @returns whether these are all pairs; not if the tally exceeds its bound
-bool performAll(SearchBuffers& buffers, const kernels::Kernels& kernels, const Sieve& sieve, Tally& tally,
+bool performAll(SearchBuffers& buffers, const kernels::Kernels& kernels, const CombinedFilter& filter, Tally& tally,
                 Workers* workers, std::vector<ProxyPair>& pairs, std::size_t used) {
   std::vector<SearchTask>& tasks = buffers.tasks;
   std::size_t boxes = 0;
   for (const SearchTask& task : tasks) boxes += task.end - task.begin;
   if (workers == nullptr || workers->threads() == 1 || boxes < 2 * kWorthAThread) {
-    PairWriter writer(pairs, used, sieve, tally);
+    PairWriter writer(pairs, used, filter, tally);
     for (const SearchTask& task : tasks) {
       if (tally.exceeded()) return false;
       perform(task, kernels, writer.sink());
@@ -182,7 +181,7 @@ bool performAll(SearchBuffers& buffers, const kernels::Kernels& kernels, const S
     if (tally.exceeded()) return;
     SearchTask& task = tasks[number];
     std::vector<ProxyPair>& part = buffers.parts[thread];
-    PairWriter writer(part, buffers.used[thread], sieve, tally);
+    PairWriter writer(part, buffers.used[thread], filter, tally);
     perform(task, kernels, writer.sink());
     task.thread = thread;
     task.first = buffers.used[thread];
@@ -236,14 +235,14 @@ bool HGrid::Engine::findPairs(std::vector<ProxyPair>& pairs, const PairBound& up
     } else {
       for (const ProxyPair& pair : kept) {
         pairs[used] = pair;
-        used += place[pair.first] <= kResting && place[pair.second] <= kResting;
+        used += layer_of[pair.first] <= kResting && layer_of[pair.second] <= kResting;
       }
     }
   } else {
     addWithin(tasks, layers[kResting]);
     addAcross(tasks, layers[kResting], layers[kFixed]);
   }
-  for (const Place mobile : {kMoving, kLoose}) {
+  for (const LayerNumber mobile : {kMoving, kLoose}) {
     addWithin(tasks, layers[mobile]);
     for (int other = kFixed; other < mobile; ++other)
       addAcross(tasks, layers[mobile], layers[static_cast<std::size_t>(other)]);

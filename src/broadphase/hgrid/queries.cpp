@@ -11,7 +11,7 @@
 namespace hgrid {
 namespace {
 
-/// Lists of a few hits are the rule; std::sort has a price of its own.
+/// Sorts by insertion if there are few elements, as there mostly are; std::sort costs more for those.
 template <class Iterator, class Less>
 void sortFew(Iterator begin, Iterator end, Less less) {
   if (end - begin > 24) return std::sort(begin, end, less);
@@ -23,8 +23,8 @@ void sortFew(Iterator begin, Iterator end, Less less) {
   }
 }
 
-/// Sorts ids, each of which is there once. That of each place is counted: more steps than other ways, but none that a
-/// processor could guess wrong.
+/// Sorts ids without duplicates. Counts for each id how many are smaller: more steps than other methods need, but no
+/// branches that could be mispredicted.
 void sortIds(ProxyId* ids, std::size_t count) {
   constexpr std::size_t kFew = 32;
   if (count > kFew) return std::sort(ids, ids + count);
@@ -61,7 +61,7 @@ kernels::Line lineOf(const Segment& segment) {
   line.around = segment.radius + 4.0 * roundingSlack(reach);
   for (int axis = 0; axis < 3; ++axis) {
     line.from[axis] = segment.from[axis];
-    line.way[axis] = segment.to[axis] - segment.from[axis];
+    line.step[axis] = segment.to[axis] - segment.from[axis];
   }
   return line;
 }
@@ -73,7 +73,7 @@ void appendOverlapping(const Engine& engine, const kernels::Box& box, std::vecto
   visitOverlapping(engine, box, [&](const Layer& layer, const PositionWriter& positions) {
     std::size_t count = found.size();
     found.resize(count + positions.size());
-    for (const std::uint32_t position : positions) {  // written first, then kept or not: no branch to guess
+    for (const std::uint32_t position : positions) {  // Store unconditionally and advance by 0 or 1: no misprediction
       found[count] = layer.ids()[position];
       count += test(layer.boxAt(position)) ? 1 : 0;
     }
@@ -112,22 +112,23 @@ void answer(const Engine& engine, const Segment& query, std::vector<SegmentHit>&
   sortFew(found.begin() + static_cast<std::ptrdiff_t>(before), found.end(), earlier);
 }
 
-Eigen::Vector3f placeOf(const Aabb& box) { return box.min; }
-Eigen::Vector3f placeOf(const Sphere& sphere) { return sphere.center.cast<float>(); }
-Eigen::Vector3f placeOf(const Segment& segment) { return segment.from.cast<float>(); }
+Eigen::Vector3f positionOf(const Aabb& box) { return box.min; }
+Eigen::Vector3f positionOf(const Sphere& sphere) { return sphere.center.cast<float>(); }
+Eigen::Vector3f positionOf(const Segment& segment) { return segment.from.cast<float>(); }
 
-/// Numbers of the questions, ordered by their places in buckets of a coarse grid over a layer, so that those that
-/// look at the same boxes follow each other.
+/// Numbers of the questions, sorted by their positions, in buckets of a coarse grid over a layer. So questions
+/// about the same boxes follow each other.
 template <class Query>
-std::vector<std::uint32_t> byPlace(const std::vector<Query>& queries, const kernels::Grid& grid) {
+std::vector<std::uint32_t> byPosition(const std::vector<Query>& queries, const kernels::Grid& grid) {
   constexpr float kAcross = 16.0f;
   std::vector<std::uint32_t> next(static_cast<std::size_t>(kAcross * kAcross * kAcross) + 1, 0);
   std::vector<std::uint32_t> buckets(queries.size()), order(queries.size());
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    const Eigen::Vector3f place = placeOf(queries[i]);
+    const Eigen::Vector3f position = positionOf(queries[i]);
     std::uint32_t bucket = 0;
     for (const int axis : {2, 1, 0}) {
-      const float share = (place[axis] * grid.inverse[axis] - grid.origin[axis]) * (kAcross / (grid.last[axis] + 1.0f));
+      const float share =
+          (position[axis] * grid.inverse[axis] - grid.origin[axis]) * (kAcross / (grid.last[axis] + 1.0f));
       const float number = std::min(share > 0.0f ? share : 0.0f, kAcross - 1.0f);  // 0 for NaN too
       bucket = bucket * static_cast<std::uint32_t>(kAcross) + static_cast<std::uint32_t>(number);
     }
@@ -139,7 +140,7 @@ std::vector<std::uint32_t> byPlace(const std::vector<Query>& queries, const kern
   return order;
 }
 
-/// [m] Half the way between boxes where they stand densest, if they stood evenly; of a ball that holds `count` of them.
+/// [m] An estimate of the radius of a sphere that holds `count` boxes, in the part of the world with the most boxes.
 template <class Engine>
 double likelyRadius(const Engine& engine, std::size_t count) {
   double radius = std::numeric_limits<double>::infinity();
@@ -171,7 +172,7 @@ void answerAll(const Engine& engine, const std::vector<Query>& queries, BatchOf<
   if (largest.size() < kFitsTheCache) {
     for (std::size_t i = 0; i < queries.size(); ++i) answerOne(i);
   } else {
-    const std::vector<std::uint32_t> order = byPlace(queries, largest.levels().front().grid);
+    const std::vector<std::uint32_t> order = byPosition(queries, largest.levels().front().grid);
     for (std::size_t k = 0; k < order.size(); ++k) {
       const char* const ahead = reinterpret_cast<const char*>(&queries[order[std::min(k + kAhead, order.size() - 1)]]);
       __builtin_prefetch(ahead);
@@ -216,16 +217,16 @@ void HGrid::nearest(const Eigen::Vector3d& point, std::size_t count, double limi
   const auto nearer = [](const NearHit& a, const NearHit& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.id < b.id;
   };
-  // Balls that grow until one holds enough boxes; what a ball finds is all that is as near as its radius.
+  // Searches spheres of growing radius until one holds enough boxes. A sphere finds all boxes within its radius.
   for (double radius = std::min(likelyRadius(e, count), limit);;) {
-    const bool all = !(radius < 1e30);  // coordinates of such a ball would not be floats
+    const bool all = !(radius < 1e30);  // the coordinates of such a sphere do not fit into floats
     found.clear();
     const auto consider = [&](ProxyId id, const Aabb& box) {
       const double away = distance(box, point);
       if (away <= limit) found.push_back({id, away});
     };
     if (all) {
-      for (ProxyId id = 0; id < e.place.size(); ++id) {
+      for (ProxyId id = 0; id < e.layer_of.size(); ++id) {
         if (e.isStored(id)) consider(id, e.boxes[id]);
       }
     } else {
@@ -235,7 +236,8 @@ void HGrid::nearest(const Eigen::Vector3d& point, std::size_t count, double limi
     }
     const std::size_t kept = std::min(count, found.size());
     std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(kept), found.end(), nearer);
-    // Those in the corners of the box around the ball are farther than its radius; enough of them are a bound.
+    // The search also finds boxes in the corners of the box around the sphere, which are farther away than the radius.
+    // If it found enough boxes, the farthest of them bounds the next radius.
     const bool enough = kept == count;
     if (all || radius >= limit || (enough && found[kept - 1].distance <= radius)) return found.resize(kept);
     radius = std::min(enough ? found[kept - 1].distance : 2.0 * radius, limit);

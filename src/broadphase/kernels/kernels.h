@@ -51,7 +51,7 @@ struct Level {
 
 /// A segment; everything within `around` of it counts.
 struct Line {
-  double from[3], way[3];
+  double from[3], step[3];  ///< the segment ends at from + step
   double around;
 };
 

@@ -21,14 +21,14 @@ constexpr double kEndless = 1e300;  // [cells]
 /// A line on one axis of a level, all in cells. A box of cell c can be met only while the line is within
 /// c - below .. c + 1 + above; the outermost cells hold all that is beyond them, too.
 struct Track {
-  double from, way, below, above, last;
+  double from, step, below, above, last;
 
   /// The cells whose boxes a line can meet that is between two numbers. Not yet rounded down.
   Span cellsBetween(double low, double high) const { return Simd::twoOf(low - above, -(high + below)); }
   Span within(Span cells) const { return Simd::least(cells, Simd::twoOf(last, 0.0)); }
   Span whole() const {
-    const double to = from + way;
-    const Span cells = way > 0.0 ? cellsBetween(from, to) : cellsBetween(to, from);
+    const double to = from + step;
+    const Span cells = step > 0.0 ? cellsBetween(from, to) : cellsBetween(to, from);
     return within(Simd::greatest(cells, Simd::twoOf(0.0, -last)));
   }
 };
@@ -39,10 +39,10 @@ inline Track trackOf(const Line& line, const Level& level, int axis) {
   Track track;
   track.last = static_cast<double>(level.grid.last[axis]);
   track.from = line.from[axis] * inverse - origin;
-  track.way = line.way[axis] * inverse;
+  track.step = line.step[axis] * inverse;
   // The boxes' cells were rounded in float, what is computed here in double.
   const double rounded =
-      1e-6 * (magnitude(origin) + track.last + 1.0) + 1e-9 * (magnitude(track.way) + magnitude(track.from));
+      1e-6 * (magnitude(origin) + track.last + 1.0) + 1e-9 * (magnitude(track.step) + magnitude(track.from));
   track.below = line.around * inverse + rounded;
   track.above = track.below + static_cast<double>(level.reach[axis]) * inverse;
   return track;
@@ -52,11 +52,11 @@ inline Track trackOf(const Line& line, const Level& level, int axis) {
 class Crossing {
  public:
   Crossing(const Track& on, const Track& passing) : on_(on), last_(passing.last) {
-    // What hardly moves on the other axis passes a cell all its way.
-    const double slope = magnitude(passing.way) > 1e-3 ? on.way / passing.way : 0.0;
+    // What hardly moves on the other axis stays in a cell of this axis on its whole length.
+    const double slope = magnitude(passing.step) > 1e-3 ? on.step / passing.step : 0.0;
     const double enter = on.from - slope * (passing.from + passing.below);
     const double leave = on.from - slope * (passing.from - 1.0 - passing.above);
-    step_ = Simd::twoOf(slope, -slope);
+    per_cell_ = Simd::twoOf(slope, -slope);
     if (slope > 0.0) {
       zero_ = on.cellsBetween(enter, leave);
       before_ = Simd::twoOf(-kEndless, 0.0);
@@ -71,7 +71,7 @@ class Crossing {
   /// Those of `cells` that are met while the line passes this one.
   Span within(std::int32_t passed, Span cells) const {
     const double cell = passed;
-    Span met = Simd::plus(zero_, Simd::times(step_, Simd::twoOf(cell, cell)));
+    Span met = Simd::plus(zero_, Simd::times(per_cell_, Simd::twoOf(cell, cell)));
     if (cell == 0.0) met = Simd::plus(met, before_);
     if (cell == last_) met = Simd::plus(met, after_);
     return on_.within(Simd::greatest(met, cells));
@@ -80,8 +80,8 @@ class Crossing {
  private:
   const Track& on_;
   double last_;
-  Span zero_, step_;     // at cell 0, and from each to the next
-  Span before_, after_;  // what the outermost cells add
+  Span zero_, per_cell_;  // at cell 0, and from each to the next
+  Span before_, after_;   // what the outermost cells add
 };
 
 /// Positions of a row of cells that a line passes.

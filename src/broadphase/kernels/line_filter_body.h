@@ -15,8 +15,8 @@ namespace {
 /// of the three axes that are normal to the line and to a side of the box, the distance of the centres against the
 /// half-widths (Ericson 2005, 4.4: separating axes), in float with room for its rounding.
 struct LineFilter {
-  Simd::Lanes min[3], max[3];                             // of the box around the line
-  Simd::Lanes way[3], twice_from[3], width[3], slack[3];  // width: |way|, a little more
+  Simd::Lanes min[3], max[3];                              // of the box around the line
+  Simd::Lanes step[3], twice_from[3], width[3], slack[3];  // width: |step|, a little more
 };
 
 inline double magnitude(double value) { return value < 0.0 ? -value : value; }
@@ -30,20 +30,20 @@ inline float floatAbove(double value) { return -floatBelow(-value); }
 inline LineFilter filterOf(const Line& line) {
   double length = 0.0, farthest = line.around;
   for (int axis = 0; axis < 3; ++axis) {
-    const double way = magnitude(line.way[axis]), from = magnitude(line.from[axis]);
-    length = way > length ? way : length;
-    farthest = from + way > farthest ? from + way : farthest;
+    const double step = magnitude(line.step[axis]), from = magnitude(line.from[axis]);
+    length = step > length ? step : length;
+    farthest = from + step > farthest ? from + step : farthest;
   }
   const double scale = length > 1e-30 ? 1.0 / length : 0.0;
   LineFilter filter;
   double width[3];
   for (int axis = 0; axis < 3; ++axis) {
-    const double way = line.way[axis] * scale;
-    width[axis] = magnitude(way) * 1.00001;
-    const double from = line.from[axis], to = from + line.way[axis];
+    const double step = line.step[axis] * scale;
+    width[axis] = magnitude(step) * 1.00001;
+    const double from = line.from[axis], to = from + line.step[axis];
     filter.min[axis] = Simd::lanesOf(floatBelow((from < to ? from : to) - line.around));
     filter.max[axis] = Simd::lanesOf(floatAbove((from < to ? to : from) + line.around));
-    filter.way[axis] = Simd::lanesOf(static_cast<float>(way));
+    filter.step[axis] = Simd::lanesOf(static_cast<float>(step));
     filter.width[axis] = Simd::lanesOf(static_cast<float>(width[axis]));
     filter.twice_from[axis] = Simd::lanesOf(static_cast<float>(2.0 * line.from[axis]));
   }
@@ -73,7 +73,7 @@ inline Extents extentsOf(const LineFilter& filter, int axis, const Level& level,
 /// Yes for boxes whose centres are no farther from the line, along the axis normal to it and to coordinate i, than
 /// their half-widths reach. The other coordinates are j and k.
 inline Simd::Mask onAxis(const LineFilter& filter, int i, int j, int k, const Extents& at_j, const Extents& at_k) {
-  const Simd::Lanes apart = Simd::timesMinus(filter.way[j], at_k.away, Simd::times(filter.way[k], at_j.away));
+  const Simd::Lanes apart = Simd::timesMinus(filter.step[j], at_k.away, Simd::times(filter.step[k], at_j.away));
   const Simd::Lanes reach =
       Simd::timesPlus(at_j.size, filter.width[k], Simd::timesPlus(at_k.size, filter.width[j], filter.slack[i]));
   return Simd::notGreater(Simd::size(apart), reach);

@@ -169,7 +169,7 @@ visualization_msgs::MarkerArray markers(const Tick& tick, const QuerySketch& que
       if (state == Freshness::unplaced) continue;
       const bool trusted = state <= Freshness::late;
       addEdges(trusted ? boxes : not_fresh, snapshot.boxes()[proxy], snapshot.origin(),
-               trusted ? levelColor(snapshot.grid().levelOf(proxy)) : color(0.9, 0.1, 0.1, 1.0));
+               trusted ? levelColor(snapshot.broadPhase().levelOf(proxy)) : color(0.9, 0.1, 0.1, 1.0));
     }
     for (const NearPair& pair : snapshot.pairs()) addPair(pairs, snapshot, pair);
   }

@@ -220,10 +220,10 @@ msg::Status status(const Tick& tick, const msg::WorldState& world, const Params&
     message.body_count = static_cast<std::uint32_t>(snapshot.poses().size());
     message.shape_count = static_cast<std::uint32_t>(snapshot.boxes().size());
     message.pair_count = static_cast<std::uint32_t>(snapshot.pairs().size());
-    for (const std::size_t count : snapshot.grid().levelCounts()) {
-      message.level_count.push_back(static_cast<std::uint32_t>(count));
+    for (const BroadPhaseLevel& level : snapshot.broadPhase().levels()) {
+      message.level_count.push_back(static_cast<std::uint32_t>(level.boxes));
+      if (std::isfinite(level.edge)) message.level_edge.push_back(level.edge);
     }
-    for (int level = 0; level < GridScale::kLevels; ++level) message.level_edge.push_back(snapshot.grid().edge(level));
   }
   for (const auto& counter : ledger.counters()) {
     message.counters.emplace_back();

@@ -16,6 +16,8 @@
 namespace hgrid {
 namespace {
 
+constexpr OptionNames kOptionNames = {"~max_pairs", "~horizon", "~pair_kinds", "~allowed_pairs", "~set_allowed"};
+
 /// Age of a body's pose as it is when the answer is given; what is fixed does not age.
 double ageNow(const Body& body, double age, double age_since) {
   return body.mobility == Mobility::fixed && !std::isnan(age) ? 0.0 : age + age_since;
@@ -72,7 +74,7 @@ void ExplainService::explainTo(msg::ExplainPair::Response& response, const Snaps
   if (a != Structure::kNone && b != Structure::kNone && a != b && hasPose(snapshot, a) && hasPose(snapshot, b)) {
     exact = measurePair(*narrow_phase_, snapshot, a, b, std::numeric_limits<double>::infinity());
   }
-  const Explanation what = explain(snapshot, first, second, exact ? &*exact : nullptr);
+  const Explanation what = explain(snapshot, first, second, exact ? &*exact : nullptr, kOptionNames);
   response.reported = what.reported;
   response.explanation = what.text;
   if (what.reported) response.flags = snapshot.pairs()[what.position].flags;

@@ -23,8 +23,8 @@ Time durationOf(double length) { return Time(std::llround(1e9 * length)); }
 }  // namespace
 
 CloudSource::CloudSource(const ros::NodeHandle& node, const CloudParams& cloud, const Params& params,
-                         const OwnShapes& own, const TransformLookup& transforms,
-                         std::shared_ptr<const NarrowPhase> narrow_phase, OwnShapes::NewestTick newest, Sink sink,
+                         const SelfShapes& self_shapes, const TransformLookup& transforms,
+                         std::shared_ptr<const NarrowPhase> narrow_phase, SelfShapes::NewestTick newest, Sink sink,
                          Ledger& ledger)
     : cloud_(cloud),
       what_("cloud '" + cloud.name + "' of " + cloud.topic),
@@ -32,7 +32,7 @@ CloudSource::CloudSource(const ros::NodeHandle& node, const CloudParams& cloud, 
       failed_(counter_ + "failed"),
       simulated_(ros::Time::isSimTime()),
       params_(params),
-      own_(own),
+      self_shapes_(self_shapes),
       transforms_(transforms),
       narrow_phase_(std::move(narrow_phase)),
       newest_(std::move(newest)),
@@ -142,7 +142,7 @@ Time CloudSource::cellTime() const { return simulated_ ? rosNow() : steadyNow();
 /// Waits until tf knows where the sensor and the robot's own shapes were at the stamp, at most ~max_sync_wait.
 void CloudSource::waitFor(const std::string& world_frame, const std::string& frame, Time stamp) const {
   std::vector<std::string> frames;
-  if (own_.wanted()) frames = own_.frames();
+  if (self_shapes_.wanted()) frames = self_shapes_.frames();
   frames.push_back(frame);
   const auto known = [&](const std::string& one) { return transforms_.isKnown(world_frame, one, stamp); };
   const auto deadline = std::chrono::steady_clock::now() + durationOf(params_.max_sync_wait);
@@ -178,9 +178,9 @@ std::vector<Voxel> CloudSource::voxelsOf(PointCloud cloud, const Pose& world_fro
   if (cloud.not_finite > 0) ledger_.count(counter_ + "points_not_finite", cloud.not_finite);
   if (out_of_reach > 0) ledger_.count(counter_ + "points_out_of_reach", out_of_reach);
   if (forgotten > 0) ledger_.count(counter_ + "cells_out_of_reach", forgotten);
-  if (!own_.wanted()) return voxels;
+  if (!self_shapes_.wanted()) return voxels;
   const Pose world_from_keys(Eigen::Translation3d(cells_.corner()));
-  OthersCells others = withoutSelf(voxels, cells_.edge(), world_from_keys, own_.at(stamp), *narrow_phase_);
+  OthersCells others = withoutSelf(voxels, cells_.edge(), world_from_keys, self_shapes_.at(stamp), *narrow_phase_);
   if (others.left_out > 0) ledger_.count(counter_ + "own_cells", others.left_out);
   if (others.undecided > 0) ledger_.count(counter_ + "cells_undecided", others.undecided);
   return std::move(others.voxels);

@@ -16,7 +16,7 @@
 #include "node/diagnostics/ledger.h"
 #include "node/params/params.h"
 #include "node/sources/loaded_map.h"
-#include "node/sources/own_shapes.h"
+#include "node/sources/self_shapes.h"
 #include "node/wire/cloud_message.h"
 
 namespace hgrid {
@@ -34,9 +34,9 @@ class CloudSource {
   };
 
   /// @param node  its namespace is that of the topic
-  CloudSource(const ros::NodeHandle& node, const CloudParams& cloud, const Params& params, const OwnShapes& own,
+  CloudSource(const ros::NodeHandle& node, const CloudParams& cloud, const Params& params, const SelfShapes& self_shapes,
               const TransformLookup& transforms, std::shared_ptr<const NarrowPhase> narrow_phase,
-              OwnShapes::NewestTick newest, Sink sink, Ledger& ledger);
+              SelfShapes::NewestTick newest, Sink sink, Ledger& ledger);
   ~CloudSource();
 
  private:
@@ -56,10 +56,10 @@ class CloudSource {
   std::string failed_;   // name of the counter of exceptions in its callbacks
   bool simulated_;       // /clock drives ROS time
   const Params& params_;
-  const OwnShapes& own_;
+  const SelfShapes& self_shapes_;
   const TransformLookup& transforms_;
   std::shared_ptr<const NarrowPhase> narrow_phase_;
-  OwnShapes::NewestTick newest_;
+  SelfShapes::NewestTick newest_;
   Sink sink_;
   Ledger& ledger_;
 

@@ -30,9 +30,9 @@ void checkFileName(const std::string& file) {
 
 }  // namespace
 
-MapSource::MapSource(const Params& params, const OwnShapes& own, std::shared_ptr<const NarrowPhase> narrow_phase,
-                     Ledger& ledger)
-    : params_(params), own_(own), narrow_phase_(std::move(narrow_phase)), ledger_(ledger) {}
+MapSource::MapSource(const Params& params, const SelfShapes& self_shapes,
+                     std::shared_ptr<const NarrowPhase> narrow_phase, Ledger& ledger)
+    : params_(params), self_shapes_(self_shapes), narrow_phase_(std::move(narrow_phase)), ledger_(ledger) {}
 
 OctomapOptions MapSource::options() const {
   OctomapOptions options;
@@ -57,11 +57,11 @@ LoadedMap MapSource::finished(ReadMap map) const {
 
 LoadedMap MapSource::built(ReadMap&& map) const {
   Octomap& octomap = map.octomap;
-  if (own_.wanted()) {
-    own_.require();
-    const Pose world_from_map = own_.worldFrom(map.params.frame, map.stamp) * map.params.frame_from_map;
+  if (self_shapes_.wanted()) {
+    self_shapes_.require();
+    const Pose world_from_map = self_shapes_.worldFrom(map.params.frame, map.stamp) * map.params.frame_from_map;
     OthersCells others =
-        withoutSelf(octomap.occupied, octomap.resolution, world_from_map, own_.at(map.stamp), *narrow_phase_);
+        withoutSelf(octomap.occupied, octomap.resolution, world_from_map, self_shapes_.at(map.stamp), *narrow_phase_);
     if (others.left_out > 0) ledger_.count("maps.own_cells", others.left_out);
     if (others.undecided > 0) ledger_.count("maps.cells_undecided", others.undecided);
     octomap.occupied = std::move(others.voxels);

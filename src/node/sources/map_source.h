@@ -10,7 +10,7 @@
 #include "node/diagnostics/ledger.h"
 #include "node/params/params.h"
 #include "node/sources/loaded_map.h"
-#include "node/sources/own_shapes.h"
+#include "node/sources/self_shapes.h"
 #include "node/wire/octomap_message.h"
 
 namespace hgrid {
@@ -26,7 +26,7 @@ struct ReadMap {
 /// Reads OctoMaps from the configured folder and from messages. Any thread.
 class MapSource {
  public:
-  MapSource(const Params& params, const OwnShapes& own, std::shared_ptr<const NarrowPhase> narrow_phase,
+  MapSource(const Params& params, const SelfShapes& self_shapes, std::shared_ptr<const NarrowPhase> narrow_phase,
             Ledger& ledger);
 
   /// @throws Refusal naming the map: bad_id (the file's name has other than letters, digits, . _ -), resource_denied
@@ -44,7 +44,7 @@ class MapSource {
   LoadedMap built(ReadMap&& map) const;
 
   const Params& params_;
-  const OwnShapes& own_;
+  const SelfShapes& self_shapes_;
   std::shared_ptr<const NarrowPhase> narrow_phase_;
   Ledger& ledger_;
 };

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "hgrid_proximity/adapters/fcl.h"
+#include "hgrid_proximity/narrow/narrow_phase.h"
 #include "test/support/shapes.h"
 #include "test/support/solid_oracle.h"
 #include "test/support/solids.h"
@@ -16,7 +16,10 @@ namespace test {
 struct KindPair {
   ShapeKind first, second;
 };
-/// The 28 pairs of kinds.
+/// The kinds that narrowPhase() measures: all seven, or all but meshes.
+std::vector<ShapeKind> measuredKinds();
+bool measuresMeshes();
+/// Their pairs: 28 of seven kinds.
 std::vector<KindPair> allKindPairs();
 /// As in "box_mesh", for names of tests.
 std::string nameOf(const KindPair& kinds);
@@ -70,7 +73,8 @@ class Trial {
   std::shared_ptr<const Solid> first_, second_;
 };
 
-/// The narrow phase that all tests of a program share.
+/// The narrow phase that is tested. The same tests are linked with test/narrow/tested_convex.cpp and with
+/// test/adapters/tested_fcl.cpp, which define this function.
 NarrowPhase& narrowPhase();
 
 /// The answer with first and second exchanged.

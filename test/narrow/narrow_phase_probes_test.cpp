@@ -4,7 +4,7 @@
 // What questions are made of measures like the shapes that it stands for.
 #include <gtest/gtest.h>
 
-#include "test/adapters/narrow_phase_judge.h"
+#include "test/narrow/narrow_phase_judge.h"
 
 namespace hgrid {
 namespace test {
@@ -30,12 +30,10 @@ class Probes : public testing::TestWithParam<ShapeKind> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(NarrowPhase, Probes,
-                         testing::Values(ShapeKind::sphere, ShapeKind::box, ShapeKind::cylinder, ShapeKind::cone,
-                                         ShapeKind::capsule, ShapeKind::hull, ShapeKind::mesh),
+INSTANTIATE_TEST_SUITE_P(NarrowPhase, Probes, testing::ValuesIn(measuredKinds()),
                          [](const auto& info) { return std::string(name(info.param)); });
 
-TEST_P(Probes, APointWithARadiusIsABall) {
+TEST_P(Probes, APointWithARadiusIsASphere) {
   const auto point = narrowPhase().point();
   for (const double radius : {1e-3, 0.5}) expectLike(Shape::sphere(radius), *point, radius, 0.01);
 }

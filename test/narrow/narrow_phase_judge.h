@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "test/adapters/narrow_phase_cases.h"
+#include "test/narrow/narrow_phase_cases.h"
 
 namespace hgrid {
 namespace test {

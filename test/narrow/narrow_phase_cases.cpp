@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "test/adapters/narrow_phase_cases.h"
+#include "test/narrow/narrow_phase_cases.h"
 
 #include <cmath>
 #include <utility>
@@ -35,10 +35,19 @@ bool sameBits(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 
 }  // namespace
 
+bool measuresMeshes() { return narrowPhase().solidOf(meshOf(boxMesh({1, 1, 1}))) != nullptr; }
+
+std::vector<ShapeKind> measuredKinds() {
+  std::vector<ShapeKind> kinds;
+  for (int kind = 1; kind <= (measuresMeshes() ? 7 : 6); ++kind) kinds.push_back(ShapeKind(kind));
+  return kinds;
+}
+
 std::vector<KindPair> allKindPairs() {
   std::vector<KindPair> pairs;
-  for (int i = 1; i <= 7; ++i) {
-    for (int j = i; j <= 7; ++j) pairs.push_back({ShapeKind(i), ShapeKind(j)});
+  const std::vector<ShapeKind> kinds = measuredKinds();
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    for (std::size_t j = i; j < kinds.size(); ++j) pairs.push_back({kinds[i], kinds[j]});
   }
   return pairs;
 }
@@ -84,11 +93,6 @@ void bringTo(double gap, Case& placed) {
   if (!(length > 1e-9L) || apart.enclosed) return;
   const Real step = gap + first.radius() + second.radius() - length;
   placed.world_from_second.translation() += (step / length * way).cast<double>();
-}
-
-NarrowPhase& narrowPhase() {
-  static const std::shared_ptr<NarrowPhase> shared = makeFclNarrowPhase();
-  return *shared;
 }
 
 Trial::Trial(const Case& placed)

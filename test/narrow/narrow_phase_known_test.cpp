@@ -4,7 +4,7 @@
 // Plain cases, most of them found by the random ones, that libraries get wrong; their answers can be seen by eye.
 #include <gtest/gtest.h>
 
-#include "test/adapters/narrow_phase_judge.h"
+#include "test/narrow/narrow_phase_judge.h"
 
 namespace hgrid {
 namespace test {
@@ -62,10 +62,6 @@ TEST(NarrowPhaseKnown, SmallBoxBesideAThinPlate) {
     expectDistance(0.11575, Shape::box({0.0005, 0.0133, 0.0007}), Shape::box({0.08, 0.002, 0.08}),
                    turned(at(0.156, angle, -angle), {-1.0, 0.9, -0.3}, angle));
   }
-}
-
-TEST(NarrowPhaseKnown, BallOverAMesh) {
-  expectDistance(1.4, Shape::sphere(0.1), meshOf(boxMesh({1.0, 1.0, 1.0})), at(0.1, 0.2, -2.0));
 }
 
 // What is no more than a point, where the centre of a ball is, or an end of a capsule, or a corner.

@@ -5,8 +5,8 @@
 // HGRID_TEST_FUZZ times as many cases as by default.
 #include <gtest/gtest.h>
 
-#include "test/adapters/narrow_phase_judge.h"
-#include "test/adapters/strange_cases.h"
+#include "test/narrow/narrow_phase_judge.h"
+#include "test/narrow/strange_cases.h"
 
 namespace hgrid {
 namespace test {

@@ -6,7 +6,7 @@
 
 #include <thread>
 
-#include "test/adapters/narrow_phase_judge.h"
+#include "test/narrow/narrow_phase_judge.h"
 
 namespace hgrid {
 namespace test {

@@ -7,7 +7,7 @@
 
 #include <cstdio>
 
-#include "test/adapters/narrow_phase_judge.h"
+#include "test/narrow/narrow_phase_judge.h"
 
 namespace hgrid {
 namespace test {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "node/sources/own_shapes.h"
+#include "node/sources/self_shapes.h"
 
 #include "hgrid_proximity/bodies/name.h"
 #include "hgrid_proximity/refusal.h"
@@ -11,7 +11,7 @@ namespace hgrid {
 
 /// Calls `look` for each named body of the newest tick, with the padding that ~map/self_filter has for it.
 template <class Look>
-void OwnShapes::forEach(const Look& look) const {
+void SelfShapes::forEach(const Look& look) const {
   const std::shared_ptr<const Tick> tick = newest_();
   if (!tick || !tick->snapshot) return;
   const Snapshot& snapshot = *tick->snapshot;
@@ -23,7 +23,7 @@ void OwnShapes::forEach(const Look& look) const {
   }
 }
 
-void OwnShapes::require() const {
+void SelfShapes::require() const {
   const std::shared_ptr<const Tick> tick = newest_();
   if (!tick || !tick->snapshot || tick->models->robots < params_.robots.size()) {
     throw Refusal(Code::not_ready, "the robots whose cells ~map/self_filter leaves out are not all loaded yet");
@@ -36,7 +36,7 @@ void OwnShapes::require() const {
   });
 }
 
-std::vector<std::string> OwnShapes::frames() const {
+std::vector<std::string> SelfShapes::frames() const {
   std::vector<std::string> frames;
   forEach([&](const Tick&, const Body& body, const BodyPose& pose, double) {
     if (pose.state < Freshness::lost) frames.push_back(body.frame);
@@ -44,7 +44,7 @@ std::vector<std::string> OwnShapes::frames() const {
   return frames;
 }
 
-std::vector<SelfShape> OwnShapes::at(Time stamp) const {
+std::vector<SelfShape> SelfShapes::at(Time stamp) const {
   std::vector<SelfShape> shapes;
   forEach([&](const Tick& tick, const Body& body, const BodyPose& pose, double padding) {
     const std::optional<FramePose> world_from_frame = transforms_.at(tick.world_frame, body.frame, stamp);
@@ -58,7 +58,7 @@ std::vector<SelfShape> OwnShapes::at(Time stamp) const {
   return shapes;
 }
 
-Pose OwnShapes::worldFrom(const std::string& frame, Time stamp) const {
+Pose SelfShapes::worldFrom(const std::string& frame, Time stamp) const {
   const std::shared_ptr<const Tick> tick = newest_();
   if (tick && !tick->world_frame.empty()) {
     if (frame.empty()) return Pose::Identity();

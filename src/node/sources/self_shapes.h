@@ -18,11 +18,11 @@ struct Tick;
 
 /// Finds out where the bodies were that ~map/self_filter names, so that the cells that sensors made of the robot itself
 /// can be left out. Any thread.
-class OwnShapes {
+class SelfShapes {
  public:
   using NewestTick = std::function<std::shared_ptr<const Tick>()>;
 
-  OwnShapes(const Params& params, const TransformLookup& transforms, NewestTick newest)
+  SelfShapes(const Params& params, const TransformLookup& transforms, NewestTick newest)
       : params_(params), transforms_(transforms), newest_(std::move(newest)) {}
 
   /// Whether ~map/self_filter names any bodies.

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
-#include "test/adapters/narrow_phase_cases.h"
+#include "test/narrow/narrow_phase_cases.h"
 
 namespace hgrid {
 namespace test {

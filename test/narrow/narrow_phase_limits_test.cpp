@@ -4,7 +4,7 @@
 // What a limit of the distance and a padding do to an answer, for every pair of kinds.
 #include <gtest/gtest.h>
 
-#include "test/adapters/narrow_phase_judge.h"
+#include "test/narrow/narrow_phase_judge.h"
 
 namespace hgrid {
 namespace test {

@@ -7,25 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "hgrid_proximity/bodies/body.h"
+#include "hgrid_proximity/pairs/near_pair.h"
 
 namespace hgrid {
-
-/// Why a pair is selected beyond its margin, and what is odd with it; the bits are those of msg/Pairs.msg.
-enum PairFlags : std::uint8_t {
-  kHorizonFlag = 1,   ///< the two can meet within the horizon, or passed each other since the last tick
-  kTeleportFlag = 2,  ///< one of them moved farther since the last tick than its max_speed allows
-};
-
-/// A candidate: two bodies whose boxes come within their margin, or may soon.
-struct NearPair {
-  std::uint32_t first = 0;  ///< index into Structure::bodies, first < second
-  std::uint32_t second = 0;
-  double gap = 0.0;        ///< [m] least distance of their boxes
-  double margin = 0.0;     ///< [m] margin that selected the pair, growth of stale bodies included
-  Time since{0};           ///< stamp of the tick in which it was first seen without interruption
-  std::uint8_t flags = 0;  ///< of PairFlags
-};
 
 /// Whether two bodies are a candidate pair that truncation removed. Asked only about pairs that are not listed. Empty:
 /// truncation removed none.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "test/adapters/narrow_phase_judge.h"
+#include "test/narrow/narrow_phase_judge.h"
 
 #include <gtest/gtest.h>
 

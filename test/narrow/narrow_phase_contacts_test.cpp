@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// Contacts: there are some exactly where the shapes touch, and each lies in both shapes.
+#include <gtest/gtest.h>
+
+#include "test/narrow/narrow_phase_judge.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+constexpr std::size_t kAll = 1000000;
+
+std::vector<Contact> contactsOf(const Case& placed, std::size_t most = kAll, bool exchanged = false) {
+  const auto first = narrowPhase().solidOf(placed.first_shape), second = narrowPhase().solidOf(placed.second_shape);
+  const PlacedSolid a{*first, placed.world_from_first, placed.first_padding};
+  const PlacedSolid b{*second, placed.world_from_second, placed.second_padding};
+  return exchanged ? narrowPhase().contacts(b, a, most) : narrowPhase().contacts(a, b, most);
+}
+
+bool same(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a == b || (a.hasNaN() && b.hasNaN()); }
+
+class Contacts : public testing::TestWithParam<KindPair> {};
+
+INSTANTIATE_TEST_SUITE_P(NarrowPhase, Contacts, testing::ValuesIn(allKindPairs()),
+                         [](const auto& info) { return nameOf(info.param); });
+
+TEST_P(Contacts, AreWhereThereIsContactAndLieInBoth) {
+  Cases cases(41, GetParam());
+  Claim there("there are contacts exactly where there is contact", 0.0);
+  Claim in_both("the point lies in both padded shapes", 1e-6);
+  Claim free("a convex second, moved by the depth along the normal, is free", 0.0);
+  Claim same_order("both orders give the same contacts", 0.0);
+  Claim sorted("the deepest come first", 0.0);
+  const bool convex = GetParam().first != ShapeKind::mesh && GetParam().second != ShapeKind::mesh;
+  for (int i = 0; i < 300; ++i) {
+    const Case placed = cases.next();
+    const Proximity answer = Trial(placed).measure();
+    const std::vector<Contact> contacts = contactsOf(placed), exchanged = contactsOf(placed, kAll, true);
+    there.hold(contacts.empty() == !isContact(answer.status), placed);
+    same_order.hold(contacts.size() == exchanged.size(), placed);
+    for (std::size_t k = 0; k < std::min(contacts.size(), exchanged.size()); ++k) {
+      const Contact &contact = contacts[k], &other = exchanged[k];
+      same_order.hold(same(contact.point, other.point) && same(contact.normal, -other.normal), placed);
+      in_both.hold(
+          std::max(distanceOf(placed.first(), contact.point).lower, distanceOf(placed.second(), contact.point).lower),
+          placed);
+      sorted.hold(k == 0 || !deeper(contact, contacts[k - 1]), placed);
+      if (!convex || std::isnan(contact.depth)) continue;
+      Case freed = placed;
+      freed.world_from_second.translation() += (contact.depth + 1e-5) * contact.normal;
+      free.hold(distanceOf(freed.first(), freed.second()).interval.lower > 0.0, placed);
+    }
+  }
+  for (const Claim* claim : {&there, &in_both, &free, &same_order, &sorted}) claim->expectHeld();
+  EXPECT_GT(in_both.count(), 20u) << "too few contacts to say";
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid
