@@ -14,9 +14,8 @@ Housekeeping::Housekeeping(const ros::NodeHandle& node, double period, std::vect
 }
 
 void Housekeeping::start() {
-  timer_ = node_.createSteadyTimer(ros::WallDuration(period_), [this](const ros::SteadyTimerEvent&) {
-    doChores(std::chrono::steady_clock::now());
-  });
+  timer_ = node_.createSteadyTimer(
+      ros::WallDuration(period_), [this](const ros::SteadyTimerEvent&) { doChores(std::chrono::steady_clock::now()); });
 }
 
 void Housekeeping::doChores(Time now) {

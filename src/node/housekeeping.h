@@ -18,7 +18,7 @@ class Housekeeping {
  public:
   using Time = std::chrono::steady_clock::time_point;
   struct Chore {
-    const char* fault;              ///< counter of its exceptions
+    const char* fault;                ///< counter of its exceptions
     std::chrono::milliseconds pause;  ///< from one time to the next; 0: whenever the timer fires
     std::function<void(Time now)> act;
   };

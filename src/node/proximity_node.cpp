@@ -14,7 +14,7 @@
 namespace hgrid {
 namespace {
 
-constexpr double kHousekeepingPeriod = 0.25;              // [s] at most
+constexpr double kHousekeepingPeriod = 0.25;  // [s] at most
 constexpr std::chrono::milliseconds kDiagnosticsPause{1000};
 
 /// A number that no earlier run of the node had: the wall clock [ns].

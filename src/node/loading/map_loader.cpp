@@ -41,12 +41,9 @@ void MapLoader::onMessage(const MapParams& map, const OctomapMessage& message) {
 }
 
 void MapLoader::loadMissing() {
-  files_.tryAll([this](const MapParams& map) {
-    return putGuarded(map, [&] { return source_.finished(source_.read(map)); });
-  });
-  arrived_.tryAll([this](const ReadMap& map) {
-    return putGuarded(map.params, [&] { return source_.finished(map); });
-  });
+  files_.tryAll(
+      [this](const MapParams& map) { return putGuarded(map, [&] { return source_.finished(source_.read(map)); }); });
+  arrived_.tryAll([this](const ReadMap& map) { return putGuarded(map.params, [&] { return source_.finished(map); }); });
 }
 
 void MapLoader::forget(const std::string& map) {

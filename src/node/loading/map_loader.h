@@ -19,8 +19,8 @@ namespace hgrid {
 
 /// Puts the configured maps into the world: those of files at the start, those of topics whenever a message comes.
 ///
-/// It remembers which files are still to be read, and which messages the world could not take yet, because many maps are
-/// published only once. One thread, not that of the ticks.
+/// It remembers which files are still to be read, and which messages the world could not take yet, because many maps
+/// are published only once. One thread, not that of the ticks.
 class MapLoader {
  public:
   /// @param node  its callback queue is that of the thread that uses this object. All other parameters must outlive it.

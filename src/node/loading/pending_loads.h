@@ -29,8 +29,8 @@ class PendingLoads {
   }
   void clear() { loads_.clear(); }
 
-  /// Calls `try_load(const Load&)` for every load in order and removes those for which it returns true. If a call throws,
-  /// that load and those after it stay. `try_load` must not change this object.
+  /// Calls `try_load(const Load&)` for every load in order and removes those for which it returns true. If a call
+  /// throws, that load and those after it stay. `try_load` must not change this object.
   template <class TryLoad>
   void tryAll(TryLoad&& try_load) {
     for (std::size_t i = 0; i < loads_.size();) {

@@ -16,9 +16,7 @@ PairMeter meterOf(const Commons& commons) {
 }  // namespace
 
 DistancesPublisher::DistancesPublisher(ros::NodeHandle& private_node, Commons& commons)
-    : commons_(commons),
-      publisher_(private_node.advertise<msg::Distances>("distances", 1)),
-      meter_(meterOf(commons)) {}
+    : commons_(commons), publisher_(private_node.advertise<msg::Distances>("distances", 1)), meter_(meterOf(commons)) {}
 
 void DistancesPublisher::publish(const std::shared_ptr<const Tick>& tick, bool also_wanted) {
   const bool wanted = publisher_.getNumSubscribers() > 0;

@@ -8,12 +8,14 @@ Publishers::Publishers(ros::NodeHandle tick_node, ros::NodeHandle admin_node, Co
                        const Stopwatch& stopwatch, const QuerySketch& sketch)
     : streams_(tick_node, commons, stopwatch),
       bodies_(tick_node),
+      rules_(tick_node, commons.settings.params),
       distances_(tick_node, commons),
       markers_(admin_node, commons.settings.params, sketch) {}
 
 void Publishers::publishTick(const Tick& tick) {
   streams_.publish(tick);
   bodies_.publish(tick);
+  rules_.publish(tick);
 }
 
 void Publishers::publishDistances(const std::shared_ptr<const Tick>& tick) {

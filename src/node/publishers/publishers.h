@@ -10,6 +10,7 @@
 #include "node/publishers/bodies_publisher.h"
 #include "node/publishers/distances_publisher.h"
 #include "node/publishers/markers_publisher.h"
+#include "node/publishers/rules_publisher.h"
 #include "node/publishers/streams_publisher.h"
 
 namespace hgrid {
@@ -22,7 +23,7 @@ class Publishers {
   Publishers(ros::NodeHandle tick_node, ros::NodeHandle admin_node, Commons& commons, const Stopwatch& stopwatch,
              const QuerySketch& sketch);
 
-  /// Publishes what every tick has: ~events, ~pairs, ~status, and ~bodies if it changed. Tick thread.
+  /// Publishes what every tick has: ~events, ~pairs, ~status, and ~bodies and ~rules if they changed. Tick thread.
   void publishTick(const Tick& tick);
   /// Measures and publishes ~distances. Tick thread.
   void publishDistances(const std::shared_ptr<const Tick>& tick);
@@ -32,6 +33,7 @@ class Publishers {
  private:
   StreamsPublisher streams_;
   BodiesPublisher bodies_;
+  RulesPublisher rules_;
   DistancesPublisher distances_;
   MarkersPublisher markers_;
 };

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "hgrid_proximity/explain/allowed_matrix.h"
+#include "hgrid_proximity/explain/changed_pairs.h"
 #include "hgrid_proximity/pairs/rule_book.h"
 #include "node/messages/rule_messages.h"
 
@@ -30,15 +31,15 @@ AllowedServices::AllowedServices(ServiceEnvelope& envelope, const Params& params
       envelope.serve<msg::GetAllowed>("get_allowed", [this](ServiceCall<msg::GetAllowed>& call) { get(call); }));
 }
 
-/// The rules after the request. @throws Refusal if the request must not be carried out
-std::vector<PairRule> AllowedServices::rulesAfter(const msg::SetAllowed::Request& request,
-                                                  const Structure& structure) const {
+/// The filter with the rules after the request. @throws Refusal if the request must not be carried out
+PairFilter AllowedServices::filterAfter(const ServiceCall<msg::SetAllowed>& call, const Structure& structure) const {
+  const msg::SetAllowed::Request& request = call.request;
   const auto most = static_cast<std::size_t>(params_.max_rules);
   if (request.rules.size() > most) {
     throw Refusal(Code::limit, "the request has " + std::to_string(request.rules.size()) + " rules; at most " +
                                    std::to_string(most) + " are allowed (~max_rules)");
   }
-  const std::vector<PairRule> rules = rulesOf(request.rules, PairRule::Clock::now());
+  const std::vector<PairRule> rules = rulesOf(request.rules, call.caller, thisMoment());
   RuleBook book(structure.filter.rules(), most);
   if (request.remove) {
     book.remove(rules);
@@ -46,20 +47,25 @@ std::vector<PairRule> AllowedServices::rulesAfter(const msg::SetAllowed::Request
     checkKnown(rules, structure.bodies);
     book.add(rules);
   }
-  const PairFilter filter(structure.bodies, params_.pair_kinds, book.rules());
-  if (silencesAll(structure.bodies, params_.pair_kinds, filter)) {
-    if (!request.force) {
-      throw Refusal(Code::needs_force,
-                    "no pair of bodies would be reported any more; ask with force = true if so meant");
-    }
-    ROS_WARN("Rules of ~set_allowed switch off every pair: nothing is reported any more.");
+  return PairFilter(structure.bodies, params_.pair_kinds, book.rules());
+}
+
+/// @throws Refusal needs_force if the filter leaves no pair that is reported, unless `force` is set
+void AllowedServices::checkNotSilenced(const Structure& structure, const PairFilter& filter, bool force) const {
+  if (!silencesAll(structure.bodies, params_.pair_kinds, filter)) return;
+  if (!force) {
+    throw Refusal(Code::needs_force, "no pair of bodies would be reported any more; ask with force = true if so meant");
   }
-  return book.rules();
+  ROS_WARN("Rules of ~set_allowed switch off every pair: nothing is reported any more.");
 }
 
 void AllowedServices::set(ServiceCall<msg::SetAllowed>& call) const {
-  const std::vector<PairRule> rules = rulesAfter(call.request, call.tick.snapshot().structure());
-  call.tick = AnswerTick(change_world_([rules](World& world) { world.setRules(rules); }));
+  const Structure& structure = call.tick.snapshot().structure();
+  const PairFilter filter = filterAfter(call, structure);
+  checkNotSilenced(structure, filter, call.request.force);
+  const std::uint64_t changed = changedPairs(structure.bodies, structure.filter, filter);
+  call.tick = AnswerTick(change_world_([rules = filter.rules()](World& world) { world.setRules(rules); }));
+  call.response.pairs_changed = static_cast<std::uint32_t>(std::min<std::uint64_t>(changed, 0xffffffffu));
 }
 
 void AllowedServices::get(ServiceCall<msg::GetAllowed>& call) const {

@@ -26,7 +26,8 @@ class AllowedServices {
  private:
   void set(ServiceCall<msg::SetAllowed>& call) const;
   void get(ServiceCall<msg::GetAllowed>& call) const;
-  std::vector<PairRule> rulesAfter(const msg::SetAllowed::Request& request, const Structure& structure) const;
+  PairFilter filterAfter(const ServiceCall<msg::SetAllowed>& call, const Structure& structure) const;
+  void checkNotSilenced(const Structure& structure, const PairFilter& filter, bool force) const;
 
   const Params& params_;
   ChangeWorld change_world_;

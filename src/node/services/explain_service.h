@@ -11,8 +11,8 @@
 
 namespace hgrid {
 
-/// Serves ~explain_pair from the newest tick. Any number of threads may serve at the same time; none of them waits for a
-/// tick.
+/// Serves ~explain_pair from the newest tick. Any number of threads may serve at the same time; none of them waits for
+/// a tick.
 class ExplainService {
  public:
   /// @param envelope  must outlive this object, as `params` must

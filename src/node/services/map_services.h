@@ -19,7 +19,8 @@ namespace hgrid {
 /// only takes over the new map.
 class MapServices {
  public:
-  /// Called when a map was loaded or removed; an empty name stands for all maps. An older map must not replace it later.
+  /// Called when a map was loaded or removed; an empty name stands for all maps. An older map must not replace it
+  /// later.
   using Decided = std::function<void(const std::string& map)>;
 
   /// @param envelope  must outlive this object, as `source` must

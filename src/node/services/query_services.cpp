@@ -111,9 +111,8 @@ QueryServices::QueryServices(ServiceEnvelope& envelope, const Params& params, co
     sketch.show(segment, found.verdict);
     return found;
   });
-  serve<msg::QueryBox>(envelope, "query_box", [this](const auto& request, const Question& question) {
-    return askBox(request, question);
-  });
+  serve<msg::QueryBox>(envelope, "query_box",
+                       [this](const auto& request, const Question& question) { return askBox(request, question); });
   serve<msg::QueryNearest>(envelope, "query_nearest", [this](const auto& request, const Question& question) {
     return askNearest(request, question);
   });
@@ -170,8 +169,7 @@ geometry_msgs::TransformStamped QueryServices::lookUp(const Tick& tick, const st
   try {
     return transforms_.lookupTransform(tick.world_frame, frame, stamp);
   } catch (const tf2::ExtrapolationException&) {
-    const geometry_msgs::TransformStamped newest =
-        transforms_.lookupTransform(tick.world_frame, frame, ros::Time(0));
+    const geometry_msgs::TransformStamped newest = transforms_.lookupTransform(tick.world_frame, frame, ros::Time(0));
     const double apart = std::abs((newest.header.stamp - stamp).toSec());
     if (newest.header.stamp.isZero() || apart <= params_.stale_after) return newest;
     throw Refusal(Code::extrapolation, "the query's frame '" + printable(frame) + "' is known at " +

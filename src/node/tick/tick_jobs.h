@@ -28,8 +28,8 @@ class TickJobs {
   /// Adds a job and returns at once. Any thread may call this.
   void add(Job job);
   /// Adds a job and waits until a tick has done it. Any thread but that of the ticks may call this.
-  /// @throws what the job throws; Refusal busy if no tick does the job in time or if the node is about to end. A tick may
-  /// still do the job after that.
+  /// @throws what the job throws; Refusal busy if no tick does the job in time or if the node is about to end. A tick
+  /// may still do the job after that.
   void run(const Job& job);
 
   /// Does all jobs. Only the thread of the ticks may call this.

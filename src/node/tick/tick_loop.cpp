@@ -38,7 +38,8 @@ void TickLoop::start(std::vector<Step> steps) {
 std::shared_ptr<const Tick> TickLoop::tickAfter(const TickJobs::Job& job) {
   jobs_.run(job);
   // The tick that did the job is published when the next tick does its jobs.
-  const auto tick = std::make_shared<std::shared_ptr<const Tick>>();  // shared: run() may give up before the job is done
+  const auto tick =
+      std::make_shared<std::shared_ptr<const Tick>>();  // shared: run() may give up before the job is done
   jobs_.run([this, tick](World&) { *tick = newest(); });
   return *tick;
 }

@@ -33,8 +33,8 @@ class TickLoop {
     std::function<void(const std::shared_ptr<const Tick>&)> act;
   };
 
-  /// @param node  its callback queue is that of the tick thread. All other parameters must outlive this object; the tick
-  /// thread alone may use `world` and `stopwatch`.
+  /// @param node  its callback queue is that of the tick thread. All other parameters must outlive this object; the
+  /// tick thread alone may use `world` and `stopwatch`.
   TickLoop(ros::NodeHandle node, const Params& params, World& world, TickJobs& jobs, Stopwatch& stopwatch,
            NodeHealth& health, Ledger& ledger);
 
