@@ -63,6 +63,7 @@ set(HGRID_CORE_SOURCES
   src/distances/map_meter.cpp
   src/distances/pair_meter.cpp
   src/explain/allowed_matrix.cpp
+  src/explain/changed_pairs.cpp
   src/explain/explain.cpp
 )
 set(HGRID_ADAPTER_SOURCES

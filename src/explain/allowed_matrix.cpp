@@ -110,7 +110,12 @@ AllowedList decidedPairs(const Structure& structure, const AllowedScope& scope) 
       entry.reason = std::move(decision.reason);
       entry.allowed = decision.allowed;
       entry.origin = decision.origin;
-      if (decision.rule != PairDecision::kNoRule) entry.ends = structure.filter.rules()[decision.rule].ends;
+      if (decision.rule != PairDecision::kNoRule) {
+        const PairRule& rule = structure.filter.rules()[decision.rule];
+        entry.ends = rule.ends;
+        entry.set_by = rule.set_by;
+        entry.since = rule.since;
+      }
       list.entries.push_back(std::move(entry));
     }
   }

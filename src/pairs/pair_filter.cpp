@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <tuple>
 #include <utility>
 
 #include "bodies/name_index.h"
@@ -151,33 +150,30 @@ PairDecision PairFilter::decision(std::uint32_t first, std::uint32_t second) con
   return result;
 }
 
-/// Bodies that stand for all others in pairs of two robots or none: of those that neither kind nor rules tell apart
-/// one, and where there are, another that is not of its robot.
+void PairFilter::appendKey(std::uint32_t body, std::vector<std::uint64_t>& key) const {
+  const Subject& subject = subjects_[body];
+  key.push_back(subject.type);
+  key.push_back((subject.ruled & kByName) != 0 ? body : kNoRule);  // a body that a rule names is like no other
+  for (const auto* sets : {&as_first_, &as_second_}) {
+    const auto begin = sets->begin() + static_cast<std::ptrdiff_t>(body * words_);
+    key.insert(key.end(), begin, begin + static_cast<std::ptrdiff_t>(words_));
+  }
+}
+
+/// Bodies that represent all others in pairs of two robots or none: one of those with equal keys and, where there is
+/// one, another that is not of its robot.
 std::vector<std::uint32_t> PairFilter::representatives() const {
-  struct Class {
-    std::uint8_t type;
-    std::uint32_t named;  // a body that a rule names is like no other
-    std::vector<std::uint64_t> sets;
-    bool operator<(const Class& other) const {
-      return std::tie(type, named, sets) < std::tie(other.type, other.named, other.sets);
-    }
-  };
-  const auto part = [&](const std::vector<std::uint64_t>& sets, std::size_t body, std::vector<std::uint64_t>& to) {
-    const auto begin = sets.begin() + static_cast<std::ptrdiff_t>(body * words_);
-    to.insert(to.end(), begin, begin + static_cast<std::ptrdiff_t>(words_));
-  };
   struct Chosen {
     std::uint32_t robot;  // of the first
     bool two;
   };
-  std::map<Class, Chosen> classes;
+  std::map<std::vector<std::uint64_t>, Chosen> chosen;  // by key
   std::vector<std::uint32_t> result;
   for (std::uint32_t i = 0; i < subjects_.size(); ++i) {
     const Subject& subject = subjects_[i];
-    Class key{subject.type, (subject.ruled & kByName) != 0 ? i : kNoRule, {}};
-    part(as_first_, i, key.sets);
-    part(as_second_, i, key.sets);
-    const auto [found, is_new] = classes.emplace(std::move(key), Chosen{subject.robot, false});
+    std::vector<std::uint64_t> key;
+    appendKey(i, key);
+    const auto [found, is_new] = chosen.emplace(std::move(key), Chosen{subject.robot, false});
     const bool stranger = !is_new && (found->second.robot != subject.robot || subject.robot == kNoRobot);
     const bool second = stranger && !std::exchange(found->second.two, true);
     if (is_new || second) result.push_back(i);

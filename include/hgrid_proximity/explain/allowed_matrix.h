@@ -23,7 +23,7 @@ struct AllowedList {
 };
 
 /// Pairs of bodies that a rule, an SRDF, a joint or a rigid group speaks of, each with what decides: the two names, the
-/// smaller first, and origin, reason, end. Pairs that do not exist (PairKinds) are none of them.
+/// smaller first, and origin, reason, end, who set it and when. Pairs that do not exist (PairKinds) are none of them.
 /// @throws Refusal budget if it would take too many looks
 AllowedList decidedPairs(const Structure& structure, const AllowedScope& scope);
 

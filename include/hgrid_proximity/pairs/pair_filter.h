@@ -63,6 +63,10 @@ class PairFilter {
   const std::vector<PairRule>& rules() const { return rules_; }
   /// Whether a rule speaks of some pair of this body.
   bool isRuled(std::uint32_t body) const { return subjects_[body].ruled != 0; }
+  /// Appends numbers to `key` that decide all pairs of this body with bodies of other robots or of none: bodies that
+  /// get equal numbers are in equal pairs with every third body, and with each other if they are not links of one
+  /// robot.
+  void appendKey(std::uint32_t body, std::vector<std::uint64_t>& key) const;
   /// Whether there is a pair that is reported when it is near.
   bool reportsAny() const;
 

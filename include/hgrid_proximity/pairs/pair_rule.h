@@ -11,10 +11,10 @@
 
 namespace hgrid {
 
-/// One rule of the allowed-pair matrix: of two bodies, or of all pairs that match two globs, in either order.
+/// One rule of the allowed-pair matrix: for two bodies, or for all pairs that match two globs, in either order.
 ///
-/// In a list of rules one for two names beats one with a glob; among equals a later one beats an earlier one; any of
-/// them beats what the robots' models say.
+/// In a list of rules, a rule for two names takes precedence over a rule with a glob, and of two that are equally exact
+/// the later one over the earlier one. Every rule takes precedence over the robots' models.
 struct PairRule {
   using Clock = std::chrono::steady_clock;
 
@@ -23,6 +23,8 @@ struct PairRule {
   bool allowed = true;  ///< true: the pair may touch and is not reported; false: reported in spite of weaker rules
   Origin origin = Origin::parameter;                  ///< where it comes from
   Clock::time_point ends = Clock::time_point::max();  ///< when it ends; max: never
+  std::string set_by;                                 ///< who set it at run time; empty for rules of other origins
+  Time since{0};                                      ///< when that was; 0 for rules of other origins
 };
 
 /// Most bytes of a rule's names and globs, and of its reason.

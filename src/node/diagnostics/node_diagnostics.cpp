@@ -25,8 +25,8 @@ void addSelfPairs(DiagnosticStatusWrapper& status, const ModelReport& report) {
 }  // namespace
 
 NodeDiagnostics::NodeDiagnostics(ros::NodeHandle node, ros::NodeHandle private_node, const std::string& name,
-                                 NewestTick newest, std::function<NodeHealth()> health)
-    : newest_(std::move(newest)), health_(std::move(health)), updater_(node, private_node, name) {
+                                 NewestTick newest, const NodeHealth& health)
+    : newest_(std::move(newest)), health_(health), updater_(node, private_node, name) {
   updater_.setHardwareID("none");
   updater_.add("world", this, &NodeDiagnostics::world);
   updater_.add("robots", this, &NodeDiagnostics::robots);
@@ -63,7 +63,7 @@ void NodeDiagnostics::world(DiagnosticStatusWrapper& status) {
 
 void NodeDiagnostics::robots(DiagnosticStatusWrapper& status) {
   const auto tick = newest_();
-  const NodeHealth health = health_();
+  const HealthReport health = health_.report();
   const ModelReport report = tick ? *tick->models : ModelReport{};
   if (!health.failed_loads.empty()) {
     status.summary(DiagnosticStatus::ERROR, health.failed_loads.begin()->second);
@@ -89,7 +89,7 @@ void NodeDiagnostics::robots(DiagnosticStatusWrapper& status) {
 
 void NodeDiagnostics::transforms(DiagnosticStatusWrapper& status) {
   const auto tick = newest_();
-  const NodeHealth health = health_();
+  const HealthReport health = health_.report();
   status.summary(DiagnosticStatus::OK, "every frame is known and fresh");
   if (!health.conflicts.empty()) {
     status.summary(DiagnosticStatus::WARN, "frame '" + health.conflicts.front() + "' comes on /tf and on /tf_static");
@@ -97,10 +97,10 @@ void NodeDiagnostics::transforms(DiagnosticStatusWrapper& status) {
   if (!tick) return;
   for (const std::string& fight : tick->contested_frames) status.mergeSummary(DiagnosticStatus::WARN, fight);
   for (const BodyTrouble& trouble : tick->troubles) {
-    if (trouble.code == Code::conflict && !tick->contested_frames.empty()) continue;  // told already
+    if (trouble.code == Code::conflict && !tick->contested_frames.empty()) continue;  // reported above
     const bool grave = trouble.state >= Freshness::lost;
     status.mergeSummary(grave ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN, trouble.sentence);
-    break;  // the worst; the others stand below and in ~status
+    break;  // only the worst; ~status lists the others
   }
   addAll(status, "missing frame", tick->missing_frames);
   addAll(status, "conflict", health.conflicts);
@@ -109,7 +109,7 @@ void NodeDiagnostics::transforms(DiagnosticStatusWrapper& status) {
 }
 
 void NodeDiagnostics::ticks(DiagnosticStatusWrapper& status) {
-  const NodeHealth health = health_();
+  const HealthReport health = health_.report();
   const auto tick = newest_();
   if (health.failed_tick) {
     status.summary(DiagnosticStatus::ERROR, std::string("the last tick failed: ") + name(health.failed_tick->code()) +

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "node/messages/interface_version.h"
 #include "node/messages/source_messages.h"
 
 namespace hgrid {
@@ -189,6 +190,8 @@ msg::Status status(const Tick& tick, const msg::WorldState& world, const Params&
   msg::Status message;
   message.header = headerOf(tick);
   message.world = world;
+  message.node_version = HGRID_PROXIMITY_VERSION;
+  message.interface_version = kInterfaceVersion;
   message.made = toRos(tick.made.ros);
   message.not_ready = tick.not_ready;
   message.sources = sourcesOf(tick, params);

@@ -5,10 +5,12 @@
 #include <algorithm>
 
 #include "hgrid_proximity/refusal.h"
+#include "node/messages/messages.h"
 
 namespace hgrid {
 
-std::vector<PairRule> rulesOf(const std::vector<msg::AllowedPair>& pairs, PairRule::Clock::time_point now) {
+std::vector<PairRule> rulesOf(const std::vector<msg::AllowedPair>& pairs, const std::string& set_by,
+                              const Moment& now) {
   std::vector<PairRule> rules;
   for (const msg::AllowedPair& pair : pairs) {
     PairRule rule;
@@ -17,6 +19,8 @@ std::vector<PairRule> rulesOf(const std::vector<msg::AllowedPair>& pairs, PairRu
     rule.reason = pair.reason;
     rule.allowed = pair.allowed;
     rule.origin = Origin::service;
+    rule.set_by = set_by;
+    rule.since = now.ros;
     checkRule(rule);
     const std::int64_t lifetime = pair.lifetime.toNSec();
     if (lifetime < 0) {
@@ -28,7 +32,7 @@ std::vector<PairRule> rulesOf(const std::vector<msg::AllowedPair>& pairs, PairRu
                                             std::to_string(lifetime) +
                                             " ns; it must be 0 (forever) or at least 0.001 s; by hand: {secs: 20}");
     }
-    if (lifetime > 0) rule.ends = now + std::chrono::nanoseconds(lifetime);
+    if (lifetime > 0) rule.ends = now.steady + std::chrono::nanoseconds(lifetime);
     rules.push_back(rule);
   }
   return rules;
@@ -41,11 +45,25 @@ msg::AllowedPair toMsg(const PairRule& rule, PairRule::Clock::time_point now) {
   pair.allowed = rule.allowed;
   pair.reason = rule.reason;
   pair.origin = static_cast<std::uint8_t>(rule.origin);
+  pair.set_by = rule.set_by;
+  pair.since = toRos(rule.since);
   if (rule.ends != PairRule::Clock::time_point::max()) {
     const std::chrono::nanoseconds left = rule.ends - now;
     pair.lifetime.fromNSec(std::max<std::int64_t>(1, left.count()));  // 0 would mean forever
   }
   return pair;
+}
+
+msg::Rules rulesMessage(const Tick& tick, const Params& params) {
+  msg::Rules message;
+  message.header = headerOf(tick);
+  message.epoch = tick.epoch;
+  if (tick.snapshot) message.bodies_revision = tick.snapshot->structure().revision;
+  const auto now = PairRule::Clock::now();
+  for (const PairRule& rule : tick.snapshot ? tick.snapshot->structure().filter.rules() : params.allowed_pairs) {
+    message.rules.push_back(toMsg(rule, now));
+  }
+  return message;
 }
 
 }  // namespace hgrid

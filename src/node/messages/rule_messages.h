@@ -3,19 +3,28 @@
 #pragma once
 
 #include <hgrid_proximity/AllowedPair.h>
+#include <hgrid_proximity/Rules.h>
 
+#include <string>
 #include <vector>
 
 #include "hgrid_proximity/pairs/pair_rule.h"
+#include "node/params/params.h"
+#include "node/tick/world.h"
 
 namespace hgrid {
 
 namespace msg = ::hgrid_proximity;
 
-/// Rules of ~set_allowed; their lifetimes begin at `now`.
+/// Reads the rules of a request to ~set_allowed. Their lifetimes begin at `now.steady`.
+/// @param set_by  name of the node that asks
 /// @throws Refusal bad_id, out_of_range
-std::vector<PairRule> rulesOf(const std::vector<msg::AllowedPair>& pairs, PairRule::Clock::time_point now);
+std::vector<PairRule> rulesOf(const std::vector<msg::AllowedPair>& pairs, const std::string& set_by, const Moment& now);
 
+/// @param now  when the message is made: it says how long the rule will still last
 msg::AllowedPair toMsg(const PairRule& rule, PairRule::Clock::time_point now);
+
+/// The message of ~rules. While there is no world, the configured rules are in force.
+msg::Rules rulesMessage(const Tick& tick, const Params& params);
 
 }  // namespace hgrid

@@ -5,11 +5,12 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "hgrid_proximity/explain/allowed_matrix.h"
+#include "hgrid_proximity/explain/changed_pairs.h"
 #include "hgrid_proximity/pairs/rule_book.h"
 #include "node/messages/rule_messages.h"
-#include "node/services/guarded.h"
 
 namespace hgrid {
 namespace {
@@ -20,29 +21,25 @@ void checkGlob(const std::string& glob) {
                                   " bytes; at most " + std::to_string(kLongestRuleText) + " are allowed");
 }
 
-/// What there is in the world. @throws Refusal not_ready
-const Structure& structureOf(const std::shared_ptr<const Tick>& tick) {
-  if (!tick) throw Refusal(Code::not_ready, "there is no world yet: the first tick was not made");
-  if (!tick->snapshot) throw Refusal(Code::not_ready, "there is no world yet: " + tick->not_ready.front());
-  return tick->snapshot->structure();
-}
-
 }  // namespace
 
-AllowedServices::AllowedServices(ros::NodeHandle& node, AdminAnswer answer) : answer_(std::move(answer)) {
-  servers_.push_back(advertiseGuarded(node, "set_allowed", &AllowedServices::onSet, this, answer_.ledger));
-  servers_.push_back(advertiseGuarded(node, "get_allowed", &AllowedServices::onGet, this, answer_.ledger));
+AllowedServices::AllowedServices(ServiceEnvelope& envelope, const Params& params, ChangeWorld change_world)
+    : params_(params), change_world_(std::move(change_world)) {
+  servers_.push_back(
+      envelope.serve<msg::SetAllowed>("set_allowed", [this](ServiceCall<msg::SetAllowed>& call) { set(call); }));
+  servers_.push_back(
+      envelope.serve<msg::GetAllowed>("get_allowed", [this](ServiceCall<msg::GetAllowed>& call) { get(call); }));
 }
 
-/// All rules as they will be when the request is done. @throws Refusal if it may not be done
-std::vector<PairRule> AllowedServices::rulesAfter(const msg::SetAllowed::Request& request,
-                                                  const Structure& structure) const {
-  const auto most = static_cast<std::size_t>(answer_.params.max_rules);
+/// The filter with the rules after the request. @throws Refusal if the request must not be carried out
+PairFilter AllowedServices::filterAfter(const ServiceCall<msg::SetAllowed>& call, const Structure& structure) const {
+  const msg::SetAllowed::Request& request = call.request;
+  const auto most = static_cast<std::size_t>(params_.max_rules);
   if (request.rules.size() > most) {
     throw Refusal(Code::limit, "the request has " + std::to_string(request.rules.size()) + " rules; at most " +
                                    std::to_string(most) + " are allowed (~max_rules)");
   }
-  const std::vector<PairRule> rules = rulesOf(request.rules, PairRule::Clock::now());
+  const std::vector<PairRule> rules = rulesOf(request.rules, call.caller, thisMoment());
   RuleBook book(structure.filter.rules(), most);
   if (request.remove) {
     book.remove(rules);
@@ -50,40 +47,41 @@ std::vector<PairRule> AllowedServices::rulesAfter(const msg::SetAllowed::Request
     checkKnown(rules, structure.bodies);
     book.add(rules);
   }
-  const PairFilter filter(structure.bodies, answer_.params.pair_kinds, book.rules());
-  if (silencesAll(structure.bodies, answer_.params.pair_kinds, filter)) {
-    if (!request.force) {
-      throw Refusal(Code::needs_force,
-                    "no pair of bodies would be reported any more; ask with force = true if so meant");
-    }
-    ROS_WARN("Rules of ~set_allowed switch off every pair: nothing is reported any more.");
+  return PairFilter(structure.bodies, params_.pair_kinds, book.rules());
+}
+
+/// @throws Refusal needs_force if the filter leaves no pair that is reported, unless `force` is set
+void AllowedServices::checkNotSilenced(const Structure& structure, const PairFilter& filter, bool force) const {
+  if (!silencesAll(structure.bodies, params_.pair_kinds, filter)) return;
+  if (!force) {
+    throw Refusal(Code::needs_force, "no pair of bodies would be reported any more; ask with force = true if so meant");
   }
-  return book.rules();
+  ROS_WARN("Rules of ~set_allowed switch off every pair: nothing is reported any more.");
 }
 
-bool AllowedServices::onSet(Checked<msg::SetAllowed::Request>& checked, msg::SetAllowed::Response& response) {
-  return answer_("set_allowed", response, [&](std::shared_ptr<const Tick>& tick) {
-    const msg::SetAllowed::Request& request = checked.value();
-    const std::vector<PairRule> rules = rulesAfter(request, structureOf(tick));
-    tick = answer_.do_in_tick([rules](World& world) { world.setRules(rules); });
-  });
+void AllowedServices::set(ServiceCall<msg::SetAllowed>& call) const {
+  const Structure& structure = call.tick.snapshot().structure();
+  const PairFilter filter = filterAfter(call, structure);
+  checkNotSilenced(structure, filter, call.request.force);
+  const std::uint64_t changed = changedPairs(structure.bodies, structure.filter, filter);
+  call.tick = AnswerTick(change_world_([rules = filter.rules()](World& world) { world.setRules(rules); }));
+  call.response.pairs_changed = static_cast<std::uint32_t>(std::min<std::uint64_t>(changed, 0xffffffffu));
 }
 
-bool AllowedServices::onGet(Checked<msg::GetAllowed::Request>& checked, msg::GetAllowed::Response& response) {
-  return answer_("get_allowed", response, [&](const std::shared_ptr<const Tick>& tick) {
-    const msg::GetAllowed::Request& request = checked.value();
-    const Structure& structure = structureOf(tick);
-    checkGlob(request.first);
-    checkGlob(request.second);
-    const auto most = static_cast<std::uint32_t>(answer_.params.max_pairs);
-    const AllowedScope scope{request.first, request.second, request.limit == 0 ? most : std::min(request.limit, most)};
-    const AllowedList list = request.rules ? givenRules(structure, scope) : decidedPairs(structure, scope);
-    const auto now = PairRule::Clock::now();
-    for (const PairRule& entry : list.entries) response.entries.push_back(toMsg(entry, now));
-    response.total = static_cast<std::uint32_t>(list.total);
-    response.truncated = list.total > list.entries.size();
-    if (request.as_srdf) response.srdf = srdfOf(structure, list.entries);
-  });
+void AllowedServices::get(ServiceCall<msg::GetAllowed>& call) const {
+  const msg::GetAllowed::Request& request = call.request;
+  msg::GetAllowed::Response& response = call.response;
+  const Structure& structure = call.tick.snapshot().structure();
+  checkGlob(request.first);
+  checkGlob(request.second);
+  const auto most = static_cast<std::uint32_t>(params_.max_pairs);
+  const AllowedScope scope{request.first, request.second, request.limit == 0 ? most : std::min(request.limit, most)};
+  const AllowedList list = request.rules ? givenRules(structure, scope) : decidedPairs(structure, scope);
+  const auto now = PairRule::Clock::now();
+  for (const PairRule& entry : list.entries) response.entries.push_back(toMsg(entry, now));
+  response.total = static_cast<std::uint32_t>(list.total);
+  response.truncated = list.total > list.entries.size();
+  if (request.as_srdf) response.srdf = srdfOf(structure, list.entries);
 }
 
 }  // namespace hgrid

@@ -4,27 +4,33 @@
 
 #include <hgrid_proximity/GetAllowed.h>
 #include <hgrid_proximity/SetAllowed.h>
-#include <ros/node_handle.h>
 
+#include <memory>
+#include <string>
 #include <vector>
 
-#include "node/services/admin_answer.h"
-#include "node/wire/checked.h"
+#include "node/services/envelope/service_envelope.h"
+#include "node/tick/change_world.h"
 
 namespace hgrid {
 
-/// Serves ~set_allowed and ~get_allowed: the allowed-pair matrix. Whether a request is right is decided from the newest
-/// tick; a tick only takes over the rules that it comes to. One thread; nobody else changes rules, but that they end.
+/// Serves ~set_allowed and ~get_allowed: the allowed-pair matrix.
+///
+/// Whether a request is right is decided from the newest tick; a later tick only takes over the rules. So one thread at
+/// a time may serve, and nobody else may add rules. (Rules may end.)
 class AllowedServices {
  public:
-  AllowedServices(ros::NodeHandle& node, AdminAnswer answer);
+  /// @param envelope  must outlive this object, as `params` must
+  AllowedServices(ServiceEnvelope& envelope, const Params& params, ChangeWorld change_world);
 
  private:
-  bool onSet(Checked<msg::SetAllowed::Request>& checked, msg::SetAllowed::Response& response);
-  bool onGet(Checked<msg::GetAllowed::Request>& checked, msg::GetAllowed::Response& response);
-  std::vector<PairRule> rulesAfter(const msg::SetAllowed::Request& request, const Structure& structure) const;
+  void set(ServiceCall<msg::SetAllowed>& call) const;
+  void get(ServiceCall<msg::GetAllowed>& call) const;
+  PairFilter filterAfter(const ServiceCall<msg::SetAllowed>& call, const Structure& structure) const;
+  void checkNotSilenced(const Structure& structure, const PairFilter& filter, bool force) const;
 
-  AdminAnswer answer_;
+  const Params& params_;
+  ChangeWorld change_world_;
   std::vector<ros::ServiceServer> servers_;
 };
 

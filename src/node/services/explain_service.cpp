@@ -8,27 +8,38 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "node/messages/rule_messages.h"
 #include "node/messages/snapshot_stamp.h"
-#include "node/services/guarded.h"
 
 namespace hgrid {
 namespace {
 
 constexpr OptionNames kOptionNames = {"~max_pairs", "~horizon", "~pair_kinds", "~allowed_pairs", "~set_allowed"};
 
-/// Age of a body's pose as it is when the answer is given; what is fixed does not age.
-double ageNow(const Body& body, double age, double age_since) {
-  return body.mobility == Mobility::fixed && !std::isnan(age) ? 0.0 : age + age_since;
+/// [s] Age of a body's pose when the answer is given. A fixed body does not age.
+/// @param age  [s] when the tick was made; NaN if the body never had a pose
+double ageNow(const Body& body, double age, double tick_age) {
+  return body.mobility == Mobility::fixed && !std::isnan(age) ? 0.0 : age + tick_age;
 }
 
 bool hasPose(const Snapshot& snapshot, std::uint32_t body) {
   return snapshot.poses()[body].state != Freshness::unplaced;
 }
 
-/// An answer in which nothing is known.
-msg::ExplainPair::Response nothing() {
+/// @throws Refusal unknown_id if the name is that of a link without geometry, which is no body
+void checkHasCollision(const ModelReport& models, const std::string& name) {
+  const std::vector<std::string>& bare = models.without_collision;
+  if (std::find(bare.begin(), bare.end(), name) == bare.end()) return;
+  throw Refusal(Code::unknown_id,
+                "link '" + name + "' has no <collision>: nothing is known of its extent, and it makes no pair");
+}
+
+/// A response in which nothing is known.
+msg::ExplainPair::Response blank() {
   msg::ExplainPair::Response response;
   response.gap = response.margin = response.margin_first = response.margin_second = std::nan("");
   response.margin_pair = response.growth = response.distance = std::nan("");
@@ -39,18 +50,15 @@ msg::ExplainPair::Response nothing() {
 
 }  // namespace
 
-ExplainService::ExplainService(ros::NodeHandle& node, const Params& params, std::uint64_t config_hash,
-                               NewestTick newest, std::shared_ptr<const NarrowPhase> narrow_phase, Ledger& ledger)
-    : params_(params),
-      config_hash_(config_hash),
-      newest_(std::move(newest)),
-      narrow_phase_(std::move(narrow_phase)),
-      ledger_(ledger) {
-  server_ = advertiseGuarded(node, "explain_pair", &ExplainService::onExplain, this, ledger_);
+ExplainService::ExplainService(ServiceEnvelope& envelope, const Params& params,
+                               std::shared_ptr<const NarrowPhase> narrow_phase)
+    : params_(params), narrow_phase_(std::move(narrow_phase)) {
+  server_ = envelope.serve<msg::ExplainPair>(
+      "explain_pair", "explain_pair", [this](ServiceCall<msg::ExplainPair>& call) { explainPair(call); }, blank());
 }
 
-void ExplainService::listContacts(msg::ExplainPair::Response& response, const Snapshot& snapshot,
-                                  const Explanation& what, std::uint32_t most) const {
+void ExplainService::listContacts(const Snapshot& snapshot, const Explanation& what, std::uint32_t most,
+                                  msg::ExplainPair::Response& response) const {
   most = std::min(most, static_cast<std::uint32_t>(params_.max_hits));
   std::vector<PairContact> contacts =
       contactsOf(*narrow_phase_, snapshot, what.first, what.second, std::size_t{most} + 1);
@@ -65,8 +73,8 @@ void ExplainService::listContacts(msg::ExplainPair::Response& response, const Sn
   }
 }
 
-void ExplainService::explainTo(msg::ExplainPair::Response& response, const Snapshot& snapshot,
-                               const msg::ExplainPair::Request& request, double age_since) const {
+void ExplainService::fill(const Snapshot& snapshot, const msg::ExplainPair::Request& request, double tick_age,
+                          msg::ExplainPair::Response& response) const {
   const std::string &first = request.first, &second = request.second;
   const Structure& structure = snapshot.structure();
   const std::uint32_t a = structure.find(first), b = structure.find(second);
@@ -90,46 +98,19 @@ void ExplainService::explainTo(msg::ExplainPair::Response& response, const Snaps
   response.state_first = static_cast<std::uint8_t>(what.state_first);
   response.state_second = static_cast<std::uint8_t>(what.state_second);
   const std::vector<Body>& bodies = snapshot.structure().bodies;
-  response.age_first = ageNow(bodies[what.first], what.age_first, age_since);
-  response.age_second = ageNow(bodies[what.second], what.age_second, age_since);
+  response.age_first = ageNow(bodies[what.first], what.age_first, tick_age);
+  response.age_second = ageNow(bodies[what.second], what.age_second, tick_age);
   if (response.reported) response.since = toRos(what.since);
-  if (exact && request.contacts > 0) listContacts(response, snapshot, what, request.contacts);
+  if (exact && request.contacts > 0) listContacts(snapshot, what, request.contacts, response);
 }
 
-bool ExplainService::onExplain(Checked<msg::ExplainPair::Request>& checked, msg::ExplainPair::Response& response) {
-  const std::shared_ptr<const Tick> tick = newest_();
-  response = nothing();
-  ledger_.count("explain_pair.asked");
-  try {
-    if (!tick) {
-      response.world.worst_state = msg::BodyState::UNPLACED;
-      throw Refusal(Code::not_ready, "there is no world yet: the first tick was not made");
-    }
-    const std::chrono::duration<double> age_since = std::chrono::steady_clock::now() - tick->made.steady;
-    response.header = headerOf(*tick);
-    response.world = worldState(*tick, params_, config_hash_, age_since.count());
-    const msg::ExplainPair::Request& request = checked.value();
-    if (!tick->snapshot) throw Refusal(Code::not_ready, "there is no world yet: " + tick->not_ready.front());
-    for (const std::string* name : {&request.first, &request.second}) {
-      const std::vector<std::string>& bare = tick->models->without_collision;
-      if (std::find(bare.begin(), bare.end(), *name) != bare.end()) {
-        throw Refusal(Code::unknown_id,
-                      "link '" + *name + "' has no <collision>: nothing is known of its extent, and it makes no pair");
-      }
-    }
-    checkStamp(request.header.stamp, *tick->snapshot);
-    explainTo(response, *tick->snapshot, request, age_since.count());
-    response.code = toMsg(Code::ok, "");
-    response.success = true;
-  } catch (const Refusal& refusal) {
-    response.code = toMsg(refusal.code(), refusal.what());
-    response.explanation = refusal.what();
-    ledger_.refuse("explain_pair.refused", refusal);
-  } catch (...) {  // a fault of the node's own: the caller hears of it, the node goes on
-    const Refusal fault = ledger_.fault("explain_pair.failed");
-    response.code = toMsg(fault.code(), fault.what());
-  }
-  return true;
+void ExplainService::explainPair(ServiceCall<msg::ExplainPair>& call) const {
+  const msg::ExplainPair::Request& request = call.request;
+  const Snapshot& snapshot = call.tick.snapshot();
+  checkHasCollision(*call.tick.get()->models, request.first);
+  checkHasCollision(*call.tick.get()->models, request.second);
+  checkStamp(request.header.stamp, snapshot);
+  fill(snapshot, request, call.tick.age(), call.response);
 }
 
 }  // namespace hgrid

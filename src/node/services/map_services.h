@@ -4,33 +4,34 @@
 
 #include <hgrid_proximity/ClearMap.h>
 #include <hgrid_proximity/LoadOctomap.h>
-#include <ros/node_handle.h>
 
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "node/services/admin_answer.h"
+#include "node/services/envelope/service_envelope.h"
 #include "node/sources/map_source.h"
-#include "node/wire/checked.h"
+#include "node/tick/change_world.h"
 
 namespace hgrid {
 
-/// Serves ~load_octomap and ~clear_map. A map is read on the thread that serves, while the world goes on with the old
-/// one; a tick only takes it over.
+/// Serves ~load_octomap and ~clear_map. The thread that serves reads a map while ticks go on with the old one; a tick
+/// only takes over the new map.
 class MapServices {
  public:
-  /// Told of a map that was loaded or taken away; an empty name is all: nothing older may take its place.
+  /// Called when a map was loaded or removed; an empty name stands for all maps. An older map must not replace it
+  /// later.
   using Decided = std::function<void(const std::string& map)>;
 
-  MapServices(ros::NodeHandle& node, const MapSource& source, AdminAnswer answer, Decided decided);
+  /// @param envelope  must outlive this object, as `source` must
+  MapServices(ServiceEnvelope& envelope, const MapSource& source, ChangeWorld change_world, Decided decided);
 
  private:
-  bool onLoad(Checked<msg::LoadOctomap::Request>& checked, msg::LoadOctomap::Response& response);
-  bool onClear(Checked<msg::ClearMap::Request>& checked, msg::ClearMap::Response& response);
+  void load(ServiceCall<msg::LoadOctomap>& call) const;
+  void clear(ServiceCall<msg::ClearMap>& call) const;
 
   const MapSource& source_;
-  AdminAnswer answer_;
+  ChangeWorld change_world_;
   Decided decided_;
   std::vector<ros::ServiceServer> servers_;
 };

@@ -2,24 +2,22 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/services/query_services.h"
 
-#include <hgrid_proximity/BodyState.h>
-#include <hgrid_proximity/UnknownReason.h>
-#include <tf2/exceptions.h>
-
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "hgrid_proximity/bodies/name.h"
+#include "hgrid_proximity/queries/query.h"
+#include "node/messages/from_messages.h"
 #include "node/messages/snapshot_stamp.h"
-#include "node/services/guarded.h"
 #include "node/tf/frames.h"
 
 namespace hgrid {
 namespace {
 
 constexpr std::size_t kMostPatterns = 256, kLongestPattern = 512;  // bytes
-
-Eigen::Vector3d fromPoint(const geometry_msgs::Point& point) { return {point.x, point.y, point.z}; }
 
 msg::Hit toMsg(const QueryHit& source, const Snapshot& snapshot, const Pose& frame_from_world, double age_since) {
   msg::Hit hit;
@@ -28,6 +26,8 @@ msg::Hit toMsg(const QueryHit& source, const Snapshot& snapshot, const Pose& fra
   hit.cell_edge = source.cell_edge;
   hit.status = static_cast<std::uint8_t>(source.status);
   hit.distance = source.distance;
+  hit.signed_distance = source.signed_distance;
+  hit.depth = source.depth;
   hit.center_distance = source.center_distance;
   hit.along = source.along;
   hit.point = toPoint(frame_from_world * source.point);
@@ -40,7 +40,7 @@ msg::Hit toMsg(const QueryHit& source, const Snapshot& snapshot, const Pose& fra
   return hit;
 }
 
-/// What a CLEAR in a world that is not complete owes its reader.
+/// What the summary of a CLEAR adds if the world is not complete: which sources are not, although the verdict holds.
 std::string elsewhere(const Snapshot& snapshot) {
   if (snapshot.complete()) return "";
   const std::vector<std::string>& sources = snapshot.incompleteSources();
@@ -48,62 +48,61 @@ std::string elsewhere(const Snapshot& snapshot) {
   return " ('" + sources.front() + "'" + others + " not complete, but not asked about or not able to be there)";
 }
 
-std::string summaryOf(const QueryAnswer& found, const Snapshot& snapshot) {
-  if (found.verdict == Verdict::clear) return "CLEAR: nothing is there" + elsewhere(snapshot);
+/// @param asked  number of bodies that the query is about; nullopt: all bodies
+std::string summaryOf(const QueryAnswer& found, const Snapshot& snapshot, std::optional<std::size_t> asked) {
   if (found.verdict == Verdict::unknown) return "UNKNOWN: " + found.reason;
+  if (found.verdict == Verdict::clear) {
+    const std::string none =
+        asked ? "none of the " + std::to_string(*asked) + " bodies asked for is there" : "nothing is there";
+    return "CLEAR: " + none + elsewhere(snapshot);
+  }
   const std::string first =
       found.hits.empty() ? "" : ", first " + snapshot.structure().bodies[found.hits.front().body].name;
   return "HIT: " + std::to_string(found.total) + (found.total == 1 ? " body" : " bodies") + first;
 }
 
-}  // namespace
-
-QueryServices::QueryServices(ros::NodeHandle& node, const Params& params, std::uint64_t config_hash, NewestTick newest,
-                             const TransformLookup& transforms, std::shared_ptr<const NarrowPhase> narrow_phase,
-                             QuerySketch& sketch, Ledger& ledger)
-    : params_(params),
-      config_hash_(config_hash),
-      newest_(std::move(newest)),
-      transforms_(transforms),
-      narrow_phase_(std::move(narrow_phase)),
-      sketch_(sketch),
-      ledger_(ledger) {
-  servers_.push_back(advertiseGuarded(node, "query_sphere", &QueryServices::onSphere, this, ledger_));
-  servers_.push_back(advertiseGuarded(node, "query_segment", &QueryServices::onSegment, this, ledger_));
-  servers_.push_back(advertiseGuarded(node, "query_box", &QueryServices::onBox, this, ledger_));
-  servers_.push_back(advertiseGuarded(node, "query_nearest", &QueryServices::onNearest, this, ledger_));
-}
-
-Pose QueryServices::worldFromFrame(const Tick& tick, const std::string& frame) const {
-  if (frame.empty() || frame == tick.world_frame) return Pose::Identity();
-  // The frame may be published at another rate than the robot: its newest pose will do while a body's would be fresh.
-  return transforms_.atOrNewest(tick.world_frame, frame, tick.snapshot->stamp(), params_.stale_after,
-                                "the query's frame '" + printable(frame) + "'");
-}
-
-QueryScope QueryServices::scopeOf(const std::vector<std::string>& include, const std::vector<std::string>& exclude,
-                                  std::uint32_t limit) const {
-  for (const auto* patterns : {&include, &exclude}) {
-    if (patterns->size() > kMostPatterns) {
-      throw Refusal(Code::limit, "the query has " + std::to_string(patterns->size()) + " name patterns; at most " +
-                                     std::to_string(kMostPatterns) + " are allowed");
-    }
-    for (const std::string& pattern : *patterns) {
-      if (pattern.size() > kLongestPattern) {
-        throw Refusal(Code::bad_id, "name pattern '" + printable(pattern, 48) + "' has " +
-                                        std::to_string(pattern.size()) + " bytes; at most " +
-                                        std::to_string(kLongestPattern) + " are allowed");
-      }
-    }
+void checkPatterns(const std::vector<std::string>& patterns) {
+  if (patterns.size() > kMostPatterns) {
+    throw Refusal(Code::limit, "the query has " + std::to_string(patterns.size()) + " name patterns; at most " +
+                                   std::to_string(kMostPatterns) + " are allowed");
   }
-  const auto most = static_cast<std::uint32_t>(params_.max_hits);
-  return {include, exclude, limit == 0 ? most : std::min(limit, most)};
+  for (const std::string& pattern : patterns) {
+    if (pattern.size() <= kLongestPattern) continue;
+    throw Refusal(Code::bad_id, "name pattern '" + printable(pattern, 48) + "' has " + std::to_string(pattern.size()) +
+                                    " bytes; at most " + std::to_string(kLongestPattern) + " are allowed");
+  }
 }
 
-namespace {
+/// Index of the body that a question stands for. @throws Refusal unknown_id
+std::uint32_t indexOf(const Snapshot& snapshot, const std::string& name) {
+  const std::uint32_t body = snapshot.structure().find(name);
+  if (body == Structure::kNone) throw Refusal(Code::unknown_id, "there is no body '" + printable(name) + "'");
+  return body;
+}
 
-/// How many bodies a query is about. A misspelt name must not read as CLEAR.
-/// @throws Refusal unknown_id if a pattern to be included can match no body, or none is left
+/// The body that the request stands for: as_body or, of query_nearest, the body that it asks from.
+template <class Request>
+std::string asBody(const Request& request) {
+  return request.as_body;
+}
+std::string asBody(const msg::QueryNearest::Request& request) {
+  return request.as_body.empty() ? request.body : request.as_body;
+}
+
+/// @throws Refusal out_of_range unless max_time [s] is 0 or positive
+std::optional<std::chrono::steady_clock::time_point> deadlineOf(double max_time) {
+  constexpr double kLongest = 1e6;  // [s]
+  if (!(max_time >= 0.0)) {
+    throw Refusal(Code::out_of_range, "max_time is " + text(max_time) + " s; it must be 0 (no limit) or positive");
+  }
+  if (max_time == 0.0 || max_time > kLongest) return std::nullopt;
+  using Clock = std::chrono::steady_clock;
+  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(max_time));
+}
+
+/// Number of bodies that a query is about.
+/// @throws Refusal unknown_id if a pattern of include can match no body, or if exclude leaves none: the answer to a
+/// misspelled name must not be CLEAR
 std::size_t asked(const QueryScope& scope, const Snapshot& snapshot) {
   const std::vector<Body>& bodies = snapshot.structure().bodies;
   const std::vector<SourceGap>& gaps = snapshot.gaps();
@@ -124,118 +123,121 @@ std::size_t asked(const QueryScope& scope, const Snapshot& snapshot) {
 
 }  // namespace
 
-template <class Request, class Response, class Ask>
-bool QueryServices::answer(const Checked<Request>& checked, Response& response, Ask&& ask) {
-  const std::shared_ptr<const Tick> tick = newest_();
-  msg::Answer& result = response.answer;
-  ledger_.count("query.asked");
-  try {
-    if (!tick) {
-      response.world.worst_state = msg::BodyState::UNPLACED;
-      throw Refusal(Code::not_ready, "there is no world yet: the first tick was not made");
-    }
-    const double age_since =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - tick->made.steady).count();
-    response.header = headerOf(*tick);
-    response.world = worldState(*tick, params_, config_hash_, age_since);
-    const Request& request = checked.value();
-    if (!tick->snapshot) throw Refusal(Code::not_ready, "there is no world yet: " + tick->not_ready.front());
-    const Snapshot& snapshot = *tick->snapshot;
-    const std::string frame = withoutSlash(request.header.frame_id);
-    checkStamp(request.header.stamp, snapshot);
-    const Pose world_from_frame = worldFromFrame(*tick, frame);
-    QueryScope scope = scopeOf(request.include, request.exclude, request.limit);
-    if (request.exact) scope.exact = narrow_phase_.get();
-    const bool all = scope.include.empty() && scope.exclude.empty();
-    const std::size_t count = all ? 0 : asked(scope, snapshot);
-    QueryAnswer found = ask(request, snapshot, world_from_frame, scope);
-    if (found.verdict == Verdict::clear && age_since > params_.valid_for) {
-      found.verdict = Verdict::unknown;
-      found.because = Unknown::outdated;
-      found.reason = "the newest tick is " + secondsText(age_since) + " old; ticks are valid for " +
-                     text(params_.valid_for) + " s (~valid_for)";
-    }
-    const Pose frame_from_world = world_from_frame.inverse();
-    if (!frame.empty()) response.header.frame_id = frame;
-    for (const QueryHit& hit : found.hits) result.hits.push_back(toMsg(hit, snapshot, frame_from_world, age_since));
-    result.success = true;
-    result.code = toMsg(Code::ok, found.reason);
-    result.verdict = static_cast<std::uint8_t>(found.verdict);
-    result.unknown_because = static_cast<std::uint8_t>(found.because);
-    result.summary = summaryOf(found, snapshot);
-    if (!all && found.verdict == Verdict::clear) {
-      result.summary =
-          "CLEAR: none of the " + std::to_string(count) + " bodies asked for is there" + elsewhere(snapshot);
-    }
-    result.total = static_cast<std::uint32_t>(found.total);
-    result.truncated = found.total > found.hits.size();
-  } catch (const Refusal& refusal) {
-    result = msg::Answer();
-    result.code = toMsg(refusal.code(), refusal.what());
-    result.unknown_because = msg::UnknownReason::REFUSED;
-    result.summary = std::string("refused, so UNKNOWN: ") + refusal.what();
-    ledger_.refuse("query.refused", refusal);
-  } catch (...) {  // a fault of the node's own: the caller hears of it, the node goes on
-    const Refusal fault = ledger_.fault("query.failed");
-    result = msg::Answer();
-    result.code = toMsg(fault.code(), fault.what());
-    result.unknown_because = msg::UnknownReason::REFUSED;
+QueryServices::QueryServices(ServiceEnvelope& envelope, const Params& params, const TransformLookup& transforms,
+                             std::shared_ptr<NarrowPhase> narrow_phase, QuerySketch& sketch)
+    : params_(params), transforms_(transforms), narrow_phase_(std::move(narrow_phase)) {
+  serve<msg::QuerySphere>(envelope, "query_sphere", [&sketch](const auto& request, const Question& question) {
+    const Sphere sphere{question.world_from_frame * fromPoint(request.center), request.radius};
+    QueryAnswer found = query(question.snapshot, sphere, question.scope);
+    sketch.show(sphere, found.verdict);
+    return found;
+  });
+  serve<msg::QuerySegment>(envelope, "query_segment", [&sketch](const auto& request, const Question& question) {
+    const Segment segment{question.world_from_frame * fromPoint(request.start),
+                          question.world_from_frame * fromPoint(request.end), request.radius};
+    QueryAnswer found = query(question.snapshot, segment, question.scope);
+    sketch.show(segment, found.verdict);
+    return found;
+  });
+  serve<msg::QueryBox>(envelope, "query_box",
+                       [this](const auto& request, const Question& question) { return askBox(request, question); });
+  serve<msg::QueryShape>(envelope, "query_shape",
+                         [this](const auto& request, const Question& question) { return askShape(request, question); });
+  serve<msg::QueryNearest>(envelope, "query_nearest", [this](const auto& request, const Question& question) {
+    return askNearest(request, question);
+  });
+}
+
+template <class Service, class Ask>
+void QueryServices::serve(ServiceEnvelope& envelope, const char* name, Ask ask) {
+  servers_.push_back(
+      envelope.serve<Service>(name, "query", [this, ask](ServiceCall<Service>& call) { answer(call, ask); }));
+}
+
+template <class Service, class Ask>
+void QueryServices::answer(ServiceCall<Service>& call, const Ask& ask) const {
+  const auto& request = call.request;
+  const Snapshot& snapshot = call.tick.snapshot();
+  const std::string frame = withoutSlash(request.header.frame_id);
+  checkStamp(request.header.stamp, snapshot);
+  const Pose world_from_frame = worldFromFrame(*call.tick.get(), frame);
+  std::optional<std::size_t> count;
+  checkPatterns(request.include);
+  checkPatterns(request.exclude);
+  if (!request.include.empty() || !request.exclude.empty()) {
+    count = asked(QueryScope{request.include, request.exclude}, snapshot);
   }
-  return true;
+  const Question question{snapshot, world_from_frame, scopeOf(request, snapshot)};
+
+  QueryAnswer found = ask(request, question);
+  outdate(found, call.tick.age());
+  if (!frame.empty()) call.response.header.frame_id = frame;
+  msg::Answer& result = call.response.answer;
+  const Pose frame_from_world = world_from_frame.inverse();
+  for (const QueryHit& hit : found.hits) {
+    result.hits.push_back(toMsg(hit, snapshot, frame_from_world, call.tick.age()));
+  }
+  result.code = toMsg(Code::ok, found.reason);
+  result.verdict = static_cast<std::uint8_t>(found.verdict);
+  result.unknown_because = static_cast<std::uint8_t>(found.because);
+  result.summary = summaryOf(found, snapshot, count);
+  result.total = static_cast<std::uint32_t>(found.total);
+  result.truncated = found.total > found.hits.size();
 }
 
-bool QueryServices::onSphere(Checked<msg::QuerySphere::Request>& checked, msg::QuerySphere::Response& response) {
-  return answer(
-      checked, response,
-      [&](const auto& request, const Snapshot& snapshot, const Pose& world_from_frame, const QueryScope& scope) {
-        const Sphere sphere{world_from_frame * fromPoint(request.center), request.radius};
-        QueryAnswer found = query(snapshot, sphere, scope);
-        sketch_.show(sphere, found.verdict);
-        return found;
-      });
+/// What all kinds of query say about the bodies they ask for and about how they are to be answered.
+template <class Request>
+QueryScope QueryServices::scopeOf(const Request& request, const Snapshot& snapshot) const {
+  const auto most = static_cast<std::uint32_t>(params_.max_hits);
+  QueryScope scope{request.include, request.exclude, request.limit == 0 ? most : std::min(request.limit, most)};
+  if (request.exact) scope.exact = narrow_phase_.get();
+  scope.deadline = deadlineOf(request.max_time);
+  if (request.respect_allowed) {
+    if (asBody(request).empty()) {
+      throw Refusal(Code::bad_id, "respect_allowed needs as_body: the name of the body whose allowed pairs count");
+    }
+    scope.respect_allowed = indexOf(snapshot, asBody(request));
+  }
+  return scope;
 }
 
-bool QueryServices::onSegment(Checked<msg::QuerySegment::Request>& checked, msg::QuerySegment::Response& response) {
-  return answer(
-      checked, response,
-      [&](const auto& request, const Snapshot& snapshot, const Pose& world_from_frame, const QueryScope& scope) {
-        const Segment segment{world_from_frame * fromPoint(request.start), world_from_frame * fromPoint(request.end),
-                              request.radius};
-        QueryAnswer found = query(snapshot, segment, scope);
-        sketch_.show(segment, found.verdict);
-        return found;
-      });
+Pose QueryServices::worldFromFrame(const Tick& tick, const std::string& frame) const {
+  if (frame.empty() || frame == tick.world_frame) return Pose::Identity();
+  // The frame may be published at another rate than the robot: its newest pose will do while a body's would be fresh.
+  return transforms_.atOrNewest(tick.world_frame, frame, tick.snapshot->stamp(), params_.stale_after,
+                                "the query's frame '" + printable(frame) + "'");
 }
 
-bool QueryServices::onBox(Checked<msg::QueryBox::Request>& checked, msg::QueryBox::Response& response) {
-  return answer(
-      checked, response,
-      [&](const auto& request, const Snapshot& snapshot, const Pose& world_from_frame, const QueryScope& scope) {
-        const auto& q = request.pose.orientation;
-        const bool unset = q.x == 0.0 && q.y == 0.0 && q.z == 0.0 && q.w == 0.0;  // as typed by hand
-        const Pose frame_from_box = checkedPose(
-            fromPoint(request.pose.position),
-            unset ? Eigen::Vector4d(0.0, 0.0, 0.0, 1.0) : Eigen::Vector4d(q.x, q.y, q.z, q.w), "the query's box");
-        const Eigen::Vector3d size(request.size.x, request.size.y, request.size.z);
-        return query(snapshot, QueryBox{world_from_frame * frame_from_box, size}, *narrow_phase_, scope);
-      });
+/// Turns CLEAR into UNKNOWN if the tick is too old.
+void QueryServices::outdate(QueryAnswer& found, double age) const {
+  if (found.verdict != Verdict::clear || age <= params_.valid_for) return;
+  found.verdict = Verdict::unknown;
+  found.because = Unknown::outdated;
+  found.reason = "the newest tick is " + secondsText(age) + " old; ticks are valid for " + text(params_.valid_for) +
+                 " s (~valid_for)";
 }
 
-bool QueryServices::onNearest(Checked<msg::QueryNearest::Request>& checked, msg::QueryNearest::Response& response) {
-  return answer(
-      checked, response,
-      [&](const auto& request, const Snapshot& snapshot, const Pose& world_from_frame, const QueryScope& given) {
-        QueryScope scope = given;
-        if (request.limit == 0) scope.limit = 1;
-        if (request.body.empty()) {
-          return nearest(snapshot, world_from_frame * fromPoint(request.point), request.max_distance, scope);
-        }
-        const std::uint32_t body = snapshot.structure().find(request.body);
-        if (body == Structure::kNone) {
-          throw Refusal(Code::unknown_id, "there is no body '" + printable(request.body) + "'");
-        }
-        return nearest(snapshot, body, request.max_distance, scope);
-      });
+QueryAnswer QueryServices::askBox(const msg::QueryBox::Request& request, const Question& question) const {
+  const Pose frame_from_box = fromPose(request.pose, "the query's box");
+  const Eigen::Vector3d size(request.size.x, request.size.y, request.size.z);
+  return query(question.snapshot, QueryBox{question.world_from_frame * frame_from_box, size}, *narrow_phase_,
+               question.scope);
+}
+
+QueryAnswer QueryServices::askShape(const msg::QueryShape::Request& request, const Question& question) const {
+  const Pose frame_from_shape = fromPose(request.shape.pose, "the query's shape");
+  const QueryShape shape{fromShape(request.shape), question.world_from_frame * frame_from_shape, request.shape.padding};
+  return query(question.snapshot, shape, *narrow_phase_, question.scope);
+}
+
+QueryAnswer QueryServices::askNearest(const msg::QueryNearest::Request& request, const Question& question) const {
+  QueryScope scope = question.scope;
+  if (request.limit == 0) scope.limit = 1;
+  if (request.body.empty()) {
+    return nearest(question.snapshot, question.world_from_frame * fromPoint(request.point), request.max_distance,
+                   scope);
+  }
+  return nearest(question.snapshot, indexOf(question.snapshot, request.body), request.max_distance, scope);
 }
 
 }  // namespace hgrid

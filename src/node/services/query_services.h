@@ -5,49 +5,56 @@
 #include <hgrid_proximity/QueryBox.h>
 #include <hgrid_proximity/QueryNearest.h>
 #include <hgrid_proximity/QuerySegment.h>
+#include <hgrid_proximity/QueryShape.h>
 #include <hgrid_proximity/QuerySphere.h>
-#include <ros/node_handle.h>
+#include <tf2/buffer_core.h>
 
-#include <functional>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "hgrid_proximity/queries/query.h"
 #include "node/messages/markers.h"
-#include "node/messages/messages.h"
-#include "node/params/params.h"
-#include "node/tick/world.h"
-#include "node/wire/checked.h"
+#include "node/services/envelope/service_envelope.h"
 
 namespace hgrid {
 
-/// Answers ~query_sphere, ~query_segment, ~query_box and ~query_nearest from the newest tick. Callbacks run on the
-/// queue of the node handle, on as many threads as spin it, and wait for nobody.
+/// Answers ~query_sphere, ~query_segment, ~query_box, ~query_shape and ~query_nearest from the newest tick. Any number
+/// of threads may serve at the same time; none of them waits for a tick.
 class QueryServices {
  public:
-  using NewestTick = std::function<std::shared_ptr<const Tick>()>;
-
-  QueryServices(ros::NodeHandle& node, const Params& params, std::uint64_t config_hash, NewestTick newest,
-                const TransformLookup& transforms, std::shared_ptr<const NarrowPhase> narrow_phase, QuerySketch& sketch,
-                Ledger& ledger);
+  /// @param envelope    together with everything else that is passed by reference, it must outlive this object
+  /// @param transforms  where the frames of the questions are looked up
+  /// @param sketch      gets the newest sphere and segment, to be drawn
+  QueryServices(ServiceEnvelope& envelope, const Params& params, const TransformLookup& transforms,
+                std::shared_ptr<NarrowPhase> narrow_phase, QuerySketch& sketch);
 
  private:
-  bool onSphere(Checked<msg::QuerySphere::Request>& request, msg::QuerySphere::Response& response);
-  bool onSegment(Checked<msg::QuerySegment::Request>& request, msg::QuerySegment::Response& response);
-  bool onBox(Checked<msg::QueryBox::Request>& request, msg::QueryBox::Response& response);
-  bool onNearest(Checked<msg::QueryNearest::Request>& request, msg::QueryNearest::Response& response);
-  template <class Request, class Response, class Ask>
-  bool answer(const Checked<Request>& checked, Response& response, Ask&& ask);
+  /// What every query has: the world that it is asked of, the frame of its geometry, the bodies that it is about.
+  struct Question {
+    const Snapshot& snapshot;
+    Pose world_from_frame;
+    QueryScope scope;
+  };
+
+  /// Serves one kind of query. @param ask  returns the QueryAnswer to (const Request&, const Question&)
+  template <class Service, class Ask>
+  void serve(ServiceEnvelope& envelope, const char* name, Ask ask);
+  template <class Service, class Ask>
+  void answer(ServiceCall<Service>& call, const Ask& ask) const;
+
+  template <class Request>
+  QueryScope scopeOf(const Request& request, const Snapshot& snapshot) const;
   Pose worldFromFrame(const Tick& tick, const std::string& frame) const;
-  QueryScope scopeOf(const std::vector<std::string>& include, const std::vector<std::string>& exclude,
-                     std::uint32_t limit) const;
+  void outdate(QueryAnswer& found, double age) const;
+
+  QueryAnswer askBox(const msg::QueryBox::Request& request, const Question& question) const;
+  QueryAnswer askShape(const msg::QueryShape::Request& request, const Question& question) const;
+  QueryAnswer askNearest(const msg::QueryNearest::Request& request, const Question& question) const;
 
   const Params& params_;
-  std::uint64_t config_hash_;
-  NewestTick newest_;
   const TransformLookup& transforms_;
-  std::shared_ptr<const NarrowPhase> narrow_phase_;
-  QuerySketch& sketch_;
-  Ledger& ledger_;
+  std::shared_ptr<NarrowPhase> narrow_phase_;
   std::vector<ros::ServiceServer> servers_;
 };
 

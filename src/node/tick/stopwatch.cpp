@@ -19,10 +19,10 @@ void Stopwatch::add(const std::string& part, std::chrono::nanoseconds duration) 
   summaries_[part].last = value;
 }
 
-void Stopwatch::summarise(std::chrono::steady_clock::time_point now) {
+void Stopwatch::summarize(std::chrono::steady_clock::time_point now) {
   const std::chrono::duration<double> pause(parts_.empty() ? 1.0 : 1.0 / static_cast<double>(parts_.size()));
-  if (parts_.empty() || now - summarised_ < pause) return;
-  summarised_ = now;
+  if (parts_.empty() || now - summarized_ < pause) return;
+  summarized_ = now;
   auto part = parts_.upper_bound(last_part_);
   if (part == parts_.end()) part = parts_.begin();
   last_part_ = part->first;

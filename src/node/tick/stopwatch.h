@@ -9,7 +9,7 @@
 
 namespace hgrid {
 
-/// How long the parts of the work took over the last ticks. One thread.
+/// Measures how long the parts of a tick take, over the last kTicks ticks. One thread.
 class Stopwatch {
  public:
   struct Summary {
@@ -17,11 +17,14 @@ class Stopwatch {
   };
   static constexpr std::size_t kTicks = 500;
 
+  /// Stores the duration of a part in the newest tick.
   void add(const std::string& part, std::chrono::nanoseconds duration);
-  /// Medians and the like, each made anew once a second, since every message shows them.
+  /// The summary of every part by name. summarize() updates each of them about once a second.
   const std::map<std::string, Summary>& summaries() const { return summaries_; }
-  /// Makes those of one part anew at most: sorting all in one tick would make that tick a slow one.
-  void summarise(std::chrono::steady_clock::time_point now);
+  /// Updates the summary of one part at most, because sorting the durations of all parts would make a tick slow.
+  /// Call this once per tick.
+  void summarize(std::chrono::steady_clock::time_point now);
+  /// Number of ticks that the summaries cover.
   std::size_t ticks() const;
 
  private:
@@ -31,9 +34,9 @@ class Stopwatch {
   };
   std::map<std::string, Ring> parts_;
   std::map<std::string, Summary> summaries_;
-  std::string last_part_;       // that was summarised
+  std::string last_part_;       // that was summarized
   std::vector<double> sorted_;  // scratch
-  std::chrono::steady_clock::time_point summarised_{};
+  std::chrono::steady_clock::time_point summarized_{};
 };
 
 }  // namespace hgrid

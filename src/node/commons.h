@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <memory>
+
+#include "hgrid_proximity/narrow/narrow_phase.h"
+#include "node/diagnostics/ledger.h"
+#include "node/diagnostics/node_health.h"
+#include "node/params/settings.h"
+
+namespace hgrid {
+
+/// What nearly every part of the node uses. Any thread.
+struct Commons {
+  Settings settings;
+  std::shared_ptr<NarrowPhase> narrow_phase;
+  Ledger ledger;
+  NodeHealth health;
+};
+
+}  // namespace hgrid

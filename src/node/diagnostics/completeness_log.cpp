@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/diagnostics/completeness_log.h"
+
+#include <ros/console.h>
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "node/messages/messages.h"
+
+namespace hgrid {
+namespace {
+
+std::string reasonOf(const Tick& tick) {
+  if (!tick.snapshot) return tick.not_ready.front();
+  return tick.snapshot->complete() ? truncationOf(*tick.snapshot) : tick.snapshot->reasons().front();
+}
+
+}  // namespace
+
+void CompletenessLog::log(const Tick& tick) {
+  const std::optional<Line> line = next(tick);
+  if (!line) return;
+  if (line->complete) {
+    ROS_INFO("%s", line->text.c_str());
+  } else {
+    ROS_WARN_THROTTLE(1.0, "%s", line->text.c_str());
+  }
+}
+
+std::optional<CompletenessLog::Line> CompletenessLog::next(const Tick& tick) {
+  State state = stateOf(tick);
+  if (isKnown(state)) return std::nullopt;
+  if (!state.complete && tick.made.steady - started_ < kGrace) return std::nullopt;
+  known_ = std::move(state);
+  if (!known_->complete) return Line{false, "The world is not complete: " + reasonOf(tick)};
+  return Line{true, "The world is complete: " + std::to_string(tick.snapshot->poses().size()) + " bodies in frame '" +
+                        tick.world_frame + "'."};
+}
+
+CompletenessLog::State CompletenessLog::stateOf(const Tick& tick) {
+  State state;
+  state.has_world = tick.snapshot != nullptr;
+  if (!state.has_world) {
+    state.not_ready = tick.not_ready.size();
+    return state;
+  }
+  const Snapshot& snapshot = *tick.snapshot;
+  state.truncated = snapshot.truncated();
+  state.complete = snapshot.complete() && !state.truncated;
+  if (snapshot.complete()) return state;  // states of bodies do not matter then
+  state.worst = std::max(state.worst, snapshot.worstState());
+  state.sources = snapshot.incompleteSources();
+  return state;
+}
+
+bool CompletenessLog::isKnown(const State& state) const {
+  const auto tie = [](const State& s) {
+    return std::tie(s.complete, s.has_world, s.truncated, s.worst, s.not_ready, s.sources);
+  };
+  return known_ && tie(*known_) == tie(state);
+}
+
+}  // namespace hgrid

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/diagnostics/node_health.h"
+
+namespace hgrid {
+
+void NodeHealth::noteTick(const std::optional<Refusal>& fault) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  report_.failed_tick = fault;
+  if (fault) ++report_.failed_ticks;
+}
+
+void NodeHealth::noteLateness(bool late) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  report_.late_ticks_in_a_row = late ? report_.late_ticks_in_a_row + 1 : 0;
+}
+
+void NodeHealth::noteConflicts(const std::vector<std::string>& frames) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (frames.size() != report_.conflicts.size()) report_.conflicts = frames;
+}
+
+bool NodeHealth::noteFailedLoad(const std::string& robot, const std::string& sentence) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::string& known = report_.failed_loads[robot];
+  if (known == sentence) return false;
+  known = sentence;
+  return true;
+}
+
+void NodeHealth::noteLoaded(const std::string& robot) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  report_.failed_loads.erase(robot);
+}
+
+HealthReport NodeHealth::report() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return report_;
+}
+
+}  // namespace hgrid

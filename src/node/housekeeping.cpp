@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/housekeeping.h"
+
+#include <utility>
+
+#include "node/services/guarded.h"
+
+namespace hgrid {
+
+Housekeeping::Housekeeping(const ros::NodeHandle& node, double period, std::vector<Chore> chores, Ledger& ledger)
+    : node_(node), period_(period), ledger_(ledger) {
+  for (Chore& chore : chores) plan_.push_back({std::move(chore)});
+}
+
+void Housekeeping::start() {
+  timer_ = node_.createSteadyTimer(
+      ros::WallDuration(period_), [this](const ros::SteadyTimerEvent&) { doChores(std::chrono::steady_clock::now()); });
+}
+
+void Housekeeping::doChores(Time now) {
+  for (Planned& planned : plan_) {
+    if (now < planned.next) continue;
+    planned.next = now + planned.chore.pause;
+    guarded(ledger_, planned.chore.fault, [&] { planned.chore.act(now); });
+  }
+}
+
+}  // namespace hgrid

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "node/commons.h"
+#include "node/loading/map_loader.h"
+#include "node/loading/retry_schedule.h"
+#include "node/loading/robot_loader.h"
+#include "node/sources/cloud_source.h"
+#include "node/sources/self_shapes.h"
+
+namespace hgrid {
+
+/// Owns the sources of bodies (robots, maps, clouds), and has those loads that failed tried again. One thread, not that
+/// of the ticks. (Each cloud is read on a thread of its own.)
+class Loading {
+ public:
+  using NewestTick = SelfShapes::NewestTick;
+
+  /// @param node          its callback queue is that of the thread that uses this object
+  /// @param private_node  where robot descriptions are searched, from here upwards
+  /// @param is_ending     whether the node is about to end; a load that takes long is then given up. Any thread.
+  Loading(ros::NodeHandle node, const ros::NodeHandle& private_node, Commons& commons,
+          const TransformLookup& transforms, NewestTick newest, TickJobs& jobs, std::function<bool()> is_ending);
+
+  void startClouds();
+  void stopClouds() { clouds_.clear(); }
+
+  /// Tries again what is missing, if it is time to: at first often, then every ten seconds.
+  void retry(RetrySchedule::Time now);
+
+  RobotLoader& robots() { return robots_; }
+  MapLoader& maps() { return maps_; }
+  const MapSource& mapSource() const { return map_source_; }
+
+ private:
+  void startCloud(const CloudParams& cloud);
+
+  ros::NodeHandle node_;
+  Commons& commons_;
+  const TransformLookup& transforms_;
+  NewestTick newest_;
+  TickJobs& jobs_;
+  SelfShapes self_shapes_;
+  RobotSource robot_source_;
+  MapSource map_source_;
+  RobotLoader robots_;
+  MapLoader maps_;
+  RetrySchedule schedule_;
+  std::vector<std::unique_ptr<CloudSource>> clouds_;
+};
+
+}  // namespace hgrid

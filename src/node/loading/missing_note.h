@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <string>
+
+#include "node/sources/source_id.h"
+#include "node/tick/tick_jobs.h"
+#include "node/tick/world.h"
+
+namespace hgrid {
+
+/// Has the next tick say why a robot, map or cloud is not in the world, or not as its newest data has it.
+inline void noteMissing(TickJobs& jobs, const SourceId& source, const std::string& sentence) {
+  jobs.add([source, sentence](World& world) { world.setMissing(source, sentence); });
+}
+
+}  // namespace hgrid

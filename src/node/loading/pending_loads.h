@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hgrid {
+
+/// What is still to be put into the world, in the order in which it was added. One thread.
+template <class Load>
+class PendingLoads {
+ public:
+  bool empty() const { return loads_.empty(); }
+
+  /// Adds a load, and removes an earlier one of the same name.
+  void put(const std::string& name, Load load) {
+    loads_.reserve(loads_.size() + 1);
+    remove(name);
+    loads_.push_back({name, std::move(load)});
+  }
+  /// Removes the load of this name, if there is one.
+  void remove(const std::string& name) {
+    const auto has_name = [&](const Named& named) { return named.name == name; };
+    loads_.erase(std::remove_if(loads_.begin(), loads_.end(), has_name), loads_.end());
+  }
+  void clear() { loads_.clear(); }
+
+  /// Calls `try_load(const Load&)` for every load in order and removes those for which it returns true. If a call
+  /// throws, that load and those after it stay. `try_load` must not change this object.
+  template <class TryLoad>
+  void tryAll(TryLoad&& try_load) {
+    for (std::size_t i = 0; i < loads_.size();) {
+      if (try_load(loads_[i].load)) {
+        loads_.erase(loads_.begin() + static_cast<std::ptrdiff_t>(i));
+      } else {
+        ++i;
+      }
+    }
+  }
+
+ private:
+  struct Named {
+    std::string name;
+    Load load;
+  };
+  std::vector<Named> loads_;
+};
+
+}  // namespace hgrid

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/messages/from_messages.h"
+
+#include <hgrid_proximity/ShapeKind.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "hgrid_proximity/refusal.h"
+
+namespace hgrid {
+namespace {
+
+namespace msg = ::hgrid_proximity;
+
+std::shared_ptr<const TriangleMesh> fromMesh(const shape_msgs::Mesh& source) {
+  const auto mesh = std::make_shared<TriangleMesh>();
+  for (const geometry_msgs::Point& vertex : source.vertices) mesh->vertices.push_back(fromPoint(vertex));
+  for (const shape_msgs::MeshTriangle& triangle : source.triangles) {
+    mesh->triangles.push_back({triangle.vertex_indices[0], triangle.vertex_indices[1], triangle.vertex_indices[2]});
+  }
+  return mesh;
+}
+
+}  // namespace
+
+Pose fromPose(const geometry_msgs::Pose& pose, const std::string& what) {
+  const auto& q = pose.orientation;
+  const bool unset = q.x == 0.0 && q.y == 0.0 && q.z == 0.0 && q.w == 0.0;
+  const Eigen::Vector4d rotation = unset ? Eigen::Vector4d(0.0, 0.0, 0.0, 1.0) : Eigen::Vector4d(q.x, q.y, q.z, q.w);
+  return checkedPose(fromPoint(pose.position), rotation, what);
+}
+
+Shape fromShape(const msg::Shape& shape) {
+  if (shape.kind == msg::ShapeKind::HULL) return Shape::hull(fromMesh(shape.mesh));
+  if (shape.kind == msg::ShapeKind::MESH) return Shape::mesh(fromMesh(shape.mesh));
+  if (shape.kind == msg::ShapeKind::CELLS || shape.kind == msg::ShapeKind::PLANE) {
+    throw Refusal(Code::unsupported, std::string("the shape's kind is ") +
+                                         (shape.kind == msg::ShapeKind::CELLS ? "CELLS" : "PLANE") +
+                                         "; it must be SPHERE, BOX, CYLINDER, CONE, CAPSULE, HULL or MESH");
+  }
+  return Shape::primitive(shape.kind, shape.dimensions);
+}
+
+}  // namespace hgrid

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/publishers/publishers.h"
+
+namespace hgrid {
+
+Publishers::Publishers(ros::NodeHandle tick_node, ros::NodeHandle admin_node, Commons& commons,
+                       const Stopwatch& stopwatch, const QuerySketch& sketch)
+    : streams_(tick_node, commons, stopwatch),
+      bodies_(tick_node),
+      rules_(tick_node, commons.settings.params),
+      distances_(tick_node, commons),
+      markers_(admin_node, commons.settings.params, sketch) {}
+
+void Publishers::publishTick(const Tick& tick) {
+  streams_.publish(tick);
+  bodies_.publish(tick);
+  rules_.publish(tick);
+}
+
+void Publishers::publishDistances(const std::shared_ptr<const Tick>& tick) {
+  distances_.publish(tick, markers_.subscribed());
+}
+
+void Publishers::publishMarkers(const std::shared_ptr<const Tick>& newest) {
+  if (newest) markers_.publish(*newest, distances_.measured());
+}
+
+}  // namespace hgrid

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+
+#include <memory>
+
+#include "node/commons.h"
+#include "node/messages/pairs_messages.h"
+#include "node/tick/stopwatch.h"
+#include "node/tick/world.h"
+
+namespace hgrid {
+
+/// Publishes ~events, ~pairs and ~status of every tick, in this order: the events of a tick come before the message
+/// that says how many there were. Used by the tick thread only.
+class StreamsPublisher {
+ public:
+  StreamsPublisher(ros::NodeHandle& private_node, const Commons& commons, const Stopwatch& stopwatch);
+
+  void publish(const Tick& tick);
+
+ private:
+  const Commons& commons_;
+  const Stopwatch& stopwatch_;
+  ros::Publisher pairs_, events_, status_;
+  PairsMessages pairs_messages_;
+};
+
+}  // namespace hgrid

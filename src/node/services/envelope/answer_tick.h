@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <memory>
+
+#include "node/tick/world.h"
+
+namespace hgrid {
+
+/// The tick that an answer is made from: the newest one when the request came, or a later one that has its effect.
+class AnswerTick {
+ public:
+  /// @param tick  null before the first tick
+  explicit AnswerTick(std::shared_ptr<const Tick> tick);
+
+  /// Null before the first tick.
+  const std::shared_ptr<const Tick>& get() const { return tick_; }
+  /// [s] from the time when the tick was made to the construction of this object. 0 before the first tick.
+  double age() const { return age_; }
+  /// @throws Refusal not_ready before the first tick and while there is no world
+  const Snapshot& snapshot() const;
+
+ private:
+  std::shared_ptr<const Tick> tick_;
+  double age_ = 0.0;
+};
+
+}  // namespace hgrid

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/service_server.h>
+
+#include <boost/function.hpp>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "node/diagnostics/ledger.h"
+#include "node/params/settings.h"
+#include "node/services/envelope/answer_tick.h"
+#include "node/services/envelope/reply.h"
+#include "node/services/guarded.h"
+#include "node/wire/checked.h"
+
+namespace hgrid {
+
+/// One request of `Service`, as a deed sees it.
+template <class Service>
+struct ServiceCall {
+  const typename Service::Request& request;
+  typename Service::Response& response;
+  std::string caller;  ///< name of the node that asks, made safe for logs and messages
+  AnswerTick& tick;    ///< the newest tick. A deed that changes the world assigns the tick that has the change.
+};
+
+/// Answers the requests of all services in one way.
+///
+/// A deed does what a service is for. Around every deed, the envelope
+/// - takes the newest tick,
+/// - checks that the bytes of the request are a request,
+/// - fills `header`, `world` and `success` of the response,
+/// - turns a Refusal or any other exception of the deed into a code,
+/// - counts "<counter>.asked", "<counter>.refused.<CODE>" and "<counter>.failed.<CODE>".
+///
+/// Callbacks run on the queue of the node handle, on as many threads as spin it.
+class ServiceEnvelope {
+ public:
+  using NewestTick = std::function<std::shared_ptr<const Tick>()>;
+  template <class Service>
+  using Deed = std::function<void(ServiceCall<Service>&)>;
+
+  /// @param private_node  the namespace of the services. All other parameters must outlive the servers.
+  ServiceEnvelope(const ros::NodeHandle& private_node, const Settings& settings, NewestTick newest, Ledger& ledger)
+      : node_(private_node), settings_(settings), newest_(std::move(newest)), ledger_(ledger) {}
+  ServiceEnvelope(const ServiceEnvelope&) = delete;
+  ServiceEnvelope& operator=(const ServiceEnvelope&) = delete;
+
+  /// Advertises the service `name`, counted under its name.
+  /// @returns the server, which must not outlive this object
+  template <class Service>
+  ros::ServiceServer serve(const std::string& name, Deed<Service> deed) {
+    return serve<Service>(name, name, std::move(deed));
+  }
+  /// @param counter  what the names of the counters begin with
+  /// @param blank    the response before anything is known
+  template <class Service>
+  ros::ServiceServer serve(const std::string& name, const std::string& counter, Deed<Service> deed,
+                           const typename Service::Response& blank = {}) {
+    using Event = ros::ServiceEvent<Checked<typename Service::Request>, typename Service::Response>;
+    const boost::function<bool(Event&)> callback = [this, deed, blank, counters = Counters(counter)](Event& event) {
+      const auto answered = [&] {
+        event.getResponse() = blank;
+        answer<Service>(event, counters, deed);
+      };
+      return !guarded(ledger_, counters.failed.c_str(), answered);  // false: the caller hears that the call failed
+    };
+    return node_.advertiseService<Event>(name, callback);
+  }
+
+ private:
+  struct Counters {
+    explicit Counters(const std::string& counter)
+        : asked(counter + ".asked"), refused(counter + ".refused"), failed(counter + ".failed") {}
+    std::string asked, refused, failed;
+  };
+
+  template <class Service, class Event>
+  void answer(const Event& event, const Counters& counters, const Deed<Service>& deed) const {
+    typename Service::Response& response = event.getResponse();
+    ledger_.count(counters.asked);
+    AnswerTick tick(newest_());
+    const std::shared_ptr<const Tick> newest = tick.get();
+    writeTick(tick, settings_, response);
+    try {
+      ServiceCall<Service> call{event.getRequest().value(), response, printable(event.getCallerName()), tick};
+      writeSuccess(response);
+      deed(call);
+    } catch (const Refusal& refusal) {
+      writeRefusal(refusal, false, response);
+      ledger_.refuse(counters.refused, refusal);
+    } catch (...) {
+      writeRefusal(ledger_.fault(counters.failed.c_str()), true, response);
+    }
+    if (tick.get() != newest) writeTick(tick, settings_, response);
+  }
+
+  ros::NodeHandle node_;
+  const Settings& settings_;
+  NewestTick newest_;
+  Ledger& ledger_;
+};
+
+}  // namespace hgrid

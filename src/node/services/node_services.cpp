@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/services/node_services.h"
+
+#include <string>
+
+namespace hgrid {
+
+NodeServices::NodeServices(const ros::NodeHandle& query_node, const ros::NodeHandle& admin_node, Commons& commons,
+                           ServiceEnvelope::NewestTick newest, ChangeWorld change_world,
+                           const TransformLookup& transforms, Loading& loading, Stopwatch& stopwatch,
+                           QuerySketch& sketch)
+    : questions_(query_node, commons.settings, newest, commons.ledger),
+      changes_(admin_node, commons.settings, newest, commons.ledger),
+      query_(questions_, commons.settings.params, transforms, commons.narrow_phase, sketch),
+      explain_(questions_, commons.settings.params, commons.narrow_phase),
+      allowed_(changes_, commons.settings.params, change_world),
+      maps_(changes_, loading.mapSource(), change_world,
+            [&loading](const std::string& map) { loading.maps().forget(map); }),
+      reset_(changes_, change_world, stopwatch),
+      reload_(
+          changes_, [&loading](const std::string& robot) { return loading.robots().reload(robot); }, change_world) {}
+
+}  // namespace hgrid

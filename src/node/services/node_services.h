@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include "node/commons.h"
+#include "node/loading/loading.h"
+#include "node/services/allowed_services.h"
+#include "node/services/explain_service.h"
+#include "node/services/map_services.h"
+#include "node/services/query_services.h"
+#include "node/services/reload_service.h"
+#include "node/services/reset_service.h"
+#include "node/tf/transform_lookup.h"
+
+namespace hgrid {
+
+/// Owns the services of the node: the questions, which any number of threads serves, and the requests that change the
+/// world, which one thread serves.
+class NodeServices {
+ public:
+  /// @param query_node  private node handle of the threads that serve questions
+  /// @param admin_node  private node handle of the thread that serves requests that change the world
+  /// All other parameters must outlive this object.
+  NodeServices(const ros::NodeHandle& query_node, const ros::NodeHandle& admin_node, Commons& commons,
+               ServiceEnvelope::NewestTick newest, ChangeWorld change_world, const TransformLookup& transforms,
+               Loading& loading, Stopwatch& stopwatch, QuerySketch& sketch);
+
+ private:
+  ServiceEnvelope questions_, changes_;
+  QueryServices query_;
+  ExplainService explain_;
+  AllowedServices allowed_;
+  MapServices maps_;
+  ResetService reset_;
+  ReloadService reload_;
+};
+
+}  // namespace hgrid

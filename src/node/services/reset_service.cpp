@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/services/reset_service.h"
+
+#include <std_srvs/Trigger.h>
+
+#include <utility>
+
+namespace hgrid {
+
+ResetService::ResetService(ServiceEnvelope& envelope, ChangeWorld change_world, Stopwatch& stopwatch) {
+  server_ = envelope.serve<std_srvs::Trigger>(
+      "reset", [change = std::move(change_world), &stopwatch](ServiceCall<std_srvs::Trigger>& call) {
+        call.tick = AnswerTick(change([&stopwatch](World& world) {
+          world.reset();
+          stopwatch = Stopwatch();
+        }));
+        call.response.message = "obstacles as configured, counters at 0, a new epoch";
+      });
+}
+
+}  // namespace hgrid

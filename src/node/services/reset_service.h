@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include "node/services/envelope/service_envelope.h"
+#include "node/tick/change_world.h"
+#include "node/tick/stopwatch.h"
+
+namespace hgrid {
+
+/// Serves ~reset (std_srvs/Trigger): the obstacles as configured, all counters and timings at 0, a new epoch.
+class ResetService {
+ public:
+  /// @param envelope   must outlive this object
+  /// @param stopwatch  of the tick thread; must outlive this object
+  ResetService(ServiceEnvelope& envelope, ChangeWorld change_world, Stopwatch& stopwatch);
+
+ private:
+  ros::ServiceServer server_;
+};
+
+}  // namespace hgrid

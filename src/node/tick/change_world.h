@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <functional>
+#include <memory>
+
+namespace hgrid {
+
+class World;
+struct Tick;
+
+/// Changes the world at the begin of a tick, waits until that tick is published, and returns it.
+/// @throws what the change throws; Refusal busy if no tick comes
+using ChangeWorld = std::function<std::shared_ptr<const Tick>(const std::function<void(World&)>& change)>;
+
+}  // namespace hgrid

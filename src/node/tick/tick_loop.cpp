@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/tick/tick_loop.h"
+
+#include <utility>
+
+#include "node/services/guarded.h"
+
+namespace hgrid {
+namespace {
+
+constexpr double kShareForTransforms = 0.5;  // of a period: many transforms must not stop the ticks
+
+}  // namespace
+
+TickLoop::TickLoop(ros::NodeHandle node, const Params& params, World& world, TickJobs& jobs, Stopwatch& stopwatch,
+                   NodeHealth& health, Ledger& ledger)
+    : node_(std::move(node)),
+      period_(1.0 / params.rate),
+      world_(world),
+      jobs_(jobs),
+      stopwatch_(stopwatch),
+      health_(health),
+      ledger_(ledger),
+      transforms_(
+          node_, static_cast<std::size_t>(params.tf_queue_bytes), thisMoment,
+          [this](const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher,
+                 const Moment& received) {
+            guarded(ledger_, "tf.failed", [&] { takeTransforms(message, is_static, publisher, received); });
+          },
+          ledger_) {}
+
+void TickLoop::start(std::vector<Step> steps) {
+  steps_ = std::move(steps);
+  timer_ = node_.createSteadyTimer(period_, &TickLoop::onTimer, this);
+}
+
+std::shared_ptr<const Tick> TickLoop::tickAfter(const TickJobs::Job& job) {
+  jobs_.run(job);
+  // The tick that did the job is published when the next tick does its jobs.
+  const auto tick =
+      std::make_shared<std::shared_ptr<const Tick>>();  // shared: run() may give up before the job is done
+  jobs_.run([this, tick](World&) { *tick = newest(); });
+  return *tick;
+}
+
+void TickLoop::takeTransforms(const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher,
+                              const Moment& received) {
+  const auto begin = std::chrono::steady_clock::now();
+  world_.transforms().take(message, is_static, publisher, received);
+  transform_time_ += std::chrono::steady_clock::now() - begin;
+}
+
+void TickLoop::onTimer(const ros::SteadyTimerEvent& event) {
+  health_.noteTick(guarded(ledger_, "tick.failed", [&] { makeTick(event); }));
+}
+
+void TickLoop::makeTick(const ros::SteadyTimerEvent& event) {
+  transforms_.readFor(std::chrono::duration<double>(kShareForTransforms * period_.toSec()));
+  const auto begin = std::chrono::steady_clock::now();
+  noteLateness(event);
+  jobs_.doAll(world_, ledger_);
+  const std::shared_ptr<const Tick> tick = world_.tick(thisMoment());
+  std::atomic_store(&newest_, tick);
+  act(tick);
+  health_.noteConflicts(world_.transforms().conflicts());
+  const auto end = std::chrono::steady_clock::now();
+  stopwatch_.add("tick", end - begin);
+  stopwatch_.add("tick.poses", tick->poses_time);
+  stopwatch_.add("tick.boxes", tick->times.boxes);
+  stopwatch_.add("tick.grid", tick->times.grid);
+  stopwatch_.add("tick.pairs", tick->times.pairs);
+  stopwatch_.add("tf", std::exchange(transform_time_, std::chrono::nanoseconds(0)));
+  stopwatch_.summarize(end);
+}
+
+void TickLoop::noteLateness(const ros::SteadyTimerEvent& event) {
+  const bool late = event.current_real - event.current_expected > period_;
+  health_.noteLateness(late);
+  if (late) ledger_.count("tick.late");
+}
+
+void TickLoop::act(const std::shared_ptr<const Tick>& tick) {
+  for (const Step& step : steps_) {
+    const auto begin = std::chrono::steady_clock::now();
+    step.act(tick);
+    if (!step.timing.empty()) stopwatch_.add(step.timing, std::chrono::steady_clock::now() - begin);
+  }
+}
+
+}  // namespace hgrid
