@@ -7,7 +7,6 @@
 #include <hgrid_proximity/QuerySegment.h>
 #include <hgrid_proximity/QueryShape.h>
 #include <hgrid_proximity/QuerySphere.h>
-#include <tf2/buffer_core.h>
 
 #include <memory>
 #include <string>
