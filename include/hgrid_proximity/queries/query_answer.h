@@ -40,7 +40,7 @@ struct QueryHit {
   /// [m] Penetration depth, >= 0: a move of this length separates the query from the box, shape or cell that this hit
   /// names. The move may have to be longer for a mesh, and for a body of which other shapes are penetrated deeper. NaN
   /// where they are apart, and where the depth is unknown: inside a mesh, where the axis of a segment meets the box,
-  /// for the cell that a segment meets, and where the narrow phase gives none.
+  /// for the cell that a segment meets, and where the narrow phase gives none. Two boxes always have one.
   double depth = kUnknown;
   /// [m] The same from the query's center, or from the axis of a segment. Between two bodies it equals `distance`.
   double center_distance = 0.0;
