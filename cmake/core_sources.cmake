@@ -2,6 +2,7 @@
 set(HGRID_CORE_SOURCES
   src/refusal.cpp
   src/geometry/aabb.cpp
+  src/geometry/oriented_box.cpp
   src/geometry/pose.cpp
   src/geometry/segment.cpp
   src/geometry/shape.cpp

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "hgrid_proximity/geometry/float_environment.h"
+#include "hgrid_proximity/geometry/oriented_box.h"
 #include "hgrid_proximity/queries/query.h"
 #include "maps/map_gap.h"
 #include "queries/question.h"
@@ -25,7 +26,11 @@ class SolidQuestion final : public Question {
         center_(world_from_shape.translation()),
         padding_(padding),
         reach_(shape.reach() + padding),
-        slack_(touchSlack(center_, 2.0 * reach_)) {}
+        slack_(touchSlack(center_, 2.0 * reach_)) {
+    if (shape.kind() != ShapeKind::box || padding > 0.0) return;
+    const std::vector<double> size = shape.dimensions();
+    box_ = OrientedBox{world_from_shape, {size[0], size[1], size[2]}};
+  }
 
   bool gather(std::size_t round, std::vector<QueryHit>&, std::vector<ProxyId>& candidates) override {
     if (round == 0) snapshot.broadPhase().overlapping(boxAround(2.0 * slack_), candidates);
@@ -36,7 +41,7 @@ class SolidQuestion final : public Question {
   bool hitsMap(const PlacedMap& map, QueryHit& hit) const override;
 
   bool isBoxWithin(ProxyId proxy, double distance) const override {
-    return measureBox(proxy, slack_ + distance).distance <= slack_ + distance;
+    return measureBox(worldBoxOf(proxy), slack_ + distance).distance <= slack_ + distance;
   }
   bool isShapeWithin(ProxyId proxy, double distance, const NarrowPhase& exact) const override {
     return isWithin(probe(exact).measure(snapshot, proxy, slack_ + distance), slack_ + distance);
@@ -56,7 +61,15 @@ class SolidQuestion final : public Question {
   /// A box around the solid grown by `by` [m], relative to the snapshot's origin.
   Aabb boxAround(double by) const { return hgrid::boxOf(shape_, world_from_shape_, padding_ + by, origin()); }
   Probe probe(const NarrowPhase& narrow_phase) const { return {narrow_phase, *solid_, world_from_shape_, padding_}; }
-  Proximity measureBox(ProxyId proxy, double up_to) const;
+  /// A box of the snapshot.
+  OrientedBox worldBoxOf(ProxyId proxy) const {
+    const Eigen::AlignedBox3d box = inDouble(boxOf(proxy));
+    return {Pose(Eigen::Translation3d(origin() + 0.5 * (box.min() + box.max()))), box.max() - box.min()};
+  }
+  Proximity measureBox(const OrientedBox& box, double up_to) const {
+    return probe(narrow_phase_).measure(*narrow_phase_.block(box.size), box.world_from_box, 0.0, up_to);
+  }
+  double depthIn(const OrientedBox& box, const Proximity& found) const;
   /// What the solid hits it touches, within rounding.
   static void setDistance(QueryHit& hit, const Proximity& found) {
     hgrid::setDistance(hit, signedDistanceOf(found));
@@ -71,22 +84,23 @@ class SolidQuestion final : public Question {
   const std::shared_ptr<const Solid> solid_;
   const Shape shape_;
   const Pose world_from_shape_;
-  const Eigen::Vector3d center_;  // [m, world] origin of the shape
-  const double padding_;          // [m]
-  const double reach_;            // [m] from the center to the farthest point, padding included
-  const double slack_;            // [m]
+  const Eigen::Vector3d center_;    // [m, world] origin of the shape
+  const double padding_;            // [m]
+  const double reach_;              // [m] from the center to the farthest point, padding included
+  const double slack_;              // [m]
+  std::optional<OrientedBox> box_;  // the solid, if it is a box without padding
 };
 
-/// How the solid lies to a box of the snapshot.
-Proximity SolidQuestion::measureBox(ProxyId proxy, double up_to) const {
-  const Eigen::AlignedBox3d box = inDouble(boxOf(proxy));
-  const Pose world_from_box(Eigen::Translation3d(origin() + 0.5 * (box.min() + box.max())));
-  return probe(narrow_phase_).measure(*narrow_phase_.block(box.max() - box.min()), world_from_box, 0.0, up_to);
+/// [m] The depth of the solid in a box. The narrow phase may give none; that of two boxes can be computed.
+double SolidQuestion::depthIn(const OrientedBox& box, const Proximity& found) const {
+  return box_ && !(found.distance > 0.0) ? penetrationDepth(*box_, box) : found.depth;
 }
 
 bool SolidQuestion::hitsBox(ProxyId proxy, QueryHit& hit) const {
-  const Proximity found = measureBox(proxy, slack_);
+  const OrientedBox box = worldBoxOf(proxy);
+  Proximity found = measureBox(box, slack_);
   if (!(found.distance <= slack_)) return false;
+  found.depth = depthIn(box, found);
   setDistance(hit, found);
   hit.center_distance = distance(boxOf(proxy), center_ - origin());
   hit.point = nearestPoint(boxOf(proxy), center_ - origin()) + origin();
@@ -123,6 +137,7 @@ bool SolidQuestion::hitsMap(const PlacedMap& map, QueryHit& hit) const {
   });
   if (!met) return false;
   hit = map.hitOf(met->voxel, center, met->distance, isExact());
+  contact.depth = depthIn({map.worldFromCube(met->voxel), Eigen::Vector3d::Constant(hit.cell_edge)}, contact);
   setDistance(hit, contact);
   if (isExact()) hit.status = Measure::contact;
   return true;

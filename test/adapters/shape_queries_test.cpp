@@ -163,6 +163,38 @@ TEST_F(ShapeQueries, RefuseWhatIsNoQuestion) {
   EXPECT_EQ(refused({shape, at(0), 1.0}), Code::ok);
 }
 
+TEST_F(ShapeQueries, OfBoxesHaveTheDepthOfTheBoxOrCellThatIsNamed) {
+  fill(15, 40);
+  Random random(16);
+  std::size_t deep = 0;
+  for (int i = 0; i < 200; ++i) {
+    const QueryBox box{randomPose(random, 2.0), randomVector(random, 0.1, 1.0)};
+    for (const QueryHit& hit : query(*snapshot_, box, *phase_, {}).hits) {
+      ASSERT_EQ(hit.depth, std::abs(hit.signed_distance));
+      ASSERT_LE(hit.signed_distance, 0.0);
+      ASSERT_EQ(hit.distance, 0.0);
+      if (hit.depth < 1e-4 || snapshot_->structure().isMap(hit.body)) continue;
+      const ProxyId proxy = snapshot_->structure().first_proxy[hit.body] + hit.shape;
+      const Eigen::AlignedBox3d target = inDouble(snapshot_->boxes()[proxy]);
+      const auto separates = [&](const Eigen::Vector3d& move) {
+        QueryShape moved{Shape::box(box.size), box.world_from_box};
+        moved.world_from_shape.translation() += move;
+        return measure(moved, Shape::box(target.sizes()), Pose(Eigen::Translation3d(target.center())), 0.0).distance >
+               0;
+      };
+      for (int k = 0; k < 20; ++k) {
+        ASSERT_FALSE(separates(0.999 * hit.depth * randomVector(random, -1, 1).normalized())) << "too deep";
+      }
+      const Proximity by_fcl = measure({Shape::box(box.size), box.world_from_box}, Shape::box(target.sizes()),
+                                       Pose(Eigen::Translation3d(target.center())), 0.0);
+      if (!std::isfinite(by_fcl.depth)) continue;
+      ASSERT_LE(hit.depth, by_fcl.depth + 1e-5) << "a shorter move separates";
+      ++deep;
+    }
+  }
+  EXPECT_GT(deep, 100u);
+}
+
 TEST_F(ShapeQueries, ExactDepthsAreThoseOfTheShapes) {
   add(ball("a", 0.5), at(0));
   Body box = obstacle("b");

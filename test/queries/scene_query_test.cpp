@@ -17,7 +17,7 @@ struct Oracle {
   long double first = std::numeric_limits<long double>::infinity();     ///< along the axis
 };
 
-/// The nearest of a body's boxes to an axis, and its first contact with a ball along it.
+/// The nearest of a body's boxes to an axis, and its first contact with a sphere along it.
 Oracle oracleOf(const Snapshot& snapshot, std::uint32_t body, const Segment& axis) {
   const Eigen::Vector3d a = axis.from - snapshot.origin(), b = axis.to - snapshot.origin();
   Oracle oracle;
@@ -94,7 +94,7 @@ std::shared_ptr<const Snapshot> randomSnapshot(unsigned seed) {
   return scene.commit(Time{1}, {});
 }
 
-TEST(SceneQuery, BallsAndSegmentsFindWhatBruteForceFinds) {
+TEST(SceneQuery, SpheresAndSegmentsFindWhatBruteForceFinds) {
   std::size_t hits = 0;
   for (unsigned seed = 1; seed <= 150; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -108,14 +108,14 @@ TEST(SceneQuery, BallsAndSegmentsFindWhatBruteForceFinds) {
       ASSERT_NO_FATAL_FAILURE(expectRightHits(*snapshot, axis, segment, true));
       ASSERT_NO_FATAL_FAILURE(expectInOrder(segment, true));
       axis.to = axis.from;
-      const QueryAnswer ball = query(*snapshot, Sphere{axis.from, axis.radius}, {});
-      ASSERT_NO_FATAL_FAILURE(expectRightHits(*snapshot, axis, ball, false));
-      ASSERT_NO_FATAL_FAILURE(expectInOrder(ball, false));
-      for (const QueryAnswer& answer : {segment, ball}) {
+      const QueryAnswer sphere = query(*snapshot, Sphere{axis.from, axis.radius}, {});
+      ASSERT_NO_FATAL_FAILURE(expectRightHits(*snapshot, axis, sphere, false));
+      ASSERT_NO_FATAL_FAILURE(expectInOrder(sphere, false));
+      for (const QueryAnswer& answer : {segment, sphere}) {
         ASSERT_EQ(answer.verdict, answer.total > 0 ? Verdict::hit : Verdict::unknown);
         ASSERT_EQ(answer.reason.empty(), answer.total > 0);
       }
-      hits += segment.total + ball.total;
+      hits += segment.total + sphere.total;
     }
   }
   EXPECT_GT(hits, 5000u);
@@ -126,13 +126,13 @@ TEST(SceneQuery, ALimitKeepsTheFirstAndTellsTheTotal) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const auto snapshot = randomSnapshot(seed);
     const Segment axis{{-5, 0, 0}, {5, 0, 0}, 2.0};
-    const Sphere ball{{0, 0, 0}, 3.0};
-    const QueryAnswer all[] = {query(*snapshot, ball, {}), query(*snapshot, axis, {})};
+    const Sphere sphere{{0, 0, 0}, 3.0};
+    const QueryAnswer all[] = {query(*snapshot, sphere, {}), query(*snapshot, axis, {})};
     ASSERT_GT(all[0].total, 3u);
     for (const std::uint32_t limit : {1u, 2u, std::uint32_t(all[0].total), 1000u}) {
       QueryScope scope;
       scope.limit = limit;
-      const QueryAnswer some[] = {query(*snapshot, ball, scope), query(*snapshot, axis, scope)};
+      const QueryAnswer some[] = {query(*snapshot, sphere, scope), query(*snapshot, axis, scope)};
       for (int kind = 0; kind < 2; ++kind) {
         ASSERT_EQ(some[kind].total, all[kind].total);
         ASSERT_EQ(some[kind].verdict, all[kind].verdict);
@@ -150,11 +150,11 @@ TEST(SceneQuery, IncludeAndExcludeChooseByName) {
   const auto snapshot = scene.commit(Time{1}, {});
   const auto found = [&](const QueryScope& scope) {
     std::string names;
-    const QueryAnswer ball = query(*snapshot, Sphere{{0, 0, 0}, 1}, scope);
+    const QueryAnswer sphere = query(*snapshot, Sphere{{0, 0, 0}, 1}, scope);
     const QueryAnswer ray = query(*snapshot, Segment{{-1, 0, 0}, {1, 0, 0}, 0}, scope);
-    EXPECT_EQ(ball.total, ray.total);
-    EXPECT_EQ(ball.verdict, ball.total > 0 ? Verdict::hit : Verdict::clear);
-    for (const QueryHit& hit : ball.hits) names += snapshot->structure().bodies[hit.body].name.substr(9) + " ";
+    EXPECT_EQ(sphere.total, ray.total);
+    EXPECT_EQ(sphere.verdict, sphere.total > 0 ? Verdict::hit : Verdict::clear);
+    for (const QueryHit& hit : sphere.hits) names += snapshot->structure().bodies[hit.body].name.substr(9) + " ";
     return names;
   };
   EXPECT_EQ(found({{}, {}, 0}), "can cap cup dog ") << "equally near: by name";
@@ -192,12 +192,12 @@ TEST(SceneQuery, ABodyOfManyShapesIsHitOnceAtTheNearest) {
   }
   test::put(scene, body, test::at(10));
   const auto snapshot = scene.commit(Time{1}, {});
-  const QueryAnswer ball = query(*snapshot, Sphere{{12.25, 0, 1}, 5.0}, {});
-  ASSERT_EQ(ball.total, 1u);
-  EXPECT_EQ(ball.hits[0].shape, 2u);
-  EXPECT_EQ(ball.hits[0].distance, 0.0);
-  EXPECT_NEAR(ball.hits[0].center_distance, 0.5, 1e-6);
-  EXPECT_NEAR(ball.hits[0].point.z(), 0.5, 1e-6) << "in world coordinates";
+  const QueryAnswer sphere = query(*snapshot, Sphere{{12.25, 0, 1}, 5.0}, {});
+  ASSERT_EQ(sphere.total, 1u);
+  EXPECT_EQ(sphere.hits[0].shape, 2u);
+  EXPECT_EQ(sphere.hits[0].distance, 0.0);
+  EXPECT_NEAR(sphere.hits[0].center_distance, 0.5, 1e-6);
+  EXPECT_NEAR(sphere.hits[0].point.z(), 0.5, 1e-6) << "in world coordinates";
   const QueryAnswer there = query(*snapshot, Segment{{0, 0, 0}, {20, 0, 0}, 0}, {}),
                     back = query(*snapshot, Segment{{20, 0, 0}, {0, 0, 0}, 0}, {});
   ASSERT_EQ(there.total, 1u);
@@ -213,7 +213,7 @@ TEST(SceneQuery, RefusesWhatIsNoQuestion) {
   test::put(scene, test::ball("a"), test::at(0));
   const auto snapshot = scene.commit(Time{1}, {});
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
-  const auto ball = [&](const Eigen::Vector3d& center, double radius) {
+  const auto sphere = [&](const Eigen::Vector3d& center, double radius) {
     return refusalOf([&] { query(*snapshot, Sphere{center, radius}, {}); });
   };
   const auto segment = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius) {
@@ -223,29 +223,29 @@ TEST(SceneQuery, RefusesWhatIsNoQuestion) {
     for (const double bad : {nan, infinity, -infinity}) {
       Eigen::Vector3d point = Eigen::Vector3d::Zero();
       point[k] = bad;
-      EXPECT_EQ(ball(point, 1), Code::nonfinite);
+      EXPECT_EQ(sphere(point, 1), Code::nonfinite);
       EXPECT_EQ(segment(point, {0, 0, 0}, 1), Code::nonfinite);
       EXPECT_EQ(segment({0, 0, 0}, point, 1), Code::nonfinite);
     }
     Eigen::Vector3d far = Eigen::Vector3d::Zero();
     far[k] = std::nextafter(kQueryReach, 1e300);
-    EXPECT_EQ(ball(far, 1), Code::out_of_range);
+    EXPECT_EQ(sphere(far, 1), Code::out_of_range);
     EXPECT_EQ(segment({0, 0, 0}, far, 1), Code::out_of_range);
     far[k] = -kQueryReach;
-    EXPECT_EQ(ball(far, 1), Code::ok);
+    EXPECT_EQ(sphere(far, 1), Code::ok);
     EXPECT_EQ(segment({0, 0, 0}, far, 1), Code::ok);
   }
   for (const double bad : {-1.0, -1e-300}) {
-    EXPECT_EQ(ball({0, 0, 0}, bad), Code::bad_geometry);
+    EXPECT_EQ(sphere({0, 0, 0}, bad), Code::bad_geometry);
     EXPECT_EQ(segment({0, 0, 0}, {1, 1, 1}, bad), Code::bad_geometry);
   }
   for (const double bad : {nan, infinity}) {  // either is right: a number that is not finite, a radius that cannot be
-    const Code code = ball({0, 0, 0}, bad);
+    const Code code = sphere({0, 0, 0}, bad);
     EXPECT_TRUE(code == Code::nonfinite || code == Code::bad_geometry) << name(code);
     EXPECT_EQ(segment({0, 0, 0}, {1, 1, 1}, bad), code);
   }
-  EXPECT_EQ(ball({0, 0, 0}, 1e11), Code::out_of_range);
-  EXPECT_EQ(ball({0, 0, 0}, 0.0), Code::ok) << "a point";
+  EXPECT_EQ(sphere({0, 0, 0}, 1e11), Code::out_of_range);
+  EXPECT_EQ(sphere({0, 0, 0}, 0.0), Code::ok) << "a point";
   EXPECT_EQ(segment({0, 0, 0}, {0, 0, 0}, 0.0), Code::ok);
 }
 

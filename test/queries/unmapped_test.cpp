@@ -26,7 +26,7 @@ SceneOptions reporting() {
   return options;
 }
 
-/// [m] By how much a ball stays clear of all that the map does not know; negative: it does not. By hand.
+/// [m] By how much a sphere stays clear of all that the map does not know; negative: it does not. By hand.
 double clearance(const std::vector<Voxel>& unknown, const Eigen::AlignedBox3d& extent, const Eigen::Vector3d& at,
                  double radius) {
   double least = std::min((at - extent.min()).minCoeff(), (extent.max() - at).minCoeff());
@@ -59,7 +59,7 @@ TEST(Unmapped, ClearIsSaidExactlyOfWhatTheMapKnowsToBeFree) {
       const Eigen::Vector3d from = point(), to = from + 0.3 * point();
       const double radius = random.chance(0.3) ? 0.0 : random.uniform(0.0, 0.3);
       const double room = clearance(unknown, extent, from, radius);
-      check(room, query(*snapshot, Sphere{world_from_map * from, radius}, {}), "ball");
+      check(room, query(*snapshot, Sphere{world_from_map * from, radius}, {}), "sphere");
       if (radius > 0.0) check(room, nearest(*snapshot, world_from_map * from, radius, {}), "nearest");
       double along = room;
       for (int step = 1; step <= 1000; ++step) {

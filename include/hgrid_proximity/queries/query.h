@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "hgrid_proximity/geometry/oriented_box.h"
 #include "hgrid_proximity/geometry/pose.h"
 #include "hgrid_proximity/geometry/segment.h"
 #include "hgrid_proximity/geometry/shape.h"
@@ -23,11 +24,8 @@ namespace hgrid {
 /// [m] Queries may reach this far from the world's origin, per axis.
 inline constexpr double kQueryReach = 1e10;
 
-/// A box in any pose.
-struct QueryBox {
-  Pose world_from_box = Pose::Identity();  ///< of its center
-  Eigen::Vector3d size;                    ///< [m] full lengths, >= 0
-};
+/// The box that a query asks about.
+using QueryBox = OrientedBox;
 
 /// A shape of any kind in any pose.
 struct QueryShape {

@@ -40,9 +40,9 @@ struct QueryHit {
   /// [m] Penetration depth, >= 0: a move of this length separates the query from the box, shape or cell that this hit
   /// names. The move may have to be longer for a mesh, and for a body of which other shapes are penetrated deeper. NaN
   /// where they are apart, and where the depth is unknown: inside a mesh, where the axis of a segment meets the box,
-  /// for the cell that a segment meets, and where the narrow phase gives none.
+  /// for the cell that a segment meets, and where the narrow phase gives none. Two boxes always have one.
   double depth = kUnknown;
-  /// [m] The same from the query's center, or from the axis of a segment. Between two bodies it equals `distance`.
+  /// [m] As `distance`, but from the query's center, or from the axis of a segment. Between two bodies: `distance`.
   double center_distance = 0.0;
   /// [m] Segment only: how far along the segment its sphere first touches. In an open mesh, which the segment may enter
   /// without a touch, it is no later than where the segment meets the surface.

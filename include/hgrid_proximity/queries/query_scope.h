@@ -26,7 +26,7 @@ struct QueryScope {
   /// with it is switched off by the snapshot's pair filter: they are no hits and leave no doubt.
   std::uint32_t respect_allowed = Structure::kNone;
   /// When to stop. The query then answers with what it has hit so far. If it has hit nothing, the verdict is unknown
-  /// (Unknown::budget). A query may end later by the time that it takes to measure one shape. Nullopt: no deadline.
+  /// (Unknown::budget). A query may end later by the time that it takes to examine one shape. Nullopt: no deadline.
   std::optional<std::chrono::steady_clock::time_point> deadline = std::nullopt;
 };
 
