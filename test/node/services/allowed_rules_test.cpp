@@ -208,7 +208,7 @@ TEST_F(AllowedRules, SayWhoSetThemAndWhen) {
       of_service += is_set ? 1 : 0;
       EXPECT_EQ(entry.set_by, is_set ? ros::this_node::getName() : "");
       EXPECT_EQ(entry.since.isZero(), !is_set);
-      if (is_set) EXPECT_TRUE(begin <= entry.since && entry.since <= end) << entry.since;
+      EXPECT_EQ(begin <= entry.since && entry.since <= end, is_set) << entry.since;
     }
     EXPECT_EQ(of_service, as_given ? 1u : 3u);
   }
