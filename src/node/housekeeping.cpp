@@ -8,22 +8,25 @@
 
 namespace hgrid {
 
-Housekeeping::Housekeeping(const ros::NodeHandle& node, double period, std::vector<Chore> chores, Ledger& ledger)
-    : node_(node), period_(period), ledger_(ledger) {
+ChoreList::ChoreList(std::vector<Chore> chores, Ledger& ledger) : ledger_(ledger) {
   for (Chore& chore : chores) plan_.push_back({std::move(chore)});
 }
 
-void Housekeeping::start() {
-  timer_ = node_.createSteadyTimer(
-      ros::WallDuration(period_), [this](const ros::SteadyTimerEvent&) { doChores(std::chrono::steady_clock::now()); });
-}
-
-void Housekeeping::doChores(Time now) {
+void ChoreList::doDue(Time now) {
   for (Planned& planned : plan_) {
     if (now < planned.next) continue;
     planned.next = now + planned.chore.pause;
     guarded(ledger_, planned.chore.fault, [&] { planned.chore.act(now); });
   }
+}
+
+Housekeeping::Housekeeping(const ros::NodeHandle& node, double period, ChoreList chores)
+    : node_(node), period_(period), chores_(std::move(chores)) {}
+
+void Housekeeping::start() {
+  timer_ = node_.createSteadyTimer(ros::WallDuration(period_), [this](const ros::SteadyTimerEvent&) {
+    chores_.doDue(std::chrono::steady_clock::now());
+  });
 }
 
 }  // namespace hgrid

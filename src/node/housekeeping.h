@@ -13,33 +13,45 @@
 
 namespace hgrid {
 
-/// Does chores at regular times on the thread of a node handle. A chore that throws leaves the others.
-class Housekeeping {
- public:
+/// Something that is done again and again.
+struct Chore {
   using Time = std::chrono::steady_clock::time_point;
-  struct Chore {
-    const char* fault;                ///< counter of its exceptions
-    std::chrono::milliseconds pause;  ///< from one time to the next; 0: whenever the timer fires
-    std::function<void(Time now)> act;
-  };
+  const char* fault;                ///< counter of the exceptions that it throws
+  std::chrono::milliseconds pause;  ///< from one time to the next; 0: at every call
+  std::function<void(Time now)> act;
+};
 
-  /// @param period  [s] of the timer
-  Housekeeping(const ros::NodeHandle& node, double period, std::vector<Chore> chores, Ledger& ledger);
-  void start();
-  void stop() { timer_.stop(); }
+/// Chores, each with a pause of its own. A chore that throws leaves the others. One thread.
+class ChoreList {
+ public:
+  using Time = Chore::Time;
+  ChoreList(std::vector<Chore> chores, Ledger& ledger);
 
-  /// Does the chores that are due. The timer calls this.
-  void doChores(Time now);
+  /// Does the chores whose pauses are over, in their order.
+  void doDue(Time now);
 
  private:
   struct Planned {
     Chore chore;
     Time next{};
   };
-  ros::NodeHandle node_;
-  double period_;
   std::vector<Planned> plan_;
   Ledger& ledger_;
+};
+
+/// Does chores on the thread of a node handle.
+class Housekeeping {
+ public:
+  /// @param period  [s] how often it looks for chores that are due
+  Housekeeping(const ros::NodeHandle& node, double period, ChoreList chores);
+
+  void start();
+  void stop() { timer_.stop(); }
+
+ private:
+  ros::NodeHandle node_;
+  const double period_;
+  ChoreList chores_;
   ros::SteadyTimer timer_;
 };
 

@@ -50,7 +50,7 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
           admin_thread_.node(), admin_thread_.privateNode(), private_node.getNamespace(),
           [this] { return tick_loop_.newest(); }, commons_.health),
       housekeeping_(admin_thread_.node(), std::min(kHousekeepingPeriod, 1.0 / commons_.settings.params.marker_rate),
-                    chores(), commons_.ledger) {
+                    ChoreList(chores(), commons_.ledger)) {
   tick_loop_.start(tickSteps());
   housekeeping_.start();
   tick_thread_.start(1);
@@ -80,8 +80,8 @@ std::vector<TickLoop::Step> ProximityNode::tickSteps() {
 }
 
 /// What the admin thread does at regular times, in this order.
-std::vector<Housekeeping::Chore> ProximityNode::chores() {
-  using Time = Housekeeping::Time;
+std::vector<Chore> ProximityNode::chores() {
+  using Time = Chore::Time;
   constexpr std::chrono::milliseconds kAlways{0};
   return {{"loading.failed", kAlways, [this](Time now) { loading_.retry(now); }},
           {"markers.failed", kAlways, [this](Time) { publishers_.publishMarkers(tick_loop_.newest()); }},

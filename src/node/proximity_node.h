@@ -40,7 +40,7 @@ class ProximityNode {
   /// Whether the node or its process is about to end, so that nothing may take long any more. Any thread.
   bool isEnding() const;
   std::vector<TickLoop::Step> tickSteps();
-  std::vector<Housekeeping::Chore> chores();
+  std::vector<Chore> chores();
 
   // Each part uses only parts above it.
   std::atomic<bool> stopping_{false};

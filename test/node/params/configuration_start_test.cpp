@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "src/node/messages/interface_version.h"
 #include "src/node/params/params.h"
 #include "test/node/support/claims.h"
 #include "test/node/support/descriptions.h"
@@ -101,6 +102,18 @@ TEST(Start, IsRefusedWhereAnEntryOfAListLacksAField) {
   NodeUnderTest node(setup, false);
   EXPECT_EQ(node.process().waitForEnd(20.0).value_or(-1), 1);
   EXPECT_TRUE(says(node.output(), "~max_speed[0] has no 'speed'; it must have one"));
+}
+
+TEST(Start, SaysWhichVersionOfThePackageAndOfTheInterfaceRuns) {
+  NodeSetup setup;
+  setup.params = dict({{"world_frame", "world"}});
+  const NodeUnderTest node(setup);
+  const msg::Status status = *node.heard().status.back();
+  EXPECT_EQ(status.interface_version, kInterfaceVersion);
+  std::ifstream file(ros::package::getPath("hgrid_proximity") + "/package.xml");
+  std::ostringstream package;
+  package << file.rdbuf();
+  EXPECT_TRUE(says(package.str(), "<version>" + status.node_version + "</version>"));
 }
 
 TEST(Start, AndEndWithAnInterruptIsClean) {

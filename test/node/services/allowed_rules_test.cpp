@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include <hgrid_proximity/AllowedPair.h>
+#include <hgrid_proximity/RuleOrigin.h>
+#include <hgrid_proximity/Rules.h>
+#include <ros/this_node.h>
+#include <ros/topic.h>
 
 #include <algorithm>
 #include <iterator>
+#include <mutex>
 #include <stdexcept>
 
 #include "test/node/support/claims.h"
@@ -95,8 +100,11 @@ class AllowedRules : public ::testing::Test {
   }
   static Names gist(const msg::GetAllowed::Response& response) {
     EXPECT_TRUE(response.success) << response.code.text;
+    return gist(response.entries);
+  }
+  static Names gist(const std::vector<AllowedPair>& entries) {
     Names lines;
-    for (const AllowedPair& entry : response.entries) {
+    for (const AllowedPair& entry : entries) {
       lines.push_back(entry.first + " " + entry.second + " " + std::to_string(entry.origin) +
                       (entry.allowed ? " +" : " -"));
     }
@@ -183,6 +191,106 @@ TEST_F(AllowedRules, OutliveAReset) {
   EXPECT_EQ(namesOf(*node_->heard().pairs.back()), some);
 }
 
+TEST_F(AllowedRules, SayWhoSetThemAndWhen) {
+  const ros::Time begin = ros::Time::now();
+  AllowedPair rule = allow("robot/a", "robot/*");
+  rule.origin = msg::RuleOrigin::SRDF;  // not read
+  rule.set_by = "/somebody/else";       // not read
+  pairsOf(node_->setAllowed(toAdd({rule})));
+  const ros::Time end = ros::Time::now();
+  msg::GetAllowed::Request request;
+  for (const bool as_given : {true, false}) {
+    request.rules = as_given;
+    std::size_t of_service = 0;
+    for (const AllowedPair& entry : node_->getAllowed(request).entries) {
+      SCOPED_TRACE(entry.first + " " + entry.second);
+      const bool is_set = entry.origin == msg::RuleOrigin::SERVICE;
+      of_service += is_set ? 1 : 0;
+      EXPECT_EQ(entry.set_by, is_set ? ros::this_node::getName() : "");
+      EXPECT_EQ(entry.since.isZero(), !is_set);
+      EXPECT_EQ(begin <= entry.since && entry.since <= end, is_set) << entry.since;
+    }
+    EXPECT_EQ(of_service, as_given ? 1u : 3u);
+  }
+  const AllowedPair explained = node_->explain("robot/a", "robot/b").rule;
+  EXPECT_EQ(explained.set_by, ros::this_node::getName());
+}
+
+TEST_F(AllowedRules, SayHowManyPairsTheySwitchOffOrOn) {
+  const auto changed = [&](const msg::SetAllowed::Request& request) {
+    const auto response = node_->setAllowed(request);
+    EXPECT_TRUE(response.success) << response.code.text;
+    return response.pairs_changed;
+  };
+  EXPECT_EQ(changed(toAdd({allow("robot/a", "robot/*")})), 2u) << "with b and c; the joint to base is adjacent";
+  EXPECT_EQ(changed(toAdd({allow("robot/a", "robot/b")})), 0u);
+  EXPECT_EQ(changed(toAdd({enable("robot/a", "*")})), 2u) << "c and base; that with b is off by a stronger rule";
+  EXPECT_EQ(changed(toRemove({allow("robot/a", "robot/b")})), 1u);
+  EXPECT_EQ(node_->setAllowed(toAdd({allow("robot/a", "robot/x")})).pairs_changed, 0u) << "it was refused";
+}
+
+/// ~rules, which is latched.
+class RulesTopic : public AllowedRules {
+ protected:
+  RulesTopic() {
+    const boost::function<void(const msg::Rules::ConstPtr&)> hear = [this](const msg::Rules::ConstPtr& message) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      newest_ = message;
+    };
+    subscriber_ = ros::NodeHandle().subscribe<msg::Rules>(node_->named("rules"), 10, hear);
+  }
+  /// Waits until the newest message has these rules and is of a later epoch than this one.
+  msg::Rules::ConstPtr waitFor(const Names& rules, std::uint64_t after_epoch = 0) {
+    msg::Rules::ConstPtr message;
+    node_->waitUntil("~rules", [&](const Heard&) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      message = newest_;
+      return message && gist(message->rules) == rules && message->epoch > after_epoch;
+    });
+    return message;
+  }
+  const std::string configured_ = "robot/c obstacle/p* 4 +";
+
+ private:
+  std::mutex mutex_;
+  msg::Rules::ConstPtr newest_;
+  ros::Subscriber subscriber_;
+};
+
+TEST_F(RulesTopic, HasTheConfiguredRulesFromTheStart) {
+  const auto message = waitFor({configured_});
+  EXPECT_EQ(message->header.frame_id, node_->heard().pairs.back()->header.frame_id);
+  EXPECT_EQ(message->epoch, node_->heard().pairs.back()->world.epoch);
+  EXPECT_EQ(message->rules[0].reason, "it leans there");
+}
+
+TEST_F(RulesTopic, IsPublishedWhenRulesAreSetAndRemoved) {
+  waitFor({configured_});
+  const auto response = node_->setAllowed(toAdd({allow("robot/a", "*"), enable("robot/a", "robot/b")}));
+  const auto message = waitFor({configured_, "robot/a * 5 +", "robot/a robot/b 5 -"});
+  EXPECT_EQ(message->bodies_revision, response.world.bodies_revision);
+  EXPECT_EQ(message->header.stamp, response.world.stamp);
+  EXPECT_EQ(message->rules[1].set_by, ros::this_node::getName());
+  node_->setAllowed(toRemove({allow("robot/a", "*")}));
+  waitFor({configured_, "robot/a robot/b 5 -"});
+}
+
+TEST_F(RulesTopic, IsPublishedWhenARuleEnds) {
+  AllowedPair brief = allow("robot/a", "robot/b");
+  brief.lifetime = ros::Duration(1.0);
+  node_->setAllowed(toAdd({brief}));
+  const auto message = waitFor({configured_, "robot/a robot/b 5 +"});
+  EXPECT_GT(message->rules[1].lifetime.toSec(), 0.0);
+  EXPECT_LE(message->rules[1].lifetime.toSec(), 1.0);
+  waitFor({configured_});
+}
+
+TEST_F(RulesTopic, IsPublishedAfterAReset) {
+  const std::uint64_t before = waitFor({configured_})->epoch;
+  EXPECT_TRUE(node_->reset().success);
+  waitFor({configured_}, before);
+}
+
 TEST_F(AllowedRules, TheMatrixIsToldWithGlobsLimitAndSrdf) {
   pairsOf(node_->setAllowed(toAdd({allow("robot/b", "robot/a", "parked & safe"), enable("robot/base", "robot/c")})));
   msg::GetAllowed::Request request;
@@ -210,6 +318,18 @@ TEST_F(AllowedRules, TheMatrixIsToldWithGlobsLimitAndSrdf) {
   EXPECT_TRUE(some.truncated);
   request.first = std::string(513, '*');
   EXPECT_EQ(node_->getAllowed(request).code.name, "BAD_ID");
+}
+
+TEST(RulesBeforeTheWorld, AreTheConfiguredOnes) {
+  NodeSetup setup;  // no robot, hence no world frame
+  setup.params = dict({{"allowed_pairs", list({dict({{"first", "a/b"}, {"second", "*"}})})}});
+  NodeUnderTest node(setup);
+  const auto message = ros::topic::waitForMessage<msg::Rules>(node.named("rules"), ros::Duration(20.0));
+  ASSERT_TRUE(message);
+  ASSERT_EQ(message->rules.size(), 1u);
+  EXPECT_EQ(message->rules[0].origin, msg::RuleOrigin::PARAMETER);
+  EXPECT_EQ(message->bodies_revision, 0u);
+  EXPECT_TRUE(message->header.stamp.isZero());
 }
 
 TEST(AllowedBeforeTheWorld, IsNotReady) {

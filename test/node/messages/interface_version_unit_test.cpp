@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// No message or service changes without a new interface version.
+#include <gtest/gtest.h>
+#include <hgrid_proximity/AllowedPair.h>
+#include <hgrid_proximity/Answer.h>
+#include <hgrid_proximity/Bodies.h>
+#include <hgrid_proximity/Body.h>
+#include <hgrid_proximity/BodyStatus.h>
+#include <hgrid_proximity/ClearMap.h>
+#include <hgrid_proximity/Code.h>
+#include <hgrid_proximity/Counter.h>
+#include <hgrid_proximity/Distances.h>
+#include <hgrid_proximity/Events.h>
+#include <hgrid_proximity/ExplainPair.h>
+#include <hgrid_proximity/Gauge.h>
+#include <hgrid_proximity/GetAllowed.h>
+#include <hgrid_proximity/Hit.h>
+#include <hgrid_proximity/LoadOctomap.h>
+#include <hgrid_proximity/Obstacle.h>
+#include <hgrid_proximity/Pairs.h>
+#include <hgrid_proximity/QueryBox.h>
+#include <hgrid_proximity/QueryNearest.h>
+#include <hgrid_proximity/QuerySegment.h>
+#include <hgrid_proximity/QueryShape.h>
+#include <hgrid_proximity/QuerySphere.h>
+#include <hgrid_proximity/ReloadRobot.h>
+#include <hgrid_proximity/Rules.h>
+#include <hgrid_proximity/SelfPairs.h>
+#include <hgrid_proximity/SetAllowed.h>
+#include <hgrid_proximity/Shape.h>
+#include <hgrid_proximity/SourceStatus.h>
+#include <hgrid_proximity/Status.h>
+#include <hgrid_proximity/Timing.h>
+#include <hgrid_proximity/WorldState.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "src/node/messages/interface_version.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+namespace msg = ::hgrid_proximity;
+
+constexpr std::uint32_t kPinnedVersion = 1;  // of the sums below
+
+struct Pin {
+  std::string file, sum, pinned;
+};
+
+template <class Message>
+Pin message(const std::string& name, const std::string& pinned) {
+  return {"msg/" + name + ".msg", ros::message_traits::MD5Sum<Message>::value(), pinned};
+}
+template <class Service>
+Pin service(const std::string& name, const std::string& pinned) {
+  return {"srv/" + name + ".srv", ros::service_traits::MD5Sum<Service>::value(), pinned};
+}
+
+const std::vector<Pin>& pins() {
+  static const std::vector<Pin> all = {
+      message<msg::AllowedPair>("AllowedPair", "8390cbfa1b3008a47ee452ac3fbbaae3"),
+      message<msg::Answer>("Answer", "e7fda3f60c57714b74d7003537f2645f"),
+      message<msg::Bodies>("Bodies", "458d873717eb35b0ae8756fdaae4f151"),
+      message<msg::Body>("Body", "d6c40cb1c4173b0c8016fbda0d22a3ea"),
+      message<msg::BodyStatus>("BodyStatus", "bd9a63f6ebcd25ae08ba8cfb73a999f9"),
+      message<msg::Code>("Code", "fbde2bf6467e5dfdc09bc3548840c269"),
+      message<msg::Counter>("Counter", "a8105c30af3c5e6c9a9f5ea2544709f5"),
+      message<msg::Distances>("Distances", "f2e953656c3e425e9944551dbac2c5e1"),
+      message<msg::Events>("Events", "2d3c7209582b0e49fec6219c5906fe1a"),
+      message<msg::Gauge>("Gauge", "d8512f27253c0f65f928a67c329cd658"),
+      message<msg::Hit>("Hit", "b27873b5bc9c5faff607ee93c2082a9f"),
+      message<msg::Obstacle>("Obstacle", "e7f81a36c4d365e475d687aee989a892"),
+      message<msg::Pairs>("Pairs", "59a5c05dcc80fa7bab33a476f547a113"),
+      message<msg::Rules>("Rules", "79058cafa5b4aab9f804a71d629c5134"),
+      message<msg::SelfPairs>("SelfPairs", "5eb242595ef409da6cb975008f1ff334"),
+      message<msg::Shape>("Shape", "61b71820d028a78f9c0114ba95225d3a"),
+      message<msg::SourceStatus>("SourceStatus", "5d4419b44e109dac842346aa9930398a"),
+      message<msg::Status>("Status", "2f7216f812f479f36183b4b99576880b"),
+      message<msg::Timing>("Timing", "ffa7e14ed99c15133b8734e32bdf8366"),
+      message<msg::WorldState>("WorldState", "6e7f0e7ad23b6a55d3f532ba2a769931"),
+      service<msg::ClearMap>("ClearMap", "aa94ec5cc4241768d88da962bc4cdb11"),
+      service<msg::ExplainPair>("ExplainPair", "7f877c8d05130f963b17495385f7f1f0"),
+      service<msg::GetAllowed>("GetAllowed", "a7c3ddc68c8114168a385cee5844a3f2"),
+      service<msg::LoadOctomap>("LoadOctomap", "6b276f4ad18b72b8871dcd37bd5cb324"),
+      service<msg::QueryBox>("QueryBox", "8b378a163990ffc39d9443cb21832dd5"),
+      service<msg::QueryNearest>("QueryNearest", "1c536a184c73768c2d7173dd305db8f6"),
+      service<msg::QuerySegment>("QuerySegment", "83354b4bfa81d8e0a19b2fb48ee25859"),
+      service<msg::QueryShape>("QueryShape", "76efaeb6fe39032be58a9723037afe87"),
+      service<msg::QuerySphere>("QuerySphere", "8d1bde871426c698cbcc9a957b9511ad"),
+      service<msg::ReloadRobot>("ReloadRobot", "c148d85435550cf328927baad9e10cd7"),
+      service<msg::SetAllowed>("SetAllowed", "0be1f0a89280398f26117a1d50a7b05f"),
+  };
+  return all;
+}
+
+/// Whether a type is pinned: its header does not say that it is a draft or that nothing ever has it.
+bool mustBePinned(const std::filesystem::path& file) {
+  std::ifstream text(file);
+  for (std::string line; std::getline(text, line) && line.substr(0, 1) == "#";) {
+    if (line.find("DRAFT") != std::string::npos || line.find("Constants only") != std::string::npos) return false;
+  }
+  return true;
+}
+
+TEST(InterfaceVersion, GrowsWhenAMessageOrServiceChanges) {
+  for (const Pin& pin : pins()) {
+    if (kInterfaceVersion != kPinnedVersion) break;
+    EXPECT_EQ(pin.sum, pin.pinned)
+        << pin.file << " has changed: raise kInterfaceVersion in src/node/messages/interface_version.h by one, then "
+        << "write the new sums and the new kPinnedVersion into this test.";
+  }
+  EXPECT_EQ(kInterfaceVersion, kPinnedVersion) << "write the new sums and the new kPinnedVersion into this test.";
+}
+
+TEST(InterfaceVersion, StandsForEveryTypeThatIsNotADraft) {
+  const std::filesystem::path root = HGRID_PROJECT_DIR;
+  std::size_t found = 0;
+  for (const char* folder : {"msg", "srv"}) {
+    for (const auto& entry : std::filesystem::directory_iterator(root / folder)) {
+      const std::string file = std::string(folder) + "/" + entry.path().filename().string();
+      const bool pinned = std::any_of(pins().begin(), pins().end(), [&](const Pin& pin) { return pin.file == file; });
+      EXPECT_EQ(pinned, mustBePinned(entry.path())) << file << ": add it to pins() or remove it there";
+      found += pinned ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(found, pins().size());
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid

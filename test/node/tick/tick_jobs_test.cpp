@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// Jobs that another thread waits for. (Jobs that nobody waits for: faults_guarded_test.cpp.)
+#include "src/node/tick/tick_jobs.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "hgrid_proximity/adapters/fcl.h"
+#include "src/node/tick/world.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+/// A world of nothing, and a thread that does the jobs without pause.
+class Ticking {
+ public:
+  explicit Ticking(TickJobs& jobs)
+      : thread_([this, &jobs] {
+          while (!stop_) jobs.doAll(world_, ledger_);
+        }) {}
+  ~Ticking() {
+    stop_ = true;
+    thread_.join();
+  }
+  std::thread::id thread() const { return thread_.get_id(); }
+  const World& world() const { return world_; }
+
+ private:
+  Params params_;
+  Ledger ledger_;
+  World world_{params_, false, 1, ledger_, makeFclNarrowPhase()};
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+Refusal refusalOf(TickJobs& jobs, const TickJobs::Job& job) {
+  try {
+    jobs.run(job);
+  } catch (const Refusal& refusal) {
+    return refusal;
+  }
+  return {Code::ok, ""};
+}
+
+TEST(TickJobsRun, ReturnsWhenTheTickThreadHasDoneTheJob) {
+  TickJobs jobs;
+  const Ticking ticking(jobs);
+  std::thread::id done_by;
+  const World* with = nullptr;
+  jobs.run([&](World& world) {
+    done_by = std::this_thread::get_id();
+    with = &world;
+  });
+  EXPECT_EQ(done_by, ticking.thread());
+  EXPECT_EQ(with, &ticking.world());
+}
+
+TEST(TickJobsRun, ThrowsWhatTheJobThrowsAndDoesItOnce) {
+  TickJobs jobs;
+  const Ticking ticking(jobs);
+  int times = 0;
+  const Refusal refusal = refusalOf(jobs, [&](World&) {
+    ++times;
+    throw Refusal(Code::limit, "too many");
+  });
+  EXPECT_EQ(refusal.code(), Code::limit);
+  EXPECT_THROW(jobs.run([](World&) { throw std::runtime_error("a fault"); }), std::runtime_error);
+  jobs.run([](World&) {});
+  EXPECT_EQ(times, 1);
+}
+
+TEST(TickJobsRun, IsGivenUpIfNoTickComes) {
+  TickJobs jobs([] { return false; }, std::chrono::milliseconds(20));
+  const Refusal refusal = refusalOf(jobs, [](World&) {});
+  EXPECT_EQ(refusal.code(), Code::busy);
+  EXPECT_STREQ(refusal.what(), "no tick took this up within 0.02 s");
+}
+
+TEST(TickJobsRun, IsGivenUpIfTheNodeIsAboutToEnd) {
+  std::atomic<int> looks{0};
+  TickJobs jobs([&] { return ++looks > 2; });
+  const Refusal refusal = refusalOf(jobs, [](World&) {});
+  EXPECT_EQ(refusal.code(), Code::busy);
+  EXPECT_STREQ(refusal.what(), "the node is about to end; it changes nothing any more");
+  EXPECT_EQ(looks, 3) << "it asked again and again whether the node is about to end";
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid
