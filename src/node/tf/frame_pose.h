@@ -52,4 +52,16 @@ inline FramePose toFramePose(const geometry_msgs::Transform& transform) {
   return result;
 }
 
+inline geometry_msgs::Transform toTransform(const FramePose& pose) {
+  geometry_msgs::Transform result;
+  result.translation.x = pose.translation.x();
+  result.translation.y = pose.translation.y();
+  result.translation.z = pose.translation.z();
+  result.rotation.x = pose.rotation.x();
+  result.rotation.y = pose.rotation.y();
+  result.rotation.z = pose.rotation.z();
+  result.rotation.w = pose.rotation.w();
+  return result;
+}
+
 }  // namespace hgrid

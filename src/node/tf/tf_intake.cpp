@@ -185,7 +185,7 @@ bool TfIntake::takeRepeated(std::uint32_t number, const Arrival& arrival) {
   Frame& frame = frames_[number];
   if (arrival.stamp != frame.history.newest().stamp) return false;
   const bool same_parent = table_.isInParent(number, arrival.parent());
-  if (same_parent && isSame(arrival.transform.transform, frame.last)) return true;
+  if (same_parent && arrival.pose() == frame.history.newest().parent_from_frame) return true;
   if (frame.publisher != arrival.publisher) {
     takeRival(number, arrival);
     return true;
@@ -217,7 +217,6 @@ void TfIntake::takeNewest(std::uint32_t number, const Arrival& arrival, bool con
   frame.pace.noteReceived(arrival.reading, arrival.now.ros);
   frame.history.advance({arrival.stamp, table_.parent(number), arrival.pose()}, same_parent, frame.static_in_tf2);
   if (frame.publisher != arrival.publisher) frame.publisher = arrival.publisher;
-  frame.last = arrival.transform.transform;
   accept(frame);
   if (!frame.claimed) return;
   if (const auto rival = rivals_.takeWaiting(number, arrival.stamp)) {
@@ -267,7 +266,7 @@ void TfIntake::changeClaim(std::uint32_t number, const Arrival& arrival) {
   held.header.frame_id = arrival.parent();
   held.child_frame_id = table_.name(number);
   held.header.stamp.fromNSec(static_cast<std::uint64_t>(arrival.stamp.count() - 1));
-  held.transform = frame.last;
+  held.transform = toTransform(frame.history.newest().parent_from_frame);
   buffer_.feed(held, false, frame.publisher);
 }
 

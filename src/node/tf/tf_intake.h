@@ -37,7 +37,6 @@ class TfIntake {
     FrameHistory history;
     FramePace pace;                             // of /tf
     std::string publisher;                      // of the newest transform
-    geometry_msgs::Transform last;              // the newest transform on /tf, as it came
     std::optional<Refusal> refused;             // why the newest transform was refused
     Time stray{0};                              // stamp of the newest transform on /tf while the frame is static
     bool from_tf = false, from_static = false;  // a transform came there at least once

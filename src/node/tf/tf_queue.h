@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "node/diagnostics/ledger.h"
-#include "node/tf/transform_bytes.h"
 #include "node/time/clock_watch.h"
+#include "node/wire/transform_bytes.h"
 
 namespace hgrid {
 

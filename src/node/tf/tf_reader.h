@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "node/tf/tf_queue.h"
-#include "node/tf/transform_slices.h"
+#include "node/wire/transform_slices.h"
 
 namespace hgrid {
 

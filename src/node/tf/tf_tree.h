@@ -20,8 +20,8 @@ struct ChainState {
   Time received{0};        ///< moves: least reading of the age clock when a newest transform came
   Time lead{0};            ///< moves: least lead of that clock over ROS time then
   double period = 0.0;     ///< [s] moves: longest of the measured periods in the chain
-  const Refusal* refused =
-      nullptr;  ///< why the newest transform of a frame of the chain was refused; valid until the next take()
+  /// Why the newest transform of a frame of the chain was refused; null: none was. Valid until the next take().
+  const Refusal* refused = nullptr;
   std::uint32_t contested = TfIntake::kNone;  ///< a frame of the chain over which publishers fight
 
   /// Moves: the reading of the age clock at which the chain's pose of a time was 0 s old. That was at this time, but

@@ -70,10 +70,4 @@ void checkTransform(const geometry_msgs::TransformStamped& transform, bool is_st
   if (!is_static) checkStamp(transform, now, max_future);
 }
 
-bool isSame(const geometry_msgs::Transform& a, const geometry_msgs::Transform& b) {
-  return a.translation.x == b.translation.x && a.translation.y == b.translation.y &&
-         a.translation.z == b.translation.z && a.rotation.x == b.rotation.x && a.rotation.y == b.rotation.y &&
-         a.rotation.z == b.rotation.z && a.rotation.w == b.rotation.w;
-}
-
 }  // namespace hgrid

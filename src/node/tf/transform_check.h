@@ -19,7 +19,4 @@ inline Time stampOf(const geometry_msgs::TransformStamped& transform) {
   return Time(static_cast<std::int64_t>(transform.header.stamp.toNSec()));
 }
 
-/// Whether the two are the same, bit by bit.
-bool isSame(const geometry_msgs::Transform& a, const geometry_msgs::Transform& b);
-
 }  // namespace hgrid

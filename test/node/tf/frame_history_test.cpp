@@ -76,6 +76,8 @@ TEST(FrameHistory, OfAStampThatRanBackBeginsAgain) {
   history.advance(sample(10, 1.0), kSameParent, !kKeepsAll);
   EXPECT_EQ(xAt(history, 10.0), 1.0);
   EXPECT_EQ(xAt(history, 50.0), std::nullopt);
+  history.fill(sample(8, 3.0));
+  EXPECT_EQ(xAt(history, 9.0), 2.0) << "the sample that was ahead is forgotten";
 }
 
 TEST(FrameHistory, KeepsSixtyFourSamplesOfAFrameThatTf2DoesNotStore) {

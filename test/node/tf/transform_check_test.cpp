@@ -71,13 +71,6 @@ TEST(TransformCheck, RefusesStampsThatAreZeroOrTooFarAheadOnTf) {
   EXPECT_EQ(checked(good(), false, 1e5), Code::ok) << "an old transform is known at its time";
 }
 
-TEST(TransformCheck, ComparesTransformsBitByBit) {
-  geometry_msgs::Transform other = good().transform;
-  EXPECT_TRUE(isSame(good().transform, other));
-  other.translation.z = 1e-300;
-  EXPECT_FALSE(isSame(good().transform, other));
-}
-
 }  // namespace
 }  // namespace test
 }  // namespace hgrid

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "node/tf/transform_slices.h"
+#include "node/wire/transform_slices.h"
 
 #include <ros/serialization.h>
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
 // Needs no ROS master.
-#include "src/node/tf/transform_slices.h"
+#include "src/node/wire/transform_slices.h"
 
 #include <gtest/gtest.h>
 
