@@ -3,6 +3,8 @@
 #include "hgrid_proximity/bodies/link_matrix.h"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "bodies/group_tree.h"
 #include "hgrid_proximity/bodies/robot_model.h"
@@ -17,35 +19,61 @@ constexpr std::size_t kMostNamed = 8;  // joints that a reason names
 
 }  // namespace
 
+struct LinkMatrix::State {
+  State(const RobotModel& model, const LinkRules& rules, std::vector<std::string>& warnings)
+      : size(model.links.size()),
+        words((size + 63) / 64),
+        groups(model),
+        origins(size * size, Origin::none),
+        allowed(size * words) {
+    setGroups(model);
+    applyRules(model, rules, warnings);
+    for (std::uint32_t i = 0; i < size; ++i) set(i, i, Origin::self);  // last: no rule makes a link meet itself
+  }
+  void setGroups(const RobotModel& model);
+  void applyRules(const RobotModel& model, const LinkRules& rules, std::vector<std::string>& warnings);
+  void set(std::uint32_t first, std::uint32_t second, Origin origin);
+
+  std::size_t size, words;  // links; 64-bit words of a set of links
+  GroupTree groups;
+  std::vector<std::uint32_t> group_of;  // by link
+  std::vector<Origin> origins;
+  std::vector<std::uint64_t> allowed;                           // bit: there is an origin
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Tag> tags;  // by links, the smaller first: few pairs have one
+};
+
 LinkMatrix::LinkMatrix(const RobotModel& model, const LinkRules& rules, std::vector<std::string>& warnings)
-    : size_(model.links.size()),
-      words_((size_ + 63) / 64),
-      groups_(std::make_shared<const GroupTree>(model)),
-      origins_(size_ * size_, Origin::none),
-      allowed_(size_ * words_) {
-  setGroups(model);
-  applyRules(model, rules, warnings);
-  for (std::uint32_t i = 0; i < size_; ++i) set(i, i, Origin::self);  // last: no rule makes a link meet itself
+    : state_(std::make_shared<const State>(model, rules, warnings)) {}
+
+const std::uint64_t* LinkMatrix::allowedWith(std::uint32_t link) const {
+  return state_->allowed.data() + link * state_->words;
 }
 
-void LinkMatrix::setGroups(const RobotModel& model) {
-  std::vector<std::vector<std::uint32_t>> members(groups_->size());
-  for (std::uint32_t i = 0; i < size_; ++i) {
-    group_of_.push_back(model.links[i].rigid_group);
-    members[group_of_[i]].push_back(i);
+Origin LinkMatrix::origin(std::uint32_t first, std::uint32_t second) const {
+  return state_->origins[first * state_->size + second];
+}
+
+std::size_t LinkMatrix::size() const { return state_->size; }
+
+void LinkMatrix::State::setGroups(const RobotModel& model) {
+  std::vector<std::vector<std::uint32_t>> members(groups.size());
+  for (std::uint32_t i = 0; i < size; ++i) {
+    group_of.push_back(model.links[i].rigid_group);
+    members[group_of[i]].push_back(i);
   }
   const auto setAll = [&](std::uint32_t first, std::uint32_t second, Origin origin) {
     for (const std::uint32_t i : members[first]) {
       for (const std::uint32_t j : members[second]) set(i, j, origin);
     }
   };
-  for (std::uint32_t group = 0; group < groups_->size(); ++group) {
+  for (std::uint32_t group = 0; group < groups.size(); ++group) {
     setAll(group, group, Origin::rigid);
-    for (const std::uint32_t above : groups_->adjacentAbove(group)) setAll(group, above, Origin::adjacent);
+    for (const std::uint32_t above : groups.adjacentAbove(group)) setAll(group, above, Origin::adjacent);
   }
 }
 
-void LinkMatrix::applyRules(const RobotModel& model, const LinkRules& rules, std::vector<std::string>& warnings) {
+void LinkMatrix::State::applyRules(const RobotModel& model, const LinkRules& rules,
+                                   std::vector<std::string>& warnings) {
   const auto indexOf = [&](const std::string& link, const char* tag) {
     const int index = model.find(link);
     if (index < 0) {
@@ -59,23 +87,24 @@ void LinkMatrix::applyRules(const RobotModel& model, const LinkRules& rules, std
     if (first < 0 || second < 0) return;
     const auto a = static_cast<std::uint32_t>(first), b = static_cast<std::uint32_t>(second);
     set(a, b, origin);
-    if (a != b) tags_[std::minmax(a, b)] = {origin == Origin::srdf, printable(pair.reason, kLongestReason)};
+    if (a != b) tags[std::minmax(a, b)] = {origin == Origin::srdf, printable(pair.reason, kLongestReason)};
   };
   for (const std::string& link : rules.disabled_default) {
     const int index = indexOf(link, "disable_default_collisions");
-    for (std::uint32_t j = 0; index >= 0 && j < size_; ++j) set(static_cast<std::uint32_t>(index), j, Origin::srdf);
+    for (std::uint32_t j = 0; index >= 0 && j < size; ++j) set(static_cast<std::uint32_t>(index), j, Origin::srdf);
   }
   for (const LinkRules::Pair& pair : rules.enabled) setPair(pair, "enable_collisions", Origin::none);
   for (const LinkRules::Pair& pair : rules.disabled) setPair(pair, "disable_collisions", Origin::srdf);
 }
 
 const LinkMatrix::Tag* LinkMatrix::tag(std::uint32_t first, std::uint32_t second) const {
-  const auto found = tags_.find(std::minmax(first, second));
-  return found == tags_.end() ? nullptr : &found->second;
+  const auto found = state_->tags.find(std::minmax(first, second));
+  return found == state_->tags.end() ? nullptr : &found->second;
 }
 
 std::string LinkMatrix::adjacencyReason(std::uint32_t first, std::uint32_t second) const {
-  const std::vector<std::string> joints = groups_->jointsBetween(group_of_[first], group_of_[second]);
+  const std::vector<std::string> joints =
+      state_->groups.jointsBetween(state_->group_of[first], state_->group_of[second]);
   if (joints.size() == 1) return "joint '" + printable(joints.front()) + "' connects their rigid groups";
   std::string names;
   for (std::size_t i = 0; i < std::min(joints.size(), kMostNamed); ++i) {
@@ -86,10 +115,10 @@ std::string LinkMatrix::adjacencyReason(std::uint32_t first, std::uint32_t secon
          " connect their rigid groups in one place, without geometry between them";
 }
 
-void LinkMatrix::set(std::uint32_t first, std::uint32_t second, Origin origin) {
+void LinkMatrix::State::set(std::uint32_t first, std::uint32_t second, Origin origin) {
   for (const auto& [a, b] : {std::pair(first, second), std::pair(second, first)}) {
-    origins_[a * size_ + b] = origin;
-    std::uint64_t& word = allowed_[a * words_ + b / 64];
+    origins[a * size + b] = origin;
+    std::uint64_t& word = allowed[a * words + b / 64];
     const std::uint64_t bit = std::uint64_t{1} << (b % 64);
     word = origin != Origin::none ? word | bit : word & ~bit;
   }

@@ -52,7 +52,6 @@ void Scene::State::rebuildStructure() {
     }
   }
   next->first_proxy.push_back(static_cast<std::uint32_t>(next->body_of_proxy.size()));
-  std::vector<Aabb> next_boxes(next_shapes.size());
   next->pair_margins = PairMargins(next->bodies, options.pair_margins);
   next->filter = PairFilter(next->bodies, options.pair_kinds, options.allowed_pairs);
   next->silenced = silencesAll(next->bodies, options.pair_kinds, next->filter);
@@ -65,7 +64,6 @@ void Scene::State::rebuildStructure() {
   for (const auto& named : slot_of_name) slots[named.second].moved = true;  // its proxies may have other numbers now
   uncovered.swap(next_uncovered);
   shapes.swap(next_shapes);
-  boxes.swap(next_boxes);
   fixed_proxies.swap(next_fixed);
   structure = std::move(next);
   scale = GridScale::fitting(sizes);
@@ -84,25 +82,36 @@ std::shared_ptr<PooledSnapshot> Scene::State::freshSnapshot() const {
   return {pooled.release(), give_back, PoolAllocator<PooledSnapshot>(pool)};
 }
 
-/// Makes the boxes of what moved since the last commit; what stands still keeps its own. Of the poses a snapshot that
-/// was used before takes those that changed since then.
+/// Makes the boxes of a body from its pose.
+void Scene::State::makeBoxes(std::size_t body, const Pose& world_from_body, Snapshot& snapshot) const {
+  for (std::uint32_t proxy = structure->first_proxy[body]; proxy < structure->first_proxy[body + 1]; ++proxy) {
+    const ShapeInBody& shape = shapes[proxy];
+    snapshot.boxes_[proxy] = boxOf(shape.shape, world_from_body * shape.body_from_shape, shape.padding, options.origin);
+  }
+}
+
+/// Fills poses and boxes. The boxes of what did not move since the last commit are those of the last snapshot. If this
+/// snapshot was used before, only the poses that changed since then are written.
 void Scene::State::fillBodies(Snapshot& snapshot) {
   const std::uint64_t known = snapshot.structure_ == structure ? snapshot.commit_ : 0;
   snapshot.structure_ = structure;
   snapshot.commit_ = commits + 1;
   snapshot.poses_.resize(structure->ids.size());
+  if (last && last->structure_ == structure) {
+    snapshot.boxes_ = last->boxes_;
+  } else {
+    snapshot.boxes_.assign(structure->body_of_proxy.size(), Aabb{});  // all bodies count as moved
+  }
+  boxed.clear();
+  boxed.reserve(structure->ids.size());
   snapshot.worst_state_ = Freshness::fresh;
   snapshot.max_age_ = snapshot.max_growth_ = 0.0;
   for (std::size_t i = 0; i < structure->ids.size(); ++i) {
-    Slot& slot = slots[structure->ids[i].slot];
+    const Slot& slot = slots[structure->ids[i].slot];
     const bool placed = slot.pose.state != Freshness::unplaced;
     if (slot.moved && placed) {
-      for (std::uint32_t proxy = structure->first_proxy[i]; proxy < structure->first_proxy[i + 1]; ++proxy) {
-        const ShapeInBody& shape = shapes[proxy];
-        boxes[proxy] =
-            boxOf(shape.shape, slot.pose.world_from_body * shape.body_from_shape, shape.padding, options.origin);
-      }
-      slot.moved = false;
+      makeBoxes(i, slot.pose.world_from_body, snapshot);
+      boxed.push_back(structure->ids[i].slot);
     }
     if (known == 0 || slot.changed > known) {
       snapshot.poses_[i] = slot.pose;
@@ -113,20 +122,22 @@ void Scene::State::fillBodies(Snapshot& snapshot) {
     snapshot.max_growth_ = std::max(snapshot.max_growth_, snapshot.poses_[i].growth);
     if (placed) snapshot.max_age_ = std::max(snapshot.max_age_, slot.pose.age);
   }
-  snapshot.boxes_ = boxes;
   snapshot.cells_.clear();
   for (const std::uint32_t map : structure->maps) {
     snapshot.cells_.push_back(cells[structure->ids[map].slot]);
   }
-  horizon.step(structure, snapshot.poses_, boxes);
+  horizon.step(structure, snapshot.poses_, snapshot.boxes_);
 }
 
-/// Grows the placed boxes by their shares of the margins: half of the global one, and all by which a body's own is
-/// larger, or a pair of it may have. So two that are within their pair's margin plus their growth overlap.
+/// Grows the placed boxes by their shares of the margins: half of the global margin, and all by which the body's own
+/// margin, or that of a pair with it, is larger. So two boxes within their pair's margin plus their growth overlap.
+///
+/// A grown box of the last commit is kept if it was made of the same box by the same length.
 void Scene::State::growBoxes(const Snapshot& snapshot) {
-  ids.clear();
-  grown_boxes.clear();
-  grown_of.resize(snapshot.boxes_.size());
+  ids.resize(snapshot.boxes_.size());
+  grown_from.resize(snapshot.boxes_.size());
+  grown_boxes.resize(snapshot.boxes_.size());
+  std::size_t count = 0;
   for (ProxyId proxy = 0; proxy < snapshot.boxes_.size(); ++proxy) {
     const std::uint32_t body = structure->body_of_proxy[proxy];
     const BodyPose& pose = snapshot.poses_[body];
@@ -135,13 +146,16 @@ void Scene::State::growBoxes(const Snapshot& snapshot) {
     const double can_go = horizon.reachOf(body);
     const double by = 0.5 * options.margin + (own - options.margin) + pose.growth + can_go;
     const Aabb& box = horizon.on() ? horizon.swept(proxy) : snapshot.boxes_[proxy];
-    Grown& known = grown_of[proxy];
+    GrownFrom& known = grown_from[count];
     if (known.by != by || known.box != box) {
-      known = {box, by, grown(box, by)};
+      known = {box, by};
+      grown_boxes[count] = grown(box, by);
     }
-    ids.push_back(proxy);
-    grown_boxes.push_back(known.result);
+    ids[count++] = proxy;
   }
+  ids.resize(count);
+  grown_from.resize(count);
+  grown_boxes.resize(count);
 }
 
 /// Stores the grown boxes and finds those of their pairs that the filter keeps, within the limits.
@@ -216,14 +230,17 @@ void Scene::State::fillPairs(Snapshot& snapshot) {
 }
 
 /// Makes the snapshot the one that the next commit starts from. Allocates nothing.
-void Scene::State::accept(PooledSnapshot& pooled) {
+void Scene::State::accept(const std::shared_ptr<PooledSnapshot>& accepted) {
+  PooledSnapshot& pooled = *accepted;
   horizon.accept();
   map_pairs.accept();
   tracker.accept();
   pair_events.accept();
+  for (const std::uint32_t slot : boxed) slots[slot].moved = false;
   commits = pooled.snapshot.commit_;
   sequence = pooled.snapshot.sequence_;
   pooled.finished = true;
+  last = {accepted, &pooled.snapshot};
 }
 
 std::shared_ptr<const Snapshot> Scene::commit(Time stamp, const std::vector<SourceGap>& gaps) {
@@ -246,9 +263,9 @@ std::shared_ptr<const Snapshot> Scene::commit(Time stamp, const std::vector<Sour
   snapshot.sequence_ = s.sequence + 1;
   snapshot.epoch_ = s.epoch;
   s.fillCompleteness(snapshot, gaps);
-  s.accept(*pooled);
+  s.accept(pooled);
   s.times = {boxes_done - begin, grid_done - boxes_done, Clock::now() - grid_done};
-  return {pooled, &snapshot};
+  return s.last;
 }
 
 }  // namespace hgrid

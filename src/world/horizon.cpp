@@ -35,9 +35,10 @@ void Horizon::step(const std::shared_ptr<const Structure>& structure, const std:
   const std::size_t count = structure->bodies.size();
   const bool renumbered = structure != last_.structure;
   now_.structure = structure;
-  now_.boxes = before_ = swept_ = boxes;
+  now_.boxes = swept_ = boxes;
   now_.stamps.assign(count, kNever);
   teleported_.assign(count, false);
+  was_placed_.assign(count, false);
   reach_.resize(count);
   for (std::uint32_t body = 0; body < count; ++body) {
     const BodyPose& pose = poses[body];
@@ -46,11 +47,11 @@ void Horizon::step(const std::shared_ptr<const Structure>& structure, const std:
     now_.stamps[body] = pose.stamp;
     const Time before = renumbered ? kNever : last_.stamps[body];
     if (before == kNever) continue;
+    was_placed_[body] = true;
     const double may = structure->bodies[body].max_speed * std::max(0.0, seconds(pose.stamp - before));
     for (ProxyId proxy = structure->first_proxy[body]; proxy < structure->first_proxy[body + 1]; ++proxy) {
       const Aabb &from = last_.boxes[proxy], &to = boxes[proxy];
       if (from == to) continue;
-      before_[proxy] = from;
       swept_[proxy] = {from.min.cwiseMin(to.min), from.max.cwiseMax(to.max)};
       if (shiftOf(from, to) > may + roundingOf(to)) teleported_[body] = true;
     }

@@ -29,7 +29,9 @@ class Horizon {
   /// The box around a proxy's boxes of this tick and the last.
   const Aabb& swept(ProxyId proxy) const { return swept_[proxy]; }
   /// The proxy's box of the last tick; that of this one if it had none.
-  const Aabb& before(ProxyId proxy) const { return before_[proxy]; }
+  const Aabb& before(ProxyId proxy) const {
+    return was_placed_[now_.structure->body_of_proxy[proxy]] ? last_.boxes[proxy] : now_.boxes[proxy];
+  }
   /// Whether two proxies may have come within the margin since the last tick, or may meet before the horizon has
   /// passed.
   bool canMeet(const Structure& structure, ProxyId first, ProxyId second, double gap, double margin) const;
@@ -46,10 +48,11 @@ class Horizon {
     std::vector<Aabb> boxes;   // by proxy
     std::vector<Time> stamps;  // by body; negative: it had no pose
   };
-  Kept last_, now_;                   // now_: of the last step(), not accepted yet
-  std::vector<Aabb> before_, swept_;  // by proxy
-  std::vector<bool> teleported_;      // by body
-  std::vector<double> reach_;         // [m] by body
+  Kept last_, now_;               // now_: of the last step(), not accepted yet
+  std::vector<Aabb> swept_;       // by proxy
+  std::vector<bool> was_placed_;  // by body: it had a pose in the last tick, and in this structure
+  std::vector<bool> teleported_;  // by body
+  std::vector<double> reach_;     // [m] by body
 };
 
 }  // namespace hgrid

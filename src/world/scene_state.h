@@ -26,7 +26,7 @@ struct Scene::State {
   struct Slot {
     bool used = false;
     bool fixed = false;
-    bool moved = false;  // its boxes are not those of its pose
+    bool moved = false;  // since the last commit; its boxes are not those of its pose
     std::uint32_t generation = 0;
     std::uint64_t changed = 0;  // number of the first commit that has its pose as it is
     BodyPose pose;
@@ -37,10 +37,10 @@ struct Scene::State {
     double padding;
   };
 
-  struct Grown {
+  /// What a grown box was made of.
+  struct GrownFrom {
     Aabb box;
-    double by = -1.0;
-    Aabb result;
+    double by = -1.0;  // [m]
   };
 
   explicit State(const SceneOptions& scene_options)
@@ -76,8 +76,9 @@ struct Scene::State {
   // write again, or writes beside what the last commit left. So a commit that throws leaves no trace in the next one.
 
   void rebuildStructure();
-  void accept(PooledSnapshot& pooled);
+  void accept(const std::shared_ptr<PooledSnapshot>& accepted);
   std::shared_ptr<PooledSnapshot> freshSnapshot() const;
+  void makeBoxes(std::size_t body, const Pose& world_from_body, Snapshot& snapshot) const;
   void fillBodies(Snapshot& snapshot);
   void growBoxes(const Snapshot& snapshot);
   void fillGrid(PooledSnapshot& pooled);
@@ -94,7 +95,7 @@ struct Scene::State {
   std::shared_ptr<const Structure> structure = std::make_shared<Structure>();
   std::vector<std::uint32_t> uncovered;  // bodies of the structure that leave a gap wherever they are
   std::vector<ShapeInBody> shapes;       // by proxy of the structure
-  std::vector<Aabb> boxes;               // of them, as of the last commit
+  std::shared_ptr<const Snapshot> last;  // of the last commit; null before the first one
   GridScale scale;
   std::vector<ProxyId> fixed_proxies;
   Horizon horizon;
@@ -105,9 +106,10 @@ struct Scene::State {
   std::shared_ptr<SnapshotPool> pool = std::make_shared<SnapshotPool>();
 
   // Scratch of a tick, kept to save allocations.
-  std::vector<ProxyId> ids;
-  std::vector<Aabb> grown_boxes;
-  std::vector<Grown> grown_of;  // by proxy: what was grown last time
+  std::vector<std::uint32_t> boxed;   // slots whose boxes were made in this commit
+  std::vector<ProxyId> ids;           // placed proxies; the next two arrays are in their order
+  std::vector<Aabb> grown_boxes;      // what the grid stores
+  std::vector<GrownFrom> grown_from;  // what these were made of
   std::vector<ProxyPair> proxy_pairs;
   PairChoice choice;
 };

@@ -32,9 +32,7 @@ Pose at(double x, double y, double z) {
 Body body(const std::string& name, const Shape& shape, NarrowPhase& narrow_phase) {
   Body body;
   body.name = name;
-  BodyShape part{shape};
-  part.solid = narrow_phase.solidOf(shape);
-  body.shapes.push_back(part);
+  body.shapes.push_back({shape, Pose::Identity(), 0.0, "", Eigen::Vector3d::Ones(), narrow_phase.solidOf(shape)});
   return body;
 }
 
@@ -63,7 +61,8 @@ void useScene() {
 
   QueryScope scope;
   scope.exact = narrow_phase.get();
-  const QueryAnswer answer = snapshot->query(Sphere{{0.62, 0.0, 0.75}, 0.35}, scope);
+  const QueryAnswer answer = snapshot->query(Sphere{{0.72, 0.0, 0.75}, 0.31}, scope);
+  // It touches the box around the forearm, but not the forearm.
   require(answer.verdict == Verdict::hit && answer.hits.size() == 1, "the sphere touches one body");
   std::printf("the sphere touches %s\n", bodies[answer.hits[0].body].name.c_str());
 }

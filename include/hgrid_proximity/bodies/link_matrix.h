@@ -3,15 +3,12 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace hgrid {
 
-class GroupTree;
 struct RobotModel;
 
 /// What switches a pair off. The numbers are part of the interface: do not change them.
@@ -37,8 +34,9 @@ struct LinkRules {
   std::vector<Pair> enabled;                  ///< enable_collisions: undoes defaults, adjacency and rigid groups
 };
 
-/// Which links of one robot model may touch without being reported: one matrix per model, shared by equal robots.
-/// The matrix is symmetric. A link with itself is Origin::self.
+/// Which links of one robot model may touch without being reported. Equal robots share one matrix.
+///
+/// The matrix is symmetric. A link with itself is Origin::self. Immutable; copies share memory.
 class LinkMatrix {
  public:
   /// Switches off all pairs of links of one rigid group and of two adjacent groups, then applies the rules of an SRDF.
@@ -52,15 +50,18 @@ class LinkMatrix {
   /// `warnings`.
   LinkMatrix(const RobotModel& model, const LinkRules& rules, std::vector<std::string>& warnings);
 
+  /// Whether the pair is off.
   bool allowed(std::uint32_t first, std::uint32_t second) const { return isIn(allowedWith(first), second); }
-  /// The links that may touch this one, as a set of bits, for isIn(). Every near pair asks, of many robots in turn, so
-  /// that caches should have to hold little.
-  const std::uint64_t* allowedWith(std::uint32_t link) const { return allowed_.data() + link * words_; }
+  /// The links whose pairs with this link are off, as a bit set for isIn(). The filter of pairs asks this for every
+  /// near pair of many robots, so the set is small enough for the caches.
+  const std::uint64_t* allowedWith(std::uint32_t link) const;
   static bool isIn(const std::uint64_t* links, std::uint32_t link) {
     return (links[link / 64] >> (link % 64) & 1u) != 0;
   }
-  Origin origin(std::uint32_t first, std::uint32_t second) const { return origins_[first * size_ + second]; }
-  std::size_t size() const { return size_; }
+  /// What switches the pair off; Origin::none if nothing does.
+  Origin origin(std::uint32_t first, std::uint32_t second) const;
+  /// Number of links.
+  std::size_t size() const;
 
   /// What an SRDF says of just this pair.
   struct Tag {
@@ -73,16 +74,8 @@ class LinkMatrix {
   std::string adjacencyReason(std::uint32_t first, std::uint32_t second) const;
 
  private:
-  void setGroups(const RobotModel& model);
-  void applyRules(const RobotModel& model, const LinkRules& rules, std::vector<std::string>& warnings);
-  void set(std::uint32_t first, std::uint32_t second, Origin origin);
-
-  std::size_t size_, words_;  // links; 64-bit words of a set of links
-  std::shared_ptr<const GroupTree> groups_;
-  std::vector<std::uint32_t> group_of_;  // by link
-  std::vector<Origin> origins_;
-  std::vector<std::uint64_t> allowed_;                           // bit: there is an origin
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Tag> tags_;  // by links, the smaller first: few pairs have one
+  struct State;
+  std::shared_ptr<const State> state_;
 };
 
 }  // namespace hgrid

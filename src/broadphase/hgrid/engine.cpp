@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMostLoose = 64;
 
-// A box that moves is looked for in two or three layers; from about this share on, sorting all is cheaper.
+// A moving box is searched in two or three layers. If at least one of so many boxes moves, sorting all is cheaper.
 constexpr std::size_t kShareOfMoving = 4;
 
 /// Reserves like push_back(), which at least doubles the capacity.
@@ -76,12 +76,12 @@ std::size_t HGrid::Engine::movingWithLoose() const {
   return standing + members[kLoose].size();
 }
 
-/// Whether so many loose boxes are too many.
+/// Whether there are too many loose boxes.
 bool HGrid::Engine::settlesLoose(std::size_t loose, std::size_t withdrawn_then, std::size_t stored_then) const {
   return loose > kMostLoose || withdrawn_then > stored_then;
 }
 
-/// Whether the loose are settled by sorting all boxes.
+/// Whether all boxes are to be sorted when the loose ones are settled.
 bool HGrid::Engine::settlesAll(std::size_t moving, std::size_t withdrawn_then, std::size_t stored_then) const {
   return moving > std::max(kMostLoose, stored_then / kShareOfMoving) || withdrawn_then > stored_then;
 }
@@ -194,7 +194,7 @@ void HGrid::Engine::sortMoved() {
   if (moved.size() > stored / kShareOfMoving) return sortAll();
   std::size_t started = 0;
   for (const ProxyId id : moved) {
-    if (layer_of[id] == kFixed) return sortAll();  // it was said to be rare
+    if (layer_of[id] == kFixed) return sortAll();  // rare: fixed boxes should not move
     started += layer_of[id] == kResting;
   }
   std::vector<ProxyId>& moving = members[kMoving];

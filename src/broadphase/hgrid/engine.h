@@ -13,31 +13,31 @@
 
 namespace hgrid {
 
-/// Positions of one level, to be tested among themselves or against all of another level.
+/// A part of a search for pairs: some positions of one level, tested among themselves or against all of another level.
 struct SearchTask {
   const kernels::Level* asking;
-  const kernels::Level* asked;  // null: among themselves
+  const kernels::Level* asked;  // null: the positions are tested among themselves
   std::uint32_t begin, end;
-  std::size_t thread = 0, first = 0, found = 0;  // its pairs: so many from the first on in that thread's part
-  std::size_t to = 0;                            // where they go
+  std::size_t thread = 0, first = 0, found = 0;  // its pairs: `found` pairs from `first` on, in the part of that thread
+  std::size_t to = 0;                            // index of its first pair in the result
 };
 
-/// What a search for pairs works with.
+/// Buffers of a search for pairs.
 struct SearchBuffers {
   std::vector<SearchTask> tasks;
-  std::vector<std::vector<ProxyPair>> parts;  // per thread; room for all pairs in each, since any may do all tasks
-  std::vector<std::size_t> used;              // of each part
+  std::vector<std::vector<ProxyPair>> parts;  // per thread, each with room for all pairs: one thread may do all tasks
+  std::vector<std::size_t> used;              // pairs in each part
 };
 
-/// What an HGrid holds. Boxes stand in layers by how they behave, each sorted on its own:
+/// The implementation of HGrid. Each box is in one of four layers, which are sorted separately:
 ///
-///   fixed    said to be so; no pairs among themselves
-///   resting  did not move for a while; their pairs among themselves and with fixed ones are kept
-///   moving   sorted anew whenever one of them moves
-///   loose    came or moved one by one; few, until they are sorted with the moving
+///   fixed    declared by setFixed(); no pairs among themselves
+///   resting  did not move for a while; the grid keeps their pairs among themselves and with fixed boxes
+///   moving   sorted again whenever one of them moves
+///   loose    inserted or moved by a call for one box; there are few of them, because they soon join the moving boxes
 ///
-/// Every change allocates all that it needs before it changes a layer. So a change whose allocation fails throws, and
-/// the grid holds what it held before.
+/// Every change allocates all memory that it needs before it changes a layer. If the allocation fails, the change
+/// throws, and the grid holds the boxes that it held before.
 struct HGrid::Engine {
   enum LayerNumber : std::uint8_t { kFixed, kResting, kMoving, kLoose, kLayers, kAbsent };
 
@@ -52,18 +52,18 @@ struct HGrid::Engine {
   // Changes; engine.cpp.
   /// Makes room for a box of this id.
   void grow(ProxyId id);
-  /// Allocates what takeOut() of the box, if it is stored, and putLoose() need. They allocate nothing then.
+  /// Allocates what takeOut() (if the box is stored) and putLoose() need, so that they allocate nothing.
   void reserveLoose(ProxyId id);
   /// Takes a box out of its layer; `layer_of` is then kAbsent.
   void takeOut(ProxyId id);
-  /// Takes in a box that stands in no layer.
+  /// Adds a box that is in no layer to the loose ones.
   void putLoose(ProxyId id);
-  /// The boxes of these ids, and no others, are stored afterwards.
+  /// Stores these boxes and no others.
   void replace(const std::vector<ProxyId>& ids, const std::vector<Aabb>& given);
   /// Sorts all boxes into fixed and resting. If an allocation fails, the layers are as they were.
-  /// @param others  the layers do not hold exactly the stored boxes, or not in the right one of the two layers
+  /// @param others  true if the layers do not hold exactly the stored boxes, or hold some in the wrong one of the two
   void sortAll(bool others = false);
-  /// Sorts anew the boxes that moved (`moved`, whose boxes are written already), with those that moved lately. If an
+  /// Sorts the boxes that moved (`moved`; the caller has written them to `boxes`) with those that moved recently. If an
   /// allocation fails, the layers are as they were.
   void sortMoved();
   /// Restores `boxes`, `layer_of` and `stored` from the layers, which still hold what was there before.
@@ -71,9 +71,10 @@ struct HGrid::Engine {
   void reserveLayer(LayerNumber layer, std::size_t count);
   void sortLayer(LayerNumber layer);
   void locate(LayerNumber layer);
-  /// By id, in its layer. Kept in the array that the resting are sorted to; when they are, so are all layers.
+  /// Position of each box in its layer, by id. Shares memory with the sorting of the resting layer: whenever that layer
+  /// is sorted, all layers are, and all positions become invalid.
   std::vector<std::uint32_t>& positions() { return layers[kResting].spare(); }
-  /// Pairs of what rests, so that they need not be looked for each time.
+  /// Updates `kept`, so that searches need not find the pairs of resting boxes again.
   void keepPairs();
 
   std::size_t movingWithLoose() const;
@@ -92,26 +93,26 @@ struct HGrid::Engine {
   std::array<Layer, kLayers> layers;
   std::array<std::vector<ProxyId>, kLayers> members;  // moving and loose: ids
   std::array<bool, kLayers> located{};                // layers whose boxes have their positions in positions()
-  bool fixed_astray = false;    // some of the loose and moving are fixed: they came or moved one by one
-  bool moving_changed = false;  // some of the moving were taken out, and stand there as withdrawn
+  bool fixed_astray = false;                          // some loose or moving boxes are fixed
+  bool moving_changed = false;                        // some boxes of the moving layer are withdrawn
   std::size_t stored = 0;
-  std::size_t withdrawn = 0;   // positions that are empty, in any layer
-  double waste = 0.0;          // boxes sorted with the moving although they rested, summed up
+  std::size_t withdrawn = 0;   // withdrawn positions in all layers
+  double waste = 0.0;          // sum over sorts of the boxes that were sorted although they did not move
   std::vector<ProxyId> moved;  // scratch
   SortScratch scratch;
   std::unique_ptr<Workers> workers = std::make_unique<Workers>(1);
 
   std::vector<ProxyPair> kept;    // pairs of resting boxes with resting and fixed ones
-  std::size_t kept_overlaps = 0;  // overlapping pairs that the search for them looked at
+  std::size_t kept_overlaps = 0;  // overlapping pairs that the search for `kept` looked at
   bool kept_valid = false;
-  bool kept_dirty = false;  // some of their boxes are in these layers no more
+  bool kept_dirty = false;  // some of their boxes have left these layers
   mutable std::atomic<bool> pairs_wanted{false};
 
-  // Search for pairs; pair_search.cpp. Threads and their buffers serve one search at a time; a second one that runs
-  // beside it does without.
+  // Search for pairs; pair_search.cpp. One search at a time uses the threads and the buffers; a concurrent one uses
+  // neither.
   /// Fills `kept`. It stays invalid and empty if there are more pairs than the bound.
   void findKept();
-  /// @returns whether all pairs were found. If not, what stands in `pairs` means nothing.
+  /// @returns whether it found all pairs. If not, the contents of `pairs` are meaningless.
   bool findPairs(std::vector<ProxyPair>& pairs, const PairBound& up_to) const;
   /// Collects pairs in the order that PairBound says, until the bound is reached. @returns whether these are all pairs
   bool collectPairs(std::vector<ProxyPair>& pairs) const;

@@ -11,9 +11,9 @@
 
 namespace hgrid {
 
-/// What sorting works with; one for all layers of a grid.
+/// Buffers of sorting. All layers of a grid share them.
 struct SortScratch {
-  std::vector<Aabb> copies;           // by position before; only of so many that they are in no cache any more
+  std::vector<Aabb> copies;           // boxes by position before the sort; used only for counts that exceed the cache
   std::vector<std::uint32_t> cells;   // by position before
   std::vector<std::uint32_t> counts;  // boxes per cell, for each thread but the last
   std::vector<std::uint32_t> sums;    // per thread and range of cells: boxes counted there
@@ -21,15 +21,15 @@ struct SortScratch {
   std::vector<kernels::Keying> keyings;
 };
 
-/// What does the work.
+/// The means of sorting.
 struct Machine {
   const kernels::Kernels* kernels = nullptr;
   Workers* workers = nullptr;
   SortScratch* scratch = nullptr;
 };
 
-/// Boxes sorted by level and cell into structure of arrays: two passes of counting, no lists, no pointers (Ericson
-/// 2005, 7.1.4). Sorted anew as a whole; in between, boxes can be withdrawn.
+/// Boxes sorted by level and cell, as a structure of arrays, by two passes of counting (Ericson 2005, 7.1.4). A layer
+/// is always sorted as a whole. Between two sorts, boxes can be withdrawn.
 ///
 /// Only reserve() allocates. The caller calls reserve() before it changes anything, so a failed allocation leaves the
 /// layer as it was.
@@ -38,22 +38,22 @@ class Layer {
   /// Allocates what setIds() and sort() of `count` boxes need. The layer keeps its boxes and their order.
   /// @param ids  number of ids in use: the size of the array of boxes that sort() will get
   void reserve(std::size_t count, std::size_t ids, const Machine& machine);
-  /// Which boxes there are, in any order. reserve() has made room for them. Must be followed by sort().
+  /// Sets which boxes the layer holds, in any order. Call reserve() before and sort() after it.
   void setIds(const std::vector<ProxyId>& ids);
-  /// The same: room for so many ids, to be filled.
+  /// The same; the caller writes `count` ids to the returned array.
   ProxyId* setIds(std::size_t count);
-  /// Takes the boxes as they are now. The order of the last time is where it begins: boxes move little. Allocates
-  /// nothing after reserve() of as many boxes.
+  /// Sorts the boxes as they are now. Starts from the last order, because boxes move little. Allocates nothing after
+  /// reserve() of as many boxes.
   /// @param boxes  by id
   void sort(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine);
-  /// Takes the box at a position out: from now on it overlaps nothing.
+  /// Removes the box at a position: from now on it overlaps nothing.
   void withdraw(std::uint32_t position);
   bool isWithdrawn(std::uint32_t position) const { return !(bounds_[position] <= bounds_[3 * stride_ + position]); }
 
-  /// An array that is at the caller's disposal until the next sort(). reserve() keeps its values.
+  /// An array that the caller may use until the next sort(). reserve() keeps its values.
   std::vector<std::uint32_t>& spare() { return other_ids_; }
 
-  std::size_t size() const { return count_; }  ///< positions, those withdrawn among them
+  std::size_t size() const { return count_; }  ///< positions, withdrawn ones included
   const ProxyId* ids() const { return ids_.data(); }
   /// The box at a position.
   Aabb boxAt(std::uint32_t position) const {
