@@ -45,6 +45,7 @@ CompletenessLog::State CompletenessLog::stateOf(const Tick& tick) {
   state.has_world = tick.snapshot != nullptr;
   if (!state.has_world) {
     state.not_ready = tick.not_ready.size();
+    state.waits_for = tick.waits_for;
     return state;
   }
   const Snapshot& snapshot = *tick.snapshot;
@@ -58,7 +59,7 @@ CompletenessLog::State CompletenessLog::stateOf(const Tick& tick) {
 
 bool CompletenessLog::isKnown(const State& state) const {
   const auto tie = [](const State& s) {
-    return std::tie(s.complete, s.has_world, s.truncated, s.worst, s.not_ready, s.sources);
+    return std::tie(s.complete, s.has_world, s.truncated, s.worst, s.not_ready, s.waits_for, s.sources);
   };
   return known_ && tie(*known_) == tie(state);
 }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "node/tick/world.h"
+#include "node/tick/tick.h"
 
 namespace hgrid {
 
@@ -40,6 +40,7 @@ class CompletenessLog {
     bool complete = false, has_world = false, truncated = false;
     Freshness worst = Freshness::stale;  // state of a body; better ones do not matter
     std::size_t not_ready = 0;           // how many things are lacking, while there is no world
+    std::string waits_for;               // what the first of them is about
     std::vector<std::string> sources;    // that are incomplete, sorted
   };
   static State stateOf(const Tick& tick);

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "node/diagnostics/node_health.h"
-#include "node/tick/world.h"
+#include "node/tick/tick.h"
 
 namespace hgrid {
 

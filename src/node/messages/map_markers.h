@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "node/params/params.h"
-#include "node/tick/world.h"
+#include "node/tick/tick.h"
 
 namespace hgrid {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "hgrid_proximity/queries/query_answer.h"
-#include "node/tick/world.h"
+#include "node/tick/tick.h"
 
 namespace hgrid {
 

@@ -10,7 +10,7 @@
 #include "node/diagnostics/ledger.h"
 #include "node/params/params.h"
 #include "node/tick/stopwatch.h"
-#include "node/tick/world.h"
+#include "node/tick/tick.h"
 
 namespace hgrid {
 

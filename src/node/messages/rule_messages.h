@@ -10,7 +10,7 @@
 
 #include "hgrid_proximity/pairs/pair_rule.h"
 #include "node/params/params.h"
-#include "node/tick/world.h"
+#include "node/tick/tick.h"
 
 namespace hgrid {
 

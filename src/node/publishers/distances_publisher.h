@@ -9,7 +9,7 @@
 
 #include "hgrid_proximity/distances/pair_meter.h"
 #include "node/commons.h"
-#include "node/tick/world.h"
+#include "node/tick/tick.h"
 
 namespace hgrid {
 

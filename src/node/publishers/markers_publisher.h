@@ -10,7 +10,7 @@
 
 #include "node/messages/markers.h"
 #include "node/params/params.h"
-#include "node/tick/world.h"
+#include "node/tick/tick.h"
 
 namespace hgrid {
 

@@ -10,7 +10,7 @@
 #include "node/commons.h"
 #include "node/messages/pairs_messages.h"
 #include "node/tick/stopwatch.h"
-#include "node/tick/world.h"
+#include "node/tick/tick.h"
 
 namespace hgrid {
 

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "node/tick/world.h"
+#include "node/tick/tick.h"
 
 namespace hgrid {
 

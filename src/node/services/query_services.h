@@ -15,6 +15,7 @@
 #include "hgrid_proximity/queries/query.h"
 #include "node/messages/markers.h"
 #include "node/services/envelope/service_envelope.h"
+#include "node/tf/transform_lookup.h"
 
 namespace hgrid {
 

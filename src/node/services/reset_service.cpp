@@ -6,6 +6,8 @@
 
 #include <utility>
 
+#include "node/tick/world.h"
+
 namespace hgrid {
 
 ResetService::ResetService(ServiceEnvelope& envelope, ChangeWorld change_world, Stopwatch& stopwatch) {

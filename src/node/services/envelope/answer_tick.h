@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "node/tick/world.h"
+#include "node/tick/tick.h"
 
 namespace hgrid {
 
