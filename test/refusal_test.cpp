@@ -16,8 +16,8 @@ namespace hgrid {
 namespace {
 
 TEST(Refusal, ItsCodesAreThoseOfTheMessage) {
-  std::ifstream file(HGRID_PROJECT_DIR "/msg/Code.msg");
-  ASSERT_TRUE(file) << "msg/Code.msg is not there";
+  std::ifstream file(HGRID_PROJECT_DIR "/msg/CodeNames.msg");
+  ASSERT_TRUE(file) << "msg/CodeNames.msg is not there";
   int seen = 0;
   for (std::string line; std::getline(file, line);) {
     std::istringstream words(line);

@@ -37,7 +37,7 @@ class Robots : public RobotsTest {
     const ros::Time from = cell_->puppeteer->holdAnother() + ros::Duration(0.2);
     near_ = cell_->pairs->waitFor(
         [&](const hgrid_proximity::Pairs& pairs) {
-          return pairs.header.stamp >= from && pairs.world.worst_state == msg::BodyState::FRESH;
+          return pairs.header.stamp >= from && pairs.world.worst_state == hgrid_proximity::BodyState::FRESH;
         },
         kPatience);
     ASSERT_TRUE(near_) << "no tick had fresh poses of all links";
