@@ -5,6 +5,10 @@
 #include <hgrid_proximity/MeasureStatus.h>
 #include <hgrid_proximity/QueryBox.h>
 #include <hgrid_proximity/QueryNearest.h>
+#include <hgrid_proximity/QueryShape.h>
+#include <hgrid_proximity/SetAllowed.h>
+#include <hgrid_proximity/ShapeKind.h>
+#include <hgrid_proximity/UnknownReason.h>
 #include <hgrid_proximity/Verdict.h>
 #include <ros/service.h>
 #include <ros/topic.h>
@@ -70,6 +74,8 @@ TEST_F(DistancesNode, SayHowFarShapesAreApart) {
   EXPECT_EQ(message->status[0], msg::MeasureStatus::MEASURED);
   EXPECT_NEAR(message->distance[0], 0.1, 1e-9);
   EXPECT_NEAR(message->gap[0], 0.1, 1e-6);
+  EXPECT_EQ(message->lower_bound[0], message->distance[0]);
+  EXPECT_EQ(message->measured[0], message->header.stamp);
   EXPECT_NEAR(message->point_on_first[0].z, 0.1, 1e-9);
   EXPECT_NEAR(message->point_on_second[0].z, 0.0, 1e-9);
   EXPECT_NEAR(message->normal[0].z, -1.0, 1e-9);
@@ -149,6 +155,81 @@ TEST_F(DistancesNode, BoxesAndNearestAnswer) {
   nearest.point.x = 100.0;
   nearest.max_distance = 1.0;
   EXPECT_EQ(call<msg::QueryNearest>("query_nearest", nearest).answer.verdict, msg::Verdict::CLEAR);
+}
+
+/// Claim: a shape is asked about where it is, not where its box is, and its kind must be one that can be measured.
+TEST_F(DistancesNode, AShapeOfAnyKindIsAskedAboutAtAPose) {
+  msg::QueryShape::Request request;
+  request.shape.kind = msg::ShapeKind::CYLINDER;
+  request.shape.dimensions = {0.2, 0.1};
+  request.shape.pose.position.x = 3.6;  // on the post, in a corner of the turned box's box
+  request.shape.pose.position.y = 0.6;
+  request.exact = true;
+  EXPECT_EQ(namesOf(call<msg::QueryShape>("query_shape", request).answer), std::vector<std::string>({"obstacle/post"}));
+  request.shape.padding = 0.4;
+  EXPECT_EQ(namesOf(call<msg::QueryShape>("query_shape", request).answer).size(), 2u);
+  request.shape.padding = 0.0;
+  request.shape.pose.position.x = 30.0;
+  EXPECT_EQ(call<msg::QueryShape>("query_shape", request).answer.verdict, msg::Verdict::CLEAR);
+
+  request.shape.dimensions = {0.2};
+  EXPECT_EQ(call<msg::QueryShape>("query_shape", request).answer.code.name, "BAD_GEOMETRY");
+  request.shape.kind = msg::ShapeKind::PLANE;
+  EXPECT_EQ(call<msg::QueryShape>("query_shape", request).answer.code.name, "UNSUPPORTED");
+  request.shape.kind = 200;
+  EXPECT_EQ(call<msg::QueryShape>("query_shape", request).answer.code.name, "UNSUPPORTED");
+}
+
+TEST_F(DistancesNode, AllowedPairsAreLeftOutOfAQueryOnRequest) {
+  msg::QuerySphere::Request sphere;  // where the ball is, over the table
+  sphere.center.z = 0.25;
+  sphere.radius = 0.3;
+  EXPECT_EQ(namesOf(node_.ask(sphere).answer), std::vector<std::string>({"obstacle/ball", "obstacle/table"}));
+  sphere.respect_allowed = true;
+  EXPECT_EQ(node_.ask(sphere).answer.code.name, "BAD_ID") << "whose allowed pairs?";
+  sphere.as_body = "obstacle/nobody";
+  EXPECT_EQ(node_.ask(sphere).answer.code.name, "UNKNOWN_ID");
+  sphere.as_body = "obstacle/ball";
+  EXPECT_EQ(namesOf(node_.ask(sphere).answer), std::vector<std::string>({"obstacle/table"}));
+  msg::SetAllowed::Request allow;
+  allow.rules.resize(1);
+  allow.rules[0].first = "obstacle/ball";
+  allow.rules[0].second = "obstacle/table";
+  allow.rules[0].allowed = true;
+  EXPECT_EQ(call<msg::SetAllowed>("set_allowed", allow).pairs_changed, 1u);
+  EXPECT_EQ(node_.ask(sphere).answer.verdict, msg::Verdict::CLEAR);
+}
+
+TEST_F(DistancesNode, AQueryWithoutTimeIsUnknownAndANegativeTimeIsRefused) {
+  msg::QuerySphere::Request sphere;
+  sphere.center.z = 0.25;
+  sphere.radius = 0.3;
+  sphere.max_time = 1e-9;
+  const Answer answer = node_.ask(sphere).answer;
+  EXPECT_TRUE(answer.success);
+  EXPECT_EQ(answer.verdict, msg::Verdict::UNKNOWN) << answer.summary;
+  EXPECT_EQ(answer.unknown_because, msg::UnknownReason::BUDGET);
+  sphere.max_time = 60.0;
+  EXPECT_EQ(node_.ask(sphere).answer.verdict, msg::Verdict::HIT);
+  sphere.max_time = -1.0;
+  EXPECT_EQ(node_.ask(sphere).answer.code.name, "OUT_OF_RANGE");
+}
+
+TEST_F(DistancesNode, HitsSayHowDeepTheQueryIs) {
+  msg::QuerySphere::Request sphere;  // its lowest point is 0.05 m below the top of the table
+  sphere.center.x = -0.7;
+  sphere.center.z = 0.25;
+  sphere.radius = 0.3;
+  sphere.include = {"obstacle/table"};
+  for (const bool exact : {false, true}) {
+    sphere.exact = exact;
+    const Answer answer = node_.ask(sphere).answer;
+    ASSERT_EQ(answer.hits.size(), 1u);
+    EXPECT_EQ(answer.hits[0].distance, 0.0);
+    EXPECT_NEAR(answer.hits[0].depth, 0.05, 1e-6);
+    EXPECT_NEAR(answer.hits[0].signed_distance, -0.05, 1e-6);
+    EXPECT_FALSE(answer.hits[0].carried);
+  }
 }
 
 TEST_F(DistancesNode, ExplainPairMeasures) {
