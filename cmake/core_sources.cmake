@@ -12,7 +12,7 @@ set(HGRID_CORE_SOURCES
   src/broadphase/hgrid/layer.cpp
   src/broadphase/hgrid/pair_collection.cpp
   src/broadphase/hgrid/pair_search.cpp
-  src/broadphase/hgrid/plan.cpp
+  src/broadphase/hgrid/cell_plan.cpp
   src/broadphase/hgrid/queries.cpp
   src/broadphase/isa.cpp
   src/broadphase/workers.cpp

@@ -9,7 +9,7 @@
 #include <map>
 #include <string>
 
-#include "src/broadphase/hgrid/plan.h"
+#include "src/broadphase/hgrid/cell_plan.h"
 #include "test/support/failing_allocations.h"
 #include "test/support/grids.h"
 #include "test/support/worlds.h"
@@ -239,8 +239,8 @@ TEST(HGridFailedAllocation, APlanHasNoMoreCellsThanItsBoundSays) {
       const std::vector<Aabb> boxes = test::worldOf(test::Family(family), seed);
       std::vector<ProxyId> ids;
       for (ProxyId id = 0; id < boxes.size(); ++id) ids.push_back(id);
-      const Plan plan = planFor(boxes, ids.data(), ids.size(), 0.0625);
-      ASSERT_LE(plan.cells, Plan::mostCells(ids.size()))
+      const CellPlan plan = planFor(boxes, ids.data(), ids.size(), 0.0625);
+      ASSERT_LE(plan.cells, CellPlan::mostCells(ids.size()))
           << test::name(test::Family(family)) << ", seed " << seed << ", " << ids.size() << " boxes";
     }
   }

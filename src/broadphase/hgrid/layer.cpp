@@ -71,14 +71,14 @@ void Layer::widen(std::size_t count) {
 void Layer::reserve(std::size_t count, std::size_t ids, const Machine& machine) {
   if (count == 0) return;
   SortScratch& scratch = *machine.scratch;
-  const std::size_t threads = threadsFor(count, machine), cells = Plan::mostCells(count);
+  const std::size_t threads = threadsFor(count, machine), cells = CellPlan::mostCells(count);
   if (ids >= kWorthCopying) growTo(scratch.copies, count);
   growTo(scratch.cells, count);
   growTo(scratch.counts, (threads - 1) * cells);
-  scratch.sizes.reserve(threads * 4 * Plan::kMostLevels);
+  scratch.sizes.reserve(threads * 4 * CellPlan::kMostLevels);
   scratch.keyings.reserve(threads);
   scratch.sums.reserve(threads * threads);
-  levels_.reserve(Plan::kMostLevels);
+  levels_.reserve(CellPlan::kMostLevels);
   extendTo(other_ids_, count + kReadBeyond);
   if (extendTo(ids_, count + kReadBeyond)) point();
   if (extendTo(start_, cells + 1)) point();

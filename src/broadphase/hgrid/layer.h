@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "broadphase/hgrid/plan.h"
+#include "broadphase/hgrid/cell_plan.h"
 #include "broadphase/kernels/kernels.h"
 #include "broadphase/workers.h"
 
@@ -62,7 +62,7 @@ class Layer {
             {bound[3 * stride_], bound[4 * stride_], bound[5 * stride_]}};
   }
   const std::vector<kernels::Level>& levels() const { return levels_; }
-  const Plan& plan() const { return plan_; }
+  const CellPlan& plan() const { return plan_; }
   std::size_t bytes() const;
   /// @throws std::logic_error naming the promise that does not hold
   void checkInvariants(const std::vector<Aabb>& boxes) const;
@@ -75,7 +75,7 @@ class Layer {
   void point();
   std::uint32_t* countsOf(std::size_t thread, std::size_t threads, const Machine& machine);
 
-  Plan plan_;
+  CellPlan plan_;
   int sorts_with_plan_ = 0;
   std::size_t count_ = 0;
   std::vector<ProxyId> ids_, other_ids_;  // by position; the one is read while the other is written

@@ -8,7 +8,8 @@
 #include <tuple>
 #include <utility>
 
-#include "node/messages/messages.h"
+#include "node/messages/to_messages.h"
+#include "node/messages/world_state_message.h"
 
 namespace hgrid {
 namespace {

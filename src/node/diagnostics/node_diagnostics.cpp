@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/diagnostics/node_diagnostics.h"
 
-#include "node/messages/messages.h"
+#include "node/messages/to_messages.h"
+#include "node/messages/world_state_message.h"
 
 namespace hgrid {
 namespace {

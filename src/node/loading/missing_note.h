@@ -6,7 +6,7 @@
 
 #include "node/sources/source_id.h"
 #include "node/tick/tick_jobs.h"
-#include "node/tick/world.h"
+#include "node/world/world.h"
 
 namespace hgrid {
 

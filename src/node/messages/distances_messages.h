@@ -5,7 +5,8 @@
 #include <hgrid_proximity/Distances.h>
 
 #include "hgrid_proximity/distances/pair_meter.h"
-#include "node/messages/messages.h"
+#include "node/messages/to_messages.h"
+#include "node/messages/world_state_message.h"
 
 namespace hgrid {
 

@@ -6,7 +6,8 @@
 
 #include <vector>
 
-#include "node/messages/messages.h"
+#include "node/messages/to_messages.h"
+#include "node/messages/world_state_message.h"
 
 namespace hgrid {
 

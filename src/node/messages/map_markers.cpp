@@ -6,7 +6,7 @@
 #include <array>
 #include <iterator>
 
-#include "node/messages/messages.h"
+#include "node/messages/to_messages.h"
 
 namespace hgrid {
 namespace {

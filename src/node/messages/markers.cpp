@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "node/messages/messages.h"
+#include "node/messages/to_messages.h"
 
 namespace hgrid {
 namespace {

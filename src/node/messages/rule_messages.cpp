@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "hgrid_proximity/refusal.h"
-#include "node/messages/messages.h"
+#include "node/messages/to_messages.h"
 
 namespace hgrid {
 

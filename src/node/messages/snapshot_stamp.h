@@ -4,7 +4,7 @@
 
 #include "hgrid_proximity/refusal.h"
 #include "hgrid_proximity/world/snapshot.h"
-#include "node/messages/messages.h"
+#include "node/messages/to_messages.h"
 
 namespace hgrid {
 

@@ -3,7 +3,8 @@
 #include "node/publishers/distances_publisher.h"
 
 #include "node/messages/distances_messages.h"
-#include "node/messages/messages.h"
+#include "node/messages/to_messages.h"
+#include "node/messages/world_state_message.h"
 
 namespace hgrid {
 namespace {

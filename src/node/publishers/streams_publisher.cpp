@@ -3,7 +3,9 @@
 #include "node/publishers/streams_publisher.h"
 
 #include "node/messages/events_messages.h"
-#include "node/messages/messages.h"
+#include "node/messages/status_message.h"
+#include "node/messages/to_messages.h"
+#include "node/messages/world_state_message.h"
 
 namespace hgrid {
 
@@ -23,7 +25,7 @@ void StreamsPublisher::publish(const Tick& tick) {
   }
   if (pairs_.getNumSubscribers() > 0) pairs_.publish(pairs_messages_.of(tick, world));
   if (status_.getNumSubscribers() > 0) {
-    status_.publish(boost::make_shared<msg::Status>(status(tick, world, params, commons_.ledger, stopwatch_)));
+    status_.publish(boost::make_shared<msg::Status>(statusMessage(tick, world, params, commons_.ledger, stopwatch_)));
   }
 }
 

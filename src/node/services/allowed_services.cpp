@@ -11,7 +11,7 @@
 #include "hgrid_proximity/explain/changed_pairs.h"
 #include "hgrid_proximity/pairs/rule_book.h"
 #include "node/messages/rule_messages.h"
-#include "node/tick/world.h"
+#include "node/world/world.h"
 
 namespace hgrid {
 namespace {

@@ -9,7 +9,7 @@
 #include "hgrid_proximity/refusal.h"
 #include "node/messages/from_messages.h"
 #include "node/tf/frames.h"
-#include "node/tick/world.h"
+#include "node/world/world.h"
 
 namespace hgrid {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <utility>
 
-#include "node/tick/world.h"
+#include "node/world/world.h"
 
 namespace hgrid {
 

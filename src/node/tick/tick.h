@@ -10,9 +10,9 @@
 
 #include "hgrid_proximity/distances/pair_meter.h"
 #include "hgrid_proximity/world/scene.h"
-#include "node/tick/body_trouble.h"
-#include "node/tick/model_report.h"
 #include "node/time/clock_watch.h"
+#include "node/world/body_trouble.h"
+#include "node/world/model_report.h"
 
 namespace hgrid {
 

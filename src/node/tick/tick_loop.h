@@ -17,7 +17,7 @@
 #include "node/tf/tf_reader.h"
 #include "node/tick/stopwatch.h"
 #include "node/tick/tick_jobs.h"
-#include "node/tick/world.h"
+#include "node/world/world.h"
 
 namespace hgrid {
 

@@ -13,7 +13,7 @@
 #include "hgrid_proximity/adapters/fcl.h"
 #include "src/node/services/guarded.h"
 #include "src/node/tick/tick_jobs.h"
-#include "src/node/tick/world.h"
+#include "src/node/world/world.h"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "hgrid_proximity/queries/query_answer.h"
-#include "src/node/tick/world.h"
+#include "src/node/world/world.h"
 
 namespace hgrid {
 namespace test {

@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "hgrid_proximity/adapters/fcl.h"
-#include "src/node/tick/world.h"
+#include "src/node/world/world.h"
 
 namespace hgrid {
 namespace test {

@@ -11,7 +11,8 @@
 #include <utility>
 
 #include "hgrid_proximity/refusal.h"
-#include "node/messages/messages.h"
+#include "node/messages/to_messages.h"
+#include "node/messages/world_state_message.h"
 #include "node/params/settings.h"
 #include "node/services/envelope/answer_tick.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "node/tick/idle_patterns.h"
+#include "node/world/idle_patterns.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "node/tick/cloud_bodies.h"
+#include "node/world/cloud_bodies.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "src/node/tick/missing_sources.h"
+#include "src/node/world/missing_sources.h"
 
 #include <gtest/gtest.h>
 

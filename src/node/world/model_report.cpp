@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "node/tick/model_report.h"
+#include "node/world/model_report.h"
 
 #include "hgrid_proximity/bodies/name.h"
-#include "node/tick/idle_patterns.h"
+#include "node/world/idle_patterns.h"
 
 namespace hgrid {
 namespace {

@@ -10,7 +10,7 @@
 #include <functional>
 
 #include "hgrid_proximity/adapters/fcl.h"
-#include "src/node/tick/world.h"
+#include "src/node/world/world.h"
 #include "test/support/failing_allocations.h"
 #include "test/support/maps.h"
 #include "test/support/rules.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "node/tick/missing_sources.h"
+#include "node/world/missing_sources.h"
 
 namespace hgrid {
 

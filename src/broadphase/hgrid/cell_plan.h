@@ -17,7 +17,7 @@ float longestSide(const Aabb& box);
 
 /// How the boxes of a layer are divided into levels, and each level into cells. Any plan gives right answers; a good
 /// one gives them fast.
-struct Plan {
+struct CellPlan {
   static constexpr std::size_t kMostLevels = GridScale::kLevels + 1;
   template <class Value>
   using PerLevel = std::array<Value, kMostLevels>;  // ascending by size; not a vector, so that a plan allocates nothing
@@ -46,10 +46,10 @@ struct Plan {
 /// Divides the boxes of `count` ids as a model of the cost of finding all pairs says. Sizes that differ by less than a
 /// factor of GridScale::kRatio share a level, as do levels so thinly populated that a look at both costs more than a
 /// look at larger cells; among the edges of cells from once to many times the largest box the cheapest is taken.
-Plan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge);
+CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge);
 
 /// Estimated rows of cells that a box of one level looks at in another, whose boxes reach so far [m].
-double rowsAsked(const Plan& asking, std::size_t asking_level, const Plan& asked, std::size_t asked_level,
+double rowsAsked(const CellPlan& asking, std::size_t asking_level, const CellPlan& asked, std::size_t asked_level,
                  const float* reach_of_asked);
 
 }  // namespace hgrid

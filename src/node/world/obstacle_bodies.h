@@ -8,8 +8,8 @@
 #include "hgrid_proximity/narrow/narrow_phase.h"
 #include "node/diagnostics/ledger.h"
 #include "node/params/params.h"
-#include "node/tick/missing_sources.h"
-#include "node/tick/movers.h"
+#include "node/world/missing_sources.h"
+#include "node/world/movers.h"
 
 namespace hgrid {
 

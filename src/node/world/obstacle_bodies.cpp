@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "node/tick/obstacle_bodies.h"
+#include "node/world/obstacle_bodies.h"
 
 #include <utility>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "node/tick/map_bodies.h"
+#include "node/world/map_bodies.h"
 
 #include <utility>
 

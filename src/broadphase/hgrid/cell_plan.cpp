@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "broadphase/hgrid/plan.h"
+#include "broadphase/hgrid/cell_plan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +42,7 @@ struct Cells {
 // Costs [ns], measured on one machine; only their ratios matter.
 constexpr double kPerBox = 4.0, kPerRow = 3.0, kPerAskedRow = 6.0, kPerTest = 3.0, kPerCell = 0.15;
 constexpr double kLanes = 8.0;  // boxes per test: one number for all instruction sets, since plans must not differ
-constexpr double kMostCellsPerBox = 1.0, kFewestCells = 64.0;  // whole numbers: Plan::mostCells() counts on it
+constexpr double kMostCellsPerBox = 1.0, kFewestCells = 64.0;  // whole numbers: CellPlan::mostCells() counts on it
 
 double cellsAlong(double length, double edge) { return std::floor(length / edge) + 1.0; }
 
@@ -126,7 +126,7 @@ Window windowOf(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t 
   return window;
 }
 
-void append(Plan& plan, const Census& census, const Window& window, double side) {
+void append(CellPlan& plan, const Census& census, const Window& window, double side) {
   const Cells cells = bestCellsOf(census, window);
   const std::size_t number = plan.levels++;
   kernels::Grid& grid = plan.grids[number];
@@ -146,7 +146,7 @@ void append(Plan& plan, const Census& census, const Window& window, double side)
 
 float longestSide(const Aabb& box) { return (box.max - box.min).maxCoeff(); }
 
-Plan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge) {
+CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge) {
   std::array<Census, GridScale::kLevels + 1> sizes;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Vector lower, upper;
@@ -170,7 +170,7 @@ Plan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t cou
       upper[i] = std::max(upper[i], low);
     }
   }
-  Plan plan;
+  CellPlan plan;
   plan.boxes = count;
   if (count == 0) return plan;
   const Window window = windowOf(boxes, ids, count, lower, upper);
@@ -222,17 +222,17 @@ Plan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t cou
   return plan;
 }
 
-std::size_t Plan::mostCells(std::size_t count) {
+std::size_t CellPlan::mostCells(std::size_t count) {
   const auto per_box = static_cast<std::size_t>(kMostCellsPerBox), per_level = static_cast<std::size_t>(kFewestCells);
   return per_box * count + per_level * std::min(count, kMostLevels);
 }
 
-bool Plan::fits(std::size_t count) const {
+bool CellPlan::fits(std::size_t count) const {
   const auto now = static_cast<double>(count), then = static_cast<double>(boxes);
   return now <= 1.25 * then + 8.0 && now >= 0.75 * then - 8.0;
 }
 
-bool Plan::fits(const float* lower_now, const float* upper_now, const float* largest_now) const {
+bool CellPlan::fits(const float* lower_now, const float* upper_now, const float* largest_now) const {
   for (std::size_t level = 0; level < levels; ++level) {
     for (std::size_t i = 0; i < 3; ++i) {
       const float then = largest[level][i], now = largest_now[4 * level + i];
@@ -248,7 +248,7 @@ bool Plan::fits(const float* lower_now, const float* upper_now, const float* lar
   return true;
 }
 
-double rowsAsked(const Plan& asking, std::size_t asking_level, const Plan& asked, std::size_t asked_level,
+double rowsAsked(const CellPlan& asking, std::size_t asking_level, const CellPlan& asked, std::size_t asked_level,
                  const float* reach_of_asked) {
   const kernels::Grid& grid = asked.grids[asked_level];
   double rows = 1.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "node/tick/movers.h"
+#include "node/world/movers.h"
 
 #include <algorithm>
 #include <utility>

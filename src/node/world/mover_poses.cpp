@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "node/tick/mover_poses.h"
+#include "node/world/mover_poses.h"
 
 namespace hgrid {
 

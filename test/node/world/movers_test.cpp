@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "src/node/tick/movers.h"
+#include "src/node/world/movers.h"
 
 #include <gtest/gtest.h>
 

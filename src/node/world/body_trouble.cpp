@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "node/tick/body_trouble.h"
+#include "node/world/body_trouble.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "node/tick/movers.h"
+#include "node/world/movers.h"
 
 namespace hgrid {
 

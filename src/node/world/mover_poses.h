@@ -11,9 +11,9 @@
 #include "node/diagnostics/ledger.h"
 #include "node/params/params.h"
 #include "node/tf/frame_poses.h"
-#include "node/tick/movers.h"
 #include "node/tick/tick.h"
 #include "node/time/freshness.h"
+#include "node/world/movers.h"
 
 namespace hgrid {
 

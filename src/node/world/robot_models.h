@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "node/tick/model_report.h"
+#include "node/world/model_report.h"
 
 namespace hgrid {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "node/tick/world.h"
+#include "node/world/world.h"
 
 #include <algorithm>
 #include <utility>

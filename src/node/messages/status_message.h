@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <hgrid_proximity/Status.h>
+
+#include "node/diagnostics/ledger.h"
+#include "node/messages/to_messages.h"
+#include "node/params/params.h"
+#include "node/tick/stopwatch.h"
+
+namespace hgrid {
+
+/// The heartbeat of a tick: what is missing, late or refused, and how long the parts of the work took.
+msg::Status statusMessage(const Tick& tick, const msg::WorldState& world, const Params& params, const Ledger& ledger,
+                          const Stopwatch& stopwatch);
+
+}  // namespace hgrid

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/messages/world_state_message.h"
+
+#include <hgrid_proximity/BodyState.h>
+
+#include <cmath>
+
+#include "node/messages/source_messages.h"
+
+namespace hgrid {
+
+std::string truncationOf(const Snapshot& snapshot) {
+  if (!snapshot.truncated()) return {};
+  const std::string listed = std::to_string(snapshot.pairs().size());
+  const bool more = snapshot.pairsFound() > snapshot.pairs().size();
+  return "TRUNCATED: " + (more ? "more than " + listed + " pairs are near" : "more boxes overlap than are looked at") +
+         "; ~pairs lists " + listed + " of the pairs (~max_pairs)";
+}
+
+msg::WorldState worldState(const Tick& tick, const Params& params, std::uint64_t config_hash, double age_since) {
+  msg::WorldState world;
+  world.epoch = tick.epoch;
+  world.config_hash = config_hash;
+  world.valid_until = toRos(tick.made.ros + std::chrono::nanoseconds(std::llround(1e9 * params.valid_for)));
+  world.unknown_space = static_cast<std::uint8_t>(params.map_unknown);
+  if (!tick.snapshot) {
+    world.reasons = tick.not_ready;
+    world.reasons_total = static_cast<std::uint32_t>(tick.not_ready.size());
+    world.worst_state = msg::BodyState::UNPLACED;
+    for (const msg::SourceStatus& source : sourcesOf(tick, params)) world.incomplete.push_back(source.name);
+    world.incomplete_total = static_cast<std::uint32_t>(world.incomplete.size());
+    world.incomplete = firstOf(world.incomplete, static_cast<std::size_t>(params.max_listed));
+    return world;
+  }
+  const Snapshot& snapshot = *tick.snapshot;
+  world.stamp = world.history_begin = toRos(snapshot.stamp());
+  world.sequence = snapshot.sequence();
+  world.bodies_revision = snapshot.structure().revision;
+  world.complete = snapshot.complete() && !snapshot.truncated();
+  world.incomplete = firstOf(snapshot.incompleteSources(), static_cast<std::size_t>(params.max_listed));
+  world.incomplete_total = static_cast<std::uint32_t>(snapshot.incompleteSources().size());
+  world.reasons = snapshot.reasons();
+  world.reasons_total = snapshot.reasonsTotal();
+  if (snapshot.truncated()) {
+    world.reasons.push_back(truncationOf(snapshot));
+    ++world.reasons_total;
+  }
+  world.worst_state = static_cast<std::uint8_t>(snapshot.worstState());
+  world.last_event = snapshot.lastEvent();
+  world.max_age = snapshot.maxAge() > 0.0 ? snapshot.maxAge() + age_since : 0.0;
+  return world;
+}
+
+}  // namespace hgrid
