@@ -93,6 +93,34 @@ TEST(CoreIncludes, NoCoreFileIncludesAForeignHeader) {
   EXPECT_GT(includes, files.size()) << "a check that reads nothing finds nothing";
 }
 
+/// Number of the room that a path below include/hgrid_proximity or src lies in; kRooms.size() if it is in none.
+std::size_t roomOf(const std::string& path) {
+  const std::string room = path.substr(0, path.find('/'));
+  return static_cast<std::size_t>(std::find(kRooms.begin(), kRooms.end(), room) - kRooms.begin());
+}
+
+/// Claim: a room of the core includes only itself and rooms before it.
+TEST(CoreIncludes, ARoomIncludesOnlyRoomsBeforeIt) {
+  const std::string prefix = "hgrid_proximity/";
+  std::size_t checked = 0;
+  for (const fs::path& side : {kRoot / "include/hgrid_proximity", kRoot / "src"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(side)) {
+      const std::size_t room = roomOf(entry.path().lexically_relative(side).generic_string());
+      if (!entry.is_regular_file() || room == kRooms.size()) continue;
+      std::ifstream file(entry.path());
+      for (std::string line; std::getline(file, line);) {
+        std::string header = includedIn(line);
+        if (header.compare(0, prefix.size(), prefix) == 0) header.erase(0, prefix.size());
+        const std::size_t used = roomOf(header);
+        if (header.find('/') == std::string::npos || used == kRooms.size()) continue;
+        ++checked;
+        EXPECT_LE(used, room) << entry.path() << " includes " << header;
+      }
+    }
+  }
+  EXPECT_GT(checked, 200u);
+}
+
 /// Claim: what is compiled for an instruction set holds no template of the standard library or of Eigen, whose inline
 /// copy the linker might pick for everybody.
 TEST(CoreIncludes, KernelsIncludeNoTemplates) {
