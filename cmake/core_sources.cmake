@@ -1,21 +1,34 @@
 # The core: C++17 and Eigen, no ROS. Shared by the package and by the project in test/.
 set(HGRID_CORE_SOURCES
-  src/refusal.cpp
-  src/geometry/aabb.cpp
-  src/geometry/oriented_box.cpp
-  src/geometry/pose.cpp
-  src/geometry/segment.cpp
-  src/geometry/shape.cpp
+  src/bodies/group_tree.cpp
+  src/bodies/link_matrix.cpp
+  src/bodies/motion_bound.cpp
+  src/bodies/name.cpp
+  src/bodies/name_index.cpp
+  src/bodies/nearest_names.cpp
+  src/bodies/robot_model.cpp
+  src/bodies/self_pairs.cpp
+  src/bodies/source.cpp
   src/broadphase/broad_phase_reader.cpp
+  src/broadphase/hgrid/cell_plan.cpp
   src/broadphase/hgrid/engine.cpp
   src/broadphase/hgrid/hgrid.cpp
   src/broadphase/hgrid/layer.cpp
   src/broadphase/hgrid/pair_collection.cpp
   src/broadphase/hgrid/pair_search.cpp
-  src/broadphase/hgrid/cell_plan.cpp
   src/broadphase/hgrid/queries.cpp
   src/broadphase/isa.cpp
   src/broadphase/workers.cpp
+  src/distances/map_meter.cpp
+  src/distances/pair_meter.cpp
+  src/explain/allowed_matrix.cpp
+  src/explain/changed_pairs.cpp
+  src/explain/explain.cpp
+  src/geometry/aabb.cpp
+  src/geometry/oriented_box.cpp
+  src/geometry/pose.cpp
+  src/geometry/segment.cpp
+  src/geometry/shape.cpp
   src/maps/cloud_cells.cpp
   src/maps/map_gap.cpp
   src/maps/self_filter.cpp
@@ -28,29 +41,12 @@ set(HGRID_CORE_SOURCES
   src/narrow/gjk.cpp
   src/narrow/narrow_phase.cpp
   src/narrow/ordered_solid.cpp
-  src/bodies/group_tree.cpp
-  src/bodies/link_matrix.cpp
-  src/bodies/motion_bound.cpp
-  src/bodies/name.cpp
-  src/bodies/name_index.cpp
-  src/bodies/nearest_names.cpp
-  src/bodies/robot_model.cpp
-  src/bodies/self_pairs.cpp
-  src/bodies/source.cpp
   src/pairs/pair_choice.cpp
   src/pairs/pair_filter.cpp
   src/pairs/pair_margins.cpp
   src/pairs/pair_rule.cpp
   src/pairs/pair_tracker.cpp
   src/pairs/rule_book.cpp
-  src/world/commit.cpp
-  src/world/completeness.cpp
-  src/world/horizon.cpp
-  src/world/map_pairs.cpp
-  src/world/pair_events.cpp
-  src/world/scene.cpp
-  src/world/snapshot.cpp
-  src/world/structure.cpp
   src/queries/answer.cpp
   src/queries/doubt.cpp
   src/queries/nearest_rounds.cpp
@@ -61,11 +57,15 @@ set(HGRID_CORE_SOURCES
   src/queries/segment_question.cpp
   src/queries/solid_question.cpp
   src/queries/sphere_question.cpp
-  src/distances/map_meter.cpp
-  src/distances/pair_meter.cpp
-  src/explain/allowed_matrix.cpp
-  src/explain/changed_pairs.cpp
-  src/explain/explain.cpp
+  src/refusal.cpp
+  src/world/commit.cpp
+  src/world/completeness.cpp
+  src/world/horizon.cpp
+  src/world/map_pairs.cpp
+  src/world/pair_events.cpp
+  src/world/scene.cpp
+  src/world/snapshot.cpp
+  src/world/structure.cpp
 )
 set(HGRID_ADAPTER_SOURCES
   src/adapters/fcl/fcl.cpp

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
 
-# hgrid_export_library(name dependency...): installs the library hgrid_proximity_<name>, so that a project without catkin
-# can use it:
+# hgrid_export_library(name dependency...): installs a CMake package for the library hgrid_proximity_<name>, which is
+# installed with EXPORT hgrid_proximity_<name>-targets, so that a project without catkin can use it:
 #
 #   find_package(hgrid_proximity_<name> REQUIRED)
 #   target_link_libraries(my_program hgrid_proximity::<name>)
@@ -11,13 +11,6 @@
 function(hgrid_export_library name)
   set(package hgrid_proximity_${name})
   set_target_properties(${package} PROPERTIES EXPORT_NAME ${name})
-  install(
-    TARGETS ${package}
-    EXPORT ${package}-targets
-    ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
-    LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
-    RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION}
-  )
   set(config "${CMAKE_CURRENT_BINARY_DIR}/${package}-config.cmake")
   file(WRITE "${config}" "include(CMakeFindDependencyMacro)\n")
   foreach(dependency ${ARGN})

@@ -12,8 +12,8 @@
 
 #include "hgrid_proximity/maps/static_grid.h"
 #include "maps/brick.h"
+#include "maps/four_lanes.h"
 #include "maps/static_grid_bricks.h"
-#include "maps/static_grid_four.h"
 
 namespace hgrid {
 

@@ -11,6 +11,7 @@
 
 #include "hgrid_proximity/broadphase/hgrid.h"
 #include "hgrid_proximity/narrow/convex_narrow_phase.h"
+#include "hgrid_proximity/queries/query.h"
 #include "hgrid_proximity/world/scene.h"
 
 namespace {
@@ -61,7 +62,7 @@ void useScene() {
 
   QueryScope scope;
   scope.exact = narrow_phase.get();
-  const QueryAnswer answer = snapshot->query(Sphere{{0.72, 0.0, 0.75}, 0.31}, scope);
+  const QueryAnswer answer = query(*snapshot, Sphere{{0.72, 0.0, 0.75}, 0.31}, scope);
   // It touches the box around the forearm, but not the forearm.
   require(answer.verdict == Verdict::hit && answer.hits.size() == 1, "the sphere touches one body");
   std::printf("the sphere touches %s\n", bodies[answer.hits[0].body].name.c_str());

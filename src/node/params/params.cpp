@@ -14,7 +14,7 @@
 #include "hgrid_proximity/refusal.h"
 #include "node/params/obstacle_params.h"
 #include "node/params/param_value.h"
-#include "node/tf/frames.h"
+#include "node/tf/frame_names.h"
 
 namespace hgrid {
 namespace {

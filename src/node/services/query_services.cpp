@@ -12,7 +12,7 @@
 #include "hgrid_proximity/queries/query.h"
 #include "node/messages/from_messages.h"
 #include "node/messages/snapshot_stamp.h"
-#include "node/tf/frames.h"
+#include "node/tf/frame_names.h"
 
 namespace hgrid {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "hgrid_proximity/refusal.h"
 #include "node/services/guarded.h"
-#include "node/tf/frames.h"
+#include "node/tf/frame_names.h"
 #include "node/tick/tick.h"
 
 namespace hgrid {

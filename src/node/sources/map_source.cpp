@@ -7,7 +7,7 @@
 
 #include "hgrid_proximity/bodies/name.h"
 #include "hgrid_proximity/refusal.h"
-#include "node/tf/frames.h"
+#include "node/tf/frame_names.h"
 
 namespace hgrid {
 namespace {

@@ -16,7 +16,7 @@
 #include "hgrid_proximity/adapters/urdf.h"
 #include "hgrid_proximity/bodies/name.h"
 #include "node/sources/body_params.h"
-#include "node/tf/frames.h"
+#include "node/tf/frame_names.h"
 
 namespace hgrid {
 namespace {

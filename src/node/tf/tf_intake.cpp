@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "node/tf/frames.h"
+#include "node/tf/frame_names.h"
 #include "node/tf/transform_check.h"
 
 namespace hgrid {
