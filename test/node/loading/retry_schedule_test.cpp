@@ -10,13 +10,13 @@ namespace {
 
 using std::chrono::milliseconds;
 
-const RetrySchedule::Time kStart{std::chrono::hours(1)};
+const RetrySchedule::Time kFirstTry{std::chrono::hours(1)};
 
-TEST(RetrySchedule, IsDueAtOnceAtFirst) { EXPECT_TRUE(RetrySchedule().isDue(kStart)); }
+TEST(RetrySchedule, IsDueAtOnceAtFirst) { EXPECT_TRUE(RetrySchedule().isDue(kFirstTry)); }
 
 TEST(RetrySchedule, PausesDoubleFromHalfASecondToTenSeconds) {
   RetrySchedule schedule;
-  RetrySchedule::Time now = kStart;
+  RetrySchedule::Time now = kFirstTry;
   for (const int pause : {500, 1000, 2000, 4000, 8000, 10000, 10000}) {
     schedule.noteTry(now);
     EXPECT_FALSE(schedule.isDue(now + milliseconds(pause - 1))) << pause;
@@ -27,10 +27,10 @@ TEST(RetrySchedule, PausesDoubleFromHalfASecondToTenSeconds) {
 
 TEST(RetrySchedule, ATryThatComesLateMovesTheNextOne) {
   RetrySchedule schedule;
-  schedule.noteTry(kStart);
-  schedule.noteTry(kStart + milliseconds(700));
-  EXPECT_FALSE(schedule.isDue(kStart + milliseconds(1699)));
-  EXPECT_TRUE(schedule.isDue(kStart + milliseconds(1700)));
+  schedule.noteTry(kFirstTry);
+  schedule.noteTry(kFirstTry + milliseconds(700));
+  EXPECT_FALSE(schedule.isDue(kFirstTry + milliseconds(1699)));
+  EXPECT_TRUE(schedule.isDue(kFirstTry + milliseconds(1700)));
 }
 
 }  // namespace
