@@ -157,6 +157,7 @@ struct PairMeter::State {
       : narrow_phase(std::move(phase)), options(given), workers(given.threads) {}
 
   void recall(const Snapshot& snapshot);
+  static std::shared_ptr<const MapCells> mapOf(const Snapshot& snapshot, const Known& known);
   static double motionSince(const Snapshot& snapshot, const Known& known);
   static double boundOf(const Snapshot& snapshot, const Known& known);
   void perform(const Snapshot& snapshot, Job& job, std::vector<ShapePair>& shape_pairs) const;
@@ -200,12 +201,17 @@ void PairMeter::State::recall(const Snapshot& snapshot) {
   std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.pair->gap < b.pair->gap; });
 }
 
+/// The cells of the map in a pair; null if neither body is a map.
+std::shared_ptr<const MapCells> PairMeter::State::mapOf(const Snapshot& snapshot, const Known& known) {
+  return snapshot.cellsOf(snapshot.structure().isMap(known.first) ? known.first : known.second);
+}
+
 /// [m] By how much the distance of a pair may have changed since it was measured, at most. Infinite if it was never
 /// measured, or if the map has other cells now.
 double PairMeter::State::motionSince(const Snapshot& snapshot, const Known& known) {
   const Structure& structure = snapshot.structure();
   const bool map_first = structure.isMap(known.first);
-  const auto map = snapshot.cellsOf(map_first ? known.first : known.second);
+  const auto map = mapOf(snapshot, known);
   if (!known.measured || known.map != map) return std::numeric_limits<double>::infinity();
   const Pose &first = snapshot.poses()[known.first].world_from_body,
              &second = snapshot.poses()[known.second].world_from_body;
@@ -230,8 +236,6 @@ void PairMeter::State::perform(const Snapshot& snapshot, Job& job, std::vector<S
   const Pose &first = snapshot.poses()[job.pair->first].world_from_body,
              &second = snapshot.poses()[job.pair->second].world_from_body;
   Known& now = job.known;
-  const bool map_first = snapshot.structure().isMap(job.pair->first);
-  const auto map = snapshot.cellsOf(map_first ? job.pair->first : job.pair->second);
   const double moved = motionSince(snapshot, now);
   const double at_least = std::min(now.proximity.distance, now.up_to) - moved;
   const bool enough_known = moved == 0.0 ? now.up_to >= job.report : at_least > job.report;
@@ -248,7 +252,7 @@ void PairMeter::State::perform(const Snapshot& snapshot, Job& job, std::vector<S
     now.second_shape = nearest.second;
     now.proximity = nearest.proximity;
     now.cells = nearest.cells;
-    now.map = map;
+    now.map = mapOf(snapshot, now);
     now.measured = true;
   }
   if (moved == 0.0 || !enough_known) now.measured_at = snapshot.stamp();

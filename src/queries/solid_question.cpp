@@ -7,6 +7,7 @@
 #include "hgrid_proximity/geometry/float_environment.h"
 #include "hgrid_proximity/geometry/oriented_box.h"
 #include "hgrid_proximity/queries/query.h"
+#include "hgrid_proximity/refusal.h"
 #include "maps/map_gap.h"
 #include "queries/question.h"
 
@@ -70,7 +71,7 @@ class SolidQuestion final : public Question {
     return probe(narrow_phase_).measure(*narrow_phase_.block(box.size), box.world_from_box, 0.0, up_to);
   }
   double depthIn(const OrientedBox& box, const Proximity& found) const;
-  /// What the solid hits it touches, within rounding.
+  /// Sets the distances of a hit. A solid touches all that it hits, so `distance` is 0 whatever rounding says.
   static void setDistance(QueryHit& hit, const Proximity& found) {
     hgrid::setDistance(hit, signedDistanceOf(found));
     hit.distance = 0.0;
@@ -183,8 +184,12 @@ QueryAnswer query(const Snapshot& snapshot, const QueryShape& shape, NarrowPhase
   const DefaultFloatEnvironment environment;
   checkQueryPoint(shape.world_from_shape.translation(), "the query's center");
   checkQueryLength(shape.padding, "the padding of the query's shape");
-  SolidQuestion question(snapshot, scope, narrow_phase, narrow_phase.solidOf(shape.shape), shape.shape,
-                         shape.world_from_shape, shape.padding);
+  const std::shared_ptr<const Solid> solid = narrow_phase.solidOf(shape.shape);
+  if (!solid) {
+    throw Refusal(Code::unsupported, std::string("the query's shape is a ") + name(shape.shape.kind()) +
+                                         ", which this narrow phase cannot measure; ask with one that can");
+  }
+  SolidQuestion question(snapshot, scope, narrow_phase, solid, shape.shape, shape.world_from_shape, shape.padding);
   return answerTo(question);
 }
 

@@ -51,7 +51,7 @@ QueryAnswer query(const Snapshot& snapshot, const QueryBox& box, const NarrowPha
 
 /// Finds the bodies whose boxes (exact: shapes) touch the shape. Its center is the origin of its frame.
 /// @param narrow_phase  as for a box; makes the shape ready to be measured
-/// @throws Refusal as for a sphere, and as NarrowPhase::solidOf()
+/// @throws Refusal as for a sphere, and as NarrowPhase::solidOf(); unsupported if that gives no solid
 QueryAnswer query(const Snapshot& snapshot, const QueryShape& shape, NarrowPhase& narrow_phase,
                   const QueryScope& scope);
 

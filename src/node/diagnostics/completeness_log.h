@@ -35,7 +35,7 @@ class CompletenessLog {
   std::optional<Line> next(const Tick& tick);
 
  private:
-  /// Whether the world is complete and, if not, why: as far as ticks can be compared.
+  /// What one tick says about completeness, without ages and other values that differ in every tick.
   struct State {
     bool complete = false, has_world = false, truncated = false;
     Freshness worst = Freshness::stale;  // state of a body; better ones do not matter
