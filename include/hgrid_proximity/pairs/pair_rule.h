@@ -23,7 +23,7 @@ struct PairRule {
   bool allowed = true;  ///< true: the pair may touch and is not reported; false: reported in spite of weaker rules
   Origin origin = Origin::parameter;                  ///< where it comes from
   Clock::time_point ends = Clock::time_point::max();  ///< when it ends; max: never
-  std::string set_by;                                 ///< who set it at run time; empty for rules of other origins
+  std::string set_by = {};                                 ///< who set it at run time; empty for rules of other origins
   Time since{0};                                      ///< when that was; 0 for rules of other origins
 };
 
