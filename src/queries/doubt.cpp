@@ -80,7 +80,7 @@ bool noteGap(const Question& question, QueryAnswer& answer) {
   return false;
 }
 
-/// The same because of one body.
+/// Notes why the answer is not CLEAR because of one body. @returns whether there is such a reason
 bool noteBody(const Question& question, std::uint32_t body, QueryAnswer& answer) {
   const Snapshot& snapshot = question.snapshot;
   if (question.time.isOver(TimeBudget::Step::fast)) return false;
@@ -99,7 +99,7 @@ bool noteBody(const Question& question, std::uint32_t body, QueryAnswer& answer)
   return true;
 }
 
-/// The same because of any body.
+/// Notes why the answer is not CLEAR because of any body. @returns whether there is such a reason
 bool noteBodies(const Question& question, QueryAnswer& answer) {
   const Snapshot& snapshot = question.snapshot;
   const std::uint32_t asking = question.askingBody();
@@ -133,8 +133,8 @@ bool asksMaps(const Snapshot& snapshot, const QueryScope& scope) {
   return !has_maps && scope.include.empty();
 }
 
-/// The same because of space that is not known to be free. One map must know all of the region: what several maps know
-/// only together counts as unknown.
+/// Notes that the answer is not CLEAR because of space that is not known to be free. @returns whether it is so. One map
+/// must know all of the region: what several maps know only together counts as unknown.
 bool noteUnmapped(const Question& question, QueryAnswer& answer) {
   const Snapshot& snapshot = question.snapshot;
   if (!snapshot.reportsUnmapped() || !asksMaps(snapshot, question.scope)) return false;
