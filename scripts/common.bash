@@ -11,7 +11,7 @@ build_packages=(
   catkin cmake g++ make ros-core-dev
   libassimp-dev libconsole-bridge-dev libdiagnostic-updater-dev libeigen3-dev libfcl-dev libgtest-dev
   libnodelet-dev
-  libnodeletlib-dev libtf2-dev libtf2-msgs-dev libtinyxml2-dev liburdfdom-dev liburdfdom-headers-dev pluginlib-dev
+  libnodeletlib-dev libtf2-msgs-dev libtinyxml2-dev liburdfdom-dev liburdfdom-headers-dev pluginlib-dev
 )
 demo_packages=(
   python3-diagnostic-msgs python3-geometry-msgs python3-roslaunch python3-rospy python3-rosservice python3-rostopic
@@ -20,7 +20,7 @@ demo_packages=(
 )
 # shellcheck disable=SC2034  # read by scripts/test
 test_packages=(
-  "${demo_packages[@]}" catkin-lint libfaketime libnodeletlib-tools liboctomap-dev locales python3-rostest rosbash
+  "${demo_packages[@]}" catkin-lint libfaketime libnodeletlib-tools liboctomap-dev libtf2-dev locales python3-rostest rosbash
 )
 # shellcheck disable=SC2034
 long_test_packages=(clang libclang-rt-dev)

@@ -5,7 +5,6 @@
 // Exit codes: 0 after SIGINT, SIGTERM, SIGHUP or `rosnode kill`; 1 if the node cannot start, because a parameter is
 // wrong for example; NameWatch::kExitCode if another node has taken the name.
 
-#include <console_bridge/console.h>
 #include <ros/ros.h>
 
 #include <exception>
@@ -18,8 +17,6 @@ int main(int argc, char** argv) {
   hgrid::shutDownOnSignals();  // first: ros::init() may wait for the master
   ros::init(argc, argv, "proximity", ros::init_options::NoSigintHandler);
   const hgrid::NameWatch name_watch;
-  // tf2 warns of every single transform that is old or comes twice; the node counts them.
-  console_bridge::setLogLevel(console_bridge::CONSOLE_BRIDGE_LOG_ERROR);
   ros::NodeHandle node, private_node("~");
   try {
     const hgrid::ProximityNode proximity(node, private_node);

@@ -2,74 +2,123 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/tf/frame_history.h"
 
+#include <algorithm>
+
+#include "hgrid_proximity/refusal.h"
+
 namespace hgrid {
 namespace {
 
-constexpr std::size_t kMostSeams = 16;    // a frame with more seams is one over which publishers fight
-constexpr std::size_t kMostSamples = 64;  // of a frame that tf2 takes for static
+/// Whether the pose is known at all times between two neighboring samples.
+bool joined(const PoseSample& from, const PoseSample& to) { return to.continues && from.parent == to.parent; }
+
+PoseSample interpolated(const PoseSample& from, const PoseSample& to, Time time) {
+  const double whole = static_cast<double>((to.stamp - from.stamp).count());
+  const double fraction = static_cast<double>((time - from.stamp).count()) / whole;
+  return {time, to.parent, true, between(from.parent_from_frame, to.parent_from_frame, fraction)};
+}
 
 }  // namespace
 
+const PoseSample FrameHistory::kNoSample;
+
 void FrameHistory::fix(const PoseSample& sample) {
-  newest_ = sample;
-  before_ = PoseSample{};
-  seams_.clear();
-  older_.clear();
+  if (samples_.empty()) {
+    samples_.push_back(sample);
+  } else {
+    samples_.back() = sample;
+  }
+  samples_.erase(samples_.begin(), samples_.end() - 1);
   moves_ = false;
 }
 
-void FrameHistory::advance(const PoseSample& sample, bool same_parent, bool keeps_all) {
-  if (!moves_) newest_ = PoseSample{};
-  if (!same_parent) parent_since_ = newest_.stamp.count() > 0 ? sample.stamp : Time(0);
-  before_ = sample.stamp < newest_.stamp ? PoseSample{} : newest_;
-  newest_ = sample;
+/// Allocates before it changes anything, or not at all.
+void FrameHistory::advance(const PoseSample& sample, Time keep_from) {
+  if (!samples_.empty() && (!moves_ || newest().stamp.count() == 0)) {  // no sample has a time
+    fix(sample);
+  } else if (!samples_.empty() && newest().stamp >= sample.stamp) {
+    replaceFrom(sample);
+  } else {
+    samples_.push_back(sample);
+  }
   moves_ = true;
-  keeps_all_ = keeps_all;
-  if (keeps_all_) keep();
+  kept_from_ = keep_from;
+  while (samples_.size() > 1 && samples_.front().stamp < keep_from) samples_.pop_front();
 }
 
-void FrameHistory::keep() {
-  if (before_.stamp.count() == 0) older_.clear();
-  if (older_.size() >= kMostSamples) older_.erase(older_.begin());
-  older_.push_back(newest_);
+/// Puts the sample in the place of all that are not older. A seam among them stays one.
+void FrameHistory::replaceFrom(const PoseSample& sample) {
+  bool continues = sample.continues && samples_.back().continues;
+  while (samples_.size() > 1 && samples_[samples_.size() - 2].stamp >= sample.stamp) {
+    samples_.pop_back();
+    continues = continues && samples_.back().continues;
+  }
+  samples_.back() = sample;
+  samples_.back().continues = continues;
 }
 
-void FrameHistory::fill(const PoseSample& sample) {
-  if (sample.stamp > before_.stamp) before_ = sample;
-}
-
-void FrameHistory::addSeam(Time until) {
-  if (seams_.size() >= kMostSeams) seams_.erase(seams_.begin());
-  seams_.push_back({newest_.stamp, until});
+bool FrameHistory::fill(const PoseSample& sample) {
+  if (sample.stamp < kept_from_) return false;
+  const auto next = after(sample.stamp);
+  const auto is_seam = [](const PoseSample& one) { return !one.continues; };
+  if (std::any_of(next, samples_.cend(), is_seam)) return false;
+  if (next == samples_.cbegin() || std::prev(next)->stamp < sample.stamp) samples_.insert(next, sample);
+  return true;
 }
 
 void FrameHistory::forgetStamps() {
-  newest_.stamp = before_.stamp = parent_since_ = Time(0);
-  seams_.clear();
-  older_.clear();
+  if (!moves_) return;
+  samples_.erase(samples_.begin(), samples_.end() - 1);
+  samples_.back().stamp = kept_from_ = Time(0);
 }
 
-FramePose FrameHistory::interpolated(const PoseSample& from, const PoseSample& to, Time time) {
-  const double whole = static_cast<double>((to.stamp - from.stamp).count());
-  return between(from.parent_from_frame, to.parent_from_frame,
-                 static_cast<double>((time - from.stamp).count()) / whole);
-}
-
-bool FrameHistory::isInSeam(Time time) const {
-  for (const Seam& seam : seams_) {
-    if (time > seam.begin && time < seam.end) return true;
+FrameHistory::Samples::const_iterator FrameHistory::after(Time time) const {
+  if (samples_.size() > 1 && time >= samples_[samples_.size() - 2].stamp) {  // what a tick asks for
+    return time >= newest().stamp ? samples_.end() : samples_.end() - 1;
   }
-  return false;
+  return std::upper_bound(samples_.begin(), samples_.end(), time,
+                          [](Time left, const PoseSample& right) { return left < right.stamp; });
 }
 
-std::optional<FramePose> FrameHistory::recall(Time time) const {
-  for (std::size_t i = older_.size(); i > 1; --i) {
-    const PoseSample &from = older_[i - 2], &to = older_[i - 1];
-    if (time < from.stamp) continue;
-    if (time > to.stamp || from.parent != newest_.parent || to.parent != newest_.parent) return std::nullopt;
-    return interpolated(from, to, time);
+std::optional<PoseSample> FrameHistory::sampleAt(Time time) const {
+  if (samples_.empty()) return std::nullopt;
+  if (!moves_) return newest();
+  const auto to = after(time);
+  if (to == samples_.begin()) return std::nullopt;
+  const auto from = std::prev(to);
+  if (from->stamp == time) return *from;
+  if (to == samples_.end() || !joined(*from, *to)) return std::nullopt;
+  return interpolated(*from, *to, time);
+}
+
+std::optional<FramePose> FrameHistory::at(Time time) const {
+  if (moves_ && time == newest().stamp) return newest().parent_from_frame;
+  const std::optional<PoseSample> sample = sampleAt(time);
+  if (!sample || sample->parent != newest().parent) return std::nullopt;
+  return sample->parent_from_frame;
+}
+
+std::optional<Time> FrameHistory::newestKnownTime(Time time) const {
+  const auto next = after(time);
+  if (next == samples_.begin() || newest().stamp.count() == 0) return std::nullopt;
+  auto known = std::prev(next);
+  if (next != samples_.end() && joined(*known, *next) && next->parent == newest().parent) return time;
+  while (known->parent != newest().parent) {
+    if (known == samples_.begin()) return std::nullopt;
+    --known;
   }
-  return std::nullopt;
+  return known->stamp;
+}
+
+std::string FrameHistory::knownTimes(Time time) const {
+  const auto stampOf = [](const PoseSample& sample) { return text(seconds(sample.stamp)); };
+  if (newest().stamp.count() == 0) return "has no transform since the clock jumped";
+  const auto next = after(time);
+  if (next == samples_.begin() || next == samples_.end()) {
+    return "is known from " + stampOf(samples_.front()) + " s to " + stampOf(newest()) + " s";
+  }
+  return "is not known between " + stampOf(*std::prev(next)) + " s and " + stampOf(*next) +
+         " s, because its publisher or parent changed or its transforms paused";
 }
 
 }  // namespace hgrid

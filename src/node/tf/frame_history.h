@@ -3,8 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
-#include <vector>
+#include <string>
 
 #include "hgrid_proximity/bodies/body.h"
 #include "node/tf/frame_pose.h"
@@ -14,67 +15,56 @@ namespace hgrid {
 
 /// The pose of a frame in its parent at one time.
 struct PoseSample {
-  Time stamp{0};  ///< 0: there is no sample
+  Time stamp{0};  ///< 0: the pose has no time
   std::uint32_t parent = FrameTable::kNone;
+  /// Whether the frame moved from the sample before to this one. False after an outage and where another publisher or
+  /// parent begins: the pose is not known between the two samples. Such a pair of samples is called a seam.
+  bool continues = true;
   FramePose parent_from_frame;
 };
 
-/// Knows where one frame was in its parent, and for which times that is not known.
+/// Stores where one frame was in its parent, and for which times that is not known.
 ///
-/// Between two samples the pose is interpolated. A seam is a time between two samples that do not continue each other,
-/// because they come from two publishers or there was an outage: the pose is not known then.
-///
-/// This stores the two newest samples of a frame that moves. tf2's buffer has the older ones, except those of a frame
-/// that it takes for static.
+/// A static frame has one pose, which is valid at any time. A frame that moves has samples, and between two samples
+/// that continue each other the pose is interpolated as tf2 does it.
 class FrameHistory {
  public:
-  /// Whether the frame comes on /tf. Otherwise it has one pose, without a time.
+  /// Whether the frame comes on /tf. Otherwise it is static, or nothing is known of it.
   bool moves() const { return moves_; }
-  const PoseSample& newest() const { return newest_; }
+  /// The sample with the newest stamp; of a static frame, its pose.
+  const PoseSample& newest() const { return samples_.empty() ? kNoSample : samples_.back(); }
 
   /// The frame is static at this pose.
   void fix(const PoseSample& sample);
-  /// The frame moves, and this is its newest sample.
-  /// @param same_parent  the parent is that of the sample before
-  /// @param keeps_all    tf2 does not store the samples of this frame, so that this must do it
-  void advance(const PoseSample& sample, bool same_parent, bool keeps_all);
-  /// A sample before the newest one arrived.
-  void fill(const PoseSample& sample);
-  /// The pose is not known from the newest sample until the time `until`.
-  void addSeam(Time until);
-  /// Whether a time is before the end of the newest seam.
-  bool isBeforeSeam(Time time) const { return !seams_.empty() && time < seams_.back().end; }
+  /// Adds a sample, which is the newest from now on. Samples with later stamps are dropped.
+  /// @param keep_from  samples before this time are dropped, except the new one
+  void advance(const PoseSample& sample, Time keep_from);
+  /// Adds a sample that is not the newest. Where a sample has the same stamp, that one stays.
+  /// @returns false if the sample is older than all that is kept, or than the newest seam; then nothing was changed
+  bool fill(const PoseSample& sample);
   /// Drops all stamps. The newest pose stays, but nobody knows of which time it is.
   void forgetStamps();
 
-  /// The pose at a time. Empty: it is not known.
-  /// @param older  looks up times before the two newest samples, as in std::optional<FramePose> older(Time)
-  template <class Older>
-  std::optional<FramePose> at(Time time, const Older& older) const {
-    if (!moves_ || time == newest_.stamp) return newest_.parent_from_frame;
-    if (time > newest_.stamp || time < parent_since_ || isInSeam(time)) return std::nullopt;
-    if (isBetweenNewest(time)) return interpolated(before_, newest_, time);
-    return keeps_all_ ? recall(time) : older(time);
-  }
+  /// The pose at a time in the newest parent. Empty: it is not known.
+  std::optional<FramePose> at(Time time) const;
+  /// The pose at a time in the parent of that time. Empty: it is not known.
+  std::optional<PoseSample> sampleAt(Time time) const;
+  /// The newest time, not after `time`, for which at() knows the pose. Empty: there is none. The frame moves.
+  std::optional<Time> newestKnownTime(Time time) const;
+  /// Says why the pose at `time` is not known, as in "is known from 10 s to 12 s". The frame moves.
+  std::string knownTimes(Time time) const;
 
  private:
-  struct Seam {
-    Time begin{0}, end{0};
-  };
+  using Samples = std::deque<PoseSample>;  // adding a sample moves none of the others
+  static const PoseSample kNoSample;
 
-  static FramePose interpolated(const PoseSample& from, const PoseSample& to, Time time);
-  bool isInSeam(Time time) const;
-  bool isBetweenNewest(Time time) const {
-    return before_.stamp.count() > 0 && before_.parent == newest_.parent && time >= before_.stamp;
-  }
-  void keep();
-  std::optional<FramePose> recall(Time time) const;
+  /// The first sample after `time`.
+  Samples::const_iterator after(Time time) const;
+  void replaceFrom(const PoseSample& sample);
 
-  bool moves_ = false, keeps_all_ = false;
-  PoseSample newest_, before_;     // before_: the one that was newest until then
-  Time parent_since_{0};           // stamp of the first sample in the newest parent
-  std::vector<Seam> seams_;        // the newest last
-  std::vector<PoseSample> older_;  // keeps_all_: the newest samples, the newest last
+  bool moves_ = false;
+  Samples samples_;  // by stamp, each stamp once
+  Time kept_from_{0};
 };
 
 }  // namespace hgrid

@@ -3,12 +3,6 @@
 #include "node/tf/frame_poses.h"
 
 namespace hgrid {
-namespace {
-
-constexpr int kLongestWalk = 1000;  // frames
-
-}  // namespace
-
 void FramePoses::plan(const std::string& world_frame, const std::vector<std::string>& frames) {
   world_frame_ = world_frame;
   frames_ = frames;
@@ -60,7 +54,7 @@ Refusal FramePoses::notConnected(std::size_t frame) const {
 /// The first contested frame among the ancestors of a frame that is not connected to the world frame; kNone: there is
 /// none.
 std::uint32_t FramePoses::contestedFrom(std::uint32_t number) const {
-  for (int i = 0; i < kLongestWalk && number != TfIntake::kNone; ++i) {
+  for (std::size_t i = 0; i < FrameTable::kLongestChain && number != TfIntake::kNone; ++i) {
     if (intake_.isContested(number, reading_)) return number;
     number = intake_.table().parent(number);
   }

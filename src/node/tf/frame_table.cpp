@@ -54,10 +54,14 @@ std::uint32_t FrameTable::admit(const std::string& parent, const std::string& ch
   return last_ = number;
 }
 
+std::uint32_t FrameTable::numberOf(const std::string& name) {
+  const std::uint32_t number = find(name);
+  return number == kNone ? add(name) : number;
+}
+
 void FrameTable::setParent(std::uint32_t frame, const std::string& parent) {
   if (isInParent(frame, parent)) return;
-  std::uint32_t number = find(parent);
-  if (number == kNone) number = add(parent);
+  const std::uint32_t number = numberOf(parent);
   if (!entries_[number].is_parent) {
     entries_[number].is_parent = true;
     ++parents_;

@@ -16,6 +16,8 @@ namespace hgrid {
 class FrameTable {
  public:
   static constexpr std::uint32_t kNone = 0xffffffff;
+  /// The most frames from one to an ancestor of it. A loop of parents ends there.
+  static constexpr std::size_t kLongestChain = 1000;
 
   /// @param max_frames  the most frames that have a parent, and the most that are one (~max_frames)
   explicit FrameTable(std::size_t max_frames) : max_frames_(max_frames) {}
@@ -23,7 +25,9 @@ class FrameTable {
   /// Number of the frame `child`, which a transform places in `parent`. A new child gets a number.
   /// @throws Refusal limit if one more child or parent would be too many
   std::uint32_t admit(const std::string& parent, const std::string& child);
-  /// Sets the parent of a frame. A new parent gets a number.
+  /// Number of the frame `name`. A new one gets a number.
+  std::uint32_t numberOf(const std::string& name);
+  /// Sets the parent of a frame. A new parent gets a number. Does not throw if the parent has a number.
   void setParent(std::uint32_t frame, const std::string& parent);
 
   /// Number of a frame whose name occurred, or kNone.

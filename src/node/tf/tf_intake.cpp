@@ -3,7 +3,7 @@
 #include "node/tf/tf_intake.h"
 
 #include <algorithm>
-#include <utility>
+#include <cmath>
 
 #include "node/tf/frame_names.h"
 #include "node/tf/transform_check.h"
@@ -13,6 +13,7 @@ namespace {
 
 constexpr Time kLeastPatience{50000000};   // [ns] a frame's holder may always be silent for so long
 constexpr Time kMostPatience{3000000000};  // [ns]
+constexpr double kUnitTolerance = 1e-6;    // of the length of a quaternion
 
 bool hasSlash(const std::string& frame) { return !frame.empty() && frame.front() == '/'; }
 
@@ -28,8 +29,7 @@ TfIntake::TfIntake(double max_future, double cache, std::size_t max_frames, bool
     : max_future_(max_future),
       ledger_(ledger),
       ages_(simulated),
-      table_(max_frames),
-      buffer_(cache, ledger),
+      store_(Time(std::llround(1e9 * cache)), max_frames),
       rivals_(ledger) {}
 
 void TfIntake::take(const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher,
@@ -55,6 +55,7 @@ void TfIntake::takeOne(const geometry_msgs::TransformStamped& transform, bool is
   const Arrival arrival{transform, publisher, now, ages_.read(now), stampOf(transform)};
   const std::uint32_t number = admit(arrival);
   noteTopic(number, is_static);
+  if (std::abs(arrival.rotationLength() - 1.0) > kUnitTolerance) ledger_.count("tf.renormalised");
   if (is_static) {
     takeStatic(number, arrival);
   } else {
@@ -67,29 +68,16 @@ void TfIntake::takeOne(const geometry_msgs::TransformStamped& transform, bool is
 void TfIntake::noteRefusal(const Refusal& refusal, const std::string& child, bool is_static,
                            const std::string& publisher) {
   ledger_.refuse("tf.refused", refusal);
-  const std::uint32_t number = table_.find(child);
-  if (number == kNone || !table_.isPlaced(number)) return;
+  const std::uint32_t number = table().find(child);
+  if (number == kNone || !table().isPlaced(number)) return;
   Frame& frame = frames_[number];
-  if (frame.history.moves() ? !is_static : is_static && frame.publisher == publisher) frame.refused = refusal;
+  if (history(number).moves() ? !is_static : is_static && frame.publisher == publisher) frame.refused = refusal;
 }
 
-/// A transform makes at most two frames known: its child and its parent. With room for them, the tables cannot differ
-/// in size, even if memory runs out.
-void TfIntake::makeRoom() {
-  if (frames_.capacity() < table_.size() + 2) frames_.reserve(2 * table_.size() + 8);
-}
-
+/// Makes room for the child and the parent first, so that no number is without a frame, even if memory runs out.
 std::uint32_t TfIntake::admit(const Arrival& arrival) {
-  makeRoom();
-  const std::uint32_t number = table_.admit(arrival.parent(), arrival.transform.child_frame_id);
-  frames_.resize(table_.size());
-  return number;
-}
-
-/// References to frames stay valid, because admit() made room.
-void TfIntake::setParent(std::uint32_t number, const std::string& parent) {
-  table_.setParent(number, parent);
-  frames_.resize(table_.size());
+  if (frames_.size() < table().size() + 2) frames_.resize(2 * table().size() + 8);
+  return store_.admit(arrival.parent(), arrival.transform.child_frame_id);
 }
 
 void TfIntake::noteTopic(std::uint32_t number, bool is_static) {
@@ -97,7 +85,7 @@ void TfIntake::noteTopic(std::uint32_t number, bool is_static) {
   const bool had_conflict = frame.hasConflict();
   (is_static ? frame.from_static : frame.from_tf) = true;
   if (had_conflict || !frame.hasConflict()) return;
-  const std::string& name = table_.name(number);
+  const std::string& name = table().name(number);
   conflicts_.insert(std::lower_bound(conflicts_.begin(), conflicts_.end(), name), name);
   ledger_.refuse("tf.conflict", Refusal(Code::conflict, "frame '" + printable(name) +
                                                             "' comes on /tf and on /tf_static; it must come on one of "
@@ -113,18 +101,14 @@ void TfIntake::accept(Frame& frame) {
 /// more.
 void TfIntake::takeStatic(std::uint32_t number, const Arrival& arrival) {
   Frame& frame = frames_[number];
-  const bool moved = frame.history.moves();
+  const bool moved = history(number).moves();
   if (moved && arrival.reading - frame.pace.received() <= kMostPatience) {
     ledger_.count("tf.ignored.CONFLICT");
     return;
   }
-  if (!moved || frame.static_in_tf2) {  // tf2 cannot make a static frame of one that moved
-    frame.static_in_tf2 = buffer_.feed(arrival.transform, true, arrival.publisher);
-  }
-  setParent(number, arrival.parent());
   const FramePose pose = arrival.pose();
-  if (moved || !(pose == frame.history.newest().parent_from_frame)) ++static_revision_;
-  frame.history.fix({Time(0), table_.parent(number), pose});
+  if (moved || !(pose == history(number).newest().parent_from_frame)) ++static_revision_;
+  store_.fix(number, arrival.parent(), pose);
   frame.pace.forgetPeriod();
   frame.publisher = arrival.publisher;
   frame.stray = Time(0);
@@ -133,23 +117,24 @@ void TfIntake::takeStatic(std::uint32_t number, const Arrival& arrival) {
 
 void TfIntake::takeMoving(std::uint32_t number, const Arrival& arrival) {
   Frame& frame = frames_[number];
-  const bool moves = frame.history.moves();
+  const bool moves = history(number).moves();
   if (frame.from_static && !moves && !isStream(frame, arrival)) {
     ledger_.count("tf.ignored.CONFLICT");
     return;
   }
   if (moves && takeRepeated(number, arrival)) return;
   if (isHeld(number, arrival)) return takeRival(number, arrival);
-  const Time newest = frame.history.newest().stamp;
+  const Time newest = history(number).newest().stamp;
   // A stamp far ahead of the clock is the newest only until a transform comes whose stamp is not ahead.
   const bool was_ahead = isFarAhead(newest, arrival) && arrival.stamp <= arrival.now.ros;
   const bool first = !moves || newest.count() == 0;
   if (!first && arrival.stamp < newest && !was_ahead) return takeOlder(number, arrival);
-  const bool other = !first && (frame.publisher != arrival.publisher || !table_.isInParent(number, arrival.parent()));
+  const bool other = !first && (frame.publisher != arrival.publisher || !table().isInParent(number, arrival.parent()));
   if (other) changeClaim(number, arrival);
-  const bool dropped = !first && !other && arrival.stamp > newest + buffer_.cache();  // tf2 dropped the newest one
-  if (dropped) frame.history.addSeam(arrival.stamp);
-  takeNewest(number, arrival, !first && !other && !was_ahead);
+  Step step;
+  step.is_period = !first && !other && !was_ahead;
+  step.continues = !other && (first || arrival.stamp <= newest + store_.cache());
+  takeNewest(number, arrival, step);
 }
 
 /// Whether this is more than a single transform on /tf of a static frame.
@@ -165,7 +150,7 @@ bool TfIntake::isStream(Frame& frame, const Arrival& arrival) const {
 /// the frame is contested, so that the holder does not change at each gap in its stream.
 bool TfIntake::isHeld(std::uint32_t number, const Arrival& arrival) const {
   const Frame& frame = frames_[number];
-  if (!frame.history.moves() || frame.history.newest().stamp.count() == 0) return false;
+  if (!history(number).moves() || history(number).newest().stamp.count() == 0) return false;
   if (frame.publisher == arrival.publisher) return false;
   const Time two_periods(static_cast<std::int64_t>(2e9 * frame.pace.period()));
   const Time patience = isContested(number, arrival.reading)
@@ -175,7 +160,7 @@ bool TfIntake::isHeld(std::uint32_t number, const Arrival& arrival) const {
 }
 
 bool TfIntake::isFarAhead(Time stamp, const Arrival& arrival) const {
-  return stamp > arrival.now.ros + buffer_.cache() / 2;
+  return stamp > arrival.now.ros + store_.cache() / 2;
 }
 
 /// Takes a transform that has the frame's newest stamp again. If the rest is not the same, that is counted or is a
@@ -183,16 +168,16 @@ bool TfIntake::isFarAhead(Time stamp, const Arrival& arrival) const {
 /// @returns false if the stamp is another one, so that nothing was done
 bool TfIntake::takeRepeated(std::uint32_t number, const Arrival& arrival) {
   Frame& frame = frames_[number];
-  if (arrival.stamp != frame.history.newest().stamp) return false;
-  const bool same_parent = table_.isInParent(number, arrival.parent());
-  if (same_parent && arrival.pose() == frame.history.newest().parent_from_frame) return true;
+  if (arrival.stamp != history(number).newest().stamp) return false;
+  const bool same_parent = table().isInParent(number, arrival.parent());
+  if (same_parent && arrival.pose() == history(number).newest().parent_from_frame) return true;
   if (frame.publisher != arrival.publisher) {
     takeRival(number, arrival);
     return true;
   }
   ledger_.refuse(
       "tf.ignored",
-      Refusal(Code::dup_id, "frame '" + printable(table_.name(number)) + "' came twice with stamp " +
+      Refusal(Code::dup_id, "frame '" + printable(table().name(number)) + "' came twice with stamp " +
                                 text(seconds(arrival.stamp)) + " s and another " + (same_parent ? "pose" : "parent") +
                                 " (from " + printable(arrival.publisher) + "); the first is kept"));
   if (!same_parent) {
@@ -202,20 +187,17 @@ bool TfIntake::takeRepeated(std::uint32_t number, const Arrival& arrival) {
   return true;
 }
 
-/// @param continues  the frame moved from its newest transform so far to this one
-void TfIntake::takeNewest(std::uint32_t number, const Arrival& arrival, bool continues) {
-  // After a stamp far ahead, tf2 would refuse everything.
-  if (!isFarAhead(arrival.stamp, arrival)) buffer_.feed(arrival.transform, false, arrival.publisher);
-  const bool same_parent = table_.isInParent(number, arrival.parent());
-  setParent(number, arrival.parent());
+void TfIntake::takeNewest(std::uint32_t number, const Arrival& arrival, const Step& step) {
   Frame& frame = frames_[number];
-  if (continues) {
-    frame.pace.noteStep(seconds(arrival.stamp - frame.history.newest().stamp));
+  const bool same_parent = table().isInParent(number, arrival.parent());
+  const Time stamp_before = history(number).newest().stamp;
+  store_.advance(number, arrival.parent(), {arrival.stamp, kNone, step.continues, arrival.pose()}, arrival.now.ros);
+  if (step.is_period) {
+    frame.pace.noteStep(seconds(arrival.stamp - stamp_before));
   } else if (frame.publisher != arrival.publisher || !same_parent) {
     frame.pace.forgetPeriod();
   }
   frame.pace.noteReceived(arrival.reading, arrival.now.ros);
-  frame.history.advance({arrival.stamp, table_.parent(number), arrival.pose()}, same_parent, frame.static_in_tf2);
   if (frame.publisher != arrival.publisher) frame.publisher = arrival.publisher;
   accept(frame);
   if (!frame.claimed) return;
@@ -227,16 +209,15 @@ void TfIntake::takeNewest(std::uint32_t number, const Arrival& arrival, bool con
 /// Takes a transform that is not the newest. It makes no pose fresh, but the frame is known at its time.
 void TfIntake::takeOlder(std::uint32_t number, const Arrival& arrival) {
   Frame& frame = frames_[number];
-  if (frame.publisher != arrival.publisher || !table_.isInParent(number, arrival.parent())) {
+  if (frame.publisher != arrival.publisher || !table().isInParent(number, arrival.parent())) {
     return takeRival(number, arrival);
   }
   ledger_.count("tf.out_of_order");
-  if (frame.history.isBeforeSeam(arrival.stamp) || !buffer_.feed(arrival.transform, false, arrival.publisher)) {
+  if (!store_.fill(number, {arrival.stamp, kNone, true, arrival.pose()})) {
     ledger_.count("tf.too_old");
     return;
   }
   if (arrival.stamp >= arrival.now.ros) frame.pace.noteReceived(arrival.reading);  // the newest is farther ahead
-  frame.history.fill({arrival.stamp, table_.parent(number), arrival.pose()});
   accept(frame);
 }
 
@@ -248,47 +229,29 @@ void TfIntake::takeRival(std::uint32_t number, const Arrival& arrival) {
 
 FrameRivals::Holder TfIntake::holderOf(std::uint32_t number) const {
   const Frame& frame = frames_[number];
-  return {table_.name(number),
-          {frame.publisher, table_.parentName(number)},
-          frame.history.newest().stamp,
-          [this, number](Time time) { return parentFromFrame(number, time); }};
+  return {table().name(number),
+          {frame.publisher, table().parentName(number)},
+          history(number).newest().stamp,
+          [this, number](Time time) { return history(number).at(time); }};
 }
 
-/// Another publisher or parent places the frame from this transform on. Between the transform before and this one the
-/// pose of the frame is not known.
+/// Another publisher or parent places the frame from this transform on.
 void TfIntake::changeClaim(std::uint32_t number, const Arrival& arrival) {
-  Frame& frame = frames_[number];
-  frame.claimed = true;
+  frames_[number].claimed = true;
   rivals_.change(number, holderOf(number), arrival.claim(), arrival.reading);
-  frame.history.addSeam(arrival.stamp);
-  if (!table_.isInParent(number, arrival.parent())) return;
-  geometry_msgs::TransformStamped held;  // so that tf2 does not interpolate from one publisher to the other
-  held.header.frame_id = arrival.parent();
-  held.child_frame_id = table_.name(number);
-  held.header.stamp.fromNSec(static_cast<std::uint64_t>(arrival.stamp.count() - 1));
-  held.transform = toTransform(frame.history.newest().parent_from_frame);
-  buffer_.feed(held, false, frame.publisher);
-}
-
-std::optional<FramePose> TfIntake::parentFromFrame(std::uint32_t number, Time time) const {
-  return frames_[number].history.at(
-      time, [&](Time older) { return lookup().at(table_.parentName(number), table_.name(number), older); });
 }
 
 void TfIntake::forgetStamps() {
-  buffer_.clear();
+  store_.forgetStamps();
   rivals_.forgetTransforms();
-  for (Frame& frame : frames_) {
-    frame.stray = Time(0);
-    frame.history.forgetStamps();
-  }
+  for (Frame& frame : frames_) frame.stray = Time(0);
 }
 
 void TfIntake::forgetMoving() {
   forgetStamps();
-  for (Frame& frame : frames_) {
-    frame.pace.forgetPeriod();
-    if (frame.history.moves()) frame.refused.reset();
+  for (std::uint32_t number = 0; number < table().size(); ++number) {
+    frames_[number].pace.forgetPeriod();
+    if (history(number).moves()) frames_[number].refused.reset();
   }
 }
 

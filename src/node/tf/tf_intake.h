@@ -4,16 +4,16 @@
 
 #include <tf2_msgs/TFMessage.h>
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "node/diagnostics/ledger.h"
-#include "node/tf/frame_history.h"
 #include "node/tf/frame_pace.h"
 #include "node/tf/frame_rivals.h"
-#include "node/tf/frame_table.h"
-#include "node/tf/tf_buffer.h"
+#include "node/tf/transform_lookup.h"
+#include "node/tf/transform_store.h"
 #include "node/time/age_clock.h"
 
 namespace hgrid {
@@ -23,8 +23,7 @@ namespace hgrid {
 ///
 /// - checkTransform() says whether a transform is valid,
 /// - FrameRivals compares those of several publishers,
-/// - FrameHistory stores the newest ones, for the ticks,
-/// - TfBuffer stores all, for everything else.
+/// - TransformStore stores those that are used.
 ///
 /// One publisher at a time holds a frame of /tf. Only its transforms are used, until it stops sending. So no pose mixes
 /// the transforms of two publishers. A frame of /tf_static stays static until two transforms of it have come on /tf.
@@ -34,13 +33,11 @@ class TfIntake {
 
   /// What is known of the transforms that place a frame in its parent.
   struct Frame {
-    FrameHistory history;
     FramePace pace;                             // of /tf
     std::string publisher;                      // of the newest transform
     std::optional<Refusal> refused;             // why the newest transform was refused
     Time stray{0};                              // stamp of the newest transform on /tf while the frame is static
     bool from_tf = false, from_static = false;  // a transform came there at least once
-    bool static_in_tf2 = false;                 // tf2 stores it as static for good: one pose without a time
     bool claimed = false;                       // claims() may know of it
 
     bool hasConflict() const { return from_tf && from_static; }
@@ -56,7 +53,7 @@ class TfIntake {
   void restamp();
 
   /// Poses of frames, for any thread.
-  const TransformLookup& lookup() const { return buffer_.lookup(); }
+  const TransformLookup& lookup() const { return lookup_; }
   /// The clock by which poses age. The tick calls its look().
   AgeClock& ages() { return ages_; }
   const AgeClock& ages() const { return ages_; }
@@ -67,10 +64,10 @@ class TfIntake {
     return frames_[number].claimed && claims().isContested(number, reading);
   }
   /// The frames' names, numbers and parents.
-  const FrameTable& table() const { return table_; }
+  const FrameTable& table() const { return store_.table(); }
   const Frame& frame(std::uint32_t number) const { return frames_[number]; }
-  /// The pose of a frame in its parent at a time. Empty: it is not known for that time.
-  std::optional<FramePose> parentFromFrame(std::uint32_t number, Time time) const;
+  /// Where a frame was in its parent.
+  const FrameHistory& history(std::uint32_t number) const { return store_.history(number); }
   /// A number that is larger whenever a transform on /tf_static was another than before.
   std::uint64_t staticRevision() const { return static_revision_; }
   /// Names of the frames that come on /tf and on /tf_static, sorted.
@@ -85,15 +82,26 @@ class TfIntake {
     Time reading, stamp;
 
     const std::string& parent() const { return transform.header.frame_id; }
+    /// Of the rotation's quaternion, as it came.
+    double rotationLength() const {
+      const auto& q = transform.transform.rotation;
+      return std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
+    }
     FramePose pose() const { return toFramePose(transform.transform); }
     FrameClaim claim() const { return {publisher, parent()}; }
+  };
+
+  /// How the newest transform of a frame follows the one before.
+  struct Step {
+    bool is_period = false;  // the time between the two tells how often transforms come
+    bool continues = false;  // as in PoseSample
   };
 
   void takeOne(const geometry_msgs::TransformStamped& transform, bool is_static, const std::string& publisher,
                const Moment& now);
   void takeStatic(std::uint32_t number, const Arrival& arrival);
   void takeMoving(std::uint32_t number, const Arrival& arrival);
-  void takeNewest(std::uint32_t number, const Arrival& arrival, bool continues);
+  void takeNewest(std::uint32_t number, const Arrival& arrival, const Step& step);
   void takeOlder(std::uint32_t number, const Arrival& arrival);
   void takeRival(std::uint32_t number, const Arrival& arrival);
   bool takeRepeated(std::uint32_t number, const Arrival& arrival);
@@ -105,17 +113,15 @@ class TfIntake {
   void changeClaim(std::uint32_t number, const Arrival& arrival);
   FrameRivals::Holder holderOf(std::uint32_t number) const;
   std::uint32_t admit(const Arrival& arrival);
-  void setParent(std::uint32_t number, const std::string& parent);
-  void makeRoom();
   void accept(Frame& frame);
   void forgetStamps();
 
   double max_future_;
   Ledger& ledger_;
   AgeClock ages_;
-  FrameTable table_;
+  TransformStore store_;
+  TransformLookup lookup_{store_};
   std::vector<Frame> frames_;  // by number
-  TfBuffer buffer_;
   FrameRivals rivals_;
   std::vector<std::string> conflicts_;
   std::uint64_t static_revision_ = 0;

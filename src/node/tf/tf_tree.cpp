@@ -7,16 +7,15 @@
 namespace hgrid {
 namespace {
 
-constexpr std::size_t kLongestChain = 1000;
-
 /// Adds the transform of one more frame to what is known of a chain.
 void extend(ChainState& state, const TfIntake& intake, std::uint32_t number, bool upwards, Time reading) {
   const TfIntake::Frame& frame = intake.frame(number);
   if (frame.refused && (upwards || state.refused == nullptr)) state.refused = &*frame.refused;
   if (frame.hasConflict()) state.conflict = true;
   if (frame.claimed && intake.isContested(number, reading)) state.contested = number;
-  if (!frame.history.moves()) return;
-  const Time stamp = frame.history.newest().stamp;
+  const FrameHistory& history = intake.history(number);
+  if (!history.moves()) return;
+  const Time stamp = history.newest().stamp;
   if (stamp.count() == 0) state.connected = false;  // nothing since the clock jumped
   state.newest = state.moves ? std::min(state.newest, stamp) : stamp;
   state.received = state.moves ? std::min(state.received, frame.pace.received()) : frame.pace.received();
@@ -49,7 +48,7 @@ std::size_t TfTree::lastStepTo(std::uint32_t frame) {
       break;
     }
     const std::uint32_t parent = intake_.table().parent(frame);
-    if (parent == TfIntake::kNone || down.size() >= kLongestChain) return kNowhere;
+    if (parent == TfIntake::kNone || down.size() >= FrameTable::kLongestChain) return kNowhere;
     down.push_back(frame);
     frame = parent;
   }
@@ -108,7 +107,7 @@ void TfTree::place(Time time) {
     const Step& from = steps_[step.from];
     step.placed = from.placed && step.state.connected;
     if (!step.placed) continue;
-    const std::optional<FramePose> pose = intake_.parentFromFrame(step.moved, time);
+    const std::optional<FramePose> pose = intake_.history(step.moved).at(time);
     step.placed = pose.has_value();
     if (pose) step.world_from_frame = from.world_from_frame * (step.upwards ? pose->inverse() : *pose);
   }
@@ -120,7 +119,7 @@ std::optional<FramePose> TfTree::along(std::size_t number, Time time) const {
   if (!step.state.connected) return std::nullopt;
   const std::optional<FramePose> from = along(step.from, time);
   if (!from) return std::nullopt;
-  const std::optional<FramePose> pose = intake_.parentFromFrame(step.moved, time);
+  const std::optional<FramePose> pose = intake_.history(step.moved).at(time);
   if (!pose) return std::nullopt;
   return *from * (step.upwards ? pose->inverse() : *pose);
 }

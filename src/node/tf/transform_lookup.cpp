@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/tf/transform_lookup.h"
 
-#include <tf2/exceptions.h>
-
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "hgrid_proximity/geometry/pose.h"
 #include "hgrid_proximity/refusal.h"
@@ -12,57 +12,186 @@
 namespace hgrid {
 namespace {
 
-const ros::Time kNewest(0);  // as tf2 understands it
+/// The step from a frame to its parent.
+struct Link {
+  std::uint32_t frame = FrameTable::kNone;
+  PoseSample sample;
+};
 
-ros::Time toTf2(Time time) { return ros::Time().fromNSec(static_cast<std::uint64_t>(time.count())); }
+/// The links from a frame to an ancestor of it.
+using Links = std::vector<Link>;
+
+/// The links from two frames up to the nearest ancestor that they have in common.
+struct Chain {
+  bool connected = false;  // otherwise the links lead as far as they are known
+  Links from_frame, from_target;
+
+  FramePose targetFromFrame() const { return product(from_target).inverse() * product(from_frame); }
+
+ private:
+  static FramePose product(const Links& links) {
+    FramePose ancestor_from_frame;
+    for (const Link& link : links) ancestor_from_frame = link.sample.parent_from_frame * ancestor_from_frame;
+    return ancestor_from_frame;
+  }
+};
+
+/// A pose and the time for which it holds.
+struct TimedPose {
+  FramePose target_from_frame;
+  std::optional<Time> time;  // empty: all transforms of the chain are static
+};
+
+/// Looks at the stored transforms while no thread changes them.
+class Look {
+ public:
+  Look(const TransformStore& store, const std::string& target, const std::string& frame)
+      : reading_(store), target_(reading_.table().find(target)), frame_(reading_.table().find(frame)) {}
+
+  /// The chain at one time, through the parents of that time.
+  Chain chainAt(Time time) const {
+    return chain([&](std::uint32_t frame) { return reading_.history(frame).sampleAt(time); });
+  }
+
+  /// The chain through the newest parents. Its poses are of different times.
+  Chain newestChain() const {
+    return chain([&](std::uint32_t frame) -> std::optional<PoseSample> {
+      const FrameHistory& history = reading_.history(frame);
+      const PoseSample& newest = history.newest();
+      if (newest.parent == FrameTable::kNone || (history.moves() && newest.stamp.count() == 0)) return std::nullopt;
+      return newest;
+    });
+  }
+
+  std::optional<TimedPose> newest() const {
+    const Chain newest = newestChain();
+    if (!newest.connected) return std::nullopt;
+    std::optional<Time> time = Time::max();
+    for (bool settled = false; !settled;) {
+      const Time before = *time;
+      for (const Links* links : {&newest.from_frame, &newest.from_target}) time = newestKnownTime(*links, time);
+      if (!time) return std::nullopt;
+      settled = *time == before;
+    }
+    if (*time == Time::max()) return TimedPose{newest.targetFromFrame(), std::nullopt};
+    return TimedPose{chainAt(*time).targetFromFrame(), time};
+  }
+
+  /// Why the chain is not known at a time. Call it only if it is not.
+  std::string whyNot(Time time, const std::string& target, const std::string& frame) const {
+    if (frame_ == FrameTable::kNone) return "frame '" + frame + "' was never published";
+    if (target_ == FrameTable::kNone) return "frame '" + target + "' was never published";
+    if (!newestChain().connected) return "there is no chain of transforms between them now";
+    const Chain known = chainAt(time);
+    for (const std::uint32_t end : {lastOf(known.from_frame, frame_), lastOf(known.from_target, target_)}) {
+      const FrameHistory& history = reading_.history(end);
+      if (history.moves()) return "frame '" + reading_.table().name(end) + "' " + history.knownTimes(time);
+    }
+    return "there was no chain of transforms between them at that time";
+  }
+
+ private:
+  static std::uint32_t lastOf(const Links& links, std::uint32_t begin) {
+    return links.empty() ? begin : links.back().sample.parent;
+  }
+
+  /// The newest time, not after `time`, at which all the links are known.
+  std::optional<Time> newestKnownTime(const Links& links, std::optional<Time> time) const {
+    for (const Link& link : links) {
+      const FrameHistory& history = reading_.history(link.frame);
+      if (time && history.moves()) time = history.newestKnownTime(*time);
+    }
+    return time;
+  }
+
+  /// @param stepUp  the sample of a frame that leads to its parent, as in std::optional<PoseSample> stepUp(uint32_t)
+  template <class StepUp>
+  Chain chain(const StepUp& stepUp) const {
+    Chain result;
+    if (frame_ == FrameTable::kNone || target_ == FrameTable::kNone) return result;
+    result.from_frame = linksFrom(frame_, target_, stepUp);
+    result.from_target = linksFrom(target_, frame_, stepUp);
+    // Cut both at the nearest common ancestor.
+    for (std::size_t up = 0; up <= result.from_target.size(); ++up) {
+      const std::uint32_t ancestor = up == 0 ? target_ : result.from_target[up - 1].sample.parent;
+      const std::optional<std::size_t> steps = stepsTo(ancestor, result.from_frame);
+      if (!steps) continue;
+      result.connected = true;
+      result.from_target.resize(up);
+      result.from_frame.resize(*steps);
+      break;
+    }
+    return result;
+  }
+
+  /// The links from `begin` upwards, until `end` or as far as they are known.
+  template <class StepUp>
+  static Links linksFrom(std::uint32_t begin, std::uint32_t end, const StepUp& stepUp) {
+    Links links;
+    for (std::uint32_t frame = begin; frame != end && links.size() < FrameTable::kLongestChain;) {
+      const std::optional<PoseSample> sample = stepUp(frame);
+      if (!sample || sample->parent == FrameTable::kNone) break;
+      links.push_back({frame, *sample});
+      frame = sample->parent;
+    }
+    return links;
+  }
+
+  std::optional<std::size_t> stepsTo(std::uint32_t ancestor, const Links& links) const {
+    if (ancestor == frame_) return 0;
+    const auto last =
+        std::find_if(links.begin(), links.end(), [&](const Link& link) { return link.sample.parent == ancestor; });
+    if (last == links.end()) return std::nullopt;
+    return static_cast<std::size_t>(last - links.begin()) + 1;
+  }
+
+  TransformStore::Reading reading_;
+  std::uint32_t target_, frame_;
+};
 
 }  // namespace
 
 bool TransformLookup::isConnected(const std::string& target, const std::string& frame) const {
-  return frame == target || buffer_.canTransform(target, frame, kNewest);
+  return frame == target || Look(store_, target, frame).newestChain().connected;
 }
 
 bool TransformLookup::isKnown(const std::string& target, const std::string& frame, Time time) const {
-  return frame == target || buffer_.canTransform(target, frame, toTf2(time));
+  return frame == target || Look(store_, target, frame).chainAt(time).connected;
 }
 
 std::optional<FramePose> TransformLookup::at(const std::string& target, const std::string& frame, Time time,
                                              std::string* why_not) const {
   if (frame == target) return FramePose{};
-  try {
-    return toFramePose(buffer_.lookupTransform(target, frame, toTf2(time)).transform);
-  } catch (const tf2::TransformException& error) {
-    if (why_not != nullptr) *why_not = error.what();
-    return std::nullopt;
-  }
+  const Look look(store_, target, frame);
+  const Chain chain = look.chainAt(time);
+  if (chain.connected) return chain.targetFromFrame();
+  if (why_not != nullptr) *why_not = look.whyNot(time, target, frame);
+  return std::nullopt;
 }
 
 std::optional<FramePose> TransformLookup::newest(const std::string& target, const std::string& frame) const {
-  return at(target, frame, Time(0));
+  if (frame == target) return FramePose{};
+  const std::optional<TimedPose> newest = Look(store_, target, frame).newest();
+  return newest ? std::optional<FramePose>(newest->target_from_frame) : std::nullopt;
 }
 
 Pose TransformLookup::atOrNewest(const std::string& target, const std::string& frame, Time time, double max_apart,
                                  const std::string& what) const {
   if (frame == target) return Pose::Identity();
-  geometry_msgs::TransformStamped found;
-  try {
-    try {
-      found = buffer_.lookupTransform(target, frame, toTf2(time));
-    } catch (const tf2::ExtrapolationException&) {
-      found = buffer_.lookupTransform(target, frame, kNewest);
-      const double apart = std::abs((found.header.stamp - toTf2(time)).toSec());
-      if (!found.header.stamp.isZero() && apart > max_apart) {
-        throw Refusal(Code::extrapolation, what + " is known at " + text(found.header.stamp.toSec()) +
-                                               " s, the world at " + text(toTf2(time).toSec()) + " s; they may be " +
-                                               text(max_apart) + " s apart (~stale_after)");
-      }
+  std::string why_not;
+  std::optional<FramePose> pose = at(target, frame, time, &why_not);
+  if (!pose) {
+    const std::optional<TimedPose> newest = Look(store_, target, frame).newest();
+    if (!newest)
+      throw Refusal(Code::unknown_frame, what + " is not connected to '" + target + "': " + printable(why_not, 300));
+    if (newest->time && std::abs(seconds(*newest->time - time)) > max_apart) {
+      throw Refusal(Code::extrapolation, what + " is known at " + text(seconds(*newest->time)) + " s, the world at " +
+                                             text(seconds(time)) + " s; they may be " + text(max_apart) +
+                                             " s apart (~stale_after)");
     }
-  } catch (const tf2::TransformException& error) {
-    throw Refusal(Code::unknown_frame, what + " is not connected to '" + target + "': " + printable(error.what(), 300));
+    pose = newest->target_from_frame;
   }
-  const auto& t = found.transform.translation;
-  const auto& q = found.transform.rotation;
-  return checkedPose({t.x, t.y, t.z}, {q.x, q.y, q.z, q.w}, what);
+  return checkedPose(pose->translation, pose->rotation.coeffs(), what);
 }
 
 }  // namespace hgrid

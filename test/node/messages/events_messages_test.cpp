@@ -45,7 +45,9 @@ void expectWellFormed(const msg::Events& message, std::size_t most) {
     EXPECT_EQ(std::isnan(message.margin[i]), gone);
     EXPECT_EQ(message.first_state[i], gone ? msg::BodyState::UNPLACED : msg::BodyState::FRESH);
     EXPECT_EQ(message.second_state[i], gone ? msg::BodyState::UNPLACED : msg::BodyState::FRESH);
-    if (message.kind[i] == msg::EventKind::BEGIN) EXPECT_LE(message.gap[i], message.margin[i]);
+    if (message.kind[i] == msg::EventKind::BEGIN) {
+      EXPECT_LE(message.gap[i], message.margin[i]);
+    }
     if (message.distance[i] > 0.0) {
       EXPECT_NEAR(std::abs(message.point_on_first[i].x - message.point_on_second[i].x), message.distance[i], 1e-6);
     }

@@ -40,7 +40,7 @@ TEST(FrameTableFailedAllocation, ChangesNothing) {
 std::vector<double> positions(const TfIntake& intake) {
   std::vector<double> x;
   for (std::uint32_t frame = 0; frame < intake.table().size(); ++frame) {
-    const auto pose = intake.parentFromFrame(frame, Time(1000000000));
+    const auto pose = intake.history(frame).at(Time(1000000000));
     x.push_back(pose ? pose->translation.x() : -1.0);
   }
   return x;

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/tf/transform_store.h"
+
+#include <algorithm>
+
+namespace hgrid {
+
+/// A transform adds at most two frames: its child and its parent. With room for them, no number is without a history,
+/// even if memory runs out.
+void TransformStore::makeRoom() {
+  while (histories_.size() < table_.size() + 2) histories_.emplace_back();
+}
+
+/// Finds the number without a search if the parent has not changed.
+std::uint32_t TransformStore::numberOfParent(std::uint32_t frame, const std::string& parent) {
+  if (table_.isInParent(frame, parent)) return table_.parent(frame);
+  makeRoom();
+  return table_.numberOf(parent);
+}
+
+std::uint32_t TransformStore::admit(const std::string& parent, const std::string& child) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  makeRoom();
+  return table_.admit(parent, child);
+}
+
+void TransformStore::fix(std::uint32_t frame, const std::string& parent, const FramePose& parent_from_frame) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  histories_[frame].fix({Time(0), numberOfParent(frame, parent), true, parent_from_frame});
+  table_.setParent(frame, parent);
+}
+
+void TransformStore::advance(std::uint32_t frame, const std::string& parent, PoseSample sample, Time now) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  sample.parent = numberOfParent(frame, parent);
+  histories_[frame].advance(sample, std::min(sample.stamp, now + cache_ / 2) - cache_);
+  table_.setParent(frame, parent);
+}
+
+bool TransformStore::fill(std::uint32_t frame, PoseSample sample) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  sample.parent = table_.parent(frame);
+  return histories_[frame].fill(sample);
+}
+
+void TransformStore::forgetStamps() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (FrameHistory& history : histories_) history.forgetStamps();
+}
+
+}  // namespace hgrid

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "src/node/tf/transform_store.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+
+#include "src/node/tf/transform_lookup.h"
+#include "test/node/support/moments.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+PoseSample sample(double time, double x) {
+  PoseSample result;
+  result.stamp = s(time);
+  result.parent_from_frame.translation.x() = x;
+  return result;
+}
+
+TEST(TransformStore, KeepsTransformsForAsLongAsTheCache) {
+  TransformStore store(s(10), 100);
+  const std::uint32_t arm = store.admit("base", "arm");
+  for (int time = 100; time <= 120; ++time) store.advance(arm, "base", sample(time, time), s(time));
+  EXPECT_TRUE(store.history(arm).at(s(110)));
+  EXPECT_FALSE(store.history(arm).at(s(109.9)));
+  EXPECT_FALSE(store.fill(arm, sample(109.5, 0)));
+  EXPECT_TRUE(store.fill(arm, sample(110.5, 0)));
+}
+
+TEST(TransformStore, DropsNothingBecauseOfAStampFarAheadOfTheClock) {
+  TransformStore store(s(10), 100);
+  const std::uint32_t arm = store.admit("base", "arm");
+  for (int time = 100; time <= 110; ++time) store.advance(arm, "base", sample(time, time), s(time));
+  store.advance(arm, "base", sample(1000, 0), s(110));
+  EXPECT_TRUE(store.history(arm).at(s(105)));
+}
+
+TEST(TransformStore, SetsTheParentOfASample) {
+  TransformStore store(s(10), 100);
+  const std::uint32_t arm = store.admit("base", "arm");
+  store.advance(arm, "base", sample(1, 0), s(1));
+  EXPECT_EQ(store.table().name(store.history(arm).newest().parent), "base");
+  store.advance(arm, "cart", sample(2, 0), s(2));
+  EXPECT_EQ(store.table().name(store.history(arm).newest().parent), "cart");
+  EXPECT_EQ(store.table().parentName(arm), "cart");
+  store.fix(arm, "wall", {});
+  EXPECT_EQ(store.table().name(store.history(arm).newest().parent), "wall");
+  EXPECT_FALSE(store.history(arm).moves());
+}
+
+// Two frames are always published with opposite x. A thread that reads while they are written must never see a pose
+// that mixes two times. ThreadSanitizer sees whether a lock is missing.
+TEST(TransformStore, IsReadByOtherThreadsWhileItIsWritten) {
+  TransformStore store(s(1), 1000);
+  const TransformLookup lookup(store);
+  std::atomic<bool> stop{false};
+  std::atomic<int> looks{0};
+  std::atomic<double> largest{0.0};
+  std::thread reader([&] {
+    while (!stop) {
+      const auto pose = lookup.newest("base", "tool");
+      lookup.at("base", "tool", s(5));
+      if (!pose) continue;
+      largest = std::max(largest.load(), std::abs(pose->translation.x()));
+      ++looks;
+    }
+  });
+  int written = 0;
+  for (; written < 2000 || (looks < 1000 && written < 20000000); ++written) {
+    const double time = 1.0 + 0.01 * written, x = written % 7;
+    store.advance(store.admit("base", "arm"), "base", sample(time, x), s(time));
+    store.advance(store.admit("arm", "tool"), "arm", sample(time, -x), s(time));
+    const std::string other = "other" + std::to_string(written % 500);
+    store.fix(store.admit("base", other), "base", {});
+  }
+  stop = true;
+  reader.join();
+  EXPECT_GE(looks, 1000);
+  EXPECT_EQ(largest, 0.0);
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid
