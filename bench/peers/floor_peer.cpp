@@ -15,7 +15,7 @@ class FloorPeer final : public Peer {
   bool remembers() const override { return false; }
 
   void frame(const Frame& frame, std::vector<ProxyPair>& pairs) override {
-    arrays_.take(frame.boxes);
+    arrays_.take(frame.boxes, 0);
     pairs.resize(frame.boxes.size());
     for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i] = {arrays_.id[i], static_cast<ProxyId>(i)};
   }

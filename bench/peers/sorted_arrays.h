@@ -11,32 +11,37 @@
 namespace hgrid {
 namespace bench {
 
-/// Boxes in the order of their min.x, as structure of arrays.
+/// Boxes in the order of their minima along one axis, as structure of arrays.
 struct SortedArrays {
   static constexpr std::size_t kPad = 16;  ///< boxes beyond every other one at the end, for loads of eight
 
-  std::vector<float> min_x, max_x, min_y, max_y, min_z, max_z;
+  std::vector<float> min[3], max[3];  ///< [0]: along the axis of the order; then the other two
   std::vector<ProxyId> id;
 
-  void take(const std::vector<Aabb>& boxes) {
+  void take(const std::vector<Aabb>& boxes, int axis) {
     const std::size_t n = boxes.size();
     if (id.size() != n) resize(n);
     std::vector<RadixSort::Item>& items = sort_.items();
     items.resize(n);
-    for (std::size_t i = 0; i < n; ++i) items[i] = {sortable(boxes[i].min.x()), static_cast<std::uint32_t>(i)};
+    for (std::size_t i = 0; i < n; ++i) items[i] = {sortable(boxes[i].min[axis]), static_cast<std::uint32_t>(i)};
     const std::vector<RadixSort::Item>& order = sort_.sorted();
+    const int axes[3] = {axis, (axis + 1) % 3, (axis + 2) % 3};
     for (std::size_t i = 0; i < n; ++i) {
       const Aabb& box = boxes[order[i].number];
-      min_x[i] = box.min.x(), min_y[i] = box.min.y(), min_z[i] = box.min.z();
-      max_x[i] = box.max.x(), max_y[i] = box.max.y(), max_z[i] = box.max.z();
+      for (int k = 0; k < 3; ++k) {
+        min[k][i] = box.min[axes[k]];
+        max[k][i] = box.max[axes[k]];
+      }
       id[i] = order[i].number;
     }
   }
 
  private:
   void resize(std::size_t n) {
-    for (std::vector<float>* array : {&min_x, &max_x, &min_y, &max_y, &min_z, &max_z})
-      array->assign(n + kPad, std::numeric_limits<float>::infinity());
+    for (int k = 0; k < 3; ++k) {
+      min[k].assign(n + kPad, std::numeric_limits<float>::infinity());
+      max[k].assign(n + kPad, std::numeric_limits<float>::infinity());
+    }
     id.resize(n);
   }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <algorithm>
+
 #include "bench/peers/factories.h"
 #include "bench/peers/sorted_arrays.h"
 
@@ -13,15 +15,23 @@ namespace bench {
 #if defined(__x86_64__)
 namespace {
 
-/// Array sort-and-sweep (after Ericson, Real-Time Collision Detection, 2005, section 7.5.2): sorted by min.x each
-/// frame, each box tested against those that begin before it ends, eight at a time. The strongest simple rival.
+/// Array sort-and-sweep (after Ericson, Real-Time Collision Detection, 2005, section 7.5.2): sorted by their minima
+/// along one axis each frame, each box tested against those that begin before it ends, eight at a time. The axis is the
+/// one that takes the fewest tests when the boxes are loaded. The strongest simple rival.
 class SweepPeer final : public Peer {
  public:
-  void load(const std::vector<Aabb>&) override {}
+  void load(const std::vector<Aabb>& boxes) override {
+    std::uint64_t fewest = ~std::uint64_t{0};
+    for (int axis = 0; axis < 3; ++axis) {
+      arrays_.take(boxes, axis);
+      const std::uint64_t tests = testCount();
+      if (tests < fewest) fewest = tests, axis_ = axis;
+    }
+  }
   bool remembers() const override { return false; }
 
   void frame(const Frame& frame, std::vector<ProxyPair>& pairs) override {
-    arrays_.take(frame.boxes);
+    arrays_.take(frame.boxes, axis_);
     std::size_t count = 0;
     for (std::size_t i = 0; i < frame.boxes.size(); ++i) {
       if (pairs.size() < count + frame.boxes.size()) pairs.resize(2 * pairs.size() + frame.boxes.size());
@@ -31,14 +41,25 @@ class SweepPeer final : public Peer {
   }
 
  private:
+  /// Tests that a frame of the boxes takes in their present order.
+  std::uint64_t testCount() const {
+    const auto begin = arrays_.min[0].begin(), end = begin + static_cast<std::ptrdiff_t>(arrays_.id.size());
+    std::uint64_t count = 0;
+    for (auto low = begin; low != end; ++low) {
+      const float high = arrays_.max[0][static_cast<std::size_t>(low - begin)];
+      count += static_cast<std::uint64_t>(std::upper_bound(low, end, high) - low) - 1;
+    }
+    return count;
+  }
+
   /// Writes the pairs of box i with the later ones; at most one per box. Returns how many.
   __attribute__((target("avx2,bmi"))) std::size_t sweep(std::size_t i, ProxyPair* out) const {
-    const float* min_x = arrays_.min_x.data();
-    const float* min_y = arrays_.min_y.data();
-    const float* max_y = arrays_.max_y.data();
-    const float* min_z = arrays_.min_z.data();
-    const float* max_z = arrays_.max_z.data();
-    const float end = arrays_.max_x[i];
+    const float* min_x = arrays_.min[0].data();  // x: the axis of the order
+    const float* min_y = arrays_.min[1].data();
+    const float* max_y = arrays_.max[1].data();
+    const float* min_z = arrays_.min[2].data();
+    const float* max_z = arrays_.max[2].data();
+    const float end = arrays_.max[0][i];
     const __m256 end_x = _mm256_set1_ps(end);
     const __m256 low_y = _mm256_set1_ps(min_y[i]), high_y = _mm256_set1_ps(max_y[i]);
     const __m256 low_z = _mm256_set1_ps(min_z[i]), high_z = _mm256_set1_ps(max_z[i]);
@@ -57,6 +78,7 @@ class SweepPeer final : public Peer {
   }
 
   SortedArrays arrays_;
+  int axis_ = 0;
 };
 
 }  // namespace
