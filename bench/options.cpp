@@ -6,6 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "bench/workload/workloads.h"
+
 namespace hgrid {
 namespace bench {
 namespace {
@@ -15,6 +17,24 @@ std::vector<std::string> split(const std::string& list) {
   std::istringstream in(list);
   for (std::string item; std::getline(in, item, ',');) items.push_back(item);
   return items;
+}
+
+/// The items. @throws std::invalid_argument if one of them is not among `names`.
+std::vector<std::string> known(const std::vector<std::string>& items, const std::vector<std::string>& names) {
+  for (const std::string& item : items) {
+    if (std::find(names.begin(), names.end(), item) != names.end()) continue;
+    std::string all;
+    for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+    throw std::invalid_argument(item + " is unknown; there are " + all);
+  }
+  return items;
+}
+
+std::vector<std::string> allWorkloads() {
+  std::vector<std::string> names = evenWorkloads();
+  names.insert(names.end(), unevenWorkloads().begin(), unevenWorkloads().end());
+  names.insert(names.end(), {"building", "geb079", "cloud"});  // of maps
+  return names;
 }
 
 double numberOf(const std::string& text) {
@@ -33,11 +53,24 @@ bool wanted(const std::vector<std::string>& list, const std::string& item) {
 const char* const kUsage =
     "usage: hgrid_bench [--quick] [--json FILE] [--commit TEXT] [--command TEXT]\n"
     "                   [--part pairs,ageing,threads,queries,maps] [--n 1000,...]\n"
-    "                   [--workload uniform,mixed,floor,robots,building,geb079]\n"
-    "                   [--moving 1,0.1,0.01] [--peer 'hgrid,sweep,FCL DynamicAABBTree,...'] [--questions 100000]\n";
+    "                   [--workload uniform,mixed,floor,robots,heaps2,heaps64,fleet,strays,diagonal,levy,rods,giants,\n"
+    "                    torus,tower,line,decades,onecell,sizes,building,geb079,cloud]\n"
+    "                   [--moving 1,0.1,0.01] [--movers same,changing] [--peer 'hgrid,sweep,FCL DynamicAABBTree,...'] "
+    "[--questions 100000]\n";
 
 bool Options::part(const std::string& name) const { return wanted(parts, name); }
 bool Options::workload(const std::string& name) const { return wanted(workloads, name); }
+std::vector<std::string> Options::boxWorkloads(const std::vector<std::string>& usual) const {
+  if (workloads.empty()) return usual;
+  std::vector<std::string> named;
+  for (const auto* known : {&evenWorkloads(), &unevenWorkloads()}) {
+    for (const std::string& name : *known) {
+      if (workload(name)) named.push_back(name);
+    }
+  }
+  return named;
+}
+
 bool Options::peer(const std::string& name) const { return wanted(peers, name); }
 
 Options parsed(int count, const char* const* arguments) {
@@ -59,9 +92,11 @@ Options parsed(int count, const char* const* arguments) {
     } else if (name == "--part") {
       options.parts = split(value);
     } else if (name == "--workload") {
-      options.workloads = split(value);
+      options.workloads = known(split(value), allWorkloads());
     } else if (name == "--peer") {
       options.peers = split(value);
+    } else if (name == "--movers") {
+      options.movers = known(split(value), {"same", "changing"});
     } else if (name == "--n") {
       for (const std::string& item : split(value)) options.sizes.push_back(static_cast<std::size_t>(numberOf(item)));
     } else if (name == "--moving") {

@@ -14,7 +14,7 @@ struct Options {
   bool quick = false;
   std::string json;             ///< file for the figures; empty: none
   std::string commit, command;  ///< what is measured and how, for the figures file
-  std::vector<std::string> parts, workloads, peers;
+  std::vector<std::string> parts, workloads, peers, movers;
   std::vector<std::size_t> sizes;
   /// Of each kind, asked in turn; a multiple of 1,000. So many that no processor learns their branches by heart, as it
   /// does of 1,000 that come again and again.
@@ -23,6 +23,8 @@ struct Options {
 
   bool part(const std::string& name) const;
   bool workload(const std::string& name) const;
+  /// The workloads of boxes that were asked for; `usual` if none was.
+  std::vector<std::string> boxWorkloads(const std::vector<std::string>& usual) const;
   bool peer(const std::string& name) const;
 };
 

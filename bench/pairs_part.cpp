@@ -4,9 +4,11 @@
 
 #include "bench/measure/match.h"
 #include "bench/measure/pairs_play.h"
+#include "bench/pairs_settings.h"
 #include "bench/parts.h"
 #include "bench/peers/factories.h"
 #include "bench/peers/hgrid_peer.h"
+#include "bench/workload/workloads.h"
 
 namespace hgrid {
 namespace bench {
@@ -18,12 +20,6 @@ struct Run {
   int threads;
   std::uint64_t age;
   std::function<std::unique_ptr<Peer>()> make;
-};
-
-struct Setting {
-  std::string workload;
-  std::size_t n;
-  double moving;
 };
 
 Run hgridRun(int threads, const std::string& instructions, std::uint64_t age = 0) {
@@ -57,10 +53,14 @@ std::vector<Run> runsOf(const Options& options, const Setting& setting) {
 Record recordOf(const Setting& setting, const Run& run, const Score& score, const std::string& status) {
   Record record(run.age > 0 ? "ageing" : "pairs");
   record.text("peer", run.peer).text("workload", setting.workload).number("n", double(setting.n));
-  record.number("moving", setting.moving).number("threads", run.threads).text("isa", run.instructions);
+  record.number("moving", setting.moving)
+      .text("movers", name(setting.movers))
+      .number("threads", run.threads)
+      .text("isa", run.instructions);
   if (run.age > 0) record.number("age", double(run.age));
   record.number("median_ms", score.median_ms).number("min_ms", score.min_ms).number("spread", score.spread);
   record.number("frames", double(score.timed)).number("pairs", double(score.count)).bits("checksum", score.checksum);
+  record.number("pairs_per_box", double(score.count) / double(setting.n));
   record.flag("correct", score.correct && status == "ok");
   record.number("bytes_per_object", score.bytes / double(setting.n)).text("status", status);
   return record;
@@ -68,18 +68,24 @@ Record recordOf(const Setting& setting, const Run& run, const Score& score, cons
 
 void print(const Setting& setting, const Run& run, const Score& score, const std::string& status) {
   const bool right = score.correct || run.peer == "floor";
-  std::printf("  %-28s %-8s threads %d  age %-5llu %10.4f ms  min %10.4f  spread %3.0f %%  %7.1f B  %8llu pairs  %s\n",
-              run.peer.c_str(), run.instructions.c_str(), run.threads, static_cast<unsigned long long>(run.age),
-              score.median_ms, score.min_ms, 100.0 * score.spread, score.bytes / double(setting.n),
-              static_cast<unsigned long long>(score.count),
-              status != "ok" ? status.c_str()
-              : right        ? ""
-                             : "WRONG");
+  std::printf(
+      "  %-28s %-8s threads %d  age %-5llu %10.4f ms  min %10.4f  spread %3.0f %%  %7.1f B  %8llu pairs, %.3g per box  "
+      "%s\n",
+      run.peer.c_str(), run.instructions.c_str(), run.threads, static_cast<unsigned long long>(run.age),
+      score.median_ms, score.min_ms, 100.0 * score.spread, score.bytes / double(setting.n),
+      static_cast<unsigned long long>(score.count), double(score.count) / double(setting.n),
+      status != "ok" ? status.c_str()
+      : right        ? ""
+                     : "WRONG");
 }
 
-std::unique_ptr<Contestant> contestantOf(const Run& run, World& world) {
-  const auto begin = [&world, run]() -> Contestant::Play {
-    const auto play = std::make_shared<PairsPlay>(world, run.make, run.age);
+/// Where the movers change, a peer that remembers them takes some frames until its frames take equally long.
+constexpr std::uint64_t kSettled = 30;
+
+std::unique_ptr<Contestant> contestantOf(const Run& run, const Setting& setting, World& world) {
+  const std::uint64_t age = setting.movers == Movers::changing ? kSettled : run.age;
+  const auto begin = [&world, run, age]() -> Contestant::Play {
+    const auto play = std::make_shared<PairsPlay>(world, run.make, age);
     return [play](double budget_ms) { return (*play)(budget_ms); };
   };
   return std::make_unique<Contestant>(begin, run.threads);
@@ -87,15 +93,19 @@ std::unique_ptr<Contestant> contestantOf(const Run& run, World& world) {
 
 /// Lets the runs play against each other, tells how it went, and appends the records.
 void play(const Options& options, const Setting& setting, const std::vector<Run>& runs, std::vector<Record>& records) {
-  World world(setting.workload, setting.n, setting.moving);
+  World world(setting.workload, setting.n, setting.moving, setting.movers);
   Match match;
   for (const Run& run : runs) {
     const bool votes = run.peer != "hgrid" && run.peer != "floor";
-    match.add(contestantOf(run, world), votes, run.peer == "brute force");
+    match.add(contestantOf(run, setting, world), votes, run.peer == "brute force");
   }
-  match.play(options.quick || setting.n >= 1000000 ? 3 : 5, options.quick ? 40.0 : 150.0, options.quick ? 20.0 : 120.0);
+  const bool even = isEven(setting.workload);
+  const int rounds = options.quick || setting.n >= 1000000 || !even ? 3 : 5;
+  const double limit_s = options.quick ? 20.0 : even ? 120.0 : 40.0;  // four frames or so, and loading
+  match.play(rounds, options.quick ? 40.0 : 150.0, limit_s);
 
-  std::printf("\n%s, n = %zu, %g %% move\n", setting.workload.c_str(), setting.n, 100.0 * setting.moving);
+  std::printf("\n%s, n = %zu, %g %% move%s\n", setting.workload.c_str(), setting.n, 100.0 * setting.moving,
+              setting.movers == Movers::changing ? ", others in each frame" : "");
   const std::vector<Score> scores = match.scores();
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const std::string& status = match.contestant(i).status();
@@ -112,24 +122,11 @@ void play(const Options& options, const Setting& setting, const std::vector<Run>
 }  // namespace
 
 void runPairs(const Options& options, std::vector<Record>& records) {
-  std::vector<std::size_t> sizes{1000, 10000, 100000, 1000000};
-  if (options.quick) sizes.pop_back();
-  if (!options.sizes.empty()) sizes = options.sizes;
-  const std::vector<double> usual{1.0, 0.1, 0.01};
-  for (const std::size_t n : sizes) {
-    for (const std::string& workload : workloads()) {
-      if (!options.workload(workload)) continue;
-      for (const double moving : options.moving.empty() ? usual : options.moving) {  // soon after each other: compared
-        const Setting setting{workload, n, moving};
-        play(options, setting, runsOf(options, setting), records);
-      }
-    }
-  }
+  for (const Setting& setting : pairsSettings(options)) play(options, setting, runsOf(options, setting), records);
 }
 
 void runAgeing(const Options& options, std::vector<Record>& records) {
-  for (const std::string& workload : workloads()) {
-    if (!options.workload(workload)) continue;
+  for (const std::string& workload : options.boxWorkloads(evenWorkloads())) {
     std::vector<Run> runs;
     for (const std::uint64_t age : {10, 300, 1500}) {
       runs.push_back(hgridRun(1, hgridInstructions().back(), age));
@@ -139,7 +136,7 @@ void runAgeing(const Options& options, std::vector<Record>& records) {
         if (tree || kind.name == "brute force") runs.push_back(runOf(kind, age));
       }
     }
-    play(options, {workload, 10000, 1.0}, runs, records);
+    play(options, {workload, 10000, 1.0, Movers::same}, runs, records);
   }
 }
 

@@ -5,6 +5,7 @@
 #include "bench/measure/match.h"
 #include "bench/parts.h"
 #include "bench/queries/queries_play.h"
+#include "bench/workload/workloads.h"
 
 namespace hgrid {
 namespace bench {
@@ -70,8 +71,7 @@ void play(const Options& options, const std::string& workload, const World& worl
 void runQueries(const Options& options, std::vector<Record>& records) {
   std::size_t n = options.quick ? 10000 : 100000;
   if (options.sizes.size() == 1) n = options.sizes.front();
-  for (const std::string& workload : workloads()) {
-    if (!options.workload(workload)) continue;
+  for (const std::string& workload : options.boxWorkloads(evenWorkloads())) {
     const World world(workload, n, 1.0);
     const QuerySet queries(workload, world, options.questions);
     for (const QueryKind kind : kQueryKinds) play(options, workload, world, queries, kind, records);

@@ -7,6 +7,7 @@
 #include "bench/measure/processors.h"
 #include "bench/parts.h"
 #include "bench/peers/hgrid_peer.h"
+#include "bench/workload/workloads.h"
 #include "bench/workload/world.h"
 
 namespace hgrid {
@@ -88,9 +89,8 @@ void runThreads(const Options& options, std::vector<Record>& records) {
   if (!options.sizes.empty()) sizes = options.sizes;
   std::printf("\ntwo threads against one\n");
   for (const std::size_t n : sizes) {
-    for (const std::string& workload : workloads()) {
-      if (options.workload(workload)) records.push_back(play(workload, n, options.quick));
-    }
+    for (const std::string& workload : options.boxWorkloads(evenWorkloads()))
+      records.push_back(play(workload, n, options.quick));
   }
 }
 

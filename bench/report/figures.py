@@ -17,6 +17,8 @@ class Figures:
         for path in paths:
             with open(path) as file:
                 self.records += json.load(file)
+        for record in self.all('pairs'):
+            record.setdefault('movers', 'same')  # files from before boxes could take turns
         runs = self.all('run')
         self.run = runs[0] if runs else {}
 
@@ -34,9 +36,9 @@ class Figures:
         found = self.all('pairs', peer='hgrid') or self.all('ageing', peer='hgrid')
         return found[0]['isa'] if found else None
 
-    def pairs(self, peer, workload, n, moving=1, threads=1, isa=None):
+    def pairs(self, peer, workload, n, moving=1, threads=1, isa=None, movers='same'):
         """The record of a peer's frames; hgrid's with the instruction set that it uses by itself."""
-        wanted = dict(peer=peer, workload=workload, n=n, moving=moving, threads=threads)
+        wanted = dict(peer=peer, workload=workload, n=n, moving=moving, threads=threads, movers=movers)
         if peer == 'hgrid':
             wanted['isa'] = isa or self.best_isa()
         return self.one('pairs', **wanted)
@@ -49,9 +51,9 @@ class Figures:
         names = list(dict.fromkeys(record['peer'] for record in self.all(kind)))
         return sorted(names, key=lambda name: name != 'hgrid')
 
-    def rivals(self, workload, n, moving=1):
+    def rivals(self, workload, n, moving=1, movers='same'):
         """Correct records of all peers but hgrid."""
-        return [record for record in self.all('pairs', workload=workload, n=n, moving=moving)
+        return [record for record in self.all('pairs', workload=workload, n=n, moving=moving, movers=movers)
                 if record['peer'] != 'hgrid' and record['correct']]
 
 

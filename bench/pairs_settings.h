@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/options.h"
+#include "bench/workload/world.h"
+
+namespace hgrid {
+namespace bench {
+
+/// One world in which peers compete for all pairs.
+struct Setting {
+  std::string workload;
+  std::size_t n;
+  double moving;  ///< fraction of the boxes that move in a frame
+  Movers movers = Movers::same;
+};
+
+/// The settings that the options ask for. Settings that are compared with each other follow each other.
+std::vector<Setting> pairsSettings(const Options& options);
+
+}  // namespace bench
+}  // namespace hgrid
