@@ -14,9 +14,11 @@ set(HGRID_CORE_SOURCES
   src/broadphase/hgrid/engine.cpp
   src/broadphase/hgrid/hgrid.cpp
   src/broadphase/hgrid/layer.cpp
+  src/broadphase/hgrid/layer_plan.cpp
   src/broadphase/hgrid/pair_collection.cpp
   src/broadphase/hgrid/pair_search.cpp
   src/broadphase/hgrid/queries.cpp
+  src/broadphase/hgrid/region_tree.cpp
   src/broadphase/isa.cpp
   src/broadphase/workers.cpp
   src/distances/map_meter.cpp

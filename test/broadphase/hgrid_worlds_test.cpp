@@ -79,6 +79,85 @@ TEST(HGridWorlds, HeapsTenKilometresApartAreEachAsRightAsOne) {
   }
 }
 
+/// Worlds in which boxes are spread so unevenly that the grid divides space into regions.
+std::vector<Aabb> unevenWorld(int kind, std::size_t count, Random& random) {
+  std::vector<Aabb> boxes;
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < count; ++i) {
+    Eigen::Vector3d size = randomVector(random, 0.3, 1.2), direction = randomVector(random, -1, 1).normalized();
+    switch (kind) {
+      case 0:  // a chain along the diagonal
+        place = 0.3 * double(i) * Eigen::Vector3d::Ones();
+        break;
+      case 1:  // a flight with steps of all lengths
+        place += 0.5 * random.logUniform(1.0, 1000.0) * (random.chance(0.05) ? 1.0 : 0.01) * direction;
+        break;
+      case 2:  // the nearer to the center, the denser
+        place = random.logUniform(1e-2, 1e4) * direction;
+        size *= 0.02 * place.norm() + 1e-3;
+        break;
+      case 3:  // heaps, strays, and giants that reach from heap to heap
+        place = i % 50 == 0 ? randomVector(random, -1e5, 1e5) : 1e3 * double(i % 7) * Eigen::Vector3d(1, -1, 2);
+        place += randomVector(random, -6, 6);
+        if (i % 100 == 7) size *= 3e3;
+        break;
+      default:  // walls of a building with many floors
+        place = {random.uniform(0, 500), double(i % 3) * 100, double(i % 40) * 40};
+        break;
+    }
+    boxes.push_back(boxAround(place, size));
+  }
+  return boxes;
+}
+
+TEST(HGridWorlds, UnevenWorldsAreRightWithAllThreadsAndWhileBoxesMove) {
+  for (int kind = 0; kind < 5; ++kind) {
+    for (const int threads : {1, 3}) {
+      SCOPED_TRACE("kind " + std::to_string(kind) + ", threads " + std::to_string(threads));
+      Random random(unsigned(kind) + 1u);
+      std::vector<Aabb> boxes = unevenWorld(kind, threads == 1 ? 3000 : 40000, random);
+      HGrid grid(GridScale::fitting(boxes));
+      grid.setThreads(threads);
+      std::vector<ProxyId> fixed;
+      for (ProxyId id = 0; id < boxes.size(); id += 5) fixed.push_back(id);
+      grid.setFixed(fixed);
+      std::vector<bool> is_fixed(boxes.size());
+      for (const ProxyId id : fixed) is_fixed[id] = true;
+      grid.update(allIds(boxes.size()), boxes);
+      ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes, allIds(boxes.size()), is_fixed));
+      for (const std::size_t stride : {std::size_t{1}, std::size_t{7}, std::size_t{101}}) {  // how many move
+        std::vector<ProxyId> ids;
+        std::vector<Aabb> moved;
+        for (std::size_t i = 1; i < boxes.size(); i += stride) {
+          if (is_fixed[i]) continue;
+          const Eigen::Vector3f way = randomVector(random, -0.3, 0.3).cast<float>();
+          boxes[i] = {boxes[i].min + way, (boxes[i].max + way).cwiseMax(boxes[i].min + way)};
+          ids.push_back(static_cast<ProxyId>(i));
+          moved.push_back(boxes[i]);
+        }
+        grid.move(ids, moved);
+        ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes, allIds(boxes.size()), is_fixed));
+      }
+      for (int i = 0; i < 20; ++i) {
+        const Aabb& box = boxes[std::size_t(random.below(int(boxes.size())))];
+        const Segment segment{box.min.cast<double>(), randomVector(random, -1e4, 1e4), random.uniform(0, 2)};
+        std::size_t met = 0;
+        for (const Aabb& other : boxes) met += meet(segment, other).has_value();
+        EXPECT_EQ(test::alongOf(grid, segment).size(), met);
+        const Eigen::Vector3d point = randomVector(random, -1e4, 1e4);
+        std::vector<NearHit> nearest;
+        grid.nearest(i % 2 == 0 ? point : box.max.cast<double>(), 5, 1e9, nearest);
+        ASSERT_EQ(nearest.size(), 5u);
+        std::vector<double> distances;
+        for (const Aabb& other : boxes)
+          distances.push_back(distance(other, i % 2 == 0 ? point : box.max.cast<double>()));
+        std::sort(distances.begin(), distances.end());
+        for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(nearest[k].distance, distances[k]);
+      }
+    }
+  }
+}
+
 TEST(HGridWorlds, BoxesThatAreAllEqualAllMeet) {
   const Aabb somewhere = {{-3.7f, 0, 12}, {-3.5f, 0.3f, 12.1f}}, point = {{5, 5, 5}, {5, 5, 5}};
   for (const Aabb& box : {somewhere, point}) {

@@ -27,8 +27,11 @@ struct GridScale {
 /// tested against its own level and the coarser ones.
 ///
 /// - Boxes are stored sorted by cell, as a structure of arrays. A row of cells is one range of positions, which is
-///   tested many boxes at a time. The inner loops are compiled once per instruction set.
+///   tested many boxes at a time. Rows lie along the axis on which the world is longest. The inner loops are compiled
+///   once per instruction set.
 /// - Levels that hold few boxes share one grid. A cost model derives the edges of the cells from the boxes.
+/// - Where boxes are spread unevenly, a k-d tree (section 7.3.7) divides space into regions of about even density, and
+///   each region has cells of its own. So the cost follows the boxes and their pairs, not the empty space between them.
 /// - Coordinates outside the window of the cells count as its outermost cells, so the world has no border.
 /// - Boxes that move are sorted again when they move. Boxes that rest keep their positions, and the pairs among them.
 /// - Fixed boxes are stored in a layer of their own, whose pairs among themselves are not searched.

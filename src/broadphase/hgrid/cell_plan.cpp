@@ -11,6 +11,11 @@ namespace {
 
 using Vector = std::array<double, 3>;
 
+// Costs [ns], measured on one machine; only their ratios matter.
+constexpr double kPerBox = 4.0, kPerRow = 3.0, kPerAskedRow = 6.0, kPerTest = 3.0, kPerCell = 0.15;
+constexpr double kLanes = 8.0;  // boxes per test: one number for all instruction sets, since plans must not differ
+constexpr double kMostCellsPerBox = 1.0;  // a whole number: CellPlan::mostCells() counts on it
+
 /// What is known of the boxes whose sizes fall on one level, or on several that are looked at as one.
 struct Census {
   double boxes = 0.0;
@@ -26,10 +31,13 @@ struct Census {
   double mean(std::size_t axis) const { return total[axis] / boxes; }
 };
 
-/// Where nearly all boxes begin.
+/// Where nearly all boxes begin, and the axes of rows, columns of rows, and slabs.
 struct Window {
   Vector low{}, high{};
+  std::array<std::size_t, 3> axes{0, 1, 2};
+  double spare_cells = 0.0;
   double length(std::size_t axis) const { return high[axis] - low[axis]; }
+  double mostCells(double boxes) const { return kMostCellsPerBox * boxes + spare_cells; }
 };
 
 /// Cells for a level: edges, how many, and what finding its pairs would cost.
@@ -39,67 +47,65 @@ struct Cells {
   double cost = std::numeric_limits<double>::infinity();
 };
 
-// Costs [ns], measured on one machine; only their ratios matter.
-constexpr double kPerBox = 4.0, kPerRow = 3.0, kPerAskedRow = 6.0, kPerTest = 3.0, kPerCell = 0.15;
-constexpr double kLanes = 8.0;  // boxes per test: one number for all instruction sets, since plans must not differ
-constexpr double kMostCellsPerBox = 1.0, kFewestCells = 64.0;  // whole numbers: CellPlan::mostCells() counts on it
-
 double cellsAlong(double length, double edge) { return std::floor(length / edge) + 1.0; }
 
 /// Cost of all boxes of a level looking around in cells whose edge across the rows is `across`; along the rows cells
 /// are short, since a range may begin and end anywhere.
 Cells cellsOf(const Census& level, const Window& window, double across) {
+  const auto [x, y, z] = window.axes;
   Cells cells;
-  cells.edge[1] = cells.edge[2] = across;
-  cells.count[1] = cellsAlong(window.length(1), across);
-  cells.count[2] = cellsAlong(window.length(2), across);
-  const double rows = cells.count[1] * cells.count[2];
-  const double most = kMostCellsPerBox * level.boxes + kFewestCells;
+  cells.edge[y] = cells.edge[z] = across;
+  cells.count[y] = cellsAlong(window.length(y), across);
+  cells.count[z] = cellsAlong(window.length(z), across);
+  const double rows = cells.count[y] * cells.count[z];
+  const double most = window.mostCells(level.boxes);
   if (rows > most) return cells;  // too many
   // Where less than two cells per row are allowed, the edge is longer than the window: one cell.
   const double along = most / rows - 1.0;
-  cells.edge[0] = std::max(across / 12.0, window.length(0) / (along < 1.0 ? 0.5 : along));
-  if (!(cells.edge[0] > 0.0)) cells.edge[0] = 1.0;
-  cells.count[0] = cellsAlong(window.length(0), cells.edge[0]);
+  cells.edge[x] = std::max(across / 12.0, window.length(x) / (along < 1.0 ? 0.5 : along));
+  if (!(cells.edge[x] > 0.0)) cells.edge[x] = 1.0;
+  cells.count[x] = cellsAlong(window.length(x), cells.edge[x]);
 
   const auto chance = [&](std::size_t axis, double length) {
     return cells.count[axis] > 1.0 ? std::min(1.0, length / cells.edge[axis]) : 0.0;
   };
-  const double up_y = chance(1, level.mean(1)), up_z = chance(2, level.mean(2)), down_y = chance(1, level.largest[1]);
+  const double up_y = chance(y, level.mean(y)), up_z = chance(z, level.mean(z)), down_y = chance(y, level.largest[y]);
   const double other_rows = up_y + up_z * (1.0 + up_y + down_y);
-  const double per_metre = level.boxes / rows / std::max(window.length(0), cells.edge[0]);
-  const double own = per_metre * (level.mean(0) + 0.5 * cells.edge[0]);
-  const double other = per_metre * (level.mean(0) + level.largest[0] + cells.edge[0]);
+  const double per_metre = level.boxes / rows / std::max(window.length(x), cells.edge[x]);
+  const double own = per_metre * (level.mean(x) + 0.5 * cells.edge[x]);
+  const double other = per_metre * (level.mean(x) + level.largest[x] + cells.edge[x]);
   const auto tests = [](double candidates) { return kPerTest * (1.0 + candidates / kLanes); };
   const double per_box = kPerBox + kPerRow + tests(std::min(own, level.boxes)) +
                          other_rows * (kPerRow + tests(std::min(other, level.boxes)));
-  cells.cost = level.boxes * per_box + kPerCell * cells.count[0] * rows;
+  cells.cost = level.boxes * per_box + kPerCell * cells.count[x] * rows;
   return cells;
 }
 
 Cells bestCellsOf(const Census& level, const Window& window) {
-  const double widest = std::max({level.largest[1], level.largest[2], 1e-30});
+  const auto [x, y, z] = window.axes;
+  const double widest = std::max({level.largest[y], level.largest[z], 1e-30});
   Cells best;
   for (const double factor : {1.0, 1.4, 2.0, 3.0, 4.0, 6.0, 10.0, 20.0, 50.0, 200.0, 1e3, 1e4}) {
     const Cells cells = cellsOf(level, window, factor * widest);
     if (cells.cost < best.cost) best = cells;
   }
   if (!std::isfinite(best.cost)) {  // so sparse that nothing fits: as many rows as are allowed, whatever their edge
-    const double longest = std::max({window.length(1), window.length(2), 1e-30});
-    best = cellsOf(level, window, 2.0 * longest / std::sqrt(kMostCellsPerBox * level.boxes + kFewestCells));
+    const double longest = std::max({window.length(y), window.length(z), 1e-30});
+    best = cellsOf(level, window, 2.0 * longest / std::sqrt(window.mostCells(level.boxes)));
   }
   return best;
 }
 
 /// Cost of `asking` boxes looking up a coarser level that is not their own.
-double costOfAsking(const Census& asking, const Census& asked, const Cells& cells) {
+double costOfAsking(const Census& asking, const Census& asked, const Cells& cells, const Window& window) {
+  const auto [x, y, z] = window.axes;
   double rows = 1.0;
-  for (const std::size_t axis : {std::size_t{1}, std::size_t{2}}) {
+  for (const std::size_t axis : {y, z}) {
     rows *= std::min(cells.count[axis], 1.0 + (asking.mean(axis) + asked.largest[axis]) / cells.edge[axis]);
   }
   const double along =
-      std::min(1.0, (asking.mean(0) + asked.largest[0] + cells.edge[0]) / (cells.edge[0] * cells.count[0]));
-  const double candidates = asked.boxes * along / (cells.count[1] * cells.count[2]);
+      std::min(1.0, (asking.mean(x) + asked.largest[x] + cells.edge[x]) / (cells.edge[x] * cells.count[x]));
+  const double candidates = asked.boxes * along / (cells.count[y] * cells.count[z]);
   return asking.boxes * (kPerBox + rows * (kPerAskedRow + kPerTest * (1.0 + candidates / kLanes)));
 }
 
@@ -126,6 +132,15 @@ Window windowOf(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t 
   return window;
 }
 
+/// Rows lie along the axis on which the window is longest, in boxes. It is x unless another axis is clearly longer.
+std::array<std::size_t, 3> axesFor(const Window& window, const Census& all) {
+  constexpr double kClearly = 2.0;
+  const auto length = [&](std::size_t axis) { return window.length(axis) / std::max(all.mean(axis), 1e-30); };
+  const std::size_t other = length(2) > length(1) ? 2 : 1;
+  if (!(length(other) > kClearly * length(0))) return {0, 1, 2};
+  return other == 1 ? std::array<std::size_t, 3>{1, 0, 2} : std::array<std::size_t, 3>{2, 0, 1};
+}
+
 void append(CellPlan& plan, const Census& census, const Window& window, double side) {
   const Cells cells = bestCellsOf(census, window);
   const std::size_t number = plan.levels++;
@@ -137,8 +152,13 @@ void append(CellPlan& plan, const Census& census, const Window& window, double s
     plan.largest[number][i] = static_cast<float>(census.largest[i]);
     plan.mean_sides[number][i] = static_cast<float>(census.mean(i));
   }
-  grid.row = static_cast<std::int32_t>(cells.count[0]);
-  grid.slab = grid.row * static_cast<std::int32_t>(cells.count[1]);
+  const auto [x, y, z] = window.axes;
+  grid.row = static_cast<std::int32_t>(cells.count[x]);
+  grid.slab = grid.row * static_cast<std::int32_t>(cells.count[y]);
+  grid.steps[x] = 1;
+  grid.steps[y] = grid.row;
+  grid.steps[z] = grid.slab;
+  for (std::size_t i = 0; i < 3; ++i) grid.axes[i] = static_cast<std::int32_t>(window.axes[i]);
   plan.sides[number] = static_cast<float>(side);
 }
 
@@ -146,7 +166,7 @@ void append(CellPlan& plan, const Census& census, const Window& window, double s
 
 float longestSide(const Aabb& box) { return (box.max - box.min).maxCoeff(); }
 
-CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge) {
+CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge, bool even) {
   std::array<Census, GridScale::kLevels + 1> sizes;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Vector lower, upper;
@@ -173,7 +193,11 @@ CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t
   CellPlan plan;
   plan.boxes = count;
   if (count == 0) return plan;
-  const Window window = windowOf(boxes, ids, count, lower, upper);
+  Window window = even ? Window{lower, upper} : windowOf(boxes, ids, count, lower, upper);
+  window.spare_cells = static_cast<double>(even ? CellPlan::kSpareCellsOfRegion : CellPlan::kSpareCells);
+  Census all;
+  for (const Census& level : sizes) all.add(level);
+  window.axes = axesFor(window, all);
   for (std::size_t i = 0; i < 3; ++i) {
     plan.lower[i] = static_cast<float>(lower[i]);
     plan.upper[i] = static_cast<float>(upper[i]);
@@ -198,9 +222,9 @@ CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t
       Census together = coarse;
       together.add(sizes[i]);
       const Cells alone = bestCellsOf(coarse, window), shared = bestCellsOf(together, window);
-      double apart = alone.cost + bestCellsOf(sizes[i], window).cost + costOfAsking(finer[i], coarse, alone);
+      double apart = alone.cost + bestCellsOf(sizes[i], window).cost + costOfAsking(finer[i], coarse, alone, window);
       double joined = shared.cost;
-      if (i > 0 && finer[i - 1].boxes > 0.0) joined += costOfAsking(finer[i - 1], together, shared);
+      if (i > 0 && finer[i - 1].boxes > 0.0) joined += costOfAsking(finer[i - 1], together, shared, window);
       if (apart < joined) close();
     }
     if (coarse.boxes == 0.0) coarse_side = finest_edge * std::pow(GridScale::kRatio, static_cast<double>(i));
@@ -217,44 +241,20 @@ CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t
   for (std::size_t level = 0; level < plan.levels; ++level) {
     const kernels::Grid& grid = plan.grids[level];
     plan.first_cells[level] = plan.cells;
-    plan.cells += static_cast<std::uint32_t>(grid.slab) * (static_cast<std::uint32_t>(grid.last[2]) + 1);
+    plan.cells += static_cast<std::uint32_t>(grid.slab) * (static_cast<std::uint32_t>(grid.last[grid.axes[2]]) + 1);
   }
   return plan;
 }
 
 std::size_t CellPlan::mostCells(std::size_t count) {
-  const auto per_box = static_cast<std::size_t>(kMostCellsPerBox), per_level = static_cast<std::size_t>(kFewestCells);
-  return per_box * count + per_level * std::min(count, kMostLevels);
+  return static_cast<std::size_t>(kMostCellsPerBox) * count + kSpareCells * std::min(count, kMostLevels);
 }
 
-bool CellPlan::fits(std::size_t count) const {
-  const auto now = static_cast<double>(count), then = static_cast<double>(boxes);
-  return now <= 1.25 * then + 8.0 && now >= 0.75 * then - 8.0;
-}
-
-bool CellPlan::fits(const float* lower_now, const float* upper_now, const float* largest_now) const {
-  for (std::size_t level = 0; level < levels; ++level) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const float then = largest[level][i], now = largest_now[4 * level + i];
-      if (now > 1.25f * then || now < 0.5f * then) return false;
-    }
-  }
-  if (windowed) return true;  // its bounds are those of strays
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double length = static_cast<double>(upper[i]) - lower[i], some = 0.1 * length + largest[levels - 1][i];
-    const double now = static_cast<double>(upper_now[i]) - lower_now[i];
-    if (lower_now[i] < lower[i] - some || upper_now[i] > upper[i] + some || now < 0.75 * length - some) return false;
-  }
-  return true;
-}
-
-double rowsAsked(const CellPlan& asking, std::size_t asking_level, const CellPlan& asked, std::size_t asked_level,
-                 const float* reach_of_asked) {
-  const kernels::Grid& grid = asked.grids[asked_level];
+double rowsAsked(const kernels::Level& asking, const kernels::Level& asked) {
+  const kernels::Grid& grid = asked.grid;
   double rows = 1.0;
-  for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) {
-    const double across =
-        (static_cast<double>(asking.mean_sides[asking_level][i]) + reach_of_asked[i]) * grid.inverse[i];
+  for (const std::int32_t i : {grid.axes[1], grid.axes[2]}) {
+    const double across = (static_cast<double>(asking.mean_sides[i]) + asked.reach[i]) * grid.inverse[i];
     rows *= std::min(1.0 + across, static_cast<double>(grid.last[i]) + 1.0);
   }
   return rows;

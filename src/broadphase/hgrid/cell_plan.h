@@ -15,7 +15,7 @@ namespace hgrid {
 /// Largest of a box's three sides, as levels are chosen by it [m].
 float longestSide(const Aabb& box);
 
-/// How the boxes of a layer are divided into levels, and each level into cells. Any plan gives right answers; a good
+/// How the boxes of a region are divided into levels, and each level into cells. Any plan gives right answers; a good
 /// one gives them fast.
 struct CellPlan {
   static constexpr std::size_t kMostLevels = GridScale::kLevels + 1;
@@ -34,22 +34,21 @@ struct CellPlan {
   std::array<float, 3> lower{}, upper{};  ///< [m] least and greatest minimum corner then
   bool windowed = false;                  ///< some boxes lay outside the window of the cells
 
+  /// A level may have so many cells more than boxes: the level of the one region, or of one of many.
+  static constexpr std::size_t kSpareCells = 64, kSpareCellsOfRegion = 16;
+
   /// The most cells that a plan for `count` boxes has.
   static std::size_t mostCells(std::size_t count);
-
-  /// Whether it is still a good plan for this many boxes.
-  bool fits(std::size_t count) const;
-  /// Whether it is still a good plan for boxes within these bounds; sizes in fours, per level.
-  bool fits(const float* lower_now, const float* upper_now, const float* largest_now) const;
 };
 
 /// Divides the boxes of `count` ids as a model of the cost of finding all pairs says. Sizes that differ by less than a
 /// factor of GridScale::kRatio share a level, as do levels so thinly populated that a look at both costs more than a
 /// look at larger cells; among the edges of cells from once to many times the largest box the cheapest is taken.
-CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge);
+/// @param even  the boxes are one of many regions, in which boxes are spread evenly
+CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge,
+                 bool even = false);
 
-/// Estimated rows of cells that a box of one level looks at in another, whose boxes reach so far [m].
-double rowsAsked(const CellPlan& asking, std::size_t asking_level, const CellPlan& asked, std::size_t asked_level,
-                 const float* reach_of_asked);
+/// Estimated rows of cells that a box of one level looks at in another.
+double rowsAsked(const kernels::Level& asking, const kernels::Level& asked);
 
 }  // namespace hgrid

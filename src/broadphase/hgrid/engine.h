@@ -13,13 +13,24 @@
 
 namespace hgrid {
 
-/// A part of a search for pairs: some positions of one level, tested among themselves or against all of another level.
+/// A part of a search for pairs. Either some positions of one level, tested among themselves or against all of another
+/// level, or some regions of a layer, tested among themselves and the later ones, or against all of another layer.
 struct SearchTask {
   const kernels::Level* asking;
-  const kernels::Level* asked;  // null: the positions are tested among themselves
-  std::uint32_t begin, end;
+  const kernels::Level* asked;   // null: the positions are tested among themselves
+  std::uint32_t begin, end;      // positions, or regions
+  const Layer* layer = nullptr;  // of the regions; null: positions
+  const Layer* other = nullptr;  // null: the regions are tested among themselves and with the later ones
+  std::size_t boxes = 0;
   std::size_t thread = 0, first = 0, found = 0;  // its pairs: `found` pairs from `first` on, in the part of that thread
   std::size_t to = 0;                            // index of its first pair in the result
+};
+
+/// Copies of some boxes of a level, which can ask another level.
+struct GatheredBoxes {
+  std::vector<std::uint32_t> positions;
+  std::vector<float> bounds;
+  std::vector<std::uint32_t> ids;
 };
 
 /// Buffers of a search for pairs.
@@ -27,6 +38,7 @@ struct SearchBuffers {
   std::vector<SearchTask> tasks;
   std::vector<std::vector<ProxyPair>> parts;  // per thread, each with room for all pairs: one thread may do all tasks
   std::vector<std::size_t> used;              // pairs in each part
+  std::vector<GatheredBoxes> gathered;        // per thread
 };
 
 /// The implementation of HGrid. Each box is in one of four layers, which are sorted separately:

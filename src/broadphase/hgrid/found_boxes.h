@@ -49,13 +49,30 @@ inline kernels::Box boxOf(const Aabb& box) {
   return {{box.min[0], box.min[1], box.min[2]}, {box.max[0], box.max[1], box.max[2]}};
 }
 
+inline bool overlap(const kernels::Box& a, const kernels::Box& b) {
+  bool both = true;
+  for (int axis = 0; axis < 3; ++axis) both = both & (a.min[axis] <= b.max[axis]) & (b.min[axis] <= a.max[axis]);
+  return both;
+}
+
 /// Calls `visit` once per layer with the positions of the boxes that `search` finds on the layer's levels.
-template <class Engine, class Search, class Visit>
-void visitFound(const Engine& engine, Search&& search, Visit&& visit) {
+/// @param near  whether something within these bounds may be found, as in bool near(const kernels::Box&)
+template <class Engine, class Near, class Search, class Visit>
+void visitFound(const Engine& engine, Near&& near, Search&& search, Visit&& visit) {
   PositionWriter writer(bufferOfThread());
   for (const Layer& layer : engine.layers) {
     if (layer.size() == 0) continue;
-    for (const kernels::Level& level : layer.levels()) search(level, writer.sink());
+    if (layer.isDivided()) {
+      layer.regions().visit(near, [&](std::uint32_t number) {
+        const kernels::Region& region = layer.regions().region(number);
+        for (std::uint32_t i = 0; i < region.levels; ++i) {
+          const kernels::Level& level = layer.levels()[region.first_level + i];
+          if (near(level.around)) search(level, writer.sink());
+        }
+      });
+    } else {
+      for (const kernels::Level& level : layer.levels()) search(level, writer.sink());
+    }
     visit(layer, writer);
     writer.clear();
   }
@@ -66,7 +83,7 @@ template <class Engine, class Visit>
 void visitOverlapping(const Engine& engine, const kernels::Box& box, Visit&& visit) {
   const kernels::Kernels& kernels = kernels::of(engine.isa);
   visitFound(
-      engine,
+      engine, [&box](const kernels::Box& bounds) { return overlap(bounds, box); },
       [&](const kernels::Level& level, kernels::PositionSink* sink) { kernels.overlapping(&level, &box, sink); },
       visit);
 }

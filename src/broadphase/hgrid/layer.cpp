@@ -16,6 +16,8 @@ constexpr std::size_t kReadBeyond = 16;                      // positions that k
 constexpr std::size_t kWorthCopying = std::size_t{1} << 18;  // boxes; of fewer most are still in the cache
 constexpr std::size_t kWorthAThread = 16384;                 // boxes
 constexpr int kSortsPerPlan = 64;                            // then a plan is made anew, since boxes may have gathered
+constexpr std::size_t kWorthRegions = 64;                    // boxes
+constexpr double kCrowded = 32.0, kLessCrowded = 0.6;        // as crowding(); evenly spread boxes have about 2
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();  // no comparison with it holds
 
@@ -75,7 +77,11 @@ void Layer::reserve(std::size_t count, std::size_t ids, const Machine& machine) 
   if (ids >= kWorthCopying) growTo(scratch.copies, count);
   growTo(scratch.cells, count);
   growTo(scratch.counts, (threads - 1) * cells);
-  scratch.sizes.reserve(threads * 4 * CellPlan::kMostLevels);
+  scratch.sizes.reserve(threads * 4 * std::max(CellPlan::kMostLevels, plan_.levels()));
+  if (plan_.isDivided()) {
+    scratch.corners.reserve(threads * 8 * plan_.levels());
+    growTo(scratch.counts, (threads - 1) * plan_.cells());
+  }
   scratch.keyings.reserve(threads);
   scratch.sums.reserve(threads * threads);
   levels_.reserve(CellPlan::kMostLevels);
@@ -90,38 +96,85 @@ void Layer::reserve(std::size_t count, std::size_t ids, const Machine& machine) 
 
 void Layer::sort(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine) {
   reserve(count_, boxes.size(), machine);
-  if (count_ == 0) return levels_.clear();
+  if (count_ == 0) {
+    plan_.clear();
+    return levels_.clear();
+  }
   SortScratch& scratch = *machine.scratch;
   const std::size_t threads = threadsFor(count_, machine);
-  bool planned = false;
-  if (!plan_.fits(count_) || ++sorts_with_plan_ > kSortsPerPlan || levels_.empty()) {
-    plan_ = planFor(boxes, ids_.data(), count_, finest_edge);
-    planned = true;
-  }
-  count(boxes, machine, threads);
-  const kernels::Keying& total = scratch.keyings.front();
-  if (!planned && !plan_.fits(total.lower, total.upper, total.sizes)) {  // the boxes have changed too much
-    plan_ = planFor(boxes, ids_.data(), count_, finest_edge);
-    planned = true;
+  bool planned = !plan_.fits(count_) || ++sorts_with_plan_ > kSortsPerPlan || levels_.empty() || !plan_.fits(levels_);
+  if (!planned) {
     count(boxes, machine, threads);
+    const kernels::Keying& total = scratch.keyings.front();
+    planned = !plan_.fits(BoxCensus{total.lower, total.upper, total.sizes});  // the boxes have changed too much
   }
-  if (planned) sorts_with_plan_ = 0;
+  if (planned) {
+    makePlan(boxes, finest_edge, machine, threads);
+    sorts_with_plan_ = 0;
+  }
   scatter(boxes, machine, threads);
   ids_.swap(other_ids_);
-  describe(scratch.sizes);
+  describe(scratch);
+}
+
+/// Makes a plan and counts with it. Divides the layer into regions if many boxes share a cell, but only if that helps.
+void Layer::makePlan(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine, std::size_t threads) {
+  plan_.planOneRegion(boxes, ids_.data(), count_, finest_edge);
+  count(boxes, machine, threads);
+  const double crowded = count_ >= kWorthRegions ? crowding(machine, threads) : 0.0;
+  if (crowded < kCrowded) return;
+  if (divide(boxes, finest_edge, machine, threads)) {
+    count(boxes, machine, threads);
+    if (crowding(machine, threads) < kLessCrowded * crowded) return;
+  }
+  plan_.planOneRegion(boxes, ids_.data(), count_, finest_edge);
+  count(boxes, machine, threads);
+}
+
+/// @returns whether there are several regions now; not if one is better or memory ran out
+bool Layer::divide(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine, std::size_t threads) {
+  SortScratch& scratch = *machine.scratch;
+  try {
+    if (!plan_.planRegions(boxes, ids_.data(), scratch.cells.data(), count_, finest_edge)) return false;
+    scratch.sizes.reserve(threads * 4 * plan_.levels());
+    scratch.corners.reserve(threads * 8 * plan_.levels());
+    growTo(scratch.counts, (threads - 1) * plan_.cells());
+    levels_.reserve(plan_.levels());
+    growTo(start_, plan_.cells() + std::size_t{1});
+  } catch (const std::bad_alloc&) {
+    return false;
+  }
+  return true;
+}
+
+/// Boxes per cell, as a box sees it: the mean over all boxes of how many share its cell.
+double Layer::crowding(const Machine& machine, std::size_t threads) const {
+  double sum = 0.0;
+  for (std::size_t cell = 0; cell < plan_.cells(); ++cell) {
+    std::uint32_t boxes = 0;
+    for (std::size_t thread = 0; thread < threads; ++thread) boxes += countsOf(thread, threads, machine)[cell];
+    sum += static_cast<double>(boxes) * boxes;
+  }
+  return sum / static_cast<double>(count_);
 }
 
 /// The counter of a cell is stored one entry later. So after the second pass, the end of each cell is the start of the
 /// next cell.
 /// Every thread counts for itself; the last does it in place.
 std::uint32_t* Layer::countsOf(std::size_t thread, std::size_t threads, const Machine& machine) {
-  return thread + 1 == threads ? start_.data() + 1 : machine.scratch->counts.data() + thread * plan_.cells;
+  return thread + 1 == threads ? start_.data() + 1 : machine.scratch->counts.data() + thread * plan_.cells();
+}
+
+const std::uint32_t* Layer::countsOf(std::size_t thread, std::size_t threads, const Machine& machine) const {
+  return const_cast<Layer*>(this)->countsOf(thread, threads, machine);
 }
 
 void Layer::count(const std::vector<Aabb>& boxes, const Machine& machine, std::size_t threads) {
   SortScratch& scratch = *machine.scratch;
-  const std::size_t cells = plan_.cells, levels = plan_.levels;
+  const std::size_t cells = plan_.cells(), levels = plan_.levels();
+  const bool divided = plan_.isDivided();
   scratch.sizes.assign(threads * 4 * levels, 0.0f);
+  if (divided) scratch.corners.resize(threads * 8 * levels);
   scratch.keyings.resize(threads);
   scratch.sums.resize(threads * threads);
   start_[0] = 0;
@@ -137,14 +190,25 @@ void Layer::count(const std::vector<Aabb>& boxes, const Machine& machine, std::s
     keying.copies = boxes.size() < kWorthCopying ? nullptr : reinterpret_cast<kernels::Box*>(scratch.copies.data());
     keying.cells = scratch.cells.data();
     keying.counts = counts;
-    keying.grids = plan_.grids.data();
-    keying.sides = plan_.sides.data();
-    keying.first_cells = plan_.first_cells.data();
+    keying.grids = plan_.grids();
+    keying.sides = plan_.sides();
+    keying.first_cells = plan_.firstCells();
     keying.levels = static_cast<int>(levels);
     keying.sizes = scratch.sizes.data() + 4 * levels * thread;
     std::fill_n(keying.lower, 4, kInfinity);
     std::fill_n(keying.upper, 4, -kInfinity);
-    machine.kernels->key(&keying);
+    if (divided) {
+      keying.regions = plan_.tree().regions();
+      keying.branches = plan_.tree().branches();
+      keying.corners = scratch.corners.data() + 8 * levels * thread;
+      for (std::size_t level = 0; level < levels; ++level) {
+        std::fill_n(keying.corners + 8 * level, 4, kInfinity);
+        std::fill_n(keying.corners + 8 * level + 4, 4, -kInfinity);
+      }
+      machine.kernels->keyRegions(&keying);
+    } else {
+      machine.kernels->key(&keying);
+    }
     for (std::size_t range = 0; range + 1 < threads; ++range) {
       const std::uint32_t *begin = counts + cells * range / threads, *end = counts + cells * (range + 1) / threads;
       scratch.sums[thread * threads + range] = std::accumulate(begin, end, 0u);
@@ -157,6 +221,10 @@ void Layer::count(const std::vector<Aabb>& boxes, const Machine& machine, std::s
       total.lower[i] = std::min(total.lower[i], part.lower[i]);
       total.upper[i] = std::max(total.upper[i], part.upper[i]);
     }
+    for (std::size_t i = 0; divided && i < 8 * levels; ++i) {
+      total.corners[i] =
+          i % 8 < 4 ? std::min(total.corners[i], part.corners[i]) : std::max(total.corners[i], part.corners[i]);
+    }
   }
 }
 
@@ -166,10 +234,10 @@ void Layer::scatter(const std::vector<Aabb>& boxes, const Machine& machine, std:
     std::uint32_t sum = 0;
     for (std::size_t i = 0; i < threads * threads; ++i) sum += i % threads < range ? scratch.sums[i] : 0;
     std::uint32_t* last = countsOf(threads - 1, threads, machine);
-    const std::size_t end = plan_.cells * (range + 1) / threads;
-    for (std::size_t cell = plan_.cells * range / threads; cell < end; ++cell) {
+    const std::size_t end = plan_.cells() * (range + 1) / threads;
+    for (std::size_t cell = plan_.cells() * range / threads; cell < end; ++cell) {
       for (std::size_t thread = 0; thread + 1 < threads; ++thread) {
-        std::uint32_t& entry = machine.scratch->counts[thread * plan_.cells + cell];
+        std::uint32_t& entry = machine.scratch->counts[thread * plan_.cells() + cell];
         const std::uint32_t count = entry;
         entry = sum;
         sum += count;
@@ -203,17 +271,29 @@ void Layer::scatter(const std::vector<Aabb>& boxes, const Machine& machine, std:
   });
 }
 
-void Layer::describe(const std::vector<float>& sizes) {
-  levels_.resize(plan_.levels);
+void Layer::describe(const SortScratch& scratch) {
+  const kernels::Keying& total = scratch.keyings.front();
+  levels_.resize(plan_.levels());
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     kernels::Level& level = levels_[i];
-    level.grid = plan_.grids[i];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      level.reach[axis] = std::nextafter(sizes[4 * i + axis], kInfinity);  // the difference may have been rounded down
+    level.grid = plan_.grids()[i];
+    level.begin = start_[plan_.firstCells()[i]];
+    level.end = i + 1 < levels_.size() ? start_[plan_.firstCells()[i + 1]] : start_[plan_.cells()];
+    const float *lower = total.lower, *upper = total.upper;
+    if (plan_.isDivided()) {
+      lower = total.corners + 8 * i;
+      upper = lower + 4;
     }
-    level.begin = start_[plan_.first_cells[i]];
-    level.end = i + 1 < levels_.size() ? start_[plan_.first_cells[i + 1]] : start_[plan_.cells];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      // The difference may have been rounded down.
+      level.reach[axis] = std::nextafter(total.sizes[4 * i + axis], kInfinity);
+      level.mean_sides[axis] = plan_.meanSides(i)[axis];
+      level.around.min[axis] = level.begin < level.end ? lower[axis] : kInfinity;
+      level.around.max[axis] =
+          level.begin < level.end ? std::nextafter(upper[axis] + level.reach[axis], kInfinity) : -kInfinity;
+    }
   }
+  plan_.tree().setBounds(levels_);
   point();
 }
 
@@ -224,7 +304,7 @@ void Layer::point() {
     level.bounds = bounds_.data();
     level.stride = stride_;
     level.id = ids_.data();
-    level.start = start_.data() + plan_.first_cells[i];
+    level.start = start_.data() + plan_.firstCells()[i];
   }
 }
 
@@ -235,7 +315,7 @@ void Layer::withdraw(std::uint32_t position) {
 
 std::size_t Layer::bytes() const {
   return (ids_.capacity() + other_ids_.capacity() + start_.capacity()) * sizeof(std::uint32_t) +
-         bounds_.capacity() * sizeof(float);
+         bounds_.capacity() * sizeof(float) + levels_.capacity() * sizeof(kernels::Level) + plan_.bytes();
 }
 
 void Layer::checkInvariants(const std::vector<Aabb>& boxes) const {
@@ -245,7 +325,7 @@ void Layer::checkInvariants(const std::vector<Aabb>& boxes) const {
   std::uint32_t position = 0;
   for (const kernels::Level& level : levels_) {
     require(level.begin == position, "levels follow each other");
-    const auto slabs = static_cast<std::int32_t>(level.grid.last[2]) + 1;
+    const auto slabs = static_cast<std::int32_t>(level.grid.last[level.grid.axes[2]]) + 1;
     const std::int32_t cells = level.grid.slab * slabs;
     for (std::int32_t cell = 0; cell < cells; ++cell) {
       require(level.start[cell] == position && level.start[cell + 1] >= position, "cells follow each other");
@@ -263,7 +343,18 @@ void Layer::checkInvariants(const std::vector<Aabb>& boxes) const {
           number[axis] =
               static_cast<std::int32_t>(std::min(cell_number > 0.0f ? cell_number : 0.0f, level.grid.last[axis]));
         }
-        require(cell == number[2] * level.grid.slab + number[1] * level.grid.row + number[0],
+        if (isDivided()) {
+          const kernels::Region& region = regions().region(regions().regionOf(box.min.data()));
+          const auto number_of_level = static_cast<std::size_t>(&level - levels_.data());
+          require(number_of_level >= region.first_level && number_of_level < region.first_level + region.levels,
+                  "a box lives in the region of its minimum corner");
+        }
+        for (int axis = 0; axis < 3; ++axis) {
+          require(level.around.min[axis] <= box.min[axis] && box.max[axis] <= level.around.max[axis],
+                  "a box is within the bounds of its level");
+        }
+        const std::int32_t* const steps = level.grid.steps;
+        require(cell == number[0] * steps[0] + number[1] * steps[1] + number[2] * steps[2],
                 "a box lives in the cell of its minimum corner");
       }
     }

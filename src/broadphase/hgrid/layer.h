@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "broadphase/hgrid/cell_plan.h"
+#include "broadphase/hgrid/layer_plan.h"
 #include "broadphase/kernels/kernels.h"
 #include "broadphase/workers.h"
 
@@ -18,6 +18,7 @@ struct SortScratch {
   std::vector<std::uint32_t> counts;  // boxes per cell, for each thread but the last
   std::vector<std::uint32_t> sums;    // per thread and range of cells: boxes counted there
   std::vector<float> sizes;           // per thread and level, in fours
+  std::vector<float> corners;         // per thread and level, in eights; only of layers with several regions
   std::vector<kernels::Keying> keyings;
 };
 
@@ -28,11 +29,12 @@ struct Machine {
   SortScratch* scratch = nullptr;
 };
 
-/// Boxes sorted by level and cell, as a structure of arrays, by two passes of counting (Ericson 2005, 7.1.4). A layer
-/// is always sorted as a whole. Between two sorts, boxes can be withdrawn.
+/// Boxes sorted by region, level and cell, as a structure of arrays, by two passes of counting (Ericson 2005, 7.1.4). A
+/// layer is always sorted as a whole. Between two sorts, boxes can be withdrawn.
 ///
-/// Only reserve() allocates. The caller calls reserve() before it changes anything, so a failed allocation leaves the
-/// layer as it was.
+/// The caller calls reserve() before it changes anything, so a failed allocation leaves the layer as it was. Only
+/// reserve() throws. Where sort() finds that several regions would be better than one, it allocates what they need; if
+/// that fails, the layer has one region.
 class Layer {
  public:
   /// Allocates what setIds() and sort() of `count` boxes need. The layer keeps its boxes and their order.
@@ -61,21 +63,28 @@ class Layer {
     return {{bound[0], bound[stride_], bound[2 * stride_]},
             {bound[3 * stride_], bound[4 * stride_], bound[5 * stride_]}};
   }
+  /// Of all regions, region after region.
   const std::vector<kernels::Level>& levels() const { return levels_; }
-  const CellPlan& plan() const { return plan_; }
+  /// Whether there are several regions.
+  bool isDivided() const { return plan_.isDivided(); }
+  const RegionTree& regions() const { return plan_.tree(); }
   std::size_t bytes() const;
   /// @throws std::logic_error naming the promise that does not hold
   void checkInvariants(const std::vector<Aabb>& boxes) const;
 
  private:
+  void makePlan(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine, std::size_t threads);
+  bool divide(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine, std::size_t threads);
   void count(const std::vector<Aabb>& boxes, const Machine& machine, std::size_t threads);
+  double crowding(const Machine& machine, std::size_t threads) const;
   void scatter(const std::vector<Aabb>& boxes, const Machine& machine, std::size_t threads);
-  void describe(const std::vector<float>& sizes);
+  void describe(const SortScratch& scratch);
   void widen(std::size_t count);
   void point();
   std::uint32_t* countsOf(std::size_t thread, std::size_t threads, const Machine& machine);
+  const std::uint32_t* countsOf(std::size_t thread, std::size_t threads, const Machine& machine) const;
 
-  CellPlan plan_;
+  LayerPlan plan_;
   int sorts_with_plan_ = 0;
   std::size_t count_ = 0;
   std::vector<ProxyId> ids_, other_ids_;  // by position; the one is read while the other is written

@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "broadphase/hgrid/engine.h"
+#include "broadphase/hgrid/found_boxes.h"
 
 namespace hgrid {
 namespace {
@@ -115,43 +116,190 @@ class PairWriter {
 void addTask(std::vector<SearchTask>& tasks, const kernels::Level& asking, const kernels::Level* asked) {
   for (std::uint32_t begin = asking.begin; begin < asking.end; begin += kTask) {
     tasks.push_back({&asking, asked, begin, std::min(begin + kTask, asking.end)});
+    tasks.back().boxes = tasks.back().end - begin;
   }
 }
 
-/// Two levels: those ask whose boxes have fewer rows of cells to look at in all.
-void addAcross(std::vector<SearchTask>& tasks, const Layer& a, std::size_t level_a, const Layer& b,
-               std::size_t level_b) {
-  const kernels::Level &first = a.levels()[level_a], &second = b.levels()[level_b];
+/// Of two levels, whether the first should ask: whether its boxes have fewer rows of cells to look at in all.
+bool firstAsks(const kernels::Level& first, const kernels::Level& second) {
+  return static_cast<double>(first.end - first.begin) * rowsAsked(first, second) <=
+         static_cast<double>(second.end - second.begin) * rowsAsked(second, first);
+}
+
+void addAcross(std::vector<SearchTask>& tasks, const kernels::Level& first, const kernels::Level& second) {
   if (first.begin == first.end || second.begin == second.end) return;
-  const double first_asks =
-      static_cast<double>(first.end - first.begin) * rowsAsked(a.plan(), level_a, b.plan(), level_b, second.reach);
-  const double second_asks =
-      static_cast<double>(second.end - second.begin) * rowsAsked(b.plan(), level_b, a.plan(), level_a, first.reach);
-  if (first_asks <= second_asks) {
+  if (firstAsks(first, second)) {
     addTask(tasks, first, &second);
   } else {
     addTask(tasks, second, &first);
   }
 }
 
+/// Regions of a layer, in tasks of about as many boxes as other tasks.
+void addRegions(std::vector<SearchTask>& tasks, const Layer& layer, const Layer* other) {
+  const std::size_t regions = layer.regions().size();
+  SearchTask task{};
+  task.layer = &layer;
+  task.other = other;
+  for (std::size_t number = 0; number < regions; ++number) {
+    const kernels::Region& region = layer.regions().region(number);
+    for (std::uint32_t i = 0; i < region.levels; ++i) {
+      const kernels::Level& level = layer.levels()[region.first_level + i];
+      task.boxes += level.end - level.begin;
+    }
+    task.end = static_cast<std::uint32_t>(number + 1);
+    if (task.boxes < kTask && number + 1 < regions) continue;
+    tasks.push_back(task);
+    task.begin = task.end;
+    task.boxes = 0;
+  }
+}
+
 /// Each level with itself and with each coarser one (Ericson 2005, 7.2).
 void addWithin(std::vector<SearchTask>& tasks, const Layer& layer) {
-  for (std::size_t level = 0; level < layer.levels().size(); ++level) {
-    addTask(tasks, layer.levels()[level], nullptr);
-    for (std::size_t coarser = level + 1; coarser < layer.levels().size(); ++coarser) {
-      addAcross(tasks, layer, level, layer, coarser);
+  if (layer.isDivided()) return addRegions(tasks, layer, nullptr);
+  const std::vector<kernels::Level>& levels = layer.levels();
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    addTask(tasks, levels[level], nullptr);
+    for (std::size_t coarser = level + 1; coarser < levels.size(); ++coarser) {
+      addAcross(tasks, levels[level], levels[coarser]);
     }
   }
 }
 
+/// The boxes of all regions with one level. Neighboring regions that reach the level ask together.
+void addRegionsAcross(std::vector<SearchTask>& tasks, const Layer& layer, const kernels::Level& asked) {
+  const std::vector<kernels::Level>& levels = layer.levels();
+  const kernels::Level* first = nullptr;
+  std::uint32_t begin = 0;
+  const auto ask = [&](std::uint32_t end) {
+    for (; first != nullptr && begin < end; begin += kTask) {
+      tasks.push_back({first, &asked, begin, std::min(begin + kTask, end)});
+      tasks.back().boxes = tasks.back().end - begin;
+    }
+    first = nullptr;
+  };
+  for (const kernels::Level& level : levels) {
+    if (!overlap(level.around, asked.around)) {
+      ask(level.begin);
+    } else if (first == nullptr) {
+      first = &level;
+      begin = level.begin;
+    }
+  }
+  ask(levels.back().end);
+}
+
 void addAcross(std::vector<SearchTask>& tasks, const Layer& a, const Layer& b) {
-  for (std::size_t i = 0; i < a.levels().size(); ++i) {
-    for (std::size_t j = 0; j < b.levels().size(); ++j) addAcross(tasks, a, i, b, j);
+  if (a.levels().empty() || b.levels().empty()) return;
+  for (const auto& [some, others] : {std::make_pair(&a, &b), std::make_pair(&b, &a)}) {
+    if (some->isDivided() && !others->isDivided() && some->size() <= others->size()) {
+      for (const kernels::Level& level : others->levels()) addRegionsAcross(tasks, *some, level);
+      return;
+    }
+  }
+  if (a.isDivided() || b.isDivided()) {
+    return a.regions().size() >= b.regions().size() ? addRegions(tasks, a, &b) : addRegions(tasks, b, &a);
+  }
+  for (const kernels::Level& first : a.levels()) {
+    for (const kernels::Level& second : b.levels()) addAcross(tasks, first, second);
   }
 }
 
-void perform(const SearchTask& task, const kernels::Kernels& kernels, kernels::PairSink* sink) {
-  if (task.asked == nullptr) {
+/// Searches regions for pairs.
+class RegionSearch {
+ public:
+  RegionSearch(const kernels::Kernels& kernels, GatheredBoxes& gathered, kernels::PairSink* sink)
+      : kernels_(kernels), gathered_(gathered), sink_(sink) {}
+
+  void within(const Layer& layer, std::uint32_t number) {
+    const std::vector<kernels::Level>& levels = layer.levels();
+    const kernels::Region& region = layer.regions().region(number);
+    const std::uint32_t first = region.first_level, last = first + region.levels;
+    for (std::uint32_t i = first; i < last; ++i) {
+      kernels_.pairsWithin(&levels[i], levels[i].begin, levels[i].end, sink_);
+      for (std::uint32_t coarser = i + 1; coarser < last; ++coarser) meet(levels[i], levels[coarser]);
+    }
+    meetAll(layer, number, layer, number + 1);
+  }
+
+  void across(const Layer& layer, std::uint32_t number, const Layer& other) { meetAll(layer, number, other, 0); }
+
+ private:
+  /// A region with all regions of a layer from `least` on.
+  void meetAll(const Layer& layer, std::uint32_t number, const Layer& other, std::uint32_t least) {
+    const kernels::Box& bounds = layer.regions().boundsOf(number);
+    const kernels::Region& region = layer.regions().region(number);
+    other.regions().visit([&bounds](const kernels::Box& box) { return overlap(box, bounds); },
+                          [&](std::uint32_t met) {
+                            if (met < least) return;
+                            const kernels::Region& there = other.regions().region(met);
+                            for (std::uint32_t i = 0; i < region.levels; ++i) {
+                              for (std::uint32_t j = 0; j < there.levels; ++j) {
+                                meet(layer.levels()[region.first_level + i], other.levels()[there.first_level + j]);
+                              }
+                            }
+                          });
+  }
+
+  void meet(const kernels::Level& a, const kernels::Level& b) {
+    if (sink_->full || !overlap(a.around, b.around)) return;
+    if (firstAsks(a, b)) {
+      ask(a, b);
+    } else {
+      ask(b, a);
+    }
+  }
+
+  /// Only the boxes that reach the other level ask it.
+  void ask(const kernels::Level& asking, const kernels::Level& asked) {
+    constexpr std::uint32_t kFew = 8;  // boxes: looking for those that reach the other level is not worth it
+    if (asking.end - asking.begin <= kFew)
+      return kernels_.pairsAcross(&asking, asking.begin, asking.end, &asked, sink_);
+    PositionWriter writer(gathered_.positions);
+    kernels_.overlapping(&asking, &asked.around, writer.sink());
+    const std::size_t count = writer.size();
+    if (count == 0) return;
+    if (count == asking.end - asking.begin) {
+      return kernels_.pairsAcross(&asking, asking.begin, asking.end, &asked, sink_);
+    }
+    kernels::Level some = asking;
+    some.stride = count + kReadBeyond;
+    some.begin = 0;
+    some.end = static_cast<std::uint32_t>(count);
+    if (gathered_.bounds.size() < 6 * some.stride) gathered_.bounds.resize(12 * some.stride);
+    if (gathered_.ids.size() < some.stride) gathered_.ids.resize(2 * some.stride);
+    for (std::size_t side = 0; side < 6; ++side) {
+      const float* const from = asking.bounds + side * asking.stride;
+      float* to = gathered_.bounds.data() + side * some.stride;
+      for (const std::uint32_t position : writer) *to++ = from[position];
+    }
+    std::uint32_t* to = gathered_.ids.data();
+    for (const std::uint32_t position : writer) *to++ = asking.id[position];
+    some.bounds = gathered_.bounds.data();
+    some.id = gathered_.ids.data();
+    kernels_.pairsAcross(&some, some.begin, some.end, &asked, sink_);
+  }
+
+  static constexpr std::size_t kReadBeyond = 16;  // positions that kernels may read beyond the last box
+
+  const kernels::Kernels& kernels_;
+  GatheredBoxes& gathered_;
+  kernels::PairSink* sink_;
+};
+
+void perform(const SearchTask& task, const kernels::Kernels& kernels, GatheredBoxes& gathered,
+             kernels::PairSink* sink) {
+  if (task.layer != nullptr) {
+    RegionSearch search(kernels, gathered, sink);
+    for (std::uint32_t region = task.begin; region < task.end && !sink->full; ++region) {
+      if (task.other == nullptr) {
+        search.within(*task.layer, region);
+      } else {
+        search.across(*task.layer, region, *task.other);
+      }
+    }
+  } else if (task.asked == nullptr) {
     kernels.pairsWithin(task.asking, task.begin, task.end, sink);
   } else {
     kernels.pairsAcross(task.asking, task.begin, task.end, task.asked, sink);
@@ -164,12 +312,13 @@ bool performAll(SearchBuffers& buffers, const kernels::Kernels& kernels, const C
                 Workers* workers, std::vector<ProxyPair>& pairs, std::size_t used) {
   std::vector<SearchTask>& tasks = buffers.tasks;
   std::size_t boxes = 0;
-  for (const SearchTask& task : tasks) boxes += task.end - task.begin;
+  for (const SearchTask& task : tasks) boxes += task.boxes;
   if (workers == nullptr || workers->threads() == 1 || boxes < 2 * kWorthAThread) {
+    if (buffers.gathered.empty()) buffers.gathered.resize(1);
     PairWriter writer(pairs, used, filter, tally);
     for (const SearchTask& task : tasks) {
       if (tally.exceeded()) return false;
-      perform(task, kernels, writer.sink());
+      perform(task, kernels, buffers.gathered.front(), writer.sink());
     }
     pairs.resize(writer.filter());
     return !tally.exceeded();
@@ -177,12 +326,13 @@ bool performAll(SearchBuffers& buffers, const kernels::Kernels& kernels, const C
   const auto threads = static_cast<std::size_t>(workers->threads());
   buffers.parts.resize(threads);
   buffers.used.assign(threads, 0);
+  if (buffers.gathered.size() < threads) buffers.gathered.resize(threads);
   workers->run(tasks.size(), [&](std::size_t number, std::size_t thread) {
     if (tally.exceeded()) return;
     SearchTask& task = tasks[number];
     std::vector<ProxyPair>& part = buffers.parts[thread];
     PairWriter writer(part, buffers.used[thread], filter, tally);
-    perform(task, kernels, writer.sink());
+    perform(task, kernels, buffers.gathered[thread], writer.sink());
     task.thread = thread;
     task.first = buffers.used[thread];
     buffers.used[thread] = writer.filter();

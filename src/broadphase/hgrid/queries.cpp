@@ -66,6 +66,25 @@ kernels::Line lineOf(const Segment& segment) {
   return line;
 }
 
+/// Whether a line may come near something within these bounds. May say yes where it does not.
+bool mayMeet(const kernels::Line& line, const kernels::Box& bounds) {
+  constexpr double kRounding = 1e-9;  // of the part of the line
+  double enter = 0.0, leave = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = bounds.min[axis] - line.around - line.from[axis];
+    const double high = bounds.max[axis] + line.around - line.from[axis], step = line.step[axis];
+    if (!(low <= high)) return false;  // no boxes
+    if (std::abs(step) < 1e-30) {
+      if (low > 0.0 || high < 0.0) return false;
+      continue;
+    }
+    const double at_low = low / step, at_high = high / step;
+    enter = std::max(enter, std::min(at_low, at_high));
+    leave = std::min(leave, std::max(at_low, at_high));
+  }
+  return enter <= leave + kRounding * (1.0 + std::abs(enter));
+}
+
 /// Appends the ids of the boxes that overlap a box and pass a test, ascending.
 template <class Engine, class Test>
 void appendOverlapping(const Engine& engine, const kernels::Box& box, std::vector<ProxyId>& found, Test&& test) {
@@ -102,7 +121,8 @@ void answer(const Engine& engine, const Segment& query, std::vector<SegmentHit>&
   const FirstTouch firstTouch(query);
   const std::size_t before = found.size();
   visitFound(
-      engine, [&](const kernels::Level& level, kernels::PositionSink* sink) { kernels.along(&level, &line, sink); },
+      engine, [&line](const kernels::Box& bounds) { return mayMeet(line, bounds); },
+      [&](const kernels::Level& level, kernels::PositionSink* sink) { kernels.along(&level, &line, sink); },
       [&](const Layer& layer, const PositionWriter& positions) {
         for (const std::uint32_t position : positions) {
           const auto along = firstTouch(layer.boxAt(position));
@@ -116,43 +136,94 @@ Eigen::Vector3f positionOf(const Aabb& box) { return box.min; }
 Eigen::Vector3f positionOf(const Sphere& sphere) { return sphere.center.cast<float>(); }
 Eigen::Vector3f positionOf(const Segment& segment) { return segment.from.cast<float>(); }
 
-/// Numbers of the questions, sorted by their positions, in buckets of a coarse grid over a layer. So questions
-/// about the same boxes follow each other.
-template <class Query>
-std::vector<std::uint32_t> byPosition(const std::vector<Query>& queries, const kernels::Grid& grid) {
-  constexpr float kAcross = 16.0f;
-  std::vector<std::uint32_t> next(static_cast<std::size_t>(kAcross * kAcross * kAcross) + 1, 0);
-  std::vector<std::uint32_t> buckets(queries.size()), order(queries.size());
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    const Eigen::Vector3f position = positionOf(queries[i]);
+/// Places in a layer's world, in buckets: a coarse grid or, if the layer is divided, its regions.
+class Buckets {
+ public:
+  explicit Buckets(const Layer& layer) : layer_(layer), grid_(layer.levels().front().grid) {}
+
+  std::size_t size() const {
+    return layer_.isDivided() ? layer_.regions().size() : static_cast<std::size_t>(kAcross * kAcross * kAcross);
+  }
+  std::uint32_t at(const Eigen::Vector3f& position) const {
+    if (layer_.isDivided()) return layer_.regions().regionOf(position.data());
     std::uint32_t bucket = 0;
     for (const int axis : {2, 1, 0}) {
       const float share =
-          (position[axis] * grid.inverse[axis] - grid.origin[axis]) * (kAcross / (grid.last[axis] + 1.0f));
+          (position[axis] * grid_.inverse[axis] - grid_.origin[axis]) * (kAcross / (grid_.last[axis] + 1.0f));
       const float number = std::min(share > 0.0f ? share : 0.0f, kAcross - 1.0f);  // 0 for NaN too
       bucket = bucket * static_cast<std::uint32_t>(kAcross) + static_cast<std::uint32_t>(number);
     }
-    buckets[i] = bucket;
-    ++next[bucket + 1];
+    return bucket;
+  }
+
+ private:
+  static constexpr float kAcross = 16.0f;
+  const Layer& layer_;
+  const kernels::Grid& grid_;
+};
+
+/// Numbers of the questions, sorted by their positions. So questions about the same boxes follow each other.
+template <class Query>
+std::vector<std::uint32_t> byPosition(const std::vector<Query>& queries, const Layer& layer) {
+  const Buckets buckets(layer);
+  std::vector<std::uint32_t> next(buckets.size() + 1, 0), bucket_of(queries.size()), order(queries.size());
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    bucket_of[i] = buckets.at(positionOf(queries[i]));
+    ++next[bucket_of[i] + 1];
   }
   for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
-  for (std::uint32_t i = 0; i < queries.size(); ++i) order[next[buckets[i]]++] = i;
+  for (std::uint32_t i = 0; i < queries.size(); ++i) order[next[bucket_of[i]]++] = i;
   return order;
 }
 
-/// [m] An estimate of the radius of a sphere that holds `count` boxes, in the part of the world with the most boxes.
-template <class Engine>
-double likelyRadius(const Engine& engine, std::size_t count) {
-  double radius = std::numeric_limits<double>::infinity();
-  for (const Layer& layer : engine.layers) {
-    for (const kernels::Level& level : layer.levels()) {
-      if (level.begin == level.end) continue;
-      double volume = static_cast<double>(count) / (level.end - level.begin);
-      for (int i = 0; i < 3; ++i) volume *= (level.grid.last[i] + 1.0) / static_cast<double>(level.grid.inverse[i]);
-      radius = std::min(radius, 0.5 * std::cbrt(volume));
-    }
+/// [m] An estimate of the radius of a sphere that holds `count` boxes of a level.
+double likelyRadius(const kernels::Level& level, std::size_t count) {
+  if (level.begin == level.end) return std::numeric_limits<double>::infinity();
+  double volume = static_cast<double>(count) / (level.end - level.begin);
+  for (int i = 0; i < 3; ++i) volume *= (level.grid.last[i] + 1.0) / static_cast<double>(level.grid.inverse[i]);
+  return 0.5 * std::cbrt(volume);
+}
+
+double distanceTo(const kernels::Box& bounds, const Eigen::Vector3d& point) {
+  double squared = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    const double away = std::max({bounds.min[i] - point[i], point[i] - bounds.max[i], 0.0});
+    squared += away * away;
   }
-  return radius;
+  return std::sqrt(squared);
+}
+
+/// A search in spheres around a point.
+struct SphereSearch {
+  double radius = std::numeric_limits<double>::infinity();  // [m] an estimate for a sphere that holds enough boxes
+  double step = radius;                                     // [m] by which the radius grows if it does not
+
+  void consider(const kernels::Level& level, std::size_t count, double away) {
+    const double within = likelyRadius(level, count);
+    if (!(away + within < radius)) return;
+    radius = away + within;
+    step = within;
+  }
+};
+
+template <class Engine>
+SphereSearch searchAround(const Engine& engine, const Eigen::Vector3d& point, std::size_t count) {
+  SphereSearch search;
+  for (const Layer& layer : engine.layers) {
+    if (!layer.isDivided()) {
+      for (const kernels::Level& level : layer.levels()) search.consider(level, count, 0.0);
+      continue;
+    }
+    layer.regions().visit([&](const kernels::Box& bounds) { return distanceTo(bounds, point) < search.radius; },
+                          [&](std::uint32_t number) {
+                            const kernels::Region& region = layer.regions().region(number);
+                            for (std::uint32_t i = 0; i < region.levels; ++i) {
+                              const kernels::Level& level = layer.levels()[region.first_level + i];
+                              search.consider(level, count, distanceTo(level.around, point));
+                            }
+                          });
+  }
+  return search;
 }
 
 template <class Engine, class Query, class Found>
@@ -172,7 +243,7 @@ void answerAll(const Engine& engine, const std::vector<Query>& queries, BatchOf<
   if (largest.size() < kFitsTheCache) {
     for (std::size_t i = 0; i < queries.size(); ++i) answerOne(i);
   } else {
-    const std::vector<std::uint32_t> order = byPosition(queries, largest.levels().front().grid);
+    const std::vector<std::uint32_t> order = byPosition(queries, largest);
     for (std::size_t k = 0; k < order.size(); ++k) {
       const char* const ahead = reinterpret_cast<const char*>(&queries[order[std::min(k + kAhead, order.size() - 1)]]);
       __builtin_prefetch(ahead);
@@ -218,7 +289,8 @@ void HGrid::nearest(const Eigen::Vector3d& point, std::size_t count, double limi
     return a.distance != b.distance ? a.distance < b.distance : a.id < b.id;
   };
   // Searches spheres of growing radius until one holds enough boxes. A sphere finds all boxes within its radius.
-  for (double radius = std::min(likelyRadius(e, count), limit);;) {
+  SphereSearch search = searchAround(e, point, count);
+  for (double radius = std::min(search.radius, limit);;) {
     const bool all = !(radius < 1e30);  // the coordinates of such a sphere do not fit into floats
     found.clear();
     const auto consider = [&](ProxyId id, const Aabb& box) {
@@ -240,7 +312,8 @@ void HGrid::nearest(const Eigen::Vector3d& point, std::size_t count, double limi
     // If it found enough boxes, the farthest of them bounds the next radius.
     const bool enough = kept == count;
     if (all || radius >= limit || (enough && found[kept - 1].distance <= radius)) return found.resize(kept);
-    radius = std::min(enough ? found[kept - 1].distance : 2.0 * radius, limit);
+    radius = std::min(enough ? found[kept - 1].distance : radius + search.step, limit);
+    search.step *= 2.0;
   }
 }
 

@@ -29,11 +29,12 @@ void overlapping(const Level* level, const Box* box, PositionSink* sink) {
   }
   const Simd::Box query = Simd::boxOf(*box);
   Output<std::uint32_t> found(sink);
-  for (std::int32_t z = low[2]; z <= high[2]; ++z) {
-    for (std::int32_t y = low[1]; y <= high[1]; ++y) {
+  const std::int32_t first = low[grid.axes[0]], last = high[grid.axes[0]];
+  for (std::int32_t z = low[grid.axes[2]]; z <= high[grid.axes[2]]; ++z) {
+    for (std::int32_t y = low[grid.axes[1]]; y <= high[grid.axes[1]]; ++y) {
       const std::int32_t row = z * grid.slab + y * grid.row;
-      const std::uint32_t end = l.start[row + high[0] + 1];
-      for (std::uint32_t j = l.start[row + low[0]]; j < end; j += Simd::kWidth) {
+      const std::uint32_t end = l.start[row + last + 1];
+      for (std::uint32_t j = l.start[row + first]; j < end; j += Simd::kWidth) {
         found.wrote(Simd::storePositions(found.room(), j, Simd::overlaps(query, l, j, end - j)));
       }
     }

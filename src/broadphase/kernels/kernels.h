@@ -33,15 +33,20 @@ struct Grid {
   float inverse[3];   ///< [1/m] one over the edge of a cell
   float origin[3];    ///< [cells] of the window's lower corner
   float last[3];      ///< number of the last cell
-  std::int32_t row;   ///< cells of a row along x
-  std::int32_t slab;  ///< cells of a slab: rows along y times row
+  std::int32_t row;   ///< cells of a row, which lies along axes[0]
+  std::int32_t slab;  ///< cells of a slab: rows along axes[1] times row; slabs follow each other along axes[2]
+  std::int32_t
+      steps[4];          ///< from a cell to the next along x, y, z: 1, row and slab in some order; the last is not used
+  std::int32_t axes[3];  ///< 0: x, 1: y, 2: z, in some order
 };
 
-/// One level of a layer: boxes in the order of their cells, structure of arrays. A row of cells along x is one
+/// One level of a region of a layer: boxes in the order of their cells, structure of arrays. A row of cells is one
 /// range of positions. Every array can be read 16 places beyond `end`.
 struct Level {
   Grid grid;
   float reach[3];       ///< [m] at least the longest side of its boxes, per axis
+  float mean_sides[3];  ///< [m] of its boxes, when the cells were planned
+  Box around;           ///< all its boxes are within; of no boxes: min > max
   const float* bounds;  ///< six arrays, `stride` apart: min x y z, max x y z at each position
   std::size_t stride;
   const std::uint32_t* id;     ///< at each position
@@ -68,6 +73,19 @@ struct Sink {
 using PairSink = Sink<Pair>;
 using PositionSink = Sink<std::uint32_t>;
 
+/// A part of space with levels of its own. A box belongs to the region that its minimum corner is in.
+struct Region {
+  float low[3], high[3];              ///< low <= corner < high, per axis; infinite where nothing ends the region
+  std::uint32_t first_level, levels;  ///< counted through all regions
+};
+
+/// A node of a tree that divides space into regions (a k-d tree, Ericson 2005, 7.3.7).
+struct Branch {
+  float split;                 ///< corners below it are in the one part, all others in the other part
+  std::int32_t axis;           ///< -1: a leaf, which is the region with the number `below`
+  std::uint32_t below, above;  ///< numbers of the branches of the two parts
+};
+
 /// A sorting of boxes into cells: what the first of two passes of counting needs and gives.
 struct Keying {
   const Box* boxes;                  ///< by id
@@ -83,6 +101,10 @@ struct Keying {
   int levels;
   float* sizes;              ///< out: 4 floats per level: largest extent on each axis, unspecified
   float lower[4], upper[4];  ///< out: least and greatest minimum corner
+  // Only if there are several regions, whose levels follow each other:
+  const Region* regions;
+  const Branch* branches;  ///< the first is the root
+  float* corners;          ///< out: 8 floats per level: least and greatest minimum corner, each in four
 };
 
 struct Kernels {
@@ -90,6 +112,8 @@ struct Kernels {
   bool (*sound)(const Box* boxes, std::size_t count);
   /// First pass of counting (Ericson 2005, 7.1.4): the cell of each box.
   void (*key)(Keying* keying);
+  /// The same for boxes in several regions.
+  void (*keyRegions)(Keying* keying);
   /// Overlapping pairs of one level, each box of positions begin .. end - 1 with those after it.
   void (*pairsWithin)(const Level* level, std::uint32_t begin, std::uint32_t end, PairSink* sink);
   /// Overlapping pairs of the asking level's positions begin .. end - 1 with all boxes of the asked level.

@@ -15,7 +15,7 @@ namespace hgrid {
 namespace kernels {
 namespace {
 
-constexpr Kernels kKernels = {sound, key, pairsWithin, pairsAcross, overlapping, along};
+constexpr Kernels kKernels = {sound, key, keyRegions, pairsWithin, pairsAcross, overlapping, along};
 
 }  // namespace
 }  // namespace kernels

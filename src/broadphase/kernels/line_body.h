@@ -112,7 +112,8 @@ void along(const Level* level, const Line* line, PositionSink* sink) {
   if (l.begin == l.end) return;
   Output<std::uint32_t> found(sink);
   const LineFilter filter = filterOf(*line);
-  const Track x = trackOf(*line, l, 0), y = trackOf(*line, l, 1), z = trackOf(*line, l, 2);
+  const Track x = trackOf(*line, l, grid.axes[0]), y = trackOf(*line, l, grid.axes[1]),
+              z = trackOf(*line, l, grid.axes[2]);
   const Crossing x_in_slab(x, z), y_in_slab(y, z), x_in_row(x, y);
   const Span x_whole = x.whole(), y_whole = y.whole();
   Passage passages[kPassages];

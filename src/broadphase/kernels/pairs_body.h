@@ -12,9 +12,12 @@ namespace hgrid {
 namespace kernels {
 namespace {
 
-/// cellOf() of 16 values, each moved down by `reach` before. A box of the level that overlaps one with minimum v
-/// has its own minimum at v - reach or above, and rounding is monotone, so also its cell.
-inline void cellsOf(const float* values, float reach, const Grid& grid, int axis, std::int32_t* cells) {
+/// Cells of 16 boxes from `position` on, by one of their bounds, moved down by `reach` before. A box of the level that
+/// overlaps one with minimum v has its own minimum at v - reach or above, and rounding is monotone, so also its cell.
+/// @param side  0: the minimum, 3: the maximum
+inline void cellsOf(const Level& level, std::uint32_t position, int side, float reach, const Grid& grid, int axis,
+                    std::int32_t* cells) {
+  const float* const values = level.bounds + static_cast<std::size_t>(side + axis) * level.stride + position;
   const float inverse = grid.inverse[axis], origin = grid.origin[axis], last = grid.last[axis];
   for (int k = 0; k < kBlock; ++k) {
     float cell = (values[k] - reach) * inverse - origin;
@@ -62,18 +65,19 @@ inline std::uint32_t bitsBelow(std::uint32_t count) { return count >= kBlock ? 0
 void pairsWithin(const Level* level, std::uint32_t begin, std::uint32_t end, PairSink* sink) {
   const Level l = *level;
   const Grid& grid = l.grid;
+  const int x = grid.axes[0], y = grid.axes[1], z = grid.axes[2];  // rows lie along x here, whichever axis that is
   Output<Pair> found(sink);
   alignas(64) std::int32_t x_low[kBlock], x_high[kBlock], y_low[kBlock], y_own[kBlock], y_high[kBlock], z_own[kBlock],
       z_high[kBlock], own_row[kBlock], low_row[kBlock], own_span[kBlock], low_span[kBlock], z_span[kBlock];
   for (std::uint32_t first = begin; first < end && !found.full(); first += kBlock) {
     const std::uint32_t all = bitsBelow(end - first);
-    cellsOf(l.bounds + first, l.reach[0], grid, 0, x_low);
-    cellsOf(l.bounds + 3 * l.stride + first, 0.0f, grid, 0, x_high);
-    cellsOf(l.bounds + l.stride + first, l.reach[1], grid, 1, y_low);
-    cellsOf(l.bounds + l.stride + first, 0.0f, grid, 1, y_own);
-    cellsOf(l.bounds + 4 * l.stride + first, 0.0f, grid, 1, y_high);
-    cellsOf(l.bounds + 2 * l.stride + first, 0.0f, grid, 2, z_own);
-    cellsOf(l.bounds + 5 * l.stride + first, 0.0f, grid, 2, z_high);
+    cellsOf(l, first, 0, l.reach[x], grid, x, x_low);
+    cellsOf(l, first, 3, 0.0f, grid, x, x_high);
+    cellsOf(l, first, 0, l.reach[y], grid, y, y_low);
+    cellsOf(l, first, 0, 0.0f, grid, y, y_own);
+    cellsOf(l, first, 3, 0.0f, grid, y, y_high);
+    cellsOf(l, first, 0, 0.0f, grid, z, z_own);
+    cellsOf(l, first, 3, 0.0f, grid, z, z_high);
     for (int k = 0; k < kBlock; ++k) {
       own_row[k] = z_own[k] * grid.slab + y_own[k] * grid.row;
       low_row[k] = z_own[k] * grid.slab + y_low[k] * grid.row;
@@ -86,18 +90,18 @@ void pairsWithin(const Level* level, std::uint32_t begin, std::uint32_t end, Pai
       const std::uint32_t next = first + k + 1, row_end = l.start[own_row[k] + x_high[k] + 1];
       meetRange(l, first + k, l, next, row_end > next ? row_end - next : 0, found);
     }
-    for (std::int32_t y = 1;; ++y) {
-      const std::uint32_t bits = Simd::atLeast(own_span, y) & all;
+    for (std::int32_t rows = 1;; ++rows) {
+      const std::uint32_t bits = Simd::atLeast(own_span, rows) & all;
       if (bits == 0) break;
-      meetRows(l, first, bits, l, own_row, y * grid.row, x_low, x_high, found);
+      meetRows(l, first, bits, l, own_row, rows * grid.row, x_low, x_high, found);
     }
-    for (std::int32_t z = 1;; ++z) {
-      const std::uint32_t slab_bits = Simd::atLeast(z_span, z) & all;
+    for (std::int32_t slabs = 1;; ++slabs) {
+      const std::uint32_t slab_bits = Simd::atLeast(z_span, slabs) & all;
       if (slab_bits == 0) break;
-      for (std::int32_t y = 0;; ++y) {
-        const std::uint32_t bits = Simd::atLeast(low_span, y) & slab_bits;
+      for (std::int32_t rows = 0;; ++rows) {
+        const std::uint32_t bits = Simd::atLeast(low_span, rows) & slab_bits;
         if (bits == 0) break;
-        meetRows(l, first, bits, l, low_row, z * grid.slab + y * grid.row, x_low, x_high, found);
+        meetRows(l, first, bits, l, low_row, slabs * grid.slab + rows * grid.row, x_low, x_high, found);
       }
     }
   }
@@ -148,30 +152,31 @@ class Encounters {
 void pairsAcross(const Level* asking, std::uint32_t begin, std::uint32_t end, const Level* asked, PairSink* sink) {
   const Level a = *asking, b = *asked;
   const Grid& grid = b.grid;
+  const int x = grid.axes[0], y = grid.axes[1], z = grid.axes[2];
   Output<Pair> found(sink);
   alignas(64) std::int32_t x_low[kBlock], x_high[kBlock], y_low[kBlock], y_high[kBlock], z_low[kBlock], z_high[kBlock],
       row[kBlock];
   Encounters encounters(a, b);
   for (std::uint32_t first = begin; first < end && !found.full(); first += kBlock) {
     const std::uint32_t all = bitsBelow(end - first);
-    cellsOf(a.bounds + first, b.reach[0], grid, 0, x_low);
-    cellsOf(a.bounds + 3 * a.stride + first, 0.0f, grid, 0, x_high);
-    cellsOf(a.bounds + a.stride + first, b.reach[1], grid, 1, y_low);
-    cellsOf(a.bounds + 4 * a.stride + first, 0.0f, grid, 1, y_high);
-    cellsOf(a.bounds + 2 * a.stride + first, b.reach[2], grid, 2, z_low);
-    cellsOf(a.bounds + 5 * a.stride + first, 0.0f, grid, 2, z_high);
+    cellsOf(a, first, 0, b.reach[x], grid, x, x_low);
+    cellsOf(a, first, 3, 0.0f, grid, x, x_high);
+    cellsOf(a, first, 0, b.reach[y], grid, y, y_low);
+    cellsOf(a, first, 3, 0.0f, grid, y, y_high);
+    cellsOf(a, first, 0, b.reach[z], grid, z, z_low);
+    cellsOf(a, first, 3, 0.0f, grid, z, z_high);
     for (int k = 0; k < kBlock; ++k) {
       row[k] = z_low[k] * grid.slab + y_low[k] * grid.row;
       y_high[k] -= y_low[k];
       z_high[k] -= z_low[k];
     }
-    for (std::int32_t z = 0;; ++z) {
-      const std::uint32_t slab_bits = Simd::atLeast(z_high, z) & all;
+    for (std::int32_t slabs = 0;; ++slabs) {
+      const std::uint32_t slab_bits = Simd::atLeast(z_high, slabs) & all;
       if (slab_bits == 0) break;
-      for (std::int32_t y = 0;; ++y) {
-        const std::uint32_t bits = Simd::atLeast(y_high, y) & slab_bits;
+      for (std::int32_t rows = 0;; ++rows) {
+        const std::uint32_t bits = Simd::atLeast(y_high, rows) & slab_bits;
         if (bits == 0) break;
-        encounters.add(first, bits, row, z * grid.slab + y * grid.row, x_low, x_high, found);
+        encounters.add(first, bits, row, slabs * grid.slab + rows * grid.row, x_low, x_high, found);
       }
     }
   }

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "broadphase/hgrid/layer_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace hgrid {
+namespace {
+
+/// Sorts the ids by region. @returns where each region begins, and the end of the last
+std::vector<std::size_t> sortByRegion(const RegionTree& tree, const std::vector<Aabb>& boxes, ProxyId* ids,
+                                      std::uint32_t* scratch, std::size_t count) {
+  std::vector<std::size_t> next(tree.size() + 1, 0);
+  const std::vector<ProxyId> unsorted(ids, ids + count);
+  for (std::size_t i = 0; i < count; ++i) {
+    scratch[i] = tree.regionOf(boxes[unsorted[i]].min.data());
+    ++next[scratch[i] + 1];
+  }
+  for (std::size_t region = 0; region < tree.size(); ++region) next[region + 1] += next[region];
+  const std::vector<std::size_t> begin = next;
+  for (std::size_t i = 0; i < count; ++i) ids[next[scratch[i]]++] = unsorted[i];
+  return begin;
+}
+
+}  // namespace
+
+LayerPlan::LayerPlan() {
+  grids_.reserve(CellPlan::kMostLevels);
+  sides_.reserve(CellPlan::kMostLevels);
+  first_cells_.reserve(CellPlan::kMostLevels);
+  largest_.reserve(CellPlan::kMostLevels);
+  mean_sides_.reserve(CellPlan::kMostLevels);
+  region_boxes_.reserve(1);
+}
+
+void LayerPlan::clear() {
+  grids_.clear();
+  sides_.clear();
+  first_cells_.clear();
+  largest_.clear();
+  mean_sides_.clear();
+  region_boxes_.clear();
+  tree_.join();
+  cells_ = 0;
+}
+
+void LayerPlan::append(const CellPlan& plan) {
+  for (std::size_t level = 0; level < plan.levels; ++level) {
+    grids_.push_back(plan.grids[level]);
+    sides_.push_back(plan.sides[level]);
+    first_cells_.push_back(cells_ + plan.first_cells[level]);
+    largest_.push_back(plan.largest[level]);
+    mean_sides_.push_back(plan.mean_sides[level]);
+  }
+  region_boxes_.push_back(static_cast<std::uint32_t>(plan.boxes));
+  cells_ += plan.cells;
+}
+
+void LayerPlan::planOneRegion(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count,
+                              double finest_edge) {
+  const CellPlan plan = planFor(boxes, ids, count, finest_edge);
+  clear();
+  append(plan);
+  tree_.setLevels(0, 0, static_cast<std::uint32_t>(plan.levels));
+  boxes_ = count;
+  lower_ = plan.lower;
+  upper_ = plan.upper;
+  windowed_ = plan.windowed;
+}
+
+bool LayerPlan::planRegions(const std::vector<Aabb>& boxes, ProxyId* ids, std::uint32_t* scratch, std::size_t count,
+                            double finest_edge) {
+  LayerPlan divided;
+  divided.tree_ = RegionTree::dividing(boxes, ids, count);
+  if (!divided.isDivided()) return false;
+  const std::vector<std::size_t> begin = sortByRegion(divided.tree_, boxes, ids, scratch, count);
+  for (std::size_t region = 0; region < divided.tree_.size(); ++region) {
+    const auto first_level = static_cast<std::uint32_t>(divided.levels());
+    const CellPlan plan = planFor(boxes, ids + begin[region], begin[region + 1] - begin[region], finest_edge, true);
+    divided.append(plan);
+    divided.tree_.setLevels(region, first_level, static_cast<std::uint32_t>(plan.levels));
+  }
+  divided.boxes_ = count;
+  *this = std::move(divided);
+  return true;
+}
+
+bool LayerPlan::fits(std::size_t count) const {
+  const auto now = static_cast<double>(count), then = static_cast<double>(boxes_);
+  return now <= 1.25 * then + 8.0 && now >= 0.75 * then - 8.0;
+}
+
+bool LayerPlan::fits(const BoxCensus& now) const {
+  if (isDivided()) return true;
+  for (std::size_t level = 0; level < levels(); ++level) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const float then = largest_[level][i], size = now.sizes[4 * level + i];
+      if (size > 1.25f * then || size < 0.5f * then) return false;
+    }
+  }
+  if (windowed_) return true;  // its bounds are those of strays
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double length = static_cast<double>(upper_[i]) - lower_[i], some = 0.1 * length + largest_.back()[i];
+    const double length_now = static_cast<double>(now.upper[i]) - now.lower[i];
+    if (now.lower[i] < lower_[i] - some || now.upper[i] > upper_[i] + some || length_now < 0.75 * length - some) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool LayerPlan::fits(const std::vector<kernels::Level>& levels) const {
+  if (!isDivided()) return true;
+  constexpr double kMostElsewhere = 0.25;  // share of boxes
+  double elsewhere = 0.0;
+  for (std::size_t region = 0; region < tree_.size(); ++region) {
+    const kernels::Region& r = tree_.region(region);
+    double boxes = 0.0;
+    for (std::uint32_t i = 0; i < r.levels; ++i) {
+      const kernels::Level& level = levels[r.first_level + i];
+      boxes += level.end - level.begin;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (level.reach[axis] > 2.0f * largest_[r.first_level + i][axis]) {
+          elsewhere += level.end - level.begin;
+          break;
+        }
+      }
+    }
+    elsewhere += std::max(0.0, boxes - region_boxes_[region]);
+  }
+  return elsewhere <= kMostElsewhere * static_cast<double>(boxes_);
+}
+
+std::size_t LayerPlan::bytes() const {
+  return grids_.capacity() * sizeof(kernels::Grid) + sides_.capacity() * sizeof(float) +
+         (first_cells_.capacity() + region_boxes_.capacity()) * sizeof(std::uint32_t) +
+         (largest_.capacity() + mean_sides_.capacity()) * sizeof(std::array<float, 3>) + tree_.bytes();
+}
+
+}  // namespace hgrid

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "broadphase/hgrid/region_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace hgrid {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr std::size_t kLeast = 4;          // samples per region
+constexpr std::size_t kFewSamples = 8192;  // all boxes, if there are no more
+constexpr std::size_t kBoxesPerSample = 4;
+// [nats] What a split must gain, per sample and in all. Random samples of an even world gain less.
+constexpr double kGainPerSample = 0.25, kGain = 40.0;
+
+using Corner = std::array<float, 3>;
+
+/// Minimum corners of some boxes: their number and their bounds.
+struct Group {
+  double count = 0.0;
+  Corner low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
+
+  void add(const Corner& corner) {
+    count += 1.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], corner[i]);
+      high[i] = std::max(high[i], corner[i]);
+    }
+  }
+  void add(const Group& other) {
+    count += other.count;
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], other.low[i]);
+      high[i] = std::max(high[i], other.high[i]);
+    }
+  }
+};
+
+}  // namespace
+
+/// Builds the tree from a sample of the boxes.
+class RegionTree::Division {
+ public:
+  Division(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count) {
+    const std::size_t stride = std::max<std::size_t>(1, std::min(kBoxesPerSample, count / kFewSamples));
+    samples_.reserve(count / stride + 1);
+    std::array<double, 3> sides{};
+    for (std::size_t i = 0; i < count; i += stride) {
+      const Aabb& box = boxes[ids[i]];
+      samples_.push_back({box.min[0], box.min[1], box.min[2]});
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        sides[axis] +=
+            static_cast<double>(box.max[static_cast<Eigen::Index>(axis)]) - box.min[static_cast<Eigen::Index>(axis)];
+      }
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      side_[axis] = std::max(sides[axis] / static_cast<double>(samples_.size()), 1e-30);
+    }
+  }
+
+  RegionTree tree() {
+    RegionTree tree;
+    if (samples_.size() < 2 * kLeast) return tree;
+    divide(0, samples_.size(), 0);
+    tree.branches_.clear();
+    tree.regions_.clear();
+    tree.leaf_.clear();
+    kernels::Region space{};
+    std::fill_n(space.low, 3, -kInfinity);
+    std::fill_n(space.high, 3, kInfinity);
+    lay(tree, 0, space);
+    tree.bounds_.resize(tree.branches_.size());
+    return tree;
+  }
+
+ private:
+  /// A part of space, and whether it is worth splitting.
+  struct Part {
+    float split = 0.0f;
+    std::int32_t axis = -1;  // -1: it is a region
+    std::size_t below = 0, above = 0;
+    double likelihood = 0.0;  // its logarithm, less what the splits cost
+  };
+  struct Split {
+    std::size_t axis = 0;
+    float at = 0.0f;
+    bool exists = false;
+  };
+
+  double likelihood(const Group& group) const {
+    if (group.count == 0.0) return 0.0;
+    double volume = 0.0;  // logarithm
+    for (std::size_t i = 0; i < 3; ++i)
+      volume += std::log(static_cast<double>(group.high[i]) - group.low[i] + side_[i]);
+    return group.count * (std::log(group.count) - volume);
+  }
+
+  /// @returns the number of the part with the samples begin .. end - 1
+  std::size_t divide(std::size_t begin, std::size_t end, int depth) {
+    const std::size_t number = parts_.size();
+    parts_.emplace_back();
+    Group group;
+    for (std::size_t i = begin; i < end; ++i) group.add(samples_[i]);
+    const double alone = likelihood(group);
+    parts_[number].likelihood = alone;
+    if (end - begin < 2 * kLeast || depth >= kMostDepth) return number;
+    const Split split = bestSplit(group, begin, end);
+    if (!split.exists) return number;
+    const auto middle = std::partition(samples_.begin() + static_cast<std::ptrdiff_t>(begin),
+                                       samples_.begin() + static_cast<std::ptrdiff_t>(end),
+                                       [&split](const Corner& corner) { return corner[split.axis] < split.at; });
+    const auto cut = static_cast<std::size_t>(middle - samples_.begin());
+    const std::size_t below = divide(begin, cut, depth + 1), above = divide(cut, end, depth + 1);
+    const double divided = parts_[below].likelihood + parts_[above].likelihood - kGainPerSample * group.count - kGain;
+    if (divided <= alone) {
+      parts_.resize(number + 1);
+      return number;
+    }
+    parts_[number] = {split.at, static_cast<std::int32_t>(split.axis), below, above, divided};
+    return number;
+  }
+
+  /// The best of the planes between bins along the axis on which the group is longest.
+  Split bestSplit(const Group& group, std::size_t begin, std::size_t end) const {
+    constexpr std::size_t kBins = 32;
+    Split best;
+    double longest = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double length = (static_cast<double>(group.high[i]) - group.low[i]) / side_[i];
+      if (length > longest) {
+        longest = length;
+        best.axis = i;
+      }
+    }
+    const std::size_t axis = best.axis;
+    const double low = group.low[axis], length = group.high[axis] - low;
+    if (!(length > 0.0)) return best;
+    std::array<Group, kBins> bins;
+    const double scale = kBins / length;
+    for (std::size_t i = begin; i < end; ++i) {
+      const double bin = (static_cast<double>(samples_[i][axis]) - low) * scale;
+      bins[std::min(static_cast<std::size_t>(bin), kBins - 1)].add(samples_[i]);
+    }
+    std::array<Group, kBins> above;  // the bins from this one on
+    above[kBins - 1] = bins[kBins - 1];
+    for (std::size_t i = kBins - 1; i-- > 0;) {
+      above[i] = above[i + 1];
+      above[i].add(bins[i]);
+    }
+    double most = -std::numeric_limits<double>::infinity();
+    Group below;
+    for (std::size_t i = 1; i < kBins; ++i) {
+      below.add(bins[i - 1]);
+      if (below.count < kLeast || above[i].count < kLeast) continue;
+      const double gain = likelihood(below) + likelihood(above[i]);
+      if (gain <= most) continue;
+      most = gain;
+      // In the middle of the gap, so that few boxes cross it when they move.
+      const float at = 0.5f * below.high[axis] + 0.5f * above[i].low[axis];
+      best.at = at > below.high[axis] ? at : above[i].low[axis];
+      best.exists = best.at > below.high[axis];
+    }
+    return best;
+  }
+
+  /// Appends the branches of a part.
+  void lay(RegionTree& tree, std::size_t number, const kernels::Region& space) const {
+    const Part& part = parts_[number];
+    const auto branch = static_cast<std::uint32_t>(tree.branches_.size());
+    tree.branches_.push_back({part.split, part.axis, 0, 0});
+    if (part.axis < 0) {
+      tree.branches_[branch].below = static_cast<std::uint32_t>(tree.regions_.size());
+      tree.regions_.push_back(space);
+      tree.leaf_.push_back(branch);
+      return;
+    }
+    kernels::Region half = space;
+    half.high[part.axis] = part.split;
+    tree.branches_[branch].below = static_cast<std::uint32_t>(tree.branches_.size());
+    lay(tree, part.below, half);
+    half = space;
+    half.low[part.axis] = part.split;
+    tree.branches_[branch].above = static_cast<std::uint32_t>(tree.branches_.size());
+    lay(tree, part.above, half);
+  }
+
+  std::vector<Corner> samples_;
+  std::array<double, 3> side_;  // [m] mean of the boxes
+  std::vector<Part> parts_;     // each before its parts
+};
+
+RegionTree::RegionTree() { join(); }
+
+void RegionTree::join() {
+  branches_.assign(1, {0.0f, -1, 0, 0});
+  regions_.assign(1, {});
+  leaf_.assign(1, 0);
+  bounds_.assign(1, {});
+  std::fill_n(regions_[0].low, 3, -kInfinity);
+  std::fill_n(regions_[0].high, 3, kInfinity);
+}
+
+RegionTree RegionTree::dividing(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count) {
+  return Division(boxes, ids, count).tree();
+}
+
+std::uint32_t RegionTree::regionOf(const float* corner) const {
+  const kernels::Branch* branch = branches_.data();
+  while (branch->axis >= 0) {
+    branch = branches_.data() + (corner[branch->axis] < branch->split ? branch->below : branch->above);
+  }
+  return branch->below;
+}
+
+void RegionTree::setLevels(std::size_t region, std::uint32_t first_level, std::uint32_t levels) {
+  regions_[region].first_level = first_level;
+  regions_[region].levels = levels;
+}
+
+void RegionTree::setBounds(const std::vector<kernels::Level>& levels) {
+  const auto widen = [](kernels::Box& box, const kernels::Box& other) {
+    for (int axis = 0; axis < 3; ++axis) {
+      box.min[axis] = std::min(box.min[axis], other.min[axis]);
+      box.max[axis] = std::max(box.max[axis], other.max[axis]);
+    }
+  };
+  constexpr kernels::Box kEmpty = {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+  for (std::size_t number = branches_.size(); number-- > 0;) {
+    const kernels::Branch& branch = branches_[number];
+    kernels::Box& bounds = bounds_[number];
+    if (branch.axis >= 0) {
+      bounds = bounds_[branch.below];
+      widen(bounds, bounds_[branch.above]);
+      continue;
+    }
+    bounds = kEmpty;
+    const kernels::Region& region = regions_[branch.below];
+    for (std::uint32_t i = 0; i < region.levels; ++i) widen(bounds, levels[region.first_level + i].around);
+  }
+}
+
+std::size_t RegionTree::bytes() const {
+  return branches_.capacity() * sizeof(kernels::Branch) + regions_.capacity() * sizeof(kernels::Region) +
+         leaf_.capacity() * sizeof(std::uint32_t) + bounds_.capacity() * sizeof(kernels::Box);
+}
+
+}  // namespace hgrid

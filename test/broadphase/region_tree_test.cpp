@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "src/broadphase/hgrid/region_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "test/support/random.h"
+#include "test/support/worlds.h"
+
+namespace hgrid {
+namespace {
+
+using test::boxAround;
+using test::Random;
+using test::randomVector;
+
+RegionTree treeOf(const std::vector<Aabb>& boxes) {
+  std::vector<ProxyId> ids(boxes.size());
+  std::iota(ids.begin(), ids.end(), 0u);
+  return RegionTree::dividing(boxes, ids.data(), ids.size());
+}
+
+std::vector<Aabb> heap(Random& random, std::size_t count, const Eigen::Vector3d& place) {
+  const double half = 0.8 * std::cbrt(double(count));
+  std::vector<Aabb> boxes;
+  for (std::size_t i = 0; i < count; ++i) {
+    boxes.push_back(boxAround(place + randomVector(random, -half, half), Eigen::Vector3d::Ones()));
+  }
+  return boxes;
+}
+
+std::vector<Aabb> heaps(Random& random, int count, std::size_t boxes_each) {
+  std::vector<Aabb> boxes;
+  for (int i = 0; i < count; ++i) {
+    const std::vector<Aabb> one = heap(random, boxes_each, randomVector(random, -5000, 5000));
+    boxes.insert(boxes.end(), one.begin(), one.end());
+  }
+  return boxes;
+}
+
+TEST(RegionTree, OfEvenlySpreadBoxesIsOneRegion) {
+  for (const unsigned seed : {1u, 2u, 3u, 4u, 5u}) {
+    Random random(seed);
+    EXPECT_EQ(treeOf(heap(random, 5000, {1, 2, 3})).size(), 1u) << seed;
+  }
+}
+
+TEST(RegionTree, OfFewBoxesIsOneRegion) {
+  Random random(1);
+  EXPECT_EQ(treeOf({}).size(), 1u);
+  EXPECT_EQ(treeOf(heaps(random, 2, 3)).size(), 1u);
+}
+
+TEST(RegionTree, GivesEachHeapARegionOfItsOwn) {
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const std::vector<Aabb> boxes = heaps(random, 10, 200);
+    const RegionTree tree = treeOf(boxes);
+    EXPECT_EQ(tree.size(), 10u);
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      ASSERT_EQ(tree.regionOf(boxes[i].min.data()), tree.regionOf(boxes[i / 200 * 200].min.data())) << "box " << i;
+    }
+  }
+}
+
+TEST(RegionTree, PutsEveryCornerInTheOneRegionThatContainsIt) {
+  Random random(7);
+  const std::vector<Aabb> boxes = heaps(random, 20, 100);
+  const RegionTree tree = treeOf(boxes);
+  ASSERT_GT(tree.size(), 10u);
+  for (int i = 0; i < 5000; ++i) {
+    Eigen::Vector3f corner = randomVector(random, -6000, 6000).cast<float>();
+    if (i % 2 != 0) corner = boxes[std::size_t(random.below(int(boxes.size())))].min;
+    if (i % 5 == 0) corner[i % 3] = tree.region(std::size_t(random.below(int(tree.size())))).low[i % 3];
+    std::size_t containing = 0;
+    for (std::size_t number = 0; number < tree.size(); ++number) {
+      const kernels::Region& region = tree.region(number);
+      bool in = true;
+      for (int axis = 0; axis < 3; ++axis)
+        in = in && corner[axis] >= region.low[axis] && corner[axis] < region.high[axis];
+      if (!in) continue;
+      ++containing;
+      EXPECT_EQ(tree.regionOf(corner.data()), number);
+    }
+    if (std::isfinite(corner.sum())) {
+      EXPECT_EQ(containing, 1u);
+    }
+  }
+}
+
+TEST(RegionTree, VisitsExactlyTheRegionsWhoseBoundsPassTheTest) {
+  Random random(8);
+  const std::vector<Aabb> boxes = heaps(random, 20, 100);
+  RegionTree tree = treeOf(boxes);
+  std::vector<kernels::Level> levels(tree.size());
+  for (std::size_t number = 0; number < tree.size(); ++number) {
+    tree.setLevels(number, static_cast<std::uint32_t>(number), 1);
+    levels[number].around = {{1e30f, 1e30f, 1e30f}, {-1e30f, -1e30f, -1e30f}};
+  }
+  for (const Aabb& box : boxes) {
+    kernels::Box& around = levels[tree.regionOf(box.min.data())].around;
+    for (int axis = 0; axis < 3; ++axis) {
+      around.min[axis] = std::min(around.min[axis], box.min[axis]);
+      around.max[axis] = std::max(around.max[axis], box.max[axis]);
+    }
+  }
+  tree.setBounds(levels);
+  for (int i = 0; i < 200; ++i) {
+    const Aabb query = boxAround(randomVector(random, -6000, 6000), randomVector(random, 1, 8000));
+    const auto test = [&query](const kernels::Box& bounds) {
+      bool both = true;
+      for (int axis = 0; axis < 3; ++axis) {
+        both = both && bounds.min[axis] <= query.max[axis] && query.min[axis] <= bounds.max[axis];
+      }
+      return both;
+    };
+    std::vector<std::uint32_t> expected, visited;
+    for (std::uint32_t number = 0; number < tree.size(); ++number) {
+      if (test(levels[number].around)) expected.push_back(number);
+    }
+    tree.visit(test, [&visited](std::uint32_t number) { visited.push_back(number); });
+    ASSERT_EQ(visited, expected);
+  }
+}
+
+TEST(RegionTree, IsOneRegionAgainAfterJoining) {
+  Random random(9);
+  RegionTree tree = treeOf(heaps(random, 5, 200));
+  ASSERT_GT(tree.size(), 1u);
+  tree.join();
+  EXPECT_EQ(tree.size(), 1u);
+  const float anywhere[3] = {-1e30f, 0.0f, 1e30f};
+  EXPECT_EQ(tree.regionOf(anywhere), 0u);
+}
+
+}  // namespace
+}  // namespace hgrid
