@@ -14,6 +14,7 @@ AVX2 = "broadphase/kernels/simd_avx2.h"
 LAYER = "broadphase/hgrid/layer.cpp"
 ENGINE = "broadphase/hgrid/engine.cpp"
 PAIRS = "broadphase/hgrid/pair_search.cpp"
+REGIONS = "broadphase/hgrid/region_tree.cpp"
 COLLECTION = "broadphase/hgrid/pair_collection.cpp"
 HGRID = "broadphase/hgrid/hgrid.cpp"
 QUERIES = "broadphase/hgrid/queries.cpp"
@@ -28,10 +29,10 @@ CLOUD = "maps/cloud_cells.cpp"
 
 MUTANTS = [
     ("boxes of a level look around without its reach", PAIRS_BODY,
-     "cellsOf(l.bounds + first, l.reach[0], grid, 0, x_low);", "cellsOf(l.bounds + first, 0.0f, grid, 0, x_low);"),
+     "cellsOf(l, first, 0, l.reach[x], grid, x, x_low);", "cellsOf(l, first, 0, 0.0f, grid, x, x_low);"),
     ("a box looks no farther than the cell of its minimum", PAIRS_BODY,
-     "cellsOf(l.bounds + 3 * l.stride + first, 0.0f, grid, 0, x_high);",
-     "cellsOf(l.bounds + first, 0.0f, grid, 0, x_high);"),
+     "cellsOf(l, first, 3, 0.0f, grid, x, x_high);",
+     "cellsOf(l, first, 0, 0.0f, grid, x, x_high);"),
     ("the last slab is not looked at", PAIRS_BODY,
      "z_span[k] = z_high[k] - z_own[k];", "z_span[k] = z_high[k] - z_own[k] - 1;"),
     ("the first box after a box is skipped", PAIRS_BODY,
@@ -41,7 +42,7 @@ MUTANTS = [
     ("encounters that were collected last are never held", PAIRS_BODY,
      "  encounters.hold(found);", ""),
     ("another level is looked at without its reach", PAIRS_BODY,
-     "b.reach[2], grid, 2, z_low", "0.0f, grid, 2, z_low"),
+     "b.reach[z], grid, z, z_low", "0.0f, grid, z, z_low"),
     ("a query looks around without the reach", BOXES_BODY,
      "cellOf(box->min[axis] - l.reach[axis], grid, axis)", "cellOf(box->min[axis], grid, axis)"),
     ("along a line cells are looked at without the reach of their boxes", LINE_BODY,
@@ -61,7 +62,7 @@ MUTANTS = [
      "lane < 8", "lane < 7"),
 
     ("a length that was rounded down is the reach", LAYER,
-     "std::nextafter(sizes[4 * i + axis], kInfinity)", "sizes[4 * i + axis]"),
+     "std::nextafter(total.sizes[4 * i + axis], kInfinity)", "total.sizes[4 * i + axis]"),
     ("positions of a layer are not made anew", ENGINE,
      "located[layer] = false;", ""),
     ("a removed box stays in its layer", ENGINE,
@@ -73,6 +74,14 @@ MUTANTS = [
 
     ("a level is not tested against the next coarser one", PAIRS,
      "coarser = level + 1", "coarser = level + 2"),
+    ("boxes of different regions make no pairs", PAIRS,
+     "meetAll(layer, number, layer, number + 1);", ""),
+    ("a region meets each other one but its neighbor", PAIRS,
+     "if (met < least) return;", "if (met <= least) return;"),
+    ("the bounds of a part of space are those of its lower half", REGIONS,
+     "widen(bounds, bounds_[branch.above]);", ""),
+    ("bounds of a region end where its last box begins", LAYER,
+     "std::nextafter(upper[axis] + level.reach[axis], kInfinity)", "upper[axis]"),
     ("layers are asked one way round only", PAIRS,
      "addTask(tasks, second, &first);", ""),
     ("boxes that came one by one make no pairs", PAIRS,
