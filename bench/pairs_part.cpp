@@ -28,11 +28,11 @@ Run hgridRun(int threads, const std::string& instructions, std::uint64_t age = 0
 
 Run runOf(const PeerKind& kind, std::uint64_t age = 0) { return {kind.name, kind.instructions, 1, age, kind.make}; }
 
-/// HGrid as it runs by itself, and where all boxes move also in its other ways.
+/// HGrid as it runs by itself, and where all boxes of an even world move also in its other ways.
 std::vector<Run> hgridRuns(const Setting& setting) {
   const std::vector<std::string> all = hgridInstructions();
   std::vector<Run> runs{hgridRun(1, all.back())};
-  if (setting.moving < 1.0) return runs;
+  if (setting.moving < 1.0 || !isEven(setting.workload)) return runs;
   for (std::size_t i = 0; i + 1 < all.size(); ++i) runs.push_back(hgridRun(1, all[i]));
   if (setting.n >= 10000) runs.push_back(hgridRun(2, all.back()));
   return runs;

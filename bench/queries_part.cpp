@@ -16,6 +16,13 @@ struct Run {
   bool batched;
 };
 
+/// The queries of one match.
+struct Setting {
+  std::string workload;
+  Placed placed;
+  QueryKind kind;
+};
+
 std::vector<Run> runsOf(const Options& options, QueryKind kind) {
   std::vector<Run> runs;
   for (const QueryPeerKind& peer : queryPeers()) {
@@ -26,8 +33,15 @@ std::vector<Run> runsOf(const Options& options, QueryKind kind) {
   return runs;
 }
 
-void play(const Options& options, const std::string& workload, const World& world, const QuerySet& queries,
-          QueryKind kind, std::vector<Record>& records) {
+Record recordOf(const Setting& setting, std::size_t n, const Run& run) {
+  Record record("query");
+  record.text("peer", run.peer->name).text("query", name(setting.kind)).flag("batched", run.batched);
+  return record.text("workload", setting.workload).text("placed", name(setting.placed)).number("n", double(n));
+}
+
+void play(const Options& options, const Setting& setting, const World& world, const QuerySet& queries,
+          std::vector<Record>& records) {
+  const QueryKind kind = setting.kind;
   const Judge judge(kind, queries, world.boxes());
   const std::vector<Run> runs = runsOf(options, kind);
   Match match;
@@ -39,19 +53,20 @@ void play(const Options& options, const std::string& workload, const World& worl
     };
     match.add(std::make_unique<Contestant>(begin, 1), false, false);
   }
-  match.play(options.quick ? 3 : 5, options.quick ? 20.0 : 100.0, options.quick ? 20.0 : 60.0);
+  const int rounds = options.quick || !isEven(setting.workload) ? 3 : 5;
+  match.play(rounds, options.quick ? 20.0 : 100.0, options.quick ? 20.0 : 60.0);
 
-  std::printf("\n%s, n = %zu, %s: %zu of %zu queries judged, %.2f hits each\n", workload.c_str(), world.boxes().size(),
-              name(kind), judge.judgedCount(), judge.size(), double(judge.count()) / double(judge.judgedCount()));
+  std::printf("\n%s, n = %zu, %s %s: %zu of %zu queries judged, %.3g hits each\n", setting.workload.c_str(),
+              world.boxes().size(), name(kind), name(setting.placed), judge.judgedCount(), judge.size(),
+              double(judge.count()) / double(judge.judgedCount()));
   const std::vector<Score> scores = match.scores();
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const Score& score = scores[i];
     const std::string& status = match.contestant(i).status();
     const std::size_t per_sample = runs[i].batched ? queries.size() : QueriesPlay::kChunk;
     const double us = 1e3 * score.median_ms / double(per_sample);
-    Record record("query");
-    record.text("peer", runs[i].peer->name).text("query", name(kind)).flag("batched", runs[i].batched);
-    record.text("workload", workload).number("n", double(world.boxes().size())).number("median_us", us);
+    Record record = recordOf(setting, world.boxes().size(), runs[i]);
+    record.number("median_us", us);
     record.number("min_us", 1e3 * score.min_ms / double(per_sample)).number("spread", score.spread);
     record.number("hits_per_query", double(score.count) / double(judge.judgedCount()));
     record.bits("checksum", score.checksum).flag("correct", score.correct && status == "ok");
@@ -71,10 +86,20 @@ void play(const Options& options, const std::string& workload, const World& worl
 void runQueries(const Options& options, std::vector<Record>& records) {
   std::size_t n = options.quick ? 10000 : 100000;
   if (options.sizes.size() == 1) n = options.sizes.front();
-  for (const std::string& workload : options.boxWorkloads(evenWorkloads())) {
+  std::vector<std::string> usual = evenWorkloads();
+  if (options.quick) {
+    usual.push_back("fleet");
+  } else {
+    usual.insert(usual.end(), unevenWorkloads().begin(), unevenWorkloads().end());
+  }
+  for (const std::string& workload : options.boxWorkloads(usual)) {
     const World world(workload, n, 1.0);
-    const QuerySet queries(workload, world, options.questions);
-    for (const QueryKind kind : kQueryKinds) play(options, workload, world, queries, kind, records);
+    const QuerySet anywhere = queriesAnywhere(world, options.questions);
+    for (const QueryKind kind : {QueryKind::sphere, QueryKind::segment, QueryKind::box})
+      play(options, {workload, Placed::anywhere, kind}, world, anywhere, records);
+    if (!isEven(workload)) continue;
+    const QuerySet near = queriesNear(workload, world, options.questions);
+    for (const QueryKind kind : kQueryKinds) play(options, {workload, Placed::near, kind}, world, near, records);
   }
 }
 

@@ -18,6 +18,7 @@ class EmbreeQueries final : public QueryPeer {
  public:
   void load(const std::vector<Aabb>& boxes) override {
     boxes_ = boxes;
+    slack_ = doubtOf(boxes);
     scene_.emplace(RTC_BUILD_QUALITY_MEDIUM);
     rtcSetGeometryIntersectFunction(scene_->geometry(), takeMet);
     scene_->attach(boxes.size());
@@ -29,7 +30,7 @@ class EmbreeQueries final : public QueryPeer {
   void sphere(const Sphere& sphere, std::vector<ProxyId>& found) override {
     found.clear();
     BallQuery query{this, &sphere, &found};
-    ask(sphere.center, sphere.radius + kSlack, takeTouched, &query);
+    ask(sphere.center, sphere.radius + slack_, takeTouched, &query);
   }
 
   void nearest(const Eigen::Vector3d& point, std::size_t k, std::vector<ProxyId>& found) override {
@@ -56,8 +57,6 @@ class EmbreeQueries final : public QueryPeer {
   }
 
  private:
-  static constexpr double kSlack = 1e-4;  // [m] so that Embree's floats lose nothing; hits are tested in double
-
   struct BallQuery {
     const EmbreeQueries* peer;
     const Sphere* sphere;
@@ -98,7 +97,7 @@ class EmbreeQueries final : public QueryPeer {
     const double before = query.list.bound();
     query.list.offer(squaredGap(query.peer->boxes_[arguments->primID], *query.point), arguments->primID);
     if (query.list.bound() == before) return false;
-    arguments->query->radius = static_cast<float>(std::sqrt(query.list.bound()) + kSlack);
+    arguments->query->radius = static_cast<float>(std::sqrt(query.list.bound()) + query.peer->slack_);
     return true;  // the radius has changed
   }
 
@@ -109,6 +108,7 @@ class EmbreeQueries final : public QueryPeer {
   }
 
   std::vector<Aabb> boxes_;
+  double slack_ = 0.0;  // [m] so that Embree's floats lose nothing; hits are tested in double
   std::optional<EmbreeScene> scene_;
 };
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include "hgrid_proximity/geometry/aabb.h"
 #include "hgrid_proximity/geometry/segment.h"
@@ -11,6 +13,15 @@
 
 namespace hgrid {
 namespace bench {
+
+/// [m] How near to the border between hit and miss the rounding of peers in float may decide: some units in the last
+/// place of the largest coordinate, 0.1 mm at least.
+inline double doubtOf(const std::vector<Aabb>& boxes) {
+  float largest = 0.f;
+  for (const Aabb& box : boxes)
+    largest = std::max({largest, box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff()});
+  return std::max(1e-4, 3.0 * double(std::nextafter(largest, std::numeric_limits<float>::infinity()) - largest));
+}
 
 /// Squared distance of a point from a box [m²], 0 inside.
 inline double squaredGap(const Aabb& box, const Eigen::Vector3d& point) {

@@ -12,8 +12,8 @@ namespace bench {
 namespace {
 
 /// Replaces `hits`; false if the answer is in doubt.
-bool hitsOfSphere(const Sphere& sphere, const std::vector<Aabb>& boxes, std::vector<ProxyId>& hits) {
-  const double low = std::pow(sphere.radius - Judge::kDoubt, 2), high = std::pow(sphere.radius + Judge::kDoubt, 2);
+bool hitsOfSphere(const Sphere& sphere, const std::vector<Aabb>& boxes, double doubt, std::vector<ProxyId>& hits) {
+  const double low = std::pow(std::max(0.0, sphere.radius - doubt), 2), high = std::pow(sphere.radius + doubt, 2);
   hits.clear();
   bool clear = true;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -25,13 +25,13 @@ bool hitsOfSphere(const Sphere& sphere, const std::vector<Aabb>& boxes, std::vec
   return clear;
 }
 
-bool hitsOfSegment(const Segment& segment, const std::vector<Aabb>& boxes, std::vector<ProxyId>& hits) {
+bool hitsOfSegment(const Segment& segment, const std::vector<Aabb>& boxes, double doubt, std::vector<ProxyId>& hits) {
   const SlabTest test(segment);
   hits.clear();
   bool clear = true;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    if (!test.meets(boxes[i], Judge::kDoubt)) continue;
-    clear = clear && test.meets(boxes[i], -Judge::kDoubt);
+    if (!test.meets(boxes[i], doubt)) continue;
+    clear = clear && test.meets(boxes[i], -doubt);
     hits.push_back(static_cast<ProxyId>(i));
   }
   return clear;
@@ -45,7 +45,7 @@ bool hitsOfBox(const Aabb& box, const std::vector<Aabb>& boxes, std::vector<Prox
   return true;
 }
 
-bool hitsOfNearest(const Eigen::Vector3d& point, std::size_t k, const std::vector<Aabb>& boxes,
+bool hitsOfNearest(const Eigen::Vector3d& point, std::size_t k, const std::vector<Aabb>& boxes, double doubt,
                    std::vector<ProxyId>& hits) {
   std::vector<std::pair<double, ProxyId>> all;
   for (std::size_t i = 0; i < boxes.size(); ++i)
@@ -53,26 +53,27 @@ bool hitsOfNearest(const Eigen::Vector3d& point, std::size_t k, const std::vecto
   std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(k + 1), all.end());
   hits.clear();
   for (std::size_t i = 0; i < k; ++i) hits.push_back(all[i].second);
-  return all[k].first - all[k - 1].first > Judge::kDoubt;
+  return all[k].first - all[k - 1].first > doubt;
 }
 
 }  // namespace
 
 Judge::Judge(QueryKind kind, const QuerySet& queries, const std::vector<Aabb>& boxes) {
+  const double doubt = doubtOf(boxes);
   std::vector<ProxyId> hits;
   const auto answer = [&](std::size_t i) {
     switch (kind) {
       case QueryKind::sphere:
-        return hitsOfSphere(queries.spheres[i], boxes, hits);
+        return hitsOfSphere(queries.spheres[i], boxes, doubt, hits);
       case QueryKind::segment:
-        return hitsOfSegment(queries.segments[i], boxes, hits);
+        return hitsOfSegment(queries.segments[i], boxes, doubt, hits);
       case QueryKind::box:
         return hitsOfBox(queries.boxes[i], boxes, hits);
       case QueryKind::nearest:
       case QueryKind::nearest8:
         break;
     }
-    return hitsOfNearest(queries.spheres[i].center, countOf(kind), boxes, hits);
+    return hitsOfNearest(queries.spheres[i].center, countOf(kind), boxes, doubt, hits);
   };
   for (std::size_t i = 0; i < std::min(kFirst, queries.size()); ++i) {
     judged_.push_back(answer(i));

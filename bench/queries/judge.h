@@ -11,10 +11,9 @@ namespace bench {
 /// The right hits of the first queries of a set, from a look at every box.
 ///
 /// A query is not judged if some box lies so near to the border between hit and miss that the rounding of float may
-/// decide: kDoubt. Boxes are compared without rounding, so of those all are judged.
+/// decide: see doubtOf(). Boxes are compared without rounding, so of those all are judged.
 class Judge {
  public:
-  static constexpr double kDoubt = 1e-4;  ///< [m] some units in the last place of the largest coordinates here
   static constexpr std::size_t kFirst = 1000;
 
   Judge(QueryKind kind, const QuerySet& queries, const std::vector<Aabb>& boxes);

@@ -19,16 +19,28 @@ const char* name(QueryKind kind);
 /// How many boxes a nearest query asks for.
 inline std::size_t countOf(QueryKind kind) { return kind == QueryKind::nearest8 ? 8 : 1; }
 
-/// Queries of every kind in random order, each around a point near some box: balls of radius 1 (robots: 0.25), cubes
-/// as wide, and segments of a fifth of the world's side in any direction; nearest asks from the balls' centres.
+/// Where queries are asked.
+enum class Placed {
+  near,      ///< around points near boxes; segments are a fifth of the world's side long
+  anywhere,  ///< at random places in the bounds of all boxes, most of which are empty in many worlds
+};
+
+const char* name(Placed placed);
+
+/// Queries of every kind in random order; nearest asks from the spheres' centers.
 struct QuerySet {
   std::vector<Sphere> spheres;
   std::vector<Segment> segments;
   std::vector<Aabb> boxes;
 
-  QuerySet(const std::string& workload, const World& world, std::size_t count);
   std::size_t size() const { return spheres.size(); }
 };
+
+/// Queries near boxes: spheres of radius 1 m (robots: 0.25 m), cubes as wide, and segments in any direction.
+QuerySet queriesNear(const std::string& workload, const World& world, std::size_t count);
+
+/// Queries anywhere, with about half a hit each if the world is not too empty; see sizesForEmptySpace().
+QuerySet queriesAnywhere(const World& world, std::size_t count);
 
 }  // namespace bench
 }  // namespace hgrid

@@ -79,7 +79,7 @@ def panel(svg, figures, workload, moving, left, top, width, height, low, high):
 
 
 def pairs_chart(figures, moving, path):
-    records = [record for record in figures.all('pairs', moving=moving, threads=1) if record['correct']]
+    records = [record for record in figures.even(moving) if record['threads'] == 1 and record['correct']]
     values = [1e3 * record['median_ms'] / record['n'] for record in records]
     low, high = math.floor(math.log10(min(values))), math.ceil(math.log10(max(values)))
     names = [name for name in figures.peers() if any(record['peer'] == name for record in records)]
@@ -95,7 +95,7 @@ def pairs_chart(figures, moving, path):
 def queries_chart(figures, kinds, path):
     """Millions of queries per second, a group of bars per workload."""
     svg = Svg(1000, 60 + 330 * len(kinds))
-    n = figures.all('query')[0]['n']
+    n = figures.all('query', placed='near')[0]['n']
     svg.text(20, 30, 'Queries, n = {:,}, one thread: millions per second'.format(n), 16, weight='bold')
     for row, kind in enumerate(kinds):
         query_panel(svg, figures, kind, 70, 90 + 330 * row, 900, 190)
@@ -103,10 +103,11 @@ def queries_chart(figures, kinds, path):
 
 
 def query_panel(svg, figures, kind, left, top, width, height):
-    ways = list(dict.fromkeys((record['peer'], record['batched']) for record in figures.all('query', query=kind)))
+    ways = list(dict.fromkeys((record['peer'], record['batched'])
+              for record in figures.all('query', query=kind, placed='near')))
     ways.sort(key=lambda way: (way[0] != 'hgrid', not way[1]))
     speeds = {(record['peer'], record['batched'], record['workload']): 1 / record['median_us']
-              for record in figures.all('query', query=kind) if record['correct']}
+              for record in figures.all('query', query=kind, placed='near') if record['correct']}
     most = max(speeds.values(), default=1.0)
     step = 10.0 ** math.floor(math.log10(most))
     step = next(s for s in (step / 5, step / 2, step, 2 * step) if most / s <= 6)

@@ -18,7 +18,9 @@ class Figures:
             with open(path) as file:
                 self.records += json.load(file)
         for record in self.all('pairs'):
-            record.setdefault('movers', 'same')  # files from before boxes could take turns
+            record.setdefault('movers', 'same')  # older files do not have these fields
+        for record in self.all('query'):
+            record.setdefault('placed', 'near')
         runs = self.all('run')
         self.run = runs[0] if runs else {}
 
@@ -46,9 +48,18 @@ class Figures:
     def sizes(self):
         return sorted({record['n'] for record in self.all('pairs')})
 
-    def peers(self, kind='pairs'):
+    def even(self, moving):
+        """Records of pairs of the workloads that the main tables show, where the same boxes always move."""
+        return [record for record in self.all('pairs', moving=moving, movers='same') if record['workload'] in WORKLOADS]
+
+    def uneven(self):
+        """Names of the workloads with tables of their own, in order of appearance."""
+        names = dict.fromkeys(record['workload'] for record in self.all('pairs'))
+        return [name for name in names if name not in WORKLOADS]
+
+    def peers(self, kind='pairs', **wanted):
         """Names of the peers in order of appearance, hgrid first."""
-        names = list(dict.fromkeys(record['peer'] for record in self.all(kind)))
+        names = list(dict.fromkeys(record['peer'] for record in self.all(kind, **wanted)))
         return sorted(names, key=lambda name: name != 'hgrid')
 
     def rivals(self, workload, n, moving=1, movers='same'):

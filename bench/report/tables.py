@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Result tables in Markdown, which is also what is printed."""
+"""Result tables in Markdown."""
+import world_tables
 from figures import MAP_QUERIES, QUERIES, WORKLOADS, short, shown
+from markdown import count, table
 
 PEER_NOTE = ('Cells: %s. – = not run: one frame, or loading, takes far too long; ✗ = wrong pair set; '
              'crash = the process of this peer died.')
@@ -22,16 +24,6 @@ NODE_MAPS_NOTE = ('Each second a message (binary, as octomap_server\'s octomap_b
 PROCESSES = ('cpu', 'cpu of the bench', 'cpu of others')
 
 
-def table(head, rows):
-    """A Markdown table; the first column is text."""
-    lines = ['| ' + ' | '.join(head) + ' |', '| --- ' + '| ---: ' * (len(head) - 1) + '|']
-    return '\n'.join(lines + ['| ' + ' | '.join(row) + ' |' for row in rows])
-
-
-def count(n):
-    return '{:,}'.format(int(n))
-
-
 def machine(figures):
     run = figures.run
     text = '%s · %s · commit %s · `%s`' % tuple(run.get(name) for name in ('cpu', 'compiler', 'commit', 'command'))
@@ -42,7 +34,7 @@ def machine(figures):
 
 def pairs(figures, moving):
     """One row per peer, one column per number of boxes, the workloads side by side."""
-    sizes = sorted({record['n'] for record in figures.all('pairs', moving=moving)})
+    sizes = sorted({record['n'] for record in figures.even(moving)})
     rows = []
     for peer in figures.peers():
         cells = [[shown(figures.pairs(peer, workload, n, moving)) for workload in WORKLOADS] for n in sizes]
@@ -107,18 +99,20 @@ def memory(figures):
 
 
 def queries(figures):
-    kinds = [kind for kind in QUERIES if figures.all('query', query=kind)]
+    kinds = [kind for kind in QUERIES if figures.all('query', query=kind, placed='near')]
     rows = []
-    for peer in figures.peers('query'):
+    for peer in figures.peers('query', placed='near'):
         for batched in (False, True):
-            records = [[figures.one('query', peer=peer, workload=workload, query=kind, batched=batched)
+            records = [[figures.one('query', peer=peer, workload=workload, query=kind, batched=batched,
+                                    placed='near')
                         for workload in WORKLOADS] for kind in kinds]
             cells = [[shown(record, 'median_us') for record in row] for row in records]
             if any(cell != '–' for row in cells for cell in row):
                 rows.append([peer + (', batched' if batched else '')]
                             + [' / '.join(row) if set(row) != {'–'} else '–' for row in cells])
-    n = figures.all('query')[-1]['n']
-    right = [[figures.one('query', workload=workload, query=kind, correct=True) for workload in WORKLOADS]
+    n = figures.all('query', placed='near')[-1]['n']
+    right = [[figures.one('query', workload=workload, query=kind, correct=True, placed='near')
+              for workload in WORKLOADS]
              for kind in kinds]
     rows.append(['*hits per query*']
                 + [' / '.join(short(one['hits_per_query']) if one else '–' for one in row) for row in right])
@@ -187,8 +181,12 @@ def sections(figures):
     cells = PEER_NOTE % 'uniform / mixed / floor / robots'
     found = [('Machine', machine(figures))]
     for moving, title in ((1, 'Pairs, all boxes move'), (0.1, 'Pairs, 10 % move'), (0.01, 'Pairs, 1 % move')):
-        if figures.all('pairs', moving=moving):
+        if figures.even(moving):
             found.append((title, cells + '\n\n' + pairs(figures, moving)))
+    if figures.uneven():
+        found.append(('Pairs in uneven worlds, all boxes move', world_tables.uneven(figures)))
+    if figures.all('pairs', movers='changing'):
+        found.append(('Pairs, other boxes move in each frame', world_tables.changing(figures)))
     if figures.all('pairs'):
         found[-1] = (found[-1][0], found[-1][1] + '\n\n' + spread(figures))
         found.append(('hgrid: instruction sets and threads', variants(figures)))
@@ -197,8 +195,10 @@ def sections(figures):
         found.append(('Two threads', THREADS_NOTE + '\n\n' + threads(figures)))
     if figures.all('ageing'):
         found.append(('Ageing', ageing(figures)))
-    if figures.all('query'):
-        found.append(('Queries', queries(figures)))
+    if figures.all('query', placed='near'):
+        found.append(('Queries near boxes', queries(figures)))
+    if figures.all('query', placed='anywhere'):
+        found.append(('Queries anywhere', world_tables.empty_space(figures)))
     if figures.all('map'):
         found.append(('Maps', MAPS_NOTE + '\n\n' + maps(figures)))
     if figures.all('node', maps_per_s=None):

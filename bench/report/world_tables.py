@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: the hgrid_proximity authors
+"""Tables of worlds that are spread unevenly, of movers that change, and of queries anywhere."""
+from figures import short, shown
+from markdown import count, table
+
+UNEVEN_NOTE = ('Median ms per frame. Pairs: per box. – = not run: one frame, or loading, takes far too long; too slow: '
+               'no answer in time; ✗ = wrong pair set, or nobody to compare it with; crash = the process of this peer '
+               'died.')
+
+MOVERS_NOTE = ('Median ms per frame: the same boxes move in every frame / other boxes in each frame, chosen at random; '
+               'those frames are measured after 30 others.')
+
+EMPTY_NOTE = ('Median µs per query. The queries are at random places in the bounds of all boxes, and of such a size '
+              'that they have about half a hit each, where the world is not too empty for that.')
+
+
+def uneven(figures):
+    """A note, and one table per number of boxes: a row per workload, a column per peer."""
+    tables = []
+    for n in sorted({record['n'] for name in figures.uneven() for record in figures.all('pairs', workload=name)}):
+        rows, ran = [], lambda peer: any(figures.pairs(peer, name, n) for name in figures.uneven())
+        peers = [peer for peer in figures.peers() if ran(peer)]
+        for name in figures.uneven():
+            records = [figures.pairs(peer, name, n) for peer in peers]
+            right = next((record for record in records if record and record['correct']), None)
+            if any(records):
+                rows.append([name, short(right['pairs_per_box']) if right else '–']
+                            + [shown(record) for record in records])
+        tables.append(table(['n = ' + count(n), 'pairs'] + peers, rows))
+    return '\n\n'.join([UNEVEN_NOTE] + tables)
+
+
+def changing(figures):
+    """A note, and one table per number of boxes: a row per peer, a column per workload and fraction."""
+    tables = []
+    found = figures.all('pairs', movers='changing')
+    for n in sorted({record['n'] for record in found}):
+        settings = list(dict.fromkeys((record['workload'], record['moving']) for record in found if record['n'] == n))
+        rows = []
+        for peer in figures.peers(movers='changing', n=n):
+            rows.append([peer] + [' / '.join(shown(figures.pairs(peer, workload, n, moving, movers=movers))
+                                             for movers in ('same', 'changing')) for workload, moving in settings])
+        rows.append(['*hgrid, all move*'] + [shown(figures.pairs('hgrid', workload, n)) for workload, _ in settings])
+        heads = ['%s, %g %%' % (workload, 100 * moving) for workload, moving in settings]
+        tables.append(table(['n = ' + count(n)] + heads, rows))
+    return '\n\n'.join([MOVERS_NOTE] + tables)
+
+
+def empty_space(figures):
+    """A note, and one table per kind of query: a row per workload, a column per peer."""
+    tables = []
+    found = figures.all('query', placed='anywhere')
+    for kind, n in dict.fromkeys((record['query'], record['n']) for record in found):
+        these = [record for record in found if record['query'] == kind and record['n'] == n]
+        ways = list(dict.fromkeys((record['peer'], record['batched']) for record in these))
+        rows = []
+        for workload in dict.fromkeys(record['workload'] for record in these):
+            of = {(record['peer'], record['batched']): record for record in these if record['workload'] == workload}
+            right = next((record for record in of.values() if record['correct']), None)
+            rows.append([workload, short(right['hits_per_query']) if right else '–']
+                        + [shown(of.get(way), 'median_us') for way in ways])
+        heads = [peer + (', batched' if batched else '') for peer, batched in ways]
+        tables.append(table(['%s, n = %s' % (kind, count(n)), 'hits'] + heads, rows))
+    return '\n\n'.join([EMPTY_NOTE] + tables)
