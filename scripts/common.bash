@@ -23,7 +23,7 @@ test_packages=(
   "${demo_packages[@]}" catkin-lint libfaketime libnodeletlib-tools liboctomap-dev libtf2-dev locales python3-rostest rosbash
 )
 # shellcheck disable=SC2034
-long_test_packages=(clang libclang-rt-dev)
+long_test_packages=(clang g++-aarch64-linux-gnu googletest libclang-rt-dev qemu-user)
 
 # What goes on in the background is stopped, and the scratch folder removed, when the script ends, however it ends.
 started=()

@@ -96,7 +96,7 @@ class HGridQueries final : public QueryPeer {
   bool segments_asked_ = false;
 };
 
-constexpr Isa kIsas[] = {Isa::portable, Isa::sse2, Isa::avx2, Isa::avx512};
+constexpr Isa kIsas[] = {Isa::portable, Isa::sse2, Isa::avx2, Isa::avx512, Isa::neon};
 
 }  // namespace
 

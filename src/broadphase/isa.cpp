@@ -9,7 +9,7 @@
 namespace hgrid {
 
 const char* name(Isa isa) {
-  static constexpr const char* kNames[] = {"portable", "sse2", "avx2", "avx512"};
+  static constexpr const char* kNames[] = {"portable", "sse2", "avx2", "avx512", "neon"};
   return kNames[static_cast<int>(isa)];
 }
 
@@ -23,12 +23,15 @@ bool isSupported(Isa isa) {
            __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq");
   }
 #endif
+#ifdef HGRID_NEON_KERNELS
+  if (isa == Isa::neon) return true;  // part of every 64-bit ARM processor
+#endif
   return isa == Isa::portable;
 }
 
 Isa bestIsa() {
   static const Isa best = [] {
-    for (const Isa isa : {Isa::avx512, Isa::avx2, Isa::sse2}) {
+    for (const Isa isa : {Isa::avx512, Isa::avx2, Isa::sse2, Isa::neon}) {
       if (isSupported(isa)) return isa;
     }
     return Isa::portable;
@@ -43,6 +46,9 @@ const Kernels& of(Isa isa) {
   if (isa == Isa::sse2) return sse2Kernels();
   if (isa == Isa::avx2) return avx2Kernels();
   if (isa == Isa::avx512) return avx512Kernels();
+#endif
+#ifdef HGRID_NEON_KERNELS
+  if (isa == Isa::neon) return neonKernels();
 #endif
   return portableKernels();
 }

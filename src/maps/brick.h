@@ -6,6 +6,10 @@
 #include <array>
 #include <cstdint>
 
+#ifdef __aarch64__
+#include <arm_neon.h>
+#endif
+
 namespace hgrid {
 
 // Cells of a brick of 4 x 4 x 4, numbered in Morton order: bits 0, 1, 2 of a number are the lower bits of x, y, z, bits
@@ -48,10 +52,17 @@ inline constexpr CellRanges kCellRanges;
 
 /// The cells of a brick that have a part of min .. max on an axis, in cells from the brick's corner.
 inline std::uint64_t cellsBetween(int axis, double min, double max) {
+  const auto& sets = kCellRanges.sets[static_cast<std::size_t>(axis)];
+#ifdef __aarch64__  // both numbers at once: gcc makes branches of std::min and std::max
+  const float64x2_t ends = vminq_f64(vmaxq_f64(float64x2_t{min, max + 1.0}, vdupq_n_f64(0.0)), vdupq_n_f64(4.0));
+  const uint64x2_t numbers = vcvtq_u64_f64(ends);  // 0 for NaN, as below
+  return sets[vgetq_lane_u64(numbers, 0)][vgetq_lane_u64(numbers, 1)];
+#else
   const auto number = [](double at) {
     return static_cast<std::size_t>(static_cast<int>(std::min(4.0, std::max(0.0, at))));
   };
-  return kCellRanges.sets[static_cast<std::size_t>(axis)][number(min)][number(max + 1.0)];
+  return sets[number(min)][number(max + 1.0)];
+#endif
 }
 
 }  // namespace hgrid

@@ -7,11 +7,14 @@
 #ifdef __SSE2__
 #include <emmintrin.h>
 #endif
+#ifdef __aarch64__
+#include <arm_neon.h>
+#endif
 
 namespace hgrid {
 
-/// A number for each of the four slices of a brick. Vectors of gcc and clang: SSE2 where there is, else plain code with
-/// the same results.
+/// A number for each of the four slices of a brick. Vectors of gcc and clang: SSE2 or NEON where there is, else plain
+/// code with the same results.
 using Four = float __attribute__((vector_size(16)));
 using FourCounts = std::uint32_t __attribute__((vector_size(16)));
 
@@ -28,9 +31,13 @@ inline Four greatest(Four a, Four b) { return a > b ? a : b; }
 
 /// Rounded towards zero, first brought within 0 .. 4.
 inline FourCounts countsOf(Four values) {
+#ifdef __aarch64__  // NaN stays NaN up to the last step, which makes 0 of it
+  return reinterpret_cast<FourCounts>(vcvtq_u32_f32(vminq_f32(vmaxq_f32(values, allFour(0.0f)), allFour(4.0f))));
+#else
   using FourInts = std::int32_t __attribute__((vector_size(16)));  // floats become these in one instruction
   const Four within = least(greatest(values, allFour(0.0f)), allFour(4.0f));
   return reinterpret_cast<FourCounts>(__builtin_convertvector(within, FourInts));
+#endif
 }
 
 }  // namespace hgrid

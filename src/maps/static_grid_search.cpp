@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "hgrid_proximity/maps/static_grid.h"
+#include "maps/branch_free.h"
 #include "maps/brick.h"
 #include "maps/static_grid_bricks.h"
 #include "maps/static_grid_line.h"
@@ -115,7 +116,7 @@ class Search {
       const double at = center[static_cast<Eigen::Index>(axis)] - brick.corner[axis];
       for (std::size_t i = 0; i < 4; ++i) {
         const double low = static_cast<double>(i) * edge;
-        const double gap = std::max(std::max(low - at, at - (low + edge)), 0.0);
+        const double gap = greaterOf(greaterOf(low - at, at - (low + edge)), 0.0);
         squared[axis][i] = gap * gap;
       }
     }
@@ -142,9 +143,9 @@ class Search {
   static double distanceTo(const Eigen::AlignedBox3d& box, const Aabb& cube) {
     double sum = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
-      const double gap = std::max(std::max(static_cast<double>(cube.min[axis]) - box.max()[axis],
-                                           box.min()[axis] - static_cast<double>(cube.max[axis])),
-                                  0.0);
+      const double gap = greaterOf(greaterOf(static_cast<double>(cube.min[axis]) - box.max()[axis],
+                                             box.min()[axis] - static_cast<double>(cube.max[axis])),
+                                   0.0);
       sum += gap * gap;
     }
     return std::sqrt(sum);

@@ -13,7 +13,7 @@ namespace {
 TEST(HGridUse, ThreadsAndInstructionSetsThatThereAreNotAreRefused) {
   HGrid grid;
   for (const int threads : {0, -1, 65}) EXPECT_THROW(grid.setThreads(threads), std::invalid_argument) << threads;
-  for (const Isa isa : {Isa::portable, Isa::sse2, Isa::avx2, Isa::avx512}) {
+  for (const Isa isa : {Isa::portable, Isa::sse2, Isa::avx2, Isa::avx512, Isa::neon}) {
     if (isSupported(isa)) {
       grid.setIsa(isa);
       EXPECT_EQ(grid.isa(), isa);

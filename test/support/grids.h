@@ -39,7 +39,7 @@ inline std::vector<std::size_t> levelCounts(const BroadPhaseReader& broad_phase)
 
 inline std::vector<Isa> supportedIsas() {
   std::vector<Isa> isas;
-  for (const Isa isa : {Isa::portable, Isa::sse2, Isa::avx2, Isa::avx512}) {
+  for (const Isa isa : {Isa::portable, Isa::sse2, Isa::avx2, Isa::avx512, Isa::neon}) {
     if (isSupported(isa)) isas.push_back(isa);
   }
   return isas;

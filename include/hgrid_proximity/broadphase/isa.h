@@ -5,8 +5,8 @@
 namespace hgrid {
 
 /// Instruction sets that the inner loops are compiled for. Results do not depend on the choice, to the byte.
-/// Here avx2 is with FMA and BMI, avx512 with these and VL, BW, DQ.
-enum class Isa : int { portable = 0, sse2 = 1, avx2 = 2, avx512 = 3 };
+/// Here avx2 is with FMA and BMI, avx512 with these and VL, BW, DQ; neon is that of 64-bit ARM.
+enum class Isa : int { portable = 0, sse2 = 1, avx2 = 2, avx512 = 3, neon = 4 };
 
 /// The set as a word, as in "avx2".
 const char* name(Isa isa);

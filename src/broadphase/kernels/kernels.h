@@ -131,6 +131,7 @@ const Kernels& portableKernels();
 const Kernels& sse2Kernels();
 const Kernels& avx2Kernels();
 const Kernels& avx512Kernels();
+const Kernels& neonKernels();
 
 }  // namespace kernels
 }  // namespace hgrid

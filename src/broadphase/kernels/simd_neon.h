@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <arm_neon.h>
+
+#include "broadphase/kernels/kernels.h"
+
+namespace hgrid {
+namespace kernels {
+namespace {
+
+/// What NEON has no instruction for, looked up.
+struct NeonTables {
+  /// For each count of lanes from 0 to 4: the bit of each lane below the count, 0 in the lanes from the count on.
+  alignas(16) std::uint32_t bit_of_lane[5][4];
+  /// For each of 16 sets of lanes: the numbers of its lanes, packed to the front, lowest first; then zeros.
+  alignas(16) std::uint32_t lanes[16][4];
+  /// For each of 16 sets of lanes: the bytes of its lanes, packed to the front, lowest first; then those of lane 0.
+  alignas(16) std::uint8_t bytes[16][16];
+  /// For each of 16 sets of lanes: how many there are.
+  std::uint8_t count[16];
+
+  constexpr NeonTables() : bit_of_lane(), lanes(), bytes(), count() {
+    for (std::uint32_t below = 0; below <= 4; ++below) {
+      for (std::uint32_t lane = 0; lane < below; ++lane) bit_of_lane[below][lane] = 1u << lane;
+    }
+    for (std::uint32_t set = 0; set < 16; ++set) {
+      for (std::uint32_t lane = 0; lane < 4; ++lane) {
+        if ((set >> lane & 1u) != 0) lanes[set][count[set]++] = lane;
+      }
+      for (std::uint32_t byte = 0; byte < 16; ++byte) {
+        bytes[set][byte] = static_cast<std::uint8_t>(4 * lanes[set][byte / 4] + byte % 4);
+      }
+    }
+  }
+};
+constexpr NeonTables kNeonTables;
+
+/// NEON of 64-bit ARM, which every such processor has; operations as in simd_portable.h.
+///
+/// FMIN and FMAX return NaN if one operand is NaN, and FMINNM and FMAXNM return the other operand. least() and
+/// greatest() have to return the second operand, so they compare and select.
+struct SimdNeon {
+  /// With 8 boxes, in two registers each, the loops for pairs within a level, overlapping() and along() execute about a
+  /// tenth more instructions: most ranges of positions are short.
+  static constexpr std::uint32_t kWidth = 4;
+
+  struct Box {
+    float32x4_t min[3], max[3];
+  };
+  using Id = uint32x4_t;
+
+  static Box boxOf(const kernels::Box& box) {
+    return {{vld1q_dup_f32(box.min), vld1q_dup_f32(box.min + 1), vld1q_dup_f32(box.min + 2)},
+            {vld1q_dup_f32(box.max), vld1q_dup_f32(box.max + 1), vld1q_dup_f32(box.max + 2)}};
+  }
+  static Box boxAt(const Level& level, std::uint32_t i) {
+    const float *const min = level.bounds + i, *const max = min + 3 * level.stride;
+    return {{vld1q_dup_f32(min), vld1q_dup_f32(min + level.stride), vld1q_dup_f32(min + 2 * level.stride)},
+            {vld1q_dup_f32(max), vld1q_dup_f32(max + level.stride), vld1q_dup_f32(max + 2 * level.stride)}};
+  }
+  static Id idAt(const Level& level, std::uint32_t i) { return vld1q_dup_u32(level.id + i); }
+
+  static std::uint32_t overlaps(const Box& box, const Level& level, std::uint32_t j, std::uint32_t count) {
+    const float *const min = level.bounds + j, *const max = min + 3 * level.stride;
+    const std::size_t y_row = level.stride, z_row = 2 * level.stride;
+    const uint32x4_t x = vandq_u32(vcleq_f32(vld1q_f32(min), box.max[0]), vcgeq_f32(vld1q_f32(max), box.min[0]));
+    const uint32x4_t y =
+        vandq_u32(vcleq_f32(vld1q_f32(min + y_row), box.max[1]), vcgeq_f32(vld1q_f32(max + y_row), box.min[1]));
+    const uint32x4_t z =
+        vandq_u32(vcleq_f32(vld1q_f32(min + z_row), box.max[2]), vcgeq_f32(vld1q_f32(max + z_row), box.min[2]));
+    return vaddvq_u32(vandq_u32(vandq_u32(vandq_u32(x, y), z), bitsBelow(count)));
+  }
+
+  static Pair* storePairs(Pair* to, Id id, const std::uint32_t* ids, std::uint32_t bits) {
+    const uint8x16_t bytes = vreinterpretq_u8_u32(vld1q_u32(ids));
+    const uint32x4_t others = vreinterpretq_u32_u8(vqtbl1q_u8(bytes, vld1q_u8(kNeonTables.bytes[bits])));
+    const uint32x4_t first = vminq_u32(id, others), second = vmaxq_u32(id, others);
+    vst1q_u32(&to->first, vzip1q_u32(first, second));
+    vst1q_u32(&to[2].first, vzip2q_u32(first, second));
+    return to + kNeonTables.count[bits];
+  }
+  static std::uint32_t* storePositions(std::uint32_t* to, std::uint32_t j, std::uint32_t bits) {
+    vst1q_u32(to, vaddq_u32(vdupq_n_u32(j), vld1q_u32(kNeonTables.lanes[bits])));
+    return to + kNeonTables.count[bits];
+  }
+
+  static int lowestBit(std::uint32_t bits) { return __builtin_ctz(bits); }
+
+  static std::uint32_t atLeast(const std::int32_t* values, std::int32_t bound) {
+    const int32x4_t bounds = vdupq_n_s32(bound);
+    const uint16x8_t low = vuzp1q_u16(vreinterpretq_u16_u32(vcgeq_s32(vld1q_s32(values), bounds)),
+                                      vreinterpretq_u16_u32(vcgeq_s32(vld1q_s32(values + 4), bounds)));
+    const uint16x8_t high = vuzp1q_u16(vreinterpretq_u16_u32(vcgeq_s32(vld1q_s32(values + 8), bounds)),
+                                       vreinterpretq_u16_u32(vcgeq_s32(vld1q_s32(values + 12), bounds)));
+    constexpr uint16x8_t kBits = {0x1, 0x2, 0x4, 0x8, 0x10, 0x20, 0x40, 0x80};
+    return vaddvq_u16(vsliq_n_u16(vandq_u16(low, kBits), vandq_u16(high, kBits), 8));
+  }
+
+  using Lanes = float32x4_t;
+  static Lanes lanesOf(float value) { return vdupq_n_f32(value); }
+  static Lanes lanesAt(const float* from) { return vld1q_f32(from); }
+  static Lanes plus(Lanes a, Lanes b) { return vaddq_f32(a, b); }
+  static Lanes minus(Lanes a, Lanes b) { return vsubq_f32(a, b); }
+  static Lanes times(Lanes a, Lanes b) { return vmulq_f32(a, b); }
+  static Lanes timesPlus(Lanes a, Lanes b, Lanes c) { return vfmaq_f32(c, a, b); }
+  static Lanes timesMinus(Lanes a, Lanes b, Lanes c) { return vnegq_f32(vfmsq_f32(c, a, b)); }
+  static Lanes size(Lanes a) { return vabsq_f32(a); }
+  using Mask = uint32x4_t;  // ones say no, since the comparison that NEON has is greater
+  static Mask notGreater(Lanes a, Lanes b) { return vcgtq_f32(a, b); }
+  static Mask both(Mask a, Mask b) { return vorrq_u32(a, b); }
+  static std::uint32_t bitsOf(Mask mask, std::uint32_t count) { return vaddvq_u32(vbicq_u32(bitsBelow(count), mask)); }
+
+  using Two = float64x2_t;
+  static Two twoOf(double first, double second) { return Two{first, second}; }
+  static Two plus(Two a, Two b) { return vaddq_f64(a, b); }
+  static Two times(Two a, Two b) { return vmulq_f64(a, b); }
+  static Two least(Two a, Two b) { return vbslq_f64(vcltq_f64(a, b), a, b); }
+  static Two greatest(Two a, Two b) { return vbslq_f64(vcgtq_f64(a, b), a, b); }
+  static void store(Two two, std::int32_t* to) { vst1_s32(to, vqmovn_s64(vcvtq_s64_f64(two))); }
+
+  static bool isSound(const kernels::Box& box) {
+    const float32x4_t first = vld1q_f32(box.min), last = vld1q_f32(box.min + 2);  // min x y z, max x; min z, max x y z
+    const float32x4_t most = vdupq_n_f32(kMostFloat);
+    const uint32x4_t finite = vandq_u32(vcaleq_f32(first, most), vcaleq_f32(last, most));
+    const float32x4_t least_last = vextq_f32(vnegq_f32(most), first, 3);  // -most, min x y z
+    return vminvq_u32(vandq_u32(finite, vcleq_f32(least_last, last))) != 0;
+  }
+
+  using Quad = float32x4_t;  // as Lanes here, so that minus() serves both
+  static Quad quadOf(const float* from) { return vld1q_f32(from); }
+  static void store(Quad quad, float* to) { vst1q_f32(to, quad); }
+  static Quad minimaOf(const kernels::Box& box) { return vld1q_f32(box.min); }
+  static Quad maximaOf(const kernels::Box& box) {
+    const float32x4_t last = vld1q_f32(box.min + 2);  // min z, max x y z
+    return vextq_f32(last, last, 1);
+  }
+  static Quad least(Quad a, Quad b) { return vbslq_f32(vcltq_f32(a, b), a, b); }
+  static Quad greatest(Quad a, Quad b) { return vbslq_f32(vcgtq_f32(a, b), a, b); }
+  static float greatestOfThree(Quad a) {
+    const Quad y = vdupq_laneq_f32(a, 1), z = vdupq_laneq_f32(a, 2);
+    return vgetq_lane_f32(greatest(greatest(a, y), z), 0);  // compilers make branches of floats
+  }
+  static void cellsOf(Quad quad, const Grid& grid, std::int32_t* cell) {
+    // The fourth lanes read the next member of Grid; only three numbers are used. NaN becomes 0 in the last step.
+    float32x4_t number = vsubq_f32(vmulq_f32(quad, vld1q_f32(grid.inverse)), vld1q_f32(grid.origin));
+    number = vminq_f32(vmaxq_f32(number, vdupq_n_f32(0.0f)), vld1q_f32(grid.last));
+    vst1q_s32(cell, vcvtq_s32_f32(number));
+  }
+
+ private:
+  /// The bit of each lane below `count`.
+  static uint32x4_t bitsBelow(std::uint32_t count) {
+    return vld1q_u32(kNeonTables.bit_of_lane[count < kWidth ? count : kWidth]);
+  }
+};
+
+}  // namespace
+}  // namespace kernels
+}  // namespace hgrid
