@@ -32,7 +32,8 @@ std::vector<double> fractions(const Options& options, const std::string& workloa
 
 bool asked(const Options& options, const std::string& workload, std::size_t n, Movers movers) {
   if (!options.movers.empty()) return isIn(options.movers, name(movers));
-  return movers == Movers::same || (n == 100000 && isIn({"uniform", "mixed", "robots"}, workload));
+  if (movers == Movers::same) return true;
+  return n == 100000 && (workload == "uniform" || (!options.quick && (workload == "mixed" || workload == "robots")));
 }
 
 }  // namespace
