@@ -30,13 +30,17 @@ TEST(ThinSegment, AlongFacesEdgesAndThroughVerticesIsASupersetOfTheExactAnswer) 
     Random random(seed);
     // Everything on a lattice, at times moved by a unit in the last place: contacts are the rule here.
     const float cell = std::ldexp(1.f, random.between(-6, 6)), offset = random.chance(0.3) ? 1e4f * cell : 0.f;
+    const auto somewhere = [&] {
+      const int units = random.between(-1, 1);  // first: compilers differ in which argument they compute first
+      return test::stepped(double(offset + cell * float(random.between(-4, 4))), units);
+    };
     Aabb box;
     Segment segment;
     for (int k = 0; k < 3; ++k) {
       box.min[k] = offset + cell * float(random.between(-2, 1));
       box.max[k] = box.min[k] + cell * float(random.between(0, 2));
-      segment.from[k] = test::stepped(double(offset + cell * float(random.between(-4, 4))), random.between(-1, 1));
-      segment.to[k] = test::stepped(double(offset + cell * float(random.between(-4, 4))), random.between(-1, 1));
+      segment.from[k] = somewhere();
+      segment.to[k] = somewhere();
       if (random.chance(0.3)) segment.to[k] = segment.from[k];  // parallel to a face
     }
     ASSERT_NO_FATAL_FAILURE(expectSuperset(segment, box));
