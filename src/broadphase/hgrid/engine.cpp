@@ -14,6 +14,8 @@ constexpr std::size_t kMostLoose = 64;
 
 // A moving box is searched in two or three layers. If at least one of so many boxes moves, sorting all is cheaper.
 constexpr std::size_t kShareOfMoving = 4;
+// The same if less than half of the moving layer still moves.
+constexpr std::size_t kShareOfIdle = 7;
 
 /// Reserves like push_back(), which at least doubles the capacity.
 void makeRoom(std::vector<ProxyId>& ids, std::size_t count) {
@@ -204,6 +206,9 @@ void HGrid::Engine::sortMoved() {
   if (count > stored / kShareOfMoving || withdrawn + started > stored || wasted > 2.0 * static_cast<double>(stored)) {
     return sortAll();
   }
+  // Few boxes move, but others in every tick: then most of the moving layer rests.
+  const bool others = 2 * started > moved.size() && moved.size() < count / 2;
+  if (others && count > stored / kShareOfIdle) return sortAll();
   if (regroup) makeRoom(moving, count);
   reserveLayer(kMoving, count);
   if (started > 0) locate(kResting);
