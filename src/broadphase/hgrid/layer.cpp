@@ -117,8 +117,10 @@ void Layer::sort(const std::vector<Aabb>& boxes, double finest_edge, const Machi
   describe(scratch);
 }
 
-/// Makes a plan and counts with it. Divides the layer into regions if many boxes share a cell, but only if that helps.
+/// Makes a plan and counts with it. Divides the layer into regions if many boxes share a cell, but only if that helps. A
+/// layer that is divided already is divided anew, without another look at one region.
 void Layer::makePlan(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine, std::size_t threads) {
+  if (isDivided() && divide(boxes, finest_edge, machine, threads)) return count(boxes, machine, threads);
   plan_.planOneRegion(boxes, ids_.data(), count_, finest_edge);
   count(boxes, machine, threads);
   const double crowded = count_ >= kWorthRegions ? crowding(machine, threads) : 0.0;

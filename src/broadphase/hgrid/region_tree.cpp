@@ -93,10 +93,9 @@ class RegionTree::Division {
 
   double likelihood(const Group& group) const {
     if (group.count == 0.0) return 0.0;
-    double volume = 0.0;  // logarithm
-    for (std::size_t i = 0; i < 3; ++i)
-      volume += std::log(static_cast<double>(group.high[i]) - group.low[i] + side_[i]);
-    return group.count * (std::log(group.count) - volume);
+    double volume = 1.0;
+    for (std::size_t i = 0; i < 3; ++i) volume *= static_cast<double>(group.high[i]) - group.low[i] + side_[i];
+    return group.count * std::log(group.count / volume);
   }
 
   /// @returns the number of the part with the samples begin .. end - 1
