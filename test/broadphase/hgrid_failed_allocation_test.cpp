@@ -232,6 +232,52 @@ TEST(HGridFailedAllocation, OfSetFixedKeepsTheFixedOnes) {
   }
 }
 
+/// Heaps far apart, which the grid divides into regions.
+Boxes heaps(test::Random& random, int heaps, int boxes_each, const Eigen::Vector3d& moved) {
+  Boxes boxes;
+  for (int i = 0; i < heaps * boxes_each; ++i) {
+    const Eigen::Vector3d place = 5e3 * Eigen::Vector3d(i % heaps % 3, i % heaps % 5, -(i % heaps));
+    boxes[ProxyId(i)] = test::boxAround(place + moved + test::randomVector(random, -3, 3), {1, 1, 1});
+  }
+  return boxes;
+}
+
+TEST(HGridFailedAllocation, InAWorldOfRegionsChangesNothingOrMakesOneRegion) {
+  test::Random random(3);
+  const Boxes first = heaps(random, 4, 80, {0, 0, 0}), all_moved = heaps(random, 4, 80, {50, 0, 0});
+  const Boxes more = heaps(random, 7, 80, {0, 100, 0});
+  Boxes few_moved = first;
+  for (ProxyId id = 0; id < 40; ++id) few_moved[id] = all_moved.at(id + 40);
+  std::size_t failures = 0, allocations = 0;
+  for (const Boxes* next : std::initializer_list<const Boxes*>{&first, &all_moved, &more, &few_moved}) {
+    const std::vector<ProxyId> ids = idsOf(*next);
+    const std::vector<Aabb> values = boxesOf(*next);
+    const auto gridBefore = [&] {
+      HGrid grid;
+      if (next == &first) return grid;
+      grid.update(idsOf(first), boxesOf(first));
+      pairsOf(grid);
+      return grid;
+    };
+    for (const test::Failing which : {test::Failing::one, test::Failing::from_then_on}) {
+      HGrid undisturbed = gridBefore();
+      const std::size_t count = test::allocationsOf([&] { undisturbed.update(ids, values); });
+      allocations += count;
+      for (std::size_t k = 1; k <= count; ++k) {
+        SCOPED_TRACE("allocation " + std::to_string(k) + " of " + std::to_string(count));
+        HGrid grid = gridBefore();
+        const bool failed = test::failsAt(k, which, [&] { grid.update(ids, values); });
+        failures += failed;
+        ASSERT_NO_FATAL_FAILURE(expectHolds(grid, !failed ? *next : next == &first ? Boxes() : first));
+        grid.update(ids, values);
+        ASSERT_NO_FATAL_FAILURE(expectHolds(grid, *next));
+      }
+    }
+  }
+  EXPECT_GT(failures, 20u);
+  EXPECT_GT(allocations, 2 * failures) << "most are for regions, without which the grid does its work";
+}
+
 /// What reserving relies on.
 TEST(HGridFailedAllocation, APlanHasNoMoreCellsThanItsBoundSays) {
   for (int family = 0; family < test::kFamilies; ++family) {
