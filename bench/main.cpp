@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Times broad phases side by side; tables and verdicts are made from its figures file by bench/report.
+// Measures how fast broad phases are, side by side. bench/report turns the figures file that this program writes into
+// tables and verdicts.
 #include <signal.h>
 
 #include <cstdio>
@@ -34,7 +35,7 @@ Record runRecord(const Options& options) {
 
 int run(const Options& options) {
   for (const std::string& name : missingPeers())
-    std::printf("-- without %s: not found when this was built\n", name.c_str());
+    std::printf("-- without %s: its library was not found when this program was built\n", name.c_str());
   std::vector<Record> records{runRecord(options)};
   if (options.part("pairs")) runPairs(options, records);
   if (options.part("ageing")) runAgeing(options, records);
@@ -50,7 +51,7 @@ int run(const Options& options) {
 }  // namespace hgrid
 
 int main(int count, char** arguments) {
-  signal(SIGPIPE, SIG_IGN);  // a contestant that is gone is noticed where it is asked
+  signal(SIGPIPE, SIG_IGN);  // Contestant::play() detects by itself that its child process has ended
   try {
     return hgrid::bench::run(hgrid::bench::parsed(count, arguments));
   } catch (const std::invalid_argument& error) {

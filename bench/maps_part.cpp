@@ -15,11 +15,11 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-/// A folder that is gone afterwards.
+/// A temporary folder. The destructor removes it and the files in it.
 class ScratchFolder {
  public:
   ScratchFolder() : path_((std::filesystem::temp_directory_path() / "hgrid_bench.XXXXXX").string()) {
-    if (!mkdtemp(&path_[0])) throw std::runtime_error("no folder " + path_);
+    if (!mkdtemp(&path_[0])) throw std::runtime_error("cannot create the folder " + path_);
   }
   ~ScratchFolder() {
     std::error_code ignored;
@@ -34,7 +34,7 @@ class ScratchFolder {
   std::string path_;
 };
 
-/// Adds a peer that is timed; OctoMap, else FCL, says what is right.
+/// Adds a peer to the match. OctoMap's answers are the reference; if OctoMap does not take part, FCL's answers are.
 void add(Match& match, const MapPeerKind& kind, const std::function<Contestant::Play()>& begin) {
   match.add(std::make_unique<Contestant>(begin, 1), kind.name != "hgrid", kind.name != "hgrid");
 }
@@ -51,17 +51,17 @@ Record recordOf(const Map& map, const MapPeerKind& kind, const std::string& quer
 
 const char* remark(const Score& score, const std::string& status) {
   if (status != "ok") return status.c_str();
-  return score.compared == 0 ? "compared with none" : score.correct ? "" : "WRONG";
+  return score.compared == 0 ? "not compared: there is no other peer" : score.correct ? "" : "WRONG";
 }
 
-/// A map, and who takes part.
+/// One map and the peers that are compared on it.
 struct Setting {
   const Options& options;
   const Map& map;
   std::vector<const MapPeerKind*> kinds;
 
   int rounds() const { return options.quick ? 3 : 5; }
-  double budget() const { return options.quick ? 20.0 : 100.0; }  // [ms] of each block
+  double budget() const { return options.quick ? 20.0 : 100.0; }  // [ms] time for each block of samples
 };
 
 std::vector<const MapPeerKind*> kindsFor(const Options& options, const Map& map) {
@@ -71,13 +71,14 @@ std::vector<const MapPeerKind*> kindsFor(const Options& options, const Map& map)
     if (map.leaves.size() <= kind.most) {
       kinds.push_back(&kind);
     } else {
-      std::printf("  without %s: it takes far too long above %zu leaves\n", kind.name.c_str(), kind.most);
+      std::printf("  without %s: it takes far too long with more than %zu leaves\n", kind.name.c_str(), kind.most);
     }
   }
   return kinds;
 }
 
-/// Times the peers being made of the file and of the leaves, which also tells what they hold.
+/// Measures how long it takes to load each peer from the file or to build it from the leaves. Also measures the bytes
+/// that the peer holds.
 void playMaking(const Setting& setting, std::vector<Record>& records) {
   const Map& map = setting.map;
   struct Run {
@@ -109,7 +110,7 @@ void playMaking(const Setting& setting, std::vector<Record>& records) {
   std::fflush(stdout);
 }
 
-/// Times the peers answering questions of one kind, one by one in random order and in Morton order.
+/// Measures how long the peers take to answer questions of one kind: in random order and, batched, in Morton order.
 void playAsking(const Setting& setting, const std::vector<std::unique_ptr<MapPeer>>& peers,
                 const MapQuestions& questions, const MapDoubts& doubts, MapQuestion question,
                 std::vector<Record>& records) {
@@ -135,7 +136,7 @@ void playAsking(const Setting& setting, const std::vector<std::unique_ptr<MapPee
 
   const std::vector<Score> scores = match.scores();
   const double compared = double(questions.size() - doubts.count());
-  std::printf("  %s: %zu questions, %zu of them in doubt by rounding and not compared\n", name(question),
+  std::printf("  %s: %zu questions, %zu of them not compared: rounding may decide them\n", name(question),
               questions.size(), doubts.count());
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const Score& score = scores[i];
@@ -155,10 +156,10 @@ void playAsking(const Setting& setting, const std::vector<std::unique_ptr<MapPee
 }
 
 void play(const Options& options, const Map& map, std::vector<Record>& records) {
-  std::printf("\nmap %s, %zu occupied leaves, the finest %g m\n", map.name.c_str(), map.leaves.size(), map.resolution);
+  std::printf("\nmap %s, %zu occupied leaves of %g m or more\n", map.name.c_str(), map.leaves.size(), map.resolution);
   const Setting setting{options, map, kindsFor(options, map)};
   playMaking(setting, records);
-  std::vector<std::unique_ptr<MapPeer>> peers;  // made once: contestants are forked with them
+  std::vector<std::unique_ptr<MapPeer>> peers;  // built once: child processes inherit them
   for (const MapPeerKind* kind : setting.kinds) {
     peers.push_back((kind->from_file ? kind->from_file : kind->from_leaves)(map));
   }

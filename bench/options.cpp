@@ -19,13 +19,13 @@ std::vector<std::string> split(const std::string& list) {
   return items;
 }
 
-/// The items. @throws std::invalid_argument if one of them is not among `names`.
+/// Returns `items` unchanged. @throws std::invalid_argument if an item is not one of `names`.
 std::vector<std::string> known(const std::vector<std::string>& items, const std::vector<std::string>& names) {
   for (const std::string& item : items) {
     if (std::find(names.begin(), names.end(), item) != names.end()) continue;
     std::string all;
     for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
-    throw std::invalid_argument(item + " is unknown; there are " + all);
+    throw std::invalid_argument(item + " is unknown; the known names are " + all);
   }
   return items;
 }
@@ -33,7 +33,7 @@ std::vector<std::string> known(const std::vector<std::string>& items, const std:
 std::vector<std::string> allWorkloads() {
   std::vector<std::string> names = evenWorkloads();
   names.insert(names.end(), unevenWorkloads().begin(), unevenWorkloads().end());
-  names.insert(names.end(), {"building", "geb079", "cloud"});  // of maps
+  names.insert(names.end(), {"building", "geb079", "cloud"});  // workloads of the part maps
   return names;
 }
 
@@ -81,7 +81,7 @@ Options parsed(int count, const char* const* arguments) {
       options.quick = true;
       continue;
     }
-    if (i + 1 == count) throw std::invalid_argument("unknown, or without its value: " + name);
+    if (i + 1 == count) throw std::invalid_argument("unknown option, or its value is missing: " + name);
     const std::string value = arguments[++i];
     if (name == "--json") {
       options.json = value;
@@ -105,10 +105,10 @@ Options parsed(int count, const char* const* arguments) {
       const double questions = numberOf(value);
       options.questions = questions >= 1e3 && questions <= 1e7 ? static_cast<std::size_t>(questions) : 0;
       if (options.questions == 0 || options.questions % 1000 != 0) {
-        throw std::invalid_argument("--questions must be a multiple of 1000 up to 10000000; it is " + value);
+        throw std::invalid_argument("--questions must be a multiple of 1000 from 1000 to 10000000; it is " + value);
       }
     } else {
-      throw std::invalid_argument("unknown: " + name);
+      throw std::invalid_argument("unknown option: " + name);
     }
   }
   return options;

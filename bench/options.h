@@ -9,29 +9,31 @@
 namespace hgrid {
 namespace bench {
 
-/// What the program is asked to do. The lists narrow a run down; empty: everything (sizes and moving: the usual ones).
+/// The command line options. Each list selects what to run. An empty list selects everything; empty lists `sizes` and
+/// `moving` select the default values.
 struct Options {
   bool quick = false;
-  std::string json;             ///< file for the figures; empty: none
-  std::string commit, command;  ///< what is measured and how, for the figures file
+  std::string json;             ///< file to write the figures to; empty: no file
+  std::string commit, command;  ///< Git commit and command line, for the figures file
   std::vector<std::string> parts, workloads, peers, movers;
   std::vector<std::size_t> sizes;
-  /// Of each kind, asked in turn; a multiple of 1,000. So many that no processor learns their branches by heart, as it
-  /// does of 1,000 that come again and again.
+  /// Number of different queries of each kind, a multiple of 1,000. They are asked in turn. If only 1,000 queries were
+  /// repeated, the branch predictor of the processor would learn them, and the times would be too short.
   std::size_t questions = 100000;
-  std::vector<double> moving;
+  std::vector<double> moving;  ///< fractions of the boxes that move in a frame
 
+  /// Whether this part of the benchmark is selected.
   bool part(const std::string& name) const;
   bool workload(const std::string& name) const;
-  /// The workloads of boxes that were asked for; `usual` if none was.
+  /// Returns the selected workloads that consist of boxes; `usual` if no workload is selected.
   std::vector<std::string> boxWorkloads(const std::vector<std::string>& usual) const;
   bool peer(const std::string& name) const;
 };
 
-/// @throws std::invalid_argument naming what is not understood.
+/// Parses the command line. @throws std::invalid_argument that names an unknown option or a wrong value.
 Options parsed(int count, const char* const* arguments);
 
-/// How to call the program.
+/// The usage text of the program.
 extern const char* const kUsage;
 
 }  // namespace bench

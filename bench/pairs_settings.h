@@ -11,7 +11,7 @@
 namespace hgrid {
 namespace bench {
 
-/// One world in which peers compete for all pairs.
+/// One world in which the peers must find all overlapping pairs.
 struct Setting {
   std::string workload;
   std::size_t n;
@@ -19,7 +19,7 @@ struct Setting {
   Movers movers = Movers::same;
 };
 
-/// The settings that the options ask for. Settings that are compared with each other follow each other.
+/// Returns the settings that the options select. Settings whose results are compared are next to each other.
 std::vector<Setting> pairsSettings(const Options& options);
 
 }  // namespace bench

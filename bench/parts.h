@@ -10,19 +10,21 @@
 namespace hgrid {
 namespace bench {
 
-/// All pairs, frame by frame: every workload, number of boxes and fraction that moves.
+// Each function runs one part of the benchmark, prints the results, and appends them to `records`.
+
+/// Measures the time to find all overlapping pairs of a frame, for each workload, number of boxes and moving fraction.
 void runPairs(const Options& options, std::vector<Record>& records);
 
-/// Frames late in the life of HGrid and of FCL's tree beside early ones.
+/// Measures whether HGrid and FCL's tree get slower after many frames.
 void runAgeing(const Options& options, std::vector<Record>& records);
 
-/// HGrid with two threads against HGrid with one, turn by turn, beside what two processors are worth at that time.
+/// Compares HGrid with two threads and with one. Also measures how much a second processor can gain at that time.
 void runThreads(const Options& options, std::vector<Record>& records);
 
-/// Queries of every kind against resting boxes, one by one and batched.
+/// Measures queries of every kind about boxes that do not move, one by one and batched.
 void runQueries(const Options& options, std::vector<Record>& records);
 
-/// Maps: how they are loaded, what they hold, and questions about their leaves, beside OctoMap and FCL.
+/// Measures maps beside OctoMap and FCL: loading, memory, and questions about the leaves. Also measures point clouds.
 void runMaps(const Options& options, std::vector<Record>& records);
 
 }  // namespace bench

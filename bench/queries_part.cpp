@@ -16,7 +16,7 @@ struct Run {
   bool batched;
 };
 
-/// The queries of one match.
+/// The workload and the kind of queries of one match.
 struct Setting {
   std::string workload;
   Placed placed;

@@ -16,7 +16,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kFree = 1.9;  // a gain of two processors from which on both are taken for free
+constexpr double kFree = 1.9;  // both processors count as free if two are this many times faster than one
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
@@ -24,7 +24,7 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-/// HGrid with a number of threads in a world of its own.
+/// HGrid with a fixed number of threads and its own copy of the world.
 class Side {
  public:
   Side(const std::string& workload, std::size_t n, int threads)
@@ -32,10 +32,10 @@ class Side {
     peer_->load(world_.boxes());
   }
 
-  /// Median time of a few frames [ms].
+  /// Returns the median time of `count` frames [ms].
   double frames(int count) {
     std::vector<double> times;
-    for (int i = -2; i < count; ++i) {  // the first ones find other things in the caches
+    for (int i = -2; i < count; ++i) {  // the first two frames fill the caches and are not timed
       world_.step();
       const Clock::time_point begin = Clock::now();
       peer_->frame(world_.frame(), pairs_);
@@ -51,7 +51,7 @@ class Side {
   std::vector<ProxyPair> pairs_;
 };
 
-/// Turns of one thread and two until enough of them fell into a time when both processors were free.
+/// Measures one thread and two threads in turn. Ends when both processors were free in 12 turns, or at the time limit.
 Record play(const std::string& workload, std::size_t n, bool quick) {
   Side one(workload, n, 1), two(workload, n, 2);
   const int frames = n >= 1000000 ? 4 : 10;
@@ -69,7 +69,7 @@ Record play(const std::string& workload, std::size_t n, bool quick) {
     if (processors.back() >= kFree) free_gains.push_back(gain);
     before = after;
   }
-  std::printf("  %-8s n = %-8zu gain %.2f, of registers %.2f; where those gain %.1f: %.2f (%zu of %zu turns)%s\n",
+  std::printf("  %-8s n = %-8zu gain %.2f, register loop %.2f; where that gains %.1f: %.2f (%zu of %zu turns)%s\n",
               workload.c_str(), n, median(gains), median(processors), kFree, median(free_gains), free_gains.size(),
               gains.size(), same ? "" : "  PAIRS DIFFER");
   std::fflush(stdout);
@@ -87,7 +87,7 @@ void runThreads(const Options& options, std::vector<Record>& records) {
   std::vector<std::size_t> sizes{100000, 1000000};
   if (options.quick) sizes.pop_back();
   if (!options.sizes.empty()) sizes = options.sizes;
-  std::printf("\ntwo threads against one\n");
+  std::printf("\ntwo threads compared with one\n");
   for (const std::size_t n : sizes) {
     for (const std::string& workload : options.boxWorkloads(evenWorkloads()))
       records.push_back(play(workload, n, options.quick));

@@ -84,15 +84,15 @@ set(HGRID_ADAPTER_SOURCES
   src/adapters/urdf/xml.cpp
 )
 
-# The inner loops of the broad phase, once per instruction set; which is used is decided when the program runs.
+# The inner loops of the broad phase are compiled once per instruction set. The program chooses one at run time.
 set(HGRID_KERNEL_FLAGS_sse2 -msse2)
 set(HGRID_KERNEL_FLAGS_avx2 -mavx2 -mfma -mbmi -mpopcnt)
-# gcc's own header of AVX-512 warns of itself (its bug 105593).
+# The AVX-512 header of gcc causes these warnings itself (gcc bug 105593).
 set(HGRID_KERNEL_FLAGS_avx512 -mavx2 -mfma -mbmi -mpopcnt -mavx512f -mavx512vl -mavx512bw -mavx512dq -Wno-maybe-uninitialized
   -Wno-uninitialized)
 
-# hgrid_core_options(target root): what a target made of the core's sources needs. Kernels are optimised whatever the
-# build type is, but -ffp-contract=off must hold for them as for the rest: one formula rounds one way everywhere.
+# hgrid_core_options(target root): sets the options that a target built from the core's sources needs. Kernels are
+# optimized in every build type. All sources need -ffp-contract=off, so that one formula rounds in one way everywhere.
 function(hgrid_core_options target root)
   target_include_directories(${target} PRIVATE "${root}/src")
   target_compile_options(${target} PRIVATE -ffp-contract=off)
@@ -101,7 +101,7 @@ function(hgrid_core_options target root)
     target_compile_definitions(${target} PRIVATE HGRID_X86_KERNELS)
     list(APPEND isas sse2 avx2 avx512)
   elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64|ARM64)$" AND CMAKE_SIZEOF_VOID_P EQUAL 8)
-    # The second condition: a 32-bit system may run on a 64-bit kernel, whose processor CMake names.
+    # The pointer size is checked because a 32-bit system may run on a 64-bit kernel; CMake then reports aarch64.
     target_compile_definitions(${target} PRIVATE HGRID_NEON_KERNELS)
     list(APPEND isas neon)
   endif()
@@ -109,6 +109,6 @@ function(hgrid_core_options target root)
     set(kernels "${root}/src/broadphase/kernels/kernels_${isa}.cpp")
     target_sources(${target} PRIVATE "${kernels}")
     set_property(SOURCE "${kernels}" PROPERTY COMPILE_OPTIONS -O2 -ftree-vectorize ${HGRID_KERNEL_FLAGS_${isa}})
-    set_property(SOURCE "${kernels}" PROPERTY SKIP_PRECOMPILE_HEADERS ON)  # made for other flags
+    set_property(SOURCE "${kernels}" PROPERTY SKIP_PRECOMPILE_HEADERS ON)  # they are built with other flags
   endforeach()
 endfunction()

@@ -2,10 +2,11 @@
 # SPDX-FileCopyrightText: the hgrid_proximity authors
 # shellcheck shell=bash
 #
-# What the scripts beside it share: installing, building, a ROS master of their own, and leaving nothing behind.
+# Functions that the scripts in this folder share. They install packages, build, start a separate ROS master, and clean
+# up when the script ends.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
-export PATH="/usr/bin:/usr/sbin:$PATH"  # ROS needs the system's python3; another one may stand first
+export PATH="/usr/bin:/usr/sbin:$PATH"  # ROS needs the python3 of the system, but another may come first in PATH
 
 build_packages=(
   catkin cmake g++ make ros-core-dev
@@ -25,7 +26,7 @@ test_packages=(
 # shellcheck disable=SC2034
 long_test_packages=(clang g++-aarch64-linux-gnu googletest libclang-rt-dev qemu-user)
 
-# What goes on in the background is stopped, and the scratch folder removed, when the script ends, however it ends.
+# However the script ends, end() stops all background processes and removes the scratch folder.
 started=()
 scratch=$(mktemp -d -t hgrid_proximity.XXXXXX)
 trap end EXIT
@@ -40,15 +41,15 @@ fail() {
   exit 1
 }
 
-# Starts a command in the background; $! is its process.
+# Starts a command in the background. Afterwards $! is its process id.
 start() {
-  set -m  # a process group of its own: a Ctrl-C reaches it through end only, and is not ignored by it
+  set -m  # own process group: the terminal's Ctrl-C does not reach it, end() stops it, and it does not ignore SIGINT
   "$@" </dev/null &
   set +m
   started+=($!)
 }
 
-# Runs a command; its output is shown only if it fails.
+# Runs a command. Shows its output only if it fails.
 quietly() {
   local status=0
   start "$@" >"$scratch/step.log" 2>&1
@@ -66,7 +67,7 @@ install_debian() {
   local -A present=()
   local -a missing=()
   local package
-  command -v apt-get >/dev/null || fail "this script needs Debian 12, or a sourced ROS Noetic"
+  command -v apt-get >/dev/null || fail "no apt-get; this script needs Debian 12, or a sourced ROS Noetic"
   while read -r package; do present[$package]=1; done < <(
     dpkg-query -W -f '${Package} ${db:Status-Status}\n' "$@" 2>/dev/null | sed -n 's/ installed$//p'
   )
@@ -79,18 +80,20 @@ install_debian() {
     apt-get -o DPkg::Lock::Timeout=600 install -y --no-install-recommends "${missing[@]}" || fail "apt-get install failed"
 }
 
-# Installs what building and the named Debian packages need; beside ROS Noetic what package.xml needs.
+# Installs the packages needed to build, and the named Debian packages. With ROS Noetic, installs the dependencies that
+# package.xml names instead.
 install_missing() {
   if [[ ${ROS_DISTRO:-} != noetic ]]; then
     install_debian "${build_packages[@]}" "$@"
   elif ! quietly rosdep check --from-paths "$root" --ignore-src; then
-    say "installing what package.xml names, through rosdep"
-    rosdep install --from-paths "$root" --ignore-src -y || fail "rosdep failed; is it initialised (rosdep update)?"
+    say "installing the dependencies that package.xml names, with rosdep"
+    rosdep install --from-paths "$root" --ignore-src -y ||
+      fail "rosdep install failed; if rosdep is not initialized, run 'sudo rosdep init' and 'rosdep update'"
   fi
 }
 
-# shellcheck disable=SC2120  # arguments are for callers that have some
-# Builds Release in build/release and devel; arguments go to cmake. Nothing is done again that was done before.
+# shellcheck disable=SC2120  # the arguments are optional
+# Builds the package in Release mode into build/release and devel. Passes its arguments to cmake.
 build() {
   local out=$root/build/release
   local -a options=(
@@ -102,11 +105,11 @@ build() {
     quietly cmake -S "$root" -B "$out" "${options[@]}" || fail "cmake failed"
     printf '%s\n' "${options[*]}" >"$out/.options"
   fi
-  say "building (Release; minutes the first time, a moment after that)"
+  say "building in Release mode (takes minutes the first time, seconds later)"
   quietly cmake --build "$out" -j"$(nproc)" || fail "the build failed"
 }
 
-# Puts the build on the paths of ROS.
+# Adds the build to ROS_PACKAGE_PATH and PATH, so that ROS finds it.
 enter_build() {
   set +u  # the generated file reads variables that may not be set
   # shellcheck disable=SC1091
@@ -116,7 +119,7 @@ enter_build() {
   export PATH="/usr/bin:$PATH"
 }
 
-# From here on ROS lives on a free port and in the scratch folder.
+# Makes ROS use a free port for its master and the scratch folder for its files, until the script ends.
 begin_session() {
   local port
   port=$(python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])')
@@ -125,16 +128,16 @@ begin_session() {
   mkdir -p "$ROS_HOME" "$ROS_LOG_DIR"
 }
 
-# Starts master, cell and node; arguments go to the launch file.
+# Starts the ROS master, the demo cell and the node. Passes its arguments to the launch file.
 start_cell() {
   start roslaunch -p "${ROS_MASTER_URI##*:}" hgrid_proximity demo.launch "$@" >"$scratch/launch.log" 2>&1
 }
 
-# What the cell and the node said before the first of them gave up.
+# Prints the end of the log of the demo cell and the node, up to the first "Initiating shutdown".
 show_logs() { sed '/Initiating shutdown/q' "$scratch/launch.log" | tail -n 30 >&2; }
 
-# Every process that still runs: those started here, as long as one of their group does, and of a session also those
-# that lost their parent, by the log folder in their environment.
+# Prints the ids of processes that still run: process groups that start() created, and processes of this ROS session
+# that lost their parent. The ROS log folder in its environment identifies a process of the session.
 still_running() {
   local pid
   for pid in "${started[@]}"; do
@@ -145,6 +148,7 @@ still_running() {
   fi
 }
 
+# gone_within SECONDS: waits until no process is left. Fails after that time.
 gone_within() {
   local tenths
   for ((tenths = $1 * 10; tenths > 0; --tenths)); do
@@ -154,6 +158,7 @@ gone_within() {
   return 1
 }
 
+# Stops all processes (SIGINT, then SIGTERM, then SIGKILL) and removes the scratch folder.
 end() {
   local pid signal
   trap '' HUP INT TERM

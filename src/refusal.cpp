@@ -16,19 +16,20 @@ const char* name(Code code) {
       "OK",           "BAD_ID",       "DUP_ID",    "UNKNOWN_ID",    "NONFINITE",       "OUT_OF_RANGE",
       "BAD_GEOMETRY", "BAD_ROTATION", "LIMIT",     "UNKNOWN_FRAME", "TF_TIMEOUT",      "EXTRAPOLATION",
       "CLOCK",        "PARSE",        "TRUNCATED", "UNSUPPORTED",   "RESOURCE_DENIED", "RESOURCE_MISSING",
-      "BUDGET",       "BUSY",         "NOT_READY", "VERSION",       "CHECKSUM",        "INTERNAL", "CONFLICT", "NEEDS_FORCE", "FAILED"};
+      "BUDGET",       "BUSY",         "NOT_READY", "VERSION",       "CHECKSUM",        "INTERNAL",
+      "CONFLICT",     "NEEDS_FORCE",  "FAILED"};
   return kNames[static_cast<std::uint16_t>(code)];
 }
 
 std::string text(double value) {
   std::ostringstream out;
   out.imbue(std::locale::classic());
-  if (std::floor(value) == value && std::abs(value) < 1e9) {  // 1000000, not 1e+06
+  if (std::floor(value) == value && std::abs(value) < 1e9) {  // write 1000000, not 1e+06
     out << static_cast<long long>(value);
     return out.str();
   }
   if (std::isnan(value)) return "nan";
-  for (int digits = 1; digits <= 17; ++digits) {  // the shortest that reads back as the same number
+  for (int digits = 1; digits <= 17; ++digits) {  // find the shortest text that is read back as the same number
     out.str("");
     out.precision(digits);
     out << value;

@@ -7,7 +7,7 @@
 
 namespace hgrid {
 
-/// Bytes of the printable UTF-8 character at `text[at]`; 0 if there is none: a broken or overlong
+/// Returns the number of bytes of the printable UTF-8 character at `text[at]`. Returns 0 for an invalid or overlong
 /// sequence, a surrogate, or a control character (C0, DEL, C1).
 inline std::size_t utf8Length(const std::string& text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };

@@ -17,7 +17,7 @@ const fs::path kRoot = HGRID_PROJECT_DIR;
 const std::vector<std::string> kRooms = {"geometry", "broadphase", "narrow",  "bodies",    "maps",
                                          "pairs",    "world",      "queries", "distances", "explain"};
 
-/// The header that a line includes, or nothing.
+/// Returns the header that a line includes; empty if it includes none.
 std::string includedIn(const std::string& line) {
   const auto next = [&](std::size_t from) { return std::min(line.find_first_not_of(" \t", from), line.size()); };
   const std::size_t hash = next(0);
@@ -28,7 +28,7 @@ std::string includedIn(const std::string& line) {
   return open < line.size() && close != std::string::npos ? line.substr(open + 1, close - open - 1) : std::string();
 }
 
-/// Whether it is a file of the core: refusal.h, utf8.h and the like, or one in a room of the core.
+/// Returns whether a file belongs to the core: it is directly in include/hgrid_proximity or src, or in a core folder.
 bool isCore(const fs::path& file) {
   for (const fs::path& side : {kRoot / "include/hgrid_proximity", kRoot / "src"}) {
     const fs::path inside = file.lexically_normal().lexically_relative(side);
@@ -39,10 +39,10 @@ bool isCore(const fs::path& file) {
   return false;
 }
 
-/// The core is C++17 and Eigen: headers of the standard library (no slash, no dot), of Eigen, of the compiler's
-/// intrinsics, and its own.
+/// Returns whether the core must not include a header. The core may include headers of the standard library (without
+/// slash and dot), of Eigen, of the compiler's intrinsics, and its own.
 bool isForeign(const std::string& header, const fs::path& folder) {
-  const std::string intrinsics = "intrin.h";  // of x86; ARM's are in arm_neon.h
+  const std::string intrinsics = "intrin.h";  // end of the x86 header names; the ARM header is arm_neon.h
   const bool standard = header.find_first_of("/.") == std::string::npos;
   const bool compiler = header.size() > intrinsics.size() && header.find('/') == std::string::npos &&
                         header.compare(header.size() - intrinsics.size(), intrinsics.size(), intrinsics) == 0;
@@ -90,16 +90,17 @@ TEST(CoreIncludes, NoCoreFileIncludesAForeignHeader) {
     }
   }
   EXPECT_GT(files.size(), 20u);
-  EXPECT_GT(includes, files.size()) << "a check that reads nothing finds nothing";
+  EXPECT_GT(includes, files.size()) << "too few include lines were read for a meaningful test";
 }
 
-/// Number of the room that a path below include/hgrid_proximity or src lies in; kRooms.size() if it is in none.
+/// Returns the index in kRooms of the folder that contains a path below include/hgrid_proximity or src; kRooms.size()
+/// if none does.
 std::size_t roomOf(const std::string& path) {
   const std::string room = path.substr(0, path.find('/'));
   return static_cast<std::size_t>(std::find(kRooms.begin(), kRooms.end(), room) - kRooms.begin());
 }
 
-/// Claim: a room of the core includes only itself and rooms before it.
+/// Claim: a file of the core includes only files from its own folder and from folders before it in kRooms.
 TEST(CoreIncludes, ARoomIncludesOnlyRoomsBeforeIt) {
   const std::string prefix = "hgrid_proximity/";
   std::size_t checked = 0;
@@ -121,8 +122,8 @@ TEST(CoreIncludes, ARoomIncludesOnlyRoomsBeforeIt) {
   EXPECT_GT(checked, 200u);
 }
 
-/// Claim: what is compiled for an instruction set holds no template of the standard library or of Eigen, whose inline
-/// copy the linker might pick for everybody.
+/// Claim: code that is compiled for one instruction set includes no templates of the standard library or Eigen. The
+/// linker could use their inline copies everywhere, even on processors without this instruction set.
 TEST(CoreIncludes, KernelsIncludeNoTemplates) {
   const std::vector<std::string> allowed = {"arm_neon.h", "cstddef", "cstdint", "emmintrin.h", "immintrin.h"};
   std::size_t files = 0;

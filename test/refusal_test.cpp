@@ -17,7 +17,7 @@ namespace {
 
 TEST(Refusal, ItsCodesAreThoseOfTheMessage) {
   std::ifstream file(HGRID_PROJECT_DIR "/msg/CodeNames.msg");
-  ASSERT_TRUE(file) << "msg/CodeNames.msg is not there";
+  ASSERT_TRUE(file) << "msg/CodeNames.msg cannot be opened";
   int seen = 0;
   for (std::string line; std::getline(file, line);) {
     std::istringstream words(line);
@@ -37,7 +37,7 @@ TEST(Text, IsShortAndReadsBackAsTheSameNumber) {
   EXPECT_EQ(text(-2.5), "-2.5");
   EXPECT_EQ(text(1e-320), "1e-320");
   EXPECT_EQ(text(std::numeric_limits<double>::quiet_NaN()), "nan");
-  EXPECT_EQ(text(-std::numeric_limits<double>::quiet_NaN()), "nan");  // the sign of a NaN depends on the machine
+  EXPECT_EQ(text(-std::numeric_limits<double>::quiet_NaN()), "nan");  // the sign of a NaN depends on the processor
   EXPECT_EQ(text(std::numeric_limits<double>::infinity()), "inf");
   EXPECT_EQ(text(-std::numeric_limits<double>::infinity()), "-inf");
   test::Random random(1);
@@ -62,7 +62,7 @@ TEST(Printable, KeepsTextAndEscapesTheRest) {
   EXPECT_EQ(printable(std::string("a\0b", 3)), "a\\x00b");
   EXPECT_EQ(printable("\x1b[31m"), "\\x1b[31m");
   EXPECT_EQ(printable("\xff\xc0\x80"), "\\xff\\xc0\\x80");
-  EXPECT_EQ(printable("\xe2\x82"), "\\xe2\\x82");  // cut in the middle of a character
+  EXPECT_EQ(printable("\xe2\x82"), "\\xe2\\x82");  // an incomplete character
   EXPECT_EQ(printable(""), "");
 }
 

@@ -10,10 +10,13 @@
 namespace hgrid {
 namespace bench {
 
-/// The occupied leaves, in Morton order, of a building as a scanner with an edge of 0.05 m would see it: rooms of
-/// 6.4 x 6.4 x 3.2 m side by side and above each other, with floors and walls one cell thick and rough, a door in each
-/// wall, and clutter: hollow and solid boxes, balls. Some cells are missing; eight equal ones are merged, as an octree
-/// prunes them. The building grows from the map's origin along the Morton curve until it has so many leaves: two of
+/// Returns the occupied leaves, in Morton order, of a building that was scanned into cells of 0.05 m.
+///
+/// The building has rooms of 6.4 x 6.4 x 3.2 m, side by side and above each other. Floors and walls are one cell thick
+/// and rough, and each wall has a door. The rooms contain hollow and solid boxes and spheres. Some cells are missing.
+/// As in a pruned octree, eight equal cells are merged into one leaf.
+///
+/// The building grows from the map's origin along the Morton curve until it has this number of leaves. So buildings of
 /// different sizes begin with the same leaves.
 std::vector<Voxel> buildingOf(std::size_t leaves);
 

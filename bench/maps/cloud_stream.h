@@ -9,8 +9,11 @@
 namespace hgrid {
 namespace bench {
 
-/// Times what becomes of a depth camera's messages, 640 x 480 points of a wavy wall 2 .. 4 m away that drifts by 0.1 m/s,
-/// 30 a second with a lifetime of a second: read, voxelised with those seen before, and made a StaticGrid.
+/// Measures the processing of a depth camera's messages: reading the points, adding their cells to the cells seen
+/// before, and building a StaticGrid. Appends the results to `records`.
+///
+/// The camera sends 30 messages per second with 640 x 480 points each. It sees a wavy wall that is 2 .. 4 m away and
+/// drifts by 0.1 m/s. Cells have a lifetime of one second.
 void playClouds(std::vector<Record>& records);
 
 }  // namespace bench

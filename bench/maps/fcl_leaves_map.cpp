@@ -7,7 +7,7 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-/// The leaves as boxes, in keys, of FCL's tree of objects.
+/// FCL's tree of objects with one box per leaf. Coordinates are in units of voxel keys, see inKeys().
 class FclLeavesMap final : public MapPeer {
  public:
   explicit FclLeavesMap(const Map& map) : map_(&map), tree_(makeFclQueries()) {

@@ -11,7 +11,7 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-/// OctoMap's tree as a geometry of FCL; it is told at most one contact, and not where.
+/// OctoMap's tree as a geometry of FCL. FCL stops at the first contact and does not compute its position.
 class FclOcTreeMap final : public MapPeer {
  public:
   explicit FclOcTreeMap(const std::shared_ptr<const octomap::OcTree>& tree) : tree_(tree), geometry_(tree) {}

@@ -15,28 +15,28 @@
 namespace hgrid {
 namespace bench {
 
-/// A map as a file and as what is occupied in it.
+/// A map: its file and its occupied leaves.
 struct Map {
-  std::string name, file;     ///< the file is a .bt
-  double resolution = 0.0;    ///< [m] edge of a voxel of level 0
-  std::vector<Voxel> leaves;  ///< occupied, in Morton order
+  std::string name, file;     ///< `file` is the path of an OctoMap .bt file
+  double resolution = 0.0;    ///< [m] edge of a leaf of level 0
+  std::vector<Voxel> leaves;  ///< occupied leaves in Morton order
 };
 
-/// buildingOf(leaves), written to a file in this folder.
+/// Returns the map of buildingOf(leaves). Writes it to a file in `folder`.
 Map building(std::size_t leaves, const std::string& folder);
 
-/// What our own reader finds in a .bt.
+/// Reads a .bt file with hgrid's reader and returns it as a map.
 Map mapOfFile(const std::string& name, const std::string& file);
 
-/// geb079.bt in the folder that HGRID_TEST_DATA names, else in ../shared/data beside the project; empty if it is not
-/// there.
+/// Returns the path of octomap/geb079.bt in the folder HGRID_TEST_DATA or, if that is not set, in ../shared/data beside
+/// the project. Returns an empty string if there is no such file.
 std::string fileOfGeb079();
 
-/// One number for a leaf, where it is and how large.
+/// Returns a number that encodes the position and the level of a leaf.
 inline std::uint64_t numberOf(const Voxel& leaf) { return mortonOf(leaf) << 5 | leaf.level; }
 
-// In keys the corners of all leaves are whole numbers, which floats hold exactly: peers in float, and exact tests of
-// boxes in float, see the very same leaves.
+// inKeys() converts to coordinates in units of voxel keys. In these units, the corners of all leaves are integers,
+// which float represents exactly. So peers and tests that use float see exactly the same leaves.
 
 inline Aabb inKeys(const Voxel& leaf) {
   const Eigen::Vector3f min(leaf.x, leaf.y, leaf.z);

@@ -14,47 +14,50 @@
 namespace hgrid {
 namespace bench {
 
-/// Whether a ball touches a leaf; all leaves that it touches; the first leaf along a segment.
+/// Kinds of questions. touches: does a sphere touch any leaf? overlapping: which leaves does a sphere touch? segment:
+/// which leaf comes first along a segment?
 enum class MapQuestion { touches, overlapping, segment };
 constexpr MapQuestion kMapQuestions[] = {MapQuestion::touches, MapQuestion::overlapping, MapQuestion::segment};
 
 const char* name(MapQuestion question);
 
-/// Something that knows a map and answers questions [m] about its occupied leaves.
+/// A map in the benchmark. It answers questions about its occupied leaves. Coordinates [m] are in the map's frame.
 class MapPeer {
  public:
   virtual ~MapPeer() = default;
 
   virtual bool answers(MapQuestion question) const = 0;
-  // Only called for questions that are answered; `found` is replaced, in any order.
+  // The next three functions are only called for kinds of questions that answers() accepts.
+
   virtual bool touches(const Sphere&) { return false; }
+  /// Replaces the list with all leaves that the sphere touches, in any order.
   virtual void overlapping(const Sphere&, std::vector<Voxel>&) {}
-  /// The leaf, or any cell of it.
+  /// Returns the first leaf along the segment, or any cell in that leaf.
   virtual std::optional<Voxel> firstAlong(const Segment&) { return std::nullopt; }
 
-  /// All occupied leaves, in any order.
+  /// Returns all occupied leaves, in any order.
   virtual std::vector<Voxel> leaves() = 0;
-  /// [byte] What the peer itself says that it holds; 0: it does not, and what it has allocated is counted.
+  /// Returns the bytes that the peer reports to hold. 0: it reports nothing, so the bytes that it has allocated count.
   virtual std::size_t bytes() const { return 0; }
 };
 
-/// A peer by name, and the ways in which it can be had; those it does not have are empty.
+/// A kind of peer and the functions that create it. A function is empty if the peer cannot be created in this way.
 struct MapPeerKind {
   using Make = std::function<std::unique_ptr<MapPeer>(const Map&)>;
 
   std::string name;
-  std::size_t most;  ///< leaves; with more, loading takes far too long
-  Make from_file;    ///< read and ready for questions
-  Make from_leaves;
+  std::size_t most;  ///< number of leaves; with more, loading takes far too long
+  Make from_file;    ///< reads the file; the peer is then ready for questions
+  Make from_leaves;  ///< builds the peer from the list of leaves
 };
 
-/// The peers that this program was built with, ours first.
+/// Returns the peers that this program was built with, hgrid first.
 const std::vector<MapPeerKind>& mapPeers();
 
-/// Our reader, for any file.
+/// Reads an OctoMap file with hgrid's reader.
 Octomap readMap(const std::string& file);
 
-// One or two per peer; those of libraries that were not found are declared only.
+// One or two factories per peer. If the library of a peer was not found, they are declared but not defined.
 std::unique_ptr<MapPeer> readStaticGrid(const Map& map);
 std::unique_ptr<MapPeer> makeStaticGrid(const Map& map);
 std::unique_ptr<MapPeer> readOcTree(const Map& map);

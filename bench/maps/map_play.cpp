@@ -13,7 +13,7 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-/// The leaf that a cell is of; the cell itself if it is of none.
+/// Returns the leaf that contains the cell. Returns the cell itself if no leaf contains it.
 Voxel leafOf(const Voxel& cell, const std::vector<Voxel>& leaves) {
   const auto after = std::upper_bound(leaves.begin(), leaves.end(), mortonOf(cell),
                                       [](std::uint64_t code, const Voxel& leaf) { return code < mortonOf(leaf); });

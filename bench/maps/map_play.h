@@ -8,9 +8,10 @@
 namespace hgrid {
 namespace bench {
 
-/// How a peer is made of a map, again and again, and its leaves compared. Each time the heap has been given back
-/// before, as if it were the first map of the process: memory that is still there would save a tree of small nodes
-/// most.
+/// Creates a peer from a map again and again and measures the time. Compares the leaves of the peer by a checksum.
+///
+/// Each time, unused heap memory is first returned to the system, as if this were the first map of the process.
+/// Otherwise peers could reuse that memory, which would help trees of small nodes most.
 class MakeMapPlay {
  public:
   MakeMapPlay(const Map& map, MapPeerKind::Make make) : map_(&map), make_(std::move(make)) {}
@@ -22,8 +23,11 @@ class MakeMapPlay {
   MapPeerKind::Make make_;
 };
 
-/// How a peer answers questions of one kind: first all, untimed, to be compared; then kChunk of them per sample in
-/// random order; or, batched, all of them per sample, which puts them in Morton order first, as one would who has many.
+/// Measures how long a peer takes to answer questions of one kind.
+///
+/// First the peer answers all questions, untimed, to compare the answers. Then each sample asks kChunk questions in
+/// random order. If batched, each sample asks all questions and sorts them into Morton order first, as a user with many
+/// questions would do.
 class AskMapPlay {
  public:
   static constexpr std::size_t kChunk = 1000;
@@ -44,8 +48,8 @@ class AskMapPlay {
   const Map* map_;
   const MapQuestions* questions_;
   std::size_t next_ = 0;
-  std::vector<Voxel> found_;  // of the last question; of a ball that only has to touch: one without meaning
-  Sample result_;             // what every sample carries beside its time
+  std::vector<Voxel> found_;  // leaves that answer the last question; for `touches`: any leaf means yes
+  Sample result_;             // each sample is a copy of this with its own time
 };
 
 }  // namespace bench

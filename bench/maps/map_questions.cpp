@@ -45,7 +45,7 @@ MapQuestions::MapQuestions(const Map& map, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     const Voxel& near = map.leaves[random.below(map.leaves.size())];
     const Eigen::Vector3d middle = 0.5 * (minCorner(near, map.resolution) + maxCorner(near, map.resolution));
-    // Rounded to float, so that peers in float are asked the same as those in double.
+    // Rounding to float gives peers that use float the same questions as peers that use double.
     const Eigen::Vector3f center = (middle + cubePoint(random, kNear)).cast<float>();
     const Eigen::Vector3f to = (center.cast<double>() + kLength * direction(random)).cast<float>();
     spheres.push_back({center.cast<double>(), kRadius});

@@ -22,8 +22,8 @@ Voxel voxelOf(const Leaf& leaf) {
   return {key[0], key[1], key[2], static_cast<std::uint8_t>(Voxel::kLevels - leaf.getDepth())};
 }
 
-/// OctoMap's tree, asked as its users ask it: leaves in the box around a ball, tested exactly; rays that are cast
-/// through unknown space.
+/// OctoMap's tree, used as OctoMap's users do. For a sphere, it visits the leaves in the box around it and tests them
+/// exactly. For a segment, it casts a ray that passes through unknown space.
 class OctomapMap final : public MapPeer {
  public:
   explicit OctomapMap(std::shared_ptr<const octomap::OcTree> tree) : tree_(std::move(tree)) {}
@@ -46,8 +46,8 @@ class OctomapMap final : public MapPeer {
     });
   }
 
-  /// castRay() ends at the last cell whose centre is in its range: it gets half a cell's diagonal more, and a cell that
-  /// the segment does not reach is none.
+  /// castRay() ends at the last cell whose center is within its range. So the range is half the diagonal of a cell
+  /// longer than the segment, and a cell that the segment does not meet is dropped afterwards.
   std::optional<Voxel> firstAlong(const Segment& segment) override {
     const Eigen::Vector3d way = segment.to - segment.from;
     octomap::point3d end;
@@ -65,9 +65,9 @@ class OctomapMap final : public MapPeer {
   std::size_t bytes() const override { return tree_->memoryUsage(); }
 
  private:
-  static constexpr double kRounded = 1e-4;  // [keys] the ray's direction is in float
+  static constexpr double kRounded = 1e-4;  // [keys] tolerance: the direction of the ray is in float
 
-  /// Calls `look` with occupied leaves that the ball touches until it returns false.
+  /// Calls `look` with each occupied leaf that the sphere touches. Stops when `look` returns false.
   template <class Look>
   void visit(const Sphere& sphere, const Look& look) const {
     const Eigen::Vector3d half = Eigen::Vector3d::Constant(sphere.radius);
@@ -89,8 +89,8 @@ class OctomapMap final : public MapPeer {
 
 std::shared_ptr<const octomap::OcTree> ocTreeOf(const std::string& file) {
   const test::Silence silence;
-  const auto tree = std::make_shared<octomap::OcTree>(0.1);  // the file says otherwise
-  if (!tree->readBinary(file)) throw std::runtime_error("OctoMap does not read " + file);
+  const auto tree = std::make_shared<octomap::OcTree>(0.1);  // readBinary() sets the resolution of the file
+  if (!tree->readBinary(file)) throw std::runtime_error("OctoMap cannot read " + file);
   return tree;
 }
 

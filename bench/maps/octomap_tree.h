@@ -13,10 +13,10 @@
 namespace hgrid {
 namespace bench {
 
-/// OctoMap's own tree, read by OctoMap. @throws std::runtime_error if it does not take the file
+/// Reads a .bt file with OctoMap. @throws std::runtime_error if OctoMap cannot read the file
 std::shared_ptr<const octomap::OcTree> ocTreeOf(const std::string& file);
 
-/// Its occupied leaves, by its own iterator.
+/// Returns the occupied leaves of the tree, found with OctoMap's iterator.
 std::vector<Voxel> leavesOf(const octomap::OcTree& tree);
 
 }  // namespace bench

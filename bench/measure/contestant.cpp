@@ -21,6 +21,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// Pins this process to the last processor that it may use.
 void pin() {
   cpu_set_t allowed, one;
   if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) return;
@@ -43,7 +44,7 @@ bool writeAll(int file, const void* data, std::size_t size) {
   return true;
 }
 
-/// False at the end of the file, or once the deadline has passed.
+/// Reads `size` bytes. Returns false at the end of the file or after the deadline; null: no deadline.
 bool readAll(int file, void* data, std::size_t size, const Clock::time_point* deadline) {
   char* to = static_cast<char*>(data);
   while (size > 0) {
@@ -59,7 +60,7 @@ bool readAll(int file, void* data, std::size_t size, const Clock::time_point* de
   return true;
 }
 
-/// The life of the child: a budget comes in, samples go out.
+/// Main loop of the child process: reads a time budget, runs the peer, and writes the samples.
 void serve(const std::function<Contestant::Play()>& make, int in, int out) {
   Contestant::Play play;
   double budget = 0.0;
@@ -75,10 +76,11 @@ void serve(const std::function<Contestant::Play()>& make, int in, int out) {
 
 Contestant::Contestant(const std::function<Play()>& make, int threads) {
   int down[2], up[2];
-  if (pipe(down) != 0 || pipe(up) != 0) throw std::runtime_error("no pipe to a contestant");
+  if (pipe(down) != 0 || pipe(up) != 0)
+    throw std::runtime_error("cannot create a pipe to the child process of a contestant");
   std::fflush(nullptr);
   child_ = fork();
-  if (child_ < 0) throw std::runtime_error("no process for a contestant");
+  if (child_ < 0) throw std::runtime_error("cannot fork the child process of a contestant");
   if (child_ > 0) {
     close(down[0]), close(up[1]);
     to_child_ = down[1], from_child_ = up[0];
@@ -93,7 +95,7 @@ Contestant::Contestant(const std::function<Play()>& make, int threads) {
     std::fprintf(stderr, "%s\n", error.what());
     _exit(1);
   }
-  _exit(0);  // nothing of the parent's is torn down twice
+  _exit(0);  // not exit(): the parent's exit handlers must not run in the child
 }
 
 Contestant::~Contestant() { end(status_); }
@@ -127,7 +129,7 @@ void Contestant::play(double budget_ms, double limit_s) {
     waitpid(child_, &how, 0);
     child_ = -1;
     close(to_child_), close(from_child_);
-    status_ = WIFSIGNALED(how) ? std::string("crashed: ") + strsignal(WTERMSIG(how)) : "gave up";
+    status_ = WIFSIGNALED(how) ? std::string("crashed: ") + strsignal(WTERMSIG(how)) : "ended with an error";
   }
 }
 

@@ -13,23 +13,26 @@
 namespace hgrid {
 namespace bench {
 
-/// A peer at work in a process of its own, so that one that crashes or never ends is a line in a table.
+/// Runs a peer in a child process. If the peer crashes or never returns, the benchmark reports this and goes on.
 class Contestant {
  public:
-  /// Plays for about so many milliseconds and reports what it has timed.
+  /// Runs the peer for about `budget_ms` milliseconds and returns the samples.
   using Play = std::function<std::vector<Sample>(double budget_ms)>;
 
-  /// Forks; `make` runs in the new process, at first use. One thread: pinned to the last processor that there is.
+  /// Forks the child process, which calls `make` when play() is called for the first time. If `threads` is 1, the child
+  /// is pinned to the last processor that it may use.
+  /// @throws std::runtime_error if the system provides no pipe or no process
   Contestant(const std::function<Play()>& make, int threads);
   ~Contestant();
   Contestant(const Contestant&) = delete;
   Contestant& operator=(const Contestant&) = delete;
 
-  /// One block of play; its samples are kept. Does nothing once the contestant is out.
+  /// Runs the peer for one block of about `budget_ms` [ms] and stores the samples. If there is no answer within
+  /// `limit_s` [s], ends the child process. Does nothing once the child process has ended.
   void play(double budget_ms, double limit_s);
 
   const std::vector<std::vector<Sample>>& blocks() const { return blocks_; }
-  /// "ok", or why the contestant is out: a sentence for the table.
+  /// "ok", or the reason why the child process has ended, as text for the table.
   const std::string& status() const { return status_; }
 
  private:

@@ -7,13 +7,13 @@
 namespace hgrid {
 namespace bench {
 
-/// [byte] Handed out by malloc in this process and not given back.
+/// Returns the number of bytes that this process has allocated with malloc and not freed.
 inline double heldBytes() {
 #if defined(__GLIBC__) && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 33)
   const struct mallinfo2 info = mallinfo2();
   return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
 #else
-  const struct mallinfo info = mallinfo();  // its numbers are ints that wrap around
+  const struct mallinfo info = mallinfo();  // older glibc: the counters are ints that overflow
   return static_cast<double>(static_cast<unsigned>(info.uordblks)) +
          static_cast<double>(static_cast<unsigned>(info.hblkhd));
 #endif

@@ -15,7 +15,7 @@ using Result = std::pair<std::uint64_t, std::uint64_t>;  // count and checksum
 
 Result resultOf(const Sample& sample) { return {sample.count, sample.checksum}; }
 
-/// The result of the most voters, if at least two share it and no other has as many.
+/// Returns the result with the most votes. Returns null if it has only one vote or if another result has as many votes.
 const Result* elected(const std::map<Result, int>& votes) {
   const Result* best = nullptr;
   int most = 1;
@@ -69,9 +69,9 @@ void Match::play(int rounds, double budget_ms, double limit_s) {
 
 std::vector<Score> Match::scores() const {
   std::map<std::uint64_t, std::map<Result, int>> votes;
-  std::map<std::uint64_t, Result> reference = decided_;  // by the number of the sample
+  std::map<std::uint64_t, Result> reference = decided_;  // sample number -> result
   for (const Entry& entry : entries_) {
-    std::map<std::uint64_t, std::set<Result>> mine;  // each voter has one vote for each result
+    std::map<std::uint64_t, std::set<Result>> mine;  // a voter has one vote for each different result
     for (const std::vector<Sample>& block : entry.contestant->blocks()) {
       for (const Sample& sample : block) mine[sample.number].insert(resultOf(sample));
     }

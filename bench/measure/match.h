@@ -13,36 +13,38 @@
 namespace hgrid {
 namespace bench {
 
-/// What a contestant's samples say.
+/// Times and results of one contestant, computed from its samples.
 struct Score {
-  double median_ms = 0.0;  ///< median over the blocks of each block's median
-  double min_ms = 0.0;     ///< of all timed samples
-  double spread = 0.0;     ///< (largest - smallest median of a block) / median_ms
-  double bytes = 0.0;
-  std::size_t timed = 0;                  ///< samples that count
-  std::size_t compared = 0;               ///< results that a reference was there for
-  std::uint64_t count = 0, checksum = 0;  ///< of the lowest-numbered result
-  bool correct = false;                   ///< every compared result equals the reference, and there was one
+  double median_ms = 0.0;                 ///< median over the blocks of each block's median
+  double min_ms = 0.0;                    ///< shortest of all timed samples
+  double spread = 0.0;                    ///< (largest - smallest median of a block) / median_ms
+  double bytes = 0.0;                     ///< most bytes that the peer held
+  std::size_t timed = 0;                  ///< number of timed samples
+  std::size_t compared = 0;               ///< number of results that could be compared with a reference
+  std::uint64_t count = 0, checksum = 0;  ///< count and checksum of the result with the lowest number
+  bool correct = false;                   ///< all compared results equal the reference, and there is at least one
 };
 
-/// Contestants that play in turn, block by block, so that what disturbs the machine disturbs all of them alike; and the
-/// judgement of their results.
+/// Runs contestants in turn, block by block, and compares their results. Since they take turns, other load on the
+/// machine slows down all of them alike.
 class Match {
  public:
-  /// @param votes  whether its results help to decide what is right: not those of the program under test
-  /// @param decides  its results are right: brute force
+  /// Adds a contestant.
+  /// @param votes    its results help to decide which result is correct; false for the program under test
+  /// @param decides  its results are correct by definition, for example those of brute force
   void add(std::unique_ptr<Contestant> contestant, bool votes, bool decides);
 
-  /// Says what is right for results of this number.
+  /// Sets the correct count and checksum of results with this number.
   void decide(std::uint64_t number, std::uint64_t count, std::uint64_t checksum) {
     decided_[number] = {count, checksum};
   }
 
-  /// So many blocks of each; one that does not answer within the limit is out.
+  /// Runs `rounds` blocks of each contestant. If a contestant needs more than `limit_s` [s], it does not run again.
   void play(int rounds, double budget_ms, double limit_s);
 
-  /// In the order of add(). A result is right if it equals what was decided, else that of one who decides, else that on
-  /// which at least two voters agree, more than on any other.
+  /// Returns the scores in the order of add(). A result is correct if it equals the one that decide() has set. Without
+  /// that, the reference is the result of a contestant that decides. Without such a contestant, it is the result with
+  /// the most votes, if it has at least two and no other result has as many.
   std::vector<Score> scores() const;
 
   const Contestant& contestant(std::size_t i) const { return *entries_[i].contestant; }
@@ -54,7 +56,7 @@ class Match {
   };
 
   std::vector<Entry> entries_;
-  std::map<std::uint64_t, std::pair<std::uint64_t, std::uint64_t>> decided_;  // count and checksum by number
+  std::map<std::uint64_t, std::pair<std::uint64_t, std::uint64_t>> decided_;  // result number -> count and checksum
 };
 
 }  // namespace bench

@@ -11,12 +11,13 @@
 namespace hgrid {
 namespace bench {
 
-/// How a peer plays frames.
+/// Runs a peer frame by frame and measures the time of each frame.
 ///
-/// A fresh peer (age 0) plays laps: loaded with the boxes of frame 0 it plays frames 1 .. kLap, the first kWarmUp of
-/// them untimed, and a new peer starts over, until the budget is used. So a tree that ages is seen young, and all peers
-/// see the same frames. An aged one is loaded once, plays `age` frames untimed, and then goes on by a lap in each
-/// block.
+/// With age 0, every lap starts with a new peer. It loads the boxes of frame 0 and runs frames 1 .. kLap; the first
+/// kWarmUp of them are not timed. Laps repeat until the time budget is used. So trees that get slower with age are
+/// measured when they are new, and all peers run the same frames.
+///
+/// With another age, the peer is loaded once and runs `age` untimed frames. Then each block is a lap of timed frames.
 class PairsPlay {
  public:
   static constexpr std::uint64_t kWarmUp = 2, kLap = 12;
@@ -31,12 +32,12 @@ class PairsPlay {
   Sample frame();
   double bytes() const;
 
-  World* world_;  // after the fork a copy of our own
+  World* world_;  // a private copy, since this runs in a child process
   std::function<std::unique_ptr<Peer>()> make_;
   std::uint64_t age_;
   std::unique_ptr<Peer> peer_;
   std::vector<ProxyPair> pairs_;
-  double held_before_ = 0.0;  // by this process without the peer and without the pairs
+  double held_before_ = 0.0;  // [byte] allocated by this process, without the peer and `pairs_`
 };
 
 }  // namespace bench

@@ -18,13 +18,13 @@ using Clock = std::chrono::steady_clock;
 constexpr int kRounds = 200000;
 constexpr int kTrials = 5;
 
-/// Six independent sums, as many as a core has units for: a core that two threads share has none to spare.
+/// Adds to six independent sums, to use all adders of a core. A second thread on the same core then gains nothing.
 void addRegisters() {
   std::array<std::uint64_t, 6> sums{1, 2, 3, 4, 5, 6};
   for (int i = 0; i < kRounds; ++i) {
     for (std::uint64_t& sum : sums) {
       sum += 3;
-      __asm__ volatile("" : "+r"(sum));  // so that no two additions become one
+      __asm__ volatile("" : "+r"(sum));  // keeps the compiler from merging two additions
       sum += 5;
       __asm__ volatile("" : "+r"(sum));
     }
@@ -37,7 +37,7 @@ double msOf(Clock::duration time) { return std::chrono::duration<double, std::mi
 
 double gainOfTwoProcessors() {
   std::atomic<int> asked{0}, answered{0};
-  // Spins while it waits, so that a trial does not wait for it to wake up.
+  // This thread spins while it waits, so that no trial includes the time to wake it up.
   std::thread other([&] {
     for (int trial = 1; trial <= kTrials; ++trial) {
       while (asked.load(std::memory_order_acquire) < trial) std::this_thread::yield();

@@ -5,10 +5,12 @@
 namespace hgrid {
 namespace bench {
 
-/// How much sooner two threads end twice a piece of work than one thread does, for a loop that adds registers and
-/// touches no memory: near 2 on two processors of one's own. Near 1 where both are hardware threads of one core, or
-/// where others use them; a virtual machine is told neither, and both may change from one second to the next. Nothing
-/// that computes can gain much more than this from a second thread. Takes about 5 ms; the median of five trials.
+/// Measures how many times faster two threads are than one with a loop that adds registers and touches no memory.
+///
+/// The result is near 2 if two processors are free. It is near 1 if both are hardware threads of one core, or if other
+/// programs use them. A virtual machine cannot find out which is the case, and it may change from one second to the
+/// next. No computation can gain much more than this from a second thread.
+/// @returns the median of five trials; this takes about 5 ms
 double gainOfTwoProcessors();
 
 }  // namespace bench

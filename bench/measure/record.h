@@ -9,7 +9,7 @@
 namespace hgrid {
 namespace bench {
 
-/// A flat JSON object, field by field.
+/// A flat JSON object. Fields are added one by one.
 class Record {
  public:
   explicit Record(const std::string& kind) { text("kind", kind); }
@@ -17,7 +17,7 @@ class Record {
   Record& text(const std::string& name, const std::string& value);
   Record& number(const std::string& name, double value);
   Record& flag(const std::string& name, bool value) { return raw(name, value ? "true" : "false"); }
-  /// 64 bits as 16 hexadecimal digits, since a JSON number cannot hold them.
+  /// Adds 64 bits as a string of 16 hexadecimal digits, since a JSON number cannot hold them exactly.
   Record& bits(const std::string& name, unsigned long long value);
 
   std::string json() const { return "{" + fields_ + "}"; }
@@ -28,7 +28,7 @@ class Record {
   std::string fields_;
 };
 
-/// Writes the records as one JSON array, a line for each. @throws std::runtime_error if the file cannot be written.
+/// Writes the records as one JSON array, one line per record. @throws std::runtime_error if the file cannot be written.
 void writeRecords(const std::string& file, const std::vector<Record>& records);
 
 }  // namespace bench

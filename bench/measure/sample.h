@@ -11,17 +11,17 @@
 namespace hgrid {
 namespace bench {
 
-/// One thing that was timed: a frame, or a pass over all queries.
+/// Time and result of one measured step, for example of a frame or of a pass over all queries.
 struct Sample {
-  double ms = 0.0;
-  double bytes = 0.0;          ///< held by the peer then; 0: not asked
-  std::uint64_t count = 0;     ///< pairs, or hits
-  std::uint64_t checksum = 0;  ///< of the set of pairs, or of the hits of all judged queries; whatever their order
-  std::uint64_t number = 0;    ///< of the frame; results of the same number are of the same boxes
-  std::uint64_t timed = 0;     ///< 0: to warm up only, the time does not count
+  double ms = 0.0;             ///< [ms] duration of the step
+  double bytes = 0.0;          ///< bytes that the peer held; 0: not measured
+  std::uint64_t count = 0;     ///< number of pairs or hits
+  std::uint64_t checksum = 0;  ///< of the pairs, or of the hits of all judged queries; their order does not matter
+  std::uint64_t number = 0;    ///< frame number; results with equal numbers are results for the same boxes
+  std::uint64_t timed = 0;     ///< 0: warm-up, the time does not count
 };
 
-/// The same for equal sets of numbers, in any order; one that is there twice changes it.
+/// A checksum of a set of numbers. Their order does not matter; a number that is added twice changes the checksum.
 class Checksum {
  public:
   void add(std::uint64_t number) { sum_ += mixed(number + 0x9e3779b97f4a7c15ull); }

@@ -16,7 +16,8 @@ inline double msSince(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
-/// Samples as `result`, each timed anew [ms], until the budget is spent; one at least.
+/// Calls `timed` until the budget is used, at least once. `timed` returns the duration of a step [ms]. Returns one copy
+/// of `result` with this duration for each call.
 template <class Timed>
 std::vector<Sample> samplesFor(double budget_ms, const Sample& result, Timed&& timed) {
   const Clock::time_point begin = Clock::now();

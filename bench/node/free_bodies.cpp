@@ -9,7 +9,7 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-constexpr double kEdge = 0.2;  // [m] about the edge of a body
+constexpr double kEdge = 0.2;  // [m] average edge of a body
 
 XmlRpc::XmlRpcValue obstacle(const std::string& name, std::mt19937& random) {
   std::uniform_real_distribution<double> edge(0.8 * kEdge, 1.2 * kEdge);
@@ -39,7 +39,7 @@ Workload freeBodies(std::size_t count, double rate) {
   workload.rate = rate;
   workload.params["rate"] = rate;
   workload.params["max_frames"] = static_cast<int>(count + 10);
-  workload.params["accept_uncovered"][0]["pattern"] = "robot/*";  // the robot is there for its frame only
+  workload.params["accept_uncovered"][0]["pattern"] = "robot/*";  // the robot only provides the frame "world"
   workload.params["accept_uncovered"][0]["reason"] = "it has no geometry";
   workload.descriptions["robot_description"] = "<robot name='nobody'><link name='world'/></robot>";
   const double side = kEdge * 2.0 * std::cbrt(4.0 * static_cast<double>(count));

@@ -27,7 +27,7 @@ bool Listener::serves(std::size_t bodies) const {
 
 std::string Listener::troubles() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!newest_) return "it never said anything";
+  if (!newest_) return "it has published no ~status";
   std::string text = std::to_string(newest_->body_count) + " bodies";
   for (const std::string& reason : newest_->world.reasons) text += "; " + reason;
   return text;

@@ -17,17 +17,18 @@ namespace bench {
 
 namespace msg = ::hgrid_proximity;
 
-/// Hears what a node says. Callbacks run on one other thread.
+/// Subscribes to the topics of a node and stores what it receives. All callbacks run on one other thread.
 class Listener {
  public:
-  /// @param node       its name
-  /// @param distances  somebody listens to its ~distances
+  /// @param node       name of the node
+  /// @param distances  whether to subscribe to ~distances of the node as well, so that it measures distances
   Listener(const std::string& node, bool distances);
 
-  /// From now on what is heard is added there; null: nowhere.
+  /// Adds everything that is received from now on to `sightings`. Null: stores nothing.
   void noteIn(Sightings* sightings);
-  /// Whether the whole world is known, so many bodies, and the node has ticked on.
+  /// Whether the newest ~status of the node reports a complete world with this number of bodies.
   bool serves(std::size_t bodies) const;
+  /// Returns text for an error message: the number of bodies in the newest ~status, and why the world is not complete.
   std::string troubles() const;
 
  private:

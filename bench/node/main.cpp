@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-// node_testbench: how long the parts of the node's tick take. Started by bench/node/run.
+// node_testbench measures how long the parts of the node's tick take. bench/node/run starts it.
 
 #include <ros/init.h>
 #include <ros/spinner.h>
@@ -24,7 +24,7 @@ std::vector<Workload> movingWorlds() {
   worlds.back().title += ", distances measured";
   worlds.back().distances = true;
   for (Workload& world : realRobots(100.0)) worlds.push_back(std::move(world));
-  if (worlds.size() == 4) std::printf("without real robots: their descriptions are not at hand\n");
+  if (worlds.size() == 4) std::printf("without real robots: their descriptions were not found\n");
   return worlds;
 }
 
@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
   using namespace hgrid::bench;
   ros::init(argc, argv, "node_testbench");
   std::string json, commit = "unknown";
-  double duration = 10.0;  // [s]
+  double duration = 10.0;  // [s] measured time per world
   bool only_maps = false;
   for (int i = 1; i < argc; ++i) {
     const std::string option = argv[i];

@@ -19,8 +19,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr char kTopic[] = "/bench_map";
-constexpr int kTurns = 4;          // of each kind
-constexpr double kMapsPerS = 1.0;  // [1/s]
+constexpr int kTurns = 4;          // number of turns with each kind of map
+constexpr double kMapsPerS = 1.0;  // [1/s] how often the map is replaced
 
 struct Seen {
   Sightings ticks;
@@ -32,7 +32,8 @@ void sleepUntil(Clock::time_point begin, double seconds) {
                                 std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds)));
 }
 
-/// Watches for `duration` [s]. Maps come in the middle of their seconds, so that none is read on in the next turn.
+/// Watches the node for `duration` [s]. Maps are sent in the middle of each second, so that the node has read the last
+/// one before the next turn. `maps` is null if the map shall not change.
 void turn(double duration, MapStream* maps, RunningNode& node, QuestionStream& questions, Seen& seen) {
   const Clock::time_point begin = Clock::now();
   node.watch(seen.ticks);
@@ -67,11 +68,11 @@ MapMeasurement measureMaps(double duration) {
     turn(duration, &maps, node, questions, seen[1]);
   }
   if (questions.failures() > 0) {
-    throw std::runtime_error(std::to_string(questions.failures()) + " questions were not answered");
+    throw std::runtime_error(std::to_string(questions.failures()) + " queries were not answered");
   }
   if (questions.replacements() + 1 != maps.published()) {
-    throw std::runtime_error("of " + std::to_string(maps.published() - 1) + " maps " +
-                             std::to_string(questions.replacements()) + " were seen to come into force");
+    throw std::runtime_error("of " + std::to_string(maps.published() - 1) + " maps that were sent, " +
+                             std::to_string(questions.replacements()) + " were used by the node");
   }
   return {measurementOf(workload, seen[0], 0.0), measurementOf(workload, seen[1], kMapsPerS),
           seen[1].questions.sphere.size() + seen[1].questions.segment.size(), maps.messageBytes()};

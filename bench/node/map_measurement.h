@@ -9,21 +9,23 @@
 namespace hgrid {
 namespace bench {
 
-/// The same node in the same world, whose map stays as it is, or is replaced once a second.
+/// Measurements of one node in one world, while its map does not change and while the map is replaced once a second.
 struct MapMeasurement {
-  Measurement resting, replaced;  ///< their parts have "query_sphere" and "query_segment" too
-  std::size_t questions = 0;      ///< of each of the two
-  std::size_t message_bytes = 0;
+  Measurement resting, replaced;  ///< their parts also include "query_sphere" and "query_segment"
+  std::size_t questions = 0;      ///< number of queries sent while the map was replaced
+  std::size_t message_bytes = 0;  ///< size of one map message, approximately
 };
 
-/// Starts a node with robots in a building, asks it 200 questions a second, and measures it for `duration` [s] with the
-/// map at rest, as long with one that is replaced every second, and so on in turn, so that what else the machine does
-/// meets both. Each map that was sent is seen to come into force.
+/// Starts a node with robots in a building, sends it 200 queries per second, and measures it.
 ///
-/// The maps are prepared, the one process that sends, asks and listens shares the machine with the node: what it takes
-/// stands in the measurements.
-/// @throws std::runtime_error if the node does not serve the whole world within a minute, leaves a question without an
-/// answer, or a map aside
+/// The node is measured for `duration` [s] while its map does not change, then for the same time while the map is
+/// replaced every second. This is repeated, so that other load on the machine affects both alike. The function checks
+/// that the node uses each map that was sent.
+///
+/// The maps are prepared in advance. This process sends the maps and queries, and receives what the node publishes. It
+/// shares the processors with the node; the measurements contain the processor time that it used.
+/// @throws std::runtime_error if the node does not know the whole world within a minute, does not answer a query, or
+/// does not use a map
 MapMeasurement measureMaps(double duration);
 
 }  // namespace bench

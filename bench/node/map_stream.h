@@ -13,28 +13,28 @@
 namespace hgrid {
 namespace bench {
 
-/// Maps of a building of 1,000,000 leaves (bench/maps/building.h), one after the other: of each the next differs in
-/// 10,000 leaves that are gone and 10,000 that are new, scattered over all of it. As octomap_server's octomap_binary,
-/// in the frame "map".
+/// Publishes maps of a building of 1,000,000 leaves (bench/maps/building.h), one after the other. From each map to the
+/// next, 10,000 leaves disappear and 10,000 appear, scattered over the building. The messages are like octomap_binary
+/// of octomap_server, in the frame "map".
 ///
-/// Ten of them are prepared, since making one takes far longer than sending it. Away from the building each has one
-/// leaf by which it can be told from the one before.
+/// The constructor prepares ten maps, since creating a map takes far longer than sending it; then they repeat. Each map
+/// has a mark: one more leaf outside of the building, at a different place than in the map before.
 class MapStream {
  public:
   static constexpr std::size_t kLeaves = 1000000;
-  static constexpr double kEdge = 0.05;  ///< [m] of the smallest leaves
+  static constexpr double kEdge = 0.05;  ///< [m] edge of the smallest leaves
 
-  /// Prepares them, and publishes the first one.
+  /// Prepares the maps and publishes the first one on `topic`.
   explicit MapStream(const std::string& topic);
 
   void publishNext();
-  /// How many were published.
+  /// Returns the number of maps published so far.
   std::size_t published() const { return published_; }
-  /// Bytes of one message, about.
+  /// Returns the approximate size of one message [byte].
   std::size_t messageBytes() const { return messages_.front().bytes.size(); }
 
-  /// Coordinate [m, frame "map"], the same on all three axes, of the middle of a leaf that every other map has: the
-  /// first one, the third and so on.
+  /// Returns the coordinate [m, frame "map"] of the center of the mark in the first map, the third and so on. It is the
+  /// same on all three axes.
   static double middleOfMark();
 
  private:

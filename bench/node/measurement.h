@@ -17,37 +17,40 @@ struct Spread {
   double median = 0.0, p99 = 0.0;
 };
 
-/// What was measured of a node that lived in a workload.
+/// The measured figures of a node that ran in a workload.
 struct Measurement {
+  /// One timed part of the tick, or another duration.
   struct Part {
     std::string name;
     Spread milliseconds;
   };
   std::string title;
   std::size_t bodies = 0;
-  double rate = 0.0;                 ///< [Hz]
-  bool distances = false;            ///< were measured
-  std::optional<double> maps_per_s;  ///< [1/s] how often its map was replaced, where that was to be measured
-  std::vector<Part> parts;           ///< of the ticks; "latency" after them
-  double cpu_percent = 0.0;          ///< of one processor
-  double bench_percent = 0.0;        ///< the same, of the process that moves the world, listens and asks
-  double others_percent = 0.0;       ///< the same, of all others together: what they take disturbs the rest
+  double rate = 0.0;                 ///< [Hz] rate of /tf and of the ticks
+  bool distances = false;            ///< whether the node measured distances
+  std::optional<double> maps_per_s;  ///< [1/s] how often the map was replaced; empty if the world has no map
+  std::vector<Part> parts;           ///< parts of the ticks, then "latency"
+  double cpu_percent = 0.0;          ///< processor time of the node, in percent of one processor
+  double bench_percent = 0.0;        ///< the same for this process, which moves the world and sends queries
+  double others_percent = 0.0;       ///< the same for all other processes together, which disturb the measurement
   double pairs = 0.0;                ///< near pairs per tick, on average
-  std::size_t ticks = 0;             ///< that were measured
-  std::size_t late_cycles = 0;       ///< of /tf
+  std::size_t ticks = 0;             ///< number of ticks that were measured
+  std::size_t late_cycles = 0;       ///< cycles of /tf that began late
 };
 
+/// Returns the spread of durations [s] in milliseconds.
 Spread spreadOf(std::vector<double> seconds);
+/// Computes the figures of a node from the data that was collected while it was watched.
 Measurement measurementOf(const Workload& workload, const Sightings& seen);
 
 /// Starts a node, lets it run in the workload, and measures it for `duration` [s].
 ///
-/// The parts are the node's own timings of every single tick (`last` of its ~status). "tf" is what it spent between
-/// two ticks on transforms that it had received. Latency goes from the stamp of a cycle of /tf, taken just before it is
-/// sent, to the reception of the first ~pairs that bears this stamp; it includes the wait for the next tick, and the
-/// cycle is a little longer than a tick so that a run meets every phase between the two once.
+/// The parts are the node's own timings of every single tick (`last` of its ~status). "tf" is the time that the node
+/// spent on received transforms between two ticks. Latency is the time from the stamp of a cycle of /tf, taken just
+/// before the cycle is sent, until this process receives the first ~pairs with this stamp. It includes the wait for the
+/// next tick. A cycle is slightly longer than a tick, so that each phase between the two occurs once during a run.
 ///
-/// @throws std::runtime_error if the node does not serve the whole world within a minute
+/// @throws std::runtime_error if the node does not know the whole world within a minute
 Measurement measure(const Workload& workload, double duration);
 
 }  // namespace bench

@@ -15,8 +15,8 @@ namespace {
 namespace msg = ::hgrid_proximity;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kBall = 0.3;      // [m] radius
-constexpr double kCapsule = 0.05;  // [m] radius
+constexpr double kBall = 0.3;      // [m] radius of sphere queries
+constexpr double kCapsule = 0.05;  // [m] radius of segment queries
 
 geometry_msgs::Point anywhere(Random& random) {
   geometry_msgs::Point point;

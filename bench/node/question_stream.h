@@ -17,27 +17,29 @@
 namespace hgrid {
 namespace bench {
 
-/// How long questions took: from the call to its return, over a persistent connection.
+/// How long service calls to the node took, from the call to its return, over a persistent connection.
 struct RoundTrips {
-  std::vector<double> sphere, segment;  ///< [s]
+  std::vector<double> sphere, segment;  ///< [s] one per query of this kind
 };
 
-/// Asks a node while it lives: ball and segment in turn, at random places of a room, one at a time. The moments are
-/// random, so that they meet every phase of the ticks; what is late, since the answer before came late, is asked at
-/// once. Ten times a second it also asks for the mark of MapStream, which is not timed, and so sees maps being
-/// replaced.
+/// Sends queries to a node from its own thread until it is destroyed. Sphere and segment queries take turns, one at a
+/// time, at random places of a room.
+///
+/// The pauses between queries are random, so that they cover every phase of the ticks. If an answer comes late, the
+/// next query follows at once. Ten times per second, the thread also asks for the mark of MapStream. This query is not
+/// timed; it shows that the map was replaced.
 class QuestionStream {
  public:
-  static constexpr double kRate = 200.0;  ///< [Hz] on average, both kinds together
+  static constexpr double kRate = 200.0;  ///< [Hz] average rate of both kinds of queries together
 
   explicit QuestionStream(const std::string& node);
   ~QuestionStream();
 
-  /// From now on round trips are added there; null: nowhere.
+  /// Adds the round trips of all queries from now on to `trips`. Null: stores nothing.
   void noteIn(RoundTrips* trips);
-  /// How many times another map was seen to be in force.
+  /// Returns how many times the answer about the mark has changed, which means that a new map is in use.
   std::size_t replacements() const { return replacements_; }
-  /// Questions that were not answered.
+  /// Returns the number of queries that were not answered.
   std::size_t failures() const { return failures_; }
 
  private:
@@ -56,7 +58,7 @@ class QuestionStream {
   RoundTrips* trips_ = nullptr;
   std::atomic<std::size_t> replacements_{0}, failures_{0};
   std::atomic<bool> stopping_{false};
-  std::thread thread_;  // last: it uses the others
+  std::thread thread_;  // last member, since the thread uses the others
 };
 
 }  // namespace bench

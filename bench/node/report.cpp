@@ -54,16 +54,16 @@ void print(const Measurement& m) {
   for (const Measurement::Part& part : m.parts) {
     std::printf("  %-12s %10.3f %10.3f\n", part.name.c_str(), part.milliseconds.median, part.milliseconds.p99);
   }
-  std::printf("  the node takes %.1f %% of one processor\n", m.cpu_percent);
+  std::printf("  the node uses %.1f %% of one processor\n", m.cpu_percent);
   printLateCycles(m);
   std::fflush(stdout);
 }
 
 void print(const MapMeasurement& m) {
   const Measurement &resting = m.resting, &replaced = m.replaced;
-  std::printf("\n%s, /tf and ticks at %g Hz, %.0f questions a second: twice %zu ticks, %zu questions\n",
+  std::printf("\n%s, /tf and ticks at %g Hz, %.0f queries per second: twice %zu ticks, %zu queries\n",
               resting.title.c_str(), resting.rate, QuestionStream::kRate, replaced.ticks, m.questions);
-  std::printf("  the map at rest / replaced every second, 1 %% of its leaves changed, by a message of %.2f MB\n",
+  std::printf("  map at rest / map replaced every second, 1 %% of its leaves changed, by a message of %.2f MB\n",
               1e-6 * static_cast<double>(m.message_bytes));
   std::printf("  %-14s %21s %12s %21s %12s\n", "part", "median ms", "difference", "p99 ms", "difference");
   for (std::size_t i = 0; i < resting.parts.size(); ++i) {
@@ -72,8 +72,8 @@ void print(const MapMeasurement& m) {
                 with.median, with.median - without.median, without.p99, with.p99, with.p99 - without.p99);
   }
   std::printf(
-      "  the node takes %.1f / %.1f %% of one processor, this program, which sends and asks, %.1f / %.1f %%,\n"
-      "  all others %.1f / %.1f %%\n",
+      "  the node uses %.1f / %.1f %% of one processor, this program, which sends maps and queries, %.1f / %.1f %%,\n"
+      "  all other programs %.1f / %.1f %%\n",
       resting.cpu_percent, replaced.cpu_percent, resting.bench_percent, replaced.bench_percent, resting.others_percent,
       replaced.others_percent);
   printLateCycles(resting);

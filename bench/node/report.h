@@ -11,11 +11,12 @@
 namespace hgrid {
 namespace bench {
 
-/// A measurement as a table for people, on standard output.
+/// Prints a measurement as a table to the standard output.
 void print(const Measurement& measurement);
 void print(const MapMeasurement& measurement);
 
-/// All measurements as one JSON array of flat records, a record per part; the first says of which machine and commit.
+/// Writes all measurements as one JSON array of flat records, one record per part. The first record names the machine
+/// and the commit.
 /// @throws std::runtime_error if the file cannot be written
 void writeJson(const std::string& file, const std::string& commit, const std::vector<Measurement>& measurements);
 

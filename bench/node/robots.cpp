@@ -10,8 +10,8 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-constexpr double kSpacing = 0.12;  // [m] between the joints of a chain
-constexpr double kApart = 1.5;     // [m] between bases
+constexpr double kSpacing = 0.12;  // [m] distance between the joints of a chain
+constexpr double kApart = 1.5;     // [m] distance between the bases of robots
 
 std::string robotName(std::size_t robot) { return "robot_" + std::to_string(robot); }
 std::string linkName(std::size_t link) { return "link_" + std::to_string(link); }

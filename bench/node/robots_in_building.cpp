@@ -9,7 +9,7 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-/// Where the building stands: robots are in the middle of its first room, on the floor.
+/// Returns the pose of the building. The robots are in the middle of its first room, on the floor.
 geometry_msgs::TransformStamped frameOfMap() {
   geometry_msgs::TransformStamped transform;
   transform.header.frame_id = "world";

@@ -17,14 +17,14 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-constexpr double kWarmUp = 11.0;  // [s] until tf's cache of 10 s is full: a fuller one is a slower one
+constexpr double kWarmUp = 11.0;  // [s] until tf's cache of 10 s is full; tf is slower with a full cache
 
-/// [s] of processor that a process has used.
+/// Returns the processor time [s] that a process has used.
 double processorTime(pid_t process) {
   std::ifstream file("/proc/" + std::to_string(process) + "/stat");
   std::string text;
   std::getline(file, text);
-  std::istringstream fields(text.substr(text.rfind(')') + 1));  // the name before may hold anything
+  std::istringstream fields(text.substr(text.rfind(')') + 1));  // the name before ')' may contain spaces
   std::string skipped;
   for (int field = 3; field < 14; ++field) fields >> skipped;
   double user = 0.0, system = 0.0;
@@ -32,13 +32,14 @@ double processorTime(pid_t process) {
   return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
 }
 
-/// [s] of processor that all programs have used, on all processors, or that the machine's host did not give.
+/// Returns the processor time [s] that all programs have used on all processors. It includes time that the host of a
+/// virtual machine did not provide.
 double processorTimeOfAll() {
   std::ifstream file("/proc/stat");
   std::string skipped;
   file >> skipped;
   double sum = 0.0;
-  for (const bool busy : {true, true, true, false, false, true, true, true}) {  // not idle, not waiting for disks
+  for (const bool busy : {true, true, true, false, false, true, true, true}) {  // skips idle time and waiting for disks
     double ticks = 0.0;
     file >> ticks;
     if (busy) sum += ticks;
@@ -67,7 +68,7 @@ RunningNode::RunningNode(const Workload& workload, double watched) : workload_(w
                                            log, std::map<std::string, std::string>{});
   for (double waited = 0.0; !listener_->serves(workload.bodies); waited += 0.1) {
     if (waited > 60.0 || !process_->alive()) {
-      throw std::runtime_error("the node does not serve: " + listener_->troubles());
+      throw std::runtime_error("the node does not know the whole world: " + listener_->troubles());
     }
     sleepFor(0.1);
   }

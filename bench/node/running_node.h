@@ -13,23 +13,24 @@
 namespace hgrid {
 namespace bench {
 
-/// A node in a process of its own that lives in a workload, which moves.
+/// A node in a child process, in a workload that moves.
 class RunningNode {
  public:
-  /// Starts it, and lets it run until it is as slow as it gets.
-  /// @param watched  [s] that it will be watched in one go: meanwhile /tf meets each phase between its cycle and the
-  ///                 tick once
-  /// @throws std::runtime_error if the node does not serve the whole world within a minute
+  /// Starts the node and waits until the cache of tf is full, since the node is slower with a full cache.
+  /// @param watched  [s] time between watch() and rest(). The period of /tf is chosen so that the phase between /tf and
+  ///                 the ticks takes every value once in this time.
+  /// @throws std::runtime_error if the node does not know the whole world within a minute
   RunningNode(const Workload& workload, double watched);
 
   const std::string& name() const { return name_; }
-  /// From now on what is seen of it is added there, until rest().
+  /// Adds everything that is measured from now on to `sightings`, until rest() is called.
   void watch(Sightings& sightings);
+  /// Stops adding to the `sightings` of watch().
   void rest();
 
  private:
   struct Clocks {
-    double now = 0.0, node = 0.0, bench = 0.0, all = 0.0;  // [s] the last three of processor
+    double now = 0.0, node = 0.0, bench = 0.0, all = 0.0;  // [s] `now` is a clock time, the others are processor times
     std::size_t late_cycles = 0;
   };
   Clocks clocks() const;

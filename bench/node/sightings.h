@@ -10,13 +10,13 @@
 namespace hgrid {
 namespace bench {
 
-/// What was seen of a node while it was watched, in one span of time or in several.
+/// Data collected about a node while it was watched, in one or several spans of time.
 struct Sightings {
-  std::map<std::string, std::vector<double>> seconds;  ///< [s] of each tick, by the node's own names; "latency"
-  std::size_t pairs = 0, ticks = 0, late_cycles = 0;   ///< late_cycles: of /tf
-  double duration = 0.0;                               ///< [s] that it was watched
-  double node_time = 0.0, bench_time = 0.0;            ///< [s] of processor that the two processes used meanwhile
-  double others_time = 0.0;                            ///< [s] the same of all other programs
+  std::map<std::string, std::vector<double>> seconds;  ///< [s] timings of each tick, by the node's names, and "latency"
+  std::size_t pairs = 0, ticks = 0, late_cycles = 0;   ///< late_cycles: cycles of /tf that began late
+  double duration = 0.0;                               ///< [s] how long the node was watched
+  double node_time = 0.0, bench_time = 0.0;            ///< [s] processor time of the node and of this process
+  double others_time = 0.0;                            ///< [s] processor time of all other programs
 };
 
 }  // namespace bench

@@ -12,15 +12,16 @@
 namespace hgrid {
 namespace bench {
 
-/// Publishes the cycles of a workload on /tf from a thread of its own while it lives. All transforms of a cycle bear
-/// the time at which it is sent.
+/// Publishes the cycles of a workload on /tf from its own thread until it is destroyed. The stamp of all transforms of
+/// a cycle is the time when the cycle is sent.
 class TfPublisher {
  public:
-  /// @param period  [s] from cycle to cycle
+  /// @param period  [s] time from the start of a cycle to the start of the next
   TfPublisher(const Workload& workload, double period);
   ~TfPublisher();
+  /// Whether somebody subscribes to /tf.
   bool heard() const { return publisher_.getNumSubscribers() > 0; }
-  /// Cycles that began more than half a period late: the machine was too busy to keep the rate.
+  /// Returns the number of cycles that began more than half a period late, since the machine was too busy.
   std::size_t lateCycles() const { return late_; }
 
  private:
@@ -32,7 +33,7 @@ class TfPublisher {
   ros::Publisher publisher_;
   std::atomic<bool> stopping_{false};
   std::atomic<std::size_t> late_{0};
-  std::thread thread_;  // last: it uses the others
+  std::thread thread_;  // last member, since the thread uses the others
 };
 
 }  // namespace bench

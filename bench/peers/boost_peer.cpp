@@ -7,7 +7,7 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-/// Boost's R-tree, packed anew each frame, and asked once for each box.
+/// Boost's R-tree. Each frame builds a new packed tree and queries it once per box.
 class BoostPeer final : public Peer {
  public:
   void load(const std::vector<Aabb>&) override {}

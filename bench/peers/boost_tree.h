@@ -23,7 +23,7 @@ using BoostTree = boost::geometry::index::rtree<BoostValue, boost::geometry::ind
 inline BoostPoint toBoost(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
 inline BoostBox toBoost(const Aabb& box) { return {toBoost(box.min), toBoost(box.max)}; }
 
-/// Values for a tree, which packs them when it is made of a range (sort-tile-recursive).
+/// Returns the values to build a tree from. A tree that is built from a range packs them (sort-tile-recursive).
 inline std::vector<BoostValue> boostValues(const std::vector<Aabb>& boxes) {
   std::vector<BoostValue> values;
   values.reserve(boxes.size());
@@ -31,7 +31,7 @@ inline std::vector<BoostValue> boostValues(const std::vector<Aabb>& boxes) {
   return values;
 }
 
-/// An output iterator that hands the id of each hit to a function.
+/// An output iterator that passes the id of each hit to a function.
 template <class Take>
 class BoostHits {
  public:

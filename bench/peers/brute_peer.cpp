@@ -6,13 +6,13 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-/// hgrid::overlap without a branch: one that goes either way costs more than the comparisons it saves.
+/// Same as hgrid::overlap, but without branches: a mispredicted branch costs more than the comparisons that it saves.
 bool overlapping(const Aabb& a, const Aabb& b) {
   return (a.min.x() <= b.max.x()) & (b.min.x() <= a.max.x()) & (a.min.y() <= b.max.y()) & (b.min.y() <= a.max.y()) &
          (a.min.z() <= b.max.z()) & (b.min.z() <= a.max.z());
 }
 
-/// Every box against every later one: nothing to go wrong, so it judges the others.
+/// Compares every box with every later one. This is too simple to be wrong, so its pairs are the reference.
 class BrutePeer final : public Peer {
  public:
   void load(const std::vector<Aabb>&) override {}

@@ -8,7 +8,7 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-/// A box as CGAL's algorithm wants to see it.
+/// A box with the interface that CGAL's algorithm requires.
 struct CgalBox {
   using NT = float;
   using ID = std::size_t;
@@ -22,7 +22,7 @@ struct CgalBox {
   std::size_t id() const { return number; }
 };
 
-/// CGAL's streamed segment tree, at its own defaults (closed boxes); it keeps nothing from frame to frame.
+/// CGAL's streamed segment tree with default settings (closed boxes). It keeps no data from frame to frame.
 class CgalPeer final : public Peer {
  public:
   void load(const std::vector<Aabb>&) override {}

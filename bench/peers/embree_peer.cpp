@@ -9,7 +9,7 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-/// Embree's hierarchy, rebuilt each frame at low quality and collided with itself.
+/// Embree's bounding volume hierarchy. Each frame rebuilds it at low quality and collides it with itself.
 class EmbreePeer final : public Peer {
  public:
   void load(const std::vector<Aabb>& boxes) override {
@@ -32,7 +32,7 @@ class EmbreePeer final : public Peer {
     std::vector<ProxyPair>* pairs;
   };
 
-  /// Embree names candidates, each of them in both orders.
+  /// Stores the candidate pairs that overlap, in one of the two orders in which Embree reports each candidate.
   static void take(void* to, RTCCollision* candidates, unsigned count) {
     const Found& found = *static_cast<Found*>(to);
     for (unsigned i = 0; i < count; ++i) {

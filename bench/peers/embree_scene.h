@@ -13,12 +13,12 @@
 namespace hgrid {
 namespace bench {
 
-/// An Embree scene of one user geometry with a primitive per box, on one thread.
+/// An Embree scene with one user geometry, which has one primitive per box. Embree runs with one thread.
 class EmbreeScene {
  public:
   explicit EmbreeScene(RTCBuildQuality quality) {
     device_ = rtcNewDevice("threads=1,set_affinity=0");
-    if (!device_) throw std::runtime_error("Embree gives no device");
+    if (!device_) throw std::runtime_error("Embree cannot create a device");
     rtcSetDeviceMemoryMonitorFunction(device_, count, &bytes_);
     scene_ = rtcNewScene(device_);
     rtcSetSceneBuildQuality(scene_, quality);
@@ -36,12 +36,13 @@ class EmbreeScene {
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;
 
+  /// Sets the number of boxes and attaches the geometry to the scene.
   void attach(std::size_t count) {
     rtcSetGeometryUserPrimitiveCount(geometry_, static_cast<unsigned>(count));
     rtcAttachGeometry(scene_, geometry_);
   }
 
-  /// Builds over these boxes, which must live on; they are as many as attached.
+  /// Builds the scene from `boxes`, as many as attach() has set. The scene keeps a pointer to them.
   void build(const std::vector<Aabb>& boxes) {
     boxes_ = boxes.data();
     rtcCommitGeometry(geometry_);

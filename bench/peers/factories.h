@@ -9,7 +9,7 @@
 namespace hgrid {
 namespace bench {
 
-// One per peer; those of libraries that were not found are declared only.
+// One factory per peer. If the library of a peer was not found, its factory is declared but not defined.
 std::unique_ptr<Peer> makeBrute();
 std::unique_ptr<Peer> makeFloor();
 std::unique_ptr<Peer> makeSweep();
@@ -26,7 +26,7 @@ std::unique_ptr<Peer> makeCgal();
 std::unique_ptr<Peer> makeBoostRtree();
 std::unique_ptr<Peer> makeEmbree();
 
-/// Whether this processor can run the array sort-and-sweep.
+/// Whether this processor can run the peer of makeSweep().
 bool canSweep();
 
 }  // namespace bench

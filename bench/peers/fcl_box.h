@@ -12,7 +12,7 @@
 namespace hgrid {
 namespace bench {
 
-/// An FCL object that is nothing but its box; FCL takes the box as it is.
+/// An FCL object that has only an AABB. FCL uses this AABB unchanged.
 class FclBox : public fcl::CollisionObject<double> {
  public:
   FclBox(ProxyId id, const Aabb& box) : CollisionObject(sharedGeometry()), id_(id) { setBox(box); }
@@ -24,7 +24,7 @@ class FclBox : public fcl::CollisionObject<double> {
   ProxyId id() const { return id_; }
 
  private:
-  /// Managers ask for the kind of geometry; nothing else of it is looked at.
+  /// Returns a geometry that all objects share. FCL's managers ask for its type, but do not use anything else of it.
   static const std::shared_ptr<fcl::CollisionGeometry<double>>& sharedGeometry() {
     static const std::shared_ptr<fcl::CollisionGeometry<double>> sphere = std::make_shared<fcl::Sphere<double>>(1.0);
     return sphere;

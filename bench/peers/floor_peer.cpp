@@ -7,8 +7,8 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-/// The least that a broad phase which rebuilds can do: read the boxes, sort them once by a 32-bit key, gather them into
-/// sorted arrays, write n pairs. Its pairs mean nothing.
+/// The minimum work of a broad phase that rebuilds in each frame: reads the boxes, sorts them once by a 32-bit key,
+/// copies them to sorted arrays, and writes n pairs. These pairs have no meaning.
 class FloorPeer final : public Peer {
  public:
   void load(const std::vector<Aabb>&) override {}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// All that the benchmark knows of HGrid.
+// The only file of the benchmark that uses class HGrid.
 #include "bench/peers/hgrid_peer.h"
 
 #include <limits>
@@ -15,7 +15,7 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-/// Takes the whole set if all move, else what moved.
+/// Passes all boxes to HGrid::update() if all of them moved, else the moved ones to HGrid::move().
 class HGridPeer final : public Peer {
  public:
   HGridPeer(int threads, Isa isa) : threads_(threads), isa_(isa) {}

@@ -11,10 +11,10 @@
 namespace hgrid {
 namespace bench {
 
-/// Instruction sets that HGrid can use on this processor, the best one last.
+/// Returns the names of the instruction sets that HGrid can use on this processor, the best one last.
 std::vector<std::string> hgridInstructions();
 
-/// HGrid with so many threads and the named one of hgridInstructions().
+/// Creates HGrid with this number of threads and with one of the instruction sets of hgridInstructions().
 std::unique_ptr<Peer> makeHGrid(int threads, const std::string& instructions);
 
 }  // namespace bench

@@ -10,7 +10,7 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-/// What a geometry of ours carries: ODE asks for its box through a function.
+/// The user data of an ODE geometry. ODE gets its box by calling writeBox().
 struct Body {
   const Aabb* box;
   ProxyId id;
@@ -26,7 +26,7 @@ void writeBox(dGeomID geom, dReal* bounds) {
   }
 }
 
-/// The class of geometries that are nothing but a box.
+/// Returns the number of an ODE geometry class whose geometries have only a box.
 int boxClass() {
   static const int number = [] {
     dInitODE2(0);
@@ -42,7 +42,7 @@ int boxClass() {
 class OdePeer : public Peer {
  public:
   ~OdePeer() override {
-    if (space_) dSpaceDestroy(space_);  // with its geometries
+    if (space_) dSpaceDestroy(space_);  // also destroys the geometries in it
   }
 
   void load(const std::vector<Aabb>& boxes) override {
@@ -60,7 +60,7 @@ class OdePeer : public Peer {
   void frame(const Frame& frame, std::vector<ProxyPair>& pairs) override {
     for (std::size_t i = 0; i < frame.moved.size(); ++i) {
       boxes_[frame.moved[i]] = frame.moved_boxes[i];
-      dGeomSetPosition(geoms_[frame.moved[i]], 0, 0, 0);  // says that it moved
+      dGeomSetPosition(geoms_[frame.moved[i]], 0, 0, 0);  // marks the geometry as moved
     }
     pairs.clear();
     dSpaceCollide(space_, &pairs, [](void* found, dGeomID a, dGeomID b) {

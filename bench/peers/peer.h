@@ -12,37 +12,39 @@
 namespace hgrid {
 namespace bench {
 
-/// A broad phase in the benchmark. Every peer gets the same float boxes and must end each frame with the full list of
-/// overlapping pairs in the caller's buffer, boxes that only touch included.
+/// A broad phase in the benchmark. Every peer receives the same float boxes. In each frame, it must write all
+/// overlapping pairs into the caller's buffer. Boxes that only touch overlap.
 class Peer {
  public:
   virtual ~Peer() = default;
 
+  /// Loads the boxes of frame 0. The id of a box is its index.
   virtual void load(const std::vector<Aabb>& boxes) = 0;
-  /// Takes the boxes that moved, then replaces `pairs` by all pairs, each once, the smaller id first, in any order.
+  /// Updates the boxes that moved. Then replaces `pairs` with all overlapping pairs: each pair once, the smaller id
+  /// first, pairs in any order.
   virtual void frame(const Frame& frame, std::vector<ProxyPair>& pairs) = 0;
-  /// Whether a frame depends on the frames before; if not, ageing is left out.
+  /// Whether the time of a frame depends on earlier frames. If not, untimed frames are skipped.
   virtual bool remembers() const { return true; }
-  /// [byte] What the peer itself says that it holds; 0: it does not, and what it has allocated is counted.
+  /// Returns the bytes that the peer reports to hold. 0: it reports nothing, so the bytes that it has allocated count.
   virtual std::size_t bytes() const { return 0; }
 };
 
-/// Ids of a pair that a library names in any order.
+/// Returns the pair with the smaller id first.
 inline ProxyPair ordered(ProxyId a, ProxyId b) { return a < b ? ProxyPair{a, b} : ProxyPair{b, a}; }
 
-/// A peer by name, and how many boxes it is asked to handle at most.
+/// A kind of peer: its name, the largest number of boxes it runs with, and how to create it.
 struct PeerKind {
   std::string name;
-  std::string instructions;    ///< instruction set that it is known to use, else "default"
-  std::size_t most = 0;        ///< above this number of boxes a frame, or loading, takes far too long
-  std::size_t quick_most = 0;  ///< the same for a quick run; 0: takes no part in it
+  std::string instructions;    ///< instruction set that the peer uses, if known, else "default"
+  std::size_t most = 0;        ///< largest number of boxes; with more, a frame or loading takes far too long
+  std::size_t quick_most = 0;  ///< largest number of boxes in a quick run; 0: the peer is left out
   std::function<std::unique_ptr<Peer>()> make;
 };
 
-/// The peers that this program was built with, ours not among them.
+/// Returns the peers that this program was built with, without hgrid.
 const std::vector<PeerKind>& peers();
 
-/// Names of the peers whose libraries were not found when this program was built.
+/// Returns the names of the peers whose libraries were not found when this program was built.
 const std::vector<std::string>& missingPeers();
 
 }  // namespace bench

@@ -11,23 +11,24 @@
 namespace hgrid {
 namespace bench {
 
-/// A float as an unsigned number with the same order.
+/// Converts a float to an unsigned integer that sorts in the same order.
 inline std::uint32_t sortable(float value) {
   std::uint32_t bits;
   std::memcpy(&bits, &value, sizeof bits);
   return bits ^ (static_cast<std::uint32_t>(-static_cast<std::int32_t>(bits >> 31)) | 0x80000000u);
 }
 
-/// Sorts numbers by 32-bit keys: three passes of 11 bits over (key, number) pairs, counted in one go.
+/// Sorts (key, number) items by their 32-bit keys, in three passes of 11 bits. One loop counts all digits.
 class RadixSort {
  public:
   struct Item {
     std::uint32_t key, number;
   };
 
-  /// To be filled with what is to be sorted; sorted() gives the result.
+  /// The items to sort. The caller fills this list, then calls sorted().
   std::vector<Item>& items() { return items_; }
 
+  /// Sorts the items and returns them. Items with equal keys keep their order.
   const std::vector<Item>& sorted() {
     constexpr int kBits = 11, kPasses = 3;
     constexpr std::uint32_t kBuckets = 1u << kBits, kMask = kBuckets - 1;

@@ -11,13 +11,14 @@
 namespace hgrid {
 namespace bench {
 
-/// Boxes in the order of their minima along one axis, as structure of arrays.
+/// Boxes sorted by their minimum along one axis, stored as a structure of arrays.
 struct SortedArrays {
-  static constexpr std::size_t kPad = 16;  ///< boxes beyond every other one at the end, for loads of eight
+  static constexpr std::size_t kPad = 16;  ///< boxes at infinity after the last one, for SIMD loads of eight boxes
 
-  std::vector<float> min[3], max[3];  ///< [0]: along the axis of the order; then the other two
+  std::vector<float> min[3], max[3];  ///< [0]: along the sort axis; [1], [2]: along the other axes
   std::vector<ProxyId> id;
 
+  /// Replaces the contents with `boxes`, sorted along `axis`. The id of a box is its index in `boxes`.
   void take(const std::vector<Aabb>& boxes, int axis) {
     const std::size_t n = boxes.size();
     if (id.size() != n) resize(n);

@@ -15,9 +15,10 @@ namespace bench {
 #if defined(__x86_64__)
 namespace {
 
-/// Array sort-and-sweep (after Ericson, Real-Time Collision Detection, 2005, section 7.5.2): sorted by their minima
-/// along one axis each frame, each box tested against those that begin before it ends, eight at a time. The axis is the
-/// one that takes the fewest tests when the boxes are loaded. The strongest simple rival.
+/// Array sort-and-sweep (after Ericson, Real-Time Collision Detection, 2005, section 7.5.2), a strong and simple rival.
+///
+/// Each frame sorts the boxes by their minimum along one axis. Then it tests each box with the boxes that begin before
+/// this box ends, eight at a time. load() selects the axis that needs the fewest tests.
 class SweepPeer final : public Peer {
  public:
   void load(const std::vector<Aabb>& boxes) override {
@@ -41,7 +42,7 @@ class SweepPeer final : public Peer {
   }
 
  private:
-  /// Tests that a frame of the boxes takes in their present order.
+  /// Returns the number of overlap tests in a frame with the current order of the boxes.
   std::uint64_t testCount() const {
     const auto begin = arrays_.min[0].begin(), end = begin + static_cast<std::ptrdiff_t>(arrays_.id.size());
     std::uint64_t count = 0;
@@ -52,9 +53,9 @@ class SweepPeer final : public Peer {
     return count;
   }
 
-  /// Writes the pairs of box i with the later ones; at most one per box. Returns how many.
+  /// Writes the pairs of box i with later boxes, at most one per box. Returns the number of pairs.
   __attribute__((target("avx2,bmi"))) std::size_t sweep(std::size_t i, ProxyPair* out) const {
-    const float* min_x = arrays_.min[0].data();  // x: the axis of the order
+    const float* min_x = arrays_.min[0].data();  // x means the sort axis
     const float* min_y = arrays_.min[1].data();
     const float* max_y = arrays_.max[1].data();
     const float* min_z = arrays_.min[2].data();
@@ -70,7 +71,7 @@ class SweepPeer final : public Peer {
                                      _mm256_cmp_ps(_mm256_loadu_ps(max_y + j), low_y, _CMP_GE_OQ));
       const __m256 z = _mm256_and_ps(_mm256_cmp_ps(_mm256_loadu_ps(min_z + j), high_z, _CMP_LE_OQ),
                                      _mm256_cmp_ps(_mm256_loadu_ps(max_z + j), low_z, _CMP_GE_OQ));
-      const __m256 x = _mm256_cmp_ps(_mm256_loadu_ps(min_x + j), end_x, _CMP_LE_OQ);  // beyond the end: too far in x
+      const __m256 x = _mm256_cmp_ps(_mm256_loadu_ps(min_x + j), end_x, _CMP_LE_OQ);  // drops boxes that begin too late
       auto hits = static_cast<unsigned>(_mm256_movemask_ps(_mm256_and_ps(x, _mm256_and_ps(y, z))));
       for (; hits != 0; hits &= hits - 1) *out++ = ordered(mine, arrays_.id[j + _tzcnt_u32(hits)]);
     }

@@ -12,8 +12,8 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-/// Embree in its robust mode: point queries for balls and nearest, rays that collect every box on their way for
-/// segments.
+/// Embree in its robust mode. Sphere and nearest queries use Embree's point queries. Segment queries use rays that
+/// collect every box on their way.
 class EmbreeQueries final : public QueryPeer {
  public:
   void load(const std::vector<Aabb>& boxes) override {
@@ -68,7 +68,7 @@ class EmbreeQueries final : public QueryPeer {
     NearestList list;
   };
   struct SegmentQuery {
-    RTCIntersectContext context;  // first: Embree hands back a pointer to it
+    RTCIntersectContext context;  // first member, since Embree passes back a pointer to it
     const EmbreeQueries* peer;
     const SlabTest* test;
     std::vector<ProxyId>* found;
@@ -98,17 +98,17 @@ class EmbreeQueries final : public QueryPeer {
     query.list.offer(squaredGap(query.peer->boxes_[arguments->primID], *query.point), arguments->primID);
     if (query.list.bound() == before) return false;
     arguments->query->radius = static_cast<float>(std::sqrt(query.list.bound()) + query.peer->slack_);
-    return true;  // the radius has changed
+    return true;  // tells Embree that the radius has changed
   }
 
-  /// Notes the box and reports no hit, so that the ray goes on to its end.
+  /// Stores the box and reports no hit to Embree, so that the ray continues to its end.
   static void takeMet(const RTCIntersectFunctionNArguments* arguments) {
     const SegmentQuery& query = *reinterpret_cast<const SegmentQuery*>(arguments->context);
     if (query.test->meets(query.peer->boxes_[arguments->primID])) query.found->push_back(arguments->primID);
   }
 
   std::vector<Aabb> boxes_;
-  double slack_ = 0.0;  // [m] so that Embree's floats lose nothing; hits are tested in double
+  double slack_ = 0.0;  // [m] added to radii, so that float rounding in Embree loses no box
   std::optional<EmbreeScene> scene_;
 };
 

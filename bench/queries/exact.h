@@ -14,8 +14,8 @@
 namespace hgrid {
 namespace bench {
 
-/// [m] How near to the border between hit and miss the rounding of peers in float may decide: some units in the last
-/// place of the largest coordinate, 0.1 mm at least.
+/// Returns a tolerance [m]. If a box is nearer than this to the border between hit and miss, float rounding may decide.
+/// The tolerance is three units in the last place of the largest coordinate, at least 0.1 mm.
 inline double doubtOf(const std::vector<Aabb>& boxes) {
   float largest = 0.f;
   for (const Aabb& box : boxes)
@@ -23,7 +23,7 @@ inline double doubtOf(const std::vector<Aabb>& boxes) {
   return std::max(1e-4, 3.0 * double(std::nextafter(largest, std::numeric_limits<float>::infinity()) - largest));
 }
 
-/// Squared distance of a point from a box [m²], 0 inside.
+/// Returns the squared distance of a point from a box [m²]; 0 inside the box.
 inline double squaredGap(const Aabb& box, const Eigen::Vector3d& point) {
   double sum = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -33,13 +33,13 @@ inline double squaredGap(const Aabb& box, const Eigen::Vector3d& point) {
   return sum;
 }
 
-/// Which boxes a segment meets, by slabs: the last step of peers that find candidates only.
+/// Tests whether a segment meets a box, with the slab method. Peers that only find candidates use this as a last step.
 class SlabTest {
  public:
   explicit SlabTest(const Segment& segment)
       : from_(segment.from), inverse_((segment.to - segment.from).cwiseInverse()) {}
 
-  /// @param by  [m] grows the box, or shrinks it
+  /// Whether the segment meets the box. @param by  [m] grows the box by this length first; negative: shrinks it
   bool meets(const Aabb& box, double by = 0.0) const {
     double begin = 0.0, end = 1.0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -55,7 +55,7 @@ class SlabTest {
   Eigen::Vector3d from_, inverse_;
 };
 
-/// The box around a ball or a segment, rounded outwards: where peers look for candidates.
+/// Returns the box around a sphere, rounded outward. Peers search for candidates in it.
 inline Aabb around(const Sphere& sphere) {
   Aabb box;
   for (int axis = 0; axis < 3; ++axis) {
@@ -64,6 +64,7 @@ inline Aabb around(const Sphere& sphere) {
   }
   return box;
 }
+/// Returns the box around a segment. The ends of all segments in the benchmark are exact in float.
 inline Aabb around(const Segment& segment) {
   return {segment.from.cwiseMin(segment.to).cast<float>(), segment.from.cwiseMax(segment.to).cast<float>()};
 }

@@ -8,24 +8,26 @@
 namespace hgrid {
 namespace bench {
 
-/// The right hits of the first queries of a set, from a look at every box.
+/// The correct hits of the first kFirst queries of a set, found by testing every box.
 ///
-/// A query is not judged if some box lies so near to the border between hit and miss that the rounding of float may
-/// decide: see doubtOf(). Boxes are compared without rounding, so of those all are judged.
+/// A query is not judged if a box is so near to the border between hit and miss that float rounding may decide, see
+/// doubtOf(). Box queries need no rounding, so all of them are judged.
 class Judge {
  public:
   static constexpr std::size_t kFirst = 1000;
 
   Judge(QueryKind kind, const QuerySet& queries, const std::vector<Aabb>& boxes);
 
-  /// Queries from the first on that may be judged, and whether each one is.
+  /// Number of queries that were tested: the first ones of the set.
   std::size_t size() const { return judged_.size(); }
+  /// Whether the query is judged.
   bool judges(std::size_t query) const { return judged_[query]; }
   std::size_t judgedCount() const { return judged_count_; }
-  /// Number of the right hits and their checksum.
+  /// Number of the correct hits of all judged queries, and their checksum.
   std::uint64_t count() const { return count_; }
   std::uint64_t checksum() const { return checksum_.value(); }
 
+  /// Returns a number for the checksum that stands for one hit of one query.
   static std::uint64_t hit(std::size_t query, ProxyId id) { return std::uint64_t{query} << 32 | id; }
 
  private:

@@ -12,7 +12,7 @@
 namespace hgrid {
 namespace bench {
 
-/// The k nearest boxes seen so far, for peers that walk a tree with a shrinking bound.
+/// The k nearest boxes found so far. Peers that search a tree with a shrinking bound use it.
 class NearestList {
  public:
   void start(std::size_t k) {
@@ -28,7 +28,7 @@ class NearestList {
     heap_.emplace_back(squared_distance, id);
     std::push_heap(heap_.begin(), heap_.end());
   }
-  /// Only what is nearer can still get in; squared.
+  /// Returns the squared distance below which a box still enters the list.
   double bound() const { return heap_.size() < k_ ? std::numeric_limits<double>::infinity() : heap_.front().first; }
   void write(std::vector<ProxyId>& found) const {
     found.clear();

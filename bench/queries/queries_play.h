@@ -8,8 +8,10 @@
 namespace hgrid {
 namespace bench {
 
-/// How a peer answers queries of one kind: first the judged ones, untimed, then all in turn, kChunk of them per sample,
-/// or, batched, all in one call per sample.
+/// Measures how long a peer takes to answer queries of one kind.
+///
+/// First the peer answers the judged queries, untimed. Then it answers all queries in turn, kChunk of them per sample.
+/// If batched, it answers all queries in one call per sample.
 class QueriesPlay {
  public:
   static constexpr std::size_t kChunk = 1000;
@@ -31,7 +33,7 @@ class QueriesPlay {
   const Judge* judge_;
   std::size_t next_ = 0;
   std::vector<ProxyId> found_;
-  Sample result_;  // what every sample carries beside its time
+  Sample result_;  // each sample is a copy of this with its own time
 };
 
 }  // namespace bench

@@ -12,23 +12,24 @@
 namespace hgrid {
 namespace bench {
 
-/// Something that answers queries. All hits are returned, in any order; boxes that only touch are hits.
+/// A peer that answers queries. It must return all hits, in any order. Boxes that only touch are hits.
 class QueryPeer {
  public:
   virtual ~QueryPeer() = default;
 
   virtual void load(const std::vector<Aabb>& boxes) = 0;
-  /// Whether it answers this kind one by one, or many in one call.
+  /// Whether the peer answers queries of this kind: if batched, all of them in one call, else one by one.
   virtual bool answers(QueryKind kind, bool batched) const = 0;
 
-  // One by one; `found` is replaced. Only called for kinds that are answered.
+  // Each of the next four functions answers one query and replaces the list with its hits. They are only called for
+  // kinds of queries that answers() accepts.
   virtual void sphere(const Sphere&, std::vector<ProxyId>&) {}
   virtual void segment(const Segment&, std::vector<ProxyId>&) {}
   virtual void box(const Aabb&, std::vector<ProxyId>&) {}
   virtual void nearest(const Eigen::Vector3d&, std::size_t, std::vector<ProxyId>&) {}
-  /// All queries of the kind in one call; the peer keeps the hits in a form of its own.
+  /// Answers all queries of one kind. The peer stores the hits in its own format.
   virtual void batch(QueryKind, const QuerySet&) {}
-  /// The hits that the last batch() found for a query.
+  /// Replaces the list with the hits that the last batch() found for one query.
   virtual void batchHits(std::size_t, std::vector<ProxyId>&) const {}
 };
 
@@ -37,10 +38,10 @@ struct QueryPeerKind {
   std::function<std::unique_ptr<QueryPeer>()> make;
 };
 
-/// The peers that this program was built with, ours included.
+/// Returns the peers that this program was built with, including hgrid.
 const std::vector<QueryPeerKind>& queryPeers();
 
-// One per peer; those of libraries that were not found are declared only.
+// One factory per peer. If the library of a peer was not found, its factory is declared but not defined.
 std::unique_ptr<QueryPeer> makeHGridQueries();
 std::unique_ptr<QueryPeer> makeFclQueries();
 std::unique_ptr<QueryPeer> makeBulletQueries();

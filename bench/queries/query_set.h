@@ -16,18 +16,18 @@ constexpr QueryKind kQueryKinds[] = {QueryKind::sphere, QueryKind::segment, Quer
 
 const char* name(QueryKind kind);
 
-/// How many boxes a nearest query asks for.
+/// Returns the number of boxes that a nearest query asks for.
 inline std::size_t countOf(QueryKind kind) { return kind == QueryKind::nearest8 ? 8 : 1; }
 
-/// Where queries are asked.
+/// Where the queries of a set are.
 enum class Placed {
-  near,      ///< around points near boxes; segments are a fifth of the world's side long
-  anywhere,  ///< at random places in the bounds of all boxes, most of which are empty in many worlds
+  near,      ///< at points near boxes; the length of segments is a fifth of the world's side
+  anywhere,  ///< at random places in the bounds of all boxes; in many worlds most of this space is empty
 };
 
 const char* name(Placed placed);
 
-/// Queries of every kind in random order; nearest asks from the spheres' centers.
+/// Queries of every kind, in random order. Nearest queries start from the centers of the spheres.
 struct QuerySet {
   std::vector<Sphere> spheres;
   std::vector<Segment> segments;
@@ -36,10 +36,12 @@ struct QuerySet {
   std::size_t size() const { return spheres.size(); }
 };
 
-/// Queries near boxes: spheres of radius 1 m (robots: 0.25 m), cubes as wide, and segments in any direction.
+/// Returns queries near boxes: spheres of radius 1 m (workload robots: 0.25 m), cubes of the same width, and segments
+/// in random directions.
 QuerySet queriesNear(const std::string& workload, const World& world, std::size_t count);
 
-/// Queries anywhere, with about half a hit each if the world is not too empty; see sizesForEmptySpace().
+/// Returns queries at random places. They have about half a hit each if the world is not too empty for that; see
+/// sizesForEmptySpace().
 QuerySet queriesAnywhere(const World& world, std::size_t count);
 
 }  // namespace bench

@@ -9,7 +9,7 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-constexpr double kHits = 0.65;  // per query
+constexpr double kHits = 0.65;  // wanted hits per query
 
 double longestEdge(const Aabb& box) { return double((box.max - box.min).maxCoeff()); }
 
@@ -21,7 +21,8 @@ double medianEdge(const std::vector<Aabb>& boxes) {
   return *middle;
 }
 
-/// Expected hits of a cube whose center is uniform in the bounds: the share of the centers that each box meets.
+/// Returns the expected number of hits of a cube whose center is random in the bounds. Each box contributes the
+/// fraction of the centers with which the cube hits it.
 double hitsOfCube(const std::vector<Aabb>& boxes, const Aabb& bounds, double half_edge) {
   double sum = 0.0;
   for (const Aabb& box : boxes) {
@@ -36,7 +37,7 @@ double hitsOfCube(const std::vector<Aabb>& boxes, const Aabb& bounds, double hal
   return sum;
 }
 
-/// The half edge with kHits expected hits, or the border of the range that is nearest to it.
+/// Returns the half edge [m] of cubes with kHits expected hits, limited to the range low .. high.
 double halfEdge(const std::vector<Aabb>& boxes, const Aabb& bounds, double low, double high) {
   for (int i = 0; i < 20; ++i) {
     const double middle = 0.5 * (low + high);
@@ -45,7 +46,8 @@ double halfEdge(const std::vector<Aabb>& boxes, const Aabb& bounds, double low, 
   return low;
 }
 
-/// The length with kHits expected hits: a segment sweeps a quarter of a box's surface on average over all directions.
+/// Returns the length [m] of segments with kHits expected hits. The area of a box as seen along a segment is a quarter
+/// of its surface, on average over all directions.
 double lengthOf(const std::vector<Aabb>& boxes, const Aabb& bounds) {
   double volume = 0.0, swept = 0.0;
   for (const Aabb& box : boxes) {
@@ -72,7 +74,7 @@ QuerySizes sizesForEmptySpace(const std::vector<Aabb>& boxes) {
   const Aabb bounds = boundsOf(boxes);
   const double edge = medianEdge(boxes);
   const double half_edge = halfEdge(boxes, bounds, 1e-4 * edge, 2.0 * edge);
-  const double radius = 1.15 * half_edge;  // of a sphere that meets about as many boxes as the cube
+  const double radius = 1.15 * half_edge;  // such a sphere meets about as many boxes as the cube
   return {half_edge, radius, std::clamp(lengthOf(boxes, bounds), 1e-4 * edge, 0.2 * longestEdge(bounds))};
 }
 

@@ -9,20 +9,20 @@
 namespace hgrid {
 namespace bench {
 
-/// The box around all boxes; there must be one at least.
+/// Returns the box around all boxes. There must be at least one box.
 Aabb boundsOf(const std::vector<Aabb>& boxes);
 
 /// Sizes of queries [m].
 struct QuerySizes {
-  double half_edge;  ///< of cubes
-  double radius;     ///< of spheres
-  double length;     ///< of segments
+  double half_edge;  ///< half the edge of the cubes
+  double radius;     ///< radius of the spheres
+  double length;     ///< length of the segments
 };
 
-/// Sizes with which queries at random places in the bounds of the boxes have 0.4 .. 0.9 hits each on average.
+/// Returns sizes with which queries at random places in the bounds of the boxes have 0.4 .. 0.9 hits on average.
 ///
-/// Where most of the bounds is empty, such queries would be as large as whole heaps of boxes. So cubes and spheres are
-/// at most a few boxes wide, and segments at most a fifth of the bounds long. They then have fewer hits.
+/// If most of this space is empty, such queries would be as large as a whole heap of boxes. So cubes and spheres are at
+/// most a few boxes wide, and segments are at most a fifth of the bounds long. Then they have fewer hits.
 QuerySizes sizesForEmptySpace(const std::vector<Aabb>& boxes);
 
 }  // namespace bench

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Charts as SVG, drawn by hand: no library is needed to read or to write them."""
+"""Draws charts as SVG. It writes the SVG text directly, so no library is needed."""
 import math
 
 from figures import WORKLOADS
 
-COLOURS = {
+COLORS = {
     'hgrid': '#d62728', 'sweep': '#1f77b4', 'FCL DynamicAABBTree': '#2ca02c', 'Embree rtcCollide': '#9467bd',
     'Embree': '#9467bd', 'Bullet dbvt': '#ff7f0e', 'Bullet AxisSweep3': '#e0a030', 'Boost R-tree': '#17becf',
     'ODE SAP space': '#7f7f7f', 'ODE hash space': '#bcbd22', 'CGAL box_self_intersection_d': '#8c564b',
@@ -19,24 +19,24 @@ class Svg:
     def __init__(self, width, height):
         self.width, self.height, self.parts = width, height, []
 
-    def text(self, x, y, text, size=12, anchor='start', colour='#222', weight='normal'):
+    def text(self, x, y, text, size=12, anchor='start', color='#222', weight='normal'):
         text = text.replace('&', '&amp;').replace('<', '&lt;')
         self.parts.append('<text x="%.1f" y="%.1f" font-size="%g" text-anchor="%s" fill="%s" font-weight="%s">%s'
-                          '</text>' % (x, y, size, anchor, colour, weight, text))
+                          '</text>' % (x, y, size, anchor, color, weight, text))
 
-    def line(self, x1, y1, x2, y2, colour='#ddd', width=1.0):
+    def line(self, x1, y1, x2, y2, color='#ddd', width=1.0):
         self.parts.append('<line x1="%.1f" y1="%.1f" x2="%.1f" y2="%.1f" stroke="%s" stroke-width="%g"/>'
-                          % (x1, y1, x2, y2, colour, width))
+                          % (x1, y1, x2, y2, color, width))
 
-    def polyline(self, points, colour, width):
+    def polyline(self, points, color, width):
         self.parts.append('<polyline fill="none" stroke="%s" stroke-width="%g" points="%s"/>'
-                          % (colour, width, ' '.join('%.1f,%.1f' % point for point in points)))
+                          % (color, width, ' '.join('%.1f,%.1f' % point for point in points)))
         for x, y in points:
-            self.parts.append('<circle cx="%.1f" cy="%.1f" r="%g" fill="%s"/>' % (x, y, width + 0.8, colour))
+            self.parts.append('<circle cx="%.1f" cy="%.1f" r="%g" fill="%s"/>' % (x, y, width + 0.8, color))
 
-    def bar(self, x, y, width, height, colour):
+    def bar(self, x, y, width, height, color):
         self.parts.append('<rect x="%.1f" y="%.1f" width="%.1f" height="%.1f" fill="%s"/>'
-                          % (x, y, width, height, colour))
+                          % (x, y, width, height, color))
 
     def save(self, path):
         with open(path, 'w') as file:
@@ -48,12 +48,12 @@ class Svg:
 def legend(svg, names, x, y, columns, step):
     for i, name in enumerate(names):
         left, top = x + step * (i % columns), y + 18 * (i // columns)
-        svg.line(left, top - 4, left + 22, top - 4, COLOURS.get(name, '#000'), 4 if name == 'hgrid' else 2)
+        svg.line(left, top - 4, left + 22, top - 4, COLORS.get(name, '#000'), 4 if name == 'hgrid' else 2)
         svg.text(left + 28, top, name)
 
 
 def panel(svg, figures, workload, moving, left, top, width, height, low, high):
-    """Time per box over the number of boxes, both logarithmic, one line per peer that is right."""
+    """Draws the time per box over the number of boxes, both logarithmic, one line per peer with correct results."""
     sizes = figures.sizes()
     first, last = math.log10(sizes[0]), math.log10(sizes[-1])
 
@@ -70,12 +70,12 @@ def panel(svg, figures, workload, moving, left, top, width, height, low, high):
         x = at(n, 10.0 ** low)[0]
         svg.line(x, top, x, top + height)
         svg.text(x, top + height + 16, '{:,}'.format(n), 11, 'middle')
-    for peer in reversed(figures.peers()):  # hgrid on top
+    for peer in reversed(figures.peers()):  # draws hgrid last, on top
         records = [figures.pairs(peer, workload, n, moving) for n in sizes]
         points = [at(record['n'], 1e3 * record['median_ms'] / record['n'])
                   for record in records if record and record['correct']]
         if points:
-            svg.polyline(points, COLOURS.get(peer, '#000'), 3.5 if peer == 'hgrid' else 1.6)
+            svg.polyline(points, COLORS.get(peer, '#000'), 3.5 if peer == 'hgrid' else 1.6)
 
 
 def pairs_chart(figures, moving, path):
@@ -93,7 +93,7 @@ def pairs_chart(figures, moving, path):
 
 
 def queries_chart(figures, kinds, path):
-    """Millions of queries per second, a group of bars per workload."""
+    """Draws millions of queries per second, one group of bars per workload."""
     svg = Svg(1000, 60 + 330 * len(kinds))
     n = figures.all('query', placed='near')[0]['n']
     svg.text(20, 30, 'Queries, n = {:,}, one thread: millions per second'.format(n), 16, weight='bold')
@@ -124,10 +124,10 @@ def query_panel(svg, figures, kind, left, top, width, height):
         for i, (peer, batched) in enumerate(ways):
             speed = speeds.get((peer, batched, workload), 0.0)
             tall = height * speed / most
-            colour = '#f29a9a' if peer == 'hgrid' and not batched else COLOURS.get(peer, '#000')
-            svg.bar(begin + i * bar, top + height - tall, bar - 2, tall, colour)
+            color = '#f29a9a' if peer == 'hgrid' and not batched else COLORS.get(peer, '#000')
+            svg.bar(begin + i * bar, top + height - tall, bar - 2, tall, color)
     for i, (peer, batched) in enumerate(ways):
-        colour = '#f29a9a' if peer == 'hgrid' and not batched else COLOURS.get(peer, '#000')
+        color = '#f29a9a' if peer == 'hgrid' and not batched else COLORS.get(peer, '#000')
         x = left + i * width / max(len(ways), 5)
-        svg.bar(x, top + height + 32, 12, 12, colour)
+        svg.bar(x, top + height + 32, 12, 12, color)
         svg.text(x + 17, top + height + 42, peer + (', batched' if batched else ''), 11)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""The figures of one run, and how to ask for them."""
+"""Loads the figures of a run and selects records from them."""
 import json
 
 WORKLOADS = ['uniform', 'mixed', 'floor', 'robots']
@@ -10,7 +10,7 @@ TREE = 'FCL DynamicAABBTree'
 
 
 class Figures:
-    """Records of one or several figures files; of those that say the same, the last one counts."""
+    """The records of one or several figures files. If several records are for the same setting, the last one counts."""
 
     def __init__(self, paths):
         self.records = []
@@ -25,7 +25,7 @@ class Figures:
         self.run = runs[0] if runs else {}
 
     def all(self, kind, **wanted):
-        """Records of a kind whose fields equal what is wanted."""
+        """Returns the records of a kind whose fields equal the `wanted` values."""
         return [record for record in self.records if record['kind'] == kind
                 and all(record.get(name) == value for name, value in wanted.items())]
 
@@ -34,12 +34,12 @@ class Figures:
         return found[-1] if found else None
 
     def best_isa(self):
-        """The instruction set that hgrid uses by itself: the first one of every match."""
+        """Returns the instruction set that hgrid chooses by itself: that of its first record."""
         found = self.all('pairs', peer='hgrid') or self.all('ageing', peer='hgrid')
         return found[0]['isa'] if found else None
 
     def pairs(self, peer, workload, n, moving=1, threads=1, isa=None, movers='same'):
-        """The record of a peer's frames; hgrid's with the instruction set that it uses by itself."""
+        """Returns the record of a peer's frames; hgrid's default `isa` is the one that it chooses by itself."""
         wanted = dict(peer=peer, workload=workload, n=n, moving=moving, threads=threads, movers=movers)
         if peer == 'hgrid':
             wanted['isa'] = isa or self.best_isa()
@@ -49,27 +49,27 @@ class Figures:
         return sorted({record['n'] for record in self.all('pairs')})
 
     def even(self, moving):
-        """Records of pairs of the workloads that the main tables show, where the same boxes always move."""
+        """Returns the records of pairs in the even worlds, where the same boxes always move."""
         return [record for record in self.all('pairs', moving=moving, movers='same') if record['workload'] in WORKLOADS]
 
     def uneven(self):
-        """Names of the workloads with tables of their own, in order of appearance."""
+        """Returns the names of the uneven workloads, in order of appearance. They have separate tables."""
         names = dict.fromkeys(record['workload'] for record in self.all('pairs'))
         return [name for name in names if name not in WORKLOADS]
 
     def peers(self, kind='pairs', **wanted):
-        """Names of the peers in order of appearance, hgrid first."""
+        """Returns the names of the peers: hgrid first, the others in order of appearance."""
         names = list(dict.fromkeys(record['peer'] for record in self.all(kind, **wanted)))
         return sorted(names, key=lambda name: name != 'hgrid')
 
     def rivals(self, workload, n, moving=1, movers='same'):
-        """Correct records of all peers but hgrid."""
+        """Returns the correct records of all peers except hgrid."""
         return [record for record in self.all('pairs', workload=workload, n=n, moving=moving, movers=movers)
                 if record['peer'] != 'hgrid' and record['correct']]
 
 
 def short(value):
-    """Three digits, as few characters as that takes."""
+    """Formats a number with three significant digits and as few characters as possible."""
     if value == 0:
         return '0'
     text = '%.3g' % value
@@ -77,7 +77,7 @@ def short(value):
 
 
 def shown(record, field='median_ms', scale=1.0):
-    """A figure for a table: "–" if it was not measured, and never a bare number for a wrong answer."""
+    """Formats a figure for a table: "–" if it was not measured, with ✗ if the answer was wrong."""
     if record is None:
         return '–'
     if record['status'] != 'ok':

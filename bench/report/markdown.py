@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Markdown, which is also what is printed."""
+"""Formats Markdown, which is also the format of the printed tables."""
 
 
 def table(head, rows):
-    """A Markdown table; the first column is text."""
+    """Returns a Markdown table. The first column is text, the others are numbers."""
     lines = ['| ' + ' | '.join(head) + ' |', '| --- ' + '| ---: ' * (len(head) - 1) + '|']
     return '\n'.join(lines + ['| ' + ' | '.join(row) + ' |' for row in rows])
 

@@ -1,25 +1,27 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Result tables in Markdown."""
+"""Formats the result tables in Markdown."""
 import world_tables
 from figures import MAP_QUERIES, QUERIES, WORKLOADS, short, shown
 from markdown import count, table
 
-PEER_NOTE = ('Cells: %s. – = not run: one frame, or loading, takes far too long; ✗ = wrong pair set; '
-             'crash = the process of this peer died.')
+PEER_NOTE = ('Cells: %s. – = not run, since one frame or loading takes far too long; ✗ = wrong pair set; '
+             'crash = the process of this peer crashed.')
 
-THREADS_NOTE = ('Medians of turns; beside hgrid, in the same turns, a loop that adds registers and touches no memory: what '
-                'two processors are worth at that time. Both are taken for free where that loop gains 1.9 or more.')
+THREADS_NOTE = ('Medians over turns. In the same turns, a loop that adds registers and touches no memory shows how '
+                'much a second processor can gain at that time. Both processors count as free if this loop gains 1.9 '
+                'or more.')
 
-MAPS_NOTE = ('Load: the file read and ready for questions; build: from a list of leaves. Questions: one by one in random '
-             'order / batched, which is in Morton order, the ordering included. Bytes: what the peer says that it '
-             'holds, of FCL what it has allocated. – = not asked, or too many leaves; ✗ = other answers than OctoMap, '
-             'or nobody to compare them with.')
+MAPS_NOTE = ('Load: read the file and prepare for questions; build: the same from a list of leaves. Questions: one by '
+             'one in random order / batched in Morton order, including the time to sort them. Bytes: what the peer '
+             'reports to hold; for FCL, what it has allocated. – = not measured, or too many leaves; ✗ = the '
+             'answers differ from those of OctoMap, or there is no other peer to compare with.')
 
-NODE_MAPS_NOTE = ('Each second a message (binary, as octomap_server\'s octomap_binary) brings a map of which 1 % of the '
-                  'leaves are others. Spans with the map at rest and with such messages take turns. query_sphere and '
-                  'query_segment: round trips over persistent connections, 200 a second together. The bench moves the '
-                  'robots, sends the prepared maps, listens and asks, on the same processors as the node.')
+NODE_MAPS_NOTE = ('Every second, a message (binary, like octomap_binary of octomap_server) brings a map in which 1 % '
+                  'of the leaves have changed. Spans of time with the map at rest and with such messages take turns. '
+                  'query_sphere and query_segment: round trips over persistent connections, 200 per second together. '
+                  'The bench moves the robots, sends the prepared maps and the queries, and receives what the node '
+                  'publishes, on the same processors as the node.')
 
 PROCESSES = ('cpu', 'cpu of the bench', 'cpu of others')
 
@@ -33,7 +35,7 @@ def machine(figures):
 
 
 def pairs(figures, moving):
-    """One row per peer, one column per number of boxes, the workloads side by side."""
+    """One row per peer, one column per number of boxes. Each cell has one figure per even workload."""
     sizes = sorted({record['n'] for record in figures.even(moving)})
     rows = []
     for peer in figures.peers():
@@ -51,13 +53,13 @@ def spread(figures):
     spreads = sorted(record['spread'] for record in figures.all('pairs') if record['correct'])
     if not spreads:
         return ''
-    return ('Spread of the medians of single rounds, (largest − smallest) ÷ median: half of all figures below '
-            '%.0f %%, nine in ten below %.0f %%.'
+    return ('Spread of the medians of single rounds, (largest − smallest) ÷ median: below %.0f %% for half of all '
+            'figures, below %.0f %% for nine in ten.'
             % (100 * spreads[len(spreads) // 2], 100 * spreads[9 * len(spreads) // 10]))
 
 
 def variants(figures):
-    """hgrid with other instruction sets and with two threads."""
+    """One row per instruction set and number of threads of hgrid."""
     sizes = sorted({record['n'] for record in figures.all('pairs', peer='hgrid', moving=1)})
     ways = list(dict.fromkeys((record['isa'], record['threads']) for record in figures.all('pairs', peer='hgrid')))
     rows = []
@@ -69,12 +71,12 @@ def variants(figures):
 
 
 def threads(figures):
-    """What a second thread gains, beside what it can gain at that time."""
+    """One row per world: how much a second thread gains, and how much it can gain at that time."""
     rows = [[record['workload'], count(record['n']), short(record['gain']), short(record['gain_of_registers']),
              '%d of %d' % (record['free_turns'], record['turns']),
              short(record['gain_in_free_turns']) if record['free_turns'] else '–'] for record in figures.all('threads')]
-    return table(['two threads, times faster than one', 'n', 'hgrid', 'adding registers', 'turns with both free',
-                  'hgrid in those'], rows)
+    return table(['two threads, times faster than one', 'n', 'hgrid', 'register loop',
+                  'turns with both processors free', 'hgrid in these turns'], rows)
 
 
 def ageing(figures):
@@ -120,7 +122,7 @@ def queries(figures):
 
 
 def maps(figures):
-    """One table per map: how it is loaded, what it takes, and how long questions about its leaves take."""
+    """One table per map: times to load and to build it, bytes per leaf, and times of questions about its leaves."""
     tables = []
     for name, leaves in dict.fromkeys((record['map'], record['leaves']) for record in figures.all('map')):
         def one(peer, query, **wanted):
@@ -137,7 +139,7 @@ def maps(figures):
         head = ['load ms', 'build ms', 'bytes per leaf'] + ['%s µs' % query for query in MAP_QUERIES]
         tables.append(table(['%s, %s leaves' % (name, count(leaves))] + head, rows))
     asked = [record for record in figures.all('map', peer='hgrid', batched=False)]
-    doubt = 'In doubt by rounding, and not compared: %d of %d questions.' % (
+    doubt = 'Not compared, since rounding may decide the answer: %d of %d questions.' % (
         sum(record['in_doubt'] for record in asked),
         sum(record['in_doubt'] + record['compared'] for record in asked))
     return '\n\n'.join(tables + [doubt] + clouds(figures))
@@ -146,7 +148,7 @@ def maps(figures):
 def clouds(figures):
     rows = [[count(record['points']), short(record['edge']), count(record['cells']), short(record['median_ms']),
              short(record['p99_ms'])] for record in figures.all('cloud')]
-    head = ['cloud: points of a message', 'cells of m', 'cells held', 'median ms', 'p99 ms']
+    head = ['cloud: points per message', 'edge of a cell [m]', 'cells held', 'median ms', 'p99 ms']
     return [table(head, rows)] if rows else []
 
 
@@ -157,7 +159,7 @@ def node(figures):
 
 
 def node_maps(figures):
-    """One table per world whose map rests, and is replaced every second: what that does to ticks and questions."""
+    """One table per world with a map: ticks and queries while the map is at rest, and while it is replaced."""
     tables = []
     for world in dict.fromkeys(record['world'] for record in figures.all('node', maps_per_s=1)):
         def both(part, field):
@@ -172,12 +174,12 @@ def node_maps(figures):
                             + ['%+.3f' % (p99[1] - p99[0])])
         tables.append(table(['%s: map at rest / replaced' % world, 'median ms', 'p99 ms', 'p99, difference'], rows))
         shares = tuple(' / '.join(map(short, both(part, 'percent'))) for part in PROCESSES)
-        tables.append('The node takes %s %% of one processor, the bench %s %%, all other programs %s %%.' % shares)
+        tables.append('The node uses %s %% of one processor, the bench %s %%, all other programs %s %%.' % shares)
     return '\n\n'.join(tables)
 
 
 def sections(figures):
-    """(title, text) of every table that the figures are there for."""
+    """Returns (title, text) of every table for which there are figures."""
     cells = PEER_NOTE % 'uniform / mixed / floor / robots'
     found = [('Machine', machine(figures))]
     for moving, title in ((1, 'Pairs, all boxes move'), (0.1, 'Pairs, 10 % move'), (0.01, 'Pairs, 1 % move')):
@@ -194,7 +196,7 @@ def sections(figures):
     if figures.all('threads'):
         found.append(('Two threads', THREADS_NOTE + '\n\n' + threads(figures)))
     if figures.all('ageing'):
-        found.append(('Ageing', ageing(figures)))
+        found.append(('Aging', ageing(figures)))
     if figures.all('query', placed='near'):
         found.append(('Queries near boxes', queries(figures)))
     if figures.all('query', placed='anywhere'):

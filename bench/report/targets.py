@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""The targets, judged by the figures; what a run cannot judge is left out."""
+"""The targets, compared with the figures. Targets for which there are no figures are left out."""
 from figures import TREE, WORKLOADS, short
 from markdown import count, table
 from verdicts import Verdicts, ms, ratio
@@ -75,7 +75,7 @@ def queries(figures, verdicts):
 
 
 def maps(figures, verdicts):
-    """Loading and memory on every map, questions on the synthetic ones."""
+    """Judges loading and memory on every map, and questions only on the synthetic map building."""
     for name, leaves in dict.fromkeys((record['map'], record['leaves']) for record in figures.all('map')):
         def figure(peer, query, field, **wanted):
             record = figures.one('map', map=name, leaves=leaves, peer=peer, query=query, **wanted)
@@ -85,8 +85,8 @@ def maps(figures, verdicts):
         ours, octomap = (figure(peer, 'load', 'median_ms') for peer in ('hgrid', 'OctoMap'))
         verdicts.at_least(where + 'load and index, times faster than OctoMap\'s readBinary', 1, ratio(octomap, ours))
         verdicts.at_most(where + 'bytes per leaf', 16, figure('hgrid', 'load', 'bytes_per_leaf'))
-        rows = (('touches', 'balls that touch, times faster than FCL\'s OcTree', 'FCL OcTree', 10),
-                ('overlapping', 'leaves in balls, times faster than FCL\'s tree of them', TREE + ' of leaves', 10),
+        rows = (('touches', 'spheres that touch, times faster than FCL\'s OcTree', 'FCL OcTree', 10),
+                ('overlapping', 'leaves in spheres, times faster than FCL\'s tree of leaves', TREE + ' of leaves', 10),
                 ('segment', 'segments, times faster than OctoMap\'s castRay', 'OctoMap', 3))
         for query, what, peer, least in rows if name == 'building' else ():
             for batched in (False, True):
@@ -99,13 +99,13 @@ def maps(figures, verdicts):
 
 
 def sameness(figures, verdicts):
-    """Equal pair sets whatever the instruction set and the number of threads."""
+    """Judges whether hgrid's results are correct, and whether two threads write the same bytes as one."""
     ours = figures.all('pairs', peer='hgrid')
     verdicts.holds('hgrid\'s pair sets equal the reference in all %d settings' % len(ours),
                    all(record['correct'] for record in ours))
     threaded = figures.all('threads')
     if threaded:
-        verdicts.holds('the same bytes from two threads as from one in all %d settings' % len(threaded),
+        verdicts.holds('two threads write the same bytes as one in all %d settings' % len(threaded),
                        all(record['same_bytes'] for record in threaded))
     asked = figures.all('query', peer='hgrid')
     if asked:
@@ -114,7 +114,7 @@ def sameness(figures, verdicts):
 
 
 def sweep_fairness(figures, verdicts):
-    """The rival of our own must be as good, measured by FCL's tree, as the one that the targets were set with."""
+    """Judges whether our sweep, relative to FCL's tree, is about as fast as when the targets were set."""
     was = {'uniform': 26 / 32, 'mixed': 18 / 34, 'floor': 7.7 / 34, 'robots': 10 / 32}
     for workload, share in was.items():
         sweep, tree = (ms(figures.pairs(peer, workload, 100000)) for peer in ('sweep', TREE))
@@ -128,18 +128,18 @@ def node(figures, verdicts):
     for part in ('tick', 'query_sphere', 'query_segment'):
         without, with_maps = (figures.one('node', part=part, maps_per_s=often) for often in (0, 1))
         added = with_maps['p99_ms'] - without['p99_ms'] if without and with_maps else None
-        what = 'node, a map of 1,000,000 leaves replaced every second, 1 %% changed: adds to the p99 of %s, ms' % part
+        what = 'node, a map of 1,000,000 leaves replaced every second, 1 %% changed: ms added to the p99 of %s' % part
         verdicts.at_most(what, 2, added)
 
 
 def threads(figures, verdicts):
-    """Judged where the machine has two processors to give; how often that was, the table of threads tells."""
+    """Judges only turns in which both processors were free, or all turns if there are none. The table counts them."""
     for record in figures.all('threads'):
         what = '%s, n = %s: two threads, times faster than one' % (record['workload'], count(record['n']))
         if record['free_turns']:
             verdicts.at_least(what + ', both processors free', 1.7, record['gain_in_free_turns'])
         else:
-            verdicts.at_least(what + ' (registers alone: %s)' % short(record['gain_of_registers']), 1.7, record['gain'])
+            verdicts.at_least(what + ' (register loop: %s)' % short(record['gain_of_registers']), 1.7, record['gain'])
 
 
 def verdicts_table(figures):
@@ -157,7 +157,7 @@ def verdicts_table(figures):
     threads(figures, verdicts)
     ages(figures, verdicts)
     held = [record['bytes_per_object'] for record in figures.all('pairs', peer='hgrid') if record['n'] >= 10000]
-    verdicts.at_most('bytes per box, most from n = 10,000 up', 96, max(held) if held else None)
+    verdicts.at_most('most bytes per box, n from 10,000 up', 96, max(held) if held else None)
     queries(figures, verdicts)
     empty_space(figures, verdicts)
     maps(figures, verdicts)

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""What is wanted, what is reached, and whether that is enough."""
+"""Compares measured values with targets."""
 from figures import short
 
 
 class Verdicts:
-    """Rows of the table of targets: what was to be reached, what was, and whether that is enough."""
+    """The rows of the table of targets: target, limit, measured value, and whether the target is met."""
 
     def __init__(self):
         self.rows = []

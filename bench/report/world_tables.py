@@ -1,22 +1,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Tables of worlds that are spread unevenly, of movers that change, and of queries anywhere."""
+"""Tables of uneven worlds, of worlds in which other boxes move in each frame, and of queries anywhere."""
 from figures import short, shown
 from markdown import count, table
 
-UNEVEN_NOTE = ('Median ms per frame. Pairs: per box. – = not run: one frame, or loading, takes far too long; too slow: '
-               'no answer in time; ✗ = wrong pair set, or nobody to compare it with; crash = the process of this peer '
-               'died.')
+UNEVEN_NOTE = ('Median ms per frame. Pairs: per box. – = not run, since one frame or loading takes far too long; '
+               'too slow = no answer in time; ✗ = wrong pair set, or no other peer to compare it with; crash = the '
+               'process of this peer crashed.')
 
-MOVERS_NOTE = ('Median ms per frame: the same boxes move in every frame / other boxes in each frame, chosen at random; '
-               'those frames are measured after 30 others.')
+MOVERS_NOTE = ('Median ms per frame: the same boxes move in every frame / other boxes move in each frame, chosen at '
+               'random. In the second case, 30 frames come before the measured ones.')
 
-EMPTY_NOTE = ('Median µs per query. The queries are at random places in the bounds of all boxes, and of such a size '
-              'that they have about half a hit each, where the world is not too empty for that.')
+EMPTY_NOTE = ('Median µs per query. The queries are at random places in the bounds of all boxes. Their size gives '
+              'about half a hit per query if the world is not too empty for that.')
 
 
 def uneven(figures):
-    """A note, and one table per number of boxes: a row per workload, a column per peer."""
+    """Returns a note, and one table per number of boxes, with a row per workload and a column per peer."""
     tables = []
     for n in sorted({record['n'] for name in figures.uneven() for record in figures.all('pairs', workload=name)}):
         rows, ran = [], lambda peer: any(figures.pairs(peer, name, n) for name in figures.uneven())
@@ -32,7 +32,7 @@ def uneven(figures):
 
 
 def changing(figures):
-    """A note, and one table per number of boxes: a row per peer, a column per workload and fraction."""
+    """Returns a note, and one table per number of boxes. It has a row per peer, a column per workload and fraction."""
     tables = []
     found = figures.all('pairs', movers='changing')
     for n in sorted({record['n'] for record in found}):
@@ -48,7 +48,7 @@ def changing(figures):
 
 
 def empty_space(figures):
-    """A note, and one table per kind of query: a row per workload, a column per peer."""
+    """Returns a note, and one table per kind of query, with a row per workload and a column per peer."""
     tables = []
     found = figures.all('query', placed='anywhere')
     for kind, n in dict.fromkeys((record['query'], record['n']) for record in found):

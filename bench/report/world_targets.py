@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Targets for worlds that are spread unevenly, for movers that change, and for queries anywhere."""
+"""Targets for uneven worlds, for worlds in which other boxes move in each frame, and for queries anywhere."""
 from markdown import count
 from verdicts import ms, ratio
 
@@ -10,7 +10,7 @@ def per_box_and_pair(record):
 
 
 def all_uneven(figures, verdicts):
-    """hgrid beside the fastest peer, and beside itself in the uniform world."""
+    """Compares hgrid with the fastest peer, and with hgrid in the uniform world."""
     for n in figures.sizes():
         for workload in figures.uneven():
             ours, rivals = figures.pairs('hgrid', workload, n), figures.rivals(workload, n)
@@ -28,7 +28,7 @@ def all_uneven(figures, verdicts):
 def changing(figures, verdicts):
     for record in figures.all('pairs', peer='hgrid', movers='changing', isa=figures.best_isa(), threads=1):
         workload, n, moving = (record[field] for field in ('workload', 'n', 'moving'))
-        what = '%s, n = %s: %g %%, others in each frame, ÷ all moving' % (workload, count(n), 100 * moving)
+        what = '%s, n = %s: %g %% moving, others in each frame, ÷ all moving' % (workload, count(n), 100 * moving)
         verdicts.at_most(what, 0.2 if moving <= 0.01 else 1, ratio(ms(record), ms(figures.pairs('hgrid', workload, n))))
 
 

@@ -10,16 +10,16 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// Edges with a logarithm that is uniform over low .. high [m].
+/// Random edge lengths in low .. high [m] whose logarithms are distributed uniformly.
 struct LogUniform {
   double low, high;
 
   double edge(Random& random) const { return std::exp(random.uniform(std::log(low), std::log(high))); }
-  /// Expectation of edge^power.
+  /// Returns the expected value of edge^power.
   double moment(int power) const {
     return (std::pow(high, power) - std::pow(low, power)) / (power * std::log(high / low));
   }
-  /// [m] Side of a cube in which n cubes have about one overlap each.
+  /// Returns the side [m] of a cube of space in which n cubes have about one overlap each.
   double side(double n) const { return std::cbrt(n * (2.0 * moment(3) + 6.0 * moment(1) * moment(2)) / 2.0); }
 };
 

@@ -7,7 +7,7 @@
 namespace hgrid {
 namespace bench {
 
-// One function per workload; each makes n boxes, always the same ones. workloads.h says what the workloads are.
+// One function per workload. Each returns n boxes, the same ones in every call. workloads.h describes the workloads.
 
 // cubes.cpp: cubes spread evenly over a cube or a square.
 Layout uniformLayout(std::size_t n);
@@ -21,7 +21,7 @@ Layout giantsLayout(std::size_t n);
 Layout robotsLayout(std::size_t n);
 Layout fleetLayout(std::size_t n);
 
-// heaps.cpp: dense places in a large and nearly empty space.
+// heaps.cpp: dense groups of boxes in a large and nearly empty space.
 Layout heapsLayout(std::size_t n, std::size_t heaps);
 Layout straysLayout(std::size_t n);
 Layout decadesLayout(std::size_t n);

@@ -9,14 +9,14 @@
 namespace hgrid {
 namespace bench {
 
-/// A point of a cube around zero.
+/// Returns a random point in a cube around the origin. `half` is half the edge of the cube.
 inline Eigen::Vector3d cubePoint(Random& random, double half) {
   Eigen::Vector3d point;
   for (int axis = 0; axis < 3; ++axis) point[axis] = random.uniform(-half, half);
   return point;
 }
 
-/// A direction, all alike; its length is 1.
+/// Returns a random vector of length 1. All directions are equally likely.
 inline Eigen::Vector3d direction(Random& random) {
   for (;;) {
     const Eigen::Vector3d point = cubePoint(random, 1.0);

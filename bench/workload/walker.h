@@ -11,24 +11,29 @@
 namespace hgrid {
 namespace bench {
 
-/// Where a walker may be; it turns back at the border, so that a world is as dense after 1,500 frames as at first.
+/// The space [m] in which a walker may be. Walkers turn back at the border. So after 1,500 frames, the world is still
+/// as dense as in the beginning.
 struct Region {
   Eigen::Vector3f low, high;
 };
 
-/// Something that walks: per frame 1 to 5 % of its size, in a direction kept for some frames.
+/// A point that moves at random. In each frame it moves by 1 to 5 % of its size, in a direction that it keeps for some
+/// frames.
 class Walker {
  public:
-  static constexpr std::uint64_t kLeg = 20;  ///< frames between two choices of direction
+  static constexpr std::uint64_t kLeg = 20;  ///< frames between two changes of direction
 
-  /// @param number  of the walker; with the frame it decides every step, so that worlds repeat exactly.
+  /// @param number  number of the walker. Together with the frame number, it determines every step, so that worlds
+  ///                repeat exactly.
+  /// @param at      [m] position in frame 0
+  /// @param size    [m] the length of a step is 1 to 5 % of it
   Walker(std::uint64_t number, const Eigen::Vector3f& at, float size, const Region& region)
       : at_(at), size_(size), region_(&region), number_(number) {
     turn(0);
   }
 
   void walk(std::uint64_t frame) {
-    if ((frame + number_) % kLeg == 0) turn(frame);  // not all in the same frame
+    if ((frame + number_) % kLeg == 0) turn(frame);  // walkers turn in different frames
     at_ += step_;
     for (int axis = 0; axis < 3; ++axis) {
       if (at_[axis] >= region_->low[axis] && at_[axis] <= region_->high[axis]) continue;

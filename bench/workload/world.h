@@ -12,37 +12,37 @@
 namespace hgrid {
 namespace bench {
 
-/// What a peer is told of a frame: all boxes, which ones moved (ids ascending), and those alone once more.
+/// The input of a peer for one frame: all boxes, the ids of the boxes that moved (ascending), and these boxes again.
 struct Frame {
   const std::vector<Aabb>& boxes;
   const std::vector<ProxyId>& moved;
   const std::vector<Aabb>& moved_boxes;
 };
 
-/// Which boxes move in a frame, where only a fraction does.
+/// Which boxes move in a frame if only a fraction of them moves.
 enum class Movers {
-  same,      ///< the same ones in every frame
-  changing,  ///< others in every frame, chosen at random
+  same,      ///< the same boxes in every frame
+  changing,  ///< other boxes in each frame, chosen at random
 };
 
 const char* name(Movers movers);
 
-/// n moving boxes of one workload; two worlds of the same arguments are equal in every frame.
+/// The n moving boxes of one workload. Two worlds with the same arguments are equal in every frame.
 class World {
  public:
-  /// @param moving  fraction of the boxes that move in a frame; of robots whole ones.
+  /// @param moving  fraction of the boxes that move in a frame; a robot moves as a whole
   /// @throws std::invalid_argument if there is no such workload.
   World(const std::string& workload, std::size_t n, double moving, Movers movers = Movers::same);
 
-  /// Back to frame 0.
+  /// Goes back to frame 0.
   void reset();
-  /// On to the next frame.
+  /// Goes on to the next frame: moves the boxes.
   void step();
 
   std::uint64_t frameNumber() const { return frame_; }
   Frame frame() const { return {boxes_, moved_, moved_boxes_}; }
   const std::vector<Aabb>& boxes() const { return boxes_; }
-  /// [m] Side of the cube or square that the boxes stand in.
+  /// Returns the side [m] of the cube or square that the boxes are in.
   double side() const { return layout_.side; }
 
  private:
@@ -54,8 +54,8 @@ class World {
   std::vector<Walker> first_walkers_, first_bases_;
   Movers movers_;
   std::size_t moved_groups_;
-  Random choice_;                // of the groups that move
-  std::vector<ProxyId> groups_;  // single boxes, or robots; those that move are shuffled to the front
+  Random choice_;                // selects the groups that move
+  std::vector<ProxyId> groups_;  // numbers of single boxes or of robots; those that move come first
   std::uint64_t frame_ = 0;
   std::vector<Aabb> boxes_;
   std::vector<ProxyId> moved_;

@@ -8,7 +8,8 @@
 
 namespace hgrid {
 
-/// Why something was refused. The numbers are part of the interface: do not change them.
+/// Why input was rejected. msg/CodeNames.msg describes each code. The numbers are part of the interface: do not change
+/// them.
 enum class Code : std::uint16_t {
   ok = 0,
   bad_id = 1,
@@ -39,11 +40,11 @@ enum class Code : std::uint16_t {
   failed = 26,
 };
 
-/// The code as a word, as in "OUT_OF_RANGE".
+/// Returns the code as a word, such as "OUT_OF_RANGE".
 const char* name(Code code);
 
-/// Bad input, refused at the door: a stable code and one sentence that names the thing, the value
-/// and the rule. Whoever throws it has changed nothing.
+/// Thrown when input is rejected. It holds a stable code and one sentence that names the object, its value and the rule
+/// that it breaks. A function that throws a Refusal has changed nothing.
 class Refusal : public std::runtime_error {
  public:
   Refusal(Code code, const std::string& sentence) : std::runtime_error(sentence), code_(code) {}
@@ -53,14 +54,14 @@ class Refusal : public std::runtime_error {
   Code code_;
 };
 
-/// A number as people write it ("0.05", "1e-320", "nan"), independent of the locale.
+/// Returns a number as readable text, such as "0.05", "1e-320" or "nan". The locale does not matter.
 std::string text(double value);
 
-/// A duration [s] to the millisecond, as in "0.25 s".
+/// Returns a duration [s] as text, rounded to milliseconds, such as "0.25 s".
 std::string secondsText(double duration);
 
-/// Text from outside made safe for logs and messages: control characters and broken UTF-8 become
-/// \xNN, and what is longer than `longest` bytes is cut with a "…".
+/// Returns text from outside in a form that is safe for logs and messages. Control characters and invalid UTF-8 become
+/// \xNN. Text longer than `longest` bytes is cut and ends with "…".
 std::string printable(const std::string& raw, std::size_t longest = 128);
 
 }  // namespace hgrid

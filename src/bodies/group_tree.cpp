@@ -9,7 +9,9 @@
 namespace hgrid {
 namespace {
 
-constexpr double kOnePlace = 0.01 + 1e-9;  // [m] 1 cm and room for the rounding of origins that are exactly 1 cm apart
+// [m] Largest distance of joint origins that count as one place: 1 cm, plus the rounding error of two origins that are
+// exactly 1 cm apart.
+constexpr double kOnePlace = 0.01 + 1e-9;
 
 }  // namespace
 
@@ -18,7 +20,7 @@ GroupTree::GroupTree(const RobotModel& model) : groups_(model.group_roots.size()
     if (link.hasGeometry()) groups_[link.rigid_group].has_geometry = true;
   }
   for (std::uint32_t i = 0; i < groups_.size(); ++i) {
-    const RobotLink& root = model.links[model.group_roots[i]];  // its frame has the origin of the group's joint
+    const RobotLink& root = model.links[model.group_roots[i]];  // its origin is the origin of the group's joint
     if (root.parent < 0) continue;
     const RobotLink& parent = model.links[static_cast<std::size_t>(root.parent)];
     groups_[i].parent = parent.rigid_group;
@@ -32,7 +34,8 @@ std::vector<std::uint32_t> GroupTree::adjacentAbove(std::uint32_t group) const {
   while (groups_[group].parent != kNone) {
     const Group& here = groups_[group];
     above.push_back(here.parent);
-    const bool one_joint = here.offset <= kOnePlace && !groups_[here.parent].has_geometry;  // with the joint above
+    // Whether this joint and the joint above it together act as one joint.
+    const bool one_joint = here.offset <= kOnePlace && !groups_[here.parent].has_geometry;
     if (!one_joint) break;
     group = here.parent;
   }

@@ -13,9 +13,9 @@
 namespace hgrid {
 namespace {
 
-constexpr std::size_t kLongestReason = 512;  // bytes of an SRDF's reason that are kept
+constexpr std::size_t kLongestReason = 512;  // [bytes] longer reasons of an SRDF are cut
 
-constexpr std::size_t kMostNamed = 8;  // joints that a reason names
+constexpr std::size_t kMostNamed = 8;  // largest number of joints in a reason
 
 }  // namespace
 
@@ -28,18 +28,18 @@ struct LinkMatrix::State {
         allowed(size * words) {
     setGroups(model);
     applyRules(model, rules, warnings);
-    for (std::uint32_t i = 0; i < size; ++i) set(i, i, Origin::self);  // last: no rule makes a link meet itself
+    for (std::uint32_t i = 0; i < size; ++i) set(i, i, Origin::self);  // set last, so that no rule can change it
   }
   void setGroups(const RobotModel& model);
   void applyRules(const RobotModel& model, const LinkRules& rules, std::vector<std::string>& warnings);
   void set(std::uint32_t first, std::uint32_t second, Origin origin);
 
-  std::size_t size, words;  // links; 64-bit words of a set of links
+  std::size_t size, words;  // number of links; 64-bit words per bit set of links
   GroupTree groups;
-  std::vector<std::uint32_t> group_of;  // by link
+  std::vector<std::uint32_t> group_of;  // rigid group of each link
   std::vector<Origin> origins;
-  std::vector<std::uint64_t> allowed;                           // bit: there is an origin
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Tag> tags;  // by links, the smaller first: few pairs have one
+  std::vector<std::uint64_t> allowed;                           // bit sets of links; a set bit means: not Origin::none
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Tag> tags;  // by two links, the smaller first; few pairs have a tag
 };
 
 LinkMatrix::LinkMatrix(const RobotModel& model, const LinkRules& rules, std::vector<std::string>& warnings)
@@ -78,7 +78,7 @@ void LinkMatrix::State::applyRules(const RobotModel& model, const LinkRules& rul
     const int index = model.find(link);
     if (index < 0) {
       warnings.push_back(std::string(tag) + " names link '" + printable(link) + "', which robot '" +
-                         printable(model.name) + "' does not have");
+                         printable(model.name) + "' does not have; the rule is ignored");
     }
     return index;
   };

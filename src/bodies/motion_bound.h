@@ -6,11 +6,12 @@
 
 namespace hgrid {
 
-/// [m] No point of a body's padded shapes is farther from its origin.
+/// Returns an upper bound [m] of the distance from the origin of a body to the points of its padded shapes.
 double reachOf(const Body& body);
 
-/// [m] How much nearer or farther two bodies can have come at most when both went from one pose to another.
-/// @param reach  of the second
+/// Returns an upper bound [m] of the change of the distance of two bodies, if each moves from its first pose to its
+/// pose now.
+/// @param reach  [m] reachOf() the second body
 double relativeMotion(const Pose& world_from_first, const Pose& world_from_second, const Pose& world_from_first_now,
                       const Pose& world_from_second_now, double reach);
 

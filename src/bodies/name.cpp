@@ -15,7 +15,7 @@ void checkLocal(const std::string& local, const std::string& what) {
   };
   if (local.empty()) refuse("it must not be empty");
   if (local.size() > kLongestName) {
-    refuse("it has " + std::to_string(local.size()) + " bytes, at most " + std::to_string(kLongestName) +
+    refuse("it has " + std::to_string(local.size()) + " bytes; at most " + std::to_string(kLongestName) +
            " are allowed");
   }
   for (std::size_t i = 0; i < local.size();) {
@@ -35,7 +35,8 @@ void checkSource(const std::string& source, const std::string& what) {
 std::string joined(const std::string& source, const std::string& local) { return source + "/" + local; }
 
 bool matches(const std::string& glob, const std::string& name) {
-  // Only the last star ever needs another try: an earlier one could not match more than it already does.
+  // After a mismatch, only the last star before it is tried again with a longer match. A longer match of an earlier
+  // star would not help.
   std::size_t g = 0, n = 0, star = std::string::npos, resume = 0;
   while (n < name.size()) {
     if (g < glob.size() && glob[g] == '*') {
@@ -56,10 +57,10 @@ bool matches(const std::string& glob, const std::string& name) {
 }
 
 bool canMatchTogether(const std::string& first, const std::string& second) {
-  // possible[j]: the rest of `first` from i on and the rest of `second` from j on match a common name.
+  // possible[j]: whether some name matches both the rest of `first` from i on and the rest of `second` from j on.
   std::vector<bool> possible(second.size() + 1), below;
   for (std::size_t i = first.size() + 1; i-- > 0;) {
-    below = possible;  // of i + 1
+    below = possible;  // the values for i + 1
     for (std::size_t j = second.size() + 1; j-- > 0;) {
       const bool a = i < first.size(), b = j < second.size();
       const bool star_a = a && first[i] == '*', star_b = b && second[j] == '*';
@@ -76,7 +77,8 @@ bool canMatchTogether(const std::string& first, const std::string& second) {
 }
 
 bool coversGlob(const std::string& wide, const std::string& narrow) {
-  // As matches(), with `narrow` for the name: a star of it stands for any run, so only a star of `wide` covers it.
+  // Works like matches() with `narrow` as the name. A star in `narrow` stands for any bytes, so only a star in `wide`
+  // can match it.
   std::size_t w = 0, n = 0, star = std::string::npos, resume = 0;
   while (n < narrow.size()) {
     if (w < wide.size() && wide[w] == '*') {

@@ -11,29 +11,30 @@
 
 namespace hgrid {
 
-/// Finds bodies by name or by glob without looking at each: a glob is compared with those names only that begin as it
-/// does. Refers to the bodies that it was made from.
+/// Finds bodies by name or by glob without visiting every body. A glob is compared only with the names that start with
+/// the text before its first `*` or `?`. The index refers to the bodies it was created from, which must outlive it.
 class NameIndex {
  public:
   static constexpr std::uint32_t kNone = 0xffffffff;
 
   explicit NameIndex(const std::vector<Body>& bodies);
 
-  /// Index of the body of this name, or kNone.
+  /// Returns the index of the body with this name, or kNone.
   std::uint32_t find(const std::string& name) const;
-  /// Replaces `found` by the bodies that the glob matches, in the order of their names.
+  /// Replaces `found` with the indices of the bodies whose names match the glob, in the order of their names.
   void matching(const std::string& glob, std::vector<std::uint32_t>& found) const;
+  /// Whether the glob matches the name of no body.
   bool matchesNone(const std::string& glob) const;
 
  private:
   using Iterator = std::vector<std::uint32_t>::const_iterator;
-  /// From the first name that is not before this one.
+  /// Returns the position of the first name that is not less than `name`.
   Iterator from(const std::string& name) const;
-  /// The names that begin as the glob does.
+  /// Returns the range of names that start with the text of the glob before its first `*` or `?`.
   std::pair<Iterator, Iterator> candidates(const std::string& glob) const;
 
   const std::vector<Body>& bodies_;
-  std::vector<std::uint32_t> order_;  // bodies by name
+  std::vector<std::uint32_t> order_;  // indices of the bodies, sorted by name
 };
 
 }  // namespace hgrid

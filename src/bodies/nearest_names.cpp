@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMostBodies = 20000, kMostNames = 3;
 
-/// How many bytes must be exchanged, left out or added to make one text of the other (Levenshtein 1966).
+/// Returns how many bytes must be replaced, removed or added to turn one text into the other (Levenshtein 1966).
 std::size_t editDistance(const std::string& a, const std::string& b, std::vector<std::size_t>& row) {
   row.resize(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -57,7 +57,7 @@ std::vector<std::string> nearestNames(const std::string& name, const std::vector
 
 std::string noSuchBody(const std::string& name, const std::vector<Body>& bodies) {
   std::string sentence = "there is no body '" + printable(name) + "'";
-  std::string separator = "; nearly so are called ";
+  std::string separator = "; similar names are ";
   for (const std::string& near : nearestNames(name, bodies)) {
     sentence += separator + "'" + near + "'";
     separator = ", ";

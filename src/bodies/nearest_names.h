@@ -9,12 +9,14 @@
 
 namespace hgrid {
 
-/// Names of the few bodies that are called nearly so: with few letters exchanged, left out or added, in the whole name
-/// or in what comes after its source. The nearest first; none where nothing is like it, or where there are so many
-/// bodies that comparing would take long.
+/// Returns the names of up to three bodies that are most similar to `name`, the most similar first.
+///
+/// A name is similar if few bytes must be replaced, removed or added, in the whole name or in the part after the
+/// source. The list is empty if no name is similar, or if there are so many bodies that the comparison would take too
+/// long.
 std::vector<std::string> nearestNames(const std::string& name, const std::vector<Body>& bodies);
 
-/// The sentence for a name that no body has.
+/// Returns the error sentence for a name that no body has. It lists similar names.
 std::string noSuchBody(const std::string& name, const std::vector<Body>& bodies);
 
 }  // namespace hgrid

@@ -32,11 +32,11 @@ void findRigidGroups(RobotModel& model) {
 
 double speedBound(const RobotModel& model, std::uint32_t link) {
   const double infinity = std::numeric_limits<double>::infinity();
-  double reach = 0.0;  // farthest that a point of the link can be from the origin of `at`
+  double reach = 0.0;  // [m] bound of the distance from the origin of link `at` to the points of `link`
   for (const BodyShape& shape : model.links[link].shapes) {
     reach = std::max(reach, shape.body_from_shape.translation().norm() + shape.shape.reach() + shape.padding);
   }
-  if (reach == 0.0) return 0.0;  // no shape, no point that could move
+  if (reach == 0.0) return 0.0;  // the link has no shape, so no point can move
   const auto limitOf = [&](const RobotLink& at) { return at.max_velocity > 0.0 ? at.max_velocity : infinity; };
   double speed = 0.0;
   for (int at = static_cast<int>(link); model.links[static_cast<std::size_t>(at)].parent >= 0;) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A pair of a map and a body with shapes.
+/// A pair of bodies: one is a map or cloud, the other one has shapes.
 class MapPair {
  public:
   MapPair(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second)
@@ -23,8 +23,10 @@ class MapPair {
         cells_(snapshot.cellsOf(map_)),
         map_from_world_(snapshot.poses()[map_].world_from_body.inverse()) {}
 
-  /// Calls `look`, if isReady(), with each shape and each voxel within `limit` of its box, until it returns a
-  /// limit below 0. @param look  (shape's number, voxel, shape and cube in the order of the pair) -> limit
+  /// Calls `look` for each shape and each voxel that is at most `limit` [m] from the box of the shape. Does nothing if
+  /// isReady() is false.
+  /// @param look  function (index of the shape, voxel, first solid of the pair, second solid) that returns the new
+  ///              limit [m]; a negative limit ends the visit
   template <class Look>
   void visit(double limit, const Look& look) const {
     if (!isReady()) return;
@@ -52,7 +54,7 @@ class MapPair {
     return {worldFromCube(voxel).translation(), edgeOf(voxel, cells_->grid->finestEdge()), distance};
   }
   bool mapIsFirst() const { return map_first_; }
-  /// Whether there is something on both sides, and all of it was made ready to be measured.
+  /// Returns whether both bodies can be measured: the map has cells, the other body has shapes, and all have solids.
   bool isReady() const {
     const std::vector<BodyShape>& shapes = snapshot_.structure().bodies[body_].shapes;
     return cells_ && cells_->cubes.front() && !shapes.empty() &&
@@ -87,9 +89,9 @@ MapProximity measureMap(const NarrowPhase& narrow_phase, const Snapshot& snapsho
     }
     NearCell cell = pair.cellOf(voxel, found.distance);
     auto& cells = nearest.cells;
-    const auto same = std::find_if(cells.begin(), cells.end(), [&](const NearCell& known) {  // of another shape
-      return known.center == cell.center;
-    });
+    // Another shape of the body may have added the same cell before.
+    const auto same =
+        std::find_if(cells.begin(), cells.end(), [&](const NearCell& known) { return known.center == cell.center; });
     if (same != cells.end()) {
       cell.distance = std::min(cell.distance, same->distance);
       cells.erase(same);

@@ -6,19 +6,19 @@
 
 namespace hgrid {
 
-/// How a map and another body lie to each other, told of the map's nearest cells.
+/// How a map and another body lie relative to each other.
 struct MapProximity {
-  std::uint32_t shape = 0;  ///< the body's nearest one
-  Proximity proximity;      ///< of it and the nearest cell, first the one that stands first in the pair
-  std::vector<NearCell> cells;
+  std::uint32_t shape = 0;      ///< index of the shape of the body that is nearest to the map
+  Proximity proximity;          ///< proximity of this shape and the nearest cell, in the order of the pair
+  std::vector<NearCell> cells;  ///< the cells nearest to the body, nearest first
 };
 
-/// Measures the shapes of one body of a pair against the cells of the other, a map. Both must have poses.
-/// @param up_to  [m] beyond this distance it is infinite
+/// Measures the distance of a map and another body. One of the two bodies must be a map. Both must have poses.
+/// @param up_to  [m] a larger distance is returned as infinite
 MapProximity measureMap(const NarrowPhase& narrow_phase, const Snapshot& snapshot, std::uint32_t first,
                         std::uint32_t second, double up_to);
 
-/// Places where the two are in contact, at most so many, in any order.
+/// Finds at most `most` contacts of a map and another body, in any order.
 std::vector<PairContact> contactsWithMap(const NarrowPhase& narrow_phase, const Snapshot& snapshot, std::uint32_t first,
                                          std::uint32_t second, std::size_t most);
 

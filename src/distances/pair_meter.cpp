@@ -18,23 +18,23 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kLittle = 0.25;     // share of the report distance
-constexpr double kSmoothing = 0.05;  // [s] time constant of the closing speed
-constexpr std::size_t kPairsPerJob = 8;
+constexpr double kLittle = 0.25;         // a smaller move than this share of the report distance is a small one
+constexpr double kSmoothing = 0.05;      // [s] time constant of the low-pass filter for the closing speed
+constexpr std::size_t kPairsPerJob = 8;  // pairs that a thread measures before it takes the next job
 
 struct ShapePair {
   double gap;
   std::uint32_t first, second;
 };
 
-/// The nearest shapes of two bodies, and how they lie to each other.
+/// The nearest shapes of two bodies, and how they lie relative to each other.
 struct NearestShapes {
   std::uint32_t first = 0, second = 0;
   Proximity proximity;
-  std::vector<NearCell> cells;  // of a map
+  std::vector<NearCell> cells;  // nearest cells, if one of the bodies is a map
 };
 
-/// Those whose boxes are no farther apart than `up_to` [m], nearest first.
+/// Collects the pairs of shapes whose boxes are at most `up_to` [m] apart, nearest boxes first.
 void collectShapePairs(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second, double up_to,
                        std::vector<ShapePair>& shape_pairs) {
   const std::vector<ProxyId>& begin = snapshot.structure().first_proxy;
@@ -50,7 +50,7 @@ void collectShapePairs(const Snapshot& snapshot, std::uint32_t first, std::uint3
   });
 }
 
-/// Calls `ask` with two shapes of two bodies as they are placed; not if one was not made ready.
+/// Calls `ask` with a pair of shapes as solids at their poses. Does nothing if one of the shapes has no solid.
 template <class Ask>
 void placed(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second, const ShapePair& shapes, Ask&& ask) {
   const std::vector<Body>& bodies = snapshot.structure().bodies;
@@ -85,7 +85,7 @@ NearestShapes nearestShapes(const NarrowPhase& narrow_phase, const Snapshot& sna
     if (found.status == Measure::not_measured || found.distance < nearest.proximity.distance) {
       nearest = {shapes.first, shapes.second, found, {}};
     }
-    if (found.status != Measure::apart) break;  // nothing is nearer
+    if (found.status != Measure::apart) break;  // no other pair of shapes can be nearer
     least = std::min(least, found.distance);
   }
   return nearest;
@@ -131,26 +131,26 @@ std::vector<PairContact> contactsOf(const NarrowPhase& narrow_phase, const Snaps
 }
 
 struct PairMeter::State {
-  /// What was found when a pair was measured last.
+  /// The result of the last measurement of a pair.
   struct Known {
     std::uint32_t first = 0, second = 0;
-    bool measured = false;  // the pair was measured; then all of this holds
-    Time measured_at{0};    // time of the data that was measured
+    bool measured = false;  // whether the pair was ever measured; if not, the other members are meaningless
+    Time measured_at{0};    // stamp of the snapshot for which this result is valid
     Pose world_from_first = Pose::Identity(), world_from_second = Pose::Identity();
     std::uint32_t first_shape = 0, second_shape = 0;
     Proximity proximity;
     std::vector<NearCell> cells;
-    std::shared_ptr<const MapCells> map;  // whose cells they are
-    double up_to = 0.0;                   // [m] how far was looked
-    // Of the closing speed.
+    std::shared_ptr<const MapCells> map;  // the cells of the map at the measurement; null without a map
+    double up_to = 0.0;                   // [m] the search ended at this distance
+    // The last sample of the distance, for the closing speed.
     Time stamp{0};
     double distance = Proximity::kUnknown, speed = Proximity::kUnknown;
   };
   struct Job {
     const NearPair* pair;
-    double report;  // [m] farther than this it is left out
-    Known known;    // in: of the last time; out: of this time
-    bool shown, left_out;
+    double report;         // [m] a pair that is farther apart is not listed
+    Known known;           // input: the last result; output: the new result
+    bool shown, left_out;  // shown: the pair is listed; left_out: the time ran out before it was measured
   };
 
   State(std::shared_ptr<const NarrowPhase> phase, const MeterOptions& given)
@@ -169,23 +169,23 @@ struct PairMeter::State {
   std::uint64_t revision = 0, epoch = 0;
   std::vector<Known> known;  // sorted by (first, second)
   std::vector<Job> jobs;
-  std::vector<std::vector<ShapePair>> scratch;  // per thread
+  std::vector<std::vector<ShapePair>> scratch;  // one buffer for each thread
 };
 
 PairMeter::PairMeter(std::shared_ptr<const NarrowPhase> narrow_phase, const MeterOptions& options)
     : state_(std::make_unique<State>(std::move(narrow_phase), options)) {}
 PairMeter::~PairMeter() = default;
 
-/// Makes the jobs, those with the nearest boxes first, each with what is known of its pair.
+/// Creates the jobs, those with the smallest gap first. Each job gets the last result of its pair.
 void PairMeter::State::recall(const Snapshot& snapshot) {
   const Structure& structure = snapshot.structure();
-  if (revision != structure.revision || epoch != snapshot.epoch()) known.clear();  // bodies have other numbers
+  if (revision != structure.revision || epoch != snapshot.epoch()) known.clear();  // the body indices may have changed
   revision = structure.revision;
   epoch = snapshot.epoch();
   jobs.clear();
   auto last = known.begin();
   for (const NearPair& pair : snapshot.pairs()) {
-    // Margins that are widened since data is old widen what is reported too.
+    // If margins grow because data is old, the report distance grows by the same length.
     const double report = options.report_distance + snapshot.growthOf(pair.first, pair.second);
     const auto before = [&](const Known& one) {
       return one.first != pair.first ? one.first < pair.first : one.second < pair.second;
@@ -201,13 +201,13 @@ void PairMeter::State::recall(const Snapshot& snapshot) {
   std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.pair->gap < b.pair->gap; });
 }
 
-/// The cells of the map in a pair; null if neither body is a map.
+/// Returns the cells of the map in a pair; null if neither body is a map.
 std::shared_ptr<const MapCells> PairMeter::State::mapOf(const Snapshot& snapshot, const Known& known) {
   return snapshot.cellsOf(snapshot.structure().isMap(known.first) ? known.first : known.second);
 }
 
-/// [m] By how much the distance of a pair may have changed since it was measured, at most. Infinite if it was never
-/// measured, or if the map has other cells now.
+/// Returns the largest change [m] of the distance of a pair that its motion since the last measurement allows. Infinite
+/// if the pair was never measured or if the cells of its map have changed.
 double PairMeter::State::motionSince(const Snapshot& snapshot, const Known& known) {
   const Structure& structure = snapshot.structure();
   const bool map_first = structure.isMap(known.first);
@@ -225,8 +225,8 @@ double PairMeter::State::motionSince(const Snapshot& snapshot, const Known& know
                         reachOf(structure.bodies[known.first]));
 }
 
-/// [m] A lower bound of the distance of a pair that is not measured now: its last measured distance, less what both
-/// bodies can have moved since. 0 if it was never measured.
+/// Returns a lower bound [m] of the distance of a pair that is not measured now: its last measured distance, minus what
+/// both bodies have moved since. 0 if the pair was never measured.
 double PairMeter::State::boundOf(const Snapshot& snapshot, const Known& known) {
   if (known.proximity.status == Measure::not_measured) return 0.0;
   return std::max(0.0, std::min(known.proximity.distance, known.up_to) - motionSince(snapshot, known));
@@ -240,9 +240,9 @@ void PairMeter::State::perform(const Snapshot& snapshot, Job& job, std::vector<S
   const double at_least = std::min(now.proximity.distance, now.up_to) - moved;
   const bool enough_known = moved == 0.0 ? now.up_to >= job.report : at_least > job.report;
   if (!now.measured || !enough_known) {
-    // So far it need be looked, if that is known, and a little more than any solver errs.
+    // The distance cannot exceed this bound, so the search may end there. The addend is larger than any solver error.
     const double at_most = now.proximity.distance + moved + 1e-6;
-    // What moves little is looked for a little farther than is reported: it need not be asked again at once.
+    // After a small move, search a little farther than the report distance, so that the next tick need not measure.
     now.up_to = moved < kLittle * job.report ? (1.0 + kLittle) * job.report : job.report;
     now.world_from_first = first;
     now.world_from_second = second;
@@ -332,7 +332,7 @@ std::shared_ptr<const PairDistances> PairMeter::measure(const Snapshot& snapshot
     const double key_a = unknown_a ? a.gap : a.proximity.distance, key_b = unknown_b ? b.gap : b.proximity.distance;
     return std::tie(key_a, a.first, a.second) < std::tie(key_b, b.first, b.second);
   });
-  s.known.reserve(s.jobs.size());  // from here on nothing throws
+  s.known.reserve(s.jobs.size());  // this may throw, but the code below cannot
   s.known.clear();
   for (State::Job& job : s.jobs) s.known.push_back(std::move(job.known));
   std::sort(s.known.begin(), s.known.end(), [](const State::Known& a, const State::Known& b) {

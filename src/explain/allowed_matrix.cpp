@@ -13,9 +13,9 @@
 namespace hgrid {
 namespace {
 
-constexpr std::uint64_t kMostLooks = 20000000;  // a second
+constexpr std::uint64_t kMostLooks = 20000000;  // maximum number of pairs to examine; takes about a second
 
-/// Which of two globs a name matches.
+/// Which of the two globs of a scope a name matches.
 struct Matched {
   bool first, second;
 };
@@ -26,7 +26,7 @@ Matched match(const AllowedScope& scope, const std::string& name) {
 
 bool inScope(const Matched& a, const Matched& b) { return (a.first && b.second) || (b.first && a.second); }
 
-/// Bodies of some that may have an entry with others: those that rules speak of, and the links of each robot.
+/// The bodies that may have entries in the matrix: those that rules match, and the links of each robot.
 struct Circles {
   std::vector<std::uint32_t> ruled;
   std::map<std::string, std::vector<std::uint32_t>> robots;
@@ -39,7 +39,7 @@ struct Circles {
       if (structure.bodies[i].links) robots[structure.bodies[i].robot].push_back(i);
     }
   }
-  /// Replaces `partners` by those of a body that come after it.
+  /// Replaces `partners` by the bodies with a larger index that may have an entry with `body`, ascending.
   void after(const Structure& structure, std::uint32_t body, std::vector<std::uint32_t>& partners) const {
     static const std::vector<std::uint32_t> kNobody;
     const auto robot = robots.find(structure.bodies[body].robot);
@@ -84,7 +84,7 @@ AllowedList decidedPairs(const Structure& structure, const AllowedScope& scope) 
   const auto count = [&](bool Matched::*by) {
     return std::count_if(matched.begin(), matched.end(), [by](const Matched& body) { return body.*by; });
   };
-  // One of each pair matches the glob that fewer bodies match.
+  // In each pair of the scope, at least one body matches the glob that fewer bodies match.
   bool Matched::*const rare = count(&Matched::first) < count(&Matched::second) ? &Matched::first : &Matched::second;
   const Circles everybody(structure, [](std::uint32_t) { return true; });
   const Circles few(structure, [&](std::uint32_t body) { return matched[body].*rare; });
@@ -97,7 +97,7 @@ AllowedList decidedPairs(const Structure& structure, const AllowedScope& scope) 
     looks += partners.size();
     if (looks > kMostLooks) {
       throw Refusal(Code::budget, "more than " + std::to_string(kMostLooks) +
-                                      " pairs would have to be looked at; ask with narrower globs or for the rules");
+                                      " pairs would have to be examined; use narrower globs, or ask for the rules");
     }
     for (const std::uint32_t j : partners) {
       if (!inScope(matched[i], matched[j])) continue;

@@ -16,10 +16,10 @@ namespace {
 
 using Bodies = std::vector<std::uint32_t>;
 
-/// The names and globs of rules that one list has and the other has not, or has elsewhere.
+/// Returns the names and globs of the rules in which two lists differ.
 ///
-/// Of two rules that are equally exact the later one decides. So only the rules that both lists begin with and end with
-/// are surely without effect on the difference.
+/// If two equally exact rules match a pair, the later one decides, so the order of rules matters. Only the rules at the
+/// start and at the end of the lists, as far as both lists agree, surely make no difference.
 std::vector<std::string> changedNames(const std::vector<PairRule>& before, const std::vector<PairRule>& after) {
   const auto same = [](const PairRule& a, const PairRule& b) {
     return std::tie(a.first, a.second, a.allowed) == std::tie(b.first, b.second, b.allowed);
@@ -41,7 +41,7 @@ std::vector<std::string> changedNames(const std::vector<PairRule>& before, const
   return names;
 }
 
-/// The bodies that one of the names or globs matches, sorted.
+/// Returns the bodies that match at least one of the names or globs, sorted.
 Bodies matching(const std::vector<std::string>& names, const std::vector<Body>& bodies) {
   const NameIndex index(bodies);
   std::vector<bool> is_in(bodies.size(), false);
@@ -63,9 +63,10 @@ Bodies matching(const std::vector<std::string>& names, const std::vector<Body>& 
   return found;
 }
 
-/// Bodies of one robot (or of none) that both filters treat alike in pairs with bodies of other robots or of none.
+/// Links of one robot, or bodies that are no links, that both filters treat alike in pairs with bodies outside the
+/// robot.
 struct Group {
-  std::string robot;  // empty: of none
+  std::string robot;  // empty: the bodies are no links
   Bodies bodies;
 };
 
@@ -84,11 +85,11 @@ std::vector<Group> groupsOf(const Bodies& chosen, const std::vector<Body>& bodie
   return groups;
 }
 
-/// Counts the changed pairs of one body of the first group and another body of the second.
-/// @param same  the groups are one and the same
+/// Counts the changed pairs of a body of the first group and a body of the second group.
+/// @param same  whether the two groups are the same
 template <class IsChanged>
 std::uint64_t countBetween(const Group& first, const Group& second, bool same, const IsChanged& is_changed) {
-  if (!first.robot.empty() && first.robot == second.robot) {  // the model of the robot decides too
+  if (!first.robot.empty() && first.robot == second.robot) {  // the robot model may decide differently for each pair
     std::uint64_t count = 0;
     for (std::size_t i = 0; i < first.bodies.size(); ++i) {
       for (std::size_t j = same ? i + 1 : 0; j < second.bodies.size(); ++j) {

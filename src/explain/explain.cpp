@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// A length, rounded to the micrometer: boxes are coarser.
+/// Returns a length as text, rounded to a micrometer: the coordinates of boxes are not more precise.
 std::string meters(double length) { return text(std::round(length * 1e6) / 1e6) + " m"; }
 
 std::uint32_t known(const Structure& structure, const std::string& name) {
@@ -25,10 +25,10 @@ std::uint32_t known(const Structure& structure, const std::string& name) {
   return body;
 }
 
-/// Makes the sentences of an explanation from its other fields.
+/// Builds the text of an explanation from its other fields.
 class Words {
  public:
-  /// @param near  their boxes are within the margin
+  /// @param near  whether the boxes of the two bodies are within the margin
   Words(const Structure& structure, const Explanation& what, bool near, const OptionNames& options)
       : what_(what),
         a_(structure.bodies[what.first]),
@@ -47,7 +47,8 @@ class Words {
     } else if (what_.cut) {
       result = pair + " are not reported, although " + nearness() + ": there are more pairs than " +
                options_.max_pairs + " allows. " +
-               "Of those that were found, contacts are kept, then the smallest gaps, then the first by name." +
+               "Of the pairs that were found, those with the smallest gaps are reported; of equal gaps, the first by "
+               "name." +
                enabled();
     } else {
       result = pair + " are not reported: " + (hasBoxes() ? nearness() : missing()) + "." + enabled();
@@ -65,19 +66,19 @@ class Words {
     const std::string margin = "the margin of " + meters(what_.margin);
     if (!(what_.gap > 0.0)) return "their boxes touch or overlap, which is within " + margin;
     const std::string soon = what_.reported && !near_
-                                 ? std::string(", but by their bounds of speed they can meet within ") +
-                                       options_.horizon + ", or they passed each other since the tick before"
+                                 ? std::string(", but given their maximum speeds they can meet within ") +
+                                       options_.horizon + ", or they passed each other since the previous tick"
                                  : "";
     return "their boxes are " + meters(what_.gap) + " apart, " + (near_ ? "within " : "more than ") + margin + soon;
   }
 
-  /// That what was said may not be all.
+  /// Returns a sentence about the shapes of a body that could not be read; empty if all were read.
   static std::string unread(const Body& body) {
     if (body.covered || body.shapes.empty()) return {};
     return " Not all shapes of " + body.name + " could be read, so it may be nearer: " + body.note + ".";
   }
 
-  /// Why there is no gap.
+  /// Returns a text that says why the pair has no gap.
   std::string missing() const {
     for (const auto* body : {&a_, &b_}) {
       const Freshness state = body == &a_ ? what_.state_first : what_.state_second;
@@ -96,11 +97,11 @@ class Words {
     const PairRule& rule = what_.rule;
     switch (rule.origin) {
       case Origin::self:
-        return "they are the same body, which makes no pair with itself";
+        return "they are the same body, and a body makes no pair with itself";
       case Origin::kind:
         return kind();
       case Origin::rigid:
-        return "both links are of one rigid group, so they move as one";
+        return "both links are of one rigid group, so they never move relative to each other";
       case Origin::adjacent:
         return "the links are adjacent: " + what_.rule.reason;
       case Origin::srdf:
@@ -125,12 +126,13 @@ class Words {
       return body.kind == BodyKind::obstacle && body.mobility == Mobility::moving;
     };
     if (!link && !moving_obstacle(a_) && !moving_obstacle(b_)) {
-      return "without a robot's link a pair needs an obstacle that moves";
+      return "a pair needs a link of a robot or an obstacle that moves, and neither body is one";
     }
     const char* name = links  ? (a_.robot == b_.robot ? "self" : "robot_robot")
                        : link ? (map ? "robot_map" : "robot_obstacle")
                               : "moving_obstacle";
-    return std::string(options_.pair_kinds) + " does not name their kind, " + name + ", and no rule beats that";
+    return std::string(options_.pair_kinds) + " does not contain their kind of pair, " + name +
+           ", and no rule can change that";
   }
 
   std::string theRule(const std::string& begin) const {
@@ -144,24 +146,24 @@ class Words {
     return words;
   }
 
-  /// What would be if nothing switched the pair off.
+  /// Returns a sentence that says whether the pair would be reported if no rule switched it off.
   std::string without() const {
     if (what_.rule.origin == Origin::self) return {};
-    if (!hasBoxes()) return " Besides, " + missing() + ".";
-    return near_ ? " Without that they would be reported: " + nearness() + "." : " Besides, " + nearness() + ".";
+    if (!hasBoxes()) return " Also, " + missing() + ".";
+    return near_ ? " Otherwise they would be reported: " + nearness() + "." : " Also, " + nearness() + ".";
   }
 
-  /// That a rule or an SRDF says that the pair is to be reported.
+  /// Returns a sentence that names the rule or SRDF that makes the pair reported; empty if there is none.
   std::string enabled() const {
     const PairRule& rule = what_.rule;
     if (rule.origin == Origin::none) return {};
     const std::string who = rule.origin == Origin::srdf ? "The SRDF's enable_collisions" : theRule("Rule");
-    return " " + who + " says that it is to be reported when near" + because() + ".";
+    return " " + who + " says that the pair must be reported when its bodies are near" + because() + ".";
   }
 
   std::string grown() const {
     if (!(what_.growth > 0.0) || !hasBoxes()) return {};
-    return " " + meters(what_.growth) + " of the margin are there because data is old.";
+    return " The margin is " + meters(what_.growth) + " larger than usual because data is old.";
   }
 
   static std::string freshness(const Body& body, Freshness state, double age) {
@@ -174,18 +176,19 @@ class Words {
       case Measure::not_measured:
         return {};
       case Measure::apart:
-        return std::isinf(what_.distance) ? " Their shapes are farther apart than was asked for."
-                                          : " Their shapes are " + meters(what_.distance) + " apart.";
+        return std::isinf(what_.distance)
+                   ? " Their shapes are farther apart than the distance up to which they were measured."
+                   : " Their shapes are " + meters(what_.distance) + " apart.";
       case Measure::contact:
         return " Their shapes are in contact.";
       case Measure::contained:
-        return " One shape lies inside the other, which is contact.";
+        return " One shape lies inside the other, which counts as contact.";
       case Measure::containment_unknown:
-        return " One shape may lie inside the other, an open mesh; that is taken as contact.";
+        return " One shape may lie inside the other, which is an open mesh; this counts as contact.";
       case Measure::failed:
         break;
     }
-    return " Their distance could not be computed; that is taken as contact.";
+    return " Their distance could not be computed; this counts as contact.";
   }
 
   const Explanation& what_;
@@ -194,7 +197,8 @@ class Words {
   const OptionNames& options_;
 };
 
-/// Gap of the nearest boxes, and whether it is within the margin; of a reported pair as it stands in the snapshot.
+/// Sets the gap of the pair and returns whether it is within the margin. If the pair is reported, copies its values
+/// from the snapshot.
 bool fillGap(const Snapshot& snapshot, Explanation& what) {
   const Structure& s = snapshot.structure();
   const auto key = std::minmax(what.first, what.second);
@@ -221,7 +225,7 @@ bool fillGap(const Snapshot& snapshot, Explanation& what) {
       near = near || withinDistance(snapshot.boxes()[i], snapshot.boxes()[j], what.margin);
     }
   }
-  if (near) what.gap = std::min(what.gap, what.margin);  // as in a reported pair
+  if (near) what.gap = std::min(what.gap, what.margin);  // in reported pairs the gap is limited in the same way
   return near;
 }
 

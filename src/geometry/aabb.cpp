@@ -11,8 +11,8 @@
 namespace hgrid {
 namespace {
 
-/// A sum of doubles kept exactly, as a list of parts that do not overlap, the largest last
-/// (Shewchuk 1997, GROW-EXPANSION). The sign of the sum is that of its largest part.
+/// An exact sum of doubles, stored as a list of parts that do not overlap, with the largest part last (Shewchuk 1997,
+/// GROW-EXPANSION). The sum has the sign of its largest part.
 class ExactSum {
  public:
   void add(double value) {
@@ -40,7 +40,7 @@ class ExactSum {
   int size_ = 0;
 };
 
-/// How far apart the intervals are along one axis, as high - low; 0 - 0 if they overlap.
+/// The gap of two intervals along one axis, given as high - low. Both numbers are 0 if the intervals overlap.
 struct AxisGap {
   double high = 0.0, low = 0.0;
 };
@@ -51,14 +51,15 @@ AxisGap axisGap(const Aabb& a, const Aabb& b, int axis) {
   return {};
 }
 
-/// Sign of distance² - margin², without rounding: with the gap high - low = h + l exactly,
-/// its square is h² + 2hl + l².
+/// Returns the sign of distance² - margin², without rounding.
+///
+/// The gap of an axis is exactly h + l, so its square is h² + 2hl + l².
 double exactComparison(const Aabb& a, const Aabb& b, double margin) {
   ExactSum sum;
   for (int axis = 0; axis < 3; ++axis) {
     const AxisGap gap = axisGap(a, b, axis);
     const double h = gap.high - gap.low;
-    const double part = h - gap.high;  // TWO-DIFF (Shewchuk 1997)
+    const double part = h - gap.high;  // computes the rounding error l by TWO-DIFF (Shewchuk 1997)
     const double l = (gap.high - (h - part)) - (gap.low + part);
     sum.addProduct(h, h);
     sum.addProduct(2.0 * h, l);
@@ -84,14 +85,14 @@ bool isValid(const Aabb& box) {
 }
 
 float roundedDown(double value) {
-  // As std::nextafter, but with no branch that depends on the last digits, which no processor can foretell, and
-  // without a call: every box takes six of these.
+  // Works like std::nextafter, but without a function call, since every box needs six of these roundings. It also
+  // avoids a branch on the last digits, which a processor cannot predict.
   const float nearest = static_cast<float>(value);
   const std::int32_t above = static_cast<double>(nearest) > value ? 1 : 0;
   if (nearest == 0.0f) return above == 0 ? nearest : -std::numeric_limits<float>::denorm_min();
   std::int32_t bits;
   std::memcpy(&bits, &nearest, sizeof bits);
-  bits += bits < 0 ? above : -above;  // below a negative number is one of larger magnitude
+  bits += bits < 0 ? above : -above;  // the next smaller negative number has a larger magnitude
   float below;
   std::memcpy(&below, &bits, sizeof below);
   return below;
@@ -102,10 +103,10 @@ float roundedUp(double value) { return -roundedDown(-value); }
 double distance(const Aabb& a, const Aabb& b) { return std::sqrt(squaredDistance(a, b)); }
 
 bool withinDistance(const Aabb& a, const Aabb& b, double margin) {
-  if (margin > 1e40) return true;  // no two floats are that far apart, and its square might not be a number
+  if (margin > 1e40) return true;  // no two floats are that far apart, and margin² might overflow
   const double squared = squaredDistance(a, b);
   const double limit = margin * margin;
-  const double doubt = 1e-14 * limit + 1e-290;  // far above the rounding of both sides, and above underflow
+  const double doubt = 1e-14 * limit + 1e-290;  // far above the rounding errors of both sides and above underflow
   if (squared < limit - doubt) return true;
   if (squared > limit + doubt) return false;
   return exactComparison(a, b, margin) <= 0.0;
@@ -115,14 +116,14 @@ Aabb grown(const Aabb& box, double by) {
   Aabb result;
   for (int axis = 0; axis < 3; ++axis) {
     const double low = box.min[axis], high = box.max[axis];
-    result.min[axis] = roundedDown(low - by - 1e-15 * (std::abs(low) + by));  // more than the subtraction rounds
+    result.min[axis] = roundedDown(low - by - 1e-15 * (std::abs(low) + by));  // 1e-15: more than the rounding error
     result.max[axis] = roundedUp(high + by + 1e-15 * (std::abs(high) + by));
   }
   return result;
 }
 
 double penetrationDepth(const Eigen::AlignedBox3d& first, const Eigen::AlignedBox3d& second) {
-  const Eigen::Vector3d up = first.max() - second.min(), down = second.max() - first.min();  // to move the second
+  const Eigen::Vector3d up = first.max() - second.min(), down = second.max() - first.min();  // moves of `second`
   return std::max(0.0, up.cwiseMin(down).minCoeff());
 }
 

@@ -8,7 +8,8 @@
 namespace hgrid {
 
 double penetrationDepth(const OrientedBox& first, const OrientedBox& second) {
-  constexpr double kParallel = 1e-12;  // squared sine of the angle between edges that make no direction of their own
+  // Squared sine of an angle. Two edges with a smaller angle are parallel, so their cross product gives no direction.
+  constexpr double kParallel = 1e-12;
   const Eigen::Matrix3d a = first.world_from_box.linear(), b = second.world_from_box.linear();
   const Eigen::Vector3d between = second.world_from_box.translation() - first.world_from_box.translation();
   double depth = std::numeric_limits<double>::infinity();

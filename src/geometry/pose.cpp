@@ -9,7 +9,7 @@
 namespace hgrid {
 
 Pose checkedPose(const Eigen::Vector3d& position, const Eigen::Vector4d& xyzw, const std::string& what,
-                 bool* renormalised) {
+                 bool* renormalized) {
   static constexpr const char* kFields[] = {"position.x",    "position.y",    "position.z",   "orientation.x",
                                             "orientation.y", "orientation.z", "orientation.w"};
   for (int i = 0; i < 7; ++i) {
@@ -18,13 +18,13 @@ Pose checkedPose(const Eigen::Vector3d& position, const Eigen::Vector4d& xyzw, c
       throw Refusal(Code::nonfinite, what + ": " + kFields[i] + " is " + text(value) + "; it must be finite");
     }
   }
-  const double squared_norm = xyzw.cwiseAbs().maxCoeff() > 2.0 ? HUGE_VAL : xyzw.squaredNorm();  // no overflow
+  const double squared_norm = xyzw.cwiseAbs().maxCoeff() > 2.0 ? HUGE_VAL : xyzw.squaredNorm();  // avoids overflow
   if (!(std::abs(squared_norm - 1.0) <= kQuaternionTolerance)) {
     throw Refusal(Code::bad_rotation, what + ": the squared norm of its quaternion is " + text(squared_norm) +
                                           "; it must be within " + text(1.0 - kQuaternionTolerance) + " .. " +
                                           text(1.0 + kQuaternionTolerance));
   }
-  if (renormalised != nullptr && std::abs(squared_norm - 1.0) > 1e-6) *renormalised = true;
+  if (renormalized != nullptr && std::abs(squared_norm - 1.0) > 1e-6) *renormalized = true;
   Pose pose = Pose::Identity();
   pose.linear() = Eigen::Quaterniond(xyzw[3], xyzw[0], xyzw[1], xyzw[2]).normalized().toRotationMatrix();
   pose.translation() = position;

@@ -11,7 +11,8 @@
 namespace hgrid {
 namespace {
 
-/// Fractions in [0, 1] at which the point from + fraction * step crosses the plane of a face of the box, with 0 and 1.
+/// The fractions 0 and 1, and the fractions between them at which the point from + fraction * step crosses the plane of
+/// a face of the box. Sorted.
 struct Breaks {
   std::array<double, 8> fraction{};
   std::size_t count = 0;
@@ -32,8 +33,10 @@ Breaks breaksOf(const Eigen::Vector3d& from, const Eigen::Vector3d& step, const 
   return breaks;
 }
 
-/// The squared distance from the box between two breaks: least + a * (fraction - lowest)². The lowest point may lie
-/// outside of the piece. The form a * fraction² + b * fraction + c would lose digits far away from the box.
+/// The squared distance to the box between two breaks: least + a * (fraction - lowest)².
+///
+/// `lowest` may be outside of the piece. The form a * fraction² + b * fraction + c would lose precision far away from
+/// the box.
 struct Piece {
   double a = 0.0, lowest = 0.0, least = 0.0;
 };
@@ -71,10 +74,10 @@ std::optional<Meeting> meet(const Segment& segment, const Aabb& box) {
     const double begin = breaks.fraction[i], end = breaks.fraction[i + 1];
     const Piece piece = pieceBetween(begin, end, segment.from, step, box);
     const double lowest = piece.a > 0.0 ? std::clamp(piece.lowest, begin, end) : end;
-    for (const double fraction : {lowest, end}) {  // the end too: rounding may have moved the lowest point
+    for (const double fraction : {lowest, end}) {  // also the end, as rounding may have moved `lowest`
       const double here = distanceAt(fraction);
       if (here <= radius && !first) {
-        // The smaller root of least + a * (fraction - lowest)² = radius².
+        // `root` is the smaller solution of least + a * (fraction - lowest)² = radius².
         const double rise = std::max(radius * radius - piece.least, 0.0);
         const double root = piece.a > 0.0 ? piece.lowest - std::sqrt(rise / piece.a) : begin;
         first = std::clamp(root, begin, fraction);
@@ -88,7 +91,7 @@ std::optional<Meeting> meet(const Segment& segment, const Aabb& box) {
 
 FirstTouch::FirstTouch(const Segment& segment) : segment_(segment), clips_(segment.radius == 0.0) {
   const Eigen::Vector3d step = segment.to - segment.from;
-  // More than meet() allows, and than is rounded here.
+  // This is more than the tolerance of meet() and more than the rounding errors of this class.
   const double slack = 2.0 * roundingSlack(segment.from.lpNorm<1>() + segment.to.lpNorm<1>());
   for (int axis = 0; axis < 3; ++axis) {
     const double size = std::abs(step[axis]);

@@ -22,16 +22,17 @@ void checkSize(double value, const char* shape, const char* field, const ShapeLi
 void checkVertices(const TriangleMesh& mesh, double max_size, const std::string& what) {
   for (const Eigen::Vector3d& vertex : mesh.vertices) {
     if (!vertex.allFinite()) {
-      throw Refusal(Code::nonfinite, what + " has a vertex that is not finite; every coordinate must be");
+      throw Refusal(Code::nonfinite, what + " has a vertex that is not finite; every coordinate must be finite");
     }
     checkWithin(vertex, max_size, what + ": a vertex");
   }
 }
 
-/// Half-widths of a disc of radius 1 whose axis is `axis` (Ericson 2005, section 4.2: the extent of a circle
-/// along a direction is the sine of the angle between them). The sine from the two other components: from
-/// 1 - cosine² it would lose all digits where the disc lies nearly flat. Squares of components that underflow are
-/// far below the slack of a box, so no std::hypot is needed.
+/// Returns the half-widths of a disc of radius 1 whose axis is `axis`.
+///
+/// The half-width along a direction is the sine of the angle between the direction and the axis (Ericson 2005, section
+/// 4.2). The sine is computed from the two other components, since 1 - cosine² would lose all digits for small angles.
+/// std::hypot is not needed: squares that underflow are far below the slack of a box.
 Eigen::Vector3d discHalfWidths(const Eigen::Vector3d& axis) {
   const Eigen::Vector3d squares = axis.cwiseAbs2();
   return {std::sqrt(squares.y() + squares.z()), std::sqrt(squares.x() + squares.z()),
@@ -46,8 +47,9 @@ void checkMesh(const TriangleMesh& mesh, double max_size, const std::string& wha
   for (const auto& triangle : mesh.triangles) {
     for (const std::uint32_t index : triangle) {
       if (index >= mesh.vertices.size()) {
-        throw Refusal(Code::bad_geometry, what + " has a triangle that names vertex " + std::to_string(index) +
-                                              "; there are " + std::to_string(mesh.vertices.size()));
+        throw Refusal(Code::bad_geometry, what + " has a triangle with vertex index " + std::to_string(index) +
+                                              "; it must be less than the number of vertices, " +
+                                              std::to_string(mesh.vertices.size()));
       }
     }
     const Eigen::Vector3d &a = mesh.vertices[triangle[0]], &b = mesh.vertices[triangle[1]],
@@ -56,7 +58,7 @@ void checkMesh(const TriangleMesh& mesh, double max_size, const std::string& wha
   }
   if (!has_area) {
     throw Refusal(Code::bad_geometry, what + " has " + std::to_string(mesh.triangles.size()) +
-                                          " triangles, none of which has an area; at least one must");
+                                          " triangles, but none of them has an area; at least one must have an area");
   }
 }
 
@@ -128,7 +130,7 @@ Shape Shape::hull(std::shared_ptr<const TriangleMesh> vertices, const ShapeLimit
 }
 
 Shape Shape::mesh(std::shared_ptr<const TriangleMesh> mesh, const ShapeLimits& limits) {
-  if (mesh == nullptr) throw Refusal(Code::bad_geometry, "mesh: there is none");
+  if (mesh == nullptr) throw Refusal(Code::bad_geometry, "mesh: no mesh was given; it must have at least one triangle");
   checkMesh(*mesh, limits.max_size, "mesh");
   return Shape(ShapeKind::mesh, Eigen::Vector3d::Zero(), std::move(mesh));
 }
@@ -148,7 +150,7 @@ Shape Shape::primitive(int kind, const std::vector<double>& dimensions, const Sh
       expected = 2;
       break;
     default:
-      throw Refusal(Code::unsupported, "shape kind " + std::to_string(kind) + " is no primitive; it must be 1 .. 5");
+      throw Refusal(Code::unsupported, "shape kind " + std::to_string(kind) + " is not a primitive; it must be 1 .. 5");
   }
   if (dimensions.size() != expected) {
     throw Refusal(Code::bad_geometry, std::string(name(static_cast<ShapeKind>(kind))) + ": it has " +
@@ -237,8 +239,8 @@ Aabb boxOf(const Shape& shape, const Pose& world_from_shape, double padding, con
       break;
     }
   }
-  // 64 units of rounding of all terms: the formulas above, the composition of poses and the shift by the
-  // origin need about a fifth of that.
+  // The slack is 64 units of rounding of all terms. The formulas above, the composition of poses and the shift by the
+  // origin together need about a fifth of that.
   Aabb box;
   for (int i = 0; i < 3; ++i) {
     const double slack = 64.0 * std::numeric_limits<double>::epsilon() *

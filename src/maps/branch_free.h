@@ -10,9 +10,9 @@
 
 namespace hgrid {
 
-/// std::max(a, b), also for numbers that are NaN: then `a`.
+/// Returns std::max(a, b) without a branch. If one of them is NaN, it returns `a`.
 inline double greaterOf(double a, double b) {
-#ifdef __aarch64__  // gcc makes a branch of std::max
+#ifdef __aarch64__  // gcc turns std::max into a branch
   const float64x1_t first = vdup_n_f64(a), second = vdup_n_f64(b);
   return vget_lane_f64(vbsl_f64(vclt_f64(first, second), second, first), 0);
 #else

@@ -12,24 +12,25 @@
 
 namespace hgrid {
 
-// Cells of a brick of 4 x 4 x 4, numbered in Morton order: bits 0, 1, 2 of a number are the lower bits of x, y, z, bits
-// 3, 4, 5 the upper ones. A set of cells is 64 bits.
+// The cells of a brick of 4 x 4 x 4 are numbered in Morton order. Bits 0, 1, 2 of a number are the lower bits of x, y,
+// z; bits 3, 4, 5 are their upper bits. A set of cells is stored as 64 bits.
 
-/// Where a cell is along an axis, 0 .. 3.
+/// Returns the position of a cell along an axis, 0 .. 3.
 constexpr std::int32_t cellAlong(unsigned cell, int axis) {
   return static_cast<std::int32_t>((cell >> axis & 1u) | (cell >> (axis + 3) & 1u) << 1);
 }
 
-/// How many cells a set has.
+/// Returns the number of cells in a set.
 inline int bitCount(std::uint64_t cells) {
   cells -= cells >> 1 & 0x5555555555555555;
   cells = (cells & 0x3333333333333333) + (cells >> 2 & 0x3333333333333333);
   return static_cast<int>(((cells + (cells >> 4)) & 0x0f0f0f0f0f0f0f0f) * 0x0101010101010101 >> 56);
 }
-/// The first cell of a set that is not empty.
+/// Returns the first cell of a set, which must not be empty.
 inline unsigned firstCell(std::uint64_t cells) { return static_cast<unsigned>(__builtin_ctzll(cells)); }
 
-/// By axis, first and end: the cells from one position along the axis to before another, each 0 .. 4.
+/// sets[axis][first][end] has the cells whose position along the axis is at least `first` and less than `end`. Both are
+/// 0 .. 4.
 struct CellRanges {
   std::array<std::array<std::array<std::uint64_t, 5>, 5>, 3> sets{};
 
@@ -50,12 +51,13 @@ struct CellRanges {
 };
 inline constexpr CellRanges kCellRanges;
 
-/// The cells of a brick that have a part of min .. max on an axis, in cells from the brick's corner.
+/// Returns the cells of a brick that the interval min .. max along an axis overlaps. Both limits are in cells, relative
+/// to the brick's corner.
 inline std::uint64_t cellsBetween(int axis, double min, double max) {
   const auto& sets = kCellRanges.sets[static_cast<std::size_t>(axis)];
-#ifdef __aarch64__  // both numbers at once: gcc makes branches of std::min and std::max
+#ifdef __aarch64__  // both at once; gcc turns std::min and std::max into branches
   const float64x2_t ends = vminq_f64(vmaxq_f64(float64x2_t{min, max + 1.0}, vdupq_n_f64(0.0)), vdupq_n_f64(4.0));
-  const uint64x2_t numbers = vcvtq_u64_f64(ends);  // 0 for NaN, as below
+  const uint64x2_t numbers = vcvtq_u64_f64(ends);  // NaN becomes 0, as below
   return sets[vgetq_lane_u64(numbers, 0)][vgetq_lane_u64(numbers, 1)];
 #else
   const auto number = [](double at) {

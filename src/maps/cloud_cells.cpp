@@ -15,7 +15,7 @@ CloudCells::CloudCells(double edge, Time lifetime, std::size_t most) : edge_(edg
 
 CloudCells::Keys CloudCells::keysOf(const Eigen::Vector3d& point) const {
   Keys keys;
-  for (int axis = 0; axis < 3; ++axis) {  // as std::floor, which is a call: -0.1 lies in cell -1
+  for (int axis = 0; axis < 3; ++axis) {  // like std::floor, but without a call; -0.1 is in cell -1
     const double cells = point[axis] / edge_;
     const auto whole = static_cast<std::int64_t>(cells);
     keys[static_cast<std::size_t>(axis)] = whole - (cells < static_cast<double>(whole) ? 1 : 0);
@@ -58,12 +58,12 @@ std::vector<Voxel> CloudCells::cellsOf(const std::vector<Eigen::Vector3d>& point
   std::vector<std::uint64_t> codes;
   Keys last{};
   for (const Eigen::Vector3d& point : points) {
-    if (!((point - sensor).cwiseAbs().maxCoeff() < reach + edge_)) {  // far enough that keys might not fit
+    if (!((point - sensor).cwiseAbs().maxCoeff() < reach + edge_)) {  // so far away that its keys might overflow
       ++left_out;
       continue;
     }
     const Keys keys = keysOf(point);
-    if (!codes.empty() && keys == last) continue;  // neighbours in a scan mostly share their cell
+    if (!codes.empty() && keys == last) continue;  // points next to each other in a scan are mostly in the same cell
     Voxel voxel;
     bool near = true;
     std::uint16_t* const key_of[] = {&voxel.x, &voxel.y, &voxel.z};

@@ -6,15 +6,15 @@
 
 namespace hgrid {
 
-/// [m] What a look at voxels (StaticGrid::Look) returns when it is over.
+/// [m] A StaticGrid::Look returns this limit to end the search.
 constexpr double kNoFurther = -1.0;
 
-/// The box in a map's frame around a box of the world: larger where the map is turned.
-/// @param origin  [m, world] that the box is relative to
+/// Returns a box [m, map frame] that contains a box of the world. It is larger if the map is rotated.
+/// @param origin  [m, world] the point that `box` is relative to
 Eigen::AlignedBox3d boxInMap(const Pose& map_from_world, const Aabb& box, const Eigen::Vector3d& origin);
 
-/// [m] distance of the nearest voxel from a box in the map's frame; infinite if it is more than `up_to`, but for
-/// rounding.
+/// Returns the distance [m] from a box [m, map frame] to the nearest voxel. It is infinite if no voxel is within
+/// `up_to` [m], apart from rounding.
 double gapTo(const StaticGrid& grid, const Eigen::AlignedBox3d& box, double up_to);
 
 }  // namespace hgrid

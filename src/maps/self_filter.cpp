@@ -10,9 +10,9 @@
 namespace hgrid {
 namespace {
 
-constexpr std::size_t kMostLooks = 4'000'000;  // at a cell and a shape; some seconds
+constexpr std::size_t kMostLooks = 4'000'000;  // largest number of distance measurements; they take some seconds
 
-/// Splits cells until each part lies in a shape or outside of all.
+/// Splits cells until each part is inside a shape or outside all shapes.
 class Splitter {
  public:
   Splitter(double edge, const Pose& world_from_map, const std::vector<SelfShape>& shapes,
@@ -28,7 +28,7 @@ class Splitter {
     }
   }
 
-  /// The cells that are near to a shape, in Morton order.
+  /// Returns the cells that overlap the padded box of a shape, in Morton order.
   std::vector<Voxel> nearShapes(const std::vector<Voxel>& voxels) const {
     std::vector<Voxel> all, found;
     if (placed_.empty() || voxels.empty()) return all;
@@ -42,7 +42,7 @@ class Splitter {
     return all;
   }
 
-  /// Adds what stays of a cell. @returns whether all of it stays
+  /// Adds the parts of a cell that are kept to `others`. @returns whether the whole cell is kept
   bool split(const Voxel& cell, OthersCells& others) {
     const Eigen::AlignedBox3d cube(minCorner(cell, edge_), maxCorner(cell, edge_));
     const double half_diagonal = 0.5 * cube.sizes().norm();
@@ -60,10 +60,10 @@ class Splitter {
       const Proximity found =
           narrow_phase_.measure({*point_, world_from_middle, 0.0},
                                 {*one.shape->solid, one.shape->world_from_shape, 0.0}, padding + half_diagonal);
-      // What may or may not lie in an open mesh stays.
-      const bool told = found.status != Measure::containment_unknown && found.status != Measure::failed;
+      // A cell is kept if it is not known whether it lies inside an open mesh.
+      const bool is_known = found.status != Measure::containment_unknown && found.status != Measure::failed;
       const bool inside =
-          told && (cell.level == 0 ? found.distance <= padding : found.distance + half_diagonal <= padding);
+          is_known && (cell.level == 0 ? found.distance <= padding : found.distance + half_diagonal <= padding);
       if (inside) {
         others.left_out += std::uint64_t{1} << 3 * cell.level;
         return false;
@@ -87,7 +87,7 @@ class Splitter {
  private:
   struct Placed {
     const SelfShape* shape;
-    Eigen::AlignedBox3d box;  // [m] in the map's frame, padding included
+    Eigen::AlignedBox3d box;  // [m, map frame] box around the padded shape
   };
 
   double edge_;

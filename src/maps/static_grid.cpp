@@ -12,7 +12,7 @@
 namespace hgrid {
 namespace {
 
-/// Builds bricks from voxels in Morton order. The bricks that are not complete yet are those around the last voxel.
+/// Builds bricks from voxels in Morton order. Only the bricks that contain the last voxel are still incomplete.
 class Builder {
  public:
   explicit Builder(Bricks& bricks) : bricks_(bricks) {}
@@ -24,7 +24,7 @@ class Builder {
     // Bricks that end before this voxel are complete.
     const int level = std::min(voxel.level / 2, kBrickLevels - 1);
     for (int open = 0; open < kBrickLevels - 1; ++open) {
-      if (open >= level && (code ^ last_) >> 6 * (open + 1) == 0) break;  // nor do those around it end
+      if (open >= level && (code ^ last_) >> 6 * (open + 1) == 0) break;  // the larger bricks are not complete either
       close(open);
     }
     last_ = code;
@@ -36,7 +36,7 @@ class Builder {
     for (int open = 0; open < kBrickLevels; ++open) close(open);
     BrickLevel& top = bricks_.levels.back();
     if (!top.cells.empty()) return;
-    top.cells.push_back(0);  // a root that holds nothing
+    top.cells.push_back(0);  // an empty root brick
     top.full.push_back(0);
     top.first_below.push_back(0);
     top.blocks.push_back(0);
@@ -50,12 +50,13 @@ class Builder {
   };
 
   [[noreturn]] static void refuse(const Voxel& voxel, std::size_t number, bool sound) {
-    throw Refusal(Code::bad_geometry, "voxel " + std::to_string(number) + " (keys " + std::to_string(voxel.x) + ", " +
-                                          std::to_string(voxel.y) + ", " + std::to_string(voxel.z) + ", level " +
-                                          std::to_string(voxel.level) +
-                                          (sound ? ") begins before the one before it ends; voxels must be "
-                                                   "disjoint and in Morton order"
-                                                 : ") is not a multiple of its edge"));
+    throw Refusal(Code::bad_geometry,
+                  "voxel " + std::to_string(number) + " (keys " + std::to_string(voxel.x) + ", " +
+                      std::to_string(voxel.y) + ", " + std::to_string(voxel.z) + ", level " +
+                      std::to_string(voxel.level) +
+                      (sound ? ") begins before the previous voxel ends; voxels must be "
+                               "disjoint and in Morton order"
+                             : ") is not valid; keys must be multiples of the edge, and the level at most 16"));
   }
 
   void set(const Voxel& voxel, std::uint64_t code, int level) {
@@ -76,19 +77,20 @@ class Builder {
     for (int above = level + 1; above < kBrickLevels; ++above) {
       Open& outer = open_[static_cast<std::size_t>(above)];
       const std::uint64_t part = std::uint64_t{1} << (code >> 6 * above & 63u);
-      if ((outer.cells & part) != 0) break;  // and so has all that is around it
+      if ((outer.cells & part) != 0) break;  // then all larger bricks have their cell set, too
       if (outer.cells == 0) begin(above);
       outer.cells |= part;
     }
   }
 
-  /// Bricks below a brick come between its begin and its end.
+  /// Notes where the bricks below this brick start. All bricks that are added between begin() and close() belong to it.
   void begin(int level) {
     if (level == 0) return;
     const std::size_t below = bricks_.levels[static_cast<std::size_t>(level) - 1].cells.size();
     open_[static_cast<std::size_t>(level)].first_below = static_cast<std::uint32_t>(below);
   }
 
+  /// Stores the open brick of a level, if it is not empty.
   void close(int number) {
     Open& brick = open_[static_cast<std::size_t>(number)];
     if (brick.cells == 0) return;

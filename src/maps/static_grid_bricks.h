@@ -12,49 +12,53 @@
 
 namespace hgrid {
 
-/// A voxel in keys, counted from the map's origin.
+/// Returns the box of a voxel in keys, relative to the origin of the map.
 inline Aabb keysOf(const Voxel& voxel) {
   const auto along = static_cast<float>(keysAlong(voxel));
   constexpr int kOrigin = Voxel::kOriginKey;
   const Eigen::Vector3i key(voxel.x - kOrigin, voxel.y - kOrigin, voxel.z - kOrigin);
-  const Eigen::Vector3f min = key.cast<float>();  // exact, as all keys are
+  const Eigen::Vector3f min = key.cast<float>();  // exact for all keys
   return {min, min + Eigen::Vector3f::Constant(along)};
 }
 
 constexpr int kBrickLevels = Voxel::kLevels / 2;
 
-/// The bricks whose cells have an edge of 4^level finest ones. Arrays by brick.
+/// All bricks of one level. Their cells have an edge of 4^level finest edges. Each array has one element per brick.
 struct BrickLevel {
-  std::vector<std::uint64_t> cells;        // those that hold something
-  std::vector<std::uint64_t> full;         // of them: voxels; the others have a brick. Empty on level 0: all are full
-  std::vector<std::uint32_t> first_below;  // number of the brick below the first cell that has one; empty on level 0
-  std::vector<std::uint8_t> blocks;        // bit b: cells 8 b .. 8 b + 7 are one voxel
+  std::vector<std::uint64_t> cells;  // bit set of the cells that are not empty
+  // Bit set of the cells that are voxels; every other cell in `cells` has a brick below. This array is empty on level
+  // 0, where all cells are voxels.
+  std::vector<std::uint64_t> full;
+  std::vector<std::uint32_t> first_below;  // number of the first brick below this brick; empty on level 0
+  std::vector<std::uint8_t> blocks;        // bit b is set if the cells 8 b .. 8 b + 7 are one voxel
 };
 
-/// A brick and its position.
+/// A brick, given by its level, its number on that level, and its position.
 struct Brick {
   int level;
   std::uint32_t number;
-  std::array<std::int32_t, 3> corner;  // keys, counted from the map's origin
+  std::array<std::int32_t, 3> corner;  // minimum corner in keys, relative to the origin of the map
 };
 
-/// The storage of a StaticGrid, walked brick by brick. Everything is inline, since searches do little else.
+/// The storage of a StaticGrid. Everything is inline, since searches spend most of their time here.
 class Bricks {
  public:
+  /// Returns the cells of a brick that are not empty, as a bit set.
   std::uint64_t cellsOf(const Brick& brick) const {
     return levels[static_cast<std::size_t>(brick.level)].cells[brick.number];
   }
+  /// Returns the cells of a brick that are voxels, as a bit set.
   std::uint64_t fullOf(const Brick& brick) const;
-  /// The brick that a cell of a brick is.
+  /// Returns the brick that fills a cell of a brick.
   Brick below(const Brick& brick, unsigned cell) const;
-  /// The voxel that a full cell belongs to.
+  /// Returns the voxel that a full cell belongs to.
   Voxel voxelAt(const Brick& brick, unsigned cell) const;
-  /// All cells of the voxel that a full cell belongs to.
+  /// Returns all cells of the voxel that a full cell belongs to, as a bit set.
   std::uint64_t cellsOfVoxel(const Brick& brick, unsigned cell) const;
 
-  bool is_whole = false;  ///< one voxel is the whole map; it is stored as eight voxels of half its edge
+  bool is_whole = false;  ///< whether one voxel is the whole map; it is stored as eight voxels
   std::array<BrickLevel, kBrickLevels> levels;
-  /// The deepest brick that holds everything: searches start here.
+  /// The smallest brick that contains all voxels. Searches start here.
   Brick start{kBrickLevels - 1, 0, {-Voxel::kOriginKey, -Voxel::kOriginKey, -Voxel::kOriginKey}};
 };
 

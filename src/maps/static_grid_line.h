@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// How a StaticGrid is searched along a segment.
+// Searches a StaticGrid along a segment.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,11 @@
 
 namespace hgrid {
 
-/// Slices of a brick across a main axis, cut to a range along one of the other axes: by main axis, by which other axis
-/// (the next one, the one after), by slice, and by 5 * first + end of the range, each 0 .. 4.
+/// The cells of one slice of a brick that are in a range of positions along another axis.
+///
+/// A slice is perpendicular to the main axis. sets[main][other][slice][5 * first + end] has the cells of the slice
+/// whose position is at least `first` and less than `end`, both 0 .. 4. The position is measured along the axis
+/// (main + 1 + other) % 3.
 struct SliceRanges {
   using Slice = std::array<std::uint64_t, 25>;
   std::array<std::array<std::array<Slice, 4>, 2>, 3> sets{};
@@ -38,7 +41,7 @@ struct SliceRanges {
 };
 inline constexpr SliceRanges kSliceRanges;
 
-/// Where each cell of a brick is: by axis, and as keys of 16 bits, x lowest.
+/// The position of each cell of a brick: per axis, and as one number with 16 bits per axis, x lowest.
 struct CellPlaces {
   std::array<std::array<float, 64>, 3> along{};
   std::array<std::uint64_t, 64> keys{};
@@ -56,21 +59,22 @@ inline constexpr CellPlaces kCellPlaces;
 
 /// Searches a grid along a segment.
 ///
-/// Goes through the bricks in the order in which the segment passes them, and selects all cells of a brick that the
-/// segment passes at once. For each slice across the main axis (along which the segment is longest), these are the
-/// cells between where the segment enters the slice and where it leaves it.
+/// The search visits the bricks in the order in which the segment passes them. In each brick it selects all cells that
+/// the segment passes at once. The main axis is the axis along which the segment is longest, and a slice is
+/// perpendicular to it. In each slice, the search selects the cells between the points where the segment enters and
+/// leaves the slice.
 ///
-/// The position of the segment in the cells of a brick follows from its position in the brick around it. Floats are
-/// enough for that: they only select cells, with more room than their rounding. Which voxel is touched is decided in
-/// double, voxel by voxel.
+/// The position of the segment in a brick is computed from its position in the brick of the level above. Floats are
+/// precise enough for this: they only select cells, with a tolerance that is larger than their rounding error. The test
+/// whether a voxel is touched uses doubles.
 class LineSearch {
  public:
-  /// @param segment  in keys, counted from the map's origin
+  /// @param segment  [keys] relative to the origin of the map
   LineSearch(const Bricks& bricks, const Segment& segment) : bricks_(bricks), segment_(segment) {
     const Eigen::Vector3d step = segment.to - segment.from;
     const double longest = step.cwiseAbs().maxCoeff(&main_);
     const double farthest = std::max(segment.from.cwiseAbs().maxCoeff(), segment.to.cwiseAbs().maxCoeff());
-    around_ = segment.radius + 2e-12 * (farthest + segment.radius);  // twice what FirstTouch adds
+    around_ = segment.radius + 2e-12 * (farthest + segment.radius);  // twice the tolerance of FirstTouch
     length_ = step.norm();
     step_ = step[main_];
     const double per_step = longest > 1e-100 ? 1.0 / step_ : 0.0;
@@ -88,7 +92,8 @@ class LineSearch {
     }
   }
 
-  /// The voxel that is touched first, and where, as a share of the segment; infinity if there is none.
+  /// Returns the voxel that the segment touches first. VoxelTouch::along is the fraction of the segment, or infinity if
+  /// it touches no voxel.
   VoxelTouch first() {
     const int top = bricks_.start.level;
     Frame* frame = &frames_[static_cast<std::size_t>(top)];
@@ -111,30 +116,32 @@ class LineSearch {
   }
 
  private:
-  /// [cells] Added where the search starts, and four times as many cells on each level below. Numbers that decide are
-  /// less than 8, so that what one level rounds is less than 2^-20 of its cells.
+  /// [cells] Tolerance for rounding errors in the brick where the search starts. On each level below it is four times
+  /// as many cells. All numbers that matter are less than 8, so the rounding error of a level is less than 2^-20 of its
+  /// cells.
   static constexpr float kRoom = 1.0f / (1 << 18);
 
-  /// A brick, and the segment in its cells, counted from its corner.
+  /// The state of the search in one brick. Positions of the segment are in cells of the brick, relative to its corner.
   struct Frame {
-    std::uint64_t left;         // cells that the segment passes and that are not yet looked at
-    std::uint64_t cells, full;  // as of BrickLevel
-    std::uint64_t keys;         // of its corner, as of CellPlaces but from 0
+    std::uint64_t left;         // cells that the segment passes and that the search has not visited yet
+    std::uint64_t cells, full;  // cells that are not empty; cells that are voxels
+    std::uint64_t keys;         // keys of the brick's corner, 16 bits per axis
     std::uint32_t number;
-    Four main;                   // from .. to along the main axis; the rest is not used
-    std::array<Four, 2> others;  // from .. to along another axis where the main one is 0; from .. to of all the segment
+    Four main;  // range of the segment along the main axis: from, to; the other two values are not used
+    // For each other axis: range (from, to) where the main axis is 0, then range (from, to) of the whole segment.
+    std::array<Four, 2> others;
   };
-  /// An axis that is not the main one.
+  /// One of the two axes that are not the main axis.
   struct Other {
-    Four from, to;  // how far each slice begins and ends from where the main axis is 0
-    Four slope;     // what is added to Frame::others per cell along the main axis
-    const std::array<float, 64>* along;
+    Four from, to;                       // per slice: offset of its range from the range where the main axis is 0
+    Four slope;                          // change of the ranges in Frame::others per cell along the main axis
+    const std::array<float, 64>* along;  // position of each cell along this axis
   };
 
   int axisOf(std::size_t other) const { return (main_ + 1 + static_cast<int>(other)) % 3; }
   static double edgeOf(int level) { return static_cast<double>(std::int64_t{1} << 2 * level); }
 
-  /// The frame of the brick where searches start.
+  /// Fills the frame of the brick where the search starts.
   void begin(const std::array<double, 2>& slopes) {
     const Brick& start = bricks_.start;
     Frame& frame = frames_[static_cast<std::size_t>(start.level)];
@@ -159,6 +166,7 @@ class LineSearch {
     }
   }
 
+  /// Fills the frame of the brick that fills `cell`.
   void goBelow(const Frame& frame, int level, unsigned cell, Frame& below) const {
     const std::uint64_t before = frame.cells & ~frame.full & ((std::uint64_t{1} << cell) - 1);
     below.number = bricks_.levels[static_cast<std::size_t>(level)].first_below[frame.number] +
@@ -172,6 +180,7 @@ class LineSearch {
     enter(below, level - 1);
   }
 
+  /// Loads the cells of a brick and selects those that the segment passes.
   void enter(Frame& frame, int level) const {
     const BrickLevel& here = bricks_.levels[static_cast<std::size_t>(level)];
     frame.cells = here.cells[frame.number];
@@ -193,7 +202,7 @@ class LineSearch {
     return sets[0][range[0]] | sets[1][range[1]] | sets[2][range[2]] | sets[3][range[3]];
   }
 
-  /// Of some cells those in the first slice along the segment that has any.
+  /// Returns those of the given cells that are in the first slice along the segment that has any of them.
   std::uint64_t firstSlice(std::uint64_t cells) const {
     std::uint64_t first = cells;
     for (const std::size_t i : {2u, 1u, 0u}) {
@@ -203,6 +212,7 @@ class LineSearch {
     return first;
   }
 
+  /// Checks whether the segment touches the voxel of a cell, and keeps the first voxel along the segment.
   void touch(Frame& frame, int level, unsigned cell) {
     const Brick brick = brickOf(frame, level);
     frame.left &= ~bricks_.cellsOfVoxel(brick, cell);
@@ -215,7 +225,8 @@ class LineSearch {
     endAt(segment_.from + share * (segment_.to - segment_.from), level);
   }
 
-  /// Leaves out, of this brick and those around it, what the segment passes only beyond `end` [keys].
+  /// Shortens the search: removes the cells that the segment passes only beyond `end` [keys], in this brick and in all
+  /// bricks that contain it.
   void endAt(const Eigen::Vector3d& end, int level) {
     for (; level <= bricks_.start.level; ++level) {
       Frame& frame = frames_[static_cast<std::size_t>(level)];
@@ -250,10 +261,11 @@ class LineSearch {
   const Bricks& bricks_;
   const Segment segment_;
   int main_ = 0;
-  double around_, length_;  // [keys] its radius and what may have been rounded; its length
-  double step_;             // [keys] along the main axis
+  double around_, length_;  // [keys] radius of the segment plus tolerance; length of the segment
+  double step_;             // [keys] change along the main axis from the start of the segment to its end
   std::array<Other, 2> others_;
-  std::array<std::uint64_t, 4> slices_;  // across the main axis, as they are passed
+  // The slices perpendicular to the main axis, in the order in which the segment passes them.
+  std::array<std::uint64_t, 4> slices_;
   std::array<Frame, kBrickLevels> frames_;
   VoxelTouch first_{{}, std::numeric_limits<double>::infinity()};
 };

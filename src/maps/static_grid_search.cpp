@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// The questions that a StaticGrid answers; static_grid.cpp has how it is built.
+// Implements the queries of StaticGrid. static_grid.cpp builds it.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,7 +17,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Searches in keys, which count finest edges from the map's origin. In keys, the corners of cells are whole numbers.
+/// Searches the bricks. All coordinates are in keys, which count finest edges from the origin of the map. So the
+/// corners of cells are integers.
 class Search {
  public:
   Search(const Bricks& bricks, double finest_edge) : bricks_(bricks), finest_edge_(finest_edge) {}
@@ -26,7 +27,7 @@ class Search {
   double meters(double keys) const { return keys * finest_edge_; }
   double keys(double meters) const { return meters / finest_edge_; }
 
-  /// A box in keys, wider by what may have been rounded.
+  /// A box in keys, enlarged by a tolerance for rounding errors.
   struct Range {
     Eigen::Array3d min, max;
   };
@@ -35,8 +36,9 @@ class Search {
     return {min.array() - (by + rounded), max.array() + (by + rounded)};
   }
 
-  /// Calls `look` with every voxel of the cells that `chosen` leaves of a brick, in Morton order, until it returns
-  /// false. @returns whether it never did
+  /// Calls `look` for every voxel in a brick whose cells `chosen` selects, in Morton order. Stops if `look` returns
+  /// false.
+  /// @returns false if `look` returned false
   template <class Chosen, class Look>
   bool visit(const Brick& brick, const Chosen& chosen, const Look& look) const {
     const std::uint64_t full = bricks_.fullOf(brick);
@@ -54,11 +56,12 @@ class Search {
     return true;
   }
 
-  /// Chooses the cells of a brick that have a part of a range.
+  /// Selects the cells of a brick that overlap a range.
   static auto inRange(const Range& range) {
     return [range](const Brick& brick, bool) { return cellsWithin(brick, range); };
   }
-  /// Chooses the cells that touch a sphere in keys; of bricks without voxels of their own, those around it.
+  /// Selects the cells of a brick that touch a sphere [keys]. If none of its cells is a voxel, it selects all cells
+  /// that overlap the box of the sphere, which is faster.
   static auto inSphere(const Sphere& sphere) {
     const double near = touchingDistance(sphere);
     return [range = rangeAround(sphere.center, sphere.center, sphere.radius), sphere, near](const Brick& brick,
@@ -67,7 +70,8 @@ class Search {
     };
   }
 
-  /// Of what lies within `limit` keys of a box in keys, the nearer cells first.
+  /// Calls `look` for the voxels within `limit` [keys] of a box [keys]. It visits the cells of each brick in the order
+  /// of their distance. `look` returns the new limit.
   template <class Look>
   void near(const Brick& brick, const Eigen::AlignedBox3d& box, double& limit, const Look& look) const {
     struct Cell {
@@ -108,7 +112,8 @@ class Search {
     return cells;
   }
 
-  /// Along each axis the square of a cell's distance is one of four; of three of them each cell's is made.
+  /// Returns the cells that touch a sphere. It computes four squared distances along each axis. The squared distance of
+  /// each cell is the sum of three of them.
   static std::uint64_t cellsTouching(const Brick& brick, const Eigen::Vector3d& center, double most_squared) {
     const double edge = static_cast<double>(std::int64_t{1} << 2 * brick.level);
     std::array<std::array<double, 4>, 3> squared;
@@ -124,7 +129,7 @@ class Search {
     for (unsigned z = 0; z < 4; ++z) {
       for (unsigned y = 0; y < 4; ++y) {
         const double rest = most_squared - (squared[2][z] + squared[1][y]);
-        std::uint64_t row = 0;  // cells 0, 1, 8 and 9 stand beside each other along x
+        std::uint64_t row = 0;  // the cells 0, 1, 8 and 9 form a row along x
         for (const unsigned x : {0u, 1u, 2u, 3u}) {
           row |= static_cast<std::uint64_t>(squared[0][x] <= rest) << ((x & 1) + (x >> 1) * 8);
         }
@@ -152,7 +157,7 @@ class Search {
   }
 
   const Bricks& bricks_;
-  double finest_edge_;  // [m]
+  double finest_edge_;  // [m] edge of a voxel of level 0
 };
 
 }  // namespace
@@ -167,7 +172,7 @@ std::vector<Voxel> StaticGrid::voxels() const {
 
 namespace {
 
-/// Keeps voxels until there are more than `most`.
+/// Returns a function that stores voxels in `found`. It returns false once there are more than `most` voxels.
 auto keepIn(std::vector<Voxel>& found, std::size_t most) {
   found.clear();
   return [&found, most](const Voxel& voxel) {
@@ -210,7 +215,7 @@ void StaticGrid::visitNear(const Eigen::AlignedBox3d& box, double limit, const L
   const Search search(*bricks_, finest_edge_);
   const Eigen::AlignedBox3d in_keys(search.keysAt(box.min()), search.keysAt(box.max()));
   const double farthest = std::max(in_keys.min().cwiseAbs().maxCoeff(), in_keys.max().cwiseAbs().maxCoeff());
-  const double rounded = 1e-12 * (farthest + 1.0);  // what is no farther away touches
+  const double rounded = 1e-12 * (farthest + 1.0);  // voxels within this distance count as touching
   double limit_in_keys = search.keys(limit) + rounded;
   search.near(bricks_->start, in_keys, limit_in_keys, [&](const Voxel& voxel, double distance) {
     return search.keys(look(voxel, distance > rounded ? search.meters(distance) : 0.0)) + rounded;

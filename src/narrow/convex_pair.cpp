@@ -12,20 +12,22 @@ namespace {
 using Vector = Eigen::Vector3d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kDisagreement =
-    1e-6;                       // [m] allowed between the nearest points' distance and the gap, besides rounding
-constexpr double kHair = 1e-6;  // [m] moved apart by this much more than the depth, solids must be free
+// [m] Largest accepted difference between the gap and the distance of the two nearest points, besides rounding.
+constexpr double kDisagreement = 1e-6;
+// [m] To verify a depth, the solids are moved apart by the depth plus this length. Then they must be apart.
+constexpr double kHair = 1e-6;
 
 const ConvexSolid& convex(const Side& side) { return static_cast<const ConvexSolid&>(side.solid); }
 
-/// The gap of two cores; infinite if it is more than `up_to` [m].
+/// Returns the gap of two cores; it is infinite if it is larger than `up_to` [m].
 CoreGap gapOfCores(const Side& a, const Side& b, const Pose& a_from_b, double up_to) {
   CoreGap gap = gapOf(convex(a).core(), convex(b).core(), a_from_b, up_to);
   if (gap.lower > up_to) gap.lower = gap.upper = kInfinity;
   return gap;
 }
 
-/// An overlap of depth 0 for cores that only touch: moved apart by a hair they have nearest points.
+/// Returns an overlap of depth 0 if the cores only touch. It moves them apart by kHair and then takes their nearest
+/// points.
 std::optional<Overlap> touchOf(const ConvexSolid& a, const ConvexSolid& b, const Pose& a_from_b) {
   const double distance = a_from_b.translation().norm();
   if (!(distance > 0.0)) return std::nullopt;
@@ -37,7 +39,8 @@ std::optional<Overlap> touchOf(const ConvexSolid& a, const ConvexSolid& b, const
   return Overlap{0.0, between.normalized(), gap.on_first + 0.5 * between};
 }
 
-/// Writes depth, normal and points of two cores that meet, if moving the solids apart by them separates the solids.
+/// Sets depth, normal and points of `result` for two cores that meet. Sets nothing if moving the solids apart by this
+/// depth does not separate them.
 void describeContact(const Side& a, const Side& b, const Pose& a_from_b, FindOverlap findOverlap, Proximity& result) {
   if (!convex(a).isShape() || !convex(b).isShape()) return;
   const double around = a.around + b.around;
@@ -83,7 +86,7 @@ Proximity answerByGap(const Side& a, const Side& b, const Pose& a_from_b, const 
   const double length = between.norm();
   const double rounding = 1e-12 * (a.solid.reach() + b.solid.reach() + a_from_b.translation().norm());
   if (!(std::abs(length - gap.upper) <= kDisagreement + rounding)) return answerOf(Measure::failed, 0.0);
-  if (!(std::min(gap.lower, gap.upper) > around)) {  // rounding may have made lower greater than upper
+  if (!(std::min(gap.lower, gap.upper) > around)) {  // rounding can make lower greater than upper
     result.status = Measure::contact;
     result.distance = 0.0;
   }
@@ -100,7 +103,7 @@ Contact contactByGap(const Side& a, const Side& b, const CoreGap& gap) {
   const Vector between = gap.on_second - gap.on_first;
   const double length = between.norm();
   Contact contact;
-  if (length <= around + kDisagreement) {  // otherwise the search ended without a proof that the two are apart
+  if (length <= around + kDisagreement) {  // otherwise the search could not prove that they are apart
     contact.point = gap.on_first + (around > 0.0 ? a.around / around : 0.5) * between;
   }
   if (gap.lower > 0.0) {

@@ -9,34 +9,36 @@
 
 namespace hgrid {
 
-constexpr double kTouchingGap = 1e-9;  ///< [m] parts this far apart count as in contact when contacts are listed
+constexpr double kTouchingGap = 1e-9;  ///< [m] a list of contacts includes parts that are at most this far apart
 
-/// How two convex cores overlap, in the frame of the first.
+/// The overlap of two convex cores, in the frame of the first core.
 struct Overlap {
-  double depth = 0.0;  ///< [m] of the cores
+  double depth = 0.0;  ///< [m] penetration depth of the cores, without the radius around them
   Eigen::Vector3d normal = Eigen::Vector3d::Zero(), point = Eigen::Vector3d::Zero();
 };
 
-/// Finds an overlap of two cores that meet, or nothing. It may be wrong: the caller checks it.
+/// Proposes an overlap of two cores that meet, or nullopt. The proposal may be wrong, so the caller checks it.
 using FindOverlap = std::optional<Overlap> (*)(const ConvexSolid& a, const ConvexSolid& b, const Pose& a_from_b);
 
-/// A solver that knows no overlap.
+/// A FindOverlap that never proposes an overlap.
 inline std::optional<Overlap> noOverlap(const ConvexSolid&, const ConvexSolid&, const Pose&) { return std::nullopt; }
 
-/// Measures two convex solids in the frame of the first. @param findOverlap  asked first when the cores meet
+/// Measures two convex solids in the frame of the first.
+/// @param findOverlap  called first if the cores meet
 Proximity measureConvex(const Side& a, const Side& b, double up_to, FindOverlap findOverlap);
-/// The contacts of two convex solids, at most one, in the frame of the first.
+/// Returns the contacts of two convex solids in the frame of the first. There is at most one.
 std::vector<Contact> contactsOfConvex(const Side& a, const Side& b, std::size_t most, FindOverlap findOverlap);
 
-// Steps that convex solids and meshes have in common.
+// The following steps are the same for convex solids and meshes.
 
-/// An answer without points. @param distance [m]
+/// Returns a result that has only a status and a distance [m].
 Proximity answerOf(Measure status, double distance);
-/// The answer before the cores are measured, if there is one: the poses are not finite, or the two are too far apart.
+/// Returns a result if it is known without measuring the cores: the poses are not finite, or the solids are too far
+/// apart.
 std::optional<Proximity> answerByReach(const Side& a, const Side& b, const Pose& a_from_b, double up_to);
-/// The answer for two cores whose gap is proved to be above 0. A contact gets no depth.
+/// Returns the result for two cores whose gap is proved to be greater than 0. For a contact, the depth is not set.
 Proximity answerByGap(const Side& a, const Side& b, const Pose& a_from_b, const CoreGap& gap, double up_to);
-/// The contact of two parts whose cores are no farther apart than what is around them.
+/// Returns the contact of two parts, whose cores are at most as far apart as the sum of the radii around them.
 Contact contactByGap(const Side& a, const Side& b, const CoreGap& gap);
 
 }  // namespace hgrid

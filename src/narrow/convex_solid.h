@@ -9,19 +9,20 @@
 
 namespace hgrid {
 
-/// A convex shape made ready to be measured.
+/// A convex shape that is prepared for measuring.
 class ConvexSolid : public OrderedSolid {
  public:
-  /// @param shape  not a mesh
+  /// @param shape  must not be a mesh
   explicit ConvexSolid(const Shape& shape);
-  /// What a question is made of (a point, a needle, a block), with the measures by which it is sorted.
+  /// Creates a solid for queries: a point, a needle or a block. OrderedSolid::before() compares `size`.
   ConvexSolid(const ConvexCore& core, const std::vector<double>& size)
       : OrderedSolid(size, core.reach()), core_(core) {}
 
   const ConvexCore& core() const { return core_; }
-  /// A point of the core, in the shape's frame.
+  /// Returns a point of the core, in the frame of the shape [m].
   const Eigen::Vector3d& somePoint() const { return some_point_; }
-  /// Whether it was made of a Shape, not for a question. Contacts with questions are not described: nobody reads them.
+  /// Whether it was created from a Shape, not for a query. Nobody reads the details of contacts with query solids, so
+  /// they are not computed.
   bool isShape() const { return is_shape_; }
 
  private:

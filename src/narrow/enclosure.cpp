@@ -13,7 +13,8 @@ namespace {
 
 using Index = std::uint32_t;
 
-/// The same number for vertices at the same place: files repeat a vertex for every triangle that has it.
+/// Returns a number for each vertex. Vertices at the same position get the same number, since many files repeat a
+/// vertex for every triangle that uses it.
 std::vector<Index> weldedNumbers(const std::vector<Eigen::Vector3d>& vertices) {
   std::vector<Index> order(vertices.size());
   std::iota(order.begin(), order.end(), 0);
@@ -30,7 +31,7 @@ std::vector<Index> weldedNumbers(const std::vector<Eigen::Vector3d>& vertices) {
   return numbers;
 }
 
-/// Whether there are as many edges from a to b as from b to a, for all a and b.
+/// Whether there are as many edges from vertex a to vertex b as from b to a, for all a and b.
 bool isBalanced(const std::vector<std::array<Index, 3>>& triangles) {
   std::vector<std::pair<Index, Index>> there, back;
   for (const auto& triangle : triangles) {
@@ -44,6 +45,7 @@ bool isBalanced(const std::vector<std::array<Index, 3>>& triangles) {
   return !there.empty() && there == back;
 }
 
+/// Returns the root of `i` in a union-find forest, and shortens the path to it.
 Index rootOf(std::vector<Index>& parent, Index i) {
   while (parent[i] != i) i = parent[i] = parent[parent[i]];
   return i;
@@ -58,7 +60,7 @@ Enclosure::Enclosure(const TriangleMesh& mesh) {
   std::iota(parent.begin(), parent.end(), 0);
   for (const auto& given : mesh.triangles) {
     const std::array<Index, 3> t{numbers[given[0]], numbers[given[1]], numbers[given[2]]};
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;  // a line: it encloses nothing
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;  // the triangle is a line, which encloses nothing
     triangles.push_back(t);
     triangles_.push_back({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
     const Index root = rootOf(parent, t[0]);

@@ -10,25 +10,30 @@
 
 namespace hgrid {
 
-/// What a mesh encloses, and some points of each of its parts.
+/// The space that a mesh encloses, and some points of each connected part of the mesh.
 class Enclosure {
  public:
-  /// Points of a connected part: its farthest along each axis, both ways.
+  /// The extreme points of a connected part [m]: three minima, then three maxima, along x, y and z.
   using Part = std::array<Eigen::Vector3d, 6>;
 
   explicit Enclosure(const TriangleMesh& mesh);
 
-  /// Whether every edge of a triangle is met by that of another one the other way round: then the mesh has an inside.
+  /// Whether each edge of a triangle has a matching edge of opposite direction in another triangle. Then the mesh is
+  /// closed and has an inside.
   bool closed() const { return closed_; }
+  /// Returns the extreme points of each connected part of the mesh.
   const std::vector<Part>& parts() const { return parts_; }
-  /// Whether a point lies in the mesh's box; what does not is not enclosed. @param point [m] in the mesh's frame
+  /// Whether a point lies in the bounding box of the mesh. A point outside the box is not enclosed.
+  /// @param point  [m, mesh frame]
   bool boxHolds(const Eigen::Vector3d& point) const {
     return (point.array() >= low_.array()).all() && (point.array() <= high_.array()).all();
   }
-  /// How often the mesh goes round a point: the sum of the signed solid angles of its triangles over 4 pi (Jacobson,
-  /// Kavan, Sorkine-Hornung 2013, "Robust Inside-Outside Segmentation using Generalized Winding Numbers"; the angle
-  /// after Van Oosterom and Strackee 1983). Of a closed mesh a whole number, 0 outside; of an open one something
-  /// between. Looks at every triangle. @param point [m] in the mesh's frame
+  /// Returns how often the mesh winds around a point: the sum of the signed solid angles of its triangles / (4 pi).
+  ///
+  /// For a closed mesh it is an integer, and 0 outside. For an open mesh it can be any number. The running time is
+  /// linear in the number of triangles. See Jacobson, Kavan, Sorkine-Hornung 2013, "Robust Inside-Outside Segmentation
+  /// using Generalized Winding Numbers"; the formula for the angle is by Van Oosterom and Strackee 1983.
+  /// @param point  [m, mesh frame]
   double windingNumber(const Eigen::Vector3d& point) const;
 
  private:

@@ -11,24 +11,24 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-constexpr int kMostSteps = 300;       // some dozen are usual
-constexpr double kTolerance = 1e-10;  // [m] of the distance
-constexpr double kFlat = 1e-28;       // square of the sine from which on directions count as one
-constexpr double kNothing = 1e-15;    // share of the sizes below which a distance is none
+constexpr int kMostSteps = 300;       // largest number of iterations; a few dozen are usual
+constexpr double kTolerance = 1e-10;  // [m] accepted difference between the bounds of the distance
+constexpr double kFlat = 1e-28;       // squared sine of an angle; directions with a smaller angle count as parallel
+constexpr double kNothing = 1e-15;    // relative to the sizes of the cores; smaller distances count as 0
 
-/// A difference of two points, one of each core.
+/// One vertex of the simplex: the difference of a point of the first core and a point of the second core.
 struct Vertex {
   Vector difference = Vector::Zero(), on_first = Vector::Zero(), on_second = Vector::Zero();
 };
 
-/// Some vertices of a simplex, and weights of a point of their hull.
+/// A face of a simplex, given by some of its vertices, and the weights of one point of the face.
 struct Face {
   std::array<int, 4> corners{};
   std::array<double, 4> weights{};
   int size = 0;
 };
 
-/// Up to four differences, and the face of theirs that has the point nearest to zero.
+/// A simplex of up to four differences, and its face with the point nearest to zero.
 class Simplex {
  public:
   int size() const { return size_; }
@@ -36,8 +36,8 @@ class Simplex {
 
   Vector mix(Vector Vertex::*part) const { return mix(nearest_, part); }
 
-  /// Keeps the face, perhaps all of it, that has the point nearest to zero. The face has the newest vertex: without it
-  /// nothing nearer would have been found.
+  /// Reduces the simplex to its face with the point nearest to zero, which may be the whole simplex. This face always
+  /// has the newest vertex: a face without it has no point that is nearer than the previous nearest point.
   void reduce() {
     const int others = size_ - 1;
     double shortest = std::numeric_limits<double>::infinity();
@@ -74,12 +74,13 @@ class Simplex {
     return sum;
   }
 
-  /// The weights of zero's projection on the flat through the corners. @returns whether it lies between them
+  /// Computes the weights of the projection of zero on the line, plane or space through the corners of a face.
   ///
-  /// Sides are made orthogonal one after the other: normal equations would square the error of thin faces.
+  /// It makes the sides orthogonal one after the other, since normal equations would square the error for thin faces.
+  /// @returns whether the projection lies inside the face
   bool projectZero(Face& face) const {
     std::array<Vector, 3> side{Vector::Zero(), Vector::Zero(), Vector::Zero()};
-    std::array<std::array<double, 3>, 3> along{};  // [earlier][later]: share of an earlier direction in a later side
+    std::array<std::array<double, 3>, 3> along{};  // [k][i]: component of side i along the orthogonal side k
     std::array<double, 3> step{};
     Vector rest = corner(face, 0).difference;
     const auto sides = static_cast<std::size_t>(face.size - 1);
@@ -91,7 +92,7 @@ class Simplex {
         side[i] -= along[k][i] * side[k];
       }
       const double squared = side[i].squaredNorm();
-      if (!(squared > kFlat * whole.squaredNorm())) return false;  // a face with fewer corners says the same
+      if (!(squared > kFlat * whole.squaredNorm())) return false;  // a face with fewer corners gives the same point
       step[i] = -side[i].dot(rest) / squared;
       rest += step[i] * side[i];
     }
@@ -168,7 +169,7 @@ CoreGap gapOf(const ConvexCore& first, const ConvexCore& second, const Pose& fir
   for (int step = 0; step < kMostSteps; ++step) {
     const Vector v = simplex.mix(&Vertex::difference);
     const double length = v.norm();
-    if (!(length < gap.upper)) break;  // doubles give no more
+    if (!(length < gap.upper)) break;  // doubles cannot give a smaller upper bound
     gap.upper = length;
     gap.on_first = simplex.mix(&Vertex::on_first);
     gap.on_second = simplex.mix(&Vertex::on_second);
@@ -177,7 +178,8 @@ CoreGap gapOf(const ConvexCore& first, const ConvexCore& second, const Pose& fir
       break;
     }
     const Vertex next = farthestAgainst(v);
-    // No difference lies nearer than the plane through the farthest one across v.
+    // `next` is the extreme difference in direction -v. No difference is nearer to zero than the plane through `next`
+    // that is perpendicular to v.
     gap.lower = std::max(gap.lower, next.difference.dot(v) / length);
     if (gap.upper - gap.lower <= tolerance || gap.lower > enough || simplex.size() == 4) break;
     simplex.add(next);

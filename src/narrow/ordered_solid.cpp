@@ -9,6 +9,7 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
+/// Whether `a` comes after `b` in the order in which two solids are measured.
 bool goesAfter(const Side& a, const Side& b) {
   if (b.solid.before(a.solid)) return true;
   if (a.solid.before(b.solid)) return false;
@@ -27,6 +28,7 @@ Proximity inWorld(Proximity result, const Side& frame) {
   return result;
 }
 
+/// Returns the radius around the core of a shape [m].
 double radiusOf(const Shape& shape) {
   if (shape.kind() == ShapeKind::sphere) return shape.dimensions()[0];
   return shape.kind() == ShapeKind::capsule ? shape.dimensions()[1] : 0.0;
@@ -42,7 +44,7 @@ OrderedSolid::OrderedSolid(const Shape& shape)
       radius_(radiusOf(shape)) {}
 
 bool OrderedSolid::before(const OrderedSolid& other) const {
-  if (kind_ != other.kind_) return kind_ > other.kind_;  // ShapeKind::mesh is the greatest
+  if (kind_ != other.kind_) return kind_ > other.kind_;  // ShapeKind::mesh has the largest number
   if (size_ != other.size_) return size_ < other.size_;
   if (source_ == other.source_ || !source_ || !other.source_) return false;
   const auto &v = source_->vertices, &w = other.source_->vertices;

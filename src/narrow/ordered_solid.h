@@ -10,30 +10,31 @@
 
 namespace hgrid {
 
-/// A solid that can be sorted: a core and a radius around it.
+/// A solid that consists of a core and a radius around it. Solids can be sorted, so that two solids are always measured
+/// in the same order.
 class OrderedSolid : public Solid {
  public:
   explicit OrderedSolid(const Shape& shape);
 
   ShapeKind kind() const { return kind_; }
-  double radius() const { return radius_; }  ///< [m] around the core
-  double reach() const { return reach_; }    ///< [m] of the shape from its origin, at most
+  double radius() const { return radius_; }  ///< [m] radius around the core
+  double reach() const { return reach_; }    ///< [m] upper bound of the distance from the origin to the shape's points
 
-  /// Compares two solids by kind, measures and vertices. Meshes come first.
+  /// Whether this solid comes before the other. Compares kind, dimensions and vertices. Meshes come first.
   bool before(const OrderedSolid& other) const;
 
  protected:
-  /// What a question is made of, which sorts like a box of these measures.
+  /// Creates a solid for queries. It is sorted like a box with these dimensions.
   OrderedSolid(const std::vector<double>& size, double reach) : kind_(ShapeKind::box), size_(size), reach_(reach) {}
 
  private:
   ShapeKind kind_;
   std::vector<double> size_;
-  std::shared_ptr<const TriangleMesh> source_;  // of a hull or a mesh; kept alive, so that its address stays unique
+  std::shared_ptr<const TriangleMesh> source_;  // of a hull or a mesh; kept, so that no other mesh gets its address
   double reach_ = 0.0, radius_ = 0.0;
 };
 
-/// One of two solids that are measured, at its pose.
+/// One of the two solids of a measurement, at its pose.
 struct Side {
   explicit Side(const PlacedSolid& placed)
       : solid(static_cast<const OrderedSolid&>(placed.solid)),
@@ -41,22 +42,23 @@ struct Side {
         around(solid.radius() + placed.padding) {}
   const OrderedSolid& solid;
   const Pose& world_from_shape;
-  double around;  ///< [m] radius and padding
+  double around;  ///< [m] sum of radius and padding
 };
 
-/// A narrow phase that measures two solids in one order, whatever the order of the question.
+/// A narrow phase that always measures two solids in the same order, for any order of the arguments.
 ///
-/// It sorts the two by OrderedSolid::before(), then by what is around them and by their poses. Answers are found in the
-/// frame of the first and brought to the world. All its solids are OrderedSolids.
+/// It sorts the two solids by OrderedSolid::before(), then by Side::around, then by their poses. It computes results in
+/// the frame of the first solid and converts them to the world frame. All its solids are OrderedSolids.
 class OrderedNarrowPhase : public NarrowPhase {
  public:
   Proximity measure(const PlacedSolid& first, const PlacedSolid& second, double up_to) const final;
   std::vector<Contact> contacts(const PlacedSolid& first, const PlacedSolid& second, std::size_t most) const final;
 
  protected:
-  /// Answers measure() for a pair in order, in the frame of `a`. May throw std::exception.
+  /// Implements measure() for a sorted pair, in the frame of `a`. May throw std::exception.
   virtual Proximity measureInOrder(const Side& a, const Side& b, double up_to) const = 0;
-  /// Answers contacts() for a pair in order, in the frame of `a`, in any order. May throw std::exception.
+  /// Implements contacts() for a sorted pair, in the frame of `a`. The contacts may have any order. May throw
+  /// std::exception.
   virtual std::vector<Contact> contactsInOrder(const Side& a, const Side& b, std::size_t most) const = 0;
 };
 

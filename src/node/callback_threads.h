@@ -11,7 +11,7 @@
 
 namespace hgrid {
 
-/// A callback queue with threads of its own. The callbacks of its node handles run on these threads only.
+/// A callback queue with its own threads. All callbacks of its two node handles run on these threads only.
 class CallbackThreads {
  public:
   CallbackThreads(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
@@ -27,7 +27,7 @@ class CallbackThreads {
     spinner_ = std::make_unique<ros::AsyncSpinner>(threads, &queue_);
     spinner_->start();
   }
-  /// Waits for the callbacks that are running. No others start.
+  /// Starts no further callbacks, and waits for those that are running.
   void stop() {
     if (spinner_) spinner_->stop();
   }

@@ -11,7 +11,7 @@
 
 namespace hgrid {
 
-/// What nearly every part of the node uses. Any thread.
+/// Objects that nearly every part of the node uses. Any thread may use them.
 struct Commons {
   Settings settings;
   std::shared_ptr<NarrowPhase> narrow_phase;

@@ -13,21 +13,21 @@
 
 namespace hgrid {
 
-/// Something that is done again and again.
+/// A task that the node repeats at regular times.
 struct Chore {
   using Time = std::chrono::steady_clock::time_point;
-  const char* fault;                ///< counter of the exceptions that it throws
-  std::chrono::milliseconds pause;  ///< from one time to the next; 0: at every call
+  const char* fault;                ///< name of the counter of its exceptions
+  std::chrono::milliseconds pause;  ///< least time between two runs; 0: it runs at every call of doDue()
   std::function<void(Time now)> act;
 };
 
-/// Chores, each with a pause of its own. A chore that throws leaves the others. One thread.
+/// A list of chores, each with its own pause. If a chore throws, the others still run. One thread may use a list.
 class ChoreList {
  public:
   using Time = Chore::Time;
   ChoreList(std::vector<Chore> chores, Ledger& ledger);
 
-  /// Does the chores whose pauses are over, in their order.
+  /// Runs the chores whose pauses are over, in the order of the list.
   void doDue(Time now);
 
  private:
@@ -39,10 +39,10 @@ class ChoreList {
   Ledger& ledger_;
 };
 
-/// Does chores on the thread of a node handle.
+/// Runs chores regularly, on the thread that serves a node handle.
 class Housekeeping {
  public:
-  /// @param period  [s] how often it looks for chores that are due
+  /// @param period  [s] time between two checks whether chores are due
   Housekeeping(const ros::NodeHandle& node, double period, ChoreList chores);
 
   void start();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-// proximity_node: which robot links and obstacles are near each other? See README.md.
+// proximity_node: reports which robot links and obstacles are near each other. See README.md.
 //
-// Exit codes: 0 after SIGINT, SIGTERM, SIGHUP or `rosnode kill`; 1 if the node cannot start, because a parameter is
-// wrong for example; NameWatch::kExitCode if another node has taken the name.
+// Exit codes: 0 after SIGINT, SIGTERM, SIGHUP or `rosnode kill`; 1 if the node cannot start, for
+// example because a parameter is wrong; NameWatch::kExitCode if another node has taken the name.
 
 #include <ros/ros.h>
 
@@ -14,14 +14,14 @@
 #include "node/shutdown.h"
 
 int main(int argc, char** argv) {
-  hgrid::shutDownOnSignals();  // first: ros::init() may wait for the master
+  hgrid::shutDownOnSignals();  // before ros::init(), which may wait for the master
   ros::init(argc, argv, "proximity", ros::init_options::NoSigintHandler);
   const hgrid::NameWatch name_watch;
   ros::NodeHandle node, private_node("~");
   try {
     const hgrid::ProximityNode proximity(node, private_node);
     ros::waitForShutdown();
-  } catch (const std::exception& error) {  // while a node handle lives: with the last one roscpp closes the log
+  } catch (const std::exception& error) {  // node handles still exist: the last one closes the log
     ROS_FATAL("%s", error.what());
     return 1;
   }

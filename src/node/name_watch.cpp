@@ -27,17 +27,17 @@ NameWatch::NameWatch() {
       if (reason.find(kReasonOfMaster) != std::string::npos) {
         *taken = true;
         ROS_ERROR(
-            "Another node has registered under the name '%s', so this node ends with exit code %d; a name belongs "
-            "to one node at a time: start one of the two with another __name.",
+            "Another node has registered under the name '%s', so this node ends with exit code %d. A name can belong "
+            "to one node only: start one of the two nodes with another __name.",
             ros::this_node::getName().c_str(), kExitCode);
       } else {
-        ROS_WARN("This node was asked to end; the reason given is '%s'.", printable(reason).c_str());
+        ROS_WARN("A shutdown request ends this node. Its reason is '%s'.", printable(reason).c_str());
       }
       ros::requestShutdown();
     }
     result = ros::xmlrpc::responseInt(1, "", 0);
   };
-  // roscpp binds its own handler of the same name later, which has no effect then.
+  // roscpp later binds its own handler to the same name. That has no effect, because this handler was bound first.
   ros::XMLRPCManager::instance()->bind("shutdown", on_shutdown);
 }
 

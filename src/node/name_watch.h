@@ -7,16 +7,16 @@
 
 namespace hgrid {
 
-/// Notices when the master ends this node because another node has registered under its name.
+/// Detects that the ROS master ends this node because another node has registered under the same name.
 class NameWatch {
  public:
-  /// Exit code of a node whose name another node has taken.
+  /// Exit code of the process if another node has taken the name of this node.
   static constexpr int kExitCode = 3;
 
-  /// Handles the master's requests to shut down in place of roscpp. Construct this before the first ros::NodeHandle.
+  /// Handles shutdown requests of the master instead of roscpp. Construct it before the first ros::NodeHandle.
   NameWatch();
 
-  /// Whether another node has taken the name. Any thread.
+  /// Whether another node has taken the name of this node. Any thread may call this.
   bool nameTaken() const { return *taken_; }
 
  private:

@@ -14,10 +14,10 @@
 namespace hgrid {
 namespace {
 
-constexpr double kHousekeepingPeriod = 0.25;  // [s] at most
+constexpr double kHousekeepingPeriod = 0.25;  // [s] longest time between two checks for due chores
 constexpr std::chrono::milliseconds kDiagnosticsPause{1000};
 
-/// A number that no earlier run of the node had: the wall clock [ns].
+/// Returns a number that no earlier run of the node used: the time of the wall clock [ns].
 std::uint64_t newEpoch() {
   return static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count());
 }
@@ -71,7 +71,7 @@ ProximityNode::~ProximityNode() {
 
 bool ProximityNode::isEnding() const { return stopping_ || ros::isShuttingDown(); }
 
-/// What is done with every tick, in this order.
+/// Returns what the tick thread does with every tick, in this order.
 std::vector<TickLoop::Step> ProximityNode::tickSteps() {
   using TickPtr = std::shared_ptr<const Tick>;
   return {{"tick.publish", [this](const TickPtr& tick) { publishers_.publishTick(*tick); }},
@@ -79,7 +79,7 @@ std::vector<TickLoop::Step> ProximityNode::tickSteps() {
           {"", [this](const TickPtr& tick) { completeness_log_.log(*tick); }}};
 }
 
-/// What the admin thread does at regular times, in this order.
+/// Returns what the admin thread does at regular times, in this order.
 std::vector<Chore> ProximityNode::chores() {
   using Time = Chore::Time;
   constexpr std::chrono::milliseconds kAlways{0};

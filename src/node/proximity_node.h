@@ -20,36 +20,35 @@
 
 namespace hgrid {
 
-/// The node: makes its parts, connects them, starts and stops them. Its callbacks run on three groups of threads, which
-/// do not wait for each other:
+/// The node. It creates its parts, connects them, and starts and stops them. Its callbacks run on three groups of
+/// threads, which do not wait for each other:
 ///
-/// - one thread reads transforms, makes the ticks and publishes them;
-/// - ~query_threads threads answer questions from the newest tick;
-/// - the admin thread loads robots and maps, serves the requests that change the world, and publishes diagnostics and
-///   markers.
+/// - the tick thread reads transforms, computes the ticks and publishes them;
+/// - the query threads, as many as ~query_threads says, answer queries from the newest tick;
+/// - the admin thread loads robots and maps, serves requests that change the world, publishes diagnostics and markers.
 class ProximityNode {
  public:
-  /// @throws std::invalid_argument that lists every wrong parameter
+  /// @throws std::invalid_argument with a message that lists every wrong parameter
   ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
-  /// Measures with `narrow_phase` instead of FCL.
+  /// As above, but measures exact distances with `narrow_phase` instead of FCL.
   ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                 std::shared_ptr<NarrowPhase> narrow_phase);
   ~ProximityNode();
 
  private:
-  /// Whether the node or its process is about to end, so that nothing may take long any more. Any thread.
+  /// Whether the node or its process is about to end. Then no work may take long. Any thread may call this.
   bool isEnding() const;
   std::vector<TickLoop::Step> tickSteps();
   std::vector<Chore> chores();
 
-  // Each part uses only parts above it.
+  // Each part uses only the parts that are declared above it.
   std::atomic<bool> stopping_{false};
   CallbackThreads tick_thread_, query_threads_, admin_thread_;
   Commons commons_;
   QuerySketch sketch_;
-  World world_;  // used by the tick thread only, except for the transforms
+  World world_;  // only the tick thread uses it; all threads may use its transforms
   TickJobs jobs_;
-  Stopwatch stopwatch_;  // used by the tick thread only
+  Stopwatch stopwatch_;  // only the tick thread uses it
   TickLoop tick_loop_;
   Publishers publishers_;
   CompletenessLog completeness_log_;

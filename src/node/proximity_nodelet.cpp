@@ -9,7 +9,7 @@
 
 namespace hgrid_proximity {
 
-/// The node in a nodelet manager; the same parameters, topics and services. It has its own threads.
+/// Runs the node in a nodelet manager, with the same parameters, topics and services. The node uses its own threads.
 class ProximityNodelet : public nodelet::Nodelet {
   void onInit() override {
     try {

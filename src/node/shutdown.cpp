@@ -10,13 +10,13 @@
 namespace hgrid {
 namespace {
 
-constexpr unsigned kGrace = 2;  // [s] for an orderly end
+constexpr unsigned kGrace = 2;  // [s] time for an orderly shutdown
 constexpr char kGaveUp[] =
-    "proximity_node: unregistering from the ROS master took longer than 2 s; the process ends without it\n";
+    "proximity_node: the shutdown took longer than 2 s; the process ends now, perhaps without unregistering the node\n";
 
 volatile std::sig_atomic_t g_ending = 0;
 
-// Both handlers call only what a signal handler may call: ros::requestShutdown() sets a flag.
+// Both handlers only call functions that a signal handler may call. ros::requestShutdown() only sets a flag.
 
 void onEndSignal(int) {
   if (g_ending != 0) return;  // a second signal does not prolong the grace period
@@ -27,7 +27,7 @@ void onEndSignal(int) {
 
 void onAlarm(int) {
   if (write(STDERR_FILENO, kGaveUp, sizeof(kGaveUp) - 1) < 0) {
-    // Nobody listens any more.
+    // There is no other way to report this.
   }
   _exit(0);
 }
@@ -35,7 +35,7 @@ void onAlarm(int) {
 void handle(int number, void (*handler)(int)) {
   struct sigaction action {};
   action.sa_handler = handler;
-  action.sa_flags = SA_RESTART;  // no system call of another library fails because of the signal
+  action.sa_flags = SA_RESTART;  // otherwise system calls of other libraries could fail because of the signal
   sigaction(number, &action, nullptr);
 }
 

@@ -9,16 +9,16 @@
 
 namespace hgrid {
 
-/// Makes the list of a snapshot's pairs from the pairs that a tick collected. Keeps its memory from tick to tick.
+/// Selects the pairs that a snapshot lists from the pairs that a tick collected. Reuses its memory in the next tick.
 class PairChoice {
  public:
-  /// The collected pairs, in any order; of several for two bodies the one with the least gap counts.
+  /// The collected pairs, in any order. If two bodies occur in several of them, the one with the smallest gap counts.
   std::vector<NearPair>& collected() { return collected_; }
 
-  /// Replaces `listed` by at most `most` pairs, each once and sorted by (first, second). If there are more pairs, it
-  /// lists those with the smallest gaps (contacts have gap 0), and of equal gaps the first by (first, second).
+  /// Replaces `listed` by at most `most` pairs, each pair of bodies once, sorted by (first, second). If more pairs were
+  /// collected, lists those with the smallest gaps. Of pairs with equal gaps, lists the first by (first, second).
   /// @param bodies  number of bodies
-  /// @returns the number of pairs of bodies that were collected
+  /// @returns the number of different pairs of bodies that were collected
   std::size_t list(std::size_t bodies, std::size_t most, std::vector<NearPair>& listed);
 
  private:

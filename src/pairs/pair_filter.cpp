@@ -33,7 +33,8 @@ bool exists(const PairKinds& kinds, const Type& a, const Type& b, bool same_robo
   const auto moving_obstacle = [](const Type& type) {
     return type.kind == BodyKind::obstacle && type.mobility == Mobility::moving;
   };
-  return kinds.moving_obstacle && (moving_obstacle(a) || moving_obstacle(b));  // a moving map shows the fixed ones too
+  // A moving map and a fixed obstacle make no pair: the cells of the map show the fixed obstacles too.
+  return kinds.moving_obstacle && (moving_obstacle(a) || moving_obstacle(b));
 }
 
 std::uint64_t keyOf(std::uint32_t first, std::uint32_t second) {
@@ -68,7 +69,7 @@ PairFilter::PairFilter(const std::vector<Body>& bodies, PairKinds kinds, std::ve
   if (!rules_.empty()) resolve(bodies);
 }
 
-/// Finds the bodies that each rule speaks of.
+/// Finds the bodies that each rule matches.
 void PairFilter::resolve(const std::vector<Body>& bodies) {
   const NameIndex names(bodies);
   for (std::uint32_t rule = 0; rule < rules_.size(); ++rule) {
@@ -79,7 +80,7 @@ void PairFilter::resolve(const std::vector<Body>& bodies) {
       continue;
     }
     const std::uint32_t first = names.find(r.first), second = names.find(r.second);
-    if (first == NameIndex::kNone || second == NameIndex::kNone) continue;  // it may come later
+    if (first == NameIndex::kNone || second == NameIndex::kNone) continue;  // the missing body may be added later
     subjects_[first].ruled |= kByName;
     subjects_[second].ruled |= kByName;
     named_.push_back({keyOf(first, second), rule});
@@ -110,7 +111,7 @@ void PairFilter::fillSets(const NameIndex& names, std::size_t bodies) {
   }
 }
 
-/// The strongest rule for a pair, or kNoRule.
+/// Returns the rule that takes precedence for a pair, or kNoRule if no rule matches it.
 std::uint32_t PairFilter::ruleOf(std::uint32_t first, std::uint32_t second) const {
   const std::uint64_t key = keyOf(first, second);
   const auto named = std::lower_bound(named_.begin(), named_.end(), key,
@@ -153,21 +154,21 @@ PairDecision PairFilter::decision(std::uint32_t first, std::uint32_t second) con
 void PairFilter::appendKey(std::uint32_t body, std::vector<std::uint64_t>& key) const {
   const Subject& subject = subjects_[body];
   key.push_back(subject.type);
-  key.push_back((subject.ruled & kByName) != 0 ? body : kNoRule);  // a body that a rule names is like no other
+  key.push_back((subject.ruled & kByName) != 0 ? body : kNoRule);  // a body that a rule names needs a key of its own
   for (const auto* sets : {&as_first_, &as_second_}) {
     const auto begin = sets->begin() + static_cast<std::ptrdiff_t>(body * words_);
     key.insert(key.end(), begin, begin + static_cast<std::ptrdiff_t>(words_));
   }
 }
 
-/// Bodies that represent all others in pairs of two robots or none: one of those with equal keys and, where there is
-/// one, another that is not of its robot.
+/// Returns bodies that stand for all bodies in pairs that are not within one robot. For each key, these are one body
+/// with this key and, if there is one, a second body with this key outside the robot of the first.
 std::vector<std::uint32_t> PairFilter::representatives() const {
   struct Chosen {
-    std::uint32_t robot;  // of the first
-    bool two;
+    std::uint32_t robot;  // robot of the first body with this key
+    bool two;             // whether a second body was chosen
   };
-  std::map<std::vector<std::uint64_t>, Chosen> chosen;  // by key
+  std::map<std::vector<std::uint64_t>, Chosen> chosen;  // the chosen bodies of each key
   std::vector<std::uint32_t> result;
   for (std::uint32_t i = 0; i < subjects_.size(); ++i) {
     const Subject& subject = subjects_[i];
@@ -183,7 +184,7 @@ std::vector<std::uint32_t> PairFilter::representatives() const {
 
 bool PairFilter::reportsAny() const {
   const std::size_t count = subjects_.size();
-  for (std::size_t i = 0; i < count; ++i) {  // nearly always this finds one at once
+  for (std::size_t i = 0; i < count; ++i) {  // a quick check of a few pairs, which nearly always finds a reported one
     for (const std::size_t j : {(i + 1) % count, (i + count / 2) % count}) {
       if (!allowed(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j))) return true;
     }
@@ -194,7 +195,8 @@ bool PairFilter::reportsAny() const {
       if (!allowed(i, j)) return true;
     }
   }
-  std::map<std::uint32_t, std::vector<std::uint32_t>> robots;  // their links differ by the model's matrix
+  // Within a robot, the model's matrix can decide differently for each pair of links.
+  std::map<std::uint32_t, std::vector<std::uint32_t>> robots;
   for (std::uint32_t i = 0; i < count; ++i) {
     if (subjects_[i].robot != kNoRobot) robots[subjects_[i].robot].push_back(i);
   }

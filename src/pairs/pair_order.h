@@ -4,7 +4,7 @@
 
 namespace hgrid {
 
-/// Whether pair a comes before b; pairs are sorted by (first, second).
+/// Returns whether pair `a` comes before pair `b` in the order by (first, second).
 template <class A, class B>
 bool before(const A& a, const B& b) {
   return a.first != b.first ? a.first < b.first : a.second < b.second;

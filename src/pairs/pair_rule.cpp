@@ -11,7 +11,7 @@
 namespace hgrid {
 namespace {
 
-/// Whether every character is one that can be shown.
+/// Returns whether the text is valid UTF-8 without control characters.
 bool isPrintable(const std::string& text) {
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t length = utf8Length(text, i);
@@ -23,7 +23,7 @@ bool isPrintable(const std::string& text) {
 
 void checkName(const std::string& name, const char* what) {
   const auto refuse = [&](const std::string& rule) {
-    throw Refusal(Code::bad_id, std::string(what) + " of a rule is '" + printable(name, 48) + "'; " + rule);
+    throw Refusal(Code::bad_id, std::string(what) + " name of a rule is '" + printable(name, 48) + "'; " + rule);
   };
   if (name.empty()) refuse("it must not be empty");
   if (name.size() > kLongestRuleText) {
@@ -56,7 +56,9 @@ void checkKnown(const std::vector<PairRule>& rules, const std::vector<Body>& bod
   for (const PairRule& rule : rules) {
     for (const std::string* name : {&rule.first, &rule.second}) {
       if (isGlob(*name)) {
-        if (names.matchesNone(*name)) throw Refusal(Code::unknown_id, "no body matches glob '" + *name + "'");
+        if (names.matchesNone(*name))
+          throw Refusal(Code::unknown_id,
+                        "no body matches the glob '" + *name + "'; a rule needs at least one matching body");
       } else if (names.find(*name) == NameIndex::kNone) {
         throw Refusal(Code::unknown_id, noSuchBody(*name, bodies));
       }

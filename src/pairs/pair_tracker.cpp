@@ -14,7 +14,7 @@ void PairTracker::clear() {
   ended_.clear();
 }
 
-/// Carries the known pairs over to the numbers of the new ids; those of bodies that are gone have ended.
+/// Translates the known pairs to the body indices of the new ids. Pairs of removed bodies have ended.
 void PairTracker::renumber(const std::vector<BodyId>& ids) {
   constexpr std::uint32_t kGone = std::numeric_limits<std::uint32_t>::max();
   std::uint32_t slots = 0;
@@ -47,7 +47,7 @@ void PairTracker::update(const std::vector<BodyId>& ids, Time stamp, std::vector
   const std::vector<Known>& was = renumbered_ ? carried_over_ : known_;
   next_known_.clear();
   auto known = was.begin();
-  std::size_t room = most_ - std::min(most_, pairs.size());  // for pairs that are not listed
+  std::size_t room = most_ - std::min(most_, pairs.size());  // how many pairs that are not listed may be remembered
   const auto keepOrEnd = [&](const Known& pair) {
     if (is_cut && room > 0 && is_cut(pair.first, pair.second)) {
       next_known_.push_back(pair);

@@ -11,25 +11,26 @@
 
 namespace hgrid {
 
-/// Whether two bodies are a candidate pair that truncation removed. Asked only about pairs that are not listed. Empty:
-/// truncation removed none.
+/// Returns whether truncation removed this pair of bodies from the list. Called only for pairs that are not listed. An
+/// empty function means that truncation removed no pair.
 using IsCut = std::function<bool(std::uint32_t first, std::uint32_t second)>;
 
-/// Remembers since when each pair is near. It knows bodies by their handles, so a new numbering of the bodies does not
-/// interrupt a pair.
+/// Remembers for each pair when it began. The tracker identifies bodies by their handles, so a pair is not interrupted
+/// when the bodies get other indices.
 class PairTracker {
  public:
-  /// @param most  pairs that are remembered; of more, those that truncation removed are forgotten, the last first
+  /// @param most  maximum number of remembered pairs; above it, the tracker forgets the last of the pairs that
+  ///              truncation removed
   explicit PairTracker(std::size_t most = std::numeric_limits<std::size_t>::max()) : most_(most) {}
 
-  /// Fills `since` of every pair: `stamp`, or an older one if the pair was not interrupted since the last accepted
-  /// call. Truncation does not interrupt a pair that is remembered.
-  /// @param ids    handle per body index
-  /// @param pairs  sorted by (first, second), each once; no more than are remembered
+  /// Sets `since` of every pair: `stamp` for a new pair; the old value for a pair that was there after the last
+  /// accepted update(). Truncation does not interrupt a remembered pair.
+  /// @param ids    handle of each body, in the order of the body indices
+  /// @param pairs  sorted by (first, second), each pair once; not more than the maximum number of remembered pairs
   void update(const std::vector<BodyId>& ids, Time stamp, std::vector<NearPair>& pairs, const IsCut& is_cut = nullptr);
-  /// Makes the last update() the one that the next update() goes by. Allocates nothing.
+  /// Accepts the last update(): the next update() compares with its pairs. Allocates no memory.
   void accept();
-  /// Pairs that were remembered before the last update() and are no more, by handle.
+  /// The pairs, as handles, that were remembered before the last update() and are not remembered any more.
   const std::vector<std::pair<BodyId, BodyId>>& ended() const { return ended_; }
   void clear();
 
@@ -42,12 +43,12 @@ class PairTracker {
 
   std::size_t most_;
   std::vector<BodyId> ids_;
-  std::vector<Known> known_;  // sorted by (first, second), which index ids_
+  std::vector<Known> known_;  // sorted by (first, second), which are indices into ids_
 
-  // Of the last update(), until it is accepted.
-  bool renumbered_ = false;
-  std::vector<BodyId> next_ids_;     // if renumbered_
-  std::vector<Known> carried_over_;  // if renumbered_: known_ in the numbers of next_ids_
+  // Results of the last update(), until it is accepted.
+  bool renumbered_ = false;          // whether the ids have changed
+  std::vector<BodyId> next_ids_;     // only if renumbered_
+  std::vector<Known> carried_over_;  // only if renumbered_: known_ with indices into next_ids_
   std::vector<Known> next_known_;
   std::vector<std::pair<BodyId, BodyId>> ended_;
 };

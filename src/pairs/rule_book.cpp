@@ -14,7 +14,7 @@ namespace {
 
 using Names = std::pair<std::string, std::string>;
 
-/// The two names or globs in an order that does not depend on which came first.
+/// Returns the two names or globs of a rule in alphabetical order.
 Names namesOf(const PairRule& rule) { return std::minmax(rule.first, rule.second); }
 
 std::string shown(const PairRule& rule) { return "'" + printable(rule.first) + "', '" + printable(rule.second) + "'"; }
@@ -30,7 +30,7 @@ void RuleBook::add(const std::vector<PairRule>& rules) {
     rule.origin = Origin::service;
     all.push_back(std::move(rule));
   }
-  std::map<Names, PairRule::Clock::time_point> decided;  // until when a later rule decides
+  std::map<Names, PairRule::Clock::time_point> decided;  // for two names: until when a later rule decides
   std::vector<PairRule> kept;
   for (auto rule = all.rbegin(); rule != all.rend(); ++rule) {
     if (rule->origin == Origin::service) {
@@ -42,7 +42,7 @@ void RuleBook::add(const std::vector<PairRule>& rules) {
   }
   if (kept.size() > most_) {
     throw Refusal(Code::limit, "there would be " + std::to_string(kept.size()) +
-                                   " rules, those that were configured included; at most " + std::to_string(most_) +
+                                   " rules, including the configured ones; at most " + std::to_string(most_) +
                                    " are allowed (max_rules)");
   }
   std::reverse(kept.begin(), kept.end());
@@ -60,8 +60,9 @@ void RuleBook::remove(const std::vector<PairRule>& rules) {
     const bool configured = std::any_of(rules_.begin(), rules_.end(),
                                         [&](const PairRule& other) { return namesOf(other) == namesOf(rule); });
     throw Refusal(Code::unknown_id,
-                  configured ? "rule " + shown(rule) + " was configured and stays; one with allowed = false beats it"
-                             : "there is no rule " + shown(rule));
+                  configured ? "rule " + shown(rule) +
+                                   " was configured and cannot be removed; add the same rule with allowed = false"
+                             : "there is no rule " + shown(rule) + "; only an existing rule can be removed");
   }
   const auto unwanted = [&](const PairRule& rule) {
     return rule.origin == Origin::service && wanted.count(namesOf(rule)) != 0;

@@ -7,7 +7,7 @@
 namespace hgrid {
 namespace {
 
-/// Appends the shapes of bodies that the question hits.
+/// Appends a hit for each shape of a body that the question hits.
 void findBodies(Question& question, std::vector<QueryHit>& hits) {
   const Structure& structure = question.snapshot.structure();
   const QueryScope& scope = question.scope;
@@ -26,7 +26,7 @@ void findBodies(Question& question, std::vector<QueryHit>& hits) {
   }
 }
 
-/// Appends the cells of maps that the question hits.
+/// Appends a hit for each map whose cells the question hits.
 void findCells(const Question& question, std::vector<QueryHit>& hits) {
   forEachMap(question.snapshot, question.scope, [&](const PlacedMap& map) {
     if (question.time.isOver(TimeBudget::Step::slow)) return;
@@ -68,7 +68,7 @@ QueryAnswer answerTo(Question& question) {
   answer.examined_all = !question.time.wasOver();
   if (answer.total == 0 && answer.because == Unknown::no && !answer.examined_all) {
     answer.because = Unknown::budget;
-    answer.reason = "the time for the query ended before everything was examined";
+    answer.reason = "the deadline of the query passed before it had examined everything";
   }
   if (answer.total > 0) {
     answer.verdict = Verdict::hit;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Whether a query that found nothing may answer CLEAR. It may not while something that it asks about can be in its
-// region unseen:
+// Decides whether a query that hit nothing may answer CLEAR. It may not if something in its scope can be in its region
+// unseen:
 //  - a body that a gap of a source hides,
-//  - a body without a pose, or whose shapes were not all read,
-//  - a body that may have moved since its pose was last known,
-//  - what fills space that no map knows to be free.
+//  - a body without a pose, or with shapes that could not be read,
+//  - a body that may have moved since its last known pose,
+//  - something in space that no map knows to be free.
 #include "hgrid_proximity/queries/query.h"
 #include "hgrid_proximity/refusal.h"
 #include "queries/question.h"
@@ -16,12 +16,13 @@
 namespace hgrid {
 namespace {
 
-/// Whether nothing bounds where the body can be, or how far it extends.
+/// Returns whether the body can be anywhere: either its position or its size is not bounded.
 bool canBeAnywhere(const Body& body, const BodyPose& pose) {
   if (!body.covered && !body.waived) return true;
-  // FROZEN: the clock does not say how old the pose is. INVALID: newer data was refused, or publishers contradict it.
+  // FROZEN: the clock stands still, so the age of the pose is unknown. INVALID: newer data was refused, or several
+  // publishers contradict each other.
   if (pose.state == Freshness::frozen || pose.state == Freshness::invalid) return true;
-  if (body.kind == BodyKind::cloud && pose.state >= Freshness::lost) return true;  // its cells are gone
+  if (body.kind == BodyKind::cloud && pose.state >= Freshness::lost) return true;  // its cells have expired
   return pose.state == Freshness::unplaced || !(pose.reach <= kQueryReach);
 }
 
@@ -31,7 +32,7 @@ std::string doubtOf(const Body& body, const BodyPose& pose) {
   return (gap.empty()
               ? std::string(name(pose.state)) + " " + body.name + ": its pose is " + secondsText(pose.age) + " old"
               : gap) +
-         ", so it may have moved here since";
+         ", so it may have moved here since then";
 }
 
 void note(QueryAnswer& answer, Unknown because, std::string reason) {
@@ -39,14 +40,14 @@ void note(QueryAnswer& answer, Unknown because, std::string reason) {
   answer.reason = std::move(reason);
 }
 
-/// [m] By how much two bodies may be nearer than their poses say. Links of one robot whose poses have the same age have
-/// not moved relative to each other.
+/// Returns by how much [m] the distance of two bodies may be smaller than at their poses. It is 0 for links of one
+/// robot whose poses have the same age: they have not moved relative to each other.
 double reachBetween(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second) {
   const BodyPose &a = snapshot.poses()[first], &b = snapshot.poses()[second];
   return movedTogether(snapshot.structure(), first, a.cohort, second, b.cohort) ? 0.0 : a.reach + b.reach;
 }
 
-/// Whether a body that has a pose may be in the region by now, given its own movement and that of the asking body.
+/// Returns whether a body may have reached the region since its pose, by its own movement or that of the asking body.
 bool mayBeInRegion(const Question& question, std::uint32_t body) {
   const Snapshot& snapshot = question.snapshot;
   const Structure& structure = snapshot.structure();
@@ -69,18 +70,18 @@ bool mayBeInRegion(const Question& question, std::uint32_t body) {
   return met;
 }
 
-/// Notes why the answer is not CLEAR because of a gap of a source. @returns whether there is such a reason
+/// If a gap of a source prevents CLEAR, sets the reason in `answer` and returns true.
 bool noteGap(const Question& question, QueryAnswer& answer) {
   for (const SourceGap& gap : question.snapshot.gaps()) {
     if (!inScope(question.snapshot, question.scope, gap)) continue;
     if (gap.within && !question.isTouchedBy(*gap.within)) continue;
-    note(answer, Unknown::incomplete, "'" + gap.source + "' is not complete: " + gap.sentence);
+    note(answer, Unknown::incomplete, "source '" + gap.source + "' is not complete: " + gap.sentence);
     return true;
   }
   return false;
 }
 
-/// Notes why the answer is not CLEAR because of one body. @returns whether there is such a reason
+/// If this body prevents CLEAR, sets the reason in `answer` and returns true.
 bool noteBody(const Question& question, std::uint32_t body, QueryAnswer& answer) {
   const Snapshot& snapshot = question.snapshot;
   if (question.time.isOver(TimeBudget::Step::fast)) return false;
@@ -88,7 +89,7 @@ bool noteBody(const Question& question, std::uint32_t body, QueryAnswer& answer)
   const Body& what = snapshot.structure().bodies[body];
   const BodyPose& pose = snapshot.poses()[body];
   if (canBeAnywhere(what, pose)) {
-    if (snapshot.hasGap(what.name)) return false;  // noteGap() has looked where the body can be
+    if (snapshot.hasGap(what.name)) return false;  // noteGap() has already checked where the body can be
     note(answer, pose.state < Freshness::lost && what.covered ? Unknown::stale_body : Unknown::incomplete,
          doubtOf(what, pose));
     return true;
@@ -99,7 +100,7 @@ bool noteBody(const Question& question, std::uint32_t body, QueryAnswer& answer)
   return true;
 }
 
-/// Notes why the answer is not CLEAR because of any body. @returns whether there is such a reason
+/// If any body prevents CLEAR, sets the reason in `answer` and returns true.
 bool noteBodies(const Question& question, QueryAnswer& answer) {
   const Snapshot& snapshot = question.snapshot;
   const std::uint32_t asking = question.askingBody();
@@ -110,7 +111,7 @@ bool noteBodies(const Question& question, QueryAnswer& answer) {
       note(answer, Unknown::incomplete, doubtOf(body, pose));
       return true;
     }
-    if (pose.reach > 0.0) {  // then every other body may be nearer than the poses say
+    if (pose.reach > 0.0) {  // the asking body may have moved, so every other body may be nearer now
       for (std::uint32_t other = 0; other < snapshot.poses().size(); ++other) {
         if (noteBody(question, other, answer)) return true;
       }
@@ -122,7 +123,7 @@ bool noteBodies(const Question& question, QueryAnswer& answer) {
   return false;
 }
 
-/// Whether the query asks about maps. One that leaves out all maps does not need them to know its region.
+/// Returns whether a map must know the region to be free. A query whose scope leaves out all maps needs no map.
 bool asksMaps(const Snapshot& snapshot, const QueryScope& scope) {
   bool has_maps = false;
   for (const std::uint32_t map : snapshot.structure().maps) {
@@ -133,8 +134,8 @@ bool asksMaps(const Snapshot& snapshot, const QueryScope& scope) {
   return !has_maps && scope.include.empty();
 }
 
-/// Notes that the answer is not CLEAR because of space that is not known to be free. @returns whether it is so. One map
-/// must know all of the region: what several maps know only together counts as unknown.
+/// If the region is not known to be free, sets the reason in `answer` and returns true. A single map must know the
+/// whole region. A region that only several maps together know counts as unknown.
 bool noteUnmapped(const Question& question, QueryAnswer& answer) {
   const Snapshot& snapshot = question.snapshot;
   if (!snapshot.reportsUnmapped() || !asksMaps(snapshot, question.scope)) return false;
@@ -144,7 +145,7 @@ bool noteUnmapped(const Question& question, QueryAnswer& answer) {
     known = question.isFreeIn(map, *map.cells.unmapped);
   });
   if (known || question.time.wasOver()) return false;
-  note(answer, Unknown::unmapped, "it passes through space that no map knows to be free");
+  note(answer, Unknown::unmapped, "the region of the query contains space that no map knows to be free");
   return true;
 }
 

@@ -5,11 +5,11 @@
 namespace hgrid {
 namespace {
 
-constexpr std::size_t kFirstRound = 16;  // boxes, in addition to four for each body that is wanted
+constexpr std::size_t kFirstRound = 16;  // boxes in the first round, in addition to four for each wanted body
 
 }  // namespace
 
-/// Whether all boxes that were not gathered yet are farther than the hits that are wanted.
+/// Returns whether enough hits were found: all boxes that were not gathered yet are farther away than these hits.
 bool NearestRounds::isEnough(std::vector<QueryHit>& hits) const {
   if (near_.size() < count_) return true;  // there are no more boxes
   sortOnePerBody(question_, hits);

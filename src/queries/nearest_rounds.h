@@ -6,24 +6,25 @@
 
 namespace hgrid {
 
-/// Gathers candidates for what is nearest, by growing distance of their boxes. That distance is a lower bound of the
-/// one that is asked for. So the search ends when no further box can be nearer than the last body that is wanted.
+/// Gathers boxes for a query for the nearest bodies, in several rounds, in the order of their distance. The distance of
+/// a box is a lower bound of the distance of its body. So the search ends when no further box can be nearer than the
+/// last wanted body.
 class NearestRounds {
  public:
-  /// @param center  [m, world] around what the question asks from
-  /// @param reach   [m] from that center to the farthest point of what the question asks from
-  /// @param limit   [m] farther bodies are no hits; may be infinite
+  /// @param center  [m, world] the point of the query, or the center of the asking body's bounds
+  /// @param reach   [m] distance from that center to the farthest point of the asking body; 0 for a point
+  /// @param limit   [m] bodies farther away are no hits; may be infinite
   NearestRounds(const Question& question, const Eigen::Vector3d& center, double reach, double limit)
       : question_(question), center_(center), reach_(reach), limit_(limit) {}
 
-  /// [m] The limit that a `max_distance` stands for: 0 means that there is none.
+  /// Returns the limit [m] for the parameter `max_distance`: infinite for 0, which means "no limit".
   static double limitOf(double max_distance) {
     return max_distance > 0.0 ? max_distance : std::numeric_limits<double>::infinity();
   }
   double limit() const { return limit_; }
-  /// As Question::wanted().
+  /// Implements Question::wanted().
   std::size_t wanted() const { return std::max<std::uint32_t>(1, question_.scope.limit); }
-  /// As Question::gather().
+  /// Implements Question::gather().
   bool gather(std::size_t round, std::vector<QueryHit>& hits, std::vector<ProxyId>& candidates);
 
  private:
@@ -32,8 +33,8 @@ class NearestRounds {
   const Question& question_;
   Eigen::Vector3d center_;
   double reach_, limit_;
-  std::size_t count_ = 0;      // boxes that the last round asked for
-  std::vector<NearHit> near_;  // boxes of all rounds
+  std::size_t count_ = 0;      // number of boxes that the last round requested
+  std::vector<NearHit> near_;  // boxes found in all rounds, nearest first
 };
 
 }  // namespace hgrid

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// What is nearest to a body.
+// The query for the bodies nearest to a body.
 #include <algorithm>
 #include <optional>
 
@@ -14,7 +14,7 @@
 namespace hgrid {
 namespace {
 
-/// The box around all boxes of a body, relative to the snapshot's origin.
+/// Returns the box around all boxes of a body, relative to the origin of the snapshot.
 Eigen::AlignedBox3d boundsOf(const Snapshot& snapshot, std::uint32_t body) {
   const std::vector<ProxyId>& first = snapshot.structure().first_proxy;
   Eigen::AlignedBox3d bounds;
@@ -24,7 +24,7 @@ Eigen::AlignedBox3d boundsOf(const Snapshot& snapshot, std::uint32_t body) {
   return bounds;
 }
 
-/// What is at most a limit away from a body at its last pose.
+/// Finds the bodies that are at most `limit` [m] away from a body at its last known pose.
 class NearestToBody final : public Question {
  public:
   NearestToBody(const Snapshot& asked, const QueryScope& given, std::uint32_t from, double limit,
@@ -72,7 +72,7 @@ class NearestToBody final : public Question {
  private:
   ProxyId firstOwn() const { return structure().first_proxy[from_]; }
   ProxyId endOfOwn() const { return structure().first_proxy[from_ + 1]; }
-  /// Whether the claim holds for the proxy of one of the body's shapes.
+  /// Returns whether `claim` returns true for at least one proxy of the asking body.
   template <class Claim>
   bool anyOwnShape(const Claim& claim) const {
     for (ProxyId own = firstOwn(); own < endOfOwn(); ++own) {
@@ -81,7 +81,7 @@ class NearestToBody final : public Question {
     return false;
   }
   const BodyShape& shapeOf(ProxyId own) const { return body_.shapes[own - firstOwn()]; }
-  /// A shape of the body that has a solid, to be measured against others.
+  /// Returns a probe that measures one shape of the asking body against other shapes. The shape must have a solid.
   Probe probe(ProxyId own, const NarrowPhase& narrow_phase) const {
     const BodyShape& shape = shapeOf(own);
     return {narrow_phase, *shape.solid, snapshot.poses()[from_].world_from_body * shape.body_from_shape, shape.padding};
@@ -95,11 +95,11 @@ class NearestToBody final : public Question {
 
   const std::uint32_t from_;
   const Body& body_;
-  const double limit_;  // [m]
+  const double limit_;  // [m] bodies farther away are no hits
   NearestRounds rounds_;
 };
 
-/// Makes the two boxes the hit, at distance `gap`, if they are nearer than the hit so far.
+/// If `gap`, the distance of the two boxes, is smaller than the distance of `hit`, stores the two boxes in `hit`.
 void NearestToBody::takeNearerBox(ProxyId own, ProxyId proxy, double gap, QueryHit& hit) const {
   if (!(gap < hit.distance)) return;
   const Eigen::AlignedBox3d own_box = inDouble(boxOf(own)), box = inDouble(boxOf(proxy));
@@ -110,7 +110,8 @@ void NearestToBody::takeNearerBox(ProxyId own, ProxyId proxy, double gap, QueryH
   hit.point = origin() + nearest.on_second;
 }
 
-/// The same for what was measured between two shapes, of which the first is the asking body's.
+/// If the measured distance is smaller than the distance of `hit`, stores the measurement in `hit`. The first shape of
+/// the measurement belongs to the asking body.
 void NearestToBody::takeNearer(const Proximity& found, QueryHit& hit) {
   if (!(found.distance < hit.distance)) return;
   describe(hit, found);
@@ -144,7 +145,7 @@ bool NearestToBody::hitsShape(ProxyId proxy, const NarrowPhase& exact, QueryHit&
   return hit.distance <= limit_;
 }
 
-/// [m] How far it is worth to look for cells that are nearer than the nearest so far.
+/// Returns the distance [m] up to which the search for nearer cells must continue.
 double NearestToBody::farthest(const QueryHit& nearest) const {
   return nearest.distance > 0.0 ? std::min(limit_, nearest.distance) : kNoFurther;
 }
@@ -194,8 +195,8 @@ QueryAnswer nearest(const Snapshot& snapshot, std::uint32_t from, double max_dis
   checkQueryLength(max_distance, "max_distance");
   const Body& body = snapshot.structure().bodies[from];
   if (snapshot.poses()[from].state == Freshness::unplaced || body.shapes.empty()) {
-    throw Refusal(Code::not_ready,
-                  "body '" + body.name + "' has no " + (body.shapes.empty() ? "shapes" : "pose") + " to be near to");
+    throw Refusal(Code::not_ready, "body '" + body.name + "' has no " + (body.shapes.empty() ? "shapes" : "pose") +
+                                       "; distances from it need a pose and a shape");
   }
   NearestToBody question(snapshot, scope, from, NearestRounds::limitOf(max_distance), boundsOf(snapshot, from));
   return answerTo(question);

@@ -8,28 +8,28 @@
 
 namespace hgrid {
 
-/// The occupied cells of a map or cloud at its pose in the world.
+/// A map or cloud with its occupied cells, at its pose in the world.
 struct PlacedMap {
   std::uint32_t body;
   const MapCells& cells;
   const Pose& world_from_map;
   Pose map_from_world;
-  double reach;  // [m] how far the map may be from its pose by now
+  double reach;  // [m] how far the map may have moved since its pose
 
   double edgeOf(const Voxel& voxel) const { return hgrid::edgeOf(voxel, cells.grid->finestEdge()); }
-  /// The voxel as a box, in the map's frame.
+  /// Returns the voxel as a box in the frame of the map.
   Eigen::AlignedBox3d cubeOf(const Voxel& voxel) const {
     return {minCorner(voxel, cells.grid->finestEdge()), maxCorner(voxel, cells.grid->finestEdge())};
   }
   const Solid& solidOf(const Voxel& voxel) const { return *cells.cubes[voxel.level]; }
   Pose worldFromCube(const Voxel& voxel) const { return world_from_map * Eigen::Translation3d(cells.centerOf(voxel)); }
-  /// The voxel as a hit whose point is the nearest to `center`.
-  /// @param center    [m] of the query, in the map's frame
-  /// @param distance  [m] of the voxel from that center
+  /// Returns a hit for a voxel. QueryHit::point is the point of the voxel that is nearest to `center`.
+  /// @param center    [m] center of the query, in the frame of the map
+  /// @param distance  [m] distance of the voxel from that center
   QueryHit hitOf(const Voxel& voxel, const Eigen::Vector3d& center, double distance, bool exact) const;
 };
 
-/// Calls `look` with each map in the scope that has a pose and cells.
+/// Calls `look` for each map and cloud in the scope that has a pose and cells.
 template <class Look>
 void forEachMap(const Snapshot& snapshot, const QueryScope& scope, Look&& look) {
   for (std::size_t i = 0; i < snapshot.cells().size(); ++i) {

@@ -9,7 +9,7 @@
 namespace hgrid {
 
 void checkQueryPoint(const Eigen::Vector3d& point, const std::string& what) {
-  if (!point.allFinite()) throw Refusal(Code::nonfinite, what + " is not finite; every coordinate must be");
+  if (!point.allFinite()) throw Refusal(Code::nonfinite, what + " is not finite; every coordinate must be finite");
   checkWithin(point, kQueryReach, what);
 }
 
@@ -26,9 +26,8 @@ void checkQueryLength(double length, const std::string& what) {
 void checkScope(const Snapshot& snapshot, const QueryScope& scope) {
   const std::size_t bodies = snapshot.structure().bodies.size();
   if (scope.respect_allowed == Structure::kNone || scope.respect_allowed < bodies) return;
-  throw Refusal(Code::unknown_id, "the query respects the allowed pairs of body " +
-                                      std::to_string(scope.respect_allowed) + "; there are " + std::to_string(bodies) +
-                                      " bodies");
+  throw Refusal(Code::unknown_id, "respect_allowed of the query is " + std::to_string(scope.respect_allowed) +
+                                      "; it must be smaller than the number of bodies, " + std::to_string(bodies));
 }
 
 }  // namespace hgrid

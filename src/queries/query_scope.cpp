@@ -9,7 +9,7 @@
 namespace hgrid {
 namespace {
 
-/// Whether a body is the one that `respect_allowed` names, or may touch it.
+/// Returns whether `respect_allowed` excludes a body: it is the same body, or its pair with it is switched off.
 bool isAllowed(const Snapshot& snapshot, const QueryScope& scope, std::uint32_t body) {
   return scope.respect_allowed != Structure::kNone && snapshot.structure().filter.allowed(scope.respect_allowed, body);
 }

@@ -13,84 +13,92 @@
 
 namespace hgrid {
 
-/// @throws Refusal nonfinite, out_of_range: naming `what` and the value
+/// Checks a point of a query. `what` describes the point in error messages.
+/// @throws Refusal nonfinite, out_of_range
 void checkQueryPoint(const Eigen::Vector3d& point, const std::string& what);
-/// @throws Refusal bad_geometry, out_of_range: naming `what` and the value
+/// Checks a length in a query. `what` describes the length in error messages.
+/// @throws Refusal bad_geometry if it is negative or not finite; out_of_range
 void checkQueryLength(double length, const std::string& what);
 
 /// @throws Refusal unknown_id if `respect_allowed` is not the index of a body
 void checkScope(const Snapshot& snapshot, const QueryScope& scope);
 
-/// [m] Bounds what rounding may take from a distance at such coordinates. A query that misses by less counts as a hit.
+/// Returns a bound [m] of the rounding error of a distance at these coordinates. If a query misses a body by less, the
+/// body counts as a hit.
 inline double touchSlack(const Eigen::Vector3d& at, double radius) { return 1e-9 * (at.norm() + radius); }
 
-/// Copies what the narrow phase found between a query (the first solid) and a shape.
+/// Copies a result of the narrow phase into a hit. The first solid of the result is the query.
 inline void describe(QueryHit& hit, const Proximity& found) {
   hit.status = found.status;
   hit.point = found.on_second;
   hit.normal = -found.normal;
 }
 
-/// [m] Minus the depth if two things touch, otherwise their distance. NaN if they touch at an unknown depth.
+/// Returns the signed distance [m] of two solids: their distance, or minus the penetration depth if they touch. NaN if
+/// they touch and the depth is unknown.
 inline double signedDistanceOf(const Proximity& found) {
   return found.distance > 0.0 ? found.distance : 0.0 - found.depth;
 }
 
-/// The same for two boxes, or a box and a point (a box without size), whose distance [m] is known.
+/// Returns the signed distance [m] of two boxes, or of a box and a point (a box of size 0). `distance` [m] is their
+/// distance, which the caller already knows.
 inline double signedDistance(const Eigen::AlignedBox3d& first, const Eigen::AlignedBox3d& second, double distance) {
   return distance > 0.0 ? distance : 0.0 - penetrationDepth(first, second);
 }
 
-/// Sets the distances from the query's surface. @param signed_distance  [m] NaN if they touch at an unknown depth
+/// Sets `distance`, `signed_distance` and `depth` of a hit.
+/// @param signed_distance  [m] from the surface of the query; NaN if the two touch and the depth is unknown
 inline void setDistance(QueryHit& hit, double signed_distance) {
-  hit.distance = std::max(0.0, signed_distance);  // 0 for NaN
+  hit.distance = std::max(0.0, signed_distance);  // this is 0 if signed_distance is NaN
   hit.signed_distance = signed_distance;
   hit.depth = signed_distance <= 0.0 ? 0.0 - signed_distance : QueryHit::kUnknown;
 }
 
-/// A question that is asked of one snapshot: a sphere, a segment, a solid, or what is nearest to something.
+/// A query about one snapshot: for a sphere, a segment, a solid, or for the nearest bodies.
 ///
-/// answerTo() finds what it hits. For that, a question gathers candidate boxes, then tells how it meets boxes, shapes
-/// and the cells of maps. If it hits nothing, answerTo() asks what may be in its region unseen: the part of the world
-/// in which a body would be a hit. One thread, one call of answerTo().
+/// answerTo() finds the hits of a question. For this, a question gathers candidate boxes and decides which boxes,
+/// shapes and cells of maps are hits. If there is no hit, answerTo() checks whether something may be in the region of
+/// the question unseen. The region is the part of the world in which a body would be a hit. A question is for one
+/// thread and one call of answerTo().
 class Question {
  public:
   virtual ~Question() = default;
   Question(const Question&) = delete;
   Question& operator=(const Question&) = delete;
 
-  /// Replaces `candidates` with boxes that may be hits. Called for round 0, 1, ..., each time for other boxes.
-  /// @param hits  what was found in the rounds before; may be reordered
+  /// Replaces `candidates` with boxes that may be hits. Called for round 0, 1, ...; each round returns other boxes.
+  /// @param hits  the hits of the earlier rounds; the function may reorder them
   /// @returns false if there are no more boxes to look at; `candidates` is meaningless then
   virtual bool gather(std::size_t round, std::vector<QueryHit>& hits, std::vector<ProxyId>& candidates) = 0;
-  /// Whether a box is a hit, measured by boxes. Fills in all of `hit` but its body and shape.
+  /// Returns whether the box of a proxy is a hit. Sets all fields of `hit` except `body` and `shape`.
   virtual bool hitsBox(ProxyId proxy, QueryHit& hit) const = 0;
-  /// Whether the shape in a box that is a hit is one too, measured by the narrow phase. Improves `hit`.
-  /// A shape that cannot be measured is a hit as its box is.
+  /// Returns whether the shape of a proxy is a hit, as measured by the narrow phase, and improves `hit`. Called only if
+  /// the box of the proxy is a hit. Returns true if the shape cannot be measured.
   virtual bool hitsShape(ProxyId proxy, const NarrowPhase& exact, QueryHit& hit) const = 0;
-  /// Whether a cell of a map is a hit. Replaces `hit` with the nearest cell, or with the first along a segment.
+  /// Returns whether a cell of a map is a hit. Sets `hit` to the nearest cell, or to the first one along a segment.
   virtual bool hitsMap(const PlacedMap& map, QueryHit& hit) const = 0;
-  /// The order of hits: the first of two on one body is kept, the answer lists them in this order.
+  /// Returns whether hit `a` comes before hit `b` in the answer. Of several hits on one body, only the first is kept.
   virtual bool goesBefore(const QueryHit& a, const QueryHit& b) const;
-  /// Number of hits that the question asks for; 0: all.
+  /// Number of hits that the question wants; 0: all.
   virtual std::size_t wanted() const { return 0; }
 
-  /// Whether a box is at most `distance` [m] from the region.
+  /// Returns whether the box of a proxy is at most `distance` [m] from the region.
   virtual bool isBoxWithin(ProxyId proxy, double distance) const = 0;
-  /// Whether the shape in a box is, measured by the narrow phase. True if the shape cannot be measured.
+  /// Returns whether the shape of a proxy, as measured by the narrow phase, is at most `distance` [m] from the region.
+  /// Returns true if the shape cannot be measured.
   virtual bool isShapeWithin(ProxyId proxy, double distance, const NarrowPhase& exact) const = 0;
-  /// Whether an occupied cell of a map is.
+  /// Returns whether an occupied cell of a map is at most `distance` [m] from the region.
   virtual bool isCellWithin(const PlacedMap& map, double distance) const = 0;
-  /// Whether the region touches a sphere of the world.
+  /// Returns whether the region touches a sphere, which is in the world frame.
   virtual bool isTouchedBy(const Sphere& sphere) const = 0;
-  /// Whether a map knows all of the region to be free.
+  /// Returns whether a map knows the whole region to be free.
   virtual bool isFreeIn(const PlacedMap& map, const UnmappedSpace& unmapped) const = 0;
-  /// The body that the question asks from, or Structure::kNone.
+  /// The body from which the question measures distances, or Structure::kNone.
   virtual std::uint32_t askingBody() const { return Structure::kNone; }
 
   const Snapshot& snapshot;
   const QueryScope& scope;
-  mutable TimeBudget time;  // whoever examines something asks it first; what it leaves out counts as not hit
+  mutable TimeBudget time;  // checked before each examination; when it is over, the rest counts as not hit
 
  protected:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -105,13 +113,13 @@ class Question {
   }
 };
 
-/// Keeps one hit per body, the first in the question's order, and sorts them in that order.
+/// Keeps only the first hit of each body, in the order of Question::goesBefore(), and sorts the hits in this order.
 void sortOnePerBody(const Question& question, std::vector<QueryHit>& hits);
 
-/// Finds what a question hits and decides the verdict.
+/// Finds the hits of a question and decides the verdict.
 QueryAnswer answerTo(Question& question);
 
-/// Notes in the answer why a question that hit nothing is not CLEAR. Changes nothing if it is.
+/// If something prevents CLEAR for a question without hits, sets the reason in the answer. Otherwise changes nothing.
 void noteDoubt(const Question& question, QueryAnswer& answer);
 
 }  // namespace hgrid

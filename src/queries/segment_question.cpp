@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// What a segment with a radius meets.
+// The query for the bodies that a segment with a radius touches.
 #include <algorithm>
 #include <cmath>
 
@@ -12,9 +12,9 @@
 namespace hgrid {
 namespace {
 
-constexpr int kMostSteps = 500;  // towards the first touch; each at least halves what a straight approach leaves
+constexpr int kMostSteps = 500;  // maximum number of steps in firstTouch()
 
-/// The pose of a solid segment along z that is centered in its frame: it lies on the segment.
+/// Returns the pose at which a needle (a segment along z, centered in its frame) lies on the segment.
 Pose poseAlong(const Segment& segment) {
   Pose pose = Pose::Identity();
   const Eigen::Vector3d step = segment.to - segment.from;
@@ -23,8 +23,8 @@ Pose poseAlong(const Segment& segment) {
   return pose;
 }
 
-/// The outward normal of the face through which a line in `direction` enters a cube at `at`. NaN if `at` is on no
-/// such face.
+/// Returns the outward normal of the face through which a line in `direction` enters a cube at the point `at`. NaN if
+/// `at` is not on such a face.
 Eigen::Vector3d normalWhereEntered(const Eigen::AlignedBox3d& cube, const Eigen::Vector3d& at,
                                    const Eigen::Vector3d& direction) {
   Eigen::Vector3d normal = Eigen::Vector3d::Constant(QueryHit::kUnknown);
@@ -81,12 +81,12 @@ class SegmentQuestion final : public Question {
   }
   double firstTouch(ProxyId proxy, const NarrowPhase& exact, Proximity& found) const;
 
-  const Segment segment_;  // in the world
-  const Segment local_;    // the same, relative to the snapshot's origin
-  const double length_;    // [m]
-  const double slack_;     // [m]
+  const Segment segment_;  // in the world frame
+  const Segment local_;    // the same segment, relative to the origin of the snapshot
+  const double length_;    // [m] length of the segment
+  const double slack_;     // [m] rounding error of a distance
   const Pose world_from_axis_;
-  mutable std::shared_ptr<const Solid> axis_;  // made when it is measured first
+  mutable std::shared_ptr<const Solid> axis_;  // created by the first call of axis()
 };
 
 bool SegmentQuestion::gather(std::size_t round, std::vector<QueryHit>&, std::vector<ProxyId>& candidates) {
@@ -100,7 +100,7 @@ bool SegmentQuestion::gather(std::size_t round, std::vector<QueryHit>&, std::vec
 
 bool SegmentQuestion::hitsBox(ProxyId proxy, QueryHit& hit) const {
   const auto meeting = meet(local_, boxOf(proxy));
-  if (!meeting) return false;  // the grid's box is larger, by the margin
+  if (!meeting) return false;  // the grid stores the box grown by its margin, so not every candidate is a hit
   hit.along = meeting->along;
   hit.center_distance = meeting->axis_distance;
   setDistance(hit, meeting->axis_distance > 0.0 ? meeting->axis_distance - segment_.radius : QueryHit::kUnknown);
@@ -108,9 +108,9 @@ bool SegmentQuestion::hitsBox(ProxyId proxy, QueryHit& hit) const {
   return true;
 }
 
-/// How far along the segment a sphere that moves along it first touches a shape [m]. Each step is as long as the sphere
-/// can go without a touch (conservative advancement; after Mirtich 1996, section 2.3).
-/// @param found  becomes how the sphere's center lies to the shape there
+/// Returns how far [m] a sphere moves along the segment before it first touches a shape. The sphere advances in steps,
+/// each as long as the sphere surely moves without a touch (conservative advancement; after Mirtich 1996, section 2.3).
+/// @param found  receives the proximity of the sphere's center and the shape at that point
 double SegmentQuestion::firstTouch(ProxyId proxy, const NarrowPhase& exact, Proximity& found) const {
   const Eigen::Vector3d step = segment_.to - segment_.from;
   double along = 0.0;
@@ -150,7 +150,7 @@ bool SegmentQuestion::hitsMap(const PlacedMap& map, QueryHit& hit) const {
   const Eigen::AlignedBox3d cube = map.cubeOf(first->voxel);
   hit = map.hitOf(first->voxel, at, (nearestPoint(cube, at) - at).norm(), isExact());
   hit.along = first->along;
-  const double gap = hit.center_distance - segment_.radius;  // where the cell is first touched, not where it is nearest
+  const double gap = hit.center_distance - segment_.radius;  // at the first touch, which need not be the nearest point
   setDistance(hit, gap > 0.0 ? gap : QueryHit::kUnknown);
   if (isExact() && (segment_.radius == 0.0 || hit.normal.hasNaN())) {
     hit.normal = map.world_from_map.linear() * normalWhereEntered(cube, at, step);

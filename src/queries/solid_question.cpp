@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// What touches a solid in any pose, such as a box.
+// The query for the bodies that touch a solid at any pose, such as a box.
 #include <optional>
 
 #include "hgrid_proximity/geometry/float_environment.h"
@@ -16,7 +16,7 @@ namespace {
 
 class SolidQuestion final : public Question {
  public:
-  /// @param shape  what `solid` was made of
+  /// @param shape  the shape from which `solid` was created
   SolidQuestion(const Snapshot& asked, const QueryScope& given, const NarrowPhase& narrow_phase,
                 std::shared_ptr<const Solid> solid, const Shape& shape, const Pose& world_from_shape, double padding)
       : Question(asked, given),
@@ -59,10 +59,10 @@ class SolidQuestion final : public Question {
   bool isFreeIn(const PlacedMap& map, const UnmappedSpace& unmapped) const override;
 
  private:
-  /// A box around the solid grown by `by` [m], relative to the snapshot's origin.
+  /// Returns a box around the solid grown by `by` [m], relative to the origin of the snapshot.
   Aabb boxAround(double by) const { return hgrid::boxOf(shape_, world_from_shape_, padding_ + by, origin()); }
   Probe probe(const NarrowPhase& narrow_phase) const { return {narrow_phase, *solid_, world_from_shape_, padding_}; }
-  /// A box of the snapshot.
+  /// Returns the box of a proxy in the world frame.
   OrientedBox worldBoxOf(ProxyId proxy) const {
     const Eigen::AlignedBox3d box = inDouble(boxOf(proxy));
     return {Pose(Eigen::Translation3d(origin() + 0.5 * (box.min() + box.max()))), box.max() - box.min()};
@@ -71,7 +71,8 @@ class SolidQuestion final : public Question {
     return probe(narrow_phase_).measure(*narrow_phase_.block(box.size), box.world_from_box, 0.0, up_to);
   }
   double depthIn(const OrientedBox& box, const Proximity& found) const;
-  /// Sets the distances of a hit. A solid touches all that it hits, so `distance` is 0 whatever rounding says.
+  /// Sets the distances of a hit. A solid touches every body that it hits, so `distance` is 0 even if rounding gave
+  /// more.
   static void setDistance(QueryHit& hit, const Proximity& found) {
     hgrid::setDistance(hit, signedDistanceOf(found));
     hit.distance = 0.0;
@@ -87,12 +88,13 @@ class SolidQuestion final : public Question {
   const Pose world_from_shape_;
   const Eigen::Vector3d center_;    // [m, world] origin of the shape
   const double padding_;            // [m]
-  const double reach_;              // [m] from the center to the farthest point, padding included
-  const double slack_;              // [m]
+  const double reach_;              // [m] distance from the center to the farthest point, including the padding
+  const double slack_;              // [m] rounding error of a distance
   std::optional<OrientedBox> box_;  // the solid, if it is a box without padding
 };
 
-/// [m] The depth of the solid in a box. The narrow phase may give none; that of two boxes can be computed.
+/// Returns the penetration depth [m] of the solid and a box. It is always known if the solid is a box. Otherwise the
+/// narrow phase may not have returned one.
 double SolidQuestion::depthIn(const OrientedBox& box, const Proximity& found) const {
   return box_ && !(found.distance > 0.0) ? penetrationDepth(*box_, box) : found.depth;
 }
@@ -121,7 +123,7 @@ bool SolidQuestion::hitsShape(ProxyId proxy, const NarrowPhase& exact, QueryHit&
   return true;
 }
 
-/// Looks at the cells that are nearest to the center first. The hit is the nearest of those that the solid touches.
+/// Visits the cells nearest to the center first. The hit is the nearest cell that the solid touches.
 bool SolidQuestion::hitsMap(const PlacedMap& map, QueryHit& hit) const {
   const Eigen::Vector3d center = map.map_from_world * center_;
   const double most = reach_ + slack_;
@@ -144,7 +146,7 @@ bool SolidQuestion::hitsMap(const PlacedMap& map, QueryHit& hit) const {
   return true;
 }
 
-/// Whether one of the cells, which are in the map's frame, is at most `distance` [m] from the solid.
+/// Returns whether one of `cells` is at most `distance` [m] from the solid. The cells are in the frame of the map.
 bool SolidQuestion::meetsCell(const PlacedMap& map, const StaticGrid& cells, double distance) const {
   const double limit = slack_ + distance;
   bool met = false;
@@ -187,7 +189,7 @@ QueryAnswer query(const Snapshot& snapshot, const QueryShape& shape, NarrowPhase
   const std::shared_ptr<const Solid> solid = narrow_phase.solidOf(shape.shape);
   if (!solid) {
     throw Refusal(Code::unsupported, std::string("the query's shape is a ") + name(shape.shape.kind()) +
-                                         ", which this narrow phase cannot measure; ask with one that can");
+                                         ", which this narrow phase cannot measure; use a narrow phase that can");
   }
   SolidQuestion question(snapshot, scope, narrow_phase, solid, shape.shape, shape.world_from_shape, shape.padding);
   return answerTo(question);

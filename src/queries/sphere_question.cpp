@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// What touches a sphere, and what is nearest to a point.
+// The queries for the bodies that touch a sphere, and for the bodies nearest to a point.
 #include <algorithm>
 
 #include "hgrid_proximity/geometry/float_environment.h"
@@ -11,7 +11,7 @@
 namespace hgrid {
 namespace {
 
-/// A question about what is around a point. Its region is a sphere.
+/// A question about the bodies around a point. Its region is a sphere.
 class AroundPoint : public Question {
  public:
   AroundPoint(const Snapshot& asked, const QueryScope& given, const Sphere& region)
@@ -42,13 +42,13 @@ class AroundPoint : public Question {
   }
 
  protected:
-  /// The center, to be measured against shapes.
+  /// Returns a probe that measures the center of the sphere against shapes.
   Probe center(const NarrowPhase& narrow_phase) const {
     return {narrow_phase, *narrow_phase.point(), Pose(Eigen::Translation3d(region_.center))};
   }
-  // Below, distances of a hit are those from a sphere of `radius` [m] around the center.
+  // The functions below set the distances of a hit as distances from a sphere of `radius` [m] around the center.
 
-  /// Whether a cell is at most `limit` [m] from the center. If so, the hit is the nearest cell.
+  /// Returns whether a cell is at most `limit` [m] from the center. If so, sets `hit` to the nearest cell.
   bool hitsNearestCell(const PlacedMap& map, double limit, double radius, QueryHit& hit) const {
     const Eigen::Vector3d in_map = map.map_from_world * region_.center;
     std::vector<NearVoxel> near;
@@ -71,9 +71,9 @@ class AroundPoint : public Question {
     setDistance(hit, signedDistanceOf(from_center) - radius);
   }
 
-  const Sphere region_;  // in the world
-  const Sphere local_;   // the same, relative to the snapshot's origin
-  const double radius_;  // [m] of the region, with room for rounding
+  const Sphere region_;  // in the world frame
+  const Sphere local_;   // the same sphere, relative to the origin of the snapshot
+  const double radius_;  // [m] radius of the region, enlarged by the rounding error
 };
 
 class SphereQuestion final : public AroundPoint {
@@ -85,7 +85,7 @@ class SphereQuestion final : public AroundPoint {
     return round == 0;
   }
   bool hitsBox(ProxyId proxy, QueryHit& hit) const override {
-    if (!touches(local_, boxOf(proxy))) return false;  // the grid's box is larger, by the margin
+    if (!touches(local_, boxOf(proxy))) return false;  // the grid stores the box grown by its margin
     measureBox(proxy, region_.radius, hit);
     return true;
   }

@@ -7,27 +7,27 @@
 
 namespace hgrid {
 
-/// The time that a query may take. Reads the clock rarely, and not at all without a deadline. One thread.
+/// The time that a query may take. Reads the clock rarely, and never if there is no deadline. For one thread.
 class TimeBudget {
  public:
   using Clock = std::chrono::steady_clock;
-  /// What a query does between two calls of isOver().
+  /// How long the work between two calls of isOver() takes.
   enum class Step { fast, slow };
 
   explicit TimeBudget(const std::optional<Clock::time_point>& deadline) : deadline_(deadline) {}
 
-  /// Whether the deadline has passed. Reads the clock before each slow step and before one of kFastSteps fast ones, the
-  /// first included.
+  /// Returns whether the deadline has passed. Reads the clock before each slow step, before the first fast step, and
+  /// then before every kFastSteps-th fast step.
   bool isOver(Step next) {
     if (!deadline_ || over_) return over_;
     if (next == Step::fast && steps_++ % kFastSteps != 0) return false;
     return over_ = Clock::now() >= *deadline_;
   }
-  /// Whether a call of isOver() has said so.
+  /// Returns whether a call of isOver() has returned true.
   bool wasOver() const { return over_; }
 
  private:
-  static constexpr unsigned kFastSteps = 32;  // of about 0.1 us each: far more than the clock takes
+  static constexpr unsigned kFastSteps = 32;  // they take about 3 us together, far longer than reading the clock
 
   std::optional<Clock::time_point> deadline_;
   unsigned steps_ = 0;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-// proximity_mesh_reader KIND MAX_TRIANGLES MAX_MEMORY CPU_SECONDS < file > mesh
+// Usage: proximity_mesh_reader KIND MAX_TRIANGLES MAX_MEMORY CPU_SECONDS < file > mesh
 //
-// Reads a mesh of a kind (stl, dae, obj) from its standard input and writes it as mesh_stream.h says. Runs the
-// parser that may crash or hang on a broken file, away from the node, under limits that it sets itself first.
+// Reads a mesh file of kind stl, dae or obj from standard input and writes the mesh to standard output. The format of
+// the output is in mesh_stream.h.
+//
+// The parser may crash or hang on a broken file, so it runs in this process and not in the node. The process first sets
+// limits for its own memory, time and files.
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -32,20 +35,21 @@ struct Mesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
+/// Sets both the soft and the hard limit of a resource.
 void limit(int resource, rlim_t value) {
   const struct rlimit both { value, value };
   setrlimit(static_cast<__rlimit_resource>(resource), &both);
 }
 
 void limitProcess(rlim_t memory, rlim_t cpu_seconds) {
-#if !defined(__SANITIZE_ADDRESS__)  // its shadow memory is larger than any sensible limit
+#if !defined(__SANITIZE_ADDRESS__)  // the shadow memory of the sanitizer exceeds any useful limit
   limit(RLIMIT_AS, memory);
 #endif
   static_cast<void>(memory);
   limit(RLIMIT_CPU, cpu_seconds);
   limit(RLIMIT_FSIZE, 0);
   limit(RLIMIT_CORE, 0);
-  for (int fd = 3; fd < 1024; ++fd) close(fd);  // what the parent had open is not for a parser
+  for (int fd = 3; fd < 1024; ++fd) close(fd);  // the parser must not use open files of the parent
   limit(RLIMIT_NOFILE, 3);
 }
 
@@ -65,22 +69,23 @@ void writeAll(const void* data, std::size_t bytes) {
   while (bytes > 0) {
     const ssize_t written = write(1, at, bytes);
     if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) std::_Exit(1);  // nobody listens any more
+    if (written <= 0) std::_Exit(1);  // the parent no longer reads the output
     at += written;
     bytes -= static_cast<std::size_t>(written);
   }
 }
 
+/// Adds the triangles of a node and of its children to `mesh`, transformed to the frame of the root.
 void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent, Mesh& mesh,
              std::size_t max_triangles) {
   const aiMatrix4x4 transform = parent * node.mTransformation;
   for (unsigned i = 0; i < node.mNumMeshes; ++i) {
     const aiMesh& part = *scene.mMeshes[node.mMeshes[i]];
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    const unsigned second = transform.Determinant() < 0 ? 2 : 1;  // a mirror turns the inside out
+    const unsigned second = transform.Determinant() < 0 ? 2 : 1;  // mirroring would turn the mesh inside out
     for (unsigned f = 0; f < part.mNumFaces; ++f) {
       const aiFace& face = part.mFaces[f];
-      if (face.mNumIndices != 3) continue;  // points and lines: triangulation leaves nothing else
+      if (face.mNumIndices != 3) continue;  // after triangulation, other faces are points or lines
       mesh.triangles.push_back(
           {first + face.mIndices[0], first + face.mIndices[second], first + face.mIndices[3 - second]});
     }
@@ -89,7 +94,8 @@ void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent
       mesh.vertices.push_back({p.x, p.y, p.z});
     }
     if (mesh.triangles.size() > max_triangles) {
-      throw Refusal(Code::limit, "it has more than " + std::to_string(max_triangles) + " triangles");
+      throw Refusal(Code::limit,
+                    "it has more than " + std::to_string(max_triangles) + " triangles, which is the limit");
     }
   }
   for (unsigned i = 0; i < node.mNumChildren; ++i) {
@@ -99,13 +105,14 @@ void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent
 
 Mesh parse(const std::string& data, const std::string& kind, std::size_t max_triangles) {
   Assimp::Importer importer;
-  // As RViz draws it: the unit of a COLLADA file counts, its up axis does not.
+  // Same rule as in RViz: apply the unit of a COLLADA file, but ignore its up axis.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = importer.ReadFileFromMemory(
       data.data(), data.size(), aiProcess_Triangulate | aiProcess_JoinIdenticalVertices, kind.c_str());
   if (scene == nullptr || scene->mRootNode == nullptr) {
     const std::string error = importer.GetErrorString();
-    if (error.find("bad_alloc") != std::string::npos) throw std::bad_alloc();  // assimp catches it and makes it a text
+    if (error.find("bad_alloc") != std::string::npos)
+      throw std::bad_alloc();  // assimp has turned the exception into text
     throw Refusal(Code::parse, "it cannot be read: " + error);
   }
   Mesh mesh;

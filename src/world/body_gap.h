@@ -8,8 +8,8 @@
 
 namespace hgrid {
 
-/// Why a body makes its source incomplete, as "LOST robot/tool0: its pose is 3 s old (frame 'tool0')". Empty if the
-/// body does not.
+/// Returns why a body makes its source incomplete, such as "LOST robot/tool0: its pose is 3 s old (frame 'tool0')".
+/// Empty if the body does not make it incomplete.
 std::string gapLeftBy(const Body& body, const BodyPose& pose);
 
 }  // namespace hgrid

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// The making of a snapshot from what the scene was told.
+// Scene::commit(): makes a snapshot of the bodies and poses in a scene.
 #include <algorithm>
 
 #include "hgrid_proximity/geometry/float_environment.h"
@@ -12,15 +12,15 @@
 namespace hgrid {
 namespace {
 
-/// [m] How far a point of the body may be from where its pose puts it, if the pose is old. A frame that comes seldom is
-/// old before its state says so.
+/// Returns how far [m] a point of the body may have moved since its pose was taken; 0 if the pose is not old. The pose
+/// of a rarely updated frame can be old although its state is still FRESH or LATE.
 double reachOf(const BodyPose& pose, const Body& body, double growth_after) {
   const bool old = pose.state >= Freshness::stale || pose.age > growth_after;
   if (!old || pose.state == Freshness::unplaced || !(pose.age > 0.0)) return 0.0;
   return body.max_speed * pose.age;
 }
 
-/// Whether the grid may report a pair of proxies: its filter.
+/// The overlap filter of the grid: keeps the pairs of proxies whose bodies the pair filter reports.
 bool isReported(const void* structure, ProxyId first, ProxyId second) {
   const Structure& s = *static_cast<const Structure*>(structure);
   return !s.filter.allowed(s.body_of_proxy[first], s.body_of_proxy[second]);
@@ -60,8 +60,8 @@ void Scene::State::rebuildStructure() {
     if (next->bodies[next->body_of_proxy[proxy]].mobility == Mobility::fixed) next_fixed.push_back(proxy);
   }
   fillSources(*next);
-  // Nothing below allocates.
-  for (const auto& named : slot_of_name) slots[named.second].moved = true;  // its proxies may have other numbers now
+  // The code below allocates no memory, so it cannot fail.
+  for (const auto& named : slot_of_name) slots[named.second].moved = true;  // the proxy numbers may have changed
   uncovered.swap(next_uncovered);
   shapes.swap(next_shapes);
   fixed_proxies.swap(next_fixed);
@@ -82,7 +82,7 @@ std::shared_ptr<PooledSnapshot> Scene::State::freshSnapshot() const {
   return {pooled.release(), give_back, PoolAllocator<PooledSnapshot>(pool)};
 }
 
-/// Makes the boxes of a body from its pose.
+/// Computes the boxes of a body from its pose.
 void Scene::State::makeBoxes(std::size_t body, const Pose& world_from_body, Snapshot& snapshot) const {
   for (std::uint32_t proxy = structure->first_proxy[body]; proxy < structure->first_proxy[body + 1]; ++proxy) {
     const ShapeInBody& shape = shapes[proxy];
@@ -90,8 +90,8 @@ void Scene::State::makeBoxes(std::size_t body, const Pose& world_from_body, Snap
   }
 }
 
-/// Fills poses and boxes. The boxes of what did not move since the last commit are those of the last snapshot. If this
-/// snapshot was used before, only the poses that changed since then are written.
+/// Fills poses and boxes. Copies the boxes of bodies that did not move since the last commit from the last snapshot. If
+/// this snapshot object was used before, writes only the poses that changed since then.
 void Scene::State::fillBodies(Snapshot& snapshot) {
   const std::uint64_t known = snapshot.structure_ == structure ? snapshot.commit_ : 0;
   snapshot.structure_ = structure;
@@ -129,10 +129,11 @@ void Scene::State::fillBodies(Snapshot& snapshot) {
   horizon.step(structure, snapshot.poses_, snapshot.boxes_);
 }
 
-/// Grows the placed boxes by their shares of the margins: half of the global margin, and all by which the body's own
-/// margin, or that of a pair with it, is larger. So two boxes within their pair's margin plus their growth overlap.
+/// Grows the boxes of placed bodies by their shares of the margins, so that two boxes overlap if they are within their
+/// pair's margin plus the growth of both bodies. The share of a body is half of the global margin. If its own margin or
+/// a margin of its pairs is larger than the global one, the whole difference is added.
 ///
-/// A grown box of the last commit is kept if it was made of the same box by the same length.
+/// Keeps a grown box of the last commit if it was computed from the same box and the same length.
 void Scene::State::growBoxes(const Snapshot& snapshot) {
   ids.resize(snapshot.boxes_.size());
   grown_from.resize(snapshot.boxes_.size());
@@ -158,14 +159,14 @@ void Scene::State::growBoxes(const Snapshot& snapshot) {
   grown_boxes.resize(count);
 }
 
-/// Stores the grown boxes and finds those of their pairs that the filter keeps, within the limits.
+/// Stores the grown boxes in the grid, and finds their overlapping pairs that the filter keeps, within the limits.
 void Scene::State::fillGrid(PooledSnapshot& pooled) {
   HGrid& grid = pooled.grid;
   if (pooled.grid_revision != structure->revision) {
     grid = HGrid(scale);
     grid.setThreads(options.threads);
     grid.setFixed(fixed_proxies);
-    grid.setOverlapFilter(OverlapFilter::of<isReported>(structure.get()));  // the snapshot keeps it alive
+    grid.setOverlapFilter(OverlapFilter::of<isReported>(structure.get()));  // the snapshot keeps the structure alive
     grid.setPairBound(limits.boundOf(structure->body_of_proxy.size()));
     pooled.grid_revision = structure->revision;
   }
@@ -179,7 +180,7 @@ void Scene::State::addPair(std::uint32_t first, std::uint32_t second, double gap
   choice.collected().push_back({first, second, near ? std::min(gap, margin) : gap, margin, Time{0}, flags});
 }
 
-/// Whether a pair of bodies would be listed by a tick that listed all pairs.
+/// Returns whether a pair of bodies would be listed if there were no limit.
 bool Scene::State::isCandidate(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second) {
   const BodyPose &a = snapshot.poses_[first], &b = snapshot.poses_[second];
   if (a.state == Freshness::unplaced || b.state == Freshness::unplaced) return false;
@@ -199,7 +200,7 @@ bool Scene::State::isCandidate(const Snapshot& snapshot, std::uint32_t first, st
 void Scene::State::fillPairs(Snapshot& snapshot) {
   choice.collected().clear();
   for (const ProxyPair& proxies : proxy_pairs) {
-    // Proxies are numbered in the order of their bodies.
+    // Proxies are numbered in the order of their bodies, so `first` is never larger than `second`.
     const std::uint32_t first = structure->body_of_proxy[proxies.first],
                         second = structure->body_of_proxy[proxies.second];
     const Aabb &a = snapshot.boxes_[proxies.first], &b = snapshot.boxes_[proxies.second];
@@ -229,7 +230,7 @@ void Scene::State::fillPairs(Snapshot& snapshot) {
       snapshot.events_);
 }
 
-/// Makes the snapshot the one that the next commit starts from. Allocates nothing.
+/// Accepts the snapshot: the next commit starts from it. Allocates no memory, so it cannot fail.
 void Scene::State::accept(const std::shared_ptr<PooledSnapshot>& accepted) {
   PooledSnapshot& pooled = *accepted;
   horizon.accept();

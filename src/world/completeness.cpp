@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Which sources of a snapshot are complete, and why others are not.
+// Decides which sources of a snapshot are complete, and why the others are not.
 #include <algorithm>
 
 #include "hgrid_proximity/bodies/name.h"
@@ -12,13 +12,12 @@
 namespace hgrid {
 namespace {
 
-/// What is missing where no body matches a pattern of required ones.
+/// Returns the gap for a pattern of required bodies that no body matches.
 SourceGap gapOfAbsent(const std::string& pattern) {
   const std::string source = pattern.substr(0, pattern.find('/'));
-  const bool one_of_many = source == "map" || source == "cloud";  // each of these is a source of its own
-  return {
-      one_of_many ? pattern : source, pattern,
-      "REQUIRED '" + printable(pattern) + "': no body of the world matches it; add that body, or do not require it"};
+  const bool one_of_many = source == "map" || source == "cloud";  // each map or cloud is a source of its own
+  return {one_of_many ? pattern : source, pattern,
+          "REQUIRED '" + printable(pattern) + "': no body matches this pattern; add such a body, or do not require it"};
 }
 
 void sortNames(std::vector<std::string>& names) {
@@ -35,13 +34,13 @@ std::string gapLeftBy(const Body& body, const BodyPose& pose) {
   if (!body.covered && !body.waived) return "UNCOVERED " + body.name + ": " + body.note;
   if (pose.state >= Freshness::lost) {
     return std::string(name(pose.state)) + " " + body.name +
-           (body.kind == BodyKind::cloud ? ": what it saw is " : ": its pose is ") + secondsText(pose.age) +
+           (body.kind == BodyKind::cloud ? ": its newest points are " : ": its pose is ") + secondsText(pose.age) +
            " old (frame '" + printable(body.frame) + "')";
   }
   return {};
 }
 
-/// Says where the bodies come from, and which of the required ones are absent.
+/// Finds the source of each body, and the required bodies that are absent.
 void Scene::State::fillSources(Structure& structure) const {
   for (const Body& body : structure.bodies) structure.sources.push_back(sourceOf(body));
   const std::vector<std::string> of_body = structure.sources;
@@ -74,9 +73,10 @@ void Scene::State::fillCompleteness(Snapshot& snapshot, const std::vector<Source
   sortNames(snapshot.incomplete_);
 }
 
-/// Lists the bodies that no CLEAR may overlook, and of those that make their source incomplete the worst as reasons.
+/// Lists the bodies that a query must check before it answers CLEAR. Of the bodies that make their source incomplete,
+/// lists the worst as reasons.
 void Scene::State::fillDoubtful(Snapshot& snapshot) const {
-  std::vector<std::pair<int, std::uint32_t>> worst_first;  // the worse the state, the smaller the number
+  std::vector<std::pair<int, std::uint32_t>> worst_first;  // negated state and body, so that the worst sorts first
   std::vector<bool> incomplete(structure->sources.size());
   auto next_uncovered = uncovered.begin();
   for (std::uint32_t i = 0; i < snapshot.poses_.size(); ++i) {
@@ -86,7 +86,7 @@ void Scene::State::fillDoubtful(Snapshot& snapshot) const {
     if (covered && pose.state < Freshness::stale && pose.reach == 0.0) continue;
     snapshot.doubtful_.push_back(i);
     if (covered && pose.state < Freshness::lost) continue;
-    if (snapshot.hasGap(structure->bodies[i].name)) continue;  // it is counted already
+    if (snapshot.hasGap(structure->bodies[i].name)) continue;  // the gap is already counted as a reason
     worst_first.emplace_back(-static_cast<int>(pose.state), i);
     incomplete[structure->source_of[i]] = true;
   }

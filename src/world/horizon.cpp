@@ -8,15 +8,16 @@
 namespace hgrid {
 namespace {
 
-constexpr Time kNever{-1};
+constexpr Time kNever{-1};  // stamp of a body that had no pose
 
-/// [m] The farthest that a side of the box moved. No extreme of a body moves farther than its fastest point.
+/// Returns the largest distance [m] by which a face of the box moved. No face of the box around a body moves farther
+/// than the fastest point of the body.
 double shiftOf(const Aabb& before, const Aabb& now) {
   return std::max((now.min - before.min).cast<double>().cwiseAbs().maxCoeff(),
                   (now.max - before.max).cast<double>().cwiseAbs().maxCoeff());
 }
 
-/// [m] What rounding of boxes may add to that.
+/// Returns the largest error [m] that the rounding of boxes can add to shiftOf().
 double roundingOf(const Aabb& box) {
   return 4e-7 * std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff()) + 1e-9;
 }

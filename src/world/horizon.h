@@ -8,51 +8,52 @@
 
 namespace hgrid {
 
-/// What can happen between two ticks and soon after: the boxes that shapes swept since the last one, and how far bodies
-/// can go, by their max_speed, from the time of their poses until a horizon has passed. Off while the horizon is 0.
+/// Looks at the time between two ticks and a short time ahead. It computes the boxes that shapes swept since the last
+/// tick. It also computes how far bodies can move, by their max_speed, from their poses to the end of the horizon. Off
+/// if the horizon is 0.
 class Horizon {
  public:
-  /// @param seconds  [s] >= 0
-  /// @param cap      [m] how far a body without a bound of speed is taken to go, and the most that one with a bound is
-  ///                 taken to have gone since its pose
+  /// @param seconds  [s] length of the horizon, >= 0
+  /// @param cap      [m] distance that a body without max_speed is assumed to move; also the largest distance that a
+  ///                 body with max_speed is assumed to have moved since its pose
   Horizon(double seconds, double cap) : seconds_(seconds), cap_(cap) {}
 
   bool on() const { return seconds_ > 0.0; }
-  /// Takes the boxes and poses of a new tick. What had no pose before, or is in a new structure, swept nothing. The
-  /// last tick stays the one that was accepted.
+  /// Sets the poses and boxes of a new tick and compares them with the last accepted tick. If a body had no pose then,
+  /// or if the structure is new, the swept box is the present box.
   void step(const std::shared_ptr<const Structure>& structure, const std::vector<BodyPose>& poses,
             const std::vector<Aabb>& boxes);
-  /// Makes the tick of the last step() the last tick. Allocates nothing.
+  /// Accepts the tick of the last step(): the next step() compares with it. Allocates no memory.
   void accept();
-  /// [m] How far a body can be from its pose when the horizon has passed.
+  /// Returns how far [m] a body can be from its pose at the end of the horizon.
   double reachOf(std::uint32_t body) const { return on() ? reach_[body] : 0.0; }
-  /// The box around a proxy's boxes of this tick and the last.
+  /// Returns the box around a proxy's boxes of this tick and of the last accepted tick.
   const Aabb& swept(ProxyId proxy) const { return swept_[proxy]; }
-  /// The proxy's box of the last tick; that of this one if it had none.
+  /// Returns the box of a proxy in the last accepted tick, or its present box if it had none then.
   const Aabb& before(ProxyId proxy) const {
     return was_placed_[now_.structure->body_of_proxy[proxy]] ? last_.boxes[proxy] : now_.boxes[proxy];
   }
-  /// Whether two proxies may have come within the margin since the last tick, or may meet before the horizon has
-  /// passed.
+  /// Returns whether two proxies may have come within the margin since the last tick, or may meet before the end of the
+  /// horizon.
   bool canMeet(const Structure& structure, ProxyId first, ProxyId second, double gap, double margin) const;
-  /// Whether a body moved farther since the last tick than its max_speed allows.
+  /// Returns whether a body moved farther since the last tick than its max_speed allows.
   bool teleported(std::uint32_t body) const { return on() && teleported_[body]; }
 
  private:
   double reachOf(const Body& body, const BodyPose& pose) const;
 
   double seconds_, cap_;
-  /// What is kept of a tick.
+  /// The data of one tick that the next tick needs.
   struct Kept {
     std::shared_ptr<const Structure> structure;
-    std::vector<Aabb> boxes;   // by proxy
-    std::vector<Time> stamps;  // by body; negative: it had no pose
+    std::vector<Aabb> boxes;   // indexed by proxy
+    std::vector<Time> stamps;  // indexed by body; negative: the body had no pose
   };
-  Kept last_, now_;               // now_: of the last step(), not accepted yet
-  std::vector<Aabb> swept_;       // by proxy
-  std::vector<bool> was_placed_;  // by body: it had a pose in the last tick, and in this structure
-  std::vector<bool> teleported_;  // by body
-  std::vector<double> reach_;     // [m] by body
+  Kept last_, now_;               // last_: the last accepted tick; now_: the tick of the last step()
+  std::vector<Aabb> swept_;       // indexed by proxy
+  std::vector<bool> was_placed_;  // indexed by body: whether it had a pose in the last tick, in the same structure
+  std::vector<bool> teleported_;  // indexed by body
+  std::vector<double> reach_;     // [m] indexed by body
 };
 
 }  // namespace hgrid

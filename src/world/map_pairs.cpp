@@ -10,10 +10,10 @@
 
 namespace hgrid {
 
-/// Forgets the gaps to maps that moved or that have other cells.
+/// Drops the stored gaps to maps that moved or that have other cells.
 void MapPairs::recall(const Snapshot& snapshot) {
   const Structure& structure = snapshot.structure();
-  if (revision_ != structure.revision) maps_.clear();  // proxies have other numbers
+  if (revision_ != structure.revision) maps_.clear();  // the proxy numbers may have changed
   maps_.resize(structure.maps.size());
   revision_ = structure.revision;
   for (std::size_t i = 0; i < maps_.size(); ++i) {
@@ -21,7 +21,7 @@ void MapPairs::recall(const Snapshot& snapshot) {
     const Pose& pose = snapshot.poses()[structure.maps[i]].world_from_body;
     const std::shared_ptr<const MapCells> cells = snapshot.cellsOf(structure.maps[i]);
     if (map.cells == cells && map.world_from_map.matrix() == pose.matrix()) continue;
-    map.gaps.assign(structure.body_of_proxy.size(), Gap{});  // first, since it may fail
+    map.gaps.assign(structure.body_of_proxy.size(), Gap{});  // this comes first because it may throw
     map.world_from_map = pose;
     map.map_from_world = pose.inverse();
     map.cells = cells;
@@ -50,7 +50,8 @@ bool MapPairs::find(const Snapshot& snapshot, const Horizon& horizon, std::size_
   return true;
 }
 
-/// Whether a box came within the margin of a cell between the last tick and this one, as seen from the map.
+/// Returns whether a box may have come within the margin of a cell between the last tick and this one. Compares in the
+/// frame of the map, so a map that moves together with the box does not count.
 bool MapPairs::passed(const OfMap& map, ProxyId proxy, const Snapshot& snapshot, const Horizon& horizon,
                       double margin) const {
   const Aabb &from = horizon.before(proxy), &to = snapshot.boxes()[proxy];
@@ -60,7 +61,7 @@ bool MapPairs::passed(const OfMap& map, ProxyId proxy, const Snapshot& snapshot,
   return gapTo(*map.cells->grid, swept, margin) <= margin;
 }
 
-/// Adds the pairs of a map with the shapes of a body. @returns whether there was room for all
+/// Adds the pairs of a map with the shapes of a body. @returns false if `left` was too small for all of them
 bool MapPairs::addShapes(OfMap& map, std::uint32_t number, std::uint32_t body, const Snapshot& snapshot,
                          const Horizon& horizon, std::size_t& left, const Add& add) const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -93,7 +94,7 @@ bool MapPairs::isNear(const Snapshot& snapshot, const Horizon& horizon, std::uin
     if (found == maps.end() || *found != map) continue;
     OfMap& known = maps_[static_cast<std::size_t>(found - maps.begin())];
     if (!known.cells) continue;
-    std::size_t room = 0;  // so the first pair that would be added finds none
+    std::size_t room = 0;  // addShapes() returns false at the first pair, because there is no room for it
     if (!addShapes(known, map, body, snapshot, horizon, room, nullptr)) return true;
   }
   return false;

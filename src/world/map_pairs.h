@@ -11,38 +11,39 @@
 
 namespace hgrid {
 
-/// Finds the pairs of maps with bodies that have shapes: each box is held against the map's occupied cells, in the
-/// map's frame, so that a map that is moved need not be made anew. Two maps make no pair.
+/// Finds the pairs of maps (or clouds) with bodies that have shapes. It compares each box with the occupied cells of
+/// the map in the frame of the map, so a map can move without a rebuild. Two maps make no pair.
 ///
-/// Remembers gaps: what stands still beside a map that stands still is not asked again.
+/// The class stores gaps: while a box and a map rest, their gap is not computed again.
 class MapPairs {
  public:
-  /// A pair, its gap and margin [m], and whether it is near or may soon be.
+  /// Receives a pair of bodies, its gap [m] and margin [m], and whether the gap is within the margin.
   using Add = std::function<void(std::uint32_t first, std::uint32_t second, double gap, double margin, bool near)>;
-  /// Calls `add` for each shape and map that are near or, by the horizon, may soon be. So a pair of bodies may come
-  /// several times. Maps come in the order of their names, with each the bodies in the order of theirs.
-  /// @param most  calls of `add` at most
-  /// @returns whether that was all
+  /// Calls `add` for each shape and map that are near, or that may soon be near (see Horizon). A body with several
+  /// shapes may cause several calls. The order is by the names of the maps, then by the names of the bodies.
+  /// @param most  maximum number of calls of `add`
+  /// @returns whether it has reported all pairs
   bool find(const Snapshot& snapshot, const Horizon& horizon, std::size_t most, const Add& add);
-  /// Whether find() with the same snapshot and no limit adds a pair, one of which is a map. The filter is not asked.
+  /// Returns whether find() with the same snapshot and no limit would report this pair. One of the two bodies must be a
+  /// map. Ignores the pair filter.
   bool isNear(const Snapshot& snapshot, const Horizon& horizon, std::uint32_t first, std::uint32_t second);
-  /// Makes the tick of the last find() the last tick. Allocates nothing.
+  /// Accepts the tick of the last find(): the next find() compares with its poses. Allocates no memory.
   void accept();
 
  private:
   struct Gap {
     Aabb box;
-    double up_to = -1.0;  // [m] how far was looked
-    double gap = 0.0;     // [m]
+    double up_to = -1.0;  // [m] the search for the nearest cell ended at this distance
+    double gap = 0.0;     // [m] infinite if no cell was found
   };
   struct OfMap {
     std::shared_ptr<const MapCells> cells;
     Pose world_from_map = Pose::Identity(), map_from_world = Pose::Identity();
-    Pose map_from_world_last = Pose::Identity();  // of the last tick
-    bool was_there = false;                       // in the last tick, with cells
-    std::vector<Gap> gaps;                        // by proxy
+    Pose map_from_world_last = Pose::Identity();  // map_from_world in the last accepted tick
+    bool was_there = false;                       // whether the map had cells in the last accepted tick
+    std::vector<Gap> gaps;                        // indexed by proxy
 
-    /// Pose of the last tick; of this one if there were no cells then.
+    /// Returns the inverse pose of the map in the last tick, or in this tick if the map had no cells then.
     const Pose& mapFromWorldBefore() const { return was_there ? map_from_world_last : map_from_world; }
   };
   void recall(const Snapshot& snapshot);
@@ -51,7 +52,7 @@ class MapPairs {
                  std::size_t& left, const Add& add) const;
 
   std::uint64_t revision_ = 0;
-  std::vector<OfMap> maps_;  // of the structure
+  std::vector<OfMap> maps_;  // in the order of Structure::maps
 };
 
 }  // namespace hgrid

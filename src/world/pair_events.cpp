@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-/// Calls `look` with the boxes of each shape of the one and each of the other body, until it returns true.
+/// Calls `look` with the two boxes of each pair of shapes of two bodies, until it returns true.
 template <class Look>
 bool anyBoxes(const PairsNow& now, std::uint32_t first, std::uint32_t second, Look&& look) {
   const std::vector<std::uint32_t>& begin = now.structure->first_proxy;
@@ -51,9 +51,9 @@ void PairEvents::beginEpoch() {
   last_ = 0;
 }
 
-/// Numbers of the bodies before and now. Both structures are sorted by name, so pairs keep their order; those of which
-/// a body is gone or is another one under its name have ended. In a new epoch the name alone counts, since the reset
-/// replaces obstacles by their equals.
+/// Translates the indices of bodies between the previous and the present structure. Both are sorted by name, so pairs
+/// keep their order. A pair ends if one of its bodies was removed, or was replaced by another body of the same name. In
+/// a new epoch only the name counts, because a reset replaces obstacles by equal ones.
 void PairEvents::renumber(const Structure& now, PairEventList& list) {
   const Structure& was = *structure_;
   before_.assign(now.bodies.size(), kNone);
@@ -84,7 +84,8 @@ double PairEvents::marginBefore(std::uint32_t first, std::uint32_t second) const
   return pairMargin(*structure_, first, {a.growth, a.cohort}, second, {b.growth, b.cohort});
 }
 
-/// Bodies that came within the margin that they had before have moved, whatever else happened.
+/// Returns why a pair began. If the gap is also within the margin of the previous tick, the cause is a movement of the
+/// bodies, even if the margin has changed too.
 EventCause PairEvents::causeOfBegin(const NearPair& pair, const Structure& now) const {
   const std::uint32_t first = numberBefore(pair.first), second = numberBefore(pair.second);
   if (first == kNone || second == kNone) return EventCause::bodies;
@@ -96,7 +97,8 @@ EventCause PairEvents::causeOfBegin(const NearPair& pair, const Structure& now) 
   return told_wider ? EventCause::filter : EventCause::staleness;
 }
 
-/// Bodies that left the margin that they had before have moved, whatever else happened.
+/// Returns why a pair ended. If the gap also exceeds the margin of the previous tick, the cause is a movement of the
+/// bodies, even if the margin has changed too.
 EventCause PairEvents::causeOfEnd(const On& on, double margin, double gap, const Structure& now) const {
   if (now.filter.allowed(on.first, on.second)) return EventCause::filter;
   const std::uint32_t first = numberBefore(on.first), second = numberBefore(on.second);
@@ -106,10 +108,10 @@ EventCause PairEvents::causeOfEnd(const On& on, double margin, double gap, const
   return told_narrower ? EventCause::filter : EventCause::staleness;
 }
 
-/// Judges a pair that is on but not listed. It stays on while its gap is within the hysteresis, and while only
-/// truncation removed it.
+/// Decides whether a pair that is on but not listed ends. It stays on if its gap exceeds the margin by at most the
+/// hysteresis, or if only truncation removed it from the list.
 void PairEvents::judge(const On& on, const PairsNow& now, PairEventList& list) {
-  if (epoch_began_) return;  // only what is near begins again
+  if (epoch_began_) return;  // in a new epoch, only listed pairs begin again
   const Structure& structure = *now.structure;
   const double margin =
       pairMargin(structure, on.first, stalenessOf(now.poses[on.first]), on.second, stalenessOf(now.poses[on.second]));
@@ -117,7 +119,7 @@ void PairEvents::judge(const On& on, const PairsNow& now, PairEventList& list) {
     next_.push_back(on);
     return;
   }
-  if (now.is_cut && now.is_cut(on.first, on.second)) {  // by the horizon it may be farther away
+  if (now.is_cut && now.is_cut(on.first, on.second)) {  // a pair that the horizon selects may have a larger gap
     next_.push_back(on);
     return;
   }

@@ -12,39 +12,41 @@
 
 namespace hgrid {
 
-/// What a tick knows when it asks for its events.
+/// The data of a tick from which its events are computed.
 struct PairsNow {
   const std::shared_ptr<const Structure>& structure;
   const std::vector<BodyPose>& poses;
   const std::vector<Aabb>& boxes;
-  const std::vector<NearPair>& pairs;  ///< sorted by (first, second), each once
+  const std::vector<NearPair>& pairs;  ///< the listed pairs, sorted by (first, second), each once
   Freshness worst_state;
-  double max_growth;  ///< [m] of any body
+  double max_growth;  ///< [m] largest growth of any body
   Time stamp;
-  /// [m] gap of a map and another body, infinite if more than `up_to`; asked of those pairs alone
+  /// Returns the gap [m] of a map and another body; infinite if it exceeds `up_to`. Called only for pairs with a map.
   std::function<double(std::uint32_t first, std::uint32_t second, double up_to)> gap_to_map = nullptr;
-  IsCut is_cut = nullptr;  ///< asked about pairs that are on and not in `pairs`
+  IsCut is_cut = nullptr;  ///< called for pairs that are on but not in `pairs`
 };
 
-/// Says which pairs began and which ended since the tick before, each once, and why.
+/// Finds the pairs that began or ended since the previous tick, and the cause of each event.
 ///
-/// A pair that began is on until its gap exceeds its margin by more than the hysteresis. The broad phase does not know
-/// the hysteresis: of the pairs that are on, only those that are not listed any more are measured, shape by shape.
+/// A pair is on from its BEGIN event to its END event. It ends when its gap exceeds its margin by more than the
+/// hysteresis. The broad phase does not know the hysteresis. So this class computes the gaps of pairs that are on but
+/// not listed.
 ///
-/// A pair that only truncation removed stays on. So there may be more pairs that are on than pairs that are listed.
-/// While the limit of them is reached, listed pairs do not begin; each begins in the first tick that has room for it.
+/// A pair that only truncation removed from the list stays on. So more pairs may be on than are listed. While the
+/// maximum number of pairs is on, listed pairs do not begin. They begin in the first tick that has room for them.
 class PairEvents {
  public:
   /// @param hysteresis  [m] >= 0
-  /// @param most        pairs that are on at a time
+  /// @param most        maximum number of pairs that are on at a time
   explicit PairEvents(double hysteresis, std::size_t most = std::numeric_limits<std::size_t>::max())
       : hysteresis_(hysteresis), most_(most) {}
 
-  /// Replaces what stands in `list` by the events of this tick: what changed since the last accepted tick.
+  /// Replaces `list` by the events of this tick, that is, by the changes since the last accepted tick.
   void update(const PairsNow& now, PairEventList& list);
-  /// Makes the tick of the last update() the one that the next update() goes by. Allocates nothing.
+  /// Accepts the tick of the last update(): the next update() compares with it. Allocates no memory.
   void accept();
-  /// Numbers start again; pairs that are still near begin again, the others are forgotten without an end.
+  /// Begins a new epoch: events are numbered from 1 again. Pairs that are still listed begin again. The other pairs
+  /// are forgotten without an END event.
   void beginEpoch();
 
  private:
@@ -72,23 +74,23 @@ class PairEvents {
   std::uint64_t last_ = 0;
   bool epoch_began_ = false;
 
-  // Of the tick before, which was accepted.
+  // Data of the last accepted tick.
   std::vector<On> on_;  // sorted by (first, second)
   std::shared_ptr<const Structure> structure_ = std::make_shared<Structure>();
-  std::vector<Known> known_;  // by body; empty: all were placed and none was stale
+  std::vector<Known> known_;  // indexed by body; empty: all bodies were placed and none was stale
 
-  // Of this tick, until it is accepted.
+  // Data of this tick, until it is accepted.
   std::uint64_t next_last_ = 0;
   std::vector<On> next_;
   std::shared_ptr<const Structure> next_structure_ = structure_;
   std::vector<Known> next_known_;
 
-  // Scratch of a tick.
-  bool renumbered_ = false;
-  std::vector<On> carried_over_;       // if renumbered_: on_ in the numbers of this tick
-  std::vector<std::uint32_t> before_;  // by body: its number before
-  std::vector<std::uint32_t> after_;   // by body of the tick before: its number now
-  std::vector<PairEvent> begun_;
+  // Buffers that are used within one update().
+  bool renumbered_ = false;            // whether the structure has changed
+  std::vector<On> carried_over_;       // only if renumbered_: on_ with the body indices of this tick
+  std::vector<std::uint32_t> before_;  // for each present body: its previous index
+  std::vector<std::uint32_t> after_;   // for each previous body: its present index
+  std::vector<PairEvent> begun_;       // the BEGIN events of this tick
 };
 
 }  // namespace hgrid

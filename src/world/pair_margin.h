@@ -8,7 +8,7 @@
 
 namespace hgrid {
 
-/// How stale a body is, as far as margins are concerned.
+/// The data of a body that determines how much the margins of its pairs grow.
 struct Staleness {
   double growth = 0.0;  ///< [m]
   std::uint32_t cohort = 0;
@@ -16,13 +16,14 @@ struct Staleness {
 
 inline Staleness stalenessOf(const BodyPose& pose) { return {pose.growth, pose.cohort}; }
 
-/// [m] margin of a pair of bodies that are not stale.
+/// Returns the margin [m] of a pair of bodies that are not stale.
 inline double toldMargin(const Structure& structure, std::uint32_t first, std::uint32_t second) {
   if (const auto own = structure.pair_margins.of(first, second)) return std::max(structure.least_margin, *own);
   return std::max(structure.margin[first], structure.margin[second]);
 }
 
-/// Whether two bodies are links of one robot that are equally old: they have not moved against each other.
+/// Returns whether two bodies are links of one robot with poses of the same age. Then their relative pose is correct
+/// even if the poses are old.
 inline bool movedTogether(const Structure& structure, std::uint32_t first, std::uint32_t cohort_of_first,
                           std::uint32_t second, std::uint32_t cohort_of_second) {
   if (cohort_of_first == 0 || cohort_of_first != cohort_of_second) return false;
@@ -30,13 +31,13 @@ inline bool movedTogether(const Structure& structure, std::uint32_t first, std::
   return !robot_a.empty() && robot_a == robot_b;
 }
 
-/// [m] By how much that margin is wider since the bodies are stale.
+/// Returns by how much [m] the margin of a pair grows because its bodies are stale.
 inline double widening(const Structure& structure, std::uint32_t first, Staleness a, std::uint32_t second,
                        Staleness b) {
   return movedTogether(structure, first, a.cohort, second, b.cohort) ? 0.0 : a.growth + b.growth;
 }
 
-/// [m] the margin with what it is wider.
+/// Returns the margin [m] of a pair, including its growth.
 inline double pairMargin(const Structure& structure, std::uint32_t first, Staleness a, std::uint32_t second,
                          Staleness b) {
   return toldMargin(structure, first, second) + widening(structure, first, a, second, b);

@@ -13,7 +13,7 @@ namespace hgrid {
 namespace {
 
 constexpr double kLargestMargin = 1e3;  // [m]
-constexpr double kFarthestShape = 1e6;  // [m] from its body's origin, and of a body from the world's
+constexpr double kFarthestShape = 1e6;  // [m] of a shape from the origin of its body, or of a body from the world's
 
 void checkLength(double value, double limit, const std::string& what) {
   if (!(value >= 0.0 && value <= limit)) {
@@ -24,7 +24,7 @@ void checkLength(double value, double limit, const std::string& what) {
 void checkBody(const Body& body) {
   const std::size_t slash = body.name.find('/');
   if (slash == std::string::npos) {
-    throw Refusal(Code::bad_id, "body name is '" + printable(body.name) + "'; it must be source/local");
+    throw Refusal(Code::bad_id, "body name is '" + printable(body.name) + "'; it must have the form source/local");
   }
   checkSource(body.name.substr(0, slash), "source of body '" + printable(body.name) + "'");
   checkLocal(body.name.substr(slash + 1), "local name of body '" + printable(body.name) + "'");
@@ -34,13 +34,14 @@ void checkBody(const Body& body) {
                   "max_speed of body '" + body.name + "' is " + text(body.max_speed) + " m/s; it must not be negative");
   }
   if (body.links && body.link >= body.links->size()) {
-    throw Refusal(Code::out_of_range, "body '" + body.name + "' is link " + std::to_string(body.link) +
-                                          " of a robot that has " + std::to_string(body.links->size()));
+    throw Refusal(Code::out_of_range, "link index of body '" + body.name + "' is " + std::to_string(body.link) +
+                                          "; it must be smaller than the number of links of the robot, " +
+                                          std::to_string(body.links->size()));
   }
   for (const BodyShape& shape : body.shapes) {
     const std::string what = "pose of a shape of body '" + body.name + "'";
     if (!shape.body_from_shape.matrix().allFinite()) {
-      throw Refusal(Code::nonfinite, what + " is not finite; every number must be");
+      throw Refusal(Code::nonfinite, what + " is not finite; every number in it must be finite");
     }
     checkWithin(shape.body_from_shape.translation(), kFarthestShape, what);
     checkLength(shape.padding, kLargestMargin, "padding of a shape of body '" + body.name + "'");
@@ -56,8 +57,8 @@ const char* name(Freshness state) {
 
 Scene::State::Slot& Scene::State::at(BodyId id) {
   if (id.slot >= slots.size() || !slots[id.slot].used || slots[id.slot].generation != id.generation) {
-    throw Refusal(Code::unknown_id, "body handle " + std::to_string(id.slot) + " (use " +
-                                        std::to_string(id.generation) + ") is not valid any more");
+    throw Refusal(Code::unknown_id, "body handle " + std::to_string(id.slot) + " (generation " +
+                                        std::to_string(id.generation) + ") is not valid; its body was removed");
   }
   return slots[id.slot];
 }
@@ -83,7 +84,8 @@ Scene::Scene(const SceneOptions& options) : state_(std::make_unique<State>(optio
 Scene::~Scene() = default;
 Scene::Scene(Scene&&) noexcept = default;
 
-/// Slots of the bodies that leave, ascending. @throws Refusal unknown_id, dup_id (a body is named twice)
+/// Returns the slots of the bodies to be removed, ascending.
+/// @throws Refusal unknown_id; dup_id if a body occurs twice
 std::vector<std::uint32_t> Scene::State::checkedSlots(const std::vector<BodyId>& out) {
   std::vector<std::uint32_t> leaving;
   for (const BodyId id : out) {
@@ -93,12 +95,12 @@ std::vector<std::uint32_t> Scene::State::checkedSlots(const std::vector<BodyId>&
   std::sort(leaving.begin(), leaving.end());
   const auto twice = std::adjacent_find(leaving.begin(), leaving.end());
   if (twice != leaving.end()) {
-    throw Refusal(Code::dup_id, "body '" + bodies[*twice].name + "' is to be removed twice; name it once");
+    throw Refusal(Code::dup_id, "body '" + bodies[*twice].name + "' is to be removed twice; list it only once");
   }
   return leaving;
 }
 
-/// Checks the bodies that come, and whether there is room for them and for their names.
+/// Checks the bodies to be added, their names, and whether there is room for them.
 void Scene::State::checkIn(const std::vector<std::uint32_t>& leaving, const std::vector<Body>& in) const {
   std::size_t count = slot_of_name.size() - leaving.size();
   std::set<std::string> names;
@@ -108,16 +110,16 @@ void Scene::State::checkIn(const std::vector<std::uint32_t>& leaving, const std:
     const bool stays =
         known != slot_of_name.end() && !std::binary_search(leaving.begin(), leaving.end(), known->second);
     if (stays || !names.insert(body.name).second) {
-      throw Refusal(Code::dup_id, "body '" + body.name + "' is there already");
+      throw Refusal(Code::dup_id, "there is already a body '" + body.name + "'; every body must have its own name");
     }
     if (count++ >= options.max_bodies) {
-      throw Refusal(Code::limit, "body '" + body.name + "' would be one more than max_bodies, which is " +
-                                     std::to_string(options.max_bodies));
+      throw Refusal(Code::limit, "there is no room for body '" + body.name + "'; the world may have at most " +
+                                     std::to_string(options.max_bodies) + " bodies (max_bodies)");
     }
   }
 }
 
-/// Slots for bodies that come: those of the bodies that leave, then free ones, then new ones.
+/// Returns slots for the bodies to be added: first those of the bodies to be removed, then free ones, then new ones.
 std::vector<std::uint32_t> Scene::State::slotsFor(const std::vector<BodyId>& out, std::size_t count) const {
   std::vector<std::uint32_t> numbers;
   for (auto id = out.rbegin(); id != out.rend() && numbers.size() < count; ++id) numbers.push_back(id->slot);
@@ -172,7 +174,7 @@ std::vector<BodyId> Scene::exchange(const std::vector<BodyId>& out, std::vector<
   std::vector<BodyId> ids(in.size());
   const std::size_t last = numbers.empty() ? 0 : *std::max_element(numbers.begin(), numbers.end()) + std::size_t{1};
   s.reserveSlots(std::max(s.slots.size(), last));
-  // Nothing below allocates.
+  // The code below allocates no memory, so it cannot fail.
   for (const BodyId id : out) s.takeOut(id.slot);
   s.slot_of_name.merge(names);
   for (std::size_t i = 0; i < in.size(); ++i) {
@@ -208,11 +210,12 @@ const BodyPose& Scene::poseOf(BodyId id) const { return state_->at(id).pose; }
 void Scene::checkPlace(BodyId id, const Pose& world_from_body) const {
   state_->at(id);
   if (!world_from_body.matrix().allFinite()) {
-    throw Refusal(Code::nonfinite,
-                  "pose of body '" + state_->bodies[id.slot].name + "' is not finite; every number must be");
+    throw Refusal(Code::nonfinite, "pose of body '" + state_->bodies[id.slot].name +
+                                       "' is not finite; every number in it must be finite");
   }
   const double limit = state_->options.world_limit;
-  if (!(world_from_body.translation().cwiseAbs().maxCoeff() <= limit)) {  // only then make the words for it
+  // A quick check first, because it takes time to build the text below.
+  if (!(world_from_body.translation().cwiseAbs().maxCoeff() <= limit)) {
     checkWithin(world_from_body.translation(), limit, "pose of body '" + state_->bodies[id.slot].name + "'");
   }
 }
@@ -223,7 +226,7 @@ void Scene::place(BodyId id, const Pose& world_from_body, Time stamp) {
   const bool first = slot.pose.state == Freshness::unplaced;
   slot.changed = state_->commits + 1;
   slot.pose.stamp = stamp;
-  if (!first && slot.pose.world_from_body.matrix() == world_from_body.matrix()) return;  // never a tolerance
+  if (!first && slot.pose.world_from_body.matrix() == world_from_body.matrix()) return;  // no tolerance
   slot.pose.world_from_body = world_from_body;
   if (first) slot.pose.state = Freshness::fresh;
   slot.moved = true;
@@ -234,7 +237,7 @@ void Scene::setState(BodyId id, Freshness state, double age, std::uint32_t cohor
   BodyPose& pose = slot.pose;
   if (pose.state == Freshness::unplaced) return;
   slot.changed = state_->commits + 1;
-  pose.state = state == Freshness::unplaced ? Freshness::invalid : state;  // what had a pose keeps it
+  pose.state = state == Freshness::unplaced ? Freshness::invalid : state;  // a placed body stays placed
   pose.age = slot.fixed ? 0.0 : age;
   pose.cohort = cohort;
 }

@@ -19,16 +19,16 @@
 
 namespace hgrid {
 
-/// What a Scene holds: the bodies as they were told, and what making a snapshot of them keeps from tick to tick.
+/// The data of a Scene: the bodies, and the data that commits keep from tick to tick.
 struct Scene::State {
-  /// What a tick reads and writes of a body; the rest stands apart in `bodies`, so that a tick runs through little
+  /// The part of a body that every tick reads and writes. The rest is in `bodies`, so that a tick accesses little
   /// memory.
   struct Slot {
     bool used = false;
     bool fixed = false;
-    bool moved = false;  // since the last commit; its boxes are not those of its pose
+    bool moved = false;  // whether its boxes must be computed again, because it moved since the last commit
     std::uint32_t generation = 0;
-    std::uint64_t changed = 0;  // number of the first commit that has its pose as it is
+    std::uint64_t changed = 0;  // number of the first commit with the present `pose`
     BodyPose pose;
   };
   struct ShapeInBody {
@@ -37,7 +37,7 @@ struct Scene::State {
     double padding;
   };
 
-  /// What a grown box was made of.
+  /// The box and the length from which a grown box was computed.
   struct GrownFrom {
     Aabb box;
     double by = -1.0;  // [m]
@@ -50,7 +50,7 @@ struct Scene::State {
         tracker(limits.remembered),
         pair_events(scene_options.event_hysteresis, limits.remembered) {}
 
-  // scene.cpp: the bodies as they were told.
+  // scene.cpp: the bodies.
 
   /// @throws Refusal unknown_id
   Slot& at(BodyId id);
@@ -58,10 +58,10 @@ struct Scene::State {
   SceneOptions options;
   PairLimits limits;
   std::vector<Slot> slots;
-  std::vector<Body> bodies;                            // by slot
-  std::vector<std::shared_ptr<const MapCells>> cells;  // by slot; of maps, else null
-  std::vector<std::uint32_t> free_slots;               // has room for all slots
-  std::map<std::string, std::uint32_t> slot_of_name;   // ordered: the structure is sorted by name
+  std::vector<Body> bodies;                            // indexed by slot
+  std::vector<std::shared_ptr<const MapCells>> cells;  // indexed by slot; null if the body is no map or cloud
+  std::vector<std::uint32_t> free_slots;               // its capacity is enough for all slots
+  std::map<std::string, std::uint32_t> slot_of_name;   // sorted by name, as the bodies of the structure are
   bool structure_changed = true;
   std::uint64_t sequence = 0, epoch = 0, commits = 0;
 
@@ -72,8 +72,9 @@ struct Scene::State {
   void takeOut(std::uint32_t slot);
   void putIn(std::uint32_t slot, Body&& body);
 
-  // commit.cpp: the making of a snapshot. Until accept(), which cannot fail, each step either writes what it would
-  // write again, or writes beside what the last commit left. So a commit that throws leaves no trace in the next one.
+  // commit.cpp: makes a snapshot. Before accept(), which cannot fail, a step does not overwrite results of the last
+  // commit. It writes to separate members, or it writes what the next commit would write as well. So a commit that
+  // throws has no effect on the next one.
 
   void rebuildStructure();
   void accept(const std::shared_ptr<PooledSnapshot>& accepted);
@@ -86,16 +87,16 @@ struct Scene::State {
   void addPair(std::uint32_t first, std::uint32_t second, double gap, double margin, bool near);
   bool isCandidate(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second);
 
-  // completeness.cpp: which sources are complete.
+  // completeness.cpp: decides which sources are complete.
 
   void fillSources(Structure& structure) const;
   void fillCompleteness(Snapshot& snapshot, const std::vector<SourceGap>& gaps) const;
   void fillDoubtful(Snapshot& snapshot) const;
 
   std::shared_ptr<const Structure> structure = std::make_shared<Structure>();
-  std::vector<std::uint32_t> uncovered;  // bodies of the structure that leave a gap wherever they are
-  std::vector<ShapeInBody> shapes;       // by proxy of the structure
-  std::shared_ptr<const Snapshot> last;  // of the last commit; null before the first one
+  std::vector<std::uint32_t> uncovered;  // bodies of the structure that are neither covered nor waived, ascending
+  std::vector<ShapeInBody> shapes;       // indexed by the proxies of the structure
+  std::shared_ptr<const Snapshot> last;  // snapshot of the last commit; null before the first one
   GridScale scale;
   std::vector<ProxyId> fixed_proxies;
   Horizon horizon;
@@ -105,11 +106,11 @@ struct Scene::State {
   TickTimes times;
   std::shared_ptr<SnapshotPool> pool = std::make_shared<SnapshotPool>();
 
-  // Scratch of a tick, kept to save allocations.
-  std::vector<std::uint32_t> boxed;   // slots whose boxes were made in this commit
-  std::vector<ProxyId> ids;           // placed proxies; the next two arrays are in their order
-  std::vector<Aabb> grown_boxes;      // what the grid stores
-  std::vector<GrownFrom> grown_from;  // what these were made of
+  // Buffers of a commit. They are members so that the next commit need not allocate them again.
+  std::vector<std::uint32_t> boxed;   // slots whose boxes were computed in this commit
+  std::vector<ProxyId> ids;           // placed proxies; the next two arrays are in the same order
+  std::vector<Aabb> grown_boxes;      // the boxes that the grid stores
+  std::vector<GrownFrom> grown_from;  // for each grown box: what it was computed from
   std::vector<ProxyPair> proxy_pairs;
   PairChoice choice;
 };

@@ -13,18 +13,18 @@
 
 namespace hgrid {
 
-/// A snapshot together with the grid that it reads. Only Scene writes them, before it hands out the snapshot.
+/// A snapshot together with the grid that it refers to. Only Scene writes them, before it hands out the snapshot.
 struct PooledSnapshot {
   PooledSnapshot() { snapshot.broad_phase_ = &grid; }
 
   Snapshot snapshot;
   HGrid grid;
-  std::uint64_t grid_revision = 0;  ///< of the structure that `grid` was set up for
-  bool finished = false;            ///< false while a commit fills it, and after one that failed: it is not used again
+  std::uint64_t grid_revision = 0;  ///< revision of the structure that `grid` was set up for
+  bool finished = false;            ///< whether a commit has filled it; if a commit failed, it is not used again
 };
 
-/// Keeps the snapshots that nobody reads any more, so that the next ticks fill them again without allocating. Also
-/// keeps the memory blocks of the shared pointers to them. The lock is held only for a push or a pop.
+/// Keeps the snapshots that nobody reads any more, so that later ticks can fill them again without allocating memory.
+/// Also keeps the memory blocks of the shared pointers to them. Thread-safe: each call holds a lock for a short time.
 class SnapshotPool {
  public:
   SnapshotPool() {
@@ -49,7 +49,7 @@ class SnapshotPool {
     if (free_.size() < kMostKept) free_.push_back(std::move(snapshot));
   }
 
-  /// Memory for what a shared pointer keeps beside its snapshot; always of one size.
+  /// Returns memory for the control block of a shared pointer to a snapshot. `size` is the same in every call.
   void* takeBlock(std::size_t size) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (free_blocks_.empty()) return ::operator new(size);
@@ -73,7 +73,7 @@ class SnapshotPool {
   std::vector<void*> free_blocks_;
 };
 
-/// Lets a shared pointer take its memory from the pool.
+/// An allocator that takes the control block of a shared pointer from the pool.
 template <class T>
 struct PoolAllocator {
   using value_type = T;

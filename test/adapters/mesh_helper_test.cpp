@@ -119,7 +119,7 @@ TEST_F(MeshHelper, AHangEndsWhenTheReadingIsCancelled) {
   policy.cancelled = [&] { return ++asked == 3; };
   MeshLoader loader(policy);
   EXPECT_EQ(refusalOf([&] { loader.load(kCorner, {1, 1, 1}); }, &sentence_), Code::busy);
-  EXPECT_TRUE(says(sentence_, "was cancelled"));
+  EXPECT_TRUE(says(sentence_, "was canceled"));
   EXPECT_EQ(asked, 3);
 }
 

@@ -16,7 +16,7 @@ class HumanoidGroups : public ::testing::Test {
   std::uint32_t groupOf(const std::string& link) const {
     return model_.links.at(std::size_t(model_.find(link))).rigid_group;
   }
-  /// Both ways round, which must agree.
+  /// Returns the joints between the groups of two links. Checks that the order of the two links does not matter.
   Names jointsBetween(const std::string& first, const std::string& second) const {
     const Names joints = groups_.jointsBetween(groupOf(first), groupOf(second));
     EXPECT_EQ(groups_.jointsBetween(groupOf(second), groupOf(first)), joints);
@@ -37,11 +37,12 @@ TEST_F(HumanoidGroups, AdjacentGroupsNameTheJointsBetweenThemFromTheUpperOneDown
 }
 
 TEST_F(HumanoidGroups, OtherGroupsHaveNoJointsBetweenThem) {
-  EXPECT_EQ(jointsBetween("torso", "head"), Names()) << "the joints of the neck are 6 cm apart";
+  EXPECT_EQ(jointsBetween("torso", "head"), Names())
+      << "the joints of the neck are 6 cm apart, so they are not one joint";
   EXPECT_EQ(jointsBetween("torso", "left_forearm"), Names()) << "the upper arm is between them";
   EXPECT_EQ(jointsBetween("left_hand", "right_hand"), Names());
   EXPECT_EQ(jointsBetween("left_shoulder_swing", "right_shoulder_swing"), Names());
-  EXPECT_EQ(jointsBetween("torso", "torso_shape"), Names()) << "one group";
+  EXPECT_EQ(jointsBetween("torso", "torso_shape"), Names()) << "both links are in one group";
 }
 
 TEST_F(HumanoidGroups, TheAdjacentGroupsAboveAreListedFromTheNearest) {
@@ -49,7 +50,7 @@ TEST_F(HumanoidGroups, TheAdjacentGroupsAboveAreListedFromTheNearest) {
       groups_.adjacentAbove(groupOf("left_upper_arm")),
       std::vector<std::uint32_t>({groupOf("left_shoulder_lift"), groupOf("left_shoulder_swing"), groupOf("torso")}));
   EXPECT_EQ(groups_.adjacentAbove(groupOf("head")), std::vector<std::uint32_t>({groupOf("neck")}));
-  EXPECT_TRUE(groups_.adjacentAbove(groupOf("pelvis")).empty()) << "the root";
+  EXPECT_TRUE(groups_.adjacentAbove(groupOf("pelvis")).empty()) << "nothing is above the root group";
   EXPECT_EQ(groups_.size(), 17u);
 }
 

@@ -18,7 +18,7 @@ using test::matrixOf;
 using test::Random;
 using test::says;
 
-/// base - shoulder - elbow - wrist, with geometry all along.
+/// Returns the chain base - shoulder - elbow - wrist. All its links have geometry.
 RobotModel arm() {
   RobotModel model;
   model.name = "arm";
@@ -40,7 +40,7 @@ TEST(LinkMatrix, LinksJoinedByAJointMayTouchAndOthersMayNot) {
   }
 }
 
-/// Names of the pairs of links with geometry that have this origin.
+/// Returns the names of all pairs with this origin, among the links that have geometry.
 std::set<std::pair<std::string, std::string>> pairsOf(const RobotModel& model, Origin origin) {
   const LinkMatrix matrix = matrixOf(model);
   std::set<std::pair<std::string, std::string>> pairs;
@@ -63,10 +63,11 @@ TEST(LinkMatrix, AHumanoidWithShapesOnLeafLinksHasOnlyThePairsOfItsOneJointsOff)
                                                                   {"right_forearm_shape", "right_hand_shape"}};
   const RobotModel model = test::humanoid();
   EXPECT_EQ(pairsOf(model, Origin::adjacent), adjacent);
-  EXPECT_EQ(pairsOf(model, Origin::none).size(), 36u - adjacent.size()) << "of 9 links with geometry";
+  EXPECT_EQ(pairsOf(model, Origin::none).size(), 36u - adjacent.size()) << "9 links with geometry make 36 pairs";
 }
 
-/// a and b, connected by the joints of a chain of links without geometry; each joint at its offset from the one before.
+/// Returns two links a and b, connected by a chain of links without geometry. The origin of each joint in the chain has
+/// the given offset [m] from the one before.
 RobotModel chain(const std::vector<double>& offsets) {
   RobotModel model;
   int link = addLink(model, "empty", addLink(model, "a", -1), JointKind::revolute, false);
@@ -87,8 +88,8 @@ TEST(LinkMatrix, SeveralJointsInOnePlaceAreOneJointAndOthersAreNot) {
   };
   EXPECT_EQ(ends({0.0}), Origin::adjacent) << "a universal joint written as two joints";
   EXPECT_EQ(ends({0.0, 0.0}), Origin::adjacent) << "a spherical joint written as three joints";
-  EXPECT_EQ(ends({0.01}), Origin::adjacent) << "at most 1 cm apart";
-  EXPECT_EQ(ends({0.01, -0.01, 0.01}), Origin::adjacent) << "each from the one before";
+  EXPECT_EQ(ends({0.01}), Origin::adjacent) << "joints 1 cm apart still count as one joint";
+  EXPECT_EQ(ends({0.01, -0.01, 0.01}), Origin::adjacent) << "each joint must be compared with the one before";
   EXPECT_EQ(ends({0.0101}), Origin::none);
   EXPECT_EQ(ends({0.0, 0.0101}), Origin::none);
   EXPECT_EQ(ends({0.0101, 0.0}), Origin::none);
@@ -122,7 +123,7 @@ TEST(LinkMatrix, GeometryAnywhereInAGroupBetweenEndsTheChain) {
   RobotModel model = chain({0.0});
   const auto b = std::uint32_t(model.find("b"));
   EXPECT_EQ(matrixOf(model).origin(0, b), Origin::adjacent);
-  addLink(model, "sensor", 1, JointKind::fixed);  // on the link "empty"
+  addLink(model, "sensor", 1, JointKind::fixed);  // mounted on the link "empty"
   findRigidGroups(model);
   const LinkMatrix matrix = matrixOf(model);
   const auto sensor = std::uint32_t(model.find("sensor"));
@@ -136,7 +137,8 @@ TEST(LinkMatrix, GroupsOnDifferentBranchesAreNeverAdjacent) {
   const int hub = addLink(model, "hub", -1, JointKind::fixed, false);
   const auto left = std::uint32_t(addLink(model, "left", hub)), right = std::uint32_t(addLink(model, "right", hub));
   findRigidGroups(model);
-  EXPECT_EQ(matrixOf(model).origin(left, right), Origin::none) << "though both joints are in one place";
+  EXPECT_EQ(matrixOf(model).origin(left, right), Origin::none)
+      << "even joints at the same place must not make different branches adjacent";
   EXPECT_EQ(matrixOf(model).origin(std::uint32_t(hub), right), Origin::adjacent);
 }
 
@@ -167,7 +169,7 @@ TEST(LinkMatrix, SrdfTagsDoWhatTheySay) {
   LinkRules rules;
   rules.disabled = {{"base", "wrist", "Never"}};
   EXPECT_EQ(matrixOf(arm(), rules).origin(0, 3), Origin::srdf);
-  EXPECT_EQ(matrixOf(arm(), rules).origin(3, 0), Origin::srdf) << "both orders";
+  EXPECT_EQ(matrixOf(arm(), rules).origin(3, 0), Origin::srdf) << "the order of the two links must not matter";
   EXPECT_EQ(matrixOf(arm(), rules).origin(0, 2), Origin::none);
 
   rules = {};
@@ -186,18 +188,18 @@ TEST(LinkMatrix, SrdfTagsDoWhatTheySay) {
 
 TEST(LinkMatrix, AnExplicitDisableBeatsAnEnableBeatsTheDefaults) {
   RobotModel model = arm();
-  model.links[1].joint_kind = JointKind::fixed;  // base and shoulder are one
+  model.links[1].joint_kind = JointKind::fixed;  // base and shoulder form one rigid group
   findRigidGroups(model);
   LinkRules rules;
   rules.disabled_default = {"wrist"};
   rules.enabled = {{"wrist", "base", ""}, {"base", "shoulder", ""}, {"elbow", "wrist", ""}, {"base", "elbow", ""}};
   rules.disabled = {{"elbow", "base", ""}};
   const LinkMatrix matrix = matrixOf(model, rules);
-  EXPECT_EQ(matrix.origin(0, 3), Origin::none) << "enable beats the default of the wrist";
-  EXPECT_EQ(matrix.origin(0, 1), Origin::none) << "enable beats the rigid group";
-  EXPECT_EQ(matrix.origin(2, 3), Origin::none) << "enable beats adjacency";
-  EXPECT_EQ(matrix.origin(1, 3), Origin::srdf) << "the default holds for the others";
-  EXPECT_EQ(matrix.origin(0, 2), Origin::srdf) << "disable beats enable";
+  EXPECT_EQ(matrix.origin(0, 3), Origin::none) << "enable must take precedence over the default disable of the wrist";
+  EXPECT_EQ(matrix.origin(0, 1), Origin::none) << "enable must take precedence over the rigid group";
+  EXPECT_EQ(matrix.origin(2, 3), Origin::none) << "enable must take precedence over adjacency";
+  EXPECT_EQ(matrix.origin(1, 3), Origin::srdf) << "the default disable must apply to the other links";
+  EXPECT_EQ(matrix.origin(0, 2), Origin::srdf) << "disable must take precedence over enable";
 }
 
 TEST(LinkMatrix, KeepsWhatTheSrdfSaysOfAPairAndWhy) {
@@ -210,11 +212,11 @@ TEST(LinkMatrix, KeepsWhatTheSrdfSaysOfAPairAndWhy) {
     const auto tag = [&](std::uint32_t i, std::uint32_t j) { return swapped ? matrix.tag(j, i) : matrix.tag(i, j); };
     ASSERT_NE(tag(0, 2), nullptr);
     EXPECT_TRUE(tag(0, 2)->disabled);
-    EXPECT_EQ(tag(0, 2)->reason, "Never, really") << "of the last one";
+    EXPECT_EQ(tag(0, 2)->reason, "Never, really") << "the last of several tags must count";
     ASSERT_NE(tag(0, 3), nullptr);
     EXPECT_FALSE(tag(0, 3)->disabled);
     EXPECT_EQ(tag(0, 3)->reason, "watch it");
-    EXPECT_EQ(tag(1, 3), nullptr) << "a default is of no pair";
+    EXPECT_EQ(tag(1, 3), nullptr) << "a default disable is not a tag of a pair";
     EXPECT_EQ(tag(0, 1), nullptr);
     EXPECT_EQ(tag(2, 2), nullptr);
   }
@@ -245,7 +247,7 @@ TEST(LinkMatrix, RulesForUnknownLinksWarnAndDoNothing) {
   for (const char* word : {"tail", "horn", "wing\\x0a", "fin"}) EXPECT_TRUE(says(all, word));
 }
 
-/// Adjacency as the rule reads, without groups: the joints on the way from one link to another decide.
+/// Implements the definition of adjacency directly, without rigid groups: it looks at the joints between two links.
 class AdjacencyOracle {
  public:
   explicit AdjacencyOracle(const RobotModel& model) : model_(model) {
@@ -261,7 +263,7 @@ class AdjacencyOracle {
  private:
   const RobotLink& link(int index) const { return model_.links[std::size_t(index)]; }
   bool moves(int index) const { return link(index).parent >= 0 && link(index).joint_kind != JointKind::fixed; }
-  /// The link of the group that is nearest to the root.
+  /// Returns the link of a link's rigid group that is nearest to the root.
   int topOf(int index) const {
     while (link(index).parent >= 0 && !moves(index)) index = link(index).parent;
     return index;
@@ -272,11 +274,12 @@ class AdjacencyOracle {
     }
     return false;
   }
-  /// Whether one moving joint, or several in one place with nothing between them, lead from `upper` down to `lower`.
+  /// Returns whether a chain leads from `upper` down to `lower`: one moving joint, or several at one place without
+  /// geometry between them.
   bool isChain(int upper, int lower) const {
     std::vector<int> tops = {topOf(lower)};
     while (tops.back() != topOf(upper)) {
-      if (link(tops.back()).parent < 0) return false;  // `upper` is on another branch, or below
+      if (link(tops.back()).parent < 0) return false;  // `upper` is on another branch or below `lower`
       tops.push_back(topOf(link(tops.back()).parent));
     }
     for (std::size_t i = 1; i + 1 < tops.size(); ++i) {
@@ -288,7 +291,7 @@ class AdjacencyOracle {
   }
 
   const RobotModel& model_;
-  std::vector<Pose> root_from_link_;  // all joints at 0
+  std::vector<Pose> root_from_link_;  // poses with all joints at 0
 };
 
 TEST(LinkMatrix, IsRightAndSymmetricForAnyTree) {
@@ -299,7 +302,8 @@ TEST(LinkMatrix, IsRightAndSymmetricForAnyTree) {
     RobotModel model = test::randomModel(random, random.between(1, 20));
     const double crowding = random.uniform(0, 1);
     for (RobotLink& link : model.links) {
-      if (random.chance(crowding)) link.parent_from_joint.translation() *= 0.02;  // about as often beyond 1 cm as not
+      // Shrinks many joint offsets, about half of them to less than 1 cm.
+      if (random.chance(crowding)) link.parent_from_joint.translation() *= 0.02;
       link.has_collision = link.has_collision && random.chance(0.6);
     }
     findRigidGroups(model);

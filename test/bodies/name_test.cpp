@@ -32,11 +32,11 @@ TEST(Name, RefusesWhatIsEmptyTooLongOrNoText) {
                              "\t",
                              "\x7f",
                              "\xff",
-                             "\xc0\xaf" /* overlong */,
-                             "\xe2\x82" /* cut */,
+                             "\xc0\xaf" /* overlong encoding */,
+                             "\xe2\x82" /* incomplete character */,
                              "\xed\xa0\x80" /* surrogate */,
                              "\xf4\x90\x80\x80",
-                             "\xc2\x85" /* C1 control */,
+                             "\xc2\x85" /* C1 control character */,
                              "\x80",
                              "ok\xfe",
                              "\xf8\x88\x80\x80\x80"};
@@ -52,7 +52,7 @@ TEST(Name, RefusesWhatIsEmptyTooLongOrNoText) {
 
 TEST(Name, CountsBytesNotCharacters) {
   std::string name;
-  for (int i = 0; i < 42; ++i) name += "€";  // three bytes each
+  for (int i = 0; i < 42; ++i) name += "€";  // this character has three bytes
   EXPECT_EQ(refusalOf([&] { checkLocal(name + "ab", "name"); }), Code::ok);
   EXPECT_EQ(refusalOf([&] { checkLocal(name + "abc", "name"); }), Code::bad_id);
 }
@@ -73,17 +73,17 @@ TEST(Glob, MatchesTheWholeName) {
   EXPECT_TRUE(matches("", ""));
   EXPECT_FALSE(matches("", "a"));
   EXPECT_TRUE(matches("*/*0", "robot/tool0"));
-  EXPECT_TRUE(matches("rob*0", "robot/tool0")) << "a star covers slashes too";
+  EXPECT_TRUE(matches("rob*0", "robot/tool0")) << "a star must match slashes too";
   EXPECT_TRUE(matches("robot/tool?", "robot/tool0"));
   EXPECT_FALSE(matches("robot/tool0?", "robot/tool0"));
   EXPECT_TRUE(matches("**a**", "xay"));
   EXPECT_FALSE(matches("*b", "abc"));
   EXPECT_TRUE(matches("*ab", "aab"));
-  EXPECT_TRUE(matches("[a]", "[a]")) << "no classes";
+  EXPECT_TRUE(matches("[a]", "[a]")) << "brackets must have no special meaning";
   EXPECT_FALSE(matches("[a]", "a"));
 }
 
-/// The definition, letter by letter.
+/// Implements the definition of a glob match directly, letter by letter.
 bool matchesByDefinition(const std::string& glob, const std::string& name) {
   if (glob.empty()) return name.empty();
   if (glob[0] == '*') {
@@ -113,7 +113,7 @@ TEST(Glob, APatternOfManyStarsIsNoTrap) {
   std::string glob, name(100000, 'a');
   for (int i = 0; i < 60; ++i) glob += "*a";
   EXPECT_TRUE(matches(glob, name));
-  EXPECT_FALSE(matches(glob + "*b", name));  // exponential for the naive
+  EXPECT_FALSE(matches(glob + "*b", name));  // a naive implementation takes exponential time
 }
 
 TEST(Glob, AnyOfNoneIsNone) {
@@ -122,7 +122,7 @@ TEST(Glob, AnyOfNoneIsNone) {
   EXPECT_FALSE(matchesAny({"b", "c"}, "a"));
 }
 
-/// Every word of at most `longest` letters of the alphabet.
+/// Returns every word of at most `longest` letters of the alphabet.
 std::vector<std::string> wordsOf(const std::string& alphabet, std::size_t longest) {
   std::vector<std::string> words{""};
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -133,7 +133,7 @@ std::vector<std::string> wordsOf(const std::string& alphabet, std::size_t longes
 }
 
 TEST(Name, TwoGlobsMatchTogetherExactlyIfSomeNameMatchesBoth) {
-  const std::vector<std::string> names = wordsOf("ab", 6);  // two globs of 3 letters need no longer name
+  const std::vector<std::string> names = wordsOf("ab", 6);  // long enough to try all cases of two globs with 3 letters
   const std::vector<std::string> globs = wordsOf("ab?*", 3);
   for (const std::string& first : globs) {
     for (const std::string& second : globs) {

@@ -29,8 +29,8 @@ TEST(RigidGroups, AreTheLinksJoinedByFixedJoints) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     RobotModel model = test::randomModel(random, random.between(1, 30));
-    findRigidGroups(model);  // twice is as good as once
-    // The pose of every link in the root with all joints at 0, and the top of its run of fixed joints.
+    findRigidGroups(model);  // a second call must not change the result
+    // For every link: its pose in the root frame with all joints at 0, and the topmost link of its rigid group.
     std::vector<Pose> root_from_link;
     std::vector<std::uint32_t> top;
     for (std::uint32_t i = 0; i < model.links.size(); ++i) {
@@ -50,7 +50,7 @@ TEST(RigidGroups, AreTheLinksJoinedByFixedJoints) {
   }
 }
 
-/// One joint of the kind, with a ball of 0.1 m half a metre from it.
+/// Returns a robot with one joint of this kind and a sphere of radius 0.1 m, which is 0.5 m from the joint.
 RobotModel pendulum(JointKind kind) {
   RobotModel model;
   addLink(model, "base", -1);
@@ -67,10 +67,10 @@ TEST(SpeedBound, OfOneJointIsTight) {
   EXPECT_DOUBLE_EQ(speedBound(pendulum(JointKind::revolute), 1), 2.0 * 0.6);
   EXPECT_DOUBLE_EQ(speedBound(pendulum(JointKind::prismatic), 1), 2.0);
   EXPECT_EQ(speedBound(pendulum(JointKind::fixed), 1), 0.0);
-  EXPECT_EQ(speedBound(pendulum(JointKind::revolute), 0), 0.0) << "the root stands still in its own frame";
+  EXPECT_EQ(speedBound(pendulum(JointKind::revolute), 0), 0.0) << "the root link does not move in its own frame";
   RobotModel padded = pendulum(JointKind::revolute);
   padded.links[1].shapes[0].padding = 0.25;
-  EXPECT_DOUBLE_EQ(speedBound(padded, 1), 2.0 * 0.85) << "padding counts everywhere";
+  EXPECT_DOUBLE_EQ(speedBound(padded, 1), 2.0 * 0.85) << "the bound must include the padding";
 }
 
 TEST(SpeedBound, IsInfiniteWhereAJointHasNoLimit) {
@@ -93,7 +93,7 @@ TEST(SpeedBound, ALinkWithoutShapesHasABoundThatIsANumber) {
   EXPECT_FALSE(std::isnan(speedBound(model, 1)));
 }
 
-// A slide without end stops may carry the link arbitrarily far from the joint that turns it.
+// A prismatic joint without limits can move the link arbitrarily far from the revolute joint that turns it.
 TEST(SpeedBound, IsInfiniteWhereAnEndlessSlideIsTurned) {
   RobotModel model = pendulum(JointKind::revolute);
   addLink(model, "slide", 1, JointKind::prismatic);
@@ -103,7 +103,8 @@ TEST(SpeedBound, IsInfiniteWhereAnEndlessSlideIsTurned) {
   EXPECT_LT(speedBound(model, 2), kInfinity);
 }
 
-/// Speeds of points of the shapes of the last link of a chain, its joints somewhere and moving somehow.
+/// Returns the largest speed [m/s] among points on the shapes of the last link of a chain, at random positions and
+/// velocities of the joints.
 double fastestPoint(const RobotModel& model, Random& random) {
   struct Turn {
     bool revolute;
@@ -116,7 +117,7 @@ double fastestPoint(const RobotModel& model, Random& random) {
     root_from_link = root_from_link * link.parent_from_joint;
     const bool revolute = link.joint_kind == JointKind::revolute;
     if (link.parent < 0 || link.joint_kind == JointKind::fixed) continue;
-    const bool at_end = random.chance(0.5);  // the fastest are at the ends
+    const bool at_end = random.chance(0.5);  // the largest speeds occur at the limits
     const double position =
         at_end ? (random.chance(0.5) ? link.lower : link.upper) : random.uniform(link.lower, link.upper);
     const double rate = random.chance(0.5) ? link.max_velocity : random.uniform(-1, 1) * link.max_velocity;
@@ -170,7 +171,7 @@ TEST(SpeedBound, NoPointOfAChainIsEverFaster) {
       if (bound > 0) closest = std::max(closest, fastest / bound);
     }
   }
-  EXPECT_GT(closest, 0.8) << "a bound, not a guess far above";
+  EXPECT_GT(closest, 0.8) << "the bound is far larger than the speeds that occur";
 }
 
 }  // namespace

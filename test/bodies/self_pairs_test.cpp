@@ -17,14 +17,14 @@ TEST(SelfPairs, AreCountedByOriginForLinksWithGeometry) {
   findRigidGroups(model);
   LinkRules rules;
   rules.disabled = {{"left_hand_shape", "right_hand_shape", "Never"}, {"pelvis_shape", "torso_shape", "Adjacent"}};
-  rules.disabled_default = {"neck"};  // has no geometry
+  rules.disabled_default = {"neck"};  // this link has no geometry, so the rule has no effect
   rules.enabled = {{"left_forearm_shape", "left_hand_shape", ""}};
   const SelfPairs counts = countSelfPairs(model, test::matrixOf(model, rules));
   EXPECT_EQ(counts.links, 10u);
   EXPECT_EQ(counts.pairs, 45u);
-  EXPECT_EQ(counts.rigid, 1u) << "badge and torso";
+  EXPECT_EQ(counts.rigid, 1u) << "the pair of badge and torso";
   EXPECT_EQ(counts.adjacent, 7u - 1u - 1u + 3u)
-      << "one pair is by SRDF, one enabled; the badge is in the torso's group";
+      << "an SRDF disables one of the 7 pairs and enables one; the badge in the torso's group adds 3";
   EXPECT_EQ(counts.srdf, 2u);
   EXPECT_FALSE(counts.allOff());
   EXPECT_EQ(text(counts), "11 of the 45 pairs of its 10 links with geometry are off (1 rigid, 8 adjacent, 2 by SRDF)");
@@ -40,7 +40,7 @@ TEST(SelfPairs, AllAreOffOnlyWhereThereArePairs) {
   EXPECT_TRUE(countSelfPairs(model, test::matrixOf(model)).allOff());
   addLink(model, "hand", 1);
   findRigidGroups(model);
-  EXPECT_FALSE(countSelfPairs(model, test::matrixOf(model)).allOff()) << "base and hand";
+  EXPECT_FALSE(countSelfPairs(model, test::matrixOf(model)).allOff()) << "the pair of base and hand is not off";
 }
 
 TEST(SelfPairs, VisualGeometryThatIsUsedCounts) {

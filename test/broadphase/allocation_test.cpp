@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// A program of its own, since it replaces operator new for all of it.
+// A separate test program, because it replaces operator new for the whole program.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -14,8 +14,8 @@
 
 namespace {
 std::atomic<std::size_t> allocations{0};
-std::atomic<std::size_t> fails_at{0};            // number of the allocation that finds no memory; 0: none
-std::atomic<std::size_t> held{0}, most_held{0};  // [bytes]
+std::atomic<std::size_t> fails_at{0};            // number of the allocation that throws bad_alloc; 0: none
+std::atomic<std::size_t> held{0}, most_held{0};  // [bytes] allocated memory: now, and at most so far
 
 void* counted(std::size_t size) {
   if (++allocations == fails_at) throw std::bad_alloc();
@@ -45,7 +45,7 @@ namespace {
 
 constexpr int kWarmUp = 70, kFrames = 130;
 
-/// Boxes on a hall's floor and shelves.
+/// Returns boxes of various sizes at random positions in a cube.
 std::vector<Aabb> hallOf(std::size_t count, test::Random& random) {
   std::vector<Aabb> boxes;
   const double half = 0.5 * std::cbrt(double(count));
@@ -56,14 +56,14 @@ std::vector<Aabb> hallOf(std::size_t count, test::Random& random) {
   return boxes;
 }
 
-/// One of `among` boxes moves: always the same ones, or each frame those whose turn it is.
+/// Selects the boxes that move: one of `among` boxes. These are always the same boxes, or others in each frame.
 struct Motion {
   const char* name;
   std::size_t among;
   bool in_turn;
 };
 
-/// Calls of operator new in `kFrames` frames after some to warm up.
+/// Returns the number of calls of operator new in `kFrames` frames, after `kWarmUp` frames that do not count.
 std::size_t allocationsOf(const Motion& motion, std::size_t count, int threads) {
   test::Random random(count + unsigned(threads));
   const std::vector<Aabb> home = hallOf(count, random);
@@ -86,11 +86,11 @@ std::size_t allocationsOf(const Motion& motion, std::size_t count, int threads) 
     met += pairs.size();
   }
   const std::size_t counted = allocations - before;
-  EXPECT_GT(met, count) << "a search that finds nothing proves nothing";
+  EXPECT_GT(met, count) << "too few pairs for a meaningful test";
   return counted;
 }
 
-/// Claim: once its arrays have their size, a bulk update and the search for pairs after it allocate nothing.
+/// Claim: once its arrays are large enough, a bulk update and the following search for pairs allocate no memory.
 TEST(Allocation, ASteadyTickOfTheGridAllocatesNothing) {
   const Motion motions[] = {{"all move", 1, false},
                             {"the same tenth moves", 10, false},
@@ -102,7 +102,7 @@ TEST(Allocation, ASteadyTickOfTheGridAllocatesNothing) {
   }
 }
 
-/// Claim: so does a commit whose snapshots are given back, however many of them are held at a time.
+/// Claim: a commit allocates no memory if the earlier snapshots have been released.
 TEST(Allocation, ASteadyCommitAllocatesNothing) {
   test::Random random(5);
   Scene scene{SceneOptions{}};
@@ -128,11 +128,11 @@ TEST(Allocation, ASteadyCommitAllocatesNothing) {
     ASSERT_FALSE(latest->pairs().empty());
     events += latest->events().size();
   }
-  EXPECT_GT(events, 1000u) << "they take no memory either";
+  EXPECT_GT(events, 1000u) << "too few events to test that events allocate no memory";
   EXPECT_EQ(allocations - before, 0u);
 }
 
-/// [bytes] The most that was held at a time while `work` ran, beyond what was held before.
+/// Returns the largest additional memory [bytes] that was allocated at any time while `work` ran.
 template <class Work>
 std::size_t peakOf(Work&& work) {
   const std::size_t before = held;
@@ -149,7 +149,8 @@ std::vector<ProxyId> idsOf(const std::vector<Aabb>& boxes) {
   return ids;
 }
 
-/// Claim: a pile of 40,000 boxes (800 million pairs, 6 GB) costs the memory of its bound, also where boxes rest.
+/// Claim: a bounded search in a pile of 40,000 boxes (800 million pairs, 6 GB) needs little memory, even if most boxes
+/// rest.
 TEST(Allocation, ABoundedSearchTakesBoundedMemory) {
   const std::vector<Aabb> boxes(40000, test::boxAround(Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()));
   std::vector<Aabb> moved = boxes;
@@ -171,8 +172,8 @@ TEST(Allocation, ABoundedSearchTakesBoundedMemory) {
   }
 }
 
-/// Claim: so does a commit of 3,000 moving bodies at one place (4.5 million pairs), and once its arrays have their size
-/// it allocates nothing.
+/// Claim: a commit of 3,000 moving bodies at one place (4.5 million pairs) needs little memory. Once its arrays are
+/// large enough, it allocates no memory.
 TEST(Allocation, ATruncatedCommitTakesBoundedMemory) {
   SceneOptions options;
   options.max_pairs = 1000;
@@ -195,8 +196,8 @@ TEST(Allocation, ATruncatedCommitTakesBoundedMemory) {
   EXPECT_LT(peak, 40 * kMegabyte);
 }
 
-/// Claim: when any allocation of a search for pairs fails, on whichever thread, the caller gets std::bad_alloc and the
-/// grid finds the same pairs again.
+/// Claim: if any memory allocation of a search for pairs fails, on any thread, the caller receives std::bad_alloc. The
+/// next search finds the same pairs as before.
 TEST(Allocation, ASearchForPairsThatFindsNoMemoryCanBeRepeated) {
   test::Random random(9);
   const std::vector<Aabb> boxes = hallOf(40000, random);
@@ -221,7 +222,7 @@ TEST(Allocation, ASearchForPairsThatFindsNoMemoryCanBeRepeated) {
         failed = 1;
       }
       ASSERT_TRUE(pairs == expected) << "allocation " << failing << ", threads " << threads;
-      EXPECT_TRUE(failed > 0 || failing > 5) << "there are that many allocations at least";
+      EXPECT_TRUE(failed > 0 || failing > 5) << "fewer than 5 allocations were made to fail";
     }
   }
 }

@@ -12,8 +12,7 @@
 namespace hgrid {
 namespace test {
 
-/// A filter that leaves out all pairs but those whose ids add up to a multiple of `divisor`, and counts what it is
-/// asked.
+/// A filter that keeps only pairs whose ids add up to a multiple of `divisor`. It counts the pairs that it receives.
 struct Divisible {
   ProxyId divisor = 1;
   mutable std::atomic<std::size_t> asked{0};
@@ -26,7 +25,7 @@ struct Divisible {
   OverlapFilter filter() const { return OverlapFilter::of<isKept>(this); }
 };
 
-/// Boxes by id, with the settings of a bounded search for their pairs.
+/// The boxes, indexed by id, and the settings of a bounded search for pairs.
 struct Task {
   std::vector<Aabb> boxes;
   std::vector<ProxyId> fixed;
@@ -40,7 +39,7 @@ struct Found {
   bool operator==(const Found& other) const { return pairs == other.pairs && all == other.all; }
 };
 
-/// The pairs that the comment of PairBound promises.
+/// Computes the pairs that the comment of PairBound promises.
 inline Found ruleOf(const Task& task) {
   Found found;
   std::vector<bool> fixed(task.boxes.size());
@@ -65,7 +64,7 @@ inline Found ruleOf(const Task& task) {
 }
 
 inline Found boundedPairsOf(const BroadPhaseReader& tested) {
-  std::vector<ProxyPair> pairs = {{7, 7}};  // what the buffer held before must go
+  std::vector<ProxyPair> pairs = {{7, 7}};  // the search must replace this old content
   Found found;
   found.all = tested.boundedPairs(pairs);
   for (const ProxyPair& pair : pairs) found.pairs.emplace_back(pair.first, pair.second);
@@ -79,24 +78,24 @@ inline void setUp(BroadPhase& tested, const Task& task, const Divisible& divisib
   tested.setPairBound(task.bound);
 }
 
-/// Stores the boxes of a task by one of several sequences of calls.
+/// Stores the boxes of a task by a random sequence of calls.
 inline void bringTo(BroadPhase& tested, const Task& task, Random& random) {
   std::vector<ProxyId> ids = allIds(task.boxes.size());
-  if (random.chance(0.3)) {  // one by one, in any order
+  if (random.chance(0.3)) {  // one by one, in random order
     for (std::size_t i = ids.size(); i > 1; --i) std::swap(ids[i - 1], ids[std::size_t(random.below(int(i)))]);
     for (const ProxyId id : ids) tested.insert(id, task.boxes[id]);
     return;
   }
   std::vector<Aabb> before = task.boxes;
-  const double share = random.chance(0.5) ? 0.1 : 0.8;  // few move, many move
+  const double share = random.chance(0.5) ? 0.1 : 0.8;  // share of the boxes that move
   for (Aabb& box : before) {
     if (random.chance(share)) box = task.boxes[std::size_t(random.below(int(task.boxes.size())))];
   }
   std::vector<ProxyPair> pairs;
   tested.update(ids, before);
-  if (random.chance(0.7)) tested.boundedPairs(pairs);  // from now on HGrid keeps pairs of boxes that rest
+  if (random.chance(0.7)) tested.boundedPairs(pairs);  // after the first search, HGrid keeps the pairs of resting boxes
   tested.update(ids, task.boxes);
-  for (int i = random.below(4); i > 0; --i) {  // some move and come back
+  for (int i = random.below(4); i > 0; --i) {  // moves some boxes away and back
     const ProxyId id = ProxyId(random.below(int(ids.size())));
     tested.move({id}, {before[id]});
     if (random.chance(0.5)) tested.boundedPairs(pairs);
@@ -104,7 +103,7 @@ inline void bringTo(BroadPhase& tested, const Task& task, Random& random) {
   }
 }
 
-/// Boxes of which many lie in a pile, and some anywhere.
+/// Returns a random task. Many of its boxes lie at one place, the others anywhere.
 inline Task randomTask(unsigned seed, Random& random) {
   Task task;
   task.boxes = worldOf(static_cast<Family>(seed % kFamilies), seed);

@@ -13,7 +13,8 @@ namespace {
 using test::foundBy;
 using test::stepped;
 
-/// Inserts boxes as large as `box` that touch neither it nor `other`: HGrid gives a level with few boxes few cells.
+/// Inserts boxes as large as `box` that touch neither `box` nor `other`. Without them, the level would have few boxes,
+/// and HGrid would give it few cells.
 void insertFillers(BroadPhase& tested, const Aabb& box, const Aabb& other, double edge) {
   const float side = std::max((box.max - box.min).maxCoeff(), float(edge));
   for (int i = 0; i < 100; ++i) {
@@ -24,7 +25,7 @@ void insertFillers(BroadPhase& tested, const Aabb& box, const Aabb& other, doubl
   }
 }
 
-/// The pair must be found from both sides, by box and as a pair.
+/// Checks that two overlapping boxes are found as a pair, and that a query with each box finds the other one.
 template <class Tested>
 void expectMeet(const Aabb& a, const Aabb& b, double edge) {
   ASSERT_TRUE(test::oracleOverlap(a, b));
@@ -88,7 +89,8 @@ TYPED_TEST(BroadPhaseEdges, BoxesThatStraddleZeroByVeryLittleAreFound) {
   }
 }
 
-// The size of the box rounds to 1 in double too. So it seems to fit cells of 1 m, but it reaches over three of them.
+// The size of this box is rounded to 1 m, even in double precision. So the box seems to fit a cell of 1 m, but it
+// extends over three such cells.
 TYPED_TEST(BroadPhaseEdges, ABoxWhoseSizeIsRoundedToACellReachesNoFartherThanPromised) {
   for (const float sliver : {1e-30f, 1e-20f, std::numeric_limits<float>::denorm_min()}) {
     const Aabb nasty = {{-sliver, -sliver, -sliver}, {1, 1, 1}};
@@ -112,7 +114,7 @@ TYPED_TEST(BroadPhaseEdges, BoxesTooFarOutForFineCellsAreStillFound) {
       const auto made = test::Maker<TypeParam>::withCells(edge);
       BroadPhase& tested = *made;
       tested.insert(0, a);
-      EXPECT_TRUE(foundBy(tested, Aabb{{0, 0, 0}, {1, 1, 1}}).empty()) << "nothing wraps around to here";
+      EXPECT_TRUE(foundBy(tested, Aabb{{0, 0, 0}, {1, 1, 1}}).empty()) << "a far box must not appear near the origin";
       EXPECT_EQ(foundBy(tested, Sphere{a.min.cast<double>(), 0.0}).size(), 1u);
       EXPECT_EQ(test::alongOf(tested, Segment{a.min.cast<double>(), a.min.cast<double>(), 0.0}).size(), 1u);
     }

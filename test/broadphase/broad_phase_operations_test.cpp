@@ -18,7 +18,7 @@ Aabb someBox(Random& random) {
   return test::boxAround(test::randomVector(random, -4, 4), size * test::randomVector(random, 0.1, 1.0));
 }
 
-/// A bulk move of few boxes or of many.
+/// Makes a bulk move of a random share of the boxes.
 void moveSome(BroadPhase& tested, BruteForce& model, Random& random) {
   std::vector<ProxyId> ids;
   std::vector<Aabb> boxes;
@@ -32,7 +32,7 @@ void moveSome(BroadPhase& tested, BruteForce& model, Random& random) {
   model.move(ids, boxes);
 }
 
-/// A bulk update: most boxes stay or move, some come and go.
+/// Makes a bulk update: most boxes stay or move, some are added or removed.
 void replaceAll(BroadPhase& tested, BruteForce& model, Random& random) {
   std::vector<ProxyId> ids;
   std::vector<Aabb> boxes;
@@ -47,15 +47,15 @@ void replaceAll(BroadPhase& tested, BruteForce& model, Random& random) {
   model.update(ids, boxes);
 }
 
-/// A box moved or resized in one of several ways.
+/// Returns the box after a move or a change of its size. `deed` selects the kind of change.
 Aabb changed(Aabb box, int deed, Random& random) {
-  if (deed < 400) {  // a small move, perhaps within the cell
+  if (deed < 400) {  // a small move, often within the same cell
     const Eigen::Vector3f by = test::randomVector(random, -0.05, 0.05).cast<float>();
     for (int k = 0; k < 3; ++k) box.min[k] += by[k], box.max[k] = std::max(box.min[k], box.max[k] + by[k]);
-  } else if (deed < 500) {  // by one unit in the last place
+  } else if (deed < 500) {  // a change of one coordinate by one unit in the last place
     box.max[random.below(3)] = test::stepped(box.max[random.below(3)], 1);
     box.max = box.max.cwiseMax(box.min);
-  } else if (deed < 700) {  // another size, perhaps another level
+  } else if (deed < 700) {  // another size, often on another level
     const auto factor = float(random.logUniform(0.01, 100));
     box.max = box.min + factor * (box.max - box.min);
   } else if (deed < 800) {  // the same box again
@@ -66,7 +66,7 @@ Aabb changed(Aabb box, int deed, Random& random) {
   return box;
 }
 
-/// One random operation on both.
+/// Makes one random operation on the tested broad phase and on the model.
 void step(BroadPhase& tested, BruteForce& model, Random& random) {
   const auto id = ProxyId(random.below(kIds));
   const auto known = model.boxes().find(id);
@@ -133,7 +133,7 @@ TYPED_TEST(BroadPhaseOperations, AMovedBoxIsFoundWhereItIsAndNotWhereItWas) {
   const Aabb beyond = {{50, 50, nudged.max.z()}, {51, 51, 60}};
   EXPECT_TRUE(test::foundBy(tested, beyond).empty());
   tested.update(3, nudged);
-  EXPECT_EQ(test::foundBy(tested, beyond), std::vector<ProxyId>({3})) << "the smallest move counts";
+  EXPECT_EQ(test::foundBy(tested, beyond), std::vector<ProxyId>({3})) << "even the smallest move must count";
 }
 
 TYPED_TEST(BroadPhaseOperations, ManyBoxesInOneCellComeAndGo) {

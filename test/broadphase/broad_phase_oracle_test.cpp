@@ -21,7 +21,7 @@ Eigen::Vector3d pointNear(const std::vector<Aabb>& boxes, Random& random) {
   return point;
 }
 
-/// A query's size, from nothing to the whole world.
+/// Returns a random size for a query: 0, or up to 100 times the size of a box.
 double someLength(const std::vector<Aabb>& boxes, Random& random) {
   if (random.chance(0.2) || boxes.empty()) return 0.0;
   const Aabb& box = boxes[std::size_t(random.below(int(boxes.size())))];
@@ -47,14 +47,14 @@ void expectRightSphereAnswers(const BroadPhaseReader& tested, const std::vector<
     const std::vector<ProxyId> found = test::foundBy(tested, sphere);
     ASSERT_TRUE(std::is_sorted(found.begin(), found.end()));
     const std::set<ProxyId> hits(found.begin(), found.end());
-    ASSERT_EQ(hits.size(), found.size()) << "one box twice";
+    ASSERT_EQ(hits.size(), found.size()) << "a box was found twice";
     const long double slack = test::promisedSlack(sphere.center, sphere.center, sphere.radius);
     for (ProxyId id = 0; id < boxes.size(); ++id) {
       const long double near = test::distanceAt(boxes[id], sphere.center, sphere.center, 0);
       if (hits.count(id) != 0) {
-        ASSERT_LE(near, sphere.radius + slack) << "box " << id << " is too much";
+        ASSERT_LE(near, sphere.radius + slack) << "box " << id << " was found, but does not touch the sphere";
       } else if (near <= sphere.radius + slack) {
-        ASSERT_FALSE(test::exactlyTouches(boxes[id], sphere.center, sphere.radius)) << "box " << id << " is missed";
+        ASSERT_FALSE(test::exactlyTouches(boxes[id], sphere.center, sphere.radius)) << "box " << id << " is missing";
       }
     }
   }
@@ -70,10 +70,11 @@ void expectRightSegmentAnswers(const BroadPhaseReader& tested, const std::vector
     const std::vector<SegmentHit> found = test::alongOf(tested, segment);
     std::set<ProxyId> hits;
     for (std::size_t h = 0; h < found.size(); ++h) {
-      ASSERT_TRUE(hits.insert(found[h].id).second) << "one box twice";
+      ASSERT_TRUE(hits.insert(found[h].id).second) << "a box was found twice";
       if (h == 0) continue;
       const SegmentHit &before = found[h - 1], &here = found[h];
-      ASSERT_TRUE(before.along < here.along || (before.along == here.along && before.id < here.id)) << "not in order";
+      ASSERT_TRUE(before.along < here.along || (before.along == here.along && before.id < here.id))
+          << "the boxes are not in order";
     }
     const Aabb around = {segment.from.cwiseMin(segment.to).cast<float>(),
                          segment.from.cwiseMax(segment.to).cast<float>()};
@@ -83,11 +84,12 @@ void expectRightSegmentAnswers(const BroadPhaseReader& tested, const std::vector
       if (!hit && !test::oracleWithin(around, boxes[id], segment.radius + slack + 1e-6 * around.max.norm())) continue;
       const auto approach = test::approachOf(boxes[id], segment.from, segment.to, segment.radius);
       if (hit) {
-        ASSERT_LE(approach.least, segment.radius + slack) << "box " << id << " is too much";
+        ASSERT_LE(approach.least, segment.radius + slack)
+            << "box " << id << " was found, but does not touch the segment";
       } else {
-        ASSERT_GT(approach.least, segment.radius) << "box " << id << " is missed";
+        ASSERT_GT(approach.least, segment.radius) << "box " << id << " is missing";
         if (segment.radius > 0.0) continue;
-        ASSERT_FALSE(test::exactlyMeets(boxes[id], segment.from, segment.to)) << "box " << id << " is missed";
+        ASSERT_FALSE(test::exactlyMeets(boxes[id], segment.from, segment.to)) << "box " << id << " is missing";
       }
     }
   }
@@ -100,7 +102,7 @@ void expectRightNearest(const BroadPhaseReader& tested, const std::vector<Aabb>&
     const double limit = random.chance(0.5) ? std::numeric_limits<double>::infinity() : someLength(boxes, random);
     std::vector<std::pair<double, ProxyId>> expected;
     for (ProxyId id = 0; id < boxes.size(); ++id) {
-      const double away = distance(boxes[id], point);  // itself tested in test/geometry
+      const double away = distance(boxes[id], point);  // this function is tested in test/geometry
       if (away <= limit) expected.emplace_back(away, id);
     }
     std::sort(expected.begin(), expected.end());
@@ -114,7 +116,7 @@ void expectRightNearest(const BroadPhaseReader& tested, const std::vector<Aabb>&
   }
 }
 
-/// Many questions at once are answered as each alone.
+/// Checks that a batch of queries has the same answers as single queries.
 void expectBatchesAsSingles(const BroadPhaseReader& tested, const std::vector<Aabb>& boxes, Random& random) {
   std::vector<Aabb> around;
   std::vector<Sphere> spheres;
@@ -140,8 +142,8 @@ void expectBatchesAsSingles(const BroadPhaseReader& tested, const std::vector<Aa
   ASSERT_EQ(hits.begin.size(), segments.size());
 }
 
-/// Claim: for this family of worlds, all pairs, box queries and nearest queries equal those of a scan of all boxes.
-/// Spheres and segments find no less, and hardly more.
+/// Claim: for this family of worlds, pairs, box queries and nearest queries give the same results as a scan of all
+/// boxes. Sphere and segment queries miss no box, and find extra boxes only within the rounding error.
 template <class Tested>
 void expectAnswersOfAScan(Family family) {
   const int worlds = std::max(1, test::countFromEnvironment("HGRID_TEST_WORLDS", 10000) / test::kFamilies);
@@ -166,7 +168,7 @@ void expectAnswersOfAScan(Family family) {
   if (family == Family::empty) {
     EXPECT_EQ(true_pairs, 0u);
   } else {
-    // 10^4 pairs in the default run: a comparison of two empty lists proves nothing.
+    // Makes sure that the lists are not empty: at least about 10^4 pairs in the default run.
     EXPECT_GE(true_pairs, std::size_t(worlds) * 12);
   }
 }

@@ -17,11 +17,11 @@
 namespace hgrid {
 namespace test {
 
-/// The broad phases that the tests broad_phase_*_test.cpp run over. A new one only adds its type here, if it has a
-/// default constructor and no settings of its own.
+/// The broad phases that the tests broad_phase_*_test.cpp test. To test a new broad phase, add its type here. If it has
+/// no default constructor, or has settings of its own, also specialize Maker for it.
 using AllBroadPhases = ::testing::Types<HGrid, BruteForce>;
 
-/// Names the types in the names of tests.
+/// Returns the type names that googletest shows in the names of tests.
 struct BroadPhaseNames {
   template <class Tested>
   static std::string GetName(int) {
@@ -32,14 +32,15 @@ struct BroadPhaseNames {
   }
 };
 
-/// Makes broad phases of one type. Specialize it for a type whose settings must not show in its answers.
+/// Creates broad phases of one type. Specialize it for a type with settings, to test that its answers do not depend on
+/// them.
 template <class Tested>
 struct Maker {
-  /// One whose smallest cells have this edge [m], where it has cells.
+  /// Creates a broad phase whose smallest cells have this edge [m]. Types without cells ignore the parameter.
   static std::unique_ptr<BroadPhase> withCells(double) { return std::make_unique<Tested>(); }
-  /// Edges of cells that are worth a test each.
+  /// Returns the cell edges [m] to be tested. Types without cells return a single one.
   static std::vector<double> cells(const std::vector<double>&) { return {1.0}; }
-  /// One with random settings. The boxes are those that it will store.
+  /// Creates a broad phase with random settings. The parameter holds the boxes that it will store.
   static std::unique_ptr<BroadPhase> withAny(const std::vector<Aabb>&, Random&) { return std::make_unique<Tested>(); }
 };
 

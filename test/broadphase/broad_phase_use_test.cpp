@@ -128,7 +128,7 @@ TYPED_TEST(BroadPhaseUse, FixedBoxesPairWithOthersOnly) {
       ASSERT_EQ(test::pairsOf(tested), expected);
       ASSERT_NO_THROW(tested.checkInvariants());
       if (!now.empty()) {
-        ASSERT_FALSE(foundBy(tested, now[0]).empty()) << "queries find fixed boxes too";
+        ASSERT_FALSE(foundBy(tested, now[0]).empty()) << "queries must find fixed boxes too";
       }
     };
     ASSERT_NO_FATAL_FAILURE(expectRight(boxes));
@@ -142,7 +142,7 @@ TYPED_TEST(BroadPhaseUse, FixedBoxesPairWithOthersOnly) {
       tested.move(moving, moved);
       ASSERT_NO_FATAL_FAILURE(expectRight(now));
     }
-    if (!fixed.empty()) {  // a fixed box may be put elsewhere
+    if (!fixed.empty()) {  // the caller may move a fixed box
       now[fixed[0]] = boxes[0];
       tested.move({fixed[0]}, {now[fixed[0]]});
       ASSERT_NO_FATAL_FAILURE(expectRight(now));

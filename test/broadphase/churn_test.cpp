@@ -17,12 +17,12 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kMegabyte = 1u << 20;
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kMemoryIsOurs = false;  // a sanitizer keeps what is freed, and books of its own
+constexpr bool kMemoryIsOurs = false;  // a sanitizer keeps freed memory and has its own data in memory
 #else
 constexpr bool kMemoryIsOurs = true;
 #endif
 
-/// [bytes] Resident set of this process.
+/// Returns the resident memory [bytes] of this process.
 std::size_t residentBytes() {
   std::ifstream statm("/proc/self/statm");
   std::size_t all = 0, resident = 0;
@@ -30,23 +30,24 @@ std::size_t residentBytes() {
   return resident * std::size_t(sysconf(_SC_PAGESIZE));
 }
 
-/// What a grid may keep for a world of so many ids: nothing of it may depend on how long it has been in use.
+/// Returns the memory [bytes] that a grid may use for a world with this number of ids. It does not depend on how long
+/// the grid has been in use.
 std::size_t bytesFor(std::size_t ids) { return 200 * ids + kMegabyte / 4; }
 
-/// Claim: whatever comes, goes, moves and changes, and for however long, pairs and answers are those of a look at all
-/// boxes, and memory is that of the largest world. HGRID_TEST_CHURN says for how many seconds.
+/// Claim: after any number of random changes, pairs and query results equal those of a scan of all boxes, and the
+/// memory depends only on the largest world. HGRID_TEST_CHURN sets the duration [s] of the test.
 TEST(HGridChurn, StaysRightAndFlat) {
   const std::chrono::seconds duration(std::max(1, test::countFromEnvironment("HGRID_TEST_CHURN", 3)));
   const auto begin = Clock::now();
   test::Random random(1);
   test::ChurnWorld world(2);
   std::size_t most_bytes = 0, rounds = 0, checks = 0;
-  std::array<std::size_t, 10> resident_in{};  // most in each tenth of the run
+  std::array<std::size_t, 10> resident_in{};  // [bytes] largest resident memory in each tenth of the run
   for (; rounds < 4 || Clock::now() - begin < duration; ++rounds) {
-    const bool large = rounds < 4 || random.chance(0.02);  // large enough to be shared among threads
+    const bool large = rounds < 4 || random.chance(0.02);  // large enough for the grid to use several threads
     world.begin(large ? 40000 : std::size_t(random.logUniform(100, 4000)));
     for (int i = large ? 3 : 25; i > 0 && (rounds < 4 || Clock::now() - begin < duration); --i, ++checks) {
-      SCOPED_TRACE("round " + std::to_string(rounds) + ", deed " + std::to_string(world.deeds()));
+      SCOPED_TRACE("round " + std::to_string(rounds) + ", change " + std::to_string(world.deeds()));
       for (int deeds = random.between(1, 4); deeds > 0; --deeds) world.act();
       ASSERT_NO_FATAL_FAILURE(world.check());
       most_bytes = std::max(most_bytes, world.grid().bytes());
@@ -60,8 +61,8 @@ TEST(HGridChurn, StaysRightAndFlat) {
       ASSERT_LE(resident, resident_in[0] + 16 * kMegabyte) << "round " << rounds;
     }
   }
-  EXPECT_GT(world.pairsSeen(), checks) << "a comparison of two empty lists proves nothing";
-  std::printf("%zu rounds, %zu deeds, %zu comparisons, %zu pairs; at most %zu kB in the grid; resident by tenths:",
+  EXPECT_GT(world.pairsSeen(), checks) << "too few pairs for a meaningful comparison";
+  std::printf("%zu rounds, %zu changes, %zu comparisons, %zu pairs; grid at most %zu kB; resident in each tenth:",
               rounds, world.deeds(), checks, world.pairsSeen(), most_bytes / 1024);
   for (const std::size_t resident : resident_in) std::printf(" %.1f", double(resident) / kMegabyte);
   std::printf(" MB\n");

@@ -10,7 +10,7 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// A filter as good as any: two of three pairs.
+/// An arbitrary filter that keeps two thirds of the pairs.
 bool isReported(const void*, ProxyId first, ProxyId second) { return (first + second) % 3 != 0; }
 
 }  // namespace
@@ -40,13 +40,13 @@ void ChurnWorld::begin(std::size_t most_boxes) {
 
 Aabb ChurnWorld::someBox() {
   if (lattice_) return latticeBox(random_, 0.5f);
-  const double far = random_.chance(0.002) ? 1e4 : 1.0;  // a stray, now and then
+  const double far = random_.chance(0.002) ? 1e4 : 1.0;  // a few boxes are far away from all others
   const double size = random_.chance(0.01) ? 10.0 * largest_ : random_.logUniform(smallest_, largest_);
   const Eigen::Vector3d center = far * randomVector(random_, -0.5 * hall_, 0.5 * hall_);
   return boxAround(center, size * randomVector(random_, random_.chance(0.05) ? 0.0 : 0.3, 1.0));
 }
 
-/// Moved a little or by a unit in the last place, of another size, elsewhere, or as it was.
+/// Returns a changed box: moved a little, moved by one unit in the last place, resized, put elsewhere, or unchanged.
 Aabb ChurnWorld::changed(const Aabb& box) {
   Aabb now = box;
   const int deed = random_.below(10);
@@ -120,7 +120,8 @@ void ChurnWorld::moveSome() {
   grid_.move(ids, boxes);
 }
 
-/// Boxes that are stored stay or move; so many of them are kept, so many of the others come.
+/// Updates all boxes at once. Keeps or moves a share `kept` of the stored boxes, and adds a share `coming` of the
+/// others.
 void ChurnWorld::updateAll(double kept, double coming) {
   std::vector<ProxyId> ids;
   std::vector<Aabb> boxes;
@@ -138,7 +139,7 @@ void ChurnWorld::updateAll(double kept, double coming) {
 void ChurnWorld::fixOthers() {
   std::vector<ProxyId> ids;
   const double share = random_.chance(0.5) ? 0.0 : random_.uniform(0, 0.9);
-  for (ProxyId id = 0; id < fixed_.size(); ++id) {  // whether it is stored or not
+  for (ProxyId id = 0; id < fixed_.size(); ++id) {  // an id may be fixed even if no box is stored under it
     fixed_[id] = random_.chance(share);
     if (fixed_[id]) ids.push_back(id);
   }
@@ -170,7 +171,7 @@ void ChurnWorld::expectRightQueries() {
   std::vector<ProxyId> in_box, in_ball;
   std::vector<SegmentHit> hits;
   std::vector<std::pair<double, ProxyId>> near;
-  for (const ProxyId id : ids) {  // what decides about one box is tested in test/geometry
+  for (const ProxyId id : ids) {  // the functions for single boxes are tested in test/geometry
     if (oracleOverlap(box, boxes_[id])) in_box.push_back(id);
     if (touches(ball, boxes_[id])) in_ball.push_back(id);
     if (const auto along = FirstTouch(segment)(boxes_[id])) hits.push_back({id, *along});

@@ -10,20 +10,20 @@
 namespace hgrid {
 namespace test {
 
-/// A world that comes, goes, moves and grows at random, in a grid and beside it in a plain array.
+/// A world of boxes that changes at random. It stores the boxes in a grid and, for comparison, in a plain array.
 class ChurnWorld {
  public:
   explicit ChurnWorld(unsigned seed);
 
-  /// Another kind of world: how many boxes, how large, how far apart; how the grid works.
+  /// Begins another kind of world, with other numbers, sizes and distances of boxes and other settings of the grid.
   void begin(std::size_t most_boxes);
-  /// One random deed, from the move of one box to an update of all.
+  /// Makes one random change, from a move of a single box to an update of all boxes.
   void act();
-  /// Compares pairs and some queries with what a look at all boxes finds.
+  /// Compares pairs and some queries with a scan of all boxes.
   void check();
 
   const HGrid& grid() const { return grid_; }
-  std::size_t mostBoxes() const { return boxes_.size(); }  ///< of all worlds so far
+  std::size_t mostBoxes() const { return boxes_.size(); }  ///< number of ids in the largest world so far
   std::size_t deeds() const { return deeds_; }
   std::size_t pairsSeen() const { return pairs_seen_; }
 
@@ -40,10 +40,10 @@ class ChurnWorld {
 
   Random random_;
   HGrid grid_;
-  std::size_t most_ = 0, deeds_ = 0, pairs_seen_ = 0;  // most_: ids of the present world
+  std::size_t most_ = 0, deeds_ = 0, pairs_seen_ = 0;  // most_: number of ids in the present world
   double hall_ = 1.0, smallest_ = 0.1, largest_ = 1.0;
   bool lattice_ = false, filtered_ = false;
-  std::vector<Aabb> boxes_;  // by id
+  std::vector<Aabb> boxes_;  // indexed by id
   std::vector<bool> stored_, fixed_;
 };
 

@@ -14,10 +14,10 @@ using test::Found;
 using test::Random;
 using test::Task;
 
-/// Whether a sanitizer, with which fewer worlds are tried, makes everything slow.
+/// Whether the test is run with a reduced number of worlds, as with a sanitizer, which makes everything slow.
 const bool kTakesItsTime = test::countFromEnvironment("HGRID_TEST_WORLDS", 10000) < 10000;
 
-/// 40,000 boxes: a pile of `piled` in a hall where few overlap.
+/// Returns 40,000 boxes: `piled` boxes lie at one place, the others are spread so that few of them overlap.
 std::vector<Aabb> hallWithPile(std::size_t piled, Random& random) {
   std::vector<Aabb> boxes;
   while (boxes.size() < 40000) {
@@ -28,8 +28,8 @@ std::vector<Aabb> hallWithPile(std::size_t piled, Random& random) {
   return boxes;
 }
 
-/// Claim: threads and instruction sets do not show, in a search that is cut and in one that is not, in a pile that
-/// moves and in one that rests.
+/// Claim: the results do not depend on the number of threads or on the instruction set, whether the search reaches its
+/// bound or not, and whether the boxes move or rest.
 TEST(HGridBound, ThreadsAndInstructionSetsDoNotShow) {
   Random random(4);
   Task task;
@@ -50,7 +50,7 @@ TEST(HGridBound, ThreadsAndInstructionSetsDoNotShow) {
     EXPECT_EQ(expected.all, bound.pairs == 1000000u);
     for (const Isa isa : isas) {
       for (const int threads : thread_counts) {
-        for (const double share : {0.0, 0.05, 1.0}) {  // boxes that move
+        for (const double share : {0.0, 0.05, 1.0}) {  // share of the boxes that move
           SCOPED_TRACE(std::string(name(isa)) + ", threads " + std::to_string(threads) + ", share " +
                        std::to_string(share));
           HGrid grid;
@@ -62,7 +62,7 @@ TEST(HGridBound, ThreadsAndInstructionSetsDoNotShow) {
             if (random.chance(share)) box.max.x() += 0.1f;
           }
           grid.update(ids, before);
-          boundedPairsOf(grid);  // from now on the grid keeps pairs of boxes that rest
+          boundedPairsOf(grid);  // after the first search, the grid keeps the pairs of resting boxes
           grid.update(ids, task.boxes);
           ASSERT_TRUE(boundedPairsOf(grid) == expected);
         }
@@ -71,8 +71,8 @@ TEST(HGridBound, ThreadsAndInstructionSetsDoNotShow) {
   }
 }
 
-/// Claim: what one search asks of the filter is bounded, also where the filter leaves out every pair. The grid may look
-/// at twice the bound, at one box's overlaps, and for each thread at the pairs that a buffer has room for.
+/// Claim: a search passes a bounded number of pairs to the filter, even if the filter leaves out every pair. The grid
+/// may pass twice the bound, plus all overlaps of one box, plus one full buffer of pairs for each thread.
 TEST(HGridBound, BoundsTheWorkOfPilesWhosePairsAreAllLeftOut) {
   constexpr std::size_t kBoxes = 40000, kOverlaps = 100000, kBuffer = 2 * 65536;
   const std::vector<Aabb> boxes(kBoxes, test::boxAround(Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()));

@@ -20,13 +20,14 @@ GridScale finest(double edge) {
 TEST(HGridEdges, OnlyBoxesBeyondTheCoarsestLevelShareTheLastOne) {
   const Aabb huge = {{-5e3f, -5e3f, -5e3f}, {5e3f, 5e3f, 5e3f}};
   const HGrid grid(finest(1e-3));
-  EXPECT_LT(grid.levelFor(huge), GridScale::kLevels) << "10 km fit a level of a grid that begins with 1 mm";
+  EXPECT_LT(grid.levelFor(huge), GridScale::kLevels)
+      << "a grid with a finest level of 1 mm must have a level for 10 km";
   EXPECT_EQ(grid.levelFor({{-1e9f, 0, 0}, {1e9f, 0, 0}}), GridScale::kLevels);
 }
 
 TEST(HGridEdges, BoxesLargerThanEveryLevelPairWithEverythingTheyOverlap) {
   const float far = 3e38f;
-  HGrid grid(finest(0x1p-30));  // its coarsest cells have an edge of 1 m
+  HGrid grid(finest(0x1p-30));  // the boxes of its coarsest level are at most 1 m long
   grid.insert(0, {{-far, -far, -far}, {far, far, far}});
   grid.insert(1, {{0, 0, 0}, {0.5f, 0.5f, 0.5f}});
   grid.insert(2, {{-far, 2, 2}, {far, 3, 3}});

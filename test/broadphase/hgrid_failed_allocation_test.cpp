@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Claim: a change of the grid for which there is no memory has changed nothing. Each allocation of each change fails
-// once; before and after that, the grid holds what a plain map of boxes holds and finds the same pairs.
+// Claim: if memory runs out during a change of the grid, nothing has changed. The tests let each memory allocation of
+// each change fail once. Before and after that, the grid must hold the same boxes and find the same pairs as a plain
+// map of boxes.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -19,7 +20,7 @@ namespace {
 
 using Boxes = std::map<ProxyId, Aabb>;
 
-/// One change, as the grid and as the model get it.
+/// One change, as a function for the grid and as a function for the model.
 struct Change {
   std::string name;
   std::function<void(HGrid&)> of_grid;
@@ -49,7 +50,7 @@ Change bulkUpdate(Boxes boxes) {
   return {"bulk update", [=](HGrid& grid) { grid.update(ids, values); }, [=](Boxes& model) { model = boxes; }};
 }
 
-/// A change that is possible in a world of these boxes, most of them of a few boxes.
+/// Returns a random change that is possible in a world of these boxes. Most changes affect only a few boxes.
 Change randomChange(const Boxes& now, test::Random& random) {
   const auto some = [&] { return std::next(now.begin(), random.below(int(now.size())))->first; };
   const double which = random.uniform(0, 1);
@@ -68,7 +69,7 @@ Change randomChange(const Boxes& now, test::Random& random) {
     return {"remove", [=](HGrid& grid) { grid.remove(id); }, [=](Boxes& model) { model.erase(id); }};
   }
   Boxes boxes = now;
-  if (which < 0.75) {  // bulk move of a few
+  if (which < 0.75) {  // a bulk move of a few boxes
     Boxes moved;
     for (int i = random.below(6); i >= 0; --i) moved[some()] = randomBox(random);
     const std::vector<ProxyId> ids = idsOf(moved);
@@ -112,7 +113,8 @@ void expectHolds(const HGrid& grid, const Boxes& model) {
   ASSERT_EQ(pairsOf(grid), expected);
 }
 
-/// A grid after the first `count` changes. Pairs are asked for now and then, so that those of resting boxes are kept.
+/// Returns a grid after the first `count` changes. It searches for pairs sometimes, so that the grid keeps the pairs of
+/// resting boxes.
 HGrid gridAfter(const std::vector<Change>& changes, std::size_t count) {
   HGrid grid;
   for (std::size_t i = 0; i < count; ++i) {
@@ -152,10 +154,10 @@ TEST(HGridFailedAllocation, ChangesNothing) {
       model = then;
     }
   }
-  EXPECT_GT(failures, 500u) << "what never failed proves nothing";
+  EXPECT_GT(failures, 500u) << "too few allocations failed for a meaningful test";
 }
 
-/// A search that fails leaves the grid as it was, pairs that it keeps included.
+/// Claim: a failed search does not change the grid, not even the pairs that the grid keeps.
 TEST(HGridFailedAllocation, OfASearchLosesNoPair) {
   test::Random random(3);
   Boxes model;
@@ -171,7 +173,7 @@ TEST(HGridFailedAllocation, OfASearchLosesNoPair) {
   }
 }
 
-/// Many boxes: arrays for several threads are among what is allocated.
+/// Uses so many boxes that the grid also allocates arrays for several threads.
 TEST(HGridFailedAllocation, ChangesNothingOfALargeGridWithTwoThreads) {
   test::Random random(4);
   Boxes first, second;
@@ -232,7 +234,7 @@ TEST(HGridFailedAllocation, OfSetFixedKeepsTheFixedOnes) {
   }
 }
 
-/// Heaps far apart, which the grid divides into regions.
+/// Returns boxes in heaps that are far apart, so that the grid divides space into regions.
 Boxes heaps(test::Random& random, int heaps, int boxes_each, const Eigen::Vector3d& moved) {
   Boxes boxes;
   for (int i = 0; i < heaps * boxes_each; ++i) {
@@ -275,10 +277,11 @@ TEST(HGridFailedAllocation, InAWorldOfRegionsChangesNothingOrMakesOneRegion) {
     }
   }
   EXPECT_GT(failures, 20u);
-  EXPECT_GT(allocations, 2 * failures) << "most are for regions, without which the grid does its work";
+  EXPECT_GT(allocations, 2 * failures)
+      << "most allocations are for regions, and the grid must also work without regions";
 }
 
-/// What reserving relies on.
+/// Claim: a cell plan never has more cells than the bound for which the grid reserves memory.
 TEST(HGridFailedAllocation, APlanHasNoMoreCellsThanItsBoundSays) {
   for (int family = 0; family < test::kFamilies; ++family) {
     for (unsigned seed = 1; seed <= 300; ++seed) {

@@ -14,7 +14,7 @@ namespace {
 using test::Family;
 using test::Random;
 
-/// What one grid says to a fixed set of questions.
+/// The answers of a grid to a fixed set of queries.
 struct Answers {
   test::Pairs pairs;
   std::vector<std::vector<ProxyId>> found;
@@ -50,7 +50,7 @@ TEST(HGridInvariance, TheWayToAWorldDoesNotShow) {
   }
 }
 
-/// Claim: not even the order of the pairs depends on the instruction set or on the threads.
+/// Claim: not even the order of the pairs depends on the instruction set or on the number of threads.
 TEST(HGridInvariance, InstructionSetsAndThreadsDoNotShow) {
   std::vector<Aabb> boxes;
   std::vector<ProxyId> ids;
@@ -73,7 +73,7 @@ TEST(HGridInvariance, InstructionSetsAndThreadsDoNotShow) {
   std::vector<std::vector<ProxyPair>> expected;
   std::vector<Isa> isas = test::supportedIsas();
   std::vector<int> thread_counts = {1, 2, 3, 5};
-  if (test::countFromEnvironment("HGRID_TEST_WORLDS", 10000) < 10000) {  // sanitizers take their time
+  if (test::countFromEnvironment("HGRID_TEST_WORLDS", 10000) < 10000) {  // a sanitizer makes the test slow
     isas = {bestIsa()};
     thread_counts = {1, 3};
   }
@@ -119,7 +119,7 @@ TEST(HGridInvariance, ScaledByAPowerOfTwoTheSamePairsTouch) {
       const float factor = std::ldexp(1.f, power);
       std::vector<Aabb> scaled = boxes;
       for (Aabb& box : scaled) box.min *= factor, box.max *= factor;
-      bool exact = true;  // denormals may have been rounded
+      bool exact = true;  // false if scaling has rounded a denormal number
       for (std::size_t i = 0; i < boxes.size(); ++i) {
         exact &= scaled[i].min / factor == boxes[i].min && scaled[i].max / factor == boxes[i].max;
       }
@@ -135,7 +135,7 @@ TEST(HGridInvariance, ShiftedByWholeCellsTheSamePairsTouch) {
   for (unsigned seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
-    std::vector<Aabb> boxes(100);  // whole multiples of 1/256 m, so that no sum is rounded
+    std::vector<Aabb> boxes(100);  // coordinates are multiples of 1/256 m, so that no sum is rounded
     for (Aabb& box : boxes) {
       for (int k = 0; k < 3; ++k) {
         box.min[k] = float(random.between(-512, 512)) / 256.f;

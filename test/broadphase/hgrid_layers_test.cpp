@@ -6,7 +6,8 @@
 
 #include "test/support/expectations.h"
 
-// Boxes change between layers (fixed, resting, moving, loose) by counts and shares; nothing of it may show.
+// The grid moves boxes between its layers (fixed, resting, moving, loose) depending on how many boxes move. The results
+// must not depend on this.
 
 namespace hgrid {
 namespace {
@@ -32,7 +33,7 @@ TEST(HGridLayers, BoxesThatComeOneByOneAreFoundFromTheFirstOn) {
   Random random(1);
   HGrid grid;
   std::vector<Aabb> boxes;
-  for (int i = 0; i < 140; ++i) {  // up to and beyond what stands unsorted, twice
+  for (int i = 0; i < 140; ++i) {  // enough boxes to fill the layer of loose boxes twice
     boxes.push_back(someBox(random));
     grid.insert(ProxyId(i), boxes.back());
     ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes));
@@ -69,7 +70,7 @@ TEST(HGridLayers, AnyNumberMayBeginToMove) {
   }
 }
 
-/// Claim: the pairs that are kept of resting boxes follow what begins to move, goes or comes, frame by frame.
+/// Claim: the pairs of resting boxes that the grid keeps stay correct when boxes begin to move or are removed.
 TEST(HGridLayers, KeptPairsEndWithTheRestOfTheirBoxes) {
   for (unsigned seed = 1; seed <= 10; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -111,7 +112,7 @@ TEST(HGridLayers, ABoxThatWasRemovedWhileItMovedDoesNotComeBack) {
     ids.erase(ids.begin());
     ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes, ids));
     boxes[7] = someBox(random);
-    grid.move({7}, {boxes[7]});  // sorts the moving again
+    grid.move({7}, {boxes[7]});  // makes the grid sort the moving boxes again
     ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes, ids));
   }
 }
@@ -179,7 +180,7 @@ TEST(HGridLayers, FixedBoxesThatComeOrMoveOneByOneMakeNoPairsEither) {
 bool sameRemainder(const void*, ProxyId first, ProxyId second) { return first % 3 == second % 3; }
 bool otherRemainder(const void*, ProxyId first, ProxyId second) { return first % 3 != second % 3; }
 
-/// Claim: the filter holds for pairs of every two layers, for few boxes and for so many that threads share them.
+/// Claim: the filter applies to the pairs of all layers, for a few boxes and for so many that several threads search.
 TEST(HGridLayers, AFilterHoldsInAllLayersAndThreads) {
   for (const std::size_t count : {400, 40000}) {
     SCOPED_TRACE(std::to_string(count) + " boxes");

@@ -78,7 +78,7 @@ TEST(HGridUse, AFittingScaleSuitsTheSmallestBox) {
   std::vector<Aabb> boxes = {{{0, 0, 0}, {4, 4, 4}}, {{0, 0, 0}, {0.1f, 0.05f, 0.02f}}};
   const HGrid grid(GridScale::fitting(boxes));
   EXPECT_EQ(grid.levelFor(boxes[1]), 0);
-  EXPECT_LE(grid.edge(0), 0.4) << "not much larger than the smallest box";
+  EXPECT_LE(grid.edge(0), 0.4) << "the finest level must not be much larger than the smallest box";
   EXPECT_NO_THROW(HGrid(GridScale::fitting({{{0, 0, 0}, {0, 0, 0}}})));
   EXPECT_NO_THROW(HGrid(GridScale::fitting({{{-3e38f, 0, 0}, {3e38f, 0, 0}}})));
   EXPECT_NO_THROW(HGrid(GridScale::fitting({{{0, 0, 0}, {1e-44f, 0, 0}}})));

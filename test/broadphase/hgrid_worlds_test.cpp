@@ -4,7 +4,7 @@
 
 #include "test/support/expectations.h"
 
-// Worlds that a grid whose cells follow from the boxes could choke on.
+// Worlds that are difficult for a grid that computes the size of its cells from the boxes.
 
 namespace hgrid {
 namespace {
@@ -15,7 +15,7 @@ using test::expectRight;
 using test::Random;
 using test::randomVector;
 
-/// Boxes of about half a metre around a place, each with a few neighbours.
+/// Returns boxes of about 0.5 m around a place, each with a few neighbors.
 std::vector<Aabb> crowd(std::size_t count, Random& random, const Eigen::Vector3d& place = Eigen::Vector3d::Zero()) {
   std::vector<Aabb> boxes;
   const double half = 0.35 * std::cbrt(double(count));
@@ -26,7 +26,7 @@ std::vector<Aabb> crowd(std::size_t count, Random& random, const Eigen::Vector3d
   return boxes;
 }
 
-/// Everybody moves a little.
+/// Moves every box a little.
 void stir(std::vector<Aabb>& boxes, Random& random) {
   for (Aabb& box : boxes) {
     const Eigen::Vector3f way = randomVector(random, -0.2, 0.2).cast<float>();
@@ -34,7 +34,7 @@ void stir(std::vector<Aabb>& boxes, Random& random) {
   }
 }
 
-TEST(HGridWorlds, StraysAMillionMetresOutMeetTheirNeighboursOnly) {
+TEST(HGridWorlds, StraysAMillionMetersOutMeetTheirNeighborsOnly) {
   for (const Isa isa : test::supportedIsas()) {
     SCOPED_TRACE(name(isa));
     Random random(1);
@@ -43,7 +43,7 @@ TEST(HGridWorlds, StraysAMillionMetresOutMeetTheirNeighboursOnly) {
     grid.setIsa(isa);
     for (int frame = 0; frame < 6; ++frame) {
       if (frame > 0) stir(boxes, random);
-      for (int k = 0; k < 12; ++k) {  // two at each end of each axis, others each time
+      for (int k = 0; k < 12; ++k) {  // puts two boxes at each end of each axis, other boxes in each frame
         Eigen::Vector3d place(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-3, 3));
         place[k % 3] = k % 2 != 0 ? 1e6 : -1e6;
         boxes[std::size_t(100 * frame + k)] = boxAround(place, {2, 2, 2});
@@ -54,11 +54,11 @@ TEST(HGridWorlds, StraysAMillionMetresOutMeetTheirNeighboursOnly) {
     const Segment across{{-2e6, 0.1, 0.2}, {2e6, 0.1, 0.2}, 0.0};
     std::size_t met = 0;
     for (const Aabb& box : boxes) met += meet(across, box).has_value();
-    EXPECT_EQ(test::alongOf(grid, across).size(), met) << "a segment from stray to stray through all cells";
+    EXPECT_EQ(test::alongOf(grid, across).size(), met) << "a segment between far boxes through all cells";
   }
 }
 
-TEST(HGridWorlds, HeapsTenKilometresApartAreEachAsRightAsOne) {
+TEST(HGridWorlds, HeapsTenKilometersApartAreEachAsRightAsOne) {
   for (const int heaps : {2, 10}) {
     SCOPED_TRACE(std::to_string(heaps) + " heaps");
     Random random(unsigned(heaps) + 0u);
@@ -79,29 +79,29 @@ TEST(HGridWorlds, HeapsTenKilometresApartAreEachAsRightAsOne) {
   }
 }
 
-/// Worlds in which boxes are spread so unevenly that the grid divides space into regions.
+/// Returns a world whose boxes are spread so unevenly that the grid divides space into regions.
 std::vector<Aabb> unevenWorld(int kind, std::size_t count, Random& random) {
   std::vector<Aabb> boxes;
   Eigen::Vector3d place = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < count; ++i) {
     Eigen::Vector3d size = randomVector(random, 0.3, 1.2), direction = randomVector(random, -1, 1).normalized();
     switch (kind) {
-      case 0:  // a chain along the diagonal
+      case 0:  // a row of boxes along the diagonal
         place = 0.3 * double(i) * Eigen::Vector3d::Ones();
         break;
-      case 1:  // a flight with steps of all lengths
+      case 1:  // a random path with steps of all lengths
         place += 0.5 * random.logUniform(1.0, 1000.0) * (random.chance(0.05) ? 1.0 : 0.01) * direction;
         break;
-      case 2:  // the nearer to the center, the denser
+      case 2:  // the density of boxes increases toward the center
         place = random.logUniform(1e-2, 1e4) * direction;
         size *= 0.02 * place.norm() + 1e-3;
         break;
-      case 3:  // heaps, strays, and giants that reach from heap to heap
+      case 3:  // heaps of boxes, single boxes far away, and huge boxes that extend from heap to heap
         place = i % 50 == 0 ? randomVector(random, -1e5, 1e5) : 1e3 * double(i % 7) * Eigen::Vector3d(1, -1, 2);
         place += randomVector(random, -6, 6);
         if (i % 100 == 7) size *= 3e3;
         break;
-      default:  // walls of a building with many floors
+      default:  // the walls of a building with many floors
         place = {random.uniform(0, 500), double(i % 3) * 100, double(i % 40) * 40};
         break;
     }
@@ -125,7 +125,8 @@ TEST(HGridWorlds, UnevenWorldsAreRightWithAllThreadsAndWhileBoxesMove) {
       for (const ProxyId id : fixed) is_fixed[id] = true;
       grid.update(allIds(boxes.size()), boxes);
       ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes, allIds(boxes.size()), is_fixed));
-      for (const std::size_t stride : {std::size_t{1}, std::size_t{7}, std::size_t{101}}) {  // how many move
+      // Every `stride`-th box moves.
+      for (const std::size_t stride : {std::size_t{1}, std::size_t{7}, std::size_t{101}}) {
         std::vector<ProxyId> ids;
         std::vector<Aabb> moved;
         for (std::size_t i = 1; i < boxes.size(); i += stride) {
@@ -183,7 +184,7 @@ TEST(HGridWorlds, AHugeBoxAmongTinyOnesMeetsThemAll) {
     boxes[1234] = boxAround({0, 0, 0}, Eigen::Vector3d::Constant(2 * half));
     HGrid grid = test::gridOf(boxes, GridScale::fitting(boxes));
     ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes));
-    for (const Aabb& now : {boxes[0], boxes[1234]}) {  // shrinks, and is huge again
+    for (const Aabb& now : {boxes[0], boxes[1234]}) {  // the huge box becomes small, then huge again
       boxes[1234] = now;
       grid.move({1234}, {now});
       ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes));
@@ -192,7 +193,7 @@ TEST(HGridWorlds, AHugeBoxAmongTinyOnesMeetsThemAll) {
 }
 
 TEST(HGridWorlds, BoxesWithoutSizeOnSomeAxesMeetWhereTheyTouch) {
-  for (int axes = 0; axes < 8; ++axes) {  // those on which a box has a size
+  for (int axes = 0; axes < 8; ++axes) {  // bit k: the boxes have a size on axis k
     SCOPED_TRACE("axes " + std::to_string(axes));
     Random random(unsigned(axes) + 1u);
     std::vector<Aabb> boxes(1000);
@@ -213,7 +214,7 @@ TEST(HGridWorlds, BoxesWithoutSizeOnSomeAxesMeetWhereTheyTouch) {
 TEST(HGridWorlds, MoreThan65536BoxesAreRightWithThreads) {
   Random random(4);
   std::vector<Aabb> boxes = crowd(70000, random);
-  for (Aabb& box : boxes) {  // along a street, which makes the witness fast
+  for (Aabb& box : boxes) {  // stretches the world along x, because the reference is fast in a long world
     const Eigen::Vector3f way(5 * box.min.x(), 0, 0);
     box = {box.min + way, box.max + way};
   }
@@ -228,7 +229,7 @@ TEST(HGridWorlds, MoreThan65536BoxesAreRightWithThreads) {
   ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes));
 }
 
-/// Claim: cells that fitted the boxes of the last frame do not decide what is found in this one.
+/// Claim: the results are correct even if the cells were chosen for the boxes of the previous frame.
 TEST(HGridWorlds, AllBoxesMayLeaveTheirPlaceAtOnce) {
   Random random(5);
   const std::vector<Aabb> home = crowd(1500, random);
@@ -246,16 +247,16 @@ TEST(HGridWorlds, AllBoxesMayLeaveTheirPlaceAtOnce) {
   const auto shifted = [](const Aabb& box, const Eigen::Vector3f& way) { return Aabb{box.min + way, box.max + way}; };
   const auto scaled = [](const Aabb& box, float by) { return Aabb{box.min * by, box.max * by}; };
   expectRightAs("far away", [&](const Aabb& box, float) { return shifted(box, {1e5f, -1e5f, 1e5f}); });
-  expectRightAs("home again", [&](const Aabb& box, float) { return box; });
+  expectRightAs("back at the first positions", [&](const Aabb& box, float) { return box; });
   expectRightAs("a thousand times as large", [&](const Aabb& box, float) { return scaled(box, 1e3f); });
   expectRightAs("a thousandth as large", [&](const Aabb& box, float) { return scaled(box, 1e-3f); });
   expectRightAs("on a line", [&](const Aabb& box, float i) {
     return Aabb{{i, 0, 0}, {i + 1.5f * (box.max.x() - box.min.x()), 0, 0}};
   });
-  expectRightAs("half of it to the other side of the world", [&](const Aabb& box, float i) {
+  expectRightAs("half of the boxes at the other side of the world", [&](const Aabb& box, float i) {
     return shifted(box, {i < 750 ? 0.f : -1e6f, 0, 0});
   });
-  expectRightAs("within the same bounds, all in one corner but a few", [&](const Aabb& box, float i) {
+  expectRightAs("within the same bounds, but most boxes in one corner", [&](const Aabb& box, float i) {
     return i < 20 ? box : scaled(shifted(box, {20, 20, 20}), 0.1f);
   });
 }
@@ -285,13 +286,13 @@ TEST(HGridWorlds, IdsWithGapsUpToAMillion) {
   ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes, {1000000}));
 }
 
-/// Claim: a box whose length is rounded to a float that is too small is found at its far end.
+/// Claim: a box is found at its far end even if its length was rounded down to a float.
 TEST(HGridWorlds, ALengthThatWasRoundedDownReachesFarEnough) {
-  const float length = 1024;     // floats there are 2^-13 apart
-  std::vector<Aabb> boxes(193);  // of which so many on a line get cells of 1/8 m
+  const float length = 1024;     // neighboring floats of this size differ by 2^-13
+  std::vector<Aabb> boxes(193);  // for this number of boxes on a line, the grid chooses cells of 1/8 m
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const float step = -16 + 0.125f * float(i * 256 / (boxes.size() - 1)), sliver = i % 192 == 0 ? 0.f : 5e-5f;
-    boxes[i] = {{step - sliver, 0, 0}, {length + step, 0, 0}};  // begins a little before its cell
+    boxes[i] = {{step - sliver, 0, 0}, {length + step, 0, 0}};  // begins a little before a cell border
     ASSERT_EQ(boxes[i].max.x() - boxes[i].min.x(), length);
   }
   HGrid grid = test::gridOf(boxes, GridScale{});

@@ -17,7 +17,7 @@ namespace {
 using test::at;
 using test::put;
 
-/// Measures balls only, counts how often it is asked, and takes as long as it is told.
+/// A narrow phase for spheres only. It counts its measurements. Tests can make it slow, or make it fail or throw.
 class BallPhase final : public NarrowPhase {
  public:
   struct Ball final : Solid {
@@ -58,13 +58,13 @@ class BallPhase final : public NarrowPhase {
   std::vector<Contact> contacts(const PlacedSolid& first, const PlacedSolid& second, std::size_t most) const override {
     if (most == 0 || measure(first, second, 0.0).status != Measure::contact) return {};
     Contact contact;
-    contact.depth = static_cast<const Ball&>(first.solid).radius;  // tells which one it is
+    contact.depth = static_cast<const Ball&>(first.solid).radius;  // tells the test which sphere it is
     return {contact};
   }
 
   mutable std::atomic<int> asked{0};
-  int throws_at = 0;              // number of the question that runs out of memory; 0: none
-  std::thread::id throws_beside;  // all other threads run out of memory, and this one waits until one has
+  int throws_at = 0;              // number of the measurement that throws bad_alloc; 0: none
+  std::thread::id throws_beside;  // if set: this thread waits, and the other threads throw bad_alloc
   mutable std::atomic<bool> thrown{false};
   std::chrono::microseconds takes{0};
   bool fails = false;
@@ -100,8 +100,8 @@ class PairMeterTest : public ::testing::Test {
 TEST_F(PairMeterTest, ReportsWhatIsWithinTheReportDistanceNearestFirst) {
   add("a", 0.0);
   add("b", 1.3);
-  add("c", 2.4);   // 0.1 from b
-  add("d", 20.0);  // far from all
+  add("c", 2.4);   // 0.1 m from b
+  add("d", 20.0);  // far from a, b and c
   add("e", 20.9);  // in contact with d
   PairMeter meter = meterOf(0.2);
   const auto found = measure(meter, 1);
@@ -126,16 +126,16 @@ TEST_F(PairMeterTest, AsksNobodyWhatItKnowsWhileNothingMoves) {
   EXPECT_EQ(second->pairs[0].proximity.distance, first->pairs[0].proximity.distance);
   scene_.place(b, at(1.06), std::chrono::milliseconds(3));
   measure(meter, 3);
-  EXPECT_EQ(phase_->asked, asked + 1) << "it moved";
+  EXPECT_EQ(phase_->asked, asked + 1) << "a pair that moved must be measured again";
 }
 
-/// Claim: leaving out measurements, since the pair cannot have come near enough, never leaves out a pair.
+/// Claim: the meter does not measure a pair that cannot have come near enough. This never makes it miss a pair.
 TEST_F(PairMeterTest, NeverLosesAPairThatCreepsUp) {
   const BodyId a = add("a", 0.0);
   const BodyId b = add("b", 1.3);
   PairMeter meter = meterOf(0.2), fresh = meterOf(0.2);
   for (int step = 0; step < 400; ++step) {
-    const double turn = 0.01 * step, distance = 0.3 - 0.001 * step;  // both also turn and travel together
+    const double turn = 0.01 * step, distance = 0.3 - 0.001 * step;  // both bodies also turn and move together
     Pose carried = Pose::Identity();
     carried.linear() = Eigen::AngleAxisd(turn, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
     carried.translation() << 5.0 * turn, -turn, 0.0;
@@ -158,7 +158,8 @@ TEST_F(PairMeterTest, WhatDoesNotFitIntoTheBudgetStaysACandidateNearestFirst) {
   const auto found = measure(meter, 1);
   EXPECT_GT(found->measured, 0u);
   EXPECT_GT(found->left_out, 0u);
-  EXPECT_EQ(found->pairs.size(), found->measured + found->left_out) << "all of them are within the report distance";
+  EXPECT_EQ(found->pairs.size(), found->measured + found->left_out)
+      << "all pairs are within the report distance, so all must be listed";
   for (std::size_t i = 0; i < found->pairs.size(); ++i) {
     const bool measured = i < found->measured;
     EXPECT_EQ(found->pairs[i].proximity.status == Measure::not_measured, !measured);
@@ -168,14 +169,16 @@ TEST_F(PairMeterTest, WhatDoesNotFitIntoTheBudgetStaysACandidateNearestFirst) {
     }
   }
   for (std::size_t i = found->measured; i < found->pairs.size(); ++i) {
-    EXPECT_GE(found->pairs[i].gap, found->pairs[found->measured - 1].gap) << "the nearest boxes were measured";
+    EXPECT_GE(found->pairs[i].gap, found->pairs[found->measured - 1].gap)
+        << "the pairs with the nearest boxes must be measured first";
   }
 }
 
-/// Claim: the lower bound of a pair that there is no time for never exceeds its true distance, and it is better than
-/// the gap if the pair was measured before and moved little.
+/// Claim: if there is no time to measure a pair, its lower bound never exceeds the true distance. The bound is larger
+/// than the gap if the pair was measured before and moved little.
 TEST_F(PairMeterTest, APairThatIsNotMeasuredHasALowerBoundFromItsLastMeasurement) {
-  const BodyId slow = add("slow", -20.0), other = add("slow_too", -20.5);  // in contact: always measured first
+  const BodyId slow = add("slow", -20.0),
+               other = add("slow_too", -20.5);  // in contact, so this pair is always measured first
   const BodyId a = add("a", 0.0), b = add("b", 1.0);
   PairMeter meter = meterOf(3.0, 0.002);
   test::Random random(7);
@@ -211,7 +214,7 @@ TEST_F(PairMeterTest, EstimatesHowFastTheyComeNearerAndWhen) {
   const BodyId b = add("b", 1.19);
   PairMeter meter = meterOf(0.3);
   std::shared_ptr<const PairDistances> found;
-  for (int step = 0; step <= 50; ++step) {  // 0.5 m/s
+  for (int step = 0; step <= 50; ++step) {  // b approaches a with 0.5 m/s
     scene_.place(b, at(1.19 - 0.001 * step), std::chrono::milliseconds(2 * step + 1));
     found = measure(meter, 2 * step + 1);
   }
@@ -299,8 +302,8 @@ TEST_F(PairMeterTest, ContactsTellTheirShapesDeepestFirst) {
     pile.shapes.push_back(one.shapes.front());
   }
   put(scene_, pile, at(0.0));
-  add("wall", 0.75, 0.4);  // meets the balls of 0.5 only
-  add("floor", 0.2, 0.4);  // meets all
+  add("wall", 0.75, 0.4);  // touches only the sphere of radius 0.5 m
+  add("floor", 0.2, 0.4);  // touches all four spheres
   snapshot_ = scene_.commit(std::chrono::milliseconds(1), {});
   const Structure& structure = snapshot_->structure();
   const std::uint32_t pile_number = structure.find("obstacle/pile");
@@ -318,14 +321,14 @@ TEST_F(PairMeterTest, ContactsTellTheirShapesDeepestFirst) {
   EXPECT_TRUE(with("obstacle/floor", 0).empty());
 }
 
-/// Claim: an exception at any question, on whichever thread, reaches the caller; afterwards the meter measures what a
-/// new one does.
+/// Claim: an exception in any measurement, on any thread, reaches the caller. Afterwards the meter gives the same
+/// results as a new one.
 TEST_F(PairMeterTest, AnExceptionReachesTheCallerAndTheMeterWorksAgain) {
   for (int i = 0; i < 40; ++i) add(std::to_string(10 + i), 1.05 * i);
   for (const int threads : {1, 2, 4}) {
     PairMeter meter = meterOf(0.2, 0.0, threads);
     for (const int throws_at : {1, 2, 20, 38, 39}) {
-      SCOPED_TRACE("threads " + std::to_string(threads) + ", question " + std::to_string(throws_at));
+      SCOPED_TRACE("threads " + std::to_string(threads) + ", measurement " + std::to_string(throws_at));
       PairMeter fresh = meterOf(0.2, 0.0, threads);
       phase_->asked = 0;
       phase_->throws_at = throws_at;

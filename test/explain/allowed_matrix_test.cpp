@@ -18,7 +18,7 @@ using test::Random;
 
 constexpr std::size_t kAll = 1000000;
 
-/// Two arms, one of them with an SRDF, and four obstacles.
+/// Returns a snapshot of two arms, one of them with an SRDF, and of four obstacles, with these rules.
 std::shared_ptr<const Snapshot> cellWith(const std::vector<PairRule>& rules) {
   Scene scene{SceneOptions{}};
   LinkRules srdf;
@@ -32,7 +32,7 @@ std::shared_ptr<const Snapshot> cellWith(const std::vector<PairRule>& rules) {
   return scene.commit(Time{1}, {});
 }
 
-/// Every entry as "first second origin +" (allowed) or "-".
+/// Returns every entry as text: "first second origin +" if the pair is allowed, otherwise with "-".
 std::vector<std::string> gist(const AllowedList& list) {
   std::vector<std::string> lines;
   for (const PairRule& entry : list.entries) {
@@ -70,7 +70,7 @@ TEST(AllowedMatrix, GlobsChooseInEitherOrder) {
 TEST(AllowedMatrix, ALimitCutsAndTheTotalStays) {
   const auto snapshot = cellWith({allow("*", "*"), enable("right/hand", "obstacle/wall")});
   const AllowedList all = decidedPairs(snapshot->structure(), {"", "", kAll});
-  EXPECT_EQ(all.total, 12u * 11 / 2 - 1) << "every pair but that of what is fixed";
+  EXPECT_EQ(all.total, 12u * 11 / 2 - 1) << "every pair except that of the two fixed bodies";
   const AllowedList few = decidedPairs(snapshot->structure(), {"", "", 5});
   EXPECT_EQ(few.total, all.total);
   ASSERT_EQ(few.entries.size(), 5u);
@@ -84,7 +84,7 @@ TEST(AllowedMatrix, RulesAreListedAsTheyWereGiven) {
   const Structure& structure = snapshot->structure();
   const AllowedList all = givenRules(structure, {"", "", kAll});
   EXPECT_EQ(gist(all), Lines({"right/* obstacle/box 5 +", "left/hand * 5 -", "left/hand * 5 +", "nobody no one 5 +"}))
-      << "in their order: a later one beats an earlier one";
+      << "rules must be listed in the order in which they were given";
   EXPECT_EQ(all.entries[1].ends, end);
   EXPECT_EQ(gist(givenRules(structure, {"obstacle/*", "right/*", kAll})), Lines({"right/* obstacle/box 5 +"}));
   EXPECT_EQ(givenRules(structure, {"", "", 3}).entries.size(), 3u);
@@ -157,7 +157,7 @@ TEST(AllowedMatrix, WhatWouldTakeTooManyLooksIsRefused) {
   structure.bodies = std::move(bodies);
   std::string sentence;
   EXPECT_EQ(test::refusalOf([&] { decidedPairs(structure, {"", "", 1}); }, &sentence), Code::budget);
-  EXPECT_TRUE(test::says(sentence, "ask with narrower globs or for the rules"));
+  EXPECT_TRUE(test::says(sentence, "use narrower globs, or ask for the rules"));
   EXPECT_EQ(decidedPairs(structure, {"obstacle/100000", "", 1}).total, 6999u);
 }
 

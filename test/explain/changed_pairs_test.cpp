@@ -18,7 +18,7 @@ using test::allow;
 using test::enable;
 using test::Random;
 
-/// Two arms, one of them with an SRDF, two obstacles that move and two that are fixed.
+/// Returns two arms, one of them with an SRDF, and two moving and two fixed obstacles.
 std::vector<Body> cell() {
   LinkRules srdf;
   srdf.disabled = {{"elbow", "base", ""}};
@@ -49,16 +49,17 @@ TEST(ChangedPairs, AreThoseThatARuleSwitchesOffOrOn) {
   EXPECT_EQ(changed(bodies, {off}, {}), 1u);
   EXPECT_EQ(changed(bodies, {}, {all_off}), 16u);
   EXPECT_EQ(changed(bodies, {all_off}, {off}), 15u);
-  EXPECT_EQ(changed(bodies, {off}, {off, all_off}), 15u) << "one was off already";
+  EXPECT_EQ(changed(bodies, {off}, {off, all_off}), 15u) << "one of the 16 pairs was off before";
   EXPECT_EQ(changed(bodies, {all_off}, {all_off, enable("right/hand", "left/hand")}), 1u);
 }
 
 TEST(ChangedPairs, AreNoneWhereARuleDecidesAsWhatDecidedBefore) {
   const std::vector<Body> bodies = cell();
   EXPECT_EQ(changed(bodies, {}, {}), 0u);
-  EXPECT_EQ(changed(bodies, {}, {allow("left/base", "left/shoulder")}), 0u) << "they are one rigid group";
+  EXPECT_EQ(changed(bodies, {}, {allow("left/base", "left/shoulder")}), 0u)
+      << "a pair within a rigid group was off before";
   EXPECT_EQ(changed(bodies, {}, {allow("obstacle/wall", "obstacle/floor")}), 0u) << "fixed bodies make no pair";
-  EXPECT_EQ(changed(bodies, {}, {enable("left/hand", "right/hand")}), 0u) << "it was reported before";
+  EXPECT_EQ(changed(bodies, {}, {enable("left/hand", "right/hand")}), 0u) << "the pair was reported before too";
   EXPECT_EQ(changed(bodies, {}, {allow("nobody", "*")}), 0u);
 }
 

@@ -20,8 +20,8 @@ using test::says;
 
 constexpr double kMargin = 0.125;  // [m]
 
-/// An arm (balls of radius 0.1 m, all in one place), and balls of radius 0.5 m whose boxes stand 1/16 m (near) and 3 m
-/// (far) from that of obstacle/box.
+/// A world with an arm, whose links are spheres of radius 0.1 m at one place, and with spheres of radius 0.5 m. The box
+/// of obstacle/near is 1/16 m from that of obstacle/box, the box of obstacle/far 3 m.
 class Explain : public ::testing::Test {
  protected:
   static SceneOptions options() {
@@ -47,7 +47,7 @@ class Explain : public ::testing::Test {
     body.max_speed = 0.25;
     return body;
   }
-  /// Both ways round, which must agree but for the order.
+  /// Explains a pair. Checks that the explanation in the opposite order agrees.
   Explanation ask(const std::string& first, const std::string& second, const PairDistance* exact = nullptr) {
     const auto snapshot = scene_.commit(Time{++tick_}, {});
     const Explanation there = explain(*snapshot, first, second, exact), back = explain(*snapshot, second, first, exact);
@@ -81,7 +81,7 @@ TEST_F(Explain, WhatIsReportedIsExplainedByGapAndMargin) {
   EXPECT_EQ(what.age_first, 0.0);
   EXPECT_EQ(what.measured, Measure::not_measured);
   EXPECT_TRUE(std::isnan(what.distance));
-  EXPECT_EQ(ask("obstacle/box", "obstacle/near").since, Time{1}) << "since it is";
+  EXPECT_EQ(ask("obstacle/box", "obstacle/near").since, Time{1}) << "the pair must keep the time when it began";
 }
 
 TEST_F(Explain, WhatIsTooFarSaysHowFar) {
@@ -144,11 +144,10 @@ TEST(ExplainAdjacent, AChainOfJointsIsNamedJointByJoint) {
 
 TEST_F(Explain, WhatIsSwitchedOffSaysWhetherItWouldBeReported) {
   scene_.setRules({allow("obstacle/*", "obstacle/*")});
-  EXPECT_TRUE(
-      says(ask("obstacle/box", "obstacle/near").text,
-           "allows them to touch. Without that they would be reported: their boxes are 0.0625 m apart, within"));
+  EXPECT_TRUE(says(ask("obstacle/box", "obstacle/near").text,
+                   "allows them to touch. Otherwise they would be reported: their boxes are 0.0625 m apart, within"));
   EXPECT_TRUE(says(ask("obstacle/box", "obstacle/far").text,
-                   "allows them to touch. Besides, their boxes are 3 m apart, more than"));
+                   "allows them to touch. Also, their boxes are 3 m apart, more than"));
 }
 
 TEST_F(Explain, WhatIsSwitchedOnAgainstTheModelSaysSo) {
@@ -156,15 +155,16 @@ TEST_F(Explain, WhatIsSwitchedOnAgainstTheModelSaysSo) {
   EXPECT_TRUE(srdf.reported);
   EXPECT_EQ(srdf.rule.origin, Origin::srdf);
   EXPECT_FALSE(srdf.rule.allowed);
-  EXPECT_TRUE(says(srdf.text, "The SRDF's enable_collisions says that it is to be reported when near."));
+  EXPECT_TRUE(
+      says(srdf.text, "The SRDF's enable_collisions says that the pair must be reported when its bodies are near."));
   scene_.setRules({enable("arm/base", "arm/shoulder", "they came loose")});
   const Explanation rule = ask("arm/base", "arm/shoulder");
   EXPECT_TRUE(rule.reported);
   EXPECT_EQ(rule.rule.origin, Origin::service);
   EXPECT_TRUE(says(rule.text, "their boxes touch or overlap"));
   EXPECT_TRUE(says(rule.text,
-                   "Rule 'arm/base', 'arm/shoulder' of Scene::setRules() says that it is to be reported when "
-                   "near (they came loose)."));
+                   "Rule 'arm/base', 'arm/shoulder' of Scene::setRules() says that the pair must be reported when its "
+                   "bodies are near (they came loose)."));
 }
 
 TEST_F(Explain, ARuleThatEndsSaysWhen) {
@@ -197,7 +197,8 @@ TEST_F(Explain, AKindThatIsNotNamedIsNamed) {
   for (const Row& row : rows) {
     const Explanation what = explain(*snapshot, row.first, row.second, nullptr);
     EXPECT_EQ(what.rule.origin, Origin::kind);
-    EXPECT_TRUE(says(what.text, std::string("SceneOptions::pair_kinds does not name their kind, ") + row.kind + ","));
+    EXPECT_TRUE(says(what.text,
+                     std::string("SceneOptions::pair_kinds does not contain their kind of pair, ") + row.kind + ","));
   }
 }
 
@@ -226,7 +227,7 @@ TEST_F(Explain, OldDataIsToldWithWhatItDoesToTheMargin) {
   scene_.setState(near_, Freshness::stale, 1.0);
   const Explanation what = ask("obstacle/near", "obstacle/box");
   EXPECT_TRUE(says(what.text,
-                   "within the margin of 0.375 m. 0.25 m of the margin are there because data is old. "
+                   "within the margin of 0.375 m. The margin is 0.25 m larger than usual because data is old. "
                    "obstacle/near is STALE: its pose is 1 s old."));
   EXPECT_EQ(what.growth, 0.25);
   EXPECT_EQ(what.margin, 0.375);
@@ -234,7 +235,7 @@ TEST_F(Explain, OldDataIsToldWithWhatItDoesToTheMargin) {
   EXPECT_EQ(what.state_first, Freshness::stale);
   EXPECT_EQ(what.age_first, 1.0);
   const Explanation far = ask("obstacle/near", "obstacle/far");
-  EXPECT_EQ(far.margin, 0.375) << "also where it is not reported";
+  EXPECT_EQ(far.margin, 0.375) << "the margin must include the growth even if the pair is not reported";
 }
 
 TEST_F(Explain, TheLargerMarginOfTheTwoApplies) {
@@ -259,9 +260,9 @@ TEST_F(Explain, WhatWasMeasuredIsTold) {
   };
   EXPECT_TRUE(says(wordsOf(Measure::apart, 0.07), "Their shapes are 0.07 m apart."));
   EXPECT_TRUE(says(wordsOf(Measure::contact, 0.0), "Their shapes are in contact."));
-  EXPECT_TRUE(says(wordsOf(Measure::contained, 0.0), "One shape lies inside the other, which is contact."));
-  EXPECT_TRUE(says(wordsOf(Measure::containment_unknown, 0.0), "an open mesh; that is taken as contact."));
-  EXPECT_TRUE(says(wordsOf(Measure::failed, 0.0), "could not be computed; that is taken as contact."));
+  EXPECT_TRUE(says(wordsOf(Measure::contained, 0.0), "One shape lies inside the other, which counts as contact."));
+  EXPECT_TRUE(says(wordsOf(Measure::containment_unknown, 0.0), "which is an open mesh; this counts as contact."));
+  EXPECT_TRUE(says(wordsOf(Measure::failed, 0.0), "could not be computed; this counts as contact."));
 }
 
 TEST_F(Explain, WhatWasNotReadIsSaidOfAPairThatIsMeasured) {
@@ -286,14 +287,14 @@ TEST(ExplainHorizon, APairThatIsReportedForItSaysSo) {
   const Explanation what = explain(*snapshot, "obstacle/runner", "obstacle/wall", nullptr);
   EXPECT_TRUE(what.reported);
   EXPECT_TRUE(says(what.text,
-                   "are reported: their boxes are 0.5 m apart, more than the margin of 0.125 m, but by their "
-                   "bounds of speed they can meet within SceneOptions::horizon"));
+                   "are reported: their boxes are 0.5 m apart, more than the margin of 0.125 m, but given their "
+                   "maximum speeds they can meet within SceneOptions::horizon"));
 }
 
 TEST_F(Explain, NamesThatNobodyHasAreRefusedWithWhatIsCalledNearlySo) {
   std::string sentence;
   EXPECT_EQ(refusalOf([&] { ask("obstacle/boks", "obstacle/near"); }, &sentence), Code::unknown_id);
-  EXPECT_TRUE(says(sentence, "there is no body 'obstacle/boks'; nearly so are called 'obstacle/box'"));
+  EXPECT_TRUE(says(sentence, "there is no body 'obstacle/boks'; similar names are 'obstacle/box'"));
   EXPECT_EQ(refusalOf([&] { ask("obstacle/box", "\n"); }, &sentence), Code::unknown_id);
   EXPECT_EQ(sentence, "there is no body '\\x0a'");
 }

@@ -24,7 +24,7 @@ Aabb boxAt(float x, float y, float z, float side = 0.f) {
   return box;
 }
 
-/// Two boxes with gaps near `size` on up to three axes, anywhere.
+/// Returns two boxes with gaps of about `size` on up to three axes, at coordinates up to `far`.
 std::pair<Aabb, Aabb> randomBoxes(Random& random, double size, double far) {
   Aabb a, b;
   for (int k = 0; k < 3; ++k) {
@@ -54,7 +54,7 @@ TEST(Aabb, WithinDistanceIsExactAtAndBesideTheTrueDistance) {
       const double margin = std::max(0.0, stepped(near, ulps));
       const bool expected = test::exactlyWithin(a, b, margin);
       ASSERT_EQ(withinDistance(a, b, margin), expected) << "margin " << margin << " at " << ulps << " ulps";
-      ASSERT_EQ(withinDistance(b, a, margin), expected) << "the other order";
+      ASSERT_EQ(withinDistance(b, a, margin), expected) << "the result depends on the order of the two boxes";
     }
   }
 }
@@ -108,7 +108,7 @@ TEST(Aabb, WithinDistanceKnowsTheSmallestAndTheLargestMargins) {
   const Aabb far = boxAt(kHuge, -kHuge, kHuge);
   EXPECT_TRUE(withinDistance(boxAt(-kHuge, kHuge, -kHuge), far, 1.2e39));
   EXPECT_FALSE(withinDistance(boxAt(-kHuge, kHuge, -kHuge), far, 1.1e39));
-  EXPECT_TRUE(withinDistance(a, far, 1e200)) << "its square is beyond the doubles";
+  EXPECT_TRUE(withinDistance(a, far, 1e200)) << "the square of the margin overflows a double";
   EXPECT_TRUE(withinDistance(a, a, std::numeric_limits<double>::infinity()));
 }
 
@@ -121,7 +121,7 @@ TEST(Aabb, OverlapIsTheSameInBothOrdersAndOnEveryAxis) {
   }
 }
 
-TEST(Aabb, RoundsDownAndUpToTheNeighbouringFloats) {
+TEST(Aabb, RoundsDownAndUpToTheNeighboringFloats) {
   Random random(3);
   for (int i = 0; i < 100000; ++i) {
     const double value = random.logUniform(1e-46, 3e38) * (random.chance(0.5) ? 1 : -1);
@@ -150,7 +150,7 @@ TEST(Aabb, GrownContainsEveryPointWithinTheGrowth) {
     for (int k = 0; k < 3; ++k) {
       ASSERT_TRUE(Exact(large.min[k]) <= Exact(box.min[k]) - Exact(by)) << "seed " << seed;
       ASSERT_TRUE(Exact(box.max[k]) + Exact(by) <= Exact(large.max[k])) << "seed " << seed;
-      // And hardly more: what selects candidates must not select the world.
+      // The box must not grow much more than that, because too large boxes would select too many candidates.
       ASSERT_GE(large.min[k], box.min[k] - by - 3e-7 * (std::fabs(box.min[k]) + by) - 1e-44) << "seed " << seed;
       ASSERT_LE(large.max[k], box.max[k] + by + 3e-7 * (std::fabs(box.max[k]) + by) + 1e-44) << "seed " << seed;
     }
@@ -184,7 +184,8 @@ TEST(Aabb, NearestPointsLieInTheirBoxesAtTheDistanceOfTheBoxes) {
     for (int axis = 0; axis < 3; ++axis) {
       const double low = std::max(a.min[axis], b.min[axis]), high = std::min(a.max[axis], b.max[axis]);
       if (low <= high) {
-        ASSERT_EQ(points.on_first[axis], 0.5 * (low + high)) << "the middle of the overlap";
+        ASSERT_EQ(points.on_first[axis], 0.5 * (low + high))
+            << "on this axis the point must be in the middle of the overlap";
       }
     }
   }

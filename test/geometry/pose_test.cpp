@@ -28,12 +28,12 @@ TEST(CheckedPose, RefusesEachFieldThatIsNotFiniteByName) {
       Eigen::Vector4d xyzw = kUpright;
       (field < 3 ? position[field] : xyzw[field - 3]) = bad;
       std::string sentence;
-      bool renormalised = false;
-      EXPECT_EQ(refusalOf([&] { checkedPose(position, xyzw, "transform of 'tool0'", &renormalised); }, &sentence),
+      bool renormalized = false;
+      EXPECT_EQ(refusalOf([&] { checkedPose(position, xyzw, "transform of 'tool0'", &renormalized); }, &sentence),
                 Code::nonfinite);
       EXPECT_TRUE(says(sentence, "transform of 'tool0'"));
       EXPECT_TRUE(says(sentence, fields[field]));
-      EXPECT_FALSE(renormalised);
+      EXPECT_FALSE(renormalized);
     }
   }
 }
@@ -54,16 +54,16 @@ TEST(CheckedPose, RefusesAQuaternionThatIsNoRotation) {
   EXPECT_EQ(refusalOf([&] { checkedPose(kHere, overflowing, "pose"); }), Code::bad_rotation);
 }
 
-TEST(CheckedPose, NormalisesAQuaternionThatIsALittleOffAndSaysSo) {
+TEST(CheckedPose, NormalizesAQuaternionThatIsALittleOffAndSaysSo) {
   test::Random random(1);
   for (int i = 0; i < 1000; ++i) {
     Eigen::Vector4d unit;
     for (int k = 0; k < 4; ++k) unit[k] = random.uniform(-1, 1);
     unit.normalize();
     const double squared = random.uniform(0.9702, 1.0298);
-    bool renormalised = false;
-    const Pose pose = checkedPose(kHere, std::sqrt(squared) * unit, "pose", &renormalised);
-    EXPECT_EQ(renormalised, std::abs(squared - 1.0) > 1e-6) << squared;
+    bool renormalized = false;
+    const Pose pose = checkedPose(kHere, std::sqrt(squared) * unit, "pose", &renormalized);
+    EXPECT_EQ(renormalized, std::abs(squared - 1.0) > 1e-6) << squared;
     EXPECT_TRUE((pose.linear() * pose.linear().transpose()).isIdentity(1e-14));
     const Pose straight = checkedPose(kHere, unit, "pose");
     EXPECT_TRUE(pose.linear().isApprox(straight.linear(), 1e-14));
@@ -72,14 +72,14 @@ TEST(CheckedPose, NormalisesAQuaternionThatIsALittleOffAndSaysSo) {
 }
 
 TEST(CheckedPose, FlagsNothingThatIsWithinRoundingOfAUnit) {
-  bool renormalised = false;
-  checkedPose(kHere, kUpright, "pose", &renormalised);
-  checkedPose(kHere, kUpright * (1 + 1e-8), "pose", &renormalised);
-  EXPECT_FALSE(renormalised);
-  checkedPose(kHere, kUpright * std::sqrt(1.01), "pose", &renormalised);
-  EXPECT_TRUE(renormalised);
-  checkedPose(kHere, kUpright, "pose", &renormalised);
-  EXPECT_TRUE(renormalised) << "it is never cleared";
+  bool renormalized = false;
+  checkedPose(kHere, kUpright, "pose", &renormalized);
+  checkedPose(kHere, kUpright * (1 + 1e-8), "pose", &renormalized);
+  EXPECT_FALSE(renormalized);
+  checkedPose(kHere, kUpright * std::sqrt(1.01), "pose", &renormalized);
+  EXPECT_TRUE(renormalized);
+  checkedPose(kHere, kUpright, "pose", &renormalized);
+  EXPECT_TRUE(renormalized) << "checkedPose() must never clear the flag";
 }
 
 TEST(CheckedPose, TurnsAsTheQuaternionSays) {

@@ -37,21 +37,21 @@ Case randomCase(unsigned seed) {
   return result;
 }
 
-/// What must hold of any answer, against bisection in extended arithmetic.
+/// Compares the result of meet() with a bisection in extended precision.
 void expectRight(const Case& c) {
   const Eigen::Vector3d &a = c.segment.from, &b = c.segment.to;
   const test::Approach approach = test::approachOf(c.box, a, b, c.segment.radius);
   const double slack = test::promisedSlack(a, b, c.segment.radius), length = (b - a).norm();
   const auto meeting = meet(c.segment, c.box);
   if (approach.least <= c.segment.radius) {
-    ASSERT_TRUE(meeting) << "missed by " << double(approach.least);
+    ASSERT_TRUE(meeting) << "meet() misses a box at distance " << double(approach.least);
   }
   if (!meeting) return;
   ASSERT_LE(approach.least, c.segment.radius + slack);
   ASSERT_NEAR(meeting->axis_distance, double(approach.least), slack);
   ASSERT_GE(meeting->along, 0.0);
   ASSERT_LE(meeting->along, length * (1 + 1e-15));
-  // The point of first contact: touching there, and not clearly touching before.
+  // At the first touch, the sphere must touch the box, and it must not clearly touch the box before.
   if (length > 0) {
     ASSERT_LE(test::distanceAt(c.box, a, b, meeting->along / length), c.segment.radius + slack);
   }
@@ -64,7 +64,8 @@ void expectRight(const Case& c) {
   }
   const Aabb point = {meeting->point.cast<float>(), meeting->point.cast<float>()};
   const auto near = test::approachOf(point, a, b, 0.0).least;
-  ASSERT_NEAR(double(near), meeting->axis_distance, slack + 2e-7 * meeting->point.norm()) << "point is not the nearest";
+  ASSERT_NEAR(double(near), meeting->axis_distance, slack + 2e-7 * meeting->point.norm())
+      << "another point of the box is nearer";
 }
 
 TEST(Segment, MeetsWhatBisectionFindsAtRadiiBesideTheTrueDistance) {
@@ -135,7 +136,7 @@ TEST(Segment, SaysWhereItsBallFirstTouches) {
   ASSERT_TRUE(thick);
   EXPECT_NEAR(thick->along, 8.0, 1e-9);
   EXPECT_EQ(thick->axis_distance, 0.0);
-  const auto edge = meet({{0, 4, 0}, {20, 4, 0}, 5.0}, box);  // beside the edge: 3-4-5
+  const auto edge = meet({{0, 4, 0}, {20, 4, 0}, 5.0}, box);  // 3 m from an edge of the box: a 3-4-5 triangle
   ASSERT_TRUE(edge);
   EXPECT_NEAR(edge->along, 6.0, 1e-9);
   EXPECT_EQ(edge->axis_distance, 3.0);

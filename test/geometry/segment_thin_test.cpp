@@ -11,7 +11,8 @@ namespace {
 
 using test::Random;
 
-/// Exact witnesses: thin segments by fractions, thick ones along an axis as the box that they are.
+/// Checks that meet() finds a box that a thin segment (radius 0) meets in exact arithmetic. Also checks that meet()
+/// finds no box that the segment misses by more than a rounding error.
 void expectSuperset(const Segment& segment, const Aabb& box) {
   const Eigen::Vector3d &a = segment.from, &b = segment.to;
   if (segment.radius == 0.0 && test::exactlyMeets(box, a, b)) {
@@ -28,10 +29,11 @@ TEST(ThinSegment, AlongFacesEdgesAndThroughVerticesIsASupersetOfTheExactAnswer) 
   for (unsigned seed = 1; seed <= 30000; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
-    // Everything on a lattice, at times moved by a unit in the last place: contacts are the rule here.
+    // All coordinates lie on a lattice and are sometimes moved by one unit in the last place, so most cases are
+    // contacts.
     const float cell = std::ldexp(1.f, random.between(-6, 6)), offset = random.chance(0.3) ? 1e4f * cell : 0.f;
     const auto somewhere = [&] {
-      const int units = random.between(-1, 1);  // first: compilers differ in which argument they compute first
+      const int units = random.between(-1, 1);  // a variable: compilers evaluate arguments in different orders
       return test::stepped(double(offset + cell * float(random.between(-4, 4))), units);
     };
     Aabb box;
@@ -74,7 +76,7 @@ TEST(ThickSegment, AlongAnAxisIsASupersetOfTheExactAnswer) {
   for (unsigned seed = 1; seed <= 30000; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
-    Aabb box, axis;  // the axis is a box of no width: its distance is exact
+    Aabb box, axis;  // the axis of the segment as a box of width 0, so that its distance can be computed exactly
     for (int k = 0; k < 3; ++k) {
       box.min[k] = float(random.between(-12, 12)), box.max[k] = box.min[k] + float(random.between(0, 4));
       axis.min[k] = axis.max[k] = float(random.between(-12, 12));

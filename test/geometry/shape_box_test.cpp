@@ -12,8 +12,8 @@ using test::Random;
 using Wide = Eigen::Matrix<long double, 3, 1>;
 using WideRotation = Eigen::Matrix<long double, 3, 3>;
 
-/// How far the shape, turned, reaches from its origin along +axis: its support function, in extended
-/// arithmetic and from the matrix as it is.
+/// Returns how far [m] a rotated shape extends from its origin along an axis: its support function. Computes in
+/// extended precision, and uses the rotation matrix as it is, even if it is not exactly orthogonal.
 long double reachAlong(const Shape& shape, const WideRotation& rotation, int axis, int sign) {
   const Wide row = rotation.row(axis).transpose() * (long double)sign;
   const long double across = std::sqrt(row[0] * row[0] + row[1] * row[1]), length = row.norm();
@@ -39,7 +39,7 @@ long double reachAlong(const Shape& shape, const WideRotation& rotation, int axi
   return most;
 }
 
-/// A point of the shape's surface in its own frame.
+/// Returns a random point on the surface of a shape, in the frame of the shape.
 Wide pointOf(const Shape& shape, Random& random) {
   const std::vector<double> d = shape.dimensions();
   const auto circle = [&](long double radius, long double z) {
@@ -90,7 +90,8 @@ TEST(BoxOfShape, ContainsTheShapeAndIsTightOnAllSixFaces) {
       const long double center = (long double)pose.translation()[k] - origin[k];
       const long double high = center + reachAlong(shape, rotation, k, 1) + padding;
       const long double low = center - reachAlong(shape, rotation, k, -1) - padding;
-      // The promise of the header: at most 64 units of rounding of the terms, then the next float.
+      // boxOf() promises that the error is at most 64 rounding units of these terms, and then the step to the next
+      // float.
       const long double terms = std::abs(pose.translation()[k]) + std::abs(origin[k]) + shape.reach() + padding;
       const long double slack = 3e-14L * terms + 1e-44L;
       ASSERT_GE(box.max[k], high);
@@ -121,7 +122,7 @@ TEST(BoxOfShape, ContainsPointsSampledFromThePaddedSurface) {
   }
 }
 
-// A wide disc that is tilted by less than the square root of the rounding unit still lifts its rim.
+// If a wide disc is tilted by a tiny angle, less than the square root of the rounding unit, its rim still rises.
 TEST(BoxOfShape, ContainsTheRimOfAWideDiscThatIsHardlyTilted) {
   for (const double angle : {1e-9, 3e-9, 1e-8, 2e-8, 1e-7}) {
     for (const bool cone : {false, true}) {

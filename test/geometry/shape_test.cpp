@@ -82,7 +82,8 @@ TEST(Shape, TakesAPlateOnlyWherePlatesAreAllowed) {
     EXPECT_EQ(refusalOf([&] { Shape::box(size); }), Code::bad_geometry);
     EXPECT_EQ(refusalOf([&] { Shape::box(size, flat); }), Code::ok);
     size[(axis + 1) % 3] = 0.0;
-    EXPECT_EQ(refusalOf([&] { Shape::box(size, flat); }), Code::bad_geometry) << "a stick is no plate";
+    EXPECT_EQ(refusalOf([&] { Shape::box(size, flat); }), Code::bad_geometry)
+        << "a box that is flat on two axes must be refused";
   }
   EXPECT_EQ(refusalOf([&] { Shape::box({0, 0, 0}, flat); }), Code::bad_geometry);
   EXPECT_EQ(refusalOf([&] { Shape::box({-1, 1, 1}, flat); }), Code::bad_geometry);
@@ -111,7 +112,8 @@ TEST(Shape, PrimitiveMakesWhatTheMakerMakes) {
   const ShapeKind round[] = {ShapeKind::cylinder, ShapeKind::cone, ShapeKind::capsule};
   for (int kind = 3; kind <= 5; ++kind) {
     EXPECT_EQ(Shape::primitive(kind, {2, 0.5}).kind(), round[kind - 3]);
-    EXPECT_EQ(Shape::primitive(kind, {2, 0.5}).dimensions(), std::vector<double>({2, 0.5})) << "height, radius";
+    EXPECT_EQ(Shape::primitive(kind, {2, 0.5}).dimensions(), std::vector<double>({2, 0.5}))
+        << "the dimensions must be height and radius, in this order";
   }
 }
 
@@ -135,11 +137,11 @@ TEST(Shape, RefusesMeshesWithoutSurface) {
   mesh->triangles = {{0, 1, 2}};
   EXPECT_EQ(refusalOf([&] { Shape::mesh(mesh); }), Code::bad_geometry) << "three corners on one line";
   mesh->triangles = {{0, 1, 2}, {0, 1, 3}};
-  EXPECT_EQ(refusalOf([&] { Shape::mesh(mesh); }), Code::ok) << "one with an area is enough";
+  EXPECT_EQ(refusalOf([&] { Shape::mesh(mesh); }), Code::ok) << "one triangle with an area must be enough";
 }
 
 TEST(Shape, RefusesTrianglesThatNameNoVertex) {
-  for (const std::uint32_t bad : {4u, 5u, 0xffffffffu}) {  // -1 of a signed reader becomes the last
+  for (const std::uint32_t bad : {4u, 5u, 0xffffffffu}) {  // 0xffffffff: -1 read as an unsigned number
     for (std::size_t corner = 0; corner < 3; ++corner) {
       auto mesh = tetrahedron();
       mesh->triangles[2][corner] = bad;

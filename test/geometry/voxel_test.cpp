@@ -34,7 +34,7 @@ TEST(Voxel, CornersReachFromOneEndOfTheKeysToTheOtherWithoutWrapping) {
   EXPECT_EQ(edgeOf(whole, 0.5), 32768.0);
   EXPECT_EQ(maxCorner(last, 0.5), maxCorner(whole, 0.5));
   EXPECT_EQ(minCorner(origin, 0.5), Eigen::Vector3d::Zero());
-  EXPECT_EQ(edgeOf(origin, 0.05), 0.05) << "by its level, not from its corners";
+  EXPECT_EQ(edgeOf(origin, 0.05), 0.05) << "the edge must be computed from the level; the corners are rounded";
   EXPECT_NE(origin, (Voxel{32768, 32768, 32768, 1}));
 }
 

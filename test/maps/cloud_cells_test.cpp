@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// The cells of a cloud against a model that knows each point's cell by its number on the lattice of the world.
+// Compares the cells of a cloud with a simple model, which numbers the cells of a lattice over the whole world.
 #include "hgrid_proximity/maps/cloud_cells.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ constexpr std::size_t kPlenty = 1000000;
 
 Time at(double seconds) { return Time(static_cast<std::int64_t>(seconds * 1e9)); }
 
-/// Where the cells are on the lattice of the world.
+/// Returns the positions of the cells on the lattice of the world.
 std::vector<Keys> latticeOf(const CloudCells& cloud) {
   std::vector<Keys> all;
   for (const Voxel& voxel : cloud.cells()) {
@@ -41,7 +41,7 @@ TEST(CloudCells, AreThoseOfTheModelWhateverIsSeenAndWhereverTheSensorGoes) {
     Random random(seed);
     const double edge = std::pow(10.0, random.uniform(-2.0, 0.0));
     CloudCells cloud(edge, at(1.0), kPlenty);
-    std::map<Keys, double> model;  // when it was seen last
+    std::map<Keys, double> model;  // [s] for each cell: when it was last seen
     Eigen::Vector3d sensor = Eigen::Vector3d(1e5, -3e4, 10.0) * random.below(2);
     double now = 100.0;
     for (int step = 0; step < 60; ++step) {
@@ -52,7 +52,7 @@ TEST(CloudCells, AreThoseOfTheModelWhateverIsSeenAndWhereverTheSensorGoes) {
       const std::size_t lost = cloud.follow(sensor);
       jumps += cloud.corner() != before;
       std::size_t gone = 0;
-      for (auto one = model.begin(); one != model.end();) {  // what lies beyond the keys now
+      for (auto one = model.begin(); one != model.end();) {  // removes the cells beyond the range of the keys
         bool in_reach = true;
         for (int axis = 0; axis < 3; ++axis) {
           const std::int64_t key = one->first[axis] - std::llround(cloud.corner()[axis] / edge) + Voxel::kOriginKey;
@@ -66,7 +66,7 @@ TEST(CloudCells, AreThoseOfTheModelWhateverIsSeenAndWhereverTheSensorGoes) {
       std::vector<Eigen::Vector3d> points;
       for (int i = random.below(50); i > 0; --i) {
         Eigen::Vector3d point = sensor + randomPose(random, 40.0 * edge).translation();
-        if (random.chance(0.3)) point = edge * (point / edge).array().round().matrix();  // on the borders of cells
+        if (random.chance(0.3)) point = edge * (point / edge).array().round().matrix();  // on the border of a cell
         if (!points.empty() && random.chance(0.3)) point = points.back();
         points.push_back(point);
       }
@@ -90,7 +90,7 @@ TEST(CloudCells, AreThoseOfTheModelWhateverIsSeenAndWhereverTheSensorGoes) {
       std::vector<Keys> expected;
       for (const auto& one : model) expected.push_back(one.first);
       ASSERT_EQ(latticeOf(cloud), expected);
-      StaticGrid(edge, cloud.cells());  // which refuses what is not disjoint and in order
+      StaticGrid(edge, cloud.cells());  // throws if the cells are not disjoint and sorted
     }
   }
   EXPECT_GT(jumps, 20u);
@@ -117,7 +117,7 @@ TEST(CloudCells, OneTooManyIsRefusedAndChangesNothing) {
   EXPECT_EQ(refusalOf([&] { see({{0, 0, 0}, {2, 0, 0}}); }), Code::limit);
   EXPECT_EQ(cloud.size(), 2u);
   see({{1, 0, 0}});
-  EXPECT_EQ(cloud.size(), 2u) << "those that are known count once";
+  EXPECT_EQ(cloud.size(), 2u) << "a known cell must not be counted again";
 }
 
 TEST(CloudCells, WhatIsSeenAgainStays) {
@@ -126,8 +126,8 @@ TEST(CloudCells, WhatIsSeenAgainStays) {
   const std::vector<Voxel> one = cloud.cellsOf({{0, 0, 0}}, {0, 0, 0}, left_out);
   cloud.see(one, at(1.0));
   cloud.see(one, at(1.5));
-  cloud.see(one, at(1.2));  // late, and no reason to forget it sooner
-  EXPECT_EQ(cloud.forget(at(2.5)), 0u) << "just not older than its lifetime";
+  cloud.see(one, at(1.2));  // an older message that arrives late must not shorten the lifetime
+  EXPECT_EQ(cloud.forget(at(2.5)), 0u) << "the age of the cell equals its lifetime, but does not exceed it";
   EXPECT_EQ(cloud.forget(at(2.6)), 1u);
 }
 

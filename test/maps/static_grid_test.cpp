@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// StaticGrid against a scan of all voxels in extended precision, on maps of every make.
+// Compares StaticGrid with a scan of all voxels in extended precision, on many kinds of maps.
 #include "hgrid_proximity/maps/static_grid.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace {
 
 using Real = long double;
 
-/// Voxels below a cube of some level: each of its eight children is left out, kept whole, or divided.
+/// Appends random voxels inside a cube. Each of its eight children is left out, added as a whole, or divided further.
 void divide(const Voxel& cube, Random& random, double kept, double divided, int least, std::vector<Voxel>& voxels) {
   for (unsigned child = 0; child < 8; ++child) {
     const auto level = static_cast<std::uint8_t>(cube.level - 1);
@@ -65,7 +65,7 @@ std::vector<Map> maps() {
   maps.push_back({"near the origin", 0.05, scattered(random, 400, 32768 - 12, 32768 + 12)});
   maps.push_back({"dense", 0.3, scattered(random, 3000, 32768 - 8, 32768 + 8)});
   maps.push_back({"far apart", 100.0, scattered(random, 300, 0, 65536)});
-  maps.push_back({"millimetres", 0.001, scattered(random, 300, 60000, 60200)});
+  maps.push_back({"millimeters", 0.001, scattered(random, 300, 60000, 60200)});
   for (int i = 0; i < 6; ++i) {
     Map map{"divided " + std::to_string(i), i % 2 == 0 ? 0.05 : 0.1, {}};
     const auto level = static_cast<std::uint8_t>(4 + i);
@@ -85,14 +85,14 @@ std::vector<Map> maps() {
   return maps;
 }
 
-/// Positions around the map: within, on borders of voxels, far off.
+/// Returns a random position in the map, on the border of a voxel, or far away.
 Eigen::Vector3d somewhere(const Map& map, Random& random) {
   if (map.voxels.empty() || random.chance(0.05)) {
     return {random.uniform(-1e4, 1e4), random.uniform(-1e4, 1e4), random.uniform(-1e4, 1e4)};
   }
   const Voxel& voxel = map.voxels[static_cast<std::size_t>(random.below(static_cast<int>(map.voxels.size())))];
   const Eigen::Vector3d min = minCorner(voxel, map.edge), max = maxCorner(voxel, map.edge);
-  if (random.chance(0.3)) return random.chance(0.5) ? min : max;  // on borders
+  if (random.chance(0.3)) return random.chance(0.5) ? min : max;  // on the border of a voxel
   const double around = std::ldexp(map.edge, random.below(6));
   Eigen::Vector3d point;
   for (int axis = 0; axis < 3; ++axis) point[axis] = random.uniform(min[axis] - around, max[axis] + around);
@@ -103,7 +103,7 @@ double length(const Map& map, Random& random) {
   return random.chance(0.2) ? 0.0 : std::ldexp(map.edge, random.below(8)) * random.uniform(0.0, 1.0);
 }
 
-/// The distance of a voxel from a box.
+/// Returns the distance [m] of a voxel from a box.
 Real distanceOf(const Map& map, const Voxel& voxel, const Eigen::AlignedBox3d& box) {
   Real sum = 0;
   const Eigen::Vector3d min = minCorner(voxel, map.edge), max = maxCorner(voxel, map.edge);
@@ -119,7 +119,8 @@ double slack(const Eigen::AlignedBox3d& box, double around) {
   return 1e-9 * (box.min().cwiseAbs().maxCoeff() + box.max().cwiseAbs().maxCoeff() + around + 1.0);
 }
 
-/// All that is surely within is there, and nothing that is surely not.
+/// Checks that `found` contains all voxels that are surely at most `within` [m] from the box, and none that is surely
+/// farther away.
 void expectRight(const Map& map, const std::vector<Voxel>& found, const Eigen::AlignedBox3d& box, double within) {
   std::vector<Voxel> surely, perhaps;
   for (const Voxel& voxel : map.voxels) {
@@ -130,9 +131,9 @@ void expectRight(const Map& map, const std::vector<Voxel>& found, const Eigen::A
   const auto before = [](const Voxel& a, const Voxel& b) { return mortonOf(a) < mortonOf(b); };
   ASSERT_TRUE(std::is_sorted(found.begin(), found.end(), before));
   ASSERT_TRUE(std::includes(found.begin(), found.end(), surely.begin(), surely.end(), before))
-      << "something is missing";
+      << "a voxel within the distance is missing";
   ASSERT_TRUE(std::includes(perhaps.begin(), perhaps.end(), found.begin(), found.end(), before))
-      << "something is not there";
+      << "a voxel beyond the distance was found";
 }
 
 class StaticGridOracle : public ::testing::TestWithParam<std::size_t> {
@@ -192,7 +193,7 @@ TEST_P(StaticGridOracle, FindsTheNearest) {
     for (std::size_t k = 0; k < std::min(count, distances.size()); ++k) {
       if (distances[k] > limit + rounding) break;
       if (k >= found.size()) {
-        ASSERT_GT(distances[k], std::max(0.0, limit - rounding)) << "one is missing";
+        ASSERT_GT(distances[k], std::max(0.0, limit - rounding)) << "a voxel is missing";
         break;
       }
       ASSERT_NEAR(found[k].distance, static_cast<double>(distances[k]), rounding);
@@ -203,8 +204,8 @@ TEST_P(StaticGridOracle, FindsTheNearest) {
   }
 }
 
-/// Where a ball that moves along a segment first touches a voxel, or nothing; by nested intervals of the distance,
-/// which is convex along a line.
+/// Returns where a sphere that moves along a segment first touches a voxel, as a share of the segment; nothing if it
+/// does not. Searches by nested intervals, because the distance is a convex function along a line.
 std::optional<Real> touchOf(const Map& map, const Voxel& voxel, const Segment& segment, Real radius) {
   const auto distanceAt = [&](Real share) {
     const Eigen::Vector3d min = minCorner(voxel, map.edge), max = maxCorner(voxel, map.edge);
@@ -243,7 +244,7 @@ TEST_P(StaticGridOracle, FindsWhatASegmentTouchesFirst) {
     Segment segment{somewhere(map_, random_), somewhere(map_, random_), 0.0};
     if (random_.chance(0.3)) segment.radius = length(map_, random_);
     if (random_.chance(0.2)) segment.to = segment.from;
-    if (random_.chance(0.3)) segment.to[random_.below(3)] = segment.from[1];  // along borders
+    if (random_.chance(0.3)) segment.to[random_.below(3)] = segment.from[1];  // along borders of voxels
     const Eigen::AlignedBox3d around = Eigen::AlignedBox3d(segment.from).extend(segment.to);
     const double rounding = slack(around, segment.radius), whole = (segment.to - segment.from).norm();
     std::optional<Real> surely, perhaps;
@@ -255,10 +256,10 @@ TEST_P(StaticGridOracle, FindsWhatASegmentTouchesFirst) {
       }
     }
     const auto found = grid_.firstAlong(segment);
-    ASSERT_TRUE(found || !surely) << "something is missing";
+    ASSERT_TRUE(found || !surely) << "the segment surely touches a voxel, but none was found";
     if (!found) continue;
     ++hits;
-    ASSERT_TRUE(perhaps) << "something is not there";
+    ASSERT_TRUE(perhaps) << "a voxel was found, but the segment surely touches none";
     ASSERT_LE(found->along, static_cast<double>(surely.value_or(1)) * whole + rounding);
     ASSERT_GE(found->along, static_cast<double>(*perhaps) * whole - rounding);
     const Eigen::Vector3d at = segment.from + (whole > 0.0 ? found->along / whole : 0.0) * (segment.to - segment.from);
@@ -270,7 +271,8 @@ TEST_P(StaticGridOracle, FindsWhatASegmentTouchesFirst) {
   }
 }
 
-/// Ends of segments where rounding is hardest: on planes, edges and corners of cells, far off, next to each other.
+/// Returns a segment for which rounding is critical. Its ends are on planes, edges and corners of cells, far away, or
+/// very close to each other.
 Segment hardSegment(const Map& map, Random& random) {
   Segment segment{somewhere(map, random), somewhere(map, random), 0.0};
   const int kind = random.below(8);
@@ -286,7 +288,7 @@ Segment hardSegment(const Map& map, Random& random) {
 
 TEST_P(StaticGridOracle, LeavesNoVoxelOutAlongASegment) {
   const int count = std::max(100, countFromEnvironment("HGRID_TEST_WORLDS", 10000) / 10);
-  std::vector<Aabb> boxes;  // in keys
+  std::vector<Aabb> boxes;  // the voxels as boxes; the unit is the edge of the smallest voxel
   for (const Voxel& voxel : map_.voxels) {
     const auto key = [](std::uint16_t at) { return static_cast<float>(at - Voxel::kOriginKey); };
     const Eigen::Vector3f min(key(voxel.x), key(voxel.y), key(voxel.z));
@@ -302,9 +304,9 @@ TEST_P(StaticGridOracle, LeavesNoVoxelOutAlongASegment) {
       if (along) share = std::min(share.value_or(1e9), length > 0.0 ? *along / length : 0.0);
     }
     const auto found = grid_.firstAlong(segment);
-    ASSERT_EQ(found.has_value(), share.has_value()) << "question " << i;
+    ASSERT_EQ(found.has_value(), share.has_value()) << "segment " << i;
     if (found) {
-      ASSERT_EQ(found->along, *share * (segment.to - segment.from).norm()) << "question " << i;
+      ASSERT_EQ(found->along, *share * (segment.to - segment.from).norm()) << "segment " << i;
     }
   }
 }
@@ -315,13 +317,13 @@ TEST(StaticGrid, RefusesVoxelsThatAreNotAsSaid) {
     EXPECT_EQ(refusalOf([&] { StaticGrid(edge, voxels); }, &sentence), code);
     EXPECT_TRUE(says(sentence, words));
   };
-  expectRefusal(Code::bad_geometry, "voxel 0 (keys 1, 0, 0, level 1) is not a multiple of its edge", 0.1,
-                {{1, 0, 0, 1}});
+  expectRefusal(Code::bad_geometry, "voxel 0 (keys 1, 0, 0, level 1) is not valid; keys must be multiples of the edge",
+                0.1, {{1, 0, 0, 1}});
   expectRefusal(Code::bad_geometry, "voxel 0 (keys 0, 0, 0, level 17)", 0.1, {{0, 0, 0, 17}});
   const std::vector<Voxel> twice{{0, 0, 0, 0}, {0, 0, 0, 0}}, back{{1, 0, 0, 0}, {0, 0, 0, 0}},
       inside{{0, 0, 0, 1}, {1, 1, 1, 0}};
   for (const auto& voxels : {twice, back, inside}) {
-    expectRefusal(Code::bad_geometry, "begins before the one before it ends; voxels must be disjoint", 0.1, voxels);
+    expectRefusal(Code::bad_geometry, "begins before the previous voxel ends; voxels must be disjoint", 0.1, voxels);
   }
   for (const double edge : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
     expectRefusal(Code::out_of_range, "m; it must be greater than 0", edge, {});

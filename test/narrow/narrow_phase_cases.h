@@ -16,15 +16,16 @@ namespace test {
 struct KindPair {
   ShapeKind first, second;
 };
-/// The kinds that narrowPhase() measures: all seven, or all but meshes.
+/// Returns the shape kinds that narrowPhase() measures: all seven, or all except meshes.
 std::vector<ShapeKind> measuredKinds();
+/// Returns whether narrowPhase() measures meshes.
 bool measuresMeshes();
-/// Their pairs: 28 of seven kinds.
+/// Returns all pairs of measuredKinds(), also of a kind with itself: 28 pairs for seven kinds.
 std::vector<KindPair> allKindPairs();
-/// As in "box_mesh", for names of tests.
+/// Returns a name for tests, for example "box_mesh".
 std::string nameOf(const KindPair& kinds);
 
-/// Two shapes in the world and their paddings.
+/// A test case: two shapes, their poses in the world frame, and their paddings [m].
 struct Case {
   Shape first_shape, second_shape;
   Pose world_from_first, world_from_second;
@@ -32,17 +33,18 @@ struct Case {
 
   SolidOracle first() const { return SolidOracle(first_shape, world_from_first, first_padding); }
   SolidOracle second() const { return SolidOracle(second_shape, world_from_second, second_padding); }
-  /// Measures and shapes, to read in a message of failure.
+  /// Returns a description of shapes, paddings and poses for failure messages.
   std::string text() const;
 };
 
-/// Cases of a pair of kinds: new shapes every few cases, poses apart, near contact and in contact.
+/// Generates random test cases for a pair of shape kinds. Every few cases it creates new shapes. In some cases the
+/// shapes are apart, in others they almost touch or overlap.
 class Cases {
  public:
   Cases(unsigned seed, const KindPair& kinds, const Proportions& proportions = {})
       : random_(seed), kinds_(kinds), proportions_(proportions) {}
 
-  /// @param from_origin  [m] how far off the pair lies
+  /// @param from_origin  [m] distance by which both shapes are moved away from the world origin
   Case next(double from_origin = 0.0);
   Random& random() { return random_; }
 
@@ -56,16 +58,16 @@ class Cases {
   int used_ = 0;
 };
 
-/// Moves the second along the line of nearest points until the padded shapes are `gap` [m] apart; if negative, they
-/// overlap by at most that much. Nothing if they overlap to begin with.
+/// Moves the second shape along the line between the nearest points, until the padded shapes are `gap` [m] apart.
+/// With a negative gap the shapes overlap by at most that much. Does nothing if the shapes already overlap.
 void bringTo(double gap, Case& placed);
 
-/// The product on trial, with solids made once for each case.
+/// Measures one test case with the narrow phase under test. Creates the solids once, in the constructor.
 class Trial {
  public:
   explicit Trial(const Case& placed);
   Proximity measure(double up_to = std::numeric_limits<double>::infinity()) const;
-  /// With the order of the two exchanged.
+  /// Measures with the two shapes exchanged.
   Proximity measureSwapped(double up_to = std::numeric_limits<double>::infinity()) const;
 
  private:
@@ -73,18 +75,19 @@ class Trial {
   std::shared_ptr<const Solid> first_, second_;
 };
 
-/// The narrow phase that is tested. The same tests are linked with test/narrow/tested_convex.cpp and with
-/// test/adapters/tested_fcl.cpp, which define this function.
+/// Returns the narrow phase under test. The same tests are built twice. One build links test/narrow/tested_convex.cpp,
+/// the other test/adapters/tested_fcl.cpp; each of these files defines this function.
 NarrowPhase& narrowPhase();
 
-/// The answer with first and second exchanged.
+/// Returns the answer with its first and second point exchanged and its normal reversed.
 Proximity swapped(Proximity answer);
 
-/// The same bit for bit; NaN is the same as NaN.
+/// Returns whether all fields of two answers are exactly equal. NaN counts as equal to NaN.
 bool isSame(const Proximity& a, const Proximity& b);
 
-/// Whether `answer` to a case is `other`, to the case in the other order, with the order exchanged. Of two equal shapes
-/// at one pose nobody can tell which is the first: there any normal and its points may be said of either.
+/// Returns whether `answer` agrees with `other`, the answer for the exchanged shapes: `answer` must equal
+/// swapped(other). If both shapes are equal and at the same pose, nothing tells which one is first. Then `answer` must
+/// equal `other` itself.
 bool isSameInOtherOrder(const Case& placed, const Proximity& answer, const Proximity& other);
 
 }  // namespace test

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Contacts: there are some exactly where the shapes touch, and each lies in both shapes.
+// Tests NarrowPhase::contacts(): it returns contacts exactly if the shapes touch, and each contact lies in both shapes.
 #include <gtest/gtest.h>
 
 #include "test/narrow/narrow_phase_judge.h"
@@ -28,11 +28,11 @@ INSTANTIATE_TEST_SUITE_P(NarrowPhase, Contacts, testing::ValuesIn(allKindPairs()
 
 TEST_P(Contacts, AreWhereThereIsContactAndLieInBoth) {
   Cases cases(41, GetParam());
-  Claim there("there are contacts exactly where there is contact", 0.0);
-  Claim in_both("the point lies in both padded shapes", 1e-6);
-  Claim free("a convex second, moved by the depth along the normal, is free", 0.0);
-  Claim same_order("both orders give the same contacts", 0.0);
-  Claim sorted("the deepest come first", 0.0);
+  Claim there("contacts() returns contacts exactly if measure() reports contact", 0.0);
+  Claim in_both("each contact point lies in both padded shapes", 1e-6);
+  Claim free("moving a convex second shape by the depth along the normal separates the shapes", 0.0);
+  Claim same_order("both orders of the shapes give the same contacts", 0.0);
+  Claim sorted("the deepest contacts come first", 0.0);
   const bool convex = GetParam().first != ShapeKind::mesh && GetParam().second != ShapeKind::mesh;
   for (int i = 0; i < 300; ++i) {
     const Case placed = cases.next();
@@ -54,7 +54,7 @@ TEST_P(Contacts, AreWhereThereIsContactAndLieInBoth) {
     }
   }
   for (const Claim* claim : {&there, &in_both, &free, &same_order, &sorted}) claim->expectHeld();
-  EXPECT_GT(in_both.count(), 20u) << "too few contacts to say";
+  EXPECT_GT(in_both.count(), 20u) << "too few contacts for a meaningful test";
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Whatever two shapes are and however they lie: nothing aborts, nothing throws, every answer agrees with itself.
-// HGRID_TEST_FUZZ times as many cases as by default.
+// Measures strange shapes in strange poses: nothing aborts, nothing throws, and every answer is consistent.
+// The environment variable HGRID_TEST_FUZZ multiplies the number of cases.
 #include <gtest/gtest.h>
 
 #include "test/narrow/narrow_phase_judge.h"
@@ -14,7 +14,7 @@ namespace {
 
 int cases(int by_default) { return by_default * countFromEnvironment("HGRID_TEST_FUZZ", 1); }
 
-TEST(NarrowPhaseFuzz, EveryAnswerAgreesWithItself) {
+TEST(NarrowPhaseFuzz, EveryAnswerIsConsistent) {
   Random random(11);
   int failed = 0;
   for (int i = 0; i < cases(30000); ++i) {
@@ -29,13 +29,14 @@ TEST(NarrowPhaseFuzz, EveryAnswerAgreesWithItself) {
       failed += answer.status == Measure::failed;
     });
   }
-  EXPECT_EQ(failed, 0) << "a pair of finite shapes at finite places can be measured";
+  EXPECT_EQ(failed, 0) << "finite shapes at finite poses must not fail";
 }
 
-// Of things of 10 km a double in the end knows less than of those of 1 m: a hundred millionth of the sizes is allowed.
-TEST(NarrowPhaseFuzz, WhatIsStrangeIsMeasuredRightToo) {
+// Rounding errors of double grow with the size of the shapes. So the allowed error is 1e-6 m plus 1e-8 of the sizes.
+TEST(NarrowPhaseFuzz, MeasuresStrangeShapesAccurately) {
   Random random(12);
-  Claim distance("the distance apart is right", 1.0), contact("what is said to touch is not apart", 1.0);
+  Claim distance("the distance of separate shapes is right", 1.0);
+  Claim contact("shapes that are reported to touch are not apart", 1.0);
   Claim missed("contact is not missed", 0.0);
   for (int i = 0; i < cases(10000); ++i) {
     const Case strange = strangeCase(random);

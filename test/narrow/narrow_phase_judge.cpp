@@ -12,8 +12,8 @@ namespace hgrid {
 namespace test {
 namespace {
 
-constexpr double kMissedDepth = 1e-5;  // [m] contact deeper than this is never missed
-constexpr double kFree = 1e-5;         // [m] beyond the depth, for the witness to see that two shapes are apart
+constexpr double kMissedDepth = 1e-5;  // [m] a contact deeper than this must not be missed
+constexpr double kFree = 1e-5;         // [m] added to the depth, so that the oracle clearly sees two shapes apart
 
 bool isUnit(const Eigen::Vector3d& normal) { return std::abs(normal.norm() - 1.0) <= 1e-9; }
 
@@ -29,46 +29,47 @@ void Claim::hold(double error, const Case& seen) {
 }
 
 void Claim::expectHeld() const {
-  EXPECT_EQ(faults_, 0u) << sentence_ << ": does not hold in " << faults_ << " of " << count_ << ", the worst by "
-                         << worst_ << ", allowed is " << limit_ << ": " << worst_case_;
+  EXPECT_EQ(faults_, 0u) << "The rule '" << sentence_ << "' is violated in " << faults_ << " of " << count_
+                         << " checks. The largest error is " << worst_ << ", the limit is " << limit_
+                         << ". The worst case: " << worst_case_;
 }
 
 std::string unsound(const Proximity& answer, double up_to) {
   const bool has_points = answer.on_first.allFinite() && answer.on_second.allFinite();
   switch (answer.status) {
     case Measure::apart:
-      if (!(answer.distance > 0.0)) return "apart, the distance is not above 0";
-      if (!std::isnan(answer.depth)) return "apart, and has a depth";
-      if (std::isinf(answer.distance)) return std::isinf(up_to) ? "infinitely far, asked without a limit" : "";
-      if (answer.distance > up_to) return "farther than asked for";
-      if (!has_points) return "apart, without points";
-      return isUnit(answer.normal) ? "" : "apart, the normal is no unit vector";
+      if (!(answer.distance > 0.0)) return "the shapes are apart, but the distance is not greater than 0";
+      if (!std::isnan(answer.depth)) return "the shapes are apart, but there is a depth";
+      if (std::isinf(answer.distance)) return std::isinf(up_to) ? "the distance is infinite without a limit" : "";
+      if (answer.distance > up_to) return "the distance is finite, but beyond the limit";
+      if (!has_points) return "the shapes are apart, but nearest points are missing";
+      return isUnit(answer.normal) ? "" : "the shapes are apart, but the normal is not a unit vector";
     case Measure::contact:
     case Measure::contained:
     case Measure::containment_unknown:
-      if (answer.distance != 0.0) return "in contact, the distance is not 0";
-      if (!std::isnan(answer.depth) && !(answer.depth >= 0.0)) return "in contact, the depth is below 0";
-      if (std::isinf(answer.depth)) return "in contact, infinitely deep";
-      if (!answer.normal.hasNaN() && !isUnit(answer.normal)) return "in contact, the normal is no unit vector";
-      if (!std::isnan(answer.depth) && answer.normal.hasNaN()) return "a depth without a normal";
-      return (answer.on_first.array().isInf() || answer.on_second.array().isInf()).any() ? "a point is infinite" : "";
+      if (answer.distance != 0.0) return "the shapes are in contact, but the distance is not 0";
+      if (!std::isnan(answer.depth) && !(answer.depth >= 0.0)) return "the depth is less than 0";
+      if (std::isinf(answer.depth)) return "the depth is infinite";
+      if (!answer.normal.hasNaN() && !isUnit(answer.normal)) return "the normal is not a unit vector";
+      if (!std::isnan(answer.depth) && answer.normal.hasNaN()) return "there is a depth, but no normal";
+      return (answer.on_first.array().isInf() || answer.on_second.array().isInf()).any() ? "a nearest point is infinite" : "";
     case Measure::failed:
-      return answer.distance > 0.0 ? "failed, and has a distance" : "";
+      return answer.distance > 0.0 ? "the measurement failed, but there is a distance" : "";
     default:
-      return "not measured";
+      return "the shapes were not measured";
   }
 }
 
 Judge::Judge(double error)
-    : sound_("there is an answer, and it agrees with itself", 0.0),
-      same_("both orders give the same answer", 0.0),
-      distance_("the distance apart is right", error),
-      false_contact_("what is said to touch is not apart", error),
+    : sound_("there is an answer, and it is consistent", 0.0),
+      same_("both orders of the shapes give the same answer", 0.0),
+      distance_("the distance of separate shapes is right", error),
+      false_contact_("shapes that are reported to touch are not apart", error),
       missed_("contact is not missed", 0.0),
-      on_shapes_("nearest points lie on the padded shapes", error),
-      between_points_("nearest points are as far apart as the distance", error),
-      normal_("the normal leads from the first point to the second", error),
-      depth_("the second, moved by the depth along the normal, is free", 0.0) {}
+      on_shapes_("the nearest points lie on the padded shapes", error),
+      between_points_("the nearest points are as far apart as the distance", error),
+      normal_("the normal points from the first nearest point to the second", error),
+      depth_("moving the second shape by the depth along the normal separates the shapes", 0.0) {}
 
 void Judge::look(const Case& placed) {
   const Trial trial(placed);
@@ -111,14 +112,15 @@ void Judge::expectAllHeld() const {
        {&sound_, &same_, &distance_, &false_contact_, &missed_, &on_shapes_, &between_points_, &normal_, &depth_}) {
     claim->expectHeld();
   }
-  EXPECT_LE(widest_, 1e-9) << "the witness itself does not know better";
+  EXPECT_LE(widest_, 1e-9) << "the oracle's intervals are too wide for a judgment";
 }
 
 std::string Judge::figures() const {
   char line[256];
   std::snprintf(
       line, sizeof(line),
-      "%6zu poses  %6zu apart: distance %.1e  points %.1e  normal %.1e  %6zu in contact: apart %.1e  %6zu with depth",
+      "%6zu poses  %6zu apart, errors: distance %.1e  points %.1e  normal %.1e  "
+      "%6zu in contact, true distance %.1e  %6zu with depth",
       sound_.count(), distance_.count(), distance_.worst(), std::max(on_shapes_.worst(), between_points_.worst()),
       normal_.worst(), false_contact_.count(), false_contact_.worst(), depth_.count());
   return line;

@@ -10,15 +10,15 @@
 namespace hgrid {
 namespace test {
 
-/// A sentence about all answers, with what was seen against it.
+/// A rule that all answers must satisfy. Counts the checks and the violations, and keeps the worst violation.
 class Claim {
  public:
   Claim(std::string sentence, double limit) : sentence_(std::move(sentence)), limit_(limit) {}
 
-  /// Beyond the limit, or NaN, the error counts as a fault.
+  /// Records one check. An error above the limit, or an error of NaN, counts as a violation.
   void hold(double error, const Case& seen);
   void hold(bool truth, const Case& seen) { hold(truth ? 0.0 : 1.0, seen); }
-  /// Fails the running test if there was a fault.
+  /// Fails the running test if there was a violation.
   void expectHeld() const;
 
   double worst() const { return worst_; }
@@ -32,19 +32,19 @@ class Claim {
   std::string worst_case_;
 };
 
-/// What holds for every answer, whatever it says. @returns what is wrong with it, empty if nothing
+/// Checks that the fields of an answer agree with each other. @returns what is wrong; empty if nothing is wrong
 std::string unsound(const Proximity& answer, double up_to = std::numeric_limits<double>::infinity());
 
-/// Holds the answers of the narrow phase against the witness.
+/// Compares the answers of the narrow phase with those of the distance oracle.
 class Judge {
  public:
-  /// @param error  [m] that a distance and a nearest point may have
+  /// @param error  [m] largest allowed error of a distance and of a nearest point
   explicit Judge(double error = 1e-6);
 
   /// Measures the case in both orders and judges the answers.
   void look(const Case& placed);
   void expectAllHeld() const;
-  /// One line: how many answers, the largest errors, how well the witness itself knew.
+  /// Returns one line with the number of answers and their largest errors.
   std::string figures() const;
 
  private:
@@ -52,7 +52,7 @@ class Judge {
   void judgeContact(const Case& placed, const Proximity& answer, const Interval& truth);
 
   Claim sound_, same_, distance_, false_contact_, missed_, on_shapes_, between_points_, normal_, depth_;
-  double widest_ = 0.0;  // [m] of the witness's intervals
+  double widest_ = 0.0;  // [m] width of the oracle's widest interval
 };
 
 }  // namespace test

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Plain cases, most of them found by the random ones, that libraries get wrong; their answers can be seen by eye.
+// Simple cases that some libraries get wrong. Random tests found most of them. The right answers are easy to see.
 #include <gtest/gtest.h>
 
 #include "test/narrow/narrow_phase_judge.h"
@@ -28,7 +28,8 @@ Shape hullOf(std::vector<Eigen::Vector3d> vertices) {
 void expectDistance(double expected, const Shape& first, const Shape& second, const Pose& world_from_second) {
   const Case placed{first, second, Pose::Identity(), world_from_second, 0.0, 0.0};
   SCOPED_TRACE(placed.text());
-  EXPECT_LE(distanceOf(placed.first(), placed.second()).interval.errorOf(expected), 1e-9) << "says the witness";
+  EXPECT_LE(distanceOf(placed.first(), placed.second()).interval.errorOf(expected), 1e-9)
+      << "the oracle disagrees with the expected distance";
   const Proximity answer = Trial(placed).measure();
   EXPECT_EQ(answer.status, expected > 0.0 ? Measure::apart : Measure::contact);
   EXPECT_NEAR(answer.distance, expected, 1e-6);
@@ -37,7 +38,8 @@ void expectDistance(double expected, const Shape& first, const Shape& second, co
   judge.expectAllHeld();
 }
 
-// The nearest feature of one is a whole side of the other: a search that stops when it comes no nearer stops at once.
+// Many points of one side are equally near to the other shape. A search that stops as soon as a step brings no
+// progress would stop too early here.
 TEST(NarrowPhaseKnown, UprightThingsSideBySide) {
   for (const double off : {0.0, 1e-12, 1e-10, 1e-8}) {
     expectDistance(0.3, Shape::cylinder(1.0, 1.0), Shape::capsule(0.3, 0.2), at(1.5, off, -off));
@@ -64,7 +66,8 @@ TEST(NarrowPhaseKnown, SmallBoxBesideAThinPlate) {
   }
 }
 
-// What is no more than a point, where the centre of a ball is, or an end of a capsule, or a corner.
+// A hull of a single point lies at the center of a sphere or a box, at an end of the axis of a capsule, at another
+// point, or apart.
 TEST(NarrowPhaseKnown, PointsThatMeet) {
   const Shape point = hullOf({{0, 0, 0}}), points = hullOf({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}});
   for (const Shape& one : {point, points}) {
@@ -77,7 +80,7 @@ TEST(NarrowPhaseKnown, PointsThatMeet) {
   }
 }
 
-TEST(NarrowPhaseKnown, CentresThatMeet) {
+TEST(NarrowPhaseKnown, CentersThatMeet) {
   const Shape shapes[] = {Shape::sphere(0.3),          Shape::box({0.2, 0.4, 0.6}),
                           Shape::cylinder(0.5, 0.2),   Shape::cone(0.5, 0.2),
                           Shape::capsule(0.5, 0.2),    hullOf(boxMesh({0.2, 0.4, 0.6}).vertices),
@@ -87,7 +90,7 @@ TEST(NarrowPhaseKnown, CentresThatMeet) {
   }
 }
 
-// What stands on something touches it and no more: nothing lies within the other, and still there is a way up.
+// A thing that stands on a table only touches it. Although the shapes do not overlap, the normal must point up.
 TEST(NarrowPhaseKnown, ThingsThatStandOnATableHaveANormal) {
   const Shape table = Shape::box({1.0, 1.0, 0.1});
   for (const double x : {0.0, 0.25, 0.4}) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// What a limit of the distance and a padding do to an answer, for every pair of kinds.
+// Tests how a distance limit and padding change an answer, for every pair of shape kinds.
 #include <gtest/gtest.h>
 
 #include "test/narrow/narrow_phase_judge.h"
@@ -20,8 +20,8 @@ INSTANTIATE_TEST_SUITE_P(NarrowPhase, EveryPair, testing::ValuesIn(allKindPairs(
 
 TEST_P(EveryPair, LimitOnlyTurnsFartherAnswersIntoInfiniteOnes) {
   Cases cases(3, GetParam());
-  Claim kept("an answer within the limit is the one without a limit", 0.0);
-  Claim infinite("beyond the limit it is apart and infinitely far", 0.0);
+  Claim kept("an answer within the limit equals the answer without a limit", 0.0);
+  Claim infinite("an answer beyond the limit is apart and infinitely far", 0.0);
   for (int i = 0; i < poses(); ++i) {
     const Case placed = cases.next();
     const Trial trial(placed);
@@ -43,8 +43,8 @@ TEST_P(EveryPair, LimitOnlyTurnsFartherAnswersIntoInfiniteOnes) {
 
 TEST_P(EveryPair, PaddingTakesAsMuchFromTheDistance) {
   Cases cases(4, GetParam());
-  Claim shorter("the distance is shorter by the paddings", 1e-9);
-  Claim contact("a distance not above the paddings is contact", 0.0);
+  Claim shorter("the distance is shorter by the sum of the paddings", 1e-9);
+  Claim contact("a distance of at most the sum of the paddings is contact", 0.0);
   for (int i = 0; i < poses(); ++i) {
     Case placed = cases.next();
     placed.first_padding = placed.second_padding = 0.0;

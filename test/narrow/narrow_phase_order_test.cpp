@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// The order of a question does not show in the answer, even of shapes that are hard to tell apart.
+// The answer does not depend on the order of the two shapes, even if the shapes are hard to tell apart.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,8 @@ namespace {
 
 Shape hullOf(const TriangleMesh& mesh) { return Shape::hull(std::make_shared<TriangleMesh>(mesh)); }
 
-/// Two shapes of a kind that reach equally far from their origins and are not the same.
+/// Returns pairs of shapes of the same kind that reach equally far from their origins. Some pairs of meshes differ only
+/// in the order of their triangles, or not at all.
 std::vector<std::pair<Shape, Shape>> twins() {
   TriangleMesh lump = boxMesh({0.3, 0.5, 0.7}), turned = boxMesh({0.5, 0.7, 0.3}), rolled = lump;
   std::rotate(rolled.triangles.begin(), rolled.triangles.begin() + 1, rolled.triangles.end());
@@ -47,7 +48,7 @@ TEST(NarrowPhaseOrder, OfTwinsDoesNotMatter) {
   }
 }
 
-// Two solids made of one shape are as good as one.
+// Two solids that are created from the same shape give the same answers.
 TEST(NarrowPhaseOrder, OfAShapeWithItselfDoesNotMatter) {
   Random random(15);
   for (const ShapeKind kind : measuredKinds()) {
@@ -57,7 +58,7 @@ TEST(NarrowPhaseOrder, OfAShapeWithItselfDoesNotMatter) {
       const Trial trial(placed);
       const Proximity answer = trial.measure();
       ASSERT_TRUE(isSameInOtherOrder(placed, answer, trial.measureSwapped())) << placed.text();
-      ASSERT_TRUE(isSame(answer, Trial(placed).measure())) << "made anew: " << placed.text();
+      ASSERT_TRUE(isSame(answer, Trial(placed).measure())) << "with newly created solids: " << placed.text();
     }
   }
 }

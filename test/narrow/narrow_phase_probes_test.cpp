@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// What questions are made of measures like the shapes that it stands for.
+// Queries use points, needles and blocks as probes. Distances to a probe equal those to the shape that it represents.
 #include <gtest/gtest.h>
 
 #include "test/narrow/narrow_phase_judge.h"
@@ -12,7 +12,8 @@ namespace {
 
 class Probes : public testing::TestWithParam<ShapeKind> {
  protected:
-  /// Holds the probe against the shape that it is, both in the second place of random cases.
+  /// Puts `probe` at random poses near a shape of the tested kind. Expects the distance that the oracle gives for
+  /// `shape` instead of the probe.
   void expectLike(const Shape& shape, const Solid& probe, double radius, double padding) {
     Cases cases(17, {GetParam(), ShapeKind::sphere});
     for (int i = 0; i < 40; ++i) {
@@ -44,7 +45,7 @@ TEST_P(Probes, ANeedleWithARadiusIsACapsule) {
   }
 }
 
-// A box may have sides of 0: a plate, a segment, a point.
+// A block may have sides of length 0. It is then a plate, a segment or a point.
 TEST_P(Probes, ABlockIsABox) {
   for (const Eigen::Vector3d& size : {Eigen::Vector3d(0.1, 0.5, 1.0), Eigen::Vector3d(0.5, 0.5, 0.0),
                                       Eigen::Vector3d(0.5, 0.0, 0.0), Eigen::Vector3d(0.0, 0.0, 0.0)}) {

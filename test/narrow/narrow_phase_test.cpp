@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Every kind of shape against every other, in random poses, held against a witness of our own. HGRID_TEST_POSES says
-// how many poses in all; pairs with a mesh get half as many as the others.
+// Measures every pair of shape kinds in random poses, and compares the answers with the project's distance oracle.
+// The environment variable HGRID_TEST_POSES sets the total number of poses. Pairs with a mesh get half as many poses
+// as the other pairs.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -15,7 +16,7 @@ namespace {
 
 class EveryPairOfKinds : public testing::TestWithParam<KindPair> {
  protected:
-  /// 21 pairs without a mesh, 7 with one.
+  /// Returns the number of poses for a pair of kinds. There are 21 pairs without a mesh and 7 pairs with a mesh.
   static int poses(const KindPair& kinds) {
     const int all = countFromEnvironment("HGRID_TEST_POSES", 100000);
     return kinds.second == ShapeKind::mesh ? all / 49 + 1 : 2 * all / 49 + 1;
@@ -26,7 +27,7 @@ class EveryPairOfKinds : public testing::TestWithParam<KindPair> {
 INSTANTIATE_TEST_SUITE_P(NarrowPhase, EveryPairOfKinds, testing::ValuesIn(allKindPairs()),
                          [](const auto& info) { return nameOf(info.param); });
 
-TEST_P(EveryPairOfKinds, IsMeasuredAsTheWitnessMeasuresIt) {
+TEST_P(EveryPairOfKinds, IsMeasuredAsTheOracleMeasuresIt) {
   Cases cases(1, GetParam());
   Judge judge;
   for (int i = 0; i < poses(GetParam()); ++i) judge.look(cases.next());
@@ -34,7 +35,7 @@ TEST_P(EveryPairOfKinds, IsMeasuredAsTheWitnessMeasuresIt) {
   judge.expectAllHeld();
 }
 
-// Coordinates of 1e5 m have a rounding of 1.5e-11 m: nothing that shows.
+// At 1e5 m from the origin, coordinates are rounded by 1.5e-11 m. This is much less than the allowed error.
 TEST_P(EveryPairOfKinds, IsMeasuredAsWellFarFromTheOrigin) {
   Cases cases(2, GetParam());
   Judge judge;

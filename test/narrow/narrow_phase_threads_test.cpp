@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Solids are shared by threads, and so is the narrow phase: the answers are those of one thread.
+// Threads may share solids and the narrow phase. They get the same answers as a single thread.
 #include <gtest/gtest.h>
 
 #include <thread>
@@ -29,7 +29,7 @@ TEST(NarrowPhaseThreads, AnswerAsOneDoes) {
   for (int& count : wrong) {
     threads.emplace_back([&] {
       for (std::size_t i = 0; i < trials.size(); ++i) {
-        const Trial made_here(placed[i]);  // while others make solids of the same meshes
+        const Trial made_here(placed[i]);  // other threads create solids from the same meshes now
         count += !isSame(trials[i].measure(), expected[i]) || !isSame(made_here.measure(), expected[i]);
       }
     });

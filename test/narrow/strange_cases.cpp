@@ -6,7 +6,7 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// A hull that is hardly one: a point, points in line, in a plane, or many times the same.
+/// Returns the vertices of a degenerate hull: all in one point, on a line or in a plane, and some of them repeated.
 TriangleMesh poorHull(Random& random, double size) {
   const int dimensions = random.below(4), count = random.between(1, 12);
   TriangleMesh mesh;
@@ -19,7 +19,7 @@ TriangleMesh poorHull(Random& random, double size) {
   return mesh;
 }
 
-/// Adds triangles without an area: a corner twice, all corners in line, all the same.
+/// Adds triangles of area 0: with two equal corners, with all corners on a line, or with three equal corners.
 void addPoorTriangles(Random& random, TriangleMesh& mesh) {
   for (int i = random.between(1, 6); i > 0; --i) {
     const auto [a, b, c] = mesh.triangles[std::size_t(random.below(int(mesh.triangles.size())))];

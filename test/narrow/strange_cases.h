@@ -7,10 +7,11 @@
 namespace hgrid {
 namespace test {
 
-/// Flat, thin, tiny, huge, with triangles or vertices that are none, or as others are.
+/// Returns a flat, thin, tiny, huge or ordinary shape, or one with degenerate triangles or vertices.
 Shape strangeShape(Random& random);
 
-/// Two of them: touching, deep, one in the middle of the other, or anywhere; near the origin or far from it.
+/// Returns two strange shapes that touch, overlap deeply, have equal centers or lie anywhere. They are near the origin
+/// or far from it.
 Case strangeCase(Random& random);
 
 }  // namespace test

@@ -18,7 +18,7 @@ using test::Random;
 
 enum Index : std::uint32_t { base, shoulder, elbow, hand, box, crate, wall, floor_ };
 
-/// An arm whose first two links are one, with an SRDF; two obstacles that move and two that do not.
+/// Returns an arm with an SRDF, whose first two links form one rigid group, and two moving and two fixed obstacles.
 std::vector<Body> cell() {
   LinkRules srdf;
   srdf.disabled = {{"elbow", "base", "Never"}};
@@ -30,14 +30,14 @@ std::vector<Body> cell() {
   return bodies;
 }
 
-/// Asks both ways round, which must agree.
+/// Returns the decision about a pair. Checks that it does not depend on the order of the two bodies.
 PairDecision decided(const PairFilter& filter, std::uint32_t a, std::uint32_t b) {
   const PairDecision there = filter.decision(a, b), back = filter.decision(b, a);
   EXPECT_EQ(there.origin, back.origin);
   EXPECT_EQ(there.allowed, back.allowed);
   EXPECT_EQ(there.rule, back.rule);
   EXPECT_EQ(there.reason, back.reason);
-  EXPECT_EQ(there.allowed, filter.allowed(a, b)) << "what the tick asks is what is told";
+  EXPECT_EQ(there.allowed, filter.allowed(a, b)) << "decision() and allowed() differ";
   EXPECT_EQ(filter.origin(a, b), there.allowed ? there.origin : Origin::none);
   return there;
 }
@@ -86,7 +86,7 @@ TEST(PairRules, ARuleBeatsTheModelBothWays) {
     }
   }
   const PairFilter filter(cell(), {}, {allow("arm/hand", "arm/elbow", "")});
-  EXPECT_TRUE(decided(filter, hand, elbow).allowed) << "it beats enable_collisions";
+  EXPECT_TRUE(decided(filter, hand, elbow).allowed) << "a rule takes precedence over enable_collisions";
 }
 
 TEST(PairRules, NoRuleBeatsSelfOrKind) {
@@ -142,7 +142,7 @@ TEST(PairRules, OfBodiesThatAreNotThereDoNothing) {
   }
 }
 
-/// The rule of the header, told once more: by looking at every rule.
+/// Finds the rule that takes precedence by checking every rule, as the comment of PairRule defines it.
 std::uint32_t strongest(const std::vector<PairRule>& rules, const std::string& a, const std::string& b) {
   std::uint32_t best = PairDecision::kNoRule;
   for (std::uint32_t k = 0; k < rules.size(); ++k) {

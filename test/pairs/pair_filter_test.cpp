@@ -29,7 +29,7 @@ std::shared_ptr<const LinkMatrix> armMatrix() {
 
 enum Index : std::uint32_t { base, arm, hand, other_base, other_hand, box, crate, shelf, room, raft, cloud };
 
-/// Two equal robots, moving and fixed obstacles, a fixed and a moving map, a cloud.
+/// Returns the bodies of two equal robots, of moving and fixed obstacles, of a fixed and a moving map, and of a cloud.
 std::vector<Body> cell() {
   const auto matrix = armMatrix();
   std::vector<Body> bodies;
@@ -51,7 +51,7 @@ std::vector<Body> cell() {
   return bodies;
 }
 
-/// Asks both ways round, which must agree.
+/// Returns the origin of the decision about a pair. Checks that it does not depend on the order of the two bodies.
 Origin originOf(const PairFilter& filter, std::uint32_t a, std::uint32_t b) {
   EXPECT_EQ(filter.origin(a, b), filter.origin(b, a)) << a << " " << b;
   EXPECT_EQ(filter.allowed(a, b), filter.origin(a, b) != Origin::none);
@@ -63,8 +63,10 @@ TEST(PairFilter, ByDefaultEveryKindOfPairIsReportedButFixedWithFixed) {
   EXPECT_EQ(originOf(filter, base, hand), Origin::none);
   EXPECT_EQ(originOf(filter, base, arm), Origin::adjacent);
   EXPECT_EQ(originOf(filter, base, other_base), Origin::none);
-  EXPECT_EQ(originOf(filter, hand, other_hand), Origin::none) << "the matrix is about one robot";
-  EXPECT_EQ(originOf(filter, arm, other_base), Origin::none) << "links 1 and 0, but of two robots";
+  EXPECT_EQ(originOf(filter, hand, other_hand), Origin::none)
+      << "the matrix of a robot was applied to links of two robots";
+  EXPECT_EQ(originOf(filter, arm, other_base), Origin::none)
+      << "links 1 and 0 of two different robots are not adjacent";
   for (const std::uint32_t other : {box, crate, shelf, room, raft, cloud})
     EXPECT_EQ(originOf(filter, hand, other), Origin::none);
   EXPECT_EQ(originOf(filter, box, crate), Origin::none);
@@ -72,7 +74,7 @@ TEST(PairFilter, ByDefaultEveryKindOfPairIsReportedButFixedWithFixed) {
   EXPECT_EQ(originOf(filter, box, raft), Origin::none);
   EXPECT_EQ(originOf(filter, box, cloud), Origin::none);
   EXPECT_EQ(originOf(filter, raft, cloud), Origin::kind);
-  EXPECT_EQ(originOf(filter, crate, raft), Origin::kind) << "a map that moves shows the fixed ones too";
+  EXPECT_EQ(originOf(filter, crate, raft), Origin::kind) << "the cells of a moving map show the fixed obstacles too";
   EXPECT_EQ(originOf(filter, crate, shelf), Origin::kind);
   EXPECT_EQ(originOf(filter, crate, room), Origin::kind);
   for (std::uint32_t i = 0; i < 11; ++i) EXPECT_EQ(originOf(filter, i, i), Origin::self);
@@ -99,13 +101,13 @@ TEST(PairFilter, EachKindCanBeSwitchedOffAlone) {
       for (const auto& pair : other.gone)
         changed += originOf(filter, pair.first, pair.second) != originOf(all, pair.first, pair.second);
     }
-    EXPECT_EQ(changed, one.gone.size()) << "only its own pairs";
+    EXPECT_EQ(changed, one.gone.size()) << "a kind switches off pairs of another kind";
   }
 }
 
 TEST(PairFilter, TwoFixedBodiesMakeNoPairWhateverTheyAre) {
   std::vector<Body> bodies = cell();
-  bodies[base].mobility = Mobility::fixed;  // a robot screwed to the floor
+  bodies[base].mobility = Mobility::fixed;  // the base of the robot is mounted on the floor
   bodies[other_base].mobility = Mobility::fixed;
   const PairFilter filter(bodies, {}, {});
   for (const std::uint32_t other : {other_base, crate, shelf, room})
@@ -124,9 +126,12 @@ TEST(PairFilter, PatternsHoldInBothOrdersAndForNothingElse) {
   EXPECT_EQ(originOf(filter, base, raft), Origin::none);
   EXPECT_EQ(originOf(filter, other_hand, box), Origin::none);
   EXPECT_EQ(originOf(filter, hand, room), Origin::none);
-  EXPECT_EQ(originOf(filter, base, other_base), Origin::none) << "both match the first glob, none the second";
-  EXPECT_EQ(originOf(filter, box, crate), Origin::none) << "both match the second glob, none the first";
-  EXPECT_EQ(originOf(filter, base, box), Origin::none) << "globs of two patterns do not mix";
+  EXPECT_EQ(originOf(filter, base, other_base), Origin::none)
+      << "both bodies match the first glob, but neither matches the second";
+  EXPECT_EQ(originOf(filter, box, crate), Origin::none)
+      << "both bodies match the second glob, but neither matches the first";
+  EXPECT_EQ(originOf(filter, base, box), Origin::none)
+      << "the first glob of one rule was combined with the second glob of another rule";
 }
 
 TEST(PairFilter, TheFirstReasonThatHoldsIsTold) {
@@ -135,7 +140,7 @@ TEST(PairFilter, TheFirstReasonThatHoldsIsTold) {
   const PairFilter filter(cell(), kinds, {{"*", "*", "everything"}});
   EXPECT_EQ(originOf(filter, base, base), Origin::self);
   EXPECT_EQ(originOf(filter, base, other_base), Origin::kind);
-  EXPECT_EQ(originOf(filter, base, arm), Origin::parameter) << "a rule beats the model";
+  EXPECT_EQ(originOf(filter, base, arm), Origin::parameter) << "a rule must take precedence over the robot model";
   EXPECT_EQ(originOf(filter, base, hand), Origin::parameter);
 }
 

@@ -43,9 +43,9 @@ TEST(PairRule, NamesMustBeThoseOfBodiesAndGlobsMustMatchOne) {
                 },
                 &sentence),
             Code::unknown_id);
-  EXPECT_EQ(sentence, "there is no body 'arm/hnad'; nearly so are called 'arm/hand'");
+  EXPECT_EQ(sentence, "there is no body 'arm/hnad'; similar names are 'arm/hand'");
   EXPECT_EQ(refusalOf([&] { checkKnown({allow("leg/*", "arm/hand")}, bodies); }, &sentence), Code::unknown_id);
-  EXPECT_EQ(sentence, "no body matches glob 'leg/*'");
+  EXPECT_EQ(sentence, "no body matches the glob 'leg/*'; a rule needs at least one matching body");
   EXPECT_EQ(refusalOf([&] { checkKnown({allow("arm/hand", "arm/h?")}, bodies); }), Code::unknown_id);
   EXPECT_EQ(refusalOf([&] { checkKnown({allow("*", "*")}, {}); }), Code::unknown_id);
 }
@@ -55,7 +55,8 @@ TEST(NearestNames, AreThoseWithFewLettersOtherwiseTheNearestFirst) {
       named({"arm/elbow", "arm/hand", "arm/hand_2", "left/hand", "obstacle/table", "obstacle/tables"});
   using Names = std::vector<std::string>;
   EXPECT_EQ(nearestNames("obstacle/tabel", bodies), Names({"obstacle/table", "obstacle/tables"}));
-  EXPECT_EQ(nearestNames("hand", bodies), Names({"arm/hand", "left/hand"})) << "the source was left out";
+  EXPECT_EQ(nearestNames("hand", bodies), Names({"arm/hand", "left/hand"}))
+      << "a name without its source finds no similar names";
   EXPECT_EQ(nearestNames("arm/hand_1", bodies), Names({"arm/hand_2", "arm/hand"}));
   EXPECT_EQ(nearestNames("nothing/like_it", bodies), Names());
   EXPECT_EQ(nearestNames("", bodies), Names());

@@ -25,7 +25,7 @@ std::vector<PairRule> configured() {
   return {rule};
 }
 
-/// Every rule as "first second +" (allowed) or "-".
+/// Returns every rule as text: "first second +" if it allows the pair, "first second -" if not.
 std::vector<std::string> gist(const RuleBook& book) {
   std::vector<std::string> lines;
   for (const PairRule& rule : book.rules()) {
@@ -49,11 +49,12 @@ TEST(RuleBook, WhatCanNeverDecideAgainIsDropped) {
   RuleBook book(configured());
   book.add({allow("a", "b"), allow("c", "d")});
   book.add({enable("b", "a")});
-  EXPECT_EQ(gist(book), Lines({"arm/* obstacle/table +", "c d +", "b a -"})) << "in either order";
+  EXPECT_EQ(gist(book), Lines({"arm/* obstacle/table +", "c d +", "b a -"}))
+      << "the rule for b and a did not replace the rule for a and b";
   book.add({enable("arm/*", "obstacle/table")});
-  EXPECT_EQ(book.rules().size(), 4u) << "what was configured stays";
+  EXPECT_EQ(book.rules().size(), 4u) << "a configured rule was dropped";
   for (int i = 1; i <= 100; ++i) book.add({until(allow("e", "f"), kNow + seconds(i))});
-  EXPECT_EQ(book.rules().size(), 5u) << "a rule that is renewed takes no more room";
+  EXPECT_EQ(book.rules().size(), 5u) << "a renewed rule was added instead of replaced";
   EXPECT_EQ(book.rules().back().ends, kNow + seconds(100));
 }
 
@@ -82,7 +83,7 @@ TEST(RuleBook, RemovesByTheTwoNamesInEitherOrder) {
   RuleBook book(configured());
   book.add({allow("a", "b*"), enable("c", "d"), until(allow("c", "d"), kNow)});
   book.remove({allow("b*", "a"), allow("d", "c")});
-  EXPECT_EQ(gist(book), Lines({"arm/* obstacle/table +"})) << "all that was said of c and d";
+  EXPECT_EQ(gist(book), Lines({"arm/* obstacle/table +"})) << "not all rules for c and d were removed";
 }
 
 TEST(RuleBook, RemovesAllOrNone) {
@@ -92,7 +93,7 @@ TEST(RuleBook, RemovesAllOrNone) {
   EXPECT_EQ(refusalOf([&] { book.remove({allow("a", "b"), allow("a", "c\n")}); }, &sentence), Code::unknown_id);
   EXPECT_TRUE(says(sentence, "there is no rule 'a', 'c\\x0a'"));
   EXPECT_EQ(refusalOf([&] { book.remove({allow("arm/*", "obstacle/table")}); }, &sentence), Code::unknown_id);
-  EXPECT_TRUE(says(sentence, "was configured and stays; one with allowed = false beats it"));
+  EXPECT_TRUE(says(sentence, "was configured and cannot be removed; add the same rule with allowed = false"));
   EXPECT_EQ(gist(book), Lines({"arm/* obstacle/table +", "a b +"}));
 }
 
@@ -103,7 +104,8 @@ TEST(RuleBook, HoldsNoMoreThanItMay) {
   EXPECT_EQ(refusalOf([&] { book.add({enable("a", "b"), allow("e", "f")}); }, &sentence), Code::limit);
   EXPECT_TRUE(says(sentence, "there would be 4 rules"));
   EXPECT_TRUE(says(sentence, "at most 3"));
-  EXPECT_EQ(gist(book), Lines({"arm/* obstacle/table +", "a b +", "c d +"})) << "all of them or none";
+  EXPECT_EQ(gist(book), Lines({"arm/* obstacle/table +", "a b +", "c d +"}))
+      << "a refused call has added some of its rules";
   book.add({enable("a", "b")});
   EXPECT_EQ(book.rules().size(), 3u);
 }
@@ -112,9 +114,9 @@ TEST(RuleBook, RefusesWhatIsNoRuleAndKeepsTheOthersOut) {
   RuleBook book;
   std::string sentence;
   EXPECT_EQ(refusalOf([&] { book.add({allow("a", "b"), allow("", "b")}); }, &sentence), Code::bad_id);
-  EXPECT_TRUE(says(sentence, "first of a rule is ''; it must not be empty"));
+  EXPECT_TRUE(says(sentence, "first name of a rule is ''; it must not be empty"));
   EXPECT_EQ(refusalOf([&] { book.add({allow("a", "b\x01")}); }, &sentence), Code::bad_id);
-  EXPECT_TRUE(says(sentence, "second of a rule is 'b\\x01'"));
+  EXPECT_TRUE(says(sentence, "second name of a rule is 'b\\x01'"));
   EXPECT_EQ(refusalOf([&] { book.add({allow(std::string(513, 'x'), "b")}); }), Code::bad_id);
   EXPECT_EQ(refusalOf([&] { book.add({allow("a", "b", std::string(513, 'x'))}); }), Code::out_of_range);
   EXPECT_EQ(refusalOf([&] { book.add({allow("a", "b", "\xff")}); }), Code::out_of_range);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Queries that respect the pairs of a body that are switched off.
+// Queries with QueryScope::respect_allowed: they leave out bodies whose pair with a given body is switched off.
 #include <gtest/gtest.h>
 
 #include "hgrid_proximity/queries/query.h"
@@ -20,7 +20,7 @@ QueryScope respecting(const Snapshot& snapshot, const std::string& body) {
   return scope;
 }
 
-/// Bodies that hits are on, those left out that `left_out` is true of.
+/// Returns the bodies of the hits, without those for which `left_out` returns true.
 template <class LeftOut>
 std::vector<std::uint32_t> bodiesOf(const QueryAnswer& answer, const LeftOut& left_out) {
   std::vector<std::uint32_t> bodies;
@@ -74,7 +74,7 @@ TEST(AllowedScope, LeavesOutTheBodyAndWhatItMayTouchAndNothingElse) {
   EXPECT_GT(gone, 100u);
 }
 
-/// A tool that may touch the cup and the camera's cloud, but not the box.
+/// A world with a tool that may touch the cup and the cloud of the camera, but not the box.
 class AllowedDoubt : public ::testing::Test {
  protected:
   AllowedDoubt() {
@@ -97,7 +97,8 @@ class AllowedDoubt : public ::testing::Test {
   }
   Verdict verdict(const std::vector<SourceGap>& gaps = {}) {
     const auto snapshot = scene_.commit(Time{++tick_}, gaps);
-    EXPECT_EQ(query(*snapshot, Sphere{{3, 0, 0}, 0.5}, {}).verdict, Verdict::unknown) << "without respect";
+    EXPECT_EQ(query(*snapshot, Sphere{{3, 0, 0}, 0.5}, {}).verdict, Verdict::unknown)
+        << "without respect_allowed, the answer must be UNKNOWN";
     return query(*snapshot, Sphere{{3, 0, 0}, 0.5}, respecting(*snapshot, "obstacle/tool")).verdict;
   }
 
@@ -148,7 +149,8 @@ TEST(AllowedScope, RefusesABodyThatIsNotThere) {
   EXPECT_EQ(refusalOf([&] { query(*snapshot, Sphere{{0, 0, 0}, 1}, scope); }), Code::unknown_id);
   EXPECT_EQ(refusalOf([&] { nearest(*snapshot, 0u, 1.0, scope); }), Code::unknown_id);
   scope.respect_allowed = 0;
-  EXPECT_EQ(query(*snapshot, Sphere{{0, 0, 0}, 1}, scope).verdict, Verdict::clear) << "it does not hit itself";
+  EXPECT_EQ(query(*snapshot, Sphere{{0, 0, 0}, 1}, scope).verdict, Verdict::clear)
+      << "the body of respect_allowed must not be a hit";
 }
 
 }  // namespace

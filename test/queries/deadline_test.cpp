@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// What queries answer whose time ends before everything was examined.
+// Answers of queries whose deadline passes before they have examined everything.
 #include <gtest/gtest.h>
 
 #include "hgrid_proximity/queries/query.h"
@@ -78,7 +78,8 @@ TEST(Deadline, WithEnoughTimeAnswersAreTheSame) {
   }
 }
 
-/// A narrow phase for which everything is in contact. Its measurements after the first few last until a deadline.
+/// A narrow phase that returns contact for everything. After the first `fast` measurements, each one lasts until the
+/// deadline.
 class SlowNarrowPhase final : public NarrowPhase {
  public:
   SlowNarrowPhase(int fast, Clock::time_point deadline) : fast_(fast), deadline_(deadline) {}
@@ -118,7 +119,7 @@ TEST(Deadline, WhatWasHitBeforeItIsAHit) {
   EXPECT_EQ(answer.verdict, Verdict::hit);
   EXPECT_EQ(answer.because, Unknown::no);
   EXPECT_FALSE(answer.examined_all);
-  EXPECT_EQ(answer.total, 3u) << "two fast ones, and the one during which the time ended";
+  EXPECT_EQ(answer.total, 3u) << "two fast measurements, and the one during which the deadline passed";
 }
 
 }  // namespace

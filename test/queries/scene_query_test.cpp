@@ -14,11 +14,12 @@ using test::Random;
 using test::refusalOf;
 
 struct Oracle {
-  long double distance = std::numeric_limits<long double>::infinity();  ///< of the query's centre or axis
-  long double first = std::numeric_limits<long double>::infinity();     ///< along the axis
+  long double distance = std::numeric_limits<long double>::infinity();  ///< [m] from the query's center or axis
+  long double first = std::numeric_limits<long double>::infinity();     ///< [m] along the axis to the first touch
 };
 
-/// The nearest of a body's boxes to an axis, and its first contact with a sphere along it.
+/// Returns the distance of a body's nearest box from an axis, and where a sphere that moves along the axis first
+/// touches a box.
 Oracle oracleOf(const Snapshot& snapshot, std::uint32_t body, const Segment& axis) {
   const Eigen::Vector3d a = axis.from - snapshot.origin(), b = axis.to - snapshot.origin();
   Oracle oracle;
@@ -30,23 +31,23 @@ Oracle oracleOf(const Snapshot& snapshot, std::uint32_t body, const Segment& axi
   return oracle;
 }
 
-/// What holds of every answer: hits are what the oracle finds, one per body, with right distances.
+/// Checks an answer: its hits are those of the oracle, one per body, with correct distances.
 void expectRightHits(const Snapshot& snapshot, const Segment& axis, const QueryAnswer& answer, bool along) {
   const double slack =
       test::promisedSlack(axis.from - snapshot.origin(), axis.to - snapshot.origin(), axis.radius) + 1e-12;
   std::map<std::uint32_t, QueryHit> hits;
-  for (const QueryHit& hit : answer.hits) ASSERT_TRUE(hits.emplace(hit.body, hit).second) << "one body twice";
+  for (const QueryHit& hit : answer.hits) ASSERT_TRUE(hits.emplace(hit.body, hit).second) << "a body is hit twice";
   ASSERT_EQ(answer.total, hits.size());
   for (std::uint32_t i = 0; i < snapshot.structure().bodies.size(); ++i) {
     const bool placed = snapshot.poses()[i].state != Freshness::unplaced;
     const Oracle oracle = oracleOf(snapshot, i, axis);
     SCOPED_TRACE(snapshot.structure().bodies[i].name + " at " + std::to_string(double(oracle.distance)));
     if (hits.count(i) == 0) {
-      ASSERT_TRUE(!placed || oracle.distance > axis.radius) << "missed";
+      ASSERT_TRUE(!placed || oracle.distance > axis.radius) << "the body is missing in the answer";
       continue;
     }
     ASSERT_TRUE(placed);
-    ASSERT_LE(oracle.distance, axis.radius + slack) << "too much";
+    ASSERT_LE(oracle.distance, axis.radius + slack) << "the body is a hit, but it does not touch the query";
     const QueryHit& hit = hits[i];
     const Aabb& box = snapshot.boxes()[snapshot.structure().first_proxy[i] + hit.shape];
     const Eigen::Vector3d point = hit.point - snapshot.origin();
@@ -63,7 +64,7 @@ void expectRightHits(const Snapshot& snapshot, const Segment& axis, const QueryA
       }
     } else {
       ASSERT_TRUE(std::isnan(hit.along));
-      ASSERT_NEAR(hit.center_distance, double(oracle.distance), slack) << "not the nearest shape";
+      ASSERT_NEAR(hit.center_distance, double(oracle.distance), slack) << "the hit is not the nearest shape";
       ASSERT_NEAR((hit.point - axis.from).norm(), hit.center_distance, slack);
     }
   }
@@ -71,7 +72,7 @@ void expectRightHits(const Snapshot& snapshot, const Segment& axis, const QueryA
 
 void expectInOrder(const QueryAnswer& answer, bool along) {
   for (std::size_t h = 1; h < answer.hits.size(); ++h) {
-    const QueryHit &a = answer.hits[h - 1], &b = answer.hits[h];  // names ascend with the index
+    const QueryHit &a = answer.hits[h - 1], &b = answer.hits[h];  // body indices are in the order of the names
     if (along) {
       ASSERT_TRUE(std::make_pair(a.along, a.body) < std::make_pair(b.along, b.body));
     } else {
@@ -158,12 +159,12 @@ TEST(SceneQuery, IncludeAndExcludeChooseByName) {
     for (const QueryHit& hit : sphere.hits) names += snapshot->structure().bodies[hit.body].name.substr(9) + " ";
     return names;
   };
-  EXPECT_EQ(found({{}, {}, 0}), "can cap cup dog ") << "equally near: by name";
+  EXPECT_EQ(found({{}, {}, 0}), "can cap cup dog ") << "equally near bodies must be sorted by name";
   EXPECT_EQ(found({{"obstacle/c*"}, {}, 0}), "can cap cup ");
   EXPECT_EQ(found({{"obstacle/c?p", "*dog"}, {}, 0}), "cap cup dog ");
   EXPECT_EQ(found({{}, {"*/ca*"}, 0}), "cup dog ");
-  EXPECT_EQ(found({{"obstacle/c*"}, {"*cup", "*can"}, 0}), "cap ") << "exclude beats include";
-  EXPECT_EQ(found({{"cup"}, {}, 0}), "") << "globs are over the whole name";
+  EXPECT_EQ(found({{"obstacle/c*"}, {"*cup", "*can"}, 0}), "cap ") << "exclude must take precedence over include";
+  EXPECT_EQ(found({{"cup"}, {}, 0}), "") << "a glob must match the whole name";
   EXPECT_EQ(found({{"*"}, {"*"}, 0}), "");
 }
 
@@ -198,11 +199,11 @@ TEST(SceneQuery, ABodyOfManyShapesIsHitOnceAtTheNearest) {
   EXPECT_EQ(sphere.hits[0].shape, 2u);
   EXPECT_EQ(sphere.hits[0].distance, 0.0);
   EXPECT_NEAR(sphere.hits[0].center_distance, 0.5, 1e-6);
-  EXPECT_NEAR(sphere.hits[0].point.z(), 0.5, 1e-6) << "in world coordinates";
+  EXPECT_NEAR(sphere.hits[0].point.z(), 0.5, 1e-6) << "the point must be in the world frame";
   const QueryAnswer there = query(*snapshot, Segment{{0, 0, 0}, {20, 0, 0}, 0}, {}),
                     back = query(*snapshot, Segment{{20, 0, 0}, {0, 0, 0}, 0}, {});
   ASSERT_EQ(there.total, 1u);
-  EXPECT_EQ(there.hits[0].shape, 1u) << "first met";
+  EXPECT_EQ(there.hits[0].shape, 1u) << "the hit must be the shape that the segment touches first";
   EXPECT_NEAR(there.hits[0].along, 9.5, 1e-6);
   ASSERT_EQ(back.total, 1u);
   EXPECT_EQ(back.hits[0].shape, 0u);
@@ -240,13 +241,13 @@ TEST(SceneQuery, RefusesWhatIsNoQuestion) {
     EXPECT_EQ(sphere({0, 0, 0}, bad), Code::bad_geometry);
     EXPECT_EQ(segment({0, 0, 0}, {1, 1, 1}, bad), Code::bad_geometry);
   }
-  for (const double bad : {nan, infinity}) {  // either is right: a number that is not finite, a radius that cannot be
+  for (const double bad : {nan, infinity}) {  // the code may be nonfinite or bad_geometry
     const Code code = sphere({0, 0, 0}, bad);
     EXPECT_TRUE(code == Code::nonfinite || code == Code::bad_geometry) << name(code);
     EXPECT_EQ(segment({0, 0, 0}, {1, 1, 1}, bad), code);
   }
   EXPECT_EQ(sphere({0, 0, 0}, 1e11), Code::out_of_range);
-  EXPECT_EQ(sphere({0, 0, 0}, 0.0), Code::ok) << "a point";
+  EXPECT_EQ(sphere({0, 0, 0}, 0.0), Code::ok) << "a sphere of radius 0 is a valid query";
   EXPECT_EQ(segment({0, 0, 0}, {0, 0, 0}, 0.0), Code::ok);
 }
 

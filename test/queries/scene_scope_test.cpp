@@ -14,7 +14,7 @@ namespace {
 using test::Random;
 using test::says;
 
-const SourceGap kLostCamera{"cloud/front", "cloud/front", "LOST cloud/front: what it saw is 3 s old"};
+const SourceGap kLostCamera{"cloud/front", "cloud/front", "LOST cloud/front: its newest points are 3 s old"};
 const SourceGap kNoRobot{"left", "left/*", "NOT_READY robot 'left': its description was not read yet"};
 const Sphere kPlace{{50, 0, 0}, 0.5};
 
@@ -34,7 +34,7 @@ QueryScope scopeOf(const std::vector<std::string>& include, const std::vector<st
   return scope;
 }
 
-/// A robot whose links are fresh, and an obstacle.
+/// A world with a robot, whose links are fresh, and an obstacle.
 struct Cell {
   Cell() : scene(SceneOptions{}) {
     link = test::put(scene, linkOf("robot", "tool", 0.5), test::at(0));
@@ -85,11 +85,12 @@ TEST(Scope, ARobotWithoutAModelMakesUnknownWhatCanBeOneOfItsLinks) {
 
 TEST(Scope, ALostBodyMakesUnknownOnlyWhatItCanHaveReached) {
   Cell cell;
-  cell.scene.setState(cell.link, Freshness::lost, 10.0);  // at 0.5 m/s it has come at most 5 m from x = 0 +- 0.5
+  cell.scene.setState(cell.link, Freshness::lost, 10.0);  // at 0.5 m/s, it has moved at most 5 m
   const Snapshot& snapshot = cell.now();
   EXPECT_EQ(snapshot.incompleteSources(), std::vector<std::string>({"robot"}));
   EXPECT_EQ(snapshot.poses()[test::indexOf(snapshot, "robot/tool")].reach, 5.0);
-  EXPECT_EQ(snapshot.poses()[test::indexOf(snapshot, "robot/tool")].growth, 1.0) << "pairs keep to the cap";
+  EXPECT_EQ(snapshot.poses()[test::indexOf(snapshot, "robot/tool")].growth, 1.0)
+      << "the growth of margins must stay within the cap";
   const QueryAnswer near = query(snapshot, Sphere{{0, 5.9, 0}, 0.5}, {});
   EXPECT_EQ(near.verdict, Verdict::unknown);
   EXPECT_EQ(near.because, Unknown::stale_body);
@@ -116,7 +117,7 @@ TEST(Scope, ABodyWhoseNewestDataContradictsItsPoseCanBeAnywhere) {
 
 TEST(Scope, WhatIsNearALostBodyIsUnknownAsFarAsTheBodyCanHaveMoved) {
   Cell cell;
-  cell.scene.setState(cell.link, Freshness::lost, 6.0);  // 3 m; the table is 4 m away
+  cell.scene.setState(cell.link, Freshness::lost, 6.0);  // it may have moved 3 m; the table is 4 m away
   const std::uint32_t tool = test::indexOf(cell.now(), "robot/tool");
   EXPECT_EQ(nearest(*cell.snapshot, tool, 0.9, scopeOf({"obstacle/*"})).verdict, Verdict::clear);
   const QueryAnswer answer = nearest(*cell.snapshot, tool, 1.1, scopeOf({"obstacle/*"}));
@@ -152,7 +153,7 @@ TEST(Scope, ALostCloudWithoutAGapOfItsOwnHidesAnything) {
   SourceGap gap = kLostCamera;
   gap.within = Sphere{{0, 0, 0}, 5.0};
   EXPECT_EQ(query(cell.now({gap}), kPlace, {}).verdict, Verdict::clear);
-  EXPECT_EQ(cell.snapshot->reasonsTotal(), 1u) << "one thing is wrong, told once";
+  EXPECT_EQ(cell.snapshot->reasonsTotal(), 1u) << "a lost cloud must be counted only once";
 }
 
 TEST(Scope, ARequiredBodyThatIsNotThereMakesItsSourceIncomplete) {
@@ -187,11 +188,11 @@ TEST(Scope, AnUncoveredBodyCountsOnlyWhereItIsAskedAbout) {
   EXPECT_EQ(
       nearest(*cell.snapshot, test::indexOf(*cell.snapshot, "robot/broken"), 0.1, scopeOf({"obstacle/*"})).verdict,
       Verdict::unknown)
-      << "what is near to a body of unknown extent";
+      << "a body of unknown extent may be near to anything";
 }
 
-/// A world in which some sources are complete, and the question whether a query may answer CLEAR, decided by looking
-/// at every body and every gap.
+/// A random world in which some sources are incomplete. It decides whether a query may answer CLEAR by looking at every
+/// body and every gap, and compares this with the answer of the query.
 class RandomScopes {
  public:
   explicit RandomScopes(std::uint64_t seed) : random_(seed), scene_(SceneOptions{}) {
@@ -213,7 +214,7 @@ class RandomScopes {
     const QueryAnswer answer = from == to ? query(*snapshot_, Sphere{from, radius}, scope)
                                           : query(*snapshot_, Segment{from, to, radius}, scope);
     if (answer.verdict == Verdict::hit) return;
-    bool surely = false, perhaps = false;  // unknown
+    bool surely = false, perhaps = false;  // whether the verdict must be, or may be, UNKNOWN
     for (std::uint32_t i = 0; i < snapshot_->poses().size(); ++i)
       judgeBody(i, scope, from, to, radius, surely, perhaps);
     for (const SourceGap& gap : gaps_) judgeGap(gap, scope, from, to, radius, surely, perhaps);
@@ -267,7 +268,8 @@ class RandomScopes {
   }
   static void judgeGap(const SourceGap& gap, const QueryScope& scope, const Eigen::Vector3d& from,
                        const Eigen::Vector3d& to, double radius, bool& surely, bool& perhaps) {
-    bool meant = false, included = false;  // the globs of this test tell apart no more names than these
+    // These names are enough, because the globs of this test cannot distinguish other names from them.
+    bool meant = false, included = false;
     for (const char* name : {"cloud/front", "left/1", "left/2", "left/long"}) {
       if (!matches(gap.bodies, name)) continue;
       meant = meant || isMeant(scope, name);

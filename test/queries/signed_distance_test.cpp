@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Signed distances and depths of queries that measure boxes and cells, against formulas for each of them.
+// Signed distances and depths of queries that measure boxes and cells, compared with simple formulas.
 #include <gtest/gtest.h>
 
 #include "hgrid_proximity/queries/query.h"
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kEdge = 0.1, kInfinity = std::numeric_limits<double>::infinity();
 
-/// [m] Of a point from a box: negative inside.
+/// Returns the signed distance [m] of a point from a box; negative inside.
 double signedByHand(const Eigen::Vector3d& low, const Eigen::Vector3d& high, const Eigen::Vector3d& point) {
   double outside = 0.0, inside = kInfinity;
   for (int axis = 0; axis < 3; ++axis) {
@@ -111,7 +111,7 @@ TEST(SignedDistance, BetweenBodiesIsNegativeWhereTheirBoxesOverlap) {
     for (std::uint32_t from = 0; from < structure.bodies.size(); ++from) {
       for (const QueryHit& hit : nearest(*snapshot, from, 0.0, all).hits) {
         const Aabb& box = boxOf(*snapshot, hit);
-        double least = kInfinity, depth = kInfinity;  // the depth of the first shape that overlaps
+        double least = kInfinity, depth = kInfinity;  // depth: penetration depth of the first overlapping shape
         for (ProxyId own = structure.first_proxy[from]; own < structure.first_proxy[from + 1]; ++own) {
           const Aabb& other = snapshot->boxes()[own];
           if (distance(other, box) == 0.0 && least > 0.0) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Where maps are to say what they know to be free, CLEAR is said of nothing else.
+// With SceneOptions::report_unmapped, queries answer CLEAR only for space that a map knows to be free.
 #include <gtest/gtest.h>
 
 #include "hgrid_proximity/queries/query.h"
@@ -26,7 +26,8 @@ SceneOptions reporting() {
   return options;
 }
 
-/// [m] By how much a sphere stays clear of all that the map does not know; negative: it does not. By hand.
+/// Returns the distance [m] of a sphere from all space that the map does not know, by a loop over the voxels. Negative
+/// if the sphere overlaps this space.
 double clearance(const std::vector<Voxel>& unknown, const Eigen::AlignedBox3d& extent, const Eigen::Vector3d& at,
                  double radius) {
   double least = std::min((at - extent.min()).minCoeff(), (extent.max() - at).minCoeff());
@@ -48,7 +49,7 @@ TEST(Unmapped, ClearIsSaidExactlyOfWhatTheMapKnowsToBeFree) {
     scene.setCells(put(scene, mapBody("room"), world_from_map), knowing(unknown, extent));
     const auto snapshot = scene.commit(Time{1}, {});
     const auto check = [&](double room, const QueryAnswer& answer, const char* what) {
-      if (std::abs(room) < 1e-3) return;  // the witness of segments is made of points
+      if (std::abs(room) < 1e-3) return;  // too close to decide: the reference for segments samples only points
       SCOPED_TRACE("seed " + std::to_string(seed) + ", " + what + ", " + std::to_string(room) + " m of room");
       ASSERT_EQ(answer.verdict, room > 0.0 ? Verdict::clear : Verdict::unknown);
       ASSERT_EQ(answer.because, room > 0.0 ? Unknown::no : Unknown::unmapped);
@@ -74,7 +75,8 @@ TEST(Unmapped, ClearIsSaidExactlyOfWhatTheMapKnowsToBeFree) {
 
 TEST(Unmapped, WhatTouchesTheUnknownIsNotClear) {
   Scene scene(reporting());
-  scene.setCells(put(scene, mapBody("room"), at(0)), knowing({{32778, 32768, 32768, 0}}, cube(2.0)));  // x 1 .. 1.1
+  // The unknown cell is at x 1 .. 1.1 m.
+  scene.setCells(put(scene, mapBody("room"), at(0)), knowing({{32778, 32768, 32768, 0}}, cube(2.0)));
   const auto snapshot = scene.commit(Time{1}, {});
   const auto verdict = [&](double x, double radius) {
     return query(*snapshot, Sphere{{x, 0.05, 0.05}, radius}, {}).verdict;
@@ -82,7 +84,7 @@ TEST(Unmapped, WhatTouchesTheUnknownIsNotClear) {
   EXPECT_EQ(verdict(0.5, 0.4999), Verdict::clear);
   EXPECT_EQ(verdict(0.5, 0.5), Verdict::unknown);
   EXPECT_EQ(verdict(-1.5, 0.4999), Verdict::clear);
-  EXPECT_EQ(verdict(-1.5, 0.5), Verdict::unknown) << "beyond what the map speaks of";
+  EXPECT_EQ(verdict(-1.5, 0.5), Verdict::unknown) << "the sphere reaches beyond the extent of the map";
 }
 
 TEST(Unmapped, AHitStaysAHit) {
@@ -99,15 +101,15 @@ TEST(Unmapped, OfSeveralMapsOneMustKnowAll) {
   const auto asked = [&](double x, const QueryScope& scope) { return query(*snapshot, Sphere{{x, 0, 0}, 0.5}, scope); };
   EXPECT_EQ(asked(-1.0, {}).verdict, Verdict::clear);
   EXPECT_EQ(asked(1.0, {}).verdict, Verdict::clear);
-  EXPECT_EQ(asked(0.0, {}).because, Unknown::unmapped) << "each knows a half";
+  EXPECT_EQ(asked(0.0, {}).because, Unknown::unmapped) << "each map knows only one half of the sphere";
   QueryScope scope;
   scope.include = {"map/west"};
-  EXPECT_EQ(asked(1.0, scope).because, Unknown::unmapped) << "the one that knows was not asked";
+  EXPECT_EQ(asked(1.0, scope).because, Unknown::unmapped) << "the map that knows this space is not in the scope";
   scope.include = {"obstacle/*"};
-  EXPECT_EQ(asked(5.0, scope).verdict, Verdict::clear) << "no map was asked";
+  EXPECT_EQ(asked(5.0, scope).verdict, Verdict::clear) << "the scope contains no map";
   scope = {};
   scope.exclude = {"map/*"};
-  EXPECT_EQ(asked(5.0, scope).verdict, Verdict::clear) << "no map was asked";
+  EXPECT_EQ(asked(5.0, scope).verdict, Verdict::clear) << "the scope contains no map";
 }
 
 TEST(Unmapped, WithoutAMapNothingIsKnown) {
@@ -116,7 +118,7 @@ TEST(Unmapped, WithoutAMapNothingIsKnown) {
   const BodyId cloud = put(scene, mapBody("cloud"), at(0));
   scene.setCells(cloud, cellsOf(kEdge, {}));
   EXPECT_EQ(query(*scene.commit(Time{2}, {}), Sphere{{0, 0, 0}, 0.1}, {}).because, Unknown::unmapped)
-      << "a map that knows no free space";
+      << "the only map knows no free space";
 }
 
 TEST(Unmapped, ACloudIsNoMap) {
@@ -140,7 +142,7 @@ TEST(Unmapped, IsNotAskedUnlessMapsAreToReport) {
 
 TEST(Unmapped, AStaleMapKnowsLess) {
   Scene scene(reporting());
-  const BodyId room = put(scene, mapBody("room", Mobility::moving), at(0));  // 1 m/s
+  const BodyId room = put(scene, mapBody("room", Mobility::moving), at(0));  // its max_speed is 1 m/s
   scene.setCells(room, knowing({}, cube(1.0)));
   const auto because = [&] { return query(*scene.commit(Time{1}, {}), Sphere{{0.5, 0, 0}, 0.2}, {}).because; };
   EXPECT_EQ(because(), Unknown::no);
@@ -150,7 +152,8 @@ TEST(Unmapped, AStaleMapKnowsLess) {
 
 TEST(Unmapped, NearestToABodyLooksAroundAllOfIt) {
   Scene scene(reporting());
-  scene.setCells(put(scene, mapBody("room"), at(0)), knowing({{32778, 32768, 32768, 0}}, cube(2.0)));  // x 1 .. 1.1
+  // The unknown cell is at x 1 .. 1.1 m.
+  scene.setCells(put(scene, mapBody("room"), at(0)), knowing({{32778, 32768, 32768, 0}}, cube(2.0)));
   put(scene, ball("tool", 0.25), at(0));
   const auto snapshot = scene.commit(Time{1}, {});
   const auto because = [&](double limit) {

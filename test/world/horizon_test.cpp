@@ -37,7 +37,7 @@ TEST_F(HorizonTest, PairsThatCanMeetWithinItAreCandidates) {
     SCOPED_TRACE(gap);
     Scene scene(withHorizon(0.5));
     put(scene, ballOf("a", 0.6), at(0.0));
-    put(scene, ballOf("b", 0.4), at(1.0 + gap));  // together 1 m/s
+    put(scene, ballOf("b", 0.4), at(1.0 + gap));  // both together approach with at most 1 m/s
     const auto snapshot = commit(scene, 1);
     ASSERT_EQ(snapshot->pairs().size(), gap <= 0.5 ? 1u : 0u);
     if (gap > 0.5) continue;
@@ -55,8 +55,8 @@ TEST_F(HorizonTest, CountsWhatABodyCanHaveMovedSinceItsPose) {
     options.growth_after = 0.25;
     Scene scene(options);
     const BodyId a = put(scene, ballOf("a", 1.0), at(0.0));
-    put(scene, ballOf("b", 0.0), at(1.7));   // boxes 0.7 m apart
-    put(scene, ballOf("c", 0.0), at(-2.5));  // 1.5 m apart: farther than horizon and cap allow
+    put(scene, ballOf("b", 0.0), at(1.7));   // its box is 0.7 m from the box of body a
+    put(scene, ballOf("c", 0.0), at(-2.5));  // its box is 1.5 m from the box of body a, which is out of reach
     scene.setState(a, Freshness::late, age);
     const auto pairs = test::namedPairs(*commit(scene, 1));
     EXPECT_EQ(pairs.count({"obstacle/a", "obstacle/b"}), age > 0.2 ? 1u : 0u);
@@ -80,17 +80,19 @@ TEST_F(HorizonTest, WhatPassedThroughBetweenTwoTicksIsNotMissed) {
   const BodyId a = put(scene, ballOf("a", 1000.0), at(-5.0), std::chrono::milliseconds(1));
   put(scene, ballOf("b", 1.0), at(0.0), std::chrono::milliseconds(1));
   scene.add(ballOf("unplaced", 1.0));
-  // The reach of a within the horizon is 10 m; to tell the sweep from it, make it slow and let it jump.
+  // Within the horizon, the fast body a can move by 10 m, so it makes a pair in any case. To test the swept boxes
+  // alone, the second scene has a slow body that jumps.
   EXPECT_EQ(commit(scene, 1)->pairs().size(), 1u);
   Scene slow(withHorizon(0.001));
   const BodyId jumper = put(slow, ballOf("a", 1.0), at(-5.0), std::chrono::milliseconds(1));
   put(slow, ballOf("b", 1.0), at(0.0), std::chrono::milliseconds(1));
   EXPECT_TRUE(commit(slow, 1)->pairs().empty());
-  move(slow, jumper, at(5.0), 11);  // right through b
+  move(slow, jumper, at(5.0), 11);  // on its way it passes through b
   const auto snapshot = commit(slow, 11);
   ASSERT_EQ(snapshot->pairs().size(), 1u);
-  EXPECT_EQ(snapshot->pairs()[0].flags, kHorizonFlag | kTeleportFlag) << "10 m in 10 ms at 1 m/s";
-  EXPECT_TRUE(commit(slow, 21)->pairs().empty()) << "a tick later it is far away";
+  EXPECT_EQ(snapshot->pairs()[0].flags, kHorizonFlag | kTeleportFlag)
+      << "it moved 10 m in 10 ms, but its max_speed is 1 m/s";
+  EXPECT_TRUE(commit(slow, 21)->pairs().empty()) << "in the next tick the two bodies are far apart";
   move(scene, a, at(-5.1), 11);
   for (const NearPair& pair : commit(scene, 11)->pairs()) EXPECT_EQ(pair.flags & kTeleportFlag, 0);
 }
@@ -107,7 +109,8 @@ TEST_F(HorizonTest, WhatMovesAsFastAsItMayDidNotTeleport) {
     ASSERT_EQ(snapshot->pairs()[0].flags & kTeleportFlag, 0) << tick;
   }
   move(scene, a, at(-0.6), 511);
-  EXPECT_EQ(commit(scene, 511)->pairs().at(0).flags & kTeleportFlag, kTeleportFlag) << "0.11 m in 10 ms";
+  EXPECT_EQ(commit(scene, 511)->pairs().at(0).flags & kTeleportFlag, kTeleportFlag)
+      << "it moved 0.11 m in 10 ms, but its max_speed is 1 m/s";
 }
 
 TEST_F(HorizonTest, IsCheckedAtTheDoor) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Maps are bodies whose boxes are cells: pairs, gaps and queries against a scan of all cells.
+// Pairs, gaps and queries of maps, compared with a scan of all cells. A map is a body whose boxes are its cells.
 #include <gtest/gtest.h>
 
 #include "hgrid_proximity/queries/query.h"
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kEdge = 0.1;
 
-/// A world of bodies and maps that change at random, and what the maps are made of.
+/// A world of bodies and maps that change at random. It keeps the voxels of the maps for comparisons.
 class MapWorld {
  public:
   explicit MapWorld(unsigned seed) : random_(seed), scene_(options(seed)) {
@@ -62,7 +62,7 @@ class MapWorld {
   std::int64_t time_ = 1;
 };
 
-/// The gap of each body and map, by hand.
+/// Computes the gap [m] of a body and a map by a loop over all voxels.
 double gapOf(const MapWorld& world, const Snapshot& snapshot, std::uint32_t map, std::uint32_t body) {
   const Structure& structure = snapshot.structure();
   double gap = std::numeric_limits<double>::infinity();
@@ -84,25 +84,25 @@ TEST(MapPairs, AreThoseOfAScanOfAllCellsWhateverMoves) {
       const Structure& structure = snapshot->structure();
       std::map<std::pair<std::uint32_t, std::uint32_t>, NearPair> pairs;
       for (const NearPair& pair : snapshot->pairs()) {
-        ASSERT_TRUE(pairs.emplace(std::make_pair(pair.first, pair.second), pair).second) << "told twice";
+        ASSERT_TRUE(pairs.emplace(std::make_pair(pair.first, pair.second), pair).second) << "the pair is listed twice";
       }
       for (const std::uint32_t map : structure.maps) {
         for (std::uint32_t body = 0; body < structure.bodies.size(); ++body) {
           const auto key = std::minmax(map, body);
           const auto found = pairs.find(key);
           if (structure.bodies[body].kind == BodyKind::map) {
-            EXPECT_TRUE(found == pairs.end()) << "two maps make no pair";
+            EXPECT_TRUE(found == pairs.end()) << "two maps must make no pair";
             continue;
           }
           if (structure.bodies[body].mobility == Mobility::fixed) {
-            EXPECT_TRUE(found == pairs.end()) << "a map shows the fixed obstacles, too";
+            EXPECT_TRUE(found == pairs.end()) << "a map and a fixed obstacle must make no pair";
             continue;
           }
           const double gap = gapOf(world, *snapshot, map, body);
           const double margin = snapshot->marginOf(map, body) + snapshot->growthOf(map, body);
           ASSERT_NEAR(std::min(gap, 1e3), std::min(snapshot->gapOf(map, body), 1e3), 1e-4);
           if (found == pairs.end()) {
-            ASSERT_GT(gap, margin - 1e-9) << "a pair is missed";
+            ASSERT_GT(gap, margin - 1e-9) << "a pair is missing";
             ++far;
           } else {
             ++near;
@@ -119,10 +119,10 @@ TEST(MapPairs, AreThoseOfAScanOfAllCellsWhateverMoves) {
 }
 
 TEST(MapPairs, BeginAndEndLikeAllOthers) {
-  Scene scene{SceneOptions{}};  // margin 0.1, hysteresis 0.02
+  Scene scene{SceneOptions{}};  // margin 0.1 m, hysteresis 0.02 m
   const BodyId room = put(scene, mapBody("room"), at(0));
   const BodyId ball_id = put(scene, ball("ball", 0.5), at(2));
-  scene.setCells(room, cellsOf(0.1, {{32768, 32768, 32768, 0}}));  // 0 .. 0.1 m
+  scene.setCells(room, cellsOf(0.1, {{32768, 32768, 32768, 0}}));  // one cell from 0 to 0.1 m on each axis
   const auto told = [&](double x) {
     scene.place(ball_id, at(x), Time{1});
     const auto snapshot = scene.commit(Time{2}, {});
@@ -132,23 +132,23 @@ TEST(MapPairs, BeginAndEndLikeAllOthers) {
   };
   EXPECT_EQ(told(2.0), "0");
   EXPECT_EQ(told(0.69), "begin 1");
-  EXPECT_EQ(told(0.71), "0") << "within the hysteresis";
+  EXPECT_EQ(told(0.71), "0") << "a gap within the hysteresis must not end the pair";
   EXPECT_EQ(told(0.69), "1");
   EXPECT_EQ(told(0.73), "end 0");
   told(0.69);
   scene.setCells(room, cellsOf(0.1, {}));
-  EXPECT_EQ(told(0.69), "end 0") << "the cell is gone";
+  EXPECT_EQ(told(0.69), "end 0") << "the cell was removed, so the pair must end";
 }
 
 TEST(MapPairs, WhatPassedTheOtherBetweenTwoTicksIsTold) {
   SceneOptions options;
   options.horizon = 0.001;
   for (const bool map_moves : {false, true}) {
-    SCOPED_TRACE(map_moves ? "the map moves" : "the ball moves");
+    SCOPED_TRACE(map_moves ? "the map moves" : "the sphere moves");
     Scene scene(options);
     const BodyId room = put(scene, mapBody("room", Mobility::moving), at(0));
     const BodyId ball_id = put(scene, ball("ball", 0.1), at(3));
-    scene.setCells(room, cellsOf(0.1, {{32768, 32768, 32768, 0}}));  // 0 .. 0.1 m
+    scene.setCells(room, cellsOf(0.1, {{32768, 32768, 32768, 0}}));  // one cell from 0 to 0.1 m on each axis
     EXPECT_TRUE(scene.commit(Time{1}, {})->pairs().empty());
     scene.place(map_moves ? room : ball_id, at(map_moves ? 6 : -3), Time{2});
     const auto passing = scene.commit(Time{2}, {});
@@ -156,12 +156,12 @@ TEST(MapPairs, WhatPassedTheOtherBetweenTwoTicksIsTold) {
     EXPECT_EQ(passing->pairs()[0].flags & kHorizonFlag, kHorizonFlag);
     EXPECT_NEAR(passing->pairs()[0].gap, 2.9, 1e-6);
     EXPECT_TRUE(scene.commit(Time{3}, {})->pairs().empty());
-    scene.place(room, at(6, 0.2), Time{4});  // off, and both together
+    scene.place(room, at(6, 0.2), Time{4});  // apart; in the next tick both move by the same distance
     scene.place(ball_id, at(3, 0.2), Time{4});
     scene.commit(Time{4}, {});
     scene.place(room, at(-6, 0.2), Time{5});
     scene.place(ball_id, at(-9, 0.2), Time{5});
-    EXPECT_TRUE(scene.commit(Time{5}, {})->pairs().empty()) << "they went together";
+    EXPECT_TRUE(scene.commit(Time{5}, {})->pairs().empty()) << "bodies that move together do not pass each other";
   }
 }
 
@@ -182,7 +182,7 @@ TEST(MapPairs, CellsAreForMapsWithoutShapes) {
   EXPECT_EQ(refusalOf([&] { scene.setCells(room, cellsOf(0.1, {})); }), Code::unknown_id);
 }
 
-/// The distance of a point from a voxel of a map in the world.
+/// Returns the distance [m] of a point (in the world frame) from a voxel of a map.
 double distanceTo(const Snapshot& snapshot, std::uint32_t map, const Voxel& voxel, const Eigen::Vector3d& point) {
   const Eigen::Vector3d at = snapshot.poses()[map].world_from_body.inverse() * point;
   return (minCorner(voxel, kEdge) - at).cwiseMax(at - maxCorner(voxel, kEdge)).cwiseMax(Eigen::Vector3d::Zero()).norm();
@@ -237,8 +237,8 @@ TEST(MapQueries, OfSegmentsTellWhatIsMetFirst) {
   turned.linear() = Eigen::AngleAxisd(0.5 * M_PI, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   scene.place(room, turned, Time{1});
   scene.setState(room, Freshness::fresh, 0.0);
-  scene.setCells(room,
-                 cellsOf(1.0, {{32773, 32768, 32768, 0}}));  // x 5 .. 6, y 0 .. 1: in the world y 5 .. 6, x -1 .. 0
+  // The cell is at x 5 .. 6 m, y 0 .. 1 m in the map, which is y 5 .. 6 m, x -1 .. 0 m in the world.
+  scene.setCells(room, cellsOf(1.0, {{32773, 32768, 32768, 0}}));
   const auto snapshot = scene.commit(Time{1}, {});
   QueryScope scope;
   QueryAnswer answer = query(*snapshot, Segment{{-0.5, 0, 0.5}, {-0.5, 10, 0.5}, 0.0}, scope);
@@ -257,7 +257,7 @@ TEST(MapQueries, AStaleMapIsNeverClearWhereItMayBe) {
   Scene scene{options};
   const BodyId room = put(scene, mapBody("room", Mobility::moving), at(0));
   scene.setCells(room, cellsOf(1.0, {{32768, 32768, 32768, 0}}));
-  scene.setState(room, Freshness::stale, 0.5);  // may have moved 0.5 m
+  scene.setState(room, Freshness::stale, 0.5);  // the map may have moved by 0.5 m
   const auto snapshot = scene.commit(Time{1}, {});
   const auto verdict = [&](double x) { return query(*snapshot, Sphere{{x, 0.5, 0.5}, 0.1}, {}).verdict; };
   EXPECT_EQ(verdict(1.05), Verdict::hit);
@@ -274,8 +274,8 @@ TEST(MapQueries, NearestToAStaleBodyIsNeverClearWhereThatMayBe) {
   Body tool = ball("tool", 0.1);
   tool.max_speed = 1.0;
   const BodyId asking = put(scene, tool, at(0));
-  put(scene, ball("post", 0.1, Mobility::fixed), at(1));                                          // 0.8 m of room
-  scene.setCells(put(scene, mapBody("room"), at(-5)), cellsOf(1.0, {{32771, 32768, 32768, 0}}));  // x -2 .. -1
+  put(scene, ball("post", 0.1, Mobility::fixed), at(1));                                          // 0.8 m from the tool
+  scene.setCells(put(scene, mapBody("room"), at(-5)), cellsOf(1.0, {{32771, 32768, 32768, 0}}));  // x -2 .. -1 m
   const auto because = [&](const std::string& what, double limit) {
     QueryScope scope;
     scope.include = {what};
@@ -284,7 +284,7 @@ TEST(MapQueries, NearestToAStaleBodyIsNeverClearWhereThatMayBe) {
   };
   EXPECT_EQ(because("obstacle/*", 0.5), Unknown::no);
   EXPECT_EQ(because("map/*", 0.5), Unknown::no);
-  scene.setState(asking, Freshness::stale, 0.4);  // it may have moved 0.4 m
+  scene.setState(asking, Freshness::stale, 0.4);  // the tool may have moved by 0.4 m
   EXPECT_EQ(because("obstacle/*", 0.5), Unknown::stale_body);
   EXPECT_EQ(because("map/*", 0.6), Unknown::stale_body);
   EXPECT_EQ(because("obstacle/*", 0.3), Unknown::no);

@@ -11,7 +11,7 @@ namespace {
 
 using Events = std::vector<std::string>;
 
-/// Two bodies whose boxes are `gap` apart, under rules that change: what a Scene does with them is not asked.
+/// Tests PairEvents without a Scene: two bodies whose boxes are `gap` [m] apart, and rules and margins that change.
 class PairEventsFilter : public ::testing::Test {
  protected:
   void setRules(double margin, bool allowed) {
@@ -66,7 +66,7 @@ TEST_F(PairEventsFilter, AMarginThatIsToldBeginsAndEndsPairs) {
   setRules(1.0, false);
   EXPECT_EQ(next(0.75), Events({"1 BEGIN FILTER obstacle/a obstacle/b"}));
   setRules(0.6875, false);
-  EXPECT_EQ(next(0.75), Events()) << "within the hysteresis";
+  EXPECT_EQ(next(0.75), Events()) << "a gap within the hysteresis must not end the pair";
   setRules(0.5, false);
   EXPECT_EQ(next(0.75), Events({"2 END FILTER obstacle/a obstacle/b"}));
 }

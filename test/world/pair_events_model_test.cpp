@@ -13,7 +13,7 @@ namespace {
 
 using test::Random;
 
-/// An event as the model knows it; of the causes it knows those that no margin has a part in.
+/// An event that the model expects. `gone` means the cause EventCause::bodies. The model does not predict other causes.
 struct Expected {
   std::string kind, first, second;
   Time since{0};
@@ -23,7 +23,7 @@ struct Expected {
   }
 };
 
-/// The rule of events, told once more, by brute force over all bodies of a snapshot and by name.
+/// A simple reference for the events: computes them by name and by comparing all bodies of a snapshot with each other.
 class Model {
  public:
   explicit Model(const SceneOptions& options) : options_(options) {}
@@ -90,13 +90,13 @@ class Model {
       const Expected one{test::nameOf(event.kind), structure.bodies.at(event.first).name,
                          structure.bodies.at(event.second).name, event.since, event.cause == EventCause::bodies};
       SCOPED_TRACE(one.kind + " " + one.first + " " + one.second);
-      ASSERT_EQ(event.number, ++last_) << "one after the other, through all ticks of an epoch";
+      ASSERT_EQ(event.number, ++last_) << "the events of an epoch are not numbered without gaps";
       ASSERT_LT(one.first, one.second);
-      ASSERT_TRUE(told.insert(one).second) << "twice";
-      ASSERT_FALSE(begins && event.kind == EventKind::end) << "ends come first";
+      ASSERT_TRUE(told.insert(one).second) << "the event occurs twice";
+      ASSERT_FALSE(begins && event.kind == EventKind::end) << "an END event comes after a BEGIN event";
       begins = event.kind == EventKind::begin;
       const auto found = expected.find(one);
-      ASSERT_TRUE(found != expected.end()) << "it did not happen";
+      ASSERT_TRUE(found != expected.end()) << "the model does not expect this event";
       ASSERT_EQ(one.since, found->since);
       if (event.kind == EventKind::end) {
         ASSERT_EQ(one.gone, found->gone);
@@ -105,7 +105,7 @@ class Model {
         ASSERT_GE(event.gap, 0.0);
       }
     }
-    ASSERT_EQ(told.size(), expected.size()) << "some were not told";
+    ASSERT_EQ(told.size(), expected.size()) << "some expected events are missing";
     ASSERT_EQ(snapshot.lastEvent(), last_);
     events_ += told.size();
   }
@@ -116,7 +116,7 @@ class Model {
   std::size_t events_ = 0;
 };
 
-/// Bodies that come, wander, get stale, are replaced and go; at times another epoch.
+/// A random story: bodies are added, move, become stale, are replaced and are removed. Sometimes an epoch begins.
 class Story {
  public:
   explicit Story(unsigned seed) : random_(seed), scene_(optionsOf(random_, options_)), model_(options_) {}

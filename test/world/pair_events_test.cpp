@@ -13,7 +13,7 @@ using test::at;
 using test::eventsOf;
 using Events = std::vector<std::string>;
 
-/// Balls of radius 0.5 m along x; margin 1/8 m, hysteresis 1/16 m.
+/// Spheres of radius 0.5 m on the x axis; margin 1/8 m, hysteresis 1/16 m.
 class PairEvents : public ::testing::Test {
  protected:
   static SceneOptions options() {
@@ -45,7 +45,7 @@ TEST_F(PairEvents, APairBeginsWithinItsMarginAndEndsBeyondTheHysteresis) {
   const BodyId b = put("b", 1.3);
   EXPECT_EQ(next(), Events());
   place(b, 1.15);
-  EXPECT_EQ(next(), Events()) << "within the hysteresis, but it was not there before";
+  EXPECT_EQ(next(), Events()) << "a gap within the hysteresis must not begin a pair";
   place(b, 1.1);
   EXPECT_EQ(next(), Events({"1 BEGIN MOVED obstacle/a obstacle/b"}));
   EXPECT_EQ(event().since, Time{3});
@@ -53,11 +53,11 @@ TEST_F(PairEvents, APairBeginsWithinItsMarginAndEndsBeyondTheHysteresis) {
   for (const double x : {1.1, 1.15, 1.18, 1.0, 1.18}) {
     place(b, x);
     EXPECT_EQ(next(), Events()) << x;
-    EXPECT_EQ(snapshot_->pairs().size(), x < 1.125 ? 1u : 0u) << "pairs have the margin alone";
+    EXPECT_EQ(snapshot_->pairs().size(), x < 1.125 ? 1u : 0u) << "the hysteresis must not count for the list of pairs";
   }
   place(b, 1.2);
   EXPECT_EQ(next(), Events({"2 END MOVED obstacle/a obstacle/b"}));
-  EXPECT_EQ(event().since, Time{3}) << "when it began";
+  EXPECT_EQ(event().since, Time{3}) << "an END event must hold the time when the pair began";
   EXPECT_NEAR(event().gap, 0.2, 1e-6);
   for (const double x : {1.18, 1.13}) {
     place(b, x);
@@ -86,7 +86,7 @@ TEST_F(PairEvents, TheNearestShapesDecide) {
   place(b, 1.18);
   EXPECT_EQ(next(), Events());
   place(b, -6.18);
-  EXPECT_EQ(next(), Events()) << "now the other shape is as near";
+  EXPECT_EQ(next(), Events()) << "the other shape of b is now as near as the first one was";
   place(b, -6.2);
   EXPECT_EQ(next(), Events({"2 END MOVED obstacle/a obstacle/b"}));
   EXPECT_NEAR(event().gap, 0.2, 1e-6);
@@ -110,7 +110,8 @@ TEST_F(PairEvents, OfABodyThatIsGoneStillKnowItsName) {
   put("c", 2.2);
   EXPECT_EQ(next(), Events({"1 BEGIN BODIES obstacle/a obstacle/b", "2 BEGIN BODIES obstacle/b obstacle/c"}));
   scene_.remove(a);
-  EXPECT_EQ(next(), Events({"3 END BODIES obstacle/a obstacle/b"})) << "b and c have other numbers now, and go on";
+  EXPECT_EQ(next(), Events({"3 END BODIES obstacle/a obstacle/b"}))
+      << "the pair of b and c must not end when the indices of its bodies change";
   EXPECT_TRUE(std::isnan(event().gap));
   EXPECT_EQ(event().since, Time{1});
   EXPECT_EQ(next(), Events());
@@ -123,7 +124,7 @@ TEST_F(PairEvents, OfABodyThatIsReplacedEndAndBegin) {
   scene_.remove(a);
   put("a", 0);
   EXPECT_EQ(next(), Events({"2 END BODIES obstacle/a obstacle/b", "3 BEGIN BODIES obstacle/a obstacle/b"}));
-  scene_.remove(scene_.add(test::ball("0")));  // another structure with the same bodies
+  scene_.remove(scene_.add(test::ball("0")));  // causes a new structure with the same bodies
   EXPECT_EQ(next(), Events());
 }
 
@@ -145,7 +146,7 @@ TEST_F(PairEvents, SayWhenOnlyTheStalenessOfABodyMadeThePair) {
   scene_.setState(b, Freshness::stale, 0.5);
   EXPECT_EQ(next(), Events({"1 BEGIN STALENESS obstacle/a obstacle/b"}));
   scene_.setState(b, Freshness::stale, 0.35);
-  EXPECT_EQ(next(), Events()) << "the hysteresis is beyond the wider margin";
+  EXPECT_EQ(next(), Events()) << "the hysteresis must be added to the margin of the stale body";
   scene_.setState(b, Freshness::fresh, 0.0);
   EXPECT_EQ(next(), Events({"2 END STALENESS obstacle/a obstacle/b"}));
 }
@@ -157,10 +158,11 @@ TEST_F(PairEvents, SayThatTheyMovedWhereTheMarginOfBeforeIsEnough) {
   EXPECT_EQ(next(), Events());
   place(a, 1.0);
   scene_.setState(b, Freshness::stale, 2.01);
-  EXPECT_EQ(next(), Events({"1 BEGIN MOVED obstacle/a obstacle/b"})) << "2.125 m reach over 1.5 m";
+  EXPECT_EQ(next(), Events({"1 BEGIN MOVED obstacle/a obstacle/b"}))
+      << "the previous margin of 2.125 m is larger than the gap of 1.5 m";
   place(a, 0.0);
   scene_.setState(b, Freshness::fresh, 0.0);
-  EXPECT_EQ(next(), Events({"2 END MOVED obstacle/a obstacle/b"})) << "it left the wide margin too";
+  EXPECT_EQ(next(), Events({"2 END MOVED obstacle/a obstacle/b"})) << "the gap also exceeds the previous, wider margin";
 }
 
 TEST_F(PairEvents, OfLinksOfOneRobotAreNotCausedByEqualAge) {
@@ -187,7 +189,8 @@ TEST_F(PairEvents, OfLinksOfOneRobotAreNotCausedByEqualAge) {
   set_age(0.5, 7);
   EXPECT_EQ(next(), Events());
   set_age(0.5, 8);
-  EXPECT_EQ(next(), Events({"1 BEGIN STALENESS arm/0 arm/2"})) << "the margin is 1/8 + 1/2 + 1/2 m now";
+  EXPECT_EQ(next(), Events({"1 BEGIN STALENESS arm/0 arm/2"}))
+      << "the margin is 1/8 m + 1/2 m + 1/2 m, which is more than the gap";
   set_age(0.5, 7);
   EXPECT_EQ(next(), Events({"2 END STALENESS arm/0 arm/2"}));
 }
@@ -201,7 +204,8 @@ TEST_F(PairEvents, BeginAgainInANewEpochFromNumberOne) {
   EXPECT_EQ(next(), Events());
   EXPECT_EQ(snapshot_->lastEvent(), 2u);
   scene_.beginEpoch(77);
-  EXPECT_EQ(next(), Events({"1 BEGIN EPOCH obstacle/b obstacle/c"})) << "a and b are not within the margin";
+  EXPECT_EQ(next(), Events({"1 BEGIN EPOCH obstacle/b obstacle/c"}))
+      << "a and b are not within their margin, so they must not begin again";
   EXPECT_EQ(event().since, Time{3});
   EXPECT_EQ(snapshot_->lastEvent(), 1u);
   place(b, 1.1);
@@ -219,7 +223,7 @@ TEST_F(PairEvents, OfANewEpochGoByName) {
   put("d", 2.2);
   scene_.beginEpoch(77);
   EXPECT_EQ(next(), Events({"1 BEGIN EPOCH obstacle/a obstacle/b", "2 BEGIN BODIES obstacle/b obstacle/d"}))
-      << "nothing ends in an epoch in which it did not begin";
+      << "a pair must not end in an epoch in which it did not begin";
 }
 
 TEST_F(PairEvents, WithoutHysteresisAreTheChangesOfThePairs) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Events and ages of pairs that truncation removes from the list.
+// Events and NearPair::since of pairs that truncation removes from the list.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -17,7 +17,7 @@ using test::at;
 using test::eventsOf;
 using Events = std::vector<std::string>;
 
-/// Balls of radius 0.5 m. Pairs "a" and "b" at x = 0, "c" and "d" at x = 10; one pair is listed.
+/// Spheres of radius 0.5 m: "a" and "b" near x = 0 m, "c" and "d" near x = 10 m. A snapshot lists only one pair.
 class PairLimitsEvents : public ::testing::Test {
  protected:
   static SceneOptions options(std::size_t max_pairs = 1, double horizon = 0.0) {
@@ -34,7 +34,7 @@ class PairLimitsEvents : public ::testing::Test {
     snapshot_ = scene_->commit(Time{++tick_}, {});
     return eventsOf(*snapshot_);
   }
-  /// The listed pair, as in "obstacle/a obstacle/b since 1".
+  /// Returns the listed pair as text, such as "obstacle/a obstacle/b since 1".
   std::string listed() const {
     if (snapshot_->pairs().size() != 1) return std::to_string(snapshot_->pairs().size()) + " pairs";
     const NearPair& pair = snapshot_->pairs()[0];
@@ -53,7 +53,7 @@ TEST_F(PairLimitsEvents, APairThatOnlyTruncationRemovesDoesNotEndAndDoesNotBegin
   put("c", 10);
   const BodyId d = put("d", 13);
   EXPECT_EQ(next(), Events({"1 BEGIN BODIES obstacle/a obstacle/b"}));
-  place(d, 11);  // a contact
+  place(d, 11);  // in contact with c
   EXPECT_EQ(next(), Events({"2 BEGIN MOVED obstacle/c obstacle/d"}));
   EXPECT_TRUE(snapshot_->truncated());
   EXPECT_EQ(listed(), "obstacle/c obstacle/d since 2");
@@ -61,15 +61,16 @@ TEST_F(PairLimitsEvents, APairThatOnlyTruncationRemovesDoesNotEndAndDoesNotBegin
   place(d, 13);
   EXPECT_EQ(next(), Events({"3 END MOVED obstacle/c obstacle/d"}));
   EXPECT_FALSE(snapshot_->truncated());
-  EXPECT_EQ(listed(), "obstacle/a obstacle/b since 1") << "not interrupted";
+  EXPECT_EQ(listed(), "obstacle/a obstacle/b since 1") << "truncation has interrupted the pair";
   place(d, 11);
   next();
   place(b, 1.15);
-  EXPECT_EQ(next(), Events()) << "within the hysteresis";
+  EXPECT_EQ(next(), Events()) << "a gap within the hysteresis must not end the pair";
   place(b, 1.1);
   EXPECT_EQ(next(), Events());
   place(b, 1.3);
-  EXPECT_EQ(next(), Events({"5 END MOVED obstacle/a obstacle/b"})) << "truncated or not, what moves apart ends";
+  EXPECT_EQ(next(), Events({"5 END MOVED obstacle/a obstacle/b"}))
+      << "bodies that move apart must end their pair, even if it was truncated";
 }
 
 TEST_F(PairLimitsEvents, OfABodyThatIsRemovedEnd) {
@@ -89,7 +90,7 @@ TEST_F(PairLimitsEvents, APairOfTheHorizonThatIsCutDoesNotEnd) {
   Body fast = test::ball("b");
   fast.max_speed = 2.0;
   test::put(*scene_, test::ball("a", 0.5, Mobility::fixed), at(0));
-  const BodyId b = test::put(*scene_, fast, at(1.5));  // beyond the margin, but it can come
+  const BodyId b = test::put(*scene_, fast, at(1.5));  // beyond the margin, but within the horizon
   test::put(*scene_, test::ball("c", 0.5, Mobility::fixed), at(10));
   Body slow = test::ball("d");
   slow.max_speed = 0.0;
@@ -128,9 +129,9 @@ TEST_F(PairLimitsEvents, APairWithAMapThatIsCutDoesNotEnd) {
   EXPECT_EQ(next(), Events({"5 END MOVED map/room obstacle/b"}));
 }
 
-/// Claim: bodies on a random walk, whatever is truncated: no pair begins twice without an end, none ends while its
-/// boxes are within the margin and the hysteresis, and at most four times the limit are on. What is listed is on,
-/// unless that many are.
+/// Claims about randomly moving bodies: No pair begins twice without an end. No pair ends while its gap exceeds the
+/// margin by at most the hysteresis. The number of pairs that are on is at most four times the limit. Unless this
+/// number is reached, all listed pairs are on.
 TEST(PairLimitsEventsModel, EventsAreConsistentWhateverIsTruncated) {
   std::size_t cut = 0, full = 0, ends = 0;
   for (unsigned seed = 1; seed <= 30; ++seed) {
@@ -145,7 +146,7 @@ TEST(PairLimitsEventsModel, EventsAreConsistentWhateverIsTruncated) {
     for (int i = 0; i < 14; ++i) bodies.push_back(test::put(scene, test::ball(std::to_string(10 + i), 0.1), at(0)));
     std::map<std::pair<std::uint32_t, std::uint32_t>, Time> on;
     for (int tick = 1; tick <= 60; ++tick) {
-      // In a crowd most pairs stay near, and which of them are nearest changes.
+      // While the bodies are crowded, most pairs stay near, but it changes which of them are nearest.
       const double far = (tick / 15) % 2 == 0 ? 0.3 : 3.0;
       for (const BodyId id : bodies) {
         if (random.chance(0.5)) scene.place(id, at(random.uniform(-far, far), random.uniform(-far, far)), Time{tick});
@@ -155,11 +156,11 @@ TEST(PairLimitsEventsModel, EventsAreConsistentWhateverIsTruncated) {
       for (const PairEvent& event : snapshot->events()) {
         const auto key = std::make_pair(event.first, event.second);
         if (event.kind == EventKind::begin) {
-          EXPECT_TRUE(on.emplace(key, event.since).second) << "begins twice";
+          EXPECT_TRUE(on.emplace(key, event.since).second) << "the pair begins twice";
           continue;
         }
         ++ended;
-        ASSERT_EQ(on.count(key), 1u) << "ends without a beginning";
+        ASSERT_EQ(on.count(key), 1u) << "the pair ends, but it never began";
         EXPECT_EQ(on[key], event.since);
         EXPECT_GT(event.gap, options.margin + options.event_hysteresis);
         on.erase(key);

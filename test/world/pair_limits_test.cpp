@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Which pairs a snapshot lists when there are more than SceneOptions::max_pairs.
+// Tests which pairs a snapshot lists if there are more than SceneOptions::max_pairs.
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -18,7 +18,7 @@ namespace {
 using test::at;
 using test::Random;
 
-constexpr std::size_t kCollected = 65536;  // pairs of boxes that are collected at small limits
+constexpr std::size_t kCollected = 65536;  // pairs of boxes that a tick collects if max_pairs is small
 
 using Pairs = std::vector<NearPair>;
 
@@ -29,7 +29,8 @@ bool same(const Pairs& a, const Pairs& b) {
   });
 }
 
-/// The rule of selection, told once more: the smallest gaps, then the first by name; listed by name.
+/// A reference for the selection: returns the `most` pairs with the smallest gaps, of equal gaps the first by name. The
+/// result is sorted by name.
 Pairs nearestOf(Pairs pairs, std::size_t most) {
   std::sort(pairs.begin(), pairs.end(), [](const NearPair& a, const NearPair& b) {
     return std::tie(a.gap, a.first, a.second) < std::tie(b.gap, b.first, b.second);
@@ -41,8 +42,8 @@ Pairs nearestOf(Pairs pairs, std::size_t most) {
   return pairs;
 }
 
-/// Claim: of the pairs that were found, contacts, then the smallest gaps, then the first by name are listed: bodies of
-/// several shapes, maps and pairs by the horizon included.
+/// Claim: of the pairs that were found, a snapshot lists those with the smallest gaps, of equal gaps the first by name.
+/// This includes bodies with several shapes, maps, and pairs that the horizon selects.
 TEST(PairLimits, ListTheNearestPairs) {
   for (unsigned seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -73,13 +74,13 @@ TEST(PairLimits, ListTheNearestPairs) {
   }
 }
 
-/// 500 small bodies, all within the margin of each other: more pairs than are collected.
+/// 500 small bodies that are all within the margin of each other. They form more pairs than a tick collects.
 class Pile {
  public:
   static constexpr int kBodies = 500;
   static constexpr std::size_t kPairs = kBodies * (kBodies - 1) / 2, kListed = 1000;
 
-  /// @param order  in which the bodies are added
+  /// @param order  order in which the bodies are added
   Pile(SceneOptions options, const std::vector<int>& order) : scene_(withLimit(options)), ids_(kBodies) {
     for (const int i : order) ids_[std::size_t(i)] = scene_.add(test::ball(nameOf(i), 0.005));
     for (int i = 0; i < kBodies; ++i) place(i, poseOf(i));
@@ -113,7 +114,7 @@ std::vector<int> ascending() {
   return order;
 }
 
-/// What the rule lists of the pile: of the first pairs by name that are collected the nearest.
+/// Returns the pairs of the pile that a snapshot must list: the nearest of the first kCollected pairs by name.
 Pairs expectedOf(const Snapshot& snapshot) {
   Pairs collected;
   for (std::uint32_t i = 0; i < Pile::kBodies; ++i) {
@@ -134,7 +135,7 @@ TEST(PairLimits, StopCollectingByName) {
   EXPECT_TRUE(same(snapshot->pairs(), expectedOf(*snapshot)));
 }
 
-/// Claim: neither the threads, nor the order of insertion, nor what was before shows.
+/// Claim: the list depends neither on the number of threads, nor on the order of insertion, nor on earlier ticks.
 TEST(PairLimits, SelectTheSamePairsInEveryHistory) {
   for (unsigned seed = 1; seed <= 12; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -145,7 +146,7 @@ TEST(PairLimits, SelectTheSamePairsInEveryHistory) {
     options.threads = random.between(1, 3);
     Pile pile(options, order);
     const double share = random.uniform(0, 1) * random.uniform(0, 1);
-    for (int tick = 0; tick < 4; ++tick) {  // away and back again
+    for (int tick = 0; tick < 4; ++tick) {  // some bodies move away and come back
       for (int i = 0; i < Pile::kBodies; ++i) {
         if (random.chance(share)) pile.place(i, tick % 2 == 0 ? at(i) : Pile::poseOf(i));
       }
@@ -167,7 +168,8 @@ TEST(PairLimits, ThatAreZeroListAllPairs) {
   EXPECT_EQ(snapshot->pairs().size(), Pile::kPairs);
 }
 
-/// Claim: a pile whose pairs a rule switches off costs bounded work; that the search was cut is said.
+/// Claim: a pile whose pairs are switched off by a rule takes bounded work. The snapshot says that the search stopped
+/// at its limit.
 TEST(PairLimits, ApplyToPairsThatARuleSwitchesOff) {
   SceneOptions options;
   options.max_pairs = 1000;
@@ -177,7 +179,7 @@ TEST(PairLimits, ApplyToPairsThatARuleSwitchesOff) {
     for (int i = 0; i < bodies; ++i) test::put(scene, test::ball(std::to_string(i)), at(0));
     const auto snapshot = scene.commit(Time{1}, {});
     EXPECT_TRUE(snapshot->pairs().empty());
-    EXPECT_EQ(snapshot->truncated(), bodies == 1800) << "16 * 65536 + 32 * bodies overlaps are looked at";
+    EXPECT_EQ(snapshot->truncated(), bodies == 1800) << "the search must stop after 16 * 65536 + 32 * bodies overlaps";
     EXPECT_EQ(snapshot->searchCut(), snapshot->truncated());
   }
 }
@@ -190,7 +192,8 @@ TEST(PairLimits, DoNotApplyToFixedBodiesAmongEachOther) {
   EXPECT_FALSE(scene.commit(Time{1}, {})->truncated());
 }
 
-/// Claim: pairs with maps are collected by the names of the maps, then of the bodies, up to the same limit.
+/// Claim: a tick collects pairs with maps in the order of the names of the maps, then of the bodies, up to the same
+/// limit.
 TEST(PairLimits, ApplyToPairsWithMaps) {
   constexpr int kMaps = 270, kBodies = 250;
   SceneOptions options;
@@ -245,7 +248,8 @@ TEST(PairLimits, AreNamedWhereAPairIsExplained) {
             std::string::npos)
       << cut.text;
   EXPECT_TRUE(explain(*snapshot, "obstacle/a", "obstacle/c", nullptr).reported);
-  EXPECT_FALSE(explain(*snapshot, "obstacle/a", "obstacle/d", nullptr).cut) << "too far apart in any case";
+  EXPECT_FALSE(explain(*snapshot, "obstacle/a", "obstacle/d", nullptr).cut)
+      << "a pair beyond its margin was not removed by truncation";
 }
 
 }  // namespace

@@ -30,7 +30,8 @@ struct Cell {
   int tick = 0;
 };
 
-/// Nothing is near: that may be said only of a complete world. What is near stays near.
+/// Checks a world that is incomplete because of `word`: queries far from all bodies answer UNKNOWN instead of CLEAR,
+/// and a query near a body still answers HIT.
 void expectDoubt(const Snapshot& snapshot, const std::string& word) {
   EXPECT_FALSE(snapshot.complete());
   ASSERT_FALSE(snapshot.reasons().empty());
@@ -66,12 +67,12 @@ TEST(Completeness, AnEmptyWorldIsCompleteAndClear) {
 TEST(Completeness, ABodyThatNeverHadAPoseIsMissedByName) {
   Cell cell;
   const BodyId ghost = cell.scene.add(test::ball("ghost"));
-  cell.scene.setState(ghost, Freshness::fresh, 0.0);  // saying so does not place it
+  cell.scene.setState(ghost, Freshness::fresh, 0.0);  // does not place the body
   expectDoubt(cell.now(), "obstacle/ghost");
   EXPECT_EQ(cell.snapshot->poses()[test::indexOf(*cell.snapshot, "obstacle/ghost")].state, Freshness::unplaced);
   EXPECT_EQ(cell.snapshot->worstState(), Freshness::unplaced);
-  EXPECT_EQ(cell.snapshot->pairs().size(), 1u) << "it is in no pair";
-  EXPECT_EQ(query(*cell.snapshot, kHere, {}).total, 2u) << "and in no hit";
+  EXPECT_EQ(cell.snapshot->pairs().size(), 1u) << "an unplaced body must not be in a pair";
+  EXPECT_EQ(query(*cell.snapshot, kHere, {}).total, 2u) << "an unplaced body must not be a hit";
   cell.scene.place(ghost, test::at(0), Time{1});
   cell.scene.setState(ghost, Freshness::fresh, 0.0);
   EXPECT_TRUE(cell.now().complete());
@@ -103,7 +104,7 @@ TEST(Completeness, LateAndStaleBodiesAreFlaggedOnly) {
   }
 }
 
-// Its margin may have been reached since; a query near it must not say that the place is clear.
+// A stale body may have moved since its pose, so a query near it must not answer CLEAR.
 TEST(Completeness, WhereAStaleBodyMayHaveComeIsNotClear) {
   Cell cell;
   Body body = test::ball("drifter");
@@ -112,7 +113,7 @@ TEST(Completeness, WhereAStaleBodyMayHaveComeIsNotClear) {
   const Sphere near{{102, 0, 0}, 1.0};
   const Segment beside{{102, -5, 0}, {102, 5, 0}, 1.0};
   EXPECT_EQ(query(cell.now(), near, {}).verdict, Verdict::clear);
-  cell.scene.setState(drifter, Freshness::stale, 1.5);  // up to 0.75 m of the 0.5 m that are missing
+  cell.scene.setState(drifter, Freshness::stale, 1.5);  // it may have moved by 0.75 m; the query is 0.5 m away
   cell.now();
   for (const QueryAnswer& answer : {query(*cell.snapshot, near, {}), query(*cell.snapshot, beside, {})}) {
     EXPECT_EQ(answer.verdict, Verdict::unknown);
@@ -124,7 +125,8 @@ TEST(Completeness, WhereAStaleBodyMayHaveComeIsNotClear) {
   others.exclude = {"*/drifter"};
   EXPECT_EQ(query(*cell.snapshot, near, others).verdict, Verdict::clear);
   cell.scene.setState(drifter, Freshness::stale, 0.5);
-  EXPECT_EQ(query(cell.now(), near, {}).verdict, Verdict::clear) << "0.25 m are not enough";
+  EXPECT_EQ(query(cell.now(), near, {}).verdict, Verdict::clear)
+      << "a body that may have moved by 0.25 m cannot reach a query 0.5 m away";
 }
 
 TEST(Completeness, AnUncoveredBodyMakesDoubtUnlessItIsWaived) {
@@ -142,7 +144,7 @@ TEST(Completeness, AnUncoveredBodyMakesDoubtUnlessItIsWaived) {
   EXPECT_TRUE(cell.now().complete());
   EXPECT_EQ(query(*cell.snapshot, kFarAway, {}).verdict, Verdict::clear);
   cell.scene.setState(waived, Freshness::lost, 9.0);
-  EXPECT_FALSE(cell.now().complete()) << "the waiver is about its shapes";
+  EXPECT_FALSE(cell.now().complete()) << "a waiver covers unreadable shapes, but not a lost pose";
 }
 
 TEST(Completeness, WhatElseIsMissingCounts) {
@@ -179,7 +181,7 @@ TEST(Completeness, TheOldestMovingBodyTellsTheAge) {
   EXPECT_EQ(cell.now().maxAge(), 0.25);
   const BodyId wall = test::put(cell.scene, test::ball("wall", 0.5, Mobility::fixed), test::at(9));
   cell.scene.setState(wall, Freshness::fresh, 1e6);
-  EXPECT_EQ(cell.now().maxAge(), 0.25) << "a fixed body does not age";
+  EXPECT_EQ(cell.now().maxAge(), 0.25) << "the age of a fixed body must not count";
 }
 
 }  // namespace

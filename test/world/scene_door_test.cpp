@@ -16,7 +16,7 @@ using test::says;
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 const double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Two near balls. Whatever is refused, they and their pair must stay as they are.
+/// Two spheres that are near each other. Refused calls must change neither the spheres nor their pair.
 class Door : public ::testing::Test {
  protected:
   Door() : scene_(options()) {
@@ -34,7 +34,7 @@ class Door : public ::testing::Test {
     EXPECT_EQ(scene_.poseOf(b_).world_from_body.translation().x(), 0.5);
     const auto snapshot = scene_.commit(Time{++tick_}, {});
     EXPECT_EQ(test::namedPairs(*snapshot), test::NamePairs({{"obstacle/a", "obstacle/b"}}));
-    EXPECT_EQ(snapshot->pairs()[0].since, Time{1}) << "the pair was never interrupted";
+    EXPECT_EQ(snapshot->pairs()[0].since, Time{1}) << "a refused call has interrupted the pair";
     EXPECT_TRUE(snapshot->complete());
   }
   void expectRefused(Code code, const std::function<void()>& deed, const std::string& word) {
@@ -103,7 +103,8 @@ TEST_F(Door, AShapeThatStandsNowhereIsRefused) {
     Body body = test::ball("x");
     body.shapes[0].body_from_shape.translation().y() = bad;
     const Code code = refusalOf([&] { scene_.add(body); });
-    EXPECT_TRUE(code == Code::nonfinite || code == Code::out_of_range) << bad << " is taken: " << name(code);
+    EXPECT_TRUE(code == Code::nonfinite || code == Code::out_of_range)
+        << "position " << bad << " gives code " << name(code);
     if (code == Code::ok)
       scene_.remove([&] {
         BodyId id;
@@ -143,7 +144,7 @@ TEST_F(Door, AHandleWhoseBodyIsGoneIsRefused) {
   const BodyId old = test::put(scene_, test::ball("c"), test::at(50));
   scene_.remove(old);
   const BodyId next = scene_.add(test::ball("c"));
-  EXPECT_NE(old, next) << "the slot may be the same, the handle is not";
+  EXPECT_NE(old, next) << "a new body has the handle of a removed body";
   scene_.remove(next);
   for (const BodyId& gone :
        {old, next, BodyId{99, 0}, BodyId{0xffffffff, 0xffffffff}, BodyId{a_.slot, a_.generation + 1}}) {
@@ -178,7 +179,7 @@ TEST_F(Door, TheRevisionChangesWithTheBodiesOnly) {
   scene_.setState(a_, Freshness::late, 1.0);
   const auto second = scene_.commit(Time{2}, {});
   EXPECT_EQ(second->structure().revision, before);
-  EXPECT_EQ(&second->structure(), &first->structure()) << "snapshots of one revision share it";
+  EXPECT_EQ(&second->structure(), &first->structure()) << "two snapshots of one revision do not share their structure";
   scene_.add(test::ball("c"));
   EXPECT_GT(scene_.commit(Time{3}, {})->structure().revision, before);
 }

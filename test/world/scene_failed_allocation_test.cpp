@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Claim: a change or a commit of a scene for which there is no memory has changed nothing. Scripts of changes and
-// commits are played again and again. Each time another allocation of another step fails. Then the step is either
-// repeated or left out, and every later snapshot is the one of a scene in which nothing ever failed.
+// Claim: if memory runs out during a change or a commit of a scene, nothing has changed. The tests play scripts of
+// changes and commits many times. Each time another memory allocation fails. Then the failed step is either repeated or
+// left out. Every later snapshot must equal the snapshot of a scene in which nothing failed.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -21,13 +21,13 @@ namespace {
 
 using Snapshots = std::vector<std::shared_ptr<const Snapshot>>;
 
-/// A step of a script. It says by itself whom it is about, so that it makes sense whatever was left out before it.
+/// A step of a script. It finds its bodies by name, so it can be played even if an earlier step was left out.
 struct Step {
   std::string name;
   std::function<void(Scene&, Snapshots&)> play;
 };
 
-// Steps.
+// The functions below create the steps of a script.
 
 Step adding(const Body& body) {
   return {"add " + body.name, [=](Scene& scene, Snapshots&) {
@@ -43,7 +43,7 @@ Step removing(const std::string& name) {
           }};
 }
 
-/// Bodies of a source leave, and others take their place: a robot or a map is loaded again.
+/// Replaces the bodies of a source by other bodies, as when a robot or a map is loaded again.
 Step exchanging(const std::string& source, const std::vector<Body>& in, const std::vector<std::string>& names) {
   return {"exchange " + source, [=](Scene& scene, Snapshots&) {
             std::vector<BodyId> out;
@@ -84,7 +84,7 @@ Step placing(const std::vector<Placing>& placings, Time stamp) {
           }};
 }
 
-/// Snapshots are held for a while, so that some come back to the scene.
+/// Commits the scene. The snapshots are kept for a while, so that the scene reuses some of them later.
 Step committing(Time stamp, const std::vector<SourceGap>& gaps) {
   return {"commit", [=](Scene& scene, Snapshots& snapshots) {
             const std::shared_ptr<const Snapshot> snapshot = scene.commit(stamp, gaps);
@@ -92,14 +92,14 @@ Step committing(Time stamp, const std::vector<SourceGap>& gaps) {
           }};
 }
 
-// Scripts.
+// Scripts and the class that writes them.
 
 struct Script {
   SceneOptions options;
   std::vector<Step> steps;
 };
 
-/// A small world in motion: an arm, obstacles, two maps, rules, margins, all options by chance.
+/// Writes a random script about a small world in motion: an arm, obstacles, two maps, rules and margins.
 class Writer {
  public:
   explicit Writer(unsigned seed) : random_(seed) {
@@ -157,7 +157,7 @@ class Writer {
         return script_.steps.push_back(
             settingRules({test::allow("arm/*", random_.chance(0.5) ? "map/*" : "obstacle/*")}));
       default:
-        return;  // only what moves
+        return;  // nothing changes except the poses
     }
   }
 
@@ -184,14 +184,14 @@ class Writer {
   int stamp_ = 0, number_ = 0;
 };
 
-/// What goes wrong: the k-th allocation of a step.
+/// A failure to inject: the k-th memory allocation of a step fails.
 struct Fault {
   std::size_t step, k;
   test::Failing which;
-  bool again;  // the step is repeated at once; otherwise it is left out
+  bool again;  // true: the failed step is repeated at once; false: it is left out
 };
 
-/// The snapshots from a step on, and whether the fault has happened.
+/// The contents of the snapshots after a certain step, and whether the injected failure has happened.
 struct Played {
   std::vector<test::Told> told;
   bool failed = false;
@@ -221,7 +221,7 @@ Played play(const Script& script, std::size_t from, const Fault* fault, std::siz
   return played;
 }
 
-/// Where the steps to try begin: what is before them makes the world.
+/// Returns the first step in which failures are tried. The steps before it only build the world.
 std::size_t firstTried(const Script& script) {
   std::size_t commits = 0;
   for (std::size_t i = 0; i < script.steps.size(); ++i) {
@@ -264,10 +264,10 @@ TEST(SceneFailedAllocation, LeavesNoTraceInLaterSnapshots) {
     tryAll(Writer(seed).written(4), failures);
     if (HasFatalFailure()) return;
   }
-  EXPECT_GT(failures, 2000u) << "what never failed proves nothing";
+  EXPECT_GT(failures, 2000u) << "too few allocations failed for a meaningful test";
 }
 
-/// A snapshot is asked on a new thread each time, whose buffers are empty.
+/// Queries the snapshot on a new thread each time, because the buffers of a new thread are empty.
 TEST(SceneFailedAllocation, OfAQueryChangesNoLaterAnswer) {
   Script script = Writer(11).written(2);
   Scene scene(script.options);
@@ -287,7 +287,8 @@ TEST(SceneFailedAllocation, OfAQueryChangesNoLaterAnswer) {
   EXPECT_GT(failures, 10u);
 }
 
-/// A body that leaves may give its name to one that comes; what is wrong with one of them changes nothing.
+/// Claim: an added body may have the name of a removed one. If one of the bodies is invalid, exchange() changes
+/// nothing.
 TEST(SceneExchange, TakesAllOrNothing) {
   SceneOptions options;
   options.max_bodies = 3;
@@ -295,11 +296,13 @@ TEST(SceneExchange, TakesAllOrNothing) {
   const BodyId a = test::put(scene, test::ball("a"), test::at(0)), b = test::put(scene, test::ball("b"), test::at(0.1));
   const auto first = scene.commit(Time{1}, {});
 
-  EXPECT_THROW(scene.exchange({a}, {test::ball("b")}), Refusal) << "b stays";
-  EXPECT_THROW(scene.exchange({a}, {test::ball("c"), test::ball("c")}), Refusal) << "twice one name";
-  EXPECT_THROW(scene.exchange({a, a}, {}), Refusal) << "twice one body";
-  EXPECT_THROW(scene.exchange({a}, {test::ball("c"), test::ball("d"), test::ball("e")}), Refusal) << "max_bodies";
-  EXPECT_THROW(scene.exchange({a, {7, 0}}, {}), Refusal) << "a handle of nothing";
+  EXPECT_THROW(scene.exchange({a}, {test::ball("b")}), Refusal) << "b is not removed, so its name is not free";
+  EXPECT_THROW(scene.exchange({a}, {test::ball("c"), test::ball("c")}), Refusal)
+      << "two added bodies have the same name";
+  EXPECT_THROW(scene.exchange({a, a}, {}), Refusal) << "a body is removed twice";
+  EXPECT_THROW(scene.exchange({a}, {test::ball("c"), test::ball("d"), test::ball("e")}), Refusal)
+      << "more than max_bodies";
+  EXPECT_THROW(scene.exchange({a, {7, 0}}, {}), Refusal) << "a handle without a body";
   EXPECT_EQ(scene.size(), 2u);
   EXPECT_EQ(scene.body(a).name, "obstacle/a");
   EXPECT_EQ(scene.commit(Time{2}, {})->structure().revision, first->structure().revision);

@@ -17,7 +17,8 @@ namespace {
 
 using test::Random;
 
-/// A scene on which rounding shows: sizes and places that are no floats, gaps at the margin, denormals.
+/// A scene whose results depend on rounding: sizes and positions that floats cannot represent exactly, gaps close to
+/// the margin, and denormal numbers.
 struct World {
   World() : scene(options()) {
     Random random(11);
@@ -45,7 +46,7 @@ struct Outcome {
   }
 };
 
-/// Builds nothing, moves all, commits and asks: everything a tick and a query do.
+/// Moves all bodies of an existing world, commits and queries it: everything that a tick and a query do.
 Outcome outcomeOf(World& world) {
   Random random(12);
   for (const BodyId& id : world.ids) {
@@ -71,7 +72,8 @@ Outcome outcomeOf(World& world) {
   return outcome;
 }
 
-/// The inputs of outcomeOf computed in another mode would differ by themselves, so only the product may run in it.
+/// A floating-point mode of the processor. Only the code under test may run in it. The inputs of the test must be
+/// computed outside the mode, because they would differ too.
 struct Mode {
   const char* name;
   std::function<void()> set;
@@ -110,7 +112,7 @@ TEST(SceneFloatEnvironment, CommitAndQueriesFindTheSameInEveryRoundingMode) {
   for (const Mode& mode : modes()) {
     SCOPED_TRACE(mode.name);
     World world;
-    // Poses and questions are the same numbers as before: set up outside the mode, used inside.
+    // The poses and queries are the same as in outcomeOf(). They are computed before the mode is set.
     Random random(12);
     std::vector<Pose> poses;
     for (const BodyId& id : world.ids) {
@@ -144,7 +146,7 @@ TEST(SceneFloatEnvironment, CommitAndQueriesFindTheSameInEveryRoundingMode) {
         kept = kept && mode.is_set();
       }
     }
-    EXPECT_TRUE(kept) << "the caller's mode is given back";
+    EXPECT_TRUE(kept) << "a call has changed the floating-point mode of the caller";
     outcome.boxes = snapshot->boxes();
     for (const NearPair& pair : snapshot->pairs())
       outcome.pairs.emplace_back(pair.first, pair.second, pair.gap, pair.margin);
@@ -159,8 +161,8 @@ TEST(SceneFloatEnvironment, CommitAndQueriesFindTheSameInEveryRoundingMode) {
   }
 }
 
-// Poses one unit in the last place apart, where a face passes from one float to the next: an addition that is
-// rounded otherwise passes elsewhere.
+// The poses differ by one unit in the last place. In this range, a face of the box passes from one float to the next.
+// If an addition were rounded differently, the face would pass at another pose.
 TEST(SceneFloatEnvironment, PlacingMakesTheSameBoxesInEveryRoundingMode) {
   std::vector<Pose> poses;
   double x = 0.5 + 0x1p-23 - 0x1p-44;
@@ -180,7 +182,8 @@ TEST(SceneFloatEnvironment, PlacingMakesTheSameBoxesInEveryRoundingMode) {
     return boxes;
   };
   const std::vector<Aabb> expected = boxesIn(nullptr);
-  EXPECT_NE(expected.front(), expected.back()) << "no face passes a float, so nothing would show";
+  EXPECT_NE(expected.front(), expected.back())
+      << "no face of the box passes from one float to the next, so this test is useless";
   for (const Mode& mode : modes()) EXPECT_TRUE(boxesIn(&mode) == expected) << mode.name;
 }
 

@@ -9,7 +9,7 @@
 namespace hgrid {
 namespace {
 
-/// Two balls whose boxes stand 1 m apart (to a few units of a float), with a margin of 1/8 m.
+/// Two spheres whose boxes are 1 m apart (up to a rounding error), with a margin of 1/8 m.
 class Growth : public ::testing::Test {
  protected:
   Growth() : scene_(optionsWithCap(2.0)) {}
@@ -37,11 +37,12 @@ class Growth : public ::testing::Test {
 
 TEST_F(Growth, BeginsWhenThePoseIsOldWhateverTheStateIsCalled) {
   const BodyId id = test::put(scene_, slowBall("a", 2.0), test::at(0));
-  test::put(scene_, slowBall("b", 2.0), test::at(1.75));  // boxes 0.75 m apart
+  test::put(scene_, slowBall("b", 2.0), test::at(1.75));  // the two boxes are 0.75 m apart
   scene_.setState(id, Freshness::fresh, 0.25);
   EXPECT_EQ(now().poses()[0].growth, 0.0);
   EXPECT_TRUE(snapshot_->pairs().empty());
-  for (const Freshness state : {Freshness::fresh, Freshness::late}) {  // the frame of a comes seldom
+  // The pose of body a is old, but its state is not STALE because its frame is updated rarely.
+  for (const Freshness state : {Freshness::fresh, Freshness::late}) {
     scene_.setState(id, state, 0.375);
     EXPECT_EQ(now().poses()[0].growth, 0.75);
     ASSERT_EQ(snapshot_->pairs().size(), 1u);
@@ -69,7 +70,7 @@ TEST_F(Growth, WidensTheMarginBySpeedTimesAgeUpToTheCap) {
     ASSERT_EQ(snapshot.pairs().size(), growth + 0.125 >= 1.0 ? 1u : 0u) << age;
     if (snapshot.pairs().empty()) continue;
     EXPECT_EQ(snapshot.pairs()[0].margin, 0.125 + growth);
-    EXPECT_NEAR(snapshot.pairs()[0].gap, 1.0, 1e-6) << "the gap is never falsified";
+    EXPECT_NEAR(snapshot.pairs()[0].gap, 1.0, 1e-6) << "the growth must not change the gap";
   }
 }
 
@@ -78,10 +79,10 @@ TEST_F(Growth, OfBothBodiesAddsUp) {
                b = test::put(scene_, slowBall("b", 0.25), test::at(2));
   scene_.setState(a, Freshness::stale, 1.25);
   scene_.setState(b, Freshness::lost, 1.25);
-  ASSERT_EQ(now().pairs().size(), 1u) << "1/8 + 5/8 + 5/16 m reach over 1 m";
+  ASSERT_EQ(now().pairs().size(), 1u) << "the margin of 1/8 m + 5/8 m + 5/16 m exceeds the gap of 1 m";
   EXPECT_EQ(snapshot_->pairs()[0].margin, 0.125 + 0.625 + 0.3125);
   scene_.setState(b, Freshness::late, 0.125);
-  EXPECT_TRUE(now().pairs().empty()) << "late only flags";
+  EXPECT_TRUE(now().pairs().empty()) << "the state LATE alone must not cause growth";
 }
 
 TEST_F(Growth, WithoutASpeedLimitGoesToTheCapAtOnce) {
@@ -89,7 +90,7 @@ TEST_F(Growth, WithoutASpeedLimitGoesToTheCapAtOnce) {
   scene_.setState(id, Freshness::stale, 1e-6);
   EXPECT_EQ(now().poses()[0].growth, 2.0);
   scene_.setState(id, Freshness::stale, 0.0);
-  EXPECT_EQ(now().poses()[0].growth, 0.0) << "infinity times zero is not a number";
+  EXPECT_EQ(now().poses()[0].growth, 0.0) << "infinite speed times age 0 must give 0, not NaN";
   scene_.setState(id, Freshness::lost, 1e300);
   EXPECT_EQ(now().poses()[0].growth, 2.0);
 }
@@ -104,7 +105,7 @@ TEST_F(Growth, EndsWhenTheBodyIsFreshAgain) {
   EXPECT_EQ(snapshot_->poses()[0].growth, 0.0);
 }
 
-/// Links 0 and 2 of one arm, which no joint joins, and a link 2 of another.
+/// Links 0 and 2 of one arm, which are not connected by a joint, and link 2 of another arm.
 class RobotGrowth : public Growth {
  protected:
   RobotGrowth() {
@@ -137,8 +138,8 @@ class RobotGrowth : public Growth {
 TEST_F(RobotGrowth, LinksOfOneRobotThatAreEquallyOldDoNotGrowAgainstEachOther) {
   allStale(7, 7, 7);
   EXPECT_EQ(test::namedPairs(now()), test::NamePairs({{"left/0", "right/2"}, {"left/2", "right/2"}}))
-      << "equal numbers mean nothing between robots";
-  EXPECT_EQ(snapshot_->poses()[0].growth, 1.0) << "they have grown for others";
+      << "equal cohorts of links of two robots must have no effect";
+  EXPECT_EQ(snapshot_->poses()[0].growth, 1.0) << "the margins of pairs with other bodies must still grow";
 }
 
 TEST_F(RobotGrowth, LinksThatAreNotEquallyOldDo) {

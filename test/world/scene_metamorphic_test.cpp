@@ -14,13 +14,13 @@ using test::namedPairs;
 using test::NamePairs;
 using test::Random;
 
-/// The same random world again and again, but for what a test varies.
+/// The settings that a test varies. Everything else in the random world depends only on the seed.
 struct Variation {
   double margin = 0.125;
   int count = 40;
   double growth_cap = 1.0;
-  bool degraded = false;   ///< every body in some bad state
-  bool backwards = false;  ///< told in the opposite order
+  bool degraded = false;   ///< whether every body is in a state other than FRESH
+  bool backwards = false;  ///< whether the bodies are added in the opposite order
   double finest_edge = 0.0;
   int threads = 1;
 };
@@ -78,7 +78,7 @@ TEST(SceneMetamorphic, WorseDataNeverMeansFewerPairs) {
       more += degraded.size() > fresh.size();
     }
   }
-  EXPECT_GT(more, 60u) << "growth that changes nothing is not growth";
+  EXPECT_GT(more, 60u) << "growth has too little effect in these worlds to be tested";
 }
 
 TEST(SceneMetamorphic, AddingABodyRemovesNoPairAndRemovingOneRemovesOnlyItsOwn) {

@@ -9,7 +9,7 @@ namespace {
 
 using test::Random;
 
-/// What was told to the scene, to hold the snapshot against.
+/// The data of one body that the test passed to the scene. The test compares the snapshots with it.
 struct Told {
   Body body;
   BodyId id;
@@ -25,7 +25,7 @@ void expectRecorded(const Snapshot& snapshot, const World& world, const SceneOpt
   ASSERT_EQ(structure.first_proxy.size(), world.size() + 1);
   ASSERT_EQ(structure.least_margin, options.margin);
   std::uint32_t i = 0, proxy = 0;
-  for (const auto& entry : world) {  // sorted by name, as the structure is
+  for (const auto& entry : world) {  // the map is sorted by name, as the bodies of the structure are
     const Told& told = entry.second;
     ASSERT_EQ(structure.bodies[i].name, entry.first);
     ASSERT_EQ(structure.ids[i], told.id);
@@ -81,7 +81,7 @@ class Story {
       ASSERT_NO_FATAL_FAILURE(test::expectPairsOfTheOracle(*snapshot, options_.margin));
       ASSERT_NO_THROW(snapshot->broadPhase().checkInvariants());
       pairs_ += snapshot->pairs().size();
-      if (random_.chance(0.3)) kept_.push_back(snapshot);  // readers may hold any of them for any time
+      if (random_.chance(0.3)) kept_.push_back(snapshot);  // like a reader that keeps a snapshot for a while
       if (kept_.size() > 3) kept_.erase(kept_.begin());
     }
   }
@@ -117,10 +117,10 @@ class Story {
     } else if (deed < 80) {
       told.pose = test::randomPose(random_, 3.0);
       const Pose before = scene_.poseOf(told.id).world_from_body;
-      if (random_.chance(0.2)) told.pose = before;  // at a later time
+      if (random_.chance(0.2)) told.pose = before;  // the same pose with a later stamp
       if (random_.chance(0.2)) {
         told.pose = before;
-        told.pose.translation().x() += 1e-9;  // hardly, but still: no tolerance may swallow it
+        told.pose.translation().x() += 1e-9;  // a tiny move that must not be ignored
       }
       told.stamp = Time{tick};
       told.placed = true;
@@ -159,7 +159,7 @@ TEST(SceneOracle, MarginsEqualToTheGapCountAndLessDoesNot) {
                  right = test::put(scene, test::ball("right"), test::at(9));
     const auto apart = scene.commit(Time{1}, {});
     const float edge = apart->boxes()[0].max.x();
-    // Moves the right ball until its recorded box stands at the margin, to the last unit.
+    // Moves the right sphere in tiny steps, so that its gap is alternately just within and just beyond the margin.
     double x = double(edge) + margin + 0.5;
     for (int i = 0; i < 40; ++i) {
       scene.place(right, test::at(x), Time{i + 2});

@@ -90,7 +90,7 @@ TEST(SceneRobot, SinceOutlivesOtherBodiesComingAndGoing) {
   test::put(scene, test::ball("m"), test::at(0));
   const BodyId n = test::put(scene, test::ball("n"), test::at(0.5));
   EXPECT_EQ(scene.commit(Time{10}, {})->pairs().at(0).since, Time{10});
-  const BodyId a = test::put(scene, test::ball("a"), test::at(50));  // comes before them in the order of names
+  const BodyId a = test::put(scene, test::ball("a"), test::at(50));  // its name comes before m and n
   const auto later = scene.commit(Time{20}, {});
   ASSERT_EQ(later->pairs().size(), 1u);
   EXPECT_EQ(later->pairs()[0].first, 1u);
@@ -103,7 +103,8 @@ TEST(SceneRobot, SinceOutlivesOtherBodiesComingAndGoing) {
   EXPECT_EQ(scene.commit(Time{50}, {})->pairs().at(0).since, Time{50});
   scene.remove(n);
   test::put(scene, test::ball("n"), test::at(0.5));
-  EXPECT_EQ(scene.commit(Time{60}, {})->pairs().at(0).since, Time{60}) << "another body of the same name";
+  EXPECT_EQ(scene.commit(Time{60}, {})->pairs().at(0).since, Time{60})
+      << "a new body of the same name must begin a new pair";
 }
 
 TEST(SceneRobot, TheGapIsThatOfTheNearestShapes) {
@@ -118,7 +119,7 @@ TEST(SceneRobot, TheGapIsThatOfTheNearestShapes) {
   test::put(scene, fork, test::at(0));
   test::put(scene, fork.shapes.empty() ? fork : test::ball("pea", 0.25), test::at(5));
   const auto snapshot = scene.commit(Time{1}, {});
-  ASSERT_EQ(snapshot->pairs().size(), 1u) << "once per pair of bodies";
+  ASSERT_EQ(snapshot->pairs().size(), 1u) << "a pair of bodies must be listed only once";
   EXPECT_NEAR(snapshot->pairs()[0].gap, 1.5, 1e-6);
 }
 
@@ -128,7 +129,7 @@ TEST(SceneRobot, ALargerMarginOfOneBodyHoldsForItsPairs) {
   Scene scene(options);
   Body wary = test::ball("wary"), bold = test::ball("bold");
   wary.margin = 2.0;
-  bold.margin = 0.125;  // less than the global one does not count
+  bold.margin = 0.125;  // has no effect because it is less than the global margin
   test::put(scene, wary, test::at(0));
   test::put(scene, bold, test::at(2.5));
   test::put(scene, test::ball("third"), test::at(3.75));
@@ -136,7 +137,7 @@ TEST(SceneRobot, ALargerMarginOfOneBodyHoldsForItsPairs) {
   EXPECT_EQ(test::namedPairs(*snapshot),
             test::NamePairs({{"obstacle/bold", "obstacle/third"}, {"obstacle/bold", "obstacle/wary"}}));
   EXPECT_EQ(snapshot->pairs()[0].margin, 0.25);
-  EXPECT_EQ(snapshot->pairs()[1].margin, 2.0) << "the larger of the two, in both orders";
+  EXPECT_EQ(snapshot->pairs()[1].margin, 2.0) << "the larger margin of the two bodies must apply";
 }
 
 }  // namespace

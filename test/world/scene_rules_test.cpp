@@ -12,7 +12,7 @@ using test::allow;
 using test::enable;
 using test::NamePairs;
 
-/// An arm and a ball, all in one place.
+/// An arm and a sphere, all at the origin.
 class SceneRules : public ::testing::Test {
  protected:
   SceneRules() : scene_(SceneOptions{}) {
@@ -41,10 +41,10 @@ TEST_F(SceneRules, AreInForceFromTheNextTick) {
   EXPECT_GT(scene_.revision(), revision);
   EXPECT_EQ(after.count(grip), 0u);
   EXPECT_EQ(after.count(rigid), 1u);
-  EXPECT_EQ(test::namedPairs(*old), before) << "what was published is not altered";
+  EXPECT_EQ(test::namedPairs(*old), before) << "the new rules have changed an old snapshot";
   after.erase(rigid);
   after.insert(grip);
-  EXPECT_EQ(after, before) << "and nothing else has changed";
+  EXPECT_EQ(after, before) << "the rules have changed other pairs as well";
   scene_.setRules({});
   EXPECT_EQ(test::namedPairs(now()), before);
 }
@@ -68,7 +68,7 @@ TEST_F(SceneRules, HoldForBodiesThatComeLaterAndLeaveSinceAlone) {
 TEST_F(SceneRules, ThatSwitchOffEveryPairAreNoted) {
   EXPECT_FALSE(now().structure().silenced);
   scene_.setRules({allow("arm/*", "*")});
-  EXPECT_TRUE(now().structure().silenced) << "all but the box are links, and of it there is one";
+  EXPECT_TRUE(now().structure().silenced) << "the only body that is no link is the box";
   EXPECT_TRUE(snapshot_->pairs().empty());
   const BodyId crate = test::put(scene_, test::ball("crate"), test::at(0));
   EXPECT_FALSE(now().structure().silenced);

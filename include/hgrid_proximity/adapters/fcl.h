@@ -8,13 +8,13 @@
 
 namespace hgrid {
 
-/// Makes the narrow phase of all shapes, meshes included. It needs FCL (flexible-collision-library 0.6 or 0.7).
+/// Creates the narrow phase for all shapes, meshes included. It needs FCL (flexible-collision-library 0.6 or 0.7).
 ///
-/// - Convex shapes are measured as makeConvexNarrowPhase() measures them. FCL's own solvers for them end when the
-///   distance stops shrinking, which in ordinary poses is up to centimeters too early.
-/// - FCL measures two meshes, and provides the trees over the triangles of a mesh.
-/// - FCL proposes depth and normal where convex cores overlap. They are reported only if moving the shapes apart by
-///   them was verified to separate the shapes.
+/// - Convex shapes are measured in the same way as by makeConvexNarrowPhase(). FCL's own solvers for convex shapes stop
+///   when the distance no longer shrinks. In ordinary poses this can be centimeters too early.
+/// - FCL measures the distance of two meshes, and it provides the tree over the triangles of a mesh.
+/// - If convex cores overlap, FCL proposes depth and normal. They are reported only if a check shows that moving the
+///   shapes apart by them separates the shapes.
 std::shared_ptr<NarrowPhase> makeFclNarrowPhase();
 
 }  // namespace hgrid

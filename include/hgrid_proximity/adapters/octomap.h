@@ -15,76 +15,80 @@
 
 namespace hgrid {
 
-/// How space is treated for which a map has no leaf, out to the ends of the keys. The numbers are part of the
-/// interface: do not change them.
+/// How to treat space for which a map has no leaf. The whole range of the keys counts as space of the map. The numbers
+/// are part of the interface: do not change them.
 enum class UnknownSpace : std::uint8_t {
-  ignore = 0,    ///< it counts as free
-  report = 1,    ///< it is kept apart, so that answers can say that nothing is known of it
-  occupied = 2,  ///< it counts as occupied
+  ignore = 0,    ///< unknown space counts as free
+  report = 1,    ///< unknown space is stored separately, so that answers can report it
+  occupied = 2,  ///< unknown space counts as occupied
 };
 
-/// What is taken of an OctoMap, and how much of one is read at most.
+/// Options for reading an OctoMap: which leaves are kept, and limits for its size.
 struct OctomapOptions {
-  /// Leaves of at least this probability, within (0, 1), are occupied. Only for maps with probabilities (`.ot`,
-  /// octomap_full): the others say themselves what is occupied.
+  /// Leaves with at least this probability are occupied. It must be greater than 0 and less than 1. It is used only for
+  /// maps with probabilities (`.ot`, octomap_full). Other maps store directly which leaves are occupied.
   double occupied_from = 0.5;
-  bool nan_is_occupied = false;  ///< a leaf whose log-odds are NaN is occupied and counted; false: refused
+  bool nan_is_occupied = false;  ///< true: a leaf with NaN log-odds is occupied; false: the map is rejected
   UnknownSpace unknown = UnknownSpace::ignore;
-  bool keep_free = false;    ///< Octomap::free is filled
-  bool allow_empty = false;  ///< no nodes at all are a map, all of it unknown; false: refused
-  /// Voxels that lie wholly outside this box [m] in the map's frame are dropped while reading; touching is not
-  /// outside, and none is cut. Sides may be infinite.
+  bool keep_free = false;    ///< whether Octomap::free is filled
+  bool allow_empty = false;  ///< true: data without nodes is a map that is wholly unknown; false: it is rejected
+  /// Crop box [m, map frame]. Voxels that are wholly outside are dropped while reading. Voxels that touch the box are
+  /// kept whole. Its sides may be infinite.
   std::optional<Eigen::AlignedBox3d> crop;
 
-  std::size_t max_bytes = 256u << 20;     ///< of a file or a message
-  std::uint64_t max_nodes = 40'000'000;   ///< inner nodes and leaves, the cropped ones included
-  std::uint64_t max_leaves = 20'000'000;  ///< kept: occupied, free and unknown together
+  std::size_t max_bytes = 256u << 20;     ///< largest size of a file or a message
+  std::uint64_t max_nodes = 40'000'000;   ///< largest number of inner nodes and leaves, cropped leaves included
+  std::uint64_t max_leaves = 20'000'000;  ///< largest number of kept leaves: occupied, free and unknown together
 };
 
-/// The leaves of an OctoMap, without the tree. The lists are each disjoint and in Morton order.
+/// The leaves of an OctoMap, without the tree. The voxels of each list are disjoint and in Morton order.
 struct Octomap {
   double resolution = 0.0;  ///< [m] edge of a voxel of level 0
   std::vector<Voxel> occupied;
-  std::vector<Voxel> free;     ///< empty unless OctomapOptions::keep_free
-  std::vector<Voxel> unknown;  ///< empty unless OctomapOptions::unknown says report
+  std::vector<Voxel> free;     ///< empty unless OctomapOptions::keep_free is true
+  std::vector<Voxel> unknown;  ///< empty unless OctomapOptions::unknown is report
 
-  std::uint64_t nodes = 0;           ///< read: inner nodes and leaves, as OctoMap's own size()
-  std::uint64_t free_leaves = 0;     ///< read
-  std::uint64_t nan_leaves = 0;      ///< read, and taken as occupied
-  std::uint64_t unknown_leaves = 0;  ///< parts without a leaf that OctomapOptions::unknown asked for
-  std::uint64_t cropped = 0;         ///< voxels that would have been kept, but lie outside the crop
+  std::uint64_t nodes = 0;           ///< number of inner nodes and leaves, as in OctoMap's own size()
+  std::uint64_t free_leaves = 0;     ///< number of free leaves in the data
+  std::uint64_t nan_leaves = 0;      ///< number of leaves with NaN log-odds, which count as occupied
+  std::uint64_t unknown_leaves = 0;  ///< number of unknown voxels; 0 if OctomapOptions::unknown is ignore
+  std::uint64_t cropped = 0;         ///< number of voxels that were dropped only because they are outside the crop
 };
 
-/// How a map's nodes are written: what a file says in its header, and octomap_msgs/Octomap in its fields.
+/// Encoding of the nodes of a map, as given in the header of a file or in the fields of an octomap_msgs/Octomap.
 struct OctomapFormat {
-  std::string id;           ///< "OcTree" or "ColorOcTree", whose colours are passed over
-  bool binary = true;       ///< free or occupied, as in a `.bt` file; false: with probabilities, as in an `.ot` file
+  std::string id;           ///< "OcTree" or "ColorOcTree"; colors are ignored
+  bool binary = true;       ///< true: free or occupied, as in `.bt` files; false: probabilities, as in `.ot` files
   double resolution = 0.0;  ///< [m] edge of the smallest leaves, within 0.001 .. 100
 };
 
-/// Reads the nodes of an OctoMap, such as the `data` of an octomap_msgs/Octomap, straight into a list of leaves: no
-/// tree is built, memory is bounded by the leaves that are there, whatever the input claims.
+/// Reads the nodes of an OctoMap, such as the `data` of an octomap_msgs/Octomap, directly into a list of leaves.
 ///
-/// Means what OctoMap's own readers mean by the same bytes, also of `.bt` nodes without children (OctoMap writes none):
-/// such a root is an occupied leaf, any other a free one. Of `.ot` nodes with children only the children count.
-/// May run in several threads at once; on failure nothing is kept.
-/// @param what  names the map in a refusal, as in "map 'room'"
-/// @throws Refusal truncated if the data end before the tree does; parse for data without a node, after the end of
-/// the tree, deeper than 16 levels, or with NaN log-odds; out_of_range (resolution, occupied_from, a crop whose
-/// corners are swapped), nonfinite (a crop with NaN), unsupported (another id); limit, also when memory runs out.
+/// It builds no tree, so the memory depends only on the leaves that are present, even if a header claims more. Several
+/// threads may call this at the same time.
+///
+/// The bytes have the same meaning as for OctoMap's own readers. This includes `.bt` nodes without children, which
+/// OctoMap never writes: such a root is an occupied leaf, any other such node is a free leaf. If an `.ot` node has
+/// children, only the children count.
+/// @param what  name of the map for the error sentence, such as "map 'room'"
+/// @throws Refusal with code truncated if the data ends before the tree is complete; parse for data without a node, for
+/// bytes after the tree, for more than 16 levels, or for NaN log-odds; out_of_range (resolution, occupied_from, a crop
+/// with min > max), nonfinite (a crop with NaN), unsupported (another id), limit (also if memory runs out)
 Octomap readOctomapData(const OctomapFormat& format, std::string_view data, const std::string& what,
                         const OctomapOptions& options = {});
 
-/// Reads the bytes of a whole `.bt` or `.ot` file; its first line says which.
+/// Reads the bytes of a complete `.bt` or `.ot` file. The first line of the file selects the format.
 ///
-/// Stricter than OctoMap in the header: `size` must be there and true (OctoMap takes a `.bt` without it for an empty
-/// map), none of id, size and res may stand twice; unknown keywords are passed over, as OctoMap does.
-/// @throws Refusal as readOctomapData(); parse for a header that is none or lies; unsupported for the binary header of
-/// OctoMap before 1.0
+/// The header is checked more strictly than by OctoMap. `size` must be present and correct; OctoMap reads a `.bt` file
+/// without it as an empty map. Each of id, size and res may appear only once. Unknown keywords are ignored, as by
+/// OctoMap.
+/// @throws Refusal as readOctomapData(); parse if the header is missing, broken or wrong; unsupported for the binary
+/// header of OctoMap before 1.0
 Octomap readOctomap(std::string_view file, const std::string& what, const OctomapOptions& options = {});
 
-/// Reads a `.bt` or `.ot` file that openResource() has let pass.
-/// @throws Refusal as readOctomap(); truncated if the file has become shorter since; resource_missing if reading fails
+/// Reads a `.bt` or `.ot` file that openResource() has opened.
+/// @throws Refusal as readOctomap(); truncated if the file became shorter after it was opened; resource_missing if
+/// reading fails
 Octomap readOctomapFile(const OpenResource& file, const OctomapOptions& options = {});
 
 }  // namespace hgrid

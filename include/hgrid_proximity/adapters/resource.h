@@ -8,17 +8,17 @@
 
 namespace hgrid {
 
-/// Which files a description may name.
+/// The rules for which files a robot description or a map source may read.
 struct ResourcePolicy {
-  /// Folder of a package, empty if there is none of that name.
+  /// Returns the folder of a package, or an empty text if there is no package of this name.
   std::function<std::string(const std::string& package)> package_path;
-  /// Folders below which file:// may read, and where links in a package may lead; links are resolved before
-  /// comparing.
+  /// Folders from which file:// URIs may read, and to which symbolic links in a package may lead. Symbolic links are
+  /// resolved before the comparison.
   std::vector<std::string> file_roots;
-  std::size_t max_bytes = 64u << 20;
+  std::size_t max_bytes = 64u << 20;  ///< largest size of a file
 };
 
-/// A regular file that the policy allows, open for reading; closed on destruction.
+/// A regular file that the policy allows, open for reading. The destructor closes it.
 class OpenResource {
  public:
   OpenResource(int fd, std::string path, std::size_t bytes) : fd_(fd), path_(std::move(path)), bytes_(bytes) {}
@@ -27,7 +27,7 @@ class OpenResource {
   OpenResource& operator=(OpenResource&&) = delete;
 
   int fd() const { return fd_; }
-  const std::string& path() const { return path_; }  ///< real path, links resolved
+  const std::string& path() const { return path_; }  ///< path with all symbolic links resolved
   std::size_t bytes() const { return bytes_; }
 
  private:
@@ -36,9 +36,9 @@ class OpenResource {
   std::size_t bytes_;
 };
 
-/// Opens `package://name/path` or `file:///path`. Nothing else is ever opened: no network, no device, no
-/// FIFO, nothing outside the package or the roots, whatever links say.
-/// @throws Refusal resource_denied, resource_missing, limit
+/// Opens `package://name/path` or `file:///path`. It never opens a network address, a device, a FIFO, or a file outside
+/// the package and the allowed folders, even if a symbolic link leads there.
+/// @throws Refusal with code resource_denied, resource_missing, limit
 OpenResource openResource(const std::string& uri, const ResourcePolicy& policy);
 
 }  // namespace hgrid

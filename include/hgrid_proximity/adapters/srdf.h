@@ -9,8 +9,8 @@
 
 namespace hgrid {
 
-/// Reads what an SRDF says of collisions: disable_collisions, disable_default_collisions, enable_collisions.
-/// @throws Refusal parse, limit, unsupported
+/// Reads the collision rules of an SRDF: disable_collisions, disable_default_collisions and enable_collisions.
+/// @throws Refusal with code parse, limit, unsupported
 LinkRules readSrdf(const std::string& xml, const DescriptionLimits& limits = {});
 
 }  // namespace hgrid

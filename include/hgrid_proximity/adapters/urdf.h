@@ -9,33 +9,35 @@
 
 namespace hgrid {
 
-/// Bounds on what goes into the XML libraries.
+/// Limits for XML text. They protect the XML libraries.
 struct DescriptionLimits {
-  std::size_t max_bytes = 16u << 20;  ///< of the text
-  std::size_t max_depth = 256;        ///< of nested elements: the parsers recurse
-  std::size_t max_links = 2000;
+  std::size_t max_bytes = 16u << 20;  ///< largest size of the text
+  std::size_t max_depth = 256;        ///< largest depth of nested elements, since the parsers are recursive
+  std::size_t max_links = 2000;       ///< largest number of links
 };
 
-/// Turns a mesh's URI and scale into its triangles, scale applied. @throws Refusal
+/// Returns the triangles of the mesh at a URI, with the scale applied. Throws Refusal if it cannot be read.
 using MeshSource =
     std::function<std::shared_ptr<const TriangleMesh>(const std::string& uri, const Eigen::Vector3d& scale)>;
 
-/// Says of a link, by its name, whether its `<visual>` geometry is taken if it has no `<collision>`.
+/// Returns whether a link without `<collision>` uses its `<visual>` geometry instead. The link is given by name.
 using VisualChoice = std::function<bool(const std::string& link)>;
 
-/// Refuses XML text that the libraries must not see: too long, too deep, with a DOCTYPE, not well-formed.
-/// @param what  names the text in the sentence, as in "robot_description"
-/// @throws Refusal limit, parse (with the line), unsupported
+/// Rejects XML text that is too long, nested too deeply, has a DOCTYPE, is not well-formed, or whose root element is
+/// not `<robot>`.
+/// @param what  name of the text for the error sentence, such as "robot_description"
+/// @throws Refusal with code limit, parse (its sentence names the line), unsupported
 void checkXml(const std::string& xml, const DescriptionLimits& limits, const std::string& what);
 
-/// Reads a URDF: every `<collision>` of every link with its origin. The links are sorted parents first.
+/// Reads a URDF: its links, its joints, and every `<collision>` of every link. In the result, parents come before their
+/// children.
 ///
-/// A shape that cannot be read does not stop the robot: it is listed in RobotLink::unreadable. Every
-/// `<collision>` element is accounted for, also those that urdfdom drops silently. The same holds for the `<visual>`
-/// elements of a link that are taken in place of the `<collision>` elements that the link does not have.
-/// @param takes_visual  empty: no visual geometry is taken
-/// @throws Refusal parse, limit, unsupported, bad_id (a link's name) or out_of_range (a joint's origin) when there
-/// is no robot to be had from the text.
+/// If a shape cannot be read, the robot is still read, and the shape is listed in RobotLink::unreadable. This also
+/// holds for `<collision>` elements that urdfdom drops silently, and for the `<visual>` elements of a link that uses
+/// its visual geometry.
+/// @param takes_visual  may be empty; then no link uses its visual geometry
+/// @throws Refusal with code parse, limit, unsupported, nonfinite (a joint's origin), bad_id (a link's name) or
+/// out_of_range (a joint's origin) if the text does not describe a robot
 RobotModel readUrdf(const std::string& xml, const MeshSource& meshes, const DescriptionLimits& limits = {},
                     const ShapeLimits& shape_limits = {}, const VisualChoice& takes_visual = {});
 

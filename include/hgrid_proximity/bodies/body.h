@@ -20,9 +20,11 @@ class Solid;
 /// A point in time: nanoseconds since the epoch of ROS time.
 using Time = std::chrono::nanoseconds;
 
+/// Returns a duration in seconds.
 inline double seconds(std::chrono::nanoseconds duration) { return std::chrono::duration<double>(duration).count(); }
 
-/// Whether the pose of a body can be trusted, from good to bad. The numbers are stable: interfaces send them.
+/// How far the pose of a body can be trusted, from good to bad. The numbers are part of the interface: do not change
+/// them.
 enum class Freshness : std::uint8_t {
   fresh = 0,
   late = 1,
@@ -33,20 +35,20 @@ enum class Freshness : std::uint8_t {
   unplaced = 6,
 };
 
-/// The state as a word, as in "STALE".
+/// Returns the state as a word, such as "STALE".
 const char* name(Freshness state);
 
-/// A fixed body never moves in the world frame: two fixed bodies make no pair.
+/// Whether a body can move. A fixed body never moves in the world frame, and two fixed bodies are never a pair.
 enum class Mobility : std::uint8_t { fixed = 0, moving = 1 };
 
-/// What a body is, by its source. Maps and clouds have occupied cells instead of shapes. The cells of a cloud come and
-/// go, and a cloud does not know which space is free.
+/// The kind of a body. Maps and clouds have occupied cells instead of shapes. The cells of a cloud appear and expire,
+/// and a cloud does not know which space is free.
 enum class BodyKind : std::uint8_t { link, obstacle, map, cloud };
 
 /// Whether bodies of this kind have occupied cells instead of shapes.
 inline bool hasCells(BodyKind kind) { return kind == BodyKind::map || kind == BodyKind::cloud; }
 
-/// Handle of a body in a Scene: a slot, and how often the slot was used before.
+/// Handle of a body in a Scene: the number of a slot, and how many bodies used this slot before.
 struct BodyId {
   std::uint32_t slot = 0;
   std::uint32_t generation = 0;
@@ -54,36 +56,37 @@ struct BodyId {
   bool operator!=(const BodyId& other) const { return !(*this == other); }
 };
 
-/// One collision shape of a body; it becomes one proxy in the grid.
+/// One collision shape of a body. It becomes one proxy in the broad phase.
 struct BodyShape {
   Shape shape;
   Pose body_from_shape = Pose::Identity();
-  double padding = 0.0;                             ///< [m] >= 0
+  double padding = 0.0;                             ///< [m] how much the shape is grown, >= 0
   std::string resource;                             ///< URI of a mesh file; empty otherwise
-  Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< of the mesh file
-  std::shared_ptr<const Solid> solid = nullptr;     ///< for exact distances; null: none of this shape are measured
+  Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< scale of the mesh file per axis
+  std::shared_ptr<const Solid> solid = nullptr;     ///< for exact distances; null: not measured
 };
 
-/// What is known of a body and does not change while it moves.
+/// The description of a body, which does not change while the body moves.
 struct Body {
-  std::string name;                         ///< source/local, unique
-  std::string frame;                        ///< tf frame that it follows
-  Pose frame_from_body = Pose::Identity();  ///< in that frame; identity for links
+  std::string name;                         ///< unique name of the form source/local
+  std::string frame;                        ///< tf frame that the body follows
+  Pose frame_from_body = Pose::Identity();  ///< pose of the body in `frame`; identity for links
   BodyKind kind = BodyKind::obstacle;
   Mobility mobility = Mobility::moving;
-  std::vector<BodyShape> shapes;  ///< may be empty: every shape was unreadable
-  double margin = 0.0;            ///< [m] its own margin; the global one where that is larger
-  double max_speed = std::numeric_limits<double>::infinity();  ///< [m/s] bound of the speed of its points
-  /// [m/s] the same where somebody vouches for it; bounds of time to contact rest on it alone. Infinite: nobody does.
+  std::vector<BodyShape> shapes;  ///< may be empty, if no shape could be read
+  double margin = 0.0;            ///< [m] margin of this body; a larger global margin takes precedence
+  double max_speed = std::numeric_limits<double>::infinity();  ///< [m/s] largest speed of its points
+  /// [m/s] Guaranteed largest speed of its points; infinite if there is no guarantee. Bounds of the time to contact use
+  /// only this value.
   double speed_bound = std::numeric_limits<double>::infinity();
-  bool covered = true;  ///< every shape that its description has was read
-  bool waived = false;  ///< not covered, but accepted by the user
-  std::string note;     ///< why it is not covered, or the reason of the waiver
+  bool covered = true;  ///< every shape in its description could be read
+  bool waived = false;  ///< the body is not covered, but the user accepts this
+  std::string note;     ///< why the body is not covered, or why the user accepts this
 
-  std::string robot;                        ///< links: name of the robot
-  std::uint32_t link = 0;                   ///< links: index in the robot's model
-  std::uint32_t rigid_group = 0;            ///< links: those with equal numbers move as one
-  std::shared_ptr<const LinkMatrix> links;  ///< links: the model's matrix; equal robots share it
+  std::string robot;                        ///< name of the robot, only for links
+  std::uint32_t link = 0;                   ///< index in the robot's model, only for links
+  std::uint32_t rigid_group = 0;            ///< only for links; links with the same number move together
+  std::shared_ptr<const LinkMatrix> links;  ///< allowed pairs of the robot, only for links; equal robots share it
 };
 
 }  // namespace hgrid

@@ -11,7 +11,7 @@ namespace hgrid {
 
 struct RobotModel;
 
-/// What switches a pair off. The numbers are part of the interface: do not change them.
+/// Why a pair is switched off, so that it is not reported. The numbers are part of the interface: do not change them.
 enum class Origin : std::uint8_t {
   none = 0,
   rigid = 1,
@@ -24,19 +24,20 @@ enum class Origin : std::uint8_t {
   self = 8,
 };
 
-/// What an SRDF says of pairs of links, by link name.
+/// The rules of an SRDF for pairs of links. Links are given by name.
 struct LinkRules {
   struct Pair {
     std::string first, second, reason;
   };
-  std::vector<Pair> disabled;                 ///< disable_collisions
-  std::vector<std::string> disabled_default;  ///< disable_default_collisions: every pair of this link
-  std::vector<Pair> enabled;                  ///< enable_collisions: undoes defaults, adjacency and rigid groups
+  std::vector<Pair> disabled;                 ///< tags disable_collisions: these pairs are switched off
+  std::vector<std::string> disabled_default;  ///< tags disable_default_collisions: all pairs of these links are off
+  std::vector<Pair> enabled;  ///< tags enable_collisions: override disabled_default, adjacency and rigid groups
 };
 
-/// Which links of one robot model may touch without being reported. Equal robots share one matrix.
+/// Stores which pairs of links of one robot model are allowed to touch, so that they are not reported.
 ///
-/// The matrix is symmetric. A link with itself is Origin::self. Immutable; copies share memory.
+/// Equal robots share one matrix. It is symmetric, and the pair of a link with itself is Origin::self. It is immutable,
+/// and copies share memory.
 class LinkMatrix {
  public:
   /// Switches off all pairs of links of one rigid group and of two adjacent groups, then applies the rules of an SRDF.
@@ -45,32 +46,34 @@ class LinkMatrix {
   /// connect them in one chain from parent to child, no link of a group between them has geometry, and the origins of
   /// consecutive joints (all joints at zero) are at most 1 cm apart.
   ///
-  /// An explicit disable takes precedence over an enable. An enable takes precedence over a default disable, adjacency
-  /// and rigid groups. A rule that names a link that the model does not have is left out and adds one sentence to
-  /// `warnings`.
+  /// disable_collisions takes precedence over enable_collisions. enable_collisions takes precedence over
+  /// disable_default_collisions, adjacency and rigid groups. A rule with a link that the model does not have is ignored
+  /// and adds one sentence to `warnings`.
   LinkMatrix(const RobotModel& model, const LinkRules& rules, std::vector<std::string>& warnings);
 
-  /// Whether the pair is off.
+  /// Whether the pair is allowed to touch, that is, switched off.
   bool allowed(std::uint32_t first, std::uint32_t second) const { return isIn(allowedWith(first), second); }
-  /// The links whose pairs with this link are off, as a bit set for isIn(). The filter of pairs asks this for every
-  /// near pair of many robots, so the set is small enough for the caches.
+  /// Returns all links whose pair with `link` is allowed, as a bit set for isIn(). The pair filter reads these sets for
+  /// every near pair of many robots, so they are small enough for the caches.
   const std::uint64_t* allowedWith(std::uint32_t link) const;
+  /// Whether a bit set of allowedWith() contains `link`.
   static bool isIn(const std::uint64_t* links, std::uint32_t link) {
     return (links[link / 64] >> (link % 64) & 1u) != 0;
   }
-  /// What switches the pair off; Origin::none if nothing does.
+  /// Returns why the pair is switched off, or Origin::none if it is not switched off.
   Origin origin(std::uint32_t first, std::uint32_t second) const;
-  /// Number of links.
+  /// Returns the number of links.
   std::size_t size() const;
 
-  /// What an SRDF says of just this pair.
+  /// The SRDF tag that names one pair of links.
   struct Tag {
-    bool disabled = true;  ///< disable_collisions; else enable_collisions
-    std::string reason;    ///< its attribute, made printable; may be empty
+    bool disabled = true;  ///< true: disable_collisions; false: enable_collisions
+    std::string reason;    ///< attribute `reason` of the tag, made printable; may be empty
   };
-  /// The tag that decides of a pair; null: it has none.
+  /// Returns the SRDF tag that decides about the pair, or null if no tag names it.
   const Tag* tag(std::uint32_t first, std::uint32_t second) const;
-  /// Why two links of adjacent groups may touch, with the names of the joints that connect their groups.
+  /// Returns a clause that says why two links of adjacent groups may touch. It names the joints that connect the
+  /// groups.
   std::string adjacencyReason(std::uint32_t first, std::uint32_t second) const;
 
  private:

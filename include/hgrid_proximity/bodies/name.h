@@ -7,30 +7,32 @@
 
 namespace hgrid {
 
-/// Most bytes of the local part of a name.
+/// Largest length of each part of a name `source/local` [bytes].
 inline constexpr std::size_t kLongestName = 128;
 
-/// Checks one part of a name `source/local`: 1 to kLongestName bytes of UTF-8, no control characters;
-/// a source has no slash either.
-/// @param what  names the thing in the refusal, as in "obstacle name"
-/// @throws Refusal bad_id
+/// Check one part of a name `source/local`. Each part must have 1 to kLongestName bytes of UTF-8 without control
+/// characters. A source must not contain a slash.
+/// @param what  name of the object for the error sentence, such as "obstacle name"
+/// @throws Refusal with code bad_id
 void checkSource(const std::string& source, const std::string& what);
 void checkLocal(const std::string& local, const std::string& what);
 
-/// `source/local`. The first slash splits: a source has none, a local part may have some.
+/// Returns the name `source/local`. Its first slash separates the two parts, since only the local part may contain
+/// slashes.
 std::string joined(const std::string& source, const std::string& local);
 
-/// Whether a glob matches the whole name: `*` any run of bytes (slashes too), `?` one byte. Linear in
-/// the length of the name times the pattern, whatever the pattern.
+/// Whether a glob matches the whole name. `*` matches any number of bytes, including slashes; `?` matches one byte. The
+/// running time is at most proportional to the product of both lengths, for any glob.
 bool matches(const std::string& glob, const std::string& name);
 
-/// Whether there is a name that both globs match. Linear in the product of their lengths.
+/// Whether there is a name that both globs match. The running time is proportional to the product of their lengths.
 bool canMatchTogether(const std::string& first, const std::string& second);
 
-/// Whether `wide` matches every name that `narrow` matches. May say false where that is true, never the other way.
+/// Whether `wide` matches every name that `narrow` matches. It can return false in a case where this is true, but it
+/// never returns true wrongly.
 bool coversGlob(const std::string& wide, const std::string& narrow);
 
-/// Whether any of the globs matches.
+/// Whether any of the globs matches the name.
 bool matchesAny(const std::vector<std::string>& globs, const std::string& name);
 
 }  // namespace hgrid

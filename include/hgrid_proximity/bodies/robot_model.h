@@ -11,47 +11,49 @@
 
 namespace hgrid {
 
-/// How a link's joint lets it move against its parent link.
+/// How a joint lets a link move relative to its parent link.
 enum class JointKind : std::uint8_t { fixed, revolute, prismatic, planar, floating };
 
-/// One link of a robot with the joint that holds it.
+/// One link of a robot, with the joint that connects it to its parent link.
 struct RobotLink {
   std::string name;
-  int parent = -1;    ///< index of the parent link; -1: the root
+  int parent = -1;    ///< index of the parent link; -1 for the root
   std::string joint;  ///< name of the joint to the parent; empty for the root
   JointKind joint_kind = JointKind::fixed;
-  Pose parent_from_joint = Pose::Identity();        ///< the link's pose in its parent at joint position 0
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< of the joint, unit vector in the link's frame
-  double max_velocity = 0.0;                        ///< [rad/s] or [m/s]; 0: the description says none
-  double lower = 0.0, upper = 0.0;                  ///< [rad] or [m]; both 0: no limits (continuous)
-  bool has_collision = false;                       ///< its description has a <collision>
-  bool uses_visual = false;                         ///< its shapes are those of <visual>, since it has no <collision>
-  std::vector<BodyShape> shapes;                    ///< those that could be read
-  std::vector<Refusal> unreadable;                  ///< those that could not, a sentence each
-  std::uint32_t rigid_group = 0;                    ///< links with equal numbers move as one
-  Pose group_from_link = Pose::Identity();          ///< the link's pose in the first link of its group
+  Pose parent_from_joint = Pose::Identity();        ///< pose of the link in its parent at joint position 0
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< axis of the joint, a unit vector in the link's frame
+  double max_velocity = 0.0;                        ///< [rad/s] or [m/s]; 0: the URDF gives none
+  double lower = 0.0, upper = 0.0;                  ///< [rad] or [m] joint limits; both 0: no limits
+  bool has_collision = false;                       ///< the URDF has a <collision> for this link
+  bool uses_visual = false;                         ///< the shapes come from <visual>, as there is no <collision>
+  std::vector<BodyShape> shapes;                    ///< the shapes that could be read
+  std::vector<Refusal> unreadable;                  ///< why the other shapes could not be read, one per shape
+  std::uint32_t rigid_group = 0;                    ///< links with the same number move together
+  Pose group_from_link = Pose::Identity();          ///< pose of the link in the first link of its group
 
-  /// Whether the description gives the link an extent, in shapes that could be read or not.
+  /// Whether the URDF gives the link any shape that counts, even if the shape could not be read.
   bool hasGeometry() const { return has_collision || uses_visual; }
 };
 
-/// A robot as its description tells it: links, parents before children.
+/// A robot as its URDF describes it. In `links`, parents come before their children.
 struct RobotModel {
   std::string name;
   std::vector<RobotLink> links;
-  std::vector<std::uint32_t> group_roots;  ///< per rigid group: its first link
-  std::vector<std::string> warnings;       ///< what is odd but was accepted
+  std::vector<std::uint32_t> group_roots;  ///< index of the first link of each rigid group
+  std::vector<std::string> warnings;       ///< sentences about odd input that was accepted
 
-  /// Index of a link, or -1.
+  /// Returns the index of the link with this name, or -1.
   int find(const std::string& link) const;
 };
 
-/// Fills rigid_group, group_from_link and group_roots from the joints: links joined by fixed joints form a group.
+/// Sets `rigid_group`, `group_from_link` and `group_roots`. Links that fixed joints connect form one group.
 void findRigidGroups(RobotModel& model);
 
-/// Bound of the speed of any point of the link's shapes in the root frame [m/s], from the joints' velocity
-/// limits: each prismatic joint on the way adds its limit, each revolute one its limit times the longest
-/// possible distance of the link's points from the joint. Infinite where a joint on the way has no limit.
+/// Returns an upper bound [m/s] of the speed of all points of the link's shapes in the root frame.
+///
+/// Every joint between the root and the link adds to the bound. A prismatic joint adds its velocity limit. A revolute
+/// joint adds its velocity limit times the largest possible distance of the link's points from the joint. The bound is
+/// infinite if one of these joints has no limit.
 double speedBound(const RobotModel& model, std::uint32_t link);
 
 }  // namespace hgrid

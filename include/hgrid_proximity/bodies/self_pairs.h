@@ -10,20 +10,24 @@ namespace hgrid {
 class LinkMatrix;
 struct RobotModel;
 
-/// How many pairs of a robot's own links its model switches off, by origin. Only links with geometry count.
+/// Counts the pairs of links within one robot, and how many of them are switched off, by origin. Only links with
+/// geometry count.
 struct SelfPairs {
-  std::size_t links = 0;  ///< with geometry
-  std::size_t pairs = 0;  ///< of these links, in all
-  std::size_t rigid = 0, adjacent = 0, srdf = 0;
+  std::size_t links = 0;                          ///< links with geometry
+  std::size_t pairs = 0;                          ///< all pairs of these links
+  std::size_t rigid = 0, adjacent = 0, srdf = 0;  ///< pairs that are switched off, by Origin
 
+  /// Returns the number of pairs that are switched off.
   std::size_t off() const { return rigid + adjacent + srdf; }
-  /// Whether there are pairs and none of them is reported.
+  /// Whether there are pairs, and all of them are switched off.
   bool allOff() const { return pairs > 0 && off() == pairs; }
 };
 
+/// Counts the pairs of the links of `model`. `matrix` must belong to the same model.
 SelfPairs countSelfPairs(const RobotModel& model, const LinkMatrix& matrix);
 
-/// The counts as a clause: "7 of the 36 pairs of its 9 links with geometry are off (0 rigid, 7 adjacent, 0 by SRDF)".
+/// Returns the counts as a clause: "7 of the 36 pairs of its 9 links with geometry are off (0 rigid, 7 adjacent, 0 by
+/// SRDF)".
 std::string text(const SelfPairs& counts);
 
 }  // namespace hgrid

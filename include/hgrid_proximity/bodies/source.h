@@ -11,16 +11,15 @@ namespace hgrid {
 
 struct Body;
 
-/// Name of the source that a body comes from: the robot's name, "obstacle", or the name of the map or cloud itself.
+/// Returns the name of the source of a body: the name of its robot, "obstacle", or the name of the map or cloud.
 std::string sourceOf(const Body& body);
 
-/// Something that a source should know but does not, such as a robot without a model or a map that never arrived.
-/// It makes the source incomplete.
+/// Missing data that makes a source incomplete, such as a robot without a model or a map that never arrived.
 struct SourceGap {
-  std::string source;    ///< as sourceOf() names it
-  std::string bodies;    ///< glob over the names of the bodies that may be somewhere unseen
-  std::string sentence;  ///< begins with a code or a state: "NOT_READY map 'hall': nothing came on octomap_binary yet"
-  /// [m, world] Where these bodies can be. None: anywhere.
+  std::string source;    ///< name of the source, as sourceOf() returns it
+  std::string bodies;    ///< glob that matches the names of the missing bodies
+  std::string sentence;  ///< starts with a code or state: "NOT_READY map 'hall': its file has not been read yet"
+  /// [m, world] The missing bodies are inside this sphere. nullopt: they can be anywhere.
   std::optional<Sphere> within = std::nullopt;
 };
 

@@ -11,10 +11,10 @@
 
 namespace hgrid {
 
-/// Number of one box in a broad phase. The caller chooses it. Ids index arrays, so they should be small.
+/// Identifies one box in a broad phase. The caller chooses the ids. They index arrays, so they should be small numbers.
 using ProxyId = std::uint32_t;
 
-/// Two boxes that overlap, the smaller id first.
+/// The ids of two boxes that overlap, the smaller id first.
 struct ProxyPair {
   ProxyId first = 0;
   ProxyId second = 0;
@@ -24,20 +24,20 @@ struct ProxyPair {
   }
 };
 
-/// A box that a segment meets.
+/// A box that a segment touches.
 struct SegmentHit {
   ProxyId id = 0;
-  double along = 0.0;  ///< [m] from the start of the segment to the first touch
+  double along = 0.0;  ///< [m] distance from the start of the segment to the point where it first touches the box
 };
 
 /// A box near a point.
 struct NearHit {
   ProxyId id = 0;
-  double distance = 0.0;  ///< [m] 0 if the point is inside
+  double distance = 0.0;  ///< [m] distance of the box from the point; 0 if the point is inside the box
 };
 
-/// Answers to many questions at once, as a structure of arrays. The answers to question q are found[begin[q]] ..
-/// found[begin[q] + count[q] - 1], in the order that a single question has.
+/// The answers to many queries, as a structure of arrays. The answers to query q are found[begin[q]] ..
+/// found[begin[q] + count[q] - 1], in the same order as the answers to a single query.
 template <class Found>
 struct BatchOf {
   std::vector<std::uint32_t> begin, count;
@@ -48,14 +48,15 @@ using SegmentBatch = BatchOf<SegmentHit>;
 
 /// One level of a broad phase that sorts boxes by size.
 struct BroadPhaseLevel {
-  double edge = 0.0;      ///< [m] longest side of its boxes; infinite for the last level
-  std::size_t boxes = 0;  ///< stored boxes on the level
+  double edge = 0.0;      ///< [m] the boxes of the level have no longer side than this; infinite for the last level
+  std::size_t boxes = 0;  ///< number of stored boxes on the level
 };
 
-/// Answers "which boxes overlap?".
+/// Finds the boxes that overlap each other or that overlap the shape of a query.
 ///
-/// Boxes that only touch overlap. A result replaces what the caller's buffer held. Calls may run concurrently with each
-/// other, but not with a change of the stored boxes. The answers do not depend on the order in which the boxes came.
+/// Boxes that only touch count as overlapping. A result replaces the old content of the caller's buffer. Several
+/// threads may call these functions at the same time, but not while another thread changes the stored boxes. The
+/// answers do not depend on the order in which the boxes were inserted.
 class BroadPhaseReader {
  public:
   virtual ~BroadPhaseReader() = default;
@@ -63,34 +64,36 @@ class BroadPhaseReader {
   /// Number of stored boxes.
   virtual std::size_t size() const = 0;
 
-  /// Every overlapping pair once, in no promised order. Pairs of two fixed boxes are left out, and pairs that the
-  /// overlap filter does not keep (see BroadPhase).
+  /// Finds every overlapping pair once. The order of the pairs is not specified. The search leaves out pairs of two
+  /// fixed boxes and pairs that the overlap filter does not keep (see BroadPhase).
   virtual void overlappingPairs(std::vector<ProxyPair>& pairs) const = 0;
-  /// The same within the pair bound (see PairBound). @returns whether these are all pairs
+  /// Finds overlapping pairs within the pair bound (see PairBound). @returns whether these are all pairs
   virtual bool boundedPairs(std::vector<ProxyPair>& pairs) const = 0;
 
-  /// Boxes that overlap `box`, ids ascending.
+  /// Finds the boxes that overlap `box`, in ascending order of their ids.
   virtual void overlapping(const Aabb& box, std::vector<ProxyId>& found) const = 0;
-  /// Boxes that touch the sphere, ids ascending. May contain boxes that miss it by a rounding error, as touches() does.
+  /// Finds the boxes that touch the sphere, in ascending order of their ids. Like touches(), it may include boxes that
+  /// miss the sphere by a rounding error.
   virtual void overlapping(const Sphere& sphere, std::vector<ProxyId>& found) const = 0;
-  /// Boxes that the segment meets, sorted by `along`, then by id. May contain boxes that the segment misses by a
-  /// rounding error, as meet() does.
+  /// Finds the boxes that the segment touches, sorted by `along`, then by id. Like meet(), it may include boxes that
+  /// the segment misses by a rounding error.
   virtual void along(const Segment& segment, std::vector<SegmentHit>& found) const = 0;
-  /// The `count` boxes nearest to a point, none farther than `limit` [m], sorted by distance, then by id.
+  /// Finds the `count` boxes nearest to a point that are at most `limit` [m] away, sorted by distance, then by id.
   virtual void nearest(const Eigen::Vector3d& point, std::size_t count, double limit,
                        std::vector<NearHit>& found) const = 0;
 
-  /// Answers many questions at once. By default, asks them one after another.
+  /// Answers many queries in one call. The default implementation answers them one after another.
   virtual void overlapping(const std::vector<Aabb>& boxes, IdBatch& found) const;
   virtual void overlapping(const std::vector<Sphere>& spheres, IdBatch& found) const;
   virtual void along(const std::vector<Segment>& segments, SegmentBatch& found) const;
 
-  /// The levels, from small boxes to large ones. Empty if boxes are not sorted by size. Looks at every box.
+  /// Returns the levels, from small boxes to large ones; nothing if the broad phase does not sort boxes by size. Takes
+  /// time proportional to the number of stored boxes.
   virtual std::vector<BroadPhaseLevel> levels() const { return {}; }
-  /// Index of a stored box's level; -1 if the box is not stored or there are no levels.
+  /// Returns the index of the level that a box is stored on; -1 if the box is not stored or there are no levels.
   virtual int levelOf(ProxyId) const { return -1; }
 
-  /// @throws std::logic_error naming the first promise of the data structure that does not hold.
+  /// Checks the invariants of the data structure. @throws std::logic_error that names the first one that is violated
   virtual void checkInvariants() const = 0;
 };
 

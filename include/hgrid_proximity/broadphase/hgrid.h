@@ -9,35 +9,37 @@
 
 namespace hgrid {
 
-/// The sizes of an HGrid's levels.
+/// The box sizes of an HGrid's levels.
 struct GridScale {
-  static constexpr int kLevels = 16;  ///< levels of a grid, without the one for boxes that are larger than the coarsest
-  static constexpr double kRatio = 4.0;  ///< size of a level's boxes, divided by that of the next finer level's
+  static constexpr int kLevels = 16;     ///< number of levels, without the extra level for boxes that fit none of them
+  static constexpr double kRatio = 4.0;  ///< longest box side of a level, divided by that of the next finer level
 
-  double finest_edge = 0.0625;  ///< [m] longest side of the boxes on the finest level; 2^-30 .. 2^30
+  double finest_edge = 0.0625;  ///< [m] longest side of a box on the finest level; 2^-30 .. 2^30
 
-  /// The scale whose finest level fits the smallest of the boxes (1 m if there are none).
+  /// Returns the scale whose finest level fits the smallest of the boxes (1 m if there are no boxes).
   static GridScale fitting(const std::vector<Aabb>& boxes);
 };
 
 /// A hierarchical grid (after Ericson, Real-Time Collision Detection, 2005, sections 7.1 and 7.2).
 ///
 /// Each box is stored in one cell of one level: its longest side selects the level, its minimum corner selects the
-/// cell. A box that overlaps another one therefore begins at most the longest side of its level before it. Every box is
-/// tested against its own level and the coarser ones.
+/// cell. The reach of a level is the longest side of its boxes. A box of the level that overlaps a given box begins, on
+/// each axis, at most one reach before it. The search for pairs tests every box against its own level and the coarser
+/// levels.
 ///
-/// - Boxes are stored sorted by cell, as a structure of arrays. A row of cells is one range of positions, which is
-///   tested many boxes at a time. Rows lie along the axis on which the world is longest. The inner loops are compiled
-///   once per instruction set.
-/// - Levels that hold few boxes share one grid. A cost model derives the edges of the cells from the boxes.
+/// - Boxes are sorted by cell and stored as a structure of arrays. The boxes in a row of cells are one range of array
+///   positions, so SIMD instructions test several of them at a time. Rows lie along the axis on which the world is
+///   longest. The inner loops are compiled once per instruction set.
+/// - Levels with few boxes share one grid. A cost model computes the cell size from the boxes.
 /// - Where boxes are spread unevenly, a k-d tree (section 7.3.7) divides space into regions of about even density, and
-///   each region has cells of its own. So the cost follows the boxes and their pairs, not the empty space between them.
-/// - Coordinates outside the window of the cells count as its outermost cells, so the world has no border.
-/// - Boxes that move are sorted again when they move. Boxes that rest keep their positions, and the pairs among them.
-/// - Fixed boxes are stored in a layer of their own, whose pairs among themselves are not searched.
+///   each region has its own cells. So the cost depends on the boxes and their pairs, not on the empty space between.
+/// - A box outside the range of the cells is stored in the nearest outermost cell, so the world has no border.
+/// - Boxes that move are sorted again when they move. Boxes that rest keep their positions, and the grid keeps the
+///   pairs among them.
+/// - Fixed boxes are stored in a separate layer. The grid does not search for pairs of two fixed boxes.
 ///
-/// What is found depends neither on the order of insertion, nor on the instruction set, nor on the number of threads.
-/// The same calls in the same order also give the pairs in the same order.
+/// Results depend neither on the order of insertion, nor on the instruction set, nor on the number of threads.
+/// The same calls in the same order also return the pairs in the same order.
 class HGrid final : public BroadPhase {
  public:
   /// @throws std::invalid_argument if the finest edge is not within 2^-30 .. 2^30.
@@ -46,11 +48,12 @@ class HGrid final : public BroadPhase {
   HGrid(HGrid&&) noexcept;
   HGrid& operator=(HGrid&&) noexcept;
 
-  /// Instruction set of the inner loops; initially bestIsa(). @throws std::invalid_argument if it is not supported.
+  /// Sets the instruction set of the inner loops; initially bestIsa().
+  /// @throws std::invalid_argument if this processor or build does not support it.
   void setIsa(Isa isa);
   Isa isa() const;
-  /// Threads that a bulk update or a search for pairs may use, the caller's included: 1 (initially) .. 64.
-  /// @throws std::invalid_argument
+  /// Sets how many threads a bulk update or a search for pairs may use, including the calling thread: 1 (initially)
+  /// .. 64. @throws std::invalid_argument if the number is outside this range.
   void setThreads(int threads);
 
   void insert(ProxyId id, const Aabb& box) override;
@@ -61,7 +64,7 @@ class HGrid final : public BroadPhase {
   void move(const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) override;
   void setFixed(const std::vector<ProxyId>& ids) override;
   void setOverlapFilter(const OverlapFilter& filter) override;
-  /// Also bounds the pairs that the grid keeps of resting boxes.
+  /// Also bounds the number of pairs of resting boxes that the grid keeps.
   void setPairBound(const PairBound& bound) override;
 
   std::size_t size() const override;
@@ -72,20 +75,20 @@ class HGrid final : public BroadPhase {
   void along(const Segment& segment, std::vector<SegmentHit>& found) const override;
   void nearest(const Eigen::Vector3d& point, std::size_t count, double limit,
                std::vector<NearHit>& found) const override;
-  /// Answers the questions in an order that follows their positions, which saves cache misses.
+  /// Answers the queries in the order of their positions in space, which saves cache misses.
   void overlapping(const std::vector<Aabb>& boxes, IdBatch& found) const override;
   void overlapping(const std::vector<Sphere>& spheres, IdBatch& found) const override;
   void along(const std::vector<Segment>& segments, SegmentBatch& found) const override;
-  /// GridScale::kLevels levels, and one more for the boxes that are larger than the coarsest.
+  /// Returns GridScale::kLevels levels and one more for the boxes that are too large for the coarsest of them.
   std::vector<BroadPhaseLevel> levels() const override;
   int levelOf(ProxyId id) const override;
   void checkInvariants() const override;
 
-  /// [m] Longest side of the boxes on a level below GridScale::kLevels.
+  /// Returns the longest side [m] that a box on this level can have; 0 <= level < GridScale::kLevels.
   double edge(int level) const;
-  /// Level of a box of this size: 0 .. GridScale::kLevels.
+  /// Returns the level on which a box of this size is stored: 0 .. GridScale::kLevels.
   int levelFor(const Aabb& box) const;
-  /// Bytes of all stored data, without the pairs that the grid keeps of resting boxes.
+  /// Returns the memory [bytes] of all stored data, without the pairs of resting boxes that the grid keeps.
   std::size_t bytes() const;
 
  private:

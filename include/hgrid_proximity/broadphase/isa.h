@@ -4,17 +4,17 @@
 
 namespace hgrid {
 
-/// Instruction sets that the inner loops are compiled for. Results do not depend on the choice, to the byte.
-/// Here avx2 is with FMA and BMI, avx512 with these and VL, BW, DQ; neon is that of 64-bit ARM.
+/// Instruction sets that the inner loops are compiled for. All of them give exactly the same results.
+/// `avx2` includes FMA and BMI. `avx512` includes these two and VL, BW, DQ. `neon` is the NEON of 64-bit ARM.
 enum class Isa : int { portable = 0, sse2 = 1, avx2 = 2, avx512 = 3, neon = 4 };
 
-/// The set as a word, as in "avx2".
+/// Returns the name of an instruction set, such as "avx2".
 const char* name(Isa isa);
 
-/// Whether this build has the set and this processor runs it; portable always.
+/// Returns whether this build contains the instruction set and this processor supports it; always true for portable.
 bool isSupported(Isa isa);
 
-/// The largest set that is supported; asked of the processor once.
+/// Returns the largest supported instruction set. The processor is queried only once.
 Isa bestIsa();
 
 }  // namespace hgrid

@@ -10,28 +10,29 @@
 
 namespace hgrid {
 
-/// What part of the allowed-pair matrix is asked for.
+/// Selects a part of the allowed collision matrix.
 struct AllowedScope {
-  std::string first, second;  ///< globs over the two names, in either order; empty: all
-  std::size_t limit = 0;      ///< most entries
+  std::string first, second;  ///< globs over the two names of a pair, in either order; empty: all names
+  std::size_t limit = 0;      ///< maximum number of entries
 };
 
-/// A part of the allowed-pair matrix, sorted by the two names.
+/// A part of the allowed collision matrix.
 struct AllowedList {
   std::vector<PairRule> entries;
-  std::uint64_t total = 0;  ///< how many there are; more than entries if there was a limit
+  std::uint64_t total = 0;  ///< number of all entries in the scope; larger than entries.size() if the limit cut them
 };
 
-/// Pairs of bodies that a rule, an SRDF, a joint or a rigid group speaks of, each with what decides: the two names, the
-/// smaller first, and origin, reason, end, who set it and when. Pairs that do not exist (PairKinds) are none of them.
-/// @throws Refusal budget if it would take too many looks
+/// Lists the pairs of bodies about which a rule, an SRDF, a joint or a rigid group decides, sorted by the two names.
+/// Each entry holds the two names, the smaller one first, and the origin, reason, end, author and time of the decision.
+/// Pairs whose kind does not exist (PairKinds) are left out.
+/// @throws Refusal budget if too many pairs would have to be examined
 AllowedList decidedPairs(const Structure& structure, const AllowedScope& scope);
 
-/// The rules as they were given; globs of the scope are compared with their texts.
+/// Lists the rules as they were given, in their order. The globs of the scope are compared with the texts of the rules.
 AllowedList givenRules(const Structure& structure, const AllowedScope& scope);
 
-/// The entries that name two links of one robot as SRDF: a <robot> element for each, with disable_collisions and
-/// enable_collisions in the order of the entries.
+/// Writes the entries that name two links of one robot as SRDF: one <robot> element for each robot. Each element
+/// contains disable_collisions and enable_collisions tags in the order of the entries.
 std::string srdfOf(const Structure& structure, const std::vector<PairRule>& entries);
 
 }  // namespace hgrid

@@ -10,13 +10,13 @@
 
 namespace hgrid {
 
-/// Number of pairs of bodies that one filter allows and the other does not: those that a change of the rules has
-/// switched off or on.
+/// Counts the pairs of bodies that a change of the rules has switched off or on: one filter allows them to touch, the
+/// other does not.
 ///
-/// Looks only at bodies that a rule matches which only one of the filters has. Bodies that all rules treat alike are
-/// looked at as one, so that rules with globs take no longer than the filters themselves took. Links of one robot are
-/// looked at pair by pair.
-/// @param bodies  what both filters were made from
+/// The function looks only at bodies that match a rule of just one of the filters. It examines bodies that all rules
+/// treat alike only once, so rules with globs take no longer than it took to create the filters. It compares links of
+/// one robot pair by pair.
+/// @param bodies  the bodies that both filters were created from
 std::uint64_t changedPairs(const std::vector<Body>& bodies, const PairFilter& before, const PairFilter& after);
 
 }  // namespace hgrid

@@ -8,8 +8,8 @@
 
 namespace hgrid {
 
-/// What decides of a pair of bodies as a rule: one that was given as it was given, with its globs; any other with the
-/// names of the bodies.
+/// Returns the rule that decides about a pair of bodies. If a rule of a user decides, returns it unchanged, with its
+/// globs. Otherwise, for example for an SRDF, returns a rule with the names of the two bodies.
 inline PairRule decidedRule(const Structure& structure, std::uint32_t first, std::uint32_t second) {
   PairDecision decision = structure.filter.decision(first, second);
   if (decision.rule != PairDecision::kNoRule) return structure.filter.rules()[decision.rule];

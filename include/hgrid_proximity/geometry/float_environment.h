@@ -6,8 +6,10 @@
 
 namespace hgrid {
 
-/// While it lives, this thread computes as IEEE-754 says: round to nearest, denormals kept.
-/// The promise "no missed pair" rests on that, and a library linked beside ours may have changed it.
+/// While an object of this class exists, its thread uses the default floating-point environment: round to nearest, keep
+/// denormals.
+///
+/// The promise "no missed pair" depends on this environment, and another library in the process may have changed it.
 class DefaultFloatEnvironment {
  public:
   DefaultFloatEnvironment() {

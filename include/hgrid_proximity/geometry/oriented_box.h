@@ -6,16 +6,17 @@
 
 namespace hgrid {
 
-/// A box in any pose.
+/// A box at any position and orientation.
 struct OrientedBox {
-  Pose world_from_box = Pose::Identity();  ///< of its center
-  Eigen::Vector3d size;                    ///< [m] full lengths, >= 0
+  Pose world_from_box = Pose::Identity();  ///< pose of the box center
+  Eigen::Vector3d size;                    ///< [m] full side lengths, >= 0
 };
 
-/// [m] Length of the shortest move that separates two boxes that overlap; 0 if they do not.
+/// Returns the length [m] of the shortest translation that separates two overlapping boxes, or 0 if they do not
+/// overlap.
 ///
-/// The shortest move is along a face normal of one box or perpendicular to an edge of each (separating axis test;
-/// Ericson 2005, section 4.4.1).
+/// The shortest translation is either along a face normal of one box, or perpendicular to one edge of each box
+/// (separating axis test; Ericson, Real-Time Collision Detection, 2005, section 4.4.1).
 double penetrationDepth(const OrientedBox& first, const OrientedBox& second);
 
 }  // namespace hgrid

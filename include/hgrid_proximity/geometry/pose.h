@@ -7,25 +7,29 @@
 
 namespace hgrid {
 
-/// A rigid motion in double precision [m]. Named `a_from_b`: it takes coordinates in b to
-/// coordinates in a, so that neighbours cancel: world_from_body * body_from_shape.
-/// Not aligned beyond a double, so that it can stand in any container and any interface.
+/// A rigid transform in double precision [m].
+///
+/// A variable `a_from_b` converts coordinates of frame b to coordinates of frame a. So neighboring frame names in a
+/// product cancel: world_from_body * body_from_shape. The type needs no special alignment, so any container and any
+/// interface can hold it.
 using Pose = Eigen::Transform<double, 3, Eigen::Isometry, Eigen::DontAlign>;
 
-/// How far the squared norm of an accepted quaternion may be from 1.
+/// Largest accepted difference between the squared norm of a quaternion and 1.
 inline constexpr double kQuaternionTolerance = 0.03;
 
-/// The pose of a position [m] and a quaternion from outside.
+/// Converts a position [m] and a quaternion that come from outside into a pose.
 ///
-/// A quaternion whose squared norm is within kQuaternionTolerance of 1 is normalised; if it was off
-/// by more than 1e-6, `*renormalised` is set (it is never cleared; null: not asked).
-/// @param what  names the thing in the sentence of a refusal, as in "transform of frame 'tool0'"
-/// @throws Refusal nonfinite or bad_rotation, naming the field.
+/// If the squared norm of the quaternion is within kQuaternionTolerance of 1, the quaternion is normalized. If the
+/// difference from 1 is more than 1e-6, `*renormalized` is set to true. It is never set to false, and the pointer may
+/// be null.
+/// @param what  name of the object for the error sentence, such as "transform of frame 'tool0'"
+/// @throws Refusal with code nonfinite or bad_rotation; its sentence names the field
 Pose checkedPose(const Eigen::Vector3d& position, const Eigen::Vector4d& xyzw, const std::string& what,
-                 bool* renormalised = nullptr);
+                 bool* renormalized = nullptr);
 
-/// Checks that every coordinate of `position` [m] is within -limit .. limit, the limit itself included.
-/// @throws Refusal out_of_range, naming the axis, the value and the limit.
+/// Checks that every coordinate of `position` [m] is within -limit .. limit, limits included.
+/// @param what  name of the object for the error sentence
+/// @throws Refusal with code out_of_range; its sentence names the axis, the value and the limit
 void checkWithin(const Eigen::Vector3d& position, double limit, const std::string& what);
 
 }  // namespace hgrid

@@ -8,44 +8,52 @@
 
 namespace hgrid {
 
-/// The volume that a sphere of `radius` sweeps as its center moves along a segment [m]. It is given in the same
-/// coordinates as the boxes that it is compared with. With radius 0 it is a line; with equal ends it is a sphere.
+/// The volume that a sphere of radius `radius` sweeps while its center moves along a line segment [m].
+///
+/// Its coordinates are relative to the same frame as the boxes that it is compared with. With radius 0 it is a line
+/// segment. If both ends are equal, it is a sphere.
 struct Segment {
   Eigen::Vector3d from = Eigen::Vector3d::Zero();
   Eigen::Vector3d to = Eigen::Vector3d::Zero();
   double radius = 0.0;
 };
 
-/// How a segment meets a box.
+/// How a swept segment touches a box.
 struct Meeting {
-  double along = 0.0;          ///< [m] from the segment's start to where its sphere first touches the box
-  double axis_distance = 0.0;  ///< [m] least distance of the segment's axis from the box; 0: it meets the box
-  Eigen::Vector3d point;       ///< [m] point of the box nearest to the axis
+  double along = 0.0;          ///< [m] how far the sphere moves from the start until it touches the box
+  double axis_distance = 0.0;  ///< [m] smallest distance from the segment's axis to the box; 0: the axis meets it
+  Eigen::Vector3d point;       ///< [m] point of the box that is nearest to the axis
 };
 
-/// How the segment first touches the box, or nullopt if it does not.
+/// Returns where the segment first touches the box, or nullopt if it does not touch the box.
 ///
-/// Finds every box that the segment touches, and perhaps one that it misses by less than 1e-9 * (|x| + r). The squared
-/// distance from a point that moves along the axis to a box is a convex, piecewise quadratic function of the fraction
-/// of the axis. Its pieces meet where the point crosses the plane of a face, six times at most. Each piece is solved in
-/// closed form.
+/// A box that the segment touches is never missed. A box that the segment misses by less than 1e-9 * (|x| + r) may
+/// count as touched, where |x| is the largest coordinate and r the radius.
+///
+/// Method: consider a point that moves along the axis. Its squared distance to the box is a convex, piecewise quadratic
+/// function of the fraction of the axis. The pieces meet where the point crosses the plane of a face, which happens at
+/// most six times. Each piece is solved in closed form.
 std::optional<Meeting> meet(const Segment& segment, const Aabb& box);
 
-/// Computes only Meeting::along, faster than meet() and equal to it within rounding. Use it for many boxes: it computes
-/// once what they share. A segment without radius that clearly enters a box is clipped by the box's slabs (Ericson
-/// 2005, section 5.3.3).
+/// Computes only Meeting::along. It is faster than meet(), and the results differ only by rounding.
+///
+/// Use one object for many boxes: the constructor computes the values that do not depend on the box. A segment with
+/// radius 0 that clearly enters a box is clipped by the slabs of the box (Ericson, Real-Time Collision Detection, 2005,
+/// section 5.3.3).
 class FirstTouch {
  public:
-  /// @param segment  must outlive this
+  /// @param segment  must outlive this object
   explicit FirstTouch(const Segment& segment);
-  /// [m] from the segment's start, or nullopt if it does not touch the box.
+  /// Returns the distance [m] along the segment to its first contact with the box, or nullopt if there is no contact.
   std::optional<double> operator()(const Aabb& box) const;
 
  private:
   const Segment& segment_;
-  bool clips_;  // the segment has no radius, and on each axis a length that divides without overflow
+  // Whether clipping by slabs is allowed: the radius is 0, and 1 / step does not overflow on any axis where the segment
+  // has a length.
+  bool clips_;
   double length_;
-  Eigen::Vector3d inverse_, rounded_;  // per axis: 1 / step, and the rounding of a fraction
+  Eigen::Vector3d inverse_, rounded_;  // per axis: 1 / step, and the rounding error of a fraction
 };
 
 }  // namespace hgrid

@@ -12,46 +12,50 @@
 
 namespace hgrid {
 
-/// The cells that a sensor saw points in, each kept for a while after it was seen last.
+/// Stores the cells in which a sensor has seen points. Each cell is kept for a lifetime after it was last seen.
 ///
-/// Cells lie on the lattice of the world: cell (0, 0, 0) begins at the world's origin, so that the same thing seen from
-/// elsewhere fills the same cells. Their keys count from corner(), which follows the sensor in rare great steps, so
-/// that they reach from it as far as those of a map. One thread at a time.
+/// The cells form a fixed lattice in the world frame, and cell (0, 0, 0) begins at the world's origin. So an object
+/// fills the same cells from wherever the sensor sees it. The keys of the cells are relative to corner(), which follows
+/// the sensor in rare, large steps. So the keys reach equally far around the sensor, as they do around the origin of a
+/// map. Only one thread may use this object at a time.
 class CloudCells {
  public:
-  /// Points farther from the sensor than this many cells along an axis are left out.
+  /// Points are ignored if they are this many cells or more away from the sensor along an axis.
   static constexpr int kReach = 1 << 14;
 
-  /// @param edge      [m] of a cell, 0.001 .. 100
-  /// @param lifetime  how long a cell stays after it was seen
-  /// @param most      cells
+  /// @param edge      [m] edge of a cell, 0.001 .. 100
+  /// @param lifetime  how long a cell is kept after it was last seen
+  /// @param most      largest number of cells
   CloudCells(double edge, Time lifetime, std::size_t most);
 
   double edge() const { return edge_; }
-  /// [m, world] where the cell with the keys of a map's origin (Voxel::kOriginKey) begins.
+  /// Returns the minimum corner [m, world] of the cell whose three keys are Voxel::kOriginKey.
   Eigen::Vector3d corner() const;
 
-  /// Moves the keys to the sensor [m, world] if it is far from their middle. What lies out of reach then is forgotten.
-  /// @returns cells forgotten
+  /// Moves corner() to the sensor [m, world] if the sensor is kReach cells or more away from it. Removes the cells that
+  /// no longer have valid keys.
+  /// @returns the number of cells removed
   std::size_t follow(const Eigen::Vector3d& sensor);
-  /// The cells that points [m, world] lie in, each once, in Morton order. @param left_out  points out of reach
+  /// Returns the cells that contain the points [m, world], each cell once, in Morton order.
+  /// @param left_out  receives the number of points that were ignored, since they are too far from the sensor
   std::vector<Voxel> cellsOf(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& sensor,
                              std::size_t& left_out) const;
-  /// Takes in cells, which are disjoint, of level 0 and in Morton order, as seen at a time.
-  /// @throws Refusal limit if there would be too many; then nothing has changed
+  /// Adds cells that were seen at time `stamp`. They must be disjoint, of level 0 and in Morton order.
+  /// @throws Refusal with code limit if there would be too many cells; then nothing has changed
   void see(const std::vector<Voxel>& cells, Time stamp);
-  /// Forgets what was seen longer ago than the lifetime, or, since the clock was set back, is to be seen only so much
-  /// later. @returns cells forgotten
+  /// Removes cells that were last seen more than the lifetime before `now`. Also removes cells whose stamp is more than
+  /// the lifetime after `now`, which happens when the clock is set back.
+  /// @returns the number of cells removed
   std::size_t forget(Time now);
-  /// All cells in Morton order.
+  /// Returns all cells in Morton order.
   std::vector<Voxel> cells() const;
   std::size_t size() const { return seen_.size(); }
 
  private:
-  using Keys = std::array<std::int64_t, 3>;  // of the lattice of the world
+  using Keys = std::array<std::int64_t, 3>;  // of a cell in the lattice of the world
   struct Seen {
-    std::uint64_t code;  // Morton code of a voxel of level 0
-    Time stamp;          // when it was seen last
+    std::uint64_t code;  // Morton code of the cell, a voxel of level 0
+    Time stamp;          // when the cell was last seen
   };
 
   Keys keysOf(const Eigen::Vector3d& point) const;
@@ -59,8 +63,8 @@ class CloudCells {
   double edge_;
   Time lifetime_;
   std::size_t most_;
-  Keys middle_{};           // the cell of Voxel::kOriginKey
-  std::vector<Seen> seen_;  // by code
+  Keys middle_{};           // the cell whose three keys are Voxel::kOriginKey
+  std::vector<Seen> seen_;  // sorted by Seen::code
 };
 
 }  // namespace hgrid

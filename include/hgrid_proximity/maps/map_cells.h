@@ -10,24 +10,26 @@
 
 namespace hgrid {
 
-/// What a map knows nothing of, in its frame: these cells, and all that lies beyond what it speaks of.
+/// The space of which a map does not know whether it is free: the unknown cells, and everything outside `extent`. All
+/// values are in the frame of the map.
 struct UnmappedSpace {
-  StaticGrid cells;
-  Eigen::AlignedBox3d extent;  ///< [m] what it speaks of
+  StaticGrid cells;            ///< the unknown cells
+  Eigen::AlignedBox3d extent;  ///< [m] the box that the map describes
 };
 
-/// What is occupied of a map or a cloud, and its cells made ready to be measured. Immutable, shared by snapshots.
+/// The occupied cells of a map or a cloud, with the solids for measuring them. It is immutable, and snapshots share it.
 struct MapCells {
-  std::shared_ptr<const StaticGrid> grid;                                   ///< in the frame of its body
-  std::shared_ptr<const UnmappedSpace> unmapped = nullptr;                  ///< null: it knows no space to be free
-  std::array<std::shared_ptr<const Solid>, Voxel::kLevels + 1> cubes = {};  ///< by level of the voxel
+  std::shared_ptr<const StaticGrid> grid;                   ///< occupied cells in the body's frame
+  std::shared_ptr<const UnmappedSpace> unmapped = nullptr;  ///< null: it does not say which space is free
+  std::array<std::shared_ptr<const Solid>, Voxel::kLevels + 1> cubes = {};  ///< one cube per voxel level
 
-  /// The middle of a voxel [m] in the frame of its body.
+  /// Returns the center of a voxel [m] in the frame of its body.
   Eigen::Vector3d centerOf(const Voxel& voxel) const {
     return 0.5 * (minCorner(voxel, grid->finestEdge()) + maxCorner(voxel, grid->finestEdge()));
   }
 };
 
+/// Creates the cells of a map or a cloud. `narrow_phase` creates one cube for each voxel level.
 std::shared_ptr<const MapCells> makeMapCells(std::shared_ptr<const StaticGrid> grid, const NarrowPhase& narrow_phase,
                                              std::shared_ptr<const UnmappedSpace> unmapped = nullptr);
 

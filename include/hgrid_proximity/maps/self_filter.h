@@ -11,25 +11,27 @@
 
 namespace hgrid {
 
-/// A shape that a sensor may have seen of the robot itself.
+/// A shape of the robot itself that a sensor may have seen.
 struct SelfShape {
   Shape shape;
   std::shared_ptr<const Solid> solid;
   Pose world_from_shape;
-  double padding = 0.0;  ///< [m] what is as near to the shape is taken for it, too
+  double padding = 0.0;  ///< [m] cells at most this far from the shape count as part of it
 };
 
-/// What is left of the cells of a map.
+/// The cells of a map that do not belong to the robot itself.
 struct OthersCells {
-  std::vector<Voxel> voxels;    ///< disjoint, in Morton order
-  std::uint64_t left_out = 0;   ///< finest cells that lay in a padded shape
-  std::uint64_t undecided = 0;  ///< cells kept without a look, since there were too many to look at
+  std::vector<Voxel> voxels;    ///< the cells that are left, disjoint and in Morton order
+  std::uint64_t left_out = 0;   ///< cells of level 0 that were removed: they are inside a padded shape
+  std::uint64_t undecided = 0;  ///< cells kept without a check, since there were too many to check
 };
 
-/// Leaves out of a map's cells what is the robot's own: the finest cells whose middles lie in a padded shape. Of larger
-/// cells that reach out of it the rest stays, in smaller ones. Any thread.
-/// @param edge    [m] of a voxel of level 0
-/// @param voxels  disjoint, in Morton order
+/// Removes the cells of the robot itself from the cells of a map.
+///
+/// A cell of level 0 is removed if its center is inside a padded shape. A larger cell that is only partly inside is
+/// split, and its remaining smaller cells are kept. Any thread may call this.
+/// @param edge    [m] edge of a voxel of level 0
+/// @param voxels  the cells of the map, disjoint and in Morton order
 OthersCells withoutSelf(const std::vector<Voxel>& voxels, double edge, const Pose& world_from_map,
                         const std::vector<SelfShape>& shapes, const NarrowPhase& narrow_phase);
 

@@ -15,64 +15,68 @@
 
 namespace hgrid {
 
-/// A voxel, and how far it is from what was asked [m].
+/// A voxel and its distance.
 struct NearVoxel {
   Voxel voxel;
-  double distance = 0.0;
+  double distance = 0.0;  ///< [m] from the box of the query to the voxel
 };
 
 class Bricks;
 
-/// The voxel that a segment touches first, and where [m] along the segment.
+/// The voxel that a segment touches first.
 struct VoxelTouch {
   Voxel voxel;
-  double along = 0.0;
+  double along = 0.0;  ///< [m] distance along the segment to the first contact
 };
 
-/// The occupied voxels of a map: a hierarchical grid (Ericson 2005, 7.2) whose cells are bits.
+/// Stores the occupied voxels of a map in a hierarchical grid (Ericson, Real-Time Collision Detection, 2005, section
+/// 7.2) whose cells are single bits.
 ///
-/// - A brick is a cube of 4 x 4 x 4 cells, stored as 64 bits. A cell of one level is a brick of the level below, whose
-///   cells are four times finer.
-/// - A voxel is stored on the level of its edge: as one cell, or as a block of 2 x 2 x 2 cells if its edge is twice
-/// that
-///   of a cell. So each depth of an octree has its level.
-/// - Empty space costs no more than a bit of the brick around it. Three ANDs mask the bits of a cell range.
-/// - Cells are stored in Morton order, and the bricks below a brick follow each other. So there are no keys to compare
-///   and no hashes, and one pass in Morton order builds the grid.
+/// - A brick is a cube of 4 x 4 x 4 cells, stored as 64 bits. A cell that is only partly occupied is one brick of the
+///   level below, whose cells are four times finer.
+/// - The edge of a voxel selects its level. A voxel is stored as one cell, or as a block of 2 x 2 x 2 cells. So two
+///   depths of an octree share one level.
+/// - Empty space costs only a bit of the brick around it. Three ANDs mask the bits of a cell range.
+/// - Bricks are stored in Morton order, and the bricks inside one brick are stored one after the other. So a search
+///   compares no keys and computes no hashes, and one pass in Morton order builds the grid.
 ///
-/// Coordinates are in the map's frame [m]. An answer contains every voxel that touches, and may contain voxels that
-/// miss by less than 1e-9 of the coordinates. Immutable: any number of threads may ask at the same time. Copies share
-/// memory.
+/// Coordinates are in the frame of the map [m]. A query never misses a voxel that it touches, and it may return voxels
+/// that it misses by less than 1e-9 of the coordinates. The grid is immutable, so any number of threads may call it at
+/// the same time. Copies share memory.
 class StaticGrid {
  public:
-  /// @param finest_edge  [m] of a voxel of level 0
-  /// @param voxels       disjoint, in Morton order, keys multiples of their edges: as readers of OctoMaps give them
-  /// @throws Refusal out_of_range (finest_edge not positive), bad_geometry (voxels that are not as said, with number)
+  /// @param finest_edge  [m] edge of a voxel of level 0
+  /// @param voxels       disjoint and in Morton order; all keys are multiples of the voxel's edge
+  /// @throws Refusal with code out_of_range if `finest_edge` is not positive; bad_geometry for the first voxel that
+  /// breaks a rule
   StaticGrid(double finest_edge, const std::vector<Voxel>& voxels);
 
   double finestEdge() const { return finest_edge_; }
-  std::size_t size() const { return size_; }              ///< voxels
-  std::size_t bytes() const;                              ///< of memory
-  Eigen::AlignedBox3d bounds() const { return bounds_; }  ///< [m] around all voxels; empty if there are none
+  std::size_t size() const { return size_; }              ///< number of voxels
+  std::size_t bytes() const;                              ///< [bytes] memory that the grid uses
+  Eigen::AlignedBox3d bounds() const { return bounds_; }  ///< [m] box around all voxels; empty if there are none
 
-  /// All voxels in Morton order.
+  /// Returns all voxels in Morton order.
   std::vector<Voxel> voxels() const;
-  /// Voxels that the box touches, in Morton order. @returns whether that is all; false: there are more than `most`
+  /// Replaces `found` with the voxels that the box touches, in Morton order.
+  /// @returns false if there are more than `most`; then `found` has only the first `most` of them
   bool overlapping(const Eigen::AlignedBox3d& box, std::size_t most, std::vector<Voxel>& found) const;
-  /// The same for a sphere.
+  /// Replaces `found` with the voxels that the sphere touches, in Morton order.
+  /// @returns false if there are more than `most`; then `found` has only the first `most` of them
   bool overlapping(const Sphere& sphere, std::size_t most, std::vector<Voxel>& found) const;
   /// Whether the sphere touches any voxel.
   bool touches(const Sphere& sphere) const;
-  /// The voxel that a segment, a capsule if it has a radius, touches first.
+  /// Returns the voxel that the segment touches first, or nullopt if it touches none.
   std::optional<VoxelTouch> firstAlong(const Segment& segment) const;
-  /// The `count` voxels nearest to a box (a point is one, too) within `limit` [m], nearest first; of equally near ones
-  /// those that were found first.
+  /// Replaces `found` with the `count` voxels that are nearest to the box and within `limit` [m], nearest first. The
+  /// box may be a single point. If more than `count` voxels are equally near, the voxels that the search reaches first
+  /// are kept.
   void nearest(const Eigen::AlignedBox3d& box, std::size_t count, double limit, std::vector<NearVoxel>& found) const;
 
-  /// How far it is worth looking [m] from now on, told of a voxel that is `distance` from the box.
+  /// Receives a voxel and its distance from the box [m]. Returns the new limit [m] of the search.
   using Look = std::function<double(const Voxel& voxel, double distance)>;
-  /// Shows voxels within `limit` [m] of a box, the nearer ones mostly first, until nothing that is left is within what
-  /// `look` returned last.
+  /// Calls `look` for voxels within `limit` [m] of a box, roughly in the order of their distance. Each call may lower
+  /// the limit. The search ends when no remaining voxel is within the limit.
   void visitNear(const Eigen::AlignedBox3d& box, double limit, const Look& look) const;
 
  private:

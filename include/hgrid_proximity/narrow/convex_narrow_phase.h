@@ -8,18 +8,19 @@
 
 namespace hgrid {
 
-/// Makes the narrow phase of convex shapes. It needs no other library.
+/// Creates the narrow phase for convex shapes. It needs no other library.
 ///
-/// It measures spheres, boxes, cylinders, cones, capsules and hulls, and what questions are made of. solidOf() returns
-/// null for a mesh.
+/// It measures spheres, boxes, cylinders, cones, capsules and hulls, and the points, needles and blocks of queries.
+/// solidOf() returns null for a mesh.
 ///
-/// - The distance comes with a proof (src/narrow/gjk.h): it is within 1e-10 m or what doubles give.
-/// - A sphere is a point and a capsule is a segment, each with a radius around it; padding is added to that radius. So
-///   round shapes are measured exactly.
-/// - Two solids are measured in one order, in the frame of one of them. So the order of the question does not show in
-///   the answer, and nothing is lost far from the origin.
-/// - Depth, normal and points of a contact are known where the cores (what is within the radii) are apart or only
-///   touch. Where the cores overlap, these values are NaN. makeFclNarrowPhase() knows more of them.
+/// - The distance is accurate to 1e-10 m, or to the precision of doubles if that is coarser. The solver proves this
+///   with a lower and an upper bound (src/narrow/gjk.h).
+/// - Each shape is a core with a radius around it. The core of a sphere is a point, the core of a capsule is a segment.
+///   Padding is added to the radius, so round shapes are measured exactly.
+/// - Two solids are always measured in the same order, in the frame of one of them. So the result does not depend on
+///   the order of the arguments, and no precision is lost far from the origin.
+/// - Depth, normal and points of a contact are known if the cores are apart or only touch. If the cores overlap, these
+///   values are NaN. makeFclNarrowPhase() finds these values in more cases.
 std::shared_ptr<NarrowPhase> makeConvexNarrowPhase();
 
 }  // namespace hgrid

@@ -8,20 +8,20 @@
 
 namespace hgrid {
 
-/// Why a pair is selected although it is beyond its margin, and what is unusual about it. Bits.
+/// Bits that say why a pair is selected although its gap exceeds its margin, or what is unusual about the pair.
 enum PairFlags : std::uint8_t {
-  kHorizonFlag = 1,   ///< the two can meet within the horizon, or passed each other since the last tick
-  kTeleportFlag = 2,  ///< one of them moved farther since the last tick than its max_speed allows
+  kHorizonFlag = 1,   ///< the two bodies can meet within the horizon, or they passed each other since the last tick
+  kTeleportFlag = 2,  ///< one of the bodies moved farther since the last tick than its max_speed allows
 };
 
-/// A candidate pair: two bodies whose boxes are within their margin, or may soon be.
+/// A pair of bodies whose boxes are within their margin, or may soon be.
 struct NearPair {
   std::uint32_t first = 0;  ///< index into Structure::bodies, first < second
   std::uint32_t second = 0;
   double gap = 0.0;        ///< [m] least distance of their boxes
-  double margin = 0.0;     ///< [m] margin that selected the pair, growth of stale bodies included
-  Time since{0};           ///< stamp of the tick in which it was first seen without interruption
-  std::uint8_t flags = 0;  ///< of PairFlags
+  double margin = 0.0;     ///< [m] margin that selected the pair, including the growth for stale bodies
+  Time since{0};           ///< stamp of the tick since which the pair has been selected without interruption
+  std::uint8_t flags = 0;  ///< bits of PairFlags
 };
 
 }  // namespace hgrid

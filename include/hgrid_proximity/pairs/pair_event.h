@@ -13,35 +13,36 @@ namespace hgrid {
 
 struct Structure;
 
-/// The numbers are part of the interface: do not change them.
+/// Whether a pair began or ended. The numbers are part of the interface: do not change them.
 enum class EventKind : std::uint8_t { begin = 0, end = 1 };
 
 /// Why a pair began or ended. The numbers are part of the interface: do not change them.
 enum class EventCause : std::uint8_t {
-  moved = 0,      ///< the bodies came near or moved apart
-  bodies = 1,     ///< a body is new, has its first pose, was replaced or is gone
-  filter = 2,     ///< the filter or a margin that was told changed
-  staleness = 3,  ///< a margin widened or narrowed, since a body's data got older or came back
-  epoch = 4,      ///< the pair was there when a new epoch began
+  moved = 0,      ///< the bodies moved toward each other or apart
+  bodies = 1,     ///< a body is new, got its first pose, was replaced or was removed
+  filter = 2,     ///< the pair filter or a configured margin changed
+  staleness = 3,  ///< the margin changed because the data of a body became older or was updated again
+  epoch = 4,      ///< the pair existed already when a new epoch began
 };
 
-/// A pair began: its gap came within its margin. Or it ended: its gap left the margin by more than
-/// SceneOptions::event_hysteresis.
+/// An event: a pair begins or ends. A pair begins in the first tick that selects it (see NearPair). It ends when it is
+/// not selected any more and its gap exceeds its margin by more than SceneOptions::event_hysteresis. It also ends when
+/// a rule switches it off or when one of its bodies is removed.
 struct PairEvent {
-  std::uint64_t number = 0;  ///< from 1 in each epoch, one more with every event
+  std::uint64_t number = 0;  ///< number of the event: 1 for the first event of an epoch, then one more each time
   EventKind kind = EventKind::begin;
   EventCause cause = EventCause::moved;
   std::uint32_t first = 0;  ///< index into Snapshot::structureOf(event).bodies, first < second
   std::uint32_t second = 0;
-  Time since{0};                                          ///< stamp of the tick in which it began
-  double gap = std::numeric_limits<double>::quiet_NaN();  ///< [m] least distance of their boxes; NaN if one is gone
+  Time since{0};                                          ///< stamp of the tick in which the pair began
+  double gap = std::numeric_limits<double>::quiet_NaN();  ///< [m] gap of the pair; NaN if a body was removed
 };
 
 /// The events of one tick.
 struct PairEventList {
-  std::vector<PairEvent> events;            ///< by number: the ends, then the begins
+  std::vector<PairEvent> events;            ///< sorted by number: first the pairs that end, then those that begin
   std::uint64_t last = 0;                   ///< number of the newest event of the epoch; 0: there was none
-  std::shared_ptr<const Structure> before;  ///< of the tick before, if a body of an end is gone; else null
+  std::shared_ptr<const Structure> before;  ///< previous structure, if an ended pair has a removed body; else null
 };
 
 }  // namespace hgrid

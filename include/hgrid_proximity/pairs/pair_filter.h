@@ -13,80 +13,82 @@ namespace hgrid {
 
 class NameIndex;
 
-/// Which kinds of pair exist at all.
+/// Selects the kinds of pair that exist at all. A pair of two fixed bodies never exists.
 struct PairKinds {
   bool self = true;             ///< links of one robot
   bool robot_robot = true;      ///< links of two robots
   bool robot_obstacle = true;   ///< a link and an obstacle
   bool robot_map = true;        ///< a link and a map or cloud
-  bool moving_obstacle = true;  ///< an obstacle in a moving frame and any other obstacle or map
+  bool moving_obstacle = true;  ///< an obstacle in a moving frame and any other obstacle, map or cloud
 };
 
-/// What decides of a pair of bodies, and why.
+/// Says whether a pair of bodies is reported, what decided that, and why.
 struct PairDecision {
-  static constexpr std::uint32_t kNoRule = 0xffffffff;
+  static constexpr std::uint32_t kNoRule = 0xffffffff;  ///< stands for "no rule"
 
-  Origin origin = Origin::none;  ///< of what decides; none: nothing speaks of the pair, so it is reported
-  bool allowed = false;          ///< the pair may touch and is not reported
-  std::string reason;            ///< of the rule, of the SRDF or of the robot's joints; may be empty
-  std::uint32_t rule = kNoRule;  ///< index into PairFilter::rules()
+  Origin origin = Origin::none;  ///< source of the decision; none: no source, so the pair is reported
+  bool allowed = false;          ///< true: the two bodies may touch, and the pair is not reported
+  std::string reason;            ///< reason from the rule, the SRDF or the robot's joints; may be empty
+  std::uint32_t rule = kNoRule;  ///< index of the deciding rule in PairFilter::rules(), or kNoRule
 };
 
-/// Decides which pairs of bodies are reported. Made anew when bodies or rules change; immutable.
+/// Decides which pairs of bodies are reported. Immutable: a new filter is created when bodies or rules change.
 ///
-/// Holds no matrix of the world: within a robot it asks the model's LinkMatrix; rules for two names stand in a sorted
-/// list; globs were matched once per body and are compared as bit sets.
+/// The filter stores no matrix of all pairs. It looks up two links of one robot in the LinkMatrix of their model. It
+/// keeps rules for two names in a sorted list. It matches globs once per body and stores the results as bit sets.
 class PairFilter {
  public:
   static constexpr std::uint32_t kNoRule = PairDecision::kNoRule;
 
   PairFilter() = default;
-  /// @param bodies  what the indices of allowed() mean; not kept
-  /// @param rules   the stronger of two that are equally exact last
+  /// @param bodies  the bodies that the indices in the other functions refer to; not kept
+  /// @param rules   if two equally exact rules match a pair, the later one decides (see PairRule)
   PairFilter(const std::vector<Body>& bodies, PairKinds kinds, std::vector<PairRule> rules);
 
-  /// Whether the pair may touch, that is, is not reported. Symmetric.
+  /// Returns whether the two bodies may touch, so that their pair is not reported. Symmetric.
   bool allowed(std::uint32_t first, std::uint32_t second) const {
     Origin origin = Origin::none;
     if (!asksMatrix(first, second, origin)) return origin != Origin::none;
     return LinkMatrix::isIn(subjects_[first].allowed, subjects_[second].link);
   }
-  /// Why it may, the first that holds of: self, kind, the strongest rule, the model's matrix.
+  /// Returns why the two bodies may touch; Origin::none if their pair is reported. The first of these decides: the two
+  /// bodies are the same, their kind of pair does not exist, the strongest rule, the matrix of the robot model.
   Origin origin(std::uint32_t first, std::uint32_t second) const {
     Origin origin = Origin::none;
     if (!asksMatrix(first, second, origin)) return origin;
     return matrices_[subjects_[first].matrix]->origin(subjects_[first].link, subjects_[second].link);
   }
 
-  /// As origin(), with all that is known of it: also where a rule or an SRDF says that the pair is reported.
+  /// Returns the decision about a pair with all details. Unlike origin(), it also tells which rule or SRDF tag says
+  /// that the pair is reported.
   PairDecision decision(std::uint32_t first, std::uint32_t second) const;
   const std::vector<PairRule>& rules() const { return rules_; }
-  /// Whether a rule speaks of some pair of this body.
+  /// Returns whether a rule matches some pair of this body.
   bool isRuled(std::uint32_t body) const { return subjects_[body].ruled != 0; }
-  /// Appends numbers to `key` that decide all pairs of this body with bodies of other robots or of none: bodies that
-  /// get equal numbers are in equal pairs with every third body, and with each other if they are not links of one
-  /// robot.
+  /// Appends numbers to `key` that describe how the filter treats this body in pairs with bodies outside its robot.
+  /// If several bodies get equal numbers, the filter gives the same result for each of them with any such other body.
+  /// It also gives the same result for all pairs among them, except for two links of one robot.
   void appendKey(std::uint32_t body, std::vector<std::uint64_t>& key) const;
-  /// Whether there is a pair that is reported when it is near.
+  /// Returns whether at least one pair is reported when its bodies are near.
   bool reportsAny() const;
 
  private:
-  static constexpr std::uint32_t kNoRobot = 0xffffffff;
-  static constexpr std::size_t kTypes = 8;                 // kinds of body, each fixed or moving
+  static constexpr std::uint32_t kNoRobot = 0xffffffff;    // stands for "no robot"
+  static constexpr std::size_t kTypes = 8;                 // number of kinds of body, times 2 for fixed and moving
   static constexpr std::uint8_t kByName = 1, kByGlob = 2;  // bits of Subject::ruled
   struct Subject {
-    const std::uint64_t* allowed = nullptr;  // links of its robot that it may touch, by the model; null: no model
+    const std::uint64_t* allowed = nullptr;  // links of its robot that it may touch by the model; null: no model
     std::uint32_t robot = kNoRobot;          // equal for links of one robot
     std::uint32_t link = 0;
-    std::uint32_t matrix = 0;  // its model's
+    std::uint32_t matrix = 0;  // index of its model's matrix in matrices_
     std::uint8_t type = 0;
-    std::uint8_t ruled = 0;  // what kind of rule knows it; both of a pair must be known by one kind
+    std::uint8_t ruled = 0;  // kinds of rule that match it; a rule for a pair needs one kind that matches both bodies
   };
   struct NamedPair {
-    std::uint64_t bodies;  // the smaller index in the upper half
+    std::uint64_t bodies;  // the two indices, the smaller one in the upper 32 bits
     std::uint32_t rule;
   };
-  /// Whether the model's matrix decides; else `origin` is what does.
+  /// Returns whether the matrix of the robot model decides about the pair. If not, sets `origin` to the result.
   bool asksMatrix(std::uint32_t first, std::uint32_t second, Origin& origin) const {
     if (first == second) return origin = Origin::self, false;
     const Subject &a = subjects_[first], &b = subjects_[second];
@@ -103,18 +105,18 @@ class PairFilter {
   std::uint32_t ruleOf(std::uint32_t first, std::uint32_t second) const;
   std::vector<std::uint32_t> representatives() const;
 
-  bool exists_[2][kTypes][kTypes] = {};  // by whether they are links of one robot, and by the types of both
-  std::vector<Subject> subjects_;
-  std::vector<std::shared_ptr<const LinkMatrix>> matrices_;  // holds what subjects_ point to
+  bool exists_[2][kTypes][kTypes] = {};  // indexed by whether both are links of one robot, and by both types
+  std::vector<Subject> subjects_;        // indexed by body
+  std::vector<std::shared_ptr<const LinkMatrix>> matrices_;  // keeps the matrices alive that subjects_ point into
   std::vector<PairRule> rules_;
-  std::vector<Origin> verdicts_;           // by rule: its origin, or none where it says that the pair is reported
-  std::vector<NamedPair> named_;           // sorted; of several rules for one pair the last
-  std::vector<std::uint32_t> glob_rules_;  // rules with a glob; bit k in the sets is of glob_rules_[k]
-  std::size_t words_ = 0;                  // 64-bit words per body in the bit sets
-  std::vector<std::uint64_t> as_first_, as_second_;  // bit k: the body matches that rule's first, second
+  std::vector<Origin> verdicts_;           // for each rule: its origin, or none if the rule says "report this pair"
+  std::vector<NamedPair> named_;           // sorted; if several rules name one pair, only the last of them
+  std::vector<std::uint32_t> glob_rules_;  // rules that contain a glob; bit k of the bit sets stands for glob_rules_[k]
+  std::size_t words_ = 0;                  // number of 64-bit words per body in the bit sets
+  std::vector<std::uint64_t> as_first_, as_second_;  // bit k: the body matches the first, second glob of rule k
 };
 
-/// Whether the rules switch off every pair that would be reported without them.
+/// Returns whether the rules switch off every pair that would be reported without them.
 bool silencesAll(const std::vector<Body>& bodies, const PairKinds& kinds, const PairFilter& filter);
 
 }  // namespace hgrid

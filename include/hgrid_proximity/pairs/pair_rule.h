@@ -11,34 +11,35 @@
 
 namespace hgrid {
 
-/// One rule of the allowed-pair matrix: for two bodies, or for all pairs that match two globs, in either order.
+/// One rule of the allowed collision matrix, for two body names or for all pairs that match two globs, in either order.
 ///
-/// In a list of rules, a rule for two names takes precedence over a rule with a glob, and of two that are equally exact
-/// the later one over the earlier one. Every rule takes precedence over the robots' models.
+/// In a list of rules, a rule for two names takes precedence over a rule with a glob. If two rules are equally exact in
+/// this sense, the later one takes precedence. Every rule takes precedence over the models of the robots.
 struct PairRule {
   using Clock = std::chrono::steady_clock;
 
   std::string first, second;  ///< body names or globs over body names
-  std::string reason;         ///< for people
-  bool allowed = true;  ///< true: the pair may touch and is not reported; false: reported in spite of weaker rules
-  Origin origin = Origin::parameter;                  ///< where it comes from
-  Clock::time_point ends = Clock::time_point::max();  ///< when it ends; max: never
-  std::string set_by = {};                                 ///< who set it at run time; empty for rules of other origins
-  Time since{0};                                      ///< when that was; 0 for rules of other origins
+  std::string reason;         ///< reason for the rule, shown to users
+  /// True: the bodies may touch, so their pair is not reported. False: the pair is reported.
+  bool allowed = true;
+  Origin origin = Origin::parameter;                  ///< where the rule comes from
+  Clock::time_point ends = Clock::time_point::max();  ///< when the rule ends; max: never
+  std::string set_by = {};                            ///< who set the rule at run time; empty for other rules
+  Time since{0};                                      ///< when the rule was set at run time; 0 for other rules
 };
 
-/// Most bytes of a rule's names and globs, and of its reason.
+/// Maximum length [bytes] of each name, glob and reason in a rule.
 inline constexpr std::size_t kLongestRuleText = 512;
 
-/// Whether a name is a pattern: has a `*` or a `?`.
+/// Returns whether a name is a glob, that is, contains a `*` or a `?`.
 bool isGlob(const std::string& name);
 
-/// Checks what a rule says by itself: its texts.
-/// @throws Refusal bad_id, out_of_range
+/// Checks the names and the reason of a rule: their length and that they are printable UTF-8.
+/// @throws Refusal bad_id for a name, out_of_range for the reason
 void checkRule(const PairRule& rule);
 
-/// Checks that every name is one of a body and every glob matches one.
-/// @throws Refusal unknown_id, naming what is not there and what is called nearly so
+/// Checks that every name in the rules is the name of a body, and that every glob matches at least one body.
+/// @throws Refusal unknown_id with the missing name and the most similar existing names
 void checkKnown(const std::vector<PairRule>& rules, const std::vector<Body>& bodies);
 
 }  // namespace hgrid

@@ -9,24 +9,24 @@
 
 namespace hgrid {
 
-/// The rules in force: the configured ones (Origin::parameter) first, then those that came later (Origin::service) in
-/// the order in which they came, so that of two the later one is the stronger. A value; what is refused changes
-/// nothing.
+/// The rules in force: first the configured rules (Origin::parameter), then the rules added at run time
+/// (Origin::service) in the order in which they were added. If two equally exact rules match a pair, the later one
+/// decides. A value type. A call that throws changes nothing.
 class RuleBook {
  public:
-  /// @param most  rules that it may hold
+  /// @param most  maximum number of rules, including the configured ones
   explicit RuleBook(std::vector<PairRule> rules = {}, std::size_t most = 1000);
 
   const std::vector<PairRule>& rules() const { return rules_; }
 
-  /// Adds rules as Origin::service. Of those that came before, the ones that say something of the same two names or
-  /// globs and do not outlive the new one are dropped, since they can never decide again.
-  /// @throws Refusal bad_id, out_of_range as checkRule(), limit
+  /// Adds rules as Origin::service. Drops older rules of Origin::service that have the same two names or globs as a new
+  /// rule and do not end later than it, since they can never decide again.
+  /// @throws Refusal bad_id or out_of_range as checkRule() does; limit if there would be too many rules
   void add(const std::vector<PairRule>& rules);
-  /// Removes what came later and speaks of the same two names or globs as one of these, in either order.
-  /// @throws Refusal unknown_id if there is no such rule
+  /// Removes the rules of Origin::service that have the same two names or globs as one of `rules`, in either order.
+  /// @throws Refusal unknown_id if one of `rules` has no such rule
   void remove(const std::vector<PairRule>& rules);
-  /// Drops the rules that have ended. @returns whether there were any
+  /// Drops the rules that have ended. @returns whether it dropped any
   bool expire(PairRule::Clock::time_point now);
 
  private:

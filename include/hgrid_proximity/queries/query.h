@@ -15,54 +15,57 @@
 
 namespace hgrid {
 
-// Questions about a snapshot. All coordinates are in the world frame [m]. Any number of threads may ask the same
-// snapshot at the same time. The padding of bodies counts, their margins do not.
+// Queries about a snapshot. All coordinates are in the world frame [m]. Any number of threads may query the same
+// snapshot at the same time. Queries include the padding of bodies, but not their margins.
 //
-// A query that finds nothing answers CLEAR only if nothing that it asks about can be there unseen: each source in its
-// scope is complete or cannot reach the region of the query, and no body can have moved into it since its last pose.
+// A query that finds nothing answers CLEAR only if no body in its scope can be in its region unseen. Each source in the
+// scope must be complete or unable to reach the region, and no body can have moved there since its last pose.
 
-/// [m] Queries may reach this far from the world's origin, per axis.
+/// [m] Largest absolute value of a coordinate or length in a query.
 inline constexpr double kQueryReach = 1e10;
 
-/// The box that a query asks about.
+/// The box of a box query.
 using QueryBox = OrientedBox;
 
-/// A shape of any kind in any pose.
+/// The shape of a shape query: any kind of shape at any pose.
 struct QueryShape {
   Shape shape;
   Pose world_from_shape = Pose::Identity();
-  double padding = 0.0;  ///< [m] by which the shape is grown on all sides, >= 0
+  double padding = 0.0;  ///< [m] the shape is grown by this length on all sides, >= 0
 };
 
-/// Finds the bodies whose boxes (exact: shapes) touch the sphere.
-/// @throws Refusal nonfinite, bad_geometry (negative radius), out_of_range (beyond kQueryReach), unknown_id
-/// (QueryScope::respect_allowed is not the index of a body)
+/// Finds the bodies whose boxes touch the sphere. An exact query compares their shapes instead of their boxes.
+/// @throws Refusal nonfinite for the center; bad_geometry for a radius that is negative or not finite; out_of_range
+/// beyond kQueryReach; unknown_id if QueryScope::respect_allowed is not the index of a body
 QueryAnswer query(const Snapshot& snapshot, const Sphere& sphere, const QueryScope& scope);
 
-/// Finds the bodies whose boxes (exact: shapes) the segment meets, in the order in which it meets them.
-/// @throws Refusal as for a sphere
+/// Finds the bodies whose boxes (exact query: shapes) the segment touches, in the order along the segment.
+/// @throws Refusal as the sphere query does
 QueryAnswer query(const Snapshot& snapshot, const Segment& segment, const QueryScope& scope);
 
-/// Finds the bodies whose boxes (exact: shapes) touch the box.
-/// @param narrow_phase  measures the query's box against the boxes of bodies, also if the query is not exact
-/// @throws Refusal as for a sphere
+/// Finds the bodies whose boxes (exact query: shapes) touch the box.
+/// @param narrow_phase  measures the box of the query against the boxes of bodies, even if the query is not exact
+/// @throws Refusal as the sphere query does
 QueryAnswer query(const Snapshot& snapshot, const QueryBox& box, const NarrowPhase& narrow_phase,
                   const QueryScope& scope);
 
-/// Finds the bodies whose boxes (exact: shapes) touch the shape. Its center is the origin of its frame.
-/// @param narrow_phase  as for a box; makes the shape ready to be measured
-/// @throws Refusal as for a sphere, and as NarrowPhase::solidOf(); unsupported if that gives no solid
+/// Finds the bodies whose boxes (exact query: shapes) touch the shape. The center of the query is the origin of the
+/// shape's frame.
+/// @param narrow_phase  as in a box query; it also converts the shape into a solid
+/// @throws Refusal as the sphere query and NarrowPhase::solidOf() do; unsupported if the narrow phase cannot measure
+/// this kind of shape
 QueryAnswer query(const Snapshot& snapshot, const QueryShape& shape, NarrowPhase& narrow_phase,
                   const QueryScope& scope);
 
-/// Finds the bodies nearest to a point: as many as scope.limit says (0: one). QueryAnswer::total counts only these.
-/// @param max_distance  [m] farther bodies are no hits; 0: no limit
-/// @throws Refusal as for a sphere
+/// Finds the bodies nearest to a point: scope.limit bodies, or one if scope.limit is 0. QueryAnswer::total counts only
+/// these bodies.
+/// @param max_distance  [m] bodies farther away are no hits; 0: no limit
+/// @throws Refusal as the sphere query does
 QueryAnswer nearest(const Snapshot& snapshot, const Eigen::Vector3d& point, double max_distance,
                     const QueryScope& scope);
 
-/// Finds the bodies nearest to the body with index `from`, which itself is no hit.
-/// @throws Refusal as above; not_ready if that body has no pose or no shapes
+/// Finds the bodies nearest to the body with index `from`. That body itself is no hit.
+/// @throws Refusal as the query for a point does; not_ready if that body has no pose or no shapes
 QueryAnswer nearest(const Snapshot& snapshot, std::uint32_t from, double max_distance, const QueryScope& scope);
 
 }  // namespace hgrid

@@ -14,25 +14,25 @@ namespace hgrid {
 
 class NarrowPhase;
 
-/// Which bodies a query asks about, how exactly it measures them, and how many hits it returns.
+/// Selects the bodies of a query, how exactly the query measures them, and how many hits it returns.
 struct QueryScope {
-  std::vector<std::string> include;  ///< globs over body names; empty: all bodies
-  std::vector<std::string> exclude;  ///< globs over body names; a body that they match is left out
-  std::uint32_t limit = 0;           ///< most hits that the answer lists; 0: all
-  /// Measures the shapes of bodies. Null: a query measures their boxes instead. A shape that has no solid, or that
-  /// cannot be measured, counts as hit if its box is hit. Not owned; must outlive the query.
+  std::vector<std::string> include;  ///< globs over body names; only matching bodies count; empty: all bodies
+  std::vector<std::string> exclude;  ///< globs over body names; matching bodies are left out
+  std::uint32_t limit = 0;           ///< maximum number of hits in the answer; 0: all
+  /// Makes the query exact: measures the shapes of bodies. Null: the query measures their boxes instead. A shape that
+  /// cannot be measured counts as hit if its box is hit. Not owned; must outlive the query.
   const NarrowPhase* exact = nullptr;
-  /// Index of a body, or Structure::kNone. The query then asks neither about this body nor about any body whose pair
-  /// with it is switched off by the snapshot's pair filter: they are no hits and leave no doubt.
+  /// Index of a body, or Structure::kNone. The query leaves out this body, and every body whose pair with it is
+  /// switched off by the pair filter: they are neither hits nor reasons for UNKNOWN.
   std::uint32_t respect_allowed = Structure::kNone;
-  /// When to stop. The query then answers with what it has hit so far. If it has hit nothing, the verdict is unknown
-  /// (Unknown::budget). A query may end later by the time that it takes to examine one shape. Nullopt: no deadline.
+  /// When the query stops. It then returns the hits found so far. Without a hit, the verdict is unknown
+  /// (Unknown::budget). The query may end later by the time that it needs for one shape. Nullopt: no deadline.
   std::optional<std::chrono::steady_clock::time_point> deadline = std::nullopt;
 };
 
-/// Whether a query with this scope asks about a body.
+/// Returns whether a body is in the scope of a query.
 bool inScope(const Snapshot& snapshot, const QueryScope& scope, std::uint32_t body);
-/// Whether it asks about a body that this gap may hide.
+/// Returns whether a gap may hide a body that is in the scope of a query.
 bool inScope(const Snapshot& snapshot, const QueryScope& scope, const SourceGap& gap);
 
 }  // namespace hgrid

@@ -9,16 +9,16 @@
 
 namespace hgrid {
 
-/// Where a body is in a snapshot, and how far that can be trusted.
+/// The pose of a body in a snapshot, and how far this pose can be trusted.
 struct BodyPose {
   Pose world_from_body = Pose::Identity();  ///< meaningless while the state is unplaced
-  Time stamp{0};                            ///< of the pose; of a fixed body: when it was put there
+  Time stamp{0};                            ///< stamp of the pose; for a fixed body: when it was placed there
   Freshness state = Freshness::unplaced;
-  double age = 0.0;  ///< [s] of the pose when the snapshot was made; 0 if the body is fixed
-  /// [m] Most that a point of a stale body may have moved since the pose: max_speed * age.
+  double age = 0.0;  ///< [s] age of the pose when the snapshot was made; 0 if the body is fixed
+  /// [m] Largest distance that a point of the body may have moved since the pose: max_speed * age. 0 for a new pose.
   double reach = 0.0;
-  double growth = 0.0;       ///< [m] by which the body's margins are widened: the reach, but at most a cap
-  std::uint32_t cohort = 0;  ///< links of one robot with equal numbers (not 0) have poses of the same age
+  double growth = 0.0;       ///< [m] widens the margins of the body's pairs: the reach, limited by growth_cap
+  std::uint32_t cohort = 0;  ///< links of one robot with the same cohort (not 0) have poses of the same age
 };
 
 }  // namespace hgrid

@@ -11,97 +11,107 @@
 
 namespace hgrid {
 
-/// All that a Scene can be told.
+/// The settings of a Scene.
 struct SceneOptions {
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m, world] boxes are stored relative to it
-  double margin = 0.10;                              ///< [m] boxes this close or closer are candidates, 0 .. 1e3
-  double event_hysteresis = 0.02;                    ///< [m] a pair's end is told this far beyond its margin, 0 .. 1e3
-  double finest_edge = 0.0;                          ///< [m] HGrid's finest level, 1e-6 .. 1e3; 0: from the bodies
-  double world_limit = 1e6;                          ///< [m] poses beyond are refused, per axis; at most 1e6
-  double growth_cap = 1.0;                           ///< [m] most that an old body's margins are widened by
-  double growth_after = 0.25;  ///< [s] margins of a body whose pose is older are widened, whatever its state
-  std::size_t max_bodies = 100000;
-  /// Pairs that a snapshot lists; 0: no limit. It also bounds the work and the memory of a tick: the search collects at
-  /// most 4 times as many pairs of boxes, or 65536 if that is more. Snapshot::truncated() says that a limit was
-  /// reached.
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m, world] boxes are stored relative to this point
+  double margin = 0.10;            ///< [m] bodies whose boxes are this close or closer are candidate pairs, 0 .. 1e3
+  double event_hysteresis = 0.02;  ///< [m] a pair ends when its gap exceeds its margin by more than this, 0 .. 1e3
+  double finest_edge = 0.0;    ///< [m] GridScale::finest_edge, 1e-6 .. 1e3; 0: computed from the sizes of the bodies
+  double world_limit = 1e6;    ///< [m] poses with a larger coordinate on any axis are refused; at most 1e6
+  double growth_cap = 1.0;     ///< [m] largest growth of the margins of a stale body, 0 .. 1e3
+  double growth_after = 0.25;  ///< [s] the margins of a body with an older pose grow, whatever its state is
+  std::size_t max_bodies = 100000;  ///< bodies that the scene can hold
+  /// Maximum number of pairs that a snapshot lists; 0: no limit. It also bounds the work and the memory of a tick: the
+  /// search collects at most 4 times as many pairs of boxes, or 65536 if that is more. Snapshot::truncated() tells
+  /// whether a limit was reached.
   std::size_t max_pairs = 100000;
-  std::size_t max_reasons = 8;  ///< reasons that a snapshot lists
-  int threads = 1;              ///< that the broad phase may use, 1 .. 64
-  /// [s] Pairs that can meet within it, by their bodies' max_speed, are candidates too, as are those that passed each
-  /// other since the last commit; 0 .. 60; 0: neither
+  std::size_t max_reasons = 8;  ///< maximum number of reasons that a snapshot lists
+  int threads = 1;              ///< number of threads that the broad phase may use, 1 .. 64
+  /// [s] Two bodies that can meet within this time, given their max_speed, are a pair too. So are two bodies that
+  /// passed each other since the last commit. Range 0 .. 60; 0 switches both off.
   double horizon = 0.0;
-  std::vector<PairMargin> pair_margins;  ///< margins of pairs, 0 .. 1e3; what is below `margin` counts as that
-  /// A CLEAR is said only of space that one of the maps asked about knows to be free; otherwise it becomes UNKNOWN.
+  /// Margins of single pairs, 0 .. 1e3 [m]. A value below `margin` is replaced by `margin`.
+  std::vector<PairMargin> pair_margins;
+  /// If true, a query answers CLEAR only if one of the maps in its scope knows the space to be free, otherwise UNKNOWN.
   bool report_unmapped = false;
-  /// Globs of bodies without which the world is incomplete: each must match one.
+  /// Globs over names of required bodies. If no body matches one of them, the world is incomplete.
   std::vector<std::string> required;
   PairKinds pair_kinds;
-  std::vector<PairRule> allowed_pairs;  ///< rules to begin with
+  std::vector<PairRule> allowed_pairs;  ///< rules until setRules() replaces them
 };
 
-/// Time a part of a tick took.
+/// Durations of the three parts of a commit. The part `boxes` computes the boxes of the bodies. The part `grid` updates
+/// the grid and searches it for overlapping boxes. The part `pairs` selects the pairs and does everything else.
 struct TickTimes {
   std::chrono::nanoseconds boxes{0}, grid{0}, pairs{0};
 };
 
-/// What the world consists of and where it is: the only writer. One thread at a time; the snapshots that it
-/// makes may be read by any.
+/// Holds the bodies of the world and their poses, and makes snapshots of them.
 ///
-/// Usage per tick: add, remove, place and setState as news come in, then commit().
+/// A scene is the only writer of its snapshots. One thread at a time may call its functions. Any thread may read the
+/// snapshots.
 ///
-/// Wrong input throws Refusal, here as everywhere in the core but the broad phase. A call that throws, also for lack of
-/// memory, has changed nothing. After a commit() that threw, the next one makes the snapshot that it would have made
-/// without it: numbers have no gap, and no pair and no event is lost.
+/// Usage in each tick: call add(), remove(), place() and setState() for everything that changed, then commit().
+///
+/// Wrong input throws Refusal, as everywhere in the core except the broad phase. A call that throws changes nothing,
+/// even if memory ran out. After a commit() that threw, the next commit() makes the same snapshot as if the failed call
+/// had never happened: numbers have no gap, and no pair and no event is lost.
 class Scene {
  public:
-  /// @throws Refusal out_of_range, naming the option
+  /// @throws Refusal out_of_range with the name of the option
   explicit Scene(const SceneOptions& options);
   ~Scene();
   Scene(Scene&&) noexcept;
 
-  /// Takes in a body; it is unplaced until place() is called.
-  /// @throws Refusal dup_id, bad_id, limit, or out_of_range (padding, margin); then nothing has changed.
+  /// Adds a body. It is unplaced until place() is called.
+  /// @throws Refusal dup_id or bad_id for the name; limit if there are too many bodies; out_of_range or nonfinite for
+  /// a pose, padding, margin or speed
   BodyId add(Body body);
-  /// @throws Refusal unknown_id if the handle is not (or no longer) valid.
+  /// Removes a body. @throws Refusal unknown_id if the handle is not valid (any more)
   void remove(BodyId id);
-  /// Removes the bodies `out` and adds the bodies `in`, all of it or nothing. A body that comes may have the name of
-  /// one that leaves.
-  /// @returns the handles of `in`, in their order
-  /// @throws Refusal unknown_id, dup_id, or as add()
+  /// Removes the bodies `out` and adds the bodies `in`. Does all of this or, if it throws, nothing. An added body may
+  /// have the name of a removed one.
+  /// @returns the handles of the added bodies, in the order of `in`
+  /// @throws Refusal unknown_id for a handle; dup_id if a handle occurs twice; otherwise as add() does
   std::vector<BodyId> exchange(const std::vector<BodyId>& out, std::vector<Body> in);
-  /// Handle of the body of this name, if there is one.
+  /// Sets `id` to the handle of the body with this name. @returns whether there is such a body
   bool find(const std::string& name, BodyId& id) const;
   /// @throws Refusal unknown_id
   const Body& body(BodyId id) const;
   std::size_t size() const;
 
-  /// Puts a body at a pose taken at `stamp`. Its state does not change.
-  /// @throws Refusal unknown_id, nonfinite, out_of_range; then it stays where it was.
+  /// Sets the pose of a body and the stamp of this pose. The first pose makes the body fresh. Later poses do not change
+  /// its state.
+  /// @throws Refusal unknown_id for the handle; nonfinite or out_of_range for the pose
   void place(BodyId id, const Pose& world_from_body, Time stamp);
-  /// Throws what place() would throw.
+  /// Throws what place() would throw for the same arguments, and changes nothing.
   void checkPlace(BodyId id, const Pose& world_from_body) const;
-  /// Says how far the body's pose can be trusted. `age` [s]; `cohort` as in BodyPose.
-  /// A body without a pose stays unplaced whatever is said.
+  /// Sets how far the pose of a body can be trusted. `age` is in seconds; `cohort` is BodyPose::cohort. Does nothing
+  /// for a body that has no pose. For a body that has one, `unplaced` counts as `invalid`.
+  /// @throws Refusal unknown_id
   void setState(BodyId id, Freshness state, double age, std::uint32_t cohort = 0);
-  /// Last known pose of a body.
+  /// Returns the last known pose of a body. @throws Refusal unknown_id
   const BodyPose& poseOf(BodyId id) const;
 
-  /// Says what is occupied of a body of kind map, from the next commit on. That is no change of the structure.
-  /// @throws Refusal unknown_id, bad_geometry (a body of another kind, or no cells)
+  /// Sets the occupied cells of a map or cloud. They count from the next commit on. The structure does not change.
+  /// @throws Refusal unknown_id for the handle; bad_geometry if the body cannot have cells or `cells` is null
   void setCells(BodyId id, std::shared_ptr<const MapCells> cells);
 
-  /// Replaces all rules of the allowed-pair matrix from the next commit on. Of two that are equally exact the stronger
-  /// comes last.
+  /// Replaces all rules of the allowed collision matrix. They count from the next commit on. If two equally exact rules
+  /// match a pair, the later one decides.
   void setRules(std::vector<PairRule> rules);
 
-  /// Makes the snapshot of now.
-  /// @param gaps  what sources lack beside the trouble of single bodies; each makes its source incomplete
+  /// Makes a snapshot of the present state of the scene.
+  /// @param stamp  time of the tick
+  /// @param gaps   what the sources lack, apart from problems of single bodies; each gap makes its source incomplete
   std::shared_ptr<const Snapshot> commit(Time stamp, const std::vector<SourceGap>& gaps);
 
-  /// A new epoch: the numbers of ticks and events start again and pairs forget since when they are near.
+  /// Begins a new epoch: ticks and events are numbered from 1 again, and NearPair::since of all pairs starts again.
   void beginEpoch(std::uint64_t epoch);
 
+  /// Returns Structure::revision of the last commit.
   std::uint64_t revision() const;
+  /// Returns how long the last commit took.
   const TickTimes& lastTimes() const;
 
  private:

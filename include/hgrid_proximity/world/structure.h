@@ -17,26 +17,26 @@ struct Structure {
   /// Stands for "no body" where an index of a body is expected.
   static constexpr std::uint32_t kNone = 0xffffffff;
 
-  std::uint64_t revision = 0;
+  std::uint64_t revision = 0;                ///< increases whenever bodies or rules change
   std::vector<Body> bodies;                  ///< sorted by name
   std::vector<BodyId> ids;                   ///< handle of each body
   std::vector<std::uint32_t> first_proxy;    ///< body i has the proxies first_proxy[i] .. first_proxy[i + 1] - 1
-  std::vector<std::uint32_t> body_of_proxy;  ///< index of the body of each proxy
+  std::vector<std::uint32_t> body_of_proxy;  ///< for each proxy: index of its body
   std::vector<std::uint32_t> maps;           ///< indices of the bodies that are maps or clouds, ascending
-  std::vector<std::string> sources;          ///< where the bodies come from, as sourceOf() names it, sorted
-  std::vector<std::uint32_t> source_of;      ///< of each body: index into sources
+  std::vector<std::string> sources;          ///< names of the sources of the bodies (see sourceOf()), sorted
+  std::vector<std::uint32_t> source_of;      ///< for each body: index of its source in `sources`
   std::vector<std::string> absent;           ///< globs of required bodies that no body matches
-  std::vector<double> margin;                ///< [m] of each body, at least the global one
-  double least_margin = 0.0;                 ///< [m] the global one
-  PairMargins pair_margins;                  ///< of pairs that have a margin of their own
+  std::vector<double> margin;                ///< [m] for each body: its own margin, at least the global one
+  double least_margin = 0.0;                 ///< [m] the global margin
+  PairMargins pair_margins;                  ///< margins that are configured for single pairs
   PairFilter filter;                         ///< decides which pairs are reported
-  bool silenced = false;                     ///< rules switch off every pair that would be reported without them
+  bool silenced = false;                     ///< true: rules switch off every pair that would be reported without them
 
-  /// Whether the body is a map or a cloud, which has cells instead of shapes.
+  /// Returns whether the body is a map or a cloud, which has cells instead of shapes.
   bool isMap(std::uint32_t body) const { return hasCells(bodies[body].kind); }
-  /// Index of the shape that a proxy was made of, in the shapes of its body.
+  /// Returns the index of a proxy's shape among the shapes of its body.
   std::uint32_t shapeOf(std::uint32_t proxy) const { return proxy - first_proxy[body_of_proxy[proxy]]; }
-  /// Index of the body of this name, or kNone.
+  /// Returns the index of the body with this name, or kNone.
   std::uint32_t find(const std::string& name) const;
 };
 

@@ -19,14 +19,15 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-constexpr double kTolerance = 1e-10;   // [m] of FCL's iterations
-constexpr double kMaybeInside = 0.25;  // winding number from which on an open mesh may enclose a point
+constexpr double kTolerance = 1e-10;   // [m] tolerance for FCL's iterations
+constexpr double kMaybeInside = 0.25;  // an open mesh may enclose a point with at least this winding number
 
 bool isMesh(const Side& side) { return side.solid.kind() == ShapeKind::mesh; }
 const FclMesh& meshOf(const Side& side) { return static_cast<const FclMeshSolid&>(side.solid).mesh(); }
 const FclConvexSolid& convexOf(const Side& side) { return static_cast<const FclConvexSolid&>(side.solid); }
 
-/// The gap of two meshes in the frame of the first. FCL measures triangles against triangles correctly.
+/// Returns the gap of two meshes, in the frame of the first. FCL measures it, since its distance of two triangles is
+/// correct.
 CoreGap gapOfMeshes(const FclMesh& a, const FclMesh& b, const Pose& a_from_b, double up_to) {
   fcl::DistanceRequestd request;
   request.enable_nearest_points = true;
@@ -34,7 +35,7 @@ CoreGap gapOfMeshes(const FclMesh& a, const FclMesh& b, const Pose& a_from_b, do
   request.distance_tolerance = kTolerance;
   request.gjk_solver_type = fcl::GST_LIBCCD;
   fcl::DistanceResultd result;
-  result.min_distance = std::nextafter(up_to, std::numeric_limits<double>::infinity());  // FCL searches no farther
+  result.min_distance = std::nextafter(up_to, std::numeric_limits<double>::infinity());  // limits the search
   fcl::distance(&a.model(), fcl::Transform3d::Identity(), &b.model(), fcl::Transform3d(a_from_b.matrix()), request,
                 result);
   CoreGap gap;
@@ -46,7 +47,8 @@ CoreGap gapOfMeshes(const FclMesh& a, const FclMesh& b, const Pose& a_from_b, do
   return gap;
 }
 
-/// The gap of a mesh and another solid, in the frame of the mesh; infinite if it is more than `up_to` [m].
+/// Returns the gap of a mesh and another solid, in the frame of the mesh. It is infinite if it is larger than `up_to`
+/// [m].
 CoreGap gapOfMesh(const Side& mesh, const Side& other, const Pose& mesh_from_other, double up_to) {
   CoreGap gap = isMesh(other)
                     ? gapOfMeshes(meshOf(mesh), meshOf(other), mesh_from_other, up_to)
@@ -55,7 +57,7 @@ CoreGap gapOfMesh(const Side& mesh, const Side& other, const Pose& mesh_from_oth
   return gap;
 }
 
-/// The overlap of two convex cores that FCL finds. Only asked for solids that were made of shapes.
+/// Returns the overlap of two convex cores that FCL finds, or nullopt. Both solids must have been created from shapes.
 std::optional<Overlap> overlapByFcl(const ConvexSolid& a, const ConvexSolid& b, const Pose& a_from_b) {
   fcl::CollisionRequestd request;
   request.num_max_contacts = 1;
@@ -72,13 +74,14 @@ std::optional<Overlap> overlapByFcl(const ConvexSolid& a, const ConvexSolid& b, 
   return Overlap{depth, contact.normal / length, contact.pos};
 }
 
-/// Whether one solid lies inside the other, and a point of the inner one.
+/// Whether one solid is inside the other, and a point of the inner solid.
 struct Enclosed {
   Measure status = Measure::apart;
   Vector point = Vector::Zero();
 };
 
-/// Calls ask(begin, end) with some points of each part of the solid, until it returns true. @returns whether it did
+/// Calls ask(begin, end) with some points of each part of the solid, until one call returns true.
+/// @returns whether a call returned true
 template <class Ask>
 bool anyPart(const Side& side, const Ask& ask) {
   if (!isMesh(side)) return ask(&convexOf(side).somePoint(), &convexOf(side).somePoint() + 1);
@@ -87,10 +90,11 @@ bool anyPart(const Side& side, const Ask& ask) {
                      [&](const Enclosure::Part& part) { return ask(part.data(), part.data() + part.size()); });
 }
 
-/// Whether a part of `inner` lies inside the mesh `outer`, in the frame of `outer`. The surfaces are apart.
+/// Returns whether a part of `inner` is inside `outer`, and a point of this part in the frame of `outer`. The surfaces
+/// of the two solids must be apart.
 Enclosed enclosedBy(const Side& outer, const Side& inner, const Pose& outer_from_inner) {
   Enclosed result;
-  if (!isMesh(outer)) return result;  // a convex solid is filled: its core would have been met
+  if (!isMesh(outer)) return result;  // the gap to a filled convex solid would have been 0
   const Enclosure& enclosure = meshOf(outer).enclosure();
   const double least = enclosure.closed() ? 0.5 : kMaybeInside;
   const bool inside = anyPart(inner, [&](const Vector* begin, const Vector* end) {
@@ -102,7 +106,7 @@ Enclosed enclosedBy(const Side& outer, const Side& inner, const Pose& outer_from
   return result;
 }
 
-/// Whether either solid lies inside the other, in the frame of the first.
+/// Returns whether either solid is inside the other. The point is in the frame of the first solid.
 Enclosed enclosed(const Side& a, const Side& b, const Pose& a_from_b) {
   const Enclosed second = enclosedBy(a, b, a_from_b);
   if (second.status != Measure::apart) return second;
@@ -111,8 +115,8 @@ Enclosed enclosed(const Side& a, const Side& b, const Pose& a_from_b) {
   return first;
 }
 
-/// Measures a mesh and another solid, in the frame of the mesh. A contact gets no depth: it is not known whether the
-/// rest of the mesh is in the way of moving apart.
+/// Measures a mesh and another solid, in the frame of the mesh. It sets no depth for a contact, since another part of
+/// the mesh may prevent the move that would separate the two.
 Proximity measureMesh(const Side& mesh, const Side& other, double up_to) {
   const Pose mesh_from_other = mesh.world_from_shape.inverse() * other.world_from_shape;
   if (const auto answer = answerByReach(mesh, other, mesh_from_other, up_to)) return *answer;
@@ -125,7 +129,7 @@ Proximity measureMesh(const Side& mesh, const Side& other, double up_to) {
   return answerByGap(mesh, other, mesh_from_other, gap, up_to);
 }
 
-/// At most `most` contacts of a mesh with another solid, in the frame of the mesh.
+/// Returns at most `most` contacts of a mesh with another solid, in the frame of the mesh.
 std::vector<Contact> contactsOfMesh(const Side& mesh, const Side& other, std::size_t most) {
   const Measure status = most > 0 ? measureMesh(mesh, other, 0.0).status : Measure::not_measured;
   if (!isContact(status) || status == Measure::failed) return {};
@@ -150,7 +154,8 @@ std::vector<Contact> contactsOfMesh(const Side& mesh, const Side& other, std::si
   return contacts;
 }
 
-/// Measures meshes by FCL, and convex shapes as the core does. FCL also describes the overlap of convex shapes.
+/// Measures two meshes with FCL, and all other pairs with the solver in src/narrow/. For overlapping convex shapes it
+/// asks FCL for depth and normal.
 class FclNarrowPhase final : public OrderedNarrowPhase {
  public:
   std::shared_ptr<const Solid> solidOf(const Shape& shape) override {
@@ -167,7 +172,7 @@ class FclNarrowPhase final : public OrderedNarrowPhase {
   }
 
  protected:
-  // Meshes come first in the order.
+  // Meshes come first in the order of solids, so only `a` needs to be tested.
   Proximity measureInOrder(const Side& a, const Side& b, double up_to) const override {
     return isMesh(a) ? measureMesh(a, b, up_to) : measureConvex(a, b, up_to, overlapByFcl);
   }
@@ -176,12 +181,13 @@ class FclNarrowPhase final : public OrderedNarrowPhase {
   }
 
  private:
+  /// Returns the FCL tree of a mesh, and creates it if no solid has it yet.
   std::shared_ptr<const FclMesh> treeOf(const std::shared_ptr<const TriangleMesh>& mesh) {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       if (auto known = meshes_[mesh.get()].lock()) return known;
     }
-    auto made = std::make_shared<const FclMesh>(mesh);  // takes long, so other threads do not wait for it
+    auto made = std::make_shared<const FclMesh>(mesh);  // slow, so it runs without the lock
     const std::lock_guard<std::mutex> lock(mutex_);
     for (auto known = meshes_.begin(); known != meshes_.end();) {
       known = known->second.expired() ? meshes_.erase(known) : std::next(known);

@@ -11,10 +11,12 @@ FclMesh::FclMesh(const std::shared_ptr<const TriangleMesh>& source) : source_(so
   for (const auto& triangle : source->triangles) {
     const Eigen::Vector3d &a = source->vertices[triangle[0]], &b = source->vertices[triangle[1]],
                           &c = source->vertices[triangle[2]];
-    if ((b - a).cross(c - a).squaredNorm() > 0.0) model_.addTriangle(a, b, c);  // FCL divides by the area
+    if ((b - a).cross(c - a).squaredNorm() > 0.0)
+      model_.addTriangle(a, b, c);  // FCL divides by the area, so it must not be 0
   }
   model_.endModel();
-  if (model_.num_tris == 0) throw Refusal(Code::bad_geometry, "mesh: none of its triangles has an area");
+  if (model_.num_tris == 0)
+    throw Refusal(Code::bad_geometry, "mesh: none of its triangles has an area; at least one must have an area");
 }
 
 CoreGap FclMesh::gapTo(const ConvexCore& core, const fcl::OBBRSSd& core_volume, const Pose& mesh_from_core,
@@ -31,7 +33,8 @@ std::array<Eigen::Vector3d, 3> FclMesh::triangle(const fcl::BVNode<fcl::OBBRSSd>
   return {model_.vertices[corners[0]], model_.vertices[corners[1]], model_.vertices[corners[2]]};
 }
 
-/// The nearer child first: what it gives may spare the other. @param bound  [m] no triangle below is nearer
+/// Searches the nearer child first, since its result may make the other child unnecessary.
+/// @param bound  [m] lower bound of the distance to all triangles below this node
 void FclMesh::visit(int node, double bound, const ConvexCore& core, const fcl::OBBRSSd& core_volume,
                     const Pose& mesh_from_core, CoreGap& best) const {
   if (bound >= best.upper || best.lower <= 0.0) return;

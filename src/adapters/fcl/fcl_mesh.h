@@ -14,7 +14,8 @@
 
 namespace hgrid {
 
-/// What FCL makes of a mesh, a tree of boxes and swept spheres, and what the mesh encloses; equal meshes share it.
+/// A mesh as FCL stores it (a tree of boxes and swept spheres), together with the space that it encloses. All solids of
+/// one mesh share it.
 class FclMesh {
  public:
   explicit FclMesh(const std::shared_ptr<const TriangleMesh>& source);
@@ -23,25 +24,27 @@ class FclMesh {
   const Enclosure& enclosure() const { return enclosure_; }
   const fcl::BVHModel<fcl::OBBRSSd>& model() const { return model_; }
 
-  /// Of all triangles and a convex core, points in the mesh's frame. Infinite if they are farther apart than `up_to`
-  /// [m].
+  /// Returns the gap between the triangles and a convex core, with points in the frame of the mesh. It is infinite if
+  /// it is larger than `up_to` [m].
   CoreGap gapTo(const ConvexCore& core, const fcl::OBBRSSd& core_volume, const Pose& mesh_from_core,
                 double up_to) const;
 
-  /// How a part of the one lies to a part of the other, told in the frame of the one. @returns whether to go on
+  /// Receives the gap of two parts, in the frame of this mesh. @returns whether the search should continue
   using Met = std::function<bool(const CoreGap&)>;
-  /// Tells of each triangle that is within `reach` [m] of the core. @returns whether `met` wanted to go on
+  /// Calls `met` for each triangle that is within `reach` [m] of the core. @returns false if a call returned false
   bool meetings(const ConvexCore& core, const fcl::OBBRSSd& core_volume, const Pose& mesh_from_core, double reach,
                 const Met& met) const;
-  /// Tells of each two triangles of this mesh and of the other that are within `reach` [m] of each other.
+  /// Calls `met` for each triangle of this mesh and each triangle of the other mesh that are within `reach` [m] of each
+  /// other. @returns false if a call returned false
   bool meetings(const FclMesh& other, const Pose& mesh_from_other, double reach, const Met& met) const;
 
  private:
   std::array<Eigen::Vector3d, 3> triangle(const fcl::BVNode<fcl::OBBRSSd>& leaf) const;
+  /// Searches the tree below a node for a triangle that is nearer to the core than `best`.
   void visit(int node, double bound, const ConvexCore& core, const fcl::OBBRSSd& core_volume,
              const Pose& mesh_from_core, CoreGap& best) const;
 
-  std::shared_ptr<const TriangleMesh> source_;  // lives as long, so that its address is no other mesh's
+  std::shared_ptr<const TriangleMesh> source_;  // kept, so that no other mesh gets its address
   Enclosure enclosure_;
   fcl::BVHModel<fcl::OBBRSSd> model_;
 };

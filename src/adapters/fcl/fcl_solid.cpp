@@ -17,7 +17,7 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-/// The core of a convex shape. The radius of a sphere or a capsule is left out.
+/// Returns the core of a convex shape for FCL. The radius of a sphere or a capsule is 0.
 std::unique_ptr<const fcl::CollisionGeometryd> geometryOf(const Shape& shape) {
   const std::vector<double> size = shape.dimensions();
   switch (shape.kind()) {
@@ -32,7 +32,7 @@ std::unique_ptr<const fcl::CollisionGeometryd> geometryOf(const Shape& shape) {
     case ShapeKind::capsule:
       return std::make_unique<fcl::Capsuled>(0.0, size[0]);
     case ShapeKind::hull:
-      // Without faces. FCL then looks at all vertices, which is right whatever the faces are.
+      // The hull gets no faces. FCL then uses all vertices, so its result does not depend on the faces.
       return std::make_unique<fcl::Convexd>(std::make_shared<const std::vector<Vector>>(shape.mesh()->vertices), 0,
                                             std::make_shared<const std::vector<int>>());
     case ShapeKind::mesh:
@@ -41,6 +41,7 @@ std::unique_ptr<const fcl::CollisionGeometryd> geometryOf(const Shape& shape) {
   return nullptr;
 }
 
+/// Returns a bounding volume of a core.
 fcl::OBBRSSd volumeAround(const ConvexCore& core) {
   Vector low, high;
   for (int axis = 0; axis < 3; ++axis) {

@@ -13,16 +13,16 @@
 
 namespace hgrid {
 
-/// A convex solid, with what FCL needs to measure it against meshes and to describe its contacts.
+/// A convex solid, with the data that FCL needs to measure its distance to meshes and to describe its contacts.
 class FclConvexSolid final : public ConvexSolid {
  public:
   explicit FclConvexSolid(const Shape& shape);
-  /// What a question is made of.
+  /// Creates a solid for queries.
   FclConvexSolid(const ConvexCore& core, const std::vector<double>& size);
 
-  /// A volume around the core.
+  /// Returns a bounding volume of the core.
   const fcl::OBBRSSd& volume() const { return volume_; }
-  /// The core as FCL has it. Only if isShape(); null otherwise.
+  /// Returns the core as an FCL geometry, or null if isShape() is false.
   const fcl::CollisionGeometryd* geometry() const { return geometry_.get(); }
 
  private:
@@ -30,7 +30,7 @@ class FclConvexSolid final : public ConvexSolid {
   std::unique_ptr<const fcl::CollisionGeometryd> geometry_;
 };
 
-/// A mesh, with the tree that FCL makes of it.
+/// A mesh as a solid. It shares the FCL tree of the mesh.
 class FclMeshSolid final : public OrderedSolid {
  public:
   FclMeshSolid(const Shape& shape, std::shared_ptr<const FclMesh> mesh) : OrderedSolid(shape), mesh_(std::move(mesh)) {}

@@ -24,7 +24,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::int64_t kLookAgain = 50;  // [ms] between two looks whether the reading was cancelled
+constexpr std::int64_t kLookAgain = 50;  // [ms] longest time between two checks for cancellation
 
 std::string extensionOf(const std::string& path) {
   const std::size_t dot = path.find_last_of("./");
@@ -34,14 +34,15 @@ std::string extensionOf(const std::string& path) {
   return extension;
 }
 
-/// The helper process: started with the file as its standard input, read from until a deadline, never left behind.
+/// Runs the helper process. The mesh file is its standard input. The parent reads its output until a deadline, and the
+/// destructor always ends the process.
 class Reader {
  public:
   Reader(const MeshPolicy& policy, const std::string& extension, int file, const std::string& what)
       : what_(what), policy_(policy), deadline_(Clock::now() + policy.timeout) {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0)
-      throw Refusal(Code::limit, what_ + ": no pipe to the mesh reader: " + std::strerror(errno));
+      throw Refusal(Code::limit, what_ + ": cannot create a pipe to the mesh reader: " + std::strerror(errno));
     output_ = ends[0];
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
@@ -62,28 +63,29 @@ class Reader {
     if (failure != 0) {
       close(output_);
       throw Refusal(Code::resource_missing,
-                    what_ + ": the mesh reader '" + policy.reader + "' does not start: " + std::strerror(failure));
+                    what_ + ": cannot start the mesh reader '" + policy.reader + "': " + std::strerror(failure));
     }
   }
 
   ~Reader() {
     close(output_);
-    kill(process_, SIGKILL);  // it has nothing to lose: all that it could say was read, or is not wanted
+    kill(process_, SIGKILL);  // safe: its output was read completely, or is not needed any more
     while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
     }
   }
 
-  /// Fills the buffer. @throws Refusal budget after the deadline, busy if the reading was cancelled, truncated if the
-  /// helper ends first
+  /// Fills the buffer with output of the helper.
+  /// @throws Refusal with code budget after the deadline, busy if reading was canceled, truncated if the helper ends
+  /// too early
   void read(void* buffer, std::size_t bytes) {
     auto* at = static_cast<char*>(buffer);
     while (bytes > 0) {
-      if (policy_.cancelled && policy_.cancelled()) throw Refusal(Code::busy, what_ + ": reading it was cancelled");
+      if (policy_.cancelled && policy_.cancelled()) throw Refusal(Code::busy, what_ + ": reading it was canceled");
       const std::int64_t left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline_ - Clock::now()).count();
       if (left <= 0) {
         throw Refusal(Code::budget, what_ + ": reading it took longer than " +
                                         text(std::chrono::duration<double>(policy_.timeout).count()) +
-                                        " s; it was given up");
+                                        " s and was stopped");
       }
       pollfd poll_output{output_, POLLIN, 0};
       const int ready = poll(&poll_output, 1, static_cast<int>(std::min(left, kLookAgain)));
@@ -92,8 +94,8 @@ class Reader {
       if (got < 0 && errno == EINTR) continue;
       if (got <= 0) {
         throw Refusal(Code::truncated, what_ +
-                                           ": the mesh reader ended early; the file may be broken, or need more "
-                                           "memory or time than is allowed");
+                                           ": the mesh reader ended before the mesh was complete; the file may be "
+                                           "broken, or may need more memory or time than is allowed");
       }
       at += got;
       bytes -= static_cast<std::size_t>(got);
@@ -112,7 +114,7 @@ std::shared_ptr<const TriangleMesh> readMesh(const OpenResource& file, const Mes
                                              const std::string& what) {
   const std::string extension = extensionOf(file.path());
   if (extension != "stl" && extension != "dae" && extension != "obj") {
-    throw Refusal(Code::unsupported, what + " is of kind '" + printable(extension) + "'; STL, DAE and OBJ are read");
+    throw Refusal(Code::unsupported, what + " is of kind '" + printable(extension) + "'; it must be STL, DAE or OBJ");
   }
   Reader reader(policy, extension, file.fd(), what);
   StreamHeader header;
@@ -124,7 +126,7 @@ std::shared_ptr<const TriangleMesh> readMesh(const OpenResource& file, const Mes
     throw Refusal(static_cast<Code>(header.vertices), what + ": " + printable(sentence, 200));
   }
   if (header.kind != StreamHeader::kMesh) {
-    throw Refusal(Code::internal, what + ": the mesh reader answered with something else than a mesh");
+    throw Refusal(Code::internal, what + ": the mesh reader returned something other than a mesh");
   }
   if (header.triangles > policy.max_triangles || header.vertices > 3 * policy.max_triangles) {
     throw Refusal(Code::limit, what + " has " + std::to_string(header.triangles) + " triangles and " +
@@ -145,7 +147,7 @@ std::shared_ptr<const TriangleMesh> readMesh(const OpenResource& file, const Mes
 std::shared_ptr<const TriangleMesh> scaled(const TriangleMesh& mesh, const Eigen::Vector3d& scale) {
   auto result = std::make_shared<TriangleMesh>(mesh);
   for (Eigen::Vector3d& vertex : result->vertices) vertex = vertex.cwiseProduct(scale);
-  if (scale.prod() < 0.0) {  // a mirror turns the inside out
+  if (scale.prod() < 0.0) {  // mirroring would turn the mesh inside out
     for (auto& triangle : result->triangles) std::swap(triangle[1], triangle[2]);
   }
   return result;
@@ -171,7 +173,7 @@ std::shared_ptr<const TriangleMesh> MeshLoader::load(const std::string& uri, con
   if (!raw) raw = readMesh(file, policy_, what);
   if (scale == Eigen::Vector3d::Ones()) return raw;
   auto mesh = scaled(*raw, scale);
-  checkMesh(*mesh, ShapeLimits{}.max_size, what + " with its scale");
+  checkMesh(*mesh, ShapeLimits{}.max_size, what + " after scaling");
   return mesh;
 }
 

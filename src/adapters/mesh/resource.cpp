@@ -22,7 +22,7 @@ constexpr std::size_t kLongestUri = 4096;
   throw Refusal(Code::resource_denied, "resource '" + printable(uri) + "' is denied: " + rule);
 }
 
-/// The path with every link resolved; empty if there is no such folder.
+/// Returns the path with all symbolic links resolved, or an empty text if the path does not exist.
 std::string realFolder(const std::string& path) {
   char resolved[PATH_MAX];
   return !path.empty() && realpath(path.c_str(), resolved) != nullptr ? resolved : "";
@@ -37,7 +37,8 @@ bool startsWith(const std::string& text, const char* prefix) {
   return text.compare(0, std::strlen(prefix), prefix) == 0;
 }
 
-/// Whether the ".." in a relative path lead out of where it starts, whatever there is on the disk.
+/// Whether the ".." parts of a relative path lead out of the folder where the path starts. It does not look at the
+/// disk.
 bool leadsOut(const std::string& relative) {
   int depth = 0;
   for (std::size_t begin = 0; begin < relative.size();) {
@@ -54,21 +55,22 @@ bool leadsOut(const std::string& relative) {
   return false;
 }
 
+/// The file that a URI names, and the folders in which it may be.
 struct Place {
-  std::string path;                // to open
-  std::vector<std::string> roots;  // real folders, one of which must hold it
+  std::string path;                // path of the file to open
+  std::vector<std::string> roots;  // real paths of folders; one of them must contain the file
 };
 
 Place placeOf(const std::string& uri, const ResourcePolicy& policy) {
   if (uri.size() > kLongestUri) deny(uri, "its name is longer than " + std::to_string(kLongestUri) + " bytes");
-  if (uri.find('\0') != std::string::npos) deny(uri, "its name has a zero byte");
+  if (uri.find('\0') != std::string::npos) deny(uri, "its name must not contain a zero byte");
   if (startsWith(uri, "package://")) {
     const std::string rest = uri.substr(std::strlen("package://"));
     const std::size_t slash = rest.find('/');
     const std::string package = rest.substr(0, slash);
     if (slash == std::string::npos || package.empty() || package == "..") deny(uri, "it must be package://name/path");
     const std::string relative = rest.substr(slash + 1);
-    if (leadsOut(relative)) deny(uri, "it leads out of package '" + printable(package) + "'");
+    if (leadsOut(relative)) deny(uri, "it must not lead out of package '" + printable(package) + "'");
     const std::string folder = policy.package_path ? policy.package_path(package) : "";
     const std::string real = realFolder(folder);
     if (real.empty()) {
@@ -84,7 +86,7 @@ Place placeOf(const std::string& uri, const ResourcePolicy& policy) {
     for (const std::string& root : policy.file_roots) place.roots.push_back(realFolder(root));
     return place;
   }
-  deny(uri, "only package:// and file:/// are read");
+  deny(uri, "it must begin with package:// or file:///");
 }
 
 }  // namespace
@@ -100,8 +102,8 @@ OpenResource::OpenResource(OpenResource&& other) noexcept
 
 OpenResource openResource(const std::string& uri, const ResourcePolicy& policy) {
   const Place place = placeOf(uri, policy);
-  // O_PATH looks without opening: no device is touched, no FIFO waited for. What is checked is what is
-  // opened afterwards, through /proc, whatever happens to the names meanwhile.
+  // O_PATH finds the file without opening it, so it touches no device and waits for no FIFO. After the checks, the same
+  // file is opened through /proc, even if its name was changed in the meantime.
   const OpenResource looked(open(place.path.c_str(), O_PATH | O_CLOEXEC), place.path, 0);
   if (looked.fd() < 0) {
     throw Refusal(Code::resource_missing,
@@ -111,7 +113,7 @@ OpenResource openResource(const std::string& uri, const ResourcePolicy& policy) 
   const std::string real = realFolder(handle);
   bool below = false;
   for (const std::string& root : place.roots) below = below || isBelow(real, root);
-  if (!below) deny(uri, "it lies outside the folders that may be read");
+  if (!below) deny(uri, "it is outside the folders that may be read");
   struct stat status {};
   if (fstat(looked.fd(), &status) != 0 || !S_ISREG(status.st_mode)) deny(uri, "it is not a regular file");
   const auto bytes = static_cast<std::size_t>(status.st_size);

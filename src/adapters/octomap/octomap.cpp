@@ -18,16 +18,19 @@
 namespace hgrid {
 namespace {
 
-constexpr double kLeastResolution = 1e-3, kGreatestResolution = 100.0;  // [m]
+constexpr double kLeastResolution = 1e-3, kGreatestResolution = 100.0;  // [m] accepted range
 
-/// The voxels that touch an interval along one axis: those that end at `first` or later and begin at `last` or before.
+/// The voxels that touch an interval along one axis. Such a voxel ends at key `first` or later and begins at key `last`
+/// or before.
 struct KeyRange {
   int first = 0, last = 0;
 
+  /// Whether a voxel touches the interval. It begins at `key` and is `along` keys long.
   bool touches(int key, int along) const { return key + along >= first && key <= last; }
 };
 
-/// How many of the keys 0..65536 have a coordinate for which `holds`, as it does for all lesser ones.
+/// Returns how many of the keys 0 .. 65536 have a coordinate for which `holds` is true. If it is true for a coordinate,
+/// it must be true for all smaller ones.
 template <class Holds>
 int keysWith(double resolution, Holds&& holds) {
   int low = 0, high = (1 << Voxel::kLevels) + 1;
@@ -42,13 +45,14 @@ int keysWith(double resolution, Holds&& holds) {
   return low;
 }
 
-/// By search, not by division: rounding decides as it does for the corners of a voxel.
+/// Returns the voxels that touch the interval min .. max [m]. It searches instead of dividing, so the keys are rounded
+/// exactly as the corners of voxels are.
 KeyRange keysTouching(double min, double max, double resolution) {
   return {keysWith(resolution, [&](double coordinate) { return coordinate < min; }),
           keysWith(resolution, [&](double coordinate) { return coordinate <= max; }) - 1};
 }
 
-/// Counts what is read and keeps what is wanted.
+/// Receives the nodes and leaves of a tree. It counts them and stores the leaves that the options select.
 class Leaves {
  public:
   Leaves(const OctomapOptions& options, double resolution, const std::string& what) : options_(options), what_(what) {
@@ -100,7 +104,7 @@ class Leaves {
 
   [[noreturn]] void refuse(const char* things, std::uint64_t most) const {
     throw Refusal(Code::limit,
-                  what_ + " has more than " + std::to_string(most) + " " + things + ", which is the most allowed");
+                  what_ + " has more than " + std::to_string(most) + " " + things + ", which is the limit");
   }
 
   const OctomapOptions& options_;
@@ -111,23 +115,23 @@ class Leaves {
 
 void checkOptions(const OctomapOptions& options, const std::string& what) {
   if (!(options.occupied_from > 0.0 && options.occupied_from < 1.0)) {
-    throw Refusal(Code::out_of_range, what + " is to be occupied from a probability of " + text(options.occupied_from) +
-                                          "; it must be greater than 0 and less than 1");
+    throw Refusal(Code::out_of_range, what + ": the probability from which a leaf is occupied is " +
+                                          text(options.occupied_from) + "; it must be greater than 0 and less than 1");
   }
   if (!options.crop) return;
   for (int axis = 0; axis < 3; ++axis) {
     const double min = options.crop->min()[axis], max = options.crop->max()[axis];
     if (min <= max) continue;
     throw Refusal(std::isnan(min) || std::isnan(max) ? Code::nonfinite : Code::out_of_range,
-                  what + " is to be cropped to " + "xyz"[axis] + " from " + text(min) + " to " + text(max) +
-                      " m; the first must be at most the second");
+                  what + ": its crop box has " + "xyz"[axis] + " from " + text(min) + " to " + text(max) +
+                      " m; the first value must be at most the second");
   }
 }
 
 void checkFormat(const OctomapFormat& format, const std::string& what) {
   if (format.id != "OcTree" && format.id != "ColorOcTree") {
     throw Refusal(Code::unsupported,
-                  what + " is of kind '" + printable(format.id) + "'; OcTree and ColorOcTree are read");
+                  what + " is of kind '" + printable(format.id) + "'; it must be OcTree or ColorOcTree");
   }
   if (!(format.resolution >= kLeastResolution && format.resolution <= kGreatestResolution)) {
     throw Refusal(Code::out_of_range, what + " has a resolution of " + text(format.resolution) +
@@ -142,7 +146,7 @@ void checkBytes(std::size_t bytes, const OctomapOptions& options, const std::str
                                  std::to_string(options.max_bytes) + " are allowed");
 }
 
-/// What `read` returns. @throws Refusal limit if memory runs out
+/// Calls `read` and returns its result. @throws Refusal with code limit if memory runs out
 template <class Read>
 auto withinMemory(const std::string& what, Read&& read) {
   try {
@@ -152,14 +156,14 @@ auto withinMemory(const std::string& what, Read&& read) {
   }
 }
 
-/// As OctoMap computes it: in double, compared as float.
+/// Returns the log-odds of a probability in the same way as OctoMap: computed in double, rounded to float.
 float logOdds(double probability) { return static_cast<float>(std::log(probability / (1.0 - probability))); }
 
 Octomap readNodes(const OctomapFormat& format, std::string_view data, const std::string& what,
                   const OctomapOptions& options) {
   Leaves leaves(options, format.resolution, what);
   if (data.empty()) {
-    if (!options.allow_empty) throw Refusal(Code::parse, what + " is empty; it must have one node at least");
+    if (!options.allow_empty) throw Refusal(Code::parse, what + " is empty; it must have at least one node");
     if (leaves.wantsUnknown()) leaves.add(kWhole, Octant::unknown);
     return leaves.take();
   }
@@ -203,12 +207,13 @@ Octomap readOctomap(std::string_view file, const std::string& what, const Octoma
   const OctomapHeader header = readOctomapHeader(file, what);
   const std::string_view data = file.substr(header.data_offset);
   if (data.empty() && header.nodes > 0) {
-    throw Refusal(Code::truncated, what + " ends with its header, which has size " + std::to_string(header.nodes));
+    throw Refusal(Code::truncated,
+                  what + " has no nodes after its header, but its header has size " + std::to_string(header.nodes));
   }
   Octomap map = readOctomapData(header.format, data, what, options);
   if (map.nodes != header.nodes) {
-    throw Refusal(Code::parse, what + " has " + std::to_string(map.nodes) + " nodes, but size " +
-                                   std::to_string(header.nodes) + " in its header; both must be the same");
+    throw Refusal(Code::parse, what + " has " + std::to_string(map.nodes) + " nodes, but its header has size " +
+                                   std::to_string(header.nodes) + "; both must be the same");
   }
   return map;
 }

@@ -16,13 +16,13 @@ constexpr std::size_t kLongestLine = 1024;
 constexpr std::string_view kSpace = " \t\r";
 constexpr std::string_view kBinaryMagic = "# Octomap OcTree binary file";
 constexpr std::string_view kFullMagic = "# Octomap OcTree file";
-constexpr std::string_view kLegacyMagic("\3\0\0\0", 4);  // the type of tree as an int: OctoMap before 1.0
+constexpr std::string_view kLegacyMagic("\3\0\0\0", 4);  // OctoMap before 1.0: the tree type as an int
 
 bool startsWith(std::string_view text, std::string_view beginning) {
   return text.substr(0, beginning.size()) == beginning;
 }
 
-/// The text without space at both ends, the \r of a CRLF included.
+/// Returns the text without white space at both ends. This includes the \r of a line that ends with CRLF.
 std::string_view trimmed(std::string_view text) {
   const std::size_t begin = std::min(text.find_first_not_of(kSpace), text.size());
   return text.substr(begin, text.find_last_not_of(kSpace) + 1 - begin);
@@ -46,14 +46,16 @@ class HeaderReader {
  private:
   [[noreturn]] void refuse(Code code, const std::string& sentence) const { throw Refusal(code, what_ + sentence); }
 
-  /// The first line. @returns whether it is that of a `.bt` file
+  /// Reads the first line. @returns true for a `.bt` file, false for an `.ot` file
   bool readMagic() {
     if (startsWith(file_, kLegacyMagic)) {
-      refuse(Code::unsupported, " has the binary header of OctoMap before 1.0; OctoMap's convert_octree mends that");
+      refuse(Code::unsupported,
+             " has the binary header of OctoMap before 1.0; convert it with OctoMap's convert_octree");
     }
     for (const std::string_view magic : {kBinaryMagic, kFullMagic}) {
       if (file_.size() < magic.size() && startsWith(magic, file_)) {
-        refuse(Code::truncated, " ends after " + std::to_string(file_.size()) + " bytes, in its first line");
+        refuse(Code::truncated,
+               " ends after " + std::to_string(file_.size()) + " bytes, before the end of its first line");
       }
       if (startsWith(file_, magic)) {
         nextLine();
@@ -69,37 +71,38 @@ class HeaderReader {
     const std::size_t end = rest.find('\n');
     if (end == std::string_view::npos && rest.size() > kLongestLine) {
       refuse(Code::limit, " has a header line '" + shown(rest) + "' of more than " + std::to_string(kLongestLine) +
-                              " bytes, which is the longest allowed");
+                              " bytes, which is the limit");
     }
     if (end == std::string_view::npos) {
       refuse(Code::truncated,
-             " ends after " + std::to_string(file_.size()) + " bytes, in its header, which ends with a line 'data'");
+             " ends after " + std::to_string(file_.size()) + " bytes, before the line 'data' that must end its header");
     }
     at_ += end + 1;
     return trimmed(rest.substr(0, end));
   }
 
-  /// Takes id, size and res; all else is passed over: comments, and words that OctoMap may yet think of.
+  /// Reads the keywords id, size and res. Ignores comments and unknown keywords, since a newer OctoMap may add some.
   void readLine(std::string_view line) {
     const std::string_view key = line.substr(0, line.find_first_of(kSpace));
     const std::string_view value = trimmed(line.substr(key.size()));
     if (key == "id") setOnce(id_, key, value);
     if (key == "size") setOnce(size_, key, value);
     if (key == "res") setOnce(resolution_, key, value);
-    if (key == "data") refuse(Code::parse, " has the header line '" + shown(line) + "'; 'data' must stand alone");
+    if (key == "data") refuse(Code::parse, " has the header line '" + shown(line) + "'; the line must be only 'data'");
   }
 
   void setOnce(std::optional<std::string_view>& field, std::string_view key, std::string_view value) const {
     if (field) {
       refuse(Code::parse, " has two header lines '" + std::string(key) + "', '" + shown(*field) + "' and '" +
-                              shown(value) + "'; one is allowed");
+                              shown(value) + "'; only one is allowed");
     }
     field = value;
   }
 
   std::string valueOf(const char* key, const std::optional<std::string_view>& field) const {
     if (!field || field->empty()) {
-      refuse(Code::parse, std::string(" has no value of '") + key + "' in its header; id, size and res must be there");
+      refuse(Code::parse,
+             std::string(" has no value for '") + key + "' in its header; the header must have id, size and res");
     }
     return std::string(*field);
   }
@@ -114,7 +117,7 @@ class HeaderReader {
   double number(const char* key, const std::string& value) const {
     double number = 0.0;
     std::istringstream in(value);
-    in.imbue(std::locale::classic());  // the decimal point is a point, wherever the program runs
+    in.imbue(std::locale::classic());  // always use '.' as the decimal point, in any locale
     if (!(in >> number) || in.peek() != std::istringstream::traits_type::eof()) refuseNumber(key, value, "number");
     return number;
   }

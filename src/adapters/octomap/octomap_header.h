@@ -11,14 +11,16 @@
 
 namespace hgrid {
 
-/// What stands before the nodes of a `.bt` or `.ot` file.
+/// The header of a `.bt` or `.ot` file.
 struct OctomapHeader {
-  OctomapFormat format;         ///< id and resolution as written; readOctomapData() checks them
-  std::uint64_t nodes = 0;      ///< as the header claims: only good for a comparison
-  std::size_t data_offset = 0;  ///< where the nodes begin
+  OctomapFormat format;         ///< id and resolution as in the file; readOctomapData() checks them
+  std::uint64_t nodes = 0;      ///< number of nodes that the header claims; not verified
+  std::size_t data_offset = 0;  ///< [bytes] where the nodes begin in the file
 };
 
-/// @throws Refusal truncated, parse, unsupported (another kind of file), limit (a line of more than 1024 bytes)
+/// Reads the header of a `.bt` or `.ot` file.
+/// @throws Refusal with code truncated, parse, unsupported (another kind of file), limit (a line of more than 1024
+/// bytes)
 OctomapHeader readOctomapHeader(std::string_view file, const std::string& what);
 
 }  // namespace hgrid

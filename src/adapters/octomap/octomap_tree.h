@@ -14,34 +14,35 @@
 
 namespace hgrid {
 
-/// What stands in an octant; the first four are the two bits that a `.bt` file has for it.
+/// The content of an octant. The first four numbers are the two-bit values in a `.bt` file.
 enum class Octant : std::uint8_t { unknown = 0, free = 1, occupied = 2, node = 3, nan = 4 };
 
-/// A node as it was read. Without children it is a leaf.
+/// A node as it was read. A node without children is a leaf.
 struct OctreeNode {
-  std::uint16_t children;  ///< two bits of Octant for each, the first lowest; 0: none
-  Octant leaf;             ///< what it is without children
+  std::uint16_t children;  ///< an Octant of two bits for each child, the first child lowest; 0: no children
+  Octant leaf;             ///< content of the leaf, if there are no children
 };
 
-/// The bytes not yet read.
+/// The bytes of the nodes, with the position of the next byte to read.
 class NodeBytes {
  public:
   NodeBytes(std::string_view data, const std::string& what) : data_(data), what_(what) {}
 
+  /// Returns the next `count` bytes and moves behind them. @throws Refusal with code truncated if there are fewer bytes
   const unsigned char* take(std::size_t count) {
     if (data_.size() - at_ < count) {
-      throw Refusal(Code::truncated,
-                    what_ + " ends after " + std::to_string(data_.size()) + " bytes of nodes, before its tree does");
+      throw Refusal(Code::truncated, what_ + " ends after " + std::to_string(data_.size()) +
+                                         " bytes of nodes, before its tree is complete");
     }
     at_ += count;
     return reinterpret_cast<const unsigned char*>(data_.data()) + at_ - count;
   }
 
-  /// @throws Refusal parse if there are bytes left
+  /// Checks that all bytes were read. @throws Refusal with code parse if there are bytes left
   void finish() const {
     if (at_ == data_.size()) return;
     throw Refusal(Code::parse, what_ + " has " + std::to_string(data_.size() - at_) + " bytes after the " +
-                                   std::to_string(at_) + " of its tree; there must be none");
+                                   std::to_string(at_) + " bytes of its tree; nothing may follow the tree");
   }
 
  private:
@@ -50,14 +51,14 @@ class NodeBytes {
   std::size_t at_ = 0;
 };
 
-/// Nodes of a `.bt`: two bytes for each node with children, none for the others.
+/// Reads the nodes of a `.bt` file. A node with children has two bytes, a node without children has none.
 class BinaryNodes : public NodeBytes {
  public:
   using NodeBytes::NodeBytes;
 
   OctreeNode next() {
     const unsigned char* bytes = take(2);
-    const Octant leaf = is_root_ ? Octant::occupied : Octant::free;  // OctoMap takes the likeliest of no children
+    const Octant leaf = is_root_ ? Octant::occupied : Octant::free;  // as OctoMap treats a node without children
     is_root_ = false;
     return {static_cast<std::uint16_t>(bytes[0] | bytes[1] << 8), leaf};
   }
@@ -66,11 +67,12 @@ class BinaryNodes : public NodeBytes {
   bool is_root_ = true;
 };
 
-/// Nodes of an `.ot`: log-odds as a little-endian float, three bytes of colour if there is one, a bit for each child.
+/// Reads the nodes of an `.ot` file. A node has its log-odds as a little-endian float, then three bytes of color in a
+/// ColorOcTree, then one byte with a bit for each child.
 class FullNodes : public NodeBytes {
  public:
-  FullNodes(std::string_view data, const std::string& what, bool colour, float occupied_from)
-      : NodeBytes(data, what), bytes_of_node_(colour ? 8 : 5), occupied_from_(occupied_from) {}
+  FullNodes(std::string_view data, const std::string& what, bool has_color, float occupied_from)
+      : NodeBytes(data, what), bytes_of_node_(has_color ? 8 : 5), occupied_from_(occupied_from) {}
 
   OctreeNode next() {
     const unsigned char* bytes = take(bytes_of_node_);
@@ -82,7 +84,7 @@ class FullNodes : public NodeBytes {
   }
 
  private:
-  /// Octant::node for each bit.
+  /// Returns two bits for each child: Octant::node for each bit that is set, else Octant::unknown.
   static std::uint16_t allNodes(unsigned bits) {
     bits = (bits | bits << 4) & 0x0f0f;
     bits = (bits | bits << 2) & 0x3333;
@@ -101,28 +103,31 @@ class FullNodes : public NodeBytes {
   float occupied_from_;
 };
 
-constexpr Voxel kWhole{0, 0, 0, Voxel::kLevels};  ///< the cube of the root
+constexpr Voxel kWhole{0, 0, 0, Voxel::kLevels};  ///< the root of the octree: the whole map
 
-/// How many of the bits 0, 2, .. 14 are set; others must not be. The compiler's own calls a function.
+/// Returns how many of the bits 0, 2, .. 14 are set. No other bit may be set. The compiler's builtin would call a
+/// function.
 inline unsigned bitsIn(unsigned bits) {
   bits = (bits & 0x3333) + (bits >> 2 & 0x3333);
   bits += bits >> 4;
   return ((bits & 0x0f0f) + (bits >> 8)) & 0x0f;
 }
 
-/// Walks through the nodes, which come depth first and so in Morton order, and tells `leaves`
-///   count(nodes, free)  how many more there are, of all and of free leaves,
-///   add(cube, octant)   each leaf, in order; free ones if it `wantsFree()`, octants without one if `wantsUnknown()`.
-/// @throws Refusal parse below a cube of level 0, and what the two throw
+/// Reads all nodes and passes them to `leaves`. They are stored depth first, which is Morton order.
+///
+/// - count(nodes, free) receives how many more nodes and how many more free leaves were read.
+/// - add(cube, octant) receives each leaf, in order. Free leaves are passed only if wantsFree() is true. Octants
+///   without a leaf are passed, as unknown, only if wantsUnknown() is true.
+/// @throws Refusal with code parse for a node below a cube of level 0; also everything that `nodes` and `leaves` throw
 template <class Nodes, class Leaves>
 void readTree(Nodes& nodes, Leaves& leaves, const std::string& what) {
   struct Inner {
     Voxel cube;
-    unsigned children;  // as in OctreeNode
-    unsigned ahead;     // bit 2 i: child i is still to be told
+    unsigned children;  // as in OctreeNode::children
+    unsigned ahead;     // bit 2 i is set while child i must still be visited
   };
-  constexpr unsigned kEach = 0x5555;       // bit 2 i for each child i
-  std::array<Inner, Voxel::kLevels> path;  // from the root down
+  constexpr unsigned kEach = 0x5555;       // bit 2 i is set for each child i
+  std::array<Inner, Voxel::kLevels> path;  // from the root to the current node
   std::size_t depth = 0;
   const unsigned free_wanted = leaves.wantsFree() ? kEach : 0, unknown_wanted = leaves.wantsUnknown() ? kEach : 0;
   const auto read = [&](const Voxel& cube) {

@@ -11,10 +11,10 @@
 namespace hgrid {
 namespace {
 
-/// Where a coordinate stands in a point.
+/// The position and type of a coordinate in the bytes of a point.
 struct Place {
-  std::uint32_t offset = 0;
-  bool wide = false;  // FLOAT64
+  std::uint32_t offset = 0;  // [bytes] from the begin of the point
+  bool wide = false;         // true: FLOAT64; false: FLOAT32
 
   double read(const char* point) const {
     if (wide) return number<double>(point + offset);
@@ -47,7 +47,8 @@ Place placeOf(const char* name, const PointCloudFormat& format, const std::strin
   const bool wide = found->datatype == PointField::kFloat64;
   if (std::uint64_t{found->offset} + (wide ? 8 : 4) > format.point_step) {
     throw Refusal(Code::parse, what + " has its field '" + name + "' at byte " + std::to_string(found->offset) +
-                                   " of points of " + std::to_string(format.point_step) + " bytes; it must lie within");
+                                   " of points of " + std::to_string(format.point_step) +
+                                   " bytes; the field must fit into a point");
   }
   return {found->offset, wide};
 }
@@ -62,7 +63,7 @@ void checkSizes(const PointCloudFormat& format, std::string_view data, const std
   if (data.size() == bytes) return;
   throw Refusal(data.size() < bytes ? Code::truncated : Code::parse,
                 what + " has " + std::to_string(data.size()) + " bytes of points; " + std::to_string(format.height) +
-                    " rows of " + std::to_string(format.row_step) + " bytes must be all of it");
+                    " rows of " + std::to_string(format.row_step) + " bytes are expected");
 }
 
 }  // namespace
@@ -74,7 +75,7 @@ PointCloud readPointCloud(const PointCloudFormat& format, std::string_view data,
   if (format.big_endian) throw Refusal(Code::unsupported, what + " is big-endian; it must be little-endian");
   const std::array<Place, 3> places{placeOf("x", format, what), placeOf("y", format, what), placeOf("z", format, what)};
   checkSizes(format, data, what);
-  cloud.points.reserve(count);  // as many as there are bytes for
+  cloud.points.reserve(count);  // safe: checkSizes() has compared `count` with the size of the data
   for (std::uint32_t row = 0; row < format.height; ++row) {
     const char* point = data.data() + std::size_t{row} * format.row_step;
     for (std::uint32_t i = 0; i < format.width; ++i, point += format.point_step) {

@@ -11,7 +11,8 @@ std::string attribute(const tinyxml2::XMLElement& element, const char* name) {
   const char* value = element.Attribute(name);
   if (value == nullptr) {
     throw Refusal(Code::parse, std::string("the SRDF's <") + element.Name() + "> in line " +
-                                   std::to_string(element.GetLineNum()) + " has no attribute '" + name + "'");
+                                   std::to_string(element.GetLineNum()) + " has no attribute '" + name +
+                                   "'; it must have one");
   }
   return value;
 }

@@ -16,8 +16,9 @@
 namespace hgrid {
 namespace {
 
-/// urdfdom reports through a global log: while this lives, its first error is kept here, not printed.
-/// One at a time, since the log has one handler.
+/// Keeps the first error that urdfdom reports during the lifetime of this object, so that it is not printed.
+///
+/// urdfdom reports errors to a global log with a single handler. So a lock allows only one object at a time.
 class UrdfdomErrors : private console_bridge::OutputHandler {
  public:
   UrdfdomErrors() : lock_(mutex()) { console_bridge::useOutputHandler(this); }
@@ -51,7 +52,7 @@ Pose poseOf(const urdf::Pose& pose, const std::string& what) {
 
 Eigen::Vector3d vectorOf(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
 
-/// The text of a <collision> with the origin and the geometry of a <collision> or <visual> element.
+/// Returns the XML text of a <collision> that has the origin and the geometry of a <collision> or <visual> element.
 std::string asCollision(const tinyxml2::XMLElement& element) {
   tinyxml2::XMLDocument document;
   tinyxml2::XMLElement* collision = document.NewElement("collision");
@@ -63,15 +64,15 @@ std::string asCollision(const tinyxml2::XMLElement& element) {
   return printed(document);
 }
 
-/// Reads one <collision> or <visual> with urdfdom, in a robot of its own. An element that urdfdom drops silently is
-/// noticed that way and does not affect the other elements of the link.
+/// Reads one <collision> or <visual> with urdfdom, as the only element of a separate robot. This detects elements that
+/// urdfdom drops silently. It also keeps a broken element from affecting the other elements of the link.
 urdf::CollisionSharedPtr parseShape(const tinyxml2::XMLElement& element, const std::string& what) {
   const tinyxml2::XMLElement* geometry = element.FirstChildElement("geometry");
   const std::string shown = printable(printed(element), 200);
   const tinyxml2::XMLElement* shape = geometry == nullptr ? nullptr : geometry->FirstChildElement();
   if (shape == nullptr || shape->NextSiblingElement() != nullptr ||
       geometry->NextSiblingElement("geometry") != nullptr) {
-    throw Refusal(Code::parse, what + " reads " + shown + "; it must have one <geometry> with one shape in it");
+    throw Refusal(Code::parse, what + " is " + shown + "; it must have one <geometry> that contains one shape");
   }
   const UrdfdomErrors errors;
   const auto robot = urdf::parseURDF("<robot name=\"r\"><link name=\"l\">" + asCollision(element) + "</link></robot>");
@@ -111,10 +112,11 @@ BodyShape bodyShapeOf(const urdf::Collision& collision, const std::string& what,
       return {Shape::mesh(meshes(mesh.filename, scale), limits), origin, 0.0, mesh.filename, scale};
     }
   }
-  throw Refusal(Code::unsupported, what + " has a shape of a kind that is not supported");
+  throw Refusal(Code::unsupported,
+                what + " has a kind of shape that is not supported; it must be a sphere, box, cylinder or mesh");
 }
 
-/// Reads all elements of a link with this tag, <collision> or <visual>. @returns whether there are any
+/// Reads all elements of a link that have the given tag, <collision> or <visual>. @returns whether there are any
 bool readShapes(const tinyxml2::XMLElement& element, const char* tag, RobotLink& link, const MeshSource& meshes,
                 const ShapeLimits& limits) {
   int number = 0;
@@ -131,7 +133,8 @@ bool readShapes(const tinyxml2::XMLElement& element, const char* tag, RobotLink&
   return number > 0;
 }
 
-/// Finds the joint that urdfdom cannot read, by reading each alone: its own message does not always name it.
+/// Throws a Refusal that names the joint that urdfdom cannot read. The error text of urdfdom does not always name it,
+/// so this function reads each joint separately.
 [[noreturn]] void nameUnreadableJoint(const tinyxml2::XMLElement& robot) {
   for (auto* joint = robot.FirstChildElement("joint"); joint != nullptr; joint = joint->NextSiblingElement("joint")) {
     tinyxml2::XMLDocument alone;
@@ -151,7 +154,7 @@ bool readShapes(const tinyxml2::XMLElement& element, const char* tag, RobotLink&
   throw Refusal(Code::parse, "the URDF's links and joints cannot be read");
 }
 
-/// The robot's links and joints as urdfdom has them, without anything that could not matter to them.
+/// Reads the links and joints of the robot with urdfdom. All other elements are left out before.
 urdf::ModelInterfaceSharedPtr parseTree(const tinyxml2::XMLElement& robot) {
   const UrdfdomErrors errors;
   tinyxml2::XMLDocument bare;
@@ -201,7 +204,7 @@ RobotLink linkOf(const urdf::Link& source, int parent, const ShapeLimits& limits
   if (has_axis && axis.allFinite() && axis.norm() > 0.0) {
     link.axis = axis.normalized();
   } else if (has_axis) {
-    warnings.push_back(what + " has an axis of length " + text(axis.norm()) + "; x is taken for it");
+    warnings.push_back(what + " has an axis of length " + text(axis.norm()) + "; its x axis is used instead");
   }
   if (joint.limits) {
     link.max_velocity = joint.limits->velocity;
@@ -228,7 +231,7 @@ RobotModel readUrdf(const std::string& xml, const MeshSource& meshes, const Desc
   model.name = tree->getName();
   std::vector<urdf::LinkConstSharedPtr> open = {tree->getRoot()};
   std::map<std::string, int> index;
-  for (std::size_t i = 0; i < open.size(); ++i) {  // breadth first: parents before children
+  for (std::size_t i = 0; i < open.size(); ++i) {  // breadth first, so parents come before children
     const urdf::LinkConstSharedPtr link = open[i];
     const int parent = link->getParent() ? index.at(link->getParent()->name) : -1;
     index.emplace(link->name, static_cast<int>(i));

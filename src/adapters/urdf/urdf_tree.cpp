@@ -14,20 +14,24 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& sentence) { throw Refusal(Code::parse, sentence); }
 
+/// Returns the name of a link or joint. @throws Refusal with code parse if it has none
 std::string nameOf(const tinyxml2::XMLElement& element) {
   const char* name = element.Attribute("name");
   if (name == nullptr || *name == '\0') {
-    refuse(std::string("a <") + element.Name() + "> in line " + std::to_string(element.GetLineNum()) + " has no name");
+    refuse(std::string("a <") + element.Name() + "> in line " + std::to_string(element.GetLineNum()) +
+           " has no name; it must have one");
   }
   return name;
 }
 
+/// Returns the name of the parent or child link of a joint. @throws Refusal with code parse if there is no such link
 std::string linkOf(const tinyxml2::XMLElement& joint, const char* end, const std::set<std::string>& links) {
   const tinyxml2::XMLElement* element = joint.FirstChildElement(end);
   const char* link = element == nullptr ? nullptr : element->Attribute("link");
   const std::string what = "joint '" + printable(nameOf(joint)) + "'";
-  if (link == nullptr) refuse(what + " names no " + end + " link");
-  if (links.count(link) == 0) refuse(what + " names " + end + " link '" + printable(link) + "', which does not exist");
+  if (link == nullptr) refuse(what + " has no " + end + " link; it must have one");
+  if (links.count(link) == 0)
+    refuse(what + " names " + end + " link '" + printable(link) + "', but there is no such link");
   return link;
 }
 
@@ -37,7 +41,7 @@ void checkTree(const tinyxml2::XMLElement& robot) {
   std::set<std::string> links, joints;
   for (auto* link = robot.FirstChildElement("link"); link != nullptr; link = link->NextSiblingElement("link")) {
     const std::string name = nameOf(*link);
-    if (!links.insert(name).second) refuse("link '" + printable(name) + "' stands there twice; names must differ");
+    if (!links.insert(name).second) refuse("link '" + printable(name) + "' is defined twice; names must be unique");
   }
   if (links.empty()) refuse("the URDF has no <link>; it must have at least one");
 
@@ -45,13 +49,15 @@ void checkTree(const tinyxml2::XMLElement& robot) {
   std::map<std::string, std::vector<std::string>> children;
   for (auto* joint = robot.FirstChildElement("joint"); joint != nullptr; joint = joint->NextSiblingElement("joint")) {
     const std::string name = nameOf(*joint);
-    if (!joints.insert(name).second) refuse("joint '" + printable(name) + "' stands there twice; names must differ");
+    if (!joints.insert(name).second) refuse("joint '" + printable(name) + "' is defined twice; names must be unique");
     const std::string parent = linkOf(*joint, "parent", links), child = linkOf(*joint, "child", links);
-    if (parent == child) refuse("joint '" + printable(name) + "' joins link '" + printable(child) + "' to itself");
+    if (parent == child)
+      refuse("joint '" + printable(name) + "' connects link '" + printable(child) +
+             "' to itself; it must connect two links");
     const auto added = joint_of_child.emplace(child, name);
     if (!added.second) {
       refuse("link '" + printable(child) + "' is the child of joint '" + printable(added.first->second) +
-             "' and of joint '" + printable(name) + "'; a link has one parent");
+             "' and of joint '" + printable(name) + "'; a link must have only one parent");
     }
     children[parent].push_back(child);
   }
@@ -61,7 +67,7 @@ void checkTree(const tinyxml2::XMLElement& robot) {
     if (joint_of_child.count(link) != 0) continue;
     if (!reached.empty()) {
       refuse("links '" + printable(reached.front()) + "' and '" + printable(link) +
-             "' both have no parent; there must be one root");
+             "' both have no parent; only one link, the root, may have no parent");
     }
     reached.push_back(link);
   }
@@ -74,7 +80,7 @@ void checkTree(const tinyxml2::XMLElement& robot) {
   for (const std::string& link : links) {
     if (hanging.count(link) != 0) continue;
     refuse("link '" + printable(link) + "' " +
-           (root.empty() ? "stands in a circle of joints, and there is no root link"
+           (root.empty() ? "is part of a loop of joints, and there is no root link"
                          : "is not reachable from the root link '" + printable(root) + "'") +
            "; joints must form a tree");
   }

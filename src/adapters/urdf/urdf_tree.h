@@ -6,9 +6,13 @@
 
 namespace hgrid {
 
-/// Checks that a URDF's links and joints form one tree: names are unique, every joint joins two links that exist,
-/// every link but one hangs on one joint, and all hang together. urdfdom overlooks some of these.
-/// @throws Refusal parse, naming the link or joint
+/// Checks that the links and joints of a URDF form one tree. urdfdom does not check all of these rules:
+///
+/// - Names are unique.
+/// - Every joint connects two different links that exist.
+/// - Every link except the root is the child of exactly one joint.
+/// - Every link is reachable from the root.
+/// @throws Refusal with code parse; its sentence names the link or joint
 void checkTree(const tinyxml2::XMLElement& robot);
 
 }  // namespace hgrid

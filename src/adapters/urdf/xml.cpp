@@ -7,13 +7,13 @@
 namespace hgrid {
 namespace {
 
-/// Position after the next `end` from `at` on; the text's length if there is none.
+/// Returns the position after the next `end`, searched from position `at`; the length of the text if there is none.
 std::size_t after(const std::string& xml, const char* end, std::size_t at) {
   const std::size_t found = xml.find(end, at);
   return found == std::string::npos ? xml.size() : found + std::strlen(end);
 }
 
-/// Position after the tag that begins at `at`; quoted attributes may contain '>'.
+/// Returns the position after the tag that begins at position `at`. Quoted attributes may contain '>'.
 std::size_t afterTag(const std::string& xml, std::size_t at) {
   char quote = 0;
   for (; at < xml.size(); ++at) {
@@ -29,7 +29,7 @@ std::size_t afterTag(const std::string& xml, std::size_t at) {
   return at;
 }
 
-/// Looks for nesting and DOCTYPE without a parser, since parsers recurse.
+/// Rejects text that is nested too deeply or has a DOCTYPE. It does not use a parser, since parsers are recursive.
 void scan(const std::string& xml, const DescriptionLimits& limits, const std::string& what) {
   std::size_t depth = 0;
   for (std::size_t at = xml.find('<'); at < xml.size(); at = xml.find('<', at)) {
@@ -51,7 +51,7 @@ void scan(const std::string& xml, const DescriptionLimits& limits, const std::st
       at = afterTag(xml, at);
       const bool closes_itself = at >= 2 && xml[at - 2] == '/';
       if (!closes_itself && ++depth > limits.max_depth) {
-        throw Refusal(Code::limit, what + " nests elements " + std::to_string(depth) + " deep at byte " +
+        throw Refusal(Code::limit, what + " nests elements " + std::to_string(depth) + " levels deep at byte " +
                                        std::to_string(begin) + "; at most " + std::to_string(limits.max_depth) +
                                        " are allowed");
       }
@@ -68,7 +68,8 @@ const tinyxml2::XMLElement& parseXml(const std::string& xml, const DescriptionLi
                                    std::to_string(limits.max_bytes) + " are allowed");
   }
   if (xml.find('\0') != std::string::npos) {
-    throw Refusal(Code::parse, what + " has a zero byte at byte " + std::to_string(xml.find('\0')) + "; it is not XML");
+    throw Refusal(Code::parse,
+                  what + " has a zero byte at byte " + std::to_string(xml.find('\0')) + "; XML must not contain one");
   }
   scan(xml, limits, what);
   if (document.Parse(xml.data(), xml.size()) != tinyxml2::XML_SUCCESS) {
@@ -79,7 +80,7 @@ const tinyxml2::XMLElement& parseXml(const std::string& xml, const DescriptionLi
   if (element == nullptr || std::strcmp(element->Name(), root) != 0) {
     throw Refusal(Code::parse, what + " begins with <" + printable(element == nullptr ? "" : element->Name(), 48) +
                                    "> in line " + std::to_string(element == nullptr ? 1 : element->GetLineNum()) +
-                                   "; it must be <" + root + ">");
+                                   "; its root element must be <" + root + ">");
   }
   return *element;
 }

@@ -10,8 +10,9 @@
 
 namespace hgrid {
 
-/// Checks the text as checkXml() says and parses it into `document`; the root element must be `root`.
-/// @throws Refusal as checkXml(), parse if the root element is another
+/// Checks the text like checkXml() and parses it into `document`. Returns the root element, which must have the name
+/// `root`.
+/// @throws Refusal as checkXml(); parse if the root element has another name
 const tinyxml2::XMLElement& parseXml(const std::string& xml, const DescriptionLimits& limits, const std::string& what,
                                      const char* root, tinyxml2::XMLDocument& document);
 

@@ -52,7 +52,7 @@ CompletenessLog::State CompletenessLog::stateOf(const Tick& tick) {
   const Snapshot& snapshot = *tick.snapshot;
   state.truncated = snapshot.truncated();
   state.complete = snapshot.complete() && !state.truncated;
-  if (snapshot.complete()) return state;  // states of bodies do not matter then
+  if (snapshot.complete()) return state;  // in a complete world, states of bodies do not matter
   state.worst = std::max(state.worst, snapshot.worstState());
   state.sources = snapshot.incompleteSources();
   return state;

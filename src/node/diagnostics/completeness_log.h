@@ -12,42 +12,43 @@
 
 namespace hgrid {
 
-/// Logs one line when the world becomes complete, when it stops being complete, and when the cause is another one:
-/// other sources are incomplete, a body has become LOST or worse, the list of pairs is truncated. One thread.
+/// Logs one line when the world becomes complete, when it stops being complete, and when the cause changes. The cause
+/// changes if other sources become incomplete, a body becomes LOST or worse, or the list of pairs becomes truncated.
+/// One thread may use it.
 ///
-/// It does not compare sentences, because the ages in them change with every tick.
+/// It does not compare sentences, because they contain ages, which change in every tick.
 class CompletenessLog {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  /// For so long after the start, an incomplete world is not reported, because its sources may be starting too.
+  /// During this time after the start, an incomplete world is not logged, because its sources may still be starting.
   static constexpr std::chrono::seconds kGrace{1};
 
   struct Line {
-    bool complete;  ///< it is information; otherwise it is a warning
+    bool complete;  ///< true: log the line as information; false: as a warning
     std::string text;
   };
 
   explicit CompletenessLog(Time started) : started_(started) {}
 
-  /// Call this for every tick. Logs the line that next() returns, warnings at most once a second.
+  /// Logs the line that next() returns, but at most one warning per second. Call this for every tick.
   void log(const Tick& tick);
-  /// Compares the tick with that of the last call. @returns the line to be logged; nullopt if nothing changed
+  /// Compares the tick with the state that was logged last. @returns the line to log; nullopt if nothing changed
   std::optional<Line> next(const Tick& tick);
 
  private:
-  /// What one tick says about completeness, without ages and other values that differ in every tick.
+  /// The completeness of one tick, without ages and other values that differ in every tick.
   struct State {
     bool complete = false, has_world = false, truncated = false;
-    Freshness worst = Freshness::stale;  // state of a body; better ones do not matter
-    std::size_t not_ready = 0;           // how many things are lacking, while there is no world
-    std::string waits_for;               // what the first of them is about
-    std::vector<std::string> sources;    // that are incomplete, sorted
+    Freshness worst = Freshness::stale;  // worst state of a body; states better than STALE do not matter
+    std::size_t not_ready = 0;           // number of things that are missing, while there is no world
+    std::string waits_for;               // name of the first of them
+    std::vector<std::string> sources;    // names of the sources that are not complete, sorted
   };
   static State stateOf(const Tick& tick);
   bool isKnown(const State& state) const;
 
   const Time started_;
-  std::optional<State> known_;  // that was logged last; nullopt: none was
+  std::optional<State> known_;  // the state that was logged last; nullopt: none yet
 };
 
 }  // namespace hgrid

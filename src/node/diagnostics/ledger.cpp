@@ -29,7 +29,8 @@ void Ledger::refuse(const std::string& where, const Refusal& refusal) {
     std::swap(silent, line.silent);
   }
   if (silent > 0) {
-    ROS_WARN("%s: %s (and %llu more like it)", cause.c_str(), refusal.what(), static_cast<unsigned long long>(silent));
+    ROS_WARN("%s: %s (and %llu more with the same cause, not logged)", cause.c_str(), refusal.what(),
+             static_cast<unsigned long long>(silent));
   } else {
     ROS_WARN("%s: %s", cause.c_str(), refusal.what());
   }
@@ -65,7 +66,7 @@ Refusal caughtRefusal() {
   } catch (const Refusal& refusal) {
     return refusal;
   } catch (const std::bad_alloc&) {
-    return {Code::limit, "the memory that is left does not suffice"};
+    return {Code::limit, "not enough memory is left"};
   } catch (const std::exception& error) {
     return {Code::internal, error.what()};
   } catch (...) {

@@ -13,18 +13,19 @@
 
 namespace hgrid {
 
-/// Counts what came in and what was refused, and logs refusals, at most one line per second and cause.
-/// Causes are few and chosen by the node, never by the sender, so the ledger stays small. Any thread.
+/// Counts what the node received and refused, and logs refusals, at most one line per second for each cause.
+/// The node chooses the names of causes, never the sender, so the ledger stays small. Any thread may use it.
 class Ledger {
  public:
-  /// Adds to a counter named as in "tf.accepted".
+  /// Adds `by` to the counter named `what`, for example "tf.accepted".
   void count(const std::string& what, std::uint64_t by = 1);
-  /// Counts "<where>.<CODE>" and logs the sentence as a warning, with how many were not logged since.
+  /// Adds 1 to the counter "<where>.<CODE>" and logs the sentence as a warning. The line also says how many refusals of
+  /// this cause were not logged since the last line.
   void refuse(const std::string& where, const Refusal& refusal);
-  /// As refuse(), for the exception that is being handled: call this in a catch block only. Returns that exception as a
-  /// Refusal, see caughtRefusal(). If there is no memory for that, the fault counts as "unreported" at least.
+  /// As refuse(), for the exception that is being handled. Call this only in a catch block. Returns that exception as a
+  /// Refusal (see caughtRefusal()). If there is not enough memory for that, only the counter "unreported" grows.
   Refusal fault(const char* where) noexcept;
-  /// All counters by name, "unreported" among them unless it is 0.
+  /// Returns all counters by name, including "unreported" unless it is 0.
   std::map<std::string, std::uint64_t> counters() const;
   void clear();
 
@@ -37,11 +38,11 @@ class Ledger {
   std::map<std::string, std::uint64_t> counters_;
   std::map<std::string, Line> lines_;
   std::atomic<std::uint64_t> unreported_{0};
-  const Refusal no_memory_{Code::limit, "the memory that is left does not suffice to say what failed"};
+  const Refusal no_memory_{Code::limit, "not enough memory is left to report what failed"};
 };
 
-/// The exception that is being handled, as a Refusal: itself if it is one, limit for std::bad_alloc, else internal.
-/// Call this in a catch block only.
+/// Returns the exception that is being handled as a Refusal: unchanged if it is one, with Code::limit for
+/// std::bad_alloc, otherwise with Code::internal. Call this only in a catch block.
 Refusal caughtRefusal();
 
 }  // namespace hgrid

@@ -15,7 +15,7 @@ void addAll(DiagnosticStatusWrapper& status, const std::string& key, const std::
   for (std::size_t i = 0; i < lines.size(); ++i) status.add(key + " " + std::to_string(i + 1), lines[i]);
 }
 
-/// Merges a WARN for each robot whose own links make no pair, and adds the counts of all robots.
+/// Adds the counts of self pairs of all robots, and a warning for each robot all of whose self pairs are switched off.
 void addSelfPairs(DiagnosticStatusWrapper& status, const ModelReport& report) {
   for (const auto& [robot, counts] : report.self_pairs) {
     status.add("self pairs of " + robot, text(counts));
@@ -52,7 +52,7 @@ void NodeDiagnostics::world(DiagnosticStatusWrapper& status) {
   }
   if (snapshot.truncated()) status.mergeSummary(DiagnosticStatus::ERROR, truncationOf(snapshot));
   const bool silenced = snapshot.structure().silenced;
-  if (silenced) status.mergeSummary(DiagnosticStatus::WARN, "rules switch off every pair: nothing is reported");
+  if (silenced) status.mergeSummary(DiagnosticStatus::WARN, "rules switch off every pair, so no pair is reported");
   status.add("bodies", snapshot.poses().size());
   status.add("near pairs", snapshot.pairs().size());
   status.add("age of the oldest pose [s]", snapshot.maxAge());
@@ -74,9 +74,9 @@ void NodeDiagnostics::robots(DiagnosticStatusWrapper& status) {
     status.summary(DiagnosticStatus::WARN, report.warnings.front());
   } else if (!report.without_collision.empty()) {
     status.summary(DiagnosticStatus::WARN, std::to_string(report.without_collision.size()) +
-                                               " links have no <collision>; nothing is known of their extent");
+                                               " links have no <collision>; their extent is unknown");
   } else {
-    status.summary(DiagnosticStatus::OK, "every shape was read");
+    status.summary(DiagnosticStatus::OK, "all shapes were read");
   }
   addSelfPairs(status, report);
   status.add("robots loaded", report.robots);
@@ -91,9 +91,10 @@ void NodeDiagnostics::robots(DiagnosticStatusWrapper& status) {
 void NodeDiagnostics::transforms(DiagnosticStatusWrapper& status) {
   const auto tick = newest_();
   const HealthReport health = health_.report();
-  status.summary(DiagnosticStatus::OK, "every frame is known and fresh");
+  status.summary(DiagnosticStatus::OK, "all frames are known and fresh");
   if (!health.conflicts.empty()) {
-    status.summary(DiagnosticStatus::WARN, "frame '" + health.conflicts.front() + "' comes on /tf and on /tf_static");
+    status.summary(DiagnosticStatus::WARN,
+                   "frame '" + health.conflicts.front() + "' is published on both /tf and /tf_static");
   }
   if (!tick) return;
   for (const std::string& fight : tick->contested_frames) status.mergeSummary(DiagnosticStatus::WARN, fight);
@@ -101,7 +102,7 @@ void NodeDiagnostics::transforms(DiagnosticStatusWrapper& status) {
     if (trouble.code == Code::conflict && !tick->contested_frames.empty()) continue;  // reported above
     const bool grave = trouble.state >= Freshness::lost;
     status.mergeSummary(grave ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN, trouble.sentence);
-    break;  // only the worst; ~status lists the others
+    break;  // only the worst is shown; ~status lists the others
   }
   addAll(status, "missing frame", tick->missing_frames);
   addAll(status, "conflict", health.conflicts);

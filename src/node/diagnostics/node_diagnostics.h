@@ -13,15 +13,15 @@
 
 namespace hgrid {
 
-/// Publishes the four statuses of /diagnostics (REP-107): world, robots, transforms, ticks. They are for people and
-/// dashboards; a program that stops a robot must use ~pairs and ~status. One thread.
+/// Publishes four statuses on /diagnostics (REP-107): world, robots, transforms and ticks. They are for people and
+/// dashboards. A program that stops a robot must use ~pairs and ~status instead. One thread may use it.
 class NodeDiagnostics {
  public:
   using NewestTick = std::function<std::shared_ptr<const Tick>()>;
 
   NodeDiagnostics(ros::NodeHandle node, ros::NodeHandle private_node, const std::string& name, NewestTick newest,
                   const NodeHealth& health);
-  /// Publishes now. The updater itself would wait for its period.
+  /// Publishes immediately. Otherwise the updater would wait for the end of its period.
   void update() { updater_.force_update(); }
 
  private:

@@ -13,25 +13,25 @@
 
 namespace hgrid {
 
-/// What /diagnostics reports besides the newest tick.
+/// Data that /diagnostics reports in addition to the newest tick.
 struct HealthReport {
-  std::map<std::string, std::string> failed_loads;  ///< sentence by robot: its description could not be loaded
+  std::map<std::string, std::string> failed_loads;  ///< by robot: why its description could not be loaded
   std::size_t late_ticks_in_a_row = 0;
-  std::uint64_t failed_ticks = 0;      ///< since the node was started
+  std::uint64_t failed_ticks = 0;      ///< number of failed ticks since the start of the node
   std::optional<Refusal> failed_tick;  ///< why the last tick failed; nullopt if it did not
-  std::vector<std::string> conflicts;  ///< frames that come on /tf and on /tf_static
+  std::vector<std::string> conflicts;  ///< frames that are published on both /tf and /tf_static
 };
 
-/// Collects what the parts of the node note for /diagnostics. Any thread.
+/// Collects data for /diagnostics from all parts of the node. Any thread may use it.
 class NodeHealth {
  public:
-  /// Call this for every tick. @param fault  why it failed; nullopt if it did not
+  /// Call this for every tick. @param fault  why the tick failed; nullopt if it did not fail
   void noteTick(const std::optional<Refusal>& fault);
-  /// Call this for every tick. @param late  it began more than a period too late
+  /// Call this for every tick. @param late  true if the tick began more than one period too late
   void noteLateness(bool late);
-  /// @param frames  all frames that come on /tf and on /tf_static. A frame in this list is never removed from it.
+  /// @param frames  all frames that are published on both /tf and /tf_static. A frame is never removed from this list.
   void noteConflicts(const std::vector<std::string>& frames);
-  /// @returns whether this sentence is another than the last one of this robot
+  /// Notes why a robot could not be loaded. @returns whether the sentence differs from the last one for this robot
   bool noteFailedLoad(const std::string& robot, const std::string& sentence);
   void noteLoaded(const std::string& robot);
 

@@ -18,22 +18,22 @@
 
 namespace hgrid {
 
-/// Owns the sources of bodies (robots, maps, clouds), and has those loads that failed tried again. One thread, not that
-/// of the ticks. (Each cloud is read on a thread of its own.)
+/// Owns the objects that load robots, maps and clouds, and retries failed loads. Only one thread may use it, and not
+/// the tick thread. (Each cloud is read on a separate thread.)
 class Loading {
  public:
   using NewestTick = SelfShapes::NewestTick;
 
-  /// @param node          its callback queue is that of the thread that uses this object
-  /// @param private_node  where robot descriptions are searched, from here upwards
-  /// @param is_ending     whether the node is about to end; a load that takes long is then given up. Any thread.
+  /// @param node          its callback queue must be that of the thread that uses this object
+  /// @param private_node  robot descriptions are searched from its namespace upwards
+  /// @param is_ending     returns whether the node is shutting down, so that loads are canceled. Any thread calls it.
   Loading(ros::NodeHandle node, const ros::NodeHandle& private_node, Commons& commons,
           const TransformLookup& transforms, NewestTick newest, TickJobs& jobs, std::function<bool()> is_ending);
 
   void startClouds();
   void stopClouds() { clouds_.clear(); }
 
-  /// Tries again what is missing, if it is time to: at first often, then every ten seconds.
+  /// Tries again to load missing robots and maps, if a retry is due: at first often, then every ten seconds.
   void retry(RetrySchedule::Time now);
 
   RobotLoader& robots() { return robots_; }

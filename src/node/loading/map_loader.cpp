@@ -29,7 +29,8 @@ void MapLoader::subscribe(ros::NodeHandle& node, const MapParams& map) {
   subscribers_.push_back(node.subscribe<OctomapMessage>(map.topic, 1, callback));
 }
 
-/// A message that cannot be put into the world yet replaces an older one that waits, and waits in its place.
+/// Puts the map of a message into the world. If that is not possible yet, the message waits for a retry, and replaces
+/// an older waiting message.
 void MapLoader::onMessage(const MapParams& map, const OctomapMessage& message) {
   std::optional<ReadMap> read;
   const bool done = put(map, [&] {
@@ -56,7 +57,7 @@ void MapLoader::forget(const std::string& map) {
   }
 }
 
-/// Puts what `load` returns into the world. @returns whether that succeeded; if not, the reason is reported
+/// Puts the map that `load` returns into the world. Reports a failure. @returns whether this succeeded
 bool MapLoader::put(const MapParams& map, const std::function<LoadedMap()>& load) {
   try {
     const LoadedMap loaded = load();
@@ -71,7 +72,7 @@ bool MapLoader::put(const MapParams& map, const std::function<LoadedMap()>& load
   }
 }
 
-/// As put(). A fault while the reason is reported leaves the other maps.
+/// Does the same as put(). Catches all exceptions, so that the other maps are still loaded.
 bool MapLoader::putGuarded(const MapParams& map, const std::function<LoadedMap()>& load) {
   bool done = false;
   guarded(ledger_, "maps.failed", [&] { done = put(map, load); });

@@ -17,19 +17,21 @@
 
 namespace hgrid {
 
-/// Puts the configured maps into the world: those of files at the start, those of topics whenever a message comes.
+/// Puts the configured maps into the world: maps from files at the start, maps from topics when a message arrives.
 ///
-/// It remembers which files are still to be read, and which messages the world could not take yet, because many maps
-/// are published only once. One thread, not that of the ticks.
+/// Stores which files are still to be read. Many maps are published only once, so it also stores the messages that
+/// could not be put into the world yet. Only one thread may use it, and not the tick thread.
 class MapLoader {
  public:
-  /// @param node  its callback queue is that of the thread that uses this object. All other parameters must outlive it.
+  /// All parameters except `node` must outlive this object.
+  /// @param node  its callback queue must be that of the thread that uses this object
   MapLoader(ros::NodeHandle& node, const Params& params, const MapSource& source, TickJobs& jobs, Ledger& ledger);
 
   bool hasMissing() const { return !files_.empty() || !arrived_.empty(); }
-  /// Tries to put every map that is missing into the world. Each that fails is reported by ~status and counted.
+  /// Tries to put every missing map into the world. Each failure is counted and reported on ~status.
   void loadMissing();
-  /// Forgets what is still to be loaded of this map (empty: of all maps), because a service has decided what it has.
+  /// Drops the files and messages of this map that still wait to be loaded. An empty name means all maps. Call this
+  /// after a service has loaded or removed the map.
   void forget(const std::string& map);
 
  private:

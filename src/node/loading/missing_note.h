@@ -10,7 +10,7 @@
 
 namespace hgrid {
 
-/// Has the next tick say why a robot, map or cloud is not in the world, or not as its newest data has it.
+/// Lets the next tick report why a robot, map or cloud is not in the world, or why its newest data could not be used.
 inline void noteMissing(TickJobs& jobs, const SourceId& source, const std::string& sentence) {
   jobs.add([source, sentence](World& world) { world.setMissing(source, sentence); });
 }

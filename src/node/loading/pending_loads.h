@@ -10,13 +10,14 @@
 
 namespace hgrid {
 
-/// What is still to be put into the world, in the order in which it was added. One thread.
+/// A list of loads that are still to be put into the world, in the order in which they were added. Only one thread may
+/// use it.
 template <class Load>
 class PendingLoads {
  public:
   bool empty() const { return loads_.empty(); }
 
-  /// Adds a load, and removes an earlier one of the same name.
+  /// Adds a load. Removes an earlier load of the same name.
   void put(const std::string& name, Load load) {
     loads_.reserve(loads_.size() + 1);
     remove(name);

@@ -6,15 +6,15 @@
 
 namespace hgrid {
 
-/// Says when loads that failed are tried again: the first time at once, then after pauses that grow from kFirstPause to
-/// kLongestPause, each twice as long as the one before. The pause never shrinks.
+/// Decides when failed loads are tried again. The first try is due at once. Then the pauses double from kFirstPause to
+/// kLongestPause. A pause is never shorter than the previous one.
 class RetrySchedule {
  public:
   using Time = std::chrono::steady_clock::time_point;
   static constexpr std::chrono::milliseconds kFirstPause{500};
   static constexpr std::chrono::milliseconds kLongestPause{10000};
 
-  /// Whether it is time to try.
+  /// Whether a try is due.
   bool isDue(Time now) const { return now >= next_; }
   /// Call this when a try begins.
   void noteTry(Time now);

@@ -49,7 +49,7 @@ Refusal RobotLoader::reload(const std::string& name) {
   return outcome;
 }
 
-/// Reads a robot and puts it into the world. @returns ok, or why that failed
+/// Reads a robot and puts it into the world. @returns ok, or the reason of the failure
 Refusal RobotLoader::load(const RobotParams& robot) {
   try {
     const auto loaded = std::make_shared<LoadedRobot>(source_.load(robot));

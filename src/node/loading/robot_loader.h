@@ -13,19 +13,19 @@
 
 namespace hgrid {
 
-/// Puts the configured robots into the world and remembers which of them are still missing. One thread, not that of the
-/// ticks.
+/// Puts the configured robots into the world, and stores which of them are still missing. Only one thread may use it,
+/// and not the tick thread.
 class RobotLoader {
  public:
-  /// All robots are missing at first. The parameters must outlive this object.
+  /// At first, all robots are missing. All parameters must outlive this object.
   RobotLoader(const RobotSource& source, const Params& params, TickJobs& jobs, NodeHealth& health);
 
   bool hasMissing() const { return !missing_.empty(); }
-  /// Tries to load every robot that is missing. Each that fails is reported in the log, by ~status and by /diagnostics.
+  /// Tries to load every missing robot. Each failure is reported in the log, on ~status and on /diagnostics.
   void loadMissing();
 
-  /// Loads the robot of this name again, or all robots if the name is empty. A robot that fails keeps its old model.
-  /// @returns ok; unknown_id if there is no such robot; otherwise why the last robot that failed did
+  /// Loads the robot of this name again, or all robots if the name is empty. If a load fails, the old model stays.
+  /// @returns ok; unknown_id if there is no such robot; otherwise the reason of the last failure
   Refusal reload(const std::string& name);
 
  private:

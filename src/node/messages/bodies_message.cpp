@@ -43,7 +43,7 @@ msg::Body toMsg(const Body& source, double margin) {
   return body;
 }
 
-/// The cells of a map, as one shape.
+/// Returns a shape of kind CELLS that describes the cells of a map or cloud.
 msg::Shape shapeOf(const StaticGrid& grid) {
   msg::Shape shape;
   shape.kind = msg::ShapeKind::CELLS;

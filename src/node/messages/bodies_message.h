@@ -8,7 +8,7 @@
 
 namespace hgrid {
 
-/// Names, frames and shapes of all bodies of a tick.
+/// Returns the message of ~bodies: names, frames and shapes of all bodies of a tick.
 msg::Bodies bodiesMessage(const Tick& tick);
 
 }  // namespace hgrid

@@ -7,7 +7,8 @@
 namespace hgrid {
 namespace {
 
-/// Number of each body among the names; those in use stand in the order of all, which is that of their names.
+/// Appends the name of each body of the first `shown` pairs to `names`, each once and sorted.
+/// @returns the indices of these bodies in Structure::bodies, in the same order
 std::vector<std::uint32_t> fillNames(const Structure& structure, const PairDistances& distances, std::size_t shown,
                                      std::vector<std::string>& names) {
   std::vector<std::uint32_t> numbers;

@@ -10,7 +10,8 @@
 
 namespace hgrid {
 
-/// The message of ~distances. @param distances  of the tick's snapshot; null where there is none
+/// Returns the message of ~distances.
+/// @param distances  the distances of the tick's snapshot; null if there are none
 boost::shared_ptr<msg::Distances> distancesMessage(const Tick& tick, const msg::WorldState& world,
                                                    const PairDistances* distances, const Params& params);
 

@@ -15,19 +15,19 @@
 namespace hgrid {
 namespace {
 
-/// A rule as a sentence for people: "robot/* obstacle/table: it is bolted on".
+/// Returns a rule as text for people: "robot/* obstacle/table: it is bolted on".
 std::string textOf(const PairRule& rule) {
   return rule.first + " " + rule.second + (rule.reason.empty() ? "" : ": " + rule.reason);
 }
 
-constexpr double kShareOfBudget = 0.2;  // of ~distances/budget: ~pairs waits for it
+constexpr double kShareOfBudget = 0.2;  // share of ~distances/budget; small, because ~pairs waits for it
 
-/// Whether a body of the event is no longer in the world; then its indices refer to the structure before.
+/// Whether a body of the event is no longer in the world. The indices of the event then refer to the structure before.
 bool hasLostABody(const PairEvent& event, const Snapshot& snapshot) {
   return &snapshot.structureOf(event) != &snapshot.structure();
 }
 
-/// Names of the bodies of some events, sorted, each once.
+/// Returns the names of the bodies of the events from `first` to `last`, sorted, each once.
 std::vector<std::string> namesOf(const Snapshot& snapshot, const PairEvent* first, const PairEvent* last) {
   std::vector<std::string> names;
   for (const PairEvent* event = first; event != last; ++event) {
@@ -40,10 +40,10 @@ std::vector<std::string> namesOf(const Snapshot& snapshot, const PairEvent* firs
   return names;
 }
 
-/// Exact distances of events, as long as there is time.
+/// Measures the exact distances of events while there is time left.
 class EventMeter {
  public:
-  /// @param budget  [s] 0: as long as it takes
+  /// @param budget  [s] time for all measurements; 0: no limit
   EventMeter(const NarrowPhase& narrow_phase, const Snapshot& snapshot, double budget)
       : narrow_phase_(narrow_phase),
         snapshot_(snapshot),
@@ -51,7 +51,7 @@ class EventMeter {
                    ? Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(budget))
                    : Clock::time_point::max()) {}
 
-  /// All of it is NaN if a body is gone, or no time is left.
+  /// Returns the distance and the nearest points of the two bodies; all NaN if a body is gone or no time is left.
   Proximity measure(const PairEvent& event) const {
     if (hasLostABody(event, snapshot_) || Clock::now() >= until_) return Proximity{};
     constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -65,7 +65,7 @@ class EventMeter {
   Clock::time_point until_;
 };
 
-/// Adds what holds only while both bodies are in the world.
+/// Appends the values of an event that exist only while both bodies are in the world: margin, states and rule.
 void addState(const PairEvent& event, const Snapshot& snapshot, msg::Events& message) {
   const auto stateOf = [&](std::uint32_t body) { return static_cast<std::uint8_t>(snapshot.poses()[body].state); };
   if (hasLostABody(event, snapshot)) {

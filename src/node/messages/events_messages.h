@@ -11,9 +11,10 @@
 
 namespace hgrid {
 
-/// The messages of ~events of a tick: none where nothing began or ended, and more than one where there are more events
-/// than ~max_events. WorldState.last_event of each is its own last one, so that what is still to come does not look
-/// missed. Distances are measured as long as a fifth of ~distances/budget lasts.
+/// Returns the messages of ~events for a tick: none if no pair began or ended, several if there are more events than
+/// ~max_events. WorldState.last_event of each message is the number of the last event in that message. Otherwise a
+/// receiver would take the events of the next message for lost ones. Distances are measured as long as there is time:
+/// a fifth of ~distances/budget.
 std::vector<boost::shared_ptr<msg::Events>> eventsMessages(const Tick& tick, const msg::WorldState& world,
                                                            const Params& params, const NarrowPhase& narrow_phase);
 

@@ -13,17 +13,17 @@
 
 namespace hgrid {
 
-// Values of the library from parts of requests.
+// Converts parts of requests into values of the library.
 
 inline Eigen::Vector3d fromPoint(const geometry_msgs::Point& point) { return {point.x, point.y, point.z}; }
 
-/// A pose. An orientation of four zeros, as in a request typed by hand, counts as none.
-/// @param what  names the pose in a refusal, as in "the map's pose"
+/// Converts a pose. An orientation of four zeros, as in a request typed by hand, means no rotation.
+/// @param what  name of the pose in error messages, as in "the map's pose"
 /// @throws Refusal nonfinite, bad_rotation
 Pose fromPose(const geometry_msgs::Pose& pose, const std::string& what);
 
-/// The shape alone, without its pose, padding and resource.
-/// @throws Refusal unsupported (a kind that cannot be asked about), bad_geometry, nonfinite, out_of_range
+/// Converts a shape, without its pose, padding and resource.
+/// @throws Refusal unsupported (queries do not accept this kind), bad_geometry, nonfinite, out_of_range
 Shape fromShape(const ::hgrid_proximity::Shape& shape);
 
 }  // namespace hgrid

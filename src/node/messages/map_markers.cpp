@@ -13,7 +13,9 @@ namespace {
 
 using visualization_msgs::Marker;
 
-/// In Morton order, each once.
+/// Returns the occupied cells of a map that are near the box of a body, in Morton order, each once.
+/// @param within  [m] cells at most this far from a sphere around the box are returned
+/// @param most    largest number of cells
 std::vector<Voxel> voxelsNearBodies(const Snapshot& snapshot, std::uint32_t map, const StaticGrid& grid, double within,
                                     std::size_t most) {
   const Pose map_from_world = snapshot.poses()[map].world_from_body.inverse();
@@ -24,7 +26,7 @@ std::vector<Voxel> voxelsNearBodies(const Snapshot& snapshot, std::uint32_t map,
     const Eigen::Vector3d low = box.min.cast<double>(), high = box.max.cast<double>();
     const Eigen::Vector3d center = map_from_world * (snapshot.origin() + 0.5 * (low + high));
     grid.overlapping(Sphere{center, 0.5 * (high - low).norm() + within}, most, found);
-    std::vector<Voxel> both;  // what several bodies are near to counts once
+    std::vector<Voxel> both;  // a cell that is near several bodies counts once
     std::set_union(all.begin(), all.end(), found.begin(), found.end(), std::back_inserter(both),
                    [](const Voxel& a, const Voxel& b) { return mortonOf(a) < mortonOf(b); });
     all.swap(both);

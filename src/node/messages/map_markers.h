@@ -11,8 +11,9 @@
 
 namespace hgrid {
 
-/// The occupied cells of maps that are within ~map/shown_within of a body's box, at most ~map/max_shown of them: in
-/// namespace "maps" one list of cubes for each map and edge. They vanish by themselves.
+/// Returns markers for the occupied cells of maps that are within ~map/shown_within of the box of a body, at most
+/// ~map/max_shown cells. The namespace of the markers is "maps". There is one marker, a list of cubes, for each map and
+/// each edge length of cells. The markers have a lifetime, so RViz removes them.
 std::vector<visualization_msgs::Marker> mapMarkers(const Tick& tick, const Params& params);
 
 }  // namespace hgrid

@@ -12,7 +12,7 @@ namespace {
 
 using visualization_msgs::Marker;
 
-constexpr int kMostTexts = 20;  // those of the nearest pairs: more could not be read
+constexpr int kMostTexts = 20;  // only the nearest pairs have a text, because more texts would be unreadable
 constexpr auto kQueryShownFor = std::chrono::seconds(3);
 
 std_msgs::ColorRGBA color(double r, double g, double b, double a) {
@@ -24,7 +24,7 @@ std_msgs::ColorRGBA color(double r, double g, double b, double a) {
   return result;
 }
 
-/// One colour per level, told apart also by those who do not see red and green (after Okabe and Ito, 2008).
+/// Returns the color of a level. Color-blind people can distinguish these colors, too (after Okabe and Ito, 2008).
 std_msgs::ColorRGBA levelColor(int level) {
   static const std_msgs::ColorRGBA kColors[] = {color(0.34, 0.71, 0.91, 0.9), color(0.90, 0.62, 0.00, 0.9),
                                                 color(0.00, 0.62, 0.45, 0.9), color(0.80, 0.47, 0.65, 0.9),
@@ -43,7 +43,7 @@ Marker marker(const Tick& tick, const char* layer, int id, int type) {
   result.ns = layer;
   result.id = id;
   result.type = type;
-  result.action = Marker::DELETE;  // until there is something to draw
+  result.action = Marker::DELETE;  // changed to ADD when there is something to draw
   result.pose.orientation.w = 1.0;
   result.scale.x = result.scale.y = result.scale.z = 0.01;
   result.color = color(1.0, 1.0, 1.0, 1.0);
@@ -82,9 +82,9 @@ void addPair(Marker& lines, const Snapshot& snapshot, const NearPair& pair) {
       if (gap < least) least = gap, first = i, second = j;
     }
   }
-  if (std::isinf(least)) return;  // a map has no boxes; its pairs are drawn where they are measured
+  if (std::isinf(least)) return;  // a map has no boxes; markers of its distances show its pairs
   BoxPoints points = nearestPoints(inDouble(snapshot.boxes()[first]), inDouble(snapshot.boxes()[second]));
-  if (least == 0.0) {  // they overlap: from the middle of one to the middle of the other
+  if (least == 0.0) {  // the boxes overlap: draw from center to center
     points.on_first = inDouble(snapshot.boxes()[first]).center();
     points.on_second = inDouble(snapshot.boxes()[second]).center();
   }
@@ -93,7 +93,7 @@ void addPair(Marker& lines, const Snapshot& snapshot, const NearPair& pair) {
           color(1.0, 1.0 - 0.9 * nearness, 0.1, 1.0));
 }
 
-/// From green far away to red in contact; grey where nothing was measured.
+/// Returns a color between green (as far away as `farthest` [m]) and red (in contact), or gray if nothing was measured.
 std_msgs::ColorRGBA distanceColor(const PairDistance& pair, double farthest) {
   if (std::isnan(pair.proximity.distance)) return color(0.6, 0.6, 0.6, 1.0);
   const double nearness = farthest > 0.0 ? 1.0 - std::min(1.0, pair.proximity.distance / farthest) : 1.0;
@@ -105,7 +105,7 @@ std::string distanceText(const PairDistance& pair) {
   return std::to_string(std::lround(1e3 * pair.proximity.distance)) + " mm";
 }
 
-/// Lines between the nearest points, and beside the first of them how far they are apart.
+/// Adds a line between the nearest points of each pair, and fills `texts` with the distances of the first pairs.
 void addDistances(const PairDistances& distances, Marker& lines, std::vector<Marker>& texts) {
   double farthest = 0.0;
   for (const PairDistance& pair : distances.pairs) {
@@ -152,7 +152,7 @@ visualization_msgs::MarkerArray markers(const Tick& tick, const QuerySketch& que
   Marker boxes = marker(tick, "boxes", 0, Marker::LINE_LIST),
          not_fresh = marker(tick, "not_fresh", 0, Marker::LINE_LIST),
          pairs = marker(tick, "pairs", 0, Marker::LINE_LIST), nearest = marker(tick, "distances", 0, Marker::LINE_LIST),
-         ball = marker(tick, "queries", 0, Marker::SPHERE), ray = marker(tick, "queries", 1, Marker::LINE_LIST);
+         query_sphere = marker(tick, "queries", 0, Marker::SPHERE), ray = marker(tick, "queries", 1, Marker::LINE_LIST);
   boxes.scale.x = 0.004;
   not_fresh.scale.x = 0.012;
   pairs.scale.x = 0.02;
@@ -177,10 +177,10 @@ visualization_msgs::MarkerArray markers(const Tick& tick, const QuerySketch& que
   const auto now = std::chrono::steady_clock::now();
   const auto sphere = queries.sphere();
   if (sphere && now - sphere->at < kQueryShownFor) {
-    ball.action = Marker::ADD;
-    ball.pose.position = toPoint(sphere->geometry.center);
-    ball.scale.x = ball.scale.y = ball.scale.z = std::max(0.02, 2.0 * sphere->geometry.radius);
-    ball.color = verdictColor(sphere->verdict);
+    query_sphere.action = Marker::ADD;
+    query_sphere.pose.position = toPoint(sphere->geometry.center);
+    query_sphere.scale.x = query_sphere.scale.y = query_sphere.scale.z = std::max(0.02, 2.0 * sphere->geometry.radius);
+    query_sphere.color = verdictColor(sphere->verdict);
   }
   const auto segment = queries.segment();
   if (segment && now - segment->at < kQueryShownFor) {
@@ -188,7 +188,7 @@ visualization_msgs::MarkerArray markers(const Tick& tick, const QuerySketch& que
     addLine(ray, segment->geometry.from, segment->geometry.to, verdictColor(segment->verdict));
   }
   visualization_msgs::MarkerArray array;
-  array.markers = {boxes, not_fresh, pairs, nearest, ball, ray};
+  array.markers = {boxes, not_fresh, pairs, nearest, query_sphere, ray};
   array.markers.insert(array.markers.end(), texts.begin(), texts.end());
   return array;
 }

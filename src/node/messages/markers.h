@@ -13,7 +13,7 @@
 
 namespace hgrid {
 
-/// The last question of each kind, to be drawn. Any thread.
+/// Stores the last sphere query and the last segment query, so that ~markers can show them. Any thread may use it.
 class QuerySketch {
  public:
   void show(const Sphere& sphere, Verdict verdict);
@@ -34,15 +34,19 @@ class QuerySketch {
   std::optional<Drawn<Segment>> segment_;
 };
 
-/// What RViz draws of a tick, in the world frame: namespace "boxes" (one colour per grid level), "not_fresh" (boxes of
-/// bodies that are not, red), "pairs" (a line between the nearest points of each near pair's boxes), "distances" (a
-/// line between the nearest points of the shapes of each measured pair, from green at the report distance to red in
-/// contact), "distance_texts" (the distance beside each such line [mm]), "queries". Every marker has a stable id and is
-/// replaced, or deleted where there is nothing to draw.
-/// @param distances  of the tick's snapshot; null: not measured
+/// Returns markers that show a tick in RViz, in the world frame. Their namespaces are:
+/// - "boxes": the boxes of all shapes, with one color for each level of the grid;
+/// - "not_fresh": the boxes of bodies that are STALE or worse, in red;
+/// - "pairs": a line between the nearest points of the boxes of each pair;
+/// - "distances": a line between the nearest points of the shapes of each measured pair, from green (the farthest pair)
+///   to red (in contact);
+/// - "distance_texts": the distance [mm] beside such lines;
+/// - "queries": the last queries.
+/// Each marker has a fixed id, so that a new message replaces it. A marker without content deletes the old one.
+/// @param distances  the distances of the tick's snapshot; null: they were not measured
 visualization_msgs::MarkerArray markers(const Tick& tick, const QuerySketch& queries, const PairDistances* distances);
 
-/// Deletes all of them: for the first message to a new viewer.
+/// Returns a message that deletes all markers. It is the first message for a new subscriber.
 visualization_msgs::MarkerArray markersGone(const Tick& tick);
 
 }  // namespace hgrid

@@ -46,7 +46,8 @@ PairsMessages::Pooled& PairsMessages::unused() {
   return extra_ = Pooled{};
 }
 
-/// Numbers the bodies that stand in a pair. Bodies are sorted by name, so their names come out sorted.
+/// Fills the names of the bodies that are in a pair, and number_ with the index of each such body in these names. The
+/// names are sorted, because the bodies are sorted by name.
 void PairsMessages::fillNames(const Snapshot& snapshot, Pooled& pooled) {
   const Structure& structure = snapshot.structure();
   number_.assign(structure.bodies.size(), 0);

@@ -11,17 +11,18 @@
 
 namespace hgrid {
 
-/// Makes the messages of ~pairs from a small pool. A message is never altered while somebody beside the pool holds it;
-/// then it is filled again, and the names that it has already are not copied anew. One thread.
+/// Builds the messages of ~pairs. It keeps a small pool of messages and fills a message again once nobody else holds
+/// it. Names that such a message already contains are not copied again. Only one thread may use this object.
 class PairsMessages {
  public:
+  /// Returns the message of ~pairs for a tick.
   boost::shared_ptr<msg::Pairs> of(const Tick& tick, const msg::WorldState& world);
 
  private:
   struct Pooled {
     boost::shared_ptr<msg::Pairs> message = boost::make_shared<msg::Pairs>();
-    std::uint64_t revision = 0;        // of the bodies whose names it has
-    std::vector<std::uint32_t> named;  // index of the body of every name
+    std::uint64_t revision = 0;        // Structure::revision of the bodies that `named` refers to
+    std::vector<std::uint32_t> named;  // for each name in the message: index of its body in Structure::bodies
   };
 
   Pooled& unused();
@@ -29,8 +30,8 @@ class PairsMessages {
 
   static constexpr std::size_t kMostKept = 4;
   std::vector<Pooled> pool_;
-  Pooled extra_;                       // all of the pool is held by slow readers
-  std::vector<std::uint32_t> number_;  // scratch: number of each body among the names
+  Pooled extra_;                       // used while slow subscribers still hold every message of the pool
+  std::vector<std::uint32_t> number_;  // for each body: its index in the names of the message
 };
 
 }  // namespace hgrid

@@ -25,12 +25,13 @@ std::vector<PairRule> rulesOf(const std::vector<msg::AllowedPair>& pairs, const 
     const std::int64_t lifetime = pair.lifetime.toNSec();
     if (lifetime < 0) {
       throw Refusal(Code::out_of_range, "the lifetime of rule '" + rule.first + "', '" + rule.second + "' is " +
-                                            text(pair.lifetime.toSec()) + " s; it must not be negative (0: forever)");
+                                            text(pair.lifetime.toSec()) +
+                                            " s; it must not be negative; 0 means no end");
     }
     if (lifetime > 0 && lifetime < 1000000) {
       throw Refusal(Code::out_of_range, "the lifetime of rule '" + rule.first + "', '" + rule.second + "' is " +
                                             std::to_string(lifetime) +
-                                            " ns; it must be 0 (forever) or at least 0.001 s; by hand: {secs: 20}");
+                                            " ns; it must be 0 (no end) or at least 0.001 s; 20 s is {secs: 20}");
     }
     if (lifetime > 0) rule.ends = now.steady + std::chrono::nanoseconds(lifetime);
     rules.push_back(rule);
@@ -49,7 +50,7 @@ msg::AllowedPair toMsg(const PairRule& rule, PairRule::Clock::time_point now) {
   pair.since = toRos(rule.since);
   if (rule.ends != PairRule::Clock::time_point::max()) {
     const std::chrono::nanoseconds left = rule.ends - now;
-    pair.lifetime.fromNSec(std::max<std::int64_t>(1, left.count()));  // 0 would mean forever
+    pair.lifetime.fromNSec(std::max<std::int64_t>(1, left.count()));  // 0 would mean that the rule never ends
   }
   return pair;
 }

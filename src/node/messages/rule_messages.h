@@ -16,15 +16,16 @@ namespace hgrid {
 
 namespace msg = ::hgrid_proximity;
 
-/// Reads the rules of a request to ~set_allowed. Their lifetimes begin at `now.steady`.
-/// @param set_by  name of the node that asks
+/// Converts the rules of a request to ~set_allowed. Their lifetimes begin at `now.steady`.
+/// @param set_by  name of the node that sent the request
 /// @throws Refusal bad_id, out_of_range
 std::vector<PairRule> rulesOf(const std::vector<msg::AllowedPair>& pairs, const std::string& set_by, const Moment& now);
 
-/// @param now  when the message is made: it says how long the rule will still last
+/// Converts a rule.
+/// @param now  current time, from which the remaining lifetime of the rule is computed
 msg::AllowedPair toMsg(const PairRule& rule, PairRule::Clock::time_point now);
 
-/// The message of ~rules. While there is no world, the configured rules are in force.
+/// Returns the message of ~rules. Before there is a world, it lists the configured rules.
 msg::Rules rulesMessage(const Tick& tick, const Params& params);
 
 }  // namespace hgrid

@@ -8,7 +8,7 @@
 
 namespace hgrid {
 
-/// Only "now" can be asked: the range of times that are available is the one stamp of the newest snapshot.
+/// Checks the stamp of a query. Only the newest snapshot is available, so the stamp must be 0 (now) or its stamp.
 /// @throws Refusal extrapolation
 inline void checkStamp(const ros::Time& stamp, const Snapshot& snapshot) {
   const ros::Time available = toRos(snapshot.stamp());

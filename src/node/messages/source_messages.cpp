@@ -17,7 +17,7 @@ namespace {
 
 using Sources = std::map<std::string, msg::SourceStatus>;
 
-/// The source's entry; a new one says that nothing is known of the source.
+/// Returns the entry of a source. A new entry says that nothing is known about the source.
 msg::SourceStatus& entryOf(Sources& sources, const std::string& name) {
   const auto known = sources.emplace(name, msg::SourceStatus());
   msg::SourceStatus& source = known.first->second;

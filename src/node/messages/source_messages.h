@@ -13,7 +13,7 @@ namespace hgrid {
 
 namespace msg = ::hgrid_proximity;
 
-/// The entry of every source in ~status, sorted by name: those that are configured and those that have bodies.
+/// Returns an entry of ~status for every source that is configured or has bodies, sorted by name.
 std::vector<msg::SourceStatus> sourcesOf(const Tick& tick, const Params& params);
 
 }  // namespace hgrid

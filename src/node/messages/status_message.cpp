@@ -78,7 +78,7 @@ msg::Status statusMessage(const Tick& tick, const msg::WorldState& world, const 
   };
   if (tick.snapshot) {
     const Structure& structure = tick.snapshot->structure();
-    for (const std::uint32_t map : structure.maps) {  // in the order of their names
+    for (const std::uint32_t map : structure.maps) {  // sorted by name
       const auto cells = tick.snapshot->cellsOf(map);
       gauge("cells." + structure.bodies[map].name, cells ? static_cast<double>(cells->grid->size()) : 0.0);
     }

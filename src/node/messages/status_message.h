@@ -11,7 +11,7 @@
 
 namespace hgrid {
 
-/// The heartbeat of a tick: what is missing, late or refused, and how long the parts of the work took.
+/// Returns the message of ~status for a tick. It says what is missing, late or refused, and how long the work took.
 msg::Status statusMessage(const Tick& tick, const msg::WorldState& world, const Params& params, const Ledger& ledger,
                           const Stopwatch& stopwatch);
 

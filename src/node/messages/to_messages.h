@@ -17,7 +17,7 @@
 
 namespace hgrid {
 
-// Parts of messages from values of the library.
+// Converts values of the library into parts of messages.
 
 namespace msg = ::hgrid_proximity;
 
@@ -26,9 +26,9 @@ geometry_msgs::Vector3 toVector(const Eigen::Vector3d& vector);
 geometry_msgs::Point toPoint(const Eigen::Vector3d& point);
 geometry_msgs::Pose toPose(const Pose& pose);
 msg::Code toMsg(Code code, const std::string& sentence);
-/// Time and world frame of a tick; time 0 while there is no world.
+/// Returns a header with the time and the world frame of a tick. The time is 0 while there is no world.
 std_msgs::Header headerOf(const Tick& tick);
-/// The first `most` strings.
+/// Returns the first strings of a list, at most `most`.
 std::vector<std::string> firstOf(const std::vector<std::string>& all, std::size_t most);
 
 }  // namespace hgrid

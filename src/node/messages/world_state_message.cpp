@@ -14,8 +14,8 @@ std::string truncationOf(const Snapshot& snapshot) {
   if (!snapshot.truncated()) return {};
   const std::string listed = std::to_string(snapshot.pairs().size());
   const bool more = snapshot.pairsFound() > snapshot.pairs().size();
-  return "TRUNCATED: " + (more ? "more than " + listed + " pairs are near" : "more boxes overlap than are looked at") +
-         "; ~pairs lists " + listed + " of the pairs (~max_pairs)";
+  return "TRUNCATED: " + (more ? "more than " + listed + " pairs are near" : "the search for pairs reached its limit") +
+         "; ~pairs lists only " + listed + " pairs (~max_pairs)";
 }
 
 msg::WorldState worldState(const Tick& tick, const Params& params, std::uint64_t config_hash, double age_since) {

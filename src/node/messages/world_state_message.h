@@ -11,10 +11,10 @@
 
 namespace hgrid {
 
-/// What a tick says about the world as a whole.
-/// @param age_since  [s] that passed since the tick was made
+/// Returns how current and how complete the data of a tick is.
+/// @param age_since  [s] time since the tick was computed
 msg::WorldState worldState(const Tick& tick, const Params& params, std::uint64_t config_hash, double age_since);
-/// Why candidate pairs may be missing from a snapshot's list, as a reason of an incomplete world. Empty if none are.
+/// Returns a sentence that says why pairs are missing from the list of a snapshot; empty if the list is not truncated.
 std::string truncationOf(const Snapshot& snapshot);
 
 }  // namespace hgrid

@@ -11,10 +11,10 @@
 namespace hgrid {
 namespace {
 
-constexpr double kFarthest = 1e6;  // [m], [rad]
+constexpr double kFarthest = 1e6;  // largest coordinate [m] and angle [rad] of a pose
 
 void readLength(ParamValue& shape, const char* key, double& length) {
-  // Any number here; what the shape makes of it is said in the shape's own words.
+  // Accept any number here. Shape checks the value and explains what is wrong with it.
   if (auto value = shape.require(key)) value->number(length, -HUGE_VAL, HUGE_VAL, "m");
 }
 
@@ -48,7 +48,7 @@ void readShape(ParamValue value, const ShapeLimits& limits, std::vector<BodyShap
   try {
     shapes.push_back({readPrimitive(value, type, limits), pose, 0.0, {}, Eigen::Vector3d::Ones()});
   } catch (const Refusal& refusal) {
-    value.error(std::string(refusal.code() == Code::unsupported ? "" : "cannot be a shape: ") + refusal.what());
+    value.error(std::string(refusal.code() == Code::unsupported ? "" : "is not a valid shape: ") + refusal.what());
   }
   value.finish("field of a shape");
 }
@@ -77,9 +77,10 @@ void readLocalName(ParamValue& element, std::string& name, std::set<std::string>
   try {
     checkLocal(name, "it");
   } catch (const Refusal& refusal) {
-    given->error(std::string("cannot be a name: ") + refusal.what());
+    given->error(std::string("is not a valid name: ") + refusal.what());
   }
-  if (!names.insert(name).second) given->error("is '" + printable(name) + "' a second time; names must differ");
+  if (!names.insert(name).second)
+    given->error("is '" + printable(name) + "', which is already used; names must differ");
 }
 
 std::vector<ObstacleParams> readObstacles(ParamValue value, const ShapeLimits& limits) {

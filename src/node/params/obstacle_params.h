@@ -11,14 +11,15 @@
 
 namespace hgrid {
 
-/// Reads a pose {xyz: [m], rpy: [rad]}; both may be left out.
+/// Reads a pose {xyz: [m], rpy: [rad]}. A part that is left out is zero.
 Pose readPose(ParamValue value);
 
-/// Reads ~obstacles: a list of {name, frame, pose, shapes: [{type, ..., pose}]}. The frame of an obstacle that names
-/// none stays empty: the world frame.
+/// Reads ~obstacles: a list of {name, frame, pose, shapes: [{type, ..., pose}]}. If an entry has no frame, the frame of
+/// the obstacle is empty, which means the world frame.
 std::vector<ObstacleParams> readObstacles(ParamValue value, const ShapeLimits& limits);
 
-/// Reads an element's required name, local to its source, which must differ from those before it.
+/// Reads the required name of an element of a list. It is the name without its source.
+/// @param names  the names of the elements before; the new name must differ from them and is added
 void readLocalName(ParamValue& element, std::string& name, std::set<std::string>& names);
 
 }  // namespace hgrid

@@ -48,7 +48,7 @@ void ParamValue::number(double& result, double low, double high, const std::stri
     return wrongType("a number");
   }
   const std::string suffix = unit.empty() ? "" : " " + unit;
-  const bool bounded = std::isfinite(high);  // otherwise what is wrong with a NaN is said by whoever takes it
+  const bool bounded = std::isfinite(high);  // without bounds, NaN is accepted here and the caller checks it
   if (value < low || value > high || (bounded && std::isnan(value))) {
     return error("is " + text(value) + suffix + "; it must be within " + text(low) + " .. " + text(high) + suffix);
   }
@@ -126,7 +126,7 @@ void ParamValue::finish(const char* noun) {
   for (auto& member : value_) {
     if (taken_.count(member.first) == 0) {
       errors_->push_back((path_ == "~" ? path_ : path_ + "/") + printable(member.first) + " is not a " + noun +
-                         "; the name may be misspelt");
+                         "; the name may be misspelled");
     }
   }
 }

@@ -13,8 +13,8 @@
 
 namespace hgrid {
 
-/// One value of the parameter tree, read with its path, so that every error names it. Errors are collected,
-/// not thrown: the user gets all of them at once.
+/// One value of the parameter tree. It knows its path, so that every error message can name it. Errors are collected
+/// instead of thrown, so that the user sees all of them at once.
 class ParamValue {
  public:
   ParamValue(XmlRpc::XmlRpcValue value, std::string path, std::vector<std::string>& errors)
@@ -23,7 +23,8 @@ class ParamValue {
   const std::string& path() const { return path_; }
   void error(const std::string& rule) const { errors_->push_back(path_ + " " + rule); }
 
-  // Each leaves `result` as it is and notes an error where the value does not fit.
+  // Each of these functions reads the value into `result`. If the value has the wrong type or is out of range, they
+  // add an error and leave `result` unchanged.
   void number(double& result, double low, double high, const std::string& unit);
   void integer(int& result, int low, int high);
   void flag(bool& result);
@@ -31,14 +32,17 @@ class ParamValue {
   void vector(Eigen::Vector3d& result, double limit);
   void strings(std::vector<std::string>& result);
 
-  /// Elements of a list; an error and none if it is not one.
+  /// Returns the elements of a list. If the value is not a list, adds an error and returns nothing.
   std::vector<ParamValue> elements();
-  /// Members of a struct: get() takes one by its key, finish() notes an error for each that nobody took.
+  // Members of a struct. finish() adds an error for each member that neither get() nor require() was called for.
   bool isStruct() const { return value_.getType() == XmlRpc::XmlRpcValue::TypeStruct; }
+  /// As isStruct(), but adds an error if the value is not a struct.
   bool requireStruct();
+  /// Returns the member with this key; nullopt if there is none.
   std::optional<ParamValue> get(const std::string& key);
-  /// As get(), and an error if it is not there.
+  /// As get(), but adds an error if there is no such member.
   std::optional<ParamValue> require(const std::string& key);
+  /// @param noun  what a member would be, as in "field of a pose", for the error message
   void finish(const char* noun);
 
  private:

@@ -23,172 +23,197 @@ constexpr const char* kUnknownSpace[] = {"ignore", "report", "occupied"};
 constexpr const char* kEmptyCloud[] = {"unknown", "clear"};
 constexpr const char* kKinds[] = {"self", "robot_robot", "robot_obstacle", "robot_map", "moving_obstacle"};
 
-/// Shows every parameter to a visitor: name, value, unit and range, meaning. The one list of all of them.
+/// Calls the visitor for every parameter with its name, value, unit, range and meaning. This is the only table of them.
 template <class Visitor>
 void visit(Visitor& v, Params& p) {
   v.section("The world");
-  v.string("world_frame", p.world_frame,
-           "tf frame of every box and every answer; empty: the root link of the robot (required with several robots)");
+  v.string(
+      "world_frame", p.world_frame,
+      "tf frame of all boxes and answers; empty: the root link of the robot; required if there are several robots");
   v.vector("origin", p.origin, "m", 1e6,
-           "point of the world frame that boxes are stored relative to (as float32): near the robot where coordinates "
-           "are large");
+           "point of the world frame that boxes are stored relative to, as float32; choose a point near the robot if "
+           "coordinates are large");
   v.number("rate", p.rate, "Hz", 1.0, 1000.0, "ticks per second");
-  v.number("margin", p.margin, "m", 0.0, 1000.0, "bodies whose boxes are this near or nearer are pairs");
+  v.number("margin", p.margin, "m", 0.0, 1000.0, "bodies whose boxes are at most this far apart are pairs");
   v.number("finest_edge", p.finest_edge, "m", 0.0, 1000.0,
-           "longest side of the boxes on the grid's finest level, at least 0.001; 0: chosen from the bodies");
+           "longest side of the boxes on the finest level of the grid, at least 0.001; 0: chosen from the bodies");
 
   v.section("Robots");
   v.robots("robots", p.robots,
-           "list of {name, description, semantic, tf_prefix}: description and semantic name the parameters with URDF "
-           "and SRDF; name and description are required, without semantic there is no SRDF; "
-           "empty list: one robot named 'robot' from robot_description and robot_description_semantic");
-  v.waivers("accept_uncovered", p.accept_uncovered,
-            "list of {pattern, reason}: bodies with unreadable shapes that do not make the world incomplete; a robot "
-            "without any collision geometry does not either if patterns match every one of its links");
+           "list of {name, description, semantic, tf_prefix}. name: name of the robot, required. description: name of "
+           "the parameter that holds the URDF, required. semantic: name of the parameter that holds the SRDF; empty: "
+           "there is no SRDF. tf_prefix: prefix of the robot's tf frames. Empty list: one robot named 'robot', from "
+           "robot_description and robot_description_semantic");
+  v.waivers(
+      "accept_uncovered", p.accept_uncovered,
+      "list of {pattern, reason}: bodies that match the glob may have unreadable shapes, and the world is complete "
+      "nevertheless. A robot without any collision geometry is accepted if all of its links match such globs");
   v.strings("use_visual", p.use_visual,
             "globs over body names: a link that matches and has no collision geometry uses its visual geometry");
   v.strings("mesh_roots", p.mesh_roots,
-            "folders below which meshes may be read by file://; package:// is always allowed");
+            "list of folders: file:// URIs of meshes may name files below these folders and below packages; package:// "
+            "URIs are always allowed");
 
   v.section("Obstacles");
-  v.obstacles(
-      "obstacles", p.obstacles,
-      "list of {name, frame, pose: {xyz: [m], rpy: [rad]}, shapes: [{type, pose, ...}]}; types: box (size: [x, y, z]), "
-      "sphere (radius), cylinder, cone, capsule (height, radius) [m]; frame empty: the world frame, and the obstacle "
-      "is fixed");
+  v.obstacles("obstacles", p.obstacles,
+              "list of {name, frame, pose: {xyz: [m], rpy: [rad]}, shapes: [{type, pose, ...}]}. Types and their sizes "
+              "in m: box (size: [x, y, z]), sphere (radius), cylinder, cone, capsule (height, radius). frame: tf frame "
+              "that the obstacle follows; empty: it is fixed in the world frame");
 
   v.section("Maps");
-  v.maps(
-      "maps", p.maps,
-      "list of {name, file or topic, frame, pose: {xyz: [m], rpy: [rad]}}: OctoMaps, each the body map/name; file: the "
-      "name of a .bt or .ot in map/folder; topic: of octomap_msgs/Octomap, whose frame is the map's, if neither is "
-      "given "
-      "octomap_binary; frame of a file, empty: the world frame, and the map is fixed; max_age [s] of a topic: without "
-      "a message for longer the map is not complete, 0: off");
+  v.maps("maps", p.maps,
+         "list of {name, file or topic, frame, pose: {xyz: [m], rpy: [rad]}, max_age: [s]}: OctoMaps. Each is the body "
+         "map/name. file: name of a .bt or .ot file in map/folder. topic: a topic of octomap_msgs/Octomap; "
+         "octomap_binary if there is no file either. frame: tf frame that the map of a file follows; empty: it is "
+         "fixed in the world frame. The map of a topic follows the frame of its messages. pose: pose of the map in its "
+         "frame. max_age: the map of a topic is not complete while its newest message is older than this; 0: off");
   v.clouds("clouds", p.clouds,
-           "list of {name, topic, resolution: [m], lifetime: [s], empty, min_points, range: [m]}: "
-           "sensor_msgs/PointCloud2, each the body cloud/name; its points fill cells of that edge in the world frame, "
-           "which go a lifetime after they were seen last; without a newer message by then the cloud is not complete; "
-           "a message with fewer than min_points finite points does not count as newer (empty: unknown) or says that "
-           "nothing is there (empty: clear); range: the sensor sees no farther, 0: no bound; defaults: topic cloud, "
-           "resolution 0.05, lifetime 1, empty unknown, min_points 1, range 0");
-  v.string("map/folder", p.map_folder, "folder whose files maps and ~load_octomap may name; empty: none is read");
+           "list of {name, topic, resolution: [m], lifetime: [s], empty, min_points, range: [m]}: point clouds. Each "
+           "is the body cloud/name. topic: a topic of sensor_msgs/PointCloud2, default cloud. resolution: edge of the "
+           "cells that the points fill in the world frame, default 0.05. lifetime: how long a cell stays after the "
+           "sensor last saw a point in it, default 1. The cloud is not complete if no newer message arrives within its "
+           "lifetime. min_points: a message with fewer finite points counts as empty, default 1. empty: what an empty "
+           "message means: unknown (it does not count as newer, default) or clear (nothing is there). range: the "
+           "sensor sees no farther than this, default 0: no bound");
+  v.string("map/folder", p.map_folder,
+           "folder from which maps and ~load_octomap may read files; empty: no file is read");
   v.number("map/occupied_from", p.map_occupied_from, "", 0.001, 0.999,
-           "cells of at least this probability are occupied; only .ot files have probabilities");
+           "cells with at least this probability are occupied; .bt files and octomap_binary messages contain no "
+           "probabilities");
   v.flag("map/nan_is_occupied", p.map_nan_is_occupied,
-         "a cell whose probability is no number is occupied; false: such a file is refused");
-  v.flag("map/allow_empty", p.map_allow_empty,
-         "a message or file without any node is an empty map, all of it unknown; false: it is refused");
-  v.unknownSpace("map/unknown", p.map_unknown,
-                 "what space means that a map has no leaf for: ignore (it is free), report (a CLEAR that passes "
-                 "through it becomes UNKNOWN; so does one where there is no map at all), occupied");
-  v.vector(
-      "map/crop_min", p.map_crop_min, "m", kNoCrop,
-      "least corner, in the map's frame, of what is read of every map; cells that lie wholly outside are left out");
-  v.vector("map/crop_max", p.map_crop_max, "m", kNoCrop, "its greatest corner");
+         "true: a cell whose probability is NaN is occupied; false: a map with such a cell is refused");
+  v.flag(
+      "map/allow_empty", p.map_allow_empty,
+      "true: a message or file without any node is an empty map, in which all space is unknown; false: it is refused");
+  v.unknownSpace(
+      "map/unknown", p.map_unknown,
+      "how to treat space that a map has not observed: ignore (it counts as free), report (a query answers UNKNOWN "
+      "instead of CLEAR if it passes through such space or if there is no map), occupied (it counts as occupied)");
+  v.vector("map/crop_min", p.map_crop_min, "m", kNoCrop,
+           "smallest corner, in the frame of the map, of the box that is read of each map; cells completely outside of "
+           "the box are left out");
+  v.vector("map/crop_max", p.map_crop_max, "m", kNoCrop,
+           "largest corner, in the frame of the map, of the box that is read of each map");
   v.values("map/self_filter", p.map_self_filter, "padding", "m", 0.0, 10.0,
-           "list of {pattern, padding}: robots' links, or what they carry, whose own cells are left out of maps and "
-           "clouds: finest cells whose middles are as near as that to the body's padded shapes where it was at the "
-           "stamp of the map (of a file: when it is taken in), so that 0.87 of a cell's edge takes all that touch; the "
-           "last match counts; empty: none is");
-  v.integer("map/max_bytes", p.map_max_bytes, 1000, 1 << 30, "bytes of a file or message, of clouds too");
+           "list of {pattern, padding}: globs over the names of links and of what robots carry. Cells that these "
+           "bodies fill themselves are left out of maps and clouds: all finest cells whose centers are within padding "
+           "of the padded shapes of the body, at its pose at the stamp of the map (of a file: when it is read). A "
+           "padding of 0.87 cell edges leaves out all cells that touch the body. If several globs match, the last one "
+           "counts. Empty list: no cells are left out");
+  v.integer("map/max_bytes", p.map_max_bytes, 1000, 1 << 30,
+            "largest size of a file or message of a map or cloud, in bytes");
   v.number("map/shown_within", p.map_shown_within, "m", 0.0, 1000.0,
-           "~markers show occupied cells so near to a body's box; 0: none");
-  v.integer("map/max_shown", p.map_max_shown, 1, 1000000, "cells that ~markers show");
+           "~markers show the occupied cells that are within this distance of the box of a body; 0: none");
+  v.integer("map/max_shown", p.map_max_shown, 1, 1000000, "largest number of cells that ~markers show");
   v.integer("map/max_leaves", p.map_max_leaves, 1, 100000000,
-            "cells of a map or cloud: occupied ones, and with report the pieces of unknown space");
+            "largest number of cells of a map or cloud: occupied cells and, if map/unknown is report, pieces of "
+            "unknown space");
 
   v.strings("required", p.required,
             "globs over body names; while one of them matches no body, the world is not complete");
 
   v.section("Which pairs");
   v.kinds("pair_kinds", p.pair_kinds,
-          "kinds of pair that are reported: self, robot_robot, robot_obstacle, robot_map, moving_obstacle");
+          "kinds of pairs that are reported: any of self, robot_robot, robot_obstacle, robot_map, moving_obstacle");
   v.allowed("allowed_pairs", p.allowed_pairs,
             "list of {first, second, reason}: globs over body names; pairs that match may touch and are not reported");
-  v.values(
-      "margins", p.margins, "margin", "m", 0.0, 1000.0,
-      "list of {pattern, margin}: bodies with a margin of their own; a pair has the larger one; the last match counts");
+  v.values("margins", p.margins, "margin", "m", 0.0, 1000.0,
+           "list of {pattern, margin}: margin of the bodies that match the glob. A pair has the larger margin of its "
+           "two bodies. If several globs match, the last one counts");
   v.pairMargins("pair_margins", p.pair_margins, 0.0, 1000.0,
-                "list of {first, second, margin}: globs over body names; pairs that match have this margin instead, at "
-                "least ~margin; the last match counts");
-  v.values(
-      "padding", p.padding, "padding", "m", 0.0, 1000.0,
-      "list of {pattern, padding}: bodies whose shapes are grown on all sides; the last match counts; cells of maps "
-      "and clouds are not grown");
+                "list of {first, second, margin}: globs over body names; pairs that match have this margin instead of "
+                "those of their bodies, but at least ~margin. If several entries match, the last one counts");
+  v.values("padding", p.padding, "padding", "m", 0.0, 1000.0,
+           "list of {pattern, padding}: the shapes of bodies that match the glob are grown by this on all sides. If "
+           "several globs match, the last one counts. Cells of maps and clouds are not grown");
   v.number("event_hysteresis", p.event_hysteresis, "m", 0.0, 1000.0,
-           "~events tells the end of a pair when its gap exceeds its margin by more than this");
+           "~events reports the end of a pair when its gap exceeds its margin by more than this");
 
   v.section("Time");
   v.number("max_sync_wait", p.max_sync_wait, "s", 0.0, 10.0,
-           "most that the time of a tick stays behind the newest transform to wait for slower ones");
+           "how far the time of a tick may stay behind the newest transform, to wait for frames that are slower");
   v.number("late_after", p.late_after, "s", 0.001, 3600.0,
-           "a pose older than this, and than 1.5 of its periods, is LATE");
-  v.number(
-      "stale_after", p.stale_after, "s", 0.001, 3600.0,
-      "a pose older than this, and than 1.5 of its periods, is STALE; the margins of a body with an older pose widen");
-  v.number("lost_after", p.lost_after, "s", 0.001, 86400.0, "a pose older than this is LOST: the world is incomplete");
+           "a pose is LATE if it is older than this and older than 1.5 periods of its frame");
+  v.number("stale_after", p.stale_after, "s", 0.001, 3600.0,
+           "a pose is STALE if it is older than this and older than 1.5 periods of its frame; the margins of a body "
+           "widen when its pose is older than this");
+  v.number("lost_after", p.lost_after, "s", 0.001, 86400.0,
+           "a pose is LOST if it is older than this; then the world is not complete");
   v.values("max_speed", p.max_speed, "speed", "m/s", 0.0, 1e6,
-           "list of {pattern, speed}: bound of the speed of any point of these bodies; the last match counts");
+           "list of {pattern, speed}: upper bound of the speed of any point of a body that matches the glob. If "
+           "several globs match, the last one counts");
   v.number("default_max_speed", p.default_max_speed, "m/s", 0.0, 1e6,
-           "speed bound where neither max_speed nor the robot's joint velocity limits give one");
-  v.number(
-      "horizon", p.horizon, "s", 0.0, 60.0,
-      "pairs that can meet within this time, by their speed bounds, are pairs too, flagged, as are those that passed "
-      "each other between two ticks; 0: neither");
-  v.number("growth_cap", p.growth_cap, "m", 0.0, 1000.0, "most that the margins of a stale body widen");
-  v.number("valid_for", p.valid_for, "s", 0.001, 3600.0, "valid_until of every message is this long after it was made");
-  v.number("max_future", p.max_future, "s", 0.0, 3600.0, "transforms stamped farther in the future are refused");
+           "upper bound of the speed of bodies for which neither max_speed nor the joint velocity limits of the robot "
+           "give one");
+  v.number("horizon", p.horizon, "s", 0.0, 60.0,
+           "bodies that can meet within this time, by their speed bounds, are pairs too, with the flag HORIZON. So are "
+           "bodies that passed each other between two ticks. 0: off");
+  v.number("growth_cap", p.growth_cap, "m", 0.0, 1000.0, "largest length by which the margins of a stale body widen");
+  v.number("valid_for", p.valid_for, "s", 0.001, 3600.0,
+           "the data of a tick is valid for this long after the tick was computed (valid_until in messages)");
+  v.number("max_future", p.max_future, "s", 0.0, 3600.0,
+           "a transform whose stamp is farther in the future than this is refused");
   v.number("tf_cache", p.tf_cache, "s", 1.0, 3600.0, "how long transforms are kept");
-  v.number("clock_jump", p.clock_jump, "s", 0.1, 86400.0, "a ROS clock that runs ahead by more in one tick has jumped");
+  v.number("clock_jump", p.clock_jump, "s", 0.1, 86400.0,
+           "ROS time counts as having jumped if it advances by more than real time plus this within one tick");
 
   v.section("Exact distances");
   v.number("distances/max", p.distances_max, "m", 0.0, 1000.0,
-           "pairs whose shapes are this near or nearer stand in ~distances; at most ~margin, also for "
-           "pairs whose own margin is larger; 0: as ~margin");
-  v.number(
-      "distances/budget", p.distances_budget, "s", 0.0, 10.0,
-      "most time per tick; what does not fit, the farthest boxes, is not measured; ~events take up to a fifth of it "
-      "more; 0: as long as it takes");
-  v.integer("distances/threads", p.distances_threads, 1, 64, "that measure");
+           "~distances lists pairs whose shapes are at most this far apart; it must be at most ~margin, even if pairs "
+           "have larger margins; 0: the value of ~margin");
+  v.number("distances/budget", p.distances_budget, "s", 0.0, 10.0,
+           "longest time per tick for measuring distances. Pairs that do not fit are not measured; these are the pairs "
+           "with the largest gaps. ~events may use up to a fifth of this in addition. 0: no limit");
+  v.integer("distances/threads", p.distances_threads, 1, 64, "number of threads that measure distances");
 
   v.section("Limits");
-  v.number("world_limit", p.world_limit, "m", 1.0, 1e6, "poses beyond this are refused, per axis");
+  v.number("world_limit", p.world_limit, "m", 1.0, 1e6, "poses with a coordinate beyond this are refused");
   v.number("min_size", p.min_size, "m", 1e-6, 1.0, "smallest radius, side or height of a shape");
   v.number("max_size", p.max_size, "m", 1.0, 1e5, "largest radius, side, height or vertex coordinate of a shape");
-  v.flag("allow_flat", p.allow_flat, "boxes may have one side of 0");
+  v.flag("allow_flat", p.allow_flat, "true: a box may have one side of length 0");
   v.integer("threads", p.threads, 1, 64,
-            "that a tick's broad phase may use; worth more than 1 from some tens of thousands of shapes on");
-  v.integer("max_bodies", p.max_bodies, 1, 1000000, "bodies");
-  v.integer("max_frames", p.max_frames, 1, 1000000, "tf frames that are kept");
-  v.integer(
-      "tf_queue_bytes", p.tf_queue_bytes, 1000, 1 << 30,
-      "bytes of messages of /tf that wait for the tick thread, and as many of /tf_static; each message counts 256 "
-      "bytes and its publisher's name more; when there are more, the oldest are dropped (tf.dropped.LIMIT in "
-      "~status); a longer message is refused");
-  v.integer("max_pairs", p.max_pairs, 1, 10000000, "pairs that a tick lists; more: truncated, and not complete");
-  v.integer("max_events", p.max_events, 1, 1000000, "events in one message of ~events; more: several messages");
+            "number of threads that the broad phase of a tick may use; more than 1 helps from some tens of thousands "
+            "of shapes on");
+  v.integer("max_bodies", p.max_bodies, 1, 1000000, "largest number of bodies");
+  v.integer("max_frames", p.max_frames, 1, 1000000, "largest number of tf frames that are kept");
+  v.integer("tf_queue_bytes", p.tf_queue_bytes, 1000, 1 << 30,
+            "largest total size, in bytes, of the messages of /tf that wait for the tick thread, and again as much for "
+            "/tf_static. A message counts as its own size plus 256 bytes plus the length of its publisher's name. When "
+            "the limit is exceeded, the oldest messages are dropped (counter tf.dropped.LIMIT in ~status). A single "
+            "message that is longer is refused");
+  v.integer("max_pairs", p.max_pairs, 1, 10000000,
+            "largest number of pairs that a tick lists; if there are more, the list is truncated and the world is not "
+            "complete");
+  v.integer("max_events", p.max_events, 1, 1000000,
+            "largest number of events in one message of ~events; further events of a tick are in further messages");
   v.integer("event_queue", p.event_queue, 1, 100000,
-            "messages of ~events that wait for a slow subscriber; more: the oldest are lost");
-  v.integer("max_hits", p.max_hits, 1, 1000000, "hits in one answer; more: truncated");
-  v.integer("max_listed", p.max_listed, 1, 100000, "bodies that ~status lists");
-  v.integer("max_reasons", p.max_reasons, 1, 1000, "reasons for an incomplete world that a message lists");
-  v.integer("max_rules", p.max_rules, 1, 10000, "rules of the allowed-pair matrix, those of allowed_pairs included");
-  v.integer("max_description_bytes", p.max_description_bytes, 1000, 256 << 20, "bytes of a URDF or SRDF");
-  v.integer("max_description_depth", p.max_description_depth, 8, 256, "nesting of elements in a URDF or SRDF");
-  v.integer("max_links", p.max_links, 1, 100000, "links of a robot");
-  v.integer("max_mesh_bytes", p.max_mesh_bytes, 1000, 1 << 30, "bytes of a mesh file");
-  v.integer("max_mesh_triangles", p.max_mesh_triangles, 1, 100000000, "triangles of a mesh");
+            "number of messages of ~events that may wait for a slow subscriber; when the queue is full, the oldest "
+            "message is dropped");
+  v.integer("max_hits", p.max_hits, 1, 1000000,
+            "largest number of hits in one answer; if there are more, the answer is truncated");
+  v.integer("max_listed", p.max_listed, 1, 100000,
+            "largest number of bodies, and of sources, that a message lists as not complete or not fresh");
+  v.integer("max_reasons", p.max_reasons, 1, 1000,
+            "largest number of reasons for an incomplete world that a message lists");
+  v.integer("max_rules", p.max_rules, 1, 10000,
+            "largest number of rules of the allowed-pair matrix, including those of allowed_pairs");
+  v.integer("max_description_bytes", p.max_description_bytes, 1000, 256 << 20,
+            "largest size of a URDF or SRDF, in bytes");
+  v.integer("max_description_depth", p.max_description_depth, 8, 256, "deepest nesting of elements in a URDF or SRDF");
+  v.integer("max_links", p.max_links, 1, 100000, "largest number of links of a robot");
+  v.integer("max_mesh_bytes", p.max_mesh_bytes, 1000, 1 << 30, "largest size of a mesh file, in bytes");
+  v.integer("max_mesh_triangles", p.max_mesh_triangles, 1, 100000000, "largest number of triangles of a mesh");
   v.integer("mesh_memory", p.mesh_memory, 64 << 20, 2147483647,
-            "bytes of memory for reading a mesh; meshes near max_mesh_triangles need more than the default");
-  v.number("mesh_timeout", p.mesh_timeout, "s", 0.1, 600.0, "time for reading a mesh");
+            "largest amount of memory for reading a mesh, in bytes; a mesh with nearly max_mesh_triangles needs more "
+            "than the default");
+  v.number("mesh_timeout", p.mesh_timeout, "s", 0.1, 600.0, "longest time for reading a mesh");
 
   v.section("The node");
-  v.integer("query_threads", p.query_threads, 1, 64, "threads that answer queries");
-  v.number("marker_rate", p.marker_rate, "Hz", 0.1, 100.0, "~markers per second while somebody looks");
+  v.integer("query_threads", p.query_threads, 1, 64, "number of threads that answer queries");
+  v.number("marker_rate", p.marker_rate, "Hz", 0.1, 100.0, "how often ~markers is published while it has subscribers");
 }
 
-/// Fills Params from the parameter server's values.
+/// A visitor that fills Params with the values from the parameter server.
 class Reader {
  public:
   explicit Reader(ParamValue& root, const Params& params) : root_(root), params_(params) {}
@@ -219,7 +244,7 @@ class Reader {
     std::set<std::string> names;
     forEach(name, "field of a robot (name, description, semantic, tf_prefix)", [&](ParamValue& element) {
       RobotParams robot;
-      robot.semantic.clear();  // the default one may be another robot's
+      robot.semantic.clear();  // the default parameter may belong to another robot
       readString(element, "description", robot.description, true);
       readString(element, "semantic", robot.semantic, false);
       readString(element, "tf_prefix", robot.tf_prefix, false);
@@ -228,12 +253,13 @@ class Reader {
         try {
           checkSource(robot.name, "it");
         } catch (const Refusal& refusal) {
-          given->error(std::string("cannot be a name: ") + refusal.what());
+          given->error(std::string("is not a valid name: ") + refusal.what());
         }
         if (robot.name == "obstacle" || robot.name == "map" || robot.name == "cloud") {
           given->error("is '" + robot.name + "'; obstacle, map and cloud are reserved");
         }
-        if (!names.insert(robot.name).second) given->error("is '" + printable(robot.name) + "' a second time");
+        if (!names.insert(robot.name).second)
+          given->error("is '" + printable(robot.name) + "', which is already used; names must differ");
       }
       value.push_back(robot);
     });
@@ -254,7 +280,7 @@ class Reader {
     });
   }
   void pairMargins(const char* name, std::vector<PairMargin>& value, double low, double high, const char*) {
-    forEach(name, "field of it", [&](ParamValue& element) {
+    forEach(name, "field of this entry", [&](ParamValue& element) {
       value.emplace_back();
       readString(element, "first", value.back().first, true);
       readString(element, "second", value.back().second, true);
@@ -263,7 +289,7 @@ class Reader {
   }
   void values(const char* name, std::vector<PatternValue>& value, const char* key, const char* unit, double low,
               double high, const char*) {
-    forEach(name, "field of it", [&](ParamValue& element) {
+    forEach(name, "field of this entry", [&](ParamValue& element) {
       value.emplace_back();
       readString(element, "pattern", value.back().pattern, true);
       if (auto number = element.require(key)) number->number(value.back().value, low, high, unit);
@@ -283,13 +309,13 @@ class Reader {
         if (kind == kKinds[i]) *flags[i] = known = true;
       }
       if (!known) {
-        given->error("names '" + printable(kind, 48) +
-                     "'; kinds are self, robot_robot, robot_obstacle, robot_map, moving_obstacle");
+        given->error("contains '" + printable(kind, 48) +
+                     "'; allowed kinds are self, robot_robot, robot_obstacle, robot_map, moving_obstacle");
       }
     }
   }
   void obstacles(const char* name, std::vector<ObstacleParams>& value, const char*) {
-    obstacles_ = get(name);  // read last: the limits on sizes are parameters too
+    obstacles_ = get(name);  // finish() reads them, since the limits on sizes are parameters too
     obstacles_target_ = &value;
   }
   void maps(const char* name, std::vector<MapParams>& value, const char*) {
@@ -298,7 +324,8 @@ class Reader {
       MapParams map;
       readString(element, "file", map.file, false);
       readString(element, "topic", map.topic, false);
-      if (!map.file.empty() && !map.topic.empty()) element.error("must have a file or a topic, and not both");
+      if (!map.file.empty() && !map.topic.empty())
+        element.error("has a file and a topic; it must have only one of them");
       if (map.file.empty() && map.topic.empty()) map.topic = "octomap_binary";
       if (map.file.empty()) checkTopic(element, map.topic);
       readString(element, "frame", map.frame, false);
@@ -306,7 +333,7 @@ class Reader {
       if (auto pose = element.get("pose")) map.frame_from_map = readPose(*pose);
       if (auto given = element.get("max_age")) given->number(map.max_age, 0.0, 86400.0, "s");
       if (map.max_age > 0.0 && !map.file.empty()) {
-        element.error("has max_age " + text(map.max_age) + " s and a file; only a map of a topic can grow old");
+        element.error("has max_age " + text(map.max_age) + " s and a file; only a map from a topic may have max_age");
       }
       readLocalName(element, map.name, names);
       value.push_back(map);
@@ -350,7 +377,7 @@ class Reader {
     if (auto given = required ? element.require(key) : element.get(key)) given->string(value);
   }
 
-  /// A word of a list; its place there is the value.
+  /// Reads a word of the list `words`. Its position in the list is the value of the enum.
   template <std::size_t count, class Enum>
   static void readWord(ParamValue& given, const char* const (&words)[count], const char* rule, Enum& value) {
     std::string word = words[static_cast<std::size_t>(value)];
@@ -370,7 +397,7 @@ class Reader {
     }
   }
 
-  /// Of a name "group/key" the member of that struct.
+  /// Returns the value of a parameter. The name "group/key" means the member `key` of the struct `group`.
   std::optional<ParamValue> get(const std::string& name) {
     const std::size_t slash = name.find('/');
     if (slash == std::string::npos) return root_.get(name);
@@ -390,7 +417,7 @@ class Reader {
   std::vector<ObstacleParams>* obstacles_target_ = nullptr;
 };
 
-/// Writes config/params.yaml.
+/// A visitor that writes the text of config/params.yaml.
 class Printer {
  public:
   void section(const char* title) {
@@ -444,7 +471,7 @@ class Printer {
     if (group != group_ && !group.empty()) out_ << group << ":\n";
     group_ = group;
     const std::string indent = group.empty() ? "" : "  ";
-    while (!meaning.empty()) {  // wrapped for people
+    while (!meaning.empty()) {  // wrap the lines
       std::size_t end = meaning.size();
       if (end > 110) end = meaning.rfind(' ', 110);
       out_ << indent << "# " << meaning.substr(0, end) << "\n";
@@ -461,7 +488,7 @@ class Printer {
   }
 
   std::ostringstream out_;
-  std::string group_;  // of the last entry
+  std::string group_;  // group of the last entry
 };
 
 }  // namespace
@@ -470,12 +497,12 @@ Params readParams(XmlRpc::XmlRpcValue values) {
   std::vector<std::string> errors;
   Params params;
   ParamValue root(std::move(values), "~", errors);
-  root.get("diagnostic_period");  // of diagnostic_updater
+  root.get("diagnostic_period");  // a parameter of diagnostic_updater
   Reader reader(root, params);
   visit(reader, params);
   reader.finish();
   if (params.robots.empty()) params.robots.push_back(RobotParams{});
-  for (const RobotParams& robot : params.robots) {  // they may stand in the node's own namespace
+  for (const RobotParams& robot : params.robots) {  // the descriptions may be in the private namespace of the node
     root.get(robot.description);
     root.get(robot.semantic);
   }
@@ -485,8 +512,8 @@ Params readParams(XmlRpc::XmlRpcValue values) {
     if (!holds) errors.push_back(sentence);
   };
   require(params.late_after <= params.stale_after && params.stale_after <= params.lost_after,
-          "~late_after is " + text(params.late_after) + " s, ~stale_after " + text(params.stale_after) +
-              " s, ~lost_after " + text(params.lost_after) + " s; they must not decrease in this order");
+          "~late_after is " + text(params.late_after) + " s, ~stale_after is " + text(params.stale_after) +
+              " s and ~lost_after is " + text(params.lost_after) + " s; none may be smaller than the one before it");
   require(params.valid_for * params.rate >= 1.0, "~valid_for is " + text(params.valid_for) +
                                                      " s; it must be at least one period of ~rate, " +
                                                      text(1.0 / params.rate) + " s");
@@ -495,7 +522,7 @@ Params readParams(XmlRpc::XmlRpcValue values) {
   for (int axis = 0; axis < 3; ++axis) {
     require(params.map_crop_min[axis] <= params.map_crop_max[axis],
             std::string("~map/crop_min is ") + text(params.map_crop_min[axis]) + " m along " + "xyz"[axis] +
-                ", ~map/crop_max " + text(params.map_crop_max[axis]) + " m; the first must be at most the second");
+                " and ~map/crop_max is " + text(params.map_crop_max[axis]) + " m; crop_min must be at most crop_max");
   }
   require(params.min_size < params.max_size,
           "~min_size is " + text(params.min_size) + " m; it must be below ~max_size, " + text(params.max_size) + " m");
@@ -512,7 +539,7 @@ Params readParams(XmlRpc::XmlRpcValue values) {
   if (params.distances_max == 0.0) params.distances_max = params.margin;
   params.world_frame = withoutSlash(params.world_frame);
   require(params.robots.size() < 2 || !params.world_frame.empty(),
-          "~world_frame is empty; with several robots it must name the frame that all are known in");
+          "~world_frame is empty; with several robots it must name a frame that tf connects to all of them");
   if (errors.empty()) return params;
   std::string message =
       std::to_string(errors.size()) + (errors.size() == 1 ? " parameter is" : " parameters are") + " wrong:";
@@ -524,9 +551,10 @@ std::string paramsAsYaml() {
   Params defaults;
   Printer printer;
   visit(printer, defaults);
-  return "# All parameters of proximity_node with their defaults. In brackets the unit, at the end the range, both "
-         "ends\n"
-         "# allowed. Load what you change into the node's private namespace; unknown names stop the start.\n" +
+  return "# All parameters of proximity_node with their default values. A description begins with the unit in "
+         "brackets\n"
+         "# and ends with the allowed range, both ends included. Load the values that you change into the private\n"
+         "# namespace of the node. The node does not start if a name is unknown.\n" +
          printer.yaml();
 }
 

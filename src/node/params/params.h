@@ -16,60 +16,60 @@ namespace hgrid {
 
 /// A robot to load, from ~robots.
 struct RobotParams {
-  std::string name = "robot";                           ///< source of its bodies' names
-  std::string description = "robot_description";        ///< parameter that holds the URDF; searched upwards
+  std::string name = "robot";                           ///< first part of the names of its bodies
+  std::string description = "robot_description";        ///< parameter that holds the URDF, also in parent namespaces
   std::string semantic = "robot_description_semantic";  ///< parameter that holds the SRDF, if there is one
-  std::string tf_prefix;                                ///< its frames are tf_prefix/link; empty: link
+  std::string tf_prefix;                                ///< its tf frames are "tf_prefix/link"; empty: "link"
 };
 
-/// A static obstacle, from ~obstacles; an empty frame stands for the world frame.
+/// An obstacle from ~obstacles. If its frame is empty, it is fixed in the world frame.
 struct ObstacleParams {
   Body body;
 };
 
-/// A map from a file or a topic.
+/// A map from ~maps. Its cells come from a file or from a topic.
 struct MapParams {
-  std::string name;   ///< the body map/name
-  std::string file;   ///< name of a file in ~map/folder; empty: from a topic
-  std::string topic;  ///< of octomap_msgs/Octomap messages; their frame is the map's
-  std::string frame;  ///< that the map follows; empty: the world frame
+  std::string name;   ///< name without the source: the body is map/name
+  std::string file;   ///< name of a file in ~map/folder; empty: the map comes from a topic
+  std::string topic;  ///< topic of octomap_msgs/Octomap messages; the map follows their frame
+  std::string frame;  ///< frame that the map of a file follows; empty: the world frame
   Pose frame_from_map = Pose::Identity();
-  double max_age = 0.0;  ///< [s] of a topic: without a message for longer the map is not complete; 0: off
+  double max_age = 0.0;  ///< [s] a map of a topic is incomplete if its newest message is older; 0: off
 };
 
-/// What a cloud message means that has fewer finite points than CloudParams::min_points.
+/// What an empty cloud message means. A message is empty if it has fewer finite points than CloudParams::min_points.
 enum class EmptyCloud : std::uint8_t {
-  unknown,  ///< the sensor did not see: the message makes nothing fresh
+  unknown,  ///< the sensor did not see anything: the message does not make the cloud fresh
   clear,    ///< the sensor saw that nothing is there
 };
 
-/// A point cloud of a topic.
+/// A point cloud from ~clouds.
 struct CloudParams {
-  std::string name;             ///< the body cloud/name
-  std::string topic = "cloud";  ///< of sensor_msgs/PointCloud2 messages
+  std::string name;             ///< name without the source: the body is cloud/name
+  std::string topic = "cloud";  ///< topic of sensor_msgs/PointCloud2 messages
   double resolution = 0.05;     ///< [m] edge of its cells
-  double lifetime = 1.0;        ///< [s] how long a cell stays after it was seen
+  double lifetime = 1.0;        ///< [s] how long a cell stays after the sensor last saw it
   EmptyCloud empty = EmptyCloud::unknown;
-  int min_points = 1;  ///< finite points that a message must have to count as seen
-  double range = 0.0;  ///< [m] the sensor sees no farther, so that a lost cloud hides nothing beyond; 0: no bound
+  int min_points = 1;  ///< a message with fewer finite points is empty
+  double range = 0.0;  ///< [m] the sensor sees no farther than this, so a lost cloud hides nothing beyond; 0: no bound
 };
 
-/// [m] Farther than the ends of any map.
+/// [m] Corner coordinate of a crop box that is larger than any map.
 constexpr double kNoCrop = 1e7;
 
-/// A value for all bodies whose name matches a glob.
+/// A value for all bodies whose names match a glob.
 struct PatternValue {
   std::string pattern;
   double value = 0.0;
 };
 
-/// Bodies that may be uncovered, and why that is all right.
+/// Accepts that the bodies whose names match `pattern` are uncovered, for a reason.
 struct Waiver {
   std::string pattern, reason;
 };
 
-/// All the node can be told. Defaults, units, ranges and meanings stand once, in visit() in params.cpp, and are
-/// shown in config/params.yaml; a test holds the two together.
+/// All parameters of the node. visit() in params.cpp is the only table of their units, ranges and meanings.
+/// config/params.yaml shows this table; a test checks that the two agree.
 struct Params {
   std::string world_frame;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
@@ -120,11 +120,12 @@ struct Params {
   ShapeLimits shapeLimits() const { return {min_size, max_size, allow_flat}; }
 };
 
-/// Reads all parameters of the node's private namespace, given as one struct value.
+/// Reads all parameters of the node.
+/// @param values  the private namespace of the node, as one struct
 /// @throws std::invalid_argument with one message that lists every wrong, out-of-range and unknown parameter.
 Params readParams(XmlRpc::XmlRpcValue values);
 
-/// The text of config/params.yaml: every parameter with unit, default, range and meaning.
+/// Returns the text of config/params.yaml: every parameter with its unit, default, range and meaning.
 std::string paramsAsYaml();
 
 }  // namespace hgrid

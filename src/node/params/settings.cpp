@@ -11,12 +11,12 @@ XmlRpc::XmlRpcValue valuesOf(const ros::NodeHandle& node) {
   XmlRpc::XmlRpcValue values;
   if (!node.getParam(node.getNamespace(), values) || values.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
     values = XmlRpc::XmlRpcValue();
-    values.begin();  // makes an empty dictionary: no parameter was set
+    values.begin();  // turns the value into an empty struct: no parameter is set
   }
   return values;
 }
 
-/// The hash function FNV-1a, 64 bits.
+/// Returns the 64-bit hash of a text by the hash function FNV-1a.
 std::uint64_t fnv1a(const std::string& text) {
   std::uint64_t hash = 0xcbf29ce484222325ull;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;

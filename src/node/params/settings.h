@@ -10,14 +10,14 @@
 
 namespace hgrid {
 
-/// The parameters that the node was started with, and a number that stands for all of them.
+/// The parameters that the node was started with, and a hash of all of them.
 struct Settings {
   Params params;
-  std::uint64_t config_hash = 0;  ///< equal for equal parameters; WorldState.config_hash
+  std::uint64_t config_hash = 0;  ///< equal for equal parameters; sent as WorldState.config_hash
 };
 
 /// Reads the parameters in the namespace of `private_node`.
-/// @throws std::invalid_argument that lists every wrong parameter
+/// @throws std::invalid_argument with a message that lists every wrong parameter
 Settings readSettings(const ros::NodeHandle& private_node);
 
 }  // namespace hgrid

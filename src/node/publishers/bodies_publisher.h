@@ -9,8 +9,8 @@
 
 namespace hgrid {
 
-/// Publishes ~bodies (latched) at the first tick and whenever the structure of the world changes. Used by the tick
-/// thread only.
+/// Publishes ~bodies (latched) at the first tick and whenever the structure of the world changes.
+/// Only the tick thread may use it.
 class BodiesPublisher {
  public:
   explicit BodiesPublisher(ros::NodeHandle& private_node);

@@ -13,22 +13,23 @@
 
 namespace hgrid {
 
-/// Measures the exact distances of a tick's pairs and publishes them as ~distances, if somebody wants them. This comes
-/// after ~pairs, so that those who need no distances do not wait for them.
+/// Measures the exact distances of the pairs of a tick and publishes them as ~distances, if somebody needs them. The
+/// tick thread does this after it published ~pairs, so that subscribers of ~pairs do not wait for the measurements.
 class DistancesPublisher {
  public:
   DistancesPublisher(ros::NodeHandle& private_node, Commons& commons);
 
-  /// Only the tick thread may call this. @param also_wanted  somebody beside the subscribers wants the distances
+  /// Only the tick thread may call this.
+  /// @param also_wanted  measure the distances even if ~distances has no subscriber
   void publish(const std::shared_ptr<const Tick>& tick, bool also_wanted);
-  /// The newest tick that was measured; null while nobody wants distances. Any thread.
+  /// Returns the newest tick that was measured; null while nobody needs distances. Any thread may call this.
   std::shared_ptr<const MeasuredTick> measured() const { return std::atomic_load(&measured_); }
 
  private:
   Commons& commons_;
   ros::Publisher publisher_;
   PairMeter meter_;
-  std::shared_ptr<const MeasuredTick> measured_;  // atomic access only
+  std::shared_ptr<const MeasuredTick> measured_;  // accessed by atomic functions only
 };
 
 }  // namespace hgrid

@@ -14,20 +14,21 @@
 
 namespace hgrid {
 
-/// Publishes ~markers for RViz while somebody listens. Used by one thread; subscribed() may be called by any.
+/// Publishes ~markers for RViz while there are subscribers. One thread may use it; any thread may call subscribed().
 class MarkersPublisher {
  public:
   MarkersPublisher(ros::NodeHandle& private_node, const Params& params, const QuerySketch& sketch);
 
   bool subscribed() const { return publisher_.getNumSubscribers() > 0; }
-  /// @param measured  null: no distances are drawn
+  /// @param newest    the tick to show if `measured` has no distances
+  /// @param measured  a tick with its distances, which is shown if it has any; may be null
   void publish(const Tick& newest, const std::shared_ptr<const MeasuredTick>& measured);
 
  private:
   const Params& params_;
   const QuerySketch& sketch_;
   ros::Publisher publisher_;
-  std::size_t viewers_ = 0;  // at the last call of publish()
+  std::size_t viewers_ = 0;  // number of subscribers at the last call of publish()
 };
 
 }  // namespace hgrid

@@ -15,7 +15,7 @@
 
 namespace hgrid {
 
-/// Owns the publishers of the node: each topic has one.
+/// Owns the publishers of all topics of the node.
 class Publishers {
  public:
   /// @param tick_node   private node handle of the tick thread
@@ -23,11 +23,11 @@ class Publishers {
   Publishers(ros::NodeHandle tick_node, ros::NodeHandle admin_node, Commons& commons, const Stopwatch& stopwatch,
              const QuerySketch& sketch);
 
-  /// Publishes what every tick has: ~events, ~pairs, ~status, and ~bodies and ~rules if they changed. Tick thread.
+  /// Publishes ~events, ~pairs and ~status, and also ~bodies and ~rules if they changed. The tick thread calls this.
   void publishTick(const Tick& tick);
-  /// Measures and publishes ~distances. Tick thread.
+  /// Measures and publishes ~distances. The tick thread calls this.
   void publishDistances(const std::shared_ptr<const Tick>& tick);
-  /// Publishes ~markers. Admin thread. @param newest  null before the first tick
+  /// Publishes ~markers. The admin thread calls this. @param newest  null before the first tick
   void publishMarkers(const std::shared_ptr<const Tick>& newest);
 
  private:

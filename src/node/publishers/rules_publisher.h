@@ -10,8 +10,8 @@
 
 namespace hgrid {
 
-/// Publishes ~rules (latched) at the first tick and whenever the structure of the world changes, because rules that
-/// begin or end change the structure too. Used by the tick thread only.
+/// Publishes ~rules (latched) at the first tick and whenever the structure of the world changes. A rule that begins or
+/// ends changes the structure, too. Only the tick thread may use it.
 class RulesPublisher {
  public:
   RulesPublisher(ros::NodeHandle& private_node, const Params& params);

@@ -14,8 +14,8 @@
 
 namespace hgrid {
 
-/// Publishes ~events, ~pairs and ~status of every tick, in this order: the events of a tick come before the message
-/// that says how many there were. Used by the tick thread only.
+/// Publishes ~events, ~pairs and ~status of every tick, in this order. So the events of a tick are sent before the
+/// message that contains the number of the newest event. Only the tick thread may use it.
 class StreamsPublisher {
  public:
   StreamsPublisher(ros::NodeHandle& private_node, const Commons& commons, const Stopwatch& stopwatch);

@@ -8,10 +8,10 @@
 
 namespace hgrid {
 
-/// Notices that the structure of the world (bodies, margins, rules) is another one than in the tick before. One thread.
+/// Detects changes of the structure of the world: bodies, margins and rules. One thread may use it.
 class StructureWatch {
  public:
-  /// @returns true for the first tick, and when the epoch or the revision of the structure is another one
+  /// @returns true for the first tick, and if the epoch or the revision of the structure is not that of the last call
   bool changed(const Tick& tick) {
     const std::uint64_t revision = tick.snapshot ? tick.snapshot->structure().revision : 0;
     if (revision == revision_ && tick.epoch == epoch_) return false;

@@ -32,7 +32,7 @@ AllowedServices::AllowedServices(ServiceEnvelope& envelope, const Params& params
       envelope.serve<msg::GetAllowed>("get_allowed", [this](ServiceCall<msg::GetAllowed>& call) { get(call); }));
 }
 
-/// The filter with the rules after the request. @throws Refusal if the request must not be carried out
+/// Returns the pair filter with the rules that the request asks for. @throws Refusal if the request is not valid
 PairFilter AllowedServices::filterAfter(const ServiceCall<msg::SetAllowed>& call, const Structure& structure) const {
   const msg::SetAllowed::Request& request = call.request;
   const auto most = static_cast<std::size_t>(params_.max_rules);
@@ -51,13 +51,15 @@ PairFilter AllowedServices::filterAfter(const ServiceCall<msg::SetAllowed>& call
   return PairFilter(structure.bodies, params_.pair_kinds, book.rules());
 }
 
-/// @throws Refusal needs_force if the filter leaves no pair that is reported, unless `force` is set
+/// Checks that the filter leaves at least one pair that can be reported.
+/// @throws Refusal needs_force if it leaves none and `force` is false
 void AllowedServices::checkNotSilenced(const Structure& structure, const PairFilter& filter, bool force) const {
   if (!silencesAll(structure.bodies, params_.pair_kinds, filter)) return;
   if (!force) {
-    throw Refusal(Code::needs_force, "no pair of bodies would be reported any more; ask with force = true if so meant");
+    throw Refusal(Code::needs_force,
+                  "with these rules no pair of bodies would ever be reported; set force = true if this is intended");
   }
-  ROS_WARN("Rules of ~set_allowed switch off every pair: nothing is reported any more.");
+  ROS_WARN("The rules of ~set_allowed switch off every pair: no pair is reported from now on.");
 }
 
 void AllowedServices::set(ServiceCall<msg::SetAllowed>& call) const {

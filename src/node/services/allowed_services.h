@@ -14,13 +14,13 @@
 
 namespace hgrid {
 
-/// Serves ~set_allowed and ~get_allowed: the allowed-pair matrix.
+/// Serves ~set_allowed and ~get_allowed, which change and read the allowed-pair matrix.
 ///
-/// Whether a request is right is decided from the newest tick; a later tick only takes over the rules. So one thread at
-/// a time may serve, and nobody else may add rules. (Rules may end.)
+/// A request is checked against the rules of the newest tick. A later tick only takes over the result. So only one
+/// thread at a time may serve requests, and nobody else may add rules. (Rules may end in between.)
 class AllowedServices {
  public:
-  /// @param envelope  must outlive this object, as `params` must
+  /// `envelope` and `params` must outlive this object.
   AllowedServices(ServiceEnvelope& envelope, const Params& params, ChangeWorld change_world);
 
  private:

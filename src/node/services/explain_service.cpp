@@ -20,8 +20,9 @@ namespace {
 
 constexpr OptionNames kOptionNames = {"~max_pairs", "~horizon", "~pair_kinds", "~allowed_pairs", "~set_allowed"};
 
-/// [s] Age of a body's pose when the answer is given. A fixed body does not age.
-/// @param age  [s] when the tick was made; NaN if the body never had a pose
+/// Returns the age [s] of the pose of a body when the answer is sent. It is 0 for a fixed body.
+/// @param age       [s] age of the pose when the tick was computed; NaN if the body never had a pose
+/// @param tick_age  [s] time since the tick was computed
 double ageNow(const Body& body, double age, double tick_age) {
   return body.mobility == Mobility::fixed && !std::isnan(age) ? 0.0 : age + tick_age;
 }
@@ -30,15 +31,14 @@ bool hasPose(const Snapshot& snapshot, std::uint32_t body) {
   return snapshot.poses()[body].state != Freshness::unplaced;
 }
 
-/// @throws Refusal unknown_id if the name is that of a link without geometry, which is no body
+/// @throws Refusal unknown_id if the name belongs to a link without geometry, which is no body
 void checkHasCollision(const ModelReport& models, const std::string& name) {
   const std::vector<std::string>& bare = models.without_collision;
   if (std::find(bare.begin(), bare.end(), name) == bare.end()) return;
-  throw Refusal(Code::unknown_id,
-                "link '" + name + "' has no <collision>: nothing is known of its extent, and it makes no pair");
+  throw Refusal(Code::unknown_id, "link '" + name + "' has no <collision>: its extent is unknown, so it is in no pair");
 }
 
-/// A response in which nothing is known.
+/// Returns a response in which all values are unknown.
 msg::ExplainPair::Response blank() {
   msg::ExplainPair::Response response;
   response.gap = response.margin = response.margin_first = response.margin_second = std::nan("");

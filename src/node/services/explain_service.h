@@ -11,11 +11,11 @@
 
 namespace hgrid {
 
-/// Serves ~explain_pair from the newest tick. Any number of threads may serve at the same time; none of them waits for
-/// a tick.
+/// Serves ~explain_pair from the newest tick. Any number of threads may serve requests at the same time. None of them
+/// waits for a tick.
 class ExplainService {
  public:
-  /// @param envelope  must outlive this object, as `params` must
+  /// `envelope` and `params` must outlive this object.
   ExplainService(ServiceEnvelope& envelope, const Params& params, std::shared_ptr<const NarrowPhase> narrow_phase);
 
  private:

@@ -14,7 +14,7 @@
 namespace hgrid {
 namespace {
 
-/// @throws Refusal if the pose of the map is none
+/// @throws Refusal if the pose of the map is not valid
 MapParams paramsOf(const msg::LoadOctomap::Request& request) {
   MapParams map;
   map.name = request.map;

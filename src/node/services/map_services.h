@@ -15,15 +15,15 @@
 
 namespace hgrid {
 
-/// Serves ~load_octomap and ~clear_map. The thread that serves reads a map while ticks go on with the old one; a tick
-/// only takes over the new map.
+/// Serves ~load_octomap and ~clear_map. The thread that serves a request reads the map, while ticks continue with the
+/// old map. A tick only takes over the new map.
 class MapServices {
  public:
-  /// Called when a map was loaded or removed; an empty name stands for all maps. An older map must not replace it
-  /// later.
+  /// Called after a map was loaded or removed; an empty name means all maps. The callee must drop older loads of this
+  /// map that are still pending.
   using Decided = std::function<void(const std::string& map)>;
 
-  /// @param envelope  must outlive this object, as `source` must
+  /// `envelope` and `source` must outlive this object.
   MapServices(ServiceEnvelope& envelope, const MapSource& source, ChangeWorld change_world, Decided decided);
 
  private:

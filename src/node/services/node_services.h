@@ -16,11 +16,11 @@
 
 namespace hgrid {
 
-/// Owns the services of the node: the questions, which any number of threads serves, and the requests that change the
-/// world, which one thread serves.
+/// Owns the services of the node. Any number of threads may serve queries. One thread serves requests that change the
+/// world or read and change the rules.
 class NodeServices {
  public:
-  /// @param query_node  private node handle of the threads that serve questions
+  /// @param query_node  private node handle of the threads that serve queries
   /// @param admin_node  private node handle of the thread that serves requests that change the world
   /// All other parameters must outlive this object.
   NodeServices(const ros::NodeHandle& query_node, const ros::NodeHandle& admin_node, Commons& commons,

@@ -17,7 +17,7 @@
 namespace hgrid {
 namespace {
 
-constexpr std::size_t kMostPatterns = 256, kLongestPattern = 512;  // bytes
+constexpr std::size_t kMostPatterns = 256, kLongestPattern = 512;  // number, [bytes]
 
 msg::Hit toMsg(const QueryHit& source, const Snapshot& snapshot, const Pose& frame_from_world, double age_since) {
   msg::Hit hit;
@@ -40,20 +40,23 @@ msg::Hit toMsg(const QueryHit& source, const Snapshot& snapshot, const Pose& fra
   return hit;
 }
 
-/// What the summary of a CLEAR adds if the world is not complete: which sources are not, although the verdict holds.
+/// Returns what the summary of a CLEAR answer adds if the world is not complete: the sources that are not complete.
+/// They do not affect the verdict.
 std::string elsewhere(const Snapshot& snapshot) {
   if (snapshot.complete()) return "";
   const std::vector<std::string>& sources = snapshot.incompleteSources();
   const std::string others = sources.size() > 1 ? " and " + std::to_string(sources.size() - 1) + " more" : "";
-  return " ('" + sources.front() + "'" + others + " not complete, but not asked about or not able to be there)";
+  return " (not complete: '" + sources.front() + "'" + others +
+         "; the query does not ask about it or it cannot be there)";
 }
 
-/// @param asked  number of bodies that the query is about; nullopt: all bodies
+/// Returns the summary of an answer.
+/// @param asked  number of bodies that the query asks about; nullopt: all bodies
 std::string summaryOf(const QueryAnswer& found, const Snapshot& snapshot, std::optional<std::size_t> asked) {
   if (found.verdict == Verdict::unknown) return "UNKNOWN: " + found.reason;
   if (found.verdict == Verdict::clear) {
     const std::string none =
-        asked ? "none of the " + std::to_string(*asked) + " bodies asked for is there" : "nothing is there";
+        asked ? "none of the " + std::to_string(*asked) + " requested bodies is there" : "nothing is there";
     return "CLEAR: " + none + elsewhere(snapshot);
   }
   const std::string first =
@@ -73,14 +76,15 @@ void checkPatterns(const std::vector<std::string>& patterns) {
   }
 }
 
-/// Index of the body that a question stands for. @throws Refusal unknown_id
+/// Returns the index of the body of this name. @throws Refusal unknown_id
 std::uint32_t indexOf(const Snapshot& snapshot, const std::string& name) {
   const std::uint32_t body = snapshot.structure().find(name);
   if (body == Structure::kNone) throw Refusal(Code::unknown_id, "there is no body '" + printable(name) + "'");
   return body;
 }
 
-/// The body that the request stands for: as_body or, of query_nearest, the body that it asks from.
+/// Returns the name of the body whose allowed pairs a request may respect: as_body. If that is empty, query_nearest
+/// uses the body that it asks from.
 template <class Request>
 std::string asBody(const Request& request) {
   return request.as_body;
@@ -89,9 +93,10 @@ std::string asBody(const msg::QueryNearest::Request& request) {
   return request.as_body.empty() ? request.body : request.as_body;
 }
 
+/// Returns when the time of a query is over; nullopt: there is no limit.
 /// @throws Refusal out_of_range unless max_time [s] is 0 or positive
 std::optional<std::chrono::steady_clock::time_point> deadlineOf(double max_time) {
-  constexpr double kLongest = 1e6;  // [s]
+  constexpr double kLongest = 1e6;  // [s] a longer time counts as no limit
   if (!(max_time >= 0.0)) {
     throw Refusal(Code::out_of_range, "max_time is " + text(max_time) + " s; it must be 0 (no limit) or positive");
   }
@@ -100,9 +105,9 @@ std::optional<std::chrono::steady_clock::time_point> deadlineOf(double max_time)
   return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(max_time));
 }
 
-/// Number of bodies that a query is about.
-/// @throws Refusal unknown_id if a pattern of include can match no body, or if exclude leaves none: the answer to a
-/// misspelled name must not be CLEAR
+/// Returns the number of bodies that a query asks about.
+/// @throws Refusal unknown_id if a pattern of include can match no body, or if exclude leaves no body. Otherwise a
+/// query with a misspelled name would answer CLEAR.
 std::size_t asked(const QueryScope& scope, const Snapshot& snapshot) {
   const std::vector<Body>& bodies = snapshot.structure().bodies;
   const std::vector<SourceGap>& gaps = snapshot.gaps();
@@ -111,13 +116,14 @@ std::size_t asked(const QueryScope& scope, const Snapshot& snapshot) {
         std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) { return matches(pattern, body.name); });
     const bool awaited = std::any_of(gaps.begin(), gaps.end(),
                                      [&](const SourceGap& gap) { return canMatchTogether(pattern, gap.bodies); });
-    if (!known && !awaited) throw Refusal(Code::unknown_id, "no body matches '" + printable(pattern) + "' of include");
+    if (!known && !awaited)
+      throw Refusal(Code::unknown_id, "no body matches the glob '" + printable(pattern) + "' of include");
   }
   std::size_t count = 0;
   for (std::uint32_t body = 0; body < bodies.size(); ++body) count += inScope(snapshot, scope, body) ? 1 : 0;
   const bool awaits =
       std::any_of(gaps.begin(), gaps.end(), [&](const SourceGap& gap) { return inScope(snapshot, scope, gap); });
-  if (count == 0 && !awaits) throw Refusal(Code::unknown_id, "exclude leaves no body to ask for");
+  if (count == 0 && !awaits) throw Refusal(Code::unknown_id, "exclude leaves out all bodies; at least one must remain");
   return count;
 }
 
@@ -185,7 +191,7 @@ void QueryServices::answer(ServiceCall<Service>& call, const Ask& ask) const {
   result.truncated = found.total > found.hits.size();
 }
 
-/// What all kinds of query say about the bodies they ask for and about how they are to be answered.
+/// Returns the options that all kinds of query have in common: the bodies that they ask about and how to answer.
 template <class Request>
 QueryScope QueryServices::scopeOf(const Request& request, const Snapshot& snapshot) const {
   const auto most = static_cast<std::uint32_t>(params_.max_hits);
@@ -194,7 +200,8 @@ QueryScope QueryServices::scopeOf(const Request& request, const Snapshot& snapsh
   scope.deadline = deadlineOf(request.max_time);
   if (request.respect_allowed) {
     if (asBody(request).empty()) {
-      throw Refusal(Code::bad_id, "respect_allowed needs as_body: the name of the body whose allowed pairs count");
+      throw Refusal(Code::bad_id,
+                    "respect_allowed is true but as_body is empty; it must name the body whose allowed pairs count");
     }
     scope.respect_allowed = indexOf(snapshot, asBody(request));
   }
@@ -203,7 +210,7 @@ QueryScope QueryServices::scopeOf(const Request& request, const Snapshot& snapsh
 
 Pose QueryServices::worldFromFrame(const Tick& tick, const std::string& frame) const {
   if (frame.empty() || frame == tick.world_frame) return Pose::Identity();
-  // The frame may be published at another rate than the robot: its newest pose will do while a body's would be fresh.
+  // The frame may be published at another rate than the robot. So its newest pose is accepted up to ~stale_after.
   return transforms_.atOrNewest(tick.world_frame, frame, tick.snapshot->stamp(), params_.stale_after,
                                 "the query's frame '" + printable(frame) + "'");
 }

@@ -19,25 +19,25 @@
 
 namespace hgrid {
 
-/// Answers ~query_sphere, ~query_segment, ~query_box, ~query_shape and ~query_nearest from the newest tick. Any number
-/// of threads may serve at the same time; none of them waits for a tick.
+/// Serves ~query_sphere, ~query_segment, ~query_box, ~query_shape and ~query_nearest from the newest tick. Any number
+/// of threads may serve requests at the same time. None of them waits for a tick.
 class QueryServices {
  public:
-  /// @param envelope    together with everything else that is passed by reference, it must outlive this object
-  /// @param transforms  where the frames of the questions are looked up
-  /// @param sketch      gets the newest sphere and segment, to be drawn
+  /// All objects that are passed by reference must outlive this object.
+  /// @param transforms  used to look up the frames of the queries
+  /// @param sketch      receives the newest sphere and segment, so that ~markers can show them
   QueryServices(ServiceEnvelope& envelope, const Params& params, const TransformLookup& transforms,
                 std::shared_ptr<NarrowPhase> narrow_phase, QuerySketch& sketch);
 
  private:
-  /// What every query has: the world that it is asked of, the frame of its geometry, the bodies that it is about.
+  /// What every query has: the snapshot that answers it, the frame of its geometry, and the bodies that it asks about.
   struct Question {
     const Snapshot& snapshot;
     Pose world_from_frame;
     QueryScope scope;
   };
 
-  /// Serves one kind of query. @param ask  returns the QueryAnswer to (const Request&, const Question&)
+  /// Serves one kind of query. @param ask  function (const Request&, const Question&) that returns the QueryAnswer
   template <class Service, class Ask>
   void serve(ServiceEnvelope& envelope, const char* name, Ask ask);
   template <class Service, class Ask>

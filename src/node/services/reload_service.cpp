@@ -14,7 +14,7 @@ ReloadService::ReloadService(ServiceEnvelope& envelope, Reload reload, ChangeWor
 
 void ReloadService::reload(ServiceCall<msg::ReloadRobot>& call) const {
   const Refusal outcome = reload_(call.request.robot);
-  call.tick = AnswerTick(change_world_([](World&) {}));  // robots are in the world already; a tick must show them
+  call.tick = AnswerTick(change_world_([](World&) {}));  // changes nothing, but waits for a tick with the new robots
   call.response.uncovered = call.tick.get()->models->uncovered;
   call.response.warnings = call.tick.get()->models->warnings;
   if (outcome.code() != Code::ok) throw outcome;

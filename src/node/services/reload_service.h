@@ -12,11 +12,12 @@
 
 namespace hgrid {
 
-/// Serves ~reload_robot: reads the description of a robot again. The answer is given after the tick that has the model.
+/// Serves ~reload_robot, which reads the description of a robot again. The answer is sent after the first tick that
+/// uses the new model.
 class ReloadService {
  public:
   /// Loads the robot of this name again, or all robots if the name is empty.
-  /// @returns ok, or why the last robot that failed keeps its old model
+  /// @returns Code::ok, or the reason of the last failure; a robot that could not be loaded keeps its old model
   using Reload = std::function<Refusal(const std::string& robot)>;
 
   /// @param envelope  must outlive this object

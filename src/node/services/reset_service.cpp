@@ -17,7 +17,7 @@ ResetService::ResetService(ServiceEnvelope& envelope, ChangeWorld change_world, 
           world.reset();
           stopwatch = Stopwatch();
         }));
-        call.response.message = "obstacles as configured, counters at 0, a new epoch";
+        call.response.message = "the obstacles are as configured, all counters are 0, and a new epoch has begun";
       });
 }
 

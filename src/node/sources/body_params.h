@@ -11,16 +11,17 @@
 
 namespace hgrid {
 
-/// The last value whose pattern matches the name, or `otherwise`.
+/// Returns the last value whose pattern matches the name, or `otherwise` if no pattern matches.
 double lastMatch(const std::vector<PatternValue>& values, const std::string& name, double otherwise);
 
-/// Sets the margin, the padding and the speed bound of a body to what the parameters say for its name.
+/// Sets the margin, the padding and the speed bound of a body from the parameters that match its name.
 void applyPatterns(const Params& params, Body& body);
 
-/// Sets the speed [m/s] that a body is assumed not to exceed, for a body whose model bounds no speed.
+/// Sets the assumed maximum speed [m/s] of a body from the parameters. Use this if the model of the body does not limit
+/// its speed.
 void applyMaxSpeed(const Params& params, Body& body);
 
-/// Prepares the shapes of a body for exact distances. This may take long for large meshes.
+/// Prepares the shapes of a body for exact distances. This may take long if meshes are large.
 void makeSolids(NarrowPhase& narrow_phase, Body& body);
 
 }  // namespace hgrid

@@ -12,7 +12,7 @@ namespace hgrid {
 
 void CloudNews::noteAccepted(LoadedCloud loaded) noexcept {
   const double gap = seconds(loaded.stamp - newest_.stamp);
-  if (newest_.cells && gap > 0.0 && gap <= loaded.lifetime) {  // a longer gap is an outage, not a period
+  if (newest_.cells && gap > 0.0 && gap <= loaded.lifetime) {  // a longer gap counts as an outage
     period_ = period_ > 0.0 ? 0.8 * period_ + 0.2 * std::min(gap, 2.0 * period_) : gap;
   }
   if (loaded.stamp != newest_.stamp) refused_.clear();
@@ -20,7 +20,7 @@ void CloudNews::noteAccepted(LoadedCloud loaded) noexcept {
 }
 
 double CloudNews::ageOf(const Moment& now) const {
-  // If /clock went back, a stamp that is too far ahead is as bad as one that is too old.
+  // If /clock went back, the stamp may lie in the future. That is as bad as a stamp that is just as far in the past.
   if (simulated_) return std::abs(seconds(newest_.stamp - now.ros));
   return newest_.latency + std::chrono::duration<double>(now.steady - newest_.received).count();
 }
@@ -31,13 +31,14 @@ Freshness CloudNews::judge(const Moment& now, bool clock_frozen, AgeLimits limit
 }
 
 std::string CloudNews::sentence(const std::string& body, Freshness state, double age) const {
-  return "cloud '" + body + "': the newest message that counts is " + secondsText(age) + " old" +
+  return "cloud '" + body + "': its newest usable message is " + secondsText(age) + " old" +
          (state == Freshness::lost ? "; its cells have expired" : "") + sinceThen();
 }
 
 SourceGap CloudNews::gap(const std::string& body, Freshness state, double age, double max_speed) const {
-  SourceGap gap{body, body,
-                std::string(name(state)) + " " + body + ": what it saw is " + secondsText(age) + " old" + sinceThen()};
+  SourceGap gap{
+      body, body,
+      std::string(name(state)) + " " + body + ": its newest points are " + secondsText(age) + " old" + sinceThen()};
   if (newest_.range > 0.0) gap.within = Sphere{newest_.sensor, newest_.range + max_speed * age};
   return gap;
 }

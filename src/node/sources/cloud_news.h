@@ -10,36 +10,38 @@
 
 namespace hgrid {
 
-/// Judges whether the cells of one cloud can be trusted, by the messages that brought them. One thread.
+/// Decides from the messages of one cloud whether its cells can be trusted. Only one thread may use it.
 class CloudNews {
  public:
-  /// @param simulated  /clock drives ROS time, and ages are counted by it; otherwise they are counted by the steady
-  /// clock
+  /// @param simulated  whether /clock drives ROS time. If so, ages are measured in ROS time, otherwise by the steady
+  /// clock.
   explicit CloudNews(bool simulated) : simulated_(simulated) {}
 
-  /// Takes in what the sensor has seen lately. Does not throw.
+  /// Stores the newest cells of the cloud. Does not throw.
   void noteAccepted(LoadedCloud loaded) noexcept;
-  /// A message since the newest accepted one could not be used.
+  /// Notes that a message after the newest accepted one could not be used.
   void noteRefused(const std::string& sentence) { refused_ = sentence; }
 
   const LoadedCloud& newest() const { return newest_; }
-  /// Why a message since the newest accepted one could not be used; empty: all could.
+  /// Returns why a message after the newest accepted one could not be used. Empty: no message was refused.
   const std::string& refused() const { return refused_; }
-  /// [s] between stamps, smoothed; 0: not known yet
+  /// Returns the smoothed time between the stamps of successive messages [s]. 0: not known yet.
   double period() const { return period_; }
-  /// [s] Age of the newest message that counts.
+  /// Returns the age of the newest message that was used [s].
   double ageOf(const Moment& now) const;
-  /// @param limits  lost_after does not count: cells are LOST when they are older than their lifetime
+  /// Returns the state of the cells.
+  /// @param limits  its lost_after is ignored: cells are LOST when they are older than their lifetime
   Freshness judge(const Moment& now, bool clock_frozen, AgeLimits limits) const;
-  /// Says how old the cloud is, and what was refused since then.
+  /// Says how old the cloud is, and why a later message was refused.
   std::string sentence(const std::string& body, Freshness state, double age) const;
-  /// What a cloud in this state lacks: what the sensor would see now. That can be anywhere, or, if the range of the
-  /// sensor is known, within that range of where the sensor can be by now.
-  /// @param max_speed  [m/s] of the sensor
+  /// Returns the SourceGap that a cloud in this state leaves: things that the sensor would see now may be missing. They
+  /// can be anywhere. If the range of the sensor is known, they are within that range of the places that the sensor can
+  /// have reached by now.
+  /// @param max_speed  [m/s] maximum speed of the sensor
   SourceGap gap(const std::string& body, Freshness state, double age, double max_speed) const;
 
  private:
-  std::string sinceThen() const { return refused_.empty() ? "" : "; since then: " + refused_; }
+  std::string sinceThen() const { return refused_.empty() ? "" : "; a later message was refused: " + refused_; }
 
   bool simulated_;
   LoadedCloud newest_;

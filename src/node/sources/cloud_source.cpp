@@ -14,7 +14,7 @@
 namespace hgrid {
 namespace {
 
-constexpr auto kLookAgain = std::chrono::milliseconds(2);  // for a transform that is on its way
+constexpr auto kLookAgain = std::chrono::milliseconds(2);  // pause between two checks for a missing transform
 
 Time steadyNow() { return std::chrono::steady_clock::now().time_since_epoch(); }
 Time rosNow() { return Time(static_cast<std::int64_t>(ros::Time::now().toNSec())); }
@@ -49,7 +49,7 @@ CloudSource::CloudSource(const ros::NodeHandle& node, const CloudParams& cloud, 
         guarded(ledger_, failed_.c_str(), [&] { onMessage(*message); });
       };
   subscriber_ = node_.subscribe<CloudMessage>(cloud_.topic, 1, on_message);
-  const double period = std::min(0.1, std::max(0.01, 0.25 * cloud_.lifetime));  // [s]
+  const double period = std::min(0.1, std::max(0.01, 0.25 * cloud_.lifetime));  // [s] of onTimer()
   timer_ = node_.createSteadyTimer(ros::WallDuration(period), [this](const ros::SteadyTimerEvent&) {
     guarded(ledger_, failed_.c_str(), [&] { onTimer(); });
   });
@@ -85,7 +85,7 @@ void CloudSource::take(const CloudMessage& message) {
   if (!message.flaw.empty()) throw Refusal(Code::truncated, what_ + ": " + printable(message.flaw, 200));
   if (message.data.size() > static_cast<std::size_t>(params_.map_max_bytes)) {
     throw Refusal(Code::limit, what_ + " has " + std::to_string(message.data.size()) + " bytes; at most " +
-                                   std::to_string(params_.map_max_bytes) + " are allowed");
+                                   std::to_string(params_.map_max_bytes) + " are allowed (~map/max_bytes)");
   }
   const std::shared_ptr<const Tick> tick = newest_();
   if (!tick || tick->world_frame.empty()) {
@@ -93,7 +93,7 @@ void CloudSource::take(const CloudMessage& message) {
   }
   const Time now = rosNow();
   const Time given(static_cast<std::int64_t>(message.stamp.toNSec()));
-  const Time stamp = given.count() == 0 ? now : given;  // a message without a stamp gets the time when it arrived
+  const Time stamp = given.count() == 0 ? now : given;  // without a stamp, the arrival time counts
   if (seconds(stamp - now) > params_.max_future) {
     throw Refusal(Code::clock, what_ + " is stamped " + secondsText(seconds(stamp - now)) +
                                    " in the future; at most ~max_future, " + secondsText(params_.max_future) +
@@ -115,14 +115,15 @@ void CloudSource::take(const CloudMessage& message) {
   if (seen) noteNewest(stamp, now, received, world_from_sensor.translation());
   if (seen || loaded_.cells) put();
   if (!seen) {
-    throw Refusal(Code::out_of_range, what_ + " has a message with " + std::to_string(points) +
-                                          " finite points; min_points is " + std::to_string(cloud_.min_points) +
-                                          ", so the message does not count (set empty: clear if it should)");
+    throw Refusal(Code::out_of_range,
+                  what_ + " has a message with " + std::to_string(points) + " finite points; min_points is " +
+                      std::to_string(cloud_.min_points) +
+                      ", so it does not keep the cloud fresh (if it should, set empty: clear for this cloud)");
   }
 }
 
-/// Stores the age of the newest message. A message with an earlier stamp than another one adds its points, but the
-/// cloud gets neither fresher nor older by it, unless the clock was set back.
+/// Stores the age of the newest message. A message that is older than another one only adds its points. It does not
+/// change the age of the cloud, unless the clock was set back.
 void CloudSource::noteNewest(Time stamp, Time now, std::chrono::steady_clock::time_point received,
                              const Eigen::Vector3d& sensor) {
   const bool clock_went_back = seconds(loaded_.stamp - now) > params_.max_future;
@@ -136,10 +137,11 @@ void CloudSource::noteNewest(Time stamp, Time now, std::chrono::steady_clock::ti
   loaded_.sensor = sensor;
 }
 
-/// The clock by which cells age: /clock, or else the steady clock, so that setting the wall clock ages nothing.
+/// Returns the time that measures the age of cells: ROS time if /clock drives it, otherwise the steady clock. So
+/// setting the wall clock changes no age.
 Time CloudSource::cellTime() const { return simulated_ ? rosNow() : steadyNow(); }
 
-/// Waits until tf knows where the sensor and the robot's own shapes were at the stamp, at most ~max_sync_wait.
+/// Waits until tf knows the poses of the sensor and of the robot's own shapes at the stamp, at most ~max_sync_wait.
 void CloudSource::waitFor(const std::string& world_frame, const std::string& frame, Time stamp) const {
   std::vector<std::string> frames;
   if (self_shapes_.wanted()) frames = self_shapes_.frames();
@@ -152,22 +154,23 @@ void CloudSource::waitFor(const std::string& world_frame, const std::string& fra
   }
 }
 
-/// Where the sensor was at the stamp. @throws Refusal extrapolation or unknown_frame if tf does not know that in time
+/// Returns the pose of the sensor at the stamp.
+/// @throws Refusal extrapolation or unknown_frame if tf does not know this pose within ~max_sync_wait
 Pose CloudSource::sensorPose(const std::string& frame, const std::string& world_frame, Time stamp) const {
   waitFor(world_frame, frame, stamp);
   std::string why;
   const auto world_from_sensor = transforms_.at(world_frame, frame, stamp, &why);
   if (!world_from_sensor) {
     throw Refusal(transforms_.newest(world_frame, frame) ? Code::extrapolation : Code::unknown_frame,
-                  what_ + ": where its frame '" + printable(frame) + "' was in '" + world_frame + "' at its stamp, " +
-                      text(seconds(stamp)) + " s, is not known after ~max_sync_wait, " +
+                  what_ + ": the pose of its frame '" + printable(frame) + "' in '" + world_frame + "' at its stamp, " +
+                      text(seconds(stamp)) + " s, is still unknown after ~max_sync_wait, " +
                       secondsText(params_.max_sync_wait) + ": " + printable(why, 300));
   }
   checkWithin(world_from_sensor->translation, params_.world_limit, what_ + ": the pose of its sensor");
   return world_from_sensor->pose();
 }
 
-/// The cells of a message's points, without the cells of the robot itself.
+/// Returns the cells that contain the points of a message. Leaves out the cells of the robot itself.
 std::vector<Voxel> CloudSource::voxelsOf(PointCloud cloud, const Pose& world_from_sensor, Time stamp) {
   for (Eigen::Vector3d& point : cloud.points) point = world_from_sensor * point;
   const Eigen::Vector3d sensor = world_from_sensor.translation();
@@ -186,7 +189,7 @@ std::vector<Voxel> CloudSource::voxelsOf(PointCloud cloud, const Pose& world_fro
   return std::move(others.voxels);
 }
 
-/// Removes cells that were not seen for their lifetime, even if no message arrives.
+/// Removes cells that no point has hit for their lifetime, even if no message arrives.
 void CloudSource::onTimer() {
   if (!loaded_.cells || cells_.forget(cellTime()) == 0) return;
   put();

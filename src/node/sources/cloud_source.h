@@ -21,22 +21,23 @@
 
 namespace hgrid {
 
-/// Turns the messages of one cloud into cells, on a thread of its own.
+/// Converts the messages of one cloud to cells, on a separate thread.
 ///
-/// Ticks and queries do not wait for that thread. If messages arrive faster than it can read them, the oldest are
-/// dropped.
+/// Ticks and queries do not wait for that thread. If messages arrive faster than it can read them, the oldest
+/// messages are dropped.
 class CloudSource {
  public:
-  /// Receives the results. The source calls both on its own thread.
+  /// Functions that receive the results. CloudSource calls both on its own thread.
   struct Sink {
-    std::function<void(const LoadedCloud&)> put;            // puts the cells into the world; throws Refusal
+    std::function<void(const LoadedCloud&)> put;            // puts the cells into the world; may throw Refusal
     std::function<void(const std::string& sentence)> miss;  // says why a message could not be used
   };
 
-  /// @param node  its namespace is that of the topic
-  CloudSource(const ros::NodeHandle& node, const CloudParams& cloud, const Params& params, const SelfShapes& self_shapes,
-              const TransformLookup& transforms, std::shared_ptr<const NarrowPhase> narrow_phase,
-              SelfShapes::NewestTick newest, Sink sink, Ledger& ledger);
+  /// @param node  the name of the topic is resolved in its namespace
+  CloudSource(const ros::NodeHandle& node, const CloudParams& cloud, const Params& params,
+              const SelfShapes& self_shapes, const TransformLookup& transforms,
+              std::shared_ptr<const NarrowPhase> narrow_phase, SelfShapes::NewestTick newest, Sink sink,
+              Ledger& ledger);
   ~CloudSource();
 
  private:
@@ -51,10 +52,10 @@ class CloudSource {
   Time cellTime() const;
 
   CloudParams cloud_;
-  std::string what_;     // names the cloud in refusals
-  std::string counter_;  // the names of its counters begin with this
+  std::string what_;     // names the cloud in error sentences
+  std::string counter_;  // prefix of the names of its counters
   std::string failed_;   // name of the counter of exceptions in its callbacks
-  bool simulated_;       // /clock drives ROS time
+  bool simulated_;       // whether /clock drives ROS time
   const Params& params_;
   const SelfShapes& self_shapes_;
   const TransformLookup& transforms_;

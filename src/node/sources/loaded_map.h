@@ -17,21 +17,21 @@ namespace hgrid {
 struct LoadedMap {
   MapParams params;
   std::shared_ptr<const MapCells> cells;
-  Time stamp{0};    // of the message; 0: it has none, or the map comes from a file
-  Moment received;  // when the message came or the file was read
+  Time stamp{0};    // stamp of the message; 0: it has no stamp, or the map was read from a file
+  Moment received;  // when the message arrived or the file was read
 };
 
-/// The cells that a sensor has seen lately, which can be put into the world.
+/// The recent cells of a cloud, which can be put into the world.
 struct LoadedCloud {
-  std::string name;       // the body cloud/name
-  double lifetime = 0.0;  // [s]
-  double range = 0.0;     // [m] the sensor sees no farther; 0: no bound
+  std::string name;       // its body is called cloud/<name>
+  double lifetime = 0.0;  // [s] cells are removed if no point hits them for this long
+  double range = 0.0;     // [m] largest distance at which the sensor sees; 0: not known
   std::shared_ptr<const MapCells> cells;
-  Eigen::Vector3d corner = Eigen::Vector3d::Zero();  // [m, world] the origin of their keys
-  Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  // [m, world] where the sensor was at the newest message
-  Time stamp{0};                                     // of the newest message
-  double latency = 0.0;                              // [s] age of that message when it arrived
-  std::chrono::steady_clock::time_point received{};
+  Eigen::Vector3d corner = Eigen::Vector3d::Zero();  // [m] origin of the keys of the cells, in the world frame
+  Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  // [m] sensor position at the newest message, in the world frame
+  Time stamp{0};                                     // stamp of the newest message
+  double latency = 0.0;                              // [s] age of the newest message when it arrived
+  std::chrono::steady_clock::time_point received{};  // when the newest message arrived
 };
 
 }  // namespace hgrid

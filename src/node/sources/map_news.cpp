@@ -22,7 +22,7 @@ void MapNews::noteRefused(const std::string& body, const std::string& sentence) 
 }
 
 double MapNews::ageOf(const News& news, const Moment& now) const {
-  // If a simulated clock went back, it says nothing about the age. The map then counts as old as when it arrived.
+  // If a simulated clock went back, the age is not known. Then the map keeps the age that it had when it arrived.
   if (simulated_) return news.latency + std::max(0.0, seconds(now.ros - news.received.ros));
   return news.latency + std::chrono::duration<double>(now.steady - news.received.steady).count();
 }

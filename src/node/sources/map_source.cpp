@@ -12,9 +12,9 @@
 namespace hgrid {
 namespace {
 
-constexpr std::size_t kLongestFileName = 64;  // bytes
+constexpr std::size_t kLongestFileName = 64;  // [bytes]
 
-/// Accepts a plain file name only, because a caller of a service must not read files outside the folder.
+/// Checks that `file` is a plain file name, so that a service request cannot read files outside the folder.
 void checkFileName(const std::string& file) {
   const bool plain = !file.empty() && file.size() <= kLongestFileName && file.front() != '.' &&
                      std::all_of(file.begin(), file.end(), [](char c) {
@@ -22,9 +22,9 @@ void checkFileName(const std::string& file) {
                               c == '_' || c == '-';
                      });
   if (!plain) {
-    throw Refusal(Code::bad_id, "file is '" + printable(file) +
-                                    "'; it must be the name of a file in ~map/folder, of at most " +
-                                    std::to_string(kLongestFileName) + " letters, digits and . _ -");
+    throw Refusal(Code::bad_id,
+                  "file is '" + printable(file) + "'; it must be the name of a file in ~map/folder, with at most " +
+                      std::to_string(kLongestFileName) + " letters, digits and . _ -, and must not begin with a dot");
   }
 }
 

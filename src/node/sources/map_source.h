@@ -15,28 +15,29 @@
 
 namespace hgrid {
 
-/// A map that was read, with all its cells.
+/// A map that was read. It still contains the cells of the robot itself.
 struct ReadMap {
   MapParams params;
   Octomap octomap;
-  Time stamp{0};    // of the message; 0: a file
-  Moment received;  // when the message came or the file was read
+  Time stamp{0};    // stamp of the message; 0: it has no stamp, or the map was read from a file
+  Moment received;  // when the message arrived or the file was read
 };
 
-/// Reads OctoMaps from the configured folder and from messages. Any thread.
+/// Reads OctoMaps from the configured folder and from messages. Any thread may use it.
 class MapSource {
  public:
   MapSource(const Params& params, const SelfShapes& self_shapes, std::shared_ptr<const NarrowPhase> narrow_phase,
             Ledger& ledger);
 
-  /// @throws Refusal naming the map: bad_id (the file's name has other than letters, digits, . _ -), resource_denied
-  /// (no folder is configured, or the file leads out of it), and as readOctomapFile()
+  /// Reads the file of a map.
+  /// @throws Refusal bad_id if the file name has other characters than letters, digits, . _ -, resource_denied if no
+  /// folder is configured or the file is outside of it, and as readOctomapFile()
   ReadMap read(const MapParams& map) const;
-  /// Reads the map of a message. @throws Refusal naming the map: truncated (the message lies about its lengths), and
-  /// as readOctomapData()
+  /// Reads the map of a message.
+  /// @throws Refusal truncated if a length in the message exceeds its bytes, and as readOctomapData()
   ReadMap read(const MapParams& map, const OctomapMessage& message) const;
-  /// Builds the cells of a map. Leaves out the robot's own if ~map/self_filter says so.
-  /// @throws Refusal not_ready if it is not known where the robot was, limit if memory runs out
+  /// Builds the cells of a map. Leaves out the cells of the robot itself if ~map/self_filter is set.
+  /// @throws Refusal not_ready if the pose of the robot is not known, limit if memory runs out
   LoadedMap finished(ReadMap map) const;
 
  private:

@@ -21,7 +21,8 @@
 namespace hgrid {
 namespace {
 
-/// The helper executable lies in the package's folder beside this library: lib/hgrid_proximity below lib/.
+/// Returns the path of the helper executable that reads meshes. It is in the folder hgrid_proximity/, which is next to
+/// this library.
 std::string meshReader() {
   Dl_info info{};
   const auto here = reinterpret_cast<void*>(&meshReader);
@@ -33,7 +34,7 @@ std::string meshReader() {
   return library.substr(0, library.find_last_of('/')) + "/hgrid_proximity/proximity_mesh_reader";
 }
 
-/// file:// may read below package roots and below ~mesh_roots.
+/// Returns the folders in which file:// may read files: the folders of ROS_PACKAGE_PATH and ~mesh_roots.
 std::vector<std::string> fileRoots(const Params& params) {
   std::vector<std::string> roots = params.mesh_roots;
   const char* path = std::getenv("ROS_PACKAGE_PATH");
@@ -65,7 +66,7 @@ std::string noteOf(const RobotLink& link) {
   return note;
 }
 
-/// The last waiver that matches the name, or null.
+/// Returns the last waiver whose pattern matches the name, or null.
 const Waiver* waiverOf(const std::vector<Waiver>& waivers, const std::string& name) {
   const auto found = std::find_if(waivers.rbegin(), waivers.rend(),
                                   [&](const Waiver& waiver) { return matches(waiver.pattern, name); });
@@ -90,7 +91,7 @@ Body bodyOf(const LoadedRobot& robot, const RobotModel& model, std::uint32_t ind
     body.note = waiver->reason + " (" + noteOf(link) + ")";
   }
   applyPatterns(params, body);
-  // A robot whose root is not the world frame may be carried. That speed is added to the speed of its joints.
+  // If the root of the robot is not the world frame, the whole robot may move. That adds to the speed of its joints.
   const double joints = speedBound(model, index);
   const double carried =
       robot.root_frame == params.world_frame || params.world_frame.empty() ? 0.0 : params.default_max_speed;
@@ -99,7 +100,7 @@ Body bodyOf(const LoadedRobot& robot, const RobotModel& model, std::uint32_t ind
   return body;
 }
 
-/// Says that a robot without any geometry is incomplete, or that ~accept_uncovered waives every one of its links.
+/// Sets `gap` if the robot has no geometry at all, or `waived_gap` if ~accept_uncovered waives all of its links.
 void findGap(LoadedRobot& robot, const Params& params) {
   if (!robot.bodies.empty()) return;
   const std::string sentence = "robot '" + robot.name + "' has no collision geometry on any of its " +
@@ -153,7 +154,8 @@ LoadedRobot RobotSource::load(const RobotParams& params) const {
   if (!params.semantic.empty() && node_.searchParam(params.semantic, key)) {
     rules = readSrdf(description(params.semantic), limits);
   } else if (!params.semantic.empty() && params.semantic != RobotParams{}.semantic) {
-    model.warnings.push_back("parameter '" + printable(params.semantic) + "' is not set; it was to hold the SRDF");
+    model.warnings.push_back("parameter '" + printable(params.semantic) +
+                             "' is not set; it should hold the robot's SRDF");
   }
 
   LoadedRobot robot;
@@ -168,7 +170,8 @@ LoadedRobot RobotSource::load(const RobotParams& params) const {
   }
   for (std::uint32_t i = 0; i < model.links.size(); ++i) {
     const RobotLink& link = model.links[i];
-    if (cancelled_()) throw Refusal(Code::busy, "robot '" + params.name + "' was not loaded: the node is about to end");
+    if (cancelled_())
+      throw Refusal(Code::busy, "robot '" + params.name + "' was not loaded, because the node is shutting down");
     if (!link.hasGeometry()) {
       robot.without_collision.push_back(joined(robot.name, link.name));
       continue;

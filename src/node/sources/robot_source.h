@@ -18,36 +18,37 @@ namespace hgrid {
 
 /// A robot that was read and can be put into the world.
 struct LoadedRobot {
-  /// Links that move as one, and the tf frame that places them all.
+  /// Links that move together, and the tf frame that places all of them.
   struct Group {
     std::string frame;
-    std::vector<std::pair<std::size_t, Pose>> members;  // index into bodies, and its pose in the frame
+    std::vector<std::pair<std::size_t, Pose>> members;  // index into `bodies`, and pose of that body in the frame
   };
 
   std::string name;
   std::string root_frame;
-  std::vector<Body> bodies;  // of the links that have geometry
+  std::vector<Body> bodies;  // one body for each link that has geometry
   std::vector<Group> groups;
   std::vector<std::string> without_collision;  // names of the other links
   std::vector<std::string> uses_visual;        // names of the bodies whose shapes are the link's visual geometry
-  std::string gap;                             // why the robot as a whole is incomplete; empty: it is not
-  std::string waived_gap;  // why it would be incomplete without ~accept_uncovered, and the waiver's reason; empty:
-                           // nothing is waived
-  SelfPairs self_pairs;    // how many pairs of its own links its model switches off
+  std::string gap;                             // why the robot as a whole is incomplete; empty: it is complete
+  std::string waived_gap;  // why the robot would be incomplete without ~accept_uncovered, and the reasons of the
+                           // waivers; empty: nothing is waived
+  SelfPairs self_pairs;    // how many pairs of the robot's own links the model switches off
   std::vector<std::string> warnings;
 };
 
-/// Reads robots from the parameter server: description, meshes, SRDF.
+/// Reads robots: their descriptions (URDF and SRDF) from the parameter server, and their meshes.
 class RobotSource {
  public:
-  /// @param node  private node handle: parameters are searched from here upwards
-  /// @param cancelled  called again and again during a load; once it returns true, the load is given up
+  /// @param node       private node handle; parameters are searched from its namespace upwards
+  /// @param cancelled  called repeatedly during a load; once it returns true, the load is canceled
   RobotSource(ros::NodeHandle node, const Params& params, std::shared_ptr<NarrowPhase> narrow_phase,
               std::function<bool()> cancelled);
 
-  /// Slow (it reads files and asks the master); any one thread.
-  /// @throws Refusal not_ready while there is no description, busy if it was cancelled, or as readUrdf() and
-  /// readSrdf().
+  /// Reads a robot. This is slow, because it reads files and asks the ROS master. Only one thread at a time may call
+  /// this.
+  /// @throws Refusal not_ready while there is no description, busy if the load was canceled, or as readUrdf() and
+  /// readSrdf()
   LoadedRobot load(const RobotParams& robot) const;
 
  private:

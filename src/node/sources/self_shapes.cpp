@@ -9,7 +9,7 @@
 
 namespace hgrid {
 
-/// Calls `look` for each named body of the newest tick, with the padding that ~map/self_filter has for it.
+/// Calls `look` for each body of the newest tick that ~map/self_filter names, with the padding [m] configured for it.
 template <class Look>
 void SelfShapes::forEach(const Look& look) const {
   const std::shared_ptr<const Tick> tick = newest_();
@@ -26,13 +26,14 @@ void SelfShapes::forEach(const Look& look) const {
 void SelfShapes::require() const {
   const std::shared_ptr<const Tick> tick = newest_();
   if (!tick || !tick->snapshot || tick->models->robots < params_.robots.size()) {
-    throw Refusal(Code::not_ready, "the robots whose cells ~map/self_filter leaves out are not all loaded yet");
+    throw Refusal(Code::not_ready,
+                  "not all robots are loaded yet, so their cells cannot be left out as ~map/self_filter requires");
   }
   forEach([](const Tick&, const Body& body, const BodyPose& pose, double) {
     if (pose.state != Freshness::unplaced) return;
     throw Refusal(Code::not_ready, "body '" + body.name +
-                                       "' had no pose yet, so that its cells cannot be left out as ~map/self_filter "
-                                       "demands");
+                                       "' has no pose yet, so its cells cannot be left out as ~map/self_filter "
+                                       "requires");
   });
 }
 
@@ -66,8 +67,8 @@ Pose SelfShapes::worldFrom(const std::string& frame, Time stamp) const {
     if (const auto pose = transforms_.newest(tick->world_frame, frame)) return pose->pose();
   }
   throw Refusal(Code::not_ready, "frame '" + printable(frame) +
-                                     "' is not connected to the world frame yet, so that the robot's own cells cannot "
-                                     "be left out as ~map/self_filter demands");
+                                     "' is not connected to the world frame yet, so the robot's own cells cannot be "
+                                     "left out as ~map/self_filter requires");
 }
 
 }  // namespace hgrid

@@ -16,8 +16,8 @@ namespace hgrid {
 
 struct Tick;
 
-/// Finds out where the bodies were that ~map/self_filter names, so that the cells that sensors made of the robot itself
-/// can be left out. Any thread.
+/// Returns the shapes and poses of the bodies that ~map/self_filter names. They are needed to leave out cells in which
+/// a sensor saw the robot itself. Any thread may use this class.
 class SelfShapes {
  public:
   using NewestTick = std::function<std::shared_ptr<const Tick>()>;
@@ -27,17 +27,17 @@ class SelfShapes {
 
   /// Whether ~map/self_filter names any bodies.
   bool wanted() const { return !params_.map_self_filter.empty(); }
-  /// Checks that at() can be complete.
-  /// @throws Refusal not_ready if a robot is not loaded, or a named body never had a pose
+  /// Checks that at() can return the shapes of all named bodies.
+  /// @throws Refusal not_ready if a robot is not loaded, or if a named body never had a pose
   void require() const;
-  /// The tf frames of the named bodies whose poses keep arriving.
+  /// Returns the tf frames of the named bodies whose poses are not LOST or worse.
   std::vector<std::string> frames() const;
-  /// The padded shapes at a time (0: the newest). If tf does not know the pose of a body at that time, its pose in the
-  /// newest tick is used. Bodies that never had a pose are left out.
+  /// Returns the padded shapes of the named bodies at a time (0: in the newest tick). If tf does not know the pose of a
+  /// body at that time, its pose in the newest tick is used. Bodies that never had a pose are left out.
   std::vector<SelfShape> at(Time stamp) const;
-  /// The pose of a frame in the world at a time or, if that is not known, the newest one. An empty name is the world
-  /// frame.
-  /// @throws Refusal not_ready if neither is known
+  /// Returns the pose of a frame in the world at a time (0: newest). If it is not known, returns the newest known pose.
+  /// An empty name means the world frame.
+  /// @throws Refusal not_ready if no pose is known
   Pose worldFrom(const std::string& frame, Time stamp) const;
 
  private:

@@ -9,28 +9,29 @@
 
 namespace hgrid {
 
-/// What a thing is that brings bodies into the world.
+/// The kinds of sources, which bring bodies into the world.
 enum class SourceKind { robot, obstacle, map, cloud };
 
 /// Identifies a robot, an obstacle, a map or a cloud.
 struct SourceId {
   SourceKind kind;
-  std::string name;  ///< the robot's name; otherwise the name of the one body
+  std::string name;  ///< name of the robot, or full name of the one body of any other source
 
   static SourceId ofRobot(const std::string& name) { return {SourceKind::robot, name}; }
-  /// @param body  full name of the body
+  /// @param body  full name of the body, for example "obstacle/post"
   static SourceId ofObstacle(const std::string& body) { return {SourceKind::obstacle, body}; }
-  /// @param local  name of the map as configured, as in MapParams::name
+  /// @param local  configured name of the map, as in MapParams::name
   static SourceId ofMap(const std::string& local) { return {SourceKind::map, joined("map", local)}; }
-  /// @param local  name of the cloud as configured, as in CloudParams::name
+  /// @param local  configured name of the cloud, as in CloudParams::name
   static SourceId ofCloud(const std::string& local) { return {SourceKind::cloud, joined("cloud", local)}; }
 };
 
-/// Orders by name. No two sources have the same name, because "obstacle", "map" and "cloud" cannot name a robot.
+/// Compares by name. No two sources have the same name, because a robot cannot be called "obstacle", "map" or "cloud".
 inline bool operator<(const SourceId& a, const SourceId& b) { return a.name < b.name; }
 inline bool operator==(const SourceId& a, const SourceId& b) { return a.kind == b.kind && a.name == b.name; }
 
-/// The gap that the whole source leaves because of what `sentence` says. All obstacles are one source.
+/// Returns the SourceGap of a whole source that is missing or cannot be trusted. `sentence` says why. All obstacles
+/// together are one source.
 inline SourceGap gapOf(const SourceId& source, const std::string& sentence) {
   switch (source.kind) {
     case SourceKind::robot:

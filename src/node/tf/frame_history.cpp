@@ -9,7 +9,7 @@
 namespace hgrid {
 namespace {
 
-/// Whether the pose is known at all times between two neighboring samples.
+/// Whether the pose is known at all times between two successive samples.
 bool joined(const PoseSample& from, const PoseSample& to) { return to.continues && from.parent == to.parent; }
 
 PoseSample interpolated(const PoseSample& from, const PoseSample& to, Time time) {
@@ -32,9 +32,9 @@ void FrameHistory::fix(const PoseSample& sample) {
   moves_ = false;
 }
 
-/// Allocates before it changes anything, or not at all.
+/// If memory runs out, nothing is changed, because the only allocation comes before all changes.
 void FrameHistory::advance(const PoseSample& sample, Time keep_from) {
-  if (!samples_.empty() && (!moves_ || newest().stamp.count() == 0)) {  // no sample has a time
+  if (!samples_.empty() && (!moves_ || newest().stamp.count() == 0)) {  // the only sample has no stamp
     fix(sample);
   } else if (!samples_.empty() && newest().stamp >= sample.stamp) {
     replaceFrom(sample);
@@ -46,7 +46,7 @@ void FrameHistory::advance(const PoseSample& sample, Time keep_from) {
   while (samples_.size() > 1 && samples_.front().stamp < keep_from) samples_.pop_front();
 }
 
-/// Puts the sample in the place of all that are not older. A seam among them stays one.
+/// Replaces all samples that are not older than `sample` by it. If a replaced sample ended a seam, `sample` ends one.
 void FrameHistory::replaceFrom(const PoseSample& sample) {
   bool continues = sample.continues && samples_.back().continues;
   while (samples_.size() > 1 && samples_[samples_.size() - 2].stamp >= sample.stamp) {
@@ -73,7 +73,7 @@ void FrameHistory::forgetStamps() {
 }
 
 FrameHistory::Samples::const_iterator FrameHistory::after(Time time) const {
-  if (samples_.size() > 1 && time >= samples_[samples_.size() - 2].stamp) {  // what a tick asks for
+  if (samples_.size() > 1 && time >= samples_[samples_.size() - 2].stamp) {  // fast path: ticks ask for new times
     return time >= newest().stamp ? samples_.end() : samples_.end() - 1;
   }
   return std::upper_bound(samples_.begin(), samples_.end(), time,
@@ -112,7 +112,7 @@ std::optional<Time> FrameHistory::newestKnownTime(Time time) const {
 
 std::string FrameHistory::knownTimes(Time time) const {
   const auto stampOf = [](const PoseSample& sample) { return text(seconds(sample.stamp)); };
-  if (newest().stamp.count() == 0) return "has no transform since the clock jumped";
+  if (newest().stamp.count() == 0) return "has received no transform since the clock jumped";
   const auto next = after(time);
   if (next == samples_.begin() || next == samples_.end()) {
     return "is known from " + stampOf(samples_.front()) + " s to " + stampOf(newest()) + " s";

@@ -6,12 +6,12 @@
 
 namespace hgrid {
 
-/// A tf frame's name as tf2 wants it: tf1's leading slash removed.
+/// Returns the name of a tf frame without the leading slash that tf1 used and that tf2 does not allow.
 inline std::string withoutSlash(const std::string& frame) {
   return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
 }
 
-/// The frame of a robot's link under a tf prefix.
+/// Returns the name of the tf frame of a robot's link: the tf prefix, a slash and the link's name.
 inline std::string prefixed(const std::string& prefix, const std::string& link) {
   const std::string clean = withoutSlash(prefix);
   return clean.empty() ? link : clean + "/" + link;

@@ -9,14 +9,14 @@
 
 namespace hgrid {
 
-/// When the newest transform of a frame arrived, and how often transforms of it arrive.
+/// Stores when the newest transform of a frame arrived, and how often its transforms arrive.
 class FramePace {
  public:
-  /// [age clock] Reading when the newest transform arrived.
+  /// Returns the reading of the age clock when the newest transform arrived.
   Time received() const { return received_; }
-  /// By how much that reading was ahead of ROS time.
+  /// Returns how far the age clock was ahead of ROS time when the newest transform arrived.
   Time lead() const { return lead_; }
-  /// [s] Between stamps, smoothed; 0: not known yet.
+  /// Returns the smoothed time between the stamps of successive transforms [s]. 0: not known yet.
   double period() const { return period_; }
 
   void noteReceived(Time reading) { received_ = reading; }
@@ -27,7 +27,7 @@ class FramePace {
   /// Learns from the time between the stamps of the two newest transforms [s].
   void noteStep(double step) {
     const double before = std::exchange(step_, step);
-    const double usual = std::min(before, step_);  // a single long step is an outage, not a period
+    const double usual = std::min(before, step_);  // ignores a single long step, which is an outage
     period_ = period_ == 0.0 ? usual : 0.9 * period_ + 0.1 * usual;
   }
   void forgetPeriod() { period_ = step_ = 0.0; }
@@ -35,7 +35,7 @@ class FramePace {
  private:
   Time received_{0}, lead_{0};
   double period_ = 0.0;
-  double step_ = 0.0;  // [s] between the two newest stamps
+  double step_ = 0.0;  // [s] time between the two newest stamps
 };
 
 }  // namespace hgrid

@@ -8,10 +8,10 @@
 
 namespace hgrid {
 
-/// A pose as tf has it: translation [m] and unit quaternion.
+/// A pose in the form that tf uses: a translation [m] and a unit quaternion.
 ///
-/// Along a chain of frames, quaternions are multiplied instead of matrices. Then one normalization at the end makes a
-/// rotation again, however long the chain is.
+/// Along a chain of frames, quaternions are multiplied instead of matrices. Then a single normalization at the end
+/// yields a valid rotation, however long the chain is.
 struct FramePose {
   Eigen::Quaternion<double, Eigen::DontAlign> rotation = Eigen::Quaternion<double, Eigen::DontAlign>::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
@@ -42,7 +42,8 @@ inline FramePose between(const FramePose& from, const FramePose& to, double frac
   return result;
 }
 
-/// @param transform  checked: finite, the quaternion nearly of length 1
+/// Converts a transform.
+/// @param transform  must be checked already: all numbers finite, the quaternion's length nearly 1
 inline FramePose toFramePose(const geometry_msgs::Transform& transform) {
   const auto& t = transform.translation;
   const auto& q = transform.rotation;

@@ -27,7 +27,7 @@ std::optional<FramePoses::Found> FramePoses::find(std::size_t frame, const KeptP
   const ChainState& state = chain(frame);
   if (!state.connected) return std::nullopt;
   if (const FramePose* pose = tree_.worldFrom(frame)) return Found{*pose, tick_time_, state.bornAt(tick_time_)};
-  // A frame that lags is placed at its own newest time. All transforms of its chain are taken at that one time.
+  // A frame that lags behind gets the pose of its own newest time. All transforms of its chain are taken at that time.
   if (in_use.exists() && (state.newest >= tick_time_ || state.newest < in_use.stamp())) return std::nullopt;
   const std::optional<FramePose> pose = tree_.worldFrom(frame, state.newest);
   if (!pose) return std::nullopt;
@@ -47,12 +47,12 @@ Refusal FramePoses::notConnected(std::size_t frame) const {
   const std::string& unknown = tree_.unknownFrame(frame);
   return Refusal(Code::unknown_frame,
                  "frame '" + frames_[frame] + "' is not connected to '" + world_frame_ + "'" +
-                     (unknown.empty() ? std::string(": there is no way of transforms between them now")
+                     (unknown.empty() ? std::string(": there is no chain of transforms between them now")
                                       : ": frame '" + unknown + "' was never published"));
 }
 
-/// The first contested frame among the ancestors of a frame that is not connected to the world frame; kNone: there is
-/// none.
+/// Returns the first contested frame among a frame and its ancestors. Used if the frame is not connected to the world
+/// frame. kNone: there is none.
 std::uint32_t FramePoses::contestedFrom(std::uint32_t number) const {
   for (std::size_t i = 0; i < FrameTable::kLongestChain && number != TfIntake::kNone; ++i) {
     if (intake_.isContested(number, reading_)) return number;

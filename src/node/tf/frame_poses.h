@@ -13,45 +13,45 @@
 
 namespace hgrid {
 
-/// Turns transforms into the poses of frames in the world frame at the time of a tick.
+/// Computes the poses of frames in the world frame at the time of a tick, from the stored transforms.
 ///
-/// Usage per tick: plan() if stale(), look(), then find() for each frame. One thread, that of the TfIntake.
+/// Each tick calls plan() if stale(), then look(), then find() for each frame. Only the tick thread may use this class.
 class FramePoses {
  public:
-  /// Where a frame is, and when it was there.
+  /// The pose of a frame, and the time at which the frame had that pose.
   struct Found {
     FramePose world_from_frame;
     Time stamp{0};
-    Time born{0};  ///< reading of the age clock at which the pose was 0 s old
+    Time born{0};  ///< reading of the age clock when the age of the pose was 0 s
   };
 
-  /// @param max_wait  as in TickTime
+  /// @param max_wait  [s] how long a tick may wait for slower frames, as in TickTime
   FramePoses(const TfIntake& intake, double max_wait) : intake_(intake), tree_(intake), time_(max_wait) {}
 
-  /// Whether tf has learned of frames or parents since the last plan().
+  /// Whether a new frame or a new parent has appeared in tf since the last plan().
   bool stale() const { return tree_.stale(); }
-  /// Lays out the chains to `frames`. All other functions refer to a frame by its index in `frames`.
+  /// Finds the chains of transforms to `frames`. All other functions refer to a frame by its index in `frames`.
   void plan(const std::string& world_frame, const std::vector<std::string>& frames);
-  /// Reads what is known, chooses the time of the tick and computes all poses at that time.
+  /// Reads the stored transforms, chooses the time of the tick and computes all poses at that time.
   void look(const Moment& now);
   void beginEpoch() { time_.beginEpoch(); }
 
-  /// [ROS time] Of this tick, and of the one before.
+  /// Returns the time of this tick; tickTimeBefore() returns the time of the previous tick. Both are in ROS time.
   Time tickTime() const { return tick_time_; }
   Time tickTimeBefore() const { return tick_time_before_; }
-  /// Reading of the age clock in this tick, and in the one before.
+  /// Returns the reading of the age clock in this tick; readingBefore() returns the reading in the previous tick.
   Time reading() const { return reading_; }
   Time readingBefore() const { return reading_before_; }
   const ChainState& chain(std::size_t frame) const { return tree_.state(frame); }
-  /// The pose of a frame at the time of the tick. A frame that lags: at the newest time at which its chain is known.
-  /// Empty: no pose can be computed, and the one in use stays.
-  /// @param in_use  the pose in use. An older one does not replace it, except at the time of the tick. If there is
-  ///                none, the newest pose is found even if it is younger than the tick.
+  /// Returns the pose of a frame at the time of the tick. For a frame that lags behind, returns its pose at the newest
+  /// time at which its chain is known. Empty: no pose can be computed, so the pose in use stays.
+  /// @param in_use  the pose in use. A pose with an older stamp replaces it only if it is the pose at the time of the
+  ///                tick. If no pose is in use yet, the newest pose is returned, even if it is newer than the tick.
   std::optional<Found> find(std::size_t frame, const KeptPose& in_use) const;
-  /// What is wrong with the transforms of a frame: the newest one was refused, or publishers fight. With code
-  /// unknown_frame: why the frame is not connected to the world frame. Empty: nothing is wrong.
+  /// Returns what is wrong with the transforms of a frame: the newest one was refused, or the frame is contested. With
+  /// code unknown_frame, it says why the frame is not connected to the world frame. Empty: nothing is wrong.
   std::optional<Refusal> troubleOf(std::size_t frame) const;
-  /// If the frame is not connected: the frame that was never published; empty if all were.
+  /// Returns the name of a frame that was never published, if this is why `frame` is not connected. Otherwise empty.
   const std::string& unknownFrame(std::size_t frame) const { return tree_.unknownFrame(frame); }
 
  private:
@@ -63,7 +63,7 @@ class FramePoses {
   TickTime time_;
   std::string world_frame_;
   std::vector<std::string> frames_;
-  std::vector<Time> newest_;  // of the chains that move: scratch of look()
+  std::vector<Time> newest_;  // buffer of look(): the newest time of each chain that moves
   Time tick_time_{0}, tick_time_before_{0}, reading_{0}, reading_before_{0};
 };
 

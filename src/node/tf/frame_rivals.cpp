@@ -7,7 +7,7 @@
 namespace hgrid {
 namespace {
 
-// Poses that differ by less agree, because a frame moves between the transforms of two publishers.
+// Two poses that differ by at most this much agree. A frame may move a little between the transforms of two publishers.
 constexpr double kSameDistance = 0.01;  // [m]
 constexpr double kSameAngle = 0.01;     // [rad]
 
@@ -31,9 +31,9 @@ void FrameRivals::take(std::uint32_t frame, const Holder& holder, const FrameCla
 void FrameRivals::compare(std::uint32_t frame, const Holder& holder, const FrameClaims::RivalTransform& rival,
                           Time reading) {
   if (rival.claim.parent == holder.claim.parent) {
-    if (rival.claim.publisher == holder.claim.publisher) return;  // the rival has become the holder
+    if (rival.claim.publisher == holder.claim.publisher) return;  // the rival has become the holder meanwhile
     const std::optional<FramePose> held = holder.pose_at(rival.stamp);
-    if (!held) return;  // the holder's transforms do not reach back to that time
+    if (!held) return;  // the holder's pose at that time is not known
     if (agree(*held, rival.parent_from_frame)) return;
   }
   contradict(frame, holder, rival.claim, reading);

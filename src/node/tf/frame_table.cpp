@@ -11,8 +11,8 @@ std::uint32_t FrameTable::find(const std::string& name) const {
   return found == numbers_.end() ? kNone : found->second;
 }
 
-/// Messages name the same frames in the same order again and again. So the frame that came next the last time is nearly
-/// always the right one, and comparing its name is faster than find().
+/// Returns the same as find(), but usually faster. Messages repeat the same frames in the same order. So this function
+/// first tries the frame that came next the last time.
 std::uint32_t FrameTable::guess(const std::string& child) const {
   const std::uint32_t next = last_ == kNone ? kNone : entries_[last_].next;
   return next != kNone && entries_[next].name == child ? next : find(child);
@@ -24,7 +24,7 @@ std::uint32_t FrameTable::add(const std::string& name) {
   entry.name = name;
   if (entries_.size() == entries_.capacity()) entries_.reserve(2 * entries_.size() + 8);
   numbers_.emplace(name, number);
-  entries_.push_back(std::move(entry));  // does not throw: there is room
+  entries_.push_back(std::move(entry));  // does not throw, because the capacity was reserved above
   ++revision_;
   return number;
 }
@@ -35,7 +35,7 @@ void FrameTable::checkRoom(const std::string& parent, std::uint32_t number, cons
   const bool new_parent = known_parent == kNone || !entries_[known_parent].is_parent;
   if ((new_child && placed_ >= max_frames_) || (new_parent && parents_ >= max_frames_)) {
     throw Refusal(Code::limit, "transform of frame '" + printable(child) +
-                                   "' would be one more than ~max_frames, which is " + std::to_string(max_frames_));
+                                   "' would add one frame too many; ~max_frames is " + std::to_string(max_frames_));
   }
 }
 

@@ -9,49 +9,49 @@
 
 namespace hgrid {
 
-/// Numbers the tf frames and knows the parent of each.
+/// Gives each tf frame a number and stores its parent.
 ///
-/// A frame gets a number when its name first occurs, and keeps it. Numbers begin at 0 and have no gaps. A call that
-/// throws has changed nothing.
+/// A frame gets a number when its name first occurs, and keeps that number. Numbers begin at 0 and have no gaps. A call
+/// that throws changes nothing.
 class FrameTable {
  public:
   static constexpr std::uint32_t kNone = 0xffffffff;
-  /// The most frames from one to an ancestor of it. A loop of parents ends there.
+  /// The largest number of parents that are followed upwards from a frame. This ends the search in a loop of parents.
   static constexpr std::size_t kLongestChain = 1000;
 
-  /// @param max_frames  the most frames that have a parent, and the most that are one (~max_frames)
+  /// @param max_frames  ~max_frames: at most this many frames may have a parent, and at most this many may be a parent
   explicit FrameTable(std::size_t max_frames) : max_frames_(max_frames) {}
 
-  /// Number of the frame `child`, which a transform places in `parent`. A new child gets a number.
-  /// @throws Refusal limit if one more child or parent would be too many
+  /// Returns the number of the frame `child`, which a transform places in `parent`. A new child gets a number.
+  /// @throws Refusal limit if there would be more than `max_frames` children or parents
   std::uint32_t admit(const std::string& parent, const std::string& child);
-  /// Number of the frame `name`. A new one gets a number.
+  /// Returns the number of the frame `name`. A new frame gets a number.
   std::uint32_t numberOf(const std::string& name);
   /// Sets the parent of a frame. A new parent gets a number. Does not throw if the parent has a number.
   void setParent(std::uint32_t frame, const std::string& parent);
 
-  /// Number of a frame whose name occurred, or kNone.
+  /// Returns the number of the frame `name`, or kNone if this name has not occurred.
   std::uint32_t find(const std::string& name) const;
-  /// How many frames have a number.
+  /// Returns how many frames have a number.
   std::size_t size() const { return entries_.size(); }
-  /// How many frames were placed in a parent.
+  /// Returns how many frames a transform has placed in a parent.
   std::size_t placed() const { return placed_; }
   bool isPlaced(std::uint32_t frame) const { return entries_[frame].placed; }
   const std::string& name(std::uint32_t frame) const { return entries_[frame].name; }
-  /// Number of the frame's newest parent, or kNone.
+  /// Returns the number of the frame's newest parent, or kNone if it has no parent.
   std::uint32_t parent(std::uint32_t frame) const { return entries_[frame].parent; }
-  /// Name of the frame's newest parent; empty: it has none.
+  /// Returns the name of the frame's newest parent. Empty: the frame has no parent.
   const std::string& parentName(std::uint32_t frame) const;
   bool isInParent(std::uint32_t frame, const std::string& parent) const;
-  /// A number that is larger whenever a frame is new or has another parent.
+  /// Returns a number that increases whenever a frame is added or gets another parent.
   std::uint64_t revision() const { return revision_; }
 
  private:
   struct Entry {
     std::string name;
     std::uint32_t parent = kNone;
-    std::uint32_t next = kNone;  // the frame that came after it in a message
-    bool placed = false;         // a transform placed it in a parent
+    std::uint32_t next = kNone;  // the frame that admit() got right after this one
+    bool placed = false;         // whether a transform has placed this frame in a parent
     bool is_parent = false;
   };
 
@@ -64,7 +64,7 @@ class FrameTable {
   std::unordered_map<std::string, std::uint32_t> numbers_;
   std::size_t placed_ = 0, parents_ = 0;
   std::uint64_t revision_ = 0;
-  std::uint32_t last_ = kNone;  // the frame that was admitted last
+  std::uint32_t last_ = kNone;  // the frame of the last call of admit()
 };
 
 }  // namespace hgrid

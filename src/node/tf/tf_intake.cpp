@@ -11,9 +11,9 @@
 namespace hgrid {
 namespace {
 
-constexpr Time kLeastPatience{50000000};   // [ns] a frame's holder may always be silent for so long
-constexpr Time kMostPatience{3000000000};  // [ns]
-constexpr double kUnitTolerance = 1e-6;    // of the length of a quaternion
+constexpr Time kLeastPatience{50000000};   // [ns] a holder may always be silent for this long
+constexpr Time kMostPatience{3000000000};  // [ns] no holder may be silent for longer
+constexpr double kUnitTolerance = 1e-6;    // a quaternion whose length differs by more is counted
 
 bool hasSlash(const std::string& frame) { return !frame.empty() && frame.front() == '/'; }
 
@@ -63,8 +63,8 @@ void TfIntake::takeOne(const geometry_msgs::TransformStamped& transform, bool is
   }
 }
 
-/// A refused transform makes a frame INVALID until a good one comes. A static frame gets no other one by itself, so
-/// only the publisher that placed it can make it INVALID, and only on /tf_static.
+/// A refused transform makes a frame INVALID until a valid one arrives. A static transform is sent only once, so only
+/// the publisher that placed a static frame can make it INVALID, and only on /tf_static.
 void TfIntake::noteRefusal(const Refusal& refusal, const std::string& child, bool is_static,
                            const std::string& publisher) {
   ledger_.refuse("tf.refused", refusal);
@@ -74,7 +74,8 @@ void TfIntake::noteRefusal(const Refusal& refusal, const std::string& child, boo
   if (history(number).moves() ? !is_static : is_static && frame.publisher == publisher) frame.refused = refusal;
 }
 
-/// Makes room for the child and the parent first, so that no number is without a frame, even if memory runs out.
+/// Allocates the entries of the child and the parent first. So each numbered frame has an entry, even if memory runs
+/// out.
 std::uint32_t TfIntake::admit(const Arrival& arrival) {
   if (frames_.size() < table().size() + 2) frames_.resize(2 * table().size() + 8);
   return store_.admit(arrival.parent(), arrival.transform.child_frame_id);
@@ -88,8 +89,8 @@ void TfIntake::noteTopic(std::uint32_t number, bool is_static) {
   const std::string& name = table().name(number);
   conflicts_.insert(std::lower_bound(conflicts_.begin(), conflicts_.end(), name), name);
   ledger_.refuse("tf.conflict", Refusal(Code::conflict, "frame '" + printable(name) +
-                                                            "' comes on /tf and on /tf_static; it must come on one of "
-                                                            "them"));
+                                                            "' is published on both /tf and /tf_static; it must be "
+                                                            "published on only one of them"));
 }
 
 void TfIntake::accept(Frame& frame) {
@@ -97,8 +98,8 @@ void TfIntake::accept(Frame& frame) {
   frame.refused.reset();
 }
 
-/// The stamp of a static transform means nothing. A frame that moved becomes static again when nothing comes on /tf any
-/// more.
+/// Ignores the stamp, which has no meaning for a static transform. A frame that moved becomes static again only if no
+/// transform has arrived on /tf for kMostPatience.
 void TfIntake::takeStatic(std::uint32_t number, const Arrival& arrival) {
   Frame& frame = frames_[number];
   const bool moved = history(number).moves();
@@ -125,7 +126,7 @@ void TfIntake::takeMoving(std::uint32_t number, const Arrival& arrival) {
   if (moves && takeRepeated(number, arrival)) return;
   if (isHeld(number, arrival)) return takeRival(number, arrival);
   const Time newest = history(number).newest().stamp;
-  // A stamp far ahead of the clock is the newest only until a transform comes whose stamp is not ahead.
+  // A stamp far ahead of the clock counts as the newest only until a transform arrives whose stamp is not ahead.
   const bool was_ahead = isFarAhead(newest, arrival) && arrival.stamp <= arrival.now.ros;
   const bool first = !moves || newest.count() == 0;
   if (!first && arrival.stamp < newest && !was_ahead) return takeOlder(number, arrival);
@@ -137,7 +138,7 @@ void TfIntake::takeMoving(std::uint32_t number, const Arrival& arrival) {
   takeNewest(number, arrival, step);
 }
 
-/// Whether this is more than a single transform on /tf of a static frame.
+/// Whether a static frame has now received two successive transforms on /tf, not just a stray one.
 bool TfIntake::isStream(Frame& frame, const Arrival& arrival) const {
   const bool again = frame.stray.count() > 0 && arrival.stamp > frame.stray &&
                      arrival.reading - frame.pace.received() <= kMostPatience;
@@ -146,8 +147,8 @@ bool TfIntake::isStream(Frame& frame, const Arrival& arrival) const {
   return again;
 }
 
-/// Whether another publisher holds the frame. A holder may send nothing for two periods. It may do so for longer while
-/// the frame is contested, so that the holder does not change at each gap in its stream.
+/// Whether another publisher holds the frame. A holder keeps the frame if it is silent for up to two periods. While the
+/// frame is contested, it may be silent for longer, so that the holder does not change at each gap in its stream.
 bool TfIntake::isHeld(std::uint32_t number, const Arrival& arrival) const {
   const Frame& frame = frames_[number];
   if (!history(number).moves() || history(number).newest().stamp.count() == 0) return false;
@@ -163,9 +164,8 @@ bool TfIntake::isFarAhead(Time stamp, const Arrival& arrival) const {
   return stamp > arrival.now.ros + store_.cache() / 2;
 }
 
-/// Takes a transform that has the frame's newest stamp again. If the rest is not the same, that is counted or is a
-/// contradiction.
-/// @returns false if the stamp is another one, so that nothing was done
+/// Handles a transform with the same stamp as the frame's newest one. If its pose or parent differs, reports that.
+/// @returns false if the stamp differs; then nothing was done
 bool TfIntake::takeRepeated(std::uint32_t number, const Arrival& arrival) {
   Frame& frame = frames_[number];
   if (arrival.stamp != history(number).newest().stamp) return false;
@@ -175,11 +175,11 @@ bool TfIntake::takeRepeated(std::uint32_t number, const Arrival& arrival) {
     takeRival(number, arrival);
     return true;
   }
-  ledger_.refuse(
-      "tf.ignored",
-      Refusal(Code::dup_id, "frame '" + printable(table().name(number)) + "' came twice with stamp " +
-                                text(seconds(arrival.stamp)) + " s and another " + (same_parent ? "pose" : "parent") +
-                                " (from " + printable(arrival.publisher) + "); the first is kept"));
+  ledger_.refuse("tf.ignored",
+                 Refusal(Code::dup_id, "frame '" + printable(table().name(number)) + "' was sent twice with stamp " +
+                                           text(seconds(arrival.stamp)) + " s, but with a different " +
+                                           (same_parent ? "pose" : "parent") + " (by " + printable(arrival.publisher) +
+                                           "); the first one is kept"));
   if (!same_parent) {
     frame.claimed = true;
     rivals_.contradict(number, holderOf(number), arrival.claim(), arrival.reading);
@@ -206,7 +206,7 @@ void TfIntake::takeNewest(std::uint32_t number, const Arrival& arrival, const St
   }
 }
 
-/// Takes a transform that is not the newest. It makes no pose fresh, but the frame is known at its time.
+/// Stores a transform that is older than the newest one. It makes no pose fresher, but it adds a pose at its stamp.
 void TfIntake::takeOlder(std::uint32_t number, const Arrival& arrival) {
   Frame& frame = frames_[number];
   if (frame.publisher != arrival.publisher || !table().isInParent(number, arrival.parent())) {
@@ -217,11 +217,12 @@ void TfIntake::takeOlder(std::uint32_t number, const Arrival& arrival) {
     ledger_.count("tf.too_old");
     return;
   }
-  if (arrival.stamp >= arrival.now.ros) frame.pace.noteReceived(arrival.reading);  // the newest is farther ahead
+  // Not the newest stamp, but also not behind the clock: the frame is still being published.
+  if (arrival.stamp >= arrival.now.ros) frame.pace.noteReceived(arrival.reading);
   accept(frame);
 }
 
-/// Takes a transform of a publisher that does not hold the frame. It is compared, not used.
+/// Handles a transform of a publisher that does not hold the frame. It is compared with the holder's, but not used.
 void TfIntake::takeRival(std::uint32_t number, const Arrival& arrival) {
   frames_[number].claimed = true;
   rivals_.take(number, holderOf(number), {arrival.claim(), arrival.stamp, arrival.pose()}, arrival.reading);
@@ -235,7 +236,7 @@ FrameRivals::Holder TfIntake::holderOf(std::uint32_t number) const {
           [this, number](Time time) { return history(number).at(time); }};
 }
 
-/// Another publisher or parent places the frame from this transform on.
+/// Notes that, from this transform on, another publisher places the frame, or the same one in another parent.
 void TfIntake::changeClaim(std::uint32_t number, const Arrival& arrival) {
   frames_[number].claimed = true;
   rivals_.change(number, holderOf(number), arrival.claim(), arrival.reading);

@@ -18,63 +18,68 @@
 
 namespace hgrid {
 
-/// Takes in what comes on /tf and /tf_static: decides for every transform whether it is used. One thread writes; any
-/// thread may use lookup().
+/// Receives the transforms of /tf and /tf_static, and decides for each one whether it is used. Only the tick thread may
+/// use this class, except that any thread may use lookup().
 ///
-/// - checkTransform() says whether a transform is valid,
-/// - FrameRivals compares those of several publishers,
-/// - TransformStore stores those that are used.
+/// - checkTransform() checks whether a transform is valid.
+/// - FrameRivals compares the transforms of several publishers of one frame.
+/// - TransformStore stores the transforms that are used.
 ///
 /// One publisher at a time holds a frame of /tf. Only its transforms are used, until it stops sending. So no pose mixes
-/// the transforms of two publishers. A frame of /tf_static stays static until two transforms of it have come on /tf.
+/// the transforms of two publishers. A static frame starts to move only after two transforms of it arrived on /tf.
 class TfIntake {
  public:
   static constexpr std::uint32_t kNone = FrameTable::kNone;
 
-  /// What is known of the transforms that place a frame in its parent.
+  /// What is known about the transforms that place a frame in its parent.
   struct Frame {
-    FramePace pace;                             // of /tf
-    std::string publisher;                      // of the newest transform
+    FramePace pace;                             // pace of the transforms on /tf
+    std::string publisher;                      // publisher of the newest transform
     std::optional<Refusal> refused;             // why the newest transform was refused
     Time stray{0};                              // stamp of the newest transform on /tf while the frame is static
-    bool from_tf = false, from_static = false;  // a transform came there at least once
-    bool claimed = false;                       // claims() may know of it
+    bool from_tf = false, from_static = false;  // whether a transform arrived on /tf, or on /tf_static
+    bool claimed = false;                       // whether claims() may have an entry for this frame
 
     bool hasConflict() const { return from_tf && from_static; }
   };
 
+  /// @param max_future  [s] how far a stamp may be ahead of ROS time
+  /// @param cache       [s] how long transforms are kept
+  /// @param max_frames  limits the number of frames, as in FrameTable
+  /// @param simulated   whether /clock drives ROS time
   TfIntake(double max_future, double cache, std::size_t max_frames, bool simulated, Ledger& ledger);
 
-  /// Takes in the transforms of one message. A refused transform is counted and logged; the others are used.
+  /// Handles the transforms of one message. Counts and logs each refused transform, and uses the others.
   void take(const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher, const Moment& now);
-  /// Forgets what came on /tf, because the clock jumped. Static transforms stay.
+  /// Drops the stamps and periods of all frames of /tf. Call this after a simulated clock jumped back. Static
+  /// transforms stay.
   void forgetMoving();
-  /// Forgets the stamps of what came on /tf, because the wall clock was set. When it was received stays known.
+  /// Drops the stamps of all transforms of /tf, but not their arrival times. Call this after the wall clock was set.
   void restamp();
 
-  /// Poses of frames, for any thread.
+  /// Returns the object that looks up poses of frames. Any thread may use it.
   const TransformLookup& lookup() const { return lookup_; }
-  /// The clock by which poses age. The tick calls its look().
+  /// Returns the clock that measures the age of poses. Each tick calls its look().
   AgeClock& ages() { return ages_; }
   const AgeClock& ages() const { return ages_; }
-  /// Frames that several publishers place.
+  /// Returns what is known about frames that several publishers place.
   const FrameClaims& claims() const { return rivals_.claims(); }
-  /// Whether publishers fight over a frame.
+  /// Whether a frame is contested: two publishers place it differently.
   bool isContested(std::uint32_t number, Time reading) const {
     return frames_[number].claimed && claims().isContested(number, reading);
   }
-  /// The frames' names, numbers and parents.
+  /// Returns the names, numbers and parents of all frames.
   const FrameTable& table() const { return store_.table(); }
   const Frame& frame(std::uint32_t number) const { return frames_[number]; }
-  /// Where a frame was in its parent.
+  /// Returns the stored poses of a frame in its parent.
   const FrameHistory& history(std::uint32_t number) const { return store_.history(number); }
-  /// A number that is larger whenever a transform on /tf_static was another than before.
+  /// Returns a number that increases whenever a static frame gets another pose.
   std::uint64_t staticRevision() const { return static_revision_; }
-  /// Names of the frames that come on /tf and on /tf_static, sorted.
+  /// Returns the names of the frames that are published on both /tf and /tf_static, sorted.
   const std::vector<std::string>& conflicts() const { return conflicts_; }
 
  private:
-  /// A transform of the message that is being taken in.
+  /// One transform of the message that take() is handling.
   struct Arrival {
     const geometry_msgs::TransformStamped& transform;
     const std::string& publisher;
@@ -82,7 +87,7 @@ class TfIntake {
     Time reading, stamp;
 
     const std::string& parent() const { return transform.header.frame_id; }
-    /// Of the rotation's quaternion, as it came.
+    /// Returns the length of the rotation's quaternion as it was received.
     double rotationLength() const {
       const auto& q = transform.transform.rotation;
       return std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
@@ -91,9 +96,9 @@ class TfIntake {
     FrameClaim claim() const { return {publisher, parent()}; }
   };
 
-  /// How the newest transform of a frame follows the one before.
+  /// How the newest transform of a frame relates to the previous one.
   struct Step {
-    bool is_period = false;  // the time between the two tells how often transforms come
+    bool is_period = false;  // whether the time between the two stamps is a period of the frame
     bool continues = false;  // as in PoseSample
   };
 
@@ -121,11 +126,11 @@ class TfIntake {
   AgeClock ages_;
   TransformStore store_;
   TransformLookup lookup_{store_};
-  std::vector<Frame> frames_;  // by number
+  std::vector<Frame> frames_;  // indexed by frame number
   FrameRivals rivals_;
   std::vector<std::string> conflicts_;
   std::uint64_t static_revision_ = 0;
-  std::uint64_t accepted_ = 0;  // of this message
+  std::uint64_t accepted_ = 0;  // number of accepted transforms of the current message
 };
 
 }  // namespace hgrid

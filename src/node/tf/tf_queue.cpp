@@ -34,7 +34,7 @@ void TfQueue::push(ReceivedTransforms transforms) {
   }
 }
 
-/// Appends a message. @returns the messages that had to go for it; never the new one
+/// Appends a message. @returns the messages that were dropped to keep the bound; never the new one
 std::vector<ReceivedTransforms> TfQueue::store(ReceivedTransforms transforms) {
   std::vector<ReceivedTransforms> dropped;
   const std::lock_guard<std::mutex> lock(mutex_);

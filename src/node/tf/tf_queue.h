@@ -16,33 +16,33 @@
 
 namespace hgrid {
 
-/// A message of /tf or /tf_static that nobody has read yet.
+/// A message of /tf or /tf_static that has been received but not deserialized yet.
 struct ReceivedTransforms {
   boost::shared_ptr<const TransformBytes> message;
   bool is_static = false;
   std::string publisher;
   Moment received;
 
-  /// As in "the message on /tf from '/robot'".
+  /// Returns a description of the message for error sentences, for example "the message on /tf from '/robot'".
   std::string name() const;
 };
 
-/// Stores messages of /tf and /tf_static between the thread that receives them and the tick thread, up to a number of
-/// bytes.
+/// A queue that passes messages of /tf and /tf_static from the thread that receives them to the tick thread. The number
+/// of bytes in it is bounded.
 ///
-/// Each topic has the whole bound to itself, so that a flood on /tf removes no static transform, which comes only once.
-/// When a topic's messages exceed the bound, its oldest ones are dropped. Any thread may call any function.
+/// The bound applies to each topic separately. So a flood on /tf removes no static transform, which is sent only once.
+/// When the messages of a topic exceed the bound, the oldest of them are dropped. Any thread may call any function.
 class TfQueue {
  public:
-  /// Bytes that a message counts for, beside its own and those of its publisher's name.
+  /// Bytes that each message counts in addition to its own bytes and its publisher's name.
   static constexpr std::size_t kOverhead = 256;
 
-  /// @param most_bytes  bound for each topic; a message that is longer by itself is refused
+  /// @param most_bytes  bound for each topic; a single message that is longer is refused
   TfQueue(std::size_t most_bytes, Ledger& ledger) : most_bytes_(most_bytes), ledger_(ledger) {}
 
-  /// Appends a message. Counts and logs what it drops or refuses.
+  /// Appends a message. Counts and logs the messages that it drops or refuses.
   void push(ReceivedTransforms transforms);
-  /// Removes the message that was received first; nothing if the queue is empty.
+  /// Removes and returns the message that was received first. Empty: the queue is empty.
   std::optional<ReceivedTransforms> pop();
   bool empty() const;
 

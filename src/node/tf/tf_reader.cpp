@@ -33,7 +33,7 @@ TfReader::TfReader(ros::NodeHandle node, std::size_t most_bytes, Now now, Sink s
 }
 
 TfReader::~TfReader() {
-  subscribers_.clear();  // from here on nobody wakes the tick thread
+  subscribers_.clear();  // from here on, no message wakes the tick thread
   tick_queue_.removeByID(reinterpret_cast<std::uint64_t>(this));
 }
 
@@ -57,7 +57,7 @@ void TfReader::onMessage(const ros::MessageEvent<const TransformBytes>& event, b
   try {
     queue_.push({event.getConstMessage(), is_static, event.getPublisherName(), now_()});
     wakeTickThread();
-  } catch (...) {  // out of memory; the thread that receives must go on
+  } catch (...) {  // out of memory; the receiving thread must continue
     ledger_.fault("tf.failed");
   }
 }
@@ -66,7 +66,7 @@ void TfReader::wakeTickThread() {
   if (!woken_.exchange(true)) tick_queue_.addCallback(read_next_, reinterpret_cast<std::uint64_t>(this));
 }
 
-/// Reads one slice at a time, so that a tick that is due has to wait for one slice at most.
+/// Reads one slice per callback, so that a tick that is due waits for one slice at most.
 void TfReader::readNext() {
   woken_ = false;
   if (readSlice()) wakeTickThread();
@@ -85,12 +85,12 @@ bool TfReader::readSlice() {
     sink_(slices_.next(), current_.is_static, current_.publisher, current_.received);
   } catch (const Refusal& refusal) {
     ledger_.refuse("tf.refused", Refusal(refusal.code(), current_.name() + " cannot be read: " + refusal.what()));
-  } catch (...) {  // out of memory; ticks go on without the rest of the message
+  } catch (...) {  // out of memory; drop the rest of the message and continue
     slices_ = TransformSlices();
     ledger_.fault("tf.failed");
   }
   if (slices_.left()) return true;
-  current_ = ReceivedTransforms();  // frees its bytes
+  current_ = ReceivedTransforms();  // frees the bytes of the message
   return !queue_.empty();
 }
 

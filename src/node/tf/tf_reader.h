@@ -18,35 +18,36 @@
 
 namespace hgrid {
 
-/// Subscribes to /tf and /tf_static and hands their messages, checked and deserialized, to the tick thread.
+/// Subscribes to /tf and /tf_static, and passes their checked and deserialized messages to the tick thread.
 ///
-/// roscpp bounds a subscriber's queue by the number of messages only. So the thread that receives a message stores its
-/// bytes in a TfQueue at once, which bounds them, and the tick thread does everything else.
+/// roscpp can bound the queue of a subscriber only by the number of messages. So the thread that receives a message
+/// puts its bytes into a TfQueue at once, which bounds the number of bytes. The tick thread does everything else.
 class TfReader {
  public:
   using Now = std::function<Moment()>;
-  /// @param received  when the message arrived, which may be long before this call
+  /// Called with a slice of a message. @param received  when the message arrived, which may be long before this call
   using Sink = std::function<void(const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher,
                                   const Moment& received)>;
 
-  /// @param node  its callback queue is the tick thread's: between ticks, waiting messages are read there
-  /// @param now   called by the thread that receives
-  /// @param sink  called by the thread that runs the callback queue or calls readFor()
+  /// @param node        its callback queue must be that of the tick thread, which reads waiting messages between ticks
+  /// @param most_bytes  [bytes] how much may wait in the queue of each topic
+  /// @param now         returns the current time; the thread that receives messages calls it
+  /// @param sink        gets the messages; the thread that runs the callback queue or calls readFor() calls it
   TfReader(ros::NodeHandle node, std::size_t most_bytes, Now now, Sink sink, Ledger& ledger);
   ~TfReader();
   TfReader(const TfReader&) = delete;
   TfReader& operator=(const TfReader&) = delete;
 
-  /// Reads the messages that wait, in the order in which they were received, until none is left or `most_time` has
+  /// Reads waiting messages in the order in which they were received. Stops when none is left or when `most_time` has
   /// passed. A long message may be read in several calls.
   void readFor(std::chrono::duration<double> most_time);
 
  private:
-  /// Runs a callback in the thread that adds it. For the subscribers, that is the thread that receives.
+  /// A callback queue that runs each callback at once, in the thread that adds it. This is the thread that receives.
   class Immediately : public ros::CallbackQueueInterface {
    public:
     void addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t) override { callback->call(); }
-    /// No callback is stored. roscpp removes a subscriber only while none of its callbacks is being added.
+    /// Does nothing, because no callback is stored. roscpp calls this only while it adds no callback of the subscriber.
     void removeByID(std::uint64_t) override {}
   };
   struct ReadNext;
@@ -63,11 +64,11 @@ class TfReader {
   Sink sink_;
   Ledger& ledger_;
   TfQueue queue_;
-  ReceivedTransforms current_;  ///< tick thread only: the message whose slices are read
-  TransformSlices slices_;      ///< tick thread only: refers to the bytes of current_
+  ReceivedTransforms current_;  ///< tick thread only: the message that is being read
+  TransformSlices slices_;      ///< tick thread only: the unread slices; refers to the bytes of current_
   ros::CallbackQueueInterface& tick_queue_;
   ros::CallbackInterfacePtr read_next_;
-  std::atomic<bool> woken_{false};  ///< read_next_ stands in tick_queue_
+  std::atomic<bool> woken_{false};  ///< whether read_next_ is in tick_queue_
   Immediately immediately_;
   std::vector<ros::Subscriber> subscribers_;
 };

@@ -7,7 +7,7 @@
 namespace hgrid {
 namespace {
 
-/// Adds the transform of one more frame to what is known of a chain.
+/// Updates the state of a chain that is extended by the transform of one more frame.
 void extend(ChainState& state, const TfIntake& intake, std::uint32_t number, bool upwards, Time reading) {
   const TfIntake::Frame& frame = intake.frame(number);
   if (frame.refused && (upwards || state.refused == nullptr)) state.refused = &*frame.refused;
@@ -16,7 +16,7 @@ void extend(ChainState& state, const TfIntake& intake, std::uint32_t number, boo
   const FrameHistory& history = intake.history(number);
   if (!history.moves()) return;
   const Time stamp = history.newest().stamp;
-  if (stamp.count() == 0) state.connected = false;  // nothing since the clock jumped
+  if (stamp.count() == 0) state.connected = false;  // no transform has arrived since the clock jumped
   state.newest = state.moves ? std::min(state.newest, stamp) : stamp;
   state.received = state.moves ? std::min(state.received, frame.pace.received()) : frame.pace.received();
   state.lead = state.moves ? std::min(state.lead, frame.pace.lead()) : frame.pace.lead();
@@ -26,7 +26,7 @@ void extend(ChainState& state, const TfIntake& intake, std::uint32_t number, boo
 
 }  // namespace
 
-/// Adds steps from the world frame up to its ancestors, as many as a chain needs.
+/// Adds the steps from the world frame up to its first `count` ancestors.
 void TfTree::addAncestors(std::size_t count) {
   for (; ancestors_ < count; ++ancestors_) {
     Step step;
@@ -38,7 +38,8 @@ void TfTree::addAncestors(std::size_t count) {
   }
 }
 
-/// Goes up from the frame until a frame that has a step already, then adds the steps down again.
+/// Returns the last step of the chain to a frame. Follows the parents of the frame up to one that already has a step,
+/// then adds the missing steps downwards. kNowhere: there is no chain.
 std::size_t TfTree::lastStepTo(std::uint32_t frame) {
   std::vector<std::uint32_t> down;
   while (step_to_[frame] == kNowhere) {

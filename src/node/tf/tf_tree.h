@@ -11,69 +11,73 @@
 
 namespace hgrid {
 
-/// What is known of the chain of transforms from one frame to another.
+/// What is known about the chain of transforms from the world frame to another frame.
 struct ChainState {
-  bool connected = false;  ///< there is a chain
-  bool moves = false;      ///< a transform of the chain comes from /tf
-  bool conflict = false;   ///< a frame of the chain comes on /tf and on /tf_static
-  Time newest{0};          ///< moves: newest time at which the whole chain is known
-  Time received{0};        ///< moves: least reading of the age clock when a newest transform came
-  Time lead{0};            ///< moves: least lead of that clock over ROS time then
-  double period = 0.0;     ///< [s] moves: longest of the measured periods in the chain
-  /// Why the newest transform of a frame of the chain was refused; null: none was. Valid until the next take().
-  const Refusal* refused = nullptr;
-  std::uint32_t contested = TfIntake::kNone;  ///< a frame of the chain over which publishers fight
+  bool connected = false;  ///< whether there is a chain
+  bool moves = false;      ///< whether a transform of the chain is published on /tf
+  bool conflict = false;   ///< whether a frame of the chain is published on both /tf and /tf_static
 
-  /// Moves: the reading of the age clock at which the chain's pose of a time was 0 s old. That was at this time, but
-  /// not later than when the data came.
+  // The next four values are set only if the chain moves. Each combines the values of all moving frames of the chain.
+  Time newest{0};       ///< newest time at which the whole chain is known
+  Time received{0};     ///< least FramePace::received()
+  Time lead{0};         ///< least FramePace::lead()
+  double period = 0.0;  ///< [s] longest FramePace::period()
+
+  /// Why the newest transform of a frame of the chain was refused. Null: none was refused. Valid until the next
+  /// TfIntake::take().
+  const Refusal* refused = nullptr;
+  std::uint32_t contested = TfIntake::kNone;  ///< number of a contested frame of the chain, or kNone
+
+  /// Returns the reading of the age clock when the chain's pose at `time` was 0 s old. This reading corresponds to
+  /// `time`, but it is never later than the arrival of the data. Call this only if the chain moves.
   Time bornAt(Time time) const { return std::min(received, time + lead); }
 };
 
-/// Computes where the frames are that bodies follow, by multiplying transforms from the world frame to each.
+/// Computes the poses of the frames that bodies follow: multiplies the transforms from the world frame to each frame.
 ///
-/// The chains to all frames are laid out as one tree. A tick looks at each transform of the tree once, however many
-/// chains lead through it. One thread, that of the TfIntake.
+/// The chains to all frames form one tree. A tick reads each transform of the tree once, even if many chains contain
+/// it. Only the tick thread may use this class.
 ///
-/// Usage per tick: plan() if stale(), look(), place().
+/// Each tick calls plan() if stale(), then look(), then place().
 class TfTree {
  public:
   explicit TfTree(const TfIntake& intake) : intake_(intake) {}
 
-  /// Whether tf has learned of frames or parents since the last plan().
+  /// Whether a new frame or a new parent has appeared in tf since the last plan().
   bool stale() const { return revision_ != intake_.table().revision(); }
-  /// Lays out the chains to `frames`. All other functions refer to a frame by its index in `frames`.
+  /// Finds the chains of transforms to `frames`. All other functions refer to a frame by its index in `frames`.
   void plan(const std::string& world_frame, const std::vector<std::string>& frames);
-  /// Reads what is known of every chain. @param reading  of the age clock
+  /// Updates the state of every chain. @param reading  reading of the age clock in this tick
   void look(Time reading);
-  /// Computes where every frame is at `time`. It interpolates as tf2 does, but never between two transforms that do not
-  /// continue each other.
+  /// Computes the pose of every frame at `time`. Interpolates as tf2 does, but never across a seam.
   void place(Time time);
 
   const ChainState& state(std::size_t frame) const { return steps_[chains_[frame].step].state; }
-  /// The frame's number in the TfIntake; kNone if it was never published.
+  /// Returns the frame's number in the TfIntake, or kNone if it was never published.
   std::uint32_t numberOf(std::size_t frame) const { return chains_[frame].number; }
-  /// If there is no chain: a frame that was never heard of; empty if all were.
+  /// Returns the name of a frame that was never published, if this is why there is no chain. Otherwise empty.
   const std::string& unknownFrame(std::size_t frame) const { return chains_[frame].unknown; }
-  /// Pose in the world at the time of place(); null if a transform of the chain is not known for that time.
+  /// Returns the pose in the world at the time of place(). Null: a transform of the chain is not known at that time.
   const FramePose* worldFrom(std::size_t frame) const {
     const Step& step = steps_[chains_[frame].step];
     return step.placed ? &step.world_from_frame : nullptr;
   }
-  /// Pose in the world at another time than that of place(); empty if it is not known for that time.
+  /// Returns the pose in the world at any time. Empty: the pose is not known at that time.
   std::optional<FramePose> worldFrom(std::size_t frame, Time time) const { return along(chains_[frame].step, time); }
 
  private:
-  /// From a frame to a neighbor farther from the world, which is a child or, above the world frame, the parent.
+  /// A step from a frame to its neighbor that is farther from the world frame. The neighbor is a child. Only on the way
+  /// from the world frame to its ancestors, the neighbor is the parent.
   struct Step {
-    std::size_t from = 0;                   // step that ends where this one begins
-    std::uint32_t moved = TfIntake::kNone;  // frame whose transform is crossed
-    bool upwards = false;                   // towards the parent of `moved`
-    bool placed = false;
+    std::size_t from = 0;                   // index of the previous step, which ends where this step begins
+    std::uint32_t moved = TfIntake::kNone;  // number of the frame whose transform this step uses
+    bool upwards = false;                   // whether the step goes from `moved` to its parent
+    bool placed = false;                    // whether world_from_frame is known
     FramePose world_from_frame;
     ChainState state;
   };
   struct Chain {
-    std::size_t step = 0;  // the last one
+    std::size_t step = 0;  // index of the last step of the chain
     std::uint32_t number = TfIntake::kNone;
     std::string unknown;
   };
@@ -82,15 +86,15 @@ class TfTree {
   std::size_t lastStepTo(std::uint32_t frame);
   std::optional<FramePose> along(std::size_t step, Time time) const;
 
-  static constexpr std::size_t kNowhere = 0, kWorld = 1;  // steps that lead to no frame, and to the world frame
+  static constexpr std::size_t kNowhere = 0, kWorld = 1;  // index for "no step"; index of the step to the world frame
 
   const TfIntake& intake_;
   std::uint64_t revision_ = ~std::uint64_t{0};
-  std::vector<Step> steps_ = std::vector<Step>(2);  // each after the one it begins at
+  std::vector<Step> steps_ = std::vector<Step>(2);  // each step comes after its `from`
   std::vector<Chain> chains_;
   std::vector<std::uint32_t> above_;  // the world frame and its ancestors
-  std::size_t ancestors_ = 0;         // of above_ that have steps
-  std::vector<std::size_t> step_to_;  // by number of the frame; kNowhere: none yet
+  std::size_t ancestors_ = 0;         // number of ancestors in above_ that have a step
+  std::vector<std::size_t> step_to_;  // step that leads to a frame, by frame number; kNowhere: none yet
 };
 
 }  // namespace hgrid

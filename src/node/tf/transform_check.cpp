@@ -10,8 +10,8 @@
 namespace hgrid {
 namespace {
 
-constexpr double kFarthest = 1e9;           // [m] no frame on earth is farther from its parent
-constexpr std::size_t kLongestFrame = 256;  // bytes of a frame's name
+constexpr double kFarthest = 1e9;           // [m] largest accepted coordinate of a frame in its parent
+constexpr std::size_t kLongestFrame = 256;  // longest accepted frame name [bytes]
 
 std::string whatOf(const geometry_msgs::TransformStamped& transform) {
   return "transform of frame '" + printable(transform.child_frame_id) + "'";
@@ -26,11 +26,11 @@ void checkNames(const geometry_msgs::TransformStamped& transform) {
                                     std::to_string(kLongestFrame));
   }
   if (parent == child) {
-    throw Refusal(Code::bad_id, whatOf(transform) + " has itself as parent; the two must differ");
+    throw Refusal(Code::bad_id, whatOf(transform) + " has itself as its parent; frame and parent must differ");
   }
 }
 
-/// Whether checkNumbers() need not look closer. Most transforms are sound, and making their sentence costs time.
+/// A quick check that most transforms pass. It builds no error sentence, which would cost time.
 bool isSound(const geometry_msgs::Transform& transform) {
   const geometry_msgs::Vector3& t = transform.translation;
   const geometry_msgs::Quaternion& q = transform.rotation;
@@ -49,15 +49,16 @@ void checkNumbers(const geometry_msgs::TransformStamped& transform) {
 
 void checkStamp(const geometry_msgs::TransformStamped& transform, const Moment& now, double max_future) {
   if (now.ros.count() == 0) {
-    throw Refusal(Code::clock, whatOf(transform) + " came before the clock; there is no time yet");
+    throw Refusal(Code::clock, whatOf(transform) + " arrived while there was no ROS time yet (no message on /clock)");
   }
   if (transform.header.stamp.isZero()) {
-    throw Refusal(Code::clock, whatOf(transform) + " has stamp 0; a transform on /tf must have the time of its data");
+    throw Refusal(Code::clock,
+                  whatOf(transform) + " has stamp 0; a transform on /tf must be stamped with the time of its data");
   }
   const double ahead = seconds(stampOf(transform) - now.ros);
   if (ahead > max_future) {
     throw Refusal(Code::clock, whatOf(transform) + " is stamped " + secondsText(ahead) + " in the future; at most " +
-                                   text(max_future) + " s are allowed");
+                                   text(max_future) + " s are allowed (~max_future)");
   }
 }
 

@@ -8,13 +8,13 @@
 
 namespace hgrid {
 
-/// Checks a transform as it came: the names of its frames, its numbers and, if it came on /tf, its stamp.
-/// @param max_future  [s] the most by which a stamp may be ahead of the clock
-/// @throws Refusal bad_id, nonfinite, out_of_range, bad_rotation or clock, naming the frame
+/// Checks a received transform: the names of its frames, its numbers and, if it arrived on /tf, its stamp.
+/// @param max_future  [s] how far a stamp may be ahead of ROS time
+/// @throws Refusal bad_id, nonfinite, out_of_range, bad_rotation or clock. The sentence names the frame.
 void checkTransform(const geometry_msgs::TransformStamped& transform, bool is_static, const Moment& now,
                     double max_future);
 
-/// The stamp of a transform.
+/// Returns the stamp of a transform.
 inline Time stampOf(const geometry_msgs::TransformStamped& transform) {
   return Time(static_cast<std::int64_t>(transform.header.stamp.toNSec()));
 }

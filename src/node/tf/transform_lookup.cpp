@@ -12,18 +12,18 @@
 namespace hgrid {
 namespace {
 
-/// The step from a frame to its parent.
+/// The pose of a frame in its parent.
 struct Link {
   std::uint32_t frame = FrameTable::kNone;
   PoseSample sample;
 };
 
-/// The links from a frame to an ancestor of it.
+/// The links from a frame up to one of its ancestors.
 using Links = std::vector<Link>;
 
-/// The links from two frames up to the nearest ancestor that they have in common.
+/// The links from two frames up to their nearest common ancestor.
 struct Chain {
-  bool connected = false;  // otherwise the links lead as far as they are known
+  bool connected = false;  // if false, each list of links ends at the first unknown link
   Links from_frame, from_target;
 
   FramePose targetFromFrame() const { return product(from_target).inverse() * product(from_frame); }
@@ -36,24 +36,24 @@ struct Chain {
   }
 };
 
-/// A pose and the time for which it holds.
+/// A pose and its time.
 struct TimedPose {
   FramePose target_from_frame;
   std::optional<Time> time;  // empty: all transforms of the chain are static
 };
 
-/// Looks at the stored transforms while no thread changes them.
+/// Reads the stored transforms for one lookup. No thread can change them while this object exists.
 class Look {
  public:
   Look(const TransformStore& store, const std::string& target, const std::string& frame)
       : reading_(store), target_(reading_.table().find(target)), frame_(reading_.table().find(frame)) {}
 
-  /// The chain at one time, through the parents of that time.
+  /// Returns the chain at one time, through the parents that the frames had at that time.
   Chain chainAt(Time time) const {
     return chain([&](std::uint32_t frame) { return reading_.history(frame).sampleAt(time); });
   }
 
-  /// The chain through the newest parents. Its poses are of different times.
+  /// Returns the chain through the newest parents. Its poses are of different times.
   Chain newestChain() const {
     return chain([&](std::uint32_t frame) -> std::optional<PoseSample> {
       const FrameHistory& history = reading_.history(frame);
@@ -63,6 +63,7 @@ class Look {
     });
   }
 
+  /// Returns the pose at the newest time at which all transforms of the newest chain are known.
   std::optional<TimedPose> newest() const {
     const Chain newest = newestChain();
     if (!newest.connected) return std::nullopt;
@@ -77,7 +78,7 @@ class Look {
     return TimedPose{chainAt(*time).targetFromFrame(), time};
   }
 
-  /// Why the chain is not known at a time. Call it only if it is not.
+  /// Says why the pose is not known at a time. Call this only if it is not known.
   std::string whyNot(Time time, const std::string& target, const std::string& frame) const {
     if (frame_ == FrameTable::kNone) return "frame '" + frame + "' was never published";
     if (target_ == FrameTable::kNone) return "frame '" + target + "' was never published";
@@ -95,7 +96,7 @@ class Look {
     return links.empty() ? begin : links.back().sample.parent;
   }
 
-  /// The newest time, not after `time`, at which all the links are known.
+  /// Returns the newest time, not after `time`, at which all links are known. Empty: there is none.
   std::optional<Time> newestKnownTime(const Links& links, std::optional<Time> time) const {
     for (const Link& link : links) {
       const FrameHistory& history = reading_.history(link.frame);
@@ -104,14 +105,15 @@ class Look {
     return time;
   }
 
-  /// @param stepUp  the sample of a frame that leads to its parent, as in std::optional<PoseSample> stepUp(uint32_t)
+  /// Returns the chain between the two frames.
+  /// @param stepUp  returns the pose of a frame in its parent: std::optional<PoseSample> stepUp(uint32_t)
   template <class StepUp>
   Chain chain(const StepUp& stepUp) const {
     Chain result;
     if (frame_ == FrameTable::kNone || target_ == FrameTable::kNone) return result;
     result.from_frame = linksFrom(frame_, target_, stepUp);
     result.from_target = linksFrom(target_, frame_, stepUp);
-    // Cut both at the nearest common ancestor.
+    // Shorten both lists of links so that they end at the nearest common ancestor.
     for (std::size_t up = 0; up <= result.from_target.size(); ++up) {
       const std::uint32_t ancestor = up == 0 ? target_ : result.from_target[up - 1].sample.parent;
       const std::optional<std::size_t> steps = stepsTo(ancestor, result.from_frame);
@@ -124,7 +126,7 @@ class Look {
     return result;
   }
 
-  /// The links from `begin` upwards, until `end` or as far as they are known.
+  /// Returns the links from `begin` up to `end`, or as far as they are known.
   template <class StepUp>
   static Links linksFrom(std::uint32_t begin, std::uint32_t end, const StepUp& stepUp) {
     Links links;
@@ -185,9 +187,10 @@ Pose TransformLookup::atOrNewest(const std::string& target, const std::string& f
     if (!newest)
       throw Refusal(Code::unknown_frame, what + " is not connected to '" + target + "': " + printable(why_not, 300));
     if (newest->time && std::abs(seconds(*newest->time - time)) > max_apart) {
-      throw Refusal(Code::extrapolation, what + " is known at " + text(seconds(*newest->time)) + " s, the world at " +
-                                             text(seconds(time)) + " s; they may be " + text(max_apart) +
-                                             " s apart (~stale_after)");
+      throw Refusal(Code::extrapolation, what + " is last known at " + text(seconds(*newest->time)) +
+                                             " s, but the world is at " + text(seconds(time)) +
+                                             " s; the two times may differ by at most " + text(max_apart) +
+                                             " s (~stale_after)");
     }
     pose = newest->target_from_frame;
   }

@@ -11,29 +11,29 @@
 
 namespace hgrid {
 
-/// Looks up the pose of one tf frame in another. Everything but a tick uses this class for that. Any thread.
+/// Looks up the pose of one tf frame in another. Any thread may use this class.
 ///
-/// A tick uses FramePoses instead, which computes the poses of thousands of frames at one time.
+/// Ticks do not use it. They use FramePoses, which computes the poses of thousands of frames at one time.
 class TransformLookup {
  public:
-  /// @param store  must outlive this
+  /// @param store  must outlive this object
   explicit TransformLookup(const TransformStore& store) : store_(store) {}
 
   /// Whether a chain of transforms connects the frames now.
   bool isConnected(const std::string& target, const std::string& frame) const;
-  /// Whether at() knows the pose.
+  /// Whether at() would return a pose.
   bool isKnown(const std::string& target, const std::string& frame, Time time) const;
 
-  /// The pose of `frame` in `target` at exactly this time. Empty: it is not known.
-  /// @param why_not  if given, gets the reason, as in "frame 'arm' is known from 10 s to 12 s"
+  /// Returns the pose of `frame` in `target` at exactly this time. Empty: the pose is not known.
+  /// @param why_not  if not null: receives the reason, for example "frame 'arm' is known from 10 s to 12 s"
   std::optional<FramePose> at(const std::string& target, const std::string& frame, Time time,
                               std::string* why_not = nullptr) const;
-  /// The newest known pose of `frame` in `target`.
+  /// Returns the newest known pose of `frame` in `target`. Empty: no pose is known.
   std::optional<FramePose> newest(const std::string& target, const std::string& frame) const;
-  /// The pose at exactly this time or, if it is not known for that time, the newest known one.
-  /// @param max_apart  [s] the most that the time of the newest pose may differ from `time`
-  /// @param what       names the frame in a refusal, as in "the query's frame 'gripper'"
-  /// @throws Refusal unknown_frame, or extrapolation if the newest pose is farther apart
+  /// Returns the pose at exactly this time. If it is not known, returns the newest known pose.
+  /// @param max_apart  [s] how much the time of the newest pose may differ from `time`
+  /// @param what       names the frame in error sentences, for example "the query's frame 'gripper'"
+  /// @throws Refusal unknown_frame if no pose is known, extrapolation if the newest pose is more than max_apart away
   Pose atOrNewest(const std::string& target, const std::string& frame, Time time, double max_apart,
                   const std::string& what) const;
 

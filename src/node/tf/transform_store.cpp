@@ -6,13 +6,13 @@
 
 namespace hgrid {
 
-/// A transform adds at most two frames: its child and its parent. With room for them, no number is without a history,
-/// even if memory runs out.
+/// Adds empty histories for the two frames that a transform can add: its child and its parent. So each numbered frame
+/// has a history, even if memory runs out.
 void TransformStore::makeRoom() {
   while (histories_.size() < table_.size() + 2) histories_.emplace_back();
 }
 
-/// Finds the number without a search if the parent has not changed.
+/// Returns the number of the parent. If the parent has not changed, this needs no search.
 std::uint32_t TransformStore::numberOfParent(std::uint32_t frame, const std::string& parent) {
   if (table_.isInParent(frame, parent)) return table_.parent(frame);
   makeRoom();

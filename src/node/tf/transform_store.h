@@ -12,38 +12,38 @@
 
 namespace hgrid {
 
-/// Stores the checked transforms of all frames, for the ticks and for everything else.
+/// Stores the checked transforms of all frames.
 ///
-/// One thread writes, that of the ticks, and reads without a lock. Any other thread reads through a Reading.
-/// A call that throws has changed nothing.
+/// Only the tick thread writes; it also reads, without a lock. Any other thread must read through a Reading.
+/// A call that throws changes nothing.
 class TransformStore {
  public:
   /// @param cache       [ns] how long transforms are kept
-  /// @param max_frames  as in FrameTable
+  /// @param max_frames  limits the number of frames, as in FrameTable
   TransformStore(Time cache, std::size_t max_frames) : cache_(cache), table_(max_frames) {}
   TransformStore(const TransformStore&) = delete;
   TransformStore& operator=(const TransformStore&) = delete;
 
   Time cache() const { return cache_; }
 
-  // The writing thread only.
-  /// The frames' names, numbers and parents.
+  // Only the writing thread may call the functions from here to Reading.
+  /// Returns the names, numbers and parents of all frames.
   const FrameTable& table() const { return table_; }
   const FrameHistory& history(std::uint32_t frame) const { return histories_[frame]; }
-  /// As FrameTable::admit().
+  /// Does the same as FrameTable::admit().
   std::uint32_t admit(const std::string& parent, const std::string& child);
-  /// The frame is static at this pose in its parent.
+  /// Makes the frame static at this pose in its parent.
   void fix(std::uint32_t frame, const std::string& parent, const FramePose& parent_from_frame);
   /// Stores the newest sample of a frame that moves.
-  /// @param sample  its parent is set here
-  /// @param now     [ROS time] a stamp far ahead of it drops no other sample
+  /// @param sample  this function sets its `parent`
+  /// @param now     current ROS time; a sample whose stamp is far ahead of it does not drop older samples
   void advance(std::uint32_t frame, const std::string& parent, PoseSample sample, Time now);
-  /// As FrameHistory::fill(), in the frame's newest parent.
+  /// Does the same as FrameHistory::fill(), with the frame's newest parent as the parent of the sample.
   bool fill(std::uint32_t frame, PoseSample sample);
   /// Drops the stamps of all samples. Static poses stay.
   void forgetStamps();
 
-  /// Allows any thread to read. The writing thread waits until it is destroyed, so it should live for microseconds.
+  /// Gives any thread read access. The writing thread waits while a Reading exists, so destroy it within microseconds.
   class Reading {
    public:
     explicit Reading(const TransformStore& store) : store_(store), lock_(store.mutex_) {}
@@ -60,9 +60,9 @@ class TransformStore {
   std::uint32_t numberOfParent(std::uint32_t frame, const std::string& parent);
 
   const Time cache_;
-  mutable std::mutex mutex_;  // held by the writing thread while it changes what stands below
+  mutable std::mutex mutex_;  // the writing thread holds it while it changes the members below
   FrameTable table_;
-  std::deque<FrameHistory> histories_;  // by number; may have more entries than the table
+  std::deque<FrameHistory> histories_;  // indexed by frame number; may have more entries than the table
 };
 
 }  // namespace hgrid

@@ -16,22 +16,22 @@
 
 namespace hgrid {
 
-/// The result of one tick. Every message and every answer is made from it. Immutable.
+/// The result of one tick. All messages and answers are built from it. It never changes after it was made.
 struct Tick {
   std::shared_ptr<const Snapshot> snapshot;  ///< null: there is no world yet, and not_ready says why
-  std::string world_frame;
-  Moment made;
+  std::string world_frame;                   ///< empty: not known yet
+  Moment made;                               ///< when the tick was made
   std::uint64_t epoch = 0;
-  std::vector<std::string> not_ready;  ///< a sentence for each thing that is missing
-  /// What the first sentence of not_ready is about: the name of a source, "clock" or "world frame".
+  std::vector<std::string> not_ready;  ///< one sentence for each thing that is missing
+  /// The subject of the first sentence of not_ready: the name of a source, "clock" or "world frame".
   std::string waits_for;
-  std::vector<BodyTrouble> troubles;  ///< the worst state first
-  std::vector<std::string> missing_frames;
-  std::vector<std::string> contested_frames;  ///< a sentence for each frame over which publishers fight
+  std::vector<BodyTrouble> troubles;          ///< bodies that are not FRESH or have a conflict, worst state first
+  std::vector<std::string> missing_frames;    ///< names of frames that were never published, sorted
+  std::vector<std::string> contested_frames;  ///< one sentence for each contested frame
   std::shared_ptr<const ModelReport> models;
   TickTimes times;
-  std::size_t frames = 0;  ///< that tf knows
-  std::chrono::nanoseconds poses_time{0};
+  std::size_t frames = 0;                  ///< number of frames that a transform has placed
+  std::chrono::nanoseconds poses_time{0};  ///< how long the computation of all poses took
 };
 
 /// A tick and the exact distances of its pairs.

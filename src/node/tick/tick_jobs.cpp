@@ -14,7 +14,7 @@
 namespace hgrid {
 namespace {
 
-constexpr std::chrono::milliseconds kPause{50};  // between two looks whether the node is about to end
+constexpr std::chrono::milliseconds kPause{50};  // pause between two checks whether the node is shutting down
 
 std::string secondsOf(std::chrono::milliseconds duration) {
   return text(std::chrono::duration<double>(duration).count()) + " s";
@@ -43,9 +43,10 @@ void TickJobs::run(const Job& job) {
   });
   const auto deadline = std::chrono::steady_clock::now() + patience_;
   while (result.wait_for(std::min(kPause, patience_)) != std::future_status::ready) {
-    if (is_ending_()) throw Refusal(Code::busy, "the node is about to end; it changes nothing any more");
+    if (is_ending_()) throw Refusal(Code::busy, "the node is shutting down; it makes no more changes");
     if (std::chrono::steady_clock::now() > deadline) {
-      throw Refusal(Code::busy, "no tick took this up within " + secondsOf(patience_));
+      throw Refusal(Code::busy,
+                    "no tick has made this change within " + secondsOf(patience_) + "; a later tick may still make it");
     }
   }
   result.get();

@@ -13,29 +13,29 @@ namespace hgrid {
 
 class World;
 
-/// A queue of changes of the world that other threads ask for. A tick makes them at its begin, in the order in which
-/// they were added.
+/// A queue of changes to the world that other threads request. Each tick begins with the waiting changes, in the order
+/// in which they were added.
 class TickJobs {
  public:
   using Job = std::function<void(World&)>;
 
-  /// @param is_ending  called by threads that wait in run(): whether the node is about to end
-  /// @param patience   how long run() waits for a tick. A tick takes milliseconds; if none comes for longer, it hangs.
+  /// @param is_ending  returns whether the node is shutting down; threads that wait in run() call it
+  /// @param patience   how long run() waits; ticks take milliseconds, so a timeout means that the tick thread hangs
   explicit TickJobs(
       std::function<bool()> is_ending = [] { return false; },
       std::chrono::milliseconds patience = std::chrono::seconds(10));
 
   /// Adds a job and returns at once. Any thread may call this.
   void add(Job job);
-  /// Adds a job and waits until a tick has done it. Any thread but that of the ticks may call this.
-  /// @throws what the job throws; Refusal busy if no tick does the job in time or if the node is about to end. A tick
-  /// may still do the job after that.
+  /// Adds a job and waits until a tick has done it. Any thread except the tick thread may call this.
+  /// @throws whatever the job throws; Refusal busy if no tick does the job in time, or if the node is shutting down. A
+  /// tick may still do the job after that.
   void run(const Job& job);
 
-  /// Does all jobs. Only the thread of the ticks may call this.
+  /// Does all waiting jobs. Only the tick thread may call this.
   ///
-  /// A job of add() that throws is counted in `ledger` as "job.failed.<CODE>" and done again at the next call, because
-  /// its change of the world would be lost otherwise. The other jobs are done all the same.
+  /// If a job of add() throws, `ledger` counts it as "job.failed.<CODE>", and the next call does it again. Otherwise
+  /// its change to the world would be lost. The other jobs are still done.
   void doAll(World& world, Ledger& ledger);
 
  private:
@@ -43,7 +43,7 @@ class TickJobs {
   const std::chrono::milliseconds patience_;
   std::mutex mutex_;
   std::vector<Job> added_;    // guarded by mutex_
-  std::vector<Job> pending_;  // of the thread of the ticks
+  std::vector<Job> pending_;  // only the tick thread uses it
 };
 
 }  // namespace hgrid

@@ -9,7 +9,8 @@
 namespace hgrid {
 namespace {
 
-constexpr double kShareForTransforms = 0.5;  // of a period: many transforms must not stop the ticks
+// Share of the tick period that may be spent on transforms, so that a flood of them does not stop the ticks.
+constexpr double kShareForTransforms = 0.5;
 
 }  // namespace
 
@@ -37,9 +38,9 @@ void TickLoop::start(std::vector<Step> steps) {
 
 std::shared_ptr<const Tick> TickLoop::tickAfter(const TickJobs::Job& job) {
   jobs_.run(job);
-  // The tick that did the job is published when the next tick does its jobs.
+  // When a second job runs in the next tick, the tick that did the first job is published.
   const auto tick =
-      std::make_shared<std::shared_ptr<const Tick>>();  // shared: run() may give up before the job is done
+      std::make_shared<std::shared_ptr<const Tick>>();  // shared, because run() may give up before the job is done
   jobs_.run([this, tick](World&) { *tick = newest(); });
   return *tick;
 }

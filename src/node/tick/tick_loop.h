@@ -21,31 +21,31 @@
 
 namespace hgrid {
 
-/// Makes the ticks, ~rate times a second: reads the transforms that wait, does the jobs that wait, has the World make a
-/// Tick, and passes it to the steps that publish it.
+/// Makes ~rate ticks per second. Each tick reads the waiting transforms, does the waiting jobs, lets the World make a
+/// Tick, and passes that Tick to the steps that publish it.
 ///
-/// If a tick fails, the last one stays the newest; its age shows that there is no newer one.
+/// If a tick fails, the previous one remains the newest one.
 class TickLoop {
  public:
-  /// One thing that is done with every new tick.
+  /// A function that is called with every new tick.
   struct Step {
-    std::string timing;  ///< the part of the stopwatch that it counts as; empty: none
+    std::string timing;  ///< name of its duration in the stopwatch; empty: not measured
     std::function<void(const std::shared_ptr<const Tick>&)> act;
   };
 
-  /// @param node  its callback queue is that of the tick thread. All other parameters must outlive this object; the
-  /// tick thread alone may use `world` and `stopwatch`.
+  /// All parameters except `node` must outlive this object. Only the tick thread may use `world` and `stopwatch`.
+  /// @param node  its callback queue must be that of the tick thread
   TickLoop(ros::NodeHandle node, const Params& params, World& world, TickJobs& jobs, Stopwatch& stopwatch,
            NodeHealth& health, Ledger& ledger);
 
-  /// Starts to tick. Call this once. @param steps  done with every tick, in this order
+  /// Starts the ticks. Call this once. @param steps  called with every tick, in this order
   void start(std::vector<Step> steps);
   void stop() { timer_.stop(); }
 
-  /// The newest tick; null before the first. Any thread.
+  /// Returns the newest tick, or null before the first tick. Any thread may call this.
   std::shared_ptr<const Tick> newest() const { return std::atomic_load(&newest_); }
-  /// Does a job at the begin of a tick, waits until that tick is published, and returns it. Any thread but the tick
-  /// thread. @throws as TickJobs::run()
+  /// Does a job at the beginning of a tick, waits until that tick is published, and returns that tick. Any thread
+  /// except the tick thread may call this. @throws as TickJobs::run()
   std::shared_ptr<const Tick> tickAfter(const TickJobs::Job& job);
 
  private:
@@ -63,8 +63,8 @@ class TickLoop {
   Stopwatch& stopwatch_;
   NodeHealth& health_;
   Ledger& ledger_;
-  std::shared_ptr<const Tick> newest_;          // atomic access only
-  std::chrono::nanoseconds transform_time_{0};  // spent on transforms since the last tick
+  std::shared_ptr<const Tick> newest_;          // use only atomic access
+  std::chrono::nanoseconds transform_time_{0};  // time spent on transforms since the last tick
   std::vector<Step> steps_;
   TfReader transforms_;
   ros::SteadyTimer timer_;

@@ -6,27 +6,28 @@
 
 namespace hgrid {
 
-/// The clock by which poses age.
+/// The clock that measures the age of poses.
 ///
-/// It is the steady clock, so that setting the wall clock ages nothing. Under /clock it advances with ROS time instead;
-/// while ROS time stands still or runs back, it advances with the steady clock. No reading is ever smaller than an
-/// earlier one. Only differences of readings have a meaning.
+/// Normally it is the steady clock, so that setting the wall clock changes no age. If /clock drives ROS time, it
+/// advances with ROS time instead. While ROS time stands still or runs back, it advances with the steady clock. A
+/// reading is never smaller than an earlier one. Only differences between readings have a meaning.
 class AgeClock {
  public:
+  /// @param simulated  whether /clock drives ROS time
   explicit AgeClock(bool simulated) : simulated_(simulated) {}
 
-  /// Advances the clock to a moment. A tick calls this first.
-  /// @param frozen  ROS time has stood still for so long that the clock advances with the steady clock
+  /// Advances the clock to the moment `now`. Each tick calls this before it reads the clock.
+  /// @param frozen  whether ROS time has stood still for so long that this clock follows the steady clock
   void look(const Moment& now, bool frozen);
-  /// The reading at a moment. The moment must not be before the last look().
+  /// Returns the reading at a moment. The moment must not be before the last look().
   Time read(const Moment& moment) const;
 
  private:
   bool simulated_;
   bool frozen_ = false;
-  Time reading_{0};                                   // at the last look()
-  Moment last_;                                       // of the last look()
-  std::chrono::steady_clock::time_point advanced_{};  // when ROS time was last seen to advance
+  Time reading_{0};                                   // reading at the last look()
+  Moment last_;                                       // moment of the last look()
+  std::chrono::steady_clock::time_point advanced_{};  // when look() last noticed that ROS time had changed
 };
 
 }  // namespace hgrid

@@ -7,7 +7,7 @@
 namespace hgrid {
 namespace {
 
-constexpr double kSmallStep = 0.1;  // [s] a wall clock that is being adjusted may step back by up to this
+constexpr double kSmallStep = 0.1;  // [s] a wall clock may step back this much, because it is being adjusted
 
 }  // namespace
 
@@ -28,7 +28,7 @@ ClockWatch::Event ClockWatch::jumpTo(const Moment& now) const {
 
 ClockWatch::Event ClockWatch::look(const Moment& now) {
   const Event jump = jumpTo(now);
-  // A jump back needs more work than a jump ahead, so it stays pending if both happen before a tick succeeds.
+  // A jump back needs more work than a jump ahead. So it stays pending if both happen before a tick succeeds.
   if (jump != Event::none && pending_ != Event::jumped_back) pending_ = jump;
   if (now.ros != last_.ros) advanced_ = now.steady;
   last_ = now;

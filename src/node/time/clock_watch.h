@@ -8,35 +8,35 @@
 
 namespace hgrid {
 
-/// Both clocks at one moment: ROS time (which /clock may drive) and the steady clock (which nothing can).
+/// The readings of both clocks at one moment: ROS time, which /clock may drive, and the steady clock.
 struct Moment {
   Time ros{0};
   std::chrono::steady_clock::time_point steady;
 };
 
-/// Both clocks now.
+/// Reads both clocks now.
 Moment thisMoment();
 
 /// Detects jumps and standstills of ROS time by comparing it with the steady clock.
 ///
-/// A jump stays pending until noteHandled(), so that a tick that fails while it handles the jump is made up for.
+/// A jump stays pending until noteHandled(). So if a tick fails while it handles the jump, the next tick handles it.
 class ClockWatch {
  public:
   enum class Event { none, jumped_back, jumped_ahead };
 
-  /// @param simulated    /clock drives ROS time; otherwise it is the wall clock
-  /// @param jump         [s] running ahead of the steady clock by more than this is a jump
-  /// @param frozen_after [s] a simulated clock that stands still for longer is frozen
+  /// @param simulated    whether /clock drives ROS time; otherwise ROS time is the wall clock
+  /// @param jump         [s] if ROS time gains more than this on the steady clock, it has jumped ahead
+  /// @param frozen_after [s] if a simulated clock stands still for longer, it is frozen
   ClockWatch(bool simulated, double jump, double frozen_after)
       : simulated_(simulated), jump_(jump), frozen_after_(frozen_after) {}
 
-  /// Reads both clocks. @returns the jump that is pending; of two pending jumps, the one back
+  /// Compares both clocks with the previous look(). @returns the pending jump; a jump back takes precedence
   Event look(const Moment& now);
-  /// The pending jump was handled.
+  /// Call this when the pending jump was handled.
   void noteHandled() { pending_ = Event::none; }
-  /// Whether a simulated clock was seen and now stands still.
+  /// Whether a simulated clock has started and now stands still.
   bool frozen() const { return frozen_; }
-  /// Whether there is a time at all. Under /use_sim_time there is none before the first message on /clock.
+  /// Whether ROS time has started. With /use_sim_time, it starts with the first message on /clock.
   bool running() const { return last_.ros.count() > 0; }
   bool simulated() const { return simulated_; }
 

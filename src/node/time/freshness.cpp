@@ -9,7 +9,7 @@
 namespace hgrid {
 namespace {
 
-constexpr double kPeriods = 1.5;  // data of this age are not LATE yet, however short the limits are
+constexpr double kPeriods = 1.5;  // data are not LATE up to this many periods, even if the limits are shorter
 
 Freshness judgeByAge(const KeptPose& pose, const PoseCircumstances& circumstances, const AgeLimits& limits) {
   if (pose.settled()) return Freshness::fresh;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Where freshness is judged: how far the pose in use of a frame, or the cells of a cloud, can be trusted.
+// Functions that decide how far the pose in use of a frame, or the cells of a cloud, can be trusted.
 #pragma once
 
 #include "hgrid_proximity/bodies/body.h"
@@ -10,33 +10,34 @@ namespace hgrid {
 
 class KeptPose;
 
-/// Ages [s] up to which data are FRESH, LATE and STALE. Older data are LOST.
+/// Ages [s] up to which data are FRESH, LATE and STALE. Data that are older than the last limit are LOST.
 struct AgeLimits {
   double late_after = 0.1, stale_after = 0.25, lost_after = 2.0;
 };
 
-/// Judges data by their age alone.
+/// Returns the state of data of a given age.
 ///
-/// LATE and STALE begin at their limits, or at one and a half periods where that is later. LOST begins at its limit.
-/// @param age     [s]
-/// @param period  [s] between arrivals; 0: not known yet
+/// LATE and STALE begin at their limits, but not before one and a half periods. LOST begins at its limit.
+/// @param age     [s] age of the data
+/// @param period  [s] usual time between arrivals of data; 0: not known yet
 Freshness freshnessOf(double age, double period, const AgeLimits& limits);
 
-/// What the freshness of a pose depends on, beside the pose itself.
+/// What the state of a pose depends on, besides the pose itself.
 struct PoseCircumstances {
-  Time reading{0};            ///< of the age clock, in this tick
-  Time tick_time{0};          ///< [ROS time] an older pose is LATE at least
-  double period = 0.0;        ///< [s] between transforms of the frame; 0: not known yet
-  bool refused = false;       ///< the newest transform was refused, or publishers fight over the frame
-  bool clock_frozen = false;  ///< ROS time stands still, so that nothing new can be recognized
+  Time reading{0};            ///< reading of the age clock in this tick
+  Time tick_time{0};          ///< [ROS time] time of the tick; a pose with an older stamp is at least LATE
+  double period = 0.0;        ///< [s] usual time between transforms of the frame; 0: not known yet
+  bool refused = false;       ///< whether the newest transform was refused, or the frame is contested
+  bool clock_frozen = false;  ///< whether ROS time stands still, so that new data cannot be recognized
 };
 
-/// Judges the pose in use of a frame. A settled pose does not age, so only a refused transform makes it INVALID.
+/// Returns the state of the pose in use of a frame. A settled pose does not age: it is FRESH unless a transform was
+/// refused (INVALID) or the clock stands still (FROZEN).
 Freshness judgePose(const KeptPose& pose, const PoseCircumstances& circumstances, const AgeLimits& limits);
 
-/// Judges the cells of a cloud.
-/// @param age     [s] of the newest message that counts
-/// @param limits  lost_after is the lifetime of the cells
+/// Returns the state of the cells of a cloud.
+/// @param age     [s] age of the newest message that was used
+/// @param limits  its lost_after must be the lifetime of the cells
 Freshness judgeCloud(double age, double period, bool clock_frozen, const AgeLimits& limits);
 
 }  // namespace hgrid

@@ -8,31 +8,31 @@
 
 namespace hgrid {
 
-/// The stamp and the age of the pose in use of a frame. See freshness.h for how far such a pose can be trusted.
+/// Stores the stamp and the age of the pose in use of a frame. freshness.h decides how far that pose can be trusted.
 ///
-/// The pose itself is stored in the Scene. Readings are those of the AgeClock.
+/// The pose itself is stored in the Scene. Readings are readings of the AgeClock.
 class KeptPose {
  public:
   /// Whether a pose is in use, whatever its age.
   bool exists() const { return exists_; }
-  /// Only static transforms give the pose, so it does not age.
+  /// Whether the pose was computed from static transforms only, so that it does not age.
   bool settled() const { return settled_; }
-  /// The transforms that gave the pose were dropped after a jump of the clock, and no new ones came since.
+  /// Whether the transforms of this pose were dropped after a jump of the clock, and no new ones have arrived since.
   bool frozen() const { return frozen_; }
-  /// [ROS time] of the pose. If the pose is settled: the tick that computed it.
+  /// Returns the stamp of the pose [ROS time]. For a settled pose, this is the time of the tick that computed it.
   Time stamp() const { return stamp_; }
-  /// [s] 0 while it is settled
+  /// Returns the age of the pose [s]. The age of a settled pose is 0.
   double age(Time reading) const { return settled_ ? 0.0 : seconds(std::max(Time(0), reading - born_)); }
 
-  /// Takes another pose into use. @param born  reading at which it was 0 s old
+  /// Starts to use another pose. @param born  reading of the age clock when that pose was 0 s old
   void renew(Time stamp, Time born);
-  /// Takes a pose into use that only static transforms give.
+  /// Starts to use a pose that was computed from static transforms only.
   void settle(Time stamp);
-  /// Static transforms no longer give the settled pose. They last gave it at the time `stamp`, when the age clock
-  /// showed `reading`. The pose ages from then on.
+  /// Lets a settled pose age again, because static transforms alone no longer determine it. They last did so at the
+  /// time `stamp`, when the age clock showed `reading`. The pose ages from that reading on.
   void unsettle(Time stamp, Time reading);
   /// Moves the stamp to the new ROS time after that clock was set. The age stays the same.
-  /// @param lost  the transforms were dropped as well, so the pose is FROZEN until there is another one
+  /// @param lost  whether the transforms were dropped as well; then the pose is FROZEN until another one replaces it
   void restamp(Time reading, Time ros, bool lost);
 
  private:

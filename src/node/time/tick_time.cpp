@@ -16,7 +16,7 @@ Time TickTime::choose(const std::vector<Time>& newest, Time now) {
   for (const Time time : newest) {
     if (time <= latest) pace = std::max(pace, time);
   }
-  if (pace.count() < 0) pace = latest;  // every frame is stamped ahead
+  if (pace.count() < 0) pace = latest;  // every frame is stamped too far ahead
   Time common = pace;
   for (const Time time : newest) {
     if (pace - time <= max_wait_) common = std::min(common, time);

@@ -8,20 +8,20 @@
 
 namespace hgrid {
 
-/// Chooses the time at which a tick takes all poses.
+/// Chooses the time for which a tick computes all poses.
 class TickTime {
  public:
-  /// @param max_wait  [s] the most by which a tick stays behind the newest data to wait for slower frames
+  /// @param max_wait  [s] how far a tick may stay behind the newest data in order to wait for slower frames
   explicit TickTime(double max_wait);
 
-  /// The newest time at which every frame that keeps up is known. It never runs back within an epoch.
+  /// Returns the newest time at which every frame that keeps up is known. This time never runs back within an epoch.
   ///
-  /// A frame that is more than max_wait behind the newest one does not keep up. A frame that is stamped more than
-  /// max_wait ahead of the clock does not set the pace.
+  /// A frame does not keep up if it is more than max_wait behind the newest frame. A frame whose stamp is more than
+  /// max_wait ahead of ROS time does not count as the newest one.
   /// @param newest  for each chain of transforms that moves: the newest time at which the whole chain is known
-  /// @param now     ROS time. It is chosen if nothing moves.
+  /// @param now     current ROS time, which is returned if nothing moves
   Time choose(const std::vector<Time>& newest, Time now);
-  /// Begins a new epoch. The next time may be before the last one.
+  /// Begins a new epoch. The next time of a tick may be before the last one.
   void beginEpoch() { last_ = Time(0); }
 
  private:

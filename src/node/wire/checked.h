@@ -14,20 +14,20 @@
 
 namespace hgrid {
 
-/// A message or request as it was received: either its value, or why its bytes cannot be one.
+/// A received message or request. It holds the deserialized value, or the reason why its bytes could not be read.
 ///
-/// roscpp takes this type wherever it takes `Message`. Lengths are checked before anything is allocated for them.
+/// roscpp accepts this type wherever it accepts `Message`. All lengths are checked before memory is allocated for them.
 template <class Message>
 class Checked {
  public:
   Checked() = default;
   explicit Checked(Message value) : value_(std::move(value)) {}
 
-  /// Reads the bytes of a serialized message.
+  /// Checks and deserializes the bytes of a message.
   void read(const std::uint8_t* bytes, std::size_t size) {
     flaw_ = flawOf<Message>(bytes, size);
     if (!flaw_.empty()) return;
-    // IStream wants bytes that it may write to; reading from it writes nothing.
+    // IStream requires a non-const pointer, but reading does not write to the bytes.
     ros::serialization::IStream stream(const_cast<std::uint8_t*>(bytes), static_cast<std::uint32_t>(size));
     ros::serialization::deserialize(stream, value_);
   }

@@ -7,7 +7,7 @@
 namespace hgrid {
 
 CloudMessage readCloudMessage(const std::uint8_t* bytes, std::size_t size) {
-  constexpr std::size_t kLeastField = 13;  // bytes: an empty name, offset, datatype, count
+  constexpr std::size_t kLeastField = 13;  // [bytes] an empty name (4), offset (4), datatype (1) and count (4)
   WireWalk walk(bytes, size);
   CloudMessage message;
   PointCloudFormat& format = message.format;

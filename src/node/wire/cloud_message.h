@@ -11,16 +11,16 @@
 
 namespace hgrid {
 
-/// A sensor_msgs/PointCloud2 as it came, read without believing its lengths.
+/// A sensor_msgs/PointCloud2 message. Its lengths were checked while it was read.
 struct CloudMessage {
   ros::Time stamp;
   std::string frame;
   PointCloudFormat format;
   std::string data;
-  std::string flaw;  // why it could not be read; empty if it could
+  std::string flaw;  // why the message could not be read; empty: it could be read
 };
 
-/// Reads the bytes of a message. Never throws but for want of memory.
+/// Reads the bytes of a message. Throws only if memory runs out.
 CloudMessage readCloudMessage(const std::uint8_t* bytes, std::size_t size);
 
 }  // namespace hgrid

@@ -15,16 +15,16 @@
 
 namespace hgrid {
 
-/// Checks the lengths in the bytes of a serialized message of any generated type, before anything is deserialized.
+/// Checks all lengths in the bytes of a serialized message of any generated type, before anything is deserialized.
 ///
-/// The generated serializers resize a list to its declared length before they know whether the bytes hold so many
-/// elements. This class stands in for their stream: they show it every field, and it passes the field's bytes. The
-/// fields themselves are neither read nor written, so one message of each type serves for all of its elements.
+/// The generated serializers resize a list to its declared length before they know whether the bytes hold that many
+/// elements. This class takes the place of their stream. The serializers pass every field to it, and it skips the bytes
+/// of that field. The field itself is not changed, so one dummy element is enough for all elements of a list.
 class MessageWalk {
  public:
   MessageWalk(const std::uint8_t* bytes, std::size_t size) : walk_(bytes, size) {}
 
-  /// Passes the bytes of a field. The generated serializers call this.
+  /// Skips the bytes of a field. The generated serializers call this.
   template <class Field>
   void next(Field& field) {
     if constexpr (ros::message_traits::IsFixedSize<Field>::value) {
@@ -36,7 +36,7 @@ class MessageWalk {
   void next(std::string&) { walk_.skipString("a string"); }
   template <class Element, class Allocator>
   void next(std::vector<Element, Allocator>&) {
-    Element element{};  // its lists and strings are empty, so it has the least length
+    Element element{};  // its lists and strings are empty, so no element is shorter
     const std::size_t least_bytes = ros::serialization::serializationLength(element);
     std::uint32_t count = walk_.count("a list", least_bytes);
     if constexpr (ros::message_traits::IsFixedSize<Element>::value) {
@@ -45,14 +45,14 @@ class MessageWalk {
       for (; count > 0 && walk_.fits(); --count) next(element);
     }
   }
-  /// As WireWalk::flaw().
+  /// Returns the same as WireWalk::flaw().
   std::string flaw() const { return walk_.flaw(); }
 
  private:
   WireWalk walk_;
 };
 
-/// Why the bytes are not those of a message of type `Message`; empty if they are.
+/// Returns why the bytes are not a valid message of type `Message`. Empty: they are valid.
 template <class Message>
 std::string flawOf(const std::uint8_t* bytes, std::size_t size) {
   MessageWalk walk(bytes, size);

@@ -9,8 +9,8 @@
 
 namespace hgrid {
 
-/// An octomap_msgs/Octomap as it came, read without that package and without believing its lengths: nothing is
-/// allocated for what is not there.
+/// An octomap_msgs/Octomap message. It is read without the package octomap_msgs. Its lengths were checked before memory
+/// was allocated for them.
 struct OctomapMessage {
   ros::Time stamp;
   std::string frame;
@@ -18,10 +18,10 @@ struct OctomapMessage {
   std::string id;
   double resolution = 0.0;  // [m]
   std::string data;
-  std::string flaw;  // why it could not be read; empty if it could
+  std::string flaw;  // why the message could not be read; empty: it could be read
 };
 
-/// Reads the bytes of a message. Never throws but for want of memory.
+/// Reads the bytes of a message. Throws only if memory runs out.
 OctomapMessage readOctomapMessage(const std::uint8_t* bytes, std::size_t size);
 
 }  // namespace hgrid

@@ -11,11 +11,11 @@
 
 namespace hgrid {
 
-/// The bytes of a tf2_msgs/TFMessage, not deserialized. roscpp takes this type in place of that one.
+/// The serialized bytes of a tf2_msgs/TFMessage. A subscriber of roscpp can use this type instead of TFMessage.
 struct TransformBytes {
-  std::size_t most_bytes = 0;  ///< longer messages are not stored
-  std::size_t size = 0;        ///< bytes that the message has
-  std::string bytes;           ///< empty if there are more than most_bytes
+  std::size_t most_bytes = 0;  ///< the bytes of longer messages are not stored
+  std::size_t size = 0;        ///< number of bytes of the message
+  std::string bytes;           ///< bytes of the message; empty if there are more than most_bytes
 
   void read(const std::uint8_t* data, std::size_t count) {
     size = count;

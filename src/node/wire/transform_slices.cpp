@@ -12,7 +12,7 @@
 namespace hgrid {
 namespace {
 
-/// IStream takes bytes that it could write to, but reading from it writes nothing.
+/// Returns a stream that reads the bytes. IStream requires a non-const pointer, but reading does not change the bytes.
 ros::serialization::IStream streamOf(const std::uint8_t* bytes, std::uint32_t size) {
   return {const_cast<std::uint8_t*>(bytes), size};
 }

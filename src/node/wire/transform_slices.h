@@ -13,22 +13,22 @@ namespace hgrid {
 /// Deserializes the transforms of one message in slices, so that a message of any length can be read between ticks.
 class TransformSlices {
  public:
-  static constexpr std::size_t kSlice = 100;  ///< most transforms in a slice
+  static constexpr std::size_t kSlice = 100;  ///< largest number of transforms in a slice
 
   TransformSlices() = default;
-  /// Checks all lengths, and deserializes nothing yet. The bytes must live as long as this object is used.
-  /// @throws Refusal truncated if the bytes are not those of a tf2_msgs/TFMessage
+  /// Checks all lengths, but deserializes nothing yet. The bytes must outlive this object.
+  /// @throws Refusal truncated if the bytes are not a valid tf2_msgs/TFMessage
   explicit TransformSlices(const std::string& bytes);
 
   /// Whether transforms are left.
   bool left() const { return left_ > 0; }
-  /// Deserializes the next transforms; none if none are left.
+  /// Deserializes the next slice. Returns an empty message if no transforms are left.
   tf2_msgs::TFMessage next();
 
  private:
-  const std::uint8_t* bytes_ = nullptr;  ///< of the first transform that is left
-  std::uint32_t size_ = 0;               ///< bytes of all that are left
-  std::uint32_t left_ = 0;
+  const std::uint8_t* bytes_ = nullptr;  ///< bytes of the next transform
+  std::uint32_t size_ = 0;               ///< number of bytes that are left
+  std::uint32_t left_ = 0;               ///< number of transforms that are left
 };
 
 }  // namespace hgrid

@@ -9,20 +9,20 @@
 
 namespace hgrid {
 
-/// Reads the bytes of a serialized message from front to back and checks every length against the bytes that are left.
+/// Reads the bytes of a serialized message in order. Checks each declared length against the number of remaining bytes.
 ///
-/// The first length that does not fit ends the walk: all later reads return zero or an empty string. Nothing is
-/// allocated for a declared length before the check.
+/// The first length that does not fit ends the reading: all later calls return zero or an empty string. No memory is
+/// allocated for a declared length before it was checked.
 class WireWalk {
  public:
   WireWalk(const std::uint8_t* bytes, std::size_t size) : bytes_(bytes), size_(size), left_(size) {}
 
-  /// Reads a number. @param what  the field's name for flaw()
+  /// Reads a number. @param what  name of the field, for flaw()
   template <class Number>
   Number number(const char* what) {
     Number value{};
     if (!skip(sizeof(Number), what)) return value;
-    std::memcpy(&value, bytes_ - sizeof(Number), sizeof(Number));  // little-endian, as all machines that roscpp runs on
+    std::memcpy(&value, bytes_ - sizeof(Number), sizeof(Number));  // assumes a little-endian machine
     return value;
   }
   /// Reads the length of a string and its characters.
@@ -31,10 +31,10 @@ class WireWalk {
     if (!skip(length, what)) return {};
     return {reinterpret_cast<const char*>(bytes_) - length, length};
   }
-  /// Passes the length of a string and its characters.
+  /// Skips the length of a string and its characters.
   void skipString(const char* what) { skip(number<std::uint32_t>(what), what); }
-  /// Reads the number of elements of a list. @param least_bytes  that an element takes at least
-  /// @returns 0 if the bytes that are left cannot hold so many elements
+  /// Reads the number of elements of a list. @param least_bytes  the smallest possible size of an element
+  /// @returns the number of elements; 0 if the remaining bytes cannot hold that many
   std::uint32_t count(const char* what, std::size_t least_bytes) {
     const auto count = number<std::uint32_t>(what);
     least_bytes = std::max<std::size_t>(least_bytes, 1);
@@ -43,7 +43,7 @@ class WireWalk {
             std::to_string(std::uint64_t{count} * least_bytes) + " bytes";
     return 0;
   }
-  /// Passes `count` bytes. @returns whether so many were left
+  /// Skips `count` bytes. @returns whether that many bytes were left
   bool skip(std::size_t count, const char* what) {
     if (!fits()) return false;
     if (count > left_) {
@@ -54,10 +54,10 @@ class WireWalk {
     left_ -= count;
     return true;
   }
-  /// Whether all lengths so far fitted.
+  /// Whether all lengths read so far fit into the bytes.
   bool fits() const { return flaw_.empty(); }
-  /// Why the bytes are not those of a message: the first length that did not fit, or bytes that are left over. Empty if
-  /// the message ends where the bytes end.
+  /// Returns why the bytes are not a valid message: a length did not fit, or bytes are left over. Empty: the message is
+  /// valid. Call this after all fields were read.
   std::string flaw() const {
     if (!fits() || left_ == 0) return flaw_;
     return sizeSentence() + "it must end at byte " + std::to_string(size_ - left_);

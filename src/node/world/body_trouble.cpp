@@ -17,12 +17,12 @@ BodyTrouble troubleOf(const Body& body, const BodyPose& pose, const Mover& mover
   } else if (pose.state == Freshness::fresh) {
     trouble.code = Code::conflict;
     trouble.sentence = "a frame between '" + mover.frame + "' and '" + world_frame +
-                       "' comes on /tf and on /tf_static; it must come on one of them";
+                       "' is published on both /tf and /tf_static; it must be published on only one of them";
   } else if (pose.state == Freshness::frozen) {
     trouble.code = Code::clock;
-    trouble.sentence = "the clock stands still or jumped; nothing new came since";
+    trouble.sentence = "the clock stands still or jumped, and no new transform has arrived since";
   } else {
-    trouble.sentence = "frame '" + mover.frame + "' is " + secondsText(pose.age) + " old";
+    trouble.sentence = "the pose of frame '" + mover.frame + "' is " + secondsText(pose.age) + " old";
   }
   if (pose.state == Freshness::unplaced) trouble.age = std::numeric_limits<double>::quiet_NaN();
   return trouble;

@@ -13,20 +13,20 @@ namespace hgrid {
 
 struct Mover;
 
-/// A body whose pose is not fresh or whose data are not as they should be.
+/// Describes a body whose pose is not FRESH, or whose chain of transforms has a conflict.
 struct BodyTrouble {
   std::string name, frame;
   Freshness state;
-  double age;  ///< [s] NaN if it never had a pose
-  Time stamp;
+  double age;  ///< [s] age of the pose; NaN if the body never had a pose
+  Time stamp;  ///< [ROS time] stamp of the pose
   Code code;
   std::string sentence;
 };
 
-/// Describes what is wrong with a body of a mover, which is not fresh or whose chain of transforms has a conflict.
+/// Describes what is wrong with a body of a mover. Call this only if its pose is not FRESH or the mover has a conflict.
 BodyTrouble troubleOf(const Body& body, const BodyPose& pose, const Mover& mover, const std::string& world_frame);
 
-/// Puts the worst state first. Troubles of the same state keep their order.
+/// Sorts by state, worst first. Troubles with the same state keep their order.
 void sortWorstFirst(std::vector<BodyTrouble>& troubles);
 
 }  // namespace hgrid

@@ -22,7 +22,7 @@ CloudBodies::Cloud& CloudBodies::add(const SourceId& cloud, const std::string& w
   std::map<SourceId, Cloud> added;
   Cloud& result = added.emplace(cloud, Cloud{{}, CloudNews(simulated_)}).first->second;
   result.body = scene_.add(std::move(body));
-  clouds_.merge(added);  // moves the node, so this does not allocate and `result` stays valid
+  clouds_.merge(added);  // moves the entry without allocating, so `result` stays valid
   return result;
 }
 
@@ -31,7 +31,7 @@ void CloudBodies::set(const SourceId& cloud, const LoadedCloud& loaded, const st
   const auto known = clouds_.find(cloud);
   Cloud& one = known == clouds_.end() ? add(cloud, world_frame) : known->second;
   scene_.setCells(one.body, newest.cells);
-  // Nothing below allocates.
+  // The code below does not allocate, so it cannot fail.
   one.news.noteAccepted(std::move(newest));
 }
 
@@ -42,8 +42,8 @@ bool CloudBodies::noteRefused(const SourceId& cloud, const std::string& sentence
   return true;
 }
 
-/// Places the cloud and judges it. tf has placed its points already, each at its stamp, so the cloud lies in the world
-/// frame.
+/// Places each cloud and sets its state. The cells of a cloud are already in the world frame, because tf placed the
+/// points of each message at its stamp.
 void CloudBodies::update(Time time, const Moment& now, bool clock_frozen, Tick& tick, std::vector<SourceGap>& gaps) {
   const AgeLimits limits{params_.late_after, params_.stale_after, params_.lost_after};
   for (const auto& [source, cloud] : clouds_) {

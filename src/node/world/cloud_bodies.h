@@ -15,19 +15,20 @@
 
 namespace hgrid {
 
-/// Keeps the bodies of clouds in the scene up to date: their cells, their places and their states.
+/// Keeps the bodies of clouds in the scene up to date: their cells, poses and states.
 class CloudBodies {
  public:
-  /// @param simulated  /clock drives ROS time
+  /// @param simulated  whether /clock drives ROS time
   CloudBodies(const Params& params, bool simulated, Scene& scene, Ledger& ledger);
 
-  /// Replaces what a sensor has seen. Adds the body if this is the first message of the cloud. All of it or nothing.
+  /// Replaces the cells of a cloud. The first call for a cloud adds its body. If this throws, nothing has changed.
   /// @throws Refusal as Scene::add() and Scene::setCells()
   void set(const SourceId& cloud, const LoadedCloud& loaded, const std::string& world_frame);
-  /// A message of the cloud could not be used. @returns false if the cloud is not in the world
+  /// Notes that a message of the cloud could not be used. @returns false if the cloud is not in the world
   bool noteRefused(const SourceId& cloud, const std::string& sentence);
-  /// Judges all clouds. Appends to the troubles of `tick`, and a gap for each cloud that is lost.
-  /// @param time  [ROS time] of the tick
+  /// Updates the pose and state of every cloud. Appends to the troubles of `tick`, and to `gaps` for each cloud that is
+  /// LOST or worse.
+  /// @param time  [ROS time] time of the tick
   void update(Time time, const Moment& now, bool clock_frozen, Tick& tick, std::vector<SourceGap>& gaps);
 
  private:

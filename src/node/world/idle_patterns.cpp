@@ -14,7 +14,7 @@ bool matchesNone(const std::string& pattern, const std::vector<std::string>& nam
   return std::none_of(names.begin(), names.end(), [&](const std::string& name) { return matches(pattern, name); });
 }
 
-/// Whether the pattern is meant for maps: whatever it matches begins with "map/".
+/// Whether the pattern is meant for maps: every name that it can match begins with "map/".
 bool isForMaps(const std::string& pattern) { return coversGlob("map/*", pattern); }
 
 /// Collects a warning for each pattern that matches no body.

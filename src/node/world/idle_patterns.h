@@ -9,10 +9,10 @@
 
 namespace hgrid {
 
-/// Warns of each pattern in the parameters that matches no name. Without such a warning, nobody would notice a
-/// misspelled name. Patterns for maps are not checked, because maps come and go.
+/// Returns a warning for each pattern in the parameters that matches no name, so that users notice misspelled names.
+/// Patterns for maps are not checked, because maps are added and removed at run time.
 /// @param bodies             names of the bodies
-/// @param without_collision  names of the links that have no body. ~accept_uncovered and ~use_visual may mean them.
+/// @param without_collision  names of the links without a body; ~accept_uncovered and ~use_visual may match them
 std::vector<std::string> idlePatterns(const Params& params, const std::vector<std::string>& bodies,
                                       const std::vector<std::string>& without_collision);
 

@@ -14,24 +14,24 @@
 
 namespace hgrid {
 
-/// Makes the body of a map, without its cells.
+/// Returns the body of a map, without its cells.
 /// @throws Refusal nonfinite or out_of_range if the map's position in its frame is beyond ~world_limit
 Body mapBodyOf(const LoadedMap& map, const std::string& world_frame, const Params& params);
 
-/// Knows which maps are in the world, where they are in their frames, and whether their cells can be trusted.
+/// Stores which maps are in the world, their poses in their frames, and whether their cells can be trusted.
 ///
-/// A copy is cheap: a change is made in a copy, which then replaces this by swap().
+/// Copies are cheap. To make a change, modify a copy and then swap() it with the original.
 class MapBodies {
  public:
-  /// @param simulated  as in MapNews
+  /// @param simulated  whether /clock drives ROS time
   explicit MapBodies(bool simulated) : news_(simulated) {}
 
   bool has(const SourceId& map) const { return seats_.count(map) != 0; }
-  /// Whether the map is in the world already, at the same pose in the same frame: then only its cells change.
+  /// Whether the map is already in the world at the same pose in the same frame, so that only its cells change.
   bool hasSame(const SourceId& map, const Body& body) const;
-  /// The map is in the world now.
+  /// Notes that the map is now in the world.
   void set(const SourceId& map, const Body& body, const LoadedMap& loaded);
-  /// The maps for which `chosen` is true are no longer in the world.
+  /// Removes the maps for which `chosen` returns true, because they are no longer in the world.
   template <class Chosen>
   void eraseIf(const Chosen& chosen) {
     for (auto one = seats_.begin(); one != seats_.end();) {
@@ -39,15 +39,15 @@ class MapBodies {
       one = chosen(one->first) ? seats_.erase(one) : std::next(one);
     }
   }
-  /// The newest message of the map could not be used. @returns false if the map is not in the world
+  /// Notes that the newest message of the map could not be used. @returns false if the map is not in the world
   bool noteRefused(const SourceId& map, const std::string& sentence);
-  /// A gap for each map whose cells cannot be trusted, in the order of their names.
+  /// Returns a SourceGap for each map whose cells cannot be trusted, sorted by name.
   std::vector<SourceGap> gaps(const Moment& now) const { return news_.gaps(now); }
 
   void swap(MapBodies& other) noexcept;
 
  private:
-  /// Where a map is.
+  /// The pose of a map in its frame.
   struct Seat {
     std::string frame;
     Pose frame_from_map = Pose::Identity();

@@ -6,15 +6,16 @@ namespace hgrid {
 
 MissingSources::MissingSources(const Params& params) {
   for (const RobotParams& robot : params.robots) {
-    set(SourceId::ofRobot(robot.name), "NOT_READY robot '" + robot.name + "': its description was not read yet");
+    set(SourceId::ofRobot(robot.name), "NOT_READY robot '" + robot.name + "': its description has not been read yet");
   }
   for (const MapParams& map : params.maps) {
     set(SourceId::ofMap(map.name),
-        "NOT_READY map '" + map.name +
-            "': " + (map.topic.empty() ? "its file was not read yet" : "nothing came on " + map.topic + " yet"));
+        "NOT_READY map '" + map.name + "': " +
+            (map.topic.empty() ? "its file has not been read yet" : "no message has arrived on " + map.topic + " yet"));
   }
   for (const CloudParams& cloud : params.clouds) {
-    set(SourceId::ofCloud(cloud.name), "NOT_READY cloud '" + cloud.name + "': nothing came on " + cloud.topic + " yet");
+    set(SourceId::ofCloud(cloud.name),
+        "NOT_READY cloud '" + cloud.name + "': no message has arrived on " + cloud.topic + " yet");
   }
 }
 

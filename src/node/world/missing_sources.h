@@ -11,16 +11,16 @@
 
 namespace hgrid {
 
-/// The sources that should be in the world but are not, each with a sentence that says why.
+/// Stores the sources that should be in the world but are not, each with a sentence that says why.
 class MissingSources {
  public:
-  /// Every configured robot, map and cloud is missing at first.
+  /// At first, every configured robot, map and cloud is missing.
   explicit MissingSources(const Params& params);
 
   void set(const SourceId& source, const std::string& sentence) { sentences_.insert_or_assign(source, sentence); }
   bool has(const SourceId& source) const { return sentences_.count(source) != 0; }
   void erase(const SourceId& source) noexcept { sentences_.erase(source); }
-  /// Erases the sources for which `chosen` is true. It must not throw.
+  /// Erases the sources for which `chosen` returns true. `chosen` must not throw.
   template <class Chosen>
   void eraseIf(const Chosen& chosen) noexcept {
     for (auto one = sentences_.begin(); one != sentences_.end();) {
@@ -29,7 +29,7 @@ class MissingSources {
   }
   void swap(MissingSources& other) noexcept { sentences_.swap(other.sentences_); }
 
-  /// Appends a gap for each missing source, in the order of their names.
+  /// Appends a SourceGap for each missing source, sorted by name.
   void appendGaps(std::vector<SourceGap>& gaps) const;
 
  private:

@@ -24,7 +24,7 @@ void addRobot(const LoadedRobot& robot, ModelReport& report) {
   for (const std::string& warning : robot.warnings) report.warnings.push_back(robot.name + ": " + warning);
 }
 
-/// Names of all bodies that patterns may be meant for. Those of maps are missing, because maps come and go.
+/// Returns the names of all bodies except maps. Maps are left out because they are added and removed at run time.
 std::vector<std::string> bodyNames(const RobotsByName& robots, const Params& params) {
   std::vector<std::string> names;
   for (const auto& robot : robots) {

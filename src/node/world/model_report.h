@@ -14,17 +14,19 @@
 
 namespace hgrid {
 
-/// What the robots' descriptions lack, and what their models switch off. It changes only when a robot is loaded.
+/// What is missing in the robots' descriptions, and which pairs their models switch off. Changes only when a robot is
+/// loaded.
 struct ModelReport {
   std::vector<std::string> uncovered, waived, without_collision, uses_visual, warnings;
-  std::vector<std::pair<std::string, SelfPairs>> self_pairs;  ///< by robot
+  std::vector<std::pair<std::string, SelfPairs>> self_pairs;  ///< name of each robot, and the pairs of its own links
   std::size_t robots = 0;
 };
 
-/// The robots in the world, by name. They are shared, so that a copy of the map is cheap.
+/// The robots in the world, by name. The pointers are shared, so that copying this container is cheap.
 using RobotsByName = std::map<std::string, std::shared_ptr<const LoadedRobot>>;
 
-/// Reports on these robots. Once all configured robots are loaded, the report also warns of idle patterns.
+/// Returns the report on these robots. Once all configured robots are loaded, it also warns about patterns that match
+/// no name.
 std::shared_ptr<const ModelReport> makeModelReport(const RobotsByName& robots, const Params& params);
 
 }  // namespace hgrid

@@ -31,7 +31,7 @@ void MoverPoses::planChains(const std::string& world_frame) {
   planned_revision_ = movers_.revision();
 }
 
-/// A new chain, or a new transform on /tf_static, can move a body that was settled.
+/// Lets all settled movers be computed again, because a new chain or a new static transform can move them.
 void MoverPoses::unsettleAll() {
   for (Mover& mover : movers_.all()) mover.settled = false;
   settled_revision_ = intake_.staticRevision();
@@ -58,7 +58,7 @@ void MoverPoses::updateOne(std::size_t index, bool clock_frozen, Tick& tick) {
   appendTroubles(mover, tick);
 }
 
-/// Places all bodies of the mover. If one of them cannot be there, none is moved.
+/// Places all bodies of the mover. If the scene refuses the pose of one of them, none is moved.
 void MoverPoses::place(Mover& mover, const FramePoses::Found& found, bool moves) {
   try {
     const Pose world_from_frame = found.world_from_frame.pose();
@@ -88,14 +88,14 @@ Freshness MoverPoses::judge(const Mover& mover, double period, bool clock_frozen
   circumstances.tick_time = frames_.tickTime();
   circumstances.period = period;
   circumstances.refused = mover.trouble && mover.trouble->code() != Code::unknown_frame;
-  circumstances.clock_frozen = clock_frozen && !mover.settled;  // a settled mover needs nothing new
+  circumstances.clock_frozen = clock_frozen && !mover.settled;  // a settled mover needs no new data
   return judgePose(mover.pose, circumstances, limits_);
 }
 
 void MoverPoses::setState(const Mover& mover, Freshness state) {
   for (std::size_t i = mover.first; i < mover.last; ++i) {
     const BodyId body = movers_.members()[i].body;
-    std::uint32_t cohort = 0;  // a settled body keeps this number while those of the others change
+    std::uint32_t cohort = 0;  // settled bodies are always in cohort 0
     if (!mover.settled) {
       const Time stamp = scene_.poseOf(body).stamp;
       cohort = cohorts_.emplace(stamp, static_cast<std::uint32_t>(cohorts_.size() + 1)).first->second;
@@ -121,7 +121,7 @@ void MoverPoses::restamp(const Moment& now, bool lost) {
   }
 }
 
-/// Gives the bodies of the mover the stamp of its pose. They stay where they are.
+/// Gives the bodies of the mover the stamp of its pose. Their poses do not change.
 void MoverPoses::setStamp(const Mover& mover) {
   for (std::size_t i = mover.first; i < mover.last; ++i) {
     const BodyId body = movers_.members()[i].body;

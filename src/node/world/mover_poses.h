@@ -17,22 +17,22 @@
 
 namespace hgrid {
 
-/// Moves the bodies in the scene to where their frames are in each tick, and marks how far each pose can be trusted.
+/// In each tick, moves the bodies in the scene with their frames, and sets the state of each pose.
 ///
-/// If a call throws for lack of memory, the next update() makes up for it.
+/// If a call throws because memory ran out, the next update() does the work that was not done.
 class MoverPoses {
  public:
   MoverPoses(const Params& params, const TfIntake& intake, Scene& scene, Movers& movers, Ledger& ledger);
 
-  /// Takes all poses of this tick. Appends to the troubles and the missing frames of `tick`.
-  /// @param clock_frozen  ROS time stands still
+  /// Computes all poses of this tick. Appends to the troubles and to the missing frames of `tick`.
+  /// @param clock_frozen  whether ROS time stands still
   /// @returns the time of the tick
   Time update(const Moment& now, bool clock_frozen, Tick& tick);
-  /// The clock was set: moves the stamps of the poses in use to the new time.
-  /// @param lost  the transforms were dropped, because they belong to an earlier run of a simulation
+  /// Moves the stamps of the poses in use to the new ROS time. Call this after the clock was set.
+  /// @param lost  whether the transforms were dropped, because they belong to an earlier run of a simulation
   void restamp(const Moment& now, bool lost);
   void beginEpoch() { frames_.beginEpoch(); }
-  /// Reading of the age clock in the newest update().
+  /// Returns the reading of the age clock in the newest update().
   Time reading() const { return frames_.reading(); }
 
  private:
@@ -50,11 +50,11 @@ class MoverPoses {
   Scene& scene_;
   Movers& movers_;
   Ledger& ledger_;
-  FramePoses frames_;                        // of the movers, in their order
-  std::uint64_t planned_revision_ = kNever;  // of the movers, at the newest complete plan
-  std::uint64_t settled_revision_ = 0;       // of /tf_static, when movers could settle
-  std::map<Time, std::uint32_t> cohorts_;    // of this tick: bodies whose poses have the same stamp are equally old
-  std::vector<Pose> placed_;                 // scratch of place()
+  FramePoses frames_;                        // poses of the frames of the movers, in the order of the movers
+  std::uint64_t planned_revision_ = kNever;  // revision of the movers at the newest complete plan
+  std::uint64_t settled_revision_ = 0;       // revision of /tf_static at the last unsettleAll()
+  std::map<Time, std::uint32_t> cohorts_;    // this tick only: bodies with the same stamp share a cohort number
+  std::vector<Pose> placed_;                 // buffer of place()
 
   static constexpr std::uint64_t kNever = ~std::uint64_t{0};
 };

@@ -42,7 +42,7 @@ void Movers::add(const SourceId& source, Body body) {
   mover.last = mover.first + 1;
   Member member = memberAt(body.frame_from_body);
   member.body = scene_.add(std::move(body));
-  // Nothing below allocates.
+  // The code below does not allocate, so it cannot fail.
   members_.push_back(member);
   movers_.push_back(std::move(mover));
   ++revision_;
@@ -67,7 +67,7 @@ Movers::Change Movers::changeWithout(const std::function<bool(const SourceId&)>&
 
 void Movers::exchange(Change change) {
   const std::vector<BodyId> ids = scene_.exchange(change.out_, std::move(change.in_));
-  // Nothing below allocates.
+  // The code below does not allocate, so it cannot fail.
   auto member = change.members_.end() - static_cast<std::ptrdiff_t>(ids.size());
   for (const BodyId id : ids) (member++)->body = id;
   movers_.swap(change.movers_);

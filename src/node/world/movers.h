@@ -18,46 +18,46 @@ namespace hgrid {
 /// A body that follows a frame, and its pose in that frame.
 struct Member {
   BodyId body;
-  bool at_frame = false;  ///< the pose is the identity
+  bool at_frame = false;  ///< whether frame_from_body is the identity
   Pose frame_from_body = Pose::Identity();
 };
 
-/// The bodies of one source that one tf frame places, and the pose of that frame that is in use.
+/// The bodies of one source that follow one tf frame, and the stamp and age of the frame's pose in use.
 struct Mover {
   std::string frame;
   SourceId source;
-  std::size_t first = 0, last = 0;  ///< its members in Movers::members(), last excluded
+  std::size_t first = 0, last = 0;  ///< indices of its members in Movers::members(): first .. last - 1
   KeptPose pose{};
-  bool settled = false;   ///< only a new transform on /tf_static can move it, and nothing is wrong with it
-  bool conflict = false;  ///< a frame of its chain comes on /tf and on /tf_static
-  std::optional<Refusal> trouble{};
+  bool settled = false;              ///< whether nothing is wrong with it and only new static transforms can move it
+  bool conflict = false;             ///< whether a frame of its chain is published on both /tf and /tf_static
+  std::optional<Refusal> trouble{};  ///< what is wrong with its frame
 };
 
-/// Knows which bodies follow which tf frame.
+/// Stores which bodies follow which tf frame.
 ///
-/// A call that throws, also for lack of memory, has changed neither this nor the scene.
+/// A call that throws, even because memory ran out, changes neither this object nor the scene.
 class Movers {
  public:
   class Change;
 
-  /// @param scene  gets and loses the bodies; it must outlive this
+  /// @param scene  bodies are added to it and removed from it; it must outlive this object
   explicit Movers(Scene& scene) : scene_(scene) {}
 
   /// Adds one body that follows its `frame`.
   /// @throws Refusal as Scene::add()
   void add(const SourceId& source, Body body);
-  /// The change that removes all movers of the sources for which `chosen` is true.
+  /// Returns a change that removes all movers of the sources for which `chosen` returns true.
   Change changeWithout(const std::function<bool(const SourceId&)>& chosen) const;
-  /// Makes a change in this and in the scene.
+  /// Applies a change to this object and to the scene.
   /// @throws Refusal as Scene::exchange()
   void exchange(Change change);
 
   std::size_t size() const { return movers_.size(); }
   Mover& operator[](std::size_t index) { return movers_[index]; }
   std::vector<Mover>& all() { return movers_; }
-  /// The members of all movers, in the order of the movers.
+  /// Returns the members of all movers, in the order of the movers.
   const std::vector<Member>& members() const { return members_; }
-  /// A number that is one more after each change.
+  /// Returns a number that increases with each change.
   std::uint64_t revision() const { return revision_; }
 
  private:
@@ -67,8 +67,8 @@ class Movers {
   std::uint64_t revision_ = 0;
 };
 
-/// Movers and bodies that replace those of a Movers. They are built beside the old ones, so that exchange() can put
-/// them into use as a whole.
+/// New movers and bodies that replace the old ones of a Movers object. They are built separately, so that exchange()
+/// can replace all of them at once.
 class Movers::Change {
  public:
   /// Adds a mover with one body.
@@ -79,7 +79,7 @@ class Movers::Change {
  private:
   friend class Movers;
   std::vector<Mover> movers_;
-  std::vector<Member> members_;  // those of in_ come last, without their handles
+  std::vector<Member> members_;  // the members of in_ come last; their `body` is not set yet
   std::vector<BodyId> out_;      // bodies that leave the scene
   std::vector<Body> in_;         // bodies that enter it
 };

@@ -13,15 +13,15 @@
 
 namespace hgrid {
 
-/// Brings the configured obstacles into the world, as soon as there is a world frame.
+/// Adds the configured obstacles to the world, as soon as there is a world frame.
 class ObstacleBodies {
  public:
   ObstacleBodies(const Params& params, std::shared_ptr<NarrowPhase> narrow_phase, Ledger& ledger);
 
-  /// Adds the obstacles that were not added yet. A refused one becomes a missing source. If this throws, the next call
-  /// goes on with the obstacle that failed.
+  /// Adds the obstacles that were not added yet. A refused obstacle becomes a missing source. If this throws, the next
+  /// call continues with the obstacle that failed.
   void addAll(const std::string& world_frame, Movers& movers, MissingSources& missing);
-  /// Lets the next addAll() begin with the first obstacle again.
+  /// Makes the next addAll() begin with the first obstacle again.
   void startAgain() noexcept { done_ = 0; }
 
  private:
@@ -30,7 +30,7 @@ class ObstacleBodies {
   const Params& params_;
   std::shared_ptr<NarrowPhase> narrow_phase_;
   Ledger& ledger_;
-  std::size_t done_ = 0;  // obstacles that were added or refused
+  std::size_t done_ = 0;  // number of obstacles that were added or refused
 };
 
 }  // namespace hgrid

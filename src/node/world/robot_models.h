@@ -12,7 +12,7 @@ namespace hgrid {
 
 /// Stores the models of the robots in the world.
 ///
-/// A copy is cheap: a change is made in a copy, which then replaces this by swap().
+/// Copies are cheap. To make a change, modify a copy and then swap() it with the original.
 class RobotModels {
  public:
   explicit RobotModels(const Params& params) : params_(params) {}
@@ -23,12 +23,12 @@ class RobotModels {
     robots_.insert_or_assign(name, std::move(robot));
     report_ = makeModelReport(robots_, params_);
   }
-  /// The model of a robot; null if it is not in the world.
+  /// Returns the model of a robot, or null if the robot is not in the world.
   const LoadedRobot* find(const std::string& name) const {
     const auto known = robots_.find(name);
     return known == robots_.end() ? nullptr : known->second.get();
   }
-  /// What the models lack.
+  /// Returns the report on what is missing in the models.
   const std::shared_ptr<const ModelReport>& report() const { return report_; }
 
   void swap(RobotModels& other) noexcept {

@@ -11,18 +11,18 @@
 
 namespace hgrid {
 
-/// Keeps the scene's rules of the allowed-pair matrix up to date: new ones are set, expired ones are removed.
+/// Keeps the scene's rules for allowed pairs up to date: passes on new rules and removes expired ones.
 class RulesInForce {
  public:
-  /// @param rules  those that the scene has already
+  /// @param rules  the rules that the scene already has
   explicit RulesInForce(std::vector<PairRule> rules) : book_(std::move(rules)) {}
 
-  /// Replaces all rules. The next apply() hands them to the scene.
+  /// Replaces all rules. The next apply() passes them to the scene.
   void set(std::vector<PairRule> rules) {
     book_ = RuleBook(std::move(rules));
     changed_ = true;
   }
-  /// Gives the scene the rules in force, if they changed. If that throws, the next call does it.
+  /// Passes the current rules to the scene, if they changed. If this throws, the next call tries again.
   void apply(const Moment& now, Scene& scene) {
     if (book_.expire(now.steady)) changed_ = true;
     if (!changed_) return;

@@ -32,14 +32,16 @@ SceneOptions optionsOf(const Params& params) {
   return options;
 }
 
-/// @param others  bodies in the world beside those of this robot
+/// Checks that the bodies of a robot fit into ~max_bodies.
+/// @param others  number of bodies in the world that do not belong to this robot
 void checkRoom(const LoadedRobot& robot, std::size_t others, const Params& params) {
   if (others + robot.bodies.size() <= static_cast<std::size_t>(params.max_bodies)) return;
   throw Refusal(Code::limit, "robot '" + robot.name + "' has " + std::to_string(robot.bodies.size()) +
-                                 " bodies, which would be more than ~max_bodies, " + std::to_string(params.max_bodies));
+                                 " bodies; with them, the world would have more than ~max_bodies, " +
+                                 std::to_string(params.max_bodies));
 }
 
-/// Adds a mover for each group of links that move as one.
+/// Adds a mover for each group of links that move together.
 void addMovers(const LoadedRobot& robot, Movers::Change& change) {
   const SourceId source = SourceId::ofRobot(robot.name);
   for (const LoadedRobot::Group& group : robot.groups) {
@@ -99,7 +101,7 @@ void World::setRobot(LoadedRobot loaded) {
   missing.erase(source);
   if (!robot->gap.empty()) missing.set(source, "UNCOVERED " + robot->gap);
   movers_.exchange(std::move(change));
-  // Nothing below throws.
+  // The code below does not throw.
   robots_.swap(robots);
   missing_.swap(missing);
 }
@@ -114,15 +116,16 @@ void World::setMap(const LoadedMap& map) {
     throw Refusal(Code::unknown_frame, what + ": its frame '" + printable(body.frame) + "' is not connected to '" +
                                            world_frame_ + "'; the old map stays");
   }
-  if (!map.cells || !map.cells->grid) throw Refusal(Code::bad_geometry, what + " has no cells; a map must have them");
+  if (!map.cells || !map.cells->grid)
+    throw Refusal(Code::bad_geometry, what + " has no cells; a map must come with its cells");
   MapBodies maps = maps_;
   maps.set(source, body, map);
-  if (!same) {  // otherwise only its cells change, and neither the structure nor its readers need to know
+  if (!same) {  // otherwise only the cells of the map change, and the structure of the scene stays the same
     Movers::Change change = movers_.changeWithout([&](const SourceId& other) { return other == source; });
     change.add(body.frame, source, body, body.frame_from_body);
     movers_.exchange(std::move(change));
   }
-  // Nothing below throws: the body is a map without shapes, and there are cells.
+  // The code below does not throw, because the body is a map without shapes, and the cells exist.
   BodyId id;
   scene_.find(body.name, id);
   scene_.setCells(id, map.cells);
@@ -139,9 +142,9 @@ void World::clearMap(const std::string& name) {
     return source.kind == SourceKind::map && (name.empty() || source == named);
   };
   movers_.exchange(movers_.changeWithout(chosen));
-  // Nothing below throws.
+  // The code below does not throw.
   maps_.eraseIf(chosen);
-  missing_.eraseIf(chosen);  // nobody waits for them any more
+  missing_.eraseIf(chosen);  // the world no longer waits for these maps
 }
 
 void World::setCloud(const LoadedCloud& cloud) {
@@ -166,7 +169,8 @@ void World::reset() {
   beginEpoch();
 }
 
-/// The world frame is configured or is the root of the first robot. Once it is known, it stays.
+/// Sets the world frame, unless it is known already. Without ~world_frame, it is the root link of the first robot.
+/// @returns whether the world frame is known
 bool World::findWorldFrame() {
   if (world_frame_.empty()) {
     const LoadedRobot* first = robots_.find(params_.robots.front().name);
@@ -194,7 +198,7 @@ void World::handleClock(const Moment& now) {
   ledger_.refuse("clock", refusal);
 }
 
-/// Lists what sources lack, also in the sentences of `tick`.
+/// Returns a SourceGap for each missing source and each map whose cells cannot be trusted. Also lists them in `tick`.
 std::vector<SourceGap> World::listMissing(const Moment& now, Tick& tick) const {
   std::vector<SourceGap> gaps = maps_.gaps(now);
   missing_.appendGaps(gaps);
@@ -204,7 +208,8 @@ std::vector<SourceGap> World::listMissing(const Moment& now, Tick& tick) const {
     if (tick.not_ready.empty()) tick.waits_for = subject;
     tick.not_ready.push_back(sentence);
   };
-  if (!clock_.running()) add("clock", "NOT_READY: there is no time yet; /use_sim_time is set and /clock is silent");
+  if (!clock_.running())
+    add("clock", "NOT_READY: there is no time yet; /use_sim_time is set, but nothing is published on /clock");
   if (world_frame_.empty()) {
     add("world frame", "NOT_READY: the world frame is the root of a robot that is not loaded yet");
   }
@@ -218,7 +223,8 @@ std::shared_ptr<const Tick> World::tick(const Moment& now) {
   tick->made = now;
   tick->epoch = epoch_;
   const bool can_begin = findWorldFrame() && clock_.running();
-  if (can_begin) obstacles_.addAll(world_frame_, movers_, missing_);  // it may refuse some, so missing_ comes later
+  // This comes before listMissing(), because obstacles that are refused become missing sources.
+  if (can_begin) obstacles_.addAll(world_frame_, movers_, missing_);
   tick->world_frame = world_frame_;
   tick->models = robots_.report();
   tick->frames = transforms_.table().placed();

@@ -28,16 +28,17 @@
 
 namespace hgrid {
 
-/// Makes the ticks: each brings the Scene up to date with the transforms and the sources, then takes a snapshot.
+/// Makes the ticks: each tick updates the Scene with the transforms and the sources, then takes a snapshot.
 ///
-/// The parts of this class do the work. This class says in which order a change or a tick goes through them. One thread
-/// writes; any thread may read a Tick.
+/// The members of this class do the work. The class itself only decides in which order a change or a tick uses them.
+/// Only the tick thread may call its functions, but any thread may read a Tick.
 ///
-/// A call that throws, also for lack of memory, has changed nothing. tick() may throw for lack of memory; the next tick
-/// is right.
+/// A call that throws, even because memory ran out, changes nothing. Only tick() may leave its work half done if memory
+/// runs out; the next tick completes it.
 class World {
  public:
-  /// @param simulated  /clock drives ROS time
+  /// @param simulated  whether /clock drives ROS time
+  /// @param epoch      number of the first epoch
   World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& ledger,
         std::shared_ptr<NarrowPhase> narrow_phase);
   World(const World&) = delete;
@@ -50,22 +51,23 @@ class World {
   /// @throws Refusal limit (~max_bodies), or as Scene::exchange()
   void setRobot(LoadedRobot robot);
   /// Replaces the map of the same name, if there is one.
-  /// @throws Refusal not_ready (no world frame yet), limit, bad_geometry (no cells), unknown_frame (the pose of the old
-  /// map is known, that of the new one is not)
+  /// @throws Refusal not_ready (no world frame yet), limit, bad_geometry (no cells), or unknown_frame (the map would
+  /// move to a frame that is not connected to the world frame)
   void setMap(const LoadedMap& map);
-  /// Removes a map, or no longer waits for it. An empty name means all maps.
-  /// @throws Refusal unknown_id
+  /// Removes a map, or stops waiting for it. An empty name means all maps.
+  /// @throws Refusal unknown_id if there is no such map
   void clearMap(const std::string& name);
-  /// Replaces what a sensor has seen before by what it has seen lately.
-  /// @throws Refusal limit
+  /// Replaces the cells of a cloud. The first call for a cloud adds the body of the cloud.
+  /// @throws Refusal limit (~max_bodies)
   void setCloud(const LoadedCloud& cloud);
-  /// Says why a source is not in the world yet, or why its newest data could not be used. What is in the world stays.
+  /// Stores why a source is not in the world yet, or why its newest data could not be used. Bodies in the world stay.
   void setMissing(const SourceId& source, const std::string& sentence);
-  /// Replaces all rules of the allowed-pair matrix, from the next tick on. Rules expire by themselves.
+  /// Replaces all rules for allowed pairs, from the next tick on. Expired rules are removed automatically.
   void setRules(std::vector<PairRule> rules);
-  /// Restores the configured obstacles, sets the counters to 0 and begins a new epoch. Rules stay.
+  /// Restores the configured obstacles, sets all counters to 0 and begins a new epoch. Rules stay.
   void reset();
 
+  /// Makes the next tick. @param now  current time of both clocks
   std::shared_ptr<const Tick> tick(const Moment& now);
 
  private:

@@ -17,14 +17,16 @@ const CompletenessLog::Time kStart{std::chrono::hours(1)};
 
 SourceGap gapOf(const std::string& source, const std::string& sentence) { return {source, source + "/*", sentence}; }
 
-/// Ticks of a world of two balls that touch, and what is logged about them: "+" if complete, else the reason.
+/// A world of two spheres that touch. Its functions make a tick and return the line that is logged about it: "+" and
+/// the text if the world is complete, otherwise the reason.
 class CompletenessLogs : public ::testing::Test {
  protected:
   CompletenessLogs() {
     put(scene_, ball("a"), at(0));
     ball_ = put(scene_, ball("b"), at(0.5));
   }
-  /// @param seconds  from the start to the tick
+  /// @param seconds  [s] time of the tick since the start
+  /// @param gaps     what sources lack
   std::string logged(double seconds, const std::vector<SourceGap>& gaps) {
     Tick tick = tickAt(seconds);
     tick.snapshot = scene_.commit(Time{++stamp_}, gaps);
@@ -78,7 +80,7 @@ TEST_F(CompletenessLogs, SayThatAnotherSourceIsIncomplete) {
   EXPECT_NE(logged(2.1, {hall, eye}), "");
   EXPECT_EQ(logged(2.2, {eye}), "LOST cloud/eye");
   EXPECT_EQ(logged(2.3, {}), "+2 bodies in frame 'world'.");
-  EXPECT_EQ(logged(2.4, {eye}), "LOST cloud/eye") << "again after the world was complete";
+  EXPECT_EQ(logged(2.4, {eye}), "LOST cloud/eye") << "logged again, because the world was complete meanwhile";
 }
 
 TEST_F(CompletenessLogs, SayThatABodyGotAWorseStateButNotThatOneIsLate) {

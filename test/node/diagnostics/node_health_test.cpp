@@ -31,11 +31,11 @@ TEST(NodeHealth, SaysWhetherALoadFailsForAnotherReasonThanBefore) {
   NodeHealth health;
   EXPECT_TRUE(health.noteFailedLoad("arm", "PARSE"));
   EXPECT_FALSE(health.noteFailedLoad("arm", "PARSE"));
-  EXPECT_TRUE(health.noteFailedLoad("leg", "PARSE")) << "another robot";
+  EXPECT_TRUE(health.noteFailedLoad("leg", "PARSE")) << "another robot than before";
   EXPECT_TRUE(health.noteFailedLoad("arm", "LIMIT"));
   health.noteLoaded("arm");
   EXPECT_EQ(health.report().failed_loads, (std::map<std::string, std::string>{{"leg", "PARSE"}}));
-  EXPECT_TRUE(health.noteFailedLoad("arm", "LIMIT")) << "again after it was loaded";
+  EXPECT_TRUE(health.noteFailedLoad("arm", "LIMIT")) << "reported again, because it was loaded meanwhile";
 }
 
 TEST(NodeHealth, KeepsTheFramesThatConflict) {

@@ -24,8 +24,8 @@ namespace {
 using msg::Answer;
 using msg::Distances;
 
-/// A ball that rides on a frame over a table whose top is at 0; boxes turned by 45 degrees, so that their boxes touch
-/// what they do not.
+/// A sphere that follows the frame "rider" above a table whose top is at z = 0. A box rotated by 45 degrees, and a post
+/// that overlaps the AABB of that box but not the box itself.
 class DistancesNode : public ::testing::Test {
  protected:
   DistancesNode() : node_(setup()) {
@@ -51,7 +51,7 @@ class DistancesNode : public ::testing::Test {
   }
   Distances::ConstPtr next() {
     const auto message = ros::topic::waitForMessage<Distances>(node_.named("distances"), ros::Duration(20.0));
-    if (!message) throw std::runtime_error("~distances says nothing");
+    if (!message) throw std::runtime_error("no message on ~distances within 20 s");
     return message;
   }
   template <class Service>
@@ -80,7 +80,7 @@ TEST_F(DistancesNode, SayHowFarShapesAreApart) {
   EXPECT_NEAR(message->point_on_second[0].z, 0.0, 1e-9);
   EXPECT_NEAR(message->normal[0].z, -1.0, 1e-9);
   EXPECT_TRUE(std::isnan(message->depth[0]));
-  EXPECT_LE(message->no_contact_before[0], 0.1 / 0.5 + 1e-9) << "the ball's bound of speed is 0.5 m/s";
+  EXPECT_LE(message->no_contact_before[0], 0.1 / 0.5 + 1e-9) << "max_speed of the sphere is 0.5 m/s";
   EXPECT_GT(message->no_contact_before[0], 0.0);
   EXPECT_EQ(message->total, 1u);
   EXPECT_FALSE(message->truncated);
@@ -88,10 +88,10 @@ TEST_F(DistancesNode, SayHowFarShapesAreApart) {
 
 TEST_F(DistancesNode, AreEmptyWhereNothingIsNearAndSayContactWhereThereIs) {
   transforms_.stream("world", "rider", at(0.0, 0.0, 5.0));
-  node_.waitForPairs("the ball far away", [](const msg::Pairs& pairs) { return pairs.total == 1; });
+  node_.waitForPairs("the sphere far away", [](const msg::Pairs& pairs) { return pairs.total == 1; });
   EXPECT_EQ(next()->total, 0u);
   transforms_.stream("world", "rider", at(0.0, 0.0, 0.1));
-  node_.waitForPairs("the ball in the table",
+  node_.waitForPairs("the sphere in the table",
                      [](const msg::Pairs& pairs) { return pairs.total == 2 && pairs.gap[0] == 0.0; });
   const auto message = next();
   ASSERT_EQ(message->status.size(), 1u);
@@ -102,7 +102,7 @@ TEST_F(DistancesNode, AreEmptyWhereNothingIsNearAndSayContactWhereThereIs) {
 }
 
 TEST_F(DistancesNode, ExactQueriesMeetShapesNotTheirBoxes) {
-  msg::QuerySphere::Request sphere;  // in a corner of the turned box's box
+  msg::QuerySphere::Request sphere;  // in a corner of the AABB of the rotated box, outside that box
   sphere.center.x = 3.6;
   sphere.center.y = 0.6;
   sphere.radius = 0.1;
@@ -157,12 +157,12 @@ TEST_F(DistancesNode, BoxesAndNearestAnswer) {
   EXPECT_EQ(call<msg::QueryNearest>("query_nearest", nearest).answer.verdict, msg::Verdict::CLEAR);
 }
 
-/// Claim: a shape is asked about where it is, not where its box is, and its kind must be one that can be measured.
-TEST_F(DistancesNode, AShapeOfAnyKindIsAskedAboutAtAPose) {
+/// Claim: query_shape tests the shape itself and not its AABB. It refuses kinds of shapes that cannot be measured.
+TEST_F(DistancesNode, QueryShapeTestsTheShapeAtItsPose) {
   msg::QueryShape::Request request;
   request.shape.kind = msg::ShapeKind::CYLINDER;
   request.shape.dimensions = {0.2, 0.1};
-  request.shape.pose.position.x = 3.6;  // on the post, in a corner of the turned box's box
+  request.shape.pose.position.x = 3.6;  // on the post, in a corner of the AABB of the rotated box
   request.shape.pose.position.y = 0.6;
   request.exact = true;
   EXPECT_EQ(namesOf(call<msg::QueryShape>("query_shape", request).answer), std::vector<std::string>({"obstacle/post"}));
@@ -181,12 +181,12 @@ TEST_F(DistancesNode, AShapeOfAnyKindIsAskedAboutAtAPose) {
 }
 
 TEST_F(DistancesNode, AllowedPairsAreLeftOutOfAQueryOnRequest) {
-  msg::QuerySphere::Request sphere;  // where the ball is, over the table
+  msg::QuerySphere::Request sphere;  // around the obstacle "ball", above the table
   sphere.center.z = 0.25;
   sphere.radius = 0.3;
   EXPECT_EQ(namesOf(node_.ask(sphere).answer), std::vector<std::string>({"obstacle/ball", "obstacle/table"}));
   sphere.respect_allowed = true;
-  EXPECT_EQ(node_.ask(sphere).answer.code.name, "BAD_ID") << "whose allowed pairs?";
+  EXPECT_EQ(node_.ask(sphere).answer.code.name, "BAD_ID") << "respect_allowed needs as_body";
   sphere.as_body = "obstacle/nobody";
   EXPECT_EQ(node_.ask(sphere).answer.code.name, "UNKNOWN_ID");
   sphere.as_body = "obstacle/ball";
@@ -216,7 +216,7 @@ TEST_F(DistancesNode, AQueryWithoutTimeIsUnknownAndANegativeTimeIsRefused) {
 }
 
 TEST_F(DistancesNode, HitsSayHowDeepTheQueryIs) {
-  msg::QuerySphere::Request sphere;  // its lowest point is 0.05 m below the top of the table
+  msg::QuerySphere::Request sphere;  // the lowest point is 0.05 m below the top of the table
   sphere.center.x = -0.7;
   sphere.center.z = 0.25;
   sphere.radius = 0.3;

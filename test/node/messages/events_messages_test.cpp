@@ -39,7 +39,7 @@ void expectWellFormed(const msg::Events& message, std::size_t most) {
   for (std::size_t i = 0; i < count; ++i) {
     EXPECT_LT(message.first[i], message.second[i]);
     used.insert({message.first[i], message.second[i]});
-    EXPECT_EQ(std::isnan(message.distance[i]), std::isnan(message.gap[i])) << "measured unless a body is gone";
+    EXPECT_EQ(std::isnan(message.distance[i]), std::isnan(message.gap[i])) << "NaN only if a body is gone";
     EXPECT_FALSE(message.distance[i] < message.gap[i] - 1e-6);
     const bool gone = std::isnan(message.gap[i]);
     EXPECT_EQ(std::isnan(message.margin[i]), gone);
@@ -52,13 +52,13 @@ void expectWellFormed(const msg::Events& message, std::size_t most) {
       EXPECT_NEAR(std::abs(message.point_on_first[i].x - message.point_on_second[i].x), message.distance[i], 1e-6);
     }
   }
-  EXPECT_EQ(used.size(), message.names.size()) << "every name stands in an event";
+  EXPECT_EQ(used.size(), message.names.size()) << "every name is used by an event";
   EXPECT_EQ(std::set<std::string>(message.names.begin(), message.names.end()).size(), message.names.size());
   EXPECT_TRUE(std::is_sorted(message.names.begin(), message.names.end()));
-  EXPECT_EQ(message.world.last_event, message.number.back()) << "what comes after it is not missed";
+  EXPECT_EQ(message.world.last_event, message.number.back()) << "the number of the last event in the message";
 }
 
-TEST(EventsMessages, SayAllThatTheSnapshotSaysInAsManyMessagesAsItTakes) {
+TEST(EventsMessages, ContainAllEventsOfTheSnapshotInAsManyMessagesAsNeeded) {
   constexpr std::size_t kMost = 3;
   std::size_t split = 0, none = 0;
   const std::shared_ptr<NarrowPhase> narrow_phase = makeFclNarrowPhase();
@@ -67,7 +67,7 @@ TEST(EventsMessages, SayAllThatTheSnapshotSaysInAsManyMessagesAsItTakes) {
     Random random(seed);
     Params params;
     params.max_events = kMost;
-    params.distances_budget = 0.0;  // a limit of time would leave distances out on a busy machine
+    params.distances_budget = 0.0;  // no time limit: on a busy machine it would leave out distances
     Scene scene{SceneOptions{}};
     for (int tick = 1; tick <= 100; ++tick) {
       const std::string name = std::to_string(random.below(12));

@@ -10,8 +10,8 @@ namespace {
 
 using Told = std::vector<std::string>;
 
-/// Two balls of one robot: a rests at 0 and touches a post, b is where the test puts it. What is late stays fresh, so
-/// that a busy machine makes no events.
+/// Two spheres of one robot: "a" rests at 0, near a post; the test moves "b". Late poses stay FRESH, so that a busy
+/// machine does not cause events.
 class Events : public ::testing::Test {
  protected:
   Events() : node_(setup()) {
@@ -41,23 +41,23 @@ class Events : public ::testing::Test {
     node_.waitUntil(std::to_string(count) + " events",
                     [&](const Heard& heard) { return allOf(heard).size() >= count; });
   }
-  /// Moves b, and waits until there are as many pairs and, in all, as many events as there must be then.
+  /// Moves b to x [m]. Waits for this number of pairs, and for this number of events in total.
   void move(double x, std::uint32_t pairs, std::size_t events) {
     transforms_.stream("base", "b", at(x));
     node_.waitForPairs("b at " + std::to_string(x), [&](const msg::Pairs& p) { return p.total == pairs; });
     waitForEvents(events);
-    node_.waitForTicks(3);  // a tick that says more than it should has its chance
+    node_.waitForTicks(3);  // gives ticks the chance to report an event that they should not
   }
 
   TransformSource transforms_;
   NodeUnderTest node_;
 };
 
-TEST_F(Events, ComeOnceEachWithHysteresisFromOneOn) {
+TEST_F(Events, ComeOnceEachNumberedFrom1AndWithHysteresis) {
   EXPECT_EQ(told(), Told({"1 BEGIN BODIES obstacle/post|robot/a"}));
   move(0.25, 2, 2);
   for (const double x : {0.31, 0.25, 0.31}) move(x, x > 0.3 ? 1 : 2, 2);
-  EXPECT_EQ(told().size(), 2u) << "0.11 m are more than the margin, but not yet by the hysteresis";
+  EXPECT_EQ(told().size(), 2u) << "0.11 m exceed the margin, but not by the hysteresis";
   move(0.4, 1, 3);
   EXPECT_EQ(told(), Told({"1 BEGIN BODIES obstacle/post|robot/a", "2 BEGIN MOVED robot/a|robot/b",
                           "3 END MOVED robot/a|robot/b"}));
@@ -67,10 +67,10 @@ TEST_F(Events, ComeOnceEachWithHysteresisFromOneOn) {
   EXPECT_EQ(begin->since.at(0), begin->header.stamp);
   EXPECT_EQ(begin->world.last_event, 2u);
   EXPECT_LE(begin->gap.at(0), 0.1);
-  EXPECT_EQ(end->since.at(0), begin->header.stamp) << "when it began";
+  EXPECT_EQ(end->since.at(0), begin->header.stamp) << "the stamp at which the pair began";
   EXPECT_GT(end->header.stamp, begin->header.stamp);
   EXPECT_GT(end->gap.at(0), 0.12);
-  EXPECT_NEAR(end->distance.at(0), end->gap.at(0), 1e-6) << "balls beside each other on an axis";
+  EXPECT_NEAR(end->distance.at(0), end->gap.at(0), 1e-6) << "gap and distance are equal for spheres on one axis";
   EXPECT_EQ(end->world.last_event, 3u);
   EXPECT_EQ(end->world.epoch, begin->world.epoch);
 }
@@ -79,7 +79,7 @@ TEST_F(Events, ThatALateSubscriberMissedShowInTheirNumbers) {
   move(0.25, 2, 2);
   EXPECT_EQ(node_.heard().pairs.back()->world.last_event, 2u);
   EXPECT_EQ(node_.heard().status.back()->world.last_event, 2u);
-  EXPECT_EQ(node_.sphere(0, 0, 0, 0.05).world.last_event, 2u) << "answers say it too";
+  EXPECT_EQ(node_.sphere(0, 0, 0, 0.05).world.last_event, 2u) << "answers contain it as well";
 
   std::mutex mutex;
   std::vector<msg::Events> heard;
@@ -95,14 +95,14 @@ TEST_F(Events, ThatALateSubscriberMissedShowInTheirNumbers) {
   };
   node_.waitUntil("the late subscriber is connected", [&](const Heard&) { return late.getNumPublishers() > 0; });
   node_.waitForTicks(3);
-  EXPECT_EQ(count(), 0u) << "what was is not told again";
+  EXPECT_EQ(count(), 0u) << "past events are not sent again";
   move(0.4, 1, 3);
   node_.waitUntil("the end", [&](const Heard&) { return count() > 0; });
   const std::lock_guard<std::mutex> lock(mutex);
-  EXPECT_EQ(eventsOf(heard.front()), Told({"3 END MOVED robot/a|robot/b"})) << "so two came before it";
+  EXPECT_EQ(eventsOf(heard.front()), Told({"3 END MOVED robot/a|robot/b"})) << "so events 1 and 2 were missed";
 }
 
-TEST_F(Events, OfARobotThatIsReadAgainEndAndOfThatWhichIsStillThereBegin) {
+TEST_F(Events, OfAReloadedRobotEndAndBeginAgainForTheLinksThatRemain) {
   move(0.25, 2, 2);
   node_.setBeside("robot_description", balls({"a"}));
   ASSERT_TRUE(node_.reload("robot").success);
@@ -113,7 +113,7 @@ TEST_F(Events, OfARobotThatIsReadAgainEndAndOfThatWhichIsStillThereBegin) {
   EXPECT_EQ(last, Told({"3 END BODIES obstacle/post|robot/a", "4 END BODIES robot/a|robot/b",
                         "5 BEGIN BODIES obstacle/post|robot/a"}));
   const auto message = node_.heard().events.back();
-  EXPECT_TRUE(std::isnan(message->gap.at(1))) << "b is nowhere any more";
+  EXPECT_TRUE(std::isnan(message->gap.at(1))) << "b does not exist any more";
   EXPECT_NEAR(message->gap.at(2), 0.05, 1e-6);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// No message or service changes without a new interface version.
+// A message or service must not change without a new interface version.
 #include <gtest/gtest.h>
 #include <hgrid_proximity/AllowedPair.h>
 #include <hgrid_proximity/Answer.h>
@@ -49,8 +49,9 @@ namespace {
 
 namespace msg = ::hgrid_proximity;
 
-constexpr std::uint32_t kPinnedVersion = 1;  // of the sums below
+constexpr std::uint32_t kPinnedVersion = 1;  // interface version of the MD5 sums below
 
+/// A message or service file, its MD5 sum, and the MD5 sum that it must have in this interface version.
 struct Pin {
   std::string file, sum, pinned;
 };
@@ -101,7 +102,7 @@ const std::vector<Pin>& pins() {
   return all;
 }
 
-/// Whether a type is pinned: its header does not say that it is a draft or that nothing ever has it.
+/// Whether a type must be in pins(): the comment at the top of its file contains neither "DRAFT" nor "Constants only".
 bool mustBePinned(const std::filesystem::path& file) {
   std::ifstream text(file);
   for (std::string line; std::getline(text, line) && line.substr(0, 1) == "#";) {
@@ -127,7 +128,7 @@ TEST(InterfaceVersion, StandsForEveryTypeThatIsNotADraft) {
     for (const auto& entry : std::filesystem::directory_iterator(root / folder)) {
       const std::string file = std::string(folder) + "/" + entry.path().filename().string();
       const bool pinned = std::any_of(pins().begin(), pins().end(), [&](const Pin& pin) { return pin.file == file; });
-      EXPECT_EQ(pinned, mustBePinned(entry.path())) << file << ": add it to pins() or remove it there";
+      EXPECT_EQ(pinned, mustBePinned(entry.path())) << file << ": add it to pins(), or remove it from pins()";
       found += pinned ? 1 : 0;
     }
   }

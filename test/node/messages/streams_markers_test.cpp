@@ -19,7 +19,7 @@ namespace {
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
-/// What comes on a topic, kept in order.
+/// Receives a topic and stores all messages in their order.
 template <class Message>
 class Ear {
  public:
@@ -29,13 +29,13 @@ class Ear {
           heard_.push_back(message);
           news_.notify_all();
         })) {}
-  /// Waits for a message that is as wanted and gives all up to it.
+  /// Waits until there is a message for which `wanted` is true. Returns all messages so far.
   std::vector<boost::shared_ptr<const Message>> until(const std::function<bool(const Message&)>& wanted) {
     std::unique_lock<std::mutex> lock(mutex_);
     const bool came = news_.wait_for(lock, std::chrono::seconds(20), [&] {
       return std::any_of(heard_.begin(), heard_.end(), [&](const auto& message) { return wanted(*message); });
     });
-    if (!came) throw std::runtime_error("the message that is waited for did not come within 20 s");
+    if (!came) throw std::runtime_error("the expected message did not come within 20 s");
     return heard_;
   }
 
@@ -47,12 +47,13 @@ class Ear {
   ros::Subscriber subscriber_;
 };
 
+/// Whether a marker array adds a marker in this namespace.
 bool draws(const MarkerArray& array, const std::string& layer) {
   return std::any_of(array.markers.begin(), array.markers.end(),
                      [&](const Marker& marker) { return marker.ns == layer && marker.action == Marker::ADD; });
 }
 
-TEST(Markers, ComeWhileSomebodyLooksAndBeginByClearing) {
+TEST(Markers, ArePublishedForSubscribersAndBeginWithDeleteAll) {
   TransformSource transforms;
   NodeSetup setup;
   setup.params = dict({{"marker_rate", 50.0}, {"late_after", 0.1}, {"stale_after", 0.2}});
@@ -98,7 +99,7 @@ TEST(Nodelet, ServesLikeTheNodeOnceItsParametersAreRight) {
   const std::string space = ros::this_node::getName(), name = space + "/proximity";
   nodelet::Loader manager(false);
   ros::param::set(name, dict({{"rate", "fast"}}));
-  EXPECT_FALSE(manager.load(name, "hgrid_proximity/ProximityNodelet", {}, {})) << "wrong; the manager lives";
+  EXPECT_FALSE(manager.load(name, "hgrid_proximity/ProximityNodelet", {}, {})) << "the parameters are wrong";
 
   ros::param::set(name, dict({{"world_frame", "base"}, {"obstacles", list({ball("post", 2, 0, 0, 0.1)})}}));
   ros::param::set(space + "/robot_description", balls({}));

@@ -12,7 +12,8 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// Two balls of one robot 0.05 m apart, and posts: one 0.05 m from a, one 0.3 m from it and near nothing.
+/// Setup with two spheres of one robot, "a" and "b", 0.05 m apart, and two obstacles: "near" is 0.05 m away from "a",
+/// "far" 0.3 m.
 NodeSetup nearBodies(std::initializer_list<std::pair<const char*, Value>> more = {}) {
   NodeSetup setup;
   setup.params =
@@ -21,7 +22,7 @@ NodeSetup nearBodies(std::initializer_list<std::pair<const char*, Value>> more =
   return setup;
 }
 
-/// The pairs of that world with these parameters.
+/// Runs the node with nearBodies() and these parameters, and returns its pairs.
 msg::Pairs pairsWith(std::initializer_list<std::pair<const char*, Value>> more) {
   TransformSource transforms;
   transforms.fix({stamped("base", "a", at(0)), stamped("base", "b", at(0.25))});
@@ -45,11 +46,11 @@ TEST(Pairs, AreThoseWithinTheMarginByNameWithGapMarginAndSince) {
   EXPECT_EQ(pairs->margin[0], 0.1);
   node.waitForTicks(5);
   const auto later = node.heard().pairs.back();
-  EXPECT_EQ(later->since, pairs->since) << "not interrupted";
+  EXPECT_EQ(later->since, pairs->since) << "the pairs did not end meanwhile";
   EXPECT_GT(later->header.stamp, later->since[0]);
 }
 
-/// Three pairs: obstacle/b in contact with robot/base, obstacle/a 0.02 m from it, obstacle/c 0.04 m.
+/// Three pairs with robot/base: obstacle/b touches it, obstacle/a is 0.02 m and obstacle/c 0.04 m away.
 TEST(Pairs, AreTruncatedToTheNearestAndTheWorldIsThenNotComplete) {
   NodeSetup setup;
   setup.params = dict(
@@ -62,7 +63,7 @@ TEST(Pairs, AreTruncatedToTheNearestAndTheWorldIsThenNotComplete) {
   EXPECT_EQ(namesOf(*pairs), Names({"obstacle/a|robot/base", "obstacle/b|robot/base"}));
   EXPECT_TRUE(pairs->truncated);
   EXPECT_FALSE(pairs->world.complete);
-  EXPECT_EQ(pairs->world.reasons, Names({"TRUNCATED: more than 2 pairs are near; ~pairs lists 2 of the pairs "
+  EXPECT_EQ(pairs->world.reasons, Names({"TRUNCATED: more than 2 pairs are near; ~pairs lists only 2 pairs "
                                          "(~max_pairs)"}));
   EXPECT_EQ(pairs->world.reasons_total, 1u);
   const auto response = node.sphere(5, 0, 0, 0.1);
@@ -88,7 +89,7 @@ TEST(Pairs, HaveTheLargerMarginOfTheTwo) {
   const msg::Pairs pairs = pairsWith({{"margin", 0.04},
                                       {"margins", list({dict({{"pattern", "obstacle/*"}, {"margin", 0.01}}),
                                                         dict({{"pattern", "*/far"}, {"margin", 0.35}})})}});
-  EXPECT_EQ(namesOf(pairs), Names({"obstacle/far|robot/a"})) << "no margin is below the global one";
+  EXPECT_EQ(namesOf(pairs), Names({"obstacle/far|robot/a"})) << "a margin below ~margin has no effect";
   EXPECT_EQ(pairs.margin.at(0), 0.35);
   EXPECT_NEAR(pairs.gap.at(0), 0.3, 1e-6);
 }
@@ -165,7 +166,7 @@ TEST(Obstacles, OfEveryKindStandWhereTheirPosesSay) {
   EXPECT_EQ(hit(0, 3, 1.19), "obstacle/all#2");
   EXPECT_EQ(hit(0, 3, 1.29), "obstacle/all#2") << "a capsule has round ends";
   EXPECT_EQ(hit(0, 2, 1.21), "nothing");
-  EXPECT_EQ(hit(1, 0, 1), "nothing") << "turned by a quarter";
+  EXPECT_EQ(hit(1, 0, 1), "nothing") << "the obstacle is rotated by 90 degrees";
   EXPECT_EQ(hit(5.49, 0.99, 1.49), "obstacle/box#0");
   EXPECT_EQ(hit(5.51, 0.99, 1.49), "nothing");
   EXPECT_EQ(node.heard().pairs.back()->total, 0u) << "fixed bodies make no pairs";

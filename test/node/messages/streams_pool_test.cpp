@@ -12,7 +12,7 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// The names that pairs stand for, as a message says it and as the snapshot does.
+/// Returns each pair of a message as "first second gap".
 std::vector<std::string> saidBy(const msg::Pairs& message) {
   std::vector<std::string> pairs;
   for (std::size_t i = 0; i < message.first.size(); ++i) {
@@ -22,6 +22,7 @@ std::vector<std::string> saidBy(const msg::Pairs& message) {
   return pairs;
 }
 
+/// Returns each pair of a snapshot as "first second gap".
 std::vector<std::string> saidBy(const Snapshot& snapshot) {
   std::vector<std::string> pairs;
   for (const NearPair& pair : snapshot.pairs()) {
@@ -31,7 +32,7 @@ std::vector<std::string> saidBy(const Snapshot& snapshot) {
   return pairs;
 }
 
-/// A message as it was when it came.
+/// A message that a subscriber still holds, and a copy from the time of its arrival.
 struct Held {
   boost::shared_ptr<const msg::Pairs> message;
   msg::Pairs copy;

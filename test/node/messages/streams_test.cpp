@@ -26,7 +26,7 @@ TEST(Streams, SpeakEveryTickAlsoWhenThereIsNothingToSay) {
   const Heard after = node.heard();
   for (std::size_t i = before.pairs.size(); i < after.pairs.size(); ++i) {
     const msg::Pairs& pairs = *after.pairs[i];
-    EXPECT_EQ(pairs.world.sequence, after.pairs[i - 1]->world.sequence + 1) << "no gap";
+    EXPECT_EQ(pairs.world.sequence, after.pairs[i - 1]->world.sequence + 1) << "no tick is left out";
     EXPECT_TRUE(pairs.names.empty() && pairs.first.empty() && pairs.total == 0 && !pairs.truncated);
     EXPECT_TRUE(pairs.world.complete);
     EXPECT_EQ(pairs.header.frame_id, "base");
@@ -36,7 +36,7 @@ TEST(Streams, SpeakEveryTickAlsoWhenThereIsNothingToSay) {
     EXPECT_GE(pairs.header.stamp, after.pairs[i - 1]->header.stamp);
   }
   for (std::size_t i = before.status.size(); i < after.status.size(); ++i) {
-    EXPECT_EQ(after.status[i]->world.sequence, after.status[i - 1]->world.sequence + 1) << "no gap";
+    EXPECT_EQ(after.status[i]->world.sequence, after.status[i - 1]->world.sequence + 1) << "no tick is left out";
     EXPECT_EQ(after.status[i]->bodies_total, 0u);
   }
   EXPECT_FALSE(after.status.back()->timings.empty());
@@ -59,7 +59,7 @@ TEST(Streams, ALateSubscriberGetsTheStructureAtOnceAndTheNextTick) {
   NodeUnderTest node(setup);
   node.waitForComplete();
   node.waitForTicks(20);
-  EXPECT_LE(node.heard().bodies.size(), 2u) << "again only when it changes";
+  EXPECT_LE(node.heard().bodies.size(), 2u) << "~bodies is published only when it changes";
 
   std::mutex mutex;
   std::condition_variable news;
@@ -100,7 +100,7 @@ TEST(Streams, ALateSubscriberGetsTheStructureAtOnceAndTheNextTick) {
   EXPECT_EQ(base.margin, 0.1);
 }
 
-/// What ~pairs says of the pairs, as bytes; who said it and when left out.
+/// Serializes the pairs of a message without header, world and `since`, which differ between nodes.
 std::vector<std::uint8_t> bytesOf(const msg::Pairs& pairs) {
   msg::Pairs bare = pairs;
   bare.header = {};
@@ -149,7 +149,7 @@ TEST(Diagnostics, HasFourStatuses) {
   const auto all = node.heard().diagnostics;
   EXPECT_EQ(all.size(), 4u);
   for (const char* name : {"world", "robots", "transforms", "ticks"}) EXPECT_EQ(all.count(name), 1u) << name;
-  node.waitUntil("the missing frame is said", [](const Heard& heard) {
+  node.waitUntil("the missing frame is reported", [](const Heard& heard) {
     const auto& world = heard.diagnostics.at("world");
     const auto& transforms = heard.diagnostics.at("transforms");
     return world.level == DiagnosticStatus::ERROR && world.message.find("UNPLACED robot/a") != std::string::npos &&
@@ -157,7 +157,7 @@ TEST(Diagnostics, HasFourStatuses) {
   });
   TransformSource transforms;
   transforms.fix({stamped("base", "a", at(0)), stamped("base", "b", at(9))});
-  node.waitUntil("all is well", [](const Heard& heard) {
+  node.waitUntil("all statuses are OK", [](const Heard& heard) {
     return heard.diagnostics.at("world").level == DiagnosticStatus::OK &&
            heard.diagnostics.at("transforms").level == DiagnosticStatus::OK &&
            heard.diagnostics.at("robots").level == DiagnosticStatus::OK;

@@ -20,7 +20,7 @@
 #include "hgrid_proximity/refusal.h"
 #include "hgrid_proximity/world/snapshot.h"
 
-// The numbers on the wire are those of the library.
+// The constants in the messages have the same numbers as the enums of the library.
 
 namespace hgrid {
 namespace test {

@@ -8,7 +8,7 @@
 #include "test/node/support/claims.h"
 #include "test/node/support/values.h"
 
-// What is wrong with parameters, without a node: the node's only part in it is to print the message and to end.
+// Error messages about wrong parameters. No node is needed: it would only print the message and end.
 
 namespace hgrid {
 namespace test {
@@ -17,7 +17,7 @@ namespace {
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 const double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The message that refuses these parameters; empty if they are taken.
+/// Returns the error message for these parameters; empty if they are accepted.
 std::string refusalOf(const Value& params) {
   try {
     readParams(params);
@@ -53,14 +53,14 @@ TEST(ParamErrors, AWrongTypeIsNamed) {
   expectRefused(dict({{"robots", list({Value("ur5")})}}), "~robots[0] is a string ('ur5'); it must be a dictionary");
 }
 
-TEST(ParamErrors, WhatIsTakenOfMapsIsNamed) {
+TEST(ParamErrors, AWrongMapOptionIsNamed) {
   expectRefused(dict({{"map", dict({{"unknown", "guess"}})}}),
                 "~map/unknown is 'guess'; it must be ignore, report or occupied");
   expectRefused(dict({{"map", dict({{"crop_min", list({0.0, 2.0, 0.0})}, {"crop_max", list({1.0, 1.0, 1.0})}})}}),
-                "~map/crop_min is 2 m along y, ~map/crop_max 1 m; the first must be at most the second");
+                "~map/crop_min is 2 m along y and ~map/crop_max is 1 m; crop_min must be at most crop_max");
 }
 
-TEST(ParamErrors, TopicsAndPatternsThatCannotBeAreNamed) {
+TEST(ParamErrors, InvalidTopicsAndPatternsAreNamed) {
   const auto cloud = [](const char* topic) {
     return dict({{"clouds", list({dict({{"name", "a"}, {"topic", topic}})})}});
   };
@@ -82,8 +82,9 @@ TEST(ParamErrors, ANumberOutOfRangeIsNamedWithTheRange) {
   expectRefused(dict({{"margin", kInfinity}}), "~margin is inf m; it must be within 0 .. 1000 m");
   expectRefused(dict({{"query_threads", 0}}), "~query_threads is 0; it must be within 1 .. 64");
   expectRefused(dict({{"finest_edge", 1e-5}}), "~finest_edge is 1e-05 m; it must be 0 or at least 0.001 m");
-  expectRefused(dict({{"stale_after", 5.0}}),
-                "~late_after is 0.1 s, ~stale_after 5 s, ~lost_after 2 s; they must not decrease in this order");
+  expectRefused(
+      dict({{"stale_after", 5.0}}),
+      "~late_after is 0.1 s, ~stale_after is 5 s and ~lost_after is 2 s; none may be smaller than the one before it");
   expectRefused(dict({{"margins", list({dict({{"pattern", "*"}, {"margin", -1}})})}}),
                 "~margins[0]/margin is -1 m; it must be within 0 .. 1000 m");
   EXPECT_EQ(refusalOf(dict({{"rate", 1}, {"valid_for", 1}, {"margin", 1000}, {"query_threads", 64}})), "")
@@ -92,12 +93,13 @@ TEST(ParamErrors, ANumberOutOfRangeIsNamedWithTheRange) {
 }
 
 TEST(ParamErrors, AnUnknownNameIsRefusedWhereverItStands) {
-  expectRefused(dict({{"marign", 0.1}}), "~marign is not a parameter of this node; the name may be misspelt");
+  expectRefused(dict({{"marign", 0.1}}), "~marign is not a parameter of this node; the name may be misspelled");
   expectRefused(dict({{"robots", list({dict({{"name", "a"}, {"description", "d"}, {"urdf", "x"}})})}}),
                 "~robots[0]/urdf is not a field of a robot (name, description, semantic, tf_prefix); the name may be "
-                "misspelt");
-  expectRefused(dict({{"pair_kinds", list({Value("self"), Value("all")})}}),
-                "~pair_kinds names 'all'; kinds are self, robot_robot, robot_obstacle, robot_map, moving_obstacle");
+                "misspelled");
+  expectRefused(
+      dict({{"pair_kinds", list({Value("self"), Value("all")})}}),
+      "~pair_kinds contains 'all'; allowed kinds are self, robot_robot, robot_obstacle, robot_map, moving_obstacle");
   EXPECT_TRUE(says(refusalOf(dict({{"obstacles", list({with(ball("o", 0, 0, 0, 1), {{"colour", "red"}})})}})),
                    "~obstacles[0]/colour is not a field of an obstacle"));
 }
@@ -108,20 +110,20 @@ TEST(ParamErrors, RobotsNeedNamesOfTheirOwnAndACommonFrame) {
     return refusalOf(dict({{"world_frame", "world"}, {"robots", list({first, second})}}));
   };
   EXPECT_EQ(errors(robot("a"), robot("b")), "");
-  EXPECT_TRUE(says(errors(robot("a"), robot("a")), "~robots[1]/name is 'a' a second time"));
+  EXPECT_TRUE(says(errors(robot("a"), robot("a")), "~robots[1]/name is 'a', which is already used"));
   EXPECT_TRUE(says(errors(robot("a"), robot("map")), "obstacle, map and cloud are reserved"));
   EXPECT_TRUE(says(errors(robot("a"), robot("a/b")), "it must not contain a slash"));
   EXPECT_TRUE(says(errors(robot("a"), robot("")), "it must not be empty"));
   EXPECT_TRUE(says(errors(robot("a"), dict({{"name", "b"}})), "~robots[1] has no 'description'; it must have one"));
   EXPECT_TRUE(says(refusalOf(dict({{"robots", list({robot("a"), robot("b")})}})),
-                   "~world_frame is empty; with several robots it must name the frame that all are known in"));
+                   "~world_frame is empty; with several robots it must name a frame that tf connects to all of them"));
 }
 
 TEST(ParamErrors, ShapesThatCannotExistAreRefused) {
   for (const double bad : {0.0, -1.0, kNan, kInfinity, 1e-320, 1e308}) {
     SCOPED_TRACE(bad);
     const std::string sphere = refusalOfShape(dict({{"type", "sphere"}, {"radius", bad}}));
-    EXPECT_TRUE(says(sphere, "~obstacles[0]/shapes[0] cannot be a shape: sphere: radius is "));
+    EXPECT_TRUE(says(sphere, "~obstacles[0]/shapes[0] is not a valid shape: sphere: radius is "));
     EXPECT_TRUE(says(sphere, std::isfinite(bad) ? "m; it must be within 0.0001 .. 100000 m" : "it must be finite"));
     EXPECT_TRUE(says(refusalOfShape(dict({{"type", "box"}, {"size", xyz(1, bad, 1)}})), "box: side y is "));
     for (const char* type : {"cylinder", "cone", "capsule"}) {
@@ -139,7 +141,7 @@ TEST(ParamErrors, APlateIsABoxOnlyWhereThatIsAllowed) {
   EXPECT_EQ(refusalOfShape(plate, dict({{"allow_flat", true}})), "");
   EXPECT_TRUE(says(refusalOfShape(dict({{"type", "box"}, {"size", xyz(1, 0, 0)}}), dict({{"allow_flat", true}})),
                    "box: side y is 0 m"))
-      << "one side only";
+      << "at most one side may be 0";
 }
 
 TEST(ParamErrors, ShapesNeedTheirOwnDimensions) {
@@ -160,16 +162,16 @@ TEST(ParamErrors, ObstaclesNeedNames) {
   const auto refusal = [](const std::string& name) {
     return refusalOf(dict({{"obstacles", list({ball(name, 0, 0, 0, 1)})}}));
   };
-  EXPECT_TRUE(says(refusal(""), "~obstacles[0]/name cannot be a name: it is ''; it must not be empty"));
-  EXPECT_TRUE(says(refusal(std::string(10000, 'x')), "it has 10000 bytes, at most 128 are allowed"));
+  EXPECT_TRUE(says(refusal(""), "~obstacles[0]/name is not a valid name: it is ''; it must not be empty"));
+  EXPECT_TRUE(says(refusal(std::string(10000, 'x')), "it has 10000 bytes; at most 128 are allowed"));
   EXPECT_TRUE(says(refusal(std::string("a\0b", 3)), "a\\x00b'; it must be UTF-8 without control characters"));
   EXPECT_TRUE(says(refusal("a\nb"), "a\\x0ab'; it must be UTF-8 without control characters"));
   EXPECT_TRUE(says(refusal("a\xff"), "a\\xff'; it must be UTF-8 without control characters"));
-  EXPECT_EQ(refusal("../a"), "") << "a name is no path";
+  EXPECT_EQ(refusal("../a"), "") << "a name is not a path";
   EXPECT_EQ(refusal(std::string(128, 'x')), "");
   EXPECT_EQ(refusal("Tür/links"), "");
   EXPECT_TRUE(says(refusalOf(dict({{"obstacles", list({ball("o", 0, 0, 0, 1), ball("o", 1, 0, 0, 1)})}})),
-                   "~obstacles[1]/name is 'o' a second time; names must differ"));
+                   "~obstacles[1]/name is 'o', which is already used; names must differ"));
 }
 
 TEST(ParamErrors, PosesOfObstaclesMustBeFiniteAndWithinTheWorld) {
@@ -186,7 +188,7 @@ TEST(ParamErrors, AllOfThemAreListedInOneMessage) {
             "  ~origin is an integer; it must be a list\n"
             "  ~rate is a string ('fast'); it must be a number\n"
             "  ~margin is -1 m; it must be within 0 .. 1000 m\n"
-            "  ~marign is not a parameter of this node; the name may be misspelt");
+            "  ~marign is not a parameter of this node; the name may be misspelled");
 }
 
 }  // namespace

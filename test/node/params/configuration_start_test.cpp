@@ -31,11 +31,11 @@ TEST(ParamsFile, ShowsEveryParameterWithItsDefault) {
   std::ifstream file(ros::package::getPath("hgrid_proximity") + "/config/params.yaml", std::ios::binary);
   std::ostringstream shown;
   shown << file.rdbuf();
-  EXPECT_EQ(shown.str(), paramsAsYaml()) << "byte for byte";
+  EXPECT_EQ(shown.str(), paramsAsYaml()) << "the file must equal the generated text, byte for byte";
 }
 
-TEST(ParamsFile, LoadedIsTheSameAsNothingAtAll) {
-  Value loaded;  // by the launch file
+TEST(ParamsFile, LoadingItGivesTheDefaults) {
+  Value loaded;  // loaded by configuration.test
   ASSERT_TRUE(ros::param::get("/params_file", loaded));
   const Params read = readParams(loaded), defaults = readParams(dict());
   using P = Params;
@@ -62,8 +62,7 @@ TEST(ParamsFile, EveryParameterInItIsKnownAndNoOtherIs) {
   ASSERT_TRUE(ros::param::get("/params_file", loaded));
   for (auto& member : loaded) {
     Value one = dict();
-    one[member.first] =
-        Value(dict({{"not", "like that"}}));  // no parameter is a dictionary, and no group has this member
+    one[member.first] = Value(dict({{"not", "like that"}}));  // wrong for each parameter, and no group has this member
     try {
       readParams(one);
       ADD_FAILURE() << member.first << " is not read";
@@ -84,7 +83,7 @@ TEST(Start, IsRefusedWithOneMessageThatListsEveryError) {
                        {"obstacles", list({ball("o", 0, 0, 0, -2), ball("o", 0, 0, 0, 1)})}});
   NodeUnderTest node(setup, false);
   const std::optional<int> code = node.process().waitForEnd(20.0);
-  ASSERT_TRUE(code) << "it still runs";
+  ASSERT_TRUE(code) << "the node still runs";
   EXPECT_EQ(*code, 1);
   EXPECT_EQ(node.lines("FATAL"), 1u);
   EXPECT_EQ(node.lines(""), 6u) << node.output();
@@ -92,8 +91,8 @@ TEST(Start, IsRefusedWithOneMessageThatListsEveryError) {
   EXPECT_TRUE(says(node.output(), "~rate is a string ('fast'); it must be a number"));
   EXPECT_TRUE(says(node.output(), "~margin is -1 m; it must be within 0 .. 1000 m"));
   EXPECT_TRUE(says(node.output(), "~marign is not a parameter of this node"));
-  EXPECT_TRUE(says(node.output(), "~obstacles[0]/shapes[0] cannot be a shape: sphere: radius is -2 m"));
-  EXPECT_TRUE(says(node.output(), "~obstacles[1]/name is 'o' a second time"));
+  EXPECT_TRUE(says(node.output(), "~obstacles[0]/shapes[0] is not a valid shape: sphere: radius is -2 m"));
+  EXPECT_TRUE(says(node.output(), "~obstacles[1]/name is 'o', which is already used"));
 }
 
 TEST(Start, IsRefusedWhereAnEntryOfAListLacksAField) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// No exception leaves a guarded callback, whatever its type, also if there is no memory for reporting it.
+// No exception of any type leaves a guarded callback, even if there is no memory to report the exception.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -17,7 +17,7 @@
 
 namespace {
 
-thread_local bool g_no_memory = false;  // every operator new of this thread fails
+thread_local bool g_no_memory = false;  // while true, every operator new of this thread throws
 
 void* allocated(std::size_t size) {
   void* const memory = g_no_memory ? nullptr : std::malloc(size == 0 ? 1 : size);
@@ -38,7 +38,7 @@ namespace hgrid {
 namespace test {
 namespace {
 
-constexpr const char* kWhere = "a_callback_with_a_long_name.failed";  // too long to be stored within a std::string
+constexpr const char* kWhere = "a_callback_with_a_long_name.failed";  // a std::string of it allocates memory
 
 TEST(Guarded, ReturnsNothingWhereNothingIsThrown) {
   Ledger ledger;
@@ -60,7 +60,7 @@ TEST(Guarded, CountsAndReturnsWhatIsThrownOfEveryType) {
   EXPECT_STREQ(guarded(ledger, kWhere, [] { throw std::runtime_error("a fault"); })->what(), "a fault");
 }
 
-TEST(Guarded, CountsAtLeastWhereThereIsNoMemoryForAReport) {
+TEST(Guarded, StillCountsWhereThereIsNoMemoryForAReport) {
   Ledger ledger;
   for (int i = 0; i < 3; ++i) {
     const std::optional<Refusal> fault = guarded(ledger, kWhere, [] {
@@ -76,7 +76,7 @@ TEST(Guarded, CountsAtLeastWhereThereIsNoMemoryForAReport) {
   EXPECT_EQ(ledger.counters().count("unreported"), 0u);
 }
 
-/// A world of nothing, for jobs.
+/// An empty world and a queue of jobs. Each job appends its name to `done`.
 struct JobsOfTick {
   Params params;
   Ledger ledger;
@@ -101,7 +101,7 @@ TEST(TickJobs, AreDoneOnceInTheirOrder) {
   EXPECT_EQ(t.done, "abc");
 }
 
-TEST(TickJobs, ThatThrowAreDoneAgainAndLeaveTheOthers) {
+TEST(TickJobs, ThatThrowAreRetriedAndDoNotAffectOthers) {
   JobsOfTick t;
   int failures_left = 2;
   t.add('a');

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// A fault of the node's own: whoever asked hears INTERNAL, nothing is changed, and the node goes on.
+// After an internal fault of the node, the caller receives the code INTERNAL. Nothing changes, and the node runs on.
 #include <hgrid_proximity/CodeNames.h>
 #include <hgrid_proximity/Distances.h>
 #include <hgrid_proximity/UnknownReason.h>
@@ -19,7 +19,7 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// Two balls that touch; the narrow phase throws while a fault is set.
+/// Two spheres that touch. The narrow phase of the node throws while a fault is set.
 class Faults : public ::testing::Test {
  protected:
   Faults() : node_(setup()) {
@@ -39,13 +39,14 @@ class Faults : public ::testing::Test {
     for (const std::string& name : names) content += link(name, sphereOf(0.1)) + joint("base", name);
     return urdf(content);
   }
-  /// @param function  of the narrow phase; empty: none
-  /// @param kind      of the exception: "int", "memory" (std::bad_alloc), or else std::runtime_error
+  /// Makes a function of the narrow phase throw, or ends that.
+  /// @param function  function of the narrow phase that throws from now on; empty: none
+  /// @param kind      exception: "int", "memory" (std::bad_alloc), anything else: std::runtime_error
   void breakDown(const std::string& function, const std::string& kind = "") {
     ros::param::set(node_.named("fault_kind"), kind);
     ros::param::set(node_.named("fault"), function);
   }
-  /// Waits until the status "ticks" of /diagnostics is as wanted.
+  /// Waits until the status "ticks" of /diagnostics has this level and contains these words.
   void waitForTicksStatus(int level, const std::string& words) {
     node_.waitUntil("'" + words + "' of /diagnostics", [&](const Heard& all) {
       const auto found = all.diagnostics.find("ticks");
@@ -67,7 +68,7 @@ class Faults : public ::testing::Test {
   NodeUnderTest node_;
 };
 
-TEST_F(Faults, InAQueryAreSaidToWhoAskedAndNobodyElse) {
+TEST_F(Faults, InAQueryAreReportedOnlyToTheCaller) {
   ASSERT_EQ(exactSphere().answer.verdict, msg::Verdict::HIT);
   breakDown("measure");
   const auto answer = exactSphere().answer;
@@ -78,12 +79,12 @@ TEST_F(Faults, InAQueryAreSaidToWhoAskedAndNobodyElse) {
   EXPECT_EQ(answer.unknown_because, msg::UnknownReason::REFUSED);
   EXPECT_TRUE(answer.hits.empty());
   EXPECT_GE(counted("query.failed.INTERNAL"), 1u);
-  EXPECT_EQ(node_.sphere(0, 0, 0, 0.05).answer.verdict, msg::Verdict::HIT) << "by boxes all is well";
+  EXPECT_EQ(node_.sphere(0, 0, 0, 0.05).answer.verdict, msg::Verdict::HIT) << "boxes need no narrow phase";
   breakDown("");
   EXPECT_EQ(exactSphere().answer.verdict, msg::Verdict::HIT);
 }
 
-TEST_F(Faults, InAnExplanationAreSaidToWhoAsked) {
+TEST_F(Faults, InAnExplanationAreReportedToTheCaller) {
   breakDown("measure");
   const auto response = node_.explain("robot/a", "robot/b");
   EXPECT_FALSE(response.success);
@@ -101,7 +102,7 @@ TEST_F(Faults, InATickAreCountedAndPairsGoOn) {
   };
   ASSERT_TRUE(next(20.0));
   breakDown("measure");
-  transforms_.stream("base", "b", at(0.16));  // what does not move is not measured again
+  transforms_.stream("base", "b", at(0.16));  // only a pair that moves is measured again
   EXPECT_FALSE(next(1.0));
   const std::size_t pairs = node_.heard().pairs.size();
   EXPECT_GE(counted("tick.failed.INTERNAL"), 1u);
@@ -114,12 +115,12 @@ TEST_F(Faults, InATickAreCountedAndPairsGoOn) {
 TEST_F(Faults, InATickAreOnDiagnosticsUntilATickSucceeds) {
   waitForTicksStatus(diagnostic_msgs::DiagnosticStatus::OK, "");
   const boost::function<void(const msg::Distances::ConstPtr&)> ignore = [](const msg::Distances::ConstPtr&) {};
-  const ros::Subscriber listener =  // distances are measured for a listener only
+  const ros::Subscriber listener =  // distances are measured only while there is a subscriber
       ros::NodeHandle().subscribe<msg::Distances>(node_.named("distances"), 1, ignore);
   int b = 0;
   for (const char* kind : {"", "memory", "int"}) {
     breakDown("measure", kind);
-    transforms_.stream("base", "b", at(0.15 + 0.01 * ++b));  // what does not move is not measured again
+    transforms_.stream("base", "b", at(0.15 + 0.01 * ++b));  // only a pair that moves is measured again
     waitForTicksStatus(diagnostic_msgs::DiagnosticStatus::ERROR, "the last tick failed");
     breakDown("");
     waitForTicksStatus(diagnostic_msgs::DiagnosticStatus::OK, "on time");
@@ -131,7 +132,7 @@ TEST_F(Faults, InATickAreOnDiagnosticsUntilATickSucceeds) {
   EXPECT_GE(std::stoi(failed->value), 3);
 }
 
-TEST_F(Faults, OfEveryKindInAQueryAreSaidToWhoAsked) {
+TEST_F(Faults, OfEveryKindInAQueryAreReportedToTheCaller) {
   for (const char* kind : {"int", "memory"}) {
     breakDown("measure", kind);
     const auto answer = exactSphere().answer;

@@ -27,7 +27,7 @@ TEST(ChoreList, DoesEachChoreWhenItsPauseIsOver) {
   EXPECT_EQ(done, "ab a a ab a ab ");
 }
 
-TEST(ChoreList, AChoreThatThrowsLeavesTheOthers) {
+TEST(ChoreList, AChoreThatThrowsDoesNotAffectTheOthers) {
   Ledger ledger;
   int done = 0;
   ChoreList chores({{"a.failed", milliseconds(0), [](ChoreList::Time) { throw std::runtime_error("a fault"); }},

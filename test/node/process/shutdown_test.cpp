@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// The node ends in the same way after each signal that asks a process to end: it unregisters, and its exit code is 0.
+// SIGINT, SIGTERM and SIGHUP end the node in the same way: it unregisters from the master, and its exit code is 0.
 #include <ros/master.h>
 #include <ros/service.h>
 
@@ -32,10 +32,10 @@ XmlRpc::XmlRpcValue stateOfMaster() {
   return state;
 }
 
-/// Holds if a node ends with exit code 0 and has nothing registered at the master then.
+/// Succeeds if a node ends with exit code 0 and has no registrations at the master left.
 ::testing::AssertionResult endsAndUnregisters(NodeUnderTest& node) {
   const std::optional<int> code = node.process().waitForEnd(20.0);
-  if (!code) return ::testing::AssertionFailure() << "it still runs";
+  if (!code) return ::testing::AssertionFailure() << "the node still runs";
   if (*code != 0) return ::testing::AssertionFailure() << "exit code " << *code << "\n" << node.output();
   const std::vector<std::string> left = registrationsOf(node.space() + "/proximity", stateOfMaster());
   if (left.empty()) return ::testing::AssertionSuccess();
@@ -66,7 +66,7 @@ TEST(Shutdown, DuringQueriesUnregisters) {
     std::thread client([&] {
       try {
         for (;; ++answers) node.sphere(0, 0, 0, 0.1);
-      } catch (const std::runtime_error&) {  // the node has ended
+      } catch (const std::runtime_error&) {  // thrown when the node has ended
       }
     });
     node.waitForTicks(5);
@@ -77,7 +77,8 @@ TEST(Shutdown, DuringQueriesUnregisters) {
   }
 }
 
-/// A copy of the node's library beside a mesh reader that never ends: the node looks for the reader beside the library.
+/// A folder with a copy of the node's library and a mesh reader that never ends. The node uses this reader, because it
+/// searches for the mesh reader relative to its library.
 class HangingReader {
  public:
   HangingReader() {
@@ -93,7 +94,7 @@ class HangingReader {
   }
   ~HangingReader() { fs::remove_all(folder_); }
 
-  /// A node that uses this reader, and may read the mesh of description().
+  /// Setup of a node that uses this reader and is allowed to read the mesh of description().
   NodeSetup setup() const {
     NodeSetup setup = setupOfWorld();
     setup.params["mesh_roots"] = list({folder_.string()});
@@ -101,10 +102,11 @@ class HangingReader {
     setup.environment["LD_PRELOAD"] = library().string();
     return setup;
   }
+  /// A URDF with one mesh.
   std::string description() const {
     return urdf(link("world", collision("<mesh filename=\"file://" + (folder_ / "part.stl").string() + "\"/>")));
   }
-  /// Waits until the node has started the reader. Polls: the reader can send no message.
+  /// Waits until the node has started the reader. Polls, because the reader cannot send messages.
   void waitForStart() const {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     while (!fs::exists(started()) && std::chrono::steady_clock::now() < deadline) {
@@ -138,7 +140,7 @@ TEST(Shutdown, DuringAReloadOfASlowMeshUnregisters) {
   std::thread client([&] {
     try {
       node.reload("");
-    } catch (const std::runtime_error&) {  // the node has ended
+    } catch (const std::runtime_error&) {  // thrown when the node has ended
     }
   });
   reader.waitForStart();
@@ -147,7 +149,7 @@ TEST(Shutdown, DuringAReloadOfASlowMeshUnregisters) {
   client.join();
 }
 
-/// The node of a master of its own.
+/// A node that uses its own ROS master.
 struct NodeOfMaster {
   static constexpr const char* kName = "/proximity";
   explicit NodeOfMaster(const std::string& uri)
@@ -185,7 +187,7 @@ TEST(Shutdown, EndsANodeThatWaitsForTheMaster) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     std::string said;
     while (said.find("Failed to contact master") == std::string::npos && std::chrono::steady_clock::now() < deadline) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));  // the output is a file
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));  // polling, because the output is a file
       std::ifstream file(output);
       said.assign(std::istreambuf_iterator<char>(file), {});
     }
@@ -205,7 +207,7 @@ bool ignores(pid_t process, int number) {
   throw std::runtime_error("no process " + std::to_string(process));
 }
 
-TEST(Shutdown, LeavesAHangUpIgnoredThatNohupIgnores) {
+TEST(Shutdown, KeepsIgnoringHangupsUnderNohup) {
   OwnMaster master;
   ChildProcess node({"nohup", HGRID_NODE, "_world_frame:=world"}, "/dev/null", {{"ROS_MASTER_URI", master.uri()}});
   master.waitForRegistration("/proximity", "serves /proximity/reload_robot");
@@ -215,7 +217,7 @@ TEST(Shutdown, LeavesAHangUpIgnoredThatNohupIgnores) {
   EXPECT_EQ(node.waitForEnd(20.0).value_or(-1), 0);
 }
 
-TEST(Shutdown, OfANodeWhoseNameIsTakenSaysSoAndHasAnExitCodeOfItsOwn) {
+TEST(Shutdown, IsLoggedAndHasExitCode3IfAnotherNodeTakesTheName) {
   NodeUnderTest first(setupOfWorld());
   const std::string name = first.space() + "/proximity";
   ChildProcess second({HGRID_NODE, "__ns:=" + first.space(), "__name:=proximity"}, "/dev/null", {});

@@ -20,18 +20,18 @@ TEST(StructureWatch, NoticesTheFirstTickBodiesRulesAndEpochsButNotMotion) {
   EXPECT_FALSE(watch.changed(tick));
   const BodyId body = put(scene, ball("a"), at(0));
   tick.snapshot = scene.commit(Time{1}, {});
-  EXPECT_TRUE(watch.changed(tick)) << "a body";
+  EXPECT_TRUE(watch.changed(tick)) << "a body was added";
   scene.place(body, at(1), Time{2});
   tick.snapshot = scene.commit(Time{2}, {});
   EXPECT_FALSE(watch.changed(tick));
   scene.setRules({allow("*", "*")});
   tick.snapshot = scene.commit(Time{3}, {});
-  EXPECT_TRUE(watch.changed(tick)) << "a rule";
+  EXPECT_TRUE(watch.changed(tick)) << "a rule was added";
   scene.setRules({});
   tick.snapshot = scene.commit(Time{4}, {});
-  EXPECT_TRUE(watch.changed(tick)) << "the rule has ended";
+  EXPECT_TRUE(watch.changed(tick)) << "the rule was removed";
   tick.epoch = 2;
-  EXPECT_TRUE(watch.changed(tick)) << "an epoch";
+  EXPECT_TRUE(watch.changed(tick)) << "the epoch changed";
 }
 
 }  // namespace

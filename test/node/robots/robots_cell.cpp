@@ -78,7 +78,7 @@ void RobotsTest::TearDownTestSuite() {
 void RobotsTest::SetUp() {
   HGRID_NEEDS_SHARED_DATA();
   const auto complete = [](const hgrid_proximity::Pairs& pairs) { return bool(pairs.world.complete); };
-  ASSERT_TRUE(cell_->pairs->waitFor(complete, kPatience)) << "the world does not get complete";
+  ASSERT_TRUE(cell_->pairs->waitFor(complete, kPatience)) << "the world did not become complete within 30 s";
 }
 
 }  // namespace test

@@ -15,21 +15,21 @@
 namespace hgrid {
 namespace test {
 
-constexpr double kMargin = 0.1;       // [m] as in robots.test
-constexpr double kPeriod = 1.0 / 50;  // [s] as in robots.test
+constexpr double kMargin = 0.1;       // [m] value of ~margin in robots.test
+constexpr double kPeriod = 1.0 / 50;  // [s] one period of ~rate in robots.test
 
 /// One of the three robots.
 struct Robot {
   std::string name;
-  std::size_t bodies, shapes;  ///< links with <collision>, and their shapes, as counted in its URDF
-  Eigen::Vector3d base;        ///< [m] of its root in the world, near the others
-  double yaw;                  ///< [rad]
+  std::size_t bodies, shapes;  ///< numbers of links with <collision> and of shapes in its URDF
+  Eigen::Vector3d base;        ///< [m] position of its root in the world, near the other robots
+  double yaw;                  ///< [rad] of its root in the world
   std::unique_ptr<WitnessRobot> witness;
 
   Eigen::Isometry3d worldFromRoot() const;
 };
 
-/// UR5, Panda and PR2 with their robot_state_publishers, and the node beside them.
+/// A work cell: UR5, Panda and PR2 with their robot_state_publishers, and the node.
 class Cell {
  public:
   Cell();
@@ -47,7 +47,7 @@ class Cell {
   ros::Publisher static_publisher_;
 };
 
-/// A cell for the tests of a suite; they begin when the node has a complete world.
+/// Fixture whose tests share one Cell. Each test begins when the world of the node is complete.
 class RobotsTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite();

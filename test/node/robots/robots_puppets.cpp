@@ -25,7 +25,7 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kStep = std::chrono::milliseconds(20);
 constexpr double kCycle = 10.0;  // [s] from one limit to the other and back
 
-/// 0 .. 1 .. 0 as x goes from 0 to 2, and so on.
+/// Triangle wave with period 2: rises from 0 at x = 0 to 1 at x = 1, and falls to 0 at x = 2.
 double triangle(double x) {
   const double rest = x - 2.0 * std::floor(x / 2.0);
   return rest < 1.0 ? rest : 2.0 - rest;
@@ -38,7 +38,7 @@ Child::Child(std::vector<std::string> arguments) {
   for (std::string& argument : arguments) argv.push_back(&argument[0]);
   argv.push_back(nullptr);
   if (posix_spawnp(&pid_, argv[0], nullptr, nullptr, argv.data(), environ) != 0) {
-    throw std::runtime_error(arguments.front() + " does not start");
+    throw std::runtime_error(arguments.front() + " cannot be started");
   }
 }
 

@@ -23,7 +23,7 @@
 namespace hgrid {
 namespace test {
 
-/// A program started with its arguments, stopped on destruction.
+/// Runs a program in a child process. The destructor stops it.
 class Child {
  public:
   explicit Child(std::vector<std::string> arguments);
@@ -33,28 +33,30 @@ class Child {
 
   pid_t pid() const { return pid_; }
   bool running() const;
-  /// [s] of processor time that it has used.
+  /// [s] Processor time that the process has used.
   double processorTime() const;
 
  private:
   pid_t pid_ = -1;
 };
 
-/// Joint states, 50 times a second: held still, or moving to and fro between the limits.
+/// Publishes the joint states of all robots at 50 Hz. Either all joints stand still, or each joint moves back and forth
+/// between its limits.
 class Puppeteer {
  public:
   struct Puppet {
-    std::string name;  ///< of the robot; its namespace too
+    std::string name;  ///< name and namespace of the robot
     const WitnessRobot* robot;
   };
 
   Puppeteer(ros::NodeHandle& node, const std::vector<Puppet>& puppets, std::uint64_t seed);
   ~Puppeteer();
 
-  /// Draws a state and holds it. @returns from when on
+  /// Draws a random state and holds it. @returns the time from which it is published
   ros::Time holdAnother();
+  /// Moves all joints from now on.
   void move();
-  /// Positions of a robot's joints; those that are held, while it is held.
+  /// Current positions of the joints of a robot.
   WitnessRobot::Positions positions(const std::string& robot) const;
 
  private:
@@ -69,24 +71,24 @@ class Puppeteer {
 
   std::vector<Puppet> puppets_;
   std::vector<ros::Publisher> publishers_;
-  mutable std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // guards the members below
   Random random_;
   std::vector<Driven> driven_;
   bool moving_ = false;
-  double time_ = 0.0;  // [s] of movement
+  double time_ = 0.0;  // [s] how long the joints have moved
   bool stop_ = false;
   std::thread thread_;
 };
 
-/// ~pairs as it comes, on a thread of its own.
+/// Receives ~pairs on a separate thread.
 class PairsListener {
  public:
   explicit PairsListener(ros::NodeHandle node);
 
-  /// The next message that `wanted` says yes to; null after `patience`.
+  /// Waits for the next message for which `wanted` is true. @returns null if none comes within `patience`
   hgrid_proximity::PairsConstPtr waitFor(const std::function<bool(const hgrid_proximity::Pairs&)>& wanted,
                                          std::chrono::seconds patience);
-  /// Times between the messages that come in the next `duration`, sorted [s].
+  /// Waits for this duration and returns the times between successive messages [s], sorted.
   std::vector<double> gapsOver(std::chrono::seconds duration);
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// UR5, Panda and PR2 at once, through the real robot_state_publisher and tf: what the node says is near and what its
-// queries hit is what an independent brute force finds.
+// Runs the node with UR5, Panda and PR2 at once, with the real robot_state_publisher and tf. The pairs that the node
+// reports and the hits of its queries must be those that an independent brute force reference finds.
 #include "test/support/robots.h"
 
 #include <gtest/gtest.h>
@@ -27,12 +27,12 @@ namespace {
 using hgrid_proximity::Hit;
 using hgrid_proximity::WorldState;
 
-constexpr double kTolerance = 1e-5;  // [m] floats, and angles that went through tf as quaternions
+constexpr double kTolerance = 1e-5;  // [m] for rounding to float, and for rotations sent through tf as quaternions
 constexpr auto kPatience = std::chrono::seconds(30);
 
 class Robots : public RobotsTest {
  protected:
-  /// Draws a state of all joints and waits until the node has it: all poses fresh, and younger than the state.
+  /// Draws a random state of all joints. Waits until the node uses it: all poses are FRESH and newer than the state.
   void holdAnother() {
     const ros::Time from = cell_->puppeteer->holdAnother() + ros::Duration(0.2);
     near_ = cell_->pairs->waitFor(
@@ -40,7 +40,7 @@ class Robots : public RobotsTest {
           return pairs.header.stamp >= from && pairs.world.worst_state == hgrid_proximity::BodyState::FRESH;
         },
         kPatience);
-    ASSERT_TRUE(near_) << "no tick had fresh poses of all links";
+    ASSERT_TRUE(near_) << "no tick had FRESH poses of all links within 30 s";
     EXPECT_TRUE(near_->world.complete);
     frames_ = {{"world", Eigen::Isometry3d::Identity()}};
     bodies_.clear();
@@ -60,7 +60,7 @@ class Robots : public RobotsTest {
     return false;
   }
 
-  /// Least of `measure` over the boxes of a body, every face moved outward by `by`.
+  /// The smallest `measure` of the boxes of a body, after each face was moved outward by `by` [m].
   template <class Measure>
   static double least(const WitnessBody& body, double by, Measure&& measure) {
     double result = std::numeric_limits<double>::infinity();
@@ -83,7 +83,7 @@ class Robots : public RobotsTest {
 
   Random random_{11};
   hgrid_proximity::PairsConstPtr near_;
-  std::map<std::string, Eigen::Isometry3d> frames_;  // world_from_frame
+  std::map<std::string, Eigen::Isometry3d> frames_;  // pose in the world, world_from_frame
   std::map<std::string, WitnessBody> bodies_;
   std::size_t pairs_seen_ = 0, pairs_of_two_robots_ = 0, hits_seen_ = 0;
 };
@@ -93,7 +93,7 @@ void Robots::comparePairs() {
   for (std::size_t i = 0; i < near_->first.size(); ++i) {
     const std::string &a = near_->names.at(near_->first[i]), &b = near_->names.at(near_->second[i]);
     EXPECT_LT(a, b);
-    EXPECT_TRUE(told.emplace(std::make_pair(a, b), near_->gap[i]).second) << a << " " << b << " stands there twice";
+    EXPECT_TRUE(told.emplace(std::make_pair(a, b), near_->gap[i]).second) << a << " " << b << " is listed twice";
     pairs_of_two_robots_ += a.substr(0, a.find('/')) != b.substr(0, b.find('/'));
   }
   pairs_seen_ += told.size();
@@ -109,19 +109,20 @@ void Robots::comparePairs() {
       } else if (found != told.end()) {
         EXPECT_NEAR(found->second, gap, kTolerance);
       } else {
-        EXPECT_GT(gap, kMargin - kTolerance) << "a missed pair";
+        EXPECT_GT(gap, kMargin - kTolerance) << "the pair is missing";
       }
     }
   }
   for (const auto& named : told) {
     EXPECT_EQ(bodies_.count(named.first.first) + bodies_.count(named.first.second), 2u)
-        << "a body unknown to the URDFs";
+        << "a pair names a body that is not in the URDFs";
   }
 }
 
-/// What a query hit against brute force over boxes that are a little smaller and a little larger than the witness's.
-/// @param reach    a body is hit if `measure` of one of its boxes is at most this
-/// @param member   field of a Hit that must be what was measured
+/// Compares the hits of a query with a brute force search over the witness's boxes, made a little smaller and a little
+/// larger.
+/// @param reach   [m] a body is hit if `measure` of one of its boxes is at most this
+/// @param member  field of Hit that must equal `measure`
 template <class Measure>
 void Robots::compareAnswer(const hgrid_proximity::Answer& answer, double reach, double Hit::*member,
                            Measure&& measure) {
@@ -132,9 +133,9 @@ void Robots::compareAnswer(const hgrid_proximity::Answer& answer, double reach, 
   std::map<std::string, const Hit*> told;
   for (std::size_t i = 0; i < answer.hits.size(); ++i) {
     const Hit& hit = answer.hits[i];
-    EXPECT_TRUE(told.emplace(hit.name, &hit).second) << hit.name << " stands there twice";
+    EXPECT_TRUE(told.emplace(hit.name, &hit).second) << hit.name << " is listed twice";
     EXPECT_EQ(hit.distance, 0.0) << hit.name;
-    EXPECT_LE(answer.hits[i == 0 ? 0 : i - 1].*member, hit.*member) << "not sorted";
+    EXPECT_LE(answer.hits[i == 0 ? 0 : i - 1].*member, hit.*member) << "hits are not sorted";
   }
   hits_seen_ += told.size();
   for (const auto& named : bodies_) {
@@ -143,17 +144,18 @@ void Robots::compareAnswer(const hgrid_proximity::Answer& answer, double reach, 
                  at_most = least(named.second, -kTolerance, measure);
     const auto found = told.find(named.first);
     if (found == told.end()) {
-      EXPECT_GT(at_most, reach) << "a missed body";
+      EXPECT_GT(at_most, reach) << "the hit is missing";
       continue;
     }
-    EXPECT_LE(at_least, reach) << "nowhere near";
+    EXPECT_LE(at_least, reach) << "the hit body is too far away";
     EXPECT_GE(found->second->*member, at_least - kTolerance);
     EXPECT_LE(found->second->*member, at_most + kTolerance);
     EXPECT_LT(found->second->shape, named.second.size());
   }
 }
 
-/// Asks again where the machine stalls and the newest tick is too old to say CLEAR, and where roscpp loses a call.
+/// Calls a service, and tries again up to nine times: the answer is UNKNOWN if a busy machine delays ticks, and roscpp
+/// sometimes loses a call.
 template <class Query>
 void Robots::ask(const std::string& service, Query& query) {
   for (int i = 0; i < 10; ++i) {
@@ -202,7 +204,7 @@ TEST_F(Robots, EveryShapeIsThere) {
   const auto status = ros::topic::waitForMessage<hgrid_proximity::Status>("/proximity/status", ros::Duration(10));
   const auto bodies = ros::topic::waitForMessage<hgrid_proximity::Bodies>("/proximity/bodies", ros::Duration(10));
   ASSERT_TRUE(status && bodies);
-  EXPECT_TRUE(status->world.complete);  // though many links of the PR2 have no <collision>
+  EXPECT_TRUE(status->world.complete);  // although many links of the PR2 have no <collision>
   EXPECT_GT(status->without_collision.size(), 40u);
   EXPECT_TRUE(status->uncovered.empty());
   EXPECT_EQ(status->robots, 3u);
@@ -234,7 +236,7 @@ TEST_F(Robots, NearPairsAndHitsAreThoseOfBruteForce) {
       askSegment(frame, random_.uniform(0.0, 0.3));
     }
   }
-  std::fprintf(stderr, "%zu pairs, %zu of them of two robots; %zu hits\n", pairs_seen_, pairs_of_two_robots_,
+  std::fprintf(stderr, "%zu pairs, %zu of them between two robots; %zu hits\n", pairs_seen_, pairs_of_two_robots_,
                hits_seen_);
   EXPECT_GT(pairs_seen_, 100u);
   EXPECT_GT(pairs_of_two_robots_, 50u);
@@ -248,7 +250,7 @@ TEST_F(Robots, NearPairsAndHitsAreThoseOfBruteForce) {
 int main(int argc, char** argv) {
   ::testing::InitGoogleTest(&argc, argv);
   const std::string data = hgrid::test::sharedData();
-  if (!data.empty()) {  // the node finds the meshes in the package example-robot-data
+  if (!data.empty()) {  // so that the node finds the meshes in the package example-robot-data
     const char* others = std::getenv("ROS_PACKAGE_PATH");
     setenv("ROS_PACKAGE_PATH", (data + ":" + (others ? others : "")).c_str(), 1);
   }

@@ -45,7 +45,8 @@ Eigen::Isometry3d originOf(const XMLElement& element) {
   return pose;
 }
 
-/// Vertices of a binary STL file: 80 bytes, a count, and for each triangle a normal, three vertices and two bytes.
+/// Reads the vertices of a binary STL file. It has an 80-byte header, a count, and for each triangle a normal, three
+/// vertices and two more bytes.
 std::vector<Eigen::Vector3d> verticesOf(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
@@ -78,7 +79,7 @@ std::vector<Eigen::Vector3d> pointsOf(const XMLElement& collision,
     const Eigen::Vector3d scale = numbers(mesh, "scale", Eigen::Vector3d::Ones());
     for (Eigen::Vector3d& point : points) point = point.cwiseProduct(scale);
   } else {
-    throw std::runtime_error("the witness knows boxes and meshes only");
+    throw std::runtime_error("the witness reads only boxes and meshes");
   }
   const Eigen::Isometry3d link_from_shape = originOf(collision);
   for (Eigen::Vector3d& point : points) point = link_from_shape * point;
@@ -101,7 +102,7 @@ double gap(const WitnessBox& box, const Eigen::Vector3d& point) { return gap(box
 
 double firstTouch(const WitnessBox& box, const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius) {
   const auto at = [&](double t) { return gap(box, from + t * (to - from)); };
-  double low = 0.0, high = 1.0;  // the distance is convex: thirds close in on where it is least
+  double low = 0.0, high = 1.0;  // ternary search for the minimum; the distance is convex in t
   for (int i = 0; i < 100; ++i) {
     const double third = (high - low) / 3.0;
     if (at(low + third) <= at(high - third)) {
@@ -171,8 +172,8 @@ std::string WitnessRobot::rigidGroup(std::string link) const {
   return link;
 }
 
-/// Whether one moving joint connects the groups, the first above the second. A chain of joints counts as one if the
-/// groups between them have no shapes and the origins of consecutive joints are at most 1 cm apart.
+/// Whether one moving joint connects two rigid groups, with `upper` as the parent. A chain of joints counts as one
+/// joint if the groups in between have no shapes and successive joint origins are at most 1 cm apart.
 bool WitnessRobot::isAdjacent(const std::string& upper, std::string group) const {
   while (group != root_) {
     const Joint& joint = joints_.at(group);

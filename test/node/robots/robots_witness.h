@@ -17,47 +17,49 @@ class XMLElement;
 namespace hgrid {
 namespace test {
 
-/// The independent witness of the robots test: its own reading of URDF, SRDF and STL, its own kinematics and boxes.
-/// Of the product it uses nothing.
+// The witness is an independent reference for the robots test. It has its own readers of URDF, SRDF and STL, its own
+// kinematics and its own boxes. It uses no code of the package.
 
 struct WitnessBox {
   Eigen::Vector3d min, max;  // [m]
 };
 
-/// The box with every face moved outward by `by` [m]; inward if negative.
+/// Returns the box with each face moved outward by `by` [m]; inward if negative.
 WitnessBox grown(const WitnessBox& box, double by);
+/// [m] Distance of two boxes; 0 if they overlap.
 double gap(const WitnessBox& a, const WitnessBox& b);
+/// [m] Distance of a point from a box; 0 if the point is inside.
 double gap(const WitnessBox& box, const Eigen::Vector3d& point);
-/// [m] along the segment to its first point within `radius` of the box; infinite if there is none.
+/// [m] Distance along the segment to its first point within `radius` of the box; infinite if there is none.
 double firstTouch(const WitnessBox& box, const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius);
 
-/// One body: a box for each of its shapes.
+/// A body of the witness: one box for each shape.
 using WitnessBody = std::vector<WitnessBox>;
 
-/// A robot as its URDF and SRDF tell it.
+/// A robot that the witness has read from its URDF and SRDF.
 class WitnessRobot {
  public:
   struct Joint {
-    std::string name, type, parent, child, mimics;  // mimics: name of the joint that this one follows, or empty
+    std::string name, type, parent, child, mimics;  // mimics: joint that this joint follows, or empty
     double multiplier = 1.0, offset = 0.0;
     double lower = 0.0, upper = 0.0;  // [rad] or [m]; -pi .. pi for a continuous joint
     Eigen::Isometry3d origin = Eigen::Isometry3d::Identity();
     Eigen::Vector3d axis = Eigen::Vector3d::UnitX();
   };
-  using Positions = std::map<std::string, double>;  // by joint, without those that follow another
+  using Positions = std::map<std::string, double>;  // [rad] or [m] by name; without joints that mimic others
   using Poses = std::map<std::string, Eigen::Isometry3d>;
 
-  /// @param file_of  path of the file that a mesh's URI means
-  /// @throws std::runtime_error on what the witness does not know
+  /// @param file_of  returns the path of the file for the URI of a mesh
+  /// @throws std::runtime_error if the URDF contains something that the witness cannot read
   WitnessRobot(const std::string& urdf, const std::string& srdf,
                const std::function<std::string(const std::string& uri)>& file_of);
 
   const std::string& root() const { return root_; }
-  /// Joints that move and follow no other.
+  /// Joints that can move and mimic no other joint.
   std::vector<Joint> driven() const;
-  /// world_from_link of every link.
+  /// Pose of each link in the world, world_from_link.
   Poses posesAt(const Positions& positions, const Eigen::Isometry3d& world_from_root) const;
-  /// Boxes of the links that have shapes, in the world, by link.
+  /// Boxes of the shapes in the world, by link. Links without shapes are left out.
   std::map<std::string, WitnessBody> bodiesAt(const Poses& world_from_links) const;
   std::size_t shapeCount() const;
   /// Whether two links may touch: they belong to one rigid group or to adjacent groups, or the SRDF says so.
@@ -72,7 +74,7 @@ class WitnessRobot {
   bool isAdjacent(const std::string& upper, std::string group) const;
 
   std::string root_;
-  std::map<std::string, std::vector<Points>> shapes_;  // by link, each as the corners of its hull or more
+  std::map<std::string, std::vector<Points>> shapes_;  // by link; the points of a shape include all corners of its hull
   std::map<std::string, Joint> joints_;                // by child link
   std::set<std::pair<std::string, std::string>> may_touch_;
 };

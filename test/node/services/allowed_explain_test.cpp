@@ -14,7 +14,8 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// Balls that all touch, but for "far" and for "ghost", which nobody publishes; "c" hangs on a fixed joint below "b".
+/// A robot of spheres that all overlap, except "far" and "ghost". Nobody publishes a transform for "ghost". A fixed
+/// joint connects "c" to "b".
 class ExplainPair : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -41,7 +42,7 @@ class ExplainPair : public ::testing::Test {
     for (const char* name : {"a", "b", "d"}) transforms_->stream("base", name, at(0));
     transforms_->stream("base", "far", at(2));
     node_ = std::make_unique<NodeUnderTest>(setup);
-    node_->waitForStatus("all but the ghost are placed", [](const msg::Status& status) {
+    node_->waitForStatus("all bodies except robot/ghost are placed", [](const msg::Status& status) {
       return status.body_count == 9 && status.bodies_total == 1 &&
              stateOf(status, "robot/ghost") == msg::BodyState::UNPLACED;
     });
@@ -100,7 +101,7 @@ TEST_F(ExplainPair, NamesTheRuleOfAService) {
             "rule 'obstacle/*', 'robot/b' of ~set_allowed, which ends in 35");
   const auto response = explained("robot/b", "obstacle/post");
   EXPECT_TRUE(
-      says(response.explanation, "(being loaded). Without that they would be reported: their boxes touch or overlap"));
+      says(response.explanation, "(being loaded). Otherwise they would be reported: their boxes touch or overlap"));
   EXPECT_EQ(response.rule.first, "obstacle/*");
   EXPECT_EQ(response.rule.reason, "being loaded");
   EXPECT_GT(response.rule.lifetime.toSec(), 3500.0);
@@ -123,7 +124,7 @@ TEST_F(ExplainPair, WhatIsReportedHasTheNumbersOfThePair) {
   const int index = indexOf(pairs, "robot/a", "robot/d");
   ASSERT_GE(index, 0);
   EXPECT_EQ(response.since, pairs.since[static_cast<std::size_t>(index)]);
-  EXPECT_EQ(explained("robot/a", "obstacle/post").age_second, 0.0) << "what is fixed does not age";
+  EXPECT_EQ(explained("robot/a", "obstacle/post").age_second, 0.0) << "a fixed body does not age";
   EXPECT_GT(explained("robot/a", "obstacle/post").age_first, 0.0);
 }
 
@@ -146,7 +147,7 @@ TEST_F(ExplainPair, WhatWasNeverPlacedSaysSo) {
 
 TEST_F(ExplainPair, WhatIsStaleSaysHowOldAndWhatThatDoes) {
   transforms_->stop("d");
-  node_->waitForStatus("d is stale and at the cap", [](const msg::Status& status) {
+  node_->waitForStatus("d is STALE and its growth is at the cap", [](const msg::Status& status) {
     const auto* d = entryOf(status, "robot/d");
     return d != nullptr && d->state == msg::BodyState::STALE && d->age > 0.6;
   });
@@ -158,24 +159,24 @@ TEST_F(ExplainPair, WhatIsStaleSaysHowOldAndWhatThatDoes) {
   EXPECT_DOUBLE_EQ(response.growth, 0.05);
   EXPECT_DOUBLE_EQ(response.margin, 0.35);
   EXPECT_TRUE(
-      says(response.explanation, "0.05 m of the margin are there because data is old. robot/d is STALE: its pose is"));
+      says(response.explanation, "The margin is 0.05 m larger than usual because data is old. robot/d is STALE: its pose is"));
   transforms_->stream("base", "d", at(0));
-  node_->waitForStatus("d is fresh", [](const msg::Status& status) { return entryOf(status, "robot/d") == nullptr; });
+  node_->waitForStatus("d is FRESH", [](const msg::Status& status) { return entryOf(status, "robot/d") == nullptr; });
 }
 
 TEST_F(ExplainPair, ListsPlacesOfContactOnRequest) {
   EXPECT_TRUE(node_->explain("robot/d", "obstacle/post").contact_point.empty()) << "none were asked for";
   const auto response = node_->explain("robot/d", "obstacle/post", 3);
   EXPECT_EQ(response.narrow_status, msg::MeasureStatus::CONTACT);
-  ASSERT_EQ(response.contact_point.size(), 1u) << "balls touch in one place";
+  ASSERT_EQ(response.contact_point.size(), 1u) << "two spheres have one place of contact";
   EXPECT_NEAR(response.contact_point[0].y, 0.05, 1e-6);
-  EXPECT_NEAR(response.contact_normal.at(0).y, 1.0, 1e-6) << "from the first to the second";
+  EXPECT_NEAR(response.contact_normal.at(0).y, 1.0, 1e-6) << "the normal points from the first body to the second";
   EXPECT_NEAR(response.contact_depth.at(0), 0.1, 1e-6);
   EXPECT_EQ(response.contact_first_shape.at(0), 0u);
   EXPECT_EQ(response.contact_second_shape.at(0), 0u);
   EXPECT_FALSE(response.contacts_truncated);
-  EXPECT_TRUE(node_->explain("robot/d", "robot/far", 3).contact_point.empty()) << "they are apart";
-  EXPECT_TRUE(node_->explain("robot/d", "robot/ghost", 3).contact_point.empty()) << "it has no pose";
+  EXPECT_TRUE(node_->explain("robot/d", "robot/far", 3).contact_point.empty()) << "the bodies do not touch";
+  EXPECT_TRUE(node_->explain("robot/d", "robot/ghost", 3).contact_point.empty()) << "ghost has no pose";
 }
 
 TEST_F(ExplainPair, NamesThatNobodyHasAreRefused) {
@@ -183,7 +184,7 @@ TEST_F(ExplainPair, NamesThatNobodyHasAreRefused) {
   EXPECT_FALSE(response.success);
   EXPECT_FALSE(response.reported);
   EXPECT_EQ(response.code.name, "UNKNOWN_ID");
-  EXPECT_TRUE(says(response.code.text, "there is no body 'robot/gost'; nearly so are called 'robot/ghost'"));
+  EXPECT_TRUE(says(response.code.text, "there is no body 'robot/gost'; similar names are 'robot/ghost'"));
   EXPECT_TRUE(std::isnan(response.gap));
   EXPECT_GT(response.world.sequence, 0u);
 }
@@ -201,7 +202,7 @@ TEST(ExplainPairLimits, APairThatTruncationRemovedIsNotReportedAndTheAnswerSaysW
   EXPECT_TRUE(says(cut.explanation, "there are more pairs than ~max_pairs allows"));
 }
 
-TEST(ExplainPairLimits, OnlyNowCanBeAskedFor) {
+TEST(ExplainPairLimits, PastTimesAreRefused) {
   NodeSetup setup;
   setup.beside["robot_description"] = balls({});
   NodeUnderTest node(setup);

@@ -53,7 +53,7 @@ msg::SetAllowed::Request toRemove(const std::vector<AllowedPair>& rules) {
   return request;
 }
 
-/// Three balls in a row that touch, a post beside the last that does too, and one configured rule.
+/// Three spheres in a row, each touching the next one, a post that touches the last one, and one configured rule.
 class AllowedRules : public ::testing::Test {
  protected:
   AllowedRules() {
@@ -68,7 +68,7 @@ class AllowedRules : public ::testing::Test {
     node_ = std::make_unique<NodeUnderTest>(setup);
     node_->waitForComplete();
   }
-  /// The pairs of the tick that a reply names, the first of its revision.
+  /// Returns the pairs of the tick that a response names. That tick must be the first with its bodies_revision.
   Names pairsOf(const msg::SetAllowed::Response& response) {
     EXPECT_TRUE(response.success) << response.code.text;
     node_->waitForPairs("the tick of the reply",
@@ -77,7 +77,7 @@ class AllowedRules : public ::testing::Test {
     const auto tick = std::find_if(all.pairs.begin(), all.pairs.end(), [&](const msg::Pairs::ConstPtr& message) {
       return message->world.sequence == response.world.sequence;
     });
-    if (tick == all.pairs.begin() || tick == all.pairs.end()) throw std::runtime_error("that tick was not heard");
+    if (tick == all.pairs.begin() || tick == all.pairs.end()) throw std::runtime_error("that tick was not received");
     EXPECT_EQ((*tick)->world.bodies_revision, response.world.bodies_revision);
     EXPECT_LT((*std::prev(tick))->world.bodies_revision, response.world.bodies_revision);
     return namesOf(**tick);
@@ -92,7 +92,7 @@ class AllowedRules : public ::testing::Test {
     node_->waitForTicks(2);
     EXPECT_EQ(namesOf(*node_->heard().pairs.back()), before) << "nothing has changed";
   }
-  /// Every rule as "first second origin +" (allowed) or "-".
+  /// Returns all rules as "first second origin +", or "-" instead of "+" for a rule that does not allow the pair.
   Names rules() {
     msg::GetAllowed::Request request;
     request.rules = true;
@@ -122,10 +122,10 @@ TEST_F(AllowedRules, AreInForceInTheTickThatTheReplyNames) {
             Names({"obstacle/post|robot/b", "robot/b|robot/c"}));
   EXPECT_EQ(pairsOf(node_->setAllowed(toAdd({enable("robot/c", "robot/a")}))),
             Names({"obstacle/post|robot/b", "robot/a|robot/c", "robot/b|robot/c"}))
-      << "a rule for two names beats one with a glob";
+      << "a rule with two names takes precedence over a rule with a glob";
   EXPECT_EQ(pairsOf(node_->setAllowed(toAdd({enable("obstacle/post", "robot/c")}))),
             Names({"obstacle/post|robot/b", "obstacle/post|robot/c", "robot/a|robot/c", "robot/b|robot/c"}))
-      << "and what was configured";
+      << "it also takes precedence over the configured rule";
   EXPECT_EQ(pairsOf(node_->setAllowed(toRemove({allow("robot/*", "robot/a"), allow("robot/c", "obstacle/post")}))),
             all_);
   EXPECT_EQ(rules(), Names({"robot/c obstacle/p* 4 +", "robot/c robot/a 5 -"}));
@@ -150,10 +150,10 @@ TEST_F(AllowedRules, EndWithTheirLifetime) {
   EXPECT_EQ(rules(), Names({"robot/c obstacle/p* 4 +"}));
 }
 
-TEST_F(AllowedRules, OfWhatIsNotThereAreRefusedAllTogether) {
+TEST_F(AllowedRules, AreAllRefusedIfOneIsInvalid) {
   expectRefused(toAdd({allow("robot/a", "robot/b"), allow("robot/a", "robot/bb")}), "UNKNOWN_ID",
-                "there is no body 'robot/bb'; nearly so are called");
-  expectRefused(toAdd({allow("leg/*", "*")}), "UNKNOWN_ID", "no body matches glob 'leg/*'");
+                "there is no body 'robot/bb'; similar names are");
+  expectRefused(toAdd({allow("leg/*", "*")}), "UNKNOWN_ID", "no body matches the glob 'leg/*'");
   expectRefused(toAdd({allow("", "robot/b")}), "BAD_ID", "it must not be empty");
   expectRefused(toAdd({allow("robot/a\n", "robot/b")}), "BAD_ID", "robot/a\\x0a");
   expectRefused(toAdd({allow("robot/a", "robot/b", std::string(600, 'x'))}), "OUT_OF_RANGE", "has 600 bytes");
@@ -161,7 +161,7 @@ TEST_F(AllowedRules, OfWhatIsNotThereAreRefusedAllTogether) {
   negative.lifetime = ros::Duration(-1.0);
   expectRefused(toAdd({negative}), "OUT_OF_RANGE", "must not be negative");
   expectRefused(toRemove({allow("robot/a", "robot/b")}), "UNKNOWN_ID", "there is no rule 'robot/a', 'robot/b'");
-  expectRefused(toRemove({allow("robot/c", "obstacle/p*")}), "UNKNOWN_ID", "was configured and stays");
+  expectRefused(toRemove({allow("robot/c", "obstacle/p*")}), "UNKNOWN_ID", "was configured and cannot be removed");
   expectRefused(toAdd(std::vector<AllowedPair>(6, allow("robot/a", "robot/b"))), "LIMIT", "the request has 6 rules");
   expectRefused(toAdd({allow("robot/a", "robot/b"), allow("robot/a", "robot/c"), allow("robot/b", "robot/c"),
                        allow("robot/base", "robot/a"), allow("robot/base", "robot/b")}),
@@ -171,16 +171,16 @@ TEST_F(AllowedRules, OfWhatIsNotThereAreRefusedAllTogether) {
 
 TEST_F(AllowedRules, ThatSwitchOffEveryPairNeedForceAndAreWarnedOf) {
   const auto everything = allow("*", "*", "maintenance");
-  expectRefused(toAdd({everything}), "NEEDS_FORCE", "no pair of bodies would be reported any more");
+  expectRefused(toAdd({everything}), "NEEDS_FORCE", "with these rules no pair of bodies would ever be reported");
   EXPECT_TRUE(pairsOf(node_->setAllowed(toAdd({everything}, true))).empty());
   const auto level = [](const Heard& all) {
     const auto found = all.diagnostics.find("world");
     return found == all.diagnostics.end() ? -1 : int(found->second.level);
   };
-  node_->waitUntil("diagnostics warn", [&](const Heard& all) { return level(all) == DiagnosticStatus::WARN; });
+  node_->waitUntil("a warning in /diagnostics", [&](const Heard& all) { return level(all) == DiagnosticStatus::WARN; });
   EXPECT_TRUE(says(node_->heard().diagnostics.at("world").message, "rules switch off every pair"));
   EXPECT_EQ(pairsOf(node_->setAllowed(toRemove({everything}))), all_);
-  node_->waitUntil("diagnostics are well", [&](const Heard& all) { return level(all) == DiagnosticStatus::OK; });
+  node_->waitUntil("no warning in /diagnostics", [&](const Heard& all) { return level(all) == DiagnosticStatus::OK; });
 }
 
 TEST_F(AllowedRules, OutliveAReset) {
@@ -194,8 +194,8 @@ TEST_F(AllowedRules, OutliveAReset) {
 TEST_F(AllowedRules, SayWhoSetThemAndWhen) {
   const ros::Time begin = ros::Time::now();
   AllowedPair rule = allow("robot/a", "robot/*");
-  rule.origin = msg::RuleOrigin::SRDF;  // not read
-  rule.set_by = "/somebody/else";       // not read
+  rule.origin = msg::RuleOrigin::SRDF;  // the node ignores it
+  rule.set_by = "/somebody/else";       // the node ignores it
   pairsOf(node_->setAllowed(toAdd({rule})));
   const ros::Time end = ros::Time::now();
   msg::GetAllowed::Request request;
@@ -222,14 +222,14 @@ TEST_F(AllowedRules, SayHowManyPairsTheySwitchOffOrOn) {
     EXPECT_TRUE(response.success) << response.code.text;
     return response.pairs_changed;
   };
-  EXPECT_EQ(changed(toAdd({allow("robot/a", "robot/*")})), 2u) << "with b and c; the joint to base is adjacent";
+  EXPECT_EQ(changed(toAdd({allow("robot/a", "robot/*")})), 2u) << "with b and c; that with base was off already";
   EXPECT_EQ(changed(toAdd({allow("robot/a", "robot/b")})), 0u);
-  EXPECT_EQ(changed(toAdd({enable("robot/a", "*")})), 2u) << "c and base; that with b is off by a stronger rule";
+  EXPECT_EQ(changed(toAdd({enable("robot/a", "*")})), 2u) << "with c and base; a stronger rule decides about b";
   EXPECT_EQ(changed(toRemove({allow("robot/a", "robot/b")})), 1u);
-  EXPECT_EQ(node_->setAllowed(toAdd({allow("robot/a", "robot/x")})).pairs_changed, 0u) << "it was refused";
+  EXPECT_EQ(node_->setAllowed(toAdd({allow("robot/a", "robot/x")})).pairs_changed, 0u) << "the request was refused";
 }
 
-/// ~rules, which is latched.
+/// Subscribes to ~rules, which is latched.
 class RulesTopic : public AllowedRules {
  protected:
   RulesTopic() {
@@ -239,7 +239,7 @@ class RulesTopic : public AllowedRules {
     };
     subscriber_ = ros::NodeHandle().subscribe<msg::Rules>(node_->named("rules"), 10, hear);
   }
-  /// Waits until the newest message has these rules and is of a later epoch than this one.
+  /// Waits until the newest message has these rules and an epoch greater than `after_epoch`.
   msg::Rules::ConstPtr waitFor(const Names& rules, std::uint64_t after_epoch = 0) {
     msg::Rules::ConstPtr message;
     node_->waitUntil("~rules", [&](const Heard&) {
@@ -291,7 +291,7 @@ TEST_F(RulesTopic, IsPublishedAfterAReset) {
   waitFor({configured_}, before);
 }
 
-TEST_F(AllowedRules, TheMatrixIsToldWithGlobsLimitAndSrdf) {
+TEST_F(AllowedRules, TheMatrixIsReturnedForGlobsWithALimitAndAsSrdf) {
   pairsOf(node_->setAllowed(toAdd({allow("robot/b", "robot/a", "parked & safe"), enable("robot/base", "robot/c")})));
   msg::GetAllowed::Request request;
   request.as_srdf = true;
@@ -321,7 +321,7 @@ TEST_F(AllowedRules, TheMatrixIsToldWithGlobsLimitAndSrdf) {
 }
 
 TEST(RulesBeforeTheWorld, AreTheConfiguredOnes) {
-  NodeSetup setup;  // no robot, hence no world frame
+  NodeSetup setup;  // there is no robot, so there is no world frame
   setup.params = dict({{"allowed_pairs", list({dict({{"first", "a/b"}, {"second", "*"}})})}});
   NodeUnderTest node(setup);
   const auto message = ros::topic::waitForMessage<msg::Rules>(node.named("rules"), ros::Duration(20.0));
@@ -333,7 +333,7 @@ TEST(RulesBeforeTheWorld, AreTheConfiguredOnes) {
 }
 
 TEST(AllowedBeforeTheWorld, IsNotReady) {
-  NodeUnderTest node(NodeSetup{});  // no robot, hence no world frame
+  NodeUnderTest node(NodeSetup{});  // there is no robot, so there is no world frame
   EXPECT_EQ(node.setAllowed(toAdd({allow("*", "*")})).code.name, "NOT_READY");
   EXPECT_EQ(node.getAllowed().code.name, "NOT_READY");
   EXPECT_EQ(node.explain("robot/a", "robot/b").code.name, "NOT_READY");

@@ -12,7 +12,7 @@ namespace {
 
 using msg::Answer;
 
-/// A row of posts along x, at 2, 3, 4 and 5 m, and one that follows a tf frame turned by 90 degrees.
+/// Four spherical obstacles at x = 2, 3, 4 and 5 m, and one that follows a tf frame rotated by 90 degrees.
 class QueryAnswers : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -40,7 +40,7 @@ class QueryAnswers : public ::testing::Test {
 std::unique_ptr<TransformSource> QueryAnswers::transforms_;
 std::unique_ptr<NodeUnderTest> QueryAnswers::node_;
 
-TEST_F(QueryAnswers, ABallMeetsBodiesByDistanceThenNearnessOfItsCentre) {
+TEST_F(QueryAnswers, ASphereHitsBodiesSortedByDistanceThenCenterDistance) {
   const auto response = node_->sphere(3.2, 0, 0, 1.0);
   const Answer& answer = response.answer;
   EXPECT_TRUE(answer.success);
@@ -62,7 +62,7 @@ TEST_F(QueryAnswers, ABallMeetsBodiesByDistanceThenNearnessOfItsCentre) {
   EXPECT_TRUE(response.world.complete);
 }
 
-TEST_F(QueryAnswers, ASegmentMeetsBodiesInOrderAlongIt) {
+TEST_F(QueryAnswers, ASegmentHitsBodiesInOrderAlongIt) {
   const auto forth = node_->segment(xyz(0, 0, 0), xyz(9, 0, 0), 0.0).answer;
   EXPECT_EQ(namesOf(forth),
             std::vector<std::string>({"obstacle/post_2", "obstacle/post_3", "obstacle/post_4", "obstacle/post_5"}));
@@ -77,7 +77,7 @@ TEST_F(QueryAnswers, ASegmentMeetsBodiesInOrderAlongIt) {
   EXPECT_EQ(node_->segment(xyz(0, 0.3, 0), xyz(9, 0.3, 0), 0.25).answer.total, 4u);
 }
 
-TEST_F(QueryAnswers, ARadiusOfZeroAsksForAPointAndEqualEndsForABall) {
+TEST_F(QueryAnswers, ARadiusOf0MakesAPointAndEqualEndsMakeASphere) {
   EXPECT_EQ(namesOf(node_->sphere(2.05, 0, 0, 0.0).answer), std::vector<std::string>({"obstacle/post_2"}));
   EXPECT_EQ(node_->sphere(2.2, 0, 0, 0.0).answer.verdict, msg::Verdict::CLEAR);
   EXPECT_EQ(namesOf(node_->segment(xyz(2.2, 0, 0), xyz(2.2, 0, 0), 0.15).answer),
@@ -85,7 +85,7 @@ TEST_F(QueryAnswers, ARadiusOfZeroAsksForAPointAndEqualEndsForABall) {
   EXPECT_EQ(node_->segment(xyz(2.2, 0, 0), xyz(2.2, 0, 0), 0.05).answer.verdict, msg::Verdict::CLEAR);
 }
 
-TEST_F(QueryAnswers, ASegmentMayBeAMillionKilometresLong) {
+TEST_F(QueryAnswers, ASegmentMayBeAMillionKilometersLong) {
   const auto answer = node_->segment(xyz(-1e9, 0, 0), xyz(1e9, 0, 0), 0.0).answer;
   EXPECT_TRUE(answer.success);
   EXPECT_EQ(answer.total, 4u);
@@ -104,7 +104,7 @@ TEST_F(QueryAnswers, ALimitCutsAndSaysSo) {
   EXPECT_FALSE(node_->ask(request).answer.truncated);
 }
 
-TEST_F(QueryAnswers, PatternsChooseAndExcludeBeatsInclude) {
+TEST_F(QueryAnswers, PatternsSelectBodiesAndExcludeTakesPrecedenceOverInclude) {
   msg::QuerySphere::Request request;
   request.radius = 100;
   request.include = {"obstacle/post_?"};
@@ -112,21 +112,22 @@ TEST_F(QueryAnswers, PatternsChooseAndExcludeBeatsInclude) {
   EXPECT_EQ(namesOf(node_->ask(request).answer), std::vector<std::string>({"obstacle/post_2", "obstacle/post_4"}));
   request.include = {"obstacle/post_4"};
   request.center.x = 1e3;
-  EXPECT_EQ(node_->ask(request).answer.verdict, msg::Verdict::CLEAR) << "of what was asked for, nothing is there";
+  EXPECT_EQ(node_->ask(request).answer.verdict, msg::Verdict::CLEAR) << "the only body asked about is far away";
 }
 
 TEST_F(QueryAnswers, AQuestionInATurnedFrameIsAnsweredInIt) {
-  // The frame's x axis is the world's y axis: its (1, 0, 0) is the world's (1, 3, 3), where its post is.
+  // The x axis of the frame is the y axis of the world. The obstacle is at (1, 0, 0) in the frame, and so at (1, 3, 3)
+  // in the world.
   const auto there = node_->sphere(1, 0, 0, 0.05, "turned");
   EXPECT_EQ(namesOf(there.answer), std::vector<std::string>({"obstacle/turned"}));
   EXPECT_EQ(namesOf(node_->sphere(1, 3, 3, 0.05).answer), std::vector<std::string>({"obstacle/turned"}));
   EXPECT_EQ(there.header.frame_id, "turned");
-  const auto row = node_->segment(xyz(-2, 2, -3), xyz(-2, -9, -3), 0.0, "turned");  // the world's x axis
+  const auto row = node_->segment(xyz(-2, 2, -3), xyz(-2, -9, -3), 0.0, "turned");  // along the x axis of the world
   EXPECT_EQ(namesOf(row.answer),
             std::vector<std::string>({"obstacle/post_2", "obstacle/post_3", "obstacle/post_4", "obstacle/post_5"}));
   EXPECT_NEAR(row.answer.hits[0].along, 2.9, 1e-6);
   EXPECT_NEAR(row.answer.hits[0].point.x, -2.0, 1e-6);
-  EXPECT_NEAR(row.answer.hits[0].point.y, -0.9, 1e-6) << "(1.9, 0, 0) in the world";
+  EXPECT_NEAR(row.answer.hits[0].point.y, -0.9, 1e-6) << "the point is (1.9, 0, 0) in the world";
   EXPECT_NEAR(row.answer.hits[0].point.z, -3.0, 1e-6);
 }
 

@@ -18,7 +18,7 @@ using msg::Answer;
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 const double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A post in a world that is complete; what is refused leaves it as it was.
+/// A complete world with one obstacle "post". A refused query must not change it.
 class QueryDoor : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -46,7 +46,7 @@ class QueryDoor : public ::testing::Test {
     EXPECT_EQ(answer.verdict, msg::Verdict::UNKNOWN) << "never CLEAR";
     EXPECT_TRUE(answer.hits.empty());
     EXPECT_EQ(answer.total, 0u);
-    EXPECT_GT(response.world.sequence, 0u) << "what the world is like is said all the same";
+    EXPECT_GT(response.world.sequence, 0u) << "a refusal contains the state of the world as well";
     EXPECT_EQ(namesOf(node_->sphere(2, 0, 0, 0.05).answer), std::vector<std::string>({"obstacle/post"}));
     EXPECT_TRUE(node_->process().alive());
   }
@@ -57,7 +57,7 @@ class QueryDoor : public ::testing::Test {
 std::unique_ptr<TransformSource> QueryDoor::transforms_;
 std::unique_ptr<NodeUnderTest> QueryDoor::node_;
 
-TEST_F(QueryDoor, ARadiusThatIsNoneIsRefused) {
+TEST_F(QueryDoor, AnInvalidRadiusIsRefused) {
   expectRefused(node_->sphere(0, 0, 0, kNan), "BAD_GEOMETRY", "radius is nan m; it must be finite and not negative");
   expectRefused(node_->sphere(0, 0, 0, -1), "BAD_GEOMETRY", "radius is -1 m");
   expectRefused(node_->sphere(0, 0, 0, kInfinity), "BAD_GEOMETRY", "radius is inf m");
@@ -66,7 +66,7 @@ TEST_F(QueryDoor, ARadiusThatIsNoneIsRefused) {
   EXPECT_TRUE(throttled(*node_, "query.refused.BAD_GEOMETRY"));
 }
 
-TEST_F(QueryDoor, APointThatIsNoneIsRefused) {
+TEST_F(QueryDoor, AnInvalidPointIsRefused) {
   expectRefused(node_->sphere(kNan, 0, 0, 1), "NONFINITE", "the query's center is not finite");
   expectRefused(node_->sphere(0, 0, -kInfinity, 1), "NONFINITE", "the query's center is not finite");
   expectRefused(node_->segment(xyz(kNan, 0, 0), xyz(1, 0, 0), 0), "NONFINITE", "the segment's start");
@@ -74,7 +74,7 @@ TEST_F(QueryDoor, APointThatIsNoneIsRefused) {
   expectRefused(node_->segment(xyz(0, 0, 0), xyz(1e300, 0, 0), 0), "OUT_OF_RANGE", "the segment's end");
 }
 
-TEST_F(QueryDoor, PatternsThatNobodyMatchesDoNotReadAsClear) {
+TEST_F(QueryDoor, PatternsThatMatchNoBodyAreRefused) {
   const auto ask = [](const std::vector<std::string>& include, const std::vector<std::string>& exclude) {
     msg::QuerySphere::Request request;
     request.center.x = 5.0;
@@ -83,13 +83,13 @@ TEST_F(QueryDoor, PatternsThatNobodyMatchesDoNotReadAsClear) {
     request.exclude = exclude;
     return node_->ask(request);
   };
-  expectRefused(ask({"no_such/*"}, {}), "UNKNOWN_ID", "no body matches 'no_such/*' of include");
+  expectRefused(ask({"no_such/*"}, {}), "UNKNOWN_ID", "no body matches the glob 'no_such/*' of include");
   expectRefused(ask({"obstacle/post", "obstacle/pots"}, {}), "UNKNOWN_ID", "no body matches 'obstacle/pots'");
   expectRefused(ask({""}, {}), "UNKNOWN_ID", "no body matches ''");
-  expectRefused(ask({}, {"*"}), "UNKNOWN_ID", "exclude leaves no body to ask for");
+  expectRefused(ask({}, {"*"}), "UNKNOWN_ID", "exclude leaves out all bodies");
   const auto clear = ask({"obstacle/*"}, {"nobody"}).answer;
   EXPECT_EQ(clear.verdict, msg::Verdict::CLEAR);
-  EXPECT_EQ(clear.summary, "CLEAR: none of the 1 bodies asked for is there");
+  EXPECT_EQ(clear.summary, "CLEAR: none of the 1 requested bodies is there");
 }
 
 TEST_F(QueryDoor, AFrameThatNobodyKnowsIsRefused) {
@@ -97,8 +97,8 @@ TEST_F(QueryDoor, AFrameThatNobodyKnowsIsRefused) {
   expectRefused(node_->sphere(0, 0, 0, 1, "a\n\x1b[31m"), "UNKNOWN_FRAME", "a\\x0a\\x1b[31m");
 }
 
-TEST_F(QueryDoor, ATimeThatIsNotNowIsRefusedWithTheTimesThatAre) {
-  const ros::Time stamp = node_->heard().status.back()->header.stamp;  // it stays, since no transform comes
+TEST_F(QueryDoor, AStampOtherThanThatOfTheTickIsRefused) {
+  const ros::Time stamp = node_->heard().status.back()->header.stamp;  // stays the same, as no transform comes
   msg::QuerySphere::Request request;
   request.center.x = 2;
   request.header.stamp = stamp;
@@ -127,15 +127,15 @@ TEST_F(QueryDoor, RefusalsAreCountedExactlyAndLoggedAtMostOnceASecond) {
   node_->waitForTicks(2);
   const auto before = total(*node_->heard().status.back());
   for (int i = 0; i < 300; ++i) node_->sphere(0, 0, 0, -1);
-  node_->waitForStatus("all are counted", [&](const msg::Status& s) { return total(s) == before + 300; });
+  node_->waitForStatus("all refusals are counted", [&](const msg::Status& s) { return total(s) == before + 300; });
   node_->waitForTicks(2);
   EXPECT_EQ(total(*node_->heard().status.back()), before + 300);
   EXPECT_TRUE(throttled(*node_, "query.refused.BAD_GEOMETRY"));
 }
 
 TEST(QueryBeforeTheWorld, IsNotReadyAndNeverClear) {
-  NodeUnderTest node(NodeSetup{});  // no robot, hence no world frame
-  node.waitForStatus("the robot was looked for", [](const msg::Status& s) {
+  NodeUnderTest node(NodeSetup{});  // there is no robot, so there is no world frame
+  node.waitForStatus("the missing robot description is reported", [](const msg::Status& s) {
     return says(s.not_ready.at(0), "parameter 'robot_description' is not set");
   });
   for (const Answer& answer : {node.sphere(0, 0, 0, 1).answer, node.segment(xyz(0, 0, 0), xyz(1, 0, 0), 0).answer}) {

@@ -13,8 +13,8 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-/// 5 x 5 x 5 boxes of 1 m with corners at whole numbers from -2 to 3, every other one left out, on a grid whose cells
-/// have edges of 1 m too: what runs along a cell's face runs along boxes' faces.
+/// A checkerboard of 5 x 5 x 5 places for boxes of 1 m, with corners at integers from -2 to 3. Every other place is
+/// empty. The cells of the grid are 1 m long as well, so a segment along faces of cells is also along faces of boxes.
 class QueryLattice : public ::testing::Test {
  protected:
   static bool filled(int x, int y, int z) { return (x + y + z) % 2 == 0; }
@@ -42,7 +42,8 @@ class QueryLattice : public ::testing::Test {
     setup.beside["robot_description"] = urdf(link("base"));
     return setup;
   }
-  /// Whether the segment meets the closed box [low, low + 1]^3. Exact here: every number is a small multiple of 1/4.
+  /// Whether the segment touches the closed box [low, low + 1]^3. The result is exact, because all coordinates are
+  /// small multiples of 1/4.
   static bool meets(const Point& from, const Point& to, const Point& low) {
     double enter = 0.0, leave = 1.0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -64,18 +65,18 @@ TEST_F(QueryLattice, ASegmentAlongFacesEdgesAndThroughCornersMissesNothing) {
   node.waitForComplete();
   const std::vector<std::pair<Point, Point>> segments = {
       {{-4, 0.5, 0.5}, {4, 0.5, 0.5}},   // along an axis
-      {{4, 0.5, 0.5}, {-4, 0.5, 0.5}},   // and back
+      {{4, 0.5, 0.5}, {-4, 0.5, 0.5}},   // the same in the other direction
       {{-4, 1, 0.5}, {4, 1, 0.5}},       // on a face
       {{-4, -0.0, 0.5}, {4, 0.0, 0.5}},  // on the face at 0, with both zeros
       {{-4, 1, -1}, {4, 1, -1}},         // on an edge
-      {{0.5, 3, -4}, {0.5, 3, 4}},       // on the outer face
+      {{0.5, 3, -4}, {0.5, 3, 4}},       // on an outer face of the outermost boxes
       {{-4, -4, -4}, {4, 4, 4}},         // through corners
-      {{4, -4, 4}, {-4, 4, -4}},         // through corners, other directions
+      {{4, -4, 4}, {-4, 4, -4}},         // through corners, in other directions
       {{-4, -4, 1}, {4, 4, 1}},          // diagonally on a face
-      {{-4, 0, 0}, {4, 2, 1}},           // oblique, through grid points
-      {{0, 0, 0}, {0, 0, 0}},            // a corner of eight cells
+      {{-4, 0, 0}, {4, 2, 1}},           // oblique, through points with integer coordinates
+      {{0, 0, 0}, {0, 0, 0}},            // a point in the common corner of eight cells
       {{-1, 2, 0.25}, {-1, 2, 0.25}},    // a point on an edge
-      {{3, 3, 3}, {4, 4, 4}},            // away from the last corner
+      {{3, 3, 3}, {4, 4, 4}},            // begins in the last corner and leads away from all boxes
   };
   for (const auto& ends : segments) {
     const Point &from = ends.first, &to = ends.second;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// How the outcome of a request is written into responses of each form.
+// How success, a refusal or a fault is written into the different kinds of service responses.
 #include "src/node/services/envelope/reply.h"
 
 #include <gtest/gtest.h>
@@ -47,12 +47,12 @@ TEST(Reply, OfAQueryForgetsWhatWasFoundBeforeItWasRefused) {
   writeRefusal(kRefusal, false, response);
   EXPECT_FALSE(response.answer.success);
   EXPECT_TRUE(response.answer.hits.empty());
-  EXPECT_EQ(response.answer.verdict, 0) << "UNKNOWN";
+  EXPECT_EQ(response.answer.verdict, 0) << "the verdict must be UNKNOWN";
   EXPECT_EQ(response.answer.unknown_because, msg::UnknownReason::REFUSED);
-  EXPECT_EQ(response.answer.summary, "refused, so UNKNOWN: no name");
+  EXPECT_EQ(response.answer.summary, "UNKNOWN, because the query was refused: no name");
   writeRefusal(kRefusal, true, response);
   EXPECT_EQ(response.answer.code.name, "BAD_ID");
-  EXPECT_EQ(response.answer.summary, "") << "a fault says nothing about the question";
+  EXPECT_EQ(response.answer.summary, "") << "a fault adds no summary";
 }
 
 TEST(Reply, OfAnExplanationIsTheReasonOfARefusal) {
@@ -105,7 +105,7 @@ TEST(AnswerTick, RefusesToGiveASnapshotThatDoesNotExist) {
     }
     return "OK";
   };
-  EXPECT_EQ(refusal(AnswerTick(nullptr)), "NOT_READY there is no world yet: the first tick was not made");
+  EXPECT_EQ(refusal(AnswerTick(nullptr)), "NOT_READY there is no world yet: the node has not computed its first tick");
   EXPECT_EQ(refusal(AnswerTick(tickOf(nullptr))), "NOT_READY there is no world yet: NOT_READY: no frame");
 }
 

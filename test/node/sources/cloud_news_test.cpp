@@ -13,7 +13,7 @@ namespace {
 
 const AgeLimits kLimits{0.1, 0.25, 2.0};
 
-/// A cloud whose newest message was stamped and received at these times.
+/// Returns a cloud whose newest message has this stamp and this arrival time [s].
 LoadedCloud seenAt(double stamp, double received, double lifetime = 1.0) {
   LoadedCloud cloud;
   cloud.lifetime = lifetime;
@@ -30,7 +30,7 @@ TEST(CloudNews, AgesFromItsStampByTheSteadyClock) {
   CloudNews news(false);
   news.noteAccepted(seenAt(1.0, 1.05));
   EXPECT_NEAR(news.ageOf(at(1.05)), 0.05, 1e-9);
-  EXPECT_NEAR(news.ageOf(moment(0.0, 51.25)), 0.25, 1e-9) << "setting the wall clock ages nothing";
+  EXPECT_NEAR(news.ageOf(moment(0.0, 51.25)), 0.25, 1e-9) << "setting the wall clock changes no age";
 }
 
 TEST(CloudNews, AgesByASimulatedClockInBothDirections) {
@@ -64,15 +64,15 @@ TEST(CloudNews, LearnsThePeriodOfItsMessages) {
   EXPECT_NEAR(news.period(), 0.18, 1e-9) << "a gap longer than the lifetime is an outage";
 }
 
-TEST(CloudNews, TellsOfARefusedMessageUntilANewerOneIsAccepted) {
+TEST(CloudNews, ReportsARefusedMessageUntilANewerOneIsAccepted) {
   CloudNews news(false);
   news.noteAccepted(seenAt(0.0, 0.0));
   news.noteRefused("LIMIT too long");
   news.noteAccepted(seenAt(0.0, 0.1));
-  EXPECT_EQ(news.refused(), "LIMIT too long") << "only the cells changed";
+  EXPECT_EQ(news.refused(), "LIMIT too long") << "only the cells changed; there is no newer message";
   EXPECT_EQ(news.sentence("cloud/eye", Freshness::lost, 2.0),
-            "cloud 'cloud/eye': the newest message that counts is " + secondsText(2.0) +
-                " old; its cells have expired; since then: LIMIT too long");
+            "cloud 'cloud/eye': its newest usable message is " + secondsText(2.0) +
+                " old; its cells have expired; a later message was refused: LIMIT too long");
   news.noteAccepted(seenAt(0.2, 0.2));
   EXPECT_EQ(news.refused(), "");
 }
@@ -88,7 +88,7 @@ TEST(CloudNews, LeavesAGapAsFarAsTheSensorSeesFromWhereItCanBe) {
   const SourceGap gap = news.gap("cloud/eye", Freshness::lost, 2.0, 0.5);
   ASSERT_TRUE(gap.within);
   EXPECT_EQ(gap.within->center, cloud.sensor);
-  EXPECT_DOUBLE_EQ(gap.within->radius, 5.0) << "4 m, and 1 m that the sensor can have moved";
+  EXPECT_DOUBLE_EQ(gap.within->radius, 5.0) << "the range of 4 m, plus 1 m that the sensor can have moved";
   EXPECT_EQ(gap.source, "cloud/eye");
   EXPECT_EQ(gap.sentence.find("LOST cloud/eye: "), 0u) << gap.sentence;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Point clouds: their cells come, go with their lifetime, lie where the sensor was at the stamp, and are refused
-// without harm.
+// Tests of point clouds: their cells are added, are placed by the pose of the sensor at the stamp, and expire. A
+// refused message does no harm.
 #include <hgrid_proximity/BodyState.h>
 #include <hgrid_proximity/UnknownReason.h>
 #include <hgrid_proximity/Verdict.h>
@@ -46,10 +46,11 @@ sensor_msgs::PointCloud2 cloudOf(const std::string& frame, ros::Time stamp, cons
   return cloud;
 }
 
-/// A robot's ball of 0.1 m at the origin of "base", and a cloud of cells of 0.1 m that is sent again and again.
+/// A robot with a sphere of radius 0.1 m at the origin of "base", and a cloud with cells of 0.1 m that is sent
+/// repeatedly.
 class Clouds : public ::testing::Test {
  protected:
-  /// @param cloud  more of its configuration
+  /// Starts the node. @param cloud  additional parameters of the cloud
   void start(double lifetime, const std::map<std::string, Value>& cloud = {}, Value params = dict()) {
     NodeSetup setup;
     setup.params = params;
@@ -61,11 +62,12 @@ class Clouds : public ::testing::Test {
     transforms_.fix({stamped("base", "camera", at(0, 0, 1.0))});
     node_ = std::make_unique<NodeUnderTest>(setup);
     publisher_ = ros_.advertise<CloudBytes>(node_->space() + "/points", 1);
-    node_->waitUntil("a listener", [this](const Heard&) { return publisher_.getNumSubscribers() > 0; });
+    node_->waitUntil("the node subscribes to the cloud",
+                     [this](const Heard&) { return publisher_.getNumSubscribers() > 0; });
   }
   void send(const std::string& bytes) { publisher_.publish(CloudBytes{bytes}); }
   void send(const sensor_msgs::PointCloud2& cloud) { send(serialized(cloud)); }
-  /// Sends points of the camera, stamped now, until the condition holds.
+  /// Sends points in the frame "camera", stamped with the current time, until the condition holds.
   void sendUntil(const Points& points, const std::string& what, const std::function<bool(const msg::Status&)>& holds) {
     node_->waitUntil(what, [&](const Heard& heard) {
       if (heard.status.empty()) return false;
@@ -89,28 +91,28 @@ class Clouds : public ::testing::Test {
 
 TEST_F(Clouds, MakePairsAndGoWithTheirLifetimeWhichLeavesTheWorldIncomplete) {
   start(0.5);
-  node_->waitForStatus("the cloud is missed", [](const msg::Status& status) {
+  node_->waitForStatus("the missing cloud is reported", [](const msg::Status& status) {
     return !status.world.reasons.empty() && status.world.reasons[0].find("NOT_READY cloud 'front'") == 0;
   });
-  const Points point{{0.05f, 0.05f, -0.85f}};  // in "base" at z 0.15
+  const Points point{{0.05f, 0.05f, -0.85f}};  // z is 0.15 m in "base"
   sendUntil(point, "a pair", [](const msg::Status& status) { return status.pair_count == 1; });
-  const auto pairs = node_->waitForPairs("the ball and the cell", [](const msg::Pairs& now) {
+  const auto pairs = node_->waitForPairs("a pair of the sphere and the cell", [](const msg::Pairs& now) {
     return now.names == Names({"cloud/front", "robot/a"});
   });
-  EXPECT_NEAR(pairs->gap[0], 0.0, 1e-6) << "the cell from z 0.1 on touches the ball's box";
+  EXPECT_NEAR(pairs->gap[0], 0.0, 1e-6) << "the cell begins at z = 0.1 m and touches the box of the sphere";
   EXPECT_TRUE(pairs->world.complete);
-  node_->waitForStatus("nothing is seen any more",
+  node_->waitForStatus("the cell has expired",
                        [](const msg::Status& status) { return status.pair_count == 0 && !status.world.complete; });
   const Answer answer = askedAt(0.05, 0.05, 0.15);
-  EXPECT_EQ(answer.verdict, msg::Verdict::UNKNOWN) << "never CLEAR without the sensor";
-  EXPECT_TRUE(says(answer.summary, "LOST cloud/front: what it saw is"));
+  EXPECT_EQ(answer.verdict, msg::Verdict::UNKNOWN) << "without the sensor, the verdict is never CLEAR";
+  EXPECT_TRUE(says(answer.summary, "LOST cloud/front: its newest points are"));
   sendUntilComplete(point);
 }
 
 TEST_F(Clouds, WithoutFinitePointsDoNotKeepTheCloudFresh) {
   start(1.0);
   const float nan = std::nanf("");
-  const Points wall{{0.05f, 0.05f, 2.05f}};  // in "base" at z 3.05
+  const Points wall{{0.05f, 0.05f, 2.05f}};  // z is 3.05 m in "base"
   for (const Points& blind : {Points{}, Points{{nan, nan, nan}, {nan, 0.0f, 0.0f}}}) {
     SCOPED_TRACE(std::to_string(blind.size()) + " points");
     sendUntilComplete(wall);
@@ -119,7 +121,7 @@ TEST_F(Clouds, WithoutFinitePointsDoNotKeepTheCloudFresh) {
       return status.world.incomplete == Names({"cloud/front"}) && isWithoutCells(status);
     });
     const Answer answer = askedAt(0.05, 0.05, 3.05);
-    EXPECT_EQ(answer.verdict, msg::Verdict::UNKNOWN) << "the wall is still there";
+    EXPECT_EQ(answer.verdict, msg::Verdict::UNKNOWN) << "the wall may still be there";
     EXPECT_EQ(answer.unknown_because, msg::UnknownReason::INCOMPLETE);
     EXPECT_TRUE(says(answer.summary, "finite points; min_points is 1"));
   }
@@ -134,7 +136,7 @@ TEST_F(Clouds, WithTooFewPointsAddTheirCellsButDoNotKeepTheCloudFresh) {
     seen = seen || askedAt(0.05, 2.05, 3.05).verdict == msg::Verdict::HIT;
     return status.world.incomplete == Names({"cloud/front"});
   });
-  EXPECT_TRUE(seen) << "what a sensor sees is there, however little it sees";
+  EXPECT_TRUE(seen) << "even too few points add their cells";
 }
 
 TEST_F(Clouds, WithoutPointsAreClearWhereThatIsConfigured) {
@@ -171,7 +173,7 @@ TEST_F(Clouds, ThatAreLostLeaveQuestionsAboutTheRobotClear) {
   EXPECT_TRUE(says(robot.summary, "CLEAR"));
   request.include = {};
   request.center.z = 3000.0;
-  EXPECT_EQ(node_->ask(request).answer.verdict, msg::Verdict::CLEAR) << "beyond the range of the sensor";
+  EXPECT_EQ(node_->ask(request).answer.verdict, msg::Verdict::CLEAR) << "this place is beyond the range of the sensor";
 }
 
 TEST_F(Clouds, LieWhereTheSensorWasAtTheirStamp) {
@@ -184,20 +186,20 @@ TEST_F(Clouds, LieWhereTheSensorWasAtTheirStamp) {
   EXPECT_EQ(askedAt(7.05, 0.05, 0.05).hits.size(), 0u);
   send(cloudOf("arm", later, {{0.05f, 0.05f, 0.05f}}));
   node_->waitUntil("a hit", [&](const Heard&) { return askedAt(7.05, 0.05, 0.05).verdict == msg::Verdict::HIT; });
-  EXPECT_EQ(askedAt(3.05, 0.05, 0.05).verdict, msg::Verdict::HIT) << "seen less than its lifetime ago";
+  EXPECT_EQ(askedAt(3.05, 0.05, 0.05).verdict, msg::Verdict::HIT) << "this cell has not expired yet";
 }
 
-TEST_F(Clouds, PointsThatAreNoneAreLeftOut) {
+TEST_F(Clouds, PointsThatAreNotFiniteAreLeftOut) {
   start(20.0);
   const float nan = std::nanf(""), infinity = INFINITY;
   sendUntilComplete({{nan, nan, nan}, {0.05f, 0.05f, -0.95f}, {0.0f, infinity, 0.0f}, {-infinity, nan, 0.0f}});
   EXPECT_EQ(askedAt(0.05, 0.05, 0.05).verdict, msg::Verdict::HIT);
-  sendUntil({{nan, nan, nan}}, "all counted",
+  sendUntil({{nan, nan, nan}}, "all points that are not finite are counted",
             [](const msg::Status& status) { return counter(status, "cloud/front.points_not_finite") >= 4; });
   EXPECT_EQ(counter(*node_->heard().status.back(), "cloud/front.refused.NONFINITE"), 0u);
 }
 
-TEST_F(Clouds, ThatCannotBePlacedAreRefusedAndSaidToBeMissed) {
+TEST_F(Clouds, ThatCannotBePlacedAreRefusedAndReportedAsMissing) {
   start(20.0);
   send(cloudOf("nowhere", transforms_.now(), {{0, 0, 0}}));
   const auto refused = [&](const std::string& code) {
@@ -207,10 +209,10 @@ TEST_F(Clouds, ThatCannotBePlacedAreRefusedAndSaidToBeMissed) {
     send(cloudOf("nowhere", transforms_.now(), {{0, 0, 0}}));
     return !heard.status.empty() && refused("UNKNOWN_FRAME")(*heard.status.back());
   });
-  const auto status = node_->waitForStatus("why", [](const msg::Status& now) {
+  const auto status = node_->waitForStatus("the reason", [](const msg::Status& now) {
     return !now.world.reasons.empty() && now.world.reasons[0].find("UNKNOWN_FRAME cloud 'front' of points") == 0;
   });
-  EXPECT_TRUE(says(status->world.reasons[0], "where its frame 'nowhere' was"));
+  EXPECT_TRUE(says(status->world.reasons[0], "the pose of its frame 'nowhere' in 'base' at its stamp"));
   send(cloudOf("camera", transforms_.now() + ros::Duration(100.0), {{0, 0, 0}}));
   node_->waitForStatus("a refusal", refused("CLOCK"));
   transforms_.send({stamped("base", "arm", at(3.0), transforms_.now())});
@@ -220,7 +222,7 @@ TEST_F(Clouds, ThatCannotBePlacedAreRefusedAndSaidToBeMissed) {
   });
 }
 
-TEST_F(Clouds, ThatLieLeaveTheCloudAsItWas) {
+TEST_F(Clouds, WithWrongLengthsLeaveTheCloudAsItWas) {
   start(30.0, {}, dict({{"map", dict({{"max_bytes", 100000}})}}));
   sendUntilComplete({{0.05f, 0.05f, -0.95f}});
   const std::string whole = serialized(cloudOf("camera", transforms_.now(), {{1, 1, 1}, {2, 2, 2}}));
@@ -237,22 +239,22 @@ TEST_F(Clouds, ThatLieLeaveTheCloudAsItWas) {
       return all == sent && counter(status, "cloud/front.refused." + code) > 0;
     });
   };
-  const std::size_t frame_at = 12, fields_at = frame_at + 4 + 6 + 8;  // seq and stamp; height and width
+  const std::size_t frame_at = 12, fields_at = frame_at + 4 + 6 + 8;  // positions of frame_id and fields
   const auto with = [&](std::size_t at, std::uint32_t number) {
     return whole.substr(0, at) + bytesOf(number) + whole.substr(at + 4);
   };
-  refuse(with(frame_at, 0xffffffff), "TRUNCATED");   // a frame_id of 4 GB
-  refuse(with(fields_at, 0x08000000), "TRUNCATED");  // 134 million fields
+  refuse(with(frame_at, 0xffffffff), "TRUNCATED");   // declares a frame_id of 4 GB
+  refuse(with(fields_at, 0x08000000), "TRUNCATED");  // declares 134 million fields
   refuse(with(fields_at + 4, 0xfffffff0), "TRUNCATED");
   for (std::size_t cut = 0; cut < whole.size(); cut += 7) refuse(whole.substr(0, cut), "TRUNCATED");
   refuse(whole + "x", "TRUNCATED");
-  refuse(with(frame_at + 10, 0xffffffff), "TRUNCATED");  // a height of 4 thousand million rows
+  refuse(with(frame_at + 10, 0xffffffff), "TRUNCATED");  // declares 4 billion rows
   auto cloud = cloudOf("camera", transforms_.now(), {{1, 1, 1}});
   cloud.fields.pop_back();
   refuse(serialized(cloud), "UNSUPPORTED");
   refuse(serialized(cloudOf("camera", transforms_.now(), Points(9000))), "LIMIT");
   EXPECT_EQ(askedAt(0.05, 0.05, 0.05).verdict, msg::Verdict::HIT);
-  EXPECT_EQ(askedAt(1.05, 1.05, 2.05).verdict, msg::Verdict::CLEAR) << "nothing of what was refused is there";
+  EXPECT_EQ(askedAt(1.05, 1.05, 2.05).verdict, msg::Verdict::CLEAR) << "a refused message adds no cells";
   EXPECT_LT(residentKilobytes(node_->process().pid()), before + 4000) << "kB";
 }
 
@@ -268,12 +270,12 @@ TEST_F(Clouds, ThatAreLostSayWhatWasWrongWithTheLastMessage) {
       return false;
     });
   };
-  refused(cloudOf("nowhere", ros::Time(), {{0, 0, 0}}), "UNKNOWN_FRAME cloud 'front' of points: where its frame");
+  refused(cloudOf("nowhere", ros::Time(), {{0, 0, 0}}), "UNKNOWN_FRAME cloud 'front' of points: the pose of its frame");
   refused(cloudOf("camera", ros::Time(), {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}),
           "LIMIT cloud 'front' of points: there would be 3 cells; at most 2 are allowed by ~map/max_leaves");
   for (const auto& status : node_->heard().status) {
     if (status->gauges.front().name != "cells.cloud/front" || status->gauges.front().value > 0.0) continue;
-    ASSERT_FALSE(status->world.complete) << "what was refused keeps nothing fresh";
+    ASSERT_FALSE(status->world.complete) << "a refused message does not keep the cloud fresh";
   }
   sendUntilComplete({{0.05f, 0.05f, 1.0f}});
 }
@@ -283,7 +285,7 @@ TEST_F(Clouds, AreStaleAsSoonAfterAnOutageAsBeforeIt) {
   const Points point{{0.05f, 0.05f, 1.0f}};
   sendUntilComplete(point);
   std::uint64_t accepted = 0;
-  sendUntil(point, "a rhythm of 10 Hz",
+  sendUntil(point, "messages at 10 Hz",
             [&](const msg::Status& status) { return (accepted = counter(status, "cloud/front.accepted")) >= 10; });
   node_->waitForTicks(200);  // an outage of 4 s
   const std::size_t begin = node_->heard().status.size();
@@ -296,14 +298,14 @@ TEST_F(Clouds, AreStaleAsSoonAfterAnOutageAsBeforeIt) {
   EXPECT_LT(node_->heard().status.back()->bodies[0].age, 1.0) << "s";
 }
 
-TEST_F(Clouds, DoNotHoldTheRobotItself) {
+TEST_F(Clouds, DoNotContainTheRobotItself) {
   start(20.0, {}, dict({{"map", dict({{"self_filter", list({dict({{"pattern", "robot/a"}, {"padding", 0.09}})})}})}}));
   Points points;
-  for (int i = 0; i < 200; ++i) {  // on the ball, as a camera sees it
+  for (int i = 0; i < 200; ++i) {  // points on the sphere, as a camera sees them
     const float angle = 0.0314f * static_cast<float>(i);
     points.push_back({0.1f * std::cos(angle), 0.1f * std::sin(angle), -1.0f});
   }
-  points.push_back({0.0f, 0.35f, -1.0f});  // not the robot's
+  points.push_back({0.0f, 0.35f, -1.0f});  // a point that does not belong to the robot
   sendUntilComplete(points);
   EXPECT_EQ(askedAt(0.05, 0.35, 0.05).verdict, msg::Verdict::HIT);
   EXPECT_EQ(namesOf(askedAt(0.1, 0.0, 0.0)), Names({"robot/a"}));

@@ -45,7 +45,7 @@ TEST(Description, ThatIsAbsentOrEmptyOrNoTextIsWaitedForAndObstaclesServe) {
     NodeSetup setup = besidePost();
     if (one.first.valid()) setup.beside["robot_description"] = one.first;
     NodeUnderTest node(setup);
-    const auto status = node.waitForStatus("it was looked for", [&](const msg::Status& s) {
+    const auto status = node.waitForStatus("the missing description is reported", [&](const msg::Status& s) {
       return !s.not_ready.empty() && s.not_ready[0].find(one.second) != std::string::npos;
     });
     EXPECT_EQ(status->not_ready.size(), 1u);
@@ -63,7 +63,7 @@ TEST(Description, ThatIsAbsentOrEmptyOrNoTextIsWaitedForAndObstaclesServe) {
     EXPECT_TRUE(node.heard().status.back()->not_ready.empty());
     EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Verdict::HIT);
     waitForDiagnostic(node, "robots", DiagnosticStatus::OK, "");
-    EXPECT_LE(node.lines("NOT_READY robot 'robot'"), 4u) << "said when it changes, not at every try";
+    EXPECT_LE(node.lines("NOT_READY robot 'robot'"), 4u) << "logged when it changes, not at every try";
   }
 }
 
@@ -73,7 +73,7 @@ TEST(Description, ThatIsNoRobotIsRefusedWithItsPlace) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"this is no XML", "PARSE robot 'robot': the URDF is not well-formed XML"},
       {"<robot name=\"r\"><link name=\"a\">", "PARSE robot 'robot': the URDF is not well-formed XML"},
-      {deep, "LIMIT robot 'robot': the URDF nests elements 257 deep at byte 781; at most 256 are allowed"},
+      {deep, "LIMIT robot 'robot': the URDF nests elements 257 levels deep at byte 781; at most 256 are allowed"},
       {"<!DOCTYPE robot [<!ENTITY x \"y\">]><robot/>", "UNSUPPORTED robot 'robot': the URDF has a declaration"},
       {urdf(link("a") + link("b")), "PARSE robot 'robot': "},
       {urdf(link("a") + link("b") + link("c") + joint("b", "c") + joint("c", "b")), "is not reachable from the root"}};
@@ -82,7 +82,7 @@ TEST(Description, ThatIsNoRobotIsRefusedWithItsPlace) {
     NodeSetup setup = besidePost();
     setup.beside["robot_description"] = one.first;
     NodeUnderTest node(setup);
-    const auto status = node.waitForStatus("it was refused", [&](const msg::Status& s) {
+    const auto status = node.waitForStatus("the description is refused", [&](const msg::Status& s) {
       return !s.not_ready.empty() && s.not_ready[0].find(one.second) != std::string::npos;
     });
     EXPECT_FALSE(status->world.complete);
@@ -106,7 +106,7 @@ TEST(Reload, TakesTheNewModelAndKeepsTheOldOneWhereThatFails) {
   EXPECT_EQ(answer.code.name, "PARSE");
   EXPECT_TRUE(says(answer.code.text, "robot 'robot': the URDF is not well-formed XML"));
   EXPECT_EQ(answer.world.bodies_revision, revision);
-  EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Verdict::HIT) << "the old model serves";
+  EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Verdict::HIT) << "the old model is still used";
   EXPECT_TRUE(node.heard().status.back()->world.complete);
   waitForDiagnostic(node, "robots", DiagnosticStatus::ERROR, "PARSE robot 'robot'");
 
@@ -119,7 +119,7 @@ TEST(Reload, TakesTheNewModelAndKeepsTheOldOneWhereThatFails) {
                      [&](const msg::Bodies& b) { return b.bodies_revision == answer.world.bodies_revision; });
   const auto pairs = node.waitForPairs("its pairs", [](const msg::Pairs& p) { return p.total > 0; });
   EXPECT_EQ(namesOf(*pairs), std::vector<std::string>({"robot/a|robot/b"}));
-  waitForDiagnostic(node, "robots", DiagnosticStatus::OK, "every shape was read");
+  waitForDiagnostic(node, "robots", DiagnosticStatus::OK, "all shapes were read");
 }
 
 TEST(Reload, OfARobotThatNobodyNamedIsRefused) {
@@ -134,7 +134,8 @@ TEST(Reload, OfARobotThatNobodyNamedIsRefused) {
   EXPECT_EQ(answer.world.bodies_revision, node.heard().status.back()->world.bodies_revision);
 }
 
-/// One ball that is read, one that is not, and a link whose mesh is missing.
+/// A robot with a readable sphere, a link with one readable and one unreadable sphere, a link whose mesh file is
+/// missing, and a link without geometry.
 std::string holey() {
   return urdf(link("base", sphereOf(0.1)) + link("torn", sphereOf(0.1) + collision("<sphere radius=\"nan\"/>")) +
               link("meshless", collision("<mesh filename=\"package://hgrid_proximity/no/such.stl\"/>")) + link("bare") +
@@ -152,9 +153,10 @@ TEST(Uncovered, ALinkWhoseShapeCannotBeReadIsNamedAndNothingIsClear) {
   EXPECT_TRUE(oneSays(status->uncovered, "robot/meshless: RESOURCE_MISSING: "));
   EXPECT_TRUE(oneSays(status->uncovered, "no/such.stl"));
   EXPECT_TRUE(oneSays(status->world.reasons, "UNCOVERED robot/torn"));
-  EXPECT_EQ(status->without_collision, std::vector<std::string>({"robot/bare"})) << "listed; no reason to doubt";
+  EXPECT_EQ(status->without_collision, std::vector<std::string>({"robot/bare"}))
+      << "such a link does not make the world incomplete";
   EXPECT_EQ(namesOf(node.sphere(0, 0, 0, 0.05).answer), std::vector<std::string>({"robot/base", "robot/torn"}))
-      << "what was read serves, the rest of a torn link too";
+      << "all shapes that could be read are used";
   EXPECT_EQ(node.sphere(9, 0, 0, 0.05).answer.verdict, msg::Verdict::UNKNOWN);
   waitForDiagnostic(node, "robots", DiagnosticStatus::ERROR, "UNCOVERED robot/meshless");
   const auto bodies = node.waitForBodies("structure", [](const msg::Bodies& b) { return b.bodies.size() == 4; });
@@ -181,7 +183,7 @@ TEST(Uncovered, AWaiverMakesTheWorldCompleteAndIsListed) {
   }
 }
 
-/// A robot that only has visual geometry, on its second link.
+/// A robot without collision geometry. Its second link has visual geometry.
 std::string visualOnly() {
   return urdf(link("base") + link("shell", visual("<sphere radius=\"0.1\"/>")) + joint("base", "shell", "fixed"));
 }
@@ -278,7 +280,8 @@ TEST(VisualGeometry, ThatCannotBeReadIsUncovered) {
   EXPECT_EQ(node.sphere(9, 0, 0, 0.05).answer.verdict, msg::Verdict::UNKNOWN);
 }
 
-/// A torso and two arms of two joints, 0.3 m apart; each shape is on a fixed leaf link.
+/// A robot with a torso and two arms. Each arm has two joints that are 0.3 m apart. Only the torso and the gloves
+/// have shapes. Fixed joints connect the torso to the base, and each glove to a hand.
 std::string twoArms() {
   std::string content = link("base") + link("torso", sphereOf(0.1, "0 0 -5")) + joint("base", "torso", "fixed");
   for (const std::string side : {"left", "right"}) {
@@ -306,7 +309,7 @@ TEST(SelfPairs, HandsWhoseArmsHaveNoGeometryAreReportedWhenTheyAreNear) {
   EXPECT_EQ(counts[0].rigid + counts[0].adjacent + counts[0].srdf, 0u);
 }
 
-/// Waits until the log has one line with the text. It may be written after the tick that has the robot.
+/// Waits until the log has one line with this text. The line may be written after the first tick with the robot.
 void waitForLine(NodeUnderTest& node, const std::string& text) {
   node.waitUntil("the log says " + text, [&](const Heard&) { return node.lines(text) == 1; });
 }
@@ -332,7 +335,7 @@ TEST(SelfPairs, ARobotWhosePairsAreAllOffIsAWarning) {
 
   node.setBeside("robot_description_semantic", std::string("<robot name=\"r\"/>"));
   ASSERT_TRUE(node.reload("robot").success);
-  waitForDiagnostic(node, "robots", DiagnosticStatus::OK, "every shape was read");
+  waitForDiagnostic(node, "robots", DiagnosticStatus::OK, "all shapes were read");
   waitForLine(node, "2 of the 3 pairs of its 3 links with geometry are off (0 rigid, 2 adjacent, 0 by SRDF)");
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// A moment so long after the start of both clocks.
+/// Returns the moment that is this many milliseconds after the start of each clock.
 Moment after(int ros_ms, int steady_ms) {
   Moment moment;
   moment.ros = Time(milliseconds(1000000 + ros_ms));
@@ -36,7 +36,7 @@ TEST(MapNews, TheAgeIsThatOfTheStampWhenItCameAndTheTimeSinceThen) {
   MapNews news(false);
   news.noteAccepted("map/hall", mapAt(after(0), 300, 1.0));
   EXPECT_DOUBLE_EQ(news.ageOf("map/hall", after(0)), 0.3);
-  EXPECT_DOUBLE_EQ(news.ageOf("map/hall", after(-3600000, 500)), 0.8) << "a wall clock that is set ages nothing";
+  EXPECT_DOUBLE_EQ(news.ageOf("map/hall", after(-3600000, 500)), 0.8) << "setting the wall clock changes no age";
   EXPECT_TRUE(news.gaps(after(700)).empty());
   const auto gaps = news.gaps(after(701));
   ASSERT_EQ(gaps.size(), 1u);
@@ -58,7 +58,7 @@ TEST(MapNews, ASimulatedClockCountsAlone) {
 TEST(MapNews, ARefusedMessageCountsUntilTheNextOneIsAccepted) {
   MapNews news(false);
   news.noteRefused("map/hall", "PARSE map 'hall': broken");
-  EXPECT_TRUE(news.gaps(after(0)).empty()) << "a map that is not in the world is missed elsewhere";
+  EXPECT_TRUE(news.gaps(after(0)).empty()) << "MissingSources reports maps that are not in the world";
   news.noteAccepted("map/hall", mapAt(after(0), 0, 0.0));
   news.noteAccepted("map/yard", mapAt(after(0), 0, 0.0));
   news.noteRefused("map/hall", "PARSE map 'hall': broken");

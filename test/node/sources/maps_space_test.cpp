@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// What becomes of space that maps do not know, and of what lies outside the crop.
+// Tests how the node treats space that a map does not know, and cells outside the crop box of ~map.
 #include <gtest/gtest.h>
 #include <hgrid_proximity/UnknownReason.h>
 #include <hgrid_proximity/UnknownSpace.h>
@@ -21,8 +21,8 @@ namespace {
 using msg::Answer;
 using Names = std::vector<std::string>;
 
-/// A robot's ball at the origin, and a map of 6553.6 m whose upper octant is free, the next one (x < 0) occupied, the
-/// others unknown.
+/// A robot with a sphere at the origin, and a cubic map with edges of 6553.6 m. The octant with positive x, y and z is
+/// free. The octant with negative x and positive y and z is occupied. The other octants are unknown.
 class MapSpace : public ::testing::Test {
  protected:
   MapSpace() { folder_.write("octants.bt", btHeader(usualLines("3")) + btNode("......of")); }
@@ -40,7 +40,7 @@ class MapSpace : public ::testing::Test {
 
   TemporaryFolder folder_;
   TransformSource transforms_;
-  bool streams_ = true;  // where the ball is
+  bool streams_ = true;  // whether start() publishes the pose of the sphere
   std::unique_ptr<NodeUnderTest> node_;
 };
 
@@ -70,7 +70,7 @@ TEST_F(MapSpace, ThatIsUnknownIsOccupied) {
   EXPECT_EQ(asked(10, 10, 10).verdict, msg::Verdict::CLEAR);
   EXPECT_EQ(namesOf(asked(10, 10, -10)), Names({"map/octants"}));
   EXPECT_EQ(node_->heard().status.back()->world.unknown_space, msg::UnknownSpace::OCCUPIED);
-  node_->waitForPairs("the ball in unknown space", [](const msg::Pairs& pairs) {
+  node_->waitForPairs("a pair of the sphere and the unknown space", [](const msg::Pairs& pairs) {
     return pairs.names == Names({"map/octants", "robot/a", "robot/base"});
   });
 }
@@ -79,17 +79,18 @@ TEST_F(MapSpace, OutsideTheCropIsNotRead) {
   folder_.write("octants.bt", btHeader(usualLines("4")) + btNode(".......n") + btNode("o......o"));
   start(dict({{"crop_min", list({1.0, 1.0, 1.0})}, {"crop_max", list({20.0, 20.0, 20.0})}, {"unknown", "report"}}));
   EXPECT_EQ(asked(10, 10, 10).verdict, msg::Verdict::HIT);
-  EXPECT_EQ(asked(3000, 3000, 3000).unknown_because, msg::UnknownReason::UNMAPPED) << "the far cell is left out";
+  EXPECT_EQ(asked(3000, 3000, 3000).unknown_because, msg::UnknownReason::UNMAPPED)
+      << "the occupied cell outside the crop box is not read";
 }
 
 TEST_F(MapSpace, TheRobotsOwnCellsAreLeftOutOnceItIsKnownWhereItIs) {
   const std::string nodes =
-      binaryNodesOf({{32768, 32768, 32768, 0}, {32778, 32768, 32768, 0}});  // in the ball, and 1 m from it
+      binaryNodesOf({{32768, 32768, 32768, 0}, {32778, 32768, 32768, 0}});  // in the sphere, and 1 m from it
   const Octomap read = readOctomapData({"OcTree", true, 0.1}, nodes, "the two");
   folder_.write("octants.bt", btHeader(usualLines(std::to_string(read.nodes))) + nodes);
   streams_ = false;
   start(dict({{"self_filter", list({dict({{"pattern", "robot/*"}, {"padding", 0.05}})})}}));
-  node_->waitForStatus("the map waits", [](const msg::Status& status) {
+  node_->waitForStatus("the map waits for the pose of the robot", [](const msg::Status& status) {
     return !status.world.reasons.empty() &&
            status.world.reasons[0].find("NOT_READY map 'octants': body 'robot/a'") == 0;
   });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// OctoMaps from files: at the start and on request, replaced without a gap, refused without harm.
+// Tests of OctoMaps from files and topics: they are loaded, replaced and removed, and a refused map does no harm.
 #include <hgrid_proximity/BodyState.h>
 #include <hgrid_proximity/ClearMap.h>
 #include <hgrid_proximity/Distances.h>
@@ -30,7 +30,7 @@ namespace {
 using msg::Answer;
 using Names = std::vector<std::string>;
 
-/// A `.bt` file of voxels of level 0 in a row along x, each of 0.1 m, from the origin on.
+/// Returns a `.bt` file with `count` cells of 0.1 m, in a row along x that begins at the origin.
 std::string rowOf(int count) {
   std::vector<Voxel> voxels;
   for (int i = 0; i < count; ++i) voxels.push_back({static_cast<std::uint16_t>(32768 + i), 32768, 32768, 0});
@@ -40,7 +40,7 @@ std::string rowOf(int count) {
   return "# Octomap OcTree binary file\nid OcTree\nsize " + std::to_string(read.nodes) + "\nres 0.1\ndata\n" + nodes;
 }
 
-/// A robot's ball of 0.1 m at (0.05, 0.05, 0.3): 0.1 m above the first voxel of the map.
+/// A robot with a sphere of radius 0.1 m at (0.05, 0.05, 0.3) [m], which is 0.1 m above the first cell of the map.
 class Maps : public ::testing::Test {
  protected:
   Maps() { folder_.write("row.bt", rowOf(1)); }
@@ -71,7 +71,7 @@ class Maps : public ::testing::Test {
     if (!ros::service::call(node_->named("clear_map"), request, response)) throw std::runtime_error("no answer");
     return response;
   }
-  /// Names of maps that a thin ray from above meets at x.
+  /// Returns the names of the maps that a vertical line at x [m] meets.
   Names metAt(double x) {
     msg::QuerySegment::Request request;
     request.start.x = request.end.x = x;
@@ -85,7 +85,7 @@ class Maps : public ::testing::Test {
     EXPECT_FALSE(response.success);
     EXPECT_EQ(response.code.name, code);
     EXPECT_TRUE(says(response.code.text, words));
-    EXPECT_EQ(metAt(0.05), Names({"map/room"})) << "the old map serves";
+    EXPECT_EQ(metAt(0.05), Names({"map/room"})) << "the old map is still used";
   }
 
   TemporaryFolder folder_;
@@ -96,7 +96,7 @@ class Maps : public ::testing::Test {
 TEST_F(Maps, MakePairsAnswersAndDistances) {
   start(list({mapOf("room", "row.bt")}));
   node_->waitForComplete();
-  node_->waitForPairs("the ball over the map", [](const msg::Pairs& pairs) {
+  node_->waitForPairs("a pair of the sphere and the map", [](const msg::Pairs& pairs) {
     return pairs.names == Names({"map/room", "robot/a"}) && std::abs(pairs.gap.at(0) - 0.1) < 1e-6;
   });
   const auto bodies = node_->waitForBodies("the map", [](const msg::Bodies& now) {
@@ -113,7 +113,7 @@ TEST_F(Maps, MakePairsAnswersAndDistances) {
   ASSERT_TRUE(distances);
   ASSERT_EQ(distances->distance.size(), 1u);
   EXPECT_NEAR(distances->distance[0], 0.1, 1e-9);
-  EXPECT_NEAR(distances->point_on_first[0].z, 0.1, 1e-9) << "the map's point";
+  EXPECT_NEAR(distances->point_on_first[0].z, 0.1, 1e-9) << "the nearest point of the map";
   ASSERT_EQ(distances->cells_end, std::vector<std::uint32_t>({1}));
   EXPECT_NEAR(distances->cell_center[0].z, 0.05, 1e-9);
   EXPECT_NEAR(distances->cell_edge[0], 0.1, 1e-12);
@@ -131,7 +131,7 @@ TEST_F(Maps, MakePairsAnswersAndDistances) {
 }
 
 TEST_F(Maps, AreDrawnWhereBodiesAre) {
-  folder_.write("long.bt", rowOf(100));  // 10 m
+  folder_.write("long.bt", rowOf(100));  // a row of 10 m
   start(list({mapOf("room", "long.bt")}));
   node_->waitForComplete();
   std::vector<visualization_msgs::Marker> cubes;
@@ -151,7 +151,7 @@ TEST_F(Maps, AreDrawnWhereBodiesAre) {
   EXPECT_EQ(cubes[0].type, visualization_msgs::Marker::CUBE_LIST);
   EXPECT_NEAR(cubes[0].scale.x, 0.1, 1e-12);
   EXPECT_GE(cubes[0].points.size(), 10u);
-  EXPECT_LE(cubes[0].points.size(), 15u) << "those within a metre of the ball";
+  EXPECT_LE(cubes[0].points.size(), 15u) << "only the cells within 1 m of the sphere";
   EXPECT_NEAR(cubes[0].points[0].x, 0.05, 1e-9);
 }
 
@@ -164,11 +164,11 @@ TEST_F(Maps, AreReplacedMovedAndTakenAway) {
   ASSERT_TRUE(loaded.success) << loaded.code.text;
   EXPECT_EQ(loaded.occupied_leaves, 5u);
   EXPECT_EQ(loaded.resolution, 0.1);
-  EXPECT_EQ(loaded.world.bodies_revision, revision) << "other cells are no other structure";
+  EXPECT_EQ(loaded.world.bodies_revision, revision) << "new cells do not change the structure";
   EXPECT_EQ(metAt(0.45), Names({"map/room"}));
   ASSERT_TRUE(load("hall", "row.bt", 1.0).success);
-  EXPECT_EQ(metAt(0.05), Names({"map/hall", "map/room"})) << "in order along the ray";
-  ASSERT_TRUE(load("room", "longer.bt", -5.0).success) << "to another place";
+  EXPECT_EQ(metAt(0.05), Names({"map/hall", "map/room"})) << "hits are sorted along the line";
+  ASSERT_TRUE(load("room", "longer.bt", -5.0).success) << "the map moves to another place";
   EXPECT_EQ(metAt(0.05), Names({"map/hall"}));
   ASSERT_TRUE(clear("hall").success);
   EXPECT_EQ(metAt(0.05), Names());
@@ -186,7 +186,7 @@ TEST_F(Maps, ThatCannotBeReadAreRefusedByName) {
     SCOPED_TRACE(file);
     expectRefused(load("room", file), "BAD_ID", "it must be the name of a file in ~map/folder");
   }
-  expectRefused(load("room", std::string(65, 'a')), "BAD_ID", "of at most 64 letters");
+  expectRefused(load("room", std::string(65, 'a')), "BAD_ID", "with at most 64 letters");
   expectRefused(load("a/b\n", "row.bt"), "BAD_ID", "the map's name");
   expectRefused(load("room", "nothing.bt"), "RESOURCE_MISSING", "nothing.bt");
   ASSERT_EQ(symlink("/etc/passwd", (folder_ / "link.bt").c_str()), 0);
@@ -207,7 +207,7 @@ TEST_F(Maps, ThatCannotBeReadAreRefusedByName) {
 
 TEST_F(Maps, ThatAreMissingAtTheStartLeaveTheWorldIncompleteUntilTheyCome) {
   start(list({mapOf("room", "late.bt")}));
-  node_->waitForStatus("the map is missed", [](const msg::Status& status) {
+  node_->waitForStatus("the missing map is reported", [](const msg::Status& status) {
     return !status.world.complete && !status.world.reasons.empty() &&
            status.world.reasons[0].find("RESOURCE_MISSING map 'room'") == 0;
   });
@@ -217,7 +217,7 @@ TEST_F(Maps, ThatAreMissingAtTheStartLeaveTheWorldIncompleteUntilTheyCome) {
   EXPECT_EQ(metAt(0.05), Names({"map/room"}));
 }
 
-TEST(MapsBeyondTheLimit, AreMissedAsLongAsTheyAreNotThere) {
+TEST(MapsBeyondTheLimit, AreReportedAsMissing) {
   const TemporaryFolder folder;
   folder.write("row.bt", rowOf(1));
   NodeSetup setup;
@@ -230,31 +230,32 @@ TEST(MapsBeyondTheLimit, AreMissedAsLongAsTheyAreNotThere) {
   const auto refused = [](const msg::Status& status, std::uint64_t count) {
     return counter(status, "maps.refused.LIMIT") >= count;
   };
-  const auto status = node.waitForStatus("it was tried again", [&](const msg::Status& now) { return refused(now, 2); });
+  const auto status =
+      node.waitForStatus("the map was refused a second time", [&](const msg::Status& now) { return refused(now, 2); });
   EXPECT_FALSE(status->world.complete);
   bool told = false;
   for (const std::string& reason : status->world.reasons) told = told || reason.find("LIMIT map 'room'") == 0;
   EXPECT_TRUE(told);
-  ASSERT_EQ(status->model_warnings.size(), 1u) << "told though a map is missed";
+  ASSERT_EQ(status->model_warnings.size(), 1u) << "the warning is given although a map is missing";
   EXPECT_TRUE(says(status->model_warnings[0], "~margins: 'robot/aa' matches no body"));
 }
 
 TEST_F(Maps, ThatWereMissingDoNotComeBackOnceOthersWereChosen) {
   start(list({mapOf("room", "late.bt"), mapOf("hall", "later.bt")}));
-  node_->waitForStatus("only the maps are missed", [](const msg::Status& status) {
+  node_->waitForStatus("only the maps are missing", [](const msg::Status& status) {
     return status.world.reasons.size() == 2 && counter(status, "maps.refused.RESOURCE_MISSING") >= 2;
   });
   const auto loaded = load("room", "row.bt");
   ASSERT_TRUE(loaded.success) << loaded.code.text;
-  ASSERT_TRUE(clear("hall").success) << "nobody waits for it any more";
+  ASSERT_TRUE(clear("hall").success) << "the node no longer waits for this map";
   node_->waitForComplete();
   folder_.write("late.bt", rowOf(5));
   folder_.write("later.bt", rowOf(5));
   const auto refusals = [](const msg::Status& status) { return counter(status, "maps.refused.RESOURCE_MISSING"); };
   const std::uint64_t before = refusals(*node_->heard().status.back());
-  node_->waitForTicks(75);  // the next try would be half a second after the last
+  node_->waitForTicks(75);  // 1.5 s; the next try would follow after 0.5 s
   EXPECT_EQ(metAt(0.05), Names({"map/room"}));
-  EXPECT_EQ(metAt(0.45), Names()) << "the file that came late is not read";
+  EXPECT_EQ(metAt(0.45), Names()) << "the file that appeared later is not read";
   EXPECT_EQ(refusals(*node_->heard().status.back()), before);
 }
 
@@ -271,7 +272,7 @@ TEST_F(Maps, ThatDoNotFitIntoMemoryAreRefused) {
   std::string nodes;
   std::uint64_t count = 1;
   for (int level = Voxel::kLevels; level > 8; --level) nodes += btNode("n......."), ++count;
-  const std::function<void(int)> fill = [&](int levels) {  // 8^8 leaves, two bytes for eight of them
+  const std::function<void(int)> fill = [&](int levels) {  // 8^8 leaves; eight leaves take two bytes
     nodes += btNode(levels > 1 ? "nnnnnnnn" : "oooooooo");
     count += 8;
     for (int child = 0; levels > 1 && child < 8; ++child) fill(levels - 1);
@@ -314,7 +315,7 @@ TEST_F(Maps, OneThousandReplacementsLeaveNothingBehind) {
   EXPECT_EQ(metAt(0.05), Names({"map/room"}));
 }
 
-/// A message as octomap_server sends it on octomap_binary, or on octomap_full.
+/// Returns the bytes of a message as octomap_server sends it on octomap_binary, or on octomap_full if not `binary`.
 std::string messageOf(const std::string& frame, const std::string& nodes, const std::string& id = "OcTree",
                       bool binary = true) {
   return bytesOf(std::uint32_t{7}) + bytesOf(std::uint64_t{0}) + stringOf(frame) +
@@ -325,7 +326,7 @@ std::string nodesOfRow(int count) {
   return file.substr(file.find(mark) + mark.size());
 }
 
-/// A map of a topic.
+/// Tests with a map that arrives on a topic.
 class MapTopics : public Maps {
  protected:
   MapTopics() {
@@ -336,7 +337,7 @@ class MapTopics : public Maps {
   void waitForRefusals(const std::string& code, std::uint64_t count) {
     node_->waitForStatus("a refusal",
                          [&](const msg::Status& status) { return counter(status, "maps.refused." + code) >= count; });
-    EXPECT_EQ(metAt(0.05), Names({"map/room"})) << "the old map serves";
+    EXPECT_EQ(metAt(0.05), Names({"map/room"})) << "the old map is still used";
   }
 
   ros::NodeHandle ros_;
@@ -344,14 +345,15 @@ class MapTopics : public Maps {
 };
 
 TEST_F(MapTopics, ComeWithTheTypeNameOfOctomapServerAndFollowTheirFrame) {
-  node_->waitForStatus("the map is missed", [](const msg::Status& status) {
-    return !status.world.reasons.empty() && status.world.reasons[0].find("NOT_READY map 'room': nothing came on") == 0;
+  node_->waitForStatus("the missing map is reported", [](const msg::Status& status) {
+    return !status.world.reasons.empty() &&
+           status.world.reasons[0].find("NOT_READY map 'room': no message has arrived on") == 0;
   });
   transforms_.stream("base", "odom", at(1.0));
   send(messageOf("odom", nodesOfRow(1)));
   node_->waitForComplete();
   EXPECT_EQ(metAt(1.05), Names({"map/room"}));
-  transforms_.stream("base", "odom", at(2.0));  // the frame jumps, and the map with it: nothing is read again
+  transforms_.stream("base", "odom", at(2.0));  // the frame jumps; the map moves with it and is not read again
   node_->waitForTicks(20);
   EXPECT_EQ(metAt(2.05), Names({"map/room"}));
   EXPECT_EQ(metAt(1.05), Names());
@@ -359,19 +361,19 @@ TEST_F(MapTopics, ComeWithTheTypeNameOfOctomapServerAndFollowTheirFrame) {
   node_->waitUntil("the longer row", [&](const Heard&) { return !metAt(2.45).empty(); });
 }
 
-TEST_F(MapTopics, MayHaveProbabilitiesAndColours) {
-  const std::string colour("\x10\x20\x30", 3);
-  const auto octants = [&](float log_odds, const std::string& between) {  // a root, whose last octant is a leaf
+TEST_F(MapTopics, MayHaveProbabilitiesAndColors) {
+  const std::string color("\x10\x20\x30", 3);
+  const auto octants = [&](float log_odds, const std::string& between) {  // a root node whose last child is a leaf
     return otNode(0.0f, 0).substr(0, 4) + between + '\x80' + otNode(log_odds, 0).substr(0, 4) + between + '\0';
   };
   send(messageOf("", octants(2.0f, ""), "OcTree", false));
   node_->waitForComplete();
   EXPECT_EQ(node_->sphere(5, 5, 5, 0.1).answer.verdict, msg::Verdict::HIT);
   send(messageOf("", octants(-2.0f, ""), "OcTree", false));
-  node_->waitUntil("it is free",
+  node_->waitUntil("the octant is free",
                    [&](const Heard&) { return node_->sphere(5, 5, 5, 0.1).answer.verdict == msg::Verdict::CLEAR; });
-  send(messageOf("", octants(2.0f, colour), "ColorOcTree", false));
-  node_->waitUntil("it is occupied",
+  send(messageOf("", octants(2.0f, color), "ColorOcTree", false));
+  node_->waitUntil("the octant is occupied",
                    [&](const Heard&) { return node_->sphere(5, 5, 5, 0.1).answer.verdict == msg::Verdict::HIT; });
 }
 
@@ -394,10 +396,10 @@ TEST_F(MapTopics, StayWhereTheyAreWhenTheirFrameIsLostOrTheNextOneIsUnknown) {
   node_->waitForStatus("it is STALE", stale(msg::BodyState::STALE));
   EXPECT_EQ(metAt(1.05), Names({"map/room"}));
   node_->waitForStatus("it is LOST", stale(msg::BodyState::LOST));
-  EXPECT_EQ(metAt(1.05), Names({"map/room"})) << "never dropped";
+  EXPECT_EQ(metAt(1.05), Names({"map/room"})) << "a LOST map is never dropped";
   EXPECT_EQ(node_->sphere(-3, -3, -3, 0.1).answer.verdict, msg::Verdict::UNKNOWN);
   transforms_.stream("base", "nowhere", at(2.0));
-  node_->waitUntil("the next map, tried again", [&](const Heard&) { return metAt(2.45) == Names({"map/room"}); });
+  node_->waitUntil("the second map after a retry", [&](const Heard&) { return metAt(2.45) == Names({"map/room"}); });
   node_->waitForComplete();
 }
 
@@ -415,7 +417,7 @@ TEST_F(MapTopics, WhoseNewestMessageWasRefusedAreNotCompleteAndKeepTheirCells) {
   EXPECT_FALSE(source->complete);
   EXPECT_EQ(source->state, msg::BodyState::FRESH);
   EXPECT_TRUE(says(source->reason, "PARSE"));
-  EXPECT_EQ(metAt(0.05), Names({"map/room"})) << "the old cells keep answering";
+  EXPECT_EQ(metAt(0.05), Names({"map/room"})) << "the old cells are still used";
   const Answer answer = node_->sphere(3, 3, 3, 0.1).answer;
   EXPECT_EQ(answer.verdict, msg::Verdict::UNKNOWN);
   EXPECT_TRUE(says(answer.summary, "REFUSED 'map/room'"));
@@ -445,7 +447,7 @@ TEST_F(Maps, ThatAreRequiredMakeUnknownWhatWasClearWhenTheyAreGone) {
   setup.params = dict({{"map", dict({{"folder", folder_.path()}})}, {"required", list({Value("map/hall")})}});
   setup.beside["robot_description"] = balls({"a"});
   transforms_.stream("base", "a", at(0.05, 0.05, 0.3));
-  for (int life = 0; life < 2; ++life) {  // the second after the node was killed
+  for (int life = 0; life < 2; ++life) {  // the second run follows after the node was killed
     node_ = std::make_unique<NodeUnderTest>(setup);
     node_->waitForStatus("the robot is placed", [](const msg::Status& now) {
       return now.body_count == 2 && now.bodies_total == 0 && now.world.incomplete == Names({"map/hall"});
@@ -462,7 +464,7 @@ TEST_F(Maps, ThatAreRequiredMakeUnknownWhatWasClearWhenTheyAreGone) {
   }
 }
 
-TEST_F(MapTopics, ThatAnnounceMuchAndSendNothingCostAddressesOnly) {
+TEST_F(MapTopics, ThatAnnounceALongMessageAndSendNothingCostOnlyAddressSpace) {
   send(messageOf("", nodesOfRow(1)));
   node_->waitForComplete();
   const auto before = memoryOf(node_->process().pid());
@@ -477,18 +479,18 @@ TEST_F(MapTopics, ThatAnnounceMuchAndSendNothingCostAddressesOnly) {
   EXPECT_EQ(metAt(0.05), Names({"map/room"}));
   EXPECT_LT(memoryOf(node_->process().pid()).first, before.first + 4000) << "kB";
   send(messageOf("", nodesOfRow(5)));
-  node_->waitUntil("the map of one who sends", [&](const Heard&) { return !metAt(0.45).empty(); });
+  node_->waitUntil("the map of another publisher", [&](const Heard&) { return !metAt(0.45).empty(); });
 }
 
-TEST_F(MapTopics, ThatLieLeaveTheMapAsItWas) {
+TEST_F(MapTopics, WithWrongLengthsLeaveTheMapAsItWas) {
   const std::string whole = messageOf("", nodesOfRow(1));
   send(whole);
   node_->waitForComplete();
   const std::size_t before = residentKilobytes(node_->process().pid());
-  send(whole.substr(0, 12) + bytesOf(std::uint32_t{0xffffffff}) + "map");  // a frame_id of 4 GB
+  send(whole.substr(0, 12) + bytesOf(std::uint32_t{0xffffffff}) + "map");  // declares a frame_id of 4 GB
   waitForRefusals("TRUNCATED", 1);
   send(messageOf("", "").substr(0, messageOf("", "").size() - 4) +
-       bytesOf(std::uint32_t{0x08000000}));  // 134 MB of data
+       bytesOf(std::uint32_t{0x08000000}));  // declares 134 MB of data
   waitForRefusals("TRUNCATED", 2);
   send(whole.substr(0, 20));
   waitForRefusals("TRUNCATED", 3);
@@ -498,8 +500,7 @@ TEST_F(MapTopics, ThatLieLeaveTheMapAsItWas) {
   waitForRefusals("TRUNCATED", 4);
   send(messageOf("", nodesOfRow(1), "SemanticOcTree"));
   waitForRefusals("UNSUPPORTED", 1);
-  EXPECT_LT(residentKilobytes(node_->process().pid()), before + 4000)
-      << "kB: nothing is allocated for what is not there";
+  EXPECT_LT(residentKilobytes(node_->process().pid()), before + 4000) << "kB: no memory is allocated for wrong lengths";
   EXPECT_TRUE(node_->process().alive());
 }
 

@@ -20,7 +20,7 @@ TEST(SourceId, LeavesAGapOfAllItsBodies) {
   EXPECT_EQ(robot.source, "arm");
   EXPECT_EQ(robot.bodies, "arm/*");
   EXPECT_EQ(robot.sentence, "why");
-  EXPECT_FALSE(robot.within) << "it can be anywhere";
+  EXPECT_FALSE(robot.within) << "bodies of a missing robot can be anywhere";
   EXPECT_EQ(map.source, "map/hall");
   EXPECT_EQ(map.bodies, "map/hall");
   EXPECT_EQ(obstacle.source, "obstacle") << "all obstacles are one source";

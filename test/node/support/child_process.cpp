@@ -71,7 +71,7 @@ std::optional<int> ChildProcess::waitForEnd(double patience) {
     } else if (std::chrono::steady_clock::now() >= deadline) {
       break;
     } else {
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));  // the end of a process sends no message
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));  // polling, because waitpid() has no timeout
     }
   }
   return code_;

@@ -12,11 +12,16 @@
 namespace hgrid {
 namespace test {
 
-/// A program in a process of its own, output and errors in a file. Ends with this object, whatever state it is in.
+/// Runs a program in a child process and writes its standard output and standard error to a file.
+///
+/// The destructor ends the process: it sends SIGINT, and SIGKILL if the process still runs after 10 s.
 class ChildProcess {
  public:
-  /// @param command      program (searched in PATH if it has no slash) and arguments
-  /// @param environment  added to this process's own
+  /// Starts the program.
+  /// @param command      program (searched in PATH if it contains no slash) and arguments
+  /// @param output_file  file to which the output is appended
+  /// @param environment  variables added to the environment of this process
+  /// @throws std::runtime_error if the program cannot be started
   ChildProcess(const std::vector<std::string>& command, const std::string& output_file,
                const std::map<std::string, std::string>& environment);
   ~ChildProcess();
@@ -26,7 +31,7 @@ class ChildProcess {
   pid_t pid() const { return pid_; }
   bool alive() { return !waitForEnd(0.0); }
   void signal(int number) const;
-  /// Its exit code (128 + n if signal n ended it), or nothing if it still runs after `patience` [s].
+  /// Returns the exit code (128 + n if signal n ended the process), or nullopt if it still runs after `patience` [s].
   std::optional<int> waitForEnd(double patience);
 
  private:

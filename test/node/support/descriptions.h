@@ -8,7 +8,7 @@
 namespace hgrid {
 namespace test {
 
-// Robots as small as a claim needs.
+// Functions that build the URDF text of small robots for tests.
 
 inline std::string urdf(const std::string& content) { return "<robot name=\"r\">" + content + "</robot>"; }
 
@@ -30,13 +30,14 @@ inline std::string joint(const std::string& parent, const std::string& child, co
          "\"/><child link=\"" + child + "\"/>" + content + "</joint>";
 }
 
-/// A URDF <visual>, with a material that has no name, which urdfdom refuses.
+/// Returns a URDF <visual>. Its material has no name, so urdfdom refuses it.
 inline std::string visual(const std::string& geometry, const std::string& xyz = "0 0 0") {
   return "<visual><origin xyz=\"" + xyz + "\"/><geometry>" + geometry + "</geometry><material/></visual>";
 }
 
-/// Links a, b, ... of one sphere of radius 0.1 m each, which float freely about the root link "base". The sphere of
-/// "base" is 5 m below the others, out of their reach. It makes "base" a body, also in a robot without other links.
+/// Returns a URDF with a root link "base" and one link per name, connected to "base" by a floating joint. Each link has
+/// a sphere of radius 0.1 m at its origin. The sphere of "base" is 5 m below its origin, far from the others; it makes
+/// "base" a body even in a robot without other links.
 inline std::string balls(const std::vector<std::string>& names) {
   std::string content = link("base", sphereOf(0.1, "0 0 -5"));
   for (const std::string& name : names) content += link(name, sphereOf(0.1)) + joint("base", name);

@@ -9,12 +9,12 @@ namespace hgrid {
 namespace test {
 namespace {
 
-constexpr double kOverlap = 0.6;  // [s] sources that speak within this of each other may be in a dispute
-constexpr double kOfAnotherTime = -1e9;
-constexpr double kLongestGap = 10.0;  // [s] ~tf_cache: nothing is known between statements that are farther apart
-constexpr double kMemory = 4.0;       // [s] how long a dispute lasts at most after its last turn
-constexpr double kNotice = 0.5;  // [s] their stamps may be so far apart, and what is compared first may agree by chance
-constexpr std::ptrdiff_t kFight = 4;  // as many turns before that, and since, are a fight that goes on
+constexpr double kOverlap = 0.6;         // [s] sources whose statements are this close in time may be in a dispute
+constexpr double kOfAnotherTime = -1e9;  // [s] stamp from before a jump of the ROS clock
+constexpr double kLongestGap = 10.0;     // [s] as ~tf_cache; between statements farther apart nothing is known
+constexpr double kMemory = 4.0;          // [s] a dispute lasts at most this long after the last change of the source
+constexpr double kNotice = 0.5;          // [s] longest time that the node needs to notice that two sources fight
+constexpr std::ptrdiff_t kFight = 4;     // two sources fight if the source changes at least this often in each kNotice
 
 }  // namespace
 
@@ -31,7 +31,7 @@ void FreshnessModel::noteSource(Frame& frame, const Statement& statement, double
       (other && (statement.is_static || frame.source == "/tf_static")) || (frame.fixed && !statement.is_static);
   if (on_both) frame.disputed_until = 1e9;
   if (!same_parent) {
-    // A parent that was left a short while ago and comes again is an alternation, whoever says it.
+    // If a parent that was replaced a short time ago comes back, the parents alternate, whoever publishes them.
     if (frame.former_parent == statement.parent) frame.disputed_until = std::max(frame.disputed_until, now + kMemory);
     frame.former_parent = frame.last->parent;
   }
@@ -50,20 +50,20 @@ void FreshnessModel::hear(const Statement& statement, double now) {
   }
   frame.all.push_back(statement);
   frame.by_claim[{statement.publisher, statement.parent}].emplace(statement.stamp, statement);
-  if (statement.stamp < frame.claim_begin) return;  // another one held the frame then
+  if (statement.stamp < frame.claim_begin) return;  // another publisher held the frame at that time
   const auto stored = frame.statements.emplace(statement.stamp, statement);
-  if (!stored.second) {  // of two with one stamp the first counts
+  if (!stored.second) {  // of two statements with the same stamp, the first counts
     if (stored.first->second.parent != statement.parent) frame.disputed_until = now + kMemory;
     return;
   }
   const bool older = frame.newest && statement.stamp <= *frame.newest;
-  // It places the frame elsewhere at a time that somebody spoke of already.
+  // An older statement with another parent contradicts the stored statements.
   if (older && frame.statements.at(*frame.newest).parent != statement.parent) {
     frame.disputed_until = std::max(frame.disputed_until, now + kMemory);
   }
   if (older) return;
   if (frame.newest) {
-    // A period is a step between stamps that comes twice in a row. A single long step is an outage.
+    // The shorter of two successive steps between stamps counts as a period. A single long step is an outage.
     const double step = statement.stamp - *frame.newest;
     frame.longest_period = std::max(frame.longest_period, std::min(frame.step, step));
     frame.step = step;
@@ -84,13 +84,13 @@ void FreshnessModel::forgetStamps(double jump) {
     named.second.statements.clear();
     named.second.newest.reset();
     named.second.claim_begin = -1e18;
-    named.second.heard = -1e9;  // of another time
+    named.second.heard = -1e9;  // long ago, since the old time is not comparable
     named.second.turns.clear();
     if (named.second.disputed_until < 1e8) named.second.disputed_until += jump;
   }
 }
 
-/// What the statement at a time would be, where one before it and one after it allow to say.
+/// Interpolates the statement at a time from the statements before and after it. Empty if one of them is missing.
 std::optional<Statement> FreshnessModel::interpolated(const ByStamp& statements, double time) {
   const auto after = statements.lower_bound(time);
   if (after == statements.end()) return std::nullopt;
@@ -126,7 +126,7 @@ std::optional<double> FreshnessModel::positionAt(const std::string& frame, doubl
   return *parent + statement->x;
 }
 
-/// Whether all frames of the chain that the newest statements make are known at a time, in the parents of now.
+/// Whether the positions of all frames of the current chain are known at a time, with the same parents as now.
 bool FreshnessModel::isChainKnown(const std::string& frame, double time) const {
   if (frame == "base") return true;
   if (!positionAt(frame, time)) return false;
@@ -141,7 +141,8 @@ bool FreshnessModel::isChainKnown(const std::string& frame, double time) const {
   return statementAt(heard, time)->parent == parent && isChainKnown(parent, time);
 }
 
-/// The newest time, at most `time`, at which the newest statements of all the chain reach. Empty: it leads nowhere.
+/// The newest time, at most `time`, for which all frames of the chain have statements. Empty if the chain does not lead
+/// to the world frame.
 std::optional<double> FreshnessModel::newestTime(const std::string& frame, double time) const {
   if (frame == "base") return time;
   const auto found = heard_.find(frame);
@@ -152,7 +153,7 @@ std::optional<double> FreshnessModel::newestTime(const std::string& frame, doubl
   return newestTime(heard.statements.at(*heard.newest).parent, std::min(time, *heard.newest));
 }
 
-/// What else there is to say of the chain that the newest statements make.
+/// Fills in the flags of `known` that follow from the frames of the current chain.
 void FreshnessModel::look(const std::string& name, double now, Known& known) const {
   if (name == "base") {
     known.connected = true;
@@ -196,7 +197,7 @@ void FreshnessModel::tick(double time, double now, double elapsed) {
       stamp = newestTime(name, known.placed ? time : 1e9);
       x = stamp && known.connected && isChainKnown(name, *stamp) ? positionAt(name, *stamp) : std::nullopt;
     }
-    if (!known.at_tick && was_disputed) known.disputed = true;  // the pose may still be that of the dispute
+    if (!known.at_tick && was_disputed) known.disputed = true;  // the pose in use may come from the dispute
     const bool older = x && stamp && known.placed && !known.at_tick && *stamp < known.stamp;
     if (!x || !stamp || older || (!known.placed && !known.connected)) {
       if (!moved_before && known.placed && !known.connected) known.moves = true;

@@ -10,7 +10,7 @@
 namespace hgrid {
 namespace test {
 
-/// What a publisher says of a frame: where it is in its parent, along x.
+/// What a publisher says about a frame: its position along the x axis of its parent, at a time.
 struct Statement {
   std::string frame, parent, publisher;
   double x = 0.0;      ///< [m]
@@ -18,53 +18,56 @@ struct Statement {
   bool is_static = false;
 };
 
-/// Where each frame was last known to be, and when: the witness for the node. It keeps every statement and reads
-/// definitions off them; it shares no code with the node. A frame is known between two statements of one publisher in
-/// one parent that follow each other.
+/// An independent reference for the node: the last known position and time of each frame.
 ///
-/// Times are in s. All frames move along x; the world frame is "base".
+/// It stores all statements and computes everything from them by definition. It shares no code with the node. The
+/// position of a frame is known between two successive statements of the same publisher about the same parent.
+///
+/// All times are in s, positions in m. All frames move along x. The world frame is "base".
 class FreshnessModel {
  public:
+  /// What is known about one frame. Its chain is the frame, its parent and so on, up to the world frame.
   struct Known {
     double x = 0.0, stamp = 0.0, age = 0.0;
     bool placed = false;
-    bool moves = false;      ///< its chain has a frame that is not static
-    bool at_tick = false;    ///< it is known at the time of the newest tick
-    bool disputed = false;   ///< several sources speak of a frame of its chain: nothing is said of its state
-    bool fought = false;     ///< they take turns, so that it cannot be fresh
-    bool connected = false;  ///< the newest statements lead to the world frame
-    double period = 0.0;     ///< [s] the frames of its chain may have this period, but no longer one
+    bool moves = false;      ///< a frame of the chain is not static
+    bool at_tick = false;    ///< the position at the time of the newest tick is known
+    bool disputed = false;   ///< a frame of the chain has several sources; the model predicts no state
+    bool fought = false;     ///< several sources of a frame of the chain alternate, so the state cannot be FRESH
+    bool connected = false;  ///< the newest statements of the chain lead to the world frame
+    double period = 0.0;     ///< [s] longest period at which a frame of the chain may be published
   };
 
   explicit FreshnessModel(std::vector<std::string> frames) : frames_(std::move(frames)) {}
 
-  /// A statement arrives.
+  /// Takes in a statement that arrives at the time `now`.
   void hear(const Statement& statement, double now);
-  /// A refused statement arrives: until the next good one the frame is disputed.
+  /// Takes in a statement that the node refuses. The frame is disputed for a while.
   void hearRefused(const std::string& frame, double now);
-  /// The ROS clock was set, and with it all stamps lose their meaning. Static statements stay.
+  /// Drops the stamps of all statements on /tf, because the ROS clock jumped by `jump`. Static statements stay valid.
   void forgetStamps(double jump);
-  /// A tick of the node at time `time`, made at `now`. `elapsed`: since the tick before, by the clock that ages poses.
+  /// Predicts the tick that the node makes at `now` for the time `time`. `elapsed` is the time since the previous tick,
+  /// by the clock that poses age by.
   void tick(double time, double now, double elapsed);
 
   const Known& known(const std::string& frame) const { return known_.at(frame); }
-  /// Whether any choice of one publisher for each frame puts the frame at x at the time `stamp`.
+  /// Whether there is a choice of one publisher per frame that places the frame at x at the time `stamp`.
   bool isSupported(const std::string& frame, double x, double stamp) const;
 
  private:
   using ByStamp = std::map<double, Statement>;
 
   struct Frame {
-    ByStamp statements;  // on /tf
+    ByStamp statements;  // from /tf
     std::optional<Statement> fixed, last;
     std::optional<double> newest;
     double step = 0.0, longest_period = 0.0;  // [s]
-    double claim_begin = -1e18;               // stamp of the first statement in a row of one publisher in one parent
+    double claim_begin = -1e18;               // first stamp of the newest run of one publisher and one parent
     double heard = -1e9, disputed_until = -1e9;
     std::string source, former_parent;
-    std::vector<double> turns;                                        // when another source than before spoke
-    std::map<std::pair<std::string, std::string>, ByStamp> by_claim;  // by publisher and parent, never forgotten
-    std::vector<Statement> all_fixed, all;                            // as they arrived
+    std::vector<double> turns;                                        // times at which the source changed
+    std::map<std::pair<std::string, std::string>, ByStamp> by_claim;  // by publisher and parent, never dropped
+    std::vector<Statement> all_fixed, all;                            // in order of arrival
   };
 
   void noteSource(Frame& frame, const Statement& statement, double now);

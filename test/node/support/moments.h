@@ -9,10 +9,10 @@
 namespace hgrid {
 namespace test {
 
-/// A time or a duration of so many seconds.
+/// Returns this number of seconds as a time or a duration.
 inline Time s(double seconds) { return Time(std::llround(1e9 * seconds)); }
 
-/// The moment when the clocks show so many seconds.
+/// Returns the moment at which the ROS clock and the steady clock show these times [s].
 inline Moment moment(double ros, double steady) {
   Moment result;
   result.ros = s(ros);

@@ -17,7 +17,7 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// A namespace that no other node of this master has, so that nothing of an earlier one is heard.
+/// Returns a namespace that no other node of this master uses, so that no message of an earlier node is received.
 std::string nextSpace() {
   static std::atomic<int> count{0};
   return "/cell_" + std::to_string(getpid()) + "_" + std::to_string(++count);
@@ -57,7 +57,7 @@ NodeUnderTest::NodeUnderTest(const NodeSetup& setup, bool must_serve)
   for (const auto& parameter : setup.beside) setBeside(parameter.first, parameter.second);
   listen();
   process_ = std::make_unique<ChildProcess>(commandOf(setup, space_), output_file_, setup.environment);
-  if (must_serve) waitForStatus("its first message", [](const msg::Status&) { return true; });
+  if (must_serve) waitForStatus("the first message of the node", [](const msg::Status&) { return true; });
 }
 
 NodeUnderTest::~NodeUnderTest() {
@@ -104,7 +104,7 @@ void NodeUnderTest::waitUntil(const std::string& what, const std::function<bool(
                               double patience) {
   std::unique_lock<std::mutex> lock(mutex_);
   if (news_.wait_for(lock, std::chrono::duration<double>(patience), [&] { return holds(heard_); })) return;
-  std::string newest = heard_.status.empty() ? "it never came" : gist(*heard_.status.back());
+  std::string newest = heard_.status.empty() ? "none was received" : gist(*heard_.status.back());
   lock.unlock();
   throw std::runtime_error("waited " + std::to_string(patience) + " s for: " + what + "\nnewest ~status: " + newest +
                            "\noutput:\n" + output());

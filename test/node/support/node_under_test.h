@@ -34,50 +34,56 @@ namespace msg = ::hgrid_proximity;
 
 namespace test {
 
-/// What a node is started with.
+/// The parameters, environment and program with which a node is started.
 struct NodeSetup {
-  /// Its private parameters. Unless said otherwise ~valid_for is 10 s, so that a machine that is busy elsewhere does
-  /// not turn CLEAR into UNKNOWN.
+  /// Private parameters of the node. The default of ~valid_for is 10 s here, so that a busy machine does not turn CLEAR
+  /// into UNKNOWN.
   Value params = dict();
-  std::map<std::string, Value> beside;             ///< parameters in its namespace: robot_description, ...
-  std::map<std::string, std::string> environment;  ///< added to the test's own
-  std::vector<std::string> command;                ///< empty: proximity_node
+  std::map<std::string, Value> beside;             ///< parameters in the namespace of the node: robot_description, ...
+  std::map<std::string, std::string> environment;  ///< variables added to those of the test
+  std::vector<std::string> command;                ///< program and arguments; empty: proximity_node
 };
 
-/// What it has said since it was started, the newest last.
+/// All messages of a node since it was started, the newest last.
 struct Heard {
   std::vector<msg::Pairs::ConstPtr> pairs;
   std::vector<msg::Events::ConstPtr> events;
   std::vector<msg::Status::ConstPtr> status;
   std::vector<msg::Bodies::ConstPtr> bodies;
-  std::map<std::string, diagnostic_msgs::DiagnosticStatus> diagnostics;  ///< newest by name: world, robots, ...
+  std::map<std::string, diagnostic_msgs::DiagnosticStatus> diagnostics;  ///< newest status by name: world, robots, ...
 };
 
-/// The node in a process and a namespace of its own, its messages, and its services through persistent connections.
-/// All waiting is for messages. Its functions throw std::runtime_error, which fails a test, where a message or an
-/// answer does not come.
+/// Runs the node in its own process and namespace, stores its messages, and calls its services through persistent
+/// connections.
+///
+/// Waiting functions wait for messages and never just sleep. Functions throw std::runtime_error if a message or an
+/// answer does not come; this fails the test.
 class NodeUnderTest {
  public:
-  /// Starts it and waits for its first ~status, or if `must_serve` is false for nothing.
+  /// Starts the node. Waits for its first ~status if `must_serve` is true.
   explicit NodeUnderTest(const NodeSetup& setup, bool must_serve = true);
   ~NodeUnderTest();
 
   const std::string& space() const { return space_; }
-  /// Full name of one of its topics or services.
+  /// Full name of a topic or service of the node.
   std::string named(const std::string& what) const { return space_ + "/proximity/" + what; }
+  /// Sets a parameter in the namespace of the node, outside the private parameters.
   void setBeside(const std::string& parameter, const Value& value);
   ChildProcess& process() { return *process_; }
 
-  /// Waits until the predicate holds of all that was heard, now or after another message.
+  /// Waits until the predicate is true for all messages received so far. Checks now and after each message.
+  /// @param what      what the test waits for; part of the error message
+  /// @param patience  [s] longest time to wait
   void waitUntil(const std::string& what, const std::function<bool(const Heard&)>& holds, double patience = 20.0);
-  /// The newest ~status, or the first later one, that is as wanted.
+  /// Returns the newest ~status for which `wanted` is true. Waits for one if necessary.
   msg::Status::ConstPtr waitForStatus(const std::string& what, const std::function<bool(const msg::Status&)>& wanted);
+  /// Like waitForStatus(), for ~pairs and ~bodies.
   msg::Pairs::ConstPtr waitForPairs(const std::string& what, const std::function<bool(const msg::Pairs&)>& wanted);
   msg::Bodies::ConstPtr waitForBodies(const std::string& what, const std::function<bool(const msg::Bodies&)>& wanted);
   /// Waits for `count` more ticks.
   void waitForTicks(std::size_t count);
   void waitForComplete();
-  /// Waits until `count` transforms were taken in or refused, in all.
+  /// Waits until the node has accepted or refused `count` transforms in total.
   msg::Status::ConstPtr waitForTransforms(std::uint64_t count);
   Heard heard() const;
 
@@ -92,11 +98,11 @@ class NodeUnderTest {
   msg::ExplainPair::Response explain(const std::string& first, const std::string& second, std::uint32_t contacts = 0,
                                      ros::Time stamp = ros::Time());
 
-  /// What it wrote so far, to standard output and standard error.
+  /// What the node has written to standard output and standard error so far.
   std::string output() const;
-  /// How many lines of that contain the text.
+  /// Number of lines of output() that contain the text.
   std::size_t lines(const std::string& text) const;
-  /// [s] since it was started.
+  /// [s] Time since the node was started.
   double uptime() const;
 
  private:

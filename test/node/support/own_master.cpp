@@ -20,7 +20,7 @@ namespace {
 
 constexpr auto kPatience = std::chrono::seconds(20);
 
-/// The state that the master tells. @returns an invalid value if the master gives no answer
+/// Asks the master at this port for its state. @returns an invalid value if the master does not answer
 XmlRpc::XmlRpcValue stateOf(int port) {
   XmlRpc::XmlRpcClient client("127.0.0.1", port, "/");
   XmlRpc::XmlRpcValue request, answer;
@@ -29,7 +29,7 @@ XmlRpc::XmlRpcValue stateOf(int port) {
   return answer[2];
 }
 
-/// Polls: a master sends no message when it begins to serve, or when a node registers.
+/// Polls until the condition is true, because a master sends no message when it starts or when a node registers.
 template <class Condition>
 void waitFor(const std::string& what, Condition&& holds) {
   const auto deadline = std::chrono::steady_clock::now() + kPatience;
@@ -62,7 +62,7 @@ OwnMaster::OwnMaster() : port_(freePort()) {
 
 std::vector<std::string> OwnMaster::registrations(const std::string& node) const {
   const XmlRpc::XmlRpcValue state = stateOf(port_);
-  if (!state.valid()) throw std::runtime_error("the master gives no answer");
+  if (!state.valid()) throw std::runtime_error("the master does not answer getSystemState");
   return registrationsOf(node, state);
 }
 

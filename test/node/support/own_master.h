@@ -11,17 +11,18 @@
 namespace hgrid {
 namespace test {
 
-/// A ROS master of the test's own, in a process that the test may stop. Waiting is for the answers of that master.
+/// A separate ROS master for one test, in a process that the test may stop.
 class OwnMaster {
  public:
+  /// Starts the master and waits for its first answer. @throws std::runtime_error after 20 s
   OwnMaster();
 
   ChildProcess& process() { return *process_; }
-  /// The value of ROS_MASTER_URI for nodes of this master.
+  /// Value of ROS_MASTER_URI for nodes that shall use this master.
   std::string uri() const { return "http://127.0.0.1:" + std::to_string(port_); }
-  /// See registrationsOf().
+  /// Registrations of a node at this master, see registrationsOf().
   std::vector<std::string> registrations(const std::string& node) const;
-  /// @throws std::runtime_error after 20 s
+  /// Waits until the node has registered `what`. @throws std::runtime_error after 20 s
   void waitForRegistration(const std::string& node, const std::string& what) const;
 
  private:
@@ -29,7 +30,7 @@ class OwnMaster {
   std::unique_ptr<ChildProcess> process_;
 };
 
-/// A TCP port of 127.0.0.1 that nobody listens to.
+/// Returns a TCP port of 127.0.0.1 on which nobody listens.
 int freePort();
 
 }  // namespace test

@@ -13,7 +13,8 @@
 namespace hgrid {
 namespace test {
 
-/// The bytes of any message, true or not, sent as a message of a kind: octomap_msgs/Octomap without that package, say.
+/// Arbitrary bytes, valid or not, that can be published as a message of a type. The package of the type, for example
+/// octomap_msgs, is not needed.
 template <class Kind>
 struct RawMessage {
   std::string bytes;
@@ -37,21 +38,22 @@ struct TransformsKind {
   static constexpr const char* kType = "tf2_msgs/TFMessage";
   static constexpr const char* kDefinition = "geometry_msgs/TransformStamped[] transforms\n";
 };
-/// For requests: their service has the type.
+/// The kind of service requests. It has no type, because the type belongs to the service.
 struct RequestKind {};
 using OctomapBytes = RawMessage<OctomapKind>;
 using CloudBytes = RawMessage<CloudKind>;
 using TransformsBytes = RawMessage<TransformsKind>;
 using RequestBytes = RawMessage<RequestKind>;
 
-/// Pieces of such bytes.
+/// Returns the bytes of a number, as in a serialized message.
 template <class Number>
 std::string bytesOf(Number number) {
   return {reinterpret_cast<const char*>(&number), sizeof(number)};
 }
+/// Returns the bytes of a string, as in a serialized message.
 inline std::string stringOf(const std::string& text) { return bytesOf(static_cast<std::uint32_t>(text.size())) + text; }
 
-/// The bytes of a message of a generated type.
+/// Returns the bytes of a message of a generated type.
 template <class Message>
 std::string serialized(const Message& message) {
   std::string bytes(ros::serialization::serializationLength(message), '\0');
@@ -61,7 +63,7 @@ std::string serialized(const Message& message) {
   return bytes;
 }
 
-/// A cloud of one point [m], in float, as most drivers send it.
+/// Returns a cloud that contains one point [m], with float coordinates, as most drivers send it.
 inline CloudBytes cloudOfOne(const std::string& frame, ros::Time stamp, float x, float y, float z) {
   std::string fields = bytesOf(std::uint32_t{3});
   for (std::uint32_t i = 0; i < 3; ++i) {

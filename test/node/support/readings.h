@@ -15,18 +15,19 @@ namespace msg = ::hgrid_proximity;
 
 namespace test {
 
-// What messages say of one thing.
+// Functions that look up one value in a message.
 
-/// A body's entry in ~status; null if it is not listed.
+/// Returns the entry of a body in ~status; null if the body is not listed.
 const msg::BodyStatus* entryOf(const msg::Status& status, const std::string& body);
-/// A body's state as ~status has it.
+/// Returns the state of a body in ~status. A body that is not listed is FRESH.
 int stateOf(const msg::Status& status, const std::string& body);
+/// Returns the value of a counter in ~status; 0 if there is none of this name.
 std::uint64_t counter(const msg::Status& status, const std::string& name);
-/// Index of a pair in ~pairs, the smaller name first; -1 if it is not there.
+/// Returns the index of a pair in ~pairs; -1 if it is not listed. `first` must be the smaller name.
 int indexOf(const msg::Pairs& pairs, const std::string& first, const std::string& second);
-/// Every pair as "first|second", in the order of the message.
+/// Returns all pairs as "first|second", in the order of the message.
 std::vector<std::string> namesOf(const msg::Pairs& pairs);
-/// Every event as "7 BEGIN MOVED first|second", in the order of the message.
+/// Returns all events as "7 BEGIN MOVED first|second" (number, kind, cause, names), in the order of the message.
 std::vector<std::string> eventsOf(const msg::Events& events);
 
 }  // namespace test

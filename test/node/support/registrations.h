@@ -10,8 +10,8 @@
 namespace hgrid {
 namespace test {
 
-/// What a node has registered, as in "publishes /a/b", by the answer of a master to getSystemState.
-/// @param state  the third element of that answer: publishers, subscribers and services, each with its nodes
+/// Lists the registrations of a node, such as "publishes /a/b".
+/// @param state  the third element of the master's answer to getSystemState: publishers, subscribers and services
 inline std::vector<std::string> registrationsOf(const std::string& node, XmlRpc::XmlRpcValue state) {
   std::vector<std::string> found;
   const char* kinds[] = {"publishes ", "subscribes to ", "serves "};

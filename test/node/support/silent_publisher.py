@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""A publisher that announces a message of 999,999,999 bytes and then says nothing.
+"""A publisher that announces a message of 999,999,999 bytes but never sends the bytes.
 
 usage: silent_publisher.py TOPIC TYPE MD5SUM
-Prints "announced" once a subscriber was told; ends when it is killed.
+Prints "announced" for each subscriber that has received the announcement. Runs until it is killed.
 """
 import socket
 import struct
@@ -27,7 +27,7 @@ def received(connection, count):
 
 
 def serve(listener, type_name, md5sum):
-    """Answers the header of each connection, and announces."""
+    """Answers the connection header of each subscriber and announces the message."""
     kept = []
     while True:
         connection, _ = listener.accept()

@@ -11,13 +11,14 @@
 namespace hgrid {
 namespace test {
 
-/// Publishes /clock, a hundred times per second while it runs. Any thread.
+/// Publishes /clock 100 times per second while it runs. All functions may be called from any thread.
 class SimulatedClock {
  public:
+  /// @param begin  [s] time at which the clock starts
   explicit SimulatedClock(double begin);
 
   ros::Time now() const;
-  /// A clock that is stopped is silent, as in a paused simulation.
+  /// Starts or stops the clock. A stopped clock publishes nothing, like that of a paused simulation.
   void run(bool running);
   /// Jumps to another time [s].
   void set(double time);

@@ -41,8 +41,8 @@ TransformSource::TransformSource(std::function<ros::Time()> now)
 void TransformSource::waitForListeners(std::size_t count) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   while (moving_.getNumSubscribers() < count || static_.getNumSubscribers() < count) {
-    if (std::chrono::steady_clock::now() > deadline) throw std::runtime_error("nobody listens to /tf within 20 s");
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));  // a connection sends no message
+    if (std::chrono::steady_clock::now() > deadline) throw std::runtime_error("too few subscribers of /tf within 20 s");
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));  // polling, because a new connection sends no message
   }
 }
 

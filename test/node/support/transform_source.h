@@ -17,34 +17,37 @@
 namespace hgrid {
 namespace test {
 
-/// A transform without rotation, or turned about z by `yaw` [rad].
+/// Returns a transform with this translation [m] and a rotation about z by `yaw` [rad].
 geometry_msgs::Transform at(double x, double y = 0.0, double z = 0.0, double yaw = 0.0);
 
 geometry_msgs::TransformStamped stamped(const std::string& parent, const std::string& child,
                                         const geometry_msgs::Transform& transform, ros::Time stamp = ros::Time());
 
-/// The clock on the wall, whatever /use_sim_time says.
+/// Returns the time of the system clock, even if /use_sim_time is set.
 ros::Time wallTime();
 
-/// Publishes transforms: as a robot would, at 50 Hz, and single ones as no robot should. Any thread.
+/// Publishes transforms: streams at 50 Hz, as a robot does, and single messages, also faulty ones. All functions may be
+/// called from any thread.
 class TransformSource {
  public:
   explicit TransformSource(std::function<ros::Time()> now = wallTime);
 
   ros::Time now() const { return now_(); }
-  /// Publishes on /tf at once, as one message; waits first until somebody listens.
+  /// Publishes the transforms on /tf as one message. Waits for a subscriber first.
   void send(const std::vector<geometry_msgs::TransformStamped>& transforms);
-  /// Publishes on /tf_static, together with what was fixed before.
+  /// Publishes the transforms on /tf_static, together with all transforms of earlier calls.
   void fix(const std::vector<geometry_msgs::TransformStamped>& transforms);
-  /// From now on at 50 Hz, stamped `delay` [s] before now; again with other values: from now on those.
+  /// Publishes a transform on /tf at 50 Hz from now on, stamped `delay` [s] before the current time. Another call for
+  /// the same child replaces the transform.
   void stream(const std::string& parent, const std::string& child, const geometry_msgs::Transform& transform,
               double delay = 0.0);
+  /// Ends the stream of a child.
   void stop(const std::string& child);
-  /// Nothing is streamed while the deed is done.
+  /// Runs the function and publishes no stream meanwhile.
   void pauseFor(const std::function<void()>& deed);
-  /// @throws std::runtime_error if fewer than `count` subscribers come
+  /// Waits for `count` subscribers of /tf and of /tf_static. @throws std::runtime_error after 20 s
   void waitForListeners(std::size_t count = 1);
-  /// How many transforms send() has published.
+  /// Number of transforms that send() has published.
   std::uint64_t sent() const { return sent_; }
 
  private:

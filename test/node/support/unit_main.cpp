@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// For tests that need ROS headers but no master.
+// main() of tests that need ROS time but no ROS master.
 #include <gtest/gtest.h>
 #include <ros/time.h>
 

@@ -11,13 +11,13 @@
 namespace hgrid {
 namespace test {
 
-// Parameters as they would stand in a YAML file.
+// Functions that build parameter values, as a YAML file would contain them.
 
 using Value = XmlRpc::XmlRpcValue;
 
 inline Value dict(std::initializer_list<std::pair<const char*, Value>> members = {}) {
   Value value;
-  value.begin();  // a dictionary, also where nothing is in it
+  value.begin();  // makes the value a dictionary, even if it stays empty
   for (const auto& member : members) value[member.first] = member.second;
   return value;
 }
@@ -32,7 +32,7 @@ inline Value list(std::initializer_list<Value> elements = {}) {
 
 inline Value xyz(double x, double y, double z) { return list({Value(x), Value(y), Value(z)}); }
 
-/// An obstacle of one ball.
+/// Returns an obstacle that is one sphere [m].
 inline Value ball(const std::string& name, double x, double y, double z, double radius, const std::string& frame = "") {
   return dict({{"name", name},
                {"frame", frame},
@@ -40,7 +40,7 @@ inline Value ball(const std::string& name, double x, double y, double z, double 
                {"shapes", list({dict({{"type", "sphere"}, {"radius", radius}})})}});
 }
 
-/// An obstacle of one box that stands along the axes of its frame.
+/// Returns an obstacle that is one box [m], with sides parallel to the axes of its frame.
 inline Value box(const std::string& name, const Value& at, const Value& size, const std::string& frame = "") {
   return dict({{"name", name},
                {"frame", frame},
@@ -48,12 +48,12 @@ inline Value box(const std::string& name, const Value& at, const Value& size, co
                {"shapes", list({dict({{"type", "box"}, {"size", size}})})}});
 }
 
-/// An entry of ~accept_uncovered.
+/// Returns an entry of ~accept_uncovered.
 inline Value waiver(const std::string& pattern, const std::string& reason) {
   return dict({{"pattern", pattern}, {"reason", reason}});
 }
 
-/// `params` with some of them changed or added.
+/// Returns `params` with these members changed or added.
 inline Value with(Value params, std::initializer_list<std::pair<const char*, Value>> members) {
   for (const auto& member : members) params[member.first] = member.second;
   return params;

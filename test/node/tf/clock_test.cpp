@@ -12,7 +12,8 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// Under /use_sim_time, which the launch file sets: two near balls that move, and a post that does not.
+/// Tests with a simulated clock: the launch file sets /use_sim_time. A robot has two moving spheres that are near each
+/// other. The obstacle "post" does not move.
 class Clock : public ::testing::Test {
  protected:
   explicit Clock() : clock_(1000.0), transforms_([this] { return clock_.now(); }), node_(setup()) {
@@ -32,7 +33,7 @@ class Clock : public ::testing::Test {
   void stop() {
     transforms_.stop("a");
     transforms_.stop("b");
-    node_.waitForTicks(2);  // nothing is under way any more
+    node_.waitForTicks(2);  // by now, the node has received all transforms
   }
   void expectTheObstacleServes() {
     EXPECT_EQ(node_.sphere(2, 0, 0, 0.05).answer.verdict, msg::Verdict::HIT);
@@ -53,7 +54,7 @@ TEST_F(Clock, AgesAreInItsTime) {
   EXPECT_NEAR((status->world.valid_until - status->made).toSec(), 0.1, 1e-6);
 }
 
-TEST_F(Clock, AJumpBackBeginsAnEpochInWhichNothingIsFreshUntilItIsHeardOfAgain) {
+TEST_F(Clock, AJumpBackBeginsAnEpochInWhichNothingIsFreshUntilNewTransformsArrive) {
   for (const double back : {90.0, 90.0, 1.0}) {
     SCOPED_TRACE(back);
     const auto before = node_.heard().status.back()->world;
@@ -93,13 +94,15 @@ TEST_F(Clock, AJumpAheadMakesEverythingOldAtOnce) {
   expectTheObstacleServes();
   stream();
   node_.waitForComplete();
-  EXPECT_EQ(node_.waitForStatus("fresh", [](const msg::Status& s) { return s.bodies_total == 0; })->body_count, 4u);
+  EXPECT_EQ(
+      node_.waitForStatus("all bodies are FRESH", [](const msg::Status& s) { return s.bodies_total == 0; })->body_count,
+      4u);
 }
 
-TEST_F(Clock, AClockThatStandsStillIsSaidAndTicksGoOn) {
+TEST_F(Clock, AClockThatStandsStillIsReportedAndTicksGoOn) {
   clock_.run(false);
   const auto status = node_.waitForStatus(
-      "frozen", [](const msg::Status& s) { return stateOf(s, "robot/a") == msg::BodyState::FROZEN; });
+      "robot/a is FROZEN", [](const msg::Status& s) { return stateOf(s, "robot/a") == msg::BodyState::FROZEN; });
   EXPECT_EQ(entryOf(*status, "robot/a")->code.name, "CLOCK");
   EXPECT_TRUE(says(entryOf(*status, "robot/a")->code.text, "the clock stands still"));
   EXPECT_FALSE(status->world.complete);
@@ -109,9 +112,9 @@ TEST_F(Clock, AClockThatStandsStillIsSaidAndTicksGoOn) {
   EXPECT_GE(later->world.sequence, status->world.sequence + 10);
   EXPECT_EQ(later->made, status->made);
   EXPECT_EQ(later->world.epoch, status->world.epoch);
-  EXPECT_GT(later->world.max_age, status->world.max_age) << "the steady clock goes on";
+  EXPECT_GT(later->world.max_age, status->world.max_age) << "ages are measured by the steady clock";
   expectTheObstacleServes();
-  node_.waitUntil("diagnostics, which do not wait for the clock", [](const Heard& all) {
+  node_.waitUntil("/diagnostics while the clock stands still", [](const Heard& all) {
     const auto found = all.diagnostics.find("world");
     return found != all.diagnostics.end() && found->second.message.find("FROZEN") != std::string::npos;
   });
@@ -127,7 +130,8 @@ TEST(NoClock, WithoutAnyTimeThereIsNoWorldAndServicesSaySo) {
   NodeUnderTest node(setup);
   node.waitForTicks(5);
   const auto status = node.heard().status.back();
-  EXPECT_TRUE(oneSays(status->not_ready, "NOT_READY: there is no time yet; /use_sim_time is set and /clock is silent"));
+  EXPECT_TRUE(oneSays(status->not_ready,
+                      "NOT_READY: there is no time yet; /use_sim_time is set, but nothing is published on /clock"));
   EXPECT_TRUE(oneSays(status->world.reasons, "there is no time yet"));
   EXPECT_FALSE(status->world.complete);
   EXPECT_EQ(status->world.sequence, 0u);

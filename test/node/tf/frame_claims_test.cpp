@@ -25,11 +25,11 @@ TEST(FrameClaims, KeepARivalsFirstTransformUntilTheHolderHasCaughtUp) {
 TEST(FrameClaims, NoticeThatTwoTakeTurns) {
   FrameClaims claims;
   const FrameClaim a{"/a", "base"}, b{"/b", "base"}, elsewhere{"/a", "map"};
-  EXPECT_FALSE(claims.change(1, a, b, s(1))) << "it may be handed over";
+  EXPECT_FALSE(claims.change(1, a, b, s(1))) << "a frame may be handed over to another publisher";
   EXPECT_TRUE(claims.change(1, b, a, s(2)));
   EXPECT_FALSE(claims.change(1, a, elsewhere, s(2.1)));
-  EXPECT_FALSE(claims.change(1, elsewhere, a, s(9))) << "after a while it is another hand-over";
-  EXPECT_FALSE(claims.change(2, b, a, s(9))) << "another frame";
+  EXPECT_FALSE(claims.change(1, elsewhere, a, s(9))) << "a change back after more than 3 s is another hand-over";
+  EXPECT_FALSE(claims.change(2, b, a, s(9))) << "frame 2 had no earlier change";
 }
 
 TEST(FrameClaims, NameBothSidesForThreeSeconds) {
@@ -43,7 +43,7 @@ TEST(FrameClaims, NameBothSidesForThreeSeconds) {
             "frame 'b' comes from /a with parent 'island' and from /z with parent 'base'; only one publisher may place "
             "a frame");
   claims.contradict(1, "b", {"/a", "island"}, {"/z", "base"}, s(11));
-  EXPECT_EQ(claims.sentence(1), sentence) << "whoever holds it";
+  EXPECT_EQ(claims.sentence(1), sentence) << "the sentence does not depend on which publisher is the holder";
   claims.contradict(0, "a", {"/a", "base"}, {"/z", "base"}, s(12));
   ASSERT_EQ(claims.sentences(s(13)).size(), 2u);
   EXPECT_NE(claims.sentences(s(13))[0].find("'base' at different poses"), std::string::npos);

@@ -29,7 +29,7 @@ PoseSample seamAt(double time, double x) {
   return result;
 }
 
-/// x [m] at a time in the newest parent, or no value.
+/// Returns x [m] at a time in the newest parent, or no value if the pose is not known.
 std::optional<double> xAt(const FrameHistory& history, double time) {
   const auto pose = history.at(s(time));
   return pose ? std::optional<double>(pose->translation.x()) : std::nullopt;
@@ -96,7 +96,7 @@ TEST(FrameHistory, IsNotKnownWithinASeamButAtBothOfItsEnds) {
   EXPECT_EQ(xAt(history, 10.0), 1.0);
   EXPECT_EQ(xAt(history, 11.0), std::nullopt);
   EXPECT_EQ(xAt(history, 12.0), 2.0);
-  EXPECT_FALSE(history.fill(sample(11.9, 9.0))) << "whether it belongs to this side of the seam is not known";
+  EXPECT_FALSE(history.fill(sample(11.9, 9.0))) << "it is not known to which side of the seam the sample belongs";
   history.advance(sample(14, 3.0), kKeepAll);
   EXPECT_TRUE(history.fill(sample(13, 9.0)));
 }
@@ -108,8 +108,8 @@ TEST(FrameHistory, IsKnownInTheParentOfEachTime) {
   history.advance(sample(12, 3.0, 8), kKeepAll);
   history.advance(sample(14, 5.0, 8), kKeepAll);
   EXPECT_EQ(xAt(history, 13.0), 4.0);
-  EXPECT_EQ(xAt(history, 11.9), std::nullopt) << "between two parents";
-  EXPECT_EQ(xAt(history, 10.5), std::nullopt) << "not in the newest parent";
+  EXPECT_EQ(xAt(history, 11.9), std::nullopt) << "the pose is not known between samples in two parents";
+  EXPECT_EQ(xAt(history, 10.5), std::nullopt) << "at this time, the frame was not in its newest parent";
   EXPECT_EQ(history.sampleAt(s(10.5))->parent, 7u);
   EXPECT_EQ(history.sampleAt(s(10.5))->parent_from_frame.translation.x(), 1.5);
   EXPECT_FALSE(history.sampleAt(s(11.9)));
@@ -126,7 +126,7 @@ TEST(FrameHistory, DropsSamplesThatWereAheadOfANewerOne) {
   EXPECT_EQ(xAt(history, 11.0), 1.5);
   history.advance(seamAt(100, 9.0), kKeepAll);
   history.advance(sample(14, 3.0), kKeepAll);
-  EXPECT_EQ(xAt(history, 13.0), std::nullopt) << "a seam was among the dropped ones";
+  EXPECT_EQ(xAt(history, 13.0), std::nullopt) << "one of the dropped samples ended a seam";
 }
 
 TEST(FrameHistory, KeepsTheNewestPoseWhenStampsAreForgotten) {
@@ -139,8 +139,8 @@ TEST(FrameHistory, KeepsTheNewestPoseWhenStampsAreForgotten) {
   EXPECT_EQ(xAt(history, 11.0), std::nullopt);
   history.advance(sample(5, 3.0), kKeepAll);
   EXPECT_EQ(xAt(history, 5.0), 3.0);
-  EXPECT_EQ(xAt(history, 4.0), std::nullopt) << "nothing leads from the old time to the new one";
-  EXPECT_TRUE(history.fill(sample(3, 1.0))) << "the limit of the old time is forgotten too";
+  EXPECT_EQ(xAt(history, 4.0), std::nullopt) << "no sample connects the old time to the new time";
+  EXPECT_TRUE(history.fill(sample(3, 1.0))) << "keep_from of the old time no longer applies";
 }
 
 TEST(FrameHistory, OfAFrameThatBecomesStaticForgetsItsSamples) {
@@ -150,7 +150,7 @@ TEST(FrameHistory, OfAFrameThatBecomesStaticForgetsItsSamples) {
   history.fix(sample(0, 3.0));
   EXPECT_EQ(xAt(history, 5.0), 3.0);
   history.advance(sample(12, 2.0), kKeepAll);
-  EXPECT_EQ(xAt(history, 11.0), std::nullopt) << "the static pose is of no time";
+  EXPECT_EQ(xAt(history, 11.0), std::nullopt) << "the static pose has no stamp, so nothing is interpolated";
 }
 
 TEST(FrameHistory, SaysForWhichTimesAPoseIsKnown) {
@@ -163,10 +163,10 @@ TEST(FrameHistory, SaysForWhichTimesAPoseIsKnown) {
   EXPECT_EQ(history.knownTimes(s(13)),
             "is not known between 12 s and 14 s, because its publisher or parent changed or its transforms paused");
   history.forgetStamps();
-  EXPECT_EQ(history.knownTimes(s(13)), "has no transform since the clock jumped");
+  EXPECT_EQ(history.knownTimes(s(13)), "has received no transform since the clock jumped");
 }
 
-/// A second way to say what a history knows: it looks at each pair of neighbors, one by one.
+/// A simple reference implementation of FrameHistory. It checks each pair of successive samples, one by one.
 class Oracle {
  public:
   void advance(const PoseSample& sample, Time keep_from) {
@@ -248,7 +248,7 @@ TEST(FrameHistory, AnswersAsTheOracleDoesAfterRandomSamples) {
           ASSERT_TRUE(oracle.xAt(*newest, true));
         }
         for (Time later = newest ? *newest + Time(1) : s(9.5); later <= time; later += Time(12345678)) {
-          ASSERT_FALSE(oracle.xAt(later, true)) << seconds(later) << " is known and newer";
+          ASSERT_FALSE(oracle.xAt(later, true)) << seconds(later) << " s is known and newer";
         }
       }
     }

@@ -19,7 +19,7 @@ TEST(FramePace, LearnsThePeriodFromTheShorterOfTwoSteps) {
   pace.noteStep(5.0);
   EXPECT_DOUBLE_EQ(pace.period(), 0.1) << "a single long step is an outage";
   pace.noteStep(5.0);
-  EXPECT_NEAR(pace.period(), 0.59, 1e-12) << "a second one is a slower pace";
+  EXPECT_NEAR(pace.period(), 0.59, 1e-12) << "two long steps are a slower pace";
   pace.forgetPeriod();
   EXPECT_EQ(pace.period(), 0.0);
 }
@@ -31,7 +31,7 @@ TEST(FramePace, KnowsByHowMuchTheAgeClockWasAheadOfRosTime) {
   EXPECT_EQ(pace.lead(), s(2));
   pace.noteReceived(s(13));
   EXPECT_EQ(pace.received(), s(13));
-  EXPECT_EQ(pace.lead(), s(2)) << "it is that of the newest transform";
+  EXPECT_EQ(pace.lead(), s(2)) << "a call without ROS time does not change the lead";
 }
 
 }  // namespace

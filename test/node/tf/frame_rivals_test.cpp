@@ -10,7 +10,8 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// Publisher "/a" holds frame 3, "tool", in "hand" at x = 0 m. It has sent transforms of 8 s to 10 s.
+/// The publisher "/a" holds frame 3, which is called "tool" and is in "hand" at x = 0 m. "/a" has sent transforms with
+/// stamps from 8 s to 10 s.
 class FrameRivalsTest : public ::testing::Test {
  protected:
   FrameRivals::Holder holder() const {
@@ -39,7 +40,7 @@ TEST_F(FrameRivalsTest, AgreeIfTheirPosesAreNearlyTheSame) {
   EXPECT_TRUE(contested());
 }
 
-TEST_F(FrameRivalsTest, ContradictIfTheyTurnTheFrameOtherwise) {
+TEST_F(FrameRivalsTest, ContradictIfTheirRotationsDiffer) {
   FrameClaims::RivalTransform turned = rival(9, 0.0);
   turned.parent_from_frame.rotation = Eigen::AngleAxisd(0.02, Eigen::Vector3d::UnitZ());
   rivals_.take(3, holder(), turned, kReading);

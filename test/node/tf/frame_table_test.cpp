@@ -25,7 +25,7 @@ TEST(FrameTable, NumbersFramesInTheOrderInWhichTheyOccur) {
   EXPECT_EQ(arm, 0u);
   EXPECT_EQ(table.find("base"), 1u);
   EXPECT_EQ(hand, 2u);
-  EXPECT_EQ(put(table, "base", "arm"), arm) << "a number stays";
+  EXPECT_EQ(put(table, "base", "arm"), arm) << "a frame keeps its number";
   EXPECT_EQ(table.size(), 3u);
   EXPECT_EQ(table.placed(), 2u) << "the base is only a parent";
   EXPECT_FALSE(table.isPlaced(1));
@@ -64,13 +64,13 @@ TEST(FrameTable, RefusesOneFrameMoreThanTheLimitAndGoesOnWithTheOthers) {
   put(table, "base", "b");
   std::string sentence;
   EXPECT_EQ(refusalOf([&] { put(table, "base", "c"); }, &sentence), Code::limit);
-  EXPECT_EQ(sentence, "transform of frame 'c' would be one more than ~max_frames, which is 2");
-  EXPECT_EQ(table.find("c"), kNone) << "nothing has changed";
+  EXPECT_EQ(sentence, "transform of frame 'c' would add one frame too many; ~max_frames is 2");
+  EXPECT_EQ(table.find("c"), kNone) << "a refused frame gets no number";
   EXPECT_EQ(put(table, "a", "b"), table.find("b"));
-  EXPECT_EQ(refusalOf([&] { put(table, "b", "a"); }), Code::limit) << "one more parent";
+  EXPECT_EQ(refusalOf([&] { put(table, "b", "a"); }), Code::limit) << "'b' would be a third parent";
 }
 
-/// admit() guesses the next frame by the order of the last message. The guess must not matter.
+/// admit() guesses the next frame from the order of earlier calls. A wrong guess must not change the result.
 TEST(FrameTable, FindsFramesInAnyOrder) {
   FrameTable table(100);
   const auto name = [](int i) { return "frame" + std::to_string(i); };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// The age of a body is the age of the pose in use, whatever else arrives.
+// Claim: the age of a body is the age of its pose in use, whatever other transforms arrive.
 #include <gtest/gtest.h>
 
 #include "test/node/support/simulated_world.h"
@@ -27,7 +27,7 @@ TEST_P(Ages, APoseTakenAtAnOlderTimeThanItsNewestTransformHasTheAgeOfThatTime) {
     for (int i = 0; i < 50; ++i) {
       world.wait(0.02);
       world.sendNow("/fast", "base", "a", 0.0);
-      world.send("/slow", "base", "b", 5.0, world.now() - delay);  // the tick waits for it
+      world.send("/slow", "base", "b", 5.0, world.now() - delay);  // the tick waits for b
       world.tick();
     }
     for (const char* frame : {"a", "b"}) {
@@ -55,7 +55,7 @@ TEST_P(Ages, APoseThatTheNewestTransformsDoNotGiveKeepsItsStampAndAges) {
   EXPECT_EQ(world.pose("b").state, Freshness::fresh);
   Freshness worst = Freshness::fresh;
   for (int i = 0; i < 100; ++i) {
-    step("island", 0.0);  // transforms keep coming, but none leads to the world frame
+    step("island", 0.0);  // transforms keep arriving, but b is not connected to the world frame
     const BodyPose& pose = world.pose("b");
     ASSERT_NEAR(world.stamp("b"), stamp, 1e-6);
     ASSERT_NEAR(pose.age, world.now() - stamp, 1e-6);
@@ -92,7 +92,7 @@ TEST_P(Ages, WhatWasPlacedByStaticTransformsAgesFromTheMomentTheyStopPlacingIt) 
   for (int i = 0; i < 10; ++i) {
     world.wait(0.02);
     world.tick();
-    EXPECT_NEAR(world.pose("a").age, 0.02 * (i + 1), 1e-6) << "not since the start";
+    EXPECT_NEAR(world.pose("a").age, 0.02 * (i + 1), 1e-6) << "the pose ages only since the static chain was broken";
   }
   EXPECT_EQ(world.pose("a").state, Freshness::late);
 }
@@ -129,7 +129,7 @@ TEST_P(Ages, AnOutageDoesNotCountAsThePeriodOfAFrame) {
   };
   stream(20);
   for (int outage = 0; outage < 3; ++outage) {
-    for (int i = 0; i < 25; ++i) {  // stays below what counts as a jump of the clock
+    for (int i = 0; i < 25; ++i) {  // an outage of 5 s, in steps that are too short to count as jumps of the clock
       world.wait(0.2);
       world.tick();
     }
@@ -143,7 +143,7 @@ TEST_P(Ages, AnOutageDoesNotCountAsThePeriodOfAFrame) {
   EXPECT_EQ(world.pose("a").state, Freshness::stale);
 }
 
-TEST(AgesByTheSteadyClock, SettingTheWallClockNeitherAgesNorRejuvenatesAPose) {
+TEST(AgesByTheSteadyClock, SettingTheWallClockDoesNotChangeTheAgeOfAPose) {
   for (const double shift : {3600.0, -3600.0, 5.0, -5.0}) {
     SCOPED_TRACE(shift);
     SimulatedWorld world({"a"});

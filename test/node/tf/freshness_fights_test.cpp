@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Several publishers place one frame: who is followed, what is reported, and when that ends.
+// Several publishers place one frame. These tests check whose transforms are used, what is reported, and for how long.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -24,7 +24,8 @@ class Fights : public ::testing::Test {
  protected:
   Fights() : world_({"a", "b"}) {}
 
-  /// One cycle of 20 ms in which a comes, then what `others` sends; a tick after each transform.
+  /// Plays 20 ms. First sends a transform of the frame a, calls `first` and makes a tick. 10 ms later, calls `second`
+  /// and makes another tick.
   void cycle(const std::function<void()>& first, const std::function<void()>& second = {}) {
     world_.wait(0.01);
     world_.sendNow("/robot", "base", "a", 0.0);
@@ -45,7 +46,7 @@ class Fights : public ::testing::Test {
   }
 
   SimulatedWorld world_;
-  std::function<void()> look_ = [] {};  // after each tick
+  std::function<void()> look_ = [] {};  // called after each tick
 };
 
 TEST_F(Fights, WhileTwoPublishersDisagreeAboutTheParentNothingReadsAsClear) {
@@ -67,7 +68,7 @@ TEST_F(Fights, WhileTwoPublishersDisagreeAboutTheParentNothingReadsAsClear) {
   x = 0.25;  // b moves next to a
   for (int i = 0; i < 100; ++i) cycle(good, lost);
   EXPECT_EQ(ticks, 200);
-  EXPECT_TRUE(world_.near("a", "b")) << "the publisher that had the frame first is followed";
+  EXPECT_TRUE(world_.near("a", "b")) << "the transforms of the first publisher are used";
   EXPECT_NEAR(world_.x("b"), 0.25, 1e-9);
   EXPECT_GE(world_.counter("tf.fight.CONFLICT"), 100u);
   look_ = [] {};
@@ -152,7 +153,7 @@ TEST_F(Fights, AreNoneBetweenPublishersThatAgree) {
   };
   cycle(same("/one"));
   for (int i = 0; i < 100; ++i) cycle(same("/one"), same("/other"));
-  // A relay sends the same transforms again, now before and now after the original.
+  // A relay sends copies of the same transforms, sometimes before and sometimes after the original.
   for (int i = 0; i < 100; ++i) {
     x += 0.01;
     const auto one = same("/one"), relay = same("/relay");
@@ -170,7 +171,8 @@ TEST_F(Fights, AreNoneWhenAnotherPublisherTakesOver) {
   look_ = [&] {
     ASSERT_LE(world_.pose("b").state, Freshness::late);
     ASSERT_TRUE(world_.snapshot().complete());
-    ASSERT_TRUE(world_.x("b") == 5.0 || world_.x("b") == 0.25) << "never in between";
+    ASSERT_TRUE(world_.x("b") == 5.0 || world_.x("b") == 0.25)
+        << "the pose is never between those of the two publishers";
   };
   for (int i = 0; i < 50; ++i) cycle([&] { world_.sendNow("/gripper", "a", "b", 0.25); });
   EXPECT_EQ(world_.pose("b").state, Freshness::fresh);

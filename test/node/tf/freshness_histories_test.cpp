@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Random histories of transforms against a simple model of where each body was last known to be, and when.
+// Plays random sequences of transforms, and compares the node with a simple model of the last known pose of each body.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -17,9 +17,9 @@ namespace {
 
 const std::vector<std::string> kFrames = {"m", "a", "b"};
 constexpr double kLate = 0.1, kStale = 0.25, kLost = 1.0, kCap = 0.7, kSpeed = 2.0, kMargin = 0.1;
-constexpr double kRounding = 2e-6;  // [m] of boxes stored as float
+constexpr double kRounding = 2e-6;  // [m] rounding of boxes that are stored as float
 
-/// What was covered, so that the test shows that it looks at every case.
+/// Counts how often each case occurred. The test prints the counts, to show that it covers every case.
 struct Coverage {
   std::size_t ticks = 0, fresh = 0, late = 0, stale = 0, lost = 0, disputed = 0, fought = 0, kept = 0, pairs = 0,
               grown_pairs = 0, jumps = 0;
@@ -49,7 +49,7 @@ class RandomHistory {
         coverage_(coverage) {
     for (std::size_t i = 0; i < kFrames.size(); ++i) begin(sources_[i], kFrames[i], random_.chance(0.15));
     faulty_ = random_.chance(0.8);
-    world_.tick();  // before that the node knows no clock
+    world_.tick();  // the node reads the clock for the first time in its first tick
   }
 
   void run() {
@@ -61,9 +61,9 @@ class RandomHistory {
   /// A publisher of one frame, which moves in its parent at a constant speed.
   struct Source {
     std::string frame, parent, publisher;
-    double x = 0.0, speed = 0.0;  // [m] at time 0, [m/s]
+    double x = 0.0, speed = 0.0;  // position at time 0 [m], speed [m/s]
     bool is_static = false;
-    double delay = 0.0;  // [s] of its stamps; negative: they are ahead
+    double delay = 0.0;  // [s] how old its stamps are; negative: they are in the future
     double period = 0.0, next = 0.0;
     bool silent = false;
   };
@@ -105,11 +105,11 @@ class RandomHistory {
     }
   }
 
-  /// Something goes wrong, or just changes.
+  /// Causes one random fault or change.
   void upset(Source& source) {
     const std::string frame = source.frame;
     switch (random_.below(9)) {
-      case 0:  // the same publisher, elsewhere
+      case 0:  // the same publisher moves the frame to another place
         source.parent = parentFor(frame);
         source.x = random_.uniform(-0.3, 0.3) - source.speed * world_.now();
         if (source.is_static) source.next = world_.now();
@@ -117,19 +117,19 @@ class RandomHistory {
       case 1:
         source.silent = !source.silent;
         break;
-      case 2:  // another publisher, at once
+      case 2:  // another publisher takes over at once
         begin(source, frame, source.is_static && random_.chance(0.7));
         break;
-      case 3:  // another publisher after a while
+      case 3:  // another publisher takes over after a pause
         begin(source, frame, source.is_static);
         source.next = world_.now() + 0.7;
         break;
-      case 4:  // two at a time
+      case 4:  // two publishers at the same time
         rival_ = source;
         begin(rival_, frame, false);
         has_rival_ = !has_rival_;
         break;
-      case 5:  // far in the future: refused
+      case 5:  // a stamp far in the future, which is refused
         if (source.is_static) break;
         world_.send(source.publisher, source.parent, frame, 9.0, world_.now() + 2.0);
         model_.hearRefused(frame, world_.now());
@@ -138,7 +138,7 @@ class RandomHistory {
         world_.send(source.publisher, source.parent, frame, std::numeric_limits<double>::quiet_NaN(), world_.now());
         model_.hearRefused(frame, world_.now());
         break;
-      case 7:  // late, or early
+      case 7:  // a transform whose stamp is too old or in the future
         if (!source.is_static) speak(source, world_.now() + random_.uniform(-0.2, 0.4));
         break;
       case 8:
@@ -155,7 +155,7 @@ class RandomHistory {
     if (!simulated_ || by < 0.0) model_.forgetStamps(by);
     elapsed_ += simulated_ ? std::max(0.0, by) : 0.0;
     for (Source* source : {&sources_[0], &sources_[1], &sources_[2], &rival_}) source->next = world_.now();
-    tick();  // what arrives before the node notices is of no interest here
+    tick();  // the node must notice the jump before the next transform arrives
   }
 
   void step() {
@@ -211,7 +211,7 @@ class RandomHistory {
       EXPECT_NE(pose.state, Freshness::fresh);
     }
     if (known.disputed) {
-      // The pose is what one of the publishers gave for its stamp.
+      // The pose must be one that a publisher has sent for its stamp.
       if (known.moves && pose.age < kLost && coverage_.jumps == jumps_before_) {
         EXPECT_TRUE(model_.isSupported(frame, x, world_.stamp(frame))) << "x = " << x << " at " << world_.stamp(frame);
       }
@@ -269,15 +269,15 @@ class RandomHistory {
   Source sources_[3], rival_;
   bool has_rival_ = false, faulty_ = false;
   const bool told_ = std::getenv("HGRID_TEST_SEED") != nullptr;
-  double elapsed_ = 0.0;    // [s] since the last tick
-  double ahead_for_ = 0.0;  // [s] a stamp ahead of the clock may still count as old when it is reached
+  double elapsed_ = 0.0;    // [s] time since the last tick
+  double ahead_for_ = 0.0;  // [s] for how much longer an earlier stamp from the future may have an effect
 };
 
 TEST(FreshnessHistories, ABodyIsNeverFresherThanTheDataAndNoPairIsLost) {
   const int histories = countFromEnvironment("HGRID_TEST_HISTORIES", 100000);
-  Ledger ledger;  // one for all, so that it logs a line per second
+  Ledger ledger;  // one ledger for all histories, so that it logs one line per second
   Coverage coverage;
-  const int only = countFromEnvironment("HGRID_TEST_SEED", 0);  // to read what happens in one history
+  const int only = countFromEnvironment("HGRID_TEST_SEED", 0);  // if not 0, only this seed is played
   for (int seed = only > 0 ? only : 1; seed <= (only > 0 ? only : histories); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     RandomHistory(static_cast<std::uint64_t>(seed), ledger, coverage).run();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// No single message, and no stamp, makes a frame useless for longer than it says itself.
+// Claim: a single wrong message, or a wrong stamp, does not make a frame unusable for long.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -16,7 +16,7 @@ class Poison : public ::testing::Test {
  protected:
   Poison() : world_({"a", "b"}) {}
 
-  /// Streams a for some seconds at 50 Hz.
+  /// Sends transforms of the frame a at 50 Hz for `duration` [s], with a tick after each.
   void stream(double duration, double x = 1.0) {
     const double end = world_.now() + duration - 1e-9;
     while (world_.now() < end) {
@@ -45,7 +45,7 @@ TEST_F(Poison, AStaticTransformStampedInTheFutureDoesNotEndAMovingFrame) {
   world_.fix("/mistake", "base", "a", 7.0, 1e9);
   stream(0.5, 2.0);
   expectFollowed("a", 2.0);
-  ASSERT_NE(world_.trouble("a"), nullptr) << "that it comes on both topics is told";
+  ASSERT_NE(world_.trouble("a"), nullptr) << "the use of both topics is reported";
   EXPECT_EQ(world_.trouble("a")->code, Code::conflict);
 }
 
@@ -65,13 +65,13 @@ TEST_F(Poison, OneTransformOnTfDoesNotEndAStaticFrame) {
   expectFollowed("a", 3.0);
 }
 
-TEST_F(Poison, AFrameThatMovedForAWhileIsStaticAgainWhenItIsFixedAnew) {
+TEST_F(Poison, AFrameThatMovedIsStaticAgainWhenItsStaticTransformIsSentAgain) {
   world_.fix("/setup", "base", "a", 3.0);
   idle(0.1);
   stream(0.5, 5.0);
   expectFollowed("a", 5.0);
   idle(5.0);
-  EXPECT_EQ(world_.pose("a").state, Freshness::lost) << "it is where it moved to last, a while ago";
+  EXPECT_EQ(world_.pose("a").state, Freshness::lost) << "it keeps its last pose of /tf, which is too old";
   EXPECT_NEAR(world_.x("a"), 5.0, 1e-9);
   world_.fix("/setup", "base", "a", 3.0);
   idle(0.1);
@@ -101,7 +101,7 @@ TEST_F(Poison, AnotherPublishersStampsFromTheFutureDoNotSilenceAFrame) {
   expectFollowed("a", 2.0);
 }
 
-TEST_F(Poison, AStampAheadOfTheClockHoldsOnlyUntilItsPublisherSpeaksAgain) {
+TEST_F(Poison, AStampAheadOfTheClockCountsOnlyUntilTheNextTransform) {
   Params params;
   params.max_future = 3600.0;
   SimulatedWorld world({"a"}, SimulatedWorld::Clock::wall, params);
@@ -115,7 +115,7 @@ TEST_F(Poison, AStampAheadOfTheClockHoldsOnlyUntilItsPublisherSpeaksAgain) {
 }
 
 TEST_F(Poison, AStampOfZeroIsRefusedAndNamed) {
-  world_.send("/mistake", "base", "a", 7.0, -SimulatedWorld::kStart);  // the time 0
+  world_.send("/mistake", "base", "a", 7.0, -SimulatedWorld::kStart);  // the stamp is 0
   idle(0.1);
   EXPECT_EQ(world_.pose("a").state, Freshness::unplaced);
   EXPECT_EQ(world_.counter("tf.refused.CLOCK"), 1u);
@@ -141,13 +141,13 @@ TEST_F(Poison, AFrameStampedAheadOfTheClockDoesNotMakeTheOthersLate) {
 TEST_F(Poison, AFrameThatWasStaticBeforeItMovedIsTakenAtTheTimeOfTheTick) {
   world_.fix("/setup", "base", "a", 3.0);
   idle(0.1);
-  for (int i = 0; i < 100; ++i) {  // a moves at 1 m/s; b lags by 50 ms, so the tick does too
+  for (int i = 0; i < 100; ++i) {  // a moves at 1 m/s; b lags by 50 ms, and the tick waits for b
     world_.wait(0.02);
     world_.sendNow("/robot", "base", "a", world_.now());
     world_.send("/slow", "base", "b", 5.0, world_.now() - 0.05);
     world_.tick();
   }
-  EXPECT_NEAR(world_.x("a"), world_.stamp("a"), 1e-6) << "where it was at the stamp of its pose";
+  EXPECT_NEAR(world_.x("a"), world_.stamp("a"), 1e-6) << "at 1 m/s, its x [m] equals the stamp of its pose [s]";
 }
 
 }  // namespace

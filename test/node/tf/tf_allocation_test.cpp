@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Claim: a transform for which there is no memory leaves the tables of frames whole.
+// Claim: if memory runs out while a transform is stored, the tables of frames stay consistent.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -36,7 +36,7 @@ TEST(FrameTableFailedAllocation, ChangesNothing) {
   EXPECT_GT(failures, 80u);
 }
 
-/// x [m] of each frame in its parent.
+/// Returns x [m] of each frame in its parent at 1 s. -1 means that the pose is not known.
 std::vector<double> positions(const TfIntake& intake) {
   std::vector<double> x;
   for (std::uint32_t frame = 0; frame < intake.table().size(); ++frame) {
@@ -46,7 +46,7 @@ std::vector<double> positions(const TfIntake& intake) {
   return x;
 }
 
-TEST(TfIntakeFailedAllocation, IsMadeUpForByTheSameMessageAgain) {
+TEST(TfIntakeFailedAllocation, HasNoEffectOnceTheSameMessageArrivesAgain) {
   const Moment now{Time(1000000000), {}};
   tf2_msgs::TFMessage message;
   for (int i = 0; i < 12; ++i) {
@@ -72,7 +72,7 @@ TEST(TfIntakeFailedAllocation, IsMadeUpForByTheSameMessageAgain) {
     SCOPED_TRACE("allocation " + std::to_string(k));
     TfIntake intake(1.0, 10.0, 1000, false, ledger);
     failed = failsAt(k, Failing::one, [&] { intake.take(message, false, "/publisher", now); });
-    positions(intake);  // a tick between the two must not read beyond a table's end
+    positions(intake);  // a tick between the two calls must not read beyond the end of a table
     intake.take(message, false, "/publisher", now);
     ASSERT_EQ(byName(intake), byName(all_well));
   }

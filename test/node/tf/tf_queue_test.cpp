@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Needs no ROS master.
+// These tests need no ROS master.
 #include "src/node/tf/tf_queue.h"
 
 #include <gtest/gtest.h>
@@ -13,9 +13,9 @@ namespace hgrid {
 namespace test {
 namespace {
 
-constexpr std::size_t kBound = 10000;  // bytes
+constexpr std::size_t kBound = 10000;  // [bytes]
 
-/// A message of `size` bytes that arrived `at` ms after the start.
+/// Returns a message of `size` bytes that arrived `at` [ms] after the start.
 ReceivedTransforms message(std::size_t size, int at, bool is_static = false) {
   const auto bytes = boost::make_shared<TransformBytes>();
   bytes->most_bytes = kBound;
@@ -30,7 +30,7 @@ int arrivalOf(const ReceivedTransforms& transforms) {
       std::chrono::duration_cast<std::chrono::milliseconds>(transforms.received.steady.time_since_epoch()).count());
 }
 
-/// Arrivals [ms] of all messages that wait, in the order in which they are taken.
+/// Removes all messages. Returns their arrival times [ms], in the order in which the queue returned them.
 std::vector<int> drain(TfQueue& queue) {
   std::vector<int> arrivals;
   while (const auto next = queue.pop()) arrivals.push_back(arrivalOf(*next));
@@ -78,7 +78,7 @@ TEST_F(TfQueueTest, DropsTheOldestWhenTheBytesExceedTheBound) {
   const std::size_t each = 1000, charged = each + TfQueue::kOverhead + std::string("/robot").size();
   const int fit = kBound / charged;
   for (int i = 0; i < fit; ++i) queue_.push(message(each, i));
-  EXPECT_EQ(dropped(), 0u) << "the bound itself is kept";
+  EXPECT_EQ(dropped(), 0u) << "messages up to the bound are kept";
   for (int i = fit; i < 100; ++i) queue_.push(message(each, i));
   const std::vector<int> left = drain(queue_);
   EXPECT_EQ(left.size(), fit);
@@ -86,7 +86,7 @@ TEST_F(TfQueueTest, DropsTheOldestWhenTheBytesExceedTheBound) {
   EXPECT_EQ(left.back(), 99);
   EXPECT_EQ(dropped(), 100u - fit);
   queue_.push(message(each, 100));
-  EXPECT_EQ(drain(queue_), std::vector<int>({100})) << "what was taken counts no longer";
+  EXPECT_EQ(drain(queue_), std::vector<int>({100})) << "messages that were removed no longer count";
   EXPECT_EQ(dropped(), 100u - fit);
 }
 
@@ -140,7 +140,7 @@ TEST_F(TfQueueTest, LosesNoMessageBetweenTwoThreads) {
   done = true;
   reader.join();
   EXPECT_EQ(taken + dropped(), kMessages);
-  EXPECT_EQ(last, kMessages - 1) << "the newest is never dropped";
+  EXPECT_EQ(last, kMessages - 1) << "the newest message is never dropped";
 }
 
 }  // namespace

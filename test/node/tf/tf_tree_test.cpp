@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// The node stores transforms and multiplies them down its own tree; tf2 is the witness of where every frame is.
+// The node computes poses with its own tree of transforms. These tests compare those poses with the poses of tf2.
 #include "src/node/tf/tf_tree.h"
 
 #include <gtest/gtest.h>
@@ -36,8 +36,8 @@ geometry_msgs::Transform randomTransform(Random& random) {
   return transform;
 }
 
-/// A tree of frames: some are static, some move at paces of their own, some change their parent. Each message has its
-/// transforms in another order.
+/// A random tree of frames. Some frames are static, some are sent at different rates, and some change their parents.
+/// The order of the transforms changes from message to message.
 class RandomTree {
  public:
   RandomTree(std::uint64_t seed, Ledger& ledger) : random_(seed), intake_(1e9, 10.0, 1000, false, ledger) {
@@ -119,8 +119,8 @@ class RandomTree {
       EXPECT_FALSE(looked_up);
       return;
     }
-    // Between the transforms in two parents, tf2 stays in the older one while our pose is not known. At times before
-    // that, the tick knows only the chain of now.
+    // While a frame changes its parent, tf2 uses the old parent, but our pose is not known. For earlier times, TfTree
+    // knows only the chain through the newest parents.
     if (!changes_ || looked_up) {
       ASSERT_TRUE(looked_up) << why_not;
       expectTheSamePose(*looked_up, *witness);
@@ -137,7 +137,7 @@ class RandomTree {
     EXPECT_LE((ours.pose().linear() - witness.pose().linear()).norm(), 1e-12);
   }
 
-  /// The newest time of a chain is the oldest of the newest of its moving frames.
+  /// Expects that the newest time of a chain is the oldest of the newest stamps of its moving frames.
   void expectNewest(const ChainState& state, int frame) const {
     const auto upFrom = [&](int at) {
       std::vector<int> chain = {at};
@@ -158,7 +158,7 @@ class RandomTree {
   }
 
  public:
-  /// Poses that both knew.
+  /// Returns the number of poses that both the node and tf2 knew.
   std::size_t compared() const { return compared_; }
 
  private:
@@ -167,14 +167,14 @@ class RandomTree {
   TfIntake intake_;
   tf2::BufferCore witness_{ros::Duration(10.0)};
   std::map<int, int> parent_, pace_;
-  std::map<int, std::int64_t> newest_;  // stamp by frame that came on /tf
+  std::map<int, std::int64_t> newest_;  // newest stamp on /tf of each frame that moves
   int world_ = 0;
-  bool changes_ = false;  // frames change their parents
+  bool changes_ = false;  // whether frames change their parents
 };
 
 TEST(TfTree, PutsFramesWhereTf2SaysAtAnyTime) {
   std::size_t compared = 0;
-  Ledger ledger;  // one for all, so that it logs a line per second and not per tree
+  Ledger ledger;  // one ledger for all trees: it then logs one line per second, not one per tree
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     RandomTree tree(seed, ledger);
@@ -185,11 +185,11 @@ TEST(TfTree, PutsFramesWhereTf2SaysAtAnyTime) {
   EXPECT_GT(compared, 40000u);
 }
 
-TEST(TfTree, NamesTheFrameThatWasNeverHeardOf) {
+TEST(TfTree, NamesTheFrameThatWasNeverPublished) {
   Ledger ledger;
   TfIntake intake(1.0, 10.0, 100, false, ledger);
   TfTree tree(intake);
-  EXPECT_TRUE(tree.stale()) << "never planned";
+  EXPECT_TRUE(tree.stale()) << "plan() was never called";
   tree.plan("world", {"world", "arm"});
   EXPECT_TRUE(tree.state(0).connected) << "a frame is always connected to itself";
   EXPECT_FALSE(tree.state(1).connected);
@@ -209,7 +209,7 @@ TEST(TfTree, NamesTheFrameThatWasNeverHeardOf) {
   tree.look(Time(0));
   EXPECT_TRUE(tree.state(0).connected);
   intake.take(message, true, "test", Moment{Time(2), {}});
-  EXPECT_FALSE(tree.stale()) << "nothing new";
+  EXPECT_FALSE(tree.stale()) << "there is no new frame or parent";
 }
 
 }  // namespace

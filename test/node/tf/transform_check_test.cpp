@@ -64,11 +64,11 @@ TEST(TransformCheck, RefusesStampsThatAreZeroOrTooFarAheadOnTf) {
   geometry_msgs::TransformStamped unstamped = good();
   unstamped.header.stamp = ros::Time();
   EXPECT_EQ(checked(unstamped), Code::clock);
-  EXPECT_EQ(checked(unstamped, true), Code::ok) << "the stamp of a static transform means nothing";
+  EXPECT_EQ(checked(unstamped, true), Code::ok) << "the stamp of a static transform is ignored";
   EXPECT_EQ(checked(good(), false, 99.5), Code::ok);
   EXPECT_EQ(checked(good(), false, 99.49), Code::clock);
-  EXPECT_EQ(checked(good(), false, 0.0), Code::clock) << "there is no time yet";
-  EXPECT_EQ(checked(good(), false, 1e5), Code::ok) << "an old transform is known at its time";
+  EXPECT_EQ(checked(good(), false, 0.0), Code::clock) << "there is no ROS time yet";
+  EXPECT_EQ(checked(good(), false, 1e5), Code::ok) << "an old transform is valid for its own time";
 }
 
 }  // namespace

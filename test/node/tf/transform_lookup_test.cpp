@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kMaxApart = 0.25;  // [s]
 
-/// Knows "arm" in "base" at 10 s (x = 1 m) and at 12 s (x = 3 m), and "tool" fixed to "arm" at x = 0.5 m. The frame
-/// "island" is connected to neither.
+/// The frame "arm" is known in "base" at 10 s (x = 1 m) and at 12 s (x = 3 m). The frame "tool" is fixed to "arm" at
+/// x = 0.5 m. The frame "island" is not connected to these frames.
 class TransformLookupTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -79,13 +79,13 @@ TEST_F(TransformLookupTest, KnowsTheNewestPoseWhateverItsTime) {
 TEST_F(TransformLookupTest, TakesAllTransformsOfTheNewestPoseAtOneTime) {
   send("arm", "hand", 10.0, 9.0);
   send("arm", "hand", 30.0, 11.0);
-  EXPECT_DOUBLE_EQ(lookup_.newest("base", "hand")->translation.x(), 32.0) << "both at 11 s";
+  EXPECT_DOUBLE_EQ(lookup_.newest("base", "hand")->translation.x(), 32.0) << "both transforms are taken at 11 s";
 }
 
 TEST_F(TransformLookupTest, TakesTheNewestPoseFromBeforeASeam) {
   send("arm", "hand", 10.0, 11.0);
   send("arm", "hand", 30.0, 13.0, false);
-  EXPECT_DOUBLE_EQ(lookup_.newest("base", "hand")->translation.x(), 12.0) << "both at 11 s";
+  EXPECT_DOUBLE_EQ(lookup_.newest("base", "hand")->translation.x(), 12.0) << "both transforms are taken at 11 s";
   EXPECT_EQ(whyNot("base", "hand", 12),
             "frame 'hand' is not known between 11 s and 13 s, because its publisher or parent changed or its "
             "transforms paused");
@@ -126,11 +126,13 @@ TEST_F(TransformLookupTest, KnowsEachFrameInItself) {
 }
 
 TEST_F(TransformLookupTest, TakesTheNewestPoseWhereItIsNearEnoughInTime) {
-  EXPECT_DOUBLE_EQ(xAtOrNewest("tool", 11.0), 2.5) << "the exact time comes first";
+  EXPECT_DOUBLE_EQ(xAtOrNewest("tool", 11.0), 2.5) << "the pose at the exact time is preferred";
   EXPECT_DOUBLE_EQ(xAtOrNewest("tool", 12.25), 3.5);
   std::string sentence;
   EXPECT_EQ(refusalOf([&] { xAtOrNewest("tool", 12.26); }, &sentence), Code::extrapolation);
-  EXPECT_EQ(sentence, "frame 'tool' is known at 12 s, the world at 12.26 s; they may be 0.25 s apart (~stale_after)");
+  EXPECT_EQ(sentence,
+            "frame 'tool' is last known at 12 s, but the world is at 12.26 s; the two times may differ by at most 0.25 "
+            "s (~stale_after)");
   EXPECT_EQ(refusalOf([&] { xAtOrNewest("tool", 1.0); }), Code::extrapolation);
 }
 

@@ -52,8 +52,8 @@ TEST(TransformStore, SetsTheParentOfASample) {
   EXPECT_FALSE(store.history(arm).moves());
 }
 
-// Two frames are always published with opposite x. A thread that reads while they are written must never see a pose
-// that mixes two times. ThreadSanitizer sees whether a lock is missing.
+// Two transforms of one chain always get opposite x, so that their sum is 0. A thread that reads while they are written
+// must never get a pose that mixes two times. ThreadSanitizer reports a missing lock.
 TEST(TransformStore, IsReadByOtherThreadsWhileItIsWritten) {
   TransformStore store(s(1), 1000);
   const TransformLookup lookup(store);

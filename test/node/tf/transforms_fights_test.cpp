@@ -13,7 +13,7 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-/// Another node that publishes b in another parent, 20 times per second.
+/// Starts another node that publishes the frame b in `parent` 20 times per second.
 std::unique_ptr<ChildProcess> rivalOf(const std::string& parent) {
   const std::string message = "{transforms: [{header: {stamp: now, frame_id: " + parent +
                               "}, child_frame_id: b, transform: {translation: {x: 3.0}, rotation: {w: 1.0}}}]}";
@@ -41,8 +41,8 @@ TEST(TransformFights, AreReportedWithBothPublishersWhileTheyLastAndNotForLong) {
     EXPECT_TRUE(node.heard().status.back()->contested_frames.empty());
 
     std::unique_ptr<ChildProcess> rival = rivalOf(parent);
-    const auto status =
-        node.waitForStatus("the fight is listed", [](const msg::Status& s) { return !s.contested_frames.empty(); });
+    const auto status = node.waitForStatus("the contested frame is listed",
+                                           [](const msg::Status& s) { return !s.contested_frames.empty(); });
     const std::string sentence = status->contested_frames.at(0);
     EXPECT_TRUE(says(sentence, "frame 'b' comes from /"));
     EXPECT_TRUE(says(sentence, ros::this_node::getName() + " with parent 'base'"));
@@ -55,16 +55,16 @@ TEST(TransformFights, AreReportedWithBothPublishersWhileTheyLastAndNotForLong) {
     EXPECT_EQ(entryOf(*status, "robot/a"), nullptr);
     EXPECT_FALSE(status->world.complete);
     EXPECT_EQ(node.sphere(20, 0, 0, 0.1).answer.verdict, msg::Verdict::UNKNOWN);
-    EXPECT_NEAR(xOf(node, "robot/b"), 0.25, 1e-6) << "the publisher that held the frame is followed";
-    node.waitUntil("diagnostics warn", isWarned);
+    EXPECT_NEAR(xOf(node, "robot/b"), 0.25, 1e-6) << "the transforms of the first publisher are used";
+    node.waitUntil("/diagnostics warn", isWarned);
     EXPECT_GT(counter(*node.heard().status.back(), "tf.fight.CONFLICT"), 0u);
     EXPECT_TRUE(throttled(node, "tf.fight.CONFLICT"));
 
     rival.reset();
-    node.waitForStatus("the fight is over",
+    node.waitForStatus("no frame is contested any more",
                        [](const msg::Status& s) { return s.contested_frames.empty() && s.bodies_total == 0; });
     node.waitForComplete();
-    node.waitUntil("diagnostics do not warn", [](const Heard& all) { return !isWarned(all); });
+    node.waitUntil("/diagnostics no longer warn", [](const Heard& all) { return !isWarned(all); });
   }
 }
 

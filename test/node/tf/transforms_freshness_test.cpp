@@ -11,7 +11,7 @@ namespace hgrid {
 namespace test {
 namespace {
 
-NodeSetup ageing() {
+NodeSetup aging() {
   NodeSetup setup;
   setup.params = dict({{"late_after", 0.2},
                        {"stale_after", 0.5},
@@ -30,7 +30,7 @@ void streamAll(TransformSource& transforms) {
 
 TEST(Freshness, AFrameThatWasNeverPublishedIsNamedAndTheRestServes) {
   TransformSource transforms;
-  NodeUnderTest node(ageing());
+  NodeUnderTest node(aging());
   streamAll(transforms);
   transforms.stop("c");
   const auto status = node.waitForStatus("a and b are placed", [](const msg::Status& s) {
@@ -51,7 +51,7 @@ TEST(Freshness, AFrameThatWasNeverPublishedIsNamedAndTheRestServes) {
   EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Verdict::HIT);
   const auto far = node.sphere(20, 0, 0, 0.1).answer;
   EXPECT_TRUE(far.success);
-  EXPECT_EQ(far.verdict, msg::Verdict::UNKNOWN) << "c may be there";
+  EXPECT_EQ(far.verdict, msg::Verdict::UNKNOWN) << "robot/c may be there, because its pose is not known";
   EXPECT_TRUE(says(far.code.text, "robot/c"));
 
   transforms.stream("base", "c", at(9));
@@ -61,12 +61,12 @@ TEST(Freshness, AFrameThatWasNeverPublishedIsNamedAndTheRestServes) {
 
 TEST(Freshness, AFrameThatStopsGrowsOldStepByStepAndKeepsItsPairs) {
   TransformSource transforms;
-  NodeUnderTest node(ageing());
+  NodeUnderTest node(aging());
   streamAll(transforms);
   node.waitForComplete();
   const std::size_t before = node.heard().pairs.size();
   transforms.stop("b");
-  node.waitForStatus("b is lost and at the cap", [](const msg::Status& s) {
+  node.waitForStatus("b is LOST and its growth is ~growth_cap", [](const msg::Status& s) {
     const auto* b = entryOf(s, "robot/b");
     return b != nullptr && b->state == msg::BodyState::LOST && b->age > 1.4;
   });
@@ -77,13 +77,13 @@ TEST(Freshness, AFrameThatStopsGrowsOldStepByStepAndKeepsItsPairs) {
   for (std::size_t k = before; k < all.pairs.size(); ++k) {
     const msg::Pairs& pairs = *all.pairs[k];
     const int i = indexOf(pairs, "robot/a", "robot/b");
-    ASSERT_GE(i, 0) << "the pair is kept, whatever the age";
+    ASSERT_GE(i, 0) << "the pair is kept, however old the pose is";
     const auto n = static_cast<std::size_t>(i);
-    EXPECT_NEAR(pairs.gap[n], 0.05, 1e-6) << "the gap is never falsified";
-    EXPECT_GE(pairs.state[n], state) << "it only gets worse";
+    EXPECT_NEAR(pairs.gap[n], 0.05, 1e-6) << "the age of a pose does not change the gap";
+    EXPECT_GE(pairs.state[n], state) << "without new data, the state never improves";
     EXPECT_GE(pairs.margin[n], margin);
-    EXPECT_EQ(pairs.margin[n] > 0.1, pairs.state[n] >= msg::BodyState::STALE) << "LATE only flags";
-    EXPECT_LE(pairs.margin[n], 0.1 + 0.25) << "~growth_cap";
+    EXPECT_EQ(pairs.margin[n] > 0.1, pairs.state[n] >= msg::BodyState::STALE) << "LATE does not widen the margin";
+    EXPECT_LE(pairs.margin[n], 0.1 + 0.25) << "the growth is at most ~growth_cap";
     EXPECT_EQ(pairs.world.complete, pairs.state[n] < msg::BodyState::LOST);
     EXPECT_EQ(pairs.world.worst_state, pairs.state[n]);
     state = pairs.state[n];
@@ -98,19 +98,21 @@ TEST(Freshness, AFrameThatStopsGrowsOldStepByStepAndKeepsItsPairs) {
   EXPECT_EQ(entryOf(*status, "robot/b")->code.name, "TF_TIMEOUT");
   EXPECT_TRUE(says(entryOf(*status, "robot/b")->code.text, "frame 'b' is"));
   EXPECT_TRUE(oneSays(status->world.reasons, "LOST robot/b"));
-  EXPECT_LE(node.lines("LOST robot/b"), 2u) << "one line per change, not per tick";
+  EXPECT_LE(node.lines("LOST robot/b"), 2u) << "the log has one line per change, not one per tick";
 
   transforms.stream("base", "b", at(0.27));
   const auto again = node.waitForPairs("b is back", [](const msg::Pairs& p) { return p.world.complete; });
-  EXPECT_EQ(namesOf(*again), std::vector<std::string>({"robot/a|robot/b"})) << "once";
+  EXPECT_EQ(namesOf(*again), std::vector<std::string>({"robot/a|robot/b"})) << "the pair is listed once";
   EXPECT_NEAR(again->gap.at(0), 0.07, 1e-6);
   EXPECT_EQ(again->margin.at(0), 0.1);
-  EXPECT_EQ(node.waitForStatus("all fresh", [](const msg::Status& s) { return s.bodies_total == 0; })->body_count, 4u);
+  EXPECT_EQ(
+      node.waitForStatus("all bodies are FRESH", [](const msg::Status& s) { return s.bodies_total == 0; })->body_count,
+      4u);
 }
 
 TEST(Freshness, NearAStaleBodyNothingIsClear) {
   TransformSource transforms;
-  NodeSetup setup = ageing();
+  NodeSetup setup = aging();
   setup.params = with(setup.params, {{"lost_after", 3600.0}, {"default_max_speed", 10.0}});
   NodeUnderTest node(setup);
   streamAll(transforms);
@@ -119,23 +121,23 @@ TEST(Freshness, NearAStaleBodyNothingIsClear) {
   transforms.stop("c");
   node.waitForStatus("c is stale", [](const msg::Status& s) { return stateOf(s, "robot/c") == msg::BodyState::STALE; });
   const auto beside = node.sphere(9, 0.3, 0, 0.1).answer;
-  EXPECT_EQ(beside.verdict, msg::Verdict::UNKNOWN) << "c may have moved there, at 10 m/s";
+  EXPECT_EQ(beside.verdict, msg::Verdict::UNKNOWN) << "at 10 m/s, c may have moved there";
   EXPECT_TRUE(says(beside.code.text, "STALE robot/c"));
-  EXPECT_EQ(node.sphere(9, 1e5, 0, 0.1).answer.verdict, msg::Verdict::CLEAR) << "but not so far";
+  EXPECT_EQ(node.sphere(9, 1e5, 0, 0.1).answer.verdict, msg::Verdict::CLEAR) << "c cannot have moved that far";
   EXPECT_EQ(node.sphere(9, 0, 0, 0.1).answer.verdict, msg::Verdict::HIT) << "the last pose is kept";
   EXPECT_EQ(node.sphere(9, 0, 0, 0.1).answer.hits.at(0).state, msg::BodyState::STALE);
-  EXPECT_TRUE(node.heard().status.back()->world.complete) << "stale is not yet lost";
+  EXPECT_TRUE(node.heard().status.back()->world.complete) << "a STALE body does not make the world incomplete";
 }
 
 TEST(Freshness, LinksThatAreEquallyOldDoNotGrowAgainstEachOther) {
   TransformSource transforms;
-  NodeSetup setup = ageing();
+  NodeSetup setup = aging();
   setup.params = with(setup.params, {{"lost_after", 3600.0}, {"obstacles", list({ball("post", 0, 0.3, 0, 0.1)})}});
   NodeUnderTest node(setup);
   streamAll(transforms);
   node.waitForComplete();
   for (const char* frame : {"a", "b", "c"}) transforms.stop(frame);
-  const auto pairs = node.waitForPairs("all are stale", [](const msg::Pairs& p) {
+  const auto pairs = node.waitForPairs("all links are STALE", [](const msg::Pairs& p) {
     return p.world.worst_state == msg::BodyState::STALE && p.total >= 2 && p.state[0] == msg::BodyState::STALE &&
            p.state[1] == msg::BodyState::STALE;
   });

@@ -16,8 +16,8 @@ namespace {
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 const double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Three balls: a and b are near each other, c far away. All get one transform per message, stamped alike; what is
-/// wrong with that of a must not touch b and c. Nothing ages here.
+/// A robot has three spheres: a and b are near each other, c is far away. Each message has one transform for each of
+/// them, with the same stamp. A wrong transform of a must not affect b and c. The age limits are too long to matter.
 class TransformNumbers : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -27,7 +27,7 @@ class TransformNumbers : public ::testing::Test {
     setup.beside["robot_description"] = balls({"a", "b", "c"});
     node_ = std::make_unique<NodeUnderTest>(setup);
     send(at(0));
-    node_->waitForComplete();  // the robot may be loaded after its first transforms
+    node_->waitForComplete();  // the robot may be loaded after the first transforms arrive
   }
   static void TearDownTestSuite() {
     node_.reset();
@@ -45,7 +45,7 @@ class TransformNumbers : public ::testing::Test {
     return node_->waitForTransforms(transforms_->sent());
   }
   static void good() { EXPECT_TRUE(take(at(0))->world.complete); }
-  /// Waits until a is flagged with the code and its last good pose still serves; then heals it.
+  /// Waits until robot/a is INVALID with this code. Checks that its last valid pose is used. Then sends a valid one.
   static void expectRefused(const std::string& code, const std::string& words) {
     const auto status = node_->waitForStatus("a is refused: " + code + " " + words, [&](const msg::Status& s) {
       const auto* entry = entryOf(s, "robot/a");
@@ -55,10 +55,10 @@ class TransformNumbers : public ::testing::Test {
     EXPECT_EQ(a.code.name, code);
     EXPECT_TRUE(says(a.code.text, "a"));
     EXPECT_EQ(a.state, msg::BodyState::INVALID);
-    EXPECT_EQ(entryOf(*status, "robot/b"), nullptr) << "b was in the same message";
+    EXPECT_EQ(entryOf(*status, "robot/b"), nullptr) << "the transform of b in the same message is valid";
     EXPECT_FALSE(status->world.complete);
     EXPECT_TRUE(oneSays(status->world.reasons, "INVALID robot/a"));
-    EXPECT_NEAR(xOf(*node_, "robot/a"), 0.0, 1e-6) << "the last good pose is kept";
+    EXPECT_NEAR(xOf(*node_, "robot/a"), 0.0, 1e-6) << "the last valid pose is kept";
     const auto pairs = node_->waitForPairs("the pair is flagged", [](const msg::Pairs& p) {
       const int i = indexOf(p, "robot/a", "robot/b");
       return i >= 0 && p.state[static_cast<std::size_t>(i)] == msg::BodyState::INVALID;
@@ -113,7 +113,7 @@ TEST_F(TransformNumbers, AQuaternionThatIsNoRotationIsRefused) {
   EXPECT_TRUE(throttled(*node_, "tf.refused.BAD_ROTATION"));
 }
 
-TEST_F(TransformNumbers, AQuaternionThatIsAlmostARotationIsNormalisedAndCounted) {
+TEST_F(TransformNumbers, AQuaternionThatIsAlmostARotationIsNormalizedAndCounted) {
   for (const double squared_norm : {0.99, 1.01}) {
     SCOPED_TRACE(squared_norm);
     const auto before = counter(*take(at(0)), "tf.renormalised");

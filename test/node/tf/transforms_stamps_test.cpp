@@ -10,7 +10,7 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// Nothing ages.
+/// Returns a setup in which the age limits are so long that no pose becomes LATE by its age.
 NodeSetup ageless() {
   NodeSetup setup;
   setup.params = dict({{"stale_after", 3600.0},
@@ -22,7 +22,7 @@ NodeSetup ageless() {
   return setup;
 }
 
-/// Frames a, b, c get single transforms with stamps that the test chooses.
+/// Tests that send single transforms of the frames a, b and c, with chosen stamps.
 class Stamps : public ::testing::Test {
  protected:
   Stamps() : node_(ageless()) {
@@ -32,7 +32,7 @@ class Stamps : public ::testing::Test {
   geometry_msgs::TransformStamped frame(const std::string& child, double x, double after) const {
     return stamped("base", child, at(x), begin_ + ros::Duration(after));
   }
-  /// Waits until they are taken in, and until the clock has reached their stamps: before that no tick is at that time.
+  /// Sends transforms. Waits until the node has read them, and until it has made a tick after their stamps.
   msg::Status::ConstPtr take(const std::vector<geometry_msgs::TransformStamped>& transforms) {
     transforms_.send(transforms);
     for (const auto& transform : transforms) {
@@ -42,21 +42,21 @@ class Stamps : public ::testing::Test {
     node_.waitForTransforms(transforms_.sent());
     return node_.waitForStatus("a tick after the stamps", [&](const msg::Status& s) { return s.made > newest_; });
   }
-  /// [s] after the first stamp
+  /// Returns how long `time` is after begin_ [s].
   double after(const ros::Time& time) const { return (time - begin_).toSec(); }
 
   TransformSource transforms_;
   NodeUnderTest node_;
-  ros::Time begin_;  // ahead of the clock: until something moves, the time of the world is the clock's
-  ros::Time newest_;
+  ros::Time begin_;   // in the future, because ticks use the current time until a frame moves, and never run back
+  ros::Time newest_;  // newest stamp that was sent, except stamps that are refused
 };
 
 TEST_F(Stamps, TheTimeOfTheWorldIsTheNewestThatAllFreshFramesHave) {
   take({frame("a", 0.0, 0.1), frame("b", 5.0, 0.1), frame("c", 9.0, 0.1)});
   auto status = take({frame("a", 0.1, 0.2), frame("b", 5.0, 0.2), frame("c", 9.0, 0.15)});
-  EXPECT_NEAR(after(status->header.stamp), 0.15, 1e-6) << "c is waited for";
+  EXPECT_NEAR(after(status->header.stamp), 0.15, 1e-6) << "the tick waits for c";
   EXPECT_EQ(status->header.stamp, status->world.stamp);
-  EXPECT_NEAR(xOf(node_, "robot/a"), 0.05, 1e-5) << "a is taken at that time, between two transforms";
+  EXPECT_NEAR(xOf(node_, "robot/a"), 0.05, 1e-5) << "the pose of a is interpolated at that time";
 
   status = take({frame("c", 9.0, 0.2)});
   EXPECT_NEAR(after(status->header.stamp), 0.2, 1e-6);
@@ -75,7 +75,7 @@ TEST_F(Stamps, ALaggardKeepsItsOwnStampAndHoldsNobodyBack) {
   EXPECT_TRUE(status->world.complete);
 
   status = take({frame("c", 8.0, 0.35)});
-  EXPECT_NEAR(after(status->header.stamp), 0.4, 1e-6) << "time does not run back when it rejoins";
+  EXPECT_NEAR(after(status->header.stamp), 0.4, 1e-6) << "the time of ticks does not run back when c catches up";
   EXPECT_EQ(stateOf(*status, "robot/c"), msg::BodyState::LATE);
   EXPECT_NEAR(after(entryOf(*status, "robot/c")->stamp), 0.35, 1e-6);
   EXPECT_NEAR(xOf(node_, "robot/c"), 8.0, 1e-5);
@@ -109,20 +109,20 @@ TEST_F(Stamps, ATransformFromTheFutureIsRefusedAndDoesNotPoisonItsFrame) {
 
 TEST_F(Stamps, AStampThatComesAgainWithAnotherPoseIsIgnoredAndCounted) {
   take({frame("a", 0.0, 0.1), frame("b", 5.0, 0.1), frame("c", 9.0, 0.1)});
-  transforms_.send({frame("a", 0.0, 0.1)});  // the same again is nothing at all
+  transforms_.send({frame("a", 0.0, 0.1)});  // an identical transform is not counted
   for (int i = 0; i < 100; ++i) transforms_.send({frame("a", 1.0, 0.1)});
-  const auto status = node_.waitForStatus("all are counted",
+  const auto status = node_.waitForStatus("all repeated stamps are counted",
                                           [](const msg::Status& s) { return counter(s, "tf.ignored.DUP_ID") == 100; });
   EXPECT_TRUE(status->world.complete);
-  EXPECT_NEAR(xOf(node_, "robot/a"), 0.0, 1e-6) << "the first is kept";
+  EXPECT_NEAR(xOf(node_, "robot/a"), 0.0, 1e-6) << "the first pose is kept";
   EXPECT_TRUE(throttled(node_, "tf.ignored.DUP_ID"));
-  EXPECT_TRUE(says(node_.output(), "frame 'a' came twice with stamp"));
+  EXPECT_TRUE(says(node_.output(), "frame 'a' was sent twice with stamp"));
 }
 
 TEST_F(Stamps, OfTransformsOutOfOrderTheNewestCounts) {
   take({frame("a", 0.0, 0.1), frame("b", 5.0, 0.1), frame("c", 9.0, 0.1)});
   take({frame("a", 0.2, 0.2), frame("b", 5.0, 0.2), frame("c", 9.0, 0.2)});
-  const auto status = take({frame("a", 0.15, 0.15)});  // 50 ms late
+  const auto status = take({frame("a", 0.15, 0.15)});  // 50 ms older than the newest one
   EXPECT_NEAR(after(status->header.stamp), 0.2, 1e-6);
   EXPECT_NEAR(xOf(node_, "robot/a"), 0.2, 1e-5);
   EXPECT_EQ(counter(*status, "tf.out_of_order"), 1u);
@@ -151,7 +151,7 @@ TEST_F(Stamps, StampsThatComeAgainLaterDoNotFloodTheLog) {
 TEST(TimeOfTheWorld, NeverRunsBackWithinAnEpoch) {
   TransformSource transforms;
   NodeUnderTest node(ageless());
-  node.waitForTicks(5);  // nothing moves yet
+  node.waitForTicks(5);  // no frame moves yet
   transforms.stream("base", "a", at(0), 0.3);
   transforms.stream("base", "b", at(5), 0.25);
   transforms.stream("base", "c", at(9), 0.0);

@@ -22,10 +22,11 @@ void expectConflict(NodeUnderTest& node) {
   const auto status = node.waitForStatus("the conflict is listed", [](const msg::Status& s) {
     return entryOf(s, "robot/a") != nullptr && entryOf(s, "robot/a")->code.name == "CONFLICT";
   });
-  EXPECT_TRUE(says(entryOf(*status, "robot/a")->code.text, "on /tf and on /tf_static; it must come on one of them"));
+  EXPECT_TRUE(says(entryOf(*status, "robot/a")->code.text,
+                   "on both /tf and /tf_static; it must be published on only one of them"));
   EXPECT_EQ(counter(*status, "tf.conflict.CONFLICT"), 1u);
   EXPECT_EQ(node.lines("tf.conflict.CONFLICT"), 1u);
-  node.waitUntil("diagnostics warn", [](const Heard& all) {
+  node.waitUntil("/diagnostics warn", [](const Heard& all) {
     const auto found = all.diagnostics.find("transforms");
     return found != all.diagnostics.end() && found->second.level == diagnostic_msgs::DiagnosticStatus::WARN &&
            found->second.message.find("'a'") != std::string::npos;
@@ -40,7 +41,7 @@ TEST(TransformTree, AFrameFirstFixedThenMovingIsAConflict) {
   transforms.stream("base", "a", at(0.01));
   expectConflict(node);
   transforms.stop("a");
-  node.waitForStatus("its age is that of what came last, not that of something fixed",
+  node.waitForStatus("a is STALE, because its newest transform on /tf is old",
                      [](const msg::Status& s) { return stateOf(s, "robot/a") == msg::BodyState::STALE; });
   EXPECT_EQ(stateOf(*node.heard().status.back(), "robot/b"), msg::BodyState::FRESH);
 }
@@ -55,7 +56,7 @@ TEST(TransformTree, AFrameFirstMovingThenFixedIsAConflict) {
   expectConflict(node);
 }
 
-TEST(TransformTree, ALoopCostsItsLinksTheirWayAndNobodyElse) {
+TEST(TransformTree, ALoopOfParentsDisconnectsOnlyTheFramesInTheLoop) {
   TransformSource transforms;
   NodeUnderTest node(threeBalls());
   transforms.stream("base", "a", at(0));
@@ -80,7 +81,7 @@ TEST(TransformTree, ALoopCostsItsLinksTheirWayAndNobodyElse) {
   transforms.stream("base", "b", at(0.25));
   transforms.stream("base", "c", at(9));
   node.waitForComplete();
-  node.waitForStatus("all are fresh", [](const msg::Status& s) { return s.bodies_total == 0; });
+  node.waitForStatus("all bodies are FRESH", [](const msg::Status& s) { return s.bodies_total == 0; });
 }
 
 TEST(TransformTree, AFrameWhoseParentAlternatesIsNeverFreshAndRecovers) {
@@ -96,7 +97,7 @@ TEST(TransformTree, AFrameWhoseParentAlternatesIsNeverFreshAndRecovers) {
     }
   };
   alternate(4);
-  node.waitForStatus("that is noticed", [](const msg::Status& s) { return !s.contested_frames.empty(); });
+  node.waitForStatus("the contested frame is listed", [](const msg::Status& s) { return !s.contested_frames.empty(); });
   const std::size_t begin = node.heard().status.size();
   alternate(36);
   const Heard all = node.heard();
@@ -106,8 +107,8 @@ TEST(TransformTree, AFrameWhoseParentAlternatesIsNeverFreshAndRecovers) {
   }
   for (const auto& pairs : all.pairs) EXPECT_EQ(indexOf(*pairs, "robot/a", "robot/b"), -1);
   transforms.stream("a", "b", at(0.25));
-  node.waitForPairs("b is beside a", [](const msg::Pairs& p) { return p.total > 0; });
-  const auto pairs = node.waitForPairs("all is well", [](const msg::Pairs& p) { return p.world.complete; });
+  node.waitForPairs("b is near a", [](const msg::Pairs& p) { return p.total > 0; });
+  const auto pairs = node.waitForPairs("the world is complete", [](const msg::Pairs& p) { return p.world.complete; });
   EXPECT_EQ(namesOf(*pairs), std::vector<std::string>({"robot/a|robot/b"}));
   EXPECT_EQ(pairs->world.worst_state, msg::BodyState::FRESH);
 }
@@ -119,9 +120,9 @@ TEST(TransformTree, OneFrameTooManyIsRefused) {
   NodeUnderTest node(setup);
   transforms.fix({stamped("base", "a", at(0)), stamped("base", "b", at(0.25)), stamped("base", "c", at(9)),
                   stamped("base", "d", at(0))});
-  const auto status =
-      node.waitForStatus("one is refused", [](const msg::Status& s) { return counter(s, "tf.refused.LIMIT") > 0; });
-  EXPECT_TRUE(says(node.output(), "frame 'd' would be one more than ~max_frames, which is 3"));
+  const auto status = node.waitForStatus("one frame is refused",
+                                         [](const msg::Status& s) { return counter(s, "tf.refused.LIMIT") > 0; });
+  EXPECT_TRUE(says(node.output(), "frame 'd' would add one frame too many; ~max_frames is 3"));
   node.waitForComplete();
 }
 

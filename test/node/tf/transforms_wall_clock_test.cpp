@@ -16,8 +16,9 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// A wall clock that can be set: for the node by libfaketime (package libfaketime), which reads the shift from a file
-/// at every look at the clock, and for the transforms by the test itself. The steady clock is nobody's to set.
+/// Tests in which the wall clock is set. libfaketime (package libfaketime) shifts the clock of the node; it reads the
+/// shift from a file each time the node reads the clock. The test shifts the stamps of its transforms by itself. The
+/// steady clock is not shifted.
 class WallClock : public ::testing::Test {
  protected:
   WallClock() : transforms_([this] { return wallTime() + ros::Duration(shift_); }) { write(0.0); }
@@ -90,7 +91,7 @@ TEST_F(WallClock, SettingItAgesNothing) {
     const auto epoch = node.heard().status.back()->world.epoch;
     std::size_t begin = 0;
     transforms_.pauseFor([&] {
-      node.waitForTicks(3);  // nothing stamped by the old clock is still under way
+      node.waitForTicks(3);  // the node has received all transforms with stamps of the old clock
       begin = node.heard().status.size();
       write(shift);
     });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Jobs that another thread waits for. (Jobs that nobody waits for: faults_guarded_test.cpp.)
+// Tests of jobs that another thread waits for. (faults_guarded_test.cpp tests jobs that no thread waits for.)
 #include "src/node/tick/tick_jobs.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// A world of nothing, and a thread that does the jobs without pause.
+/// An empty world, and a thread that does the jobs without pause.
 class Ticking {
  public:
   explicit Ticking(TickJobs& jobs)
@@ -80,7 +80,7 @@ TEST(TickJobsRun, IsGivenUpIfNoTickComes) {
   TickJobs jobs([] { return false; }, std::chrono::milliseconds(20));
   const Refusal refusal = refusalOf(jobs, [](World&) {});
   EXPECT_EQ(refusal.code(), Code::busy);
-  EXPECT_STREQ(refusal.what(), "no tick took this up within 0.02 s");
+  EXPECT_STREQ(refusal.what(), "no tick has made this change within 0.02 s; a later tick may still make it");
 }
 
 TEST(TickJobsRun, IsGivenUpIfTheNodeIsAboutToEnd) {
@@ -88,8 +88,8 @@ TEST(TickJobsRun, IsGivenUpIfTheNodeIsAboutToEnd) {
   TickJobs jobs([&] { return ++looks > 2; });
   const Refusal refusal = refusalOf(jobs, [](World&) {});
   EXPECT_EQ(refusal.code(), Code::busy);
-  EXPECT_STREQ(refusal.what(), "the node is about to end; it changes nothing any more");
-  EXPECT_EQ(looks, 3) << "it asked again and again whether the node is about to end";
+  EXPECT_STREQ(refusal.what(), "the node is shutting down; it makes no more changes");
+  EXPECT_EQ(looks, 3) << "run() checks repeatedly whether the node is shutting down";
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ TEST(AgeClock, OfAWallClockIsTheSteadyClock) {
   clock.look(moment(100, 10), false);
   const Time before = clock.read(moment(100, 10));
   EXPECT_EQ(clock.read(moment(3700, 10.5)) - before, s(0.5)) << "the wall clock was set ahead";
-  EXPECT_EQ(clock.read(moment(50, 11)) - before, s(1.0)) << "and back";
+  EXPECT_EQ(clock.read(moment(50, 11)) - before, s(1.0)) << "the wall clock was set back";
 }
 
 TEST(AgeClock, OfASimulatedClockIsRosTimeHoweverFastThatRuns) {
@@ -34,13 +34,13 @@ TEST(AgeClock, GoesOnWhileRosTimeStandsStillOrRunsBack) {
   clock.look(moment(100, 10.2), false);
   EXPECT_EQ(clock.read(moment(100, 10.2)) - before, s(0.0));
   clock.look(moment(100, 10.3), true);
-  EXPECT_EQ(clock.read(moment(100, 10.3)) - before, s(0.3)) << "since it stood still";
+  EXPECT_EQ(clock.read(moment(100, 10.3)) - before, s(0.3)) << "counted from when ROS time stopped";
   EXPECT_EQ(clock.read(moment(100, 10.5)) - before, s(0.5));
   clock.look(moment(101, 11), false);
   const Time resumed = clock.read(moment(101, 11));
   EXPECT_GE(resumed - before, s(1.0));
   clock.look(moment(5, 11.5), false);
-  EXPECT_EQ(clock.read(moment(5, 11.5)) - resumed, s(0.5)) << "a jump back makes nothing younger";
+  EXPECT_EQ(clock.read(moment(5, 11.5)) - resumed, s(0.5)) << "a jump back makes no pose younger";
   EXPECT_EQ(clock.read(moment(6, 11.6)) - resumed, s(1.5));
 }
 

@@ -18,7 +18,7 @@ TEST(ClockWatch, ReportsAJumpUntilItIsHandled) {
   EXPECT_EQ(watch.look(moment(100, 1)), Event::none);
   EXPECT_TRUE(watch.running());
   EXPECT_EQ(watch.look(moment(90, 2)), Event::jumped_back);
-  EXPECT_EQ(watch.look(moment(91, 3)), Event::jumped_back) << "it was not handled";
+  EXPECT_EQ(watch.look(moment(91, 3)), Event::jumped_back) << "the jump was not handled yet";
   watch.noteHandled();
   EXPECT_EQ(watch.look(moment(92, 4)), Event::none);
   EXPECT_EQ(watch.look(moment(200, 5)), Event::jumped_ahead);
@@ -31,7 +31,7 @@ TEST(ClockWatch, ReportsAPendingJumpBackEvenIfAJumpAheadFollows) {
   EXPECT_EQ(watch.look(moment(200, 3)), Event::jumped_back);
   watch.noteHandled();
   watch.look(moment(300, 4));
-  EXPECT_EQ(watch.look(moment(200, 5)), Event::jumped_back) << "in the other order too";
+  EXPECT_EQ(watch.look(moment(200, 5)), Event::jumped_back) << "also if the jump ahead comes first";
 }
 
 TEST(ClockWatch, LetsAWallClockStepBackALittleButNotASimulatedOne) {

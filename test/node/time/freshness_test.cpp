@@ -28,7 +28,7 @@ TEST(KeptPose, AgesFromTheMomentItWasTrue) {
   EXPECT_EQ(pose.age(s(7.5)), 0.5);
   EXPECT_EQ(pose.age(s(6)), 0.0);
   EXPECT_EQ(judged(pose, s(7.1), s(50), 0.0, limits), Freshness::fresh);
-  EXPECT_EQ(judged(pose, s(7.1), s(50.1), 0.0, limits), Freshness::late) << "it is not of the tick";
+  EXPECT_EQ(judged(pose, s(7.1), s(50.1), 0.0, limits), Freshness::late) << "the pose is older than the tick";
   EXPECT_EQ(judged(pose, s(7.11), s(50), 0.0, limits), Freshness::late);
   EXPECT_EQ(judged(pose, s(7.26), s(50), 0.0, limits), Freshness::stale);
   EXPECT_EQ(judged(pose, s(9.01), s(50), 0.0, limits), Freshness::lost);
@@ -43,7 +43,7 @@ TEST(KeptPose, OfASlowFrameIsLateAndStaleAfterOneAndAHalfPeriods) {
   EXPECT_EQ(judged(pose, s(0.26), s(50), 0.1, limits), Freshness::stale);
   EXPECT_EQ(judged(pose, s(1.49), s(50), 1.0, limits), Freshness::fresh);
   EXPECT_EQ(judged(pose, s(1.51), s(50), 1.0, limits), Freshness::stale);
-  EXPECT_EQ(judged(pose, s(2.01), s(50), 9.0, limits), Freshness::lost) << "whatever the period";
+  EXPECT_EQ(judged(pose, s(2.01), s(50), 9.0, limits), Freshness::lost) << "LOST does not depend on the period";
 }
 
 TEST(KeptPose, DoesNotAgeWhileOnlyStaticTransformsGiveIt) {
@@ -77,9 +77,9 @@ TEST(Freshness, OfAPoseWithARefusedTransformIsInvalidHoweverYoungItIs) {
   PoseCircumstances circumstances{s(7), s(50), 0.0, true, false};
   EXPECT_EQ(judgePose(pose, circumstances, {}), Freshness::invalid);
   circumstances.reading = s(100);
-  EXPECT_EQ(judgePose(pose, circumstances, {}), Freshness::invalid) << "or however old";
+  EXPECT_EQ(judgePose(pose, circumstances, {}), Freshness::invalid) << "an old pose is INVALID as well";
   pose.settle(s(50));
-  EXPECT_EQ(judgePose(pose, circumstances, {}), Freshness::invalid) << "or settled";
+  EXPECT_EQ(judgePose(pose, circumstances, {}), Freshness::invalid) << "a settled pose is INVALID as well";
 }
 
 TEST(Freshness, OfAnyPoseIsFrozenWhileTheClockStandsStill) {
@@ -97,7 +97,7 @@ TEST(Freshness, OfACloudDependsOnItsAgeItsPeriodAndTheLifetimeOfItsCells) {
   EXPECT_EQ(judgeCloud(0.26, 0.0, false, limits), Freshness::stale);
   EXPECT_EQ(judgeCloud(0.29, 0.2, false, limits), Freshness::fresh) << "less than one and a half periods";
   EXPECT_EQ(judgeCloud(0.31, 0.2, false, limits), Freshness::stale);
-  EXPECT_EQ(judgeCloud(1.01, 5.0, false, limits), Freshness::lost) << "whatever the period";
+  EXPECT_EQ(judgeCloud(1.01, 5.0, false, limits), Freshness::lost) << "LOST does not depend on the period";
   EXPECT_EQ(judgeCloud(0.0, 0.0, true, limits), Freshness::frozen);
 }
 

@@ -12,10 +12,10 @@ namespace {
 
 TEST(TickTime, IsTheNewestThatAllFramesHaveThatKeepUp) {
   TickTime time(0.1);
-  EXPECT_EQ(time.choose({}, s(5)), s(5)) << "nothing moves";
+  EXPECT_EQ(time.choose({}, s(5)), s(5)) << "no frame moves, so the time is the current time";
   EXPECT_EQ(time.choose({s(6), s(5.95)}, s(6)), s(5.95));
-  EXPECT_EQ(time.choose({s(6.2), s(6.0)}, s(6.2)), s(6.2)) << "a laggard holds nobody back";
-  EXPECT_EQ(time.choose({s(6.1), s(6.15)}, s(6.2)), s(6.2)) << "it never runs back";
+  EXPECT_EQ(time.choose({s(6.2), s(6.0)}, s(6.2)), s(6.2)) << "a frame that lags does not delay the tick";
+  EXPECT_EQ(time.choose({s(6.1), s(6.15)}, s(6.2)), s(6.2)) << "the time never runs back";
   time.beginEpoch();
   EXPECT_EQ(time.choose({s(1)}, s(1)), s(1));
 }
@@ -23,9 +23,9 @@ TEST(TickTime, IsTheNewestThatAllFramesHaveThatKeepUp) {
 TEST(TickTime, IsNotSetByFramesThatAreStampedAhead) {
   TickTime time(0.1);
   EXPECT_EQ(time.choose({s(5), s(9)}, s(5)), s(5));
-  EXPECT_EQ(time.choose({s(5.08), s(9)}, s(5)), s(5.08)) << "clocks differ a little";
-  EXPECT_EQ(time.choose({s(9)}, s(6)), s(6.1)) << "also where all are";
-  EXPECT_EQ(time.choose({s(6.2)}, s(6.2)), s(6.2)) << "and they do not hold it there";
+  EXPECT_EQ(time.choose({s(5.08), s(9)}, s(5)), s(5.08)) << "a stamp may be a little ahead of the clock";
+  EXPECT_EQ(time.choose({s(9)}, s(6)), s(6.1)) << "the limit also applies if all frames are ahead";
+  EXPECT_EQ(time.choose({s(6.2)}, s(6.2)), s(6.2)) << "then the time goes on with the clock";
 }
 
 }  // namespace

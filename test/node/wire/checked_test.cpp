@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Every type of message and request that the node reads by its generated deserializer. This program replaces operator
-// new, and needs no ROS master.
+// Tests all types of messages and requests that the node reads with a generated deserializer. This program replaces
+// operator new to count the allocated bytes. It needs no ROS master.
 #include "src/node/wire/checked.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@
 #include "test/node/support/raw_message.h"
 
 namespace {
-std::atomic<std::size_t> allocated{0};  // bytes, in all
+std::atomic<std::size_t> allocated{0};  // total number of allocated bytes
 
 void* counted(std::size_t size) {
   allocated += size;
@@ -52,9 +52,9 @@ namespace {
 namespace msg = ::hgrid_proximity;
 
 constexpr unsigned kMessages = 50;
-constexpr std::size_t kSentence = 2048;  // bytes that the sentence of a refusal may allocate
+constexpr std::size_t kSentence = 2048;  // [bytes] memory that an error sentence may allocate
 
-/// Deserializes as roscpp does, and checks that the memory for it is in proportion to the bytes.
+/// Deserializes the bytes as roscpp does. Checks that the allocated memory is at most proportional to their number.
 template <class Message>
 Checked<Message> received(std::string bytes) {
   Checked<Message> message;
@@ -62,7 +62,7 @@ Checked<Message> received(std::string bytes) {
                                      static_cast<std::uint32_t>(bytes.size()));
   const std::size_t before = allocated;
   EXPECT_NO_THROW(ros::serialization::deserialize(stream, message));
-  EXPECT_LE(allocated - before, 64 * bytes.size() + kSentence) << "for " << bytes.size() << " bytes";
+  EXPECT_LE(allocated - before, 64 * bytes.size() + kSentence) << "allocated for " << bytes.size() << " bytes";
   EXPECT_EQ(stream.getLength(), 0u) << "roscpp's stream is at its end";
   return message;
 }
@@ -78,7 +78,7 @@ template <class Message>
   return ::testing::AssertionFailure() << "accepted";
 }
 
-/// Holds if the bytes are refused, or are exactly those of the message that they are read as.
+/// Succeeds if the bytes are refused, or if the message that is read from them has exactly these bytes.
 template <class Message>
 ::testing::AssertionResult refusedOrEqual(const std::string& bytes) {
   const Checked<Message> message = received<Message>(bytes);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// A running node that receives messages and requests whose declared lengths their bytes do not hold, or more
-// transforms than it can store.
+// Sends a running node messages and requests that declare more data than they contain, or more transforms than it can
+// store.
 #include <hgrid_proximity/ClearMap.h>
 #include <hgrid_proximity/LoadOctomap.h>
 #include <hgrid_proximity/QueryBox.h>
@@ -22,9 +22,9 @@ namespace hgrid {
 namespace test {
 namespace {
 
-constexpr std::size_t kMostGrowth = 8000;  // kB that the node's memory may grow by while it refuses
+constexpr std::size_t kMostGrowth = 8000;  // [kB] how much the node's memory may grow while it refuses messages
 
-/// Transforms or messages of tf that the node has decided on.
+/// Returns how many transforms, or whole messages, of tf the node has accepted, refused, dropped or ignored.
 std::uint64_t decided(const msg::Status& status) {
   std::uint64_t count = 0;
   for (const msg::Counter& counter : status.counters) {
@@ -35,7 +35,8 @@ std::uint64_t decided(const msg::Status& status) {
   return count;
 }
 
-/// A robot's sphere of 0.1 m at the origin of "base", which is never lost, and publishers of any bytes.
+/// A robot with a sphere of radius 0.1 m at the origin of "base" that never becomes LOST, and publishers that can send
+/// any bytes.
 class Lengths : public ::testing::Test {
  protected:
   void start(std::optional<int> queue_bytes = std::nullopt) {
@@ -46,7 +47,7 @@ class Lengths : public ::testing::Test {
     node_ = std::make_unique<NodeUnderTest>(setup);
     moving_ = ros_.advertise<TransformsBytes>("/tf", 0);  // 0: the publisher drops nothing
     static_ = ros_.advertise<TransformsBytes>("/tf_static", 0);
-    node_->waitUntil("listeners", [&](const Heard&) {
+    node_->waitUntil("the node subscribes to tf", [&](const Heard&) {
       return moving_.getNumSubscribers() == 1 && static_.getNumSubscribers() == 1;
     });
     moving_.publish(bytesWith({stamped("base", "a", at(0), ros::Time::now())}));
@@ -58,7 +59,7 @@ class Lengths : public ::testing::Test {
     message.transforms = transforms;
     return {serialized(message)};
   }
-  /// 20 bytes that declare so many transforms.
+  /// Returns a message of 20 bytes that declares `count` transforms.
   static TransformsBytes lie(std::uint32_t count) { return {bytesOf(count) + std::string(16, '\0')}; }
   void waitForRefusals(const std::string& code, std::uint64_t count) {
     node_->waitForStatus(std::to_string(count) + " refusals with " + code,
@@ -69,7 +70,7 @@ class Lengths : public ::testing::Test {
     EXPECT_NEAR(xOf(*node_, "robot/a"), 0.0, 1e-6);
     EXPECT_TRUE(node_->heard().status.back()->world.complete);
   }
-  /// A request with these bytes is refused, and its connection serves the next one.
+  /// Expects that a request with these bytes is refused, and that its connection stays usable.
   template <class Service>
   void expectRefused(ros::ServiceClient& client, const std::string& bytes) {
     typename Service::Response response;
@@ -77,7 +78,7 @@ class Lengths : public ::testing::Test {
     EXPECT_EQ(codeOf(response), "TRUNCATED");
     EXPECT_TRUE(client.isValid());
   }
-  /// Requests with lengths that do not fit are refused by a service, and an honest one is answered.
+  /// Expects that a service refuses requests with wrong lengths, and answers a correct request.
   template <class Service>
   void expectChecked(const std::string& name) {
     SCOPED_TRACE(name);
@@ -100,7 +101,8 @@ class Lengths : public ::testing::Test {
   }
   template <class Response>
   static auto codeOf(const Response& response) -> decltype(response.answer.code.name) {
-    EXPECT_EQ(response.answer.verdict == msg::Verdict::UNKNOWN, !response.answer.success) << "never CLEAR";
+    EXPECT_EQ(response.answer.verdict == msg::Verdict::UNKNOWN, !response.answer.success)
+        << "a refused query is UNKNOWN, never CLEAR";
     return response.answer.code.name;
   }
   template <class Response>
@@ -155,12 +157,13 @@ TEST_F(Lengths, OfMessagesThatExceedTheQueueAreRefusedByName) {
   waitForRefusals("LIMIT", 1);
   EXPECT_GE(node_->lines(" bytes; at most 1000 are accepted (~tf_queue_bytes)"), 1u);
   moving_.publish(bytesWith({transform}));
-  node_->waitForStatus("the one", [](const msg::Status& status) { return counter(status, "tf.accepted") == 2; });
+  node_->waitForStatus("the short message is accepted",
+                       [](const msg::Status& status) { return counter(status, "tf.accepted") == 2; });
 }
 
 TEST_F(Lengths, OfLongMessagesDoNotStopTheTicks) {
   start();
-  constexpr std::uint32_t kTransforms = 200000;  // without names: each is refused
+  constexpr std::uint32_t kTransforms = 200000;  // without names, so each of them is refused
   moving_.publish(TransformsBytes{bytesOf(kTransforms) + std::string(kTransforms * std::size_t{76}, '\0')});
   waitForRefusals("BAD_ID", kTransforms);
   bool ticked = false;
@@ -184,7 +187,7 @@ TEST_F(Lengths, ManyMessagesAreEachAcceptedRefusedOrDropped) {
       moving_.publish(i % 10 == 0 ? lie(7) : bytesWith({stamped("base", "b", at(x), begin + ros::Duration(1e-4 * i))}));
     }
     const auto status = node_->waitForStatus(
-        "all were decided on", [&](const msg::Status& now) { return decided(now) - before == kMessages; });
+        "all messages were handled", [&](const msg::Status& now) { return decided(now) - before == kMessages; });
     EXPECT_GT(counter(*status, "tf.accepted"), 1u);
     node_->waitForTicks(2);
     EXPECT_EQ(decided(*node_->heard().status.back()) - before, kMessages);

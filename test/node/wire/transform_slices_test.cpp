@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Needs no ROS master.
+// These tests need no ROS master.
 #include "src/node/wire/transform_slices.h"
 
 #include <gtest/gtest.h>

@@ -20,11 +20,11 @@ TEST(IdlePatterns, AreNamedWithTheirParameter) {
             (Warnings{"~margins: 'amr/*' matches no body", "~padding: 'arm/flange' matches no body"}));
 }
 
-TEST(IdlePatterns, ForMapsAreNotTold) {
+TEST(IdlePatterns, ForMapsAreNotReported) {
   Params params;
   params.margins = {{"map/hall", 0.1}, {"map/*", 0.1}, {"map*", 0.1}};
   EXPECT_EQ(idlePatterns(params, kBodies, kBare), (Warnings{"~margins: 'map*' matches no body"}))
-      << "a pattern that may mean other bodies is told";
+      << "a pattern that may match other bodies is reported";
 }
 
 TEST(IdlePatterns, OfWaiversAndVisualGeometryMayMeanLinksWithoutBodies) {

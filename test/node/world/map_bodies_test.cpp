@@ -48,7 +48,7 @@ TEST(MapBodies, AreTheSameOnlyAtTheSamePoseInTheSameFrame) {
 TEST(MapBodies, LeaveAGapAfterARefusedMessageUntilTheyAreErased) {
   const SourceId hall = SourceId::ofMap("hall");
   MapBodies maps(false);
-  EXPECT_FALSE(maps.noteRefused(hall, "PARSE")) << "it is not in the world";
+  EXPECT_FALSE(maps.noteRefused(hall, "PARSE")) << "the map is not in the world yet";
   maps.set(hall, mapBodyOf(mapAt(0.0), "world", {}), mapAt(0.0));
   EXPECT_TRUE(maps.gaps({}).empty());
   EXPECT_TRUE(maps.noteRefused(hall, "PARSE"));

@@ -36,7 +36,7 @@ TEST(MissingSources, HaveTheNewestSentence) {
   missing.set(SourceId::ofRobot("arm"), "PARSE robot 'arm': broken");
   std::vector<SourceGap> gaps(1);
   missing.appendGaps(gaps);
-  ASSERT_EQ(gaps.size(), 4u) << "it appends";
+  ASSERT_EQ(gaps.size(), 4u) << "appendGaps() keeps earlier elements";
   EXPECT_EQ(gaps[1].sentence, "PARSE robot 'arm': broken");
 }
 

@@ -19,7 +19,8 @@ Body bodyOf(const std::string& name) {
 
 Pose shifted(double x) { return Pose(Eigen::Translation3d(x, 0.0, 0.0)); }
 
-/// Two robots, "arm" with two links on one frame and one on another, and "cart" with one, and the obstacle "post".
+/// A scene with two robots and the obstacle "post". The robot "arm" has two links on one frame and one link on another
+/// frame. The robot "cart" has one link.
 class MoversTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -38,7 +39,7 @@ class MoversTest : public ::testing::Test {
     change.add("wrist", SourceId::ofRobot("arm"), bodyOf("arm/wrist"), Pose::Identity());
   }
 
-  /// Every mover as "frame: body body".
+  /// Returns one line for each mover, in the form "frame: body body".
   std::vector<std::string> listed() {
     std::vector<std::string> lines;
     for (const Mover& mover : movers_.all()) {
@@ -75,7 +76,7 @@ TEST_F(MoversTest, ReplaceTheBodiesOfOneSourceAndKeepThePosesOfTheOthers) {
   const std::uint64_t before = movers_.revision();
   const SourceId arm = SourceId::ofRobot("arm");
   Movers::Change change = movers_.changeWithout([&](const SourceId& source) { return source == arm; });
-  change.add("shoulder", arm, bodyOf("arm/shoulder"), shifted(1.0));  // a body of this name is in the scene
+  change.add("shoulder", arm, bodyOf("arm/shoulder"), shifted(1.0));  // the scene already has a body of this name
   movers_.exchange(std::move(change));
   EXPECT_EQ(listed(), (Lines{"world: obstacle/post", "cart_base: cart/base", "shoulder: arm/shoulder"}));
   EXPECT_EQ(scene_.size(), 3u);
@@ -99,7 +100,7 @@ TEST_F(MoversTest, StayAsTheyWereIfTheSceneRefusesAChange) {
   EXPECT_NE(refusalOf([&] { movers_.add(SourceId::ofObstacle("obstacle/post"), bodyOf("obstacle/post")); }), Code::ok);
   EXPECT_EQ(listed(), before);
   EXPECT_EQ(scene_.size(), 5u);
-  EXPECT_EQ(movers_.revision(), revision) << "nobody has to plan again";
+  EXPECT_EQ(movers_.revision(), revision) << "the chains need no new plan";
 }
 
 }  // namespace

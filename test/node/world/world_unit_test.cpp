@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Claim: a change or a tick of the world for which there is no memory leaves no trace. A script of changes and ticks is
-// played again and again. Each time another allocation of another step fails. Then the step is either repeated or left
-// out, and every later tick is the one of a world in which nothing ever failed. No ROS master is needed.
+// Claim: if memory runs out during a change or a tick of the world, later ticks are not affected. A script of changes
+// and ticks is played many times. Each time, another allocation of one step fails. Then the step is either repeated or
+// left out. Every later tick must be the same as in a world in which no allocation failed. These tests need no ROS
+// master.
 #include <gtest/gtest.h>
 #include <ros/console.h>
 
@@ -28,7 +29,7 @@ struct Step {
   bool may_be_left_out = true;
 };
 
-/// The moment so many seconds after a start, by both clocks; `jump` [s] sets ROS time alone.
+/// Returns the moment `time` [s] after the start of both clocks. `jump` [s] shifts ROS time only.
 Moment momentAt(double time, double jump = 0.0) {
   Moment moment;
   moment.ros = Time(std::int64_t(1e9 * (1000.0 + time + jump)));
@@ -43,7 +44,7 @@ LoadedRobot armOf(const std::string& name, double margin) {
   robot.bodies = test::armBodies(name);
   for (std::size_t i = 0; i < robot.bodies.size(); ++i) {
     robot.bodies[i].margin = margin;
-    if (robot.bodies[i].frame == "shoulder") {  // moves as one with the link before it
+    if (robot.bodies[i].frame == "shoulder") {  // moves together with the previous link
       robot.groups.back().members.push_back({i, test::at(0.1)});
     } else {
       robot.groups.push_back({name + "_" + robot.bodies[i].frame, {{i, Pose::Identity()}}});
@@ -84,7 +85,7 @@ Step clearingMap(const std::string& name) {
   return {"clearMap " + name, [=](World& world, Ticks&) {
             try {
               world.clearMap(name);
-            } catch (const Refusal&) {  // the step that would have set the map was left out
+            } catch (const Refusal&) {  // the step that sets this map was left out
             }
           }};
 }
@@ -106,7 +107,7 @@ Step ticking(const Moment& now) {
   return {"tick", [=](World& world, Ticks& ticks) { ticks.push_back(world.tick(now)); }};
 }
 
-/// Transforms to all frames: the first link of each robot moves, the others stand on it.
+/// Sends the transforms of all frames. The first link of each robot moves, and the other links are fixed to it.
 Step hearing(const Moment& now, double x) {
   tf2_msgs::TFMessage moving, standing;
   for (const std::string robot : {"arm", "other"}) {
@@ -138,7 +139,8 @@ Params paramsOfTheWorld() {
   ObstacleParams post{test::ball("post", 0.3)}, gripped{test::ball("gripped", 0.1)}, twin{test::ball("post", 0.5)};
   post.body.frame.clear();
   gripped.body.frame = "arm_hand";
-  for (const ObstacleParams& obstacle : {post, gripped, twin}) params.obstacles.push_back(obstacle);  // one is refused
+  // The world refuses the twin, because its name is taken.
+  for (const ObstacleParams& obstacle : {post, gripped, twin}) params.obstacles.push_back(obstacle);
   return params;
 }
 
@@ -161,7 +163,7 @@ std::vector<Step> script() {
   steps.push_back(settingRobot("arm", 0.4));
   steps.push_back(settingCloud(time, 2));
   tick(2.0);
-  tick(-2.0);  // the rule has ended
+  tick(-2.0);  // the rule has expired
   steps.push_back(settingMap("room", -0.5, 3));
   steps.push_back(settingMap("shelf", 1.0, 4));
   steps.push_back(settingCloud(time, 5));
@@ -169,10 +171,10 @@ std::vector<Step> script() {
   steps.push_back(resetting());
   tick(0.2);
   tick(0.2);
-  steps.back().may_be_left_out = false;  // after the jump, the poses of the last tick are all that is known
+  steps.back().may_be_left_out = false;  // after the jump, only the poses of the last tick are known
   jump = -5.0;
   tick(0.1);
-  steps.back().may_be_left_out = false;  // the jump forgets the transforms that came until it is noticed
+  steps.back().may_be_left_out = false;  // the jump drops all transforms that arrive before it is noticed
   steps.push_back(clearingMap("room"));
   steps.push_back(clearingMap(""));
   tick(0.0);
@@ -207,21 +209,21 @@ void expectEqual(const Told& told, const Told& expected) {
 
 constexpr std::size_t kNone = ~std::size_t{0};
 
-/// What goes wrong: the k-th allocation of a step.
+/// A fault: the k-th allocation of a step fails.
 struct Fault {
   std::size_t step = kNone, k = 0;
   test::Failing which = test::Failing::one;
-  bool again = true;  // the step is repeated at once; otherwise it is left out
+  bool again = true;  // whether the failed step is repeated at once; otherwise it is left out
 };
 
 struct Played {
-  std::vector<Told> told;  // of the ticks from a step on
+  std::vector<Told> told;  // descriptions of all ticks from a given step on
   bool failed = false;
 };
 
 class WorldFailedAllocation : public ::testing::TestWithParam<bool> {
  protected:
-  void SetUp() override {  // a line for each refusal of each time that the script is played would be thousands
+  void SetUp() override {  // turns off the log, because each run of the script logs refusals
     if (ros::console::set_logger_level(ROSCONSOLE_DEFAULT_NAME, ros::console::levels::Fatal)) {
       ros::console::notifyLoggerLevelsChanged();
     }
@@ -249,7 +251,7 @@ class WorldFailedAllocation : public ::testing::TestWithParam<bool> {
     return played;
   }
 
-  /// Lets each allocation of a step fail, one after the other. @returns how many there are
+  /// Lets each allocation of a step fail, one after the other. @returns the number of allocations
   std::size_t tryStep(std::size_t step) const {
     const Played all_well = play(step, {}), without = play(step, {}, step);
     bool failed = true;
@@ -288,10 +290,10 @@ TEST_P(WorldFailedAllocation, LeavesNoTraceInLaterTicks) {
     failures += tryStep(step);
     if (HasFailure()) return;
   }
-  EXPECT_GT(failures, 500u) << "what never failed proves nothing";
+  EXPECT_GT(failures, 500u) << "the test is useful only if many allocations fail";
 }
 
-/// The script is about what its steps are called after.
+/// Checks that the script produces pairs, events and several epochs.
 TEST_P(WorldFailedAllocation, IsTriedOnAWorldThatHasPairsEventsAndSeveralEpochs) {
   const Played played = play(0, {});
   std::size_t pairs = 0, events = 0;

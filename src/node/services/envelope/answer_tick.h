@@ -8,17 +8,18 @@
 
 namespace hgrid {
 
-/// The tick that an answer is made from: the newest one when the request came, or a later one that has its effect.
+/// The tick that an answer is made from: the newest tick when the request arrived, or a later one that contains the
+/// change that the request made.
 class AnswerTick {
  public:
   /// @param tick  null before the first tick
   explicit AnswerTick(std::shared_ptr<const Tick> tick);
 
-  /// Null before the first tick.
+  /// Returns the tick; null before the first tick.
   const std::shared_ptr<const Tick>& get() const { return tick_; }
-  /// [s] from the time when the tick was made to the construction of this object. 0 before the first tick.
+  /// Returns the time [s] from the computation of the tick to the construction of this object. 0 before the first tick.
   double age() const { return age_; }
-  /// @throws Refusal not_ready before the first tick and while there is no world
+  /// Returns the snapshot of the tick. @throws Refusal not_ready before the first tick and while there is no world
   const Snapshot& snapshot() const;
 
  private:

@@ -18,11 +18,11 @@
 
 namespace hgrid {
 
-// How the outcome of a request is written into a response. Responses have one of these forms:
-// - `success` and `code`, and where a sentence is also wanted `explanation`;
-// - an `answer` that has `success`, `code` and a verdict;
+// These functions write the outcome of a request into its response. A response has one of these sets of fields:
+// - `success` and `code`, and possibly `explanation` for a sentence;
+// - an `answer`, which contains `success`, `code` and a verdict;
 // - `success` and `message` (std_srvs/Trigger).
-// Besides, a response may have `world` and `header`.
+// In addition, a response may have the fields `world` and `header`.
 
 template <class Response, class = void>
 struct HasAnswer : std::false_type {};
@@ -44,7 +44,7 @@ struct HasHeader : std::false_type {};
 template <class Response>
 struct HasHeader<Response, std::void_t<decltype(std::declval<Response&>().header)>> : std::true_type {};
 
-/// Says which tick the response is made from.
+/// Writes into `header` and `world` which tick the response is made from.
 template <class Response>
 void writeTick(const AnswerTick& tick, const Settings& settings, Response& response) {
   if constexpr (HasHeader<Response>::value) {
@@ -59,7 +59,7 @@ void writeTick(const AnswerTick& tick, const Settings& settings, Response& respo
   }
 }
 
-/// Writes OK. The deed comes after it, so that it may add a sentence to the code.
+/// Writes that the request succeeded. The envelope calls this before the deed, which may add a sentence to the code.
 template <class Response>
 void writeSuccess(Response& response) {
   if constexpr (HasAnswer<Response>::value) {
@@ -70,15 +70,15 @@ void writeSuccess(Response& response) {
   }
 }
 
-/// Writes why the request was refused, or which fault of the node stopped it.
-/// @param is_fault  the request may have been right; the node failed
+/// Writes why the request was refused, or which error inside the node stopped it.
+/// @param is_fault  true: an error inside the node, although the request may be valid
 template <class Response>
 void writeRefusal(const Refusal& why, bool is_fault, Response& response) {
   if constexpr (HasAnswer<Response>::value) {
     response.answer = {};
     response.answer.code = toMsg(why.code(), why.what());
     response.answer.unknown_because = msg::UnknownReason::REFUSED;
-    if (!is_fault) response.answer.summary = std::string("refused, so UNKNOWN: ") + why.what();
+    if (!is_fault) response.answer.summary = std::string("UNKNOWN, because the query was refused: ") + why.what();
   } else {
     response.success = false;
     if constexpr (std::is_same_v<Response, std_srvs::Trigger::Response>) {

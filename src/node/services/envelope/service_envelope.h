@@ -20,45 +20,47 @@
 
 namespace hgrid {
 
-/// One request of `Service`, as a deed sees it.
+/// One request of the service type `Service`, with all that a deed needs.
 template <class Service>
 struct ServiceCall {
   const typename Service::Request& request;
   typename Service::Response& response;
-  std::string caller;  ///< name of the node that asks, made safe for logs and messages
-  AnswerTick& tick;    ///< the newest tick. A deed that changes the world assigns the tick that has the change.
+  std::string caller;  ///< name of the node that sent the request, made safe for logs and messages
+  AnswerTick& tick;    ///< the newest tick. A deed that changes the world assigns the first tick with the change.
 };
 
 /// Answers the requests of all services in one way.
 ///
-/// A deed does what a service is for. Around every deed, the envelope
+/// A deed is the function that does the work of one service. For every request, the envelope
 /// - takes the newest tick,
-/// - checks that the bytes of the request are a request,
+/// - checks that the bytes of the request are a valid message,
 /// - fills `header`, `world` and `success` of the response,
 /// - turns a Refusal or any other exception of the deed into a code,
 /// - counts "<counter>.asked", "<counter>.refused.<CODE>" and "<counter>.failed.<CODE>".
 ///
-/// Callbacks run on the queue of the node handle, on as many threads as spin it.
+/// Callbacks run on the threads that serve the queue of the node handle.
 class ServiceEnvelope {
  public:
   using NewestTick = std::function<std::shared_ptr<const Tick>()>;
   template <class Service>
   using Deed = std::function<void(ServiceCall<Service>&)>;
 
-  /// @param private_node  the namespace of the services. All other parameters must outlive the servers.
+  /// @param private_node  node handle whose namespace contains the services
+  /// All other parameters must outlive the servers.
   ServiceEnvelope(const ros::NodeHandle& private_node, const Settings& settings, NewestTick newest, Ledger& ledger)
       : node_(private_node), settings_(settings), newest_(std::move(newest)), ledger_(ledger) {}
   ServiceEnvelope(const ServiceEnvelope&) = delete;
   ServiceEnvelope& operator=(const ServiceEnvelope&) = delete;
 
-  /// Advertises the service `name`, counted under its name.
+  /// Advertises the service `name`. The names of its counters begin with its name.
   /// @returns the server, which must not outlive this object
   template <class Service>
   ros::ServiceServer serve(const std::string& name, Deed<Service> deed) {
     return serve<Service>(name, name, std::move(deed));
   }
-  /// @param counter  what the names of the counters begin with
-  /// @param blank    the response before anything is known
+  /// As above.
+  /// @param counter  the names of the counters begin with this
+  /// @param blank    the response that each request starts with, before anything is known
   template <class Service>
   ros::ServiceServer serve(const std::string& name, const std::string& counter, Deed<Service> deed,
                            const typename Service::Response& blank = {}) {
@@ -68,7 +70,7 @@ class ServiceEnvelope {
         event.getResponse() = blank;
         answer<Service>(event, counters, deed);
       };
-      return !guarded(ledger_, counters.failed.c_str(), answered);  // false: the caller hears that the call failed
+      return !guarded(ledger_, counters.failed.c_str(), answered);  // false: roscpp reports a failed call
     };
     return node_.advertiseService<Event>(name, callback);
   }
