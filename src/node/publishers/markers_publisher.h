@@ -6,9 +6,10 @@
 #include <ros/publisher.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 
-#include "node/messages/markers.h"
+#include "node/messages/query_markers.h"
 #include "node/params/params.h"
 #include "node/tick/tick.h"
 
@@ -24,10 +25,14 @@ class MarkersPublisher {
   void publish(const Tick& newest, const std::shared_ptr<const MeasuredTick>& measured);
 
  private:
+  bool haveOthers(const Tick& tick);
+
   const Params& params_;
   const QuerySketch& sketch_;
   ros::Publisher publisher_;
-  std::size_t viewers_ = 0;  // at the last call of publish()
+  // At the last call of publish():
+  std::size_t viewers_ = 0;
+  std::uint64_t revision_ = 0, epoch_ = 0;
 };
 
 }  // namespace hgrid
