@@ -105,7 +105,7 @@ void Scene::State::fillBodies(Snapshot& snapshot) {
   boxed.clear();
   boxed.reserve(structure->ids.size());
   snapshot.worst_state_ = Freshness::fresh;
-  snapshot.max_age_ = snapshot.max_growth_ = 0.0;
+  snapshot.max_age_ = snapshot.max_growth_ = snapshot.max_reach_ = 0.0;
   for (std::size_t i = 0; i < structure->ids.size(); ++i) {
     const Slot& slot = slots[structure->ids[i].slot];
     const bool placed = slot.pose.state != Freshness::unplaced;
@@ -120,6 +120,7 @@ void Scene::State::fillBodies(Snapshot& snapshot) {
     }
     snapshot.worst_state_ = std::max(snapshot.worst_state_, slot.pose.state);
     snapshot.max_growth_ = std::max(snapshot.max_growth_, snapshot.poses_[i].growth);
+    snapshot.max_reach_ = std::max(snapshot.max_reach_, snapshot.poses_[i].reach);
     if (placed) snapshot.max_age_ = std::max(snapshot.max_age_, slot.pose.age);
   }
   snapshot.cells_.clear();

@@ -67,7 +67,7 @@ void Scene::State::fillCompleteness(Snapshot& snapshot, const std::vector<Source
     snapshot.incomplete_.push_back(gap.source);
     if (snapshot.reasons_.size() < options.max_reasons) snapshot.reasons_.push_back(gap.sentence);
   }
-  if (snapshot.worst_state_ >= Freshness::stale || snapshot.max_growth_ > 0.0 || !uncovered.empty()) {
+  if (snapshot.worst_state_ >= Freshness::stale || snapshot.max_reach_ > 0.0 || !uncovered.empty()) {
     fillDoubtful(snapshot);
   }
   sortNames(snapshot.incomplete_);

@@ -91,41 +91,6 @@ TEST(RegionTree, PutsEveryCornerInTheOneRegionThatContainsIt) {
   }
 }
 
-TEST(RegionTree, VisitsExactlyTheRegionsWhoseBoundsPassTheTest) {
-  Random random(8);
-  const std::vector<Aabb> boxes = heaps(random, 20, 100);
-  RegionTree tree = treeOf(boxes);
-  std::vector<kernels::Level> levels(tree.size());
-  for (std::size_t number = 0; number < tree.size(); ++number) {
-    tree.setLevels(number, static_cast<std::uint32_t>(number), 1);
-    levels[number].around = {{1e30f, 1e30f, 1e30f}, {-1e30f, -1e30f, -1e30f}};
-  }
-  for (const Aabb& box : boxes) {
-    kernels::Box& around = levels[tree.regionOf(box.min.data())].around;
-    for (int axis = 0; axis < 3; ++axis) {
-      around.min[axis] = std::min(around.min[axis], box.min[axis]);
-      around.max[axis] = std::max(around.max[axis], box.max[axis]);
-    }
-  }
-  tree.setBounds(levels);
-  for (int i = 0; i < 200; ++i) {
-    const Aabb query = boxAround(randomVector(random, -6000, 6000), randomVector(random, 1, 8000));
-    const auto test = [&query](const kernels::Box& bounds) {
-      bool both = true;
-      for (int axis = 0; axis < 3; ++axis) {
-        both = both && bounds.min[axis] <= query.max[axis] && query.min[axis] <= bounds.max[axis];
-      }
-      return both;
-    };
-    std::vector<std::uint32_t> expected, visited;
-    for (std::uint32_t number = 0; number < tree.size(); ++number) {
-      if (test(levels[number].around)) expected.push_back(number);
-    }
-    tree.visit(test, [&visited](std::uint32_t number) { visited.push_back(number); });
-    ASSERT_EQ(visited, expected);
-  }
-}
-
 TEST(RegionTree, IsOneRegionAgainAfterJoining) {
   Random random(9);
   RegionTree tree = treeOf(heaps(random, 5, 200));

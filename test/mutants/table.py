@@ -14,7 +14,7 @@ AVX2 = "broadphase/kernels/simd_avx2.h"
 LAYER = "broadphase/hgrid/layer.cpp"
 ENGINE = "broadphase/hgrid/engine.cpp"
 PAIRS = "broadphase/hgrid/pair_search.cpp"
-REGIONS = "broadphase/hgrid/region_tree.cpp"
+LEVEL_BOUNDS = "broadphase/hgrid/level_bounds.cpp"
 COLLECTION = "broadphase/hgrid/pair_collection.cpp"
 HGRID = "broadphase/hgrid/hgrid.cpp"
 QUERIES = "broadphase/hgrid/queries.cpp"
@@ -44,7 +44,7 @@ MUTANTS = [
     ("another level is looked at without its reach", PAIRS_BODY,
      "b.reach[z], grid, z, z_low", "0.0f, grid, z, z_low"),
     ("a query looks around without the reach", BOXES_BODY,
-     "cellOf(box->min[axis] - l.reach[axis], grid, axis)", "cellOf(box->min[axis], grid, axis)"),
+     "cellOf(box.min[axis] - l.reach[axis], grid, axis)", "cellOf(box.min[axis], grid, axis)"),
     ("along a line cells are looked at without the reach of their boxes", LINE_BODY,
      "track.below + static_cast<double>(level.reach[axis]) * inverse", "track.below"),
     ("the cells along a line forget its radius", LINE_BODY,
@@ -75,11 +75,11 @@ MUTANTS = [
     ("a level is not tested against the next coarser one", PAIRS,
      "coarser = level + 1", "coarser = level + 2"),
     ("boxes of different regions make no pairs", PAIRS,
-     "meetAll(layer, number, layer, number + 1);", ""),
+     "meetAll(layer, region, layer, last);", ""),
     ("a region meets each other one but its neighbor", PAIRS,
-     "if (met < least) return;", "if (met <= least) return;"),
-    ("the bounds of a part of space are those of its lower half", REGIONS,
-     "widen(bounds, bounds_[branch.above]);", ""),
+     "if (number >= least) meet", "if (number > least) meet"),
+    ("the bounds of 16 levels are those of the first", LEVEL_BOUNDS,
+     "i < std::min(first + kernels::Tier::kFan, below.count)", "i < first + 1"),
     ("bounds of a region end where its last box begins", LAYER,
      "std::nextafter(upper[axis] + level.reach[axis], kInfinity)", "upper[axis]"),
     ("layers are asked one way round only", PAIRS,
@@ -113,7 +113,8 @@ MUTANTS = [
      "if (box.min.isApprox(given[i].min, 1e-6f) && box.max.isApprox(given[i].max, 1e-6f)) continue;"),
 
     ("a sphere's box is a little too small", QUERIES,
-     "sphere.radius + 2.0 * roundingSlack(reach)", "0.999 * sphere.radius"),
+     "sphere.radius + 2.0 * roundingSlack(sphere.center.cwiseAbs().maxCoeff() + sphere.radius)",
+     "0.999 * sphere.radius"),
     ("hits along a segment come the wrong way round", QUERIES,
      "a.along < b.along", "a.along > b.along"),
     ("the nearest are those in the first sphere that is not empty", QUERIES,

@@ -103,6 +103,19 @@ TEST(Scope, ALostBodyMakesUnknownOnlyWhatItCanHaveReached) {
   EXPECT_EQ(nearest(snapshot, Eigen::Vector3d(0, 6.1, 0), 0.5, {}).verdict, Verdict::clear);
 }
 
+TEST(Scope, ABodyWithAnOldPoseCanHaveMovedAlthoughItIsFreshAndMarginsDoNotGrow) {
+  SceneOptions options;
+  options.growth_cap = 0.0;
+  options.growth_after = 0.25;
+  Scene scene(options);
+  const BodyId link = test::put(scene, linkOf("robot", "tool", 1.0), test::at(0));
+  scene.setState(link, Freshness::fresh, 2.0);
+  const auto snapshot = scene.commit(Time{1}, {});
+  ASSERT_TRUE(snapshot->complete());
+  EXPECT_EQ(query(*snapshot, Sphere{{2.0, 0, 0}, 0.5}, {}).verdict, Verdict::unknown) << "the body can have come 2 m nearer";
+  EXPECT_EQ(query(*snapshot, Sphere{{9.0, 0, 0}, 0.5}, {}).verdict, Verdict::clear);
+}
+
 TEST(Scope, ABodyWhoseNewestDataContradictsItsPoseCanBeAnywhere) {
   for (const Freshness state : {Freshness::frozen, Freshness::invalid}) {
     SCOPED_TRACE(name(state));

@@ -121,7 +121,7 @@ class Snapshot {
   std::vector<std::string> reasons_;
   std::uint32_t reasons_total_ = 0;
   Freshness worst_state_ = Freshness::fresh;
-  double max_age_ = 0.0, max_growth_ = 0.0;
+  double max_age_ = 0.0, max_growth_ = 0.0, max_reach_ = 0.0;
   bool report_unmapped_ = false;
   const BroadPhaseReader* broad_phase_ = nullptr;  // lives as long as the snapshot: see PooledSnapshot
 };

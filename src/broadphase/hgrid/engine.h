@@ -28,6 +28,7 @@ struct SearchTask {
 
 /// Copies of some boxes of a level, which can ask another level.
 struct GatheredBoxes {
+  std::vector<std::uint32_t> levels;  // that a level reaches
   std::vector<std::uint32_t> positions;
   std::vector<float> bounds;
   std::vector<std::uint32_t> ids;

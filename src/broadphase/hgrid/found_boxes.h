@@ -56,23 +56,14 @@ inline bool overlap(const kernels::Box& a, const kernels::Box& b) {
 }
 
 /// Calls `visit` once per layer with the positions of the boxes that `search` finds on the layer's levels.
-/// @param near  whether something within these bounds may be found, as in bool near(const kernels::Box&)
-template <class Engine, class Near, class Search, class Visit>
-void visitFound(const Engine& engine, Near&& near, Search&& search, Visit&& visit) {
+/// @param search  as in void search(const kernels::LevelSet&, kernels::PositionSink*)
+template <class Engine, class Search, class Visit>
+void visitFound(const Engine& engine, Search&& search, Visit&& visit) {
   PositionWriter writer(bufferOfThread());
   for (const Layer& layer : engine.layers) {
     if (layer.size() == 0) continue;
-    if (layer.isDivided()) {
-      layer.regions().visit(near, [&](std::uint32_t number) {
-        const kernels::Region& region = layer.regions().region(number);
-        for (std::uint32_t i = 0; i < region.levels; ++i) {
-          const kernels::Level& level = layer.levels()[region.first_level + i];
-          if (near(level.around)) search(level, writer.sink());
-        }
-      });
-    } else {
-      for (const kernels::Level& level : layer.levels()) search(level, writer.sink());
-    }
+    search(layer.levelSet(), writer.sink());
+    if (writer.size() == 0) continue;
     visit(layer, writer);
     writer.clear();
   }
@@ -83,8 +74,7 @@ template <class Engine, class Visit>
 void visitOverlapping(const Engine& engine, const kernels::Box& box, Visit&& visit) {
   const kernels::Kernels& kernels = kernels::of(engine.isa);
   visitFound(
-      engine, [&box](const kernels::Box& bounds) { return overlap(bounds, box); },
-      [&](const kernels::Level& level, kernels::PositionSink* sink) { kernels.overlapping(&level, &box, sink); },
+      engine, [&](const kernels::LevelSet& levels, kernels::PositionSink* sink) { kernels.overlapping(&levels, &box, sink); },
       visit);
 }
 

@@ -85,6 +85,7 @@ void Layer::reserve(std::size_t count, std::size_t ids, const Machine& machine) 
   scratch.keyings.reserve(threads);
   scratch.sums.reserve(threads * threads);
   levels_.reserve(CellPlan::kMostLevels);
+  level_bounds_.reserve(CellPlan::kMostLevels);
   extendTo(other_ids_, count + kReadBeyond);
   if (extendTo(ids_, count + kReadBeyond)) point();
   if (extendTo(start_, cells + 1)) point();
@@ -98,7 +99,8 @@ void Layer::sort(const std::vector<Aabb>& boxes, double finest_edge, const Machi
   reserve(count_, boxes.size(), machine);
   if (count_ == 0) {
     plan_.clear();
-    return levels_.clear();
+    levels_.clear();
+    return level_bounds_.set(levels_);
   }
   SortScratch& scratch = *machine.scratch;
   const std::size_t threads = threadsFor(count_, machine);
@@ -142,6 +144,7 @@ bool Layer::divide(const std::vector<Aabb>& boxes, double finest_edge, const Mac
     scratch.corners.reserve(threads * 8 * plan_.levels());
     growTo(scratch.counts, (threads - 1) * plan_.cells());
     levels_.reserve(plan_.levels());
+    level_bounds_.reserve(plan_.levels());
     growTo(start_, plan_.cells() + std::size_t{1});
   } catch (const std::bad_alloc&) {
     return false;
@@ -295,8 +298,8 @@ void Layer::describe(const SortScratch& scratch) {
           level.begin < level.end ? std::nextafter(upper[axis] + level.reach[axis], kInfinity) : -kInfinity;
     }
   }
-  plan_.tree().setBounds(levels_);
   point();
+  level_bounds_.set(levels_);
 }
 
 /// Tells the levels where the arrays are.
@@ -317,7 +320,7 @@ void Layer::withdraw(std::uint32_t position) {
 
 std::size_t Layer::bytes() const {
   return (ids_.capacity() + other_ids_.capacity() + start_.capacity()) * sizeof(std::uint32_t) +
-         bounds_.capacity() * sizeof(float) + levels_.capacity() * sizeof(kernels::Level) + plan_.bytes();
+         bounds_.capacity() * sizeof(float) + levels_.capacity() * sizeof(kernels::Level) + level_bounds_.bytes() + plan_.bytes();
 }
 
 void Layer::checkInvariants(const std::vector<Aabb>& boxes) const {

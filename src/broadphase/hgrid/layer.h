@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "broadphase/hgrid/layer_plan.h"
+#include "broadphase/hgrid/level_bounds.h"
 #include "broadphase/kernels/kernels.h"
 #include "broadphase/workers.h"
 
@@ -68,6 +69,8 @@ class Layer {
   /// Whether there are several regions.
   bool isDivided() const { return plan_.isDivided(); }
   const RegionTree& regions() const { return plan_.tree(); }
+  const LevelBounds& bounds() const { return level_bounds_; }
+  kernels::LevelSet levelSet() const { return level_bounds_.over(levels_); }
   std::size_t bytes() const;
   /// @throws std::logic_error naming the promise that does not hold
   void checkInvariants(const std::vector<Aabb>& boxes) const;
@@ -92,6 +95,7 @@ class Layer {
   std::size_t stride_ = 0;
   std::vector<std::uint32_t> start_;  // of each cell, and the end of the last
   std::vector<kernels::Level> levels_;
+  LevelBounds level_bounds_;
 };
 
 }  // namespace hgrid

@@ -220,26 +220,25 @@ class RegionSearch {
       kernels_.pairsWithin(&levels[i], levels[i].begin, levels[i].end, sink_);
       for (std::uint32_t coarser = i + 1; coarser < last; ++coarser) meet(levels[i], levels[coarser]);
     }
-    meetAll(layer, number, layer, number + 1);
+    meetAll(layer, region, layer, last);
   }
 
-  void across(const Layer& layer, std::uint32_t number, const Layer& other) { meetAll(layer, number, other, 0); }
+  void across(const Layer& layer, std::uint32_t number, const Layer& other) {
+    meetAll(layer, layer.regions().region(number), other, 0);
+  }
 
  private:
-  /// A region with all regions of a layer from `least` on.
-  void meetAll(const Layer& layer, std::uint32_t number, const Layer& other, std::uint32_t least) {
-    const kernels::Box& bounds = layer.regions().boundsOf(number);
-    const kernels::Region& region = layer.regions().region(number);
-    other.regions().visit([&bounds](const kernels::Box& box) { return overlap(box, bounds); },
-                          [&](std::uint32_t met) {
-                            if (met < least) return;
-                            const kernels::Region& there = other.regions().region(met);
-                            for (std::uint32_t i = 0; i < region.levels; ++i) {
-                              for (std::uint32_t j = 0; j < there.levels; ++j) {
-                                meet(layer.levels()[region.first_level + i], other.levels()[there.first_level + j]);
-                              }
-                            }
-                          });
+  /// The levels of a region with all levels of a layer from number `least` on.
+  void meetAll(const Layer& layer, const kernels::Region& region, const Layer& other, std::uint32_t least) {
+    const kernels::LevelSet others = other.levelSet();
+    for (std::uint32_t i = 0; i < region.levels; ++i) {
+      const kernels::Level& level = layer.levels()[region.first_level + i];
+      PositionWriter near(gathered_.levels);
+      kernels_.reaching(&others, &level.around, near.sink());
+      for (const std::uint32_t number : near) {
+        if (number >= least) meet(level, other.levels()[number]);
+      }
+    }
   }
 
   void meet(const kernels::Level& a, const kernels::Level& b) {
@@ -257,7 +256,8 @@ class RegionSearch {
     if (asking.end - asking.begin <= kFew)
       return kernels_.pairsAcross(&asking, asking.begin, asking.end, &asked, sink_);
     PositionWriter writer(gathered_.positions);
-    kernels_.overlapping(&asking, &asked.around, writer.sink());
+    const kernels::LevelSet all = {&asking, 1, nullptr, 0};
+    kernels_.overlapping(&all, &asked.around, writer.sink());
     const std::size_t count = writer.size();
     if (count == 0) return;
     if (count == asking.end - asking.begin) {

@@ -37,19 +37,18 @@ void sortIds(ProxyId* ids, std::size_t count) {
   }
 }
 
-kernels::Box boxAround(const Eigen::Vector3d& min, const Eigen::Vector3d& max) {
+/// A box around a sphere. It may be a little larger than the least one: the sphere itself decides about what it finds.
+kernels::Box boxOf(const Sphere& sphere) {
+  const double half = sphere.radius + 2.0 * roundingSlack(sphere.center.cwiseAbs().maxCoeff() + sphere.radius);
   kernels::Box box;
   for (int axis = 0; axis < 3; ++axis) {
-    box.min[axis] = roundedDown(min[axis]);
-    box.max[axis] = roundedUp(max[axis]);
+    constexpr float kRounding = 1.2e-7f, kLeast = 1e-37f;  // of the conversion to float
+    const auto min = static_cast<float>(sphere.center[axis] - half);
+    const auto max = static_cast<float>(sphere.center[axis] + half);
+    box.min[axis] = min - std::abs(min) * kRounding - kLeast;
+    box.max[axis] = max + std::abs(max) * kRounding + kLeast;
   }
   return box;
-}
-
-kernels::Box boxOf(const Sphere& sphere) {
-  const double reach = sphere.center.cwiseAbs().maxCoeff() + sphere.radius;
-  const Eigen::Array3d half = Eigen::Array3d::Constant(sphere.radius + 2.0 * roundingSlack(reach));
-  return boxAround(sphere.center.array() - half, sphere.center.array() + half);
 }
 
 bool earlier(const SegmentHit& a, const SegmentHit& b) { return a.along != b.along ? a.along < b.along : a.id < b.id; }
@@ -64,25 +63,6 @@ kernels::Line lineOf(const Segment& segment) {
     line.step[axis] = segment.to[axis] - segment.from[axis];
   }
   return line;
-}
-
-/// Whether a line may come near something within these bounds. May say yes where it does not.
-bool mayMeet(const kernels::Line& line, const kernels::Box& bounds) {
-  constexpr double kRounding = 1e-9;  // of the part of the line
-  double enter = 0.0, leave = 1.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double low = bounds.min[axis] - line.around - line.from[axis];
-    const double high = bounds.max[axis] + line.around - line.from[axis], step = line.step[axis];
-    if (!(low <= high)) return false;  // no boxes
-    if (std::abs(step) < 1e-30) {
-      if (low > 0.0 || high < 0.0) return false;
-      continue;
-    }
-    const double at_low = low / step, at_high = high / step;
-    enter = std::max(enter, std::min(at_low, at_high));
-    leave = std::min(leave, std::max(at_low, at_high));
-  }
-  return enter <= leave + kRounding * (1.0 + std::abs(enter));
 }
 
 /// Appends the ids of the boxes that overlap a box and pass a test, ascending.
@@ -118,12 +98,11 @@ template <class Engine>
 void answer(const Engine& engine, const Segment& query, std::vector<SegmentHit>& found) {
   const kernels::Kernels& kernels = kernels::of(engine.isa);
   const kernels::Line line = lineOf(query);
-  const FirstTouch firstTouch(query);
   const std::size_t before = found.size();
   visitFound(
-      engine, [&line](const kernels::Box& bounds) { return mayMeet(line, bounds); },
-      [&](const kernels::Level& level, kernels::PositionSink* sink) { kernels.along(&level, &line, sink); },
+      engine, [&](const kernels::LevelSet& levels, kernels::PositionSink* sink) { kernels.along(&levels, &line, sink); },
       [&](const Layer& layer, const PositionWriter& positions) {
+        const FirstTouch firstTouch(query);
         for (const std::uint32_t position : positions) {
           const auto along = firstTouch(layer.boxAt(position));
           if (along) found.push_back({layer.ids()[position], *along});
@@ -210,18 +189,11 @@ template <class Engine>
 SphereSearch searchAround(const Engine& engine, const Eigen::Vector3d& point, std::size_t count) {
   SphereSearch search;
   for (const Layer& layer : engine.layers) {
-    if (!layer.isDivided()) {
-      for (const kernels::Level& level : layer.levels()) search.consider(level, count, 0.0);
-      continue;
-    }
-    layer.regions().visit([&](const kernels::Box& bounds) { return distanceTo(bounds, point) < search.radius; },
-                          [&](std::uint32_t number) {
-                            const kernels::Region& region = layer.regions().region(number);
-                            for (std::uint32_t i = 0; i < region.levels; ++i) {
-                              const kernels::Level& level = layer.levels()[region.first_level + i];
-                              search.consider(level, count, distanceTo(level.around, point));
-                            }
-                          });
+    layer.bounds().visit([&](const kernels::Box& bounds) { return distanceTo(bounds, point) < search.radius; },
+                         [&](std::uint32_t number) {
+                           const kernels::Level& level = layer.levels()[number];
+                           search.consider(level, count, distanceTo(level.around, point));
+                         });
   }
   return search;
 }

@@ -68,12 +68,10 @@ class RegionTree::Division {
     divide(0, samples_.size(), 0);
     tree.branches_.clear();
     tree.regions_.clear();
-    tree.leaf_.clear();
     kernels::Region space{};
     std::fill_n(space.low, 3, -kInfinity);
     std::fill_n(space.high, 3, kInfinity);
     lay(tree, 0, space);
-    tree.bounds_.resize(tree.branches_.size());
     return tree;
   }
 
@@ -174,7 +172,6 @@ class RegionTree::Division {
     if (part.axis < 0) {
       tree.branches_[branch].below = static_cast<std::uint32_t>(tree.regions_.size());
       tree.regions_.push_back(space);
-      tree.leaf_.push_back(branch);
       return;
     }
     kernels::Region half = space;
@@ -197,8 +194,6 @@ RegionTree::RegionTree() { join(); }
 void RegionTree::join() {
   branches_.assign(1, {0.0f, -1, 0, 0});
   regions_.assign(1, {});
-  leaf_.assign(1, 0);
-  bounds_.assign(1, {});
   std::fill_n(regions_[0].low, 3, -kInfinity);
   std::fill_n(regions_[0].high, 3, kInfinity);
 }
@@ -220,31 +215,8 @@ void RegionTree::setLevels(std::size_t region, std::uint32_t first_level, std::u
   regions_[region].levels = levels;
 }
 
-void RegionTree::setBounds(const std::vector<kernels::Level>& levels) {
-  const auto widen = [](kernels::Box& box, const kernels::Box& other) {
-    for (int axis = 0; axis < 3; ++axis) {
-      box.min[axis] = std::min(box.min[axis], other.min[axis]);
-      box.max[axis] = std::max(box.max[axis], other.max[axis]);
-    }
-  };
-  constexpr kernels::Box kEmpty = {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
-  for (std::size_t number = branches_.size(); number-- > 0;) {
-    const kernels::Branch& branch = branches_[number];
-    kernels::Box& bounds = bounds_[number];
-    if (branch.axis >= 0) {
-      bounds = bounds_[branch.below];
-      widen(bounds, bounds_[branch.above]);
-      continue;
-    }
-    bounds = kEmpty;
-    const kernels::Region& region = regions_[branch.below];
-    for (std::uint32_t i = 0; i < region.levels; ++i) widen(bounds, levels[region.first_level + i].around);
-  }
-}
-
 std::size_t RegionTree::bytes() const {
-  return branches_.capacity() * sizeof(kernels::Branch) + regions_.capacity() * sizeof(kernels::Region) +
-         leaf_.capacity() * sizeof(std::uint32_t) + bounds_.capacity() * sizeof(kernels::Box);
+  return branches_.capacity() * sizeof(kernels::Branch) + regions_.capacity() * sizeof(kernels::Region);
 }
 
 }  // namespace hgrid

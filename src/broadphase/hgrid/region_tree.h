@@ -38,32 +38,6 @@ class RegionTree {
   std::uint32_t regionOf(const float* corner) const;
   void setLevels(std::size_t region, std::uint32_t first_level, std::uint32_t levels);
 
-  /// Bounds of the boxes of each region, as they are now. Levels follow each other by region.
-  void setBounds(const std::vector<kernels::Level>& levels);
-  /// All boxes of the region are within.
-  const kernels::Box& boundsOf(std::size_t region) const { return bounds_[leaf_[region]]; }
-
-  /// Calls visit(region) for the regions whose bounds pass the test, in ascending order.
-  /// @param test  as in bool test(const kernels::Box&); if it holds for a box, then also for all boxes that contain it
-  template <class Test, class Visit>
-  void visit(const Test& test, const Visit& visit) const {
-    std::uint32_t stack[kMostDepth + 2];
-    int waiting = 0;
-    for (std::uint32_t number = 0;;) {
-      const kernels::Branch& branch = branches_[number];
-      if (test(bounds_[number])) {
-        if (branch.axis >= 0) {
-          stack[waiting++] = branch.above;
-          number = branch.below;
-          continue;
-        }
-        visit(branch.below);
-      }
-      if (waiting == 0) return;
-      number = stack[--waiting];
-    }
-  }
-
   std::size_t bytes() const;
 
  private:
@@ -72,8 +46,6 @@ class RegionTree {
 
   std::vector<kernels::Branch> branches_;  // each before its parts
   std::vector<kernels::Region> regions_;
-  std::vector<std::uint32_t> leaf_;   // by region: number of its branch
-  std::vector<kernels::Box> bounds_;  // by branch: of all boxes of its regions
 };
 
 }  // namespace hgrid

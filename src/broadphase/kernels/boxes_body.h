@@ -6,6 +6,7 @@
 #pragma once
 
 #include "broadphase/kernels/kernels.h"
+#include "broadphase/kernels/levels_body.h"
 #include "broadphase/kernels/output_body.h"
 
 namespace hgrid {
@@ -19,16 +20,14 @@ inline std::int32_t cellOf(float value, const Grid& grid, int axis) {
   return static_cast<std::int32_t>(cell);
 }
 
-void overlapping(const Level* level, const Box* box, PositionSink* sink) {
-  const Level l = *level;
+inline void searchLevel(const Level& level, const Box& box, const Simd::Box& query, Output<std::uint32_t>& found) {
+  const Level l = level;
   const Grid& grid = l.grid;
   std::int32_t low[3], high[3];
   for (int axis = 0; axis < 3; ++axis) {
-    low[axis] = cellOf(box->min[axis] - l.reach[axis], grid, axis);
-    high[axis] = cellOf(box->max[axis], grid, axis);
+    low[axis] = cellOf(box.min[axis] - l.reach[axis], grid, axis);
+    high[axis] = cellOf(box.max[axis], grid, axis);
   }
-  const Simd::Box query = Simd::boxOf(*box);
-  Output<std::uint32_t> found(sink);
   const std::int32_t first = low[grid.axes[0]], last = high[grid.axes[0]];
   for (std::int32_t z = low[grid.axes[2]]; z <= high[grid.axes[2]]; ++z) {
     for (std::int32_t y = low[grid.axes[1]]; y <= high[grid.axes[1]]; ++y) {
@@ -39,6 +38,34 @@ void overlapping(const Level* level, const Box* box, PositionSink* sink) {
       }
     }
   }
+}
+
+void overlapping(const LevelSet* set, const Box* box, PositionSink* sink) {
+  const Box b = *box;
+  const Simd::Box query = Simd::boxOf(b);
+  const Level* const levels = set->levels;
+  Output<std::uint32_t> found(sink);
+  visitLevels(
+      *set,
+      [&query](const Columns& bounds, std::uint32_t j, std::uint32_t count) {
+        return Simd::overlaps(query, bounds, j, count);
+      },
+      [&](std::uint32_t number) { searchLevel(levels[number], b, query, found); });
+  found.close();
+}
+
+void reaching(const LevelSet* set, const Box* box, PositionSink* sink) {
+  const Simd::Box query = Simd::boxOf(*box);
+  Output<std::uint32_t> found(sink);
+  visitLevels(
+      *set,
+      [&query](const Columns& bounds, std::uint32_t j, std::uint32_t count) {
+        return Simd::overlaps(query, bounds, j, count);
+      },
+      [&found](std::uint32_t number) {
+        *found.room() = number;
+        found.wrote(found.room() + 1);
+      });
   found.close();
 }
 

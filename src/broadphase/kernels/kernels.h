@@ -40,18 +40,35 @@ struct Grid {
   std::int32_t axes[3];  ///< 0: x, 1: y, 2: z, in some order
 };
 
-/// One level of a region of a layer: boxes in the order of their cells, structure of arrays. A row of cells is one
-/// range of positions. Every array can be read 16 places beyond `end`.
-struct Level {
+/// Boxes as a structure of arrays. Every array can be read 16 places beyond its last box.
+struct Columns {
+  const float* bounds;  ///< six arrays, `stride` apart: min x y z, max x y z of each box
+  std::size_t stride;
+};
+
+/// One level of a region of a layer: boxes in the order of their cells. A row of cells is one range of positions.
+struct Level : Columns {
   Grid grid;
   float reach[3];       ///< [m] at least the longest side of its boxes, per axis
   float mean_sides[3];  ///< [m] of its boxes, when the cells were planned
   Box around;           ///< all its boxes are within; of no boxes: min > max
-  const float* bounds;  ///< six arrays, `stride` apart: min x y z, max x y z at each position
-  std::size_t stride;
   const std::uint32_t* id;     ///< at each position
   const std::uint32_t* start;  ///< of a cell: position of its first box; that of the next cell ends it
   std::uint32_t begin, end;    ///< positions of this level's boxes
+};
+
+/// Bounds of levels, or of tiers below: box i of a tier contains boxes kFan * i .. kFan * i + kFan - 1 of the tier below.
+struct Tier : Columns {
+  static constexpr std::uint32_t kFan = 16;
+  std::uint32_t count;
+};
+
+/// Levels to search, and a hierarchy of their bounds.
+struct LevelSet {
+  const Level* levels;
+  std::uint32_t count;
+  const Tier* tiers;  ///< the first bounds the levels, each other one the tier before it
+  int tier_count;     ///< 0: there are no bounds, and every level is searched
 };
 
 /// A segment; everything within `around` of it counts.
@@ -118,10 +135,12 @@ struct Kernels {
   void (*pairsWithin)(const Level* level, std::uint32_t begin, std::uint32_t end, PairSink* sink);
   /// Overlapping pairs of the asking level's positions begin .. end - 1 with all boxes of the asked level.
   void (*pairsAcross)(const Level* asking, std::uint32_t begin, std::uint32_t end, const Level* asked, PairSink* sink);
-  /// Positions of the boxes that overlap `box`, ascending.
-  void (*overlapping)(const Level* level, const Box* box, PositionSink* sink);
+  /// Numbers of the levels whose bounds overlap `box`, ascending.
+  void (*reaching)(const LevelSet* set, const Box* box, PositionSink* sink);
+  /// Positions of the boxes that overlap `box`, ascending within each level.
+  void (*overlapping)(const LevelSet* set, const Box* box, PositionSink* sink);
   /// Positions of boxes near the line: all that come within `around` of it, and a few more.
-  void (*along)(const Level* level, const Line* line, PositionSink* sink);
+  void (*along)(const LevelSet* set, const Line* line, PositionSink* sink);
 };
 
 /// The loops for an instruction set that isSupported().

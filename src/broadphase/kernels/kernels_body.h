@@ -7,6 +7,7 @@
 
 #include "broadphase/kernels/boxes_body.h"
 #include "broadphase/kernels/kernels.h"
+#include "broadphase/kernels/levels_body.h"
 #include "broadphase/kernels/line_body.h"
 #include "broadphase/kernels/pairs_body.h"
 #include "broadphase/kernels/sorting_body.h"
@@ -15,7 +16,7 @@ namespace hgrid {
 namespace kernels {
 namespace {
 
-constexpr Kernels kKernels = {sound, key, keyRegions, pairsWithin, pairsAcross, overlapping, along};
+constexpr Kernels kKernels = {sound, key, keyRegions, pairsWithin, pairsAcross, reaching, overlapping, along};
 
 }  // namespace
 }  // namespace kernels

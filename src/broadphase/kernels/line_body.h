@@ -6,6 +6,7 @@
 #pragma once
 
 #include "broadphase/kernels/kernels.h"
+#include "broadphase/kernels/levels_body.h"
 #include "broadphase/kernels/line_filter_body.h"
 #include "broadphase/kernels/output_body.h"
 
@@ -105,15 +106,12 @@ void __attribute__((noinline)) searchPassages(const Level& level, const LineFilt
 /// Each part is computed from the line itself, not from the part before, so that roundings do not add up (unlike the
 /// walk from cell to cell of Ericson 2005, 7.4.2). Rows are searched a few at a time, so that the processor reads one
 /// while it still computes another.
-void along(const Level* level, const Line* line, PositionSink* sink) {
+void searchLevel(const Level& level, const Line& line, const LineFilter& filter, Output<std::uint32_t>& found) {
   constexpr int kPassages = 32;
-  const Level l = *level;
+  const Level l = level;
   const Grid& grid = l.grid;
-  if (l.begin == l.end) return;
-  Output<std::uint32_t> found(sink);
-  const LineFilter filter = filterOf(*line);
-  const Track x = trackOf(*line, l, grid.axes[0]), y = trackOf(*line, l, grid.axes[1]),
-              z = trackOf(*line, l, grid.axes[2]);
+  const Track x = trackOf(line, l, grid.axes[0]), y = trackOf(line, l, grid.axes[1]),
+              z = trackOf(line, l, grid.axes[2]);
   const Crossing x_in_slab(x, z), y_in_slab(y, z), x_in_row(x, y);
   const Span x_whole = x.whole(), y_whole = y.whole();
   Passage passages[kPassages];
@@ -138,6 +136,18 @@ void along(const Level* level, const Line* line, PositionSink* sink) {
     }
   }
   searchPassages(l, filter, passages, count, found);
+}
+
+void along(const LevelSet* set, const Line* line, PositionSink* sink) {
+  const LineFilter filter = filterOf(*line);
+  const Level* const levels = set->levels;
+  Output<std::uint32_t> found(sink);
+  visitLevels(
+      *set,
+      [&filter](const Columns& bounds, std::uint32_t j, std::uint32_t count) {
+        return onLine(filter, bounds, j, count);
+      },
+      [&](std::uint32_t number) { searchLevel(levels[number], *line, filter, found); });
   found.close();
 }
 

@@ -63,9 +63,9 @@ struct Extents {
   Simd::Mask within;       // they overlap the box around the line
 };
 
-inline Extents extentsOf(const LineFilter& filter, int axis, const Level& level, std::uint32_t position) {
-  const float* const bounds = level.bounds + static_cast<std::size_t>(axis) * level.stride + position;
-  const Simd::Lanes min = Simd::lanesAt(bounds), max = Simd::lanesAt(bounds + 3 * level.stride);
+inline Extents extentsOf(const LineFilter& filter, int axis, const Columns& boxes, std::uint32_t position) {
+  const float* const bounds = boxes.bounds + static_cast<std::size_t>(axis) * boxes.stride + position;
+  const Simd::Lanes min = Simd::lanesAt(bounds), max = Simd::lanesAt(bounds + 3 * boxes.stride);
   return {Simd::minus(Simd::plus(min, max), filter.twice_from[axis]), Simd::minus(max, min),
           Simd::both(Simd::notGreater(min, filter.max[axis]), Simd::notGreater(filter.min[axis], max))};
 }
@@ -80,10 +80,10 @@ inline Simd::Mask onAxis(const LineFilter& filter, int i, int j, int k, const Ex
 }
 
 /// Bit k: the box at `position` + k may be on the line, for the k below both `count` and kWidth.
-inline __attribute__((always_inline)) std::uint32_t onLine(const LineFilter& filter, const Level& level,
+inline __attribute__((always_inline)) std::uint32_t onLine(const LineFilter& filter, const Columns& boxes,
                                                            std::uint32_t position, std::uint32_t count) {
-  const Extents x = extentsOf(filter, 0, level, position), y = extentsOf(filter, 1, level, position),
-                z = extentsOf(filter, 2, level, position);
+  const Extents x = extentsOf(filter, 0, boxes, position), y = extentsOf(filter, 1, boxes, position),
+                z = extentsOf(filter, 2, boxes, position);
   const Simd::Mask around = Simd::both(x.within, Simd::both(y.within, z.within));
   const Simd::Mask on = Simd::both(onAxis(filter, 0, 1, 2, y, z),
                                    Simd::both(onAxis(filter, 1, 2, 0, z, x), onAxis(filter, 2, 0, 1, x, y)));

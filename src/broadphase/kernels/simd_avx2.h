@@ -46,16 +46,16 @@ struct SimdAvx2 : SimdSse2 {
   }
   static Id idAt(const Level& level, std::uint32_t i) { return _mm256_set1_epi32(static_cast<int>(level.id[i])); }
 
-  static std::uint32_t overlaps(const Box& box, const Level& level, std::uint32_t j, std::uint32_t count) {
+  static std::uint32_t overlaps(const Box& box, const Columns& boxes, std::uint32_t j, std::uint32_t count) {
     const __m256 x =
-        _mm256_and_ps(_mm256_cmp_ps(_mm256_loadu_ps(level.bounds + j), box.max[0], _CMP_LE_OQ),
-                      _mm256_cmp_ps(_mm256_loadu_ps(level.bounds + 3 * level.stride + j), box.min[0], _CMP_GE_OQ));
+        _mm256_and_ps(_mm256_cmp_ps(_mm256_loadu_ps(boxes.bounds + j), box.max[0], _CMP_LE_OQ),
+                      _mm256_cmp_ps(_mm256_loadu_ps(boxes.bounds + 3 * boxes.stride + j), box.min[0], _CMP_GE_OQ));
     const __m256 y =
-        _mm256_and_ps(_mm256_cmp_ps(_mm256_loadu_ps(level.bounds + level.stride + j), box.max[1], _CMP_LE_OQ),
-                      _mm256_cmp_ps(_mm256_loadu_ps(level.bounds + 4 * level.stride + j), box.min[1], _CMP_GE_OQ));
+        _mm256_and_ps(_mm256_cmp_ps(_mm256_loadu_ps(boxes.bounds + boxes.stride + j), box.max[1], _CMP_LE_OQ),
+                      _mm256_cmp_ps(_mm256_loadu_ps(boxes.bounds + 4 * boxes.stride + j), box.min[1], _CMP_GE_OQ));
     const __m256 z =
-        _mm256_and_ps(_mm256_cmp_ps(_mm256_loadu_ps(level.bounds + 2 * level.stride + j), box.max[2], _CMP_LE_OQ),
-                      _mm256_cmp_ps(_mm256_loadu_ps(level.bounds + 5 * level.stride + j), box.min[2], _CMP_GE_OQ));
+        _mm256_and_ps(_mm256_cmp_ps(_mm256_loadu_ps(boxes.bounds + 2 * boxes.stride + j), box.max[2], _CMP_LE_OQ),
+                      _mm256_cmp_ps(_mm256_loadu_ps(boxes.bounds + 5 * boxes.stride + j), box.min[2], _CMP_GE_OQ));
     const auto bits = static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_and_ps(_mm256_and_ps(x, y), z)));
     return bits & (0xffu >> (count < kWidth ? kWidth - count : 0u));
   }

@@ -27,15 +27,15 @@ struct SimdAvx512 : SimdSse2 {
   }
   static Id idAt(const Level& level, std::uint32_t i) { return _mm512_set1_epi32(static_cast<int>(level.id[i])); }
 
-  static std::uint32_t overlaps(const Box& box, const Level& level, std::uint32_t j, std::uint32_t count) {
+  static std::uint32_t overlaps(const Box& box, const Columns& boxes, std::uint32_t j, std::uint32_t count) {
     // Three chains instead of one: a comparison into a mask takes several cycles.
     __mmask16 x = static_cast<__mmask16>(0xffffu >> (count < kWidth ? kWidth - count : 0u));
-    x = _mm512_mask_cmp_ps_mask(x, _mm512_loadu_ps(level.bounds + j), box.max[0], _CMP_LE_OQ);
-    __mmask16 y = _mm512_cmp_ps_mask(_mm512_loadu_ps(level.bounds + level.stride + j), box.max[1], _CMP_LE_OQ);
-    __mmask16 z = _mm512_cmp_ps_mask(_mm512_loadu_ps(level.bounds + 2 * level.stride + j), box.max[2], _CMP_LE_OQ);
-    x = _mm512_mask_cmp_ps_mask(x, _mm512_loadu_ps(level.bounds + 3 * level.stride + j), box.min[0], _CMP_GE_OQ);
-    y = _mm512_mask_cmp_ps_mask(y, _mm512_loadu_ps(level.bounds + 4 * level.stride + j), box.min[1], _CMP_GE_OQ);
-    z = _mm512_mask_cmp_ps_mask(z, _mm512_loadu_ps(level.bounds + 5 * level.stride + j), box.min[2], _CMP_GE_OQ);
+    x = _mm512_mask_cmp_ps_mask(x, _mm512_loadu_ps(boxes.bounds + j), box.max[0], _CMP_LE_OQ);
+    __mmask16 y = _mm512_cmp_ps_mask(_mm512_loadu_ps(boxes.bounds + boxes.stride + j), box.max[1], _CMP_LE_OQ);
+    __mmask16 z = _mm512_cmp_ps_mask(_mm512_loadu_ps(boxes.bounds + 2 * boxes.stride + j), box.max[2], _CMP_LE_OQ);
+    x = _mm512_mask_cmp_ps_mask(x, _mm512_loadu_ps(boxes.bounds + 3 * boxes.stride + j), box.min[0], _CMP_GE_OQ);
+    y = _mm512_mask_cmp_ps_mask(y, _mm512_loadu_ps(boxes.bounds + 4 * boxes.stride + j), box.min[1], _CMP_GE_OQ);
+    z = _mm512_mask_cmp_ps_mask(z, _mm512_loadu_ps(boxes.bounds + 5 * boxes.stride + j), box.min[2], _CMP_GE_OQ);
     return static_cast<std::uint32_t>(x & y & z);
   }
 

@@ -62,9 +62,9 @@ struct SimdNeon {
   }
   static Id idAt(const Level& level, std::uint32_t i) { return vld1q_dup_u32(level.id + i); }
 
-  static std::uint32_t overlaps(const Box& box, const Level& level, std::uint32_t j, std::uint32_t count) {
-    const float *const min = level.bounds + j, *const max = min + 3 * level.stride;
-    const std::size_t y_row = level.stride, z_row = 2 * level.stride;
+  static std::uint32_t overlaps(const Box& box, const Columns& boxes, std::uint32_t j, std::uint32_t count) {
+    const float *const min = boxes.bounds + j, *const max = min + 3 * boxes.stride;
+    const std::size_t y_row = boxes.stride, z_row = 2 * boxes.stride;
     const uint32x4_t x = vandq_u32(vcleq_f32(vld1q_f32(min), box.max[0]), vcgeq_f32(vld1q_f32(max), box.min[0]));
     const uint32x4_t y =
         vandq_u32(vcleq_f32(vld1q_f32(min + y_row), box.max[1]), vcgeq_f32(vld1q_f32(max + y_row), box.min[1]));

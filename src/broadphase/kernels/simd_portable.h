@@ -24,13 +24,13 @@ struct SimdPortable {
   static Id idAt(const Level& level, std::uint32_t i) { return level.id[i]; }
 
   /// Bit k: the box overlaps that at position j + k, for the k below both `count` and kWidth.
-  static std::uint32_t overlaps(const Box& box, const Level& level, std::uint32_t j, std::uint32_t count) {
+  static std::uint32_t overlaps(const Box& box, const Columns& boxes, std::uint32_t j, std::uint32_t count) {
     std::uint32_t bits = 0;
     for (std::uint32_t k = 0; k < kWidth; ++k) {
       bool meet = k < count;
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        meet = meet & (level.bounds[axis * level.stride + j + k] <= box.max[axis]) &
-               (level.bounds[(axis + 3) * level.stride + j + k] >= box.min[axis]);
+        meet = meet & (boxes.bounds[axis * boxes.stride + j + k] <= box.max[axis]) &
+               (boxes.bounds[(axis + 3) * boxes.stride + j + k] >= box.min[axis]);
       }
       bits |= static_cast<std::uint32_t>(meet) << k;
     }

@@ -30,13 +30,13 @@ struct SimdSse2 {
   }
   static Id idAt(const Level& level, std::uint32_t i) { return level.id[i]; }
 
-  static std::uint32_t overlaps(const Box& box, const Level& level, std::uint32_t j, std::uint32_t count) {
-    __m128 meet = _mm_cmple_ps(_mm_loadu_ps(level.bounds + j), box.max[0]);
-    meet = _mm_and_ps(meet, _mm_cmpge_ps(_mm_loadu_ps(level.bounds + 3 * level.stride + j), box.min[0]));
-    meet = _mm_and_ps(meet, _mm_cmple_ps(_mm_loadu_ps(level.bounds + level.stride + j), box.max[1]));
-    meet = _mm_and_ps(meet, _mm_cmpge_ps(_mm_loadu_ps(level.bounds + 4 * level.stride + j), box.min[1]));
-    meet = _mm_and_ps(meet, _mm_cmple_ps(_mm_loadu_ps(level.bounds + 2 * level.stride + j), box.max[2]));
-    meet = _mm_and_ps(meet, _mm_cmpge_ps(_mm_loadu_ps(level.bounds + 5 * level.stride + j), box.min[2]));
+  static std::uint32_t overlaps(const Box& box, const Columns& boxes, std::uint32_t j, std::uint32_t count) {
+    __m128 meet = _mm_cmple_ps(_mm_loadu_ps(boxes.bounds + j), box.max[0]);
+    meet = _mm_and_ps(meet, _mm_cmpge_ps(_mm_loadu_ps(boxes.bounds + 3 * boxes.stride + j), box.min[0]));
+    meet = _mm_and_ps(meet, _mm_cmple_ps(_mm_loadu_ps(boxes.bounds + boxes.stride + j), box.max[1]));
+    meet = _mm_and_ps(meet, _mm_cmpge_ps(_mm_loadu_ps(boxes.bounds + 4 * boxes.stride + j), box.min[1]));
+    meet = _mm_and_ps(meet, _mm_cmple_ps(_mm_loadu_ps(boxes.bounds + 2 * boxes.stride + j), box.max[2]));
+    meet = _mm_and_ps(meet, _mm_cmpge_ps(_mm_loadu_ps(boxes.bounds + 5 * boxes.stride + j), box.min[2]));
     const std::uint32_t bits = static_cast<std::uint32_t>(_mm_movemask_ps(meet));
     return count < kWidth ? bits & ((1u << count) - 1u) : bits;
   }

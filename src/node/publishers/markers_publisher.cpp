@@ -2,10 +2,15 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/publishers/markers_publisher.h"
 
+#include <visualization_msgs/MarkerArray.h>
+
 #include <utility>
 #include <vector>
 
 #include "node/messages/map_markers.h"
+#include "node/messages/marker_parts.h"
+#include "node/messages/pair_markers.h"
+#include "node/messages/shape_markers.h"
 
 namespace hgrid {
 
@@ -16,15 +21,31 @@ MarkersPublisher::MarkersPublisher(ros::NodeHandle& private_node, const Params& 
 
 void MarkersPublisher::publish(const Tick& newest, const std::shared_ptr<const MeasuredTick>& measured) {
   const std::size_t viewers = publisher_.getNumSubscribers();
-  const bool is_new = viewers > std::exchange(viewers_, viewers);
+  const bool new_viewer = viewers > std::exchange(viewers_, viewers);
   if (viewers == 0) return;
-  if (is_new) publisher_.publish(markersGone(newest));
   const bool has_distances = measured && measured->distances;
   const Tick& shown = has_distances ? *measured->tick : newest;
-  visualization_msgs::MarkerArray array = markers(shown, sketch_, has_distances ? measured->distances.get() : nullptr);
-  const std::vector<visualization_msgs::Marker> cells = mapMarkers(shown, params_);
-  array.markers.insert(array.markers.end(), cells.begin(), cells.end());
+  visualization_msgs::MarkerArray array;
+  const auto add = [&array](std::vector<visualization_msgs::Marker> markers) {
+    array.markers.insert(array.markers.end(), markers.begin(), markers.end());
+  };
+  if (new_viewer || haveOthers(shown)) add({deleteAll(shown)});
+  add(shapeMarkers(shown));
+  add({boxMarker(shown)});
+  add(stateMarkers(shown));
+  add(pairMarkers(shown, has_distances ? measured->distances.get() : nullptr));
+  add(queryMarkers(shown, sketch_));
+  add(mapMarkers(shown, params_));
   publisher_.publish(array);
+}
+
+/// Whether the ids of the shapes may mean other shapes than at the last call.
+bool MarkersPublisher::haveOthers(const Tick& tick) {
+  const std::uint64_t revision = tick.snapshot ? tick.snapshot->structure().revision : 0;
+  const bool others = revision != revision_ || tick.epoch != epoch_;
+  revision_ = revision;
+  epoch_ = tick.epoch;
+  return others;
 }
 
 }  // namespace hgrid

@@ -6,29 +6,33 @@
 #include <ros/publisher.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 
-#include "node/messages/markers.h"
+#include "node/messages/query_markers.h"
 #include "node/params/params.h"
 #include "node/tick/tick.h"
 
 namespace hgrid {
 
-/// Publishes ~markers for RViz while there are subscribers. One thread may use it; any thread may call subscribed().
+/// Publishes ~markers for RViz while somebody listens. Used by one thread; subscribed() may be called by any.
 class MarkersPublisher {
  public:
   MarkersPublisher(ros::NodeHandle& private_node, const Params& params, const QuerySketch& sketch);
 
   bool subscribed() const { return publisher_.getNumSubscribers() > 0; }
-  /// @param newest    the tick to show if `measured` has no distances
-  /// @param measured  a tick with its distances, which is shown if it has any; may be null
+  /// @param measured  null: pairs are drawn by their boxes
   void publish(const Tick& newest, const std::shared_ptr<const MeasuredTick>& measured);
 
  private:
+  bool haveOthers(const Tick& tick);
+
   const Params& params_;
   const QuerySketch& sketch_;
   ros::Publisher publisher_;
-  std::size_t viewers_ = 0;  // number of subscribers at the last call of publish()
+  // At the last call of publish():
+  std::size_t viewers_ = 0;
+  std::uint64_t revision_ = 0, epoch_ = 0;
 };
 
 }  // namespace hgrid

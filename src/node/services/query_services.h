@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "hgrid_proximity/queries/query.h"
-#include "node/messages/markers.h"
+#include "node/messages/query_markers.h"
 #include "node/services/envelope/service_envelope.h"
 #include "node/tf/transform_lookup.h"
 

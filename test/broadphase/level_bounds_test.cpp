@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "src/broadphase/hgrid/level_bounds.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "hgrid_proximity/broadphase/isa.h"
+#include "src/broadphase/hgrid/found_boxes.h"
+#include "test/support/random.h"
+#include "test/support/worlds.h"
+
+namespace hgrid {
+namespace {
+
+using test::Random;
+using test::randomVector;
+
+constexpr Isa kIsas[] = {Isa::portable, Isa::sse2, Isa::avx2, Isa::avx512, Isa::neon};
+
+/// Levels that follow each other in space, as those of neighboring regions do. Every fifth one is empty.
+std::vector<kernels::Level> levelsAlongAWalk(Random& random, std::size_t count) {
+  std::vector<kernels::Level> levels(count);
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < count; ++i) {
+    place += randomVector(random, -5, 5);
+    levels[i].around = boxOf(test::boxAround(place, randomVector(random, 0, 8)));
+    if (i % 5 == 4) {
+      constexpr float kInfinity = std::numeric_limits<float>::infinity();
+      levels[i].around = {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+    }
+  }
+  return levels;
+}
+
+class LevelBoundsOf : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(LevelBoundsOf, LevelsFindsThoseThatOverlapABox) {
+  Random random(static_cast<unsigned>(GetParam()) + 1);
+  const std::vector<kernels::Level> levels = levelsAlongAWalk(random, GetParam());
+  LevelBounds bounds;
+  bounds.reserve(levels.size());
+  bounds.set(levels);
+  const kernels::LevelSet set = bounds.over(levels);
+  std::size_t found = 0;
+  for (int i = 0; i < 200; ++i) {
+    const kernels::Box query = boxOf(test::boxAround(randomVector(random, -60, 60), randomVector(random, 0, 30)));
+    const auto test = [&query](const kernels::Box& box) { return overlap(box, query); };
+    std::vector<std::uint32_t> expected, visited;
+    for (std::uint32_t number = 0; number < levels.size(); ++number) {
+      if (test(levels[number].around)) expected.push_back(number);
+    }
+    found += expected.size();
+    bounds.visit(test, [&visited](std::uint32_t number) { visited.push_back(number); });
+    ASSERT_EQ(visited, expected);
+    for (const Isa isa : kIsas) {
+      if (!isSupported(isa)) continue;
+      std::vector<std::uint32_t> buffer;
+      PositionWriter writer(buffer);
+      kernels::of(isa).reaching(&set, &query, writer.sink());
+      ASSERT_EQ(std::vector<std::uint32_t>(writer.begin(), writer.end()), expected) << name(isa);
+    }
+  }
+  if (levels.size() >= 15) {
+    EXPECT_GT(found, 0u);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, LevelBoundsOf, testing::Values(0, 1, 2, 15, 16, 17, 31, 255, 256, 257, 5000));
+
+TEST(LevelBounds, WithoutTiersLeadToEveryLevel) {
+  const std::vector<kernels::Level> levels(3);
+  const kernels::LevelSet set = {levels.data(), 3, nullptr, 0};
+  const kernels::Box query{};
+  for (const Isa isa : kIsas) {
+    if (!isSupported(isa)) continue;
+    std::vector<std::uint32_t> buffer;
+    PositionWriter writer(buffer);
+    kernels::of(isa).reaching(&set, &query, writer.sink());
+    EXPECT_EQ(std::vector<std::uint32_t>(writer.begin(), writer.end()), (std::vector<std::uint32_t>{0, 1, 2}));
+  }
+}
+
+}  // namespace
+}  // namespace hgrid
