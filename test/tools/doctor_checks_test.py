@@ -296,6 +296,12 @@ class DoctorChecks(unittest.TestCase):
         self.facts.nodes["/odometry"] = NodeFacts("/odometry", error="Connection refused")
         self.expect("tf_publisher_gone")
 
+    def test_a_world_frame_that_no_longer_comes(self):
+        self.facts.status.header.frame_id = "map"
+        self.break_source("robot", "LOST robot/base")
+        self.facts.status.bodies = [body(f"robot/{link}", LOST) for link in ("base", "elbow", "hand")]
+        self.expect("world_frame_lost")
+
     def test_two_trees(self):
         self.test_a_world_frame_that_is_unknown()
         del self.facts.nodes["/odometry"]
@@ -333,6 +339,42 @@ class DoctorChecks(unittest.TestCase):
         self.facts.streams = [stream("/rsp", "left/base", "left/arm")]
         self.assertIn("/tf comes from '/rsp' only", self.expect("no_state_publisher").what)
 
+    def add_left_arm(self):
+        """A second arm, whose own robot_state_publisher waits for joint states of its own."""
+        robot = RobotFacts(RobotSettings("left", tf_prefix="left"), "/left/robot_description", [], parse_urdf(URDF))
+        self.facts.robots.append(robot)
+        self.facts.graph.publishers["/tf"].append("/left_rsp")
+        self.facts.graph.subscribers["/left/joint_states"] = ["/left_rsp"]
+        self.facts.graph.types["/left/joint_states"] = "sensor_msgs/JointState"
+        keys = {"/rsp": "/robot_description", "/left_rsp": "/left/robot_description"}
+        self.facts.descriptions_of_nodes = keys
+        self.facts.status.bodies += [body(f"left/{link}", UNPLACED, f"left/{link}") for link in ("elbow", "hand")]
+        self.break_source("left", "UNPLACED left/elbow")
+
+    def test_each_of_two_robots_waits_for_its_own_joint_states(self):
+        self.add_left_arm()
+        finding = self.expect("no_joint_states")
+        self.assertIn("/left_rsp waits for joint states on /left/joint_states", finding.what)
+        self.unplace("elbow", "hand")
+        self.facts.status.bodies += [body(f"left/{link}", UNPLACED, f"left/{link}") for link in ("elbow", "hand")]
+        self.facts.graph.publishers["/joint_states"] = []
+        self.assertIn("4 frames of robots 'robot', 'left'", self.expect("no_joint_states").what)
+
+    def test_the_frames_of_another_robot_are_no_wrong_prefix(self):
+        self.add_left_arm()
+        self.facts.graph.publishers["/tf"].remove("/left_rsp")
+        self.expect("no_state_publisher")
+
+    def test_what_rides_on_an_absent_frame_is_explained_by_it(self):
+        self.unplace("elbow", "hand")
+        self.facts.joints = {}
+        self.facts.status.bodies += [body("obstacle/crate", UNPLACED, "hand"), body("map/shelf", UNPLACED, "elbow")]
+        self.break_source("obstacle", "UNPLACED obstacle/crate")
+        self.break_source("map/shelf", "UNPLACED map/shelf")
+        self.expect("joint_states_silent")
+        self.facts.status.bodies.append(body("obstacle/lamp", UNPLACED, "ceiling"))
+        self.expect("joint_states_silent", "source_incomplete")
+
     def test_the_command_for_a_state_publisher_names_its_parameter_and_prefix(self):
         self.unplace("elbow", "hand")
         self.facts.robots[0].key, self.facts.robots[0].settings.tf_prefix = "/left/description", "left"
@@ -340,6 +382,8 @@ class DoctorChecks(unittest.TestCase):
         self.facts.graph.publishers["/tf_static"] = []
         fix = self.expect("no_state_publisher").fix
         self.assertIn("robot_description:=/left/description _tf_prefix:=left", fix)
+        self.facts.robots[0].key = "/left/robot_description"
+        self.assertIn("robot_state_publisher __ns:=/left _tf_prefix:=left", self.expect("no_state_publisher").fix)
 
     def test_only_bodies_of_this_robot_without_a_pose_count(self):
         self.facts.status.bodies = [body("other/elbow", UNPLACED), body("robot/elbow", STALE), body("robot/x", LOST)]

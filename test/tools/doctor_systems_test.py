@@ -66,6 +66,10 @@ class DoctorSystems(unittest.TestCase):
         self.system.lose_master()
         self.expect(1, "no_master")
 
+    def test_the_master_hangs(self):
+        self.system.hang_master()
+        self.expect(1, "no_master")
+
     def test_no_robot_state_publisher(self):
         self.system.robot()
         self.system.node(loaded)

@@ -117,6 +117,7 @@ class Facts:
     clock: List[float] = field(default_factory=list)  # [s] values of /clock
     streams: List[TfStream] = field(default_factory=list)
     joints: Dict[str, Set[str]] = field(default_factory=dict)  # names that came, by topic of joint states
+    descriptions_of_nodes: Dict[str, str] = field(default_factory=dict)  # robot_description as they find it
     status_error: str = ""  # why ~status could not be read
     first_status: Any = None  # hgrid_proximity/Status
     status: Any = None  # the newest

@@ -16,9 +16,10 @@ COLORS = {ERROR: "31", WARN: "33", "OK": "32"}
 def as_text(facts: Facts, findings: List[Finding], verbose: bool, color: bool) -> str:
     lines = []
     for finding in findings:
-        lines += [f"{painted(finding.severity, color):<5} {finding.what}", f"      fix: {finding.fix}", ""]
+        word = painted(finding.severity, color) + " " * (5 - len(finding.severity))
+        lines += [f"{word} {printable(finding.what)}", f"      fix: {printable(finding.fix)}", ""]
     if verbose or not any(finding.severity == ERROR for finding in findings):
-        lines += ["Looked at:", *(f"  {line}" for line in looked_at(facts)), ""]
+        lines += ["Looked at:", *(f"  {printable(line)}" for line in looked_at(facts)), ""]
     return "\n".join([*lines, summary(facts, findings, color)])
 
 
@@ -39,6 +40,11 @@ def as_json(facts: Facts, findings: List[Finding]) -> str:
         "looked_at": list(looked_at(facts)),
     }
     return json.dumps(value, indent=2)
+
+
+def printable(text: str) -> str:
+    """Names come from outside: none of them may control the terminal."""
+    return "".join(character if character.isprintable() else "?" for character in text)
 
 
 def painted(word: str, color: bool) -> str:

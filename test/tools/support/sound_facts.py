@@ -37,8 +37,8 @@ def source(name, complete=True, state=0, reason="", bodies=3, age=0.01):
     return SimpleNamespace(name=name, complete=complete, state=state, reason=reason, bodies=bodies, age=age)
 
 
-def body(name, state):
-    return SimpleNamespace(name=name, state=state)
+def body(name, state, frame=""):
+    return SimpleNamespace(name=name, state=state, frame=frame or name.rpartition("/")[2])
 
 
 def counter(name, value):

@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import shutil
+import signal
 import socket
 import subprocess
 import sys
@@ -65,6 +66,10 @@ class System:
     def lose_master(self):
         """From now on the doctor looks for a master where none is."""
         self._environment["ROS_MASTER_URI"] = "http://127.0.0.1:1"
+
+    def hang_master(self):
+        """From now on the master accepts connections and never answers."""
+        os.kill(self._processes[0].pid, signal.SIGSTOP)
 
     def start(self, *command):
         silent = {stream: subprocess.DEVNULL for stream in ("stdin", "stdout", "stderr")}

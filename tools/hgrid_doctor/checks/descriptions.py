@@ -37,7 +37,7 @@ def check_missing(facts: Facts, robot: RobotFacts, findings: Findings):
     there = f" (there is {listing(robot.candidates)})" if robot.candidates else ""
     first = robot.candidates[0] if robot.candidates else ""
     fix = (
-        f"Start the node with `robot_description:={first}`, or name {first} as description in ~robots."
+        f"Start the node with `{settings.description}:={first}`, or name {first} as description in ~robots."
         if first
         else "Load it in the robot's launch file: "
         f'`<param name="{settings.description}" command="xacro my_robot.urdf.xacro"/>`.'

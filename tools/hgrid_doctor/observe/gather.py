@@ -34,6 +34,7 @@ def gather(node: str, timeout: float, listen: float) -> Facts:
     master = Api(uri, timeout)
     read_parameters(facts, master, timeout)
     follow_remaps(facts)
+    find_descriptions_of_nodes(facts, master, timeout)
     facts.nodes = ask_nodes(uri, sorted(nodes_that_matter(facts)), timeout)
     listen_to_topics(facts, listen, timeout)
     if facts.host:
@@ -100,6 +101,18 @@ def all_joint_state_topics(facts: Facts) -> Set[str]:
     """Those that publishers of tf subscribe to."""
     publishers = {node for topic in ("/tf", "/tf_static") for node in facts.graph.publishers.get(topic, [])}
     return {topic for node in publishers for topic in joint_state_topics(facts, node)}
+
+
+def find_descriptions_of_nodes(facts: Facts, master: Api, timeout: float):
+    """Tells robot_state_publishers of several robots apart."""
+    publishers = {node for topic in ("/tf", "/tf_static") for node in facts.graph.publishers.get(topic, [])}
+    search = {
+        node: lambda node=node: optional(master, "searchParam", "robot_description", caller=node)
+        for node in publishers
+        if joint_state_topics(facts, node)
+    }
+    outcomes = call_all(search, timeout)
+    facts.descriptions_of_nodes = {node: outcome.value for node, outcome in outcomes.items() if outcome.value}
 
 
 def input_topics(facts: Facts) -> Set[str]:
