@@ -61,6 +61,7 @@ class DoctorChecks(unittest.TestCase):
         self.expect()
         text = report.as_text(self.facts, [], False, False)
         self.assertIn("robot robot: 4 links, 3 with shapes, in 3 frames; all placed, FRESH, poses 10 ms old", text)
+        self.assertIn("refused so far: nothing", text)
         self.assertTrue(text.endswith("OK: nothing wrong was found with /proximity."), text)
 
     # The network and the node
@@ -446,6 +447,16 @@ class DoctorChecks(unittest.TestCase):
                 for each in self.facts.streams[:2]:
                     each.offsets = [offset] * 50
                 self.expect(*expected[:1], code=expected[-1] if expected else EXIT_OK)
+
+    def test_simulated_time_that_advances_in_long_steps_makes_no_stamp_early(self):
+        self.facts.graph.use_sim_time = True
+        self.facts.graph.publishers["/clock"] = ["/gazebo"]
+        self.facts.clock = [4.0, 4.5, 5.0]
+        self.facts.status.made = status(made=5.0).made
+        self.facts.streams[0].offsets = self.facts.streams[1].offsets = [0.3] * 50
+        self.expect()
+        self.facts.clock = [4.9, 5.0]
+        self.expect("stamps_early", code=EXIT_WARN)
 
     def test_late_stamps_explain_stale_poses(self):
         self.facts.streams[0].offsets = self.facts.streams[1].offsets = [-0.5] * 50

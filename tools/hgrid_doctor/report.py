@@ -83,6 +83,7 @@ def looked_at(facts: Facts) -> Iterator[str]:
             yield source_line(facts, source)
     if facts.status is not None:
         yield pairs_line(facts)
+        yield refusals_line(facts)
 
 
 def node_line(facts: Facts) -> str:
@@ -112,7 +113,7 @@ def tf_lines(facts: Facts) -> Iterator[str]:
         rate = max(stream.count for stream in streams) / max(facts.listened, 0.001)
         age = -1e3 * middle([offset for stream in streams for offset in stream.offsets])
         frames = counted(len(streams), "frame")
-        yield f"/tf: {frames} from {publisher}, {rate:.0f} Hz, {age:.0f} ms old when they arrive"
+        yield f"/tf: {frames} from {publisher}, {rate:.0f} Hz, {round(age)} ms old when they arrive"
     if len(moving) > 3:
         yield f"/tf: {len(moving) - 3} more publishers"
     static = [stream for stream in facts.streams if stream.static]
@@ -142,6 +143,12 @@ def state_text(source) -> str:
         return "; not complete"
     placed = "all placed" if source.state != len(STATES) - 1 else STATES[source.state]
     return f"; {placed}, {STATES[source.state]}" + (f", poses {source.age * 1e3:.0f} ms old" if source.age > 0 else "")
+
+
+def refusals_line(facts: Facts) -> str:
+    """Of all the time since the node started or was reset; checks judge what grows now."""
+    refused = [f"{each.name} {each.value}" for each in facts.status.counters if ".refused." in each.name]
+    return f"refused so far: {', '.join(refused) or 'nothing'}"
 
 
 def pairs_line(facts: Facts) -> str:

@@ -100,6 +100,7 @@ class System:
 
     def node(self, until, name="/proximity"):
         """Starts the node and waits until its ~status meets a condition."""
+        self.set(name + "/rate", 20)  # [Hz] no tick is late because other tests run beside this one
         namespace, _, base = name.rpartition("/")
         process = self.start(
             "rosrun", "hgrid_proximity", "proximity_node", "__name:=" + base, "__ns:=" + (namespace or "/")

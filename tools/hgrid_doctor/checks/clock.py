@@ -58,7 +58,7 @@ def check_wall(facts: Facts, findings: Findings):
         "clock_unused",
         ERROR if foreign else WARN,
         f"{listing(facts.alive_publishers('/clock'))} publishes /clock, but /use_sim_time is not set"
-        + (": transforms have simulated stamps, and this node uses the wall clock." if foreign else "."),
+        + (": transforms have simulated stamps, while nodes that start now use the wall clock." if foreign else "."),
         "Run `rosparam set use_sim_time true` and start all nodes again.",
         [EVERYTHING] if foreign else [],
     )

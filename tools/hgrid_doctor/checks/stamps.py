@@ -41,12 +41,17 @@ def check_zero(publisher: str, streams: List[TfStream], robots, findings: Findin
         )
 
 
+def clock_step(facts: Facts) -> float:
+    """[s] by which simulated time may lag, since it only advances with messages of /clock."""
+    return max((after - before for before, after in zip(facts.clock, facts.clock[1:])), default=0.0)
+
+
 def check_offset(facts: Facts, publisher: str, streams: List[TfStream], robots, findings: Findings):
     offsets = [offset for stream in streams for offset in stream.offsets]
     if len(offsets) < LEAST_MESSAGES:
         return
     offset, settings = middle(offsets), facts.settings
-    early, late = offset > EARLY, offset < -settings.stale_after
+    early, late = offset > EARLY + clock_step(facts), offset < -settings.stale_after
     if not early and not late:
         return
     if abs(offset) > OTHER_CLOCK:
