@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// The witness is heard only where it says the truth in cases that are known by heart.
+// Tests the reference distances of FCL themselves, in cases whose distance is known.
 #include "test/adapters/fcl_witness.h"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ TEST(FclWitness, KnownDistancesAreRight) {
   EXPECT_NEAR(fclDistance(solid, at(0, 0, 0), solid, at(0, 0, 0.25), 10), 0.125, 1e-9);
   EXPECT_EQ(fclDistance(ball, at(0, 0, 0), ball, at(1, 0, 0), 10), 0.0);
   EXPECT_EQ(fclDistance(solid, at(0, 0, 0), solid, at(0.01, 0.01, 0.01), 10), 0.0);
-  EXPECT_EQ(fclDistance(ball, at(0, 0, 0), ball, at(100, 0, 0), 10), 10.0) << "the cutoff";
+  EXPECT_EQ(fclDistance(ball, at(0, 0, 0), ball, at(100, 0, 0), 10), 10.0) << "a far distance must be the cutoff";
 }
 
 TEST(FclWitness, EveryPartCountsWithItsOwnPose) {
