@@ -56,7 +56,7 @@ TEST(FclWitness, TheCutoffHidesNothingNearer) {
   for (int i = 0; i < 2000; ++i) {
     const FclBody &a = bodies[static_cast<std::size_t>(random.below(4))],
                   &b = bodies[static_cast<std::size_t>(random.below(4))];
-    const Pose pose_a = randomPose(random, 0.5), pose_b = randomPose(random, 0.5);
+    const Pose pose_a = uniformPose(random, 0.5), pose_b = uniformPose(random, 0.5);
     const double far = fclDistance(a, pose_a, b, pose_b, 100), near = fclDistance(a, pose_a, b, pose_b, 0.1);
     EXPECT_NEAR(near, std::min(far, 0.1), 1e-7);
     EXPECT_NEAR(fclDistance(b, pose_b, a, pose_a, 0.1), near, 1e-7) << "in the other order";

@@ -56,7 +56,7 @@ Extent extentOf(const Shape& shape, const Pose& world_from_shape, int axis) {
 void expectTight(const BodyShape& shape, Random& random) {
   const double reach = shape.shape.reach();
   for (int i = 0; i < 1000; ++i) {
-    const Pose world_from_shape = randomPose(random, 10.0) * shape.body_from_shape;
+    const Pose world_from_shape = uniformPose(random, 10.0) * shape.body_from_shape;
     const Aabb box = boxOf(shape.shape, world_from_shape, 0.0, Eigen::Vector3d::Zero());
     for (int axis = 0; axis < 3; ++axis) {
       const Extent exact = extentOf(shape.shape, world_from_shape, axis);

@@ -70,7 +70,7 @@ class RandomStates {
 };
 
 /// Returns a random pose: evenly distributed in rotation, and at most `far` [m] from the origin along each axis.
-Pose randomPose(Random& random, double far);
+Pose uniformPose(Random& random, double far);
 
 /// Adds a body `robot/<link>` for each link with a <collision>. @returns the link index and the id of each body
 std::vector<std::pair<std::uint32_t, BodyId>> addLinks(Scene& scene, const RobotModel& model,
