@@ -140,6 +140,21 @@ TEST(UrdfText, MoreLinksThanTheLimitAreRefused) {
   for (const char* word : {"3", "4"}) EXPECT_TRUE(says(sentence, word));
 }
 
+TEST(UrdfText, LinksAndJointsAreCountedBeforeTheyAreRead) {
+  DescriptionLimits limits;
+  limits.max_links = 3;
+  std::string links, joints = link("l0");
+  for (int i = 0; i < 4; ++i) {
+    links += link("same name");
+    joints += joint("j" + std::to_string(i), "l0", "no such link");
+  }
+  std::string sentence;
+  EXPECT_EQ(refusalOf([&] { read(robot(links), limits); }, &sentence), Code::limit);
+  EXPECT_TRUE(says(sentence, "4 links"));
+  EXPECT_EQ(refusalOf([&] { read(robot(joints), limits); }, &sentence), Code::limit);
+  EXPECT_TRUE(says(sentence, "4 joints"));
+}
+
 }  // namespace
 }  // namespace test
 }  // namespace hgrid
