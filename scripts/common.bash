@@ -23,6 +23,8 @@ demo_packages=(
 test_packages=(
   "${demo_packages[@]}" catkin-lint libfaketime libnodeletlib-tools liboctomap-dev libtf2-dev locales python3-rostest rosbash
 )
+# shellcheck disable=SC2034  # read by scripts/docs and scripts/test
+docs_packages=(doxygen)
 # shellcheck disable=SC2034
 long_test_packages=(clang g++-aarch64-linux-gnu googletest libclang-rt-dev qemu-user)
 
