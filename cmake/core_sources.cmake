@@ -88,9 +88,11 @@ set(HGRID_ADAPTER_SOURCES
 # The inner loops of the broad phase are compiled once per instruction set. The program chooses one at run time.
 set(HGRID_KERNEL_FLAGS_sse2 -msse2)
 set(HGRID_KERNEL_FLAGS_avx2 -mavx2 -mfma -mbmi -mpopcnt)
-# The AVX-512 header of gcc causes these warnings itself (gcc bug 105593).
-set(HGRID_KERNEL_FLAGS_avx512 -mavx2 -mfma -mbmi -mpopcnt -mavx512f -mavx512vl -mavx512bw -mavx512dq -Wno-maybe-uninitialized
-  -Wno-uninitialized)
+set(HGRID_KERNEL_FLAGS_avx512 -mavx2 -mfma -mbmi -mpopcnt -mavx512f -mavx512vl -mavx512bw -mavx512dq)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # The AVX-512 header of gcc causes these warnings itself (gcc bug 105593). Clang does not know the first of them.
+  list(APPEND HGRID_KERNEL_FLAGS_avx512 -Wno-maybe-uninitialized -Wno-uninitialized)
+endif()
 
 # hgrid_core_options(target root): sets the options that a target built from the core's sources needs. Kernels are
 # optimized in every build type. All sources need -ffp-contract=off, so that one formula rounds in one way everywhere.

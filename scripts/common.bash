@@ -23,8 +23,14 @@ demo_packages=(
 test_packages=(
   "${demo_packages[@]}" catkin-lint libfaketime libnodeletlib-tools liboctomap-dev libtf2-dev locales python3-rostest rosbash
 )
+# shellcheck disable=SC2034  # read by scripts/docs and scripts/test
+docs_packages=(doxygen)
 # shellcheck disable=SC2034
 long_test_packages=(clang g++-aarch64-linux-gnu googletest libclang-rt-dev qemu-user)
+
+# Options of cmake that make warnings errors, with the compilers of Debian 12. Other compilers may have other warnings.
+werror=(-DHGRID_WERROR=ON)
+[[ ${ROS_DISTRO:-} != noetic ]] || werror=()
 
 # However the script ends, end() stops all background processes and removes the scratch folder.
 started=()
@@ -98,7 +104,7 @@ build() {
   local out=$root/build/release
   local -a options=(
     -DCMAKE_BUILD_TYPE=Release "-DCATKIN_DEVEL_PREFIX=$root/devel"
-    -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 "$@"
+    -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 "${werror[@]}" "$@"
   )
   if [[ ! -f $out/Makefile || $(cat "$out/.options" 2>/dev/null) != "${options[*]}" ]]; then
     say "configuring"

@@ -47,7 +47,9 @@ const char* name(Code code);
 /// that it breaks. A function that throws a Refusal has changed nothing.
 class Refusal : public std::runtime_error {
  public:
+  /// Creates a refusal. @param sentence  returned by what()
   Refusal(Code code, const std::string& sentence) : std::runtime_error(sentence), code_(code) {}
+  /// Returns why the input was rejected.
   Code code() const { return code_; }
 
  private:
@@ -61,7 +63,7 @@ std::string text(double value);
 std::string secondsText(double duration);
 
 /// Returns text from outside in a form that is safe for logs and messages. Control characters and invalid UTF-8 become
-/// \xNN. Text longer than `longest` bytes is cut and ends with "…".
+/// `\xNN`. Text longer than `longest` bytes is cut and ends with "…".
 std::string printable(const std::string& raw, std::size_t longest = 128);
 
 }  // namespace hgrid

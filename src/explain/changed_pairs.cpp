@@ -81,6 +81,7 @@ std::vector<Group> groupsOf(const Bodies& chosen, const std::vector<Body>& bodie
     by_key[{is_link ? bodies[body].robot : std::string(), std::move(key)}].push_back(body);
   }
   std::vector<Group> groups;
+  groups.reserve(by_key.size());
   for (auto& group : by_key) groups.push_back({group.first.first, std::move(group.second)});
   return groups;
 }

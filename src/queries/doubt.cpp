@@ -27,7 +27,7 @@ bool canBeAnywhere(const Body& body, const BodyPose& pose) {
 }
 
 std::string doubtOf(const Body& body, const BodyPose& pose) {
-  const std::string gap = gapLeftBy(body, pose);
+  std::string gap = gapLeftBy(body, pose);
   if (canBeAnywhere(body, pose) && !gap.empty()) return gap;
   return (gap.empty()
               ? std::string(name(pose.state)) + " " + body.name + ": its pose is " + secondsText(pose.age) + " old"

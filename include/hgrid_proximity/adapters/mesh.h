@@ -15,9 +15,9 @@ namespace hgrid {
 
 /// Settings and limits for reading mesh files.
 struct MeshPolicy {
-  std::string reader;  ///< path of the helper executable proximity_mesh_reader
-  ResourcePolicy resources;
-  std::size_t max_triangles = 1000000;
+  std::string reader;                       ///< path of the helper executable proximity_mesh_reader
+  ResourcePolicy resources;                 ///< which files may be read
+  std::size_t max_triangles = 1000000;      ///< largest number of triangles in one file
   std::chrono::milliseconds timeout{5000};  ///< time per file; afterwards the helper is killed
   std::size_t max_memory = 512u << 20;      ///< [bytes] limit for the address space of the helper
   std::function<bool()> cancelled;          ///< called at least every 50 ms; reading stops once it returns true
@@ -30,6 +30,7 @@ struct MeshPolicy {
 /// only once. Only one thread may use a loader at a time.
 class MeshLoader {
  public:
+  /// Creates a loader that has not read any file yet.
   explicit MeshLoader(MeshPolicy policy) : policy_(std::move(policy)) {}
 
   /// Returns the triangles of a file, with each coordinate multiplied by `scale`. If `scale` mirrors the mesh, the

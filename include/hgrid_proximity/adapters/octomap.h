@@ -29,8 +29,8 @@ struct OctomapOptions {
   /// maps with probabilities (`.ot`, octomap_full). Other maps store directly which leaves are occupied.
   double occupied_from = 0.5;
   bool nan_is_occupied = false;  ///< true: a leaf with NaN log-odds is occupied; false: the map is rejected
-  UnknownSpace unknown = UnknownSpace::ignore;
-  bool keep_free = false;    ///< whether Octomap::free is filled
+  UnknownSpace unknown = UnknownSpace::ignore;  ///< how to treat space without a leaf
+  bool keep_free = false;                       ///< whether Octomap::free is filled
   bool allow_empty = false;  ///< true: data without nodes is a map that is wholly unknown; false: it is rejected
   /// Crop box [m, map frame]. Voxels that are wholly outside are dropped while reading. Voxels that touch the box are
   /// kept whole. Its sides may be infinite.
@@ -43,10 +43,10 @@ struct OctomapOptions {
 
 /// The leaves of an OctoMap, without the tree. The voxels of each list are disjoint and in Morton order.
 struct Octomap {
-  double resolution = 0.0;  ///< [m] edge of a voxel of level 0
-  std::vector<Voxel> occupied;
-  std::vector<Voxel> free;     ///< empty unless OctomapOptions::keep_free is true
-  std::vector<Voxel> unknown;  ///< empty unless OctomapOptions::unknown is report
+  double resolution = 0.0;      ///< [m] edge of a voxel of level 0
+  std::vector<Voxel> occupied;  ///< occupied leaves; with UnknownSpace::occupied also the unknown space
+  std::vector<Voxel> free;      ///< empty unless OctomapOptions::keep_free is true
+  std::vector<Voxel> unknown;   ///< empty unless OctomapOptions::unknown is report
 
   std::uint64_t nodes = 0;           ///< number of inner nodes and leaves, as in OctoMap's own size()
   std::uint64_t free_leaves = 0;     ///< number of free leaves in the data
@@ -70,7 +70,9 @@ struct OctomapFormat {
 /// The bytes have the same meaning as for OctoMap's own readers. This includes `.bt` nodes without children, which
 /// OctoMap never writes: such a root is an occupied leaf, any other such node is a free leaf. If an `.ot` node has
 /// children, only the children count.
-/// @param what  name of the map for the error sentence, such as "map 'room'"
+/// @param format  how the bytes are encoded
+/// @param data    the nodes, without the header of a file
+/// @param what    name of the map for the error sentence, such as "map 'room'"
 /// @throws Refusal with code truncated if the data ends before the tree is complete; parse for data without a node, for
 /// bytes after the tree, for more than 16 levels, or for NaN log-odds; out_of_range (resolution, occupied_from, a crop
 /// with min > max), nonfinite (a crop with NaN), unsupported (another id), limit (also if memory runs out)

@@ -12,25 +12,28 @@ namespace hgrid {
 
 /// One field of the points in a sensor_msgs/PointCloud2, as sensor_msgs/PointField describes it.
 struct PointField {
-  static constexpr std::uint8_t kFloat32 = 7, kFloat64 = 8;
+  static constexpr std::uint8_t kFloat32 = 7;  ///< FLOAT32 of sensor_msgs/PointField
+  static constexpr std::uint8_t kFloat64 = 8;  ///< FLOAT64 of sensor_msgs/PointField
 
-  std::string name;
+  std::string name;           ///< name of the field; only x, y and z are read
   std::uint32_t offset = 0;   ///< [bytes] from the begin of a point to the field
   std::uint8_t datatype = 0;  ///< a constant of sensor_msgs/PointField
 };
 
 /// Layout of the bytes of a sensor_msgs/PointCloud2: `height` rows of `width` points.
 struct PointCloudFormat {
-  std::uint32_t height = 0, width = 0;
-  std::vector<PointField> fields;
-  bool big_endian = false;
-  std::uint32_t point_step = 0, row_step = 0;  ///< [bytes] size of a point and of a row
+  std::uint32_t height = 0;        ///< number of rows
+  std::uint32_t width = 0;         ///< number of points in a row
+  std::vector<PointField> fields;  ///< the fields of each point
+  bool big_endian = false;         ///< order of the bytes in a number; only little-endian numbers can be read
+  std::uint32_t point_step = 0;    ///< [bytes] size of a point
+  std::uint32_t row_step = 0;      ///< [bytes] size of a row
 };
 
 /// The points of a cloud, in the frame of its sensor [m].
 struct PointCloud {
-  std::vector<Eigen::Vector3d> points;
-  std::uint64_t not_finite = 0;  ///< number of points without a finite position, where the sensor saw nothing
+  std::vector<Eigen::Vector3d> points;  ///< [m, sensor frame] points with a finite position, in the order of the data
+  std::uint64_t not_finite = 0;         ///< number of points without a finite position, where the sensor saw nothing
 };
 
 /// Reads the fields x, y and z of all points and ignores other fields. Any thread may call this.

@@ -21,14 +21,19 @@ struct ResourcePolicy {
 /// A regular file that the policy allows, open for reading. The destructor closes it.
 class OpenResource {
  public:
+  /// Takes over an open file.
+  /// @param fd     file descriptor, which the destructor closes
+  /// @param path   path of the file with all symbolic links resolved
+  /// @param bytes  size of the file
   OpenResource(int fd, std::string path, std::size_t bytes) : fd_(fd), path_(std::move(path)), bytes_(bytes) {}
   ~OpenResource();
+  /// Takes over the file of `other`.
   OpenResource(OpenResource&& other) noexcept;
   OpenResource& operator=(OpenResource&&) = delete;
 
-  int fd() const { return fd_; }
+  int fd() const { return fd_; }                     ///< file descriptor, owned by this object
   const std::string& path() const { return path_; }  ///< path with all symbolic links resolved
-  std::size_t bytes() const { return bytes_; }
+  std::size_t bytes() const { return bytes_; }       ///< [bytes] size of the file when it was opened
 
  private:
   int fd_;

@@ -50,16 +50,19 @@ inline bool hasCells(BodyKind kind) { return kind == BodyKind::map || kind == Bo
 
 /// Handle of a body in a Scene: the number of a slot, and how many bodies used this slot before.
 struct BodyId {
-  std::uint32_t slot = 0;
-  std::uint32_t generation = 0;
+  std::uint32_t slot = 0;        ///< number of the slot
+  std::uint32_t generation = 0;  ///< how many bodies used the slot before
+
+  /// Whether both are the handle of the same body.
   bool operator==(const BodyId& other) const { return slot == other.slot && generation == other.generation; }
+  /// Whether the handles are of different bodies.
   bool operator!=(const BodyId& other) const { return !(*this == other); }
 };
 
 /// One collision shape of a body. It becomes one proxy in the broad phase.
 struct BodyShape {
-  Shape shape;
-  Pose body_from_shape = Pose::Identity();
+  Shape shape;                                      ///< the shape in its own frame
+  Pose body_from_shape = Pose::Identity();          ///< pose of the shape in the frame of the body
   double padding = 0.0;                             ///< [m] how much the shape is grown, >= 0
   std::string resource;                             ///< URI of a mesh file; empty otherwise
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< scale of the mesh file per axis
@@ -71,10 +74,10 @@ struct Body {
   std::string name;                         ///< unique name of the form source/local
   std::string frame;                        ///< tf frame that the body follows
   Pose frame_from_body = Pose::Identity();  ///< pose of the body in `frame`; identity for links
-  BodyKind kind = BodyKind::obstacle;
-  Mobility mobility = Mobility::moving;
-  std::vector<BodyShape> shapes;  ///< may be empty, if no shape could be read
-  double margin = 0.0;            ///< [m] margin of this body; a larger global margin takes precedence
+  BodyKind kind = BodyKind::obstacle;       ///< link, obstacle, map or cloud
+  Mobility mobility = Mobility::moving;     ///< whether the body can move in the world
+  std::vector<BodyShape> shapes;            ///< may be empty, if no shape could be read
+  double margin = 0.0;                      ///< [m] margin of this body; a larger global margin takes precedence
   double max_speed = std::numeric_limits<double>::infinity();  ///< [m/s] largest speed of its points
   /// [m/s] Guaranteed largest speed of its points; infinite if there is no guarantee. Bounds of the time to contact use
   /// only this value.

@@ -26,8 +26,11 @@ enum class Origin : std::uint8_t {
 
 /// The rules of an SRDF for pairs of links. Links are given by name.
 struct LinkRules {
+  /// Two links that one tag names.
   struct Pair {
-    std::string first, second, reason;
+    std::string first;   ///< name of one link
+    std::string second;  ///< name of the other link
+    std::string reason;  ///< attribute `reason` of the tag; may be empty
   };
   std::vector<Pair> disabled;                 ///< tags disable_collisions: these pairs are switched off
   std::vector<std::string> disabled_default;  ///< tags disable_default_collisions: all pairs of these links are off

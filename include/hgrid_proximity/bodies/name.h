@@ -10,12 +10,14 @@ namespace hgrid {
 /// Largest length of each part of a name `source/local` [bytes].
 inline constexpr std::size_t kLongestName = 128;
 
-/// Check one part of a name `source/local`. Each part must have 1 to kLongestName bytes of UTF-8 without control
+///@{
+/// Checks one part of a name `source/local`. Each part must have 1 to kLongestName bytes of UTF-8 without control
 /// characters. A source must not contain a slash.
 /// @param what  name of the object for the error sentence, such as "obstacle name"
 /// @throws Refusal with code bad_id
 void checkSource(const std::string& source, const std::string& what);
 void checkLocal(const std::string& local, const std::string& what);
+///@}
 
 /// Returns the name `source/local`. Its first slash separates the two parts, since only the local part may contain
 /// slashes.

@@ -16,16 +16,17 @@ enum class JointKind : std::uint8_t { fixed, revolute, prismatic, planar, floati
 
 /// One link of a robot, with the joint that connects it to its parent link.
 struct RobotLink {
-  std::string name;
-  int parent = -1;    ///< index of the parent link; -1 for the root
-  std::string joint;  ///< name of the joint to the parent; empty for the root
-  JointKind joint_kind = JointKind::fixed;
+  std::string name;                                 ///< name of the link in the URDF
+  int parent = -1;                                  ///< index of the parent link; -1 for the root
+  std::string joint;                                ///< name of the joint to the parent; empty for the root
+  JointKind joint_kind = JointKind::fixed;          ///< kind of the joint to the parent; fixed for the root
   Pose parent_from_joint = Pose::Identity();        ///< pose of the link in its parent at joint position 0
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< axis of the joint, a unit vector in the link's frame
   double max_velocity = 0.0;                        ///< [rad/s] or [m/s]; 0: the URDF gives none
-  double lower = 0.0, upper = 0.0;                  ///< [rad] or [m] joint limits; both 0: no limits
-  bool has_collision = false;                       ///< the URDF has a <collision> for this link
-  bool uses_visual = false;                         ///< the shapes come from <visual>, as there is no <collision>
+  double lower = 0.0;                               ///< [rad] or [m] lower joint limit; both limits 0: no limits
+  double upper = 0.0;                               ///< [rad] or [m] upper joint limit
+  bool has_collision = false;                       ///< the URDF has a `<collision>` for this link
+  bool uses_visual = false;                         ///< the shapes come from `<visual>`, as there is no `<collision>`
   std::vector<BodyShape> shapes;                    ///< the shapes that could be read
   std::vector<Refusal> unreadable;                  ///< why the other shapes could not be read, one per shape
   std::uint32_t rigid_group = 0;                    ///< links with the same number move together
@@ -37,8 +38,8 @@ struct RobotLink {
 
 /// A robot as its URDF describes it. In `links`, parents come before their children.
 struct RobotModel {
-  std::string name;
-  std::vector<RobotLink> links;
+  std::string name;                        ///< name of the robot in the URDF
+  std::vector<RobotLink> links;            ///< the links; parents come before their children
   std::vector<std::uint32_t> group_roots;  ///< index of the first link of each rigid group
   std::vector<std::string> warnings;       ///< sentences about odd input that was accepted
 

@@ -18,7 +18,7 @@ struct OverlapFilter {
   /// Selects among `count` pairs: moves the pairs that it keeps to the front, in their original order, and returns
   /// their number. Null: all pairs are kept.
   std::size_t (*keep)(const void* context, ProxyPair* pairs, std::size_t count) = nullptr;
-  const void* context = nullptr;
+  const void* context = nullptr;  ///< passed to `keep` in every call; not owned
 
   /// Applies `keep` to the pairs from `begin` to `end`. @returns the end of the pairs that are kept
   ProxyPair* operator()(ProxyPair* begin, ProxyPair* end) const {

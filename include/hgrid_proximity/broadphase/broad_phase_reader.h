@@ -16,9 +16,12 @@ using ProxyId = std::uint32_t;
 
 /// The ids of two boxes that overlap, the smaller id first.
 struct ProxyPair {
-  ProxyId first = 0;
-  ProxyId second = 0;
+  ProxyId first = 0;   ///< the smaller id
+  ProxyId second = 0;  ///< the larger id
+
+  /// Whether both pairs have the same ids.
   bool operator==(const ProxyPair& other) const { return first == other.first && second == other.second; }
+  /// Orders pairs by `first`, then by `second`.
   bool operator<(const ProxyPair& other) const {
     return first != other.first ? first < other.first : second < other.second;
   }
@@ -26,13 +29,13 @@ struct ProxyPair {
 
 /// A box that a segment touches.
 struct SegmentHit {
-  ProxyId id = 0;
+  ProxyId id = 0;      ///< id of the box
   double along = 0.0;  ///< [m] distance from the start of the segment to the point where it first touches the box
 };
 
 /// A box near a point.
 struct NearHit {
-  ProxyId id = 0;
+  ProxyId id = 0;         ///< id of the box
   double distance = 0.0;  ///< [m] distance of the box from the point; 0 if the point is inside the box
 };
 
@@ -40,10 +43,13 @@ struct NearHit {
 /// found[begin[q] + count[q] - 1], in the same order as the answers to a single query.
 template <class Found>
 struct BatchOf {
-  std::vector<std::uint32_t> begin, count;
-  std::vector<Found> found;
+  std::vector<std::uint32_t> begin;  ///< for each query: index in `found` of its first answer
+  std::vector<std::uint32_t> count;  ///< for each query: number of its answers
+  std::vector<Found> found;          ///< the answers
 };
+/// The answers to many queries for the ids of boxes.
 using IdBatch = BatchOf<ProxyId>;
+/// The answers to many segment queries.
 using SegmentBatch = BatchOf<SegmentHit>;
 
 /// One level of a broad phase that sorts boxes by size.
@@ -82,10 +88,12 @@ class BroadPhaseReader {
   virtual void nearest(const Eigen::Vector3d& point, std::size_t count, double limit,
                        std::vector<NearHit>& found) const = 0;
 
+  ///@{
   /// Answers many queries in one call. The default implementation answers them one after another.
   virtual void overlapping(const std::vector<Aabb>& boxes, IdBatch& found) const;
   virtual void overlapping(const std::vector<Sphere>& spheres, IdBatch& found) const;
   virtual void along(const std::vector<Segment>& segments, SegmentBatch& found) const;
+  ///@}
 
   /// Returns the levels, from small boxes to large ones; nothing if the broad phase does not sort boxes by size. Takes
   /// time proportional to the number of stored boxes.

@@ -45,15 +45,19 @@ class HGrid final : public BroadPhase {
   /// @throws std::invalid_argument if the finest edge is not within 2^-30 .. 2^30.
   explicit HGrid(const GridScale& scale = {});
   ~HGrid() override;
+  /// Takes over the content of another grid, which may then only be destroyed or assigned to.
   HGrid(HGrid&&) noexcept;
+  /// Takes over the content of another grid, which may then only be destroyed or assigned to.
   HGrid& operator=(HGrid&&) noexcept;
 
   /// Sets the instruction set of the inner loops; initially bestIsa().
   /// @throws std::invalid_argument if this processor or build does not support it.
   void setIsa(Isa isa);
+  /// Returns the instruction set of the inner loops.
   Isa isa() const;
-  /// Sets how many threads a bulk update or a search for pairs may use, including the calling thread: 1 (initially)
-  /// .. 64. @throws std::invalid_argument if the number is outside this range.
+  /// Sets how many threads a bulk update or a search for pairs may use, including the calling thread. The range is
+  /// 1 .. 64, initially 1.
+  /// @throws std::invalid_argument if the number is outside this range.
   void setThreads(int threads);
 
   void insert(ProxyId id, const Aabb& box) override;
@@ -75,10 +79,12 @@ class HGrid final : public BroadPhase {
   void along(const Segment& segment, std::vector<SegmentHit>& found) const override;
   void nearest(const Eigen::Vector3d& point, std::size_t count, double limit,
                std::vector<NearHit>& found) const override;
+  ///@{
   /// Answers the queries in the order of their positions in space, which saves cache misses.
   void overlapping(const std::vector<Aabb>& boxes, IdBatch& found) const override;
   void overlapping(const std::vector<Sphere>& spheres, IdBatch& found) const override;
   void along(const std::vector<Segment>& segments, SegmentBatch& found) const override;
+  ///@}
   /// Returns GridScale::kLevels levels and one more for the boxes that are too large for the coarsest of them.
   std::vector<BroadPhaseLevel> levels() const override;
   int levelOf(ProxyId id) const override;

@@ -24,11 +24,13 @@ inline constexpr std::size_t kNearCells = 4;
 /// The exact distance of a pair of bodies: the distance of their nearest shapes. The shapes of a map are its occupied
 /// cells.
 struct PairDistance {
-  std::uint32_t first = 0, second = 0;              ///< indices into Structure::bodies, first < second
-  std::uint32_t first_shape = 0, second_shape = 0;  ///< indices of the nearest shapes among the shapes of each body
-  double gap = 0.0;                                 ///< [m] distance of the boxes of the two bodies
-  std::uint8_t flags = 0;                           ///< the same as NearPair::flags
-  Proximity proximity;                              ///< how the nearest shapes lie relative to each other
+  std::uint32_t first = 0;         ///< index into Structure::bodies, first < second
+  std::uint32_t second = 0;        ///< index into Structure::bodies
+  std::uint32_t first_shape = 0;   ///< index of the nearest shape among the shapes of the first body
+  std::uint32_t second_shape = 0;  ///< index of the nearest shape among the shapes of the second body
+  double gap = 0.0;                ///< [m] distance of the boxes of the two bodies
+  std::uint8_t flags = 0;          ///< the same as NearPair::flags
+  Proximity proximity;             ///< how the nearest shapes lie relative to each other
   /// [m] The distance of the pair is at least this: its distance if it was measured in this tick. Otherwise the larger
   /// of `gap` and the last measured distance minus what both bodies can have moved since.
   double lower_bound = 0.0;
@@ -55,8 +57,9 @@ PairDistance measurePair(const NarrowPhase& narrow_phase, const Snapshot& snapsh
 
 /// One contact of two bodies.
 struct PairContact {
-  std::uint32_t first_shape = 0, second_shape = 0;  ///< indices of the touching shapes among the shapes of each body
-  Contact contact;
+  std::uint32_t first_shape = 0;   ///< index of the touching shape among the shapes of the first body
+  std::uint32_t second_shape = 0;  ///< index of the touching shape among the shapes of the second body
+  Contact contact;                 ///< point, normal and depth of the contact
 };
 
 /// Finds the contacts of two bodies of a snapshot, deepest first. Both bodies must have poses. If the status of
@@ -76,6 +79,7 @@ struct MeterOptions {
 /// that later snapshots take less time. One thread at a time may call its functions.
 class PairMeter {
  public:
+  /// @param narrow_phase  measures the shapes; the solids of the bodies must come from it
   PairMeter(std::shared_ptr<const NarrowPhase> narrow_phase, const MeterOptions& options);
   ~PairMeter();
 

@@ -12,13 +12,14 @@ namespace hgrid {
 
 /// Selects a part of the allowed collision matrix.
 struct AllowedScope {
-  std::string first, second;  ///< globs over the two names of a pair, in either order; empty: all names
-  std::size_t limit = 0;      ///< maximum number of entries
+  std::string first;      ///< glob over one name of a pair; empty: all names
+  std::string second;     ///< glob over the other name of the pair; empty: all names
+  std::size_t limit = 0;  ///< maximum number of entries
 };
 
 /// A part of the allowed collision matrix.
 struct AllowedList {
-  std::vector<PairRule> entries;
+  std::vector<PairRule> entries;  ///< the entries of the matrix, at most AllowedScope::limit of them
   std::uint64_t total = 0;  ///< number of all entries in the scope; larger than entries.size() if the limit cut them
 };
 
@@ -31,7 +32,7 @@ AllowedList decidedPairs(const Structure& structure, const AllowedScope& scope);
 /// Lists the rules as they were given, in their order. The globs of the scope are compared with the texts of the rules.
 AllowedList givenRules(const Structure& structure, const AllowedScope& scope);
 
-/// Writes the entries that name two links of one robot as SRDF: one <robot> element for each robot. Each element
+/// Writes the entries that name two links of one robot as SRDF: one `<robot>` element for each robot. Each element
 /// contains disable_collisions and enable_collisions tags in the order of the entries.
 std::string srdfOf(const Structure& structure, const std::vector<PairRule>& entries);
 

@@ -17,6 +17,8 @@ namespace hgrid {
 /// treat alike only once, so rules with globs take no longer than it took to create the filters. It compares links of
 /// one robot pair by pair.
 /// @param bodies  the bodies that both filters were created from
+/// @param before  the filter before the change
+/// @param after   the filter after the change
 std::uint64_t changedPairs(const std::vector<Body>& bodies, const PairFilter& before, const PairFilter& after);
 
 }  // namespace hgrid

@@ -12,19 +12,21 @@ namespace hgrid {
 /// The coordinates are floats to save memory. They are relative to the origin of the world, which is in double, so
 /// boxes keep their precision far away from the origin of the frame.
 struct Aabb {
-  Eigen::Vector3f min = Eigen::Vector3f::Zero();
-  Eigen::Vector3f max = Eigen::Vector3f::Zero();
+  Eigen::Vector3f min = Eigen::Vector3f::Zero();  ///< [m] smallest coordinate on each axis
+  Eigen::Vector3f max = Eigen::Vector3f::Zero();  ///< [m] largest coordinate on each axis
 
+  /// Whether both boxes have the same corners.
   bool operator==(const Aabb& other) const { return min == other.min && max == other.max; }
+  /// Whether the boxes have different corners.
   bool operator!=(const Aabb& other) const { return !(*this == other); }
 };
 
 /// Whether all coordinates are finite and min <= max holds on every axis.
 bool isValid(const Aabb& box);
 
-/// Return the largest float <= value and the smallest float >= value. Values outside the range of float become
-/// infinite.
+/// Returns the largest float that is not larger than `value`; infinite below the range of float.
 float roundedDown(double value);
+/// Returns the smallest float that is not smaller than `value`; infinite above the range of float.
 float roundedUp(double value);
 
 /// Whether the two boxes have at least one point in common.
@@ -42,16 +44,19 @@ double distance(const Aabb& a, const Aabb& b);
 /// decides the remaining cases (Shewchuk, Adaptive Precision Floating-Point Arithmetic, 1997).
 bool withinDistance(const Aabb& a, const Aabb& b, double margin);
 
+///@{
 /// Returns `box` with every face moved outward by at least `by` [m], by >= 0. Two boxes whose distance is at most m
 /// overlap after they are grown by a and b, if a + b >= m.
 Aabb grown(const Aabb& box, double by);
 inline Eigen::AlignedBox3d grown(const Eigen::AlignedBox3d& box, double by) {
   return {box.min().array() - by, box.max().array() + by};
 }
+///@}
 
 /// Returns the same box in double, without rounding.
 inline Eigen::AlignedBox3d inDouble(const Aabb& box) { return {box.min.cast<double>(), box.max.cast<double>()}; }
 
+///@{
 /// Returns the point of the box that is nearest to `point` [m], or `point` itself if it is inside.
 inline Eigen::Vector3d nearestPoint(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& point) {
   return point.cwiseMax(box.min()).cwiseMin(box.max());
@@ -59,6 +64,7 @@ inline Eigen::Vector3d nearestPoint(const Eigen::AlignedBox3d& box, const Eigen:
 inline Eigen::Vector3d nearestPoint(const Aabb& box, const Eigen::Vector3d& point) {
   return nearestPoint(inDouble(box), point);
 }
+///@}
 
 /// Returns the length [m] of the shortest translation that separates two overlapping boxes, or 0 if they do not
 /// overlap.
@@ -66,7 +72,8 @@ double penetrationDepth(const Eigen::AlignedBox3d& first, const Eigen::AlignedBo
 
 /// One point of each of two boxes [m].
 struct BoxPoints {
-  Eigen::Vector3d on_first, on_second;
+  Eigen::Vector3d on_first;   ///< [m] point of the first box
+  Eigen::Vector3d on_second;  ///< [m] point of the second box
 };
 
 /// Returns a nearest point on each of two boxes. If there are many such pairs of points, it returns the middle ones: on

@@ -13,9 +13,9 @@ namespace hgrid {
 /// Its coordinates are relative to the same frame as the boxes that it is compared with. With radius 0 it is a line
 /// segment. If both ends are equal, it is a sphere.
 struct Segment {
-  Eigen::Vector3d from = Eigen::Vector3d::Zero();
-  Eigen::Vector3d to = Eigen::Vector3d::Zero();
-  double radius = 0.0;
+  Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< [m] where the center of the sphere starts
+  Eigen::Vector3d to = Eigen::Vector3d::Zero();    ///< [m] where the center of the sphere ends
+  double radius = 0.0;                             ///< [m] >= 0
 };
 
 /// How a swept segment touches a box.

@@ -21,8 +21,8 @@ const char* name(ShapeKind kind);
 
 /// A mesh: vertices [m], and triangles as three vertex indices each, counter-clockwise when seen from outside.
 struct TriangleMesh {
-  std::vector<Eigen::Vector3d> vertices;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<Eigen::Vector3d> vertices;                ///< [m]
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `vertices`
 };
 
 /// Checks that all vertices are finite and within `max_size` [m], that all indices are in range, and that at least one
@@ -44,22 +44,27 @@ struct ShapeLimits {
 /// tip of a cone is at +z.
 class Shape {
  public:
-  // These functions create a shape from its lengths [m] or its vertices.
-  // They throw Refusal (bad_geometry, nonfinite, out_of_range); its sentence names the value and the rule.
+  ///@{
+  /// Creates a shape from its lengths [m] or its vertices.
+  ///
+  /// The size of a box is its full side lengths. The height of a capsule does not include the round ends. A hull is the
+  /// convex hull of all vertices of a mesh; its triangles are ignored.
+  /// @throws Refusal with code bad_geometry, nonfinite or out_of_range; its sentence names the value and the rule
   static Shape sphere(double radius, const ShapeLimits& limits = {});
-  static Shape box(const Eigen::Vector3d& size, const ShapeLimits& limits = {});  ///< size: full side lengths
+  static Shape box(const Eigen::Vector3d& size, const ShapeLimits& limits = {});
   static Shape cylinder(double height, double radius, const ShapeLimits& limits = {});
   static Shape cone(double height, double radius, const ShapeLimits& limits = {});
-  /// The height does not include the round ends.
   static Shape capsule(double height, double radius, const ShapeLimits& limits = {});
   static Shape hull(std::shared_ptr<const TriangleMesh> vertices, const ShapeLimits& limits = {});
   static Shape mesh(std::shared_ptr<const TriangleMesh> mesh, const ShapeLimits& limits = {});
+  ///@}
 
   /// Creates a primitive from the number of its kind and its dimensions [m], in the order of the functions above.
   /// @throws Refusal with code unsupported if `kind` is not 1 .. 5; bad_geometry if the number or size of the
   /// dimensions is wrong
   static Shape primitive(int kind, const std::vector<double>& dimensions, const ShapeLimits& limits = {});
 
+  /// Returns the kind of the shape.
   ShapeKind kind() const { return kind_; }
   /// Returns the dimensions [m] in the order that primitive() expects; empty for hull and mesh.
   std::vector<double> dimensions() const;

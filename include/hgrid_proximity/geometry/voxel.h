@@ -17,12 +17,16 @@ struct Voxel {
   static constexpr int kLevels = 16;          ///< level of the cube that is the whole map, 65536 finest edges long
   static constexpr int kOriginKey = 1 << 15;  ///< key of the coordinate 0
 
-  std::uint16_t x = 0, y = 0, z = 0;
+  std::uint16_t x = 0;     ///< key of the minimum corner along x
+  std::uint16_t y = 0;     ///< key of the minimum corner along y
+  std::uint16_t z = 0;     ///< key of the minimum corner along z
   std::uint8_t level = 0;  ///< 0 .. kLevels; equal to 16 - depth in an OctoMap
 
+  /// Whether both are the same cube.
   bool operator==(const Voxel& other) const {
     return x == other.x && y == other.y && z == other.z && level == other.level;
   }
+  /// Whether the cubes differ.
   bool operator!=(const Voxel& other) const { return !(*this == other); }
 };
 static_assert(sizeof(Voxel) == 8, "Voxel must stay small: maps have millions of voxels");
@@ -38,10 +42,11 @@ inline double coordinateOf(std::uint32_t key, double finest_edge) {
   return (static_cast<int>(key) - Voxel::kOriginKey) * finest_edge;
 }
 
-/// Return the minimum and the maximum corner of the voxel [m, map frame].
+/// Returns the minimum corner of the voxel [m, map frame].
 inline Eigen::Vector3d minCorner(const Voxel& voxel, double finest_edge) {
   return {coordinateOf(voxel.x, finest_edge), coordinateOf(voxel.y, finest_edge), coordinateOf(voxel.z, finest_edge)};
 }
+/// Returns the maximum corner of the voxel [m, map frame].
 inline Eigen::Vector3d maxCorner(const Voxel& voxel, double finest_edge) {
   const std::uint32_t along = keysAlong(voxel);
   return {coordinateOf(voxel.x + along, finest_edge), coordinateOf(voxel.y + along, finest_edge),

@@ -28,6 +28,7 @@ class CloudCells {
   /// @param most      largest number of cells
   CloudCells(double edge, Time lifetime, std::size_t most);
 
+  /// Returns the edge [m] of a cell.
   double edge() const { return edge_; }
   /// Returns the minimum corner [m, world] of the cell whose three keys are Voxel::kOriginKey.
   Eigen::Vector3d corner() const;
@@ -37,6 +38,7 @@ class CloudCells {
   /// @returns the number of cells removed
   std::size_t follow(const Eigen::Vector3d& sensor);
   /// Returns the cells that contain the points [m, world], each cell once, in Morton order.
+  /// @param sensor    [m, world] position of the sensor
   /// @param left_out  receives the number of points that were ignored, since they are too far from the sensor
   std::vector<Voxel> cellsOf(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& sensor,
                              std::size_t& left_out) const;
@@ -49,6 +51,7 @@ class CloudCells {
   std::size_t forget(Time now);
   /// Returns all cells in Morton order.
   std::vector<Voxel> cells() const;
+  /// Returns the number of cells.
   std::size_t size() const { return seen_.size(); }
 
  private:

@@ -13,10 +13,10 @@ namespace hgrid {
 
 /// A shape of the robot itself that a sensor may have seen.
 struct SelfShape {
-  Shape shape;
-  std::shared_ptr<const Solid> solid;
-  Pose world_from_shape;
-  double padding = 0.0;  ///< [m] cells at most this far from the shape count as part of it
+  Shape shape;                         ///< the shape in its own frame
+  std::shared_ptr<const Solid> solid;  ///< the same shape, prepared by the narrow phase that withoutSelf() uses
+  Pose world_from_shape;               ///< pose of the shape when the sensor measured
+  double padding = 0.0;                ///< [m] cells at most this far from the shape count as part of it
 };
 
 /// The cells of a map that do not belong to the robot itself.
@@ -32,6 +32,8 @@ struct OthersCells {
 /// split, and its remaining smaller cells are kept. Any thread may call this.
 /// @param edge    [m] edge of a voxel of level 0
 /// @param voxels  the cells of the map, disjoint and in Morton order
+/// @param world_from_map  pose of the map at the time of the poses of `shapes`
+/// @param narrow_phase    created the solids of `shapes`
 OthersCells withoutSelf(const std::vector<Voxel>& voxels, double edge, const Pose& world_from_map,
                         const std::vector<SelfShape>& shapes, const NarrowPhase& narrow_phase);
 

@@ -17,7 +17,7 @@ namespace hgrid {
 
 /// A voxel and its distance.
 struct NearVoxel {
-  Voxel voxel;
+  Voxel voxel;            ///< the voxel
   double distance = 0.0;  ///< [m] from the box of the query to the voxel
 };
 
@@ -25,7 +25,7 @@ class Bricks;
 
 /// The voxel that a segment touches first.
 struct VoxelTouch {
-  Voxel voxel;
+  Voxel voxel;         ///< the voxel
   double along = 0.0;  ///< [m] distance along the segment to the first contact
 };
 
@@ -51,7 +51,7 @@ class StaticGrid {
   /// breaks a rule
   StaticGrid(double finest_edge, const std::vector<Voxel>& voxels);
 
-  double finestEdge() const { return finest_edge_; }
+  double finestEdge() const { return finest_edge_; }      ///< [m] edge of a voxel of level 0
   std::size_t size() const { return size_; }              ///< number of voxels
   std::size_t bytes() const;                              ///< [bytes] memory that the grid uses
   Eigen::AlignedBox3d bounds() const { return bounds_; }  ///< [m] box around all voxels; empty if there are none

@@ -32,10 +32,10 @@ inline bool isContact(Measure status) { return status >= Measure::contact; }
 
 /// Distance or contact of two padded shapes. Values that are not known are NaN.
 struct Proximity {
-  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  ///< stands for "not known"
 
-  Measure status = Measure::not_measured;
-  double distance = kUnknown;  ///< [m] 0 in contact; infinite if larger than the `up_to` of measure()
+  Measure status = Measure::not_measured;  ///< what the measurement found
+  double distance = kUnknown;              ///< [m] 0 in contact; infinite if larger than the `up_to` of measure()
   /// [m, world] Nearest point of the first shape; in contact its deepest point.
   Eigen::Vector3d on_first = Eigen::Vector3d::Constant(kUnknown);
   /// [m, world] Nearest point of the second shape; in contact its deepest point.
@@ -70,9 +70,9 @@ class Solid {
 /// A solid at a pose in the world, grown by its padding on all sides. It refers to the solid and the pose, which must
 /// outlive it.
 struct PlacedSolid {
-  const Solid& solid;
-  const Pose& world_from_shape;
-  double padding;  ///< [m] how much the solid is grown, >= 0
+  const Solid& solid;            ///< not owned
+  const Pose& world_from_shape;  ///< pose of the solid in the world; not owned
+  double padding;                ///< [m] how much the solid is grown, >= 0
 };
 
 /// Measures the exact distance of two shapes.

@@ -16,12 +16,12 @@ enum PairFlags : std::uint8_t {
 
 /// A pair of bodies whose boxes are within their margin, or may soon be.
 struct NearPair {
-  std::uint32_t first = 0;  ///< index into Structure::bodies, first < second
-  std::uint32_t second = 0;
-  double gap = 0.0;        ///< [m] least distance of their boxes
-  double margin = 0.0;     ///< [m] margin that selected the pair, including the growth for stale bodies
-  Time since{0};           ///< stamp of the tick since which the pair has been selected without interruption
-  std::uint8_t flags = 0;  ///< bits of PairFlags
+  std::uint32_t first = 0;   ///< index into Structure::bodies, first < second
+  std::uint32_t second = 0;  ///< index into Structure::bodies
+  double gap = 0.0;          ///< [m] least distance of their boxes
+  double margin = 0.0;       ///< [m] margin that selected the pair, including the growth for stale bodies
+  Time since{0};             ///< stamp of the tick since which the pair has been selected without interruption
+  std::uint8_t flags = 0;    ///< bits of PairFlags
 };
 
 }  // namespace hgrid

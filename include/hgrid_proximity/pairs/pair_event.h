@@ -30,11 +30,11 @@ enum class EventCause : std::uint8_t {
 /// a rule switches it off or when one of its bodies is removed.
 struct PairEvent {
   std::uint64_t number = 0;  ///< number of the event: 1 for the first event of an epoch, then one more each time
-  EventKind kind = EventKind::begin;
-  EventCause cause = EventCause::moved;
-  std::uint32_t first = 0;  ///< index into Snapshot::structureOf(event).bodies, first < second
-  std::uint32_t second = 0;
-  Time since{0};                                          ///< stamp of the tick in which the pair began
+  EventKind kind = EventKind::begin;     ///< whether the pair began or ended
+  EventCause cause = EventCause::moved;  ///< why it began or ended
+  std::uint32_t first = 0;               ///< index into Snapshot::structureOf(event).bodies, first < second
+  std::uint32_t second = 0;              ///< index into the same list
+  Time since{0};                         ///< stamp of the tick in which the pair began
   double gap = std::numeric_limits<double>::quiet_NaN();  ///< [m] gap of the pair; NaN if a body was removed
 };
 

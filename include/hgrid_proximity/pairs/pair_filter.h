@@ -38,7 +38,7 @@ struct PairDecision {
 /// keeps rules for two names in a sorted list. It matches globs once per body and stores the results as bit sets.
 class PairFilter {
  public:
-  static constexpr std::uint32_t kNoRule = PairDecision::kNoRule;
+  static constexpr std::uint32_t kNoRule = PairDecision::kNoRule;  ///< stands for "no rule"
 
   PairFilter() = default;
   /// @param bodies  the bodies that the indices in the other functions refer to; not kept
@@ -62,6 +62,7 @@ class PairFilter {
   /// Returns the decision about a pair with all details. Unlike origin(), it also tells which rule or SRDF tag says
   /// that the pair is reported.
   PairDecision decision(std::uint32_t first, std::uint32_t second) const;
+  /// Returns the rules in the order in which the constructor received them.
   const std::vector<PairRule>& rules() const { return rules_; }
   /// Returns whether a rule matches some pair of this body.
   bool isRuled(std::uint32_t body) const { return subjects_[body].ruled != 0; }

@@ -13,7 +13,8 @@ namespace hgrid {
 
 /// The margin of all pairs whose body names match these two globs, in either order.
 struct PairMargin {
-  std::string first, second;
+  std::string first;    ///< glob over the name of one body
+  std::string second;   ///< glob over the name of the other body
   double margin = 0.0;  ///< [m] >= 0
 };
 

@@ -16,10 +16,12 @@ namespace hgrid {
 /// In a list of rules, a rule for two names takes precedence over a rule with a glob. If two rules are equally exact in
 /// this sense, the later one takes precedence. Every rule takes precedence over the models of the robots.
 struct PairRule {
+  /// The clock for the end of a rule. Setting the system time does not change it.
   using Clock = std::chrono::steady_clock;
 
-  std::string first, second;  ///< body names or globs over body names
-  std::string reason;         ///< reason for the rule, shown to users
+  std::string first;   ///< name of one body, or a glob over body names
+  std::string second;  ///< name of the other body, or a glob over body names
+  std::string reason;  ///< reason for the rule, shown to users
   /// True: the bodies may touch, so their pair is not reported. False: the pair is reported.
   bool allowed = true;
   Origin origin = Origin::parameter;                  ///< where the rule comes from

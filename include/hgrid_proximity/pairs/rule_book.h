@@ -17,6 +17,7 @@ class RuleBook {
   /// @param most  maximum number of rules, including the configured ones
   explicit RuleBook(std::vector<PairRule> rules = {}, std::size_t most = 1000);
 
+  /// Returns the rules in force, in their order.
   const std::vector<PairRule>& rules() const { return rules_; }
 
   /// Adds rules as Origin::service. Drops older rules of Origin::service that have the same two names or globs as a new

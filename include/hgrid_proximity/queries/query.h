@@ -29,9 +29,9 @@ using QueryBox = OrientedBox;
 
 /// The shape of a shape query: any kind of shape at any pose.
 struct QueryShape {
-  Shape shape;
-  Pose world_from_shape = Pose::Identity();
-  double padding = 0.0;  ///< [m] the shape is grown by this length on all sides, >= 0
+  Shape shape;                               ///< the shape in its own frame
+  Pose world_from_shape = Pose::Identity();  ///< pose of the shape in the world
+  double padding = 0.0;                      ///< [m] the shape is grown by this length on all sides, >= 0
 };
 
 /// Finds the bodies whose boxes touch the sphere. An exact query compares their shapes instead of their boxes.

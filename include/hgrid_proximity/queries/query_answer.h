@@ -27,7 +27,7 @@ enum class Unknown : std::uint8_t {
 
 /// One body that a query hit. Points and normals are in the world frame. NaN: unknown or not applicable.
 struct QueryHit {
-  static constexpr double kUnknown = Proximity::kUnknown;
+  static constexpr double kUnknown = Proximity::kUnknown;  ///< NaN
 
   std::uint32_t body = 0;   ///< index into Structure::bodies
   std::uint32_t shape = 0;  ///< index of the nearest shape of the body; in a segment query: of the shape touched first
@@ -60,7 +60,7 @@ struct QueryHit {
 
 /// The answer to a query.
 struct QueryAnswer {
-  Verdict verdict = Verdict::unknown;
+  Verdict verdict = Verdict::unknown;  ///< the result in one word
   /// One hit per body, sorted by distance, then center_distance, then name. In a segment query: by `along`, then name.
   std::vector<QueryHit> hits;
   std::uint64_t total = 0;        ///< number of bodies hit; larger than hits.size() if QueryScope::limit cut the list

@@ -36,14 +36,15 @@ struct SceneOptions {
   bool report_unmapped = false;
   /// Globs over names of required bodies. If no body matches one of them, the world is incomplete.
   std::vector<std::string> required;
-  PairKinds pair_kinds;
+  PairKinds pair_kinds;                 ///< which kinds of pair exist at all
   std::vector<PairRule> allowed_pairs;  ///< rules until setRules() replaces them
 };
 
-/// Durations of the three parts of a commit. The part `boxes` computes the boxes of the bodies. The part `grid` updates
-/// the grid and searches it for overlapping boxes. The part `pairs` selects the pairs and does everything else.
+/// Durations of the three parts of a commit.
 struct TickTimes {
-  std::chrono::nanoseconds boxes{0}, grid{0}, pairs{0};
+  std::chrono::nanoseconds boxes{0};  ///< computes the boxes of the bodies
+  std::chrono::nanoseconds grid{0};   ///< updates the grid and searches it for overlapping boxes
+  std::chrono::nanoseconds pairs{0};  ///< selects the pairs and does everything else
 };
 
 /// Holds the bodies of the world and their poses, and makes snapshots of them.
@@ -61,6 +62,7 @@ class Scene {
   /// @throws Refusal out_of_range with the name of the option
   explicit Scene(const SceneOptions& options);
   ~Scene();
+  /// Takes over the content of another scene, which may then only be destroyed.
   Scene(Scene&&) noexcept;
 
   /// Adds a body. It is unplaced until place() is called.
@@ -76,8 +78,10 @@ class Scene {
   std::vector<BodyId> exchange(const std::vector<BodyId>& out, std::vector<Body> in);
   /// Sets `id` to the handle of the body with this name. @returns whether there is such a body
   bool find(const std::string& name, BodyId& id) const;
+  /// Returns the description of a body.
   /// @throws Refusal unknown_id
   const Body& body(BodyId id) const;
+  /// Returns the number of bodies.
   std::size_t size() const;
 
   /// Sets the pose of a body and the stamp of this pose. The first pose makes the body fresh. Later poses do not change

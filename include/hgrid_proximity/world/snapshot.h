@@ -22,11 +22,13 @@ namespace hgrid {
 /// The folder queries/ answers queries about a snapshot, distances/ measures its pairs, and explain/ explains them.
 class Snapshot {
  public:
+  /// The bodies, rules and margins of the snapshot: everything that does not change while bodies move.
   const Structure& structure() const { return *structure_; }
   /// Time of the tick.
   Time stamp() const { return stamp_; }
   /// Number of the tick in its epoch; the first one has number 1.
   std::uint64_t sequence() const { return sequence_; }
+  /// Number of the epoch, as passed to Scene::beginEpoch().
   std::uint64_t epoch() const { return epoch_; }
   /// Pose of each body, in the order of structure().bodies.
   const std::vector<BodyPose>& poses() const { return poses_; }
