@@ -68,8 +68,8 @@ struct Waiver {
   std::string pattern, reason;
 };
 
-/// All parameters of the node. visit() in params.cpp is the only table of their units, ranges and meanings.
-/// config/params.yaml shows this table; a test checks that the two agree.
+/// All parameters of the node. visitParams() in param_table.h is the only table of their units, ranges and meanings.
+/// config/params.yaml and doc/parameters.md show this table; a test checks that they agree with it.
 struct Params {
   std::string world_frame;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
@@ -127,5 +127,8 @@ Params readParams(XmlRpc::XmlRpcValue values);
 
 /// Returns the text of config/params.yaml: every parameter with its unit, default, range and meaning.
 std::string paramsAsYaml();
+
+/// Returns the text of doc/parameters.md: the same, as one table for each topic.
+std::string paramsAsMarkdown();
 
 }  // namespace hgrid
