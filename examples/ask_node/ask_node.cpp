@@ -61,7 +61,7 @@ void onPairs(const hgrid_proximity::Pairs& pairs) {
 int main(int argc, char** argv) {
   ros::init(argc, argv, "ask_node");
   ros::NodeHandle node("proximity");  // the name of the proximity node
-  ros::AsyncSpinner spinner(1);  // messages must not wait for answers: they would be too old
+  ros::AsyncSpinner spinner(1);       // messages must not wait for answers: they would be too old
   spinner.start();
   const ros::Subscriber subscriber = node.subscribe("pairs", 1, onPairs);
   Question<hgrid_proximity::QuerySphere> sphere(node, "query_sphere");

@@ -60,8 +60,8 @@ int main(int argc, char** argv) {
   putRobot(scene, *narrow, hgrid::readUrdf(urdf, {}), 0.7);  // {}: this robot has no mesh files
   hgrid::Body table;
   table.name = "obstacle/table";
-  table.shapes.push_back({hgrid::Shape::box({2.0, 2.0, 0.1}), hgrid::Pose::Identity(), 0.0, "",
-                          Eigen::Vector3d::Ones(), nullptr});
+  table.shapes.push_back(
+      {hgrid::Shape::box({2.0, 2.0, 0.1}), hgrid::Pose::Identity(), 0.0, "", Eigen::Vector3d::Ones(), nullptr});
   put(scene, *narrow, table, hgrid::Pose(Eigen::Translation3d(0.0, 0.0, -0.1)));
 
   const std::shared_ptr<const hgrid::Snapshot> snapshot = scene.commit(hgrid::Time{1}, {});
