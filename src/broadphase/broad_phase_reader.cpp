@@ -5,7 +5,7 @@
 namespace hgrid {
 namespace {
 
-/// Calls ask(query, found) for each query and appends what it found to the batch.
+/// Calls ask(query, found) for each query. Replaces the batch by the answers, which `ask` writes to `found`.
 template <class Query, class Found, class Ask>
 void askOneByOne(const std::vector<Query>& queries, BatchOf<Found>& batch, Ask&& ask) {
   batch.begin.clear();

@@ -24,7 +24,7 @@ bool isSupported(Isa isa) {
   }
 #endif
 #ifdef HGRID_NEON_KERNELS
-  if (isa == Isa::neon) return true;  // part of every 64-bit ARM processor
+  if (isa == Isa::neon) return true;  // every 64-bit ARM processor supports NEON
 #endif
   return isa == Isa::portable;
 }

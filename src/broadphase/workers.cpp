@@ -16,10 +16,11 @@
 namespace hgrid {
 namespace {
 
-// The parts of one bulk update follow each other faster than a thread goes to sleep and wakes up.
+// A thread that has nothing to do spins for this long before it sleeps. The parts of one bulk update follow each other
+// faster than a thread can go to sleep and wake up.
 constexpr std::chrono::microseconds kPatience{50};
 
-/// Waits for a little while. @returns whether the condition came true
+/// Checks the condition again and again, for at most kPatience. @returns whether it became true
 template <class Condition>
 bool waitBriefly(Condition&& condition) {
   const auto until = std::chrono::steady_clock::now() + kPatience;
@@ -28,19 +29,21 @@ bool waitBriefly(Condition&& condition) {
       if (condition()) return true;
     }
     if (std::chrono::steady_clock::now() > until) return condition();
-    std::this_thread::yield();  // somebody else may need the processor more
+    std::this_thread::yield();  // lets other threads use the processor
   }
 }
 
 }  // namespace
 
 struct Workers::State {
-  // A round is open while its caller takes part in it. Whoever wakes up too late for one is not waited for: the word
-  // holds the number of the round, whether it is open, and how many are inside, the caller not among them.
+  // Each call of run() is one round. A round is open until the caller finds no more jobs. A thread that wakes up after
+  // that takes no part, and the caller does not wait for it. The bits of `round` hold the number of the round, whether
+  // it is open, and the number of threads inside it, without the caller.
   static constexpr std::uint64_t kInside = 0xffff, kOpen = 0x10000, kNumber = ~(kInside | kOpen);
 
-  /// Jobs that one thread begins with: from begin (lower half of the word) up to end. The thread takes them from the
-  /// front, who has nothing left of its own from the back, so that neighbours stay together and in one cache.
+  /// The jobs that one thread starts with: from `begin` (lower half of `left`) up to `end` (upper half). The thread
+  /// takes jobs from the front. Threads that have finished their own jobs take some from the back. So one thread mostly
+  /// runs consecutive jobs, whose data are in its cache.
   struct alignas(64) Share {
     std::atomic<std::uint64_t> left{0};
 
@@ -69,8 +72,8 @@ struct Workers::State {
   bool stop = false;
   std::unique_ptr<Share[]> shares;
   std::vector<std::thread> threads;
-  std::atomic_flag failed = ATOMIC_FLAG_INIT;  // a job of this round threw
-  std::exception_ptr error;                    // written by the thread that set `failed`
+  std::atomic_flag failed = ATOMIC_FLAG_INIT;  // a job of this round has thrown an exception
+  std::exception_ptr error;                    // that exception; written by the thread that set `failed`
 
   void work(std::size_t self) {
     const std::size_t count = threads.size() + 1;
@@ -80,18 +83,18 @@ struct Workers::State {
       }
     } catch (...) {
       if (!failed.test_and_set(std::memory_order_relaxed)) error = std::current_exception();
-      for (std::size_t i = 0; i < count; ++i) shares[i].set(0, 0);  // no thread begins another job
+      for (std::size_t i = 0; i < count; ++i) shares[i].set(0, 0);  // no thread starts another job
     }
   }
 
-  /// Throws the first exception of the round, if there is one. All threads have left the round.
+  /// Throws the first exception of the round, if there is one. The caller calls this after all threads left the round.
   void rethrow() {
     if (!error) return;
     failed.clear(std::memory_order_relaxed);
     std::rethrow_exception(std::exchange(error, nullptr));
   }
 
-  /// Whether there is a round that this thread has not seen; it is inside then.
+  /// Enters the open round, unless its number is `seen`: then this thread was in it before. @returns whether it entered
   bool enter(std::uint64_t& seen) {
     std::uint64_t now = round.load(std::memory_order_relaxed);
     while ((now & kOpen) != 0 && (now & kNumber) != seen) {
@@ -131,7 +134,7 @@ Workers::Workers(int threads) : state_(std::make_unique<State>()) {
       s.threads.emplace_back([&s, i] { s.live(static_cast<std::size_t>(i)); });
     }
   } catch (const std::exception&) {
-    // The system has no thread or no memory left for one. Fewer threads do the same work.
+    // The system has no thread or no memory left. The threads that were created do all the work.
   }
 }
 

@@ -8,21 +8,23 @@
 
 namespace hgrid {
 
-/// Threads that wait for work. One caller at a time; the caller works too.
+/// A pool of threads that run jobs in parallel. One thread at a time may call run(). That thread runs jobs, too.
 class Workers {
  public:
-  /// @param threads  how many work at once, the caller among them, at least 1; fewer if the system gives no more
+  /// @param threads  number of threads that work at once, including the caller, at least 1. There are fewer if the
+  ///                 system cannot create them all.
   explicit Workers(int threads);
   ~Workers();
 
+  /// Returns the number of threads that work at once, including the caller.
   int threads() const;
 
   /// Calls job(0, thread) .. job(count - 1, thread), each once and in any order. Returns when all jobs are done.
-  /// `thread` is below threads(). Each thread begins with the same share of consecutive jobs every time.
-  /// Allocates nothing.
+  /// `thread` is the number of the thread that runs the job; it is less than threads(). For the same `count`, each
+  /// thread starts with the same share of consecutive jobs in every call. Allocates nothing.
   ///
-  /// When a job throws, no thread begins another job. After all threads have finished theirs, the first exception is
-  /// thrown to the caller. The workers can be used again.
+  /// When a job throws, no thread starts another job. After all threads have finished their current jobs, run() throws
+  /// the first exception. Then run() can be called again.
   template <class Job>
   void run(std::size_t count, Job&& job) {
     runAll(

@@ -77,7 +77,7 @@ class Builder {
     for (int above = level + 1; above < kBrickLevels; ++above) {
       Open& outer = open_[static_cast<std::size_t>(above)];
       const std::uint64_t part = std::uint64_t{1} << (code >> 6 * above & 63u);
-      if ((outer.cells & part) != 0) break;  // then all larger bricks have their cell set, too
+      if ((outer.cells & part) != 0) break;  // the cells of all larger bricks are already set, too
       if (outer.cells == 0) begin(above);
       outer.cells |= part;
     }

@@ -141,7 +141,7 @@ class LineSearch {
   int axisOf(std::size_t other) const { return (main_ + 1 + static_cast<int>(other)) % 3; }
   static double edgeOf(int level) { return static_cast<double>(std::int64_t{1} << 2 * level); }
 
-  /// Fills the frame of the brick where the search starts.
+  /// Computes the Frame of the brick where the search starts.
   void begin(const std::array<double, 2>& slopes) {
     const Brick& start = bricks_.start;
     Frame& frame = frames_[static_cast<std::size_t>(start.level)];

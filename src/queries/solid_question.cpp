@@ -93,8 +93,8 @@ class SolidQuestion final : public Question {
   std::optional<OrientedBox> box_;  // the solid, if it is a box without padding
 };
 
-/// Returns the penetration depth [m] of the solid and a box. It is always known if the solid is a box. Otherwise the
-/// narrow phase may not have returned one.
+/// Returns the penetration depth [m] of the solid and a box. If the solid is not a box, this is the depth that the
+/// narrow phase returned, if any.
 double SolidQuestion::depthIn(const OrientedBox& box, const Proximity& found) const {
   return box_ && !(found.distance > 0.0) ? penetrationDepth(*box_, box) : found.depth;
 }

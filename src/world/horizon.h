@@ -50,7 +50,7 @@ class Horizon {
     std::vector<Time> stamps;  // indexed by body; negative: the body had no pose
   };
   Kept last_, now_;               // last_: the last accepted tick; now_: the tick of the last step()
-  std::vector<Aabb> swept_;       // indexed by proxy
+  std::vector<Aabb> swept_;       // indexed by proxy: box around its boxes at the last tick and now
   std::vector<bool> was_placed_;  // indexed by body: whether it had a pose in the last tick, in the same structure
   std::vector<bool> teleported_;  // indexed by body
   std::vector<double> reach_;     // [m] indexed by body

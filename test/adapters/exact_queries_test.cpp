@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Exact queries against a look at every shape of every body, and hits against shapes whose answer is known.
+// Compares exact queries with a check of every shape of every body, and with answers that are known in advance.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -39,7 +39,8 @@ class ExactQueries : public ::testing::Test {
     scope.exact = phase_.get();
     return scope;
   }
-  /// The least distance of a solid to any shape of a body. @param surely  open meshes enclose nothing for sure
+  /// Returns the least distance of a solid to any shape of a body.
+  /// @param surely  ignores open meshes that only perhaps enclose the solid
   double distanceTo(const Solid& solid, const Pose& pose, double padding, std::uint32_t body,
                     bool surely = false) const {
     double least = kInfinity;
@@ -74,15 +75,15 @@ class ExactQueries : public ::testing::Test {
   template <class DistanceTo>
   void expectHits(const QueryAnswer& answer, const DistanceTo& distanceTo, double reach) const {
     std::map<std::uint32_t, QueryHit> hits;
-    for (const QueryHit& hit : answer.hits) ASSERT_TRUE(hits.emplace(hit.body, hit).second) << "one body twice";
+    for (const QueryHit& hit : answer.hits) ASSERT_TRUE(hits.emplace(hit.body, hit).second) << "a body is listed twice";
     for (std::uint32_t body = 0; body < snapshot_->structure().bodies.size(); ++body) {
       const double distance = distanceTo(body);
       SCOPED_TRACE(std::to_string(body) + " at " + std::to_string(distance));
       if (hits.count(body) == 0) {
-        ASSERT_GT(distance, reach) << "missed";
+        ASSERT_GT(distance, reach) << "a hit is missing";
         continue;
       }
-      ASSERT_LE(distance, reach + 1e-7) << "too much";
+      ASSERT_LE(distance, reach + 1e-7) << "a hit is too far away";
       ASSERT_NEAR(hits[body].center_distance, distance, 1e-6);
     }
   }
@@ -104,7 +105,7 @@ TEST_F(ExactQueries, SpheresFindExactlyTheShapesTheyTouch) {
           return distanceTo(*phase_->point(), at(sphere.center.x(), sphere.center.y(), sphere.center.z()), 0.0, body);
         },
         sphere.radius);
-    EXPECT_LE(answer.total, query(*snapshot_, sphere, QueryScope{}).total) << "boxes find no less";
+    EXPECT_LE(answer.total, query(*snapshot_, sphere, QueryScope{}).total) << "a query by boxes finds less";
   }
 }
 
@@ -127,9 +128,9 @@ TEST_F(ExactQueries, SegmentsFindTheFirstTouchOnTheShape) {
       ASSERT_LE(hit.along, length);
       for (int k = 0; k < 20 && hit.along > 0.0; ++k) {
         const double before = hit.along * k / 20.0 * (1.0 - 1e-9);
-        ASSERT_GT(ball(before, hit.body, true), segment.radius - 1e-7) << "it touches earlier";
+        ASSERT_GT(ball(before, hit.body, true), segment.radius - 1e-7) << "the segment touches the body earlier";
       }
-      ASSERT_LE(ball(hit.along, hit.body, false), segment.radius + 1e-4) << "it does not touch there";
+      ASSERT_LE(ball(hit.along, hit.body, false), segment.radius + 1e-4) << "the segment does not touch the body there";
     }
   }
   EXPECT_GT(met, 100);
@@ -144,7 +145,7 @@ TEST_F(ExactQueries, ARayMeetsABoxWhereItsFaceIs) {
   snapshot_ = scene_.commit(Time{1}, {});
   const QueryAnswer answer = query(*snapshot_, Segment{{0, 0.1, 0.2}, {10, 0.1, 0.2}, 0.0}, exactly());
   ASSERT_EQ(answer.hits.size(), 1u);
-  const double expected = 3.0 - std::sqrt(0.5) + 0.1;  // a corner of the turned box looks at the ray
+  const double expected = 3.0 - std::sqrt(0.5) + 0.1;  // a vertical edge of the turned box points at the ray
   EXPECT_NEAR(answer.hits[0].along, expected, 1e-6);
   EXPECT_LT((answer.hits[0].point - Eigen::Vector3d(expected, 0.1, 0.2)).norm(), 1e-6);
   EXPECT_LT((answer.hits[0].normal - Eigen::Vector3d(-std::sqrt(0.5), std::sqrt(0.5), 0.0)).norm(), 1e-3);
@@ -163,9 +164,9 @@ TEST_F(ExactQueries, BoxesFindExactlyTheShapesTheyTouch) {
     for (std::uint32_t body = 0; body < snapshot_->structure().bodies.size(); ++body) {
       const double distance = distanceTo(*solid, box.world_from_box, 0.0, body);
       if (hits.count(body) == 0) {
-        ASSERT_GT(distance, 0.0) << "missed " << body;
+        ASSERT_GT(distance, 0.0) << "missing hit of body " << body;
       } else {
-        ASSERT_LE(distance, 1e-7) << "too much " << body;
+        ASSERT_LE(distance, 1e-7) << "hit is too far away: body " << body;
       }
     }
     const QueryAnswer by_boxes = query(*snapshot_, box, *phase_, QueryScope{});

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// A mesh reader that does what its file name says instead of reading. Copied by mesh_helper_test.cpp under
-// names like `hang`; `replay` writes the bytes of the file beside it, `drip` one at a time.
+// A fake mesh reader: its own file name decides what it does instead of reading a mesh. mesh_helper_test.cpp copies it
+// under names such as `hang`. Under the name `replay` it writes all bytes of the file `replay.out` beside it. Under the
+// name `drip` it writes the bytes of `drip.out` one at a time.
 #include <unistd.h>
 
 #include <csignal>
@@ -38,11 +39,11 @@ int main() {
   if (deed == "crash") std::raise(SIGSEGV);
   if (deed == "abort") std::abort();
   if (deed == "hang") sleepForever();
-  if (deed == "hang_mute") {  // closes its output and lives on
+  if (deed == "hang_mute") {  // closes its output, but does not end
     close(1);
     sleepForever();
   }
-  if (deed == "hang_deaf") {  // cannot be asked to end
+  if (deed == "hang_deaf") {  // ignores the signals that ask it to end
     std::signal(SIGTERM, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
     sleepForever();
@@ -53,7 +54,7 @@ int main() {
   if (deed == "replay" || deed == "drip") {
     std::FILE* file = std::fopen((self + ".out").c_str(), "rb");
     if (!file) return 4;
-    const bool drips = deed == "drip";  // a byte now and then: each one in time, all of them never
+    const bool drips = deed == "drip";  // one byte every 20 ms, so that the whole file takes too long
     std::size_t count = 0;
     while ((count = std::fread(buffer, 1, drips ? 1 : sizeof buffer, file)) > 0) {
       put(std::string(buffer, count));

@@ -30,12 +30,12 @@ namespace {
 struct Question {
   double bound;
   const std::function<bool(std::size_t, std::size_t)>& allowed;
-  std::map<std::pair<std::size_t, std::size_t>, double> least;  // per pair of bodies
+  std::map<std::pair<std::size_t, std::size_t>, double> least;  // [m] least distance, by pair of bodies
 };
 
 bool onPair(fcl::CollisionObjectd* first, fcl::CollisionObjectd* second, void* data, double& distance) {
   Question& question = *static_cast<Question*>(data);
-  distance = question.bound;  // the tree looks no farther
+  distance = question.bound;  // tells the tree to skip pairs that are farther apart
   const auto bodyOf = [](const fcl::CollisionObjectd& object) {
     return *static_cast<const std::size_t*>(object.getUserData());
   };

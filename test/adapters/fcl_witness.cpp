@@ -50,7 +50,7 @@ std::shared_ptr<fcl::CollisionGeometryd> fclGeometry(const Shape& shape) {
     case ShapeKind::hull:
       break;
   }
-  throw std::invalid_argument("no FCL geometry for this shape");
+  throw std::invalid_argument("FCL has no geometry for a hull");
 }
 
 FclBody::FclBody(const Body& body) {
@@ -86,7 +86,7 @@ double FclBody::partDistance(const Part& a, const Pose& world_from_a, const Part
   request.enable_signed_distance = false;
   request.distance_tolerance = 1e-10;
   request.gjk_solver_type = fcl::GST_LIBCCD;
-  fcl::DistanceResultd result(cutoff);  // what FCL starts from: nothing farther is looked into
+  fcl::DistanceResultd result(cutoff);  // FCL skips everything that is farther away
   fcl::distance(a.geometry.get(), pose_a, b.geometry.get(), pose_b, request, result);
   if (result.min_distance <= 0.0) return 0.0;
   fcl::CollisionRequestd touch;

@@ -12,19 +12,20 @@
 namespace hgrid {
 namespace test {
 
-/// A shape as described, to FCL. @throws std::invalid_argument for a hull
+/// Converts a shape, without padding, to an FCL geometry. @throws std::invalid_argument for a hull
 std::shared_ptr<fcl::CollisionGeometryd> fclGeometry(const Shape& shape);
 
-/// A body as FCL sees it: its shapes, and a ball round each that the product knows nothing of.
+/// A body as FCL represents it, for reference distances. Each shape also has a bounding sphere, computed here
+/// independently of the product.
 ///
-/// Distances are those of the shapes as described, in double (by GST_LIBCCD, unsigned: the only way of FCL
-/// 0.7 without failures). What the surfaces of two shapes cut counts as 0; a shape wholly inside a closed
-/// mesh does not: FCL takes the mesh for a surface.
+/// The distances are unsigned, without padding, and computed in double with GST_LIBCCD. This is the only method of FCL
+/// 0.7 that did not fail. The distance is 0 if the surfaces of two shapes intersect. It is not 0 if a shape is wholly
+/// inside a closed mesh, because FCL treats a mesh as a surface.
 class FclBody {
  public:
   explicit FclBody(const Body& body);
 
-  /// The exact distance [m] of the two bodies, 0 if they touch, or `cutoff` if it is that much or more.
+  /// Returns the exact distance [m] of the two bodies, or `cutoff` if the distance is larger; 0 if they touch.
   friend double fclDistance(const FclBody& a, const Pose& world_from_a, const FclBody& b, const Pose& world_from_b,
                             double cutoff);
 
@@ -32,7 +33,7 @@ class FclBody {
   struct Part {
     std::shared_ptr<fcl::CollisionGeometryd> geometry;
     Pose body_from_part;
-    Eigen::Vector3d center;  // of the ball, in the part's frame
+    Eigen::Vector3d center;  // center of the bounding sphere, in the part's frame
     double radius;
   };
   static double partDistance(const Part& a, const Pose& world_from_a, const Part& b, const Pose& world_from_b,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Exact distances of bodies to maps: those of a scan that measures every cell.
+// Compares exact distances between bodies and maps with those of a scan that measures every cell.
 #include <gtest/gtest.h>
 
 #include "hgrid_proximity/adapters/fcl.h"
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kEdge = 0.1, kInfinity = std::numeric_limits<double>::infinity();
 
-/// Bodies of one to three solids around two maps, one of whose names comes after theirs.
+/// A world of two maps and of bodies with one to three solids. The name of one map sorts after the names of the bodies.
 class MapDistances : public ::testing::TestWithParam<unsigned> {
  protected:
   MapDistances() : random_(GetParam()) {
@@ -50,7 +50,7 @@ class MapDistances : public ::testing::TestWithParam<unsigned> {
     const auto grid = std::make_shared<StaticGrid>(kEdge, voxels_[name]);
     scene_.setCells(ids_[name], makeMapCells(grid, *narrow_phase_));
   }
-  /// Of every cell, from the body, ascending.
+  /// Returns the distance [m] of every cell of a map from a body, in ascending order.
   std::vector<double> distancesByHand(const Snapshot& snapshot, std::uint32_t map, std::uint32_t body) const {
     std::vector<double> distances;
     for (const Voxel& voxel : voxels_.at(snapshot.structure().bodies[map].name)) {
@@ -95,7 +95,7 @@ TEST_P(MapDistances, OfPairsAreThoseOfTheNearestCells) {
       EXPECT_EQ(isContact(found.proximity.status), expected.front() == 0.0);
       ASSERT_EQ(found.cells.size(), kNearCells);
       for (std::size_t i = 0; i < kNearCells; ++i) EXPECT_NEAR(found.cells[i].distance, expected[i], 1e-8);
-      if (expected.front() > 0.0) {  // from the first to the second, whichever is the map
+      if (expected.front() > 0.0) {  // the map can be the first body or the second one
         const Eigen::Vector3d way = found.proximity.on_second - found.proximity.on_first;
         EXPECT_NEAR(way.norm(), expected.front(), 1e-6);
         const Eigen::Vector3d on_map = first == map ? found.proximity.on_first : found.proximity.on_second;
@@ -111,8 +111,8 @@ TEST_P(MapDistances, OfPairsAreThoseOfTheNearestCells) {
   }
 }
 
-TEST_P(MapDistances, FromTickToTickAreThoseThatOneWouldMeasureAnew) {
-  constexpr double kReport = 0.1;  // [m] many pairs are farther apart, and known to be
+TEST_P(MapDistances, FromTickToTickEqualNewMeasurements) {
+  constexpr double kReport = 0.1;  // [m] small, so that many pairs are known to be farther apart
   PairMeter meter(narrow_phase_, {kReport, 0.0, 1});
   std::size_t measured = 0;
   for (int tick = 1; tick <= 40; ++tick) {
@@ -120,7 +120,7 @@ TEST_P(MapDistances, FromTickToTickAreThoseThatOneWouldMeasureAnew) {
     const int deed = random_.below(6);
     if (deed == 0) fill("map/room");
     if (deed == 1) scene_.place(ids_["zone/cloud"], pose(), Time{tick});
-    if (deed > 1) {  // a small step
+    if (deed > 1) {  // moves a body by a small step
       const std::string name = deed == 2 ? "map/room" : "obstacle/" + std::to_string(random_.below(6));
       const Pose step = randomPose(random_, 0.01);
       Pose moved = scene_.poseOf(ids_[name]).world_from_body;
@@ -146,20 +146,20 @@ TEST_P(MapDistances, FromTickToTickAreThoseThatOneWouldMeasureAnew) {
   EXPECT_GT(measured, 40u);
 }
 
-// What turns about the map's origin comes nearer to a cell, though the map's origin stays where it was for it.
-TEST(MapDistancesOfABar, ThatTurnsTowardsACellAreMeasuredAnew) {
+// A bar that turns about the map's origin comes nearer to a cell, although its position does not change.
+TEST(MapDistancesOfABar, ThatTurnsTowardsACellAreMeasuredAgain) {
   const std::shared_ptr<NarrowPhase> narrow_phase = makeFclNarrowPhase();
   SceneOptions options;
   options.margin = 0.5;
   Scene scene(options);
   Body zone = mapBody("zone"), bar = obstacle("bar");
-  zone.name = "zone/cells";  // comes after the bar
+  zone.name = "zone/cells";  // sorts after the name of the bar
   BodyShape shape = shapeOf(Shape::box({2.0, 0.1, 0.1}));
   shape.solid = narrow_phase->solidOf(shape.shape);
   bar.shapes.push_back(shape);
-  const BodyId id = put(scene, bar, at(0));  // turned, so that its box has the cell
+  const BodyId id = put(scene, bar, at(0));  // turn() rotates it, so that its AABB contains the cell
   const auto grid = std::make_shared<StaticGrid>(0.01, std::vector<Voxel>{{32768 + 54, 32768 + 79, 32768, 0}});
-  scene.setCells(put(scene, zone, at(0)), makeMapCells(grid, *narrow_phase));  // 0.12 m from the bar
+  scene.setCells(put(scene, zone, at(0)), makeMapCells(grid, *narrow_phase));  // 0.12 m between cell and bar
   PairMeter meter(narrow_phase, {0.1, 0.0, 1});
   const auto turn = [&](double angle) {
     Pose turned = Pose::Identity();
@@ -168,7 +168,8 @@ TEST(MapDistancesOfABar, ThatTurnsTowardsACellAreMeasuredAnew) {
     return meter.measure(*scene.commit(Time{2}, {}));
   };
   EXPECT_TRUE(turn(0.0)->pairs.empty());
-  EXPECT_TRUE(turn(1e-6)->pairs.empty()) << "what moves little is looked for farther than is reported";
+  EXPECT_TRUE(turn(1e-6)->pairs.empty())
+      << "the meter searches farther than it reports, so a small move needs no new search";
   const auto distances = turn(0.05);
   ASSERT_EQ(distances->pairs.size(), 1u);
   EXPECT_NEAR(distances->pairs.front().proximity.distance, 0.073, 0.002);
@@ -210,7 +211,7 @@ TEST_P(MapDistances, OfExactQueriesAreThoseOfTheNearestCells) {
   }
 }
 
-/// Claim: a box is CLEAR exactly where none of its points is in an unknown cell or beyond what the map speaks of.
+// A query of a box must be CLEAR exactly if the box is inside the extent of the map and touches no unknown cell.
 TEST(UnmappedBoxes, AreThoseOfAScanOfAllUnknownCells) {
   const auto narrow_phase = makeFclNarrowPhase();
   std::size_t clear = 0, unknown_space = 0;
@@ -230,7 +231,7 @@ TEST(UnmappedBoxes, AreThoseOfAScanOfAllUnknownCells) {
     for (int i = 0; i < 100; ++i) {
       const Pose map_from_box = randomPose(random, 1.5);
       const QueryBox box{world_from_map * map_from_box, Eigen::Vector3d(random.uniform(0.0, 0.6), 0.2, 0.1)};
-      double room = kInfinity;  // [m] negative or 0: the box is not wholly known
+      double room = kInfinity;  // [m] distance of the box from unknown space; <= 0 if they touch
       for (int corner = 0; corner < 8; ++corner) {
         Eigen::Vector3d at = 0.5 * box.size;
         for (int axis = 0; axis < 3; ++axis) at[axis] *= corner >> axis & 1 ? 1.0 : -1.0;

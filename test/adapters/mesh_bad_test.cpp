@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Files that are no mesh, and meshes that are none.
+// Reads files that contain no mesh, and meshes that are invalid. All must be rejected with the right code.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -19,7 +19,7 @@ namespace {
 
 using Triangle = std::array<std::array<float, 3>, 3>;
 
-/// A binary STL whose header says `count`.
+/// Returns a binary STL file whose header claims `count` triangles.
 std::string stl(const std::vector<Triangle>& triangles, std::uint32_t count) {
   std::string bytes(84, ' ');
   std::memcpy(&bytes[80], &count, 4);
@@ -56,24 +56,24 @@ const Triangle kFlat = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
 const Triangle kPoint = {{{1, 2, 3}, {1, 2, 3}, {1, 2, 3}}};
 const Triangle kLine = {{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}};
 
-TEST_F(BadMesh, WithoutAnAreaIsRefused) {  // B10
+TEST_F(BadMesh, WithoutAnAreaIsRefused) {
   EXPECT_EQ(refusal("points.stl", stl({kPoint, kPoint})), Code::bad_geometry) << sentence_;
   EXPECT_EQ(refusal("lines.stl", stl({kLine, kPoint})), Code::bad_geometry) << sentence_;
   EXPECT_TRUE(says(sentence_, "lines.stl"));
   EXPECT_EQ(refusal("one.stl", stl({kPoint, kFlat})), Code::ok) << sentence_;
   for (const Code code : {refusal("none.stl", stl({})), refusal("vertex.obj", "v 1 2 3\n"),
                           refusal("edge.obj", "v 1 2 3\nv 2 2 3\nl 1 2\n")}) {
-    EXPECT_TRUE(code == Code::bad_geometry || code == Code::parse) << name(code);  // the parser may notice first
+    EXPECT_TRUE(code == Code::bad_geometry || code == Code::parse) << name(code);  // the parser may find it first
   }
 }
 
-TEST_F(BadMesh, IndicesOutOfRangeAreRefused) {  // B11
+TEST_F(BadMesh, IndicesOutOfRangeAreRefused) {
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   for (const char* face : {"f 1 2 4\n", "f 1 2 99999999\n", "f -1 -2 -9\n", "f 0 1 2\n", "f 1 2 4294967297\n"}) {
     const Code code = refusal("a.obj", vertices + face);
     EXPECT_TRUE(code == Code::bad_geometry || code == Code::parse) << face << name(code) << " " << sentence_;
   }
-  EXPECT_EQ(refusal("a.obj", vertices + "f -1 -2 -3\n"), Code::ok) << "counted from the end";
+  EXPECT_EQ(refusal("a.obj", vertices + "f -1 -2 -3\n"), Code::ok) << "negative indices count from the end";
 
   TriangleMesh mesh = *tetrahedron();
   for (const std::uint32_t index : {4u, 0x7fffffffu, 0xffffffffu}) {
@@ -86,7 +86,7 @@ TEST_F(BadMesh, IndicesOutOfRangeAreRefused) {  // B11
   }
 }
 
-TEST_F(BadMesh, VerticesThatAreNoneAreRefused) {  // B12
+TEST_F(BadMesh, InvalidVerticesAreRefused) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   for (int k = 0; k < 3; ++k) {
     for (const float value : {nan, inf, -inf}) {
@@ -103,16 +103,16 @@ TEST_F(BadMesh, VerticesThatAreNoneAreRefused) {  // B12
   EXPECT_EQ(refusal("a.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n") == Code::ok, false);
 }
 
-TEST_F(BadMesh, TheCheckIsThatOfItsArguments) {
+TEST_F(BadMesh, CheckMeshAppliesItsLimit) {
   TriangleMesh mesh = *tetrahedron();
-  EXPECT_EQ(refusalOf([&] { checkMesh(mesh, 0.5, "m"); }), Code::ok) << "the limit itself is allowed";
+  EXPECT_EQ(refusalOf([&] { checkMesh(mesh, 0.5, "m"); }), Code::ok) << "a size equal to the limit is allowed";
   EXPECT_EQ(refusalOf([&] { checkMesh(mesh, 0.49, "m"); }), Code::out_of_range);
   mesh.vertices.push_back({0, std::nan(""), 0});
-  EXPECT_EQ(refusalOf([&] { checkMesh(mesh, 1, "m"); }), Code::nonfinite) << "also where no triangle uses it";
+  EXPECT_EQ(refusalOf([&] { checkMesh(mesh, 1, "m"); }), Code::nonfinite) << "an unused vertex must be finite, too";
   EXPECT_EQ(refusalOf([&] { checkMesh({}, 1, "m"); }), Code::bad_geometry);
 }
 
-TEST_F(BadMesh, TrianglesAreLimited) {  // B13
+TEST_F(BadMesh, TrianglesAreLimited) {
   policy_.max_triangles = 3;
   EXPECT_EQ(refusal("a.stl", stl({kFlat, kFlat, kFlat})), Code::ok) << sentence_;
   EXPECT_EQ(refusal("b.stl", stl({kFlat, kFlat, kFlat, kFlat})), Code::limit);
@@ -121,7 +121,7 @@ TEST_F(BadMesh, TrianglesAreLimited) {  // B13
       << sentence_;
 }
 
-/// A square of `count` triangles side by side.
+/// Returns `count` triangles side by side, in rows of 1000.
 std::vector<Triangle> square(int count) {
   std::vector<Triangle> triangles;
   triangles.reserve(static_cast<std::size_t>(count));
@@ -132,14 +132,14 @@ std::vector<Triangle> square(int count) {
   return triangles;
 }
 
-TEST_F(BadMesh, AMillionTrianglesAreTakenAndNoMore) {  // B13
+TEST_F(BadMesh, AMillionTrianglesAreTakenAndNoMore) {
   policy_.max_memory = 4096u * (std::size_t{1} << 20);
   ASSERT_EQ(refusal("a.stl", stl(square(1000000))), Code::ok) << sentence_;
   EXPECT_EQ(mesh_->triangles.size(), 1000000u);
   EXPECT_EQ(refusal("b.stl", stl(square(1000001))), Code::limit) << sentence_;
 }
 
-TEST_F(BadMesh, WhatNeedsMoreMemoryIsOverALimit) {  // F9: it is not the file that is wrong
+TEST_F(BadMesh, TooMuchMemoryIsRefusedAsALimit) {  // not as a parse error, since the file is valid
 #if defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "the helper does not limit its memory under the address sanitizer";
 #endif
@@ -151,13 +151,13 @@ TEST_F(BadMesh, WhatNeedsMoreMemoryIsOverALimit) {  // F9: it is not the file th
   EXPECT_TRUE(says(sentence_, "memory"));
 }
 
-TEST_F(BadMesh, CountsThatTheFileDoesNotHoldAreRefused) {
+TEST_F(BadMesh, CountsLargerThanTheFileAreRefused) {
   for (const std::uint32_t count : {2u, 1000000u, 0x7fffffffu, 0xffffffffu}) {
     EXPECT_NE(refusal("a.stl", stl({kFlat}, count)), Code::ok) << count;
   }
 }
 
-TEST_F(BadMesh, ScalesThatMakeNoMeshAreRefused) {  // B14
+TEST_F(BadMesh, ScalesThatMakeNoMeshAreRefused) {
   const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
   const std::string solid = fileText(ownData() + "/meshes/corner.stl");
   for (int k = 0; k < 3; ++k) {
@@ -172,7 +172,7 @@ TEST_F(BadMesh, ScalesThatMakeNoMeshAreRefused) {  // B14
   EXPECT_EQ(refusal("a.stl", solid, {1e7, 1, 1}), Code::out_of_range) << sentence_;
 }
 
-TEST_F(BadMesh, OtherKindsOfFileAreUnsupported) {  // F7
+TEST_F(BadMesh, OtherKindsOfFileAreUnsupported) {
   const std::string solid = fileText(ownData() + "/meshes/corner.stl");
   for (const char* name : {"a.ply", "a.fbx", "a.blend", "a.gltf", "a.PLY", "stl", "a.", "a.stl.gz", "a.stl/b"}) {
     EXPECT_EQ(refusal(name, solid), Code::unsupported) << name;
@@ -180,7 +180,7 @@ TEST_F(BadMesh, OtherKindsOfFileAreUnsupported) {  // F7
   }
 }
 
-TEST_F(BadMesh, ContentOfAnotherKindIsRefused) {  // F8
+TEST_F(BadMesh, ContentOfAnotherKindIsRefused) {
   const std::string zip = std::string("PK\x03\x04\x14\x00\x00\x00\x08\x00", 10) + std::string(200, '\x5a');
   const std::string ply = "ply\nformat ascii 1.0\nelement vertex 0\nend_header\n";
   for (const char* name : {"a.stl", "a.obj", "a.dae"}) {
@@ -192,7 +192,7 @@ TEST_F(BadMesh, ContentOfAnotherKindIsRefused) {  // F8
   }
 }
 
-TEST_F(BadMesh, AHarmedFileIsASoundMeshOrARefusal) {
+TEST_F(BadMesh, ADamagedFileIsAValidMeshOrARefusal) {
   int read_anyway = 0;
   for (const char* file : {"corner.stl", "corner_ascii.stl", "corner.obj", "corner.dae"}) {
     const std::string whole = fileText(ownData() + "/meshes/" + file);

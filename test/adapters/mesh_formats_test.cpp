@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// The files of test/data/meshes show one and the same solid; what comes back is that solid, to the bit where
-// the file says it to the bit.
+// The files corner.* in test/data/meshes contain the same solid. The loader must return that solid, bit for bit if the
+// file stores exact coordinates.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,14 +19,14 @@ namespace {
 
 using Corners = std::array<std::array<double, 3>, 3>;
 
-/// The triangles as points, each turned so that its least corner stands first; sorted.
+/// Returns the corners of all triangles, sorted. Each triangle is rotated so that its least corner comes first.
 std::vector<Corners> trianglesOf(const TriangleMesh& mesh) {
   std::vector<Corners> all;
   for (const auto& triangle : mesh.triangles) {
     Corners corners;
     for (int i = 0; i < 3; ++i) {
       const Eigen::Vector3d& v = mesh.vertices.at(triangle[i]);
-      corners[i] = {v.x() + 0.0, v.y() + 0.0, v.z() + 0.0};  // -0 becomes 0
+      corners[i] = {v.x() + 0.0, v.y() + 0.0, v.z() + 0.0};  // adding 0 turns -0 into 0
     }
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
     all.push_back(corners);
@@ -35,7 +35,7 @@ std::vector<Corners> trianglesOf(const TriangleMesh& mesh) {
   return all;
 }
 
-/// [m^3] positive if the triangles of a closed mesh face outward.
+/// Returns the volume [m^3] of a closed mesh, positive if its triangles face outward.
 double signedVolume(const TriangleMesh& mesh) {
   double volume = 0;
   for (const auto& t : mesh.triangles) {
@@ -61,7 +61,7 @@ TEST_F(MeshFormats, EveryFileShowsTheSameSolid) {
   }
 }
 
-/// corner.dae with one of its parts replaced, from a loader of its own.
+/// Reads corner.dae with one of its parts replaced, with a new loader.
 std::shared_ptr<const TriangleMesh> loadCollada(const std::string& part, const std::string& instead) {
   std::string text = fileText(ownData() + "/meshes/corner.dae");
   text.replace(text.find(part), part.size(), instead);
@@ -71,7 +71,7 @@ std::shared_ptr<const TriangleMesh> loadCollada(const std::string& part, const s
   return MeshLoader(policy).load("file://" + folder.write("corner.dae", text), {1, 1, 1});
 }
 
-TEST_F(MeshFormats, ColladaCountsUnitsAndNodesButNotTheUpAxis) {  // as RViz shows it
+TEST_F(MeshFormats, ColladaCountsUnitsAndNodesButNotTheUpAxis) {  // RViz does the same
   const auto expected = tetrahedron();
   for (const char* up : {"Y_UP", "Z_UP", "X_UP"}) {
     SCOPED_TRACE(up);
@@ -86,7 +86,7 @@ TEST_F(MeshFormats, ColladaCountsUnitsAndNodesButNotTheUpAxis) {  // as RViz sho
   }
 }
 
-TEST_F(MeshFormats, ColladaWithoutAUnitIsInMetres) {
+TEST_F(MeshFormats, ColladaWithoutAUnitIsInMeters) {
   const auto mesh = loadCollada("<unit name=\"centimeter\" meter=\"0.01\"/>", "");
   EXPECT_NEAR(signedVolume(*mesh), 1e6 * kVolume, kVolume);
 }
@@ -130,7 +130,7 @@ TEST_F(MeshFormats, AMirroringScaleKeepsTheTrianglesOutward) {
   }
 }
 
-TEST_F(MeshFormats, EndingsAreReadInAnyCase) {
+TEST_F(MeshFormats, FileExtensionsMayBeUpperCase) {
   TemporaryFolder folder;
   MeshPolicy policy = meshPolicy();
   policy.resources.file_roots = {folder.path()};
@@ -144,7 +144,7 @@ TEST_F(MeshFormats, EndingsAreReadInAnyCase) {
   same("a.b.Stl", binary);
   same("A.OBJ", fileText(ownData() + "/meshes/corner.obj"));
   binary.replace(0, 5, "solid");
-  same("solid.stl", binary);  // binary, though it begins like text
+  same("solid.stl", binary);  // a binary file that begins like a text file
 }
 
 TEST_F(MeshFormats, AFileIsReadOnceForEachLoader) {
@@ -161,9 +161,9 @@ TEST_F(MeshFormats, AFileIsReadOnceForEachLoader) {
   EXPECT_EQ(trianglesOf(*loader.load("file://" + path, {1, 1, 1})), trianglesOf(*tetrahedron()));
   EXPECT_EQ(trianglesOf(*loader.load("file://" + path, {1, 2, 1})), trianglesOf(*tetrahedron({1, 2, 1})));
   EXPECT_EQ(trianglesOf(*loader.load("file://" + folder / "b.stl", {1, 1, 1})), trianglesOf(*tetrahedron()))
-      << "another name of the same file";
+      << "a link to the same file must not be read again";
   MeshLoader another(policy);
-  EXPECT_NE(refusalOf([&] { another.load("file://" + path, {1, 1, 1}); }), Code::ok) << "it has no reader";
+  EXPECT_NE(refusalOf([&] { another.load("file://" + path, {1, 1, 1}); }), Code::ok) << "its reader was removed";
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// F9: whatever the helper does, the caller gets a refusal in time, has no child and no open file left over,
-// and reads the next file as ever. HGRID_FAKE_MESH_READER does what the name of its file says.
+// Whatever the helper does, the caller gets a refusal in time. No child process and no open file is left over, and the
+// next file can be read. The program HGRID_FAKE_MESH_READER misbehaves as the name of its file says.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <spawn.h>
@@ -30,7 +30,7 @@ constexpr const char* kCorner = "package://hgrid_test/meshes/corner.stl";
 
 std::ptrdiff_t openFiles() { return std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator()); }
 
-/// [bytes] the most address space that this process ever had.
+/// Returns the largest address space [bytes] that this process ever had.
 std::size_t peakMemory() {
   const std::string status = fileText("/proc/self/status");
   return std::strtoull(status.c_str() + status.find("VmPeak:") + 7, nullptr, 10) << 10;
@@ -38,8 +38,10 @@ std::size_t peakMemory() {
 
 class MeshHelper : public ::testing::Test {
  protected:
-  /// Reads a good file with a fake helper. @returns the code of the refusal, its sentence in sentence_
-  /// @param ends  whether it ends by itself; else it is given 300 ms
+  /// Reads a valid file with a fake helper. Stores the error sentence in sentence_.
+  /// @param deed  name of the fake helper, which decides what it does
+  /// @param ends  whether the helper ends by itself; otherwise its timeout is 300 ms
+  /// @returns the code of the refusal
   Code refusalWith(const std::string& deed, bool ends = true) {
     const std::string reader = folder_ / deed;
     fs::copy_file(HGRID_FAKE_MESH_READER, reader, fs::copy_options::skip_existing);
@@ -49,15 +51,16 @@ class MeshHelper : public ::testing::Test {
     MeshLoader loader(policy);
     return refusalOf([&] { mesh_ = loader.load(kCorner, {1, 1, 1}); }, &sentence_);
   }
+  /// Reads a valid file with a fake helper that writes `output`. @returns the code of the refusal
   Code refusalWhenToldBy(const std::string& output) {
     folder_.write("replay.out", output);
     return refusalWith("replay");
   }
-  /// What the true helper writes for the file of refusalWith().
+  /// Returns the output of the real helper for the file that refusalWith() reads.
   static std::string trueOutput();
 
   void TearDown() override {
-    EXPECT_TRUE(waitpid(-1, nullptr, WNOHANG) == -1 && errno == ECHILD) << "a child is left over";
+    EXPECT_TRUE(waitpid(-1, nullptr, WNOHANG) == -1 && errno == ECHILD) << "a child process is left over";
     EXPECT_EQ(openFiles(), open_before_);
     MeshLoader loader(meshPolicy());
     EXPECT_EQ(loader.load(kCorner, {1, 1, 1})->triangles.size(), 4u);
@@ -73,7 +76,7 @@ std::string MeshHelper::trueOutput() {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   int ends[2];
-  if (pipe(ends) != 0) throw std::runtime_error("no pipe");
+  if (pipe(ends) != 0) throw std::runtime_error("cannot create a pipe");
   posix_spawn_file_actions_addopen(&actions, 0, (ownData() + "/meshes/corner.stl").c_str(), O_RDONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, ends[1], 1);
   posix_spawn_file_actions_addclose(&actions, ends[0]);
@@ -88,7 +91,7 @@ std::string MeshHelper::trueOutput() {
     output.append(buffer, static_cast<std::size_t>(count));
   }
   close(ends[0]);
-  if (failure != 0 || waitpid(child, nullptr, 0) != child) throw std::runtime_error("the helper does not start");
+  if (failure != 0 || waitpid(child, nullptr, 0) != child) throw std::runtime_error("cannot start the helper");
   return output;
 }
 
@@ -106,10 +109,10 @@ TEST_F(MeshHelper, AHangIsRefusedWhenItsTimeIsUp) {
   }
   EXPECT_NE(refusalWith("hang_mute", false), Code::ok);
   folder_.write("drip.out", trueOutput());
-  EXPECT_EQ(refusalWith("drip", false), Code::budget) << "the time is that of the whole file, not of a byte";
+  EXPECT_EQ(refusalWith("drip", false), Code::budget) << "the timeout is for the whole file, not for each byte";
 }
 
-TEST_F(MeshHelper, AHangEndsWhenTheReadingIsCancelled) {
+TEST_F(MeshHelper, AHangEndsWhenTheReadingIsCanceled) {
   const std::string reader = folder_ / "hang";
   fs::copy_file(HGRID_FAKE_MESH_READER, reader);
   MeshPolicy policy = meshPolicy();
@@ -159,7 +162,7 @@ TEST_F(MeshHelper, HugeCountsAreRefusedBeforeAllocation) {
   EXPECT_LT(peakMemory() - before, 256u << 20);
 }
 
-TEST_F(MeshHelper, WhateverIsToldIsCheckedAgain) {
+TEST_F(MeshHelper, OutputOfTheHelperIsCheckedAgain) {
   const std::string whole = trueOutput();
   for (int seed = 0; seed < 300; ++seed) {
     Random random(static_cast<std::uint64_t>(seed));
@@ -175,7 +178,7 @@ TEST_F(MeshHelper, WhateverIsToldIsCheckedAgain) {
   }
 }
 
-TEST_F(MeshHelper, AHelperThatIsNotThereIsSaid) {
+TEST_F(MeshHelper, AMissingHelperIsReported) {
   MeshPolicy policy = meshPolicy();
   for (const std::string& reader :
        {folder_ / "nobody", folder_.path(), folder_.write("no_program", "text"), std::string()}) {

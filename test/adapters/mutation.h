@@ -10,7 +10,8 @@
 namespace hgrid {
 namespace test {
 
-/// `text` with one or two random harms: bytes flipped, cut off, words put in, chunks doubled or taken out.
+/// Returns `text` with one or two random kinds of damage: a changed byte, the end cut off, an inserted word, or a part
+/// that is doubled or removed.
 inline std::string mutated(const std::string& text, const std::vector<std::string>& words, Random& random) {
   std::string harmed = text;
   for (int harms = random.between(1, 2); harms > 0 && !harmed.empty(); --harms) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// A closed mesh is solid: what lies wholly within it is in contact. What an open one encloses nobody can say.
+// A closed mesh is solid, so a shape wholly inside it is in contact. An open mesh has no defined inside, so a shape
+// that it may enclose must not count as apart.
 #include <gtest/gtest.h>
 
 #include "test/narrow/narrow_phase_judge.h"
@@ -10,7 +11,7 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// Meshes around the origin that hold a ball of radius 0.9.
+/// Returns closed meshes around the origin, with names. A sphere of radius 0.9 m fits into each of them.
 std::vector<std::pair<std::string, TriangleMesh>> vessels() {
   const auto scaled = [](TriangleMesh mesh, double factor) {
     for (Eigen::Vector3d& vertex : mesh.vertices) vertex *= factor;
@@ -37,7 +38,7 @@ class Containment : public testing::TestWithParam<ShapeKind> {};
 INSTANTIATE_TEST_SUITE_P(NarrowPhase, Containment, testing::ValuesIn(allKinds()),
                          [](const auto& info) { return std::string(name(info.param)); });
 
-TEST_P(Containment, WhatLiesWithinAClosedMeshIsContained) {
+TEST_P(Containment, AShapeInsideAClosedMeshIsContained) {
   Random random(5);
   for (const auto& [what, vessel] : vessels()) {
     SCOPED_TRACE(what);
@@ -53,7 +54,7 @@ TEST_P(Containment, WhatLiesWithinAClosedMeshIsContained) {
   }
 }
 
-TEST_P(Containment, WhatLiesBesideAClosedMeshIsApart) {
+TEST_P(Containment, AShapeBesideAClosedMeshIsApart) {
   Random random(6);
   for (const auto& [what, vessel] : vessels()) {
     SCOPED_TRACE(what);
@@ -70,8 +71,8 @@ TEST_P(Containment, WhatLiesBesideAClosedMeshIsApart) {
   }
 }
 
-// One missing triangle, on any side: rays and winding numbers of some places then lie.
-TEST_P(Containment, WhatLiesWithinAnOpenMeshIsNeverSaidToBeFree) {
+// Each mesh lacks one triangle, on any side. For some points, rays and winding numbers then give a wrong answer.
+TEST_P(Containment, AShapeInsideAnOpenMeshIsNeverApart) {
   Random random(7);
   for (const auto& [what, vessel] : vessels()) {
     SCOPED_TRACE(what);
@@ -88,7 +89,7 @@ TEST_P(Containment, WhatLiesWithinAnOpenMeshIsNeverSaidToBeFree) {
   }
 }
 
-TEST_P(Containment, WhatLiesFarFromAnOpenMeshIsApart) {
+TEST_P(Containment, AShapeFarFromAnOpenMeshIsApart) {
   Random random(8);
   for (const auto& [what, vessel] : vessels()) {
     SCOPED_TRACE(what);
@@ -105,7 +106,7 @@ TEST_P(Containment, WhatLiesFarFromAnOpenMeshIsApart) {
   }
 }
 
-// Both ways round: the vessel may be given with its triangles clockwise, as a mirror with a negative scale leaves them.
+// The triangles of a mesh may also be clockwise, for example after mirroring with a negative scale.
 TEST_P(Containment, TheSideThatATriangleFacesDoesNotMatter) {
   Random random(9);
   for (const auto& [what, vessel] : vessels()) {
@@ -118,7 +119,7 @@ TEST_P(Containment, TheSideThatATriangleFacesDoesNotMatter) {
   }
 }
 
-// The cavity of a hollow ball is outside of its matter.
+// A hollow sphere has an outer and an inner surface. Its cavity counts as outside.
 TEST(Cavity, OfAClosedMeshIsOutsideOfIt) {
   TriangleMesh hollow = ballMesh(2);
   const auto count = std::uint32_t(hollow.vertices.size());
@@ -132,8 +133,8 @@ TEST(Cavity, OfAClosedMeshIsOutsideOfIt) {
   EXPECT_EQ(Trial({meshOf(hollow), ball, Pose::Identity(), pose, 0.0, 0.0}).measure().status, Measure::contained);
 }
 
-// A solid has no cavity: what lies within a ball or a box is in contact with it, a mesh too.
-TEST_P(Containment, WhatLiesWithinASolidIsInContact) {
+// Convex shapes are solid: any shape inside a sphere or a box is in contact with it, also a mesh.
+TEST_P(Containment, AShapeInsideASolidIsInContact) {
   Random random(10);
   const Shape outers[] = {Shape::sphere(1.0),        Shape::box({2, 2, 2}),
                           Shape::cylinder(3.0, 1.0), Shape::cone(5.0, 3.0),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// A mesh at a known distance, and contacts of meshes: there is one for each two parts that meet.
+// Tests the known distance of a mesh, and contacts of meshes: there is one contact for each pair of parts that touch.
 #include <gtest/gtest.h>
 
 #include "test/narrow/narrow_phase_judge.h"
@@ -19,7 +19,7 @@ std::vector<Contact> contactsOf(const Case& placed, std::size_t most = kAll, boo
   return exchanged ? narrowPhase().contacts(b, a, most) : narrowPhase().contacts(a, b, most);
 }
 
-/// Convex shapes that together are the shape: its triangles, or itself.
+/// Returns the convex parts of a shape: the triangles of a mesh, or any other shape itself.
 std::vector<Shape> partsOf(const Shape& shape) {
   if (shape.kind() != ShapeKind::mesh) return {shape};
   std::vector<Shape> parts;
@@ -31,7 +31,7 @@ std::vector<Shape> partsOf(const Shape& shape) {
   return parts;
 }
 
-/// How many parts of the two certainly meet, and how many may, since they are within a rounding of touching.
+/// Returns two counts of pairs of parts: those that certainly touch, and those that touch within a rounding error.
 std::pair<std::size_t, std::size_t> partsThatMeet(const Case& placed) {
   std::pair<std::size_t, std::size_t> count{0, 0};
   for (const Shape& a : partsOf(placed.first_shape)) {
@@ -67,7 +67,7 @@ TEST_P(ContactsOfMeshes, AreOneForEachTwoPartsThatMeet) {
   for (int i = 0; i < 10; ++i) {
     const Case placed = cases.next();
     const auto [surely, maybe] = partsThatMeet(placed);
-    if (surely == 0) continue;  // apart, or one within the other
+    if (surely == 0) continue;  // the surfaces do not touch
     ++compared;
     const std::size_t found = contactsOf(placed).size();
     EXPECT_GE(found, surely) << placed.text();
@@ -91,19 +91,19 @@ TEST(NarrowPhaseKnown, SphereOverAMesh) {
 TEST(NarrowPhaseContacts, OfASphereInAFloorOfTwoTriangles) {
   const Shape floor = meshOf({{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}});
   Case placed{floor, Shape::sphere(0.1), Pose::Identity(), Pose::Identity(), 0.0, 0.01};
-  placed.world_from_second.translation() << 0.5, -0.5, 0.08;  // over one triangle
+  placed.world_from_second.translation() << 0.5, -0.5, 0.08;  // the sphere is over only one triangle
   std::vector<Contact> contacts = contactsOf(placed);
   ASSERT_EQ(contacts.size(), 1u);
   EXPECT_NEAR(contacts[0].depth, 0.03, 1e-9);
   EXPECT_TRUE(contacts[0].normal.isApprox(Eigen::Vector3d::UnitZ(), 1e-9));
   EXPECT_TRUE(contacts[0].point.isApprox(Eigen::Vector3d(0.5, -0.5, 0.0), 1e-9)) << contacts[0].point.transpose();
-  placed.world_from_second.translation() << 0.5, 0.5 - 1e-3, 0.08;  // over their common side, nearly
+  placed.world_from_second.translation() << 0.5, 0.5 - 1e-3, 0.08;  // the sphere is almost over their common side
   contacts = contactsOf(placed);
   ASSERT_EQ(contacts.size(), 2u);
   EXPECT_GT(contacts[0].depth, contacts[1].depth);
 }
 
-TEST(NarrowPhaseContacts, OfWhatLiesWithinAMeshIsAPointOfIt) {
+TEST(NarrowPhaseContacts, OfAShapeInsideAMeshIsAPointOfTheShape) {
   Case placed{meshOf(boxMesh({1, 1, 1})), Shape::box({0.1, 0.1, 0.1}), Pose::Identity(), Pose::Identity(), 0.0, 0.0};
   placed.world_from_first.translation() << 5, 0, 0;
   placed.world_from_second.translation() << 5.2, 0, 0;

@@ -27,8 +27,9 @@ Code fileCode(const std::string& file, std::string* sentence = nullptr, const Oc
   return refusalOf([&] { readOctomap(file, "map 'm'", options); }, sentence);
 }
 
-/// A root with two leaves and a node with one.
+/// Returns the `.bt` nodes of a small map: a root with two leaves and one inner node, which has one leaf.
 std::string smallBt() { return btNode("of.....n") + btNode("...o...."); }
+/// Returns the `.ot` nodes of a small map: a root with one leaf and one inner node, which has one leaf.
 std::string smallOt() { return otNode(1.0f, 0x81) + otNode(2.0f) + otNode(-1.0f, 8) + otNode(-1.0f); }
 
 TEST(OctomapBad, EveryPrefixOfAMapIsTruncated) {
@@ -41,7 +42,7 @@ TEST(OctomapBad, EveryPrefixOfAMapIsTruncated) {
       do {
         Random random(++seed);
         map = randomMap(random, id, binary);
-      } while (map.file.size() < 1000 || map.file.size() > 10000);  // the work is quadratic
+      } while (map.file.size() < 1000 || map.file.size() > 10000);  // the test time grows with the square of the size
       maps.push_back(map);
     }
   }
@@ -82,7 +83,7 @@ TEST(OctomapBad, AFileThatShrinksWhileItIsReadIsTruncated) {
 TEST(OctomapBad, NodesDeeperThanSixteenLevelsAreRefused) {
   std::string bt, ot;
   for (int depth = 0; depth < 16; ++depth) bt += btNode("n"), ot += otNode(1.0f, 1);
-  EXPECT_EQ(dataCode(kBinary, bt + btNode("")), Code::ok) << "a node of depth 16 without children";
+  EXPECT_EQ(dataCode(kBinary, bt + btNode("")), Code::ok) << "a node at depth 16 without children is allowed";
   EXPECT_EQ(dataCode(kFull, ot + otNode(1.0f)), Code::ok);
   for (int times : {1, 100000}) {
     std::string sentence, deeper_bt = bt, deeper_ot = ot;
@@ -192,7 +193,7 @@ TEST(OctomapBad, DataWithoutANodeAreAMapOnlyWhereThatIsAllowed) {
     EXPECT_EQ(fileCode(file, nullptr, allowed), Code::ok);
   }
   EXPECT_EQ(fileCode(btHeader(usualLines("5")), nullptr, allowed), Code::truncated);
-  EXPECT_EQ(fileCode("", nullptr, allowed), Code::truncated) << "a file without a header is no map";
+  EXPECT_EQ(fileCode("", nullptr, allowed), Code::truncated) << "a file must have a header";
 }
 
 TEST(OctomapBad, BytesAfterTheTreeAreRefused) {
@@ -215,17 +216,18 @@ TEST(OctomapBad, BytesNodesAndLeavesHaveTheirLimits) {
   nodes.max_nodes = 4;
   EXPECT_EQ(dataCode(kBinary, smallBt(), nodes, &sentence), Code::limit);
   EXPECT_TRUE(says(sentence, "more than 4 nodes"));
-  EXPECT_EQ(dataCode(kFull, smallOt(), nodes), Code::ok) << "the limit itself is allowed";
+  EXPECT_EQ(dataCode(kFull, smallOt(), nodes), Code::ok) << "as many nodes as the limit are allowed";
   leaves.max_leaves = 1;
   EXPECT_EQ(dataCode(kBinary, smallBt(), leaves, &sentence), Code::limit);
   EXPECT_TRUE(says(sentence, "more than 1 leaves"));
   leaves.max_leaves = 2;
   EXPECT_EQ(dataCode(kBinary, smallBt(), leaves), Code::ok);
   leaves.keep_free = true;
-  EXPECT_EQ(dataCode(kBinary, smallBt(), leaves), Code::limit) << "free leaves that are kept count";
+  EXPECT_EQ(dataCode(kBinary, smallBt(), leaves), Code::limit) << "kept free leaves count toward the limit";
 }
 
-/// Nodes of a `.bt` from this depth on: `children` there, full nodes down to the lowest level below each 'n'.
+/// Returns the `.bt` nodes of a subtree that begins at this depth. `children` describes its first node, as in btNode().
+/// Below each 'n', all nodes are full down to the lowest level.
 std::string fullTree(int depth, const std::string& children) {
   if (depth == 15) return btNode("oooooooo");
   const std::string below = fullTree(depth + 1, "nnnnnnnn");
@@ -234,7 +236,7 @@ std::string fullTree(int depth, const std::string& children) {
   return bytes;
 }
 
-/// A `.bt` that is one path down to this depth, and fullTree() from there.
+/// Returns the `.bt` nodes of a tree: a single path down to this depth, and fullTree() from there.
 std::string fullBelow(int depth, const std::string& children) {
   std::string path;
   for (int i = 0; i < depth; ++i) path += btNode("n");
@@ -247,8 +249,8 @@ long peakKilobytes() {
   return usage.ru_maxrss;
 }
 
-/// Claim: two bytes make eight leaves of eight bytes at most, also where unknown space counts, and a budget of nodes
-/// ends that.
+// Two bytes of input create at most eight leaves of eight bytes each, even if unknown space counts as occupied. The
+// limit of nodes bounds this further.
 TEST(OctomapBad, SmallInputsDoNotExpand) {
   const std::string data = fullBelow(12, "nnnnnnn.");
   ASSERT_LT(data.size(), 4096u);
@@ -264,7 +266,7 @@ TEST(OctomapBad, SmallInputsDoNotExpand) {
 }
 
 TEST(OctomapBad, FiftyMillionLeavesAreRefusedAndTakeNoMemory) {
-  const std::string data = fullBelow(7, "nnn.....");  // 3 * 8^8 leaves
+  const std::string data = fullBelow(7, "nnn.....");  // a map of 3 * 8^8 leaves
   ASSERT_GT(data.size(), 12u << 20);
   std::string sentence;
   OctomapOptions options;
@@ -274,13 +276,13 @@ TEST(OctomapBad, FiftyMillionLeavesAreRefusedAndTakeNoMemory) {
   EXPECT_EQ(dataCode(kBinary, data, options, &sentence), Code::limit);
   EXPECT_TRUE(says(sentence, "1000000 leaves"));
   EXPECT_LT(peakKilobytes() - before, 40 << 10);
-  EXPECT_EQ(dataCode(kBinary, data), Code::limit) << "by default";
+  EXPECT_EQ(dataCode(kBinary, data), Code::limit) << "the default limits must refuse it, too";
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-/// Claim: where memory ends before the limits do, that is a refusal like any other.
+// If the memory runs out before a limit is reached, the reader refuses the map with the code `limit`.
 TEST(OctomapBad, MemoryThatRunsOutIsALimit) {
-  const std::string data = fullBelow(7, "n.......");  // 8^8 leaves, 134 MB
+  const std::string data = fullBelow(7, "n.......");  // 8^8 leaves, which need 134 MB
   rlimit unlimited{};
   ASSERT_EQ(getrlimit(RLIMIT_AS, &unlimited), 0);
   rlimit tight = unlimited;

@@ -11,30 +11,30 @@
 namespace hgrid {
 namespace test {
 
-/// What OctoMap itself makes of a map: the leaves that its own iterator meets, in its order, and its size().
+/// The content of a map according to the OctoMap library: the leaves in the order of its iterator, and its size().
 struct JudgedMap {
   std::vector<Voxel> occupied, free;
   std::uint64_t nodes = 0;
 };
 
-/// As OctoMap's readData() and readBinaryData() read; what is read must be whole.
+/// Reads the nodes of a map with OctoMap's readData() or readBinaryData(). `data` must be complete.
 JudgedMap judged(const OctomapFormat& format, const std::string& data, double occupied_from = 0.5);
 
-/// As OctoMap's readBinary() reads a whole `.bt`. @throws std::runtime_error if it does not
+/// Reads a `.bt` file with OctoMap's readBinary(). @throws std::runtime_error if OctoMap fails to read it
 JudgedMap judgedBinaryFile(const std::string& file);
 
-/// Seconds that readBinary() takes for a whole `.bt`.
+/// Returns the time [s] that OctoMap's readBinary() needs for a `.bt` file.
 double secondsOfReadBinary(const std::string& file);
 
-/// A map that OctoMap made and wrote.
+/// A map that the OctoMap library created and wrote.
 struct WrittenMap {
   OctomapFormat format;
-  std::string data;  ///< as in a message
-  std::string file;  ///< as in a file
+  std::string data;  ///< the nodes, as in a message
+  std::string file;  ///< the bytes of a file, header included
 };
 
-/// Clusters of free and occupied leaves, some of log-odds at or next to those of `occupied_from`; pruned or not, made
-/// of likeliest values or not.
+/// Returns a random map with clusters of free and occupied leaves. The log-odds of some leaves are equal or next to the
+/// threshold `occupied_from`. Some maps are pruned, and some contain only maximum-likelihood values.
 WrittenMap randomMap(Random& random, const std::string& id, bool binary, double occupied_from = 0.5);
 
 }  // namespace test

@@ -31,7 +31,7 @@ const std::vector<std::string> kWords = {"size ",
                                          std::string("\0\0\xc0\x7f", 4),
                                          std::string("\0\0", 2)};
 
-TEST(OctomapMutation, AHarmedMapIsSoundOrARefusal) {
+TEST(OctomapMutation, ADamagedMapIsValidOrRefused) {
   int read_anyway = 0;
   const int count = countFromEnvironment("HGRID_TEST_MUTATIONS", 4000);
   for (int seed = 0; seed < count; ++seed) {
@@ -54,12 +54,12 @@ TEST(OctomapMutation, AHarmedMapIsSoundOrARefusal) {
       ASSERT_STRNE(refusal.what(), "");
     }
   }
-  EXPECT_GT(read_anyway, count / 50) << "too harmful to test what is read anyway";
-  EXPECT_LT(read_anyway, count) << "too harmless";
+  EXPECT_GT(read_anyway, count / 50) << "the damage is too strong: too few maps can be read";
+  EXPECT_LT(read_anyway, count) << "the damage is too weak: all maps can be read";
 }
 
-/// Claim: what the fuzzer starts from, and what it once found, is read soundly.
-TEST(OctomapMutation, TheSeedsOfTheFuzzerAreSound) {
+// The seeds are the inputs from which the fuzzer starts, and inputs that once failed. All must be read correctly.
+TEST(OctomapMutation, TheSeedsOfTheFuzzerAreReadCorrectly) {
   std::size_t seeds = 0, read = 0;
   for (const auto& entry : std::filesystem::directory_iterator(std::string(HGRID_PROJECT_DIR) + "/test/fuzz/octomap")) {
     const FuzzedOctomap result = readFuzzed(fileText(entry.path().string()));
@@ -68,7 +68,7 @@ TEST(OctomapMutation, TheSeedsOfTheFuzzerAreSound) {
     read += result.accepted ? 1 : 0;
   }
   EXPECT_GE(seeds, 8u);
-  EXPECT_GE(read, 6u) << "seeds that are refused teach the fuzzer little";
+  EXPECT_GE(read, 6u) << "too many seeds are refused; the fuzzer needs valid ones";
 }
 
 }  // namespace

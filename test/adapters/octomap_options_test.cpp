@@ -38,7 +38,7 @@ TEST(OctomapOptions, ACropKeepsWhatTouchesIt) {
     options.keep_free = random.chance(0.5);
     const Octomap all = read(written.format, written.data, options);
     const Voxel& some = all.occupied.empty() ? Voxel{} : all.occupied[all.occupied.size() / 2];
-    const Eigen::Vector3d corner = minCorner(some, all.resolution);  // faces that touch are met, not only by chance
+    const Eigen::Vector3d corner = minCorner(some, all.resolution);  // so that some faces touch the crop box exactly
     const double side = all.resolution * random.below(100);
     options.crop = Eigen::AlignedBox3d(corner, corner + Eigen::Vector3d::Constant(side));
     if (random.chance(0.3)) options.crop->max().x() = kInfinity;
@@ -64,7 +64,7 @@ TEST(OctomapOptions, ACropReachesToTheEndsOfTheKeysAndBeyond) {
   };
   EXPECT_EQ(kept(-kInfinity, kInfinity), 2u);
   EXPECT_EQ(kept(-1e9, 1e9), 2u);
-  EXPECT_EQ(kept(0.0, 0.0), 2u) << "both touch the origin";
+  EXPECT_EQ(kept(0.0, 0.0), 2u) << "both voxels touch the origin";
   EXPECT_EQ(kept(1e-9, 1.0), 1u);
   EXPECT_EQ(kept(16384.0, 1e9), 1u);
   EXPECT_EQ(kept(16384.0001, 1e9), 0u);
@@ -91,7 +91,7 @@ TEST(OctomapOptions, ACropIsABoxWithoutNan) {
 }
 
 TEST(OctomapOptions, NanIsRefusedOrOccupied) {
-  const std::string data = otNode(NAN, 3) + otNode(NAN) + otNode(-1.0f);  // that of a parent does not count
+  const std::string data = otNode(NAN, 3) + otNode(NAN) + otNode(-1.0f);  // the NaN of a parent node does not count
   std::string sentence;
   OctomapOptions options;
   EXPECT_EQ(refusalOf([&] { read(kFull, data, options); }, &sentence), Code::parse);
@@ -103,7 +103,7 @@ TEST(OctomapOptions, NanIsRefusedOrOccupied) {
   EXPECT_EQ(map.free_leaves, 1u);
 }
 
-TEST(OctomapOptions, WhatHasNoLeafCanBeOccupied) {
+TEST(OctomapOptions, UnknownSpaceCanBeOccupied) {
   OctomapOptions options;
   options.unknown = UnknownSpace::occupied;
   options.keep_free = true;
@@ -117,13 +117,13 @@ TEST(OctomapOptions, WhatHasNoLeafCanBeOccupied) {
   for (const auto* voxels : {&map.occupied, &map.free}) {
     for (const Voxel& voxel : *voxels) covered += std::uint64_t{1} << 3 * voxel.level;
   }
-  EXPECT_EQ(covered, std::uint64_t{1} << 48) << "all space is one or the other";
+  EXPECT_EQ(covered, std::uint64_t{1} << 48) << "all space must be occupied or free";
   const Octomap full = read(kFull, otNode(0.0f, 1) + otNode(-1.0f), options);
   EXPECT_EQ(full.unknown_leaves, 7u);
   EXPECT_EQ(full.occupied.front(), (Voxel{32768, 0, 0, 15}));
 }
 
-TEST(OctomapOptions, WhatHasNoLeafCanBeKeptApart) {
+TEST(OctomapOptions, UnknownSpaceCanBeKeptSeparately) {
   for (unsigned seed = 0; seed < 100; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
@@ -143,10 +143,11 @@ TEST(OctomapOptions, WhatHasNoLeafCanBeKeptApart) {
       for (const Voxel& voxel : *voxels) covered += std::uint64_t{1} << 3 * voxel.level;
       all.insert(all.end(), voxels->begin(), voxels->end());
     }
-    EXPECT_EQ(covered, std::uint64_t{1} << 48) << "all space is one of the three";
+    EXPECT_EQ(covered, std::uint64_t{1} << 48) << "all space must be occupied, free or unknown";
     std::sort(all.begin(), all.end(), [](const Voxel& a, const Voxel& b) { return mortonOf(a) < mortonOf(b); });
     for (std::size_t i = 1; i < all.size(); ++i) {
-      ASSERT_GE(mortonOf(all[i]), mortonOf(all[i - 1]) + (std::uint64_t{1} << 3 * all[i - 1].level)) << "they overlap";
+      ASSERT_GE(mortonOf(all[i]), mortonOf(all[i - 1]) + (std::uint64_t{1} << 3 * all[i - 1].level))
+          << "two voxels overlap";
     }
   }
 }
@@ -171,7 +172,8 @@ TEST(OctomapOptions, TheThresholdIsAProbabilityAndItselfOccupied) {
   const auto threshold = static_cast<float>(std::log(0.7 / 0.3));
   EXPECT_EQ(read(kFull, otNode(threshold), options).occupied.size(), 1u);
   EXPECT_EQ(read(kFull, otNode(std::nextafter(threshold, 0.0f)), options).occupied.size(), 0u);
-  EXPECT_EQ(read(kBinary, btNode("o"), options).occupied.size(), 1u) << "only for maps with probabilities";
+  EXPECT_EQ(read(kBinary, btNode("o"), options).occupied.size(), 1u)
+      << "the threshold is only used for maps with probabilities";
   for (const double bad : {0.0, 1.0, -0.1, 1.1, double(NAN)}) {
     std::string sentence;
     options.occupied_from = bad;

@@ -13,7 +13,7 @@ using Place = std::vector<Voxel>::const_iterator;
 
 bool inMortonOrder(const Voxel& a, const Voxel& b) { return mortonOf(a) < mortonOf(b); }
 
-/// Codes that a cube of this level covers.
+/// Returns the number of Morton codes that a cube of this level covers.
 std::uint64_t codesOf(int level) { return std::uint64_t{1} << 3 * level; }
 
 std::string shown(const Voxel& voxel) {
@@ -28,14 +28,15 @@ bool isAligned(const Voxel& voxel) {
 std::string flawOf(const std::vector<Voxel>& voxels) {
   std::uint64_t end = 0;
   for (const Voxel& voxel : voxels) {
-    if (!isAligned(voxel)) return shown(voxel) + " is not a cube of the tree";
-    if (mortonOf(voxel) < end) return shown(voxel) + " overlaps what stands before it, or is out of order";
+    if (!isAligned(voxel)) return shown(voxel) + " is not aligned to the grid of its level";
+    if (mortonOf(voxel) < end) return shown(voxel) + " overlaps the previous voxel, or is not in Morton order";
     end = mortonOf(voxel) + codesOf(voxel.level);
   }
   return {};
 }
 
-/// Writes the node that covers the codes from `begin` on and has these voxels, all smaller than itself.
+/// Appends the node of this level whose Morton codes start at `begin`, and all nodes below it. The voxels first .. last
+/// are its leaves; all of them are smaller than the node.
 void write(std::uint64_t begin, int level, Place first, Place last, std::string& bytes) {
   const std::uint64_t part = codesOf(level - 1);
   std::vector<Place> bounds{first};
@@ -60,14 +61,14 @@ std::string flawOf(const Octomap& map, const OctomapOptions& options) {
              inMortonOrder);
   const auto middle = all.insert(all.end(), map.unknown.begin(), map.unknown.end());
   std::inplace_merge(all.begin(), middle, all.end(), inMortonOrder);
-  const std::string flaw = flawOf(all);  // merging keeps the order of each list, be it right or wrong
+  const std::string flaw = flawOf(all);  // merging keeps the order of each list, also a wrong one
   if (!flaw.empty()) return flaw;
-  if (all.size() > options.max_leaves) return std::to_string(all.size()) + " leaves";
-  if (map.nodes > options.max_nodes) return std::to_string(map.nodes) + " nodes";
+  if (all.size() > options.max_leaves) return std::to_string(all.size()) + " leaves exceed the limit";
+  if (map.nodes > options.max_nodes) return std::to_string(map.nodes) + " nodes exceed the limit";
   OctomapOptions again;
   again.allow_empty = true;
   const auto read = readOctomapData({"OcTree", true, map.resolution}, binaryNodesOf(map.occupied), "again", again);
-  return read.occupied == map.occupied ? "" : "written and read again it has other voxels";
+  return read.occupied == map.occupied ? "" : "after writing and reading it again, the map has other occupied voxels";
 }
 
 std::string binaryNodesOf(const std::vector<Voxel>& voxels) {

@@ -10,11 +10,12 @@
 namespace hgrid {
 namespace test {
 
-/// What is wrong with a map that was read with these options; empty if nothing is: keys are multiples of the edges,
-/// voxels disjoint and in Morton order, limits kept, and the occupied voxels written again are read as the same.
+/// Checks a map that was read with these options: the voxels must be aligned, disjoint and in Morton order, and the
+/// limits must hold. Also writes the occupied voxels and reads them again, which must give the same voxels.
+/// @returns what is wrong with the map; empty if nothing is wrong
 std::string flawOf(const Octomap& map, const OctomapOptions& options);
 
-/// The nodes of a `.bt` that has these leaves and no others. @param voxels  disjoint, in Morton order
+/// Returns the `.bt` nodes of a map with exactly these occupied leaves. @param voxels  disjoint, in Morton order
 std::string binaryNodesOf(const std::vector<Voxel>& voxels);
 
 }  // namespace test

@@ -25,7 +25,7 @@ OctomapOptions keepingFree() {
   return options;
 }
 
-/// Equal to the judge's, in the judge's order, which is that of a walk through the tree.
+/// Expects the same leaves as those of the OctoMap library, in the same order. It is the order of a depth-first walk.
 void expectSame(const Octomap& map, const JudgedMap& truth) {
   EXPECT_EQ(map.nodes, truth.nodes);
   EXPECT_EQ(map.occupied.size(), truth.occupied.size());
@@ -34,7 +34,8 @@ void expectSame(const Octomap& map, const JudgedMap& truth) {
   EXPECT_TRUE(map.free == truth.free);
 }
 
-/// Nodes of a random tree below a node of this depth, at most 16 deep; each child has `chance` to have children.
+/// Returns the `.bt` nodes of a random subtree whose first node is at this depth; the tree is at most 16 levels deep.
+/// `chance` is the probability that a child has children.
 std::string randomBinaryNodes(Random& random, double chance, int depth = 0) {
   std::string kinds(8, '.'), below;
   for (char& kind : kinds) {
@@ -46,17 +47,18 @@ std::string randomBinaryNodes(Random& random, double chance, int depth = 0) {
   return btNode(kinds) + below;
 }
 
-std::string randomFullNodes(Random& random, const std::string& colour, double chance, int depth = 0) {
+/// Returns the `.ot` nodes of a random subtree. @param color  bytes of a color, empty for trees without color
+std::string randomFullNodes(Random& random, const std::string& color, double chance, int depth = 0) {
   unsigned children = 0;
   std::string below;
   for (unsigned i = 0; i < 8 && depth < 16; ++i) {
     if (!random.chance(0.5)) continue;
     children |= 1u << i;
     below += depth == 15 || !random.chance(2 * chance)
-                 ? otNode(static_cast<float>(random.uniform(-3.0, 3.0))).insert(4, colour)
-                 : randomFullNodes(random, colour, chance, depth + 1);
+                 ? otNode(static_cast<float>(random.uniform(-3.0, 3.0))).insert(4, color)
+                 : randomFullNodes(random, color, chance, depth + 1);
   }
-  return otNode(static_cast<float>(random.uniform(-3.0, 3.0)), children).insert(4, colour) + below;
+  return otNode(static_cast<float>(random.uniform(-3.0, 3.0)), children).insert(4, color) + below;
 }
 
 class OctomapFormats : public testing::TestWithParam<OctomapFormat> {};
@@ -76,7 +78,7 @@ TEST_P(OctomapFormats, HasTheLeavesOfOctoMapsOwnIterator) {
     EXPECT_EQ(map.resolution, written.format.resolution);
     const Octomap from_file = readOctomap(written.file, "map", options);
     expectSame(from_file, truth);
-    EXPECT_NEAR(from_file.resolution, map.resolution, 1e-5 * map.resolution) << "the header has six digits";
+    EXPECT_NEAR(from_file.resolution, map.resolution, 1e-5 * map.resolution) << "the header stores six digits";
     if (HasFailure()) return;
   }
 }
@@ -86,7 +88,7 @@ TEST_P(OctomapFormats, HasTheLeavesOfOctoMapAtEveryDepth) {
   for (unsigned seed = 0; seed < 300; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
-    const double chance = random.uniform(0.05, 0.15);  // 0.125: as many at a depth as at the one before
+    const double chance = random.uniform(0.05, 0.15);  // 0.125: each depth has about as many nodes as the one above
     const std::string data = GetParam().binary
                                  ? randomBinaryNodes(random, chance)
                                  : randomFullNodes(random, GetParam().id == "OcTree" ? "" : "rgb", chance);
@@ -96,7 +98,7 @@ TEST_P(OctomapFormats, HasTheLeavesOfOctoMapAtEveryDepth) {
     for (const Voxel& voxel : map.occupied) ++of_level[voxel.level];
     if (HasFailure()) return;
   }
-  for (int level = 0; level < 16; ++level) EXPECT_GT(of_level[level], 0) << "none of level " << level;
+  for (int level = 0; level < 16; ++level) EXPECT_GT(of_level[level], 0) << "no voxel of level " << level;
 }
 
 INSTANTIATE_TEST_SUITE_P(All, OctomapFormats,
@@ -105,16 +107,16 @@ INSTANTIATE_TEST_SUITE_P(All, OctomapFormats,
                                          OctomapFormat{"ColorOcTree", false, 0.1}),
                          [](const auto& format) { return format.param.id + (format.param.binary ? "Bt" : "Ot"); });
 
-/// Claim: what OctoMap writes of no tree, and nodes without children, mean what they mean to OctoMap.
+// OctoMap never writes `.bt` nodes without children. Our reader must treat them as OctoMap does.
 TEST(Octomap, NodesWithoutChildrenMeanWhatOctoMapTakesThemFor) {
   const OctomapFormat binary{"OcTree", true, 0.1}, full{"OcTree", false, 0.1};
   const std::vector<std::pair<OctomapFormat, std::string>> cases = {
-      {binary, btNode("........")},                                      // a root alone: occupied
-      {binary, btNode("n......o") + btNode("........")},                 // a node below it: free
-      {binary, btNode("n.......") + btNode("n.......") + btNode("")},    // deeper
-      {full, otNode(0.0f)},                                              // a root alone: as its value says
+      {binary, btNode("........")},                                      // a root without children: an occupied leaf
+      {binary, btNode("n......o") + btNode("........")},                 // an empty node below the root: a free leaf
+      {binary, btNode("n.......") + btNode("n.......") + btNode("")},    // an empty node at depth 2: a free leaf
+      {full, otNode(0.0f)},                                              // a root without children: its value decides
       {full, otNode(-1.0f)},                                             //
-      {full, otNode(3.0f, 1) + otNode(-0.5f)},                           // the value of a parent does not count
+      {full, otNode(3.0f, 1) + otNode(-0.5f)},                           // the value of a parent is ignored
       {full, otNode(-3.0f, 128) + otNode(-3.0f, 1) + otNode(INFINITY)},  //
   };
   for (const auto& [format, data] : cases) {

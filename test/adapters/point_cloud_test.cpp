@@ -20,7 +20,7 @@ void put(std::string& bytes, std::size_t at, Number number) {
   std::memcpy(&bytes[at], &number, sizeof(number));
 }
 
-/// x, y, z as floats at 0, 4, 8 of points of 16 bytes, as most drivers send them.
+/// Returns the format that most drivers send: points of 16 bytes, with x, y, z as floats at bytes 0, 4 and 8.
 PointCloudFormat usual(std::uint32_t height, std::uint32_t width) {
   PointCloudFormat format;
   format.height = height;
@@ -79,7 +79,7 @@ TEST(PointCloud, WithoutPointsIsEmpty) {
   EXPECT_TRUE(readPointCloud(usual(1, 0), "", "cloud 'c'").points.empty());
 }
 
-TEST(PointCloud, ThatLiesIsRefusedByName) {
+TEST(PointCloud, WithAWrongFormatIsRefusedByName) {
   const std::string data(3 * 16, '\0');
   const auto expect = [&](Code code, const std::string& words, const PointCloudFormat& format,
                           const std::string& bytes) {
@@ -99,7 +99,7 @@ TEST(PointCloud, ThatLiesIsRefusedByName) {
   format.fields.pop_back();
   expect(Code::unsupported, "has no field 'z'", format, data);
   format = usual(1, 3);
-  format.fields[1].datatype = 5;  // INT32
+  format.fields[1].datatype = 5;  // 5 means INT32
   expect(Code::unsupported, "has a field 'y' of datatype 5", format, data);
   format = usual(1, 3);
   format.fields.push_back(format.fields[0]);
@@ -112,7 +112,7 @@ TEST(PointCloud, ThatLiesIsRefusedByName) {
   format = usual(1, 3);
   format.row_step = 47;
   expect(Code::parse, "has rows of 47 bytes", format, data);
-  format = usual(0xffffffff, 0xffffffff);  // the products do not fit into 64 bits, were they not bounded one by one
+  format = usual(0xffffffff, 0xffffffff);  // the product of these sizes does not fit into 64 bits
   format.row_step = 0xffffffff;
   expect(Code::parse, "has rows of 4294967295 bytes", format, data);
   format.point_step = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// What a description may open: regular files of packages and of the roots, and nothing else.
+// A robot description may open only regular files of packages and of the configured roots.
 #include "hgrid_proximity/adapters/resource.h"
 
 #include <fcntl.h>
@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A package `p` in <folder>/p, a root in <folder>/root, and what is outside of both.
+/// Creates a package `p` in <folder>/p, a root in <folder>/root, and files outside of both.
 class Resource : public ::testing::Test {
  protected:
   Resource() {
@@ -69,10 +69,10 @@ TEST_F(Resource, LinksAreFollowedBeforeComparing) {
   EXPECT_EQ(textOf("package://p/meshes/same.stl"), "inside");
   EXPECT_EQ(textOf("file://" + folder_ / "link_to_root/b.stl"), "rooted");
   EXPECT_EQ(textOf("file://" + folder_ / "root/b.stl"), "rooted");
-  EXPECT_EQ(textOf("package://p/rooted.stl"), "rooted") << "a link of a package may lead to a root";
+  EXPECT_EQ(textOf("package://p/rooted.stl"), "rooted") << "a symbolic link in a package may lead to a root";
 }
 
-TEST_F(Resource, NothingAboveAPackageIsOpen) {  // F1
+TEST_F(Resource, NothingAboveAPackageIsOpen) {
   for (const char* path : {"../outside.stl", "../../../../../../../../etc/passwd", "meshes/../../outside.stl",
                            "../p_sibling/c.stl", "/etc/passwd", "..//outside.stl"}) {
     std::string sentence;
@@ -80,10 +80,10 @@ TEST_F(Resource, NothingAboveAPackageIsOpen) {  // F1
     EXPECT_TRUE(code == Code::resource_denied || (path[0] == '/' && code == Code::resource_missing)) << path;
     EXPECT_TRUE(says(sentence, path));
   }
-  EXPECT_NE(refusal("package://../outside.stl"), Code::ok) << "'..' is no package";
+  EXPECT_NE(refusal("package://../outside.stl"), Code::ok) << "'..' is not a package";
 }
 
-TEST_F(Resource, NoLinkLeadsOut) {  // F2
+TEST_F(Resource, NoSymbolicLinkLeadsOut) {
   fs::create_symlink(folder_ / "outside.stl", folder_ / "p/meshes/file.stl");
   fs::create_symlink("../../outside.stl", folder_ / "p/meshes/relative.stl");
   fs::create_symlink(folder_.path(), folder_ / "p/meshes/folder");
@@ -96,9 +96,9 @@ TEST_F(Resource, NoLinkLeadsOut) {  // F2
   EXPECT_NE(refusal("package://p/meshes/loop.stl"), Code::ok);
 }
 
-TEST_F(Resource, FilesOutsideTheRootsAreDenied) {  // F3
+TEST_F(Resource, FilesOutsideTheRootsAreDenied) {
   fs::create_directories(folder_ / "root_too");
-  folder_.write("root_too/d.stl", "not of the root");
+  folder_.write("root_too/d.stl", "outside of the root");
   for (const std::string& path : {std::string("/etc/passwd"), folder_ / "outside.stl", folder_ / "root/../outside.stl",
                                   folder_ / "root_too/d.stl"}) {
     std::string sentence;
@@ -118,7 +118,7 @@ TEST_F(Resource, WithoutASchemeNothingIsOpen) {
   }
 }
 
-TEST_F(Resource, NoSocketIsEverOpened) {  // F4
+TEST_F(Resource, NoSocketIsEverOpened) {
   const int listener = socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK, 0);
   ASSERT_GE(listener, 0);
   sockaddr_in address{};
@@ -139,11 +139,11 @@ TEST_F(Resource, NoSocketIsEverOpened) {  // F4
     EXPECT_EQ(refusalOf([&] { loader.load(uri, {1, 1, 1}); }), Code::resource_denied) << uri;
   }
   pollfd waiting{listener, POLLIN, 0};
-  EXPECT_EQ(poll(&waiting, 1, 0), 0) << "somebody connected";  // connect() completes in the kernel: no wait needed
+  EXPECT_EQ(poll(&waiting, 1, 0), 0) << "the loader opened a connection";  // no wait: connect() is synchronous
   close(listener);
 }
 
-TEST_F(Resource, OnlyRegularFilesAreOpen) {  // F5
+TEST_F(Resource, OnlyRegularFilesAreOpen) {
   ASSERT_EQ(mkfifo((folder_ / "root/fifo.stl").c_str(), 0600), 0);
   fs::create_directory(folder_ / "root/folder.stl");
   fs::create_symlink("/dev/zero", folder_ / "root/zero.stl");
@@ -165,7 +165,7 @@ TEST_F(Resource, OnlyRegularFilesAreOpen) {  // F5
   close(listener);
 }
 
-TEST_F(Resource, WhatIsNotThereIsSaid) {  // E13
+TEST_F(Resource, MissingFilesAreReported) {
   for (const std::string& uri :
        {std::string("package://p/meshes/gone.stl"), std::string("package://q/a.stl"),
         "file://" + folder_ / "root/gone.stl", std::string("package://p/meshes/a.stl/b.stl")}) {
@@ -174,10 +174,10 @@ TEST_F(Resource, WhatIsNotThereIsSaid) {  // E13
     EXPECT_TRUE(says(sentence, uri));
   }
   policy_.package_path = nullptr;
-  EXPECT_EQ(refusal("package://p/meshes/a.stl"), Code::resource_missing) << "no package is known at all";
+  EXPECT_EQ(refusal("package://p/meshes/a.stl"), Code::resource_missing) << "without package_path no package is known";
 }
 
-TEST_F(Resource, OddPathsAreRefusedAndPrintable) {  // F10
+TEST_F(Resource, OddPathsAreRefusedAndPrintable) {
   const std::vector<std::string> paths = {"%2e%2e/outside.stl", std::string("meshes/a.stl\0.stl", 17),
                                           std::string("../outside.stl\0meshes/a.stl", 27), std::string(5000, 'x'),
                                           "meshes/\n\x1b[31m.stl"};
@@ -189,7 +189,7 @@ TEST_F(Resource, OddPathsAreRefusedAndPrintable) {  // F10
   }
 }
 
-TEST_F(Resource, BytesAreLimited) {  // B13
+TEST_F(Resource, BytesAreLimited) {
   policy_.max_bytes = 6;
   EXPECT_EQ(textOf("package://p/meshes/a.stl"), "inside");
   policy_.max_bytes = 5;

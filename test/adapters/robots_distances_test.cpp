@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// UR5, Panda and PR2 in random states: exact distances equal those of FCL asked for every pair without a broad phase.
-// Prints the time beside that of FCL's own best way. HGRID_TEST_STATES says how many states.
+// Measures UR5, Panda and PR2 in random states. The exact distances must equal those that FCL measures for every pair
+// without a broad phase. Also prints the time, and the time of FCL's DynamicAABBTree. The environment variable
+// HGRID_TEST_STATES sets the number of states.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,14 +24,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kReport = 0.1;  // [m]
+constexpr double kReport = 0.1;  // [m] distances up to this are reported
 
 double median(std::vector<double>& values) {
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
   return values[values.size() / 2];
 }
 
-/// A robot whose pairs are measured by a PairMeter, by FCL for every pair, and by FCL's tree.
+/// A robot whose distances are measured in three ways: by a PairMeter, by FCL for every pair, and by FCL's tree.
 class Trial {
  public:
   Trial(const RobotModel& model, const LinkRules& rules)
@@ -53,12 +54,12 @@ class Trial {
   }
 
   void compare(const std::vector<Pose>& root_from_links, Time stamp) {
-    if (stamp.count() % 2 == 0) askTree(root_from_links);  // neither always finds what the other left in the caches
+    if (stamp.count() % 2 == 0) askTree(root_from_links);  // alternates the order, for a fair comparison
     const std::shared_ptr<const PairDistances> found = measure(root_from_links, stamp);
     if (stamp.count() % 2 != 0) askTree(root_from_links);
     std::map<std::pair<std::uint32_t, std::uint32_t>, const PairDistance*> ours;
     for (const PairDistance& pair : found->pairs) ours[{pair.first, pair.second}] = &pair;
-    ASSERT_EQ(ours.size(), found->pairs.size()) << "a pair twice";
+    ASSERT_EQ(ours.size(), found->pairs.size()) << "a pair is listed twice";
     ASSERT_EQ(found->left_out, 0u);
     const Structure& structure = snapshot_->structure();
     for (std::size_t i = 0; i < links_.size(); ++i) {
@@ -116,7 +117,7 @@ class Trial {
 
   void judge(const std::string& names, const PairDistance* mine, double expected) {
     if (mine == nullptr) {
-      EXPECT_GT(expected, kReport - 1e-6) << names << " are " << expected << " m apart and missing";
+      EXPECT_GT(expected, kReport - 1e-6) << names << " are " << expected << " m apart, but the pair is missing";
       return;
     }
     const Proximity& proximity = mine->proximity;
@@ -125,11 +126,11 @@ class Trial {
     ++pairs;
     contacts += proximity.status == Measure::contact;
     if (proximity.status == Measure::contained || proximity.status == Measure::containment_unknown) {
-      ++enclosed;  // FCL takes a mesh for a surface: its distance says nothing here
+      ++enclosed;  // FCL treats a mesh as a surface, so its distance is not comparable
       EXPECT_GT(expected, 0.0) << names;
       return;
     }
-    EXPECT_LE(mine->gap, proximity.distance + 1e-7) << names << ": the gap is a lower bound";
+    EXPECT_LE(mine->gap, proximity.distance + 1e-7) << names << ": the gap must not exceed the distance";
     EXPECT_NEAR(proximity.distance, expected, 1e-6) << names;
     if (proximity.distance > 0.0) {
       EXPECT_NEAR((proximity.on_first - proximity.on_second).norm(), proximity.distance, 1e-6) << names;
@@ -141,11 +142,11 @@ class Trial {
   Scene scene_;
   PairMeter meter_;
   std::vector<std::pair<std::uint32_t, BodyId>> links_;
-  std::vector<FclBody> witnesses_;  // of each of links_
-  FclTree tree_;                    // the same
+  std::vector<FclBody> witnesses_;  // by index in links_
+  FclTree tree_;                    // its bodies are in the order of links_
   std::shared_ptr<const Snapshot> snapshot_;
-  std::vector<std::uint32_t> index_;  // in the structure, of each of links_
-  std::vector<bool> allowed_;         // by two of links_
+  std::vector<std::uint32_t> index_;  // index in the structure, by index in links_
+  std::vector<bool> allowed_;         // for each pair of indices in links_
 };
 
 class RobotsDistances : public ::testing::TestWithParam<const char*> {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// UR5, Panda and PR2 in random states: every pair that FCL finds within the margin is a candidate, and the
-// candidates are not many times more. HGRID_TEST_STATES says how many states.
+// Tests UR5, Panda and PR2 in random states. Every pair that FCL finds within the margin must be a candidate pair.
+// There may be at most four times as many candidates as such pairs. The environment variable HGRID_TEST_STATES sets
+// the number of states.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -19,7 +20,7 @@ namespace {
 
 constexpr std::array<double, 2> kMargins = {0.05, 0.1};
 
-/// What came out for one margin.
+/// The results for one margin.
 struct Figures {
   std::size_t true_pairs = 0, candidates = 0, missed = 0;
   double ratio() const {
@@ -27,7 +28,7 @@ struct Figures {
   }
 };
 
-/// A robot in a Scene for each margin, and its bodies once more for FCL.
+/// A robot in one Scene per margin, and a copy of its bodies for FCL.
 class Trial {
  public:
   Trial(const RobotModel& model, const LinkRules& rules) {
@@ -43,7 +44,7 @@ class Trial {
     for (const auto& [link, id] : links_) bodies_.emplace_back(scenes_[0].body(id));
   }
 
-  /// Compares one state and adds to the figures.
+  /// Compares one state of the robot and adds the result to `figures`.
   void compare(const std::vector<Pose>& root_from_links, Time stamp) {
     std::vector<std::shared_ptr<const Snapshot>> snapshots;
     for (Scene& scene : scenes_) {
@@ -58,7 +59,7 @@ class Trial {
     for (std::size_t m = 0; m < kMargins.size(); ++m) {
       for (const NearPair& pair : snapshots[m]->pairs()) gaps[m][{pair.first, pair.second}] = pair.gap;
       figures[m].candidates += gaps[m].size();
-      EXPECT_EQ(gaps[m].size(), snapshots[m]->pairs().size()) << "a pair twice";
+      EXPECT_EQ(gaps[m].size(), snapshots[m]->pairs().size()) << "a pair is listed twice";
     }
     const std::vector<std::uint32_t> index = indices(snapshots[0]->structure());
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -84,7 +85,7 @@ class Trial {
                        cutoff);
   }
 
-  /// Index in the structure of each of links_.
+  /// Returns the index in the structure for each element of links_.
   std::vector<std::uint32_t> indices(const Structure& structure) const {
     std::vector<std::uint32_t> index;
     for (const auto& [link, id] : links_) {
@@ -100,23 +101,23 @@ class Trial {
     const auto found = gaps.find(pair);
     const std::string names = structure.bodies[pair.first].name + ", " + structure.bodies[pair.second].name;
     if (allowed) {
-      EXPECT_TRUE(found == gaps.end()) << names << " may touch and is reported";
+      EXPECT_TRUE(found == gaps.end()) << names << " may touch, but the pair is reported";
       return;
     }
     if (found != gaps.end()) {
       EXPECT_LE(found->second, margin) << names;
-      EXPECT_LE(found->second, distance + 1e-7) << names << ": the gap is a lower bound of the distance";
+      EXPECT_LE(found->second, distance + 1e-7) << names << ": the gap must not exceed the distance";
     }
     if (distance > margin) return;
     ++figures.true_pairs;
     if (found != gaps.end()) return;
     ++figures.missed;
-    if (figures.missed <= 10) ADD_FAILURE() << names << " are " << distance << " m apart and missed";
+    if (figures.missed <= 10) ADD_FAILURE() << names << " are " << distance << " m apart, but the pair is missing";
   }
 
   std::vector<Scene> scenes_;
   std::vector<std::pair<std::uint32_t, BodyId>> links_;
-  std::vector<FclBody> bodies_;  // of each of links_
+  std::vector<FclBody> bodies_;  // by index in links_
 };
 
 void expectNoMissedPair(const RealRobot& robot, const LinkRules& rules, const std::string& label, unsigned seed) {
@@ -138,7 +139,7 @@ void expectNoMissedPair(const RealRobot& robot, const LinkRules& rules, const st
                 f.candidates, f.ratio(), f.missed);
     EXPECT_EQ(f.missed, 0u);
     EXPECT_GT(f.true_pairs, 0u);
-    EXPECT_TRUE(f.candidates <= 4 * f.true_pairs || count < 1000);  // fewer states say nothing of the ratio
+    EXPECT_TRUE(f.candidates <= 4 * f.true_pairs || count < 1000);  // a ratio of few states has no meaning
   }
 }
 

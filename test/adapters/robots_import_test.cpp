@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// The shapes of UR5, Panda and PR2: all there, in boxes that are as tight as floats allow.
+// Imports UR5, Panda and PR2. All shapes must be there, with bounding boxes that are as tight as floats allow.
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
 
@@ -21,7 +21,7 @@ struct Extent {
   Real low, high;
 };
 
-/// What a shape at a pose covers along an axis, in extended precision by other formulas than the product's.
+/// Returns the extent of a shape along a world axis. Uses extended precision and other formulas than the product.
 Extent extentOf(const Shape& shape, const Pose& world_from_shape, int axis) {
   const Real row[3] = {world_from_shape.linear()(axis, 0), world_from_shape.linear()(axis, 1),
                        world_from_shape.linear()(axis, 2)};
@@ -48,7 +48,7 @@ Extent extentOf(const Shape& shape, const Pose& world_from_shape, int axis) {
       half = std::fabs(row[2]) * size[0] / 2 + std::hypot(row[0], row[1]) * size[1];
       break;
     default:
-      ADD_FAILURE() << "no URDF has a " << name(shape.kind());
+      ADD_FAILURE() << "a URDF cannot contain a " << name(shape.kind());
   }
   return {center - half, center + half};
 }
@@ -56,11 +56,11 @@ Extent extentOf(const Shape& shape, const Pose& world_from_shape, int axis) {
 void expectTight(const BodyShape& shape, Random& random) {
   const double reach = shape.shape.reach();
   for (int i = 0; i < 1000; ++i) {
-    const Pose world_from_shape = randomPose(random, 10.0) * shape.body_from_shape;
+    const Pose world_from_shape = uniformPose(random, 10.0) * shape.body_from_shape;
     const Aabb box = boxOf(shape.shape, world_from_shape, 0.0, Eigen::Vector3d::Zero());
     for (int axis = 0; axis < 3; ++axis) {
       const Extent exact = extentOf(shape.shape, world_from_shape, axis);
-      // A sphere's size does not follow the last bits of a matrix that is no perfect rotation; all else does.
+      // A rotation matrix has rounding errors in its last bits. They change the extent of all shapes except spheres.
       const Real slack = shape.shape.kind() == ShapeKind::sphere ? 1e-15L : 0;
       ASSERT_LE(box.min[axis], exact.low + slack);
       ASSERT_GE(box.max[axis], exact.high - slack);
@@ -111,7 +111,7 @@ TEST_P(RobotImport, BoxesHoldAllVerticesAndTouchThemOnAllSixFaces) {
   }
 }
 
-/// A binary STL's vertices, read by hand.
+/// Returns the vertices of a binary STL file, read without the product.
 std::vector<Eigen::Vector3d> verticesOfStl(const std::string& bytes) {
   std::vector<Eigen::Vector3d> vertices;
   for (std::size_t at = 84; at + 50 <= bytes.size(); at += 50) {
@@ -154,9 +154,9 @@ Eigen::Vector3d numbers(const tinyxml2::XMLElement* element, const char* attribu
   return v;
 }
 
-TEST_P(RobotImport, JointsAreThoseOfTheText) {
+TEST_P(RobotImport, JointsEqualThoseOfTheText) {
   const RealRobot robot = realRobot(GetParam());
-  const RobotModel model = readUrdf(robot.urdf, knowsOneMesh);  // without meshes: joints do not need them
+  const RobotModel model = readUrdf(robot.urdf, knowsOneMesh);  // skips the meshes, since the test needs only joints
   tinyxml2::XMLDocument document;
   ASSERT_EQ(document.Parse(robot.urdf.data(), robot.urdf.size()), tinyxml2::XML_SUCCESS);
   std::size_t joints = 0;
@@ -188,7 +188,7 @@ TEST_P(RobotImport, JointsAreThoseOfTheText) {
   EXPECT_EQ(model.links.size(), joints + 1);
 }
 
-TEST(RobotImportOthers, TheOtherDescriptionsAreReadWholeToo) {
+TEST(RobotImportOthers, OtherDescriptionsAreReadCompletely) {
   HGRID_NEEDS_SHARED_DATA();
   const std::string robots = sharedData() + "/example-robot-data/robots/";
   MeshLoader loader(meshPolicy());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// UR5 and PR2 somewhere in a real building's map: candidates and exact distances are those of a look at every leaf.
-// HGRID_TEST_STATES says how many states, five times over.
+// Places UR5 and PR2 at random in the map of a real building. Compares candidate pairs and exact distances with a scan
+// of all leaves of the map. The test uses a fifth of the states that the environment variable HGRID_TEST_STATES sets.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,7 +27,7 @@ Octomap building(const std::string& folder) {
   return readOctomapFile(openResource("file://" + folder + "/geb079.bt", policy));
 }
 
-/// A robot in the building, and every leaf by itself.
+/// A robot in the map of the building, and a list of all leaves for the scan.
 class RobotInBuilding {
  public:
   RobotInBuilding(const std::string& robot, Octomap octomap) : octomap_(std::move(octomap)), scene_(options()) {
@@ -116,7 +116,7 @@ class RobotInBuilding {
       if (body == map) continue;
       SCOPED_TRACE(structure.bodies[body].name);
       double gap = kInfinity;
-      std::vector<std::pair<std::uint32_t, std::size_t>> close;  // shapes and leaves
+      std::vector<std::pair<std::uint32_t, std::size_t>> close;  // shapes and leaves within the margin
       for (ProxyId proxy = structure.first_proxy[body]; proxy < structure.first_proxy[body + 1]; ++proxy) {
         for (std::size_t leaf = 0; leaf < low_.size(); ++leaf) {
           const double here = gapOf(snapshot.boxes()[proxy], leaf);
@@ -137,7 +137,7 @@ class RobotInBuilding {
       const double distance = found.proximity.distance;
       contacts += distance == 0.0 ? 1 : 0;
       double least = kInfinity;
-      for (const auto& [shape, leaf] : close) {  // no other leaf can be as near
+      for (const auto& [shape, leaf] : close) {  // no other leaf can be nearer
         if (least == 0.0 || gapOf(snapshot.boxes()[structure.first_proxy[body] + shape], leaf) > distance + 1e-9)
           continue;
         least = std::min(least, distanceOf(snapshot, body, shape, leaf));
@@ -157,7 +157,7 @@ class RobotInBuilding {
   RobotModel model_;
   std::vector<std::pair<std::uint32_t, BodyId>> links_;
   Eigen::AlignedBox3d bounds_;
-  std::vector<Eigen::Vector3d> low_, high_;  // of the leaves
+  std::vector<Eigen::Vector3d> low_, high_;  // corners of the leaves
 };
 
 class RobotsInAMap : public ::testing::TestWithParam<const char*> {};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// What is left of a map without the robot's own cells: against a look at every finest cell.
+// Tests withoutSelf(), which removes the cells of the robot itself from a map, against a check of every finest cell.
 #include "hgrid_proximity/maps/self_filter.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kEdge = 0.05;
 
-/// All finest cells of voxels, in Morton order.
+/// Splits voxels into cells of the finest level, in Morton order.
 std::vector<Voxel> finestOf(const std::vector<Voxel>& voxels) {
   std::vector<Voxel> all;
   for (const Voxel& voxel : voxels) {
@@ -37,7 +37,7 @@ TEST(SelfFilter, LeavesOutExactlyTheFinestCellsWhoseMiddlesLieInAPaddedShape) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     std::vector<Voxel> voxels = randomVoxels(random, 300, 12);
-    if (random.chance(0.5)) voxels = {{32768, 32768, 32768, 4}};  // one of 16 finest cells along a side
+    if (random.chance(0.5)) voxels = {{32768, 32768, 32768, 4}};  // one voxel whose side is 16 finest cells long
     const Pose world_from_map = randomPose(random, 3.0);
     std::vector<SelfShape> shapes;
     for (int i = random.between(0, 3); i > 0; --i) {
@@ -46,7 +46,7 @@ TEST(SelfFilter, LeavesOutExactlyTheFinestCellsWhoseMiddlesLieInAPaddedShape) {
       shapes.push_back(selfShape(*narrow_phase, shape, world_from_map * randomPose(random, 0.5), padding));
     }
     const OthersCells others = withoutSelf(voxels, kEdge, world_from_map, shapes, *narrow_phase);
-    StaticGrid(kEdge, others.voxels);  // which refuses what is not disjoint and in order
+    StaticGrid(kEdge, others.voxels);  // throws if the voxels are not disjoint and in order
     EXPECT_EQ(others.undecided, 0u);
     const std::vector<Voxel> left = finestOf(others.voxels), all = finestOf(voxels);
     EXPECT_EQ(left.size() + others.left_out, all.size());
@@ -56,7 +56,7 @@ TEST(SelfFilter, LeavesOutExactlyTheFinestCellsWhoseMiddlesLieInAPaddedShape) {
       next += stays;
       const Pose middle =
           world_from_map * Eigen::Translation3d(0.5 * (minCorner(cell, kEdge) + maxCorner(cell, kEdge)));
-      double room = 1.0;  // [m] of the cell's middle from what is left out; the nearest shape decides
+      double room = 1.0;  // [m] distance of the cell's center from the nearest padded shape
       for (const SelfShape& shape : shapes) {
         const Proximity found = narrow_phase->measure({*narrow_phase->point(), middle, 0.0},
                                                       {*shape.solid, shape.world_from_shape, 0.0}, 1.0);
@@ -78,10 +78,11 @@ TEST(SelfFilter, LeavesOutExactlyTheFinestCellsWhoseMiddlesLieInAPaddedShape) {
 
 TEST(SelfFilter, ACellThatStaysWholeIsNotSplit) {
   const auto narrow_phase = makeFclNarrowPhase();
-  const std::vector<Voxel> voxels{{32768, 32768, 32768, 3}};  // 0 .. 0.4 m
+  const std::vector<Voxel> voxels{{32768, 32768, 32768, 3}};  // covers 0 .. 0.4 m on each axis
   Pose beside = Pose::Identity();
   beside.translation() = Eigen::Vector3d(-0.2, 0.2, 0.2);
-  const SelfShape ball = selfShape(*narrow_phase, Shape::sphere(0.21), beside, 0.0);  // reaches in, but to no middle
+  // The sphere overlaps the voxel, but it contains no center of a finest cell.
+  const SelfShape ball = selfShape(*narrow_phase, Shape::sphere(0.21), beside, 0.0);
   EXPECT_EQ(withoutSelf(voxels, kEdge, Pose::Identity(), {ball}, *narrow_phase).voxels, voxels);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Queries for a shape in any pose against a measurement of every shape of every body, and what is known of depths.
+// Compares queries for a shape in any pose with measurements of all shapes of all bodies. Tests penetration depths.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -42,7 +42,7 @@ class ShapeQueries : public ::testing::Test {
     return phase_->measure({*phase_->solidOf(asked.shape), asked.world_from_shape, asked.padding},
                            {*phase_->solidOf(shape), pose, padding}, kInfinity);
   }
-  /// [m] The least distance to a body: to its shapes, to its boxes, or to its cells.
+  /// Returns the least distance [m] to a body: to its shapes if `exact`, else to their boxes; for a map to its cells.
   double distanceTo(const QueryShape& asked, std::uint32_t body, bool exact) const {
     const Structure& structure = snapshot_->structure();
     const Pose& world_from_body = snapshot_->poses()[body].world_from_body;
@@ -84,13 +84,13 @@ TEST_F(ShapeQueries, FindExactlyWhatTheShapeTouches) {
     for (const bool exact : {false, true}) {
       const QueryAnswer answer = query(*snapshot_, asked, *phase_, exact ? exactly() : QueryScope{});
       std::map<std::uint32_t, QueryHit> found;
-      for (const QueryHit& hit : answer.hits) ASSERT_TRUE(found.emplace(hit.body, hit).second) << "one body twice";
+      for (const QueryHit& hit : answer.hits) ASSERT_TRUE(found.emplace(hit.body, hit).second) << "body listed twice";
       for (std::uint32_t body = 0; body < snapshot_->structure().bodies.size(); ++body) {
         const double boxes = distanceTo(asked, body, false), shapes = exact ? distanceTo(asked, body, true) : boxes;
         if (found.count(body) == 0) {
-          ASSERT_GT(std::max(boxes, shapes), 0.0) << "missed " << snapshot_->structure().bodies[body].name;
+          ASSERT_GT(std::max(boxes, shapes), 0.0) << "missing hit of " << snapshot_->structure().bodies[body].name;
         } else {
-          ASSERT_LE(std::max(boxes, shapes), 1e-7) << "too much: " << snapshot_->structure().bodies[body].name;
+          ASSERT_LE(std::max(boxes, shapes), 1e-7) << "too far away: " << snapshot_->structure().bodies[body].name;
           ASSERT_EQ(found[body].distance, 0.0);
           ++hits;
         }
@@ -149,7 +149,7 @@ TEST_F(ShapeQueries, AGapThatHasABoundHidesNothingBeyondIt) {
   EXPECT_EQ(verdict(2.51), Verdict::clear);
 }
 
-TEST_F(ShapeQueries, RefuseWhatIsNoQuestion) {
+TEST_F(ShapeQueries, RefuseInvalidQueries) {
   snapshot_ = scene_.commit(Time{1}, {});
   const Shape shape = Shape::sphere(1.0);
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -183,12 +183,13 @@ TEST_F(ShapeQueries, OfBoxesHaveTheDepthOfTheBoxOrCellThatIsNamed) {
                0;
       };
       for (int k = 0; k < 20; ++k) {
-        ASSERT_FALSE(separates(0.999 * hit.depth * randomVector(random, -1, 1).normalized())) << "too deep";
+        ASSERT_FALSE(separates(0.999 * hit.depth * randomVector(random, -1, 1).normalized()))
+            << "a move shorter than the depth separates the boxes";
       }
       const Proximity by_fcl = measure({Shape::box(box.size), box.world_from_box}, Shape::box(target.sizes()),
                                        Pose(Eigen::Translation3d(target.center())), 0.0);
       if (!std::isfinite(by_fcl.depth)) continue;
-      ASSERT_LE(hit.depth, by_fcl.depth + 1e-5) << "a shorter move separates";
+      ASSERT_LE(hit.depth, by_fcl.depth + 1e-5) << "FCL knows a shorter move that separates the boxes";
       ++deep;
     }
   }
@@ -206,7 +207,7 @@ TEST_F(ShapeQueries, ExactDepthsAreThoseOfTheShapes) {
   EXPECT_NEAR(found.signed_distance, std::hypot(0.6, 0.3) - 0.9, 1e-9);
   EXPECT_NEAR(found.depth, 0.9 - std::hypot(0.6, 0.3), 1e-9);
   found = hit(query(*snapshot_, Sphere{{0.1, 0.0, 0.0}, 0.2}, exactly()));
-  EXPECT_NEAR(found.depth, 0.6, 1e-9) << "the center is in the shape";
+  EXPECT_NEAR(found.depth, 0.6, 1e-9) << "the center of the sphere is inside the shape";
   found = hit(query(*snapshot_, Segment{{0.6, -9, 0}, {0.6, 9, 0}, 0.2}, exactly()));
   EXPECT_NEAR(found.depth, 0.1, 1e-9);
   found = hit(nearest(*snapshot_, Eigen::Vector3d(2.0, 0, 0), 0.0, exactly()));

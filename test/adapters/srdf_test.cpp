@@ -42,12 +42,12 @@ TEST(Srdf, RulesActOnTheModelAndUnknownLinksAreWarnings) {
     EXPECT_EQ(matrix.origin(i, j), matrix.origin(j, i)) << a << ", " << b;
     return matrix.origin(i, j);
   };
-  EXPECT_EQ(origin("base", "arm"), Origin::srdf) << "an explicit disable beats an enable";
+  EXPECT_EQ(origin("base", "arm"), Origin::srdf) << "<disable_collisions> takes precedence over <enable_collisions>";
   EXPECT_EQ(origin("finger_left", "finger_right"), Origin::srdf);
-  EXPECT_EQ(origin("drone", "arm"), Origin::srdf) << "disabled by default";
-  EXPECT_EQ(origin("drone", "cart"), Origin::none) << "an enable beats a default";
-  EXPECT_EQ(origin("arm", "turret"), Origin::none) << "an enable beats adjacency";
-  EXPECT_EQ(origin("base", "column"), Origin::none) << "an enable beats a rigid group";
+  EXPECT_EQ(origin("drone", "arm"), Origin::srdf) << "<disable_default_collisions> disables the pair";
+  EXPECT_EQ(origin("drone", "cart"), Origin::none) << "<enable_collisions> takes precedence over a default";
+  EXPECT_EQ(origin("arm", "turret"), Origin::none) << "<enable_collisions> takes precedence over adjacency";
+  EXPECT_EQ(origin("base", "column"), Origin::none) << "<enable_collisions> takes precedence over a rigid group";
   EXPECT_EQ(origin("column", "arm"), Origin::adjacent);
   EXPECT_EQ(origin("turret", "hand"), Origin::rigid);
   EXPECT_EQ(origin("cart", "arm"), Origin::none);
@@ -91,14 +91,14 @@ TEST(Srdf, WhatTheAllowedMatrixPrintsReadsBackAsTheSameMatrix) {
   }
 }
 
-TEST(Srdf, NothingOfCollisionsIsNoRules) {
+TEST(Srdf, TextWithoutCollisionTagsGivesNoRules) {
   for (const char* content : {"", "<group name=\"g\"/>", "<!-- <disable_collisions link1=\"a\" link2=\"b\"/> -->"}) {
     const LinkRules rules = readSrdf(srdf(content));
     EXPECT_TRUE(rules.disabled.empty() && rules.disabled_default.empty() && rules.enabled.empty()) << content;
   }
 }
 
-TEST(Srdf, TextThatIsNoneIsRefused) {
+TEST(Srdf, InvalidTextIsRefused) {
   std::string deep;
   for (int i = 0; i < 50000; ++i) deep += "<a>";
   struct Bad {
@@ -128,7 +128,7 @@ TEST(Srdf, ARuleWithoutItsLinksIsRefusedByName) {
   }
 }
 
-TEST(Srdf, RealOnesAreReadWhole) {
+TEST(Srdf, RealFilesAreReadCompletely) {
   HGRID_NEEDS_SHARED_DATA();
   for (const char* name : {"ur5", "panda", "pr2"}) {
     const RealRobot robot = realRobot(name);

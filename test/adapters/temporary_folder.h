@@ -11,12 +11,12 @@
 namespace hgrid {
 namespace test {
 
-/// A folder of one test, empty at first and gone with it. Its path has no links in it.
+/// A temporary folder for a test: empty at first, and deleted by the destructor. Its path contains no symbolic links.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
     std::string pattern = (std::filesystem::temp_directory_path() / "hgrid_test_XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw std::runtime_error("cannot make a folder like " + pattern);
+    if (!mkdtemp(pattern.data())) throw std::runtime_error("cannot create a temporary folder named " + pattern);
     path_ = std::filesystem::canonical(pattern).string();
   }
   ~TemporaryFolder() {
@@ -29,7 +29,7 @@ class TemporaryFolder {
   const std::string& path() const { return path_; }
   std::string operator/(const std::string& name) const { return path_ + "/" + name; }
 
-  /// Writes a file of this folder, folders on the way included. @returns its path
+  /// Writes a file into this folder, and creates missing subfolders. @returns the path of the file
   std::string write(const std::string& name, const std::string& bytes) const {
     const std::string path = path_ + "/" + name;
     std::filesystem::create_directories(std::filesystem::path(path).parent_path());

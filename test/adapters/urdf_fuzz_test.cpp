@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Whatever happens to a description, it becomes a model in which every <collision> is accounted for and
-// every number is finite, or a refusal.
+// Reads randomly damaged descriptions. The result must be a refusal, or a model with finite numbers in which every
+// <collision> is either a shape or listed as unreadable.
 #include <gtest/gtest.h>
 
 #include "hgrid_proximity/adapters/srdf.h"
@@ -97,7 +97,7 @@ void expectSound(const RobotModel& model) {
   }
 }
 
-TEST(UrdfFuzz, AHarmedDescriptionIsAModelWithoutGapsOrARefusal) {
+TEST(UrdfFuzz, ADamagedDescriptionIsACompleteModelOrRefused) {
   const std::string text = smallRobot();
   ASSERT_EQ(accountedFor(read(text)), 4u);
   int read_anyway = 0;
@@ -116,11 +116,11 @@ TEST(UrdfFuzz, AHarmedDescriptionIsAModelWithoutGapsOrARefusal) {
     }
     if (HasFailure()) FAIL() << "seed " << seed << "\n" << harmed;
   }
-  EXPECT_GT(read_anyway, count / 20) << "too harmful to test what is read anyway";
-  EXPECT_LT(read_anyway, count) << "too harmless";
+  EXPECT_GT(read_anyway, count / 20) << "the damage is too strong: too few texts can be read";
+  EXPECT_LT(read_anyway, count) << "the damage is too weak: all texts can be read";
 }
 
-TEST(UrdfFuzz, AHarmedSrdfIsRulesOrARefusal) {
+TEST(UrdfFuzz, ADamagedSrdfGivesRulesOrIsRefused) {
   const std::string text = fileText(ownData() + "/robots/traits.srdf");
   const RobotModel model = read(smallRobot());
   int read_anyway = 0;

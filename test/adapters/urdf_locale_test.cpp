@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// E11: numbers are read with a decimal point, whatever the locale of the process says.
+// Numbers are read with a decimal point, whatever the locale of the process is.
 #include <gtest/gtest.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -15,24 +15,24 @@
 
 extern char** environ;
 
-/// glibc forgets the parts of LOCPATH; the leak sanitizer asks here what to overlook.
+/// Returns the leaks that the leak sanitizer must ignore. glibc does not free memory that it allocates for LOCPATH.
 extern "C" const char* __lsan_default_suppressions() { return "leak:argz_add_sep"; }
 
 namespace hgrid {
 namespace test {
 namespace {
 
-/// Compiles de_DE.UTF-8 into a folder. @returns whether that worked
+/// Compiles the locale de_DE.UTF-8 into a folder. @returns whether this succeeded
 bool compileLocale(const std::string& folder) {
   const std::string target = folder + "/de_DE.UTF-8";
   const char* arguments[] = {"localedef", "--no-archive", "-i", "de_DE", "-f", "UTF-8", target.c_str(), nullptr};
   pid_t child = 0;
   if (posix_spawnp(&child, "localedef", nullptr, nullptr, const_cast<char**>(arguments), environ) != 0) return false;
   int status = 0;
-  return waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) <= 1;  // 1: warnings
+  return waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) <= 1;  // status 1: warnings
 }
 
-/// Lets the process, its C++ streams and its children speak a language with a decimal comma, while it lives.
+/// Sets a locale with a decimal comma while this object exists: for the process, its C++ streams and its children.
 class DecimalComma {
  public:
   DecimalComma() {
@@ -98,8 +98,8 @@ TEST(UrdfLocale, ADecimalCommaChangesNothing) {
   const RobotModel with_point = readWith(before, text);
 
   const DecimalComma comma;
-  if (!comma.isSet()) GTEST_SKIP() << "no locale with a decimal comma, and no localedef to make one";
-  ASSERT_EQ(std::strtod("1,5", nullptr), 1.5) << "the C library does read commas now";
+  if (!comma.isSet()) GTEST_SKIP() << "there is no locale with a decimal comma, and localedef could not create one";
+  ASSERT_EQ(std::strtod("1,5", nullptr), 1.5) << "the C library must read a decimal comma now";
   MeshLoader during(meshPolicy());
   expectSame(with_point, readWith(during, text));
 
@@ -107,7 +107,7 @@ TEST(UrdfLocale, ADecimalCommaChangesNothing) {
       "<robot name=\"r\"><link name=\"a\"><collision><geometry><sphere "
       "radius=\"1,5\"/></geometry></collision></link></robot>";
   const RobotModel refused = readWith(during, comma_radius);
-  EXPECT_EQ(refused.links.at(0).unreadable.size(), 1u) << "1,5 is no number in a URDF, in no locale";
+  EXPECT_EQ(refused.links.at(0).unreadable.size(), 1u) << "1,5 is not a number in a URDF, whatever the locale";
 }
 
 }  // namespace

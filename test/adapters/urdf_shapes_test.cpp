@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// A shape that cannot be read is named, and the robot loads with the rest: never a silent gap.
+// A shape that cannot be read is reported by name, and the robot loads with its other shapes.
 #include <gtest/gtest.h>
 
 #include "test/adapters/urdf_texts.h"
@@ -15,7 +15,7 @@ namespace {
 struct BadShape {
   std::string collision;
   Code code;
-  std::vector<std::string> words;  // what the sentence must say besides the link
+  std::vector<std::string> words;  // words that the sentence must contain, besides the name of the link
 };
 
 std::string sphere(const std::string& radius) { return collision("<sphere radius=\"" + radius + "\"/>"); }
@@ -28,7 +28,7 @@ std::string mesh(const std::string& uri, const std::string& more = "") {
 }
 std::string at(const std::string& origin) { return collision("<sphere radius=\"1\"/>", "<origin " + origin + "/>"); }
 
-/// Loads a robot whose link "claw" has the shape between a good box and a good sphere.
+/// Loads a robot whose link "claw" has three shapes: a valid box, the bad shape and a valid sphere.
 void expectUnreadable(const BadShape& bad, MeshLoader& loader) {
   SCOPED_TRACE(bad.collision);
   const std::string text = robot(
@@ -43,7 +43,7 @@ void expectUnreadable(const BadShape& bad, MeshLoader& loader) {
 
   const RobotLink& claw = model.links[1];
   EXPECT_TRUE(claw.has_collision);
-  ASSERT_EQ(claw.shapes.size(), 2u);  // the good ones, each with its own origin
+  ASSERT_EQ(claw.shapes.size(), 2u);  // the valid shapes, each with its own origin
   EXPECT_EQ(claw.shapes[0].shape.dimensions(), std::vector<double>({1, 2, 3}));
   EXPECT_EQ(claw.shapes[0].body_from_shape.translation(), Eigen::Vector3d::Zero());
   EXPECT_EQ(claw.shapes[1].shape.dimensions(), std::vector<double>({2}));
@@ -60,7 +60,7 @@ void expectUnreadable(const std::vector<BadShape>& shapes) {
   for (const BadShape& bad : shapes) expectUnreadable(bad, loader);
 }
 
-TEST(UrdfShapes, NumbersThatAreNoneAreNamed) {  // E8
+TEST(UrdfShapes, InvalidNumbersAreNamed) {
   expectUnreadable({
       {sphere("nan"), Code::parse, {"nan", "radius"}},
       {sphere("inf"), Code::parse, {"inf", "radius"}},
@@ -79,7 +79,7 @@ TEST(UrdfShapes, NumbersThatAreNoneAreNamed) {  // E8
   });
 }
 
-TEST(UrdfShapes, GeometryThatIsNoneIsNamed) {  // E9
+TEST(UrdfShapes, InvalidGeometryIsNamed) {
   expectUnreadable({
       {collision("<torus radius=\"1\"/>"), Code::parse, {"torus"}},
       {collision(""), Code::parse, {"geometry"}},
@@ -95,7 +95,7 @@ TEST(UrdfShapes, GeometryThatIsNoneIsNamed) {  // E9
   });
 }
 
-TEST(UrdfShapes, SizesOfNothingAndLessAreNamed) {  // E10
+TEST(UrdfShapes, SizesThatAreNotPositiveAreNamed) {
   expectUnreadable({
       {sphere("-1"), Code::bad_geometry, {"-1", "radius"}},
       {sphere("0"), Code::bad_geometry, {"0", "radius"}},
@@ -109,7 +109,7 @@ TEST(UrdfShapes, SizesOfNothingAndLessAreNamed) {  // E10
   });
 }
 
-TEST(UrdfShapes, MeshesThatAreNotThereAreNamed) {  // E13, F1, F3, F4, F7
+TEST(UrdfShapes, MeshesThatCannotBeOpenedAreNamed) {
   expectUnreadable({
       {mesh("package://hgrid_test/meshes/gone.stl"), Code::resource_missing, {"gone.stl"}},
       {mesh("package://no_such_package/a.stl"), Code::resource_missing, {"no_such_package"}},
@@ -121,7 +121,7 @@ TEST(UrdfShapes, MeshesThatAreNotThereAreNamed) {  // E13, F1, F3, F4, F7
   });
 }
 
-TEST(UrdfShapes, ScalesThatMakeNoMeshAreNamed) {  // B14
+TEST(UrdfShapes, ScalesThatMakeNoMeshAreNamed) {
   const std::string corner = "package://hgrid_test/meshes/corner.stl";
   expectUnreadable({
       {mesh(corner, "scale=\"0 1 1\""), Code::bad_geometry, {"scale"}},
@@ -134,7 +134,7 @@ TEST(UrdfShapes, ScalesThatMakeNoMeshAreNamed) {  // B14
   });
 }
 
-TEST(UrdfShapes, OriginsBeyondTheLimitAreNamed) {  // E14
+TEST(UrdfShapes, OriginsBeyondTheLimitAreNamed) {
   expectUnreadable({
       {at("xyz=\"1e300 0 0\""), Code::out_of_range, {"1e", "origin"}},
       {at("xyz=\"0 0 -1e300\""), Code::out_of_range, {"-1e", "origin"}},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Links and joints that do not make a tree are refused, naming the link.
+// A robot whose links and joints form no tree is refused. The error sentence names a link or joint.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -16,12 +16,12 @@ namespace {
 struct NoTree {
   const char* what;
   std::string content;
-  std::vector<std::string> one_of;  // names, one of which the sentence must say
+  std::vector<std::string> one_of;  // names; the sentence must contain at least one of them
 };
 
 const std::vector<NoTree>& noTrees() {
   static const std::vector<NoTree> all = {
-      // E6
+      // Loops of joints.
       {"self-loop beside a root", link("base") + link("wheel") + joint("spin", "wheel", "wheel"), {"wheel"}},
       {"self-loop alone", link("wheel") + joint("spin", "wheel", "wheel"), {"wheel"}},
       {"cycle of two alone",
@@ -34,7 +34,7 @@ const std::vector<NoTree>& noTrees() {
        link("base") + link("arm") + joint("j0", "base", "arm") + link("wheel") + link("axle") + link("rim") +
            joint("j1", "wheel", "axle") + joint("j2", "axle", "rim") + joint("j3", "rim", "wheel"),
        {"wheel", "axle", "rim"}},
-      // E7
+      // Several parents or roots, and missing or duplicate names.
       {"two parents",
        link("base") + link("left") + link("hand") + joint("j1", "base", "left") + joint("j2", "base", "hand") +
            joint("j3", "left", "hand"),
@@ -46,17 +46,17 @@ const std::vector<NoTree>& noTrees() {
       {"duplicate joint",
        link("base") + link("left") + link("right") + joint("hinge", "base", "left") + joint("hinge", "base", "right"),
        {"hinge"}},
-      // and what else makes no robot
+      // Other errors.
       {"unknown joint type", link("base") + link("arm") + joint("hinge", "base", "arm", "screwed"), {"hinge"}},
       {"revolute without limits", link("base") + link("arm") + joint("hinge", "base", "arm", "revolute"), {"hinge"}},
-      {"joint origin that is no number",
+      {"joint origin that is not a number",
        link("base") + link("arm") + joint("hinge", "base", "arm", "fixed", "<origin xyz=\"0 nan 0\"/>"),
        {"hinge", "arm"}},
   };
   return all;
 }
 
-TEST(UrdfStructure, WhatIsNoTreeIsRefusedByName) {
+TEST(UrdfStructure, LinksThatFormNoTreeAreRefusedByName) {
   for (const NoTree& bad : noTrees()) {
     SCOPED_TRACE(bad.what);
     std::string sentence;
@@ -72,7 +72,7 @@ TEST(UrdfStructure, NoLinksAndNoNameAreRefused) {
   EXPECT_EQ(refusalOf([] { read("<robot>" + link("a") + "</robot>"); }), Code::parse);
 }
 
-TEST(UrdfStructure, LinkNamesThatAreNoNamesAreRefused) {  // C1
+TEST(UrdfStructure, InvalidLinkNamesAreRefused) {
   for (const std::string& name : {std::string(), std::string("cl&#x1b;[31maw"), std::string("a&#10;b"),
                                   std::string("\xff"), std::string(129, 'x')}) {
     std::string sentence;
@@ -91,7 +91,7 @@ TEST(UrdfStructure, AnAxisOfLengthZeroIsAWarningByName) {
   EXPECT_TRUE(says(model.warnings[0], "hinge"));
 }
 
-TEST(UrdfStructure, ARefusalIsNoHindranceToTheNextText) {
+TEST(UrdfStructure, ARefusalDoesNotAffectTheNextText) {
   const std::string good = robot(link("base", collision("<sphere radius=\"1\"/>")));
   for (const NoTree& bad : noTrees()) {
     refusalOf([&] { read(robot(bad.content)); });
@@ -99,7 +99,7 @@ TEST(UrdfStructure, ARefusalIsNoHindranceToTheNextText) {
   }
 }
 
-TEST(UrdfStructure, AFarJointIsRefusedOrFinite) {  // E14 at a joint: nothing infinite gets into a model
+TEST(UrdfStructure, AFarJointIsRefusedOrFinite) {  // a model must not contain infinite numbers
   const std::string far = link("base") + link("arm") + link("hand", collision("<sphere radius=\"1\"/>"));
   const std::string origin = "<origin xyz=\"1e300 0 0\"/>";
   const std::string text =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Text that is refused before a library sees it, and text that only looks as if it should be.
+// Texts that are refused before the XML library reads them, and similar texts that must be accepted.
 #include <gtest/gtest.h>
 
 #include "test/adapters/urdf_texts.h"
@@ -19,12 +19,12 @@ std::string nested(int count, const std::string& open = "<a>", const std::string
   return text;
 }
 
-TEST(UrdfText, EmptyTextIsRefused) {  // E1
+TEST(UrdfText, EmptyTextIsRefused) {
   for (const char* text : {"", " ", "\n\t\n"})
     EXPECT_EQ(refusalOf([&] { read(text); }), Code::parse) << "'" << text << "'";
 }
 
-TEST(UrdfText, WhatIsNotXmlIsRefusedWithTheLine) {  // E2
+TEST(UrdfText, InvalidXmlIsRefusedWithTheLine) {
   const std::string whole = robot(link("a", collision("<sphere radius=\"1\"/>")));
   const std::vector<std::string> texts = {"hello",
                                           "<robot",
@@ -39,16 +39,16 @@ TEST(UrdfText, WhatIsNotXmlIsRefusedWithTheLine) {  // E2
   }
 }
 
-TEST(UrdfText, EveryTruncationIsRefused) {  // E2
+TEST(UrdfText, EveryTruncationIsRefused) {
   std::string whole = robot(link("a", collision("<sphere radius=\"1\"/>")) + link("b") + joint("j", "a", "b"));
-  whole.pop_back();  // the line break at the end is no loss
+  whole.pop_back();  // a text without the final line break is still complete
   for (std::size_t bytes = 0; bytes < whole.size(); ++bytes) {
     EXPECT_EQ(refusalOf([&] { read(whole.substr(0, bytes)); }), Code::parse) << bytes << " bytes";
   }
   EXPECT_EQ(read(whole).links.size(), 2u);
 }
 
-TEST(UrdfText, BinaryIsRefused) {  // E2
+TEST(UrdfText, BinaryIsRefused) {
   Random random(1);
   for (int i = 0; i < 50; ++i) {
     std::string bytes(static_cast<std::size_t>(1 + random.below(1000)), '\0');
@@ -64,7 +64,7 @@ TEST(UrdfText, AnotherRootIsRefused) {
   EXPECT_EQ(refusalOf([] { read("<sdf version=\"1.6\"><model name=\"m\"/></sdf>"); }), Code::parse);
 }
 
-TEST(UrdfText, FiftyThousandLevelsAreRefusedAtTheLimit) {  // E3
+TEST(UrdfText, FiftyThousandLevelsAreRefusedAtTheLimit) {
   const std::vector<std::string> deep = {nested(50000),
                                          nested(50000, "<a b=\"/>\">"),
                                          nested(50000, "<a b='>' c=\"'/>\">"),
@@ -96,7 +96,7 @@ TEST(UrdfText, OnlyOpenElementsCountAsDepth) {
   EXPECT_EQ(refusalOf([&] { checkXml(robot("<![CDATA[" + nested(400, "<a>", "") + "]]>"), {}, "text"); }), Code::ok);
 }
 
-TEST(UrdfText, TextIsRefusedAboveItsLimitAndTakenAtIt) {  // E4
+TEST(UrdfText, TextIsRefusedAboveItsLimitAndTakenAtIt) {
   const std::string model = robot(link("a"));
   const std::size_t limit = DescriptionLimits().max_bytes;
   ASSERT_EQ(limit, 16u << 20);
@@ -110,7 +110,7 @@ TEST(UrdfText, TextIsRefusedAboveItsLimitAndTakenAtIt) {  // E4
   for (const char* word : {"20", "21", "my_text"}) EXPECT_TRUE(says(sentence, word));
 }
 
-TEST(UrdfText, ADocumentTypeIsRefused) {  // E5
+TEST(UrdfText, ADocumentTypeIsRefused) {
   const std::string body = robot(link("a"));
   std::string laughs = "<!DOCTYPE robot [<!ENTITY a \"ha\">";
   for (char c = 'b'; c < 'z'; ++c) {
@@ -123,7 +123,7 @@ TEST(UrdfText, ADocumentTypeIsRefused) {  // E5
       "<!-- one --><!DOCTYPE\trobot>" + body, laughs + "]>" + robot(link("&y;"))};
   for (const std::string& text : texts)
     EXPECT_EQ(refusalOf([&] { read(text); }), Code::unsupported) << text.substr(0, 80);
-  EXPECT_EQ(read("<!-- <!DOCTYPE robot> -->" + body).links.size(), 1u) << "a comment is no document type";
+  EXPECT_EQ(read("<!-- <!DOCTYPE robot> -->" + body).links.size(), 1u) << "a document type in a comment is allowed";
 }
 
 TEST(UrdfText, MoreLinksThanTheLimitAreRefused) {
@@ -138,6 +138,21 @@ TEST(UrdfText, MoreLinksThanTheLimitAreRefused) {
   const std::string four = robot(three + link("l3") + joint("j3", "l0", "l3"));
   EXPECT_EQ(refusalOf([&] { read(four, limits); }, &sentence), Code::limit);
   for (const char* word : {"3", "4"}) EXPECT_TRUE(says(sentence, word));
+}
+
+TEST(UrdfText, LinksAndJointsAreCountedBeforeTheyAreRead) {
+  DescriptionLimits limits;
+  limits.max_links = 3;
+  std::string links, joints = link("l0");
+  for (int i = 0; i < 4; ++i) {
+    links += link("same name");
+    joints += joint("j" + std::to_string(i), "l0", "no such link");
+  }
+  std::string sentence;
+  EXPECT_EQ(refusalOf([&] { read(robot(links), limits); }, &sentence), Code::limit);
+  EXPECT_TRUE(says(sentence, "4 links"));
+  EXPECT_EQ(refusalOf([&] { read(robot(joints), limits); }, &sentence), Code::limit);
+  EXPECT_TRUE(says(sentence, "4 joints"));
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace hgrid {
 namespace test {
 
-/// A robot named "r" of this content.
+/// Returns the URDF text of a robot named "r".
 inline std::string robot(const std::string& content) { return "<robot name=\"r\">\n" + content + "</robot>\n"; }
 
 inline std::string link(const std::string& name, const std::string& content = "") {
@@ -30,7 +30,7 @@ inline std::string joint(const std::string& name, const std::string& parent, con
          "\"/>" + content + "</joint>\n";
 }
 
-/// The smallest closed mesh, each coordinate times `scale`.
+/// Returns a tetrahedron, the smallest closed mesh, with each coordinate multiplied by `scale`.
 inline std::shared_ptr<const TriangleMesh> tetrahedron(const Eigen::Vector3d& scale = Eigen::Vector3d::Ones()) {
   auto mesh = std::make_shared<TriangleMesh>();
   mesh->vertices = {{0, 0, 0}, {0.5, 0, 0}, {0, 0.25, 0}, {0, 0, 0.125}};
@@ -39,17 +39,17 @@ inline std::shared_ptr<const TriangleMesh> tetrahedron(const Eigen::Vector3d& sc
   return mesh;
 }
 
-/// A source that knows "package://p/tetrahedron.stl" and refuses everything else.
+/// A source of meshes: returns a tetrahedron for "package://p/tetrahedron.stl" and refuses everything else.
 inline std::shared_ptr<const TriangleMesh> knowsOneMesh(const std::string& uri, const Eigen::Vector3d& scale) {
   if (uri == "package://p/tetrahedron.stl") return tetrahedron(scale);
-  throw Refusal(Code::resource_missing, "mesh '" + printable(uri) + "' is not there");
+  throw Refusal(Code::resource_missing, "mesh '" + printable(uri) + "' does not exist");
 }
 
 inline RobotModel read(const std::string& urdf, const DescriptionLimits& limits = {}) {
   return readUrdf(urdf, knowsOneMesh, limits);
 }
 
-/// <collision> elements of the links of a robot, counted by another reader.
+/// Counts the <collision> elements of all links of a URDF, without the product's reader.
 inline std::size_t collisionElements(const std::string& urdf) {
   tinyxml2::XMLDocument document;
   if (document.Parse(urdf.data(), urdf.size()) != tinyxml2::XML_SUCCESS) throw std::runtime_error("not XML");
@@ -61,7 +61,7 @@ inline std::size_t collisionElements(const std::string& urdf) {
   return count;
 }
 
-/// Shapes of a model, those that could not be read included.
+/// Counts the shapes of a model, including those that could not be read.
 inline std::size_t accountedFor(const RobotModel& model) {
   std::size_t count = 0;
   for (const RobotLink& link : model.links) count += link.shapes.size() + link.unreadable.size();

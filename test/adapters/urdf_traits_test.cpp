@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// What test/data/robots/traits.urdf says is what the model holds.
+// Compares the model that is read from test/data/robots/traits.urdf with the content of that file.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,14 +26,15 @@ class UrdfTraits : public ::testing::Test {
   }
 };
 
-/// Roll, pitch and yaw as REP-103 and URDF have them: about the fixed axes x, y, z in this order.
+/// Returns the rotation of roll, pitch and yaw, as REP-103 and URDF define it: first about the fixed axis x, then about
+/// the fixed axis y, then about the fixed axis z.
 Eigen::Matrix3d turned(double roll, double pitch, double yaw) {
   return (Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
           Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()))
       .toRotationMatrix();
 }
 
-TEST_F(UrdfTraits, EveryLinkStandsAfterItsParent) {
+TEST_F(UrdfTraits, EveryLinkComesAfterItsParent) {
   EXPECT_EQ(model_.name, "traits");
   ASSERT_EQ(model_.links.size(), 10u);
   EXPECT_EQ(model_.links[0].name, "base");
@@ -97,7 +98,7 @@ TEST_F(UrdfTraits, JointsHaveTheirKindsAxesAndLimits) {
 
   const RobotLink& arm = link("arm");
   EXPECT_EQ(arm.joint_kind, JointKind::revolute);
-  EXPECT_TRUE(arm.axis.isApprox(Eigen::Vector3d(0, 0.6, 0.8), 1e-15)) << "the axis is made a unit vector";
+  EXPECT_TRUE(arm.axis.isApprox(Eigen::Vector3d(0, 0.6, 0.8), 1e-15)) << "the axis must be normalized";
   EXPECT_EQ(arm.lower, -1.5);
   EXPECT_EQ(arm.upper, 0.5);
   EXPECT_EQ(arm.max_velocity, 2.0);
@@ -111,7 +112,7 @@ TEST_F(UrdfTraits, JointsHaveTheirKindsAxesAndLimits) {
 
   const RobotLink& finger = link("finger_right");
   EXPECT_EQ(finger.joint_kind, JointKind::prismatic);
-  EXPECT_EQ(finger.axis, Eigen::Vector3d(1, 0, 0)) << "the axis of a joint that names none";
+  EXPECT_EQ(finger.axis, Eigen::Vector3d(1, 0, 0)) << "the default axis must be x";
   EXPECT_EQ(finger.lower, -0.08);
   EXPECT_EQ(link("cart").joint_kind, JointKind::planar);
   EXPECT_EQ(link("cart").axis, Eigen::Vector3d(0, 0, 1));
@@ -144,7 +145,8 @@ TEST_F(UrdfTraits, RigidGroupsStayRigidInEveryState) {
       const Pose hand_from_finger = poses[model_.find("hand")].inverse() * poses[model_.find(finger)];
       return hand_from_finger.translation().x();
     };
-    EXPECT_NEAR(opening("finger_right"), -2 * opening("finger_left") + 0.01, 1e-12) << "the mimic joint";
+    EXPECT_NEAR(opening("finger_right"), -2 * opening("finger_left") + 0.01, 1e-12)
+        << "the mimic joint must follow its master";
   }
 }
 

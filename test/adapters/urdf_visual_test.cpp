@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Visual geometry in place of collision geometry: only where the caller chooses it and there is nothing else.
+// Visual geometry replaces collision geometry only for links that the caller chooses and that have no <collision>.
 #include <gtest/gtest.h>
 
 #include "test/adapters/urdf_texts.h"
@@ -21,7 +21,7 @@ RobotModel readWithVisual(const std::string& urdf, const VisualChoice& takes_vis
 
 bool all(const std::string&) { return true; }
 
-TEST(UrdfVisual, IsTakenOnlyOfChosenLinksWithoutCollision) {
+TEST(UrdfVisual, IsUsedOnlyForChosenLinksWithoutCollision) {
   const std::string text =
       robot(link("base", visual("<sphere radius=\"1\"/>") + collision("<sphere radius=\"2\"/>")) +
             link("chosen", visual("<sphere radius=\"3\"/>") + visual("<box size=\"1 2 3\"/>")) +
@@ -43,7 +43,7 @@ TEST(UrdfVisual, IsTakenOnlyOfChosenLinksWithoutCollision) {
   for (const RobotLink& link : readWithVisual(text, {}).links) EXPECT_FALSE(link.uses_visual) << link.name;
 }
 
-TEST(UrdfVisual, IsNotTakenInPlaceOfACollisionThatCannotBeRead) {
+TEST(UrdfVisual, DoesNotReplaceACollisionThatCannotBeRead) {
   const RobotModel model = readWithVisual(
       robot(link("base", collision("<sphere radius=\"nan\"/>") + visual("<sphere radius=\"1\"/>"))), all);
   EXPECT_FALSE(model.links[0].uses_visual);
@@ -73,7 +73,7 @@ TEST(UrdfVisual, AnythingButOriginAndGeometryDoesNotMatter) {
   }
 }
 
-TEST(UrdfVisual, ThatCannotBeReadIsNamedAndTheRestServes) {
+TEST(UrdfVisual, ThatCannotBeReadIsNamedAndTheRestIsUsed) {
   struct Bad {
     std::string visual;
     Code code;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// A plugin of qemu-user: counts the instructions that a program executes in each of its functions, and writes the
-// counts to the file that `out` names. Counts with one thread only.
+// A plugin for qemu-user. It counts the instructions that a program executes in each of its functions, and writes the
+// counts to the file given by the argument `out=`. The program must use only one thread.
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <map>
 #include <string>
 
-// What is used of qemu's interface for plugins, version 1 (qemu 4.2 to 8.2). Debian packages no header of it.
+// The used part of qemu's plugin interface, version 1 (qemu 4.2 to 8.2). Debian has no package with its header.
 extern "C" {
 struct qemu_info_t;
 struct qemu_plugin_tb;
@@ -31,7 +31,7 @@ namespace {
 
 std::string out;
 
-std::map<std::string, std::uint64_t>& counts() {  // by function; qemu adds to the numbers, which never move
+std::map<std::string, std::uint64_t>& counts() {  // by function; qemu keeps pointers to the counts
   static auto* const counts = new std::map<std::string, std::uint64_t>;
   return *counts;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Prints a hash of what the broad phase and the map answer to seeded questions, one line for each kind of question.
-// Every processor and every instruction set must print the same lines.
+// Prints hashes of the answers of the broad phase and of a map to random queries with fixed seeds, one line for each
+// kind of query. Every processor and every instruction set must print the same lines.
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -19,7 +19,7 @@ namespace {
 
 using test::Random;
 
-/// FNV-1a over the bytes of numbers, so that -0 and 0 differ, and any two orders of results.
+/// An FNV-1a hash over the bytes of numbers. So -0 and 0 give different hashes, and so do different orders of results.
 class Hash {
  public:
   template <class Number>
@@ -51,7 +51,7 @@ struct Topic {
 };
 using Topics = std::vector<Topic>;
 
-// Random numbers come from uniform() and powers of two only: std::exp and std::cbrt may round differently elsewhere.
+// Uses only uniform() and powers of two, because std::exp and std::cbrt may round differently on other systems.
 Eigen::Vector3d vectorIn(Random& random, double low, double high) {
   const double x = random.uniform(low, high), y = random.uniform(low, high);
   return {x, y, random.uniform(low, high)};
@@ -59,12 +59,12 @@ Eigen::Vector3d vectorIn(Random& random, double low, double high) {
 
 struct World {
   std::size_t boxes;
-  double room;  // [m] edge of the cube that has the corners of boxes
+  double room;  // [m] edge of the cube that contains a corner of each box
   Eigen::Vector3d center;
-  double step;  // [m] corners are multiples of it, so that many boxes touch; 0: they are not rounded
+  double step;  // [m] corners are multiples of this, so that many boxes touch; 0: no rounding
 };
 
-/// One box in fifty is large, one in fifty has no size.
+/// Returns a random box. One box in fifty is large, and one in fifty has size 0.
 Aabb someBox(Random& random, const World& world) {
   const int power = random.chance(0.02) ? random.between(0, 4) : random.between(-4, -1);
   const double edge = random.chance(0.02) ? 0.0 : std::ldexp(1.0, power);
@@ -77,7 +77,7 @@ Aabb someBox(Random& random, const World& world) {
   return {low, low + size};
 }
 
-/// Brings the grid to a world and through a few changes of it; some boxes are removed, some come back.
+/// A grid with a random world that changes in steps: boxes move, and some are removed and inserted again.
 class Play {
  public:
   Play(const World& world, unsigned seed, Isa isa) : world_(world), random_(seed) {
@@ -169,7 +169,7 @@ Topics broadPhase(Isa isa) {
   return topics;
 }
 
-/// A floor, walls and clutter: voxels of several levels that do not overlap.
+/// Returns a map of a floor, walls and small objects. Its voxels have several levels and do not overlap.
 StaticGrid someMap() {
   Random random(5);
   std::vector<Voxel> voxels;
@@ -221,14 +221,14 @@ int run(const std::string& set) {
   for (const Isa isa : {Isa::portable, Isa::sse2, Isa::avx2, Isa::avx512, Isa::neon}) {
     if (name(isa) != set) continue;
     if (!isSupported(isa)) {
-      std::fprintf(stderr, "this processor does not have %s\n", name(isa));
+      std::fprintf(stderr, "this processor does not support the instruction set %s\n", name(isa));
       return 1;
     }
     print(broadPhase(isa));
     print(map());
     return 0;
   }
-  std::fprintf(stderr, "there is no instruction set %s\n", set.c_str());
+  std::fprintf(stderr, "unknown instruction set %s; run without arguments to list the supported ones\n", set.c_str());
   return 1;
 }
 

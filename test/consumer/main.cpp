@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// A user of the core without ROS: a scene with two boxes and a two-link robot, a query, and a grid on its own.
-// Exit status 0 if all answers are as expected.
+// Uses the core without ROS: a scene with two boxes and one robot link, a query, and a separate grid. Exit status 0 if
+// all answers are as expected.
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -20,7 +20,7 @@ using namespace hgrid;
 
 void require(bool holds, const char* claim) {
   if (holds) return;
-  std::printf("not so: %s\n", claim);
+  std::printf("This must be true, but is not: %s\n", claim);
   std::exit(1);
 }
 
@@ -63,7 +63,7 @@ void useScene() {
   QueryScope scope;
   scope.exact = narrow_phase.get();
   const QueryAnswer answer = query(*snapshot, Sphere{{0.72, 0.0, 0.75}, 0.31}, scope);
-  // It touches the box around the forearm, but not the forearm.
+  // The sphere also touches the box around the forearm, but not the forearm itself.
   require(answer.verdict == Verdict::hit && answer.hits.size() == 1, "the sphere touches one body");
   std::printf("the sphere touches %s\n", bodies[answer.hits[0].body].name.c_str());
 }

@@ -11,13 +11,14 @@
 namespace hgrid {
 namespace test {
 
-/// What became of an input of the fuzzer.
+/// The result of reading an input of the fuzzer.
 struct FuzzedOctomap {
   bool accepted = false;
-  std::string flaw;  ///< as flawOf() says
+  std::string flaw;  ///< what is wrong with the map that was read; empty if nothing (see flawOf())
 };
 
-/// Reads what stands behind the first byte, whose bits are options: as a file, or as the data of a message.
+/// Reads an input of the fuzzer. The bits of its first byte select options, and whether the other bytes are a file or
+/// the data of a message.
 inline FuzzedOctomap readFuzzed(std::string_view input) {
   if (input.empty()) return {};
   const auto bits = static_cast<unsigned char>(input[0]);
@@ -28,10 +29,10 @@ inline FuzzedOctomap readFuzzed(std::string_view input) {
   options.keep_free = bits & 4;
   options.allow_empty = bits & 8;
   if (bits & 16) options.crop = Eigen::AlignedBox3d(Eigen::Vector3d(-1.0, -2.0, 0.0), Eigen::Vector3d(1.0, 2.0, 1.5));
-  const bool message = bits & 32, binary = bits & 64, colour = bits & 128;
+  const bool message = bits & 32, binary = bits & 64, color = bits & 128;
   try {
     const Octomap map = message
-                            ? readOctomapData({colour ? "ColorOcTree" : "OcTree", binary, 0.1}, input, "map", options)
+                            ? readOctomapData({color ? "ColorOcTree" : "OcTree", binary, 0.1}, input, "map", options)
                             : readOctomap(input, "map", options);
     return {true, flawOf(map, options)};
   } catch (const Refusal&) {

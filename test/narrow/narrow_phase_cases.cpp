@@ -66,7 +66,7 @@ Case Cases::next(double from_origin) {
   const double reach = shapes_[0].reach() + shapes_[1].reach();
   const auto padding = [&] { return random_.chance(0.5) ? 0.0 : random_.logUniform(1e-4, 0.05); };
   Case placed{shapes_[0], shapes_[1], randomPose(random_, reach), randomPose(random_, reach), padding(), padding()};
-  if (!random_.chance(0.15)) {  // 15 % of the pairs keep their random poses; most of those overlap deeply
+  if (!random_.chance(0.15)) {  // the other 15 % keep their random poses; most of them overlap deeply
     const Eigen::Vector3d way = randomPose(random_, 1.0).linear().col(0);
     placed.world_from_second.translation() = placed.world_from_first.translation() + 1.5 * reach * way;
     bringTo(randomGap(), placed);

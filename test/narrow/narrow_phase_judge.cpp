@@ -52,7 +52,7 @@ std::string unsound(const Proximity& answer, double up_to) {
       if (std::isinf(answer.depth)) return "the depth is infinite";
       if (!answer.normal.hasNaN() && !isUnit(answer.normal)) return "the normal is not a unit vector";
       if (!std::isnan(answer.depth) && answer.normal.hasNaN()) return "there is a depth, but no normal";
-      return (answer.on_first.array().isInf() || answer.on_second.array().isInf()).any() ? "a nearest point is infinite" : "";
+      return (answer.on_first.array().isInf() || answer.on_second.array().isInf()).any() ? "a point is infinite" : "";
     case Measure::failed:
       return answer.distance > 0.0 ? "the measurement failed, but there is a distance" : "";
     default:
@@ -117,12 +117,12 @@ void Judge::expectAllHeld() const {
 
 std::string Judge::figures() const {
   char line[256];
-  std::snprintf(
-      line, sizeof(line),
-      "%6zu poses  %6zu apart, errors: distance %.1e  points %.1e  normal %.1e  "
-      "%6zu in contact, true distance %.1e  %6zu with depth",
-      sound_.count(), distance_.count(), distance_.worst(), std::max(on_shapes_.worst(), between_points_.worst()),
-      normal_.worst(), false_contact_.count(), false_contact_.worst(), depth_.count());
+  std::snprintf(line, sizeof(line),
+                "%6zu poses  %6zu apart, errors: distance %.1e  points %.1e  normal %.1e  "
+                "%6zu in contact, true distance %.1e  %6zu with depth",
+                sound_.count(), distance_.count(), distance_.worst(),
+                std::max(on_shapes_.worst(), between_points_.worst()), normal_.worst(), false_contact_.count(),
+                false_contact_.worst(), depth_.count());
   return line;
 }
 

@@ -29,7 +29,7 @@ TEST(NarrowPhaseThreads, AnswerAsOneDoes) {
   for (int& count : wrong) {
     threads.emplace_back([&] {
       for (std::size_t i = 0; i < trials.size(); ++i) {
-        const Trial made_here(placed[i]);  // other threads create solids from the same meshes now
+        const Trial made_here(placed[i]);  // at the same time, other threads create solids from these meshes
         count += !isSame(trials[i].measure(), expected[i]) || !isSame(made_here.measure(), expected[i]);
       }
     });

@@ -44,15 +44,15 @@ Shape strangeShape(Random& random) {
   const auto kind = ShapeKind(random.between(1, 7));
   const double huge = random.logUniform(1e4, 4e4);
   switch (random.below(7)) {
-    case 0:  // plates and needles
+    case 0:  // thin plates and needles
       if (kind == ShapeKind::box) return Shape::box({random.logUniform(0.1, 2), random.logUniform(0.1, 2), 1e-4});
       if (kind == ShapeKind::cylinder) return Shape::cylinder(random.logUniform(0.1, 2), 1e-4);
       if (kind == ShapeKind::cone) return Shape::cone(1e-4, random.logUniform(0.1, 2));
       if (kind == ShapeKind::mesh) return meshOf(boxMesh({1.0, random.logUniform(0.1, 2), 1e-4}));
       return Shape::capsule(random.logUniform(0.1, 2), 1e-4);
-    case 1:  // tiny
+    case 1:  // tiny shapes
       return randomSolid(random, kind, {2e-4, 4e-4, 1.0});
-    case 2:  // huge
+    case 2:  // huge shapes
       return randomSolid(random, kind, {huge, huge, 2.0});
     case 3:
       return Shape::hull(std::make_shared<TriangleMesh>(poorHull(random, random.logUniform(1e-3, 2))));

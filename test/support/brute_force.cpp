@@ -113,7 +113,7 @@ void BruteForce::nearest(const Eigen::Vector3d& point, std::size_t count, double
 
 void BruteForce::checkInvariants() const {
   for (const auto& stored : boxes_) {
-    if (!isValid(stored.second)) throw std::logic_error("BruteForce: a stored box is valid");
+    if (!isValid(stored.second)) throw std::logic_error("BruteForce: a stored box is not valid");
   }
 }
 

@@ -10,10 +10,10 @@
 namespace hgrid {
 namespace test {
 
-/// A broad phase without any data structure: each question looks at all boxes, or at all pairs of them.
+/// A broad phase without a search structure: each query checks all boxes, or all pairs of boxes.
 class BruteForce final : public BroadPhase {
  public:
-  /// The stored boxes.
+  /// Returns the stored boxes by id.
   const std::map<ProxyId, Aabb>& boxes() const { return boxes_; }
 
   void insert(ProxyId id, const Aabb& box) override;

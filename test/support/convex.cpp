@@ -78,7 +78,7 @@ Vector3r Convex::support(const Vector3r& direction) const {
     most = along;
   }
   if (farthest->radius == 0) return farthest->center;
-  if (across == 0) return farthest->center + farthest->radius * x_;  // the whole disc lies equally far
+  if (across == 0) return farthest->center + farthest->radius * x_;  // all points of the disc are equally far
   return farthest->center + farthest->radius * ((u / across) * x_ + (v / across) * y_);
 }
 

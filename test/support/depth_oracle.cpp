@@ -10,24 +10,24 @@ namespace hgrid {
 namespace test {
 namespace {
 
-constexpr Real kTolerance = 1e-8L;  // [m] of the bounds
+constexpr Real kTolerance = 1e-8L;  // [m] the search stops when the bounds are this close
 constexpr int kMaxSteps = 150;
 
-/// A triangle of the polytope; its normal points out, `offset` is the depth of zero below it.
+/// A triangle of the polytope. Its normal points out. `offset` [m] is the distance of the origin from its plane.
 struct Face {
   std::array<int, 3> corners;
   Vector3r normal;
   Real offset;
 };
 
-/// The differences of the points of two cores, from inside.
+/// A polytope inside the set of all differences of the points of two cores (their Minkowski difference).
 class Polytope {
  public:
   Polytope(const Convex& first, const Convex& second)
       : first_(first), second_(second), scale_(first.reach() + second.reach()) {}
 
-  /// Begins with a tetrahedron, its corners found along these axes, which are orthonormal.
-  /// @returns false if the differences lie in one plane
+  /// Creates the first tetrahedron. Searches its corners along these axes, which are orthonormal.
+  /// @returns false if all differences lie in one plane
   bool begin(const std::array<Vector3r, 3>& axes) {
     Real longest = 0;
     for (const Vector3r& axis : axes) {
@@ -57,7 +57,7 @@ class Polytope {
     const Real rise = (above - points_[0]).dot(normal), fall = (points_[0] - below).dot(normal);
     if (std::max(rise, fall) <= flat()) return false;
     points_.push_back(rise > fall ? above : below);
-    if (rise > fall) std::swap(points_[0], points_[1]);  // so that the faces below look out
+    if (rise > fall) std::swap(points_[0], points_[1]);  // so that the faces added below point out
     return add({0, 1, 2}) && add({1, 0, 3}) && add({2, 1, 3}) && add({0, 2, 3});
   }
 
@@ -68,8 +68,8 @@ class Polytope {
 
   Vector3r farthest(const Vector3r& direction) const { return first_.support(direction) - second_.support(-direction); }
 
-  /// Takes the point in: the faces that see it go, new ones join it to their rim.
-  /// @returns false if that cannot be done in this precision
+  /// Adds a point: removes the faces that the point is in front of, and connects the border of the hole to the point.
+  /// @returns false if the precision of the numbers does not suffice for that
   bool grow(const Vector3r& point) {
     std::map<std::pair<int, int>, int> sides;
     std::vector<Face> kept;
@@ -90,7 +90,7 @@ class Polytope {
     return true;
   }
 
-  /// Every side meets its opposite once, and no point lies in front of a face.
+  /// Returns whether each side of a face has exactly one opposite side, and no point lies in front of a face.
   bool isClosedAndConvex() const {
     std::map<std::pair<int, int>, int> sides;
     for (const Face& face : faces_) {
@@ -125,7 +125,7 @@ class Polytope {
   std::vector<Face> faces_;
 };
 
-/// Orthonormal, and less and less in line with anything.
+/// Returns orthonormal axes. Each attempt turns them farther, since axes parallel to sides of a shape can fail.
 std::array<Vector3r, 3> axesOf(int attempt) {
   const Vector3r x = Vector3r(1, 0.31L * attempt, -0.17L * attempt).normalized();
   const Vector3r y = x.cross(Vector3r(0.13L * attempt, 0.29L * attempt, 1)).normalized();
@@ -134,7 +134,7 @@ std::array<Vector3r, 3> axesOf(int attempt) {
 
 Interval coreDepth(const Convex& first, const Convex& second, Real enough) {
   Real upper = std::numeric_limits<Real>::infinity();
-  for (int attempt = 0; attempt < 4; ++attempt) {  // points in line can end the growth
+  for (int attempt = 0; attempt < 4; ++attempt) {  // retry with other axes, since points on a line can stop the growth
     Polytope polytope(first, second);
     if (!polytope.begin(axesOf(attempt))) return {};
     Real lower = 0;

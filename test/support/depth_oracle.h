@@ -7,13 +7,15 @@
 namespace hgrid {
 namespace test {
 
-/// How deep [m] two convex sets overlap: the shortest way that frees one of the other; 0 if they are apart.
+/// Returns bounds of the penetration depth [m] of two convex sets. The depth is the length of the shortest move that
+/// separates them, and 0 if they are apart.
 ///
-/// That is how deep zero lies in the set of the differences of their points. A polytope of such differences grows
-/// from inside, always where zero lies least deep in it; its faces are the lower bound, the set's extent across
-/// them the upper one (after van den Bergen, 2001). In the end the polytope is checked to be closed and convex; if it
-/// is not, nothing is known from below.
-/// @param enough  [m] stops when the depth is proved to be more
+/// The depth is the distance from the origin to the surface of the Minkowski difference, which is the set of all
+/// differences of their points. The function grows a polytope inside that set, always at the face nearest to the
+/// origin. The distance to that face is the lower bound. The extent of the set along the normal of that face is the
+/// upper bound (after van den Bergen, 2001). At the end the function checks that the polytope is closed and convex. If
+/// it is not, the polytope gives no lower bound.
+/// @param enough  [m] the search stops when the depth is proved to be greater than this
 Interval depthOf(const Convex& first, const Convex& second, double enough = std::numeric_limits<double>::infinity());
 
 }  // namespace test

@@ -10,12 +10,12 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// A difference of two points, one of each set.
+/// The difference of two points, one from each set.
 struct Difference {
   Vector3r v, on_first, on_second;
 };
 
-/// Up to four differences, the newest first, and the weights that give their nearest point to zero.
+/// Up to four differences, the newest first. The weights describe the point of the simplex nearest to the origin.
 struct Simplex {
   std::array<Difference, 4> corners;
   std::array<Real, 4> weights{};
@@ -28,8 +28,9 @@ struct Simplex {
   }
 };
 
-/// The point nearest to zero of the plane (line) through the corners, if it lies between them. By orthogonal
-/// steps from the first corner: squares of lengths of nearly parallel sides would lose half of the digits.
+/// Computes the weights of the point nearest to the origin in the plane (or line) through the corners. Takes orthogonal
+/// steps from the first corner, because squared lengths of nearly parallel sides would lose half of the digits.
+/// @returns whether that point lies between the corners
 bool nearestBetween(Simplex& simplex) {
   const int sides = simplex.size - 1;
   Vector3r across[3], rest = simplex.corners[0].v;
@@ -41,7 +42,7 @@ bool nearestBetween(Simplex& simplex) {
       mixed[k][i] = across[k].dot(across[i]) / across[k].squaredNorm();
       across[i] -= mixed[k][i] * across[k];
     }
-    if (across[i].squaredNorm() <= 1e-34L * side.squaredNorm()) return false;  // flat: a face of it will do
+    if (across[i].squaredNorm() <= 1e-34L * side.squaredNorm()) return false;  // flat: a face of it suffices
     share[i] = -across[i].dot(rest) / across[i].squaredNorm();
     rest += share[i] * across[i];
   }
@@ -58,7 +59,8 @@ bool nearestBetween(Simplex& simplex) {
   return true;
 }
 
-/// The face of the simplex, itself included, that holds its nearest point to zero; every face has the newest corner.
+/// Returns the face of the simplex that contains its point nearest to the origin. It can be the simplex itself. Tries
+/// only faces with the newest corner.
 Simplex nearestFace(const Simplex& simplex) {
   Simplex best;
   Real shortest = std::numeric_limits<Real>::infinity();
@@ -93,7 +95,7 @@ CoreDistance coreDistance(const Convex& first, const Convex& second, Real tolera
   for (int step = 0; step < 500; ++step) {
     const Vector3r v = simplex.mixed(&Difference::v);
     const Real length = v.norm();
-    if (length >= result.upper) break;  // no more to be had from this precision
+    if (length >= result.upper) break;  // the precision allows no further progress
     result.upper = length;
     result.on_first = simplex.mixed(&Difference::on_first);
     result.on_second = simplex.mixed(&Difference::on_second);

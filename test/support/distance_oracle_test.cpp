@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// A witness must be trusted first: distances, depths and insides against formulas.
+// Tests the oracle itself: compares its distances, depths and inside tests with formulas.
 #include <gtest/gtest.h>
 
 #include "test/support/shapes.h"
@@ -12,12 +12,12 @@ namespace hgrid {
 namespace test {
 namespace {
 
-constexpr double kClose = 1e-10;  // [m] more than the intervals are wide
+constexpr double kClose = 1e-10;  // [m] largest allowed error, and largest allowed width of an interval
 constexpr int kTrials = 2000;
 
 Eigen::Vector3d randomPoint(Random& random, double far) { return randomPose(random, far).translation(); }
 
-/// Distance of (x, y) from the rectangle [0, width] x [-half, half].
+/// Returns the distance of (x, y) from the rectangle [0, width] x [-half, half].
 double fromRectangle(double x, double y, double width, double half) {
   return std::hypot(std::max(0.0, x - width), std::max(0.0, std::abs(y) - half));
 }
@@ -27,7 +27,7 @@ double fromSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eig
   return (p - a - std::min(1.0, std::max(0.0, along)) * (b - a)).norm();
 }
 
-/// Distance of a point from a ball, capsule, box, cylinder or cone in the shape's frame; 0 inside.
+/// Returns the distance of a point from a sphere, capsule, box, cylinder or cone, in the shape's frame; 0 inside.
 double pointDistance(const Shape& shape, const Eigen::Vector3d& p) {
   const std::vector<double> size = shape.dimensions();
   const double beside = std::hypot(p.x(), p.y());
@@ -48,7 +48,8 @@ double pointDistance(const Shape& shape, const Eigen::Vector3d& p) {
   return inside ? 0.0 : std::min(fromSegment(q, axis, rim), fromSegment(q, rim, tip));
 }
 
-/// By the feature it is nearest to: the plane, if that point lies within, or else one of the sides.
+/// Returns the distance of `p` from the triangle `t`. If the projection of `p` lies inside the triangle, this is the
+/// distance from the plane, otherwise the distance from the nearest side.
 double fromTriangle(const Eigen::Vector3d& p, const std::array<Eigen::Vector3d, 3>& t) {
   const Eigen::Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
   double nearest = std::numeric_limits<double>::infinity();
@@ -77,7 +78,8 @@ TEST(DistanceOracle, MeasuresFromAPointAsTheFormulasDo) {
       const Interval found = distanceOf(Convex(shape, pose, padding), Convex(Shape::sphere(radius), ball, 0.0));
       const double expected = std::max(0.0, pointDistance(shape, point) - padding - radius);
       ASSERT_LE(found.width(), kClose);
-      ASSERT_LE(found.errorOf(expected), kClose) << expected << " is not " << found.lower << " .. " << found.upper;
+      ASSERT_LE(found.errorOf(expected), kClose)
+          << expected << " is not within " << found.lower << " .. " << found.upper;
     }
   }
 }
@@ -114,7 +116,7 @@ TEST(DistanceOracle, MeasuresBetweenBoxesAsTheirSidesDo) {
   }
 }
 
-// Curved against curved has no formula; but the bounds close, and those are proofs.
+// There is no formula for two curved shapes. But each bound is a proof, so bounds that are close together suffice.
 TEST(DistanceOracle, KnowsEveryPairOfKindsClosely) {
   Random random(4);
   for (int i = 1; i <= 6; ++i) {
@@ -149,7 +151,7 @@ TEST(DepthOracle, MeasuresHowDeepAPointLiesInACylinder) {
   EXPECT_LE(unknown, kTrials / 400);
 }
 
-// Two shapes that touch, one pushed into the other: never deeper than pushed, and seldom unknown.
+// Pushes a shape into another one that it touches. The lower bound must not exceed the push, and is seldom unknown.
 TEST(DepthOracle, SeesWhatOverlaps) {
   Random random(6);
   for (int i = 2; i <= 6; ++i) {
@@ -197,7 +199,7 @@ TEST(SolidOracle, KnowsTheInsideOfABoxAndOfABall) {
   ASSERT_TRUE(ball.isClosed());
   for (int i = 0; i < kTrials; ++i) {
     const Eigen::Vector3d point = randomPoint(random, 1.5);
-    if (point.norm() > 0.9 && point.norm() < 1.0) continue;  // between the triangles and the round ball
+    if (point.norm() > 0.9 && point.norm() < 1.0) continue;  // skips points between the triangles and the sphere
     ASSERT_EQ(ball.encloses(point.cast<Real>()), point.norm() < 0.95);
   }
 }
@@ -222,7 +224,7 @@ TEST(SolidOracle, SeesWhetherAMeshIsClosed) {
   }
 }
 
-// The meshes of the tests face outward, which the winding of a solid is defined by.
+// The triangles of the test meshes face outward, as those of a solid mesh should.
 TEST(SolidOracle, MeshesOfTheTestsFaceOutward) {
   Random random(9);
   for (const TriangleMesh& mesh : {boxMesh({1, 2, 3}), ballMesh(0), ballMesh(2), lumpMesh(random, {1, 2, 3})}) {

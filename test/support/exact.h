@@ -10,8 +10,8 @@
 namespace hgrid {
 namespace test {
 
-/// A real number with a finite binary expansion, computed with schoolbook long arithmetic: no rounding, no
-/// overflow, nothing in common with the product. Every double is one; sums, differences and products stay so.
+/// An exact real number with a finite binary expansion. Uses schoolbook long arithmetic, without rounding, overflow, or
+/// any code of the product. Each double is such a number, and so are sums, differences and products of them.
 class Exact {
  public:
   Exact(double value = 0.0) {  // NOLINT: implicit, so that formulas read as they do on paper
@@ -70,7 +70,7 @@ class Exact {
   bool operator==(const Exact& other) const { return (*this - other).sign() == 0; }
 
  private:
-  using Digits = std::vector<std::uint32_t>;  // base 2^32, the least first
+  using Digits = std::vector<std::uint32_t>;  // base 2^32, least significant digit first
 
   static int compareMagnitude(const Digits& a, const Digits& b) {
     for (std::size_t i = std::max(a.size(), b.size()); i-- > 0;) {
@@ -101,7 +101,7 @@ class Exact {
     if (digits_.empty()) negative_ = false;
   }
 
-  Digits digits_;  // empty: zero
+  Digits digits_;  // empty if the number is zero
   int exponent_ = 0;
   bool negative_ = false;
 };

@@ -12,16 +12,16 @@
 namespace hgrid {
 namespace test {
 
-/// The ids of boxes that stand in an array by id.
+/// Returns the ids 0 .. count - 1.
 inline std::vector<ProxyId> allIds(std::size_t count) {
   std::vector<ProxyId> ids;
   for (ProxyId id = 0; id < count; ++id) ids.push_back(id);
   return ids;
 }
 
-/// The broad phase holds exactly the boxes of these ids: its pairs are those of a sweep, and a few queries those of a
-/// scan.
-/// @param fixed  by id; may be shorter
+/// Expects that the broad phase stores exactly the boxes with these ids. Compares its pairs with those of a sweep, and
+/// the results of a few queries with those of a scan of all boxes.
+/// @param fixed  tells by id which boxes are fixed; boxes with ids beyond its end are not fixed
 inline void expectRight(const BroadPhaseReader& broad_phase, const std::vector<Aabb>& boxes,
                         const std::vector<ProxyId>& ids, const std::vector<bool>& fixed = {}) {
   ASSERT_EQ(broad_phase.size(), ids.size());

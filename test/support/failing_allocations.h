@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// A program that links failing_allocations.cpp has an operator new that can be told to fail.
+// A program that links failing_allocations.cpp has an operator new that can fail on request.
 #pragma once
 
 #include <cstddef>
@@ -13,28 +13,29 @@ namespace test {
 
 /// Which allocations fail.
 enum class Failing {
-  one,           ///< the k-th one
-  from_then_on,  ///< the k-th one and all that follow
+  one,           ///< only the k-th allocation
+  from_then_on,  ///< the k-th allocation and all later ones
 };
 
 inline std::ostream& operator<<(std::ostream& out, Failing which) {
   return out << (which == Failing::one ? "one" : "from then on");
 }
 
-/// While it lives, operator new throws std::bad_alloc on this thread as it was told. It counts the calls either way.
+/// While this object exists, the requested calls of operator new on this thread throw std::bad_alloc. The object also
+/// counts all calls on this thread.
 class FailingAllocations {
  public:
-  /// @param k  number of the first call of operator new that fails, from 1; 0: none fails
+  /// @param k  number of the first call of operator new that fails, counted from 1; 0 if none fails
   explicit FailingAllocations(std::size_t k, Failing which = Failing::one);
   ~FailingAllocations();
   FailingAllocations(const FailingAllocations&) = delete;
   FailingAllocations& operator=(const FailingAllocations&) = delete;
 
-  /// Calls of operator new since it was made, on this thread.
+  /// Returns the number of calls of operator new on this thread since this object was created.
   std::size_t calls() const;
 };
 
-/// Allocations of `act` on this thread.
+/// Runs `act`. @returns how many allocations it made on this thread
 template <class Act>
 std::size_t allocationsOf(Act&& act) {
   const FailingAllocations none(0);
@@ -42,7 +43,7 @@ std::size_t allocationsOf(Act&& act) {
   return none.calls();
 }
 
-/// Lets the k-th allocation of `act` fail. @returns whether `act` has thrown std::bad_alloc
+/// Runs `act` and lets its k-th allocation fail. @returns whether `act` threw std::bad_alloc
 template <class Act>
 bool failsAt(std::size_t k, Failing which, Act&& act) {
   try {

@@ -14,14 +14,14 @@ inline bool operator==(const SegmentHit& a, const SegmentHit& b) { return a.id =
 
 namespace test {
 
-/// A scale of every sort: the one that fits, or far too fine, or far too coarse.
+/// Returns a random grid scale: one that fits the boxes, or one that may be far too fine or far too coarse.
 inline GridScale scaleFor(const std::vector<Aabb>& boxes, Random& random) {
   GridScale scale = GridScale::fitting(boxes);
   if (random.chance(0.5)) scale.finest_edge = std::ldexp(1.0, random.between(-30, 10));
   return scale;
 }
 
-/// The boxes of a world, box i under id i, in one bulk update.
+/// Returns a grid that stores box i under id i. Stores all boxes in one bulk update.
 inline HGrid gridOf(const std::vector<Aabb>& boxes, const GridScale& scale) {
   HGrid grid(scale);
   std::vector<ProxyId> ids;
@@ -30,7 +30,7 @@ inline HGrid gridOf(const std::vector<Aabb>& boxes, const GridScale& scale) {
   return grid;
 }
 
-/// Stored boxes per level.
+/// Returns the number of stored boxes per level.
 inline std::vector<std::size_t> levelCounts(const BroadPhaseReader& broad_phase) {
   std::vector<std::size_t> counts;
   for (const BroadPhaseLevel& level : broad_phase.levels()) counts.push_back(level.boxes);
@@ -45,7 +45,7 @@ inline std::vector<Isa> supportedIsas() {
   return isas;
 }
 
-/// Stores these boxes, box i under id i, by one of several sequences of calls: the sequence must not show.
+/// Stores box i under id i, by one of several random sequences of calls. Pairs and answers must not depend on it.
 inline void bringTo(BroadPhase& broad_phase, const std::vector<Aabb>& boxes, Random& random) {
   const int sequence = random.below(5);
   std::vector<ProxyId> ids, some;
@@ -54,18 +54,18 @@ inline void bringTo(BroadPhase& broad_phase, const std::vector<Aabb>& boxes, Ran
     ids.push_back(id);
     const bool few = sequence == 3 || sequence == 4;
     if (!random.chance(few ? 0.1 : 0.7)) continue;
-    before[id] = boxes[std::size_t(random.below(int(boxes.size())))];  // elsewhere, another size
+    before[id] = boxes[std::size_t(random.below(int(boxes.size())))];  // at first the box has another place and size
     some.push_back(id);
     moved.push_back(boxes[id]);
   }
   std::vector<ProxyPair> pairs;
-  if (sequence == 0) {  // one by one, in any order
+  if (sequence == 0) {  // inserts the boxes one by one, in random order
     for (std::size_t i = ids.size(); i > 1; --i) std::swap(ids[i - 1], ids[std::size_t(random.below(int(i)))]);
     for (const ProxyId id : ids) broad_phase.insert(id, boxes[id]);
     return;
   }
   broad_phase.update(ids, before);
-  if (random.chance(0.5)) broad_phase.overlappingPairs(pairs);  // from now on HGrid keeps pairs
+  if (random.chance(0.5)) broad_phase.overlappingPairs(pairs);  // then HGrid keeps pairs of resting boxes
   if (sequence == 1 || sequence == 3) {
     broad_phase.update(ids, boxes);
   } else if (sequence == 4) {
@@ -82,7 +82,7 @@ inline void bringTo(BroadPhase& broad_phase, const std::vector<Aabb>& boxes, Ran
   }
 }
 
-/// A grid on a random instruction set that was brought to these boxes.
+/// Returns a grid that uses a random instruction set and stores these boxes, by one of the sequences of bringTo().
 inline HGrid gridBroughtTo(const std::vector<Aabb>& boxes, const GridScale& scale, Random& random) {
   HGrid grid(scale);
   const std::vector<Isa> isas = supportedIsas();
@@ -91,9 +91,9 @@ inline HGrid gridBroughtTo(const std::vector<Aabb>& boxes, const GridScale& scal
   return grid;
 }
 
-/// All pairs, sorted. A pair met twice or the wrong way round stays visible.
+/// Returns all overlapping pairs, sorted. Keeps duplicates and exchanged ids, so that a comparison detects them.
 inline Pairs pairsOf(const BroadPhaseReader& broad_phase) {
-  std::vector<ProxyPair> found = {{7, 7}};  // what the buffer held before must go
+  std::vector<ProxyPair> found = {{7, 7}};  // the search must remove this old content of the buffer
   broad_phase.overlappingPairs(found);
   Pairs pairs;
   for (const ProxyPair& pair : found) pairs.emplace_back(pair.first, pair.second);

@@ -21,14 +21,14 @@ inline Body mapBody(const std::string& name, Mobility mobility = Mobility::fixed
   return body;
 }
 
-/// Cells that nobody can measure.
+/// Returns cells without cubes, so the narrow phase cannot measure them.
 inline std::shared_ptr<const MapCells> cellsOf(double edge, const std::vector<Voxel>& voxels) {
   auto cells = std::make_shared<MapCells>();
   cells->grid = std::make_shared<StaticGrid>(edge, voxels);
   return cells;
 }
 
-/// Voxels of levels 0 and 1 around the map's origin, as far as `reach` keys.
+/// Returns disjoint random voxels of levels 0 and 1, at most `reach` keys from the map's origin, in Morton order.
 inline std::vector<Voxel> randomVoxels(Random& random, int count, int reach) {
   std::vector<Voxel> voxels;
   const auto key = [&](int step) {
@@ -51,7 +51,8 @@ inline std::vector<Voxel> randomVoxels(Random& random, int count, int reach) {
   return disjoint;
 }
 
-/// The distance of a voxel from the box around another in the map's frame, by the rule of the product's documents.
+/// Returns the gap [m] between a voxel of a map and a box, computed as the documentation defines it: the distance of
+/// the voxel from the bounding box of `box` in the frame of the map.
 inline double gapByHand(const Snapshot& snapshot, std::uint32_t map, const Voxel& voxel, double edge, const Aabb& box) {
   const Pose map_from_world = snapshot.poses()[map].world_from_body.inverse();
   Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;

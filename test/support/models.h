@@ -27,7 +27,7 @@ inline int addLink(RobotModel& model, const std::string& name, int parent, Joint
   return int(model.links.size()) - 1;
 }
 
-/// A small humanoid whose moving links have no geometry: each shape is on a fixed leaf link "<part>_shape".
+/// Returns a small humanoid whose moving links have no geometry. Each shape is on a fixed leaf link "<part>_shape".
 ///
 /// The waist and the wrists are universal joints written as two joints, the shoulders are spherical joints written as
 /// three joints. The two joints of the neck are 6 cm apart, so they are no universal joint.
@@ -55,7 +55,7 @@ inline RobotModel humanoid() {
   return model;
 }
 
-/// A tree of `count` links with joints and geometry as it comes.
+/// Returns a random tree of `count` links with random joints. About 70 % of the links have geometry.
 inline RobotModel randomModel(Random& random, int count) {
   RobotModel model;
   model.name = "robot";
@@ -74,7 +74,7 @@ inline LinkMatrix matrixOf(const RobotModel& model, const LinkRules& rules = {})
   return LinkMatrix(model, rules, warnings);
 }
 
-/// Bodies of a robot: one per link with geometry, as an importer would make them.
+/// Returns the bodies of a robot: one per link with geometry, as an importer would create them.
 inline std::vector<Body> bodiesOf(const RobotModel& model, const std::string& robot,
                                   const std::shared_ptr<const LinkMatrix>& matrix) {
   std::vector<Body> bodies;

@@ -12,8 +12,8 @@
 namespace hgrid {
 namespace test {
 
-/// The independent witness: answers by brute force in exact or in extended arithmetic. Of the product it
-/// uses the struct Aabb and nothing else.
+/// The oracle for boxes. It computes reference answers by brute force, in exact or extended arithmetic. From the
+/// product it uses only the struct Aabb.
 
 inline bool oracleOverlap(const Aabb& a, const Aabb& b) {
   for (int k = 0; k < 3; ++k) {
@@ -22,7 +22,7 @@ inline bool oracleOverlap(const Aabb& a, const Aabb& b) {
   return true;
 }
 
-/// How far x lies outside [low, high].
+/// Returns how far x lies outside of [low, high]; 0 if it lies inside.
 inline Exact outside(const Exact& x, double low, double high) {
   if (x < Exact(low)) return Exact(low) - x;
   if (Exact(high) < x) return x - Exact(high);
@@ -49,12 +49,12 @@ inline Exact exactSquaredDistance(const Aabb& box, const Eigen::Vector3d& point)
   return sum;
 }
 
-/// Whether the distance of the boxes is at most `margin`, decided with real numbers.
+/// Returns whether the distance of the boxes is at most `margin` [m], computed without rounding.
 inline bool exactlyWithin(const Aabb& a, const Aabb& b, double margin) {
   return exactSquaredDistance(a, b) <= Exact(margin) * Exact(margin);
 }
 
-/// The same, much faster where extended arithmetic leaves no doubt.
+/// Returns the same as exactlyWithin(), but is much faster if extended arithmetic decides the question.
 inline bool oracleWithin(const Aabb& a, const Aabb& b, double margin) {
   long double sum = 0;
   for (int k = 0; k < 3; ++k) {
@@ -71,10 +71,10 @@ inline bool exactlyTouches(const Aabb& box, const Eigen::Vector3d& center, doubl
   return exactSquaredDistance(box, center) <= Exact(radius) * Exact(radius);
 }
 
-/// Whether the segment from a to b, both included, meets the box: the three slabs as fractions, compared by
-/// multiplying crosswise, so that nothing is rounded.
+/// Returns whether the segment from a to b, end points included, touches the box. Represents the entry into and the
+/// exit from each of the three slabs as fractions. Compares them by cross-multiplication, so nothing is rounded.
 inline bool exactlyMeets(const Aabb& box, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  // Candidates numerator / denominator, denominator > 0, for "not before" and "not after" on the way 0 .. 1.
+  // Fractions (numerator, denominator > 0) on the way 0 .. 1: where the segment enters and leaves each slab.
   std::vector<std::pair<Exact, Exact>> enter{{Exact(0.0), Exact(1.0)}}, leave{{Exact(1.0), Exact(1.0)}};
   for (int k = 0; k < 3; ++k) {
     const Exact way = Exact(b[k]) - Exact(a[k]);
@@ -99,10 +99,10 @@ inline bool exactlyMeets(const Aabb& box, const Eigen::Vector3d& a, const Eigen:
   return true;
 }
 
-/// How a segment's axis comes near a box, in extended arithmetic and by bisection.
+/// How near the axis of a segment comes to a box, computed in extended arithmetic by bisection.
 struct Approach {
-  long double least = 0;  ///< [m] least distance of axis and box
-  long double first = 0;  ///< [m] along the axis to the first point within `radius`; infinite if there is none
+  long double least = 0;  ///< [m] least distance between the axis and the box
+  long double first = 0;  ///< [m] length along the axis to its first point within `radius` of the box; infinite if none
 };
 
 inline long double distanceAt(const Aabb& box, const Eigen::Vector3d& a, const Eigen::Vector3d& b, long double t,
@@ -120,14 +120,14 @@ inline long double distanceAt(const Aabb& box, const Eigen::Vector3d& a, const E
 }
 
 inline Approach approachOf(const Aabb& box, const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius) {
-  // The distance is convex in t: its slope changes sign once.
+  // The distance is a convex function of t, so its slope changes sign only once.
   long double low = 0, high = 1, slope = 0;
   for (int i = 0; i < 70; ++i) {
     const long double middle = (low + high) / 2;
     distanceAt(box, a, b, middle, &slope);
     (slope < 0 ? low : high) = middle;
   }
-  // The first of the nearest points, also where the axis runs along the box for a while.
+  // `low` and `high` now enclose the first of the nearest points, also if the axis runs parallel to the box.
   Approach found;
   const long double ends[] = {distanceAt(box, a, b, 0), distanceAt(box, a, b, 1), distanceAt(box, a, b, low),
                               distanceAt(box, a, b, high)};
@@ -149,7 +149,7 @@ inline Approach approachOf(const Aabb& box, const Eigen::Vector3d& a, const Eige
   return found;
 }
 
-/// What a query may be off by: the promised 1e-9 * (|x| + r).
+/// Returns the documented rounding error [m] that a query may have: 1e-9 * (|x| + r).
 inline double promisedSlack(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius) {
   return 1e-9 * (std::max(a.norm(), b.norm()) + radius);
 }

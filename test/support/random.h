@@ -10,8 +10,9 @@
 namespace hgrid {
 namespace test {
 
-/// Random numbers that are the same with every compiler and library (SplitMix64, Steele et al. 2014): the
-/// standard's distributions are not, and a seed in a failure message must mean the same world everywhere.
+/// A generator of random numbers that are the same with every compiler and library (SplitMix64, Steele et al. 2014).
+/// So a seed in a failure message gives the same world everywhere. Numbers of the standard library's distributions
+/// differ between libraries.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15u + 0x1234567u) {}
@@ -22,21 +23,21 @@ class Random {
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     return z ^ (z >> 31);
   }
-  /// Evenly in [low, high).
+  /// Returns an evenly distributed number in [low, high).
   double uniform(double low, double high) { return low + (high - low) * std::ldexp(double(bits() >> 11), -53); }
-  /// One of 0 .. count - 1.
+  /// Returns one of the integers 0 .. count - 1.
   int below(int count) { return int(bits() % std::uint64_t(count)); }
-  /// low .. high, both included.
+  /// Returns one of the integers low .. high, both included.
   int between(int low, int high) { return low + below(high - low + 1); }
   bool chance(double probability) { return uniform(0, 1) < probability; }
-  /// Evenly in the logarithm, as sizes of things are.
+  /// Returns a number in [low, high) whose logarithm is evenly distributed. Useful for sizes.
   double logUniform(double low, double high) { return low * std::exp(uniform(0, std::log(high / low))); }
 
  private:
   std::uint64_t state_;
 };
 
-/// The float `steps` units in the last place above (below, if negative) `value`.
+/// Returns the float that is `steps` units in the last place above `value`, or below it if `steps` is negative.
 inline float stepped(float value, int steps) {
   const float towards = steps < 0 ? -std::numeric_limits<float>::infinity() : std::numeric_limits<float>::infinity();
   for (int i = std::abs(steps); i > 0; --i) value = std::nextafter(value, towards);
@@ -48,7 +49,7 @@ inline double stepped(double value, int steps) {
   return value;
 }
 
-/// A count that the environment may set, for shorter or longer runs of one and the same test.
+/// Returns the count that an environment variable sets, to make a test shorter or longer; `otherwise` if it is not set.
 inline int countFromEnvironment(const char* variable, int otherwise) {
   const char* text = std::getenv(variable);
   return text ? std::atoi(text) : otherwise;

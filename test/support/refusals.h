@@ -11,7 +11,7 @@
 namespace hgrid {
 namespace test {
 
-/// The code with which `deed` is refused, Code::ok if it is not; its sentence goes to `*sentence`.
+/// Returns the code with which `deed` is refused, or Code::ok if it is not. Stores the error sentence in `*sentence`.
 template <class Deed>
 Code refusalOf(Deed&& deed, std::string* sentence = nullptr) {
   try {
@@ -23,10 +23,10 @@ Code refusalOf(Deed&& deed, std::string* sentence = nullptr) {
   return Code::ok;
 }
 
-/// Whether one of the words stands in the sentence; a refusal must name the thing, the value and the rule.
+/// Returns whether `sentence` contains `word`. An error sentence must name the thing, the value and the rule.
 inline ::testing::AssertionResult says(const std::string& sentence, const std::string& word) {
   if (sentence.find(word) != std::string::npos) return ::testing::AssertionSuccess();
-  return ::testing::AssertionFailure() << "\"" << sentence << "\" does not say \"" << word << "\"";
+  return ::testing::AssertionFailure() << "\"" << sentence << "\" does not contain \"" << word << "\"";
 }
 
 }  // namespace test

@@ -121,12 +121,12 @@ Pose RandomStates::motion(const RobotLink& link, double position) {
       break;
     }
     case JointKind::floating:
-      return randomPose(random_, 2.0);
+      return uniformPose(random_, 2.0);
   }
   return joint_from_link;
 }
 
-Pose randomPose(Random& random, double far) {
+Pose uniformPose(Random& random, double far) {
   Eigen::Vector4d xyzw;
   do {
     for (int i = 0; i < 4; ++i) xyzw[i] = random.uniform(-1, 1);

@@ -17,41 +17,43 @@
 namespace hgrid {
 namespace test {
 
-/// The project's own small robots and meshes; known to meshPolicy() as the package hgrid_test.
+/// Returns the folder of the project's own small robots and meshes. meshPolicy() calls it the package hgrid_test.
 std::string ownData();
-/// Real robots: HGRID_TEST_DATA, else ../shared/data beside the project; empty if neither is there.
+/// Returns the folder of the real robots: HGRID_TEST_DATA if set, else ../shared/data beside the project. Returns an
+/// empty string if the folder does not contain them.
 std::string sharedData();
 
-/// What follows in a test needs sharedData().
+/// Skips the rest of a test if sharedData() is empty.
 #define HGRID_NEEDS_SHARED_DATA()        \
   if (hgrid::test::sharedData().empty()) \
-  GTEST_SKIP() << "no robots: HGRID_TEST_DATA is not set, ../shared/data not there"
+  GTEST_SKIP() << "there are no real robots: set HGRID_TEST_DATA to a folder with example-robot-data"
 
-/// All bytes of a file. @throws std::runtime_error if it cannot be read.
+/// Returns all bytes of a file. @throws std::runtime_error if it cannot be read.
 std::string fileText(const std::string& path);
 
-/// Reads with the helper of this build; knows the packages hgrid_test and example-robot-data.
+/// Returns a policy that reads meshes with the mesh reader of this build, and that knows the packages hgrid_test and
+/// example-robot-data.
 MeshPolicy meshPolicy();
 
-/// The robot of a URDF's text, its meshes read by `loader`.
+/// Reads a robot from the text of a URDF. `loader` reads its meshes.
 RobotModel readWith(MeshLoader& loader, const std::string& urdf);
 
-/// One of the real robots.
+/// The texts that describe a real robot.
 struct RealRobot {
   std::string name;  ///< "ur5", "panda" or "pr2"
-  std::string urdf;  ///< text
-  std::string srdf;  ///< text
+  std::string urdf;  ///< text of its URDF
+  std::string srdf;  ///< text of its SRDF
 };
-/// @param name  "ur5", "panda" or "pr2"
+/// Reads a real robot from sharedData(). @param name  "ur5", "panda" or "pr2"
 RealRobot realRobot(const std::string& name);
 
-/// Random states of a robot's joints: within their limits, mimic joints after their masters.
+/// Generates random joint states of a robot. Joints stay within their limits. Mimic joints follow their master joint.
 class RandomStates {
  public:
-  /// @param urdf  the text of the model: mimic joints are read from there
+  /// @param urdf  text of the model's URDF, from which mimic joints are read
   RandomStates(const RobotModel& model, const std::string& urdf, unsigned seed);
 
-  /// The next state's forward kinematics: root_from_link of each link.
+  /// Returns the forward kinematics of the next state: root_from_link for each link.
   std::vector<Pose> next();
 
  private:
@@ -63,14 +65,14 @@ class RandomStates {
   Pose motion(const RobotLink& link, double position);
 
   const RobotModel& model_;
-  std::map<std::string, Mimic> mimics_;  // by joint
+  std::map<std::string, Mimic> mimics_;  // by name of the mimic joint
   Random random_;
 };
 
-/// A pose evenly turned, at most `far` [m] from the origin on each axis.
-Pose randomPose(Random& random, double far);
+/// Returns a random pose: evenly distributed in rotation, and at most `far` [m] from the origin along each axis.
+Pose uniformPose(Random& random, double far);
 
-/// Adds a body `robot/link` for each link with a <collision>. @returns link index and handle of each.
+/// Adds a body `robot/<link>` for each link with a <collision>. @returns the link index and the id of each body
 std::vector<std::pair<std::uint32_t, BodyId>> addLinks(Scene& scene, const RobotModel& model,
                                                        const std::shared_ptr<const LinkMatrix>& matrix);
 

@@ -12,7 +12,7 @@
 namespace hgrid {
 namespace test {
 
-/// A rule of ~set_allowed: the pair may touch.
+/// Returns a rule as ~set_allowed creates it: the pair may touch.
 inline PairRule allow(const std::string& first, const std::string& second, const std::string& reason = "") {
   PairRule rule;
   rule.first = first;
@@ -22,20 +22,20 @@ inline PairRule allow(const std::string& first, const std::string& second, const
   return rule;
 }
 
-/// A rule of ~set_allowed: the pair is reported.
+/// Returns a rule as ~set_allowed creates it: the pair is reported.
 inline PairRule enable(const std::string& first, const std::string& second, const std::string& reason = "") {
   PairRule rule = allow(first, second, reason);
   rule.allowed = false;
   return rule;
 }
 
-/// The rule with an end.
+/// Returns the rule with a time at which it ends.
 inline PairRule until(PairRule rule, PairRule::Clock::time_point end) {
   rule.ends = end;
   return rule;
 }
 
-/// An arm of balls: base = shoulder (fixed joint) - elbow - hand.
+/// Returns the bodies of an arm of spheres: base, shoulder, elbow, hand. A fixed joint connects base and shoulder.
 inline std::vector<Body> armBodies(const std::string& robot, const LinkRules& srdf = {}) {
   RobotModel model;
   model.name = robot;

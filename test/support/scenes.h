@@ -18,7 +18,7 @@
 namespace hgrid {
 namespace test {
 
-/// A multiple of 1/64 within low .. high: sums and maxima of such margins are exact in every order.
+/// Returns a random multiple of 1/64 between `low` and `high`. Sums of such margins are exact in every order.
 inline double sixtyFourths(Random& random, double low, double high) {
   return std::floor(random.uniform(low, high) * 64.0) / 64.0;
 }
@@ -43,7 +43,7 @@ inline Pose at(double x, double y = 0, double z = 0) {
   return pose;
 }
 
-/// Adds and places a body; it is fresh.
+/// Adds a body, places it, and sets its state to FRESH.
 inline BodyId put(Scene& scene, const Body& body, const Pose& pose, Time stamp = Time{1}) {
   const BodyId id = scene.add(body);
   scene.place(id, pose, stamp);
@@ -51,7 +51,7 @@ inline BodyId put(Scene& scene, const Body& body, const Pose& pose, Time stamp =
   return id;
 }
 
-/// A body of one to four shapes, at times with padding, a margin of its own, or fixed.
+/// Returns a random body of one to four shapes. Some bodies have padding or a margin of their own, and some are fixed.
 inline Body randomBody(Random& random, const std::string& name) {
   Body body = obstacle(name, random.chance(0.2) ? Mobility::fixed : Mobility::moving);
   for (int i = random.between(1, 4); i > 0; --i) {
@@ -69,13 +69,13 @@ inline BodyId putRandom(Scene& scene, Random& random, const std::string& name, d
   return put(scene, randomBody(random, name), randomPose(random, far));
 }
 
-/// Index of a body in a snapshot, by name.
+/// Returns the index of the body `name` in a snapshot. Fails the test if there is none.
 inline std::uint32_t indexOf(const Snapshot& snapshot, const std::string& name) {
   const std::vector<Body>& bodies = snapshot.structure().bodies;
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
     if (bodies[i].name == name) return i;
   }
-  ADD_FAILURE() << "no body is called " << name;
+  ADD_FAILURE() << "there is no body with the name " << name;
   return 0;
 }
 
@@ -92,7 +92,7 @@ inline bool contains(const NamePairs& larger, const NamePairs& smaller) {
   return std::includes(larger.begin(), larger.end(), smaller.begin(), smaller.end());
 }
 
-/// The rule of the default filter without patterns, told once more.
+/// Returns whether the default pair filter without patterns reports the pair, computed without the product.
 inline bool reported(const Body& a, const Body& b) {
   if (a.kind == BodyKind::link && b.kind == BodyKind::link && a.robot == b.robot) {
     return a.links->origin(a.link, b.link) == Origin::none;
@@ -100,8 +100,8 @@ inline bool reported(const Body& a, const Body& b) {
   return a.mobility == Mobility::moving || b.mobility == Mobility::moving;
 }
 
-/// Every pair of bodies whose recorded boxes come within the margin that DESIGN's rules give them, by brute
-/// force over all shapes; and the gaps in the pairs that the snapshot has.
+/// Expects that the snapshot contains exactly the pairs whose recorded boxes are within the documented margin, and that
+/// their gaps are right. Finds the pairs by brute force over all shapes.
 inline void expectPairsOfTheOracle(const Snapshot& snapshot, double global_margin) {
   const Structure& structure = snapshot.structure();
   const std::vector<Aabb>& boxes = snapshot.boxes();
@@ -129,16 +129,16 @@ inline void expectPairsOfTheOracle(const Snapshot& snapshot, double global_margi
       }
       if (!near) continue;
       SCOPED_TRACE(a.name + " and " + b.name);
-      ASSERT_LT(next, snapshot.pairs().size()) << "missed";
+      ASSERT_LT(next, snapshot.pairs().size()) << "a pair is missing";
       const NearPair& pair = snapshot.pairs()[next++];
-      ASSERT_EQ(pair.first, i) << "missed or out of order";
-      ASSERT_EQ(pair.second, j) << "missed or out of order";
+      ASSERT_EQ(pair.first, i) << "a pair is missing or out of order";
+      ASSERT_EQ(pair.second, j) << "a pair is missing or out of order";
       ASSERT_DOUBLE_EQ(pair.gap, gap);
       ASSERT_LE(pair.gap, pair.margin);
       ASSERT_EQ(pair.margin, margin);
     }
   }
-  ASSERT_EQ(next, snapshot.pairs().size()) << "pairs that should not be there";
+  ASSERT_EQ(next, snapshot.pairs().size()) << "the snapshot has pairs that are too far apart";
 }
 
 }  // namespace test

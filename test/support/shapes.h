@@ -10,7 +10,7 @@
 namespace hgrid {
 namespace test {
 
-/// A closed box-like mesh or point set with `corners` vertices around a random place of its own frame.
+/// Returns a mesh with `corners` random vertices around a random place of its frame. Its triangles form an open fan.
 inline std::shared_ptr<const TriangleMesh> randomMesh(Random& random, double size, int corners = 8) {
   auto mesh = std::make_shared<TriangleMesh>();
   const Eigen::Vector3d center(random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size));
@@ -22,7 +22,7 @@ inline std::shared_ptr<const TriangleMesh> randomMesh(Random& random, double siz
   return mesh;
 }
 
-/// A shape of the kind, its measures of the order of `size` or down to a hundredth of it.
+/// Returns a random shape of this kind. Its dimensions [m] lie between a hundredth of `size` and `size`.
 inline Shape randomShape(Random& random, ShapeKind kind, double size) {
   const auto measure = [&] { return random.logUniform(0.01 * size, size); };
   switch (kind) {
@@ -48,8 +48,8 @@ inline Shape randomShape(Random& random, double size) {
   return randomShape(random, static_cast<ShapeKind>(random.between(1, 7)), size);
 }
 
-/// A pose within `far`; its rotation is any, or a whole number of quarter turns, or hardly off one: there
-/// formulas with 1 - cos² lose their digits.
+/// Returns a random pose, at most `far` [m] from the origin along each axis. Its rotation is arbitrary, a multiple of a
+/// quarter turn, or tiny. For such rotations, formulas with 1 - cos² lose digits.
 inline Pose randomPose(Random& random, double far) {
   Pose pose = Pose::Identity();
   Eigen::Vector3d axis(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));

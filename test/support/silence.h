@@ -7,7 +7,7 @@
 namespace hgrid {
 namespace test {
 
-/// Nothing is written to std::cerr as long as this lives: OctoMap tells of each file that it reads.
+/// Suppresses output to std::cerr while this object exists. OctoMap writes there about each file that it reads.
 class Silence {
  public:
   Silence() : buffer_(std::cerr.rdbuf(nullptr)) {}

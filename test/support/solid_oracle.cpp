@@ -16,7 +16,7 @@ bool closesUp(const TriangleMesh& mesh) {
   std::map<std::pair<Key, Key>, int> sides;
   const auto key = [&](std::uint32_t index) {
     const Eigen::Vector3d& v = mesh.vertices[index];
-    return Key{v.x() + 0.0, v.y() + 0.0, v.z() + 0.0};  // -0 is 0
+    return Key{v.x() + 0.0, v.y() + 0.0, v.z() + 0.0};  // adding 0 turns -0 into 0
   };
   for (const auto& triangle : mesh.triangles) {
     for (int i = 0; i < 3; ++i) {
@@ -35,7 +35,7 @@ Real volume(const Vector3r& a, const Vector3r& b, const Vector3r& c) { return a.
 
 Real farApart(const Convex& a, const Convex& b) { return (a.center() - b.center()).norm() - a.reach() - b.reach(); }
 
-/// The distance of the cores, which is that of the two pieces that lie nearest.
+/// Returns the distance of the cores, which is the distance of the two nearest pieces.
 CoreDistance nearestPieces(const SolidOracle& first, const SolidOracle& second) {
   const Convex *a_first = &first.pieces().front(), *b_first = &second.pieces().front();
   for (const Convex& a : first.pieces()) {
@@ -95,7 +95,7 @@ bool SolidOracle::encloses(const Vector3r& point) const {
       const Vector3r p = a - point, q = b - point, r = c - point;
       const Real u = volume(ray, p, q), v = volume(ray, q, r), w = volume(ray, r, p);
       const bool leaves = u > 0 && v > 0 && w > 0, enters = u < 0 && v < 0 && w < 0;
-      if (!leaves && !enters) continue;  // passes beside it, or it has no area
+      if (!leaves && !enters) continue;  // the ray misses the triangle, or the triangle has no area
       const Real ahead = volume(p, q, r);
       if ((ahead > 0) == leaves) odd = !odd;
     }

@@ -7,8 +7,8 @@
 namespace hgrid {
 namespace test {
 
-/// A shape in the world as the witness sees it: convex pieces, the triangles of a mesh or the shape itself. Of the
-/// product it uses the measures of the shape and nothing else.
+/// A shape in the world, as the oracle represents it: one or more convex pieces. The pieces of a mesh are its
+/// triangles; any other shape is one piece. From the product the oracle uses only the data of the shape.
 class SolidOracle {
  public:
   SolidOracle(const Shape& shape, const Pose& world_from_shape, double padding);
@@ -16,11 +16,12 @@ class SolidOracle {
   const std::vector<Convex>& pieces() const { return pieces_; }
   Real radius() const { return pieces_.front().radius(); }
 
-  /// A mesh each side of which meets its opposite, corners being the same if their coordinates are.
+  /// Returns whether the shape is a closed mesh: each side of a triangle matches an opposite side. Corners with equal
+  /// coordinates count as the same corner.
   bool isClosed() const { return closed_; }
 
-  /// Whether a point lies within the surface of a closed mesh: the greater part of a few rays leaves it once more
-  /// often than it enters. Points on the surface may be either.
+  /// Returns whether a point lies inside a closed mesh: most of five rays from the point cross the surface an odd
+  /// number of times. For a point on the surface the result can be either.
   bool encloses(const Vector3r& point) const;
 
  private:
@@ -29,18 +30,18 @@ class SolidOracle {
   bool closed_ = false;
 };
 
-/// Two solids: how far apart, and nearest points of their cores (the shapes without their radii).
+/// The distance of two solids, and the nearest points of their cores (the shapes without their radii).
 struct SolidDistance {
-  Interval interval;      ///< [m] with the radii; 0 in contact, and if one lies within the other
-  bool enclosed = false;  ///< their surfaces are apart, and one lies within the other, a closed mesh
+  Interval interval;      ///< [m] distance, radii included; 0 if they touch, or if one lies inside the other
+  bool enclosed = false;  ///< true if the surfaces are apart and one solid lies inside the other, a closed mesh
   Vector3r on_first = Vector3r::Zero(), on_second = Vector3r::Zero();
 };
 SolidDistance distanceOf(const SolidOracle& first, const SolidOracle& second);
 
-/// The distance of a point from a solid; 0 inside.
+/// Returns bounds of the distance [m] of a point from a solid; 0 inside.
 Interval distanceOf(const SolidOracle& solid, const Eigen::Vector3d& point);
 
-/// Whether two solids certainly overlap by more than `depth` [m].
+/// Returns whether two solids certainly overlap by more than `depth` [m].
 bool overlapByMore(const SolidOracle& first, const SolidOracle& second, double depth);
 
 }  // namespace test

@@ -10,7 +10,7 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// Three measures, one of them the longest there is.
+/// Returns three random dimensions [m] within the proportions; a random one of them is the longest.
 Eigen::Vector3d randomSize(Random& random, const Proportions& proportions) {
   const double longest = random.logUniform(proportions.smallest, proportions.largest);
   Eigen::Vector3d size;

@@ -10,28 +10,29 @@
 namespace hgrid {
 namespace test {
 
-/// How things are shaped: the longest measure and how many times longer than the shortest it may be.
+/// Limits for random solids: of the longest dimension, and of the ratio of the longest to the shortest dimension.
 struct Proportions {
-  double smallest = 0.01;    ///< [m] of the longest measure
-  double largest = 2.0;      ///< [m] of the longest measure
-  double max_aspect = 50.0;  ///< longest to shortest measure
+  double smallest = 0.01;    ///< [m] least value of the longest dimension
+  double largest = 2.0;      ///< [m] greatest value of the longest dimension
+  double max_aspect = 50.0;  ///< greatest ratio of the longest to the shortest dimension
 };
 
-/// Closed meshes around the origin, all triangles counter-clockwise seen from outside.
+/// Returns the closed mesh of a box around the origin. All triangles are counter-clockwise seen from outside.
 TriangleMesh boxMesh(const Eigen::Vector3d& size);
-/// Of radius 1; 20 triangles, four times as many with each division.
+/// Returns the closed mesh of a sphere of radius 1 m around the origin. It has 20 triangles. Each division splits every
+/// triangle into four.
 TriangleMesh ballMesh(int divisions);
-/// A ball mesh of 20 or 80 triangles whose corners lie at 0.5 .. 1 of its radius: closed, seldom convex, never cut by
-/// itself; stretched to `size`.
+/// Returns a sphere mesh of 20 or 80 triangles whose corners are moved to 0.5 .. 1 of the radius, stretched to `size`.
+/// It is closed and seldom convex, and it never intersects itself.
 TriangleMesh lumpMesh(Random& random, const Eigen::Vector3d& size);
 
-/// The same surface as an STL file holds it: each triangle with three corners of its own.
+/// Returns the same surface as an STL file stores it: each triangle has three corners of its own.
 TriangleMesh unwelded(const TriangleMesh& mesh);
 TriangleMesh moved(TriangleMesh mesh, const Eigen::Vector3d& by);
 TriangleMesh without(TriangleMesh mesh, std::size_t triangle);
 Shape meshOf(TriangleMesh mesh);
 
-/// A closed solid of any kind; meshes have 12 .. 80 triangles, with or without corners in common.
+/// Returns a random closed solid of the given kind. Meshes have 12 .. 80 triangles, which may share corners or not.
 Shape randomSolid(Random& random, ShapeKind kind, const Proportions& proportions = {});
 
 }  // namespace test

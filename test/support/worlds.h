@@ -15,19 +15,19 @@
 namespace hgrid {
 namespace test {
 
-/// Kinds of world, each after something that has broken a grid somewhere.
+/// Kinds of random worlds. Each kind has a property that has revealed a bug in some grid.
 enum class Family {
-  uniform,      ///< boxes of one order of size in a hall
-  clustered,    ///< most of them in a few heaps
-  lattice,      ///< corners on borders of cells, or a unit or two in the last place beside them
-  size_ratio,   ///< sizes over six powers of ten
-  negative,     ///< all coordinates below zero: where truncation and floor differ
-  far,          ///< a million metres away, where a float's unit in the last place is 1/16 m
-  empty,        ///< no two boxes touch, or there are none
-  same_place,   ///< all on one heap
-  thin_plates,  ///< flat, long and crossing
-  points,       ///< boxes without size, several on one spot
-  around_zero,  ///< straddling zero by very little, down to the denormals
+  uniform,      ///< boxes of similar size in a hall
+  clustered,    ///< boxes in three clusters
+  lattice,      ///< corners of boxes on cell borders, or one or two units in the last place beside them
+  size_ratio,   ///< box sizes over six powers of ten
+  negative,     ///< all coordinates negative, where truncation and floor differ
+  far,          ///< a million meters away, where a float's unit in the last place is 1/16 m
+  empty,        ///< no two boxes touch, or there is at most one box
+  same_place,   ///< all boxes around the same point
+  thin_plates,  ///< flat, long boxes that cross each other
+  points,       ///< boxes of size 0, several of them at the same point
+  around_zero,  ///< boxes that contain zero and extend little beyond it, down to denormal numbers
 };
 constexpr int kFamilies = 11;
 
@@ -47,7 +47,7 @@ inline Aabb boxAround(const Eigen::Vector3d& center, const Eigen::Vector3d& size
 }
 
 inline Eigen::Vector3d randomVector(Random& random, double low, double high) {
-  const double x = random.uniform(low, high), y = random.uniform(low, high);  // in this order with every compiler
+  const double x = random.uniform(low, high), y = random.uniform(low, high);  // fixes the order of random calls
   return {x, y, random.uniform(low, high)};
 }
 
@@ -61,7 +61,7 @@ inline Aabb latticeBox(Random& random, float cell) {
   return box;
 }
 
-/// 2 to 500 boxes of the family, more often few; the empty family may have none.
+/// Returns 2 to 500 random boxes of the family, more often few than many. The family `empty` may have none.
 inline std::vector<Aabb> worldOf(Family family, unsigned seed) {
   Random random(seed);
   const double few = random.uniform(0, 1);
@@ -69,7 +69,7 @@ inline std::vector<Aabb> worldOf(Family family, unsigned seed) {
   if (family == Family::same_place) count = std::min(count, 60);
   if (family == Family::empty && random.chance(0.2)) count = random.below(2);
   const float cell = std::ldexp(1.f, random.between(-8, 8));
-  const double crowd = std::cbrt(double(count));  // keeps some neighbours for everybody, however few there are
+  const double crowd = std::cbrt(double(count));  // scales the room, so that even few boxes have neighbors
   const Eigen::Vector3d heap = randomVector(random, -1e3, 1e3), away(1e6, -1e6, 1e6);
   std::vector<Aabb> boxes;
   for (int i = 0; i < count; ++i) {
@@ -134,7 +134,7 @@ inline std::vector<Aabb> worldOf(Family family, unsigned seed) {
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-/// Every pair of boxes with a point in common, by looking at all pairs.
+/// Returns every pair of boxes with a point in common. Checks all pairs.
 inline Pairs allOverlaps(const std::vector<Aabb>& boxes) {
   Pairs pairs;
   for (std::uint32_t i = 0; i < boxes.size(); ++i) {

@@ -133,6 +133,17 @@ bool readShapes(const tinyxml2::XMLElement& element, const char* tag, RobotLink&
   return number > 0;
 }
 
+/// Refuses too many links or joints. urdfdom needs seconds for a hundred thousand of them, so it must not see them.
+void checkCounts(const tinyxml2::XMLElement& robot, const DescriptionLimits& limits) {
+  for (const char* tag : {"link", "joint"}) {
+    std::size_t count = 0;
+    for (auto* child = robot.FirstChildElement(tag); child != nullptr; child = child->NextSiblingElement(tag)) ++count;
+    if (count <= limits.max_links) continue;
+    throw Refusal(Code::limit, "the URDF has " + std::to_string(count) + " " + tag + "s; at most " +
+                                   std::to_string(limits.max_links) + " are allowed");
+  }
+}
+
 /// Throws a Refusal that names the joint that urdfdom cannot read. The error text of urdfdom does not always name it,
 /// so this function reads each joint separately.
 [[noreturn]] void nameUnreadableJoint(const tinyxml2::XMLElement& robot) {
@@ -220,12 +231,9 @@ RobotModel readUrdf(const std::string& xml, const MeshSource& meshes, const Desc
                     const ShapeLimits& shape_limits, const VisualChoice& takes_visual) {
   tinyxml2::XMLDocument document;
   const tinyxml2::XMLElement& robot = parseXml(xml, limits, "the URDF", "robot", document);
+  checkCounts(robot, limits);
   checkTree(robot);
   const urdf::ModelInterfaceSharedPtr tree = parseTree(robot);
-  if (tree->links_.size() > limits.max_links) {
-    throw Refusal(Code::limit, "the URDF has " + std::to_string(tree->links_.size()) + " links; at most " +
-                                   std::to_string(limits.max_links) + " are allowed");
-  }
 
   RobotModel model;
   model.name = tree->getName();

@@ -13,13 +13,13 @@ using Vector = std::array<double, 3>;
 
 // Costs [ns], measured on one machine; only their ratios matter.
 constexpr double kPerBox = 4.0, kPerRow = 3.0, kPerAskedRow = 6.0, kPerTest = 3.0, kPerCell = 0.15;
-constexpr double kLanes = 8.0;  // boxes per test: one number for all instruction sets, since plans must not differ
-constexpr double kMostCellsPerBox = 1.0;  // a whole number: CellPlan::mostCells() counts on it
+constexpr double kLanes = 8.0;  // boxes per test; the same for all instruction sets, so that plans do not differ
+constexpr double kMostCellsPerBox = 1.0;  // must be an integer for CellPlan::mostCells()
 
-/// What is known of the boxes whose sizes fall on one level, or on several that are looked at as one.
+/// Statistics of the boxes of one size class, or of several size classes together.
 struct Census {
-  double boxes = 0.0;
-  Vector largest{}, total{};
+  double boxes = 0.0;         // number of boxes
+  Vector largest{}, total{};  // [m] per axis: longest side, and sum of all sides
 
   void add(const Census& other) {
     boxes += other.boxes;
@@ -31,7 +31,8 @@ struct Census {
   double mean(std::size_t axis) const { return total[axis] / boxes; }
 };
 
-/// Where nearly all boxes begin, and the axes of rows, columns of rows, and slabs.
+/// The part of space that contains the minimum corners of nearly all boxes [m]. Rows of cells lie along axes[0], the
+/// rows of a slab follow each other along axes[1], and slabs follow each other along axes[2].
 struct Window {
   Vector low{}, high{};
   std::array<std::size_t, 3> axes{0, 1, 2};
@@ -40,7 +41,7 @@ struct Window {
   double mostCells(double boxes) const { return kMostCellsPerBox * boxes + spare_cells; }
 };
 
-/// Cells for a level: edges, how many, and what finding its pairs would cost.
+/// The cells of a level: their edge [m] and number per axis, and the estimated cost [ns] to find the level's pairs.
 struct Cells {
   Vector edge{};
   std::array<double, 3> count{};
@@ -49,8 +50,8 @@ struct Cells {
 
 double cellsAlong(double length, double edge) { return std::floor(length / edge) + 1.0; }
 
-/// Cost of all boxes of a level looking around in cells whose edge across the rows is `across`; along the rows cells
-/// are short, since a range may begin and end anywhere.
+/// Plans the cells of a level and estimates the cost to find its pairs. `across` [m] is the edge of a cell on the two
+/// axes across the rows. Along the rows, cells are shorter, because a range of cells can begin at any cell of a row.
 Cells cellsOf(const Census& level, const Window& window, double across) {
   const auto [x, y, z] = window.axes;
   Cells cells;
@@ -59,8 +60,8 @@ Cells cellsOf(const Census& level, const Window& window, double across) {
   cells.count[z] = cellsAlong(window.length(z), across);
   const double rows = cells.count[y] * cells.count[z];
   const double most = window.mostCells(level.boxes);
-  if (rows > most) return cells;  // too many
-  // Where less than two cells per row are allowed, the edge is longer than the window: one cell.
+  if (rows > most) return cells;  // too many cells: the cost stays infinite
+  // If fewer than two cells per row are allowed, the edge is longer than the window, so a row has one cell.
   const double along = most / rows - 1.0;
   cells.edge[x] = std::max(across / 12.0, window.length(x) / (along < 1.0 ? 0.5 : along));
   if (!(cells.edge[x] > 0.0)) cells.edge[x] = 1.0;
@@ -71,9 +72,9 @@ Cells cellsOf(const Census& level, const Window& window, double across) {
   };
   const double up_y = chance(y, level.mean(y)), up_z = chance(z, level.mean(z)), down_y = chance(y, level.largest[y]);
   const double other_rows = up_y + up_z * (1.0 + up_y + down_y);
-  const double per_metre = level.boxes / rows / std::max(window.length(x), cells.edge[x]);
-  const double own = per_metre * (level.mean(x) + 0.5 * cells.edge[x]);
-  const double other = per_metre * (level.mean(x) + level.largest[x] + cells.edge[x]);
+  const double per_meter = level.boxes / rows / std::max(window.length(x), cells.edge[x]);
+  const double own = per_meter * (level.mean(x) + 0.5 * cells.edge[x]);
+  const double other = per_meter * (level.mean(x) + level.largest[x] + cells.edge[x]);
   const auto tests = [](double candidates) { return kPerTest * (1.0 + candidates / kLanes); };
   const double per_box = kPerBox + kPerRow + tests(std::min(own, level.boxes)) +
                          other_rows * (kPerRow + tests(std::min(other, level.boxes)));
@@ -89,14 +90,15 @@ Cells bestCellsOf(const Census& level, const Window& window) {
     const Cells cells = cellsOf(level, window, factor * widest);
     if (cells.cost < best.cost) best = cells;
   }
-  if (!std::isfinite(best.cost)) {  // so sparse that nothing fits: as many rows as are allowed, whatever their edge
+  // The boxes may be so sparse that all these edges give too many cells. Then the number of rows determines the edge.
+  if (!std::isfinite(best.cost)) {
     const double longest = std::max({window.length(y), window.length(z), 1e-30});
     best = cellsOf(level, window, 2.0 * longest / std::sqrt(window.mostCells(level.boxes)));
   }
   return best;
 }
 
-/// Cost of `asking` boxes looking up a coarser level that is not their own.
+/// Estimates the cost [ns] to find the pairs of the boxes `asking` with those of a coarser level, `asked`.
 double costOfAsking(const Census& asking, const Census& asked, const Cells& cells, const Window& window) {
   const auto [x, y, z] = window.axes;
   double rows = 1.0;
@@ -109,9 +111,9 @@ double costOfAsking(const Census& asking, const Census& asked, const Cells& cell
   return asking.boxes * (kPerBox + rows * (kPerAskedRow + kPerTest * (1.0 + candidates / kLanes)));
 }
 
-/// From at most 1024 boxes: the middle 98 % of the minimum corners on each axis and half as much beyond, or all if
-/// they reach no farther. One box lost at a million metres must not make the cells of the others a thousand times
-/// too large.
+/// Computes the window from a sample of at most 1024 boxes. On each axis, it contains the middle 98 % of the minimum
+/// corners and half of this length beyond each end, but nothing beyond the outermost corner. So one box that is a
+/// million meters away does not make the cells of the others a thousand times too large.
 Window windowOf(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, const Vector& lower,
                 const Vector& upper) {
   constexpr std::size_t kSample = 1024;
@@ -132,7 +134,8 @@ Window windowOf(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t 
   return window;
 }
 
-/// Rows lie along the axis on which the window is longest, in boxes. It is x unless another axis is clearly longer.
+/// Chooses the axes of the window. Rows lie along the axis on which the window is longest, measured in mean box sides.
+/// This is x unless another axis is clearly longer.
 std::array<std::size_t, 3> axesFor(const Window& window, const Census& all) {
   constexpr double kClearly = 2.0;
   const auto length = [&](std::size_t axis) { return window.length(axis) / std::max(all.mean(axis), 1e-30); };
@@ -141,6 +144,7 @@ std::array<std::size_t, 3> axesFor(const Window& window, const Census& all) {
   return other == 1 ? std::array<std::size_t, 3>{1, 0, 2} : std::array<std::size_t, 3>{2, 0, 1};
 }
 
+/// Appends a level with its cheapest cells to the plan.
 void append(CellPlan& plan, const Census& census, const Window& window, double side) {
   const Cells cells = bestCellsOf(census, window);
   const std::size_t number = plan.levels++;
@@ -204,8 +208,9 @@ CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t
     plan.windowed = plan.windowed || window.low[i] > lower[i] || window.high[i] < upper[i];
   }
 
-  // From the coarsest level down: does the next finer one stand with it, or alone and asks it?
-  std::array<Census, GridScale::kLevels + 1> finer;  // all levels up to this one
+  // Goes through the size classes from the coarsest to the finest. Each class shares the level of the class before, or
+  // has a level of its own, whose boxes are then tested against the coarser levels. The cheaper way is taken.
+  std::array<Census, GridScale::kLevels + 1> finer;  // per size class: this class and all finer ones
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     if (i > 0) finer[i] = finer[i - 1];
     finer[i].add(sizes[i]);

@@ -10,14 +10,16 @@
 namespace hgrid {
 namespace {
 
-constexpr std::size_t kMostLoose = 64;
+constexpr std::size_t kMostLoose = 64;  // if there are more loose boxes, they join the moving boxes
 
-// A moving box is searched in two or three layers. If at least one of so many boxes moves, sorting all is cheaper.
+// Each moving box is searched in two or three layers. If more than a quarter of all boxes moves, it is cheaper to sort
+// all boxes.
 constexpr std::size_t kShareOfMoving = 4;
-// The same if less than half of the moving layer still moves.
+// If less than half of the moving layer still moves, it is cheaper to sort all boxes if that layer holds more than a
+// seventh of them.
 constexpr std::size_t kShareOfIdle = 7;
 
-/// Reserves like push_back(), which at least doubles the capacity.
+/// Reserves memory for `count` ids. Like push_back(), it at least doubles the capacity.
 void makeRoom(std::vector<ProxyId>& ids, std::size_t count) {
   if (ids.capacity() < count) ids.reserve(std::max(count, 2 * ids.capacity()));
 }
@@ -27,13 +29,15 @@ void makeRoom(std::vector<ProxyId>& ids, std::size_t count) {
 HGrid::Engine::Engine(double finest) : finest_edge(finest) {}
 
 void HGrid::Engine::requireStored(ProxyId id) const {
-  if (!isStored(id)) throw std::invalid_argument("HGrid: box " + std::to_string(id) + " is not stored");
+  if (!isStored(id))
+    throw std::invalid_argument("HGrid: box " + std::to_string(id) + " is not stored; insert it first");
 }
 
 void HGrid::Engine::grow(ProxyId id) {
   const std::size_t count = id + std::size_t{1};
   if (boxes.size() < count) boxes.resize(count);
-  if (layer_of.size() < count) layer_of.resize(count, kAbsent);  // one resize may have failed after the other
+  // The arrays may differ in size, because the second resize may have failed before.
+  if (layer_of.size() < count) layer_of.resize(count, kAbsent);
 }
 
 void HGrid::Engine::reserveLayer(LayerNumber layer, std::size_t count) {
@@ -70,20 +74,20 @@ void HGrid::Engine::restoreFromLayers() {
 
 std::size_t HGrid::Engine::movingWithLoose() const {
   const std::vector<ProxyId>& moving = members[kMoving];
-  std::size_t standing = moving.size();
+  std::size_t still_moving = moving.size();
   if (moving_changed) {
-    standing = static_cast<std::size_t>(
+    still_moving = static_cast<std::size_t>(
         std::count_if(moving.begin(), moving.end(), [this](ProxyId id) { return layer_of[id] == kMoving; }));
   }
-  return standing + members[kLoose].size();
+  return still_moving + members[kLoose].size();
 }
 
-/// Whether there are too many loose boxes.
+/// Returns whether the loose boxes must join the moving boxes, because there are too many loose or withdrawn boxes.
 bool HGrid::Engine::settlesLoose(std::size_t loose, std::size_t withdrawn_then, std::size_t stored_then) const {
   return loose > kMostLoose || withdrawn_then > stored_then;
 }
 
-/// Whether all boxes are to be sorted when the loose ones are settled.
+/// Returns whether all boxes must be sorted when the loose boxes join the moving boxes.
 bool HGrid::Engine::settlesAll(std::size_t moving, std::size_t withdrawn_then, std::size_t stored_then) const {
   return moving > std::max(kMostLoose, stored_then / kShareOfMoving) || withdrawn_then > stored_then;
 }
@@ -96,14 +100,14 @@ void HGrid::Engine::reserveLoose(ProxyId id) {
   members[kLoose].reserve(kMostLoose + 1);
   reserveLayer(kLoose, loose);
   if (!settlesLoose(loose, withdrawn_then, stored_then)) return;
-  const std::size_t moving = members[kMoving].size() + loose;  // or fewer, if some of them were taken out
+  const std::size_t moving = members[kMoving].size() + loose;  // at most: some boxes may have been taken out
   makeRoom(members[kMoving], moving);
   reserveLayer(kMoving, moving);
   if (!settlesAll(moving, withdrawn_then, stored_then)) return;
-  std::size_t fixed_ones = comes && isFixed(id) ? 1 : 0;
-  for (ProxyId other = 0; other < layer_of.size(); ++other) fixed_ones += layer_of[other] != kAbsent && isFixed(other);
-  reserveLayer(kFixed, fixed_ones);
-  reserveLayer(kResting, stored_then - fixed_ones);
+  std::size_t fixed_boxes = comes && isFixed(id) ? 1 : 0;
+  for (ProxyId other = 0; other < layer_of.size(); ++other) fixed_boxes += layer_of[other] != kAbsent && isFixed(other);
+  reserveLayer(kFixed, fixed_boxes);
+  reserveLayer(kResting, stored_then - fixed_boxes);
 }
 
 void HGrid::Engine::takeOut(ProxyId id) {
@@ -136,7 +140,7 @@ void HGrid::Engine::putLoose(ProxyId id) {
   sortLayer(kLoose);
 }
 
-/// Makes the loose boxes moving ones and drops from the moving those that were taken out.
+/// Turns the loose boxes into moving boxes. Removes boxes from the list of moving boxes that were taken out.
 void HGrid::Engine::joinLoose() {
   std::vector<ProxyId>& moving = members[kMoving];
   moving.erase(std::remove_if(moving.begin(), moving.end(), [this](ProxyId id) { return layer_of[id] != kMoving; }),
@@ -206,13 +210,13 @@ void HGrid::Engine::sortMoved() {
   if (count > stored / kShareOfMoving || withdrawn + started > stored || wasted > 2.0 * static_cast<double>(stored)) {
     return sortAll();
   }
-  // Few boxes move, but others in every tick: then most of the moving layer rests.
+  // If few boxes move at a time, but other boxes each time, then most boxes of the moving layer do not move anymore.
   const bool others = 2 * started > moved.size() && moved.size() < count / 2;
   if (others && count > stored / kShareOfIdle) return sortAll();
   if (regroup) makeRoom(moving, count);
   reserveLayer(kMoving, count);
   if (started > 0) locate(kResting);
-  // Nothing below allocates, but for the pairs that are kept.
+  // Nothing below allocates, except keepPairs().
   if (regroup) {
     joinLoose();
     for (const ProxyId id : moved) {
@@ -232,7 +236,7 @@ void HGrid::Engine::sortMoved() {
 
 void HGrid::Engine::keepPairs() {
   if (!pairs_wanted.load(std::memory_order_relaxed)) return;
-  // Boxes that left may have had most of the overlaps that were counted, so a large count is taken again.
+  // kept_overlaps still counts the overlaps of boxes that have left. If it is large, a new search corrects it.
   if (!kept_valid || (kept_dirty && kept_overlaps > bound.overlaps / 2)) {
     kept_valid = false;
     try {

@@ -13,23 +13,28 @@
 
 namespace hgrid {
 
-/// A part of a search for pairs. Either some positions of one level, tested among themselves or against all of another
-/// level, or some regions of a layer, tested among themselves and the later ones, or against all of another layer.
+/// A part of a search for pairs. It is about one of these two:
+///
+/// - Positions of one level. Their boxes are tested against the later boxes of this level, or against all boxes of
+///   another level.
+/// - Regions of a layer. Their boxes are tested against each other and against later regions, or against all boxes of
+///   another layer.
 struct SearchTask {
-  const kernels::Level* asking;
-  const kernels::Level* asked;   // null: the positions are tested among themselves
-  std::uint32_t begin, end;      // positions, or regions
-  const Layer* layer = nullptr;  // of the regions; null: positions
-  const Layer* other = nullptr;  // null: the regions are tested among themselves and with the later ones
-  std::size_t boxes = 0;
-  std::size_t thread = 0, first = 0, found = 0;  // its pairs: `found` pairs from `first` on, in the part of that thread
-  std::size_t to = 0;                            // index of its first pair in the result
+  const kernels::Level* asking;  // level of the positions
+  const kernels::Level* asked;   // the other level; null: the level itself
+  std::uint32_t begin, end;      // range of positions or of regions
+  const Layer* layer = nullptr;  // layer of the regions; null: the task is about positions
+  const Layer* other = nullptr;  // the other layer; null: the layer itself
+  std::size_t boxes = 0;         // number of boxes in the range
+  // The result of the task: `found` pairs from index `first` on, in the part of this thread (SearchBuffers::parts).
+  std::size_t thread = 0, first = 0, found = 0;
+  std::size_t to = 0;  // index of the task's first pair in the result of the search
 };
 
-/// Copies of some boxes of a level, which can ask another level.
+/// Copies of those boxes of one level that may overlap boxes of another level.
 struct GatheredBoxes {
-  std::vector<std::uint32_t> levels;  // that a level reaches
-  std::vector<std::uint32_t> positions;
+  std::vector<std::uint32_t> levels;     // numbers of the other levels that a level overlaps
+  std::vector<std::uint32_t> positions;  // positions of the copied boxes in their level
   std::vector<float> bounds;
   std::vector<std::uint32_t> ids;
 };
@@ -37,17 +42,17 @@ struct GatheredBoxes {
 /// Buffers of a search for pairs.
 struct SearchBuffers {
   std::vector<SearchTask> tasks;
-  std::vector<std::vector<ProxyPair>> parts;  // per thread, each with room for all pairs: one thread may do all tasks
-  std::vector<std::size_t> used;              // pairs in each part
-  std::vector<GatheredBoxes> gathered;        // per thread
+  std::vector<std::vector<ProxyPair>> parts;  // pairs per thread, with room for all: one thread may do all tasks
+  std::vector<std::size_t> used;              // number of pairs in each part
+  std::vector<GatheredBoxes> gathered;        // per thread: the copied boxes
 };
 
 /// The implementation of HGrid. Each box is in one of four layers, which are sorted separately:
 ///
-///   fixed    declared by setFixed(); no pairs among themselves
-///   resting  did not move for a while; the grid keeps their pairs among themselves and with fixed boxes
-///   moving   sorted again whenever one of them moves
-///   loose    inserted or moved by a call for one box; there are few of them, because they soon join the moving boxes
+///   fixed    boxes that setFixed() names; two fixed boxes never form a pair
+///   resting  boxes that did not move for a while; the grid keeps their pairs with resting and fixed boxes
+///   moving   boxes that moved recently; all of them are sorted again when one of them moves
+///   loose    boxes that were inserted or moved one at a time; they are few, because they soon join the moving boxes
 ///
 /// Every change allocates all memory that it needs before it changes a layer. If the allocation fails, the change
 /// throws, and the grid holds the boxes that it held before.
@@ -62,34 +67,36 @@ struct HGrid::Engine {
   void requireValid(const std::vector<ProxyId>& ids, const std::vector<Aabb>& given);
   Machine machine() { return {&kernels::of(isa), workers.get(), &scratch}; }
 
-  // Changes; engine.cpp.
-  /// Makes room for a box of this id.
+  // Functions that change the stored boxes (engine.cpp).
+  /// Makes room for a box with this id.
   void grow(ProxyId id);
-  /// Allocates what takeOut() (if the box is stored) and putLoose() need, so that they allocate nothing.
+  /// Allocates the memory that putLoose() and, if the box is stored, takeOut() need. They allocate nothing.
   void reserveLoose(ProxyId id);
-  /// Takes a box out of its layer; `layer_of` is then kAbsent.
+  /// Removes a box from its layer and sets its `layer_of` to kAbsent.
   void takeOut(ProxyId id);
-  /// Adds a box that is in no layer to the loose ones.
+  /// Adds a box that is in no layer to the loose boxes.
   void putLoose(ProxyId id);
-  /// Stores these boxes and no others.
+  /// Stores exactly these boxes, given[i] under ids[i], and removes all others.
   void replace(const std::vector<ProxyId>& ids, const std::vector<Aabb>& given);
-  /// Sorts all boxes into fixed and resting. If an allocation fails, the layers are as they were.
-  /// @param others  true if the layers do not hold exactly the stored boxes, or hold some in the wrong one of the two
+  /// Sorts all boxes into the fixed and the resting layer. If an allocation fails, the layers are unchanged.
+  /// @param others  true if the layers may hold other boxes than those stored, or a box in the wrong one of the two
   void sortAll(bool others = false);
-  /// Sorts the boxes that moved (`moved`; the caller has written them to `boxes`) with those that moved recently. If an
-  /// allocation fails, the layers are as they were.
+  /// Sorts the boxes whose ids are in `moved`, together with those that moved recently. The caller has already written
+  /// their new coordinates to `boxes`. If an allocation fails, the layers are unchanged.
   void sortMoved();
-  /// Restores `boxes`, `layer_of` and `stored` from the layers, which still hold what was there before.
+  /// Restores `boxes`, `layer_of` and `stored` from the layers, which still hold the boxes from before the change.
   void restoreFromLayers();
   void reserveLayer(LayerNumber layer, std::size_t count);
   void sortLayer(LayerNumber layer);
+  /// Writes the positions of the layer's boxes to positions().
   void locate(LayerNumber layer);
-  /// Position of each box in its layer, by id. Shares memory with the sorting of the resting layer: whenever that layer
-  /// is sorted, all layers are, and all positions become invalid.
+  /// Returns the position of each box in its layer, by id. Only the layers in `located` have valid positions. The sort
+  /// of the resting layer overwrites this array, but then all layers are sorted, so all positions change anyway.
   std::vector<std::uint32_t>& positions() { return layers[kResting].spare(); }
-  /// Updates `kept`, so that searches need not find the pairs of resting boxes again.
+  /// Updates `kept`, so that the next search need not find the pairs of resting boxes again.
   void keepPairs();
 
+  /// Returns the number of moving and loose boxes.
   std::size_t movingWithLoose() const;
   bool settlesLoose(std::size_t loose, std::size_t withdrawn_then, std::size_t stored_then) const;
   bool settlesAll(std::size_t moving, std::size_t withdrawn_then, std::size_t stored_then) const;
@@ -102,32 +109,32 @@ struct HGrid::Engine {
   PairBound bound;
   std::vector<Aabb> boxes;            // by id
   std::vector<LayerNumber> layer_of;  // by id
-  std::vector<bool> fixed;            // by id; may be shorter
+  std::vector<bool> fixed;            // by id; ids beyond its end are not fixed
   std::array<Layer, kLayers> layers;
-  std::array<std::vector<ProxyId>, kLayers> members;  // moving and loose: ids
-  std::array<bool, kLayers> located{};                // layers whose boxes have their positions in positions()
-  bool fixed_astray = false;                          // some loose or moving boxes are fixed
-  bool moving_changed = false;                        // some boxes of the moving layer are withdrawn
-  std::size_t stored = 0;
-  std::size_t withdrawn = 0;   // withdrawn positions in all layers
-  double waste = 0.0;          // sum over sorts of the boxes that were sorted although they did not move
-  std::vector<ProxyId> moved;  // scratch
+  std::array<std::vector<ProxyId>, kLayers> members;  // ids of the moving boxes and of the loose boxes
+  std::array<bool, kLayers> located{};                // whether positions() is valid for the boxes of a layer
+  bool fixed_astray = false;                          // some fixed boxes are in the loose or moving layer
+  bool moving_changed = false;                        // some boxes of the moving layer were withdrawn
+  std::size_t stored = 0;                             // number of stored boxes
+  std::size_t withdrawn = 0;                          // number of withdrawn boxes in all layers
+  double waste = 0.0;          // number of boxes sorted although they did not move, summed since the last sortAll()
+  std::vector<ProxyId> moved;  // ids of the boxes that sortMoved() sorts
   SortScratch scratch;
   std::unique_ptr<Workers> workers = std::make_unique<Workers>(1);
 
-  std::vector<ProxyPair> kept;    // pairs of resting boxes with resting and fixed ones
+  std::vector<ProxyPair> kept;    // pairs of resting boxes with resting and fixed boxes
   std::size_t kept_overlaps = 0;  // overlapping pairs that the search for `kept` looked at
   bool kept_valid = false;
-  bool kept_dirty = false;  // some of their boxes have left these layers
-  mutable std::atomic<bool> pairs_wanted{false};
+  bool kept_dirty = false;  // some boxes of these pairs are not in the resting or fixed layer anymore
+  mutable std::atomic<bool> pairs_wanted{false};  // whether there was a search for pairs; else `kept` is not needed
 
-  // Search for pairs; pair_search.cpp. One search at a time uses the threads and the buffers; a concurrent one uses
-  // neither.
-  /// Fills `kept`. It stays invalid and empty if there are more pairs than the bound.
+  // Search for pairs (pair_search.cpp, pair_collection.cpp). One search at a time uses the threads and the shared
+  // buffers. A search that runs at the same time uses neither.
+  /// Finds the pairs for `kept`. If they exceed the bound, `kept` is empty and kept_valid is false.
   void findKept();
-  /// @returns whether it found all pairs. If not, the contents of `pairs` are meaningless.
+  /// Finds all pairs, if they do not exceed the bound. @returns whether it found all; if not, `pairs` is meaningless
   bool findPairs(std::vector<ProxyPair>& pairs, const PairBound& up_to) const;
-  /// Collects pairs in the order that PairBound says, until the bound is reached. @returns whether these are all pairs
+  /// Collects pairs in the order that PairBound specifies, up to the bound. @returns whether these are all pairs
   bool collectPairs(std::vector<ProxyPair>& pairs) const;
   mutable std::mutex search_mutex;
   mutable SearchBuffers buffers;

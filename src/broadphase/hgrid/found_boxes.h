@@ -8,7 +8,7 @@
 
 namespace hgrid {
 
-/// Lets kernels write positions into a vector, which it enlarges as they need.
+/// Lets kernels write positions into a vector. Enlarges the vector when it is full.
 class PositionWriter {
  public:
   explicit PositionWriter(std::vector<std::uint32_t>& buffer) : buffer_(buffer) {
@@ -39,7 +39,7 @@ class PositionWriter {
   kernels::PositionSink sink_{};
 };
 
-/// A vector for positions. It keeps its memory, so a query allocates nothing after the first few.
+/// Returns this thread's buffer for positions. It keeps its memory, so only the first few queries allocate memory.
 inline std::vector<std::uint32_t>& bufferOfThread() {
   thread_local std::vector<std::uint32_t> buffer;
   return buffer;
@@ -55,8 +55,8 @@ inline bool overlap(const kernels::Box& a, const kernels::Box& b) {
   return both;
 }
 
-/// Calls `visit` once per layer with the positions of the boxes that `search` finds on the layer's levels.
-/// @param search  as in void search(const kernels::LevelSet&, kernels::PositionSink*)
+/// Searches each layer. Calls visit(layer, positions) for each layer in which `search` finds boxes.
+/// @param search  called as void search(const kernels::LevelSet&, kernels::PositionSink*); writes positions
 template <class Engine, class Search, class Visit>
 void visitFound(const Engine& engine, Search&& search, Visit&& visit) {
   PositionWriter writer(bufferOfThread());
@@ -69,12 +69,13 @@ void visitFound(const Engine& engine, Search&& search, Visit&& visit) {
   }
 }
 
-/// Calls `visit` once per layer with the positions of the boxes that overlap `box`.
+/// Calls visit(layer, positions) for each layer in which boxes overlap `box`.
 template <class Engine, class Visit>
 void visitOverlapping(const Engine& engine, const kernels::Box& box, Visit&& visit) {
   const kernels::Kernels& kernels = kernels::of(engine.isa);
   visitFound(
-      engine, [&](const kernels::LevelSet& levels, kernels::PositionSink* sink) { kernels.overlapping(&levels, &box, sink); },
+      engine,
+      [&](const kernels::LevelSet& levels, kernels::PositionSink* sink) { kernels.overlapping(&levels, &box, sink); },
       visit);
 }
 

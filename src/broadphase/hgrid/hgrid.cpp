@@ -14,22 +14,22 @@ namespace hgrid {
 namespace {
 
 void requireValid(const Aabb& box) {
-  if (!isValid(box)) throw std::invalid_argument("HGrid: a box is not finite or has min > max");
+  if (!isValid(box)) throw std::invalid_argument("HGrid: a box has a coordinate that is not finite, or min > max");
 }
 
 constexpr std::size_t kPerJob = 4096;  // boxes that one job checks or copies
 
-/// Calls job(begin, end) for parts of 0 .. count - 1.
+/// Divides 0 .. count - 1 into parts and calls job(begin, end) for each part. The workers share the parts.
 template <class Job>
 void inParts(Workers& workers, std::size_t count, Job&& job) {
   workers.run((count + kPerJob - 1) / kPerJob,
               [&](std::size_t part, std::size_t) { job(part * kPerJob, std::min((part + 1) * kPerJob, count)); });
 }
 
-/// Whether the ids are 0 .. count - 1, which ascending ids are if the last is.
+/// Returns whether ascending ids are exactly 0 .. count - 1. For ascending ids, it is enough to check the last one.
 bool areAll(const std::vector<ProxyId>& ids) { return !ids.empty() && ids.back() + std::size_t{1} == ids.size(); }
 
-/// Of boxes that are to be updated, looked at here and there: whether so many moved that all are to be sorted.
+/// Estimates from a sample of the updated boxes whether more than half of them moved. Then all boxes should be sorted.
 bool mostMoved(const std::vector<Aabb>& stored, const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) {
   const std::size_t stride = std::max<std::size_t>(1, ids.size() / 256);
   std::size_t seen = 0, moved = 0;
@@ -51,7 +51,8 @@ GridScale GridScale::fitting(const std::vector<Aabb>& boxes) {
 }
 
 void HGrid::Engine::requireValid(const std::vector<ProxyId>& ids, const std::vector<Aabb>& given) {
-  if (ids.size() != given.size()) throw std::invalid_argument("HGrid: as many ids as boxes are needed");
+  if (ids.size() != given.size())
+    throw std::invalid_argument("HGrid: the numbers of ids and of boxes differ; each box needs one id");
   std::atomic<bool> all_ascend{true}, all_sound{true};
   inParts(*workers, ids.size(), [&](std::size_t begin, std::size_t end) {
     bool ascend = true;
@@ -60,8 +61,8 @@ void HGrid::Engine::requireValid(const std::vector<ProxyId>& ids, const std::vec
     const auto* first = reinterpret_cast<const kernels::Box*>(given.data()) + begin;
     if (!kernels::of(isa).sound(first, end - begin)) all_sound = false;
   });
-  if (!all_ascend) throw std::invalid_argument("HGrid: ids must ascend");
-  if (!all_sound) throw std::invalid_argument("HGrid: a box is not finite or has min > max");
+  if (!all_ascend) throw std::invalid_argument("HGrid: the ids do not ascend; sort them, and use each id once");
+  if (!all_sound) throw std::invalid_argument("HGrid: a box has a coordinate that is not finite, or min > max");
 }
 
 HGrid::HGrid(const GridScale& scale) {
@@ -78,7 +79,7 @@ HGrid& HGrid::operator=(HGrid&&) noexcept = default;
 
 void HGrid::setIsa(Isa isa) {
   if (!isSupported(isa)) {
-    throw std::invalid_argument(std::string("HGrid: this processor or build has no ") + hgrid::name(isa));
+    throw std::invalid_argument(std::string("HGrid: this processor or build does not support ") + hgrid::name(isa));
   }
   engine_->isa = isa;
 }
@@ -93,7 +94,7 @@ void HGrid::setThreads(int threads) {
 }
 
 void HGrid::setFixed(const std::vector<ProxyId>& ids) {
-  if (!std::is_sorted(ids.begin(), ids.end())) throw std::invalid_argument("HGrid: ids must ascend");
+  if (!std::is_sorted(ids.begin(), ids.end())) throw std::invalid_argument("HGrid: the ids do not ascend; sort them");
   std::vector<bool> fixed(ids.empty() ? 0 : ids.back() + std::size_t{1});
   for (const ProxyId id : ids) fixed[id] = true;
   if (fixed == engine_->fixed) return;
@@ -114,7 +115,8 @@ void HGrid::setOverlapFilter(const OverlapFilter& filter) {
 void HGrid::insert(ProxyId id, const Aabb& box) {
   requireValid(box);
   Engine& e = *engine_;
-  if (e.isStored(id)) throw std::invalid_argument("HGrid: box " + std::to_string(id) + " is stored already");
+  if (e.isStored(id))
+    throw std::invalid_argument("HGrid: box " + std::to_string(id) + " is already stored; change it with update()");
   e.grow(id);
   e.reserveLoose(id);
   e.boxes[id] = box;
@@ -125,7 +127,7 @@ void HGrid::update(ProxyId id, const Aabb& box) {
   requireValid(box);
   Engine& e = *engine_;
   e.requireStored(id);
-  if (e.boxes[id] == box) return;  // exactly the same: never a tolerance
+  if (e.boxes[id] == box) return;  // exact comparison: a tolerance would ignore small moves
   e.reserveLoose(id);
   e.takeOut(id);
   e.boxes[id] = box;
@@ -156,7 +158,8 @@ void HGrid::update(const std::vector<ProxyId>& ids, const std::vector<Aabb>& box
   }
 }
 
-/// The bulk update. It writes `boxes` and `layer_of` before it sorts, so the caller restores them if it throws.
+/// Performs the bulk update. Changes `boxes` and `layer_of` before it sorts. If it throws, the caller must restore
+/// them.
 void HGrid::Engine::replace(const std::vector<ProxyId>& ids, const std::vector<Aabb>& given) {
   bool same = stored == ids.size();
   if (same && !(areAll(ids) && layer_of.size() == ids.size())) {
@@ -243,16 +246,16 @@ std::size_t HGrid::bytes() const {
 
 void HGrid::checkInvariants() const {
   Engine& e = *engine_;
-  const auto require = [](bool holds, const char* promise) {
-    if (!holds) throw std::logic_error(std::string("HGrid: ") + promise);
+  const auto require = [](bool holds, const char* invariant) {
+    if (!holds) throw std::logic_error(std::string("HGrid: this invariant is violated: ") + invariant);
   };
-  std::size_t stored = 0, standing = 0;
+  std::size_t stored = 0, in_layers = 0;
   for (ProxyId id = 0; id < e.layer_of.size(); ++id) {
     if (e.layer_of[id] == Engine::kAbsent) continue;
     ++stored;
-    require(isValid(e.boxes[id]), "a stored box is valid");
+    require(isValid(e.boxes[id]), "each stored box is finite, with min <= max");
   }
-  require(stored == e.stored, "size() counts the stored boxes");
+  require(stored == e.stored, "size() is the number of stored boxes");
   std::vector<bool> seen(e.layer_of.size());
   for (std::size_t number = 0; number < e.layers.size(); ++number) {
     const Layer& layer = e.layers[number];
@@ -260,14 +263,14 @@ void HGrid::checkInvariants() const {
     for (std::uint32_t i = 0; i < layer.size(); ++i) {
       if (layer.isWithdrawn(i)) continue;
       const ProxyId id = layer.ids()[i];
-      require(e.layer_of[id] == number, "a box stands in the layer that it is said to be in");
-      require(!seen[id], "a box stands in one layer only");
-      require(!e.located[number] || e.positions()[id] == i, "a located box stands at its position");
+      require(e.layer_of[id] == number, "a box is in the layer that layer_of names");
+      require(!seen[id], "a box is in one layer only");
+      require(!e.located[number] || e.positions()[id] == i, "the position that is stored for a box is right");
       seen[id] = true;
-      ++standing;
+      ++in_layers;
     }
   }
-  require(standing == stored, "every stored box stands in a layer");
+  require(in_layers == stored, "every stored box is in a layer");
 }
 
 }  // namespace hgrid

@@ -13,27 +13,28 @@ namespace hgrid {
 namespace {
 
 constexpr std::size_t kReadBeyond = 16;                      // positions that kernels may read beyond the last box
-constexpr std::size_t kWorthCopying = std::size_t{1} << 18;  // boxes; of fewer most are still in the cache
-constexpr std::size_t kWorthAThread = 16384;                 // boxes
-constexpr int kSortsPerPlan = 64;                            // then a plan is made anew, since boxes may have gathered
-constexpr std::size_t kWorthRegions = 64;                    // boxes
-constexpr double kCrowded = 32.0, kLessCrowded = 0.6;        // as crowding(); evenly spread boxes have about 2
+constexpr std::size_t kWorthCopying = std::size_t{1} << 18;  // boxes; fewer boxes mostly stay in the cache
+constexpr std::size_t kWorthAThread = 16384;                 // boxes per thread
+constexpr int kSortsPerPlan = 64;                            // after so many sorts, the layer makes a new plan
+constexpr std::size_t kWorthRegions = 64;                    // boxes; a smaller layer has one region
+constexpr double kCrowded = 32.0, kLessCrowded = 0.6;        // limits of crowding(); evenly spread boxes have about 2
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();  // no comparison with it holds
+constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();  // every comparison with it is false
 
 static_assert(sizeof(Aabb) == sizeof(kernels::Box), "kernels read a box as six floats");
 static_assert(sizeof(ProxyPair) == sizeof(kernels::Pair), "kernels write a pair as two numbers");
 
-/// The first allocation is exact. Later ones are larger than asked for, so that a steady tick allocates nothing.
+/// Returns the size to allocate. The first allocation is exact. Later ones are larger than requested, so that a grid
+/// with a steady number of boxes allocates nothing.
 std::size_t roomFor(std::size_t size, bool first) { return first ? size : size + size / 16; }
 
-/// Enlarges an array whose values the caller will all write. An array never shrinks.
+/// Enlarges an array if it is too small. Then it loses its values, and the caller writes all of them again.
 template <class Value>
 void growTo(std::vector<Value>& values, std::size_t size) {
   if (values.size() < size) std::vector<Value>(roomFor(size, values.empty())).swap(values);
 }
 
-/// Enlarges an array and keeps its values. @returns whether the array was moved
+/// Enlarges an array if it is too small, and keeps its values. @returns whether the array has a new address
 template <class Value>
 bool extendTo(std::vector<Value>& values, std::size_t size) {
   if (values.size() >= size) return false;
@@ -43,6 +44,7 @@ bool extendTo(std::vector<Value>& values, std::size_t size) {
   return true;
 }
 
+/// Returns how many threads sort a layer with this number of boxes.
 std::size_t threadsFor(std::size_t boxes, const Machine& machine) {
   const auto most = static_cast<std::size_t>(machine.workers->threads());
   return std::max<std::size_t>(1, std::min(most, boxes / kWorthAThread));
@@ -60,7 +62,8 @@ ProxyId* Layer::setIds(std::size_t count) {
 /// Moves the six arrays farther apart, so that each has room for `count` boxes.
 void Layer::widen(std::size_t count) {
   std::size_t stride = (count + (bounds_.empty() ? 0 : count / 16) + 2 * kReadBeyond) / 16 * 16;
-  // Far from a multiple of a page: reads at one place of six pages would compete for one set of the cache.
+  // The distance of the arrays must not be near a multiple of a page. Otherwise the six coordinates of a box would
+  // compete for one set of the cache.
   if (stride % 1024 < 64) stride += 160;
   std::vector<float> bounds(6 * stride);
   for (std::size_t i = 0; i < 6 && count_ > 0; ++i) {
@@ -108,7 +111,7 @@ void Layer::sort(const std::vector<Aabb>& boxes, double finest_edge, const Machi
   if (!planned) {
     count(boxes, machine, threads);
     const kernels::Keying& total = scratch.keyings.front();
-    planned = !plan_.fits(BoxCensus{total.lower, total.upper, total.sizes});  // the boxes have changed too much
+    planned = !plan_.fits(BoxCensus{total.lower, total.upper, total.sizes});  // true if the boxes have changed too much
   }
   if (planned) {
     makePlan(boxes, finest_edge, machine, threads);
@@ -119,8 +122,8 @@ void Layer::sort(const std::vector<Aabb>& boxes, double finest_edge, const Machi
   describe(scratch);
 }
 
-/// Makes a plan and counts with it. Divides the layer into regions if many boxes share a cell, but only if that helps. A
-/// layer that is divided already is divided anew, without another look at one region.
+/// Makes a new plan and counts the boxes per cell. Divides the layer into regions if too many boxes share a cell and
+/// the regions improve that. If the layer is already divided, first tries to divide it again.
 void Layer::makePlan(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine, std::size_t threads) {
   if (isDivided() && divide(boxes, finest_edge, machine, threads)) return count(boxes, machine, threads);
   plan_.planOneRegion(boxes, ids_.data(), count_, finest_edge);
@@ -135,7 +138,7 @@ void Layer::makePlan(const std::vector<Aabb>& boxes, double finest_edge, const M
   count(boxes, machine, threads);
 }
 
-/// @returns whether there are several regions now; not if one is better or memory ran out
+/// Plans several regions and allocates their memory. @returns false if one region is better or if memory ran out
 bool Layer::divide(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine, std::size_t threads) {
   SortScratch& scratch = *machine.scratch;
   try {
@@ -152,7 +155,7 @@ bool Layer::divide(const std::vector<Aabb>& boxes, double finest_edge, const Mac
   return true;
 }
 
-/// Boxes per cell, as a box sees it: the mean over all boxes of how many share its cell.
+/// Returns how crowded cells are: the number of boxes in the cell of a box, averaged over all boxes.
 double Layer::crowding(const Machine& machine, std::size_t threads) const {
   double sum = 0.0;
   for (std::size_t cell = 0; cell < plan_.cells(); ++cell) {
@@ -163,9 +166,9 @@ double Layer::crowding(const Machine& machine, std::size_t threads) const {
   return sum / static_cast<double>(count_);
 }
 
-/// The counter of a cell is stored one entry later. So after the second pass, the end of each cell is the start of the
-/// next cell.
-/// Every thread counts for itself; the last does it in place.
+/// Returns the counters of a thread, one for each cell. Those of the last thread are in `start_`, where the counter of
+/// a cell is stored one entry later. So after the second pass, the counter is the end of its cell and the start of the
+/// next one.
 std::uint32_t* Layer::countsOf(std::size_t thread, std::size_t threads, const Machine& machine) {
   return thread + 1 == threads ? start_.data() + 1 : machine.scratch->counts.data() + thread * plan_.cells();
 }
@@ -235,7 +238,8 @@ void Layer::count(const std::vector<Aabb>& boxes, const Machine& machine, std::s
 
 void Layer::scatter(const std::vector<Aabb>& boxes, const Machine& machine, std::size_t threads) {
   const SortScratch& scratch = *machine.scratch;
-  machine.workers->run(threads, [&](std::size_t range, std::size_t) {  // counts become positions, by ranges of cells
+  // Each job turns the counts of one range of cells into positions.
+  machine.workers->run(threads, [&](std::size_t range, std::size_t) {
     std::uint32_t sum = 0;
     for (std::size_t i = 0; i < threads * threads; ++i) sum += i % threads < range ? scratch.sums[i] : 0;
     std::uint32_t* last = countsOf(threads - 1, threads, machine);
@@ -290,7 +294,7 @@ void Layer::describe(const SortScratch& scratch) {
       upper = lower + 4;
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      // The difference may have been rounded down.
+      // The size of a box is a difference that may have been rounded down.
       level.reach[axis] = std::nextafter(total.sizes[4 * i + axis], kInfinity);
       level.mean_sides[axis] = plan_.meanSides(i)[axis];
       level.around.min[axis] = level.begin < level.end ? lower[axis] : kInfinity;
@@ -302,7 +306,7 @@ void Layer::describe(const SortScratch& scratch) {
   level_bounds_.set(levels_);
 }
 
-/// Tells the levels where the arrays are.
+/// Sets the pointers of the levels to the arrays.
 void Layer::point() {
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     kernels::Level& level = levels_[i];
@@ -314,26 +318,28 @@ void Layer::point() {
 }
 
 void Layer::withdraw(std::uint32_t position) {
-  // The minimum stays: it says which row the position is in, beyond whose end a search must not look.
+  // The minimum remains: pairsWithin() computes the row of the position from it. It must not search beyond that row.
   for (std::size_t axis = 3; axis < 6; ++axis) bounds_[axis * stride_ + position] = kNothing;
 }
 
 std::size_t Layer::bytes() const {
   return (ids_.capacity() + other_ids_.capacity() + start_.capacity()) * sizeof(std::uint32_t) +
-         bounds_.capacity() * sizeof(float) + levels_.capacity() * sizeof(kernels::Level) + level_bounds_.bytes() + plan_.bytes();
+         bounds_.capacity() * sizeof(float) + levels_.capacity() * sizeof(kernels::Level) + level_bounds_.bytes() +
+         plan_.bytes();
 }
 
 void Layer::checkInvariants(const std::vector<Aabb>& boxes) const {
-  const auto require = [](bool holds, const char* promise) {
-    if (!holds) throw std::logic_error(std::string("HGrid: ") + promise);
+  const auto require = [](bool holds, const char* invariant) {
+    if (!holds) throw std::logic_error(std::string("HGrid: this invariant is violated: ") + invariant);
   };
   std::uint32_t position = 0;
   for (const kernels::Level& level : levels_) {
-    require(level.begin == position, "levels follow each other");
+    require(level.begin == position, "each level begins where the level before it ends");
     const auto slabs = static_cast<std::int32_t>(level.grid.last[level.grid.axes[2]]) + 1;
     const std::int32_t cells = level.grid.slab * slabs;
     for (std::int32_t cell = 0; cell < cells; ++cell) {
-      require(level.start[cell] == position && level.start[cell + 1] >= position, "cells follow each other");
+      require(level.start[cell] == position && level.start[cell + 1] >= position,
+              "each cell begins where the one before it ends");
       for (; position < level.start[cell + 1]; ++position) {
         if (isWithdrawn(position)) continue;
         const Aabb& box = boxes[ids_[position]];
@@ -342,8 +348,8 @@ void Layer::checkInvariants(const std::vector<Aabb>& boxes) const {
           const auto i = static_cast<std::size_t>(axis);
           require(bounds_[i * stride_ + position] == box.min[axis] &&
                       bounds_[(i + 3) * stride_ + position] == box.max[axis],
-                  "a box stands in the layer as it is");
-          require(box.max[axis] - box.min[axis] <= level.reach[axis], "a box is no longer than its level's reach");
+                  "the layer holds the current coordinates of its boxes");
+          require(box.max[axis] - box.min[axis] <= level.reach[axis], "no box is longer than the reach of its level");
           const float cell_number = box.min[axis] * level.grid.inverse[axis] - level.grid.origin[axis];
           number[axis] =
               static_cast<std::int32_t>(std::min(cell_number > 0.0f ? cell_number : 0.0f, level.grid.last[axis]));
@@ -352,7 +358,7 @@ void Layer::checkInvariants(const std::vector<Aabb>& boxes) const {
           const kernels::Region& region = regions().region(regions().regionOf(box.min.data()));
           const auto number_of_level = static_cast<std::size_t>(&level - levels_.data());
           require(number_of_level >= region.first_level && number_of_level < region.first_level + region.levels,
-                  "a box lives in the region of its minimum corner");
+                  "a box is stored in the region that contains its minimum corner");
         }
         for (int axis = 0; axis < 3; ++axis) {
           require(level.around.min[axis] <= box.min[axis] && box.max[axis] <= level.around.max[axis],
@@ -360,10 +366,10 @@ void Layer::checkInvariants(const std::vector<Aabb>& boxes) const {
         }
         const std::int32_t* const steps = level.grid.steps;
         require(cell == number[0] * steps[0] + number[1] * steps[1] + number[2] * steps[2],
-                "a box lives in the cell of its minimum corner");
+                "a box is stored in the cell that contains its minimum corner");
       }
     }
-    require(level.end == position, "a level ends with its last cell");
+    require(level.end == position, "a level ends where its last cell ends");
   }
   require(position == count_, "every box has a position");
 }

@@ -12,67 +12,70 @@
 
 namespace hgrid {
 
-/// Buffers of sorting. All layers of a grid share them.
+/// Buffers for sorting. All layers of a grid share them. "Position" is here the position of a box before the sort.
 struct SortScratch {
-  std::vector<Aabb> copies;           // boxes by position before the sort; used only for counts that exceed the cache
-  std::vector<std::uint32_t> cells;   // by position before
-  std::vector<std::uint32_t> counts;  // boxes per cell, for each thread but the last
-  std::vector<std::uint32_t> sums;    // per thread and range of cells: boxes counted there
-  std::vector<float> sizes;           // per thread and level, in fours
-  std::vector<float> corners;         // per thread and level, in eights; only of layers with several regions
-  std::vector<kernels::Keying> keyings;
+  std::vector<Aabb> copies;              // boxes by position; used only if the boxes do not fit into the cache
+  std::vector<std::uint32_t> cells;      // number of each box's new cell, by position
+  std::vector<std::uint32_t> counts;     // number of boxes per cell, for each thread but the last
+  std::vector<std::uint32_t> sums;       // per thread and range of cells: number of boxes that it counted there
+  std::vector<float> sizes;              // [m] per thread and level: 4 floats, see kernels::Keying
+  std::vector<float> corners;            // [m] per thread and level: 8 floats; only for layers with several regions
+  std::vector<kernels::Keying> keyings;  // per thread
 };
 
-/// The means of sorting.
+/// What sorting needs: the inner loops for the instruction set, the threads and the buffers.
 struct Machine {
   const kernels::Kernels* kernels = nullptr;
   Workers* workers = nullptr;
   SortScratch* scratch = nullptr;
 };
 
-/// Boxes sorted by region, level and cell, as a structure of arrays, by two passes of counting (Ericson 2005, 7.1.4). A
-/// layer is always sorted as a whole. Between two sorts, boxes can be withdrawn.
+/// A set of boxes that are sorted by region, level and cell, and stored as a structure of arrays. A counting sort with
+/// two passes (Ericson 2005, 7.1.4) sorts all of them at a time. Between two sorts, boxes can be withdrawn.
 ///
-/// The caller calls reserve() before it changes anything, so a failed allocation leaves the layer as it was. Only
-/// reserve() throws. Where sort() finds that several regions would be better than one, it allocates what they need; if
-/// that fails, the layer has one region.
+/// The caller calls reserve() before it changes anything, so a failed allocation leaves the layer unchanged. No other
+/// change throws. If sort() finds that several regions are better than one, it allocates memory for them. If that
+/// fails, the layer has one region.
 class Layer {
  public:
-  /// Allocates what setIds() and sort() of `count` boxes need. The layer keeps its boxes and their order.
-  /// @param ids  number of ids in use: the size of the array of boxes that sort() will get
+  /// Allocates the memory that setIds() and sort() need for `count` boxes. The layer keeps its boxes and their order.
+  /// @param ids  size of the array of boxes that sort() will receive
   void reserve(std::size_t count, std::size_t ids, const Machine& machine);
-  /// Sets which boxes the layer holds, in any order. Call reserve() before and sort() after it.
+  /// Sets which boxes the layer holds, in any order. Call reserve() before this function and sort() after it.
   void setIds(const std::vector<ProxyId>& ids);
-  /// The same; the caller writes `count` ids to the returned array.
+  /// Does the same, but the caller writes the `count` ids to the returned array.
   ProxyId* setIds(std::size_t count);
-  /// Sorts the boxes as they are now. Starts from the last order, because boxes move little. Allocates nothing after
-  /// reserve() of as many boxes.
-  /// @param boxes  by id
+  /// Sorts the boxes with their current coordinates. Starts from the order of the last sort, because boxes move little.
+  /// After reserve() for at least as many boxes, allocates nothing except memory for additional regions.
+  /// @param boxes  all boxes of the grid, by id
+  /// @param finest_edge  [m] longest box side of the smallest size class
   void sort(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine);
-  /// Removes the box at a position: from now on it overlaps nothing.
+  /// Withdraws the box at a position: searches no longer find it. The position remains unused until the next sort().
   void withdraw(std::uint32_t position);
   bool isWithdrawn(std::uint32_t position) const { return !(bounds_[position] <= bounds_[3 * stride_ + position]); }
 
-  /// An array that the caller may use until the next sort(). reserve() keeps its values.
+  /// Returns an array that the caller may use until the next sort(). reserve() keeps its values.
   std::vector<std::uint32_t>& spare() { return other_ids_; }
 
-  std::size_t size() const { return count_; }  ///< positions, withdrawn ones included
+  std::size_t size() const { return count_; }  ///< number of positions, including those of withdrawn boxes
+  /// Returns the id of the box at each position.
   const ProxyId* ids() const { return ids_.data(); }
-  /// The box at a position.
+  /// Returns the box at a position.
   Aabb boxAt(std::uint32_t position) const {
     const float* bound = bounds_.data() + position;
     return {{bound[0], bound[stride_], bound[2 * stride_]},
             {bound[3 * stride_], bound[4 * stride_], bound[5 * stride_]}};
   }
-  /// Of all regions, region after region.
+  /// Returns the levels of all regions, region after region.
   const std::vector<kernels::Level>& levels() const { return levels_; }
-  /// Whether there are several regions.
+  /// Returns whether there are several regions.
   bool isDivided() const { return plan_.isDivided(); }
   const RegionTree& regions() const { return plan_.tree(); }
   const LevelBounds& bounds() const { return level_bounds_; }
   kernels::LevelSet levelSet() const { return level_bounds_.over(levels_); }
+  /// Returns the allocated memory [bytes].
   std::size_t bytes() const;
-  /// @throws std::logic_error naming the promise that does not hold
+  /// @throws std::logic_error that names the first violated invariant
   void checkInvariants(const std::vector<Aabb>& boxes) const;
 
  private:
@@ -90,10 +93,10 @@ class Layer {
   LayerPlan plan_;
   int sorts_with_plan_ = 0;
   std::size_t count_ = 0;
-  std::vector<ProxyId> ids_, other_ids_;  // by position; the one is read while the other is written
-  std::vector<float> bounds_;             // six arrays, stride_ apart: min x y z, max x y z by position
+  std::vector<ProxyId> ids_, other_ids_;  // by position; a sort reads ids_, writes other_ids_ and swaps the two
+  std::vector<float> bounds_;             // [m] six arrays, stride_ floats apart: min x y z, max x y z, by position
   std::size_t stride_ = 0;
-  std::vector<std::uint32_t> start_;  // of each cell, and the end of the last
+  std::vector<std::uint32_t> start_;  // position of the first box of each cell, and the end of the last cell
   std::vector<kernels::Level> levels_;
   LevelBounds level_bounds_;
 };

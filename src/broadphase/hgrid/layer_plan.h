@@ -12,50 +12,55 @@
 
 namespace hgrid {
 
-/// What a sort has counted, as of the boxes now.
+/// Statistics of the current boxes, which the first pass of a sort computes.
 struct BoxCensus {
-  const float *lower = nullptr, *upper = nullptr;  ///< [m] least and greatest minimum corner; of one region
-  const float* sizes = nullptr;                    ///< [m] 4 floats per level: largest extents, unspecified
+  const float *lower = nullptr, *upper = nullptr;  ///< [m] least and greatest minimum corner, if there is one region
+  const float* sizes = nullptr;                    ///< [m] 4 per level: longest side on x, y, z; the 4th is undefined
 };
 
-/// How a layer is divided into regions, each region into levels, and each level into cells.
+/// Says how a layer is divided into regions, each region into levels, and each level into cells.
 ///
 /// The arrays hold the levels of all regions, region after region.
 class LayerPlan {
  public:
-  /// Allocates what one region needs.
+  /// Allocates the memory that a plan with one region needs.
   LayerPlan();
 
-  /// Plans one region without levels.
+  /// Resets the plan to one region without levels.
   void clear();
-  /// Plans one region. Allocates nothing.
+  /// Plans one region for the boxes of `count` ids. Allocates nothing.
+  /// @param finest_edge  [m] longest box side of the smallest size class
   void planOneRegion(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge);
-  /// Plans regions, each with about evenly spread boxes.
+  /// Plans several regions for the boxes of `count` ids. In each region, boxes are spread about evenly.
   ///
-  /// @param ids      are sorted by region
-  /// @param scratch  at least `count` values
-  /// @returns false if one region is best; then the plan is as it was
-  /// @throws std::bad_alloc; then the plan is as it was, and `ids` may be in another order
+  /// @param ids      in and out: the function sorts them by region
+  /// @param scratch  at least `count` values, which the function overwrites
+  /// @returns false if one region is best; then the plan is unchanged
+  /// @throws std::bad_alloc; then the plan is unchanged, but the order of `ids` may have changed
   bool planRegions(const std::vector<Aabb>& boxes, ProxyId* ids, std::uint32_t* scratch, std::size_t count,
                    double finest_edge);
 
+  /// Returns whether there are several regions.
   bool isDivided() const { return tree_.size() > 1; }
   std::size_t levels() const { return grids_.size(); }
-  std::uint32_t cells() const { return cells_; }  ///< of all levels
+  std::uint32_t cells() const { return cells_; }  ///< number of cells of all levels
   const kernels::Grid* grids() const { return grids_.data(); }
-  const float* sides() const { return sides_.data(); }  ///< [m] longest side of a level's boxes
+  const float* sides() const { return sides_.data(); }  ///< [m] longest box side of each level
+  /// Returns the number of each level's first cell, counted through all levels.
   const std::uint32_t* firstCells() const { return first_cells_.data(); }
+  /// Returns the mean box sides [m] of a level, per axis.
   const float* meanSides(std::size_t level) const { return mean_sides_[level].data(); }
   const RegionTree& tree() const { return tree_; }
   RegionTree& tree() { return tree_; }
 
-  /// Whether it is still a good plan for this many boxes.
+  /// Returns whether the plan is still good for this number of boxes.
   bool fits(std::size_t count) const;
-  /// Whether it is still a good plan for such boxes.
+  /// Returns whether the plan is still good for boxes with these statistics.
   bool fits(const BoxCensus& now) const;
-  /// Whether the boxes are still about where they were.
-  /// @param levels  with the boxes of the last sort
+  /// Returns whether the boxes are still distributed over the regions about as when the plan was made.
+  /// @param levels  the levels after the last sort
   bool fits(const std::vector<kernels::Level>& levels) const;
+  /// Returns the allocated memory [bytes].
   std::size_t bytes() const;
 
  private:
@@ -63,15 +68,15 @@ class LayerPlan {
 
   std::vector<kernels::Grid> grids_;
   std::vector<float> sides_;
-  std::vector<std::uint32_t> first_cells_;        // counted through all levels
-  std::vector<std::array<float, 3>> largest_;     // [m] extents when the plan was made
-  std::vector<std::array<float, 3>> mean_sides_;  // [m]
-  std::vector<std::uint32_t> region_boxes_;       // per region, when the plan was made
+  std::vector<std::uint32_t> first_cells_;        // per level: number of its first cell, counted through all levels
+  std::vector<std::array<float, 3>> largest_;     // [m] per level and axis: longest box side when the plan was made
+  std::vector<std::array<float, 3>> mean_sides_;  // [m] per level and axis: mean box side at that time
+  std::vector<std::uint32_t> region_boxes_;       // number of boxes per region when the plan was made
   RegionTree tree_;
   std::uint32_t cells_ = 0;
-  std::size_t boxes_ = 0;                   // that the plan was made for
-  std::array<float, 3> lower_{}, upper_{};  // [m] of one region: least and greatest minimum corner then
-  bool windowed_ = false;                   // of one region: some boxes lay outside the window of the cells
+  std::size_t boxes_ = 0;                   // number of boxes that the plan was made for
+  std::array<float, 3> lower_{}, upper_{};  // [m] for one region: least and greatest minimum corner
+  bool windowed_ = false;                   // for one region: some boxes were outside the window of the cells
 };
 
 }  // namespace hgrid

@@ -12,35 +12,38 @@
 
 namespace hgrid {
 
-/// A hierarchy of the bounds of a layer's levels. A search finds the few levels that it needs in it, although a divided
-/// layer may have thousands of levels.
+/// A hierarchy of the bounds of a layer's levels. A layer that is divided into regions may have thousands of levels.
+/// With the hierarchy, a search quickly finds the few levels that it needs.
 ///
-/// It is a tree of bounding volumes (Ericson 2005, chapter 6) that is stored by tiers: 16 levels, or 16 boxes of a tier,
-/// share one box of the next tier. Levels that follow each other belong to neighboring regions.
+/// The hierarchy is a tree of bounding volumes (Ericson 2005, chapter 6), stored in tiers. The boxes of the first tier
+/// are the bounds of the levels. Each box of a higher tier contains 16 successive boxes of the tier below. Successive
+/// levels belong to neighboring regions.
 class LevelBounds {
  public:
-  /// Allocates what set() of `levels` levels needs.
+  /// Allocates the memory that set() needs for this number of levels.
   void reserve(std::size_t levels);
-  /// Sets the bounds of the levels. Allocates nothing after reserve() of as many levels.
+  /// Computes the hierarchy for these levels. Allocates nothing after reserve() for at least as many levels.
   void set(const std::vector<kernels::Level>& levels);
 
-  /// The levels with their bounds.
+  /// Returns the levels together with their hierarchy of bounds. They must be the levels that were given to set().
   kernels::LevelSet over(const std::vector<kernels::Level>& levels) const {
     return {levels.data(), static_cast<std::uint32_t>(levels.size()), tiers_.data(), tier_count_};
   }
 
-  /// Calls visit(number) for the levels whose bounds pass the test, in ascending order.
-  /// @param test  as in bool test(const kernels::Box&); if it holds for a box, then also for all boxes that contain it
+  /// Calls visit(number) for each level whose bounds pass the test, in ascending order.
+  /// @param test  called as bool test(const kernels::Box&). If it is true for a box, it must be true for every box that
+  ///              contains that box.
   template <class Test, class Visit>
   void visit(const Test& test, const Visit& visit) const {
-    if (tier_count_ > 0) visitTier(tier_count_ - 1, 0, tiers_[static_cast<std::size_t>(tier_count_ - 1)].count, test, visit);
+    if (tier_count_ > 0)
+      visitTier(tier_count_ - 1, 0, tiers_[static_cast<std::size_t>(tier_count_ - 1)].count, test, visit);
   }
 
   std::size_t bytes() const { return bounds_.capacity() * sizeof(float); }
 
  private:
-  static constexpr int kMostTiers = 8;  // 16^8 levels
-  static constexpr std::size_t kReadBeyond = 16;
+  static constexpr int kMostTiers = 8;            // enough for 16^8 levels
+  static constexpr std::size_t kReadBeyond = 16;  // floats that a kernel may read beyond the last box
 
   static std::size_t valuesFor(std::size_t levels);
   static kernels::Box boxAt(const kernels::Tier& tier, std::uint32_t number) {
@@ -63,7 +66,7 @@ class LevelBounds {
     }
   }
 
-  std::vector<float> bounds_;  // of all tiers
+  std::vector<float> bounds_;  // [m] the boxes of all tiers
   std::array<kernels::Tier, kMostTiers> tiers_{};
   int tier_count_ = 0;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// The pairs of a world that has more of them than the bound.
+// Collects the pairs of a world that has more pairs than the bound.
 #include <algorithm>
 
 #include "broadphase/hgrid/engine.h"
@@ -10,16 +10,17 @@
 namespace hgrid {
 namespace {
 
-/// Appends pairs in the order that PairBound says, until one would exceed the bound.
+/// Collects pairs in the order that PairBound specifies, until the next pair would exceed the bound.
 class Collection {
  public:
   Collection(const PairBound& bound, const OverlapFilter& filter, std::vector<ProxyPair>& pairs)
       : bound_(bound), filter_(filter), pairs_(pairs) {}
 
+  /// Returns whether pairs were left out.
   bool isCut() const { return cut_; }
 
-  /// Takes the pairs of a box from number `begin` on, which are in any order: only the box that meets the bound needs
-  /// them sorted.
+  /// Applies the filter and the bound to the pairs of one box. The caller has appended them, in any order, from index
+  /// `begin` on. They need not be sorted: if the bound is exceeded, the first pairs of this box are selected.
   void take(std::size_t begin) {
     cutAt(begin + std::min(bound_.overlaps - overlaps_, pairs_.size() - begin), begin);
     overlaps_ += pairs_.size() - begin;
@@ -29,7 +30,7 @@ class Collection {
   }
 
  private:
-  /// Keeps the first `most` pairs, where those from `begin` on are taken in ascending order.
+  /// Keeps `most` pairs if there are more: all pairs before index `begin`, and the smallest of the others.
   void cutAt(std::size_t most, std::size_t begin) {
     if (pairs_.size() <= most) return;
     const auto from = pairs_.begin();
@@ -47,8 +48,8 @@ class Collection {
 
 }  // namespace
 
-// A pair of two boxes that are not fixed is met twice and taken once. So this looks at no more than twice the bound and
-// the overlaps of one box.
+// A pair of two boxes that are not fixed is found twice and taken once. So this function looks at no more overlaps than
+// twice the bound, plus those of one box.
 bool HGrid::Engine::collectPairs(std::vector<ProxyPair>& pairs) const {
   pairs.clear();
   Collection collection(bound, filter, pairs);

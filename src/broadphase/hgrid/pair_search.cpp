@@ -9,8 +9,8 @@
 namespace hgrid {
 namespace {
 
-constexpr std::uint32_t kTask = 1024;         // boxes per task; a multiple of what kernels take at once
-constexpr std::size_t kWorthAThread = 16384;  // boxes
+constexpr std::uint32_t kTask = 1024;         // boxes per task; a multiple of kBlock in output_body.h
+constexpr std::size_t kWorthAThread = 16384;  // boxes per thread
 
 bool notBothFixed(const void* fixed, ProxyId first, ProxyId second) {
   const auto& is = *static_cast<const std::vector<bool>*>(fixed);
@@ -20,9 +20,10 @@ bool notBothFixed(const void* fixed, ProxyId first, ProxyId second) {
 /// Leaves out the pairs of two fixed boxes, then those that the overlap filter does not keep.
 struct CombinedFilter {
   const OverlapFilter& overlaps;
-  const std::vector<bool>* fixed;  // by id; null if all fixed boxes are in the fixed layer, which makes no pairs
+  const std::vector<bool>* fixed;  // by id; null if all fixed boxes are in the fixed layer
 
-  /// Moves the kept ones of the pairs from index `from` to `end` to the front. @returns their end
+  /// Filters the pairs with indices from .. end - 1 and moves the kept pairs together, from index `from` on.
+  /// @returns the end of the kept pairs
   std::size_t keep(std::vector<ProxyPair>& pairs, std::size_t from, std::size_t end) const {
     ProxyPair *const first = pairs.data() + from, *last = pairs.data() + end;
     if (fixed != nullptr) last = OverlapFilter::of<notBothFixed>(fixed)(first, last);
@@ -30,10 +31,10 @@ struct CombinedFilter {
   }
 };
 
-/// Counts what all threads of a search find, and says when that exceeds the bound.
+/// Counts the pairs and overlaps that all threads of a search find. Says whether they exceed the bound.
 class Tally {
  public:
-  /// @param pairs, overlaps  known before the search
+  /// @param pairs, overlaps  numbers that are known before the search
   Tally(const PairBound& bound, std::size_t pairs, std::size_t overlaps)
       : bound_(bound),
         pairs_(pairs),
@@ -55,10 +56,10 @@ class Tally {
   std::atomic<bool> exceeded_;
 };
 
-/// Lets kernels write into a vector after the first `used` pairs.
+/// Lets kernels write pairs into a vector, after the first `used` pairs.
 ///
-/// The vector grows until it has room for the bound and kRoom more. When that is full, the pairs are filtered to make
-/// room. When the bound is exceeded, nothing more is wanted. The vector ends up as large as it ever was.
+/// The vector grows until it has room for the bound and kRoom more pairs. When it is full, the pairs are filtered to
+/// make room. When the bound is exceeded, the kernels are asked to stop. PairWriter never shrinks the vector.
 class PairWriter {
  public:
   PairWriter(std::vector<ProxyPair>& pairs, std::size_t used, const CombinedFilter& filter, Tally& tally)
@@ -72,7 +73,8 @@ class PairWriter {
   PairWriter& operator=(const PairWriter&) = delete;
 
   kernels::PairSink* sink() { return &sink_; }
-  /// Filters what was written since the last time. @returns the end of the wanted pairs; of no use beyond the bound
+  /// Filters the pairs written since the last call.
+  /// @returns the end of the kept pairs; meaningless if the bound is exceeded
   std::size_t filter() {
     if (tally_.exceeded()) return wanted_end_;
     const std::size_t end = used(), begin = wanted_end_;
@@ -82,8 +84,8 @@ class PairWriter {
   }
 
  private:
-  static constexpr std::size_t kRoom = 65536;  // pairs that can at least be written between two times of filtering
-  static constexpr std::size_t kLeast = 16;    // pairs that a kernel writes before it asks again
+  static constexpr std::size_t kRoom = 65536;  // pairs that kernels can write between two calls of filter(), at least
+  static constexpr std::size_t kLeast = 16;    // number of pairs for which a kernel needs room
 
   kernels::Pair* data() const { return reinterpret_cast<kernels::Pair*>(pairs_.data()); }
   std::size_t used() const { return static_cast<std::size_t>(sink_.next - data()); }
@@ -107,12 +109,13 @@ class PairWriter {
   static void grow(kernels::PairSink* sink) { static_cast<PairWriter*>(sink->owner)->makeRoom(); }
 
   std::vector<ProxyPair>& pairs_;
-  std::size_t wanted_end_;  // pairs before it are filtered and counted
+  std::size_t wanted_end_;  // all pairs before this index are filtered and counted
   const CombinedFilter& filter_;
   Tally& tally_;
   kernels::PairSink sink_{};
 };
 
+/// Adds tasks that test all boxes of the level `asking` against the level `asked`, or against itself if that is null.
 void addTask(std::vector<SearchTask>& tasks, const kernels::Level& asking, const kernels::Level* asked) {
   for (std::uint32_t begin = asking.begin; begin < asking.end; begin += kTask) {
     tasks.push_back({&asking, asked, begin, std::min(begin + kTask, asking.end)});
@@ -120,12 +123,14 @@ void addTask(std::vector<SearchTask>& tasks, const kernels::Level& asking, const
   }
 }
 
-/// Of two levels, whether the first should ask: whether its boxes have fewer rows of cells to look at in all.
+/// Decides in which direction two levels are tested. Returns true if the boxes of `first` search fewer rows of cells of
+/// `second` than the other way round.
 bool firstAsks(const kernels::Level& first, const kernels::Level& second) {
   return static_cast<double>(first.end - first.begin) * rowsAsked(first, second) <=
          static_cast<double>(second.end - second.begin) * rowsAsked(second, first);
 }
 
+/// Adds tasks that test the boxes of two levels against each other.
 void addAcross(std::vector<SearchTask>& tasks, const kernels::Level& first, const kernels::Level& second) {
   if (first.begin == first.end || second.begin == second.end) return;
   if (firstAsks(first, second)) {
@@ -135,7 +140,7 @@ void addAcross(std::vector<SearchTask>& tasks, const kernels::Level& first, cons
   }
 }
 
-/// Regions of a layer, in tasks of about as many boxes as other tasks.
+/// Adds tasks for the regions of a layer. Each task gets as many regions as are needed for kTask boxes.
 void addRegions(std::vector<SearchTask>& tasks, const Layer& layer, const Layer* other) {
   const std::size_t regions = layer.regions().size();
   SearchTask task{};
@@ -155,7 +160,7 @@ void addRegions(std::vector<SearchTask>& tasks, const Layer& layer, const Layer*
   }
 }
 
-/// Each level with itself and with each coarser one (Ericson 2005, 7.2).
+/// Adds tasks that test each level of a layer against itself and against each coarser level (Ericson 2005, 7.2).
 void addWithin(std::vector<SearchTask>& tasks, const Layer& layer) {
   if (layer.isDivided()) return addRegions(tasks, layer, nullptr);
   const std::vector<kernels::Level>& levels = layer.levels();
@@ -167,7 +172,7 @@ void addWithin(std::vector<SearchTask>& tasks, const Layer& layer) {
   }
 }
 
-/// The boxes of all regions with one level. Neighboring regions that reach the level ask together.
+/// Adds tasks that test the boxes of all regions against one level. Successive levels that overlap it share tasks.
 void addRegionsAcross(std::vector<SearchTask>& tasks, const Layer& layer, const kernels::Level& asked) {
   const std::vector<kernels::Level>& levels = layer.levels();
   const kernels::Level* first = nullptr;
@@ -190,6 +195,7 @@ void addRegionsAcross(std::vector<SearchTask>& tasks, const Layer& layer, const 
   ask(levels.back().end);
 }
 
+/// Adds tasks that test the boxes of two layers against each other.
 void addAcross(std::vector<SearchTask>& tasks, const Layer& a, const Layer& b) {
   if (a.levels().empty() || b.levels().empty()) return;
   for (const auto& [some, others] : {std::make_pair(&a, &b), std::make_pair(&b, &a)}) {
@@ -206,12 +212,13 @@ void addAcross(std::vector<SearchTask>& tasks, const Layer& a, const Layer& b) {
   }
 }
 
-/// Searches regions for pairs.
+/// Finds the pairs of the boxes in a region.
 class RegionSearch {
  public:
   RegionSearch(const kernels::Kernels& kernels, GatheredBoxes& gathered, kernels::PairSink* sink)
       : kernels_(kernels), gathered_(gathered), sink_(sink) {}
 
+  /// Finds the pairs of a region's boxes with each other and with those of later regions.
   void within(const Layer& layer, std::uint32_t number) {
     const std::vector<kernels::Level>& levels = layer.levels();
     const kernels::Region& region = layer.regions().region(number);
@@ -223,12 +230,13 @@ class RegionSearch {
     meetAll(layer, region, layer, last);
   }
 
+  /// Finds the pairs of a region's boxes with the boxes of another layer.
   void across(const Layer& layer, std::uint32_t number, const Layer& other) {
     meetAll(layer, layer.regions().region(number), other, 0);
   }
 
  private:
-  /// The levels of a region with all levels of a layer from number `least` on.
+  /// Finds the pairs of a region's boxes with those of the layer `other`, in its levels with the numbers >= `least`.
   void meetAll(const Layer& layer, const kernels::Region& region, const Layer& other, std::uint32_t least) {
     const kernels::LevelSet others = other.levelSet();
     for (std::uint32_t i = 0; i < region.levels; ++i) {
@@ -241,6 +249,7 @@ class RegionSearch {
     }
   }
 
+  /// Finds the pairs of two levels.
   void meet(const kernels::Level& a, const kernels::Level& b) {
     if (sink_->full || !overlap(a.around, b.around)) return;
     if (firstAsks(a, b)) {
@@ -250,9 +259,9 @@ class RegionSearch {
     }
   }
 
-  /// Only the boxes that reach the other level ask it.
+  /// Finds the pairs of two levels. Tests only those boxes of `asking` that overlap the bounds of `asked`.
   void ask(const kernels::Level& asking, const kernels::Level& asked) {
-    constexpr std::uint32_t kFew = 8;  // boxes: looking for those that reach the other level is not worth it
+    constexpr std::uint32_t kFew = 8;  // boxes: it is cheaper to test so few without a selection
     if (asking.end - asking.begin <= kFew)
       return kernels_.pairsAcross(&asking, asking.begin, asking.end, &asked, sink_);
     PositionWriter writer(gathered_.positions);
@@ -306,8 +315,8 @@ void perform(const SearchTask& task, const kernels::Kernels& kernels, GatheredBo
   }
 }
 
-/// Performs the tasks. Writes the pairs after the first `used` of the vector, in the order of the tasks.
-/// @returns whether these are all pairs; not if the tally exceeds its bound
+/// Performs the tasks. Writes the pairs after the first `used` pairs of the vector, in the order of the tasks.
+/// @returns whether these are all pairs; false if they exceed the bound of the tally
 bool performAll(SearchBuffers& buffers, const kernels::Kernels& kernels, const CombinedFilter& filter, Tally& tally,
                 Workers* workers, std::vector<ProxyPair>& pairs, std::size_t used) {
   std::vector<SearchTask>& tasks = buffers.tasks;
@@ -344,7 +353,7 @@ bool performAll(SearchBuffers& buffers, const kernels::Kernels& kernels, const C
     task.to = total;
     total += task.found;
   }
-  if (total > pairs.capacity()) pairs.reserve(total + total / 8);  // the next time there may be a few more
+  if (total > pairs.capacity()) pairs.reserve(total + total / 8);  // room for a few more pairs next time
   pairs.resize(total);
   for (std::vector<ProxyPair>& part : buffers.parts) {
     const std::size_t all = total - used + kTask;
@@ -409,8 +418,8 @@ void HGrid::setPairBound(const PairBound& bound) {
 
 void HGrid::overlappingPairs(std::vector<ProxyPair>& pairs) const { engine_->findPairs(pairs, PairBound{}); }
 
-// What the search counts may exceed the bound although the collection does not: it includes overlaps of boxes that
-// have left their layer and of fixed boxes that stand among others. It is never less. So the collection decides.
+// findPairs() may count more overlaps than collectPairs(): it also counts overlaps of boxes that have left their layer,
+// and of fixed boxes in other layers. It never counts fewer. So collectPairs() decides whether the bound is exceeded.
 bool HGrid::boundedPairs(std::vector<ProxyPair>& pairs) const {
   return engine_->findPairs(pairs, engine_->bound) || engine_->collectPairs(pairs);
 }

@@ -11,7 +11,7 @@
 namespace hgrid {
 namespace {
 
-/// Sorts by insertion if there are few elements, as there mostly are; std::sort costs more for those.
+/// Sorts by insertion if there are few elements, because std::sort is slower then. Most answers are short.
 template <class Iterator, class Less>
 void sortFew(Iterator begin, Iterator end, Less less) {
   if (end - begin > 24) return std::sort(begin, end, less);
@@ -23,8 +23,8 @@ void sortFew(Iterator begin, Iterator end, Less less) {
   }
 }
 
-/// Sorts ids without duplicates. Counts for each id how many are smaller: more steps than other methods need, but no
-/// branches that could be mispredicted.
+/// Sorts ids, which must not contain duplicates. If they are few, counts for each id how many are smaller. This takes
+/// more steps than other methods, but it has no branches that could be mispredicted.
 void sortIds(ProxyId* ids, std::size_t count) {
   constexpr std::size_t kFew = 32;
   if (count > kFew) return std::sort(ids, ids + count);
@@ -37,12 +37,13 @@ void sortIds(ProxyId* ids, std::size_t count) {
   }
 }
 
-/// A box around a sphere. It may be a little larger than the least one: the sphere itself decides about what it finds.
+/// Returns a box that contains the sphere. It may be slightly too large, because the boxes that it finds are then
+/// tested against the sphere itself.
 kernels::Box boxOf(const Sphere& sphere) {
   const double half = sphere.radius + 2.0 * roundingSlack(sphere.center.cwiseAbs().maxCoeff() + sphere.radius);
   kernels::Box box;
   for (int axis = 0; axis < 3; ++axis) {
-    constexpr float kRounding = 1.2e-7f, kLeast = 1e-37f;  // of the conversion to float
+    constexpr float kRounding = 1.2e-7f, kLeast = 1e-37f;  // allow for rounding to float
     const auto min = static_cast<float>(sphere.center[axis] - half);
     const auto max = static_cast<float>(sphere.center[axis] + half);
     box.min[axis] = min - std::abs(min) * kRounding - kLeast;
@@ -53,7 +54,7 @@ kernels::Box boxOf(const Sphere& sphere) {
 
 bool earlier(const SegmentHit& a, const SegmentHit& b) { return a.along != b.along ? a.along < b.along : a.id < b.id; }
 
-/// The segment as kernels take it.
+/// Converts a segment for the kernels.
 kernels::Line lineOf(const Segment& segment) {
   kernels::Line line;
   const double reach = std::max(segment.from.cwiseAbs().maxCoeff(), segment.to.cwiseAbs().maxCoeff()) + segment.radius;
@@ -65,7 +66,7 @@ kernels::Line lineOf(const Segment& segment) {
   return line;
 }
 
-/// Appends the ids of the boxes that overlap a box and pass a test, ascending.
+/// Appends the ids of the boxes that overlap a box and pass a test, in ascending order.
 template <class Engine, class Test>
 void appendOverlapping(const Engine& engine, const kernels::Box& box, std::vector<ProxyId>& found, Test&& test) {
   const std::size_t before = found.size();
@@ -81,7 +82,7 @@ void appendOverlapping(const Engine& engine, const kernels::Box& box, std::vecto
   sortIds(found.data() + before, found.size() - before);
 }
 
-// Answers to one question, appended. Several threads may ask at once.
+// Each answer() appends the answer of one query to `found`. Several threads may call it at the same time.
 template <class Engine>
 void answer(const Engine& engine, const Aabb& query, std::vector<ProxyId>& found) {
   appendOverlapping(engine, boxOf(query), found, [](const Aabb&) { return true; });
@@ -100,7 +101,8 @@ void answer(const Engine& engine, const Segment& query, std::vector<SegmentHit>&
   const kernels::Line line = lineOf(query);
   const std::size_t before = found.size();
   visitFound(
-      engine, [&](const kernels::LevelSet& levels, kernels::PositionSink* sink) { kernels.along(&levels, &line, sink); },
+      engine,
+      [&](const kernels::LevelSet& levels, kernels::PositionSink* sink) { kernels.along(&levels, &line, sink); },
       [&](const Layer& layer, const PositionWriter& positions) {
         const FirstTouch firstTouch(query);
         for (const std::uint32_t position : positions) {
@@ -115,7 +117,8 @@ Eigen::Vector3f positionOf(const Aabb& box) { return box.min; }
 Eigen::Vector3f positionOf(const Sphere& sphere) { return sphere.center.cast<float>(); }
 Eigen::Vector3f positionOf(const Segment& segment) { return segment.from.cast<float>(); }
 
-/// Places in a layer's world, in buckets: a coarse grid or, if the layer is divided, its regions.
+/// Assigns positions in space to buckets. The buckets are the regions of a layer. If it has only one region, they are
+/// the cells of a coarse grid.
 class Buckets {
  public:
   explicit Buckets(const Layer& layer) : layer_(layer), grid_(layer.levels().front().grid) {}
@@ -123,13 +126,14 @@ class Buckets {
   std::size_t size() const {
     return layer_.isDivided() ? layer_.regions().size() : static_cast<std::size_t>(kAcross * kAcross * kAcross);
   }
+  /// Returns the bucket of a position [m].
   std::uint32_t at(const Eigen::Vector3f& position) const {
     if (layer_.isDivided()) return layer_.regions().regionOf(position.data());
     std::uint32_t bucket = 0;
     for (const int axis : {2, 1, 0}) {
       const float share =
           (position[axis] * grid_.inverse[axis] - grid_.origin[axis]) * (kAcross / (grid_.last[axis] + 1.0f));
-      const float number = std::min(share > 0.0f ? share : 0.0f, kAcross - 1.0f);  // 0 for NaN too
+      const float number = std::min(share > 0.0f ? share : 0.0f, kAcross - 1.0f);  // 0 if `share` is NaN
       bucket = bucket * static_cast<std::uint32_t>(kAcross) + static_cast<std::uint32_t>(number);
     }
     return bucket;
@@ -141,7 +145,8 @@ class Buckets {
   const kernels::Grid& grid_;
 };
 
-/// Numbers of the questions, sorted by their positions. So questions about the same boxes follow each other.
+/// Returns the indices of the queries, sorted by the buckets of their positions. So queries that need the same boxes
+/// follow each other.
 template <class Query>
 std::vector<std::uint32_t> byPosition(const std::vector<Query>& queries, const Layer& layer) {
   const Buckets buckets(layer);
@@ -155,7 +160,7 @@ std::vector<std::uint32_t> byPosition(const std::vector<Query>& queries, const L
   return order;
 }
 
-/// [m] An estimate of the radius of a sphere that holds `count` boxes of a level.
+/// Estimates the radius [m] of a sphere that contains `count` boxes of a level.
 double likelyRadius(const kernels::Level& level, std::size_t count) {
   if (level.begin == level.end) return std::numeric_limits<double>::infinity();
   double volume = static_cast<double>(count) / (level.end - level.begin);
@@ -163,6 +168,7 @@ double likelyRadius(const kernels::Level& level, std::size_t count) {
   return 0.5 * std::cbrt(volume);
 }
 
+/// Returns the distance [m] of a point from a box, or 0 if the point is inside.
 double distanceTo(const kernels::Box& bounds, const Eigen::Vector3d& point) {
   double squared = 0.0;
   for (int i = 0; i < 3; ++i) {
@@ -172,11 +178,12 @@ double distanceTo(const kernels::Box& bounds, const Eigen::Vector3d& point) {
   return std::sqrt(squared);
 }
 
-/// A search in spheres around a point.
+/// A search for the boxes nearest to a point. It searches spheres of growing radius around the point.
 struct SphereSearch {
-  double radius = std::numeric_limits<double>::infinity();  // [m] an estimate for a sphere that holds enough boxes
-  double step = radius;                                     // [m] by which the radius grows if it does not
+  double radius = std::numeric_limits<double>::infinity();  // [m] estimate: a sphere this large has enough boxes
+  double step = radius;                                     // [m] how much the radius grows if there were too few boxes
 
+  /// Uses a level that is `away` [m] from the point, if a smaller sphere contains `count` of its boxes.
   void consider(const kernels::Level& level, std::size_t count, double away) {
     const double within = likelyRadius(level, count);
     if (!(away + within < radius)) return;
@@ -185,6 +192,7 @@ struct SphereSearch {
   }
 };
 
+/// Estimates the first radius for a search for `count` boxes around a point.
 template <class Engine>
 SphereSearch searchAround(const Engine& engine, const Eigen::Vector3d& point, std::size_t count) {
   SphereSearch search;
@@ -198,10 +206,11 @@ SphereSearch searchAround(const Engine& engine, const Eigen::Vector3d& point, st
   return search;
 }
 
+/// Answers many queries. If the boxes do not fit into the cache, answers them in the order of their positions.
 template <class Engine, class Query, class Found>
 void answerAll(const Engine& engine, const std::vector<Query>& queries, BatchOf<Found>& batch) {
-  constexpr std::size_t kFitsTheCache = std::size_t{1} << 18;  // boxes: finding an order takes longer than it saves
-  constexpr std::size_t kAhead = 8;                            // questions fetched before they are answered
+  constexpr std::size_t kFitsTheCache = std::size_t{1} << 18;  // boxes; with fewer, sorting the queries does not pay
+  constexpr std::size_t kAhead = 8;                            // a query is prefetched this many queries before
   batch.begin.resize(queries.size());
   batch.count.resize(queries.size());
   batch.found.clear();
@@ -263,7 +272,7 @@ void HGrid::nearest(const Eigen::Vector3d& point, std::size_t count, double limi
   // Searches spheres of growing radius until one holds enough boxes. A sphere finds all boxes within its radius.
   SphereSearch search = searchAround(e, point, count);
   for (double radius = std::min(search.radius, limit);;) {
-    const bool all = !(radius < 1e30);  // the coordinates of such a sphere do not fit into floats
+    const bool all = !(radius < 1e30);  // the coordinates of a larger sphere may exceed the range of float
     found.clear();
     const auto consider = [&](ProxyId id, const Aabb& box) {
       const double away = distance(box, point);
@@ -281,7 +290,7 @@ void HGrid::nearest(const Eigen::Vector3d& point, std::size_t count, double limi
     const std::size_t kept = std::min(count, found.size());
     std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(kept), found.end(), nearer);
     // The search also finds boxes in the corners of the box around the sphere, which are farther away than the radius.
-    // If it found enough boxes, the farthest of them bounds the next radius.
+    // If it found enough boxes, the next radius is the distance of the farthest box that is kept.
     const bool enough = kept == count;
     if (all || radius >= limit || (enough && found[kept - 1].distance <= radius)) return found.resize(kept);
     radius = std::min(enough ? found[kept - 1].distance : radius + search.step, limit);

@@ -11,15 +11,16 @@ namespace hgrid {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr std::size_t kLeast = 4;          // samples per region
-constexpr std::size_t kFewSamples = 8192;  // all boxes, if there are no more
-constexpr std::size_t kBoxesPerSample = 4;
-// [nats] What a split must gain, per sample and in all. Random samples of an even world gain less.
+constexpr std::size_t kLeast = 4;           // smallest number of samples in a region
+constexpr std::size_t kFewSamples = 8192;   // all boxes are samples if there are not more than this
+constexpr std::size_t kBoxesPerSample = 4;  // at most: of very many boxes, every fourth is a sample
+// [nats] The cost of a split: kGain, and kGainPerSample for each sample. The log-likelihood must rise by more than
+// this. With random samples of evenly spread boxes, it rises by less.
 constexpr double kGainPerSample = 0.25, kGain = 40.0;
 
 using Corner = std::array<float, 3>;
 
-/// Minimum corners of some boxes: their number and their bounds.
+/// The number and the bounds [m] of some minimum corners.
 struct Group {
   double count = 0.0;
   Corner low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
@@ -76,12 +77,12 @@ class RegionTree::Division {
   }
 
  private:
-  /// A part of space, and whether it is worth splitting.
+  /// A part of space. It is split into two parts, or it is a region.
   struct Part {
     float split = 0.0f;
-    std::int32_t axis = -1;  // -1: it is a region
-    std::size_t below = 0, above = 0;
-    double likelihood = 0.0;  // its logarithm, less what the splits cost
+    std::int32_t axis = -1;            // -1: it is a region
+    std::size_t below = 0, above = 0;  // indices of the two parts
+    double likelihood = 0.0;           // log-likelihood of its samples, minus the cost of the splits
   };
   struct Split {
     std::size_t axis = 0;
@@ -89,6 +90,7 @@ class RegionTree::Division {
     bool exists = false;
   };
 
+  /// Returns the log-likelihood of corners that are spread evenly within their bounds, without a constant summand.
   double likelihood(const Group& group) const {
     if (group.count == 0.0) return 0.0;
     double volume = 1.0;
@@ -96,7 +98,7 @@ class RegionTree::Division {
     return group.count * std::log(group.count / volume);
   }
 
-  /// @returns the number of the part with the samples begin .. end - 1
+  /// Adds a part with the samples begin .. end - 1, and splits it if that is worth its cost. @returns its index
   std::size_t divide(std::size_t begin, std::size_t end, int depth) {
     const std::size_t number = parts_.size();
     parts_.emplace_back();
@@ -121,7 +123,7 @@ class RegionTree::Division {
     return number;
   }
 
-  /// The best of the planes between bins along the axis on which the group is longest.
+  /// Returns the best split on the axis on which the group is longest, in mean box sides. Tries a few planes.
   Split bestSplit(const Group& group, std::size_t begin, std::size_t end) const {
     constexpr std::size_t kBins = 32;
     Split best;
@@ -142,7 +144,7 @@ class RegionTree::Division {
       const double bin = (static_cast<double>(samples_[i][axis]) - low) * scale;
       bins[std::min(static_cast<std::size_t>(bin), kBins - 1)].add(samples_[i]);
     }
-    std::array<Group, kBins> above;  // the bins from this one on
+    std::array<Group, kBins> above;  // sum of the bins from this one on
     above[kBins - 1] = bins[kBins - 1];
     for (std::size_t i = kBins - 1; i-- > 0;) {
       above[i] = above[i + 1];
@@ -156,7 +158,7 @@ class RegionTree::Division {
       const double gain = likelihood(below) + likelihood(above[i]);
       if (gain <= most) continue;
       most = gain;
-      // In the middle of the gap, so that few boxes cross it when they move.
+      // Split in the middle of the gap, so that few boxes cross the split when they move.
       const float at = 0.5f * below.high[axis] + 0.5f * above[i].low[axis];
       best.at = at > below.high[axis] ? at : above[i].low[axis];
       best.exists = best.at > below.high[axis];
@@ -164,7 +166,7 @@ class RegionTree::Division {
     return best;
   }
 
-  /// Appends the branches of a part.
+  /// Appends the branches and regions of a part to the tree. `space` is the space that the part covers.
   void lay(RegionTree& tree, std::size_t number, const kernels::Region& space) const {
     const Part& part = parts_[number];
     const auto branch = static_cast<std::uint32_t>(tree.branches_.size());
@@ -185,8 +187,8 @@ class RegionTree::Division {
   }
 
   std::vector<Corner> samples_;
-  std::array<double, 3> side_;  // [m] mean of the boxes
-  std::vector<Part> parts_;     // each before its parts
+  std::array<double, 3> side_;  // [m] mean box side per axis
+  std::vector<Part> parts_;     // each part is stored before the parts that it is split into
 };
 
 RegionTree::RegionTree() { join(); }

@@ -14,17 +14,17 @@ namespace hgrid {
 
 /// A k-d tree (Ericson 2005, 7.3.7) that divides space into regions in which boxes are spread evenly.
 ///
-/// One grid suits boxes that are spread evenly. Where they are not, its cells are far too large for the dense places.
-/// So each region gets a grid of its own. A box belongs to the region of its minimum corner, and may reach into others.
+/// A single grid is good for boxes that are spread evenly. Otherwise its cells are far too large in dense places. So
+/// each region has its own grid. A box belongs to the region of its minimum corner; it may extend into other regions.
 class RegionTree {
  public:
-  /// One region: all space.
+  /// Creates a tree with one region, which is all space.
   RegionTree();
 
-  /// Divides space for the boxes of `count` ids. Boxes that are spread evenly are one region.
+  /// Divides space for the boxes of `count` ids. If the boxes are spread evenly, there is one region.
   ///
-  /// Regions are chosen by the likelihood of the boxes' minimum corners, if each region is evenly filled: a split must
-  /// raise the logarithm of that likelihood by more than what a split costs.
+  /// The model is that minimum corners are spread evenly within each region. A split is made only if it raises the
+  /// log-likelihood of the corners by more than the cost of a split.
   static RegionTree dividing(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count);
 
   /// Makes all space one region again. Allocates nothing.
@@ -34,17 +34,19 @@ class RegionTree {
   const kernels::Region& region(std::size_t number) const { return regions_[number]; }
   const kernels::Region* regions() const { return regions_.data(); }
   const kernels::Branch* branches() const { return branches_.data(); }
-  /// Number of the region of a minimum corner.
+  /// Returns the number of the region that contains a minimum corner.
   std::uint32_t regionOf(const float* corner) const;
+  /// Sets the levels of a region: the number of the first one, counted through all regions, and how many there are.
   void setLevels(std::size_t region, std::uint32_t first_level, std::uint32_t levels);
 
+  /// Returns the allocated memory [bytes].
   std::size_t bytes() const;
 
  private:
   static constexpr int kMostDepth = 62;
   class Division;
 
-  std::vector<kernels::Branch> branches_;  // each before its parts
+  std::vector<kernels::Branch> branches_;  // each branch is stored before its parts
   std::vector<kernels::Region> regions_;
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Boxes that overlap a box.
-// Part of kernels_body.h, which says what Simd is.
+// Finds the boxes that overlap a given box.
+// This is a part of kernels_body.h, which explains the type Simd.
 #pragma once
 
 #include "broadphase/kernels/kernels.h"
@@ -13,6 +13,7 @@ namespace hgrid {
 namespace kernels {
 namespace {
 
+/// Returns the number of the cell that contains a coordinate [m], on one axis.
 inline std::int32_t cellOf(float value, const Grid& grid, int axis) {
   float cell = value * grid.inverse[axis] - grid.origin[axis];
   cell = cell > 0.0f ? cell : 0.0f;
@@ -20,6 +21,7 @@ inline std::int32_t cellOf(float value, const Grid& grid, int axis) {
   return static_cast<std::int32_t>(cell);
 }
 
+/// Finds the boxes of one level that overlap a box. `query` is the same box as `box`.
 inline void searchLevel(const Level& level, const Box& box, const Simd::Box& query, Output<std::uint32_t>& found) {
   const Level l = level;
   const Grid& grid = l.grid;

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 
-// The inner loops of the hgrid, compiled once per instruction set from the one text in kernels_body.h. Nothing in
-// this folder includes Eigen or the standard library's templates: an inline copy of theirs that was compiled for a
-// newer processor could be picked by the linker for everybody.
+// The inner loops of the hgrid (kernels_body.h). The same source is compiled once per instruction set. The files in
+// this folder include neither Eigen nor templates of the standard library: such an inline function would be compiled
+// for several instruction sets, and the linker could choose one that the processor does not support.
 
 namespace hgrid {
 
@@ -15,135 +15,145 @@ enum class Isa : int;
 
 namespace kernels {
 
-constexpr float kMostFloat = 3.402823466e+38f;  ///< the largest finite one
+constexpr float kMostFloat = 3.402823466e+38f;  ///< the largest finite float
 
-/// Floats are compared with them as they are in Aabb: min x y z, max x y z.
+/// An axis-aligned box [m] with the memory layout of Aabb: min x y z, max x y z.
 struct Box {
   float min[3], max[3];
 };
 
+/// The ids of two overlapping boxes, with the memory layout of ProxyPair.
 struct Pair {
   std::uint32_t first, second;
 };
 
-/// Maps coordinates to cells: on each axis, number = trunc(clamp(v * inverse - origin, 0, last)). Each of these
-/// steps is monotone in v, whatever it rounds, so intervals that overlap have cell numbers that overlap; a window
-/// that fits badly costs time, never a pair.
+/// Maps coordinates to cells. A window, which is a part of space, is divided into cells. The outermost cells also hold
+/// the boxes outside the window.
+///
+/// The number of the cell of coordinate v is trunc(clamp(v * inverse - origin, 0, last)), on each axis. Each of these
+/// steps is monotone in v, in spite of rounding. So if two intervals overlap, their ranges of cells overlap. A window
+/// that fits the boxes badly makes a search slower, but the search never misses a pair.
 struct Grid {
-  float inverse[3];   ///< [1/m] one over the edge of a cell
-  float origin[3];    ///< [cells] of the window's lower corner
-  float last[3];      ///< number of the last cell
-  std::int32_t row;   ///< cells of a row, which lies along axes[0]
-  std::int32_t slab;  ///< cells of a slab: rows along axes[1] times row; slabs follow each other along axes[2]
-  std::int32_t
-      steps[4];          ///< from a cell to the next along x, y, z: 1, row and slab in some order; the last is not used
-  std::int32_t axes[3];  ///< 0: x, 1: y, 2: z, in some order
+  float inverse[3];   ///< [1/m] reciprocal of the edge of a cell
+  float origin[3];    ///< [cells] lower corner of the window, divided by the edge of a cell
+  float last[3];      ///< number of the last cell; the first cell has the number 0
+  std::int32_t row;   ///< number of cells in a row; rows lie along axes[0]
+  std::int32_t slab;  ///< number of cells in a slab; a slab consists of rows that follow each other along axes[1]
+  /// Difference of the indices of neighboring cells along x, y, z: 1, `row` and `slab` in some order. The last value is
+  /// not used.
+  std::int32_t steps[4];
+  std::int32_t axes[3];  ///< 0 (x), 1 (y) and 2 (z) in some order; slabs follow each other along axes[2]
 };
 
-/// Boxes as a structure of arrays. Every array can be read 16 places beyond its last box.
+/// Boxes as a structure of arrays. A kernel may read up to 16 values beyond the last box of each array.
 struct Columns {
-  const float* bounds;  ///< six arrays, `stride` apart: min x y z, max x y z of each box
+  const float* bounds;  ///< [m] six arrays, `stride` floats apart: min x, min y, min z, max x, max y, max z
   std::size_t stride;
 };
 
-/// One level of a region of a layer: boxes in the order of their cells. A row of cells is one range of positions.
+/// One level of a region of a layer. Its boxes are sorted by cell. So the boxes in a row of cells are one range of
+/// positions in the arrays.
 struct Level : Columns {
   Grid grid;
-  float reach[3];       ///< [m] at least the longest side of its boxes, per axis
-  float mean_sides[3];  ///< [m] of its boxes, when the cells were planned
-  Box around;           ///< all its boxes are within; of no boxes: min > max
-  const std::uint32_t* id;     ///< at each position
-  const std::uint32_t* start;  ///< of a cell: position of its first box; that of the next cell ends it
-  std::uint32_t begin, end;    ///< positions of this level's boxes
+  float reach[3];              ///< [m] per axis: the longest side of the level's boxes, or slightly more
+  float mean_sides[3];         ///< [m] per axis: mean side of the boxes when the cells were planned
+  Box around;                  ///< contains all boxes of the level; min > max if there are none
+  const std::uint32_t* id;     ///< id of the box at each position
+  const std::uint32_t* start;  ///< per cell: position of its first box; the boxes end where the next cell starts
+  std::uint32_t begin, end;    ///< range of positions of the level's boxes
 };
 
-/// Bounds of levels, or of tiers below: box i of a tier contains boxes kFan * i .. kFan * i + kFan - 1 of the tier below.
+/// One tier of a hierarchy of boxes. The boxes of the first tier are the bounds of the levels. Box i of any other tier
+/// contains boxes kFan * i .. kFan * i + kFan - 1 of the tier below it.
 struct Tier : Columns {
   static constexpr std::uint32_t kFan = 16;
-  std::uint32_t count;
+  std::uint32_t count;  ///< number of boxes
 };
 
 /// Levels to search, and a hierarchy of their bounds.
 struct LevelSet {
   const Level* levels;
   std::uint32_t count;
-  const Tier* tiers;  ///< the first bounds the levels, each other one the tier before it
-  int tier_count;     ///< 0: there are no bounds, and every level is searched
+  const Tier* tiers;  ///< the first tier bounds the levels, each other tier bounds the tier before it
+  int tier_count;     ///< number of tiers; if it is 0, every level is searched
 };
 
-/// A segment; everything within `around` of it counts.
+/// A segment with a radius `around` [m]. A search along it finds the boxes within this distance of the segment.
 struct Line {
-  double from[3], step[3];  ///< the segment ends at from + step
+  double from[3], step[3];  ///< [m] the segment starts at `from` and ends at from + step
   double around;
 };
 
-/// Where kernels write what they find: they write at `next` and advance it. While fewer than 16 places are left before
-/// `limit`, they call `grow`, which makes room.
+/// A buffer that kernels write their results to. They write at `next` and advance it. When fewer than 16 places are
+/// left before `limit`, they first call `grow`, which makes room.
 template <class Found>
 struct Sink {
   Found* next;
   Found* limit;
-  void* owner;
+  void* owner;  ///< the object that owns the buffer; for `grow`
   void (*grow)(Sink*);
-  bool full;  ///< `grow` sets it when nothing more is wanted; a search for pairs then ends soon
+  bool full;  ///< `grow` sets it when no more results are needed; a search for pairs then ends soon
 };
 using PairSink = Sink<Pair>;
 using PositionSink = Sink<std::uint32_t>;
 
-/// A part of space with levels of its own. A box belongs to the region that its minimum corner is in.
+/// A part of space with levels of its own. A box belongs to the region that contains its minimum corner.
 struct Region {
-  float low[3], high[3];              ///< low <= corner < high, per axis; infinite where nothing ends the region
-  std::uint32_t first_level, levels;  ///< counted through all regions
+  float low[3], high[3];              ///< [m] low <= corner < high, per axis; infinite where the region has no border
+  std::uint32_t first_level, levels;  ///< index of its first level among those of all regions; number of its levels
 };
 
-/// A node of a tree that divides space into regions (a k-d tree, Ericson 2005, 7.3.7).
+/// A node of the k-d tree that divides space into regions (Ericson 2005, 7.3.7).
 struct Branch {
-  float split;                 ///< corners below it are in the one part, all others in the other part
-  std::int32_t axis;           ///< -1: a leaf, which is the region with the number `below`
-  std::uint32_t below, above;  ///< numbers of the branches of the two parts
+  float split;                 ///< [m] corners with a smaller coordinate are in the part `below`, all others in `above`
+  std::int32_t axis;           ///< axis of the split; -1: a leaf, which is region number `below`
+  std::uint32_t below, above;  ///< indices of the nodes of the two parts
 };
 
-/// A sorting of boxes into cells: what the first of two passes of counting needs and gives.
+/// Input and output of the first pass of a counting sort. The pass finds the cell of each box and counts the boxes of
+/// each cell.
 struct Keying {
-  const Box* boxes;                  ///< by id
-  const std::uint32_t* order;        ///< ids in the order to go through
-  std::size_t begin, end;            ///< positions in `order`
-  std::size_t readable;              ///< size of `order`; ids up to there may be fetched ahead
-  Box* copies;                       ///< out: the boxes by position; may be null
-  std::uint32_t* cells;              ///< out: cell by position, counted through all levels
-  std::uint32_t* counts;             ///< in and out: boxes per cell
-  const Grid* grids;                 ///< per level
-  const float* sides;                ///< largest side of each level's boxes; ascending, the last is not looked at
-  const std::uint32_t* first_cells;  ///< per level
-  int levels;
-  float* sizes;              ///< out: 4 floats per level: largest extent on each axis, unspecified
-  float lower[4], upper[4];  ///< out: least and greatest minimum corner
-  // Only if there are several regions, whose levels follow each other:
+  const Box* boxes;                  ///< in: all boxes, by id
+  const std::uint32_t* order;        ///< in: ids in the order in which the boxes are visited
+  std::size_t begin, end;            ///< in: range of positions in `order` that are visited
+  std::size_t readable;              ///< in: size of `order`; ids before it may be prefetched
+  Box* copies;                       ///< out: copies of the boxes, by position; null if not needed
+  std::uint32_t* cells;              ///< out: number of each box's cell, by position
+  std::uint32_t* counts;             ///< in and out: number of boxes per cell
+  const Grid* grids;                 ///< in: the grid of each level
+  const float* sides;                ///< in: [m] longest side per level, ascending in a region; the last is not read
+  const std::uint32_t* first_cells;  ///< in: number of the first cell of each level
+  int levels;                        ///< in: number of levels
+  float* sizes;                      ///< in and out: [m] 4 floats per level: longest side on x, y, z; 4th unused
+  float lower[4], upper[4];          ///< in and out: [m] least and greatest minimum corner; not used by keyRegions()
+  // The following members are only used by keyRegions(). The levels are stored region after region.
   const Region* regions;
-  const Branch* branches;  ///< the first is the root
-  float* corners;          ///< out: 8 floats per level: least and greatest minimum corner, each in four
+  const Branch* branches;  ///< in: the first one is the root
+  float* corners;          ///< in and out: [m] 8 floats per level: least minimum corner (4), greatest one (4)
 };
 
+/// The inner loops, compiled for one instruction set.
 struct Kernels {
-  /// Whether all boxes are finite, with min <= max.
+  /// Returns whether all boxes are finite, with min <= max.
   bool (*sound)(const Box* boxes, std::size_t count);
-  /// First pass of counting (Ericson 2005, 7.1.4): the cell of each box.
+  /// First pass of a counting sort (Ericson 2005, 7.1.4): finds the cell of each box and counts the boxes per cell.
   void (*key)(Keying* keying);
-  /// The same for boxes in several regions.
+  /// Does the same as key() if there are several regions.
   void (*keyRegions)(Keying* keying);
-  /// Overlapping pairs of one level, each box of positions begin .. end - 1 with those after it.
+  /// Finds the overlapping pairs of one level. Tests each box at positions begin .. end - 1 against the boxes after it.
   void (*pairsWithin)(const Level* level, std::uint32_t begin, std::uint32_t end, PairSink* sink);
-  /// Overlapping pairs of the asking level's positions begin .. end - 1 with all boxes of the asked level.
+  /// Finds the overlapping pairs of two levels. Tests the boxes of `asking` at positions begin .. end - 1 against all
+  /// boxes of `asked`.
   void (*pairsAcross)(const Level* asking, std::uint32_t begin, std::uint32_t end, const Level* asked, PairSink* sink);
-  /// Numbers of the levels whose bounds overlap `box`, ascending.
+  /// Finds the levels whose bounds overlap `box`. Writes their numbers in ascending order.
   void (*reaching)(const LevelSet* set, const Box* box, PositionSink* sink);
-  /// Positions of the boxes that overlap `box`, ascending within each level.
+  /// Finds the boxes that overlap `box`. Writes their positions, in ascending order within each level.
   void (*overlapping)(const LevelSet* set, const Box* box, PositionSink* sink);
-  /// Positions of boxes near the line: all that come within `around` of it, and a few more.
+  /// Finds all boxes within the radius `around` of a line, and a few boxes more. Writes their positions.
   void (*along)(const LevelSet* set, const Line* line, PositionSink* sink);
 };
 
-/// The loops for an instruction set that isSupported().
+/// Returns the inner loops for an instruction set. isSupported(isa) must be true.
 const Kernels& of(Isa isa);
 
 const Kernels& portableKernels();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// The algorithm, in the words of one thin layer of vector operations: the including file has defined a type Simd (see
-// simd_portable.h for what each operation means) in its own unnamed namespace. One text, several instruction sets.
+// The kernels, written in terms of a thin layer of vector operations, the type Simd. Each file that includes this one
+// first defines Simd for its instruction set, in its own unnamed namespace. simd_portable.h explains each operation.
 #pragma once
 
 #include "broadphase/kernels/boxes_body.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// The levels that a search needs.
-// Part of kernels_body.h, which says what Simd is.
+// Finds the levels that a search needs.
+// This is a part of kernels_body.h, which explains the type Simd.
 #pragma once
 
 #include "broadphase/kernels/kernels.h"
@@ -11,10 +11,10 @@ namespace hgrid {
 namespace kernels {
 namespace {
 
-/// Calls visit(number) for the levels below the boxes begin .. end - 1 of a tier whose bounds pass the test, in ascending
-/// order. Boxes far from the search cost one test for as many as there are lanes.
-/// @param test  as in uint32_t test(const Columns&, position, count): bit k says whether box position + k passes, for the
-///              k below both `count` and kWidth
+/// Calls visit(number) for each level whose bounds pass the test, in ascending order. Considers only the levels in the
+/// boxes begin .. end - 1 of the tier. One test is enough for several boxes (kWidth) that are far from the search.
+/// @param test  called as uint32_t test(const Columns&, position, count). Bit k of the result says whether the box at
+///              position + k passes. It is 0 for k >= count and for k >= kWidth.
 template <class Test, class Visit>
 void visitTier(const LevelSet& set, int tier, std::uint32_t begin, std::uint32_t end, const Test& test,
                const Visit& visit) {
@@ -32,7 +32,8 @@ void visitTier(const LevelSet& set, int tier, std::uint32_t begin, std::uint32_t
   }
 }
 
-/// The same for all levels of a set.
+/// Calls visit(number) for each level of a set whose bounds pass the test, in ascending order. Visits every level if
+/// the set has no bounds.
 template <class Test, class Visit>
 inline void visitLevels(const LevelSet& set, const Test& test, const Visit& visit) {
   if (set.tier_count > 0) {

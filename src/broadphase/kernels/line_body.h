@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Boxes along a line.
-// Part of kernels_body.h, which says what Simd is.
+// Finds the boxes along a line.
+// This is a part of kernels_body.h, which explains the type Simd.
 #pragma once
 
 #include "broadphase/kernels/kernels.h"
@@ -14,19 +14,23 @@ namespace hgrid {
 namespace kernels {
 namespace {
 
-/// Cells of an axis, as lowest and minus highest: what is common to two spans has the greater of both numbers.
+/// A range of cells on one axis: the number of the lowest cell, and minus the number of the highest cell. So the
+/// component-wise maximum of two spans is the intersection of their ranges.
 using Span = Simd::Two;
 
-constexpr double kEndless = 1e300;  // [cells]
+constexpr double kEndless = 1e300;  // [cells] stands for infinity
 
-/// A line on one axis of a level, all in cells. A box of cell c can be met only while the line is within
-/// c - below .. c + 1 + above; the outermost cells hold all that is beyond them, too.
+/// The coordinate of a line on one axis of a level. All values are in cells. A box of cell c can touch the line only
+/// where the coordinate of the line is within c - below .. c + 1 + above. The outermost cells also hold the boxes
+/// beyond them.
 struct Track {
   double from, step, below, above, last;
 
-  /// The cells whose boxes a line can meet that is between two numbers. Not yet rounded down.
+  /// Returns the cells whose boxes a line between `low` and `high` can touch. Their numbers are not rounded yet.
   Span cellsBetween(double low, double high) const { return Simd::twoOf(low - above, -(high + below)); }
+  /// Limits a span to the cells that exist: the lowest is at most `last`, the highest at least 0.
   Span within(Span cells) const { return Simd::least(cells, Simd::twoOf(last, 0.0)); }
+  /// Returns the cells whose boxes the line can touch anywhere.
   Span whole() const {
     const double to = from + step;
     const Span cells = step > 0.0 ? cellsBetween(from, to) : cellsBetween(to, from);
@@ -41,7 +45,7 @@ inline Track trackOf(const Line& line, const Level& level, int axis) {
   track.last = static_cast<double>(level.grid.last[axis]);
   track.from = line.from[axis] * inverse - origin;
   track.step = line.step[axis] * inverse;
-  // The boxes' cells were rounded in float, what is computed here in double.
+  // The cells of the boxes were computed in float, those of the line are computed in double. Allow for both roundings.
   const double rounded =
       1e-6 * (magnitude(origin) + track.last + 1.0) + 1e-9 * (magnitude(track.step) + magnitude(track.from));
   track.below = line.around * inverse + rounded;
@@ -49,11 +53,12 @@ inline Track trackOf(const Line& line, const Level& level, int axis) {
   return track;
 }
 
-/// The cells of one axis while the line passes a cell of another.
+/// Computes which cells of one axis (`on`) the line can touch while it passes a cell of another axis (`passing`).
 class Crossing {
  public:
   Crossing(const Track& on, const Track& passing) : on_(on), last_(passing.last) {
-    // What hardly moves on the other axis stays in a cell of this axis on its whole length.
+    // A line that hardly moves on the axis `passing` may be in one cell there on its whole length. Then the slope is 0,
+    // which makes the span unlimited.
     const double slope = magnitude(passing.step) > 1e-3 ? on.step / passing.step : 0.0;
     const double enter = on.from - slope * (passing.from + passing.below);
     const double leave = on.from - slope * (passing.from - 1.0 - passing.above);
@@ -69,7 +74,7 @@ class Crossing {
     }
   }
 
-  /// Those of `cells` that are met while the line passes this one.
+  /// Returns those of `cells` that the line can touch while it passes cell number `passed` of the other axis.
   Span within(std::int32_t passed, Span cells) const {
     const double cell = passed;
     Span met = Simd::plus(zero_, Simd::times(per_cell_, Simd::twoOf(cell, cell)));
@@ -81,18 +86,19 @@ class Crossing {
  private:
   const Track& on_;
   double last_;
-  Span zero_, per_cell_;  // at cell 0, and from each to the next
-  Span before_, after_;   // what the outermost cells add
+  Span zero_, per_cell_;  // the span in cell 0, and its change from each cell to the next
+  Span before_, after_;   // added in the first and last cell, which extend to infinity
 };
 
-/// Positions of a row of cells that a line passes.
+/// The positions of the boxes in those cells of a row that a line passes.
 struct Passage {
   std::uint32_t begin, end;
 };
 
+/// Writes the positions of those boxes in the passages that may touch the line.
 void __attribute__((noinline)) searchPassages(const Level& level, const LineFilter& line, const Passage* passages,
                                               int count, Output<std::uint32_t>& out) {
-  const LineFilter filter = line;  // what a compiler sees that nobody else can write to stays in registers
+  const LineFilter filter = line;  // a local copy, which the compiler can keep in registers
   Output<std::uint32_t> found = out;
   for (int i = 0; i < count; ++i) {
     for (std::uint32_t j = passages[i].begin; j < passages[i].end; j += Simd::kWidth) {
@@ -102,10 +108,12 @@ void __attribute__((noinline)) searchPassages(const Level& level, const LineFilt
   out = found;
 }
 
-/// Row by row: of each slab of cells that the line crosses, the rows that it crosses there, and of each row the cells.
-/// Each part is computed from the line itself, not from the part before, so that roundings do not add up (unlike the
-/// walk from cell to cell of Ericson 2005, 7.4.2). Rows are searched a few at a time, so that the processor reads one
-/// while it still computes another.
+/// Finds the boxes of one level that may touch a line. Goes through the slabs of cells that the line crosses. In each
+/// slab, goes through the rows that the line crosses there, and finds the cells of each row.
+///
+/// The cells are computed from the line itself, not from the cells before. So rounding errors do not add up, as they do
+/// in a walk from cell to cell (Ericson 2005, 7.4.2). Several rows are searched together, so that the processor can
+/// load one row while it computes another.
 void searchLevel(const Level& level, const Line& line, const LineFilter& filter, Output<std::uint32_t>& found) {
   constexpr int kPassages = 32;
   const Level l = level;
@@ -116,7 +124,7 @@ void searchLevel(const Level& level, const Line& line, const LineFilter& filter,
   const Span x_whole = x.whole(), y_whole = y.whole();
   Passage passages[kPassages];
   int count = 0;
-  std::int32_t slabs[2], rows[2], cells[2];  // lowest, minus highest
+  std::int32_t slabs[2], rows[2], cells[2];  // as in Span: lowest, minus highest
   Simd::store(z.whole(), slabs);
   for (std::int32_t slab = slabs[0]; slab <= -slabs[1]; ++slab) {
     const Span x_here = x_in_slab.within(slab, x_whole);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Which boxes may touch a line: tests of as many at once as there are lanes.
-// Part of kernels_body.h, which says what Simd is.
+// A quick test that finds the boxes that may touch a line. It tests kWidth boxes at once.
+// This is a part of kernels_body.h, which explains the type Simd.
 #pragma once
 
 #include "broadphase/kernels/kernels.h"
@@ -11,22 +11,33 @@ namespace hgrid {
 namespace kernels {
 namespace {
 
-/// What decides quickly that a box is off a line: on each of the three axes of space, the box around the line; on each
-/// of the three axes that are normal to the line and to a side of the box, the distance of the centres against the
-/// half-widths (Ericson 2005, 4.4: separating axes), in float with room for its rounding.
+/// The values with which a quick test rejects boxes that do not touch a line. It compares the line and the box on six
+/// separating axes (Ericson 2005, 4.4):
+///
+/// - On the three axes of space, it compares the box with the box around the line.
+/// - On the three axes that are normal to the line and to a side of the box, it compares the distance of the centers
+///   with the sum of the half-widths.
+///
+/// The test computes in float. It allows for the rounding, so it never rejects a box that touches the line.
+///
+/// `step` is the vector along the line, scaled so that its largest component is 1. `width` is slightly more than
+/// |step|. `slack` [m] contains twice the radius of the line and the allowance for rounding.
 struct LineFilter {
-  Simd::Lanes min[3], max[3];                              // of the box around the line
-  Simd::Lanes step[3], twice_from[3], width[3], slack[3];  // width: |step|, a little more
+  Simd::Lanes min[3], max[3];                              // [m] the box around the line
+  Simd::Lanes step[3], twice_from[3], width[3], slack[3];  // twice_from: [m] twice the start of the line
 };
 
 inline double magnitude(double value) { return value < 0.0 ? -value : value; }
 
+/// Returns a float that is slightly less than `value`.
 inline float floatBelow(double value) {
   const auto nearest = static_cast<float>(value);
   return nearest - static_cast<float>(magnitude(static_cast<double>(nearest))) * 1.2e-7f - 1e-37f;
 }
+/// Returns a float that is slightly greater than `value`.
 inline float floatAbove(double value) { return -floatBelow(-value); }
 
+/// Prepares the quick test for a line.
 inline LineFilter filterOf(const Line& line) {
   double length = 0.0, farthest = line.around;
   for (int axis = 0; axis < 3; ++axis) {
@@ -49,7 +60,7 @@ inline LineFilter filterOf(const Line& line) {
   }
   for (int i = 0; i < 3; ++i) {
     const double across = width[(i + 1) % 3] + width[(i + 2) % 3];
-    // Where sums of coordinates may not be floats any more nothing is off the line.
+    // Sums of such large coordinates may exceed the range of float. Then this axis rejects no box.
     const bool sane = farthest < 1e30;
     filter.slack[i] =
         Simd::lanesOf(sane ? static_cast<float>((2.0 * line.around + 2e-5 * farthest) * across) : __builtin_inff());
@@ -57,10 +68,10 @@ inline LineFilter filterOf(const Line& line) {
   return filter;
 }
 
-/// As many boxes as there are lanes, on one axis of space.
+/// kWidth boxes on one axis of space.
 struct Extents {
-  Simd::Lanes away, size;  // of the centres from the line's start, and of the boxes; both doubled
-  Simd::Mask within;       // they overlap the box around the line
+  Simd::Lanes away, size;  // [m] twice the distance of the centers from the line's start, and twice the half-widths
+  Simd::Mask within;       // whether the boxes overlap the box around the line on this axis
 };
 
 inline Extents extentsOf(const LineFilter& filter, int axis, const Columns& boxes, std::uint32_t position) {
@@ -70,8 +81,9 @@ inline Extents extentsOf(const LineFilter& filter, int axis, const Columns& boxe
           Simd::both(Simd::notGreater(min, filter.max[axis]), Simd::notGreater(filter.min[axis], max))};
 }
 
-/// Yes for boxes whose centres are no farther from the line, along the axis normal to it and to coordinate i, than
-/// their half-widths reach. The other coordinates are j and k.
+/// Tests boxes on the axis that is normal to the line and to coordinate axis i; j and k are the other two coordinate
+/// axes. Returns true for a box if the distance of its center from the line, on this axis, is at most the sum of the
+/// half-widths.
 inline Simd::Mask onAxis(const LineFilter& filter, int i, int j, int k, const Extents& at_j, const Extents& at_k) {
   const Simd::Lanes apart = Simd::timesMinus(filter.step[j], at_k.away, Simd::times(filter.step[k], at_j.away));
   const Simd::Lanes reach =
@@ -79,7 +91,8 @@ inline Simd::Mask onAxis(const LineFilter& filter, int i, int j, int k, const Ex
   return Simd::notGreater(Simd::size(apart), reach);
 }
 
-/// Bit k: the box at `position` + k may be on the line, for the k below both `count` and kWidth.
+/// Tests the boxes from `position` on. Bit k of the result is 1 if the box at `position` + k may touch the line. It is
+/// 0 for k >= count and for k >= kWidth.
 inline __attribute__((always_inline)) std::uint32_t onLine(const LineFilter& filter, const Columns& boxes,
                                                            std::uint32_t position, std::uint32_t count) {
   const Extents x = extentsOf(filter, 0, boxes, position), y = extentsOf(filter, 1, boxes, position),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Where kernels write what they find.
-// Part of kernels_body.h, which says what Simd is.
+// Lets kernels write their results to a sink.
+// This is a part of kernels_body.h, which explains the type Simd.
 #pragma once
 
 #include "broadphase/kernels/kernels.h"
@@ -11,20 +11,23 @@ namespace hgrid {
 namespace kernels {
 namespace {
 
-constexpr int kBlock = 16;  // boxes that look around together; the same for every instruction set
+constexpr int kBlock = 16;  // boxes that a kernel processes together; the same number for every instruction set
 
-/// A sink while a kernel writes to it: kept out of memory, since for all that a compiler knows what is written could
-/// change where to write next.
+/// A copy of a sink, to which a kernel writes. The compiler can keep its pointers in registers. With the sink itself,
+/// the compiler would have to assume that writing a result changes the pointers.
 template <class Found>
 class Output {
  public:
   explicit Output(Sink<Found>* sink) : sink_(sink), next_(sink->next), limit_(sink->limit) {}
+  /// Returns where to write next, with room for at least kBlock results.
   Found* room() {
     if (__builtin_expect(limit_ - next_ < kBlock, 0)) grow();
     return next_;
   }
+  /// Records that results were written up to `end`.
   void wrote(Found* end) { next_ = end; }
   bool full() const { return full_; }
+  /// Copies the end of the results back to the sink.
   void close() { sink_->next = next_; }
 
  private:

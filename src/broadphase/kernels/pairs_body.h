@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Pairs of boxes of one level, and of two.
-// Part of kernels_body.h, which says what Simd is.
+// Finds the pairs of overlapping boxes within one level and between two levels.
+// This is a part of kernels_body.h, which explains the type Simd.
 #pragma once
 
 #include "broadphase/kernels/kernels.h"
@@ -12,9 +12,10 @@ namespace hgrid {
 namespace kernels {
 namespace {
 
-/// Cells of 16 boxes from `position` on, by one of their bounds, moved down by `reach` before. A box of the level that
-/// overlaps one with minimum v has its own minimum at v - reach or above, and rounding is monotone, so also its cell.
-/// @param side  0: the minimum, 3: the maximum
+/// Computes for 16 boxes, from `position` on, the cell of one of their bounds minus `reach` [m], on one axis. A box
+/// that overlaps a box with minimum v has its own minimum at v - reach or above. Rounding is monotone, so its cell is
+/// not below the cell of v - reach.
+/// @param side  which bound: 0 for the minimum, 3 for the maximum
 inline void cellsOf(const Level& level, std::uint32_t position, int side, float reach, const Grid& grid, int axis,
                     std::int32_t* cells) {
   const float* const values = level.bounds + static_cast<std::size_t>(side + axis) * level.stride + position;
@@ -27,12 +28,13 @@ inline void cellsOf(const Level& level, std::uint32_t position, int side, float 
   }
 }
 
-/// Tests box i of `asking` against `left` positions of `asked` from `begin` on. A call of it costs a tenth of a frame.
+/// Tests box i of `asking` against `left` boxes of `asked` from position `begin` on. It is always inlined: function
+/// calls would take about a tenth of the time of a benchmark frame.
 inline __attribute__((always_inline)) void meetRange(const Level& asking, std::uint32_t i, const Level& asked,
                                                      std::uint32_t begin, std::uint32_t left, Output<Pair>& found) {
   const Simd::Box box = Simd::boxAt(asking, i);
   const Simd::Id id = Simd::idAt(asking, i);
-  for (;;) {  // nearly always once, so that not even an empty range is worth a question before
+  for (;;) {  // mostly one iteration, so checking for an empty range first does not pay
     const std::uint32_t hits = Simd::overlaps(box, asked, begin, left);
     found.wrote(Simd::storePairs(found.room(), id, asked.id + begin, hits));
     if (left <= Simd::kWidth) return;
@@ -41,10 +43,9 @@ inline __attribute__((always_inline)) void meetRange(const Level& asking, std::u
   }
 }
 
-/// For each bit k: box first + k against the cells x_low[k] .. x_high[k] of the row that begins with cell
-/// row[k] + offset.
-/// Going through bits instead of boxes spares the processor most wrong guesses: whether a box reaches into the next
-/// row is a coin toss, how many of sixteen do is not.
+/// For each bit k that is set, tests box first + k against the boxes of one row of cells. The row begins with cell
+/// row[k] + offset; its cells x_low[k] .. x_high[k] are tested. A loop over bits causes fewer branch mispredictions
+/// than a loop over 16 boxes with a branch for each: whether one box extends into the next row cannot be predicted.
 inline void meetRows(const Level& asking, std::uint32_t first, std::uint32_t bits, const Level& asked,
                      const std::int32_t* row, std::int32_t offset, const std::int32_t* x_low,
                      const std::int32_t* x_high, Output<Pair>& found) {
@@ -59,13 +60,14 @@ inline void meetRows(const Level& asking, std::uint32_t first, std::uint32_t bit
 
 inline std::uint32_t bitsBelow(std::uint32_t count) { return count >= kBlock ? 0xffffu : (1u << count) - 1u; }
 
-/// A box lives in the cell of its minimum corner (Ericson 2005, 7.1.6), so what overlaps it has its cell between
-/// those of (minimum - reach) and of its maximum. Each box looks at what comes after it in the order of cells: the
-/// rest of its own row up to its maximum, then the later rows from the lower bound on.
+/// A box is stored in the cell of its minimum corner (Ericson 2005, 7.1.6). So the boxes that overlap it are in cells
+/// between the cell of (minimum - reach) and the cell of its maximum. Each box is tested against the boxes that follow
+/// it in the order of cells: first the rest of its own row up to its maximum, then the later rows, whose cells begin
+/// at that of (minimum - reach).
 void pairsWithin(const Level* level, std::uint32_t begin, std::uint32_t end, PairSink* sink) {
   const Level l = *level;
   const Grid& grid = l.grid;
-  const int x = grid.axes[0], y = grid.axes[1], z = grid.axes[2];  // rows lie along x here, whichever axis that is
+  const int x = grid.axes[0], y = grid.axes[1], z = grid.axes[2];  // x is the axis of the rows
   Output<Pair> found(sink);
   alignas(64) std::int32_t x_low[kBlock], x_high[kBlock], y_low[kBlock], y_own[kBlock], y_high[kBlock], z_own[kBlock],
       z_high[kBlock], own_row[kBlock], low_row[kBlock], own_span[kBlock], low_span[kBlock], z_span[kBlock];
@@ -108,18 +110,18 @@ void pairsWithin(const Level* level, std::uint32_t begin, std::uint32_t end, Pai
   found.close();
 }
 
-/// A box that asks, and positions that it may overlap.
+/// One box of a level, and a range of positions in another level. The boxes at these positions may overlap that box.
 struct Encounter {
   std::uint32_t box, begin, left;
 };
 
-/// Encounters of one level with another. They are collected first and held later: by then what they read, which may be
-/// far from what the one before has read, has come into the cache.
+/// Encounters of boxes of one level with boxes of another. They are collected first and tested later. Meanwhile their
+/// data, which may be far apart in memory, are loaded into the cache.
 class Encounters {
  public:
   Encounters(const Level& asking, const Level& asked) : asking_(asking), asked_(asked) {}
 
-  /// As meetRows() takes them.
+  /// Adds the encounters of several boxes with one row of cells each. The parameters are those of meetRows().
   void add(std::uint32_t first, std::uint32_t bits, const std::int32_t* row, std::int32_t offset,
            const std::int32_t* x_low, const std::int32_t* x_high, Output<Pair>& found) {
     if (count_ > kMost - kBlock) hold(found);
@@ -133,6 +135,7 @@ class Encounters {
       count_ += begin < end;
     }
   }
+  /// Tests the collected encounters and removes them.
   void hold(Output<Pair>& found) {
     for (int i = 0; i < count_; ++i) {
       const Encounter& encounter = encounters_[i];
@@ -148,7 +151,8 @@ class Encounters {
   Encounter encounters_[kMost];
 };
 
-/// As above, but all cells from the lower bound on count: the two levels, or layers, have no common order.
+/// Works like pairsWithin(), but each box is tested against all cells from (minimum - reach) on, because the boxes of
+/// two levels or layers have no common order.
 void pairsAcross(const Level* asking, std::uint32_t begin, std::uint32_t end, const Level* asked, PairSink* sink) {
   const Level a = *asking, b = *asked;
   const Grid& grid = b.grid;

@@ -8,6 +8,7 @@ namespace hgrid {
 namespace kernels {
 namespace {
 
+/// The vector operations for AVX-512; simd_portable.h explains them.
 struct SimdAvx512 : SimdSse2 {
   static constexpr std::uint32_t kWidth = 16;
 
@@ -28,7 +29,7 @@ struct SimdAvx512 : SimdSse2 {
   static Id idAt(const Level& level, std::uint32_t i) { return _mm512_set1_epi32(static_cast<int>(level.id[i])); }
 
   static std::uint32_t overlaps(const Box& box, const Columns& boxes, std::uint32_t j, std::uint32_t count) {
-    // Three chains instead of one: a comparison into a mask takes several cycles.
+    // Three independent chains of comparisons are faster than one chain: each comparison takes several cycles.
     __mmask16 x = static_cast<__mmask16>(0xffffu >> (count < kWidth ? kWidth - count : 0u));
     x = _mm512_mask_cmp_ps_mask(x, _mm512_loadu_ps(boxes.bounds + j), box.max[0], _CMP_LE_OQ);
     __mmask16 y = _mm512_cmp_ps_mask(_mm512_loadu_ps(boxes.bounds + boxes.stride + j), box.max[1], _CMP_LE_OQ);
@@ -61,9 +62,9 @@ struct SimdAvx512 : SimdSse2 {
   }
 
   using Lanes = __m512;
-  using SimdSse2::minus;  // of Quad
-  using SimdSse2::plus;   // of Two
-  using SimdSse2::times;  // of Two
+  using SimdSse2::minus;  // for Quad
+  using SimdSse2::plus;   // for Two
+  using SimdSse2::times;  // for Two
   static Lanes lanesOf(float value) { return _mm512_set1_ps(value); }
   static Lanes lanesAt(const float* from) { return _mm512_loadu_ps(from); }
   static Lanes plus(Lanes a, Lanes b) { return _mm512_add_ps(a, b); }
@@ -84,7 +85,8 @@ struct SimdAvx512 : SimdSse2 {
   }
 
  private:
-  /// In a register: compressing straight to memory is slow on some processors.
+  /// Returns the ids of the lanes in `bits`, moved to the front. Compresses in a register, because compressing directly
+  /// to memory is slow on some processors.
   static __m512i packed(const std::uint32_t* ids, std::uint32_t bits) {
     return _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), _mm512_loadu_si512(ids));
   }

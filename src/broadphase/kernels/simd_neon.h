@@ -10,15 +10,15 @@ namespace hgrid {
 namespace kernels {
 namespace {
 
-/// What NEON has no instruction for, looked up.
+/// Tables for operations that NEON has no instruction for.
 struct NeonTables {
-  /// For each count of lanes from 0 to 4: the bit of each lane below the count, 0 in the lanes from the count on.
+  /// bit_of_lane[count] has the value 1 << lane in each lane below `count`, and 0 in the other lanes.
   alignas(16) std::uint32_t bit_of_lane[5][4];
-  /// For each of 16 sets of lanes: the numbers of its lanes, packed to the front, lowest first; then zeros.
+  /// For each of the 16 sets of lanes: the numbers of its lanes in ascending order, then zeros.
   alignas(16) std::uint32_t lanes[16][4];
-  /// For each of 16 sets of lanes: the bytes of its lanes, packed to the front, lowest first; then those of lane 0.
+  /// For each of the 16 sets of lanes: the numbers of the bytes of its lanes, in ascending order, then those of lane 0.
   alignas(16) std::uint8_t bytes[16][16];
-  /// For each of 16 sets of lanes: how many there are.
+  /// For each of the 16 sets of lanes: the number of its lanes.
   std::uint8_t count[16];
 
   constexpr NeonTables() : bit_of_lane(), lanes(), bytes(), count() {
@@ -37,13 +37,13 @@ struct NeonTables {
 };
 constexpr NeonTables kNeonTables;
 
-/// NEON of 64-bit ARM, which every such processor has; operations as in simd_portable.h.
+/// The vector operations for NEON, which every 64-bit ARM processor supports. simd_portable.h explains them.
 ///
-/// FMIN and FMAX return NaN if one operand is NaN, and FMINNM and FMAXNM return the other operand. least() and
-/// greatest() have to return the second operand, so they compare and select.
+/// The instructions FMIN and FMAX return NaN if one operand is NaN, and FMINNM and FMAXNM return the other operand. But
+/// least() and greatest() must return the second operand then, so they compare and select.
 struct SimdNeon {
-  /// With 8 boxes, in two registers each, the loops for pairs within a level, overlapping() and along() execute about a
-  /// tenth more instructions: most ranges of positions are short.
+  /// With 8 boxes, in two registers, pairsWithin(), overlapping() and along() would execute about a tenth more
+  /// instructions, because most ranges of positions are short.
   static constexpr std::uint32_t kWidth = 4;
 
   struct Box {
@@ -107,7 +107,7 @@ struct SimdNeon {
   static Lanes timesPlus(Lanes a, Lanes b, Lanes c) { return vfmaq_f32(c, a, b); }
   static Lanes timesMinus(Lanes a, Lanes b, Lanes c) { return vnegq_f32(vfmsq_f32(c, a, b)); }
   static Lanes size(Lanes a) { return vabsq_f32(a); }
-  using Mask = uint32x4_t;  // ones say no, since the comparison that NEON has is greater
+  using Mask = uint32x4_t;  // inverted: ones mean false, because NEON has no comparison "not greater"
   static Mask notGreater(Lanes a, Lanes b) { return vcgtq_f32(a, b); }
   static Mask both(Mask a, Mask b) { return vorrq_u32(a, b); }
   static std::uint32_t bitsOf(Mask mask, std::uint32_t count) { return vaddvq_u32(vbicq_u32(bitsBelow(count), mask)); }
@@ -128,7 +128,7 @@ struct SimdNeon {
     return vminvq_u32(vandq_u32(finite, vcleq_f32(least_last, last))) != 0;
   }
 
-  using Quad = float32x4_t;  // as Lanes here, so that minus() serves both
+  using Quad = float32x4_t;  // the same type as Lanes, so one minus() serves both
   static Quad quadOf(const float* from) { return vld1q_f32(from); }
   static void store(Quad quad, float* to) { vst1q_f32(to, quad); }
   static Quad minimaOf(const kernels::Box& box) { return vld1q_f32(box.min); }
@@ -140,17 +140,18 @@ struct SimdNeon {
   static Quad greatest(Quad a, Quad b) { return vbslq_f32(vcgtq_f32(a, b), a, b); }
   static float greatestOfThree(Quad a) {
     const Quad y = vdupq_laneq_f32(a, 1), z = vdupq_laneq_f32(a, 2);
-    return vgetq_lane_f32(greatest(greatest(a, y), z), 0);  // compilers make branches of floats
+    return vgetq_lane_f32(greatest(greatest(a, y), z), 0);  // with plain floats, compilers would generate branches
   }
   static void cellsOf(Quad quad, const Grid& grid, std::int32_t* cell) {
-    // The fourth lanes read the next member of Grid; only three numbers are used. NaN becomes 0 in the last step.
+    // A load of four floats also reads the next member of Grid. Only three of the results are used. The last step turns
+    // NaN into 0.
     float32x4_t number = vsubq_f32(vmulq_f32(quad, vld1q_f32(grid.inverse)), vld1q_f32(grid.origin));
     number = vminq_f32(vmaxq_f32(number, vdupq_n_f32(0.0f)), vld1q_f32(grid.last));
     vst1q_s32(cell, vcvtq_s32_f32(number));
   }
 
  private:
-  /// The bit of each lane below `count`.
+  /// Returns the value 1 << lane in each lane below `count`, and 0 in the other lanes.
   static uint32x4_t bitsBelow(std::uint32_t count) {
     return vld1q_u32(kNeonTables.bit_of_lane[count < kWidth ? count : kWidth]);
   }

@@ -8,9 +8,10 @@ namespace hgrid {
 namespace kernels {
 namespace {
 
-/// The operations that the kernels are written in, in plain C++: the meaning of those in the other simd_ files.
+/// The vector operations of the kernels, in plain C++. The other simd_ files have the same operations for one
+/// instruction set each. The comments here also explain the operations in those files.
 struct SimdPortable {
-  static constexpr std::uint32_t kWidth = 8;  ///< boxes that overlaps() tests at once
+  static constexpr std::uint32_t kWidth = 8;  ///< number of boxes that overlaps() tests at once
 
   using Box = kernels::Box;
   using Id = std::uint32_t;
@@ -23,7 +24,8 @@ struct SimdPortable {
   }
   static Id idAt(const Level& level, std::uint32_t i) { return level.id[i]; }
 
-  /// Bit k: the box overlaps that at position j + k, for the k below both `count` and kWidth.
+  /// Tests `box` against the boxes at the positions from j on. Bit k of the result is 1 if `box` overlaps the one at
+  /// position j + k. It is 0 for k >= count and for k >= kWidth.
   static std::uint32_t overlaps(const Box& box, const Columns& boxes, std::uint32_t j, std::uint32_t count) {
     std::uint32_t bits = 0;
     for (std::uint32_t k = 0; k < kWidth; ++k) {
@@ -37,7 +39,8 @@ struct SimdPortable {
     return bits;
   }
 
-  /// Writes the pair of `id` and ids[k] for each bit k, smaller id first; the place after them. May write 16.
+  /// Writes the pair of `id` and ids[k] for each bit k that is set, with the smaller id first. Returns the end of the
+  /// pairs. May overwrite up to 16 pairs from `to` on.
   static Pair* storePairs(Pair* to, Id id, const std::uint32_t* ids, std::uint32_t bits) {
     for (; bits != 0; bits &= bits - 1) {
       const std::uint32_t other = ids[lowestBit(bits)];
@@ -45,22 +48,24 @@ struct SimdPortable {
     }
     return to;
   }
-  /// Writes j + k for each bit k; the place after them. May write 16.
+  /// Writes the position j + k for each bit k that is set. Returns the end of the positions. May overwrite up to 16
+  /// values from `to` on.
   static std::uint32_t* storePositions(std::uint32_t* to, std::uint32_t j, std::uint32_t bits) {
     for (; bits != 0; bits &= bits - 1) *to++ = j + static_cast<std::uint32_t>(lowestBit(bits));
     return to;
   }
 
+  /// Returns the index of the lowest bit that is set; `bits` must not be 0.
   static int lowestBit(std::uint32_t bits) { return __builtin_ctz(bits); }
 
-  /// Bit k: values[k] >= bound, for 16 values.
+  /// Compares 16 values with a bound. Bit k of the result is 1 if values[k] >= bound.
   static std::uint32_t atLeast(const std::int32_t* values, std::int32_t bound) {
     std::uint32_t bits = 0;
     for (int k = 0; k < 16; ++k) bits |= static_cast<std::uint32_t>(values[k] >= bound) << k;
     return bits;
   }
 
-  /// As many floats as overlaps() tests boxes.
+  /// A vector of kWidth floats. Each float is in one lane.
   struct Lanes {
     float v[kWidth];
   };
@@ -89,49 +94,50 @@ struct SimdPortable {
   static Lanes times(const Lanes& a, const Lanes& b) {
     return each(a, b, [](float x, float y) { return x * y; });
   }
-  /// a * b + c, rounded once or twice.
+  /// Returns a * b + c. The instruction set decides whether the result is rounded once or twice.
   static Lanes timesPlus(const Lanes& a, const Lanes& b, const Lanes& c) { return plus(times(a, b), c); }
-  /// a * b - c, rounded once or twice.
+  /// Returns a * b - c. The instruction set decides whether the result is rounded once or twice.
   static Lanes timesMinus(const Lanes& a, const Lanes& b, const Lanes& c) { return minus(times(a, b), c); }
+  /// Returns the absolute value of each lane.
   static Lanes size(const Lanes& a) {
     return each(a, a, [](float x, float) { return x < 0.0f ? -x : x; });
   }
-  /// A yes or no for each lane.
+  /// A truth value for each lane.
   using Mask = std::uint32_t;
-  /// Not a > b: yes where one of them is not a number.
+  /// Returns !(a > b) for each lane. It is true where a or b is NaN.
   static Mask notGreater(const Lanes& a, const Lanes& b) {
     Mask mask = 0;
     for (std::uint32_t k = 0; k < kWidth; ++k) mask |= static_cast<std::uint32_t>(!(a.v[k] > b.v[k])) << k;
     return mask;
   }
   static Mask both(Mask a, Mask b) { return a & b; }
-  /// Bit k: lane k, for the k below both `count` and kWidth.
+  /// Converts a mask to bits. Bit k is the value of lane k. It is 0 for k >= count and for k >= kWidth.
   static std::uint32_t bitsOf(Mask mask, std::uint32_t count) {
     return mask & ((1u << (count < kWidth ? count : kWidth)) - 1u);
   }
 
-  /// Two numbers in double.
+  /// A vector of two doubles.
   struct Two {
     double v[2];
   };
   static Two twoOf(double first, double second) { return {{first, second}}; }
   static Two plus(const Two& a, const Two& b) { return {{a.v[0] + b.v[0], a.v[1] + b.v[1]}}; }
   static Two times(const Two& a, const Two& b) { return {{a.v[0] * b.v[0], a.v[1] * b.v[1]}}; }
-  /// b where one of them is not a number.
+  /// Returns the smaller value of a and b, or b if one of them is NaN.
   static Two least(const Two& a, const Two& b) {
     return {{a.v[0] < b.v[0] ? a.v[0] : b.v[0], a.v[1] < b.v[1] ? a.v[1] : b.v[1]}};
   }
-  /// b where one of them is not a number.
+  /// Returns the larger value of a and b, or b if one of them is NaN.
   static Two greatest(const Two& a, const Two& b) {
     return {{a.v[0] > b.v[0] ? a.v[0] : b.v[0], a.v[1] > b.v[1] ? a.v[1] : b.v[1]}};
   }
-  /// Rounded towards zero.
+  /// Stores both numbers, rounded toward zero.
   static void store(const Two& two, std::int32_t* to) {
     to[0] = static_cast<std::int32_t>(two.v[0]);
     to[1] = static_cast<std::int32_t>(two.v[1]);
   }
 
-  /// Finite, and min <= max.
+  /// Returns whether the box is finite and min <= max holds on each axis.
   static bool isSound(const kernels::Box& box) {
     bool sound = true;
     for (int i = 0; i < 3; ++i) {
@@ -140,7 +146,7 @@ struct SimdPortable {
     return sound;
   }
 
-  /// Three coordinates; the fourth is whatever it is.
+  /// A vector of three coordinates. Its fourth value is unspecified.
   struct Quad {
     float v[4];
   };
@@ -163,10 +169,12 @@ struct SimdPortable {
     for (int i = 0; i < 4; ++i) quad.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i];
     return quad;
   }
+  /// Returns the largest of the three coordinates.
   static float greatestOfThree(const Quad& a) {
     const float xy = a.v[0] > a.v[1] ? a.v[0] : a.v[1];
     return xy > a.v[2] ? xy : a.v[2];
   }
+  /// Computes the number of the cell of each coordinate. `cell` needs room for four values.
   static void cellsOf(const Quad& quad, const Grid& grid, std::int32_t* cell) {
     for (int i = 0; i < 3; ++i) {
       float number = quad.v[i] * grid.inverse[i] - grid.origin[i];

@@ -10,7 +10,8 @@ namespace hgrid {
 namespace kernels {
 namespace {
 
-/// What the wider instruction sets share with SSE2; operations as in simd_portable.h.
+/// The vector operations for SSE2; simd_portable.h explains them. AVX2 and AVX-512 replace some of these operations and
+/// use the others as they are.
 struct SimdSse2 {
   static constexpr std::uint32_t kWidth = 4;
 
@@ -98,7 +99,7 @@ struct SimdSse2 {
     return (_mm_movemask_ps(sound) & 7) == 7;
   }
 
-  using Quad = __m128;  // as Lanes here, so that minus() serves both
+  using Quad = __m128;  // the same type as Lanes, so one minus() serves both
   static Quad quadOf(const float* from) { return _mm_loadu_ps(from); }
   static void store(Quad quad, float* to) { _mm_storeu_ps(to, quad); }
   static Quad minimaOf(const kernels::Box& box) { return _mm_loadu_ps(box.min); }
@@ -113,7 +114,7 @@ struct SimdSse2 {
     return _mm_cvtss_f32(_mm_max_ss(_mm_max_ss(a, y), z));
   }
   static void cellsOf(Quad quad, const Grid& grid, std::int32_t* cell) {
-    // The fourth lanes read the next member of Grid; only three numbers are used.
+    // A load of four floats also reads the next member of Grid. Only three of the results are used.
     __m128 number = _mm_sub_ps(_mm_mul_ps(quad, _mm_loadu_ps(grid.inverse)), _mm_loadu_ps(grid.origin));
     number = _mm_min_ps(_mm_max_ps(number, _mm_setzero_ps()), _mm_loadu_ps(grid.last));
     _mm_storeu_si128(reinterpret_cast<__m128i*>(cell), _mm_cvttps_epi32(number));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// The first half of sorting boxes into cells.
-// Part of kernels_body.h, which says what Simd is.
+// The first pass of sorting boxes into cells.
+// This is a part of kernels_body.h, which explains the type Simd.
 #pragma once
 
 #include "broadphase/kernels/kernels.h"
@@ -17,7 +17,7 @@ bool sound(const Box* boxes, std::size_t count) {
   return sound;
 }
 
-/// Fetches the box of the i-th id, and in advance a later one.
+/// Returns the box of the i-th id in `order`, and prefetches the box of a later id.
 inline const Box& fetched(const Keying& k, std::size_t i) {
   constexpr std::size_t kAhead = 32;
   const char* ahead = reinterpret_cast<const char*>(k.boxes + k.order[i + kAhead < k.readable ? i + kAhead : i]);
@@ -26,7 +26,7 @@ inline const Box& fetched(const Keying& k, std::size_t i) {
   return k.boxes[k.order[i]];
 }
 
-/// Counts the box with number i in its cell.
+/// Finds the cell of box i in `order` from its minimum corner, stores the number of the cell and counts the box there.
 inline void countIn(Keying& k, std::size_t i, std::uint32_t level, Simd::Quad min) {
   const Grid& grid = k.grids[level];
   std::int32_t cell[4];
@@ -38,8 +38,8 @@ inline void countIn(Keying& k, std::size_t i, std::uint32_t level, Simd::Quad mi
   ++k.counts[number];
 }
 
-/// The boxes are visited in the order that they had last time, which is nearly that of their cells: counts and
-/// copies are written almost in sequence, and the one random access, to the boxes by id, is fetched ahead.
+/// Visits the boxes in the order of the last sort, which is nearly the order of their cells. So counts and copies are
+/// written almost sequentially. Only the boxes are read at random places, by id; they are prefetched.
 void key(Keying* keying) {
   constexpr int kMostLevels = 17;
   Keying& k = *keying;
@@ -64,6 +64,7 @@ void key(Keying* keying) {
   Simd::store(upper, k.upper);
 }
 
+/// Returns whether the region contains a minimum corner.
 inline bool isIn(const Region& region, const float* corner) {
   bool in = true;
   for (int axis = 0; axis < 3; ++axis) {
@@ -72,7 +73,8 @@ inline bool isIn(const Region& region, const float* corner) {
   return in;
 }
 
-/// In the order of the last sort, a box is nearly always in the region of the box before.
+/// Works like key(), for several regions. First tries the region of the box before: in the order of the last sort,
+/// successive boxes are nearly always in the same region.
 void keyRegions(Keying* keying) {
   Keying& k = *keying;
   const Region* region = k.regions;

@@ -18,7 +18,7 @@ namespace {
 using visualization_msgs::Marker;
 
 constexpr std::size_t kMostPairs = 2000;
-constexpr std::size_t kMostNames = 12;  // more could not be read
+constexpr std::size_t kMostNames = 8;  // more could not be read
 constexpr double kTextHeight = 0.04;    // [m]
 
 /// What is drawn of one pair.
@@ -99,14 +99,14 @@ std::string labelOf(const Snapshot& snapshot, const DrawnPair& pair) {
   const std::vector<Body>& bodies = snapshot.structure().bodies;
   const std::string millimeters = std::to_string(std::lround(1e3 * pair.distance)) + " mm";
   const std::string distance = !pair.measured ? "at least " + millimeters : pair.note.empty() ? millimeters : pair.note;
-  return bodies[pair.first].name + " - " + bodies[pair.second].name + ": " + distance;
+  return bodies[pair.first].name + " to " + bodies[pair.second].name + ": " + distance;
 }
 
 /// Places texts so that they do not cover each other: one that is too near to an earlier one stands above it.
 class TextPlaces {
  public:
   Eigen::Vector3d placeFor(Eigen::Vector3d wanted) {
-    constexpr double kWidth = 12.0 * kTextHeight, kApart = 1.2 * kTextHeight, kStep = 1.3 * kTextHeight;
+    constexpr double kWidth = 25.0 * kTextHeight, kApart = 1.2 * kTextHeight, kStep = 1.3 * kTextHeight;
     for (std::size_t i = 0; i < taken_.size();) {
       const Eigen::Vector3d away = wanted - taken_[i];
       if (away.head<2>().norm() < kWidth && std::abs(away.z()) < kApart) {

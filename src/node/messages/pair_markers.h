@@ -11,7 +11,7 @@
 namespace hgrid {
 
 /// The pairs of a tick. In namespace "pairs": a line between the nearest points of the two bodies, and a dot at each of
-/// them. In namespace "pair_names": the names and the distance of the 12 nearest pairs [mm].
+/// them. In namespace "pair_names": the names and the distance of the 8 nearest pairs [mm].
 ///
 /// The nearest points are those of the shapes if the pair was measured; the color then goes from green at the margin to
 /// red in contact. Otherwise they are those of the boxes, the line is gray, and the distance is at least the one given.

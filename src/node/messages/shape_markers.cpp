@@ -21,7 +21,7 @@ std_msgs::ColorRGBA colorOf(BodyKind kind, Freshness state) {
   switch (state) {
     case Freshness::fresh:
     case Freshness::late:
-      return kind == BodyKind::link ? rgba(0.34, 0.71, 0.91, 0.5) : rgba(0.82, 0.76, 0.64, 0.6);
+      return kind == BodyKind::link ? rgba(0.34, 0.71, 0.91, 0.7) : rgba(0.82, 0.76, 0.64, 0.75);
     case Freshness::stale:
       return rgba(0.90, 0.62, 0.0, 0.7);
     case Freshness::frozen:

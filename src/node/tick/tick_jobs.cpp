@@ -3,6 +3,7 @@
 #include "node/tick/tick_jobs.h"
 
 #include <algorithm>
+#include <atomic>
 #include <future>
 #include <iterator>
 #include <memory>
@@ -31,23 +32,35 @@ void TickJobs::add(Job job) {
 }
 
 void TickJobs::run(const Job& job) {
-  const auto done = std::make_shared<std::promise<void>>();  // shared: this call may return before the job is done
-  std::future<void> result = done->get_future();
-  add([job, done](World& world) {
+  enum class State { waiting, started, withdrawn };
+  struct Request {
+    std::atomic<State> state{State::waiting};
+    std::promise<void> done;
+    /// Returns whether the request was still waiting. Only one of the two threads can end that.
+    bool leaveWaiting(State next) {
+      State expected = State::waiting;
+      return state.compare_exchange_strong(expected, next);
+    }
+  };
+  const auto request = std::make_shared<Request>();  // shared: this call may return while the job is in the queue
+  std::future<void> result = request->done.get_future();
+  add([job, request](World& world) {
+    if (!request->leaveWaiting(State::started)) return;
     try {
       job(world);
-      done->set_value();
+      request->done.set_value();
     } catch (...) {
-      done->set_exception(std::current_exception());
+      request->done.set_exception(std::current_exception());
     }
   });
   const auto deadline = std::chrono::steady_clock::now() + patience_;
   while (result.wait_for(std::min(kPause, patience_)) != std::future_status::ready) {
-    if (is_ending_()) throw Refusal(Code::busy, "the node is shutting down; it makes no more changes");
-    if (std::chrono::steady_clock::now() > deadline) {
-      throw Refusal(Code::busy,
-                    "no tick has made this change within " + secondsOf(patience_) + "; a later tick may still make it");
-    }
+    const bool ending = is_ending_();
+    if (!ending && std::chrono::steady_clock::now() <= deadline) continue;
+    if (!request->leaveWaiting(State::withdrawn)) continue;  // a tick is doing it now
+    throw Refusal(Code::busy, ending ? "the node is shutting down; it makes no more changes"
+                                     : "no tick has started within " + secondsOf(patience_) +
+                                           "; this change will not be made: request it again");
   }
   result.get();
 }

@@ -20,7 +20,7 @@ class TickJobs {
   using Job = std::function<void(World&)>;
 
   /// @param is_ending  returns whether the node is shutting down; threads that wait in run() call it
-  /// @param patience   how long run() waits; ticks take milliseconds, so a timeout means that the tick thread hangs
+  /// @param patience   how long run() waits for a tick to start the job; ticks take milliseconds, so a timeout means that the tick thread hangs
   explicit TickJobs(
       std::function<bool()> is_ending = [] { return false; },
       std::chrono::milliseconds patience = std::chrono::seconds(10));
@@ -28,8 +28,8 @@ class TickJobs {
   /// Adds a job and returns at once. Any thread may call this.
   void add(Job job);
   /// Adds a job and waits until a tick has done it. Any thread except the tick thread may call this.
-  /// @throws whatever the job throws; Refusal busy if no tick does the job in time, or if the node is shutting down. A
-  /// tick may still do the job after that.
+  /// @throws whatever the job throws; Refusal busy if no tick starts the job in time, or if the node is shutting down.
+  /// After that no tick does the job.
   void run(const Job& job);
 
   /// Does all waiting jobs. Only the tick thread may call this.

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Writes corner.stl, the binary STL of the solid that every file of this folder shows."""
+"""Writes corner.stl, a binary STL file of the tetrahedron that all files corner.* in this folder contain."""
 import pathlib
 import struct
 

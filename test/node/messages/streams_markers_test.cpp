@@ -86,7 +86,7 @@ TEST(Markers, ArePublishedForSubscribersAndBeginWithDeleteAll) {
     EXPECT_EQ(drawn["states"], 0u);
     for (const Marker& marker : seen.back()->markers) {
       if (marker.ns == "pair_names" && marker.action == Marker::ADD) {
-        EXPECT_EQ(marker.text.compare(0, 19, "robot/a - robot/b: "), 0) << marker.text;
+        EXPECT_EQ(marker.text.compare(0, 20, "robot/a to robot/b: "), 0) << marker.text;
       }
     }
   }

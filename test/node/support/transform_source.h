@@ -41,7 +41,7 @@ class TransformSource {
   /// the same child replaces the transform.
   void stream(const std::string& parent, const std::string& child, const geometry_msgs::Transform& transform,
               double delay = 0.0);
-  /// Ends the stream of a child.
+  /// Stops the stream of the transform of `child`.
   void stop(const std::string& child);
   /// Runs the function and publishes no stream meanwhile.
   void pauseFor(const std::function<void()>& deed);

@@ -80,7 +80,30 @@ TEST(TickJobsRun, IsGivenUpIfNoTickComes) {
   TickJobs jobs([] { return false; }, std::chrono::milliseconds(20));
   const Refusal refusal = refusalOf(jobs, [](World&) {});
   EXPECT_EQ(refusal.code(), Code::busy);
-  EXPECT_STREQ(refusal.what(), "no tick has made this change within 0.02 s; a later tick may still make it");
+  EXPECT_STREQ(refusal.what(), "no tick has started within 0.02 s; this change will not be made: request it again");
+}
+
+TEST(TickJobsRun, NeverDoesARefusedJobLater) {
+  TickJobs jobs([] { return false; }, std::chrono::milliseconds(20));
+  std::atomic<int> refused{0}, accepted{0};
+  EXPECT_EQ(refusalOf(jobs, [&](World&) { ++refused; }).code(), Code::busy);
+  const Ticking ticking(jobs);
+  jobs.run([&](World&) { ++accepted; });  // the queue keeps its order
+  EXPECT_EQ(accepted, 1);
+  EXPECT_EQ(refused, 0);
+}
+
+TEST(TickJobsRun, WaitsForAJobThatHasStartedHoweverLongItTakes) {
+  TickJobs jobs([] { return false; }, std::chrono::milliseconds(20));
+  const Ticking ticking(jobs);
+  std::atomic<bool> done{false};
+  const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(100);
+  const Refusal refusal = refusalOf(jobs, [&](World&) {
+    while (std::chrono::steady_clock::now() < until) std::this_thread::yield();
+    done = true;
+  });
+  EXPECT_EQ(refusal.code(), Code::ok) << refusal.what();
+  EXPECT_TRUE(done) << "an answer BUSY would have been wrong";
 }
 
 TEST(TickJobsRun, IsGivenUpIfTheNodeIsAboutToEnd) {

@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: the hgrid_proximity authors
+"""A ROS system of a test's own: a master on a free port of 127.0.0.1, nodes, parameters; and the doctor beside it."""
+import json
+import os
+import pathlib
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+from xmlrpc.client import ServerProxy
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(ROOT / "tools"))
+
+from hgrid_doctor.observe.connection import Connection  # noqa: E402  (the path comes first)
+
+PATIENCE = 20.0  # [s] for what must come
+ARM = (ROOT / "demo/six_axis_arm.urdf").read_text()
+ARM_SRDF = (ROOT / "demo/six_axis_arm.srdf").read_text()
+ARM_JOINTS = ["joint_%d" % number for number in range(1, 7)]
+
+
+def wait_for(what, condition):
+    """The first value of a condition that counts as true."""
+    deadline = time.monotonic() + PATIENCE
+    while time.monotonic() < deadline:
+        value = condition()
+        if value:
+            return value
+        time.sleep(0.01)  # a poll: the master sends no message when something registers
+    raise AssertionError("waited %g s for %s" % (PATIENCE, what))
+
+
+class System:
+    """Ends with everything that it started."""
+
+    def __init__(self):
+        with socket.socket() as free:
+            free.bind(("127.0.0.1", 0))
+            self._port = free.getsockname()[1]
+        self.uri = "http://127.0.0.1:%d" % self._port
+        self._folder = tempfile.mkdtemp(prefix="hgrid_doctor.")
+        self._processes = []
+        self._master = ServerProxy(self.uri)
+        self._environment = dict(os.environ, ROS_MASTER_URI=self.uri, ROS_IP="127.0.0.1", ROS_HOME=self._folder)
+        self._environment["ROS_LOG_DIR"] = self._folder + "/log"
+        for name in ("ROS_HOSTNAME", "ROS_NAMESPACE"):
+            self._environment.pop(name, None)
+
+    def __enter__(self):
+        self.start("rosmaster", "--core", "-p", str(self._port))
+        wait_for("the master", self._state)
+        return self
+
+    def __exit__(self, *_):
+        for process in self._processes:
+            process.kill()  # nothing of it is used again, so it need not say goodbye
+        for process in self._processes:
+            process.wait()
+        shutil.rmtree(self._folder, ignore_errors=True)
+
+    def lose_master(self):
+        """From now on the doctor looks for a master where none is."""
+        self._environment["ROS_MASTER_URI"] = "http://127.0.0.1:1"
+
+    def hang_master(self):
+        """From now on the master accepts connections and never answers."""
+        os.kill(self._processes[0].pid, signal.SIGSTOP)
+
+    def start(self, *command):
+        silent = {stream: subprocess.DEVNULL for stream in ("stdin", "stdout", "stderr")}
+        process = subprocess.Popen(command, env=self._environment, **silent)
+        self._processes.append(process)
+        return process
+
+    def set(self, name, value):
+        self._master.setParam("/test", name, value)
+
+    def robot(self, description=ARM, semantic=ARM_SRDF):
+        """Descriptions on the parameter server."""
+        self.set("/robot_description", description)
+        if semantic:
+            self.set("/robot_description_semantic", semantic)
+
+    def state_publisher(self, *arguments):
+        self.start("rosrun", "robot_state_publisher", "robot_state_publisher", *arguments)
+        wait_for("robot_state_publisher", lambda: "/robot_state_publisher" in self.publishers("/tf"))
+
+    def puppet(self, name, *arguments):
+        self.start(sys.executable, str(ROOT / "test/tools/support/puppet.py"), name, *arguments)
+        topic = "/joint_states" if "--joints" in arguments else "/tf"
+        wait_for(name, lambda: "/" + name in self.publishers(topic))
+
+    def joint_states(self, joints=tuple(ARM_JOINTS)):
+        self.puppet("driver", "--joints", ",".join(joints))
+
+    def node(self, until, name="/proximity"):
+        """Starts the node and waits until its ~status meets a condition."""
+        self.set(name + "/rate", 20)  # [Hz] no tick is late because other tests run beside this one
+        namespace, _, base = name.rpartition("/")
+        process = self.start(
+            "rosrun", "hgrid_proximity", "proximity_node", "__name:=" + base, "__ns:=" + (namespace or "/")
+        )
+        wait_for("~status of " + name, lambda: name in self.publishers(name + "/status"))
+        uri = wait_for(name, lambda: self._master.lookupNode("/test", name)[2])
+        self._wait_for_status(name, uri, until)
+        return process
+
+    def doctor(self, *arguments):
+        """Exit code, findings."""
+        command = ["rosrun", "hgrid_proximity", "doctor", "--json", "--listen", "1", "--timeout", "1", *arguments]
+        streams = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE}
+        ended = subprocess.run(command, env=self._environment, timeout=PATIENCE, check=False, **streams)
+        return ended.returncode, json.loads(ended.stdout.decode())["findings"]
+
+    def publishers(self, topic):
+        return dict(self._state()[0]).get(topic, [])
+
+    def _state(self):
+        try:
+            return self._master.getSystemState("/test")[2]
+        except OSError:
+            return None
+
+    @staticmethod
+    def _wait_for_status(name, uri, until):
+        from hgrid_proximity.msg import Status
+
+        connection = Connection(name + "/status", uri, time.monotonic() + PATIENCE, PATIENCE)
+        try:
+            for data in connection.messages():
+                status = Status()
+                status.deserialize(data)
+                if until(status):
+                    return
+        finally:
+            connection.close()
+        raise AssertionError("waited %g s for a ~status of %s that meets a condition" % (PATIENCE, name))

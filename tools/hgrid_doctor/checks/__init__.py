@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: the hgrid_proximity authors
+"""Pure functions from facts to findings, in the order in which causes come before consequences."""
+from __future__ import annotations
+
+from typing import List
+
+from hgrid_doctor.checks import clock, contests, descriptions, frames, inputs, network, node, semantics, stamps, status
+from hgrid_doctor.facts import Facts
+from hgrid_doctor.finding import Finding, Findings
+
+CHECKS = (
+    node.check,
+    clock.check,
+    descriptions.check,
+    stamps.check,
+    contests.check,
+    frames.check,
+    semantics.check,
+    inputs.check,
+    status.check,
+)
+
+
+def diagnose(facts: Facts) -> List[Finding]:
+    """What is wrong, the worst first."""
+    findings = Findings()
+    network.check(facts, findings)
+    if facts.graph.error:
+        return findings.ordered()  # nothing else is known
+    for check in CHECKS:
+        check(facts, findings)
+    return findings.ordered()

@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: the hgrid_proximity authors
+"""Frames that robots need: who should publish them, and whether they hang below the world frame."""
+from __future__ import annotations
+
+from typing import Dict, List, Set
+
+from hgrid_doctor.checks.joint_states import (
+    Absent,
+    Waiting,
+    add_no_joint_states,
+    check_joint_states,
+    state_publishers,
+)
+from hgrid_doctor.facts import LOST, UNPLACED, Facts, RobotFacts
+from hgrid_doctor.finding import ERROR, EVERYTHING, Findings, counted, listing
+from hgrid_doctor.frames import Tree, frame_of_group, needed_frames
+
+
+def check(facts: Facts, findings: Findings):
+    if findings.explain(EVERYTHING, ERROR):
+        return
+    tree = Tree(facts.streams)
+    apart: Dict[str, Set[str]] = {}  # by root of a tree that is not the world's: robots
+    waiting: List[Waiting] = []
+    for robot in facts.robots:
+        if robot.description is None or robot.description.flaw:
+            continue
+        unplaced = unplaced_frames(facts, tree, robot)
+        absent = {frame: link for frame, link in unplaced.items() if is_absent(facts, tree, robot, frame, link)}
+        if absent:
+            check_absent(facts, tree, robot, absent, findings, waiting)
+        for frame in unplaced:
+            if frame not in absent and tree.root(frame) != tree.root(facts.world_frame()):
+                apart.setdefault(tree.root(frame), set()).add(robot.settings.name)
+    if waiting:
+        add_no_joint_states(waiting, findings)
+    if apart and facts.world_frame() and not findings.has("contested_frame"):
+        check_connected(facts, tree, apart, findings)
+
+
+def is_absent(facts: Facts, tree: Tree, robot: RobotFacts, frame: str, link: str) -> bool:
+    """Nobody sent it. The root of a robot and the world frame may be heard as the parent of others only."""
+    if frame in tree.of_child or frame == facts.world_frame():
+        return False
+    return link != robot.description.root or not tree.has(frame)
+
+
+def unplaced_frames(facts: Facts, tree: Tree, robot: RobotFacts) -> Dict[str, str]:
+    """Frames whose links have no pose, by the node's word or, where it says nothing, by what was heard."""
+    needed = needed_frames(robot, facts)
+    name = robot.settings.name
+    if facts.is_loaded(name):
+        bad = set()
+        for body in facts.status.bodies:
+            source, _, link = body.name.partition("/")
+            if source == name and body.state in (LOST, UNPLACED) and link in robot.description.links:
+                bad.add(frame_of_group(robot, link))
+        if facts.status.bodies_total <= len(facts.status.bodies):
+            return {frame: link for frame, link in needed.items() if frame in bad}
+    world = facts.world_frame()
+    return {
+        frame: link
+        for frame, link in needed.items()
+        if frame != world and (not tree.has(frame) or tree.root(frame) != tree.root(world))
+    }
+
+
+def sources_below(facts: Facts, tree: Tree, frames: Set[str]) -> Set[str]:
+    """Sources whose bodies without a pose all follow one of the frames, through others or not."""
+    follow: Dict[str, List[bool]] = {}
+    for body in facts.status.bodies if facts.status is not None else []:
+        if body.state in (LOST, UNPLACED):
+            kind = body.name.partition("/")[0]
+            source = body.name if kind in ("map", "cloud") else kind
+            follow.setdefault(source, []).append(bool(frames & set(tree.chain(body.frame))))
+    return {source for source, each in follow.items() if all(each)}
+
+
+def check_absent(
+    facts: Facts, tree: Tree, robot: RobotFacts, absent: Dict[str, str], findings: Findings, waiting: List[Waiting]
+):
+    """@param waiting  gets the robot if its joint states have no publisher"""
+    name = robot.settings.name
+    needed = needed_frames(robot, facts)
+    what = f"{len(absent)} of {counted(len(needed), 'frame')} of robot '{name}' do not come ({listing(sorted(absent))})"
+    explained = sources_below(facts, tree, set(absent)) | {name}
+    prefix = other_prefix(facts, tree, robot, absent)
+    if prefix is not None:
+        findings.add(
+            "wrong_tf_prefix",
+            ERROR,
+            f"{what}: they are on /tf with the prefix '{prefix}', and tf_prefix of the robot is "
+            f"'{robot.settings.tf_prefix}'.",
+            f"Set tf_prefix: '{prefix}' for '{name}' in ~robots and start the node again.",
+            explained,
+        )
+        return
+    publishers = state_publishers(facts, robot)
+    alive = sorted(node for node in publishers if facts.alive(node))
+    if alive:
+        missing = Absent(robot, absent, what, explained)
+        check_joint_states(facts, missing, alive[0], findings, waiting)
+    elif publishers:
+        gone = sorted(publishers)[0]
+        findings.add(
+            "state_publisher_gone",
+            ERROR,
+            f"{what}: {gone} is registered to publish them, but does not answer ({facts.nodes[gone].error}).",
+            "Start it again; `rosnode cleanup` removes the registrations of dead nodes.",
+            explained,
+        )
+    else:
+        others = facts.alive_publishers("/tf")
+        there = f"/tf comes from {listing(others)} only" if others else "nobody publishes /tf"
+        prefix = f" _tf_prefix:={robot.settings.tf_prefix}" if robot.settings.tf_prefix else ""
+        findings.add(
+            "no_state_publisher",
+            ERROR,
+            f"{what}: no robot_state_publisher runs for it, and {there}.",
+            f"Start one: `rosrun robot_state_publisher robot_state_publisher{place(robot)}{prefix}`.",
+            explained,
+        )
+
+
+def place(robot: RobotFacts) -> str:
+    """Arguments by which a robot_state_publisher finds the description of the robot."""
+    key = robot.key or robot.settings.description
+    namespace, _, name = key.rpartition("/")
+    if name != "robot_description":
+        return f" robot_description:={key}"
+    return f" __ns:={namespace}" if namespace else ""
+
+
+def other_prefix(facts: Facts, tree: Tree, robot: RobotFacts, absent: Dict[str, str]):
+    """A prefix of no other robot under which most of the links come; None: there is none."""
+    taken = {other.settings.tf_prefix.lstrip("/") for other in facts.robots if other is not robot}
+    votes: Dict[str, int] = {}
+    for link in absent.values():
+        for frame in tree.of_child:
+            if frame == link or frame.endswith("/" + link):
+                prefix = frame[: -len(link)].rstrip("/")
+                if prefix not in taken:
+                    votes[prefix] = votes.get(prefix, 0) + 1
+    best = max(sorted(votes), key=votes.get, default=None)
+    return best if best is not None and votes[best] * 2 > len(absent) else None
+
+
+def was_connected(facts: Facts, robots: List[str]) -> bool:
+    """Whether the node had a pose of some link."""
+    bodies = facts.status.bodies if facts.status is not None else []
+    return any(body.state == LOST and body.name.partition("/")[0] in robots for body in bodies)
+
+
+def check_connected(facts: Facts, tree: Tree, apart: Dict[str, Set[str]], findings: Findings):
+    """The frames come, but not below the world frame."""
+    world, roots = facts.world_frame(), sorted(apart)
+    names = sorted({name for robots in apart.values() for name in robots})
+    who = f"robot{'s' if len(names) > 1 else ''} {listing(names)}"
+    explained = sources_below(facts, tree, set(apart)) | set(names)
+    gone = facts.gone_publishers("/tf")
+    set_frame = f"`rosparam set {facts.node}/world_frame {roots[0]}` and start the node again"
+    publish = f"`rosrun tf2_ros static_transform_publisher 0 0 0 0 0 0 {world} {roots[0]}`"
+    if gone:
+        findings.add(
+            "tf_publisher_gone",
+            ERROR,
+            f"Nothing connects the world frame '{world}' with {who}, below {listing(roots)}: {listing(gone)} is "
+            "registered"
+            " for /tf, but does not answer.",
+            "Start it again; `rosnode cleanup` removes the registrations of dead nodes.",
+            explained,
+        )
+    elif was_connected(facts, names):
+        findings.add(
+            "world_frame_lost",
+            ERROR,
+            f"Nothing connects the world frame '{world}' any more with {who}, below {listing(roots)}.",
+            "Start again what said where the robot is (localization, odometry): see what is missing in `rosnode list`.",
+            explained,
+        )
+    elif not tree.has(world):
+        findings.add(
+            "wrong_world_frame",
+            ERROR,
+            f"The world frame '{world}' is unknown to tf: nobody publishes it now, and {who} hangs below "
+            f"{listing(roots)}.",
+            f"Choose a frame that is there: {set_frame}; or publish where the robot is: {publish}.",
+            explained,
+        )
+    else:
+        findings.add(
+            "two_trees",
+            ERROR,
+            f"tf is in parts that nothing connects: the world frame '{world}' is below '{tree.root(world)}', {who} "
+            "below"
+            f" {listing(roots)}.",
+            f"Start what says where the robot is (localization, odometry), or publish it: {publish}; or {set_frame}.",
+            explained,
+        )

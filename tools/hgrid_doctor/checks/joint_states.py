@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: the hgrid_proximity authors
+"""Why frames that a robot_state_publisher should send do not come."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Dict, List, Set
+
+from hgrid_doctor.facts import Facts, RobotFacts
+from hgrid_doctor.finding import ERROR, Findings, counted, listing
+from hgrid_doctor.frames import joint_state_topics
+
+
+@dataclass
+class Absent:
+    """Frames of a robot that do not come."""
+
+    robot: RobotFacts
+    frames: Dict[str, str]  # with the link that each is for
+    what: str  # the begin of a sentence about them
+    explains: Set[str]  # sources that are not complete without them
+
+
+@dataclass
+class Waiting:
+    """A robot_state_publisher that waits for joint states on a topic without a publisher."""
+
+    absent: Absent
+    publisher: str
+    topic: str
+
+
+def state_publishers(facts: Facts, robot: RobotFacts) -> Set[str]:
+    """Nodes that make frames of joint states, for this robot as far as that can be known."""
+    own = {robot.settings.frame(link) for link in robot.description.links}
+    others = {other.key for other in facts.robots if other is not robot}
+    sending, silent = set(), set()
+    for node in {node for topic in ("/tf", "/tf_static") for node in facts.graph.publishers.get(topic, [])}:
+        if not joint_state_topics(facts, node):
+            continue
+        published = {stream.child for stream in facts.streams if stream.publisher == node}
+        if published & own:
+            sending.add(node)
+        elif not published and facts.descriptions_of_nodes.get(node) not in others:
+            silent.add(node)
+    return sending or silent
+
+
+def check_joint_states(facts: Facts, absent: Absent, publisher: str, findings: Findings, waiting: List[Waiting]):
+    robot, what = absent.robot, absent.what
+    topic = sorted(joint_state_topics(facts, publisher))[0]
+    sources = facts.alive_publishers(topic)
+    wanted = {joint for link in absent.frames.values() for joint in robot.description.moving_joints_above(link)}
+    missing = sorted(wanted - facts.joints.get(topic, set()))
+    if not wanted:
+        findings.add(
+            "state_publisher_of_other_robot",
+            ERROR,
+            f"{what}, though {publisher} runs: it has read another description.",
+            f"Start it again after {robot.key} was set: `rosnode kill {publisher}`.",
+            absent.explains,
+        )
+    elif not sources:
+        waiting.append(Waiting(absent, publisher, topic))
+    elif not facts.joints.get(topic):
+        findings.add(
+            "joint_states_silent",
+            ERROR,
+            f"{what}: {publisher} waits for joint states, and {listing(sources)} sent none on {topic} in "
+            f"{facts.listened:.1f} s.",
+            f"Look at the driver: `rostopic hz {topic}`.",
+            absent.explains,
+        )
+    elif missing:
+        findings.add(
+            "joint_states_incomplete",
+            ERROR,
+            f"{what}: {counted(len(missing), 'joint')} ({listing(missing)}) are in no message of {listing(sources)} "
+            f"on {topic}.",
+            f"Compare the names of the driver's joints with the URDF's: `rostopic echo -n 1 {topic}/name`.",
+            absent.explains,
+        )
+    else:
+        findings.add(
+            "state_publisher_silent",
+            ERROR,
+            f"{what}, though {publisher} runs and has joint states: it has read another description, or refuses their "
+            "stamps.",
+            f"Start it again after {robot.key} was set: `rosnode kill {publisher}`.",
+            absent.explains,
+        )
+
+
+def add_no_joint_states(waiting: List[Waiting], findings: Findings):
+    """One finding for all robots: one driver may be what is missing."""
+    first = waiting[0]
+    topics = sorted({each.topic for each in waiting})
+    if len(waiting) == 1:
+        what = f"{first.absent.what}: {first.publisher} waits for joint states on {first.topic}"
+    else:
+        names = [each.absent.robot.settings.name for each in waiting]
+        frames = sum(len(each.absent.frames) for each in waiting)
+        what = f"{frames} frames of robots {listing(names)} do not come: they wait for joint states"
+        what += f" on {listing(topics)}"
+    findings.add(
+        "no_joint_states",
+        ERROR,
+        f"{what}, and nobody publishes them.",
+        "Start the robot's driver, or for a trial without it"
+        f" `rosrun joint_state_publisher joint_state_publisher joint_states:={first.topic}`.",
+        {source for each in waiting for source in each.absent.explains},
+    )

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: the hgrid_proximity authors
+"""The master, and whether this shell and the nodes can reach each other."""
+from __future__ import annotations
+
+from hgrid_doctor.facts import Facts
+from hgrid_doctor.finding import ERROR, WARN, Findings, listing
+
+
+def check(facts: Facts, findings: Findings):
+    check_master(facts, findings)
+    check_own_name(facts, findings)
+    check_hosts(facts, findings)
+
+
+def check_master(facts: Facts, findings: Findings):
+    if not facts.graph.error:
+        return
+    uri = facts.environment.master_uri
+    origin = "ROS_MASTER_URI" if facts.environment.master_uri_is_set else "the default, since ROS_MASTER_URI is not set"
+    findings.add(
+        "no_master",
+        ERROR,
+        f"The ROS master at {uri} ({origin}) cannot be reached: {facts.graph.error}.",
+        "Start it with `roscore`, or name the right one: `export ROS_MASTER_URI=http://<host>:11311`.",
+    )
+
+
+def check_own_name(facts: Facts, findings: Findings):
+    """What nodes that start in this shell announce, others must be able to reach."""
+    environment = facts.environment
+    if not environment.own_name_error:
+        return
+    origin = (
+        "ROS_HOSTNAME" if environment.ros_hostname else "ROS_IP" if environment.ros_ip else "this computer's host name"
+    )
+    findings.add(
+        "bad_own_address",
+        WARN,
+        f"{origin} is '{environment.own_name}': {environment.own_name_error}. Nodes started here cannot be reached by "
+        "it.",
+        "Set an address of this computer that the others can reach: `export ROS_IP=<address>` (see `ip -br address`).",
+    )
+
+
+def check_hosts(facts: Facts, findings: Findings):
+    """Nodes whose host this computer does not find: their topics never arrive here."""
+    unknown = {}
+    for node in facts.nodes.values():
+        if node.host_error:
+            unknown.setdefault(node.host, []).append(node.name)
+    for host, nodes in sorted(unknown.items()):
+        findings.add(
+            "unknown_host",
+            ERROR,
+            f"The host '{host}' of {listing(sorted(nodes))} cannot be resolved here, so nothing of it arrives.",
+            f"On that computer `export ROS_IP=<address>` before its nodes start, or add '<address> {host}' to "
+            "/etc/hosts.",
+        )

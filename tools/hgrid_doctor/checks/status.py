@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: the hgrid_proximity authors
+"""What the node itself says in ~status and nothing else explains."""
+from __future__ import annotations
+
+from typing import Dict
+
+from hgrid_doctor.facts import STALE, STATES, Facts
+from hgrid_doctor.finding import ERROR, EVERYTHING, WARN, Findings, counted
+
+LATE_SHARE = 0.1  # of the ticks that may be late
+
+HINTS = {  # by the first word of a reason
+    "UNPLACED": "See whether tf connects its frame with the world: `rosrun tf tf_echo {world} <frame>`.",
+    "UNCOVERED": "Correct the shape, or waive it with ~accept_uncovered and a reason.",
+    "LOST": "See why its publisher stopped: `rostopic hz /tf`, `rosnode list`.",
+    "FROZEN": "Let the clock run on, or wait for the first data after the jump of the clock.",
+    "INVALID": "See what the publisher of its frame sends: `rostopic echo /tf`.",
+    "REQUIRED": "Add what ~required names, or do not require it.",
+    "PARSE": "Correct the description, then `rosservice call {node}/reload_robot {source}`.",
+}
+OTHER_HINT = "Correct that; the node's log says more: `rostopic echo -n 1 {node}/status`."
+
+
+def check(facts: Facts, findings: Findings):
+    if facts.status is None:
+        return
+    check_sources(facts, findings)
+    check_contests(facts, findings)
+    check_pairs(facts, findings)
+    check_models(facts, findings)
+    check_counters(facts, findings)
+    check_ticks(facts, findings)
+
+
+def check_sources(facts: Facts, findings: Findings):
+    for source in facts.status.sources:
+        if not source.complete:
+            if findings.explain(source.name, ERROR):
+                continue
+            reason = source.reason or "; ".join(facts.status.not_ready) or "it says no reason"
+            hint = HINTS.get(reason.split(" ", 1)[0], OTHER_HINT)
+            fix = hint.format(world=facts.world_frame(), node=facts.node, source=source.name)
+            findings.add("source_incomplete", ERROR, f"{source.name} is not complete: {reason}.", fix, [source.name])
+        elif source.state == STALE and not findings.explain(source.name):
+            findings.add(
+                "source_stale",
+                WARN,
+                f"Poses of {source.name} are {STATES[source.state]}: the oldest is {source.age:.2f} s old.",
+                "See which publisher is slow: `rosrun tf tf_monitor`; a slow one may need a larger ~stale_after.",
+            )
+
+
+def check_contests(facts: Facts, findings: Findings):
+    if facts.status.contested_frames and not findings.has("contested_frame"):
+        more = len(facts.status.contested_frames) - 1
+        findings.add(
+            "contested_frame",
+            ERROR,
+            facts.status.contested_frames[0] + (f" (and {more} more)." if more else "."),
+            "Stop one of them with `rosnode kill`, or give its frames other names.",
+        )
+
+
+def check_pairs(facts: Facts, findings: Findings):
+    world = facts.status.world
+    if not world.complete and world.incomplete_total == 0 and world.sequence > 0:
+        findings.add(
+            "pairs_truncated",
+            ERROR,
+            f"~pairs does not list all pairs: {'; '.join(world.reasons) or 'truncated'}.",
+            "Lower ~margin or raise ~max_pairs, then start the node again.",
+        )
+    own = facts.status.self_pairs[0] if len(facts.status.self_pairs) == 1 else None
+    if len(facts.status.sources) == 1 and own and own.pairs and own.pairs == own.rigid + own.adjacent + own.srdf:
+        findings.add(
+            "all_pairs_off",
+            WARN,
+            f"No pair can ever be reported: the robot is alone, and of its {own.pairs} own pairs {own.rigid} are "
+            "rigid,"
+            f" {own.adjacent} adjacent and {own.srdf} off by the SRDF.",
+            "Add obstacles, maps or clouds to the parameters.",
+        )
+
+
+def check_models(facts: Facts, findings: Findings):
+    warnings = list(facts.status.model_warnings)
+    if findings.has("srdf_of_other_robot", "srdf_unknown_links"):
+        warnings = [text for text in warnings if "names link" not in text]
+    if findings.has("no_srdf"):
+        warnings = [text for text in warnings if "SRDF" not in text]
+    if warnings:
+        more = f" (and {counted(len(warnings) - 1, 'warning')} more)" if len(warnings) > 1 else ""
+        findings.add(
+            "model_warnings",
+            WARN,
+            f"The node accepted what is odd in descriptions or parameters: {warnings[0]}{more}.",
+            f"See them all: `rostopic echo -n 1 {facts.node}/status/model_warnings`.",
+        )
+
+
+def growth(facts: Facts) -> Dict[str, int]:
+    """By how much each counter grew while it was listened to."""
+    before = {counter.name: counter.value for counter in facts.first_status.counters}
+    now = {counter.name: counter.value for counter in facts.status.counters}
+    return {name: value - before.get(name, 0) for name, value in now.items() if value > before.get(name, 0)}
+
+
+def check_counters(facts: Facts, findings: Findings):
+    grown = growth(facts)
+    failed = {name: by for name, by in grown.items() if ".failed" in name}
+    if failed:
+        findings.add(
+            "work_fails",
+            ERROR,
+            f"Work of the node fails: {amounts(failed)} in {facts.listened:.1f} s.",
+            "Read the node's log (`roscd log`), and report it as a fault of this package.",
+        )
+    refused = {name: by for name, by in grown.items() if ".refused." in name or name == "tf.dropped.LIMIT"}
+    refused = {name: by for name, by in refused.items() if not is_explained(name, findings)}
+    if refused:
+        findings.add(
+            "input_refused",
+            WARN,
+            f"The node refuses what it is sent: {amounts(refused)} in {facts.listened:.1f} s.",
+            "Read its log, which says each cause once a second: `rosconsole echo` or `rostopic echo /rosout`.",
+        )
+
+
+def amounts(counters: Dict[str, int]) -> str:
+    return ", ".join(f"{name} {by} times" for name, by in sorted(counters.items()))
+
+
+def is_explained(counter: str, findings: Findings) -> bool:
+    """Whether an earlier finding says why it grows."""
+    if counter.startswith("tf.refused.CLOCK"):
+        stamps = findings.has("stamps_early", "stamps_zero", "stamps_of_other_clock")
+        return stamps or findings.explain(EVERYTHING)
+    if counter.startswith("cloud/"):
+        return findings.explain(counter.partition(".")[0])
+    if counter.startswith("maps."):
+        return findings.has("no_map_file", "wrong_input_frame", "source_incomplete")
+    return False
+
+
+def check_ticks(facts: Facts, findings: Findings):
+    first, last = facts.first_status, facts.status
+    ticks = last.world.sequence - first.world.sequence
+    late = growth(facts).get("tick.late", 0)
+    period = 1.0 / facts.settings.rate
+    timing = next((each for each in last.timings if each.name == "tick"), None)
+    if ticks <= 0:
+        return
+    if late > max(1.0, LATE_SHARE * ticks):
+        findings.add(
+            "ticks_late",
+            WARN,
+            f"{late} of {ticks} ticks were late: this computer is too busy, or ~rate ({facts.settings.rate:g} Hz) is "
+            "too high.",
+            "See what uses the processors (`top`), lower ~rate, or let ~threads be more than 1 for many thousands of "
+            "shapes.",
+        )
+    elif timing is not None and timing.median > period:
+        findings.add(
+            "ticks_slow",
+            WARN,
+            f"A tick takes {timing.median * 1e3:.1f} ms, longer than its period of {period * 1e3:.1f} ms.",
+            f"Lower ~rate, or look where the time goes: `rostopic echo -n 1 {facts.node}/status/timings`.",
+        )

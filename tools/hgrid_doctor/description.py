@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: the hgrid_proximity authors
+"""Robot descriptions as far as a diagnosis needs them: links, joints, shapes, and why a text is no description."""
+from __future__ import annotations
+
+import re
+import xml.etree.ElementTree as xml
+from dataclasses import dataclass, field
+from typing import Dict, List, Set
+
+
+@dataclass
+class Link:
+    """A link and how many shapes it has."""
+
+    name: str
+    collisions: int = 0
+    visuals: int = 0
+    collision_meshes: List[str] = field(default_factory=list)  # URIs
+    visual_meshes: List[str] = field(default_factory=list)
+
+
+@dataclass
+class Joint:
+    name: str
+    type: str
+    parent: str
+    child: str
+
+
+@dataclass
+class Description:
+    """A URDF. Where `flaw` is set, the rest is empty."""
+
+    name: str = ""
+    flaw: str = ""  # FLAWS
+    detail: str = ""  # where the flaw is
+    links: Dict[str, Link] = field(default_factory=dict)
+    joints: List[Joint] = field(default_factory=list)
+    root: str = ""
+    joint_above: Dict[str, Joint] = field(default_factory=dict)  # by child link
+
+    def group_root(self, link: str) -> str:
+        """The link whose frame places a link: only fixed joints are between them."""
+        above, seen = self.joint_above, set()
+        while link in above and above[link].type == "fixed" and link not in seen:
+            seen.add(link)
+            link = above[link].parent
+        return link
+
+    def moving_joints_above(self, link: str) -> Set[str]:
+        above, names, seen = self.joint_above, set(), set()
+        while link in above and link not in seen:
+            seen.add(link)
+            if above[link].type != "fixed":
+                names.add(above[link].name)
+            link = above[link].parent
+        return names
+
+
+@dataclass
+class Semantic:
+    """An SRDF. Where `flaw` is set, the rest is empty."""
+
+    name: str = ""
+    flaw: str = ""
+    detail: str = ""
+    links: Set[str] = field(default_factory=set)  # that its rules name
+    rules: int = 0
+
+
+FLAWS = ("not_text", "xacro", "not_xml", "not_robot")
+
+
+def parse_urdf(text: object) -> Description:
+    root, flaw, detail = _parse(text)
+    if flaw:
+        return Description(flaw=flaw, detail=detail)
+    result = Description(name=root.get("name", ""))
+    for element in root.findall("link"):
+        link = Link(element.get("name", ""))
+        link.collisions, link.visuals = len(element.findall("collision")), len(element.findall("visual"))
+        link.collision_meshes = [mesh.get("filename", "") for mesh in element.findall("collision/geometry/mesh")]
+        link.visual_meshes = [mesh.get("filename", "") for mesh in element.findall("visual/geometry/mesh")]
+        result.links[link.name] = link
+    for element in root.findall("joint"):
+        parent, child = element.find("parent"), element.find("child")
+        if parent is not None and child is not None:
+            names = parent.get("link", ""), child.get("link", "")
+            result.joints.append(Joint(element.get("name", ""), element.get("type", ""), *names))
+    result.joint_above = {joint.child: joint for joint in result.joints}
+    result.root = next((name for name in result.links if name not in result.joint_above), "")
+    return result
+
+
+def parse_srdf(text: object) -> Semantic:
+    root, flaw, detail = _parse(text)
+    if flaw:
+        return Semantic(flaw=flaw, detail=detail)
+    result = Semantic(name=root.get("name", ""))
+    for tag in ("disable_collisions", "enable_collisions"):
+        for element in root.findall(tag):
+            result.rules += 1
+            result.links |= {element.get("link1", ""), element.get("link2", "")}
+    for element in root.findall("disable_default_collisions"):
+        result.rules += 1
+        result.links.add(element.get("link", ""))
+    return result
+
+
+def _parse(text):
+    """Root element, flaw, detail."""
+    if not isinstance(text, str) or not text.strip():
+        return None, "not_text", "it is empty" if isinstance(text, str) else f"it is of type {type(text).__name__}"
+    try:
+        root = xml.fromstring(text.strip())
+    except (xml.ParseError, ValueError) as error:
+        # A macro whose prefix is not declared is no XML, but what is wrong is the missing expansion.
+        return (None, "xacro", "it uses <xacro:...>") if "<xacro:" in text else (None, "not_xml", str(error))
+    macro = _macro_in(root)
+    if macro:
+        return None, "xacro", f"it has {macro}"
+    if root.tag != "robot":
+        return None, "not_robot", f"its root element is <{root.tag}>"
+    return root, "", ""
+
+
+def _macro_in(root):
+    """What is left of xacro: an element or an expression; empty: nothing."""
+    for element in root.iter():
+        if isinstance(element.tag, str) and re.match(r"\{[^}]*xacro[^}]*\}", element.tag):
+            return f"<xacro:{element.tag.rpartition('}')[2]}>"
+        for name, value in element.attrib.items():
+            if re.search(r"\$[({]", value):
+                return f'{name}="{value}"'
+    return ""

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: the hgrid_proximity authors
+"""Reads a topic from one publisher over TCPROS, without a registration at the master.
+
+The publisher sends as to any subscriber. Every call has a timeout, and the end of listening ends a connection.
+"""
+from __future__ import annotations
+
+import socket
+import struct
+import time
+from typing import Dict, Iterator
+
+from hgrid_doctor.observe.graph import CALLER, Api
+
+MOST_BYTES = 64 * 1024 * 1024  # of a message; a longer one ends the connection
+MOST_HEADER = 1024 * 1024  # bytes of a connection header
+
+
+class Connection:
+    """A connection to one publisher of one topic. Its methods throw OSError or ApiError."""
+
+    def __init__(self, topic: str, publisher_uri: str, deadline: float, timeout: float):
+        """@param deadline  [s] of time.monotonic() when listening ends"""
+        self._deadline = deadline
+        answer = Api(publisher_uri, timeout)("requestTopic", topic, [["TCPROS"]])
+        if not answer or answer[0] != "TCPROS":
+            raise OSError("it offers no TCPROS connection")
+        self._socket = socket.create_connection((answer[1], answer[2]), timeout)
+        try:
+            self._send({"callerid": CALLER, "topic": topic, "type": "*", "md5sum": "*", "tcp_nodelay": "1"})
+            self.header = _fields(self._receive(self._length(MOST_HEADER)))
+            if "error" in self.header:
+                raise OSError(self.header["error"])
+        except Exception:
+            self.close()
+            raise
+
+    def close(self):
+        self._socket.close()
+
+    def messages(self) -> Iterator[bytes]:
+        """Until listening ends or the publisher closes the connection."""
+        while True:
+            try:
+                yield self._receive(self._length(MOST_BYTES))
+            except (socket.timeout, ConnectionError):
+                return
+
+    def first_bytes(self, most: int) -> bytes:
+        """Of the next message; empty if none comes."""
+        try:
+            return self._receive(min(most, self._length(2**31)))
+        except (socket.timeout, ConnectionError):
+            return b""
+
+    def _send(self, fields: Dict[str, str]):
+        encoded = [f"{name}={value}".encode() for name, value in fields.items()]
+        body = b"".join(struct.pack("<I", len(field)) + field for field in encoded)
+        self._socket.sendall(struct.pack("<I", len(body)) + body)
+
+    def _length(self, most: int) -> int:
+        length = struct.unpack("<I", self._receive(4))[0]
+        if length > most:
+            raise OSError(f"it announces {length} bytes, more than {most}")
+        return length
+
+    def _receive(self, count: int) -> bytes:
+        parts = []
+        while count > 0:
+            self._socket.settimeout(max(0.001, self._deadline - time.monotonic()))
+            part = self._socket.recv(min(count, 1 << 16))
+            if not part:
+                raise ConnectionError("the publisher closed the connection")
+            parts.append(part)
+            count -= len(part)
+        return b"".join(parts)
+
+
+def _fields(header: bytes) -> Dict[str, str]:
+    fields, place = {}, 0
+    while place + 4 <= len(header):
+        length = struct.unpack_from("<I", header, place)[0]
+        name, _, value = header[place + 4 : place + 4 + length].partition(b"=")
+        fields[name.decode("utf-8", "replace")] = value.decode("utf-8", "replace")
+        place += 4 + length
+    return fields
+
+
+def header_frame(message: bytes) -> str:
+    """frame_id of a message that begins with a std_msgs/Header."""
+    if len(message) < 16:
+        return ""
+    length = struct.unpack_from("<I", message, 12)[0]
+    return message[16 : 16 + min(length, 256)].decode("utf-8", "replace")

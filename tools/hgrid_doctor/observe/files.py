@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: the hgrid_proximity authors
+"""Looks at the files that descriptions and parameters name, as far as this computer has them."""
+from __future__ import annotations
+
+import os
+from functools import lru_cache
+from typing import List
+from urllib.parse import unquote
+
+import rospkg
+
+
+@lru_cache(maxsize=None)
+def package_folder(package: str) -> str:
+    """Empty: there is none."""
+    try:
+        return rospkg.RosPack().get_path(package)
+    except rospkg.ResourceNotFound:
+        return ""
+
+
+def mesh_error(uri: str, roots: List[str]) -> str:
+    """Why a mesh cannot be read; empty: it can.
+
+    @param roots  folders below which file:// may read
+    """
+    if uri.startswith("package://"):
+        package, _, path = uri[len("package://") :].partition("/")
+        folder = package_folder(package)
+        return file_error(os.path.join(folder, path)) if folder else f"there is no package '{package}'"
+    if uri.startswith("file:///"):
+        path = unquote(uri[len("file://") :])
+        real = os.path.realpath(path)
+        allowed = [*roots, *os.environ.get("ROS_PACKAGE_PATH", "").split(":")]
+        if not any(root and real.startswith(os.path.realpath(root).rstrip("/") + "/") for root in allowed):
+            return "it lies outside the packages and ~mesh_roots"
+        return file_error(path)
+    return "only package:// and file:/// are read"
+
+
+def file_error(path: str) -> str:
+    if not os.path.exists(path):
+        return f"there is no file {path}"
+    if not os.path.isfile(path):
+        return f"{path} is no regular file"
+    return "" if os.access(path, os.R_OK) else f"{path} may not be read by this user"

@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: the hgrid_proximity authors
+"""Listens to many topics at once for a while and keeps of them what facts.py has a place for."""
+from __future__ import annotations
+
+import threading
+import time
+from typing import Callable, Dict, List, Tuple
+
+from hgrid_doctor.facts import Facts, TfStream, TopicFacts
+from hgrid_doctor.observe.bounded import sentence_of
+from hgrid_doctor.observe.connection import Connection, header_frame
+
+MOST_OFFSETS = 500  # of one stream
+MOST_POSES = 100
+
+
+class Listener:
+    """One thread for each publisher of each topic. Nothing is written to the facts after finish()."""
+
+    def __init__(self, facts: Facts, listen: float, timeout: float):
+        self._facts, self._timeout = facts, timeout
+        self._deadline = time.monotonic() + listen
+        self._lock = threading.Lock()
+        self._finished = False
+        self._threads: List[threading.Thread] = []
+        self._streams: Dict[Tuple[str, str, str, bool], TfStream] = {}
+        self._newest_clock = None  # [s]
+
+    def clock(self, topic: str = "/clock"):
+        from rosgraph_msgs.msg import Clock
+
+        self._start(topic, Clock, self._take_clock)
+
+    def transforms(self, topic: str, static: bool):
+        from tf2_msgs.msg import TFMessage
+
+        self._start(topic, TFMessage, lambda publisher, message: self._take_transforms(publisher, message, static))
+
+    def joint_states(self, topic: str):
+        from sensor_msgs.msg import JointState
+
+        names = self._facts.joints.setdefault(topic, set())
+        self._start(topic, JointState, lambda _, message: names.update(message.name))
+
+    def status(self, topic: str, host: str):
+        from hgrid_proximity.msg import Status
+
+        self._start(topic, Status, lambda _, message: self._take_status(message), only=host)
+
+    def frame_of(self, topic: str):
+        """Reads of one message no more than the begin: maps and clouds are large."""
+        self._start(topic, None, None)
+
+    def finish(self):
+        """Waits until listening is over."""
+        for thread in self._threads:
+            thread.join(max(0.0, self._deadline + 0.2 - time.monotonic()))
+        with self._lock:
+            self._finished = True
+        self._facts.streams = list(self._streams.values())
+        self._facts.wall = time.time()
+
+    def _start(self, topic: str, kind, take: Callable, only: str = ""):
+        self._facts.topics[topic] = TopicFacts()
+        for publisher in self._facts.alive_publishers(topic):
+            node = self._facts.nodes.get(publisher)
+            if node is None or not node.uri or (only and publisher != only):
+                continue
+            thread = threading.Thread(target=self._read, args=(topic, node, kind, take), daemon=True)
+            thread.start()
+            self._threads.append(thread)
+
+    def _read(self, topic, node, kind, take):
+        facts = self._facts.topics[topic]
+        try:
+            connection = Connection(topic, node.uri, self._deadline, self._timeout)
+            try:
+                facts.types[node.name] = connection.header.get("type", "")
+                if kind is None:
+                    self._peek(connection, node.name, facts)
+                else:
+                    self._check_type(connection.header, kind)
+                    self._read_all(connection, node.name, facts, kind, take)
+            finally:
+                connection.close()
+        except Exception as error:  # a strange publisher must not end the diagnosis
+            facts.errors[node.name] = sentence_of(error)
+
+    @staticmethod
+    def _check_type(header, kind):
+        if header.get("md5sum") != kind._md5sum:
+            raise OSError(f"it sends {header.get('type')} with md5sum {header.get('md5sum')}, not {kind._md5sum}")
+
+    def _peek(self, connection, publisher, facts):
+        begin = connection.first_bytes(16 + 256)
+        if begin:
+            facts.counts[publisher] = 1
+            facts.frames[publisher] = header_frame(begin).lstrip("/")
+
+    def _read_all(self, connection, publisher, facts, kind, take):
+        for data in connection.messages():
+            message = kind()
+            message.deserialize(data)
+            with self._lock:
+                if self._finished:
+                    return
+                facts.counts[publisher] = facts.counts.get(publisher, 0) + 1
+                take(publisher, message)
+
+    def _take_clock(self, _, message):
+        self._newest_clock = message.clock.to_sec()
+        self._facts.clock.append(self._newest_clock)
+
+    def _take_status(self, message):
+        if self._facts.first_status is None:
+            self._facts.first_status = message
+        self._facts.status = message
+
+    def _now(self):
+        """[s] ROS time; None before the first message of /clock."""
+        return self._newest_clock if self._facts.graph.use_sim_time else time.time()
+
+    def _take_transforms(self, publisher, message, static):
+        now = self._now()
+        for transform in message.transforms:
+            parent, child = transform.header.frame_id.lstrip("/"), transform.child_frame_id.lstrip("/")
+            key = (publisher, parent, child, static)
+            stream = self._streams.setdefault(key, TfStream(*key))
+            stream.count += 1
+            stamp = transform.header.stamp.to_sec()
+            if stamp == 0.0 and not static:
+                stream.zero_stamps += 1
+            elif now is not None and len(stream.offsets) < MOST_OFFSETS:
+                stream.offsets.append(stamp - now)
+            if len(stream.poses) < MOST_POSES:
+                t, q = transform.transform.translation, transform.transform.rotation
+                stream.poses.append((stamp, (t.x, t.y, t.z, q.x, q.y, q.z, q.w)))

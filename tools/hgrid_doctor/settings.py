@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: the hgrid_proximity authors
+"""The node's parameters, as far as a diagnosis needs them. Wrong values read as the default: the node names them."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fnmatch import fnmatchcase
+from typing import Any, Dict, List
+
+
+@dataclass
+class RobotSettings:
+    """A robot of ~robots."""
+
+    name: str = "robot"
+    description: str = "robot_description"
+    semantic: str = "robot_description_semantic"
+    tf_prefix: str = ""
+
+    def frame(self, link: str) -> str:
+        prefix = self.tf_prefix.lstrip("/")
+        return f"{prefix}/{link}" if prefix else link
+
+
+@dataclass
+class InputSettings:
+    """A map or a cloud."""
+
+    source: str  # map/hall
+    topic: str = ""  # absolute; empty: from a file
+    file: str = ""
+    type: str = ""  # of the topic
+
+
+@dataclass
+class Settings:
+    """See config/params.yaml."""
+
+    world_frame: str = ""
+    rate: float = 50.0
+    margin: float = 0.1
+    stale_after: float = 0.25
+    lost_after: float = 2.0
+    max_future: float = 0.5
+    map_folder: str = ""
+    use_visual: List[str] = field(default_factory=list)
+    mesh_roots: List[str] = field(default_factory=list)
+    robots: List[RobotSettings] = field(default_factory=lambda: [RobotSettings()])
+    inputs: List[InputSettings] = field(default_factory=list)
+
+    def uses_visual(self, body: str) -> bool:
+        return any(fnmatchcase(body, pattern) for pattern in self.use_visual)
+
+
+def read_settings(values: Any, node: str) -> Settings:
+    """@param values  the private parameters of the node, as the parameter server returns them"""
+    values = values if isinstance(values, dict) else {}
+    settings = Settings()
+    settings.world_frame = _text(values, "world_frame", "").lstrip("/")
+    for name in ("rate", "margin", "stale_after", "lost_after", "max_future"):
+        value = values.get(name)
+        if isinstance(value, (int, float)) and not isinstance(value, bool) and value > 0:
+            setattr(settings, name, float(value))
+    settings.use_visual = [text for text in _list(values, "use_visual") if isinstance(text, str)]
+    settings.mesh_roots = [text for text in _list(values, "mesh_roots") if isinstance(text, str)]
+    maps = values.get("map")
+    settings.map_folder = _text(maps if isinstance(maps, dict) else {}, "folder", "")
+    robots = [_robot(entry) for entry in _list(values, "robots") if isinstance(entry, dict)]
+    settings.robots = robots or [RobotSettings()]
+    settings.inputs = [_map(entry, node) for entry in _list(values, "maps") if isinstance(entry, dict)]
+    settings.inputs += [_cloud(entry, node) for entry in _list(values, "clouds") if isinstance(entry, dict)]
+    return settings
+
+
+def absolute(name: str, node: str) -> str:
+    """A relative name belongs to the namespace of the node."""
+    return name if name.startswith("/") else node.rpartition("/")[0] + "/" + name
+
+
+def _robot(entry: Dict[str, Any]) -> RobotSettings:
+    return RobotSettings(
+        _text(entry, "name", "robot"),
+        _text(entry, "description", "robot_description"),
+        _text(entry, "semantic", ""),
+        _text(entry, "tf_prefix", ""),
+    )
+
+
+def _map(entry: Dict[str, Any], node: str) -> InputSettings:
+    source, file = "map/" + _text(entry, "name", ""), _text(entry, "file", "")
+    topic = "" if file else absolute(_text(entry, "topic", "octomap_binary"), node)
+    return InputSettings(source, topic, file, "octomap_msgs/Octomap")
+
+
+def _cloud(entry: Dict[str, Any], node: str) -> InputSettings:
+    topic = absolute(_text(entry, "topic", "cloud"), node)
+    return InputSettings("cloud/" + _text(entry, "name", ""), topic, "", "sensor_msgs/PointCloud2")
+
+
+def _text(values: Dict[str, Any], name: str, default: str) -> str:
+    value = values.get(name)
+    return value if isinstance(value, str) and value else default
+
+
+def _list(values: Dict[str, Any], name: str) -> List[Any]:
+    value = values.get(name)
+    return value if isinstance(value, list) else []
