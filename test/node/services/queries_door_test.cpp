@@ -84,8 +84,8 @@ TEST_F(QueryDoor, PatternsThatMatchNoBodyAreRefused) {
     return node_->ask(request);
   };
   expectRefused(ask({"no_such/*"}, {}), "UNKNOWN_ID", "no body matches the glob 'no_such/*' of include");
-  expectRefused(ask({"obstacle/post", "obstacle/pots"}, {}), "UNKNOWN_ID", "no body matches 'obstacle/pots'");
-  expectRefused(ask({""}, {}), "UNKNOWN_ID", "no body matches ''");
+  expectRefused(ask({"obstacle/post", "obstacle/pots"}, {}), "UNKNOWN_ID", "no body matches the glob 'obstacle/pots'");
+  expectRefused(ask({""}, {}), "UNKNOWN_ID", "no body matches the glob ''");
   expectRefused(ask({}, {"*"}), "UNKNOWN_ID", "exclude leaves out all bodies");
   const auto clear = ask({"obstacle/*"}, {"nobody"}).answer;
   EXPECT_EQ(clear.verdict, msg::Verdict::CLEAR);
