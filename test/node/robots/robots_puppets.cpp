@@ -57,18 +57,6 @@ bool Child::running() const {
   return waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == 0;
 }
 
-double Child::processorTime() const {
-  std::ifstream file("/proc/" + std::to_string(pid_) + "/stat");
-  std::string line;
-  std::getline(file, line);
-  std::istringstream fields(line.substr(line.rfind(')') + 1));
-  std::string skipped;
-  for (int field = 3; field < 14; ++field) fields >> skipped;
-  double user = 0.0, system = 0.0;
-  fields >> user >> system;
-  return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
-}
-
 Puppeteer::Puppeteer(ros::NodeHandle& node, const std::vector<Puppet>& puppets, std::uint64_t seed)
     : puppets_(puppets), random_(seed) {
   for (const Puppet& puppet : puppets) {
@@ -144,10 +132,9 @@ PairsListener::PairsListener(ros::NodeHandle node) : spinner_(1, &queue_) {
 }
 
 void PairsListener::onPairs(const hgrid_proximity::PairsConstPtr& message) {
-  const auto now = Clock::now();
   const std::lock_guard<std::mutex> lock(mutex_);
   last_ = message;
-  arrivals_.push_back(now);
+  arrived_.push_back(message);
   came_.notify_all();
 }
 
@@ -159,19 +146,12 @@ hgrid_proximity::PairsConstPtr PairsListener::waitFor(const std::function<bool(c
   return came ? last_ : nullptr;
 }
 
-std::vector<double> PairsListener::gapsOver(std::chrono::seconds duration) {
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    arrivals_.clear();
-  }
-  std::this_thread::sleep_for(duration);
-  const std::lock_guard<std::mutex> lock(mutex_);
-  std::vector<double> gaps;
-  for (std::size_t i = 1; i < arrivals_.size(); ++i) {
-    gaps.push_back(std::chrono::duration<double>(arrivals_[i] - arrivals_[i - 1]).count());
-  }
-  std::sort(gaps.begin(), gaps.end());
-  return gaps;
+std::vector<hgrid_proximity::PairsConstPtr> PairsListener::next(std::size_t count, std::chrono::seconds patience) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  arrived_.clear();
+  came_.wait_for(lock, patience, [&] { return arrived_.size() >= count; });
+  if (arrived_.size() > count) arrived_.resize(count);
+  return arrived_;
 }
 
 }  // namespace test

@@ -33,8 +33,6 @@ class Child {
 
   pid_t pid() const { return pid_; }
   bool running() const;
-  /// [s] Processor time that the process has used.
-  double processorTime() const;
 
  private:
   pid_t pid_ = -1;
@@ -88,8 +86,9 @@ class PairsListener {
   /// Waits for the next message for which `wanted` is true. @returns null if none comes within `patience`
   hgrid_proximity::PairsConstPtr waitFor(const std::function<bool(const hgrid_proximity::Pairs&)>& wanted,
                                          std::chrono::seconds patience);
-  /// Waits for this duration and returns the times between successive messages [s], sorted.
-  std::vector<double> gapsOver(std::chrono::seconds duration);
+  /// Returns the next `count` messages in the order in which they arrived, or fewer if they take longer than
+  /// `patience`.
+  std::vector<hgrid_proximity::PairsConstPtr> next(std::size_t count, std::chrono::seconds patience);
 
  private:
   void onPairs(const hgrid_proximity::PairsConstPtr& message);
@@ -98,7 +97,7 @@ class PairsListener {
   std::mutex mutex_;
   std::condition_variable came_;
   hgrid_proximity::PairsConstPtr last_;
-  std::vector<std::chrono::steady_clock::time_point> arrivals_;
+  std::vector<hgrid_proximity::PairsConstPtr> arrived_;  // since the last call of next()
   ros::Subscriber subscriber_;
   ros::AsyncSpinner spinner_;
 };
