@@ -23,6 +23,7 @@ set(HGRID_CORE_SOURCES
   src/broadphase/isa.cpp
   src/broadphase/workers.cpp
   src/distances/map_meter.cpp
+  src/distances/pair_distance.cpp
   src/distances/pair_meter.cpp
   src/explain/allowed_matrix.cpp
   src/explain/changed_pairs.cpp

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
-#include "hgrid_proximity/distances/pair_meter.h"
+#include "hgrid_proximity/distances/pair_distance.h"
 
 namespace hgrid {
 

@@ -10,7 +10,7 @@
 
 #include "bodies/motion_bound.h"
 #include "broadphase/workers.h"
-#include "distances/map_meter.h"
+#include "distances/nearest_shapes.h"
 #include "hgrid_proximity/geometry/float_environment.h"
 
 namespace hgrid {
@@ -22,119 +22,13 @@ constexpr double kLittle = 0.25;         // a smaller move than this share of th
 constexpr double kSmoothing = 0.05;      // [s] time constant of the low-pass filter for the closing speed
 constexpr std::size_t kPairsPerJob = 8;  // pairs that a thread measures before it takes the next job
 
-struct ShapePair {
-  double gap;
-  std::uint32_t first, second;
-};
-
-/// The nearest shapes of two bodies, and how they lie relative to each other.
-struct NearestShapes {
-  std::uint32_t first = 0, second = 0;
-  Proximity proximity;
-  std::vector<NearCell> cells;  // nearest cells, if one of the bodies is a map
-};
-
-/// Collects the pairs of shapes whose boxes are at most `up_to` [m] apart, nearest boxes first.
-void collectShapePairs(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second, double up_to,
-                       std::vector<ShapePair>& shape_pairs) {
-  const std::vector<ProxyId>& begin = snapshot.structure().first_proxy;
-  shape_pairs.clear();
-  for (ProxyId a = begin[first]; a < begin[first + 1]; ++a) {
-    for (ProxyId b = begin[second]; b < begin[second + 1]; ++b) {
-      const double gap = distance(snapshot.boxes()[a], snapshot.boxes()[b]);
-      if (gap <= up_to) shape_pairs.push_back({gap, a - begin[first], b - begin[second]});
-    }
-  }
-  std::sort(shape_pairs.begin(), shape_pairs.end(), [](const ShapePair& a, const ShapePair& b) {
-    return std::tie(a.gap, a.first, a.second) < std::tie(b.gap, b.first, b.second);
-  });
-}
-
-/// Calls `ask` with a pair of shapes as solids at their poses. Does nothing if one of the shapes has no solid.
-template <class Ask>
-void placed(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second, const ShapePair& shapes, Ask&& ask) {
-  const std::vector<Body>& bodies = snapshot.structure().bodies;
-  const BodyShape &a = bodies[first].shapes[shapes.first], &b = bodies[second].shapes[shapes.second];
-  if (!a.solid || !b.solid) return;
-  const Pose world_from_a = snapshot.poses()[first].world_from_body * a.body_from_shape;
-  const Pose world_from_b = snapshot.poses()[second].world_from_body * b.body_from_shape;
-  ask(PlacedSolid{*a.solid, world_from_a, a.padding}, PlacedSolid{*b.solid, world_from_b, b.padding});
-}
-
-NearestShapes nearestShapes(const NarrowPhase& narrow_phase, const Snapshot& snapshot, std::uint32_t first,
-                            std::uint32_t second, double up_to, std::vector<ShapePair>& shape_pairs) {
-  NearestShapes nearest;
-  if (snapshot.structure().isMap(first) || snapshot.structure().isMap(second)) {
-    MapProximity found = measureMap(narrow_phase, snapshot, first, second, up_to);
-    (snapshot.structure().isMap(first) ? nearest.second : nearest.first) = found.shape;
-    nearest.proximity = found.proximity;
-    nearest.cells = std::move(found.cells);
-    return nearest;
-  }
-  const std::vector<Body>& bodies = snapshot.structure().bodies;
-  if (bodies[first].shapes.empty() || bodies[second].shapes.empty()) return nearest;  // nothing to measure
-  collectShapePairs(snapshot, first, second, up_to, shape_pairs);
-  nearest.proximity.status = Measure::apart;
-  nearest.proximity.distance = std::numeric_limits<double>::infinity();
-  double least = up_to;
-  for (const ShapePair& shapes : shape_pairs) {
-    if (shapes.gap > least) break;
-    Proximity found;
-    placed(snapshot, first, second, shapes,
-           [&](const PlacedSolid& a, const PlacedSolid& b) { found = narrow_phase.measure(a, b, least); });
-    if (found.status == Measure::not_measured || found.distance < nearest.proximity.distance) {
-      nearest = {shapes.first, shapes.second, found, {}};
-    }
-    if (found.status != Measure::apart) break;  // no other pair of shapes can be nearer
-    least = std::min(least, found.distance);
-  }
-  return nearest;
-}
-
 }  // namespace
-
-PairDistance measurePair(const NarrowPhase& narrow_phase, const Snapshot& snapshot, std::uint32_t first,
-                         std::uint32_t second, double up_to) {
-  const DefaultFloatEnvironment environment;
-  std::vector<ShapePair> shape_pairs;
-  const NearestShapes nearest = nearestShapes(narrow_phase, snapshot, first, second, up_to, shape_pairs);
-  PairDistance result;
-  result.first = first;
-  result.second = second;
-  result.first_shape = nearest.first;
-  result.second_shape = nearest.second;
-  result.proximity = nearest.proximity;
-  result.cells = nearest.cells;
-  return result;
-}
-
-std::vector<PairContact> contactsOf(const NarrowPhase& narrow_phase, const Snapshot& snapshot, std::uint32_t first,
-                                    std::uint32_t second, std::size_t most) {
-  const DefaultFloatEnvironment environment;
-  std::vector<PairContact> contacts;
-  std::vector<ShapePair> shape_pairs;
-  if (snapshot.structure().isMap(first) || snapshot.structure().isMap(second)) {
-    contacts = contactsWithMap(narrow_phase, snapshot, first, second, most);
-  } else {
-    collectShapePairs(snapshot, first, second, 0.0, shape_pairs);
-  }
-  for (const ShapePair& shapes : shape_pairs) {
-    placed(snapshot, first, second, shapes, [&](const PlacedSolid& a, const PlacedSolid& b) {
-      for (const Contact& contact : narrow_phase.contacts(a, b, most - contacts.size())) {
-        contacts.push_back({shapes.first, shapes.second, contact});
-      }
-    });
-  }
-  std::stable_sort(contacts.begin(), contacts.end(),
-                   [](const PairContact& a, const PairContact& b) { return deeper(a.contact, b.contact); });
-  return contacts;
-}
 
 struct PairMeter::State {
   /// The result of the last measurement of a pair.
   struct Known {
     std::uint32_t first = 0, second = 0;
-    bool measured = false;  // whether the pair was ever measured; if not, the other members are meaningless
+    bool measured = false;  // whether the pair was ever measured; if not, the members below are meaningless
     Time measured_at{0};    // stamp of the snapshot for which this result is valid
     Pose world_from_first = Pose::Identity(), world_from_second = Pose::Identity();
     std::uint32_t first_shape = 0, second_shape = 0;
@@ -145,12 +39,16 @@ struct PairMeter::State {
     // The last sample of the distance, for the closing speed.
     Time stamp{0};
     double distance = Proximity::kUnknown, speed = Proximity::kUnknown;
+    // Sequence number of the last snapshot that did not leave the pair out, or of the one before the pair appeared.
+    std::uint64_t served = 0;
   };
   struct Job {
     const NearPair* pair;
     double report;         // [m] a pair that is farther apart is not listed
     Known known;           // input: the last result; output: the new result
-    bool shown, left_out;  // shown: the pair is listed; left_out: the time ran out before it was measured
+    double moved = 0.0;    // [m] see motionSince()
+    double bound = 0.0;    // [m] lower bound of the distance, from the boxes and the last result
+    bool left_out = true;  // it needs a measurement that was not made (yet)
   };
 
   State(std::shared_ptr<const NarrowPhase> phase, const MeterOptions& given)
@@ -159,9 +57,13 @@ struct PairMeter::State {
   void recall(const Snapshot& snapshot);
   static std::shared_ptr<const MapCells> mapOf(const Snapshot& snapshot, const Known& known);
   static double motionSince(const Snapshot& snapshot, const Known& known);
-  static double boundOf(const Snapshot& snapshot, const Known& known);
+  static void assess(const Snapshot& snapshot, Job& job);
+  void measureDue(const Snapshot& snapshot, Clock::time_point begin);
+  void measureUntil(const Snapshot& snapshot, std::vector<Job*>& due, Clock::time_point deadline, std::size_t at_least);
   void perform(const Snapshot& snapshot, Job& job, std::vector<ShapePair>& shape_pairs) const;
+  static void updateSpeed(const Snapshot& snapshot, Job& job);
   PairDistance entryOf(const Snapshot& snapshot, const Job& job) const;
+  std::shared_ptr<const PairDistances> result(const Snapshot& snapshot) const;
 
   std::shared_ptr<const NarrowPhase> narrow_phase;
   MeterOptions options;
@@ -169,6 +71,7 @@ struct PairMeter::State {
   std::uint64_t revision = 0, epoch = 0;
   std::vector<Known> known;  // sorted by (first, second)
   std::vector<Job> jobs;
+  std::vector<Job*> due;
   std::vector<std::vector<ShapePair>> scratch;  // one buffer for each thread
 };
 
@@ -176,7 +79,7 @@ PairMeter::PairMeter(std::shared_ptr<const NarrowPhase> narrow_phase, const Mete
     : state_(std::make_unique<State>(std::move(narrow_phase), options)) {}
 PairMeter::~PairMeter() = default;
 
-/// Creates the jobs, those with the smallest gap first. Each job gets the last result of its pair.
+/// Creates the jobs, each with the last result of its pair.
 void PairMeter::State::recall(const Snapshot& snapshot) {
   const Structure& structure = snapshot.structure();
   if (revision != structure.revision || epoch != snapshot.epoch()) known.clear();  // the body indices may have changed
@@ -192,13 +95,13 @@ void PairMeter::State::recall(const Snapshot& snapshot) {
     };
     while (last != known.end() && before(*last)) ++last;
     if (pair.gap > report) continue;
-    jobs.push_back({&pair, report, {}, false, false});
+    jobs.push_back({&pair, report, {}});
     Known& now = jobs.back().known;
+    now.served = snapshot.sequence() - 1;
     if (last != known.end() && last->first == pair.first && last->second == pair.second) now = *last;
     now.first = pair.first;
     now.second = pair.second;
   }
-  std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.pair->gap < b.pair->gap; });
 }
 
 /// Returns the cells of the map in a pair; null if neither body is a map.
@@ -225,38 +128,87 @@ double PairMeter::State::motionSince(const Snapshot& snapshot, const Known& know
                         reachOf(structure.bodies[known.first]));
 }
 
-/// Returns a lower bound [m] of the distance of a pair that is not measured now: its last measured distance, minus what
-/// both bodies have moved since. 0 if the pair was never measured.
-double PairMeter::State::boundOf(const Snapshot& snapshot, const Known& known) {
-  if (known.proximity.status == Measure::not_measured) return 0.0;
-  return std::max(0.0, std::min(known.proximity.distance, known.up_to) - motionSince(snapshot, known));
+/// Sets what follows from the last result of a pair: its motion, its lower bound, and whether it must be measured.
+void PairMeter::State::assess(const Snapshot& snapshot, Job& job) {
+  Known& now = job.known;
+  job.moved = motionSince(snapshot, now);
+  const double at_least = std::min(now.proximity.distance, now.up_to) - job.moved;  // NaN without a measured distance
+  job.bound = std::max(job.pair->gap, now.proximity.status == Measure::not_measured ? 0.0 : at_least);
+  const bool enough_known = job.moved == 0.0 ? now.up_to >= job.report : at_least > job.report;
+  job.left_out = !now.measured || !enough_known;
+  if (job.moved == 0.0 && !job.left_out) now.measured_at = snapshot.stamp();
+}
+
+/// Measures the pairs that must be measured, as the comment of PairMeter says.
+void PairMeter::State::measureDue(const Snapshot& snapshot, Clock::time_point begin) {
+  due.clear();
+  for (Job& job : jobs) {
+    if (job.left_out) due.push_back(&job);
+  }
+  const auto by_bound = [](const Job* job) {
+    return std::tie(job->bound, job->pair->gap, job->pair->first, job->pair->second);
+  };
+  std::sort(due.begin(), due.end(), [&](const Job* a, const Job* b) { return by_bound(a) < by_bound(b); });
+  if (options.budget == 0.0) return measureUntil(snapshot, due, begin, due.size());
+  const auto budget = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.budget));
+  measureUntil(snapshot, due, begin + budget / 2, 0);
+  std::stable_sort(due.begin(), due.end(),
+                   [](const Job* a, const Job* b) { return a->known.served < b->known.served; });
+  measureUntil(snapshot, due, begin + budget, 1);
+}
+
+/// Measures the pairs in `due` in their order, and removes them from `due`. Ends at the deadline, but not before the
+/// first `at_least` pairs were measured.
+void PairMeter::State::measureUntil(const Snapshot& snapshot, std::vector<Job*>& due, Clock::time_point deadline,
+                                    std::size_t at_least) {
+  std::atomic<bool> out_of_time{false};
+  const std::size_t per_job = workers.threads() == 1 ? 1 : kPairsPerJob;
+  workers.run((due.size() + per_job - 1) / per_job, [&](std::size_t number, std::size_t thread) {
+    const DefaultFloatEnvironment of_this_thread;
+    const std::size_t end = std::min((number + 1) * per_job, due.size());
+    for (std::size_t i = number * per_job; i < end; ++i) {
+      if (i >= at_least && (out_of_time || options.now() > deadline)) {
+        out_of_time = true;
+        return;
+      }
+      perform(snapshot, *due[i], scratch[thread]);
+    }
+  });
+  due.erase(std::remove_if(due.begin(), due.end(), [](const Job* job) { return !job->left_out; }), due.end());
 }
 
 void PairMeter::State::perform(const Snapshot& snapshot, Job& job, std::vector<ShapePair>& shape_pairs) const {
-  const Pose &first = snapshot.poses()[job.pair->first].world_from_body,
-             &second = snapshot.poses()[job.pair->second].world_from_body;
   Known& now = job.known;
-  const double moved = motionSince(snapshot, now);
-  const double at_least = std::min(now.proximity.distance, now.up_to) - moved;
-  const bool enough_known = moved == 0.0 ? now.up_to >= job.report : at_least > job.report;
-  if (!now.measured || !enough_known) {
-    // The distance cannot exceed this bound, so the search may end there. The addend is larger than any solver error.
-    const double at_most = now.proximity.distance + moved + 1e-6;
-    // After a small move, search a little farther than the report distance, so that the next tick need not measure.
-    now.up_to = moved < kLittle * job.report ? (1.0 + kLittle) * job.report : job.report;
-    now.world_from_first = first;
-    now.world_from_second = second;
-    const NearestShapes nearest = nearestShapes(*narrow_phase, snapshot, job.pair->first, job.pair->second,
-                                                at_most < now.up_to ? at_most : now.up_to, shape_pairs);
-    now.first_shape = nearest.first;
-    now.second_shape = nearest.second;
-    now.proximity = nearest.proximity;
-    now.cells = nearest.cells;
-    now.map = mapOf(snapshot, now);
-    now.measured = true;
+  // The distance cannot exceed this bound, so the search may end there. The addend is larger than any solver error.
+  const double at_most = now.proximity.distance + job.moved + 1e-6;
+  // After a small move, search a little farther than the report distance, so that the next tick need not measure.
+  now.up_to = job.moved < kLittle * job.report ? (1.0 + kLittle) * job.report : job.report;
+  now.world_from_first = snapshot.poses()[now.first].world_from_body;
+  now.world_from_second = snapshot.poses()[now.second].world_from_body;
+  const NearestShapes nearest = nearestShapes(*narrow_phase, snapshot, now.first, now.second,
+                                              at_most < now.up_to ? at_most : now.up_to, shape_pairs);
+  now.first_shape = nearest.first;
+  now.second_shape = nearest.second;
+  now.proximity = nearest.proximity;
+  now.cells = nearest.cells;
+  now.map = mapOf(snapshot, now);
+  now.measured = true;
+  now.measured_at = snapshot.stamp();
+  job.left_out = false;
+}
+
+/// Updates the estimate of the closing speed, and stores the distance as its newest sample.
+void PairMeter::State::updateSpeed(const Snapshot& snapshot, Job& job) {
+  Known& now = job.known;
+  const double distance = job.left_out ? Proximity::kUnknown : now.proximity.distance;
+  if (std::isfinite(distance) && std::isfinite(now.distance) && snapshot.stamp() > now.stamp) {
+    const double dt = seconds(snapshot.stamp() - now.stamp), raw = (now.distance - distance) / dt;
+    now.speed = std::isnan(now.speed) ? raw : now.speed + (raw - now.speed) * dt / (dt + kSmoothing);
+  } else if (snapshot.stamp() != now.stamp) {
+    now.speed = Proximity::kUnknown;
   }
-  if (moved == 0.0 || !enough_known) now.measured_at = snapshot.stamp();
-  job.shown = now.proximity.status == Measure::not_measured || now.proximity.distance <= job.report;
+  now.distance = distance;
+  now.stamp = snapshot.stamp();
 }
 
 PairDistance PairMeter::State::entryOf(const Snapshot& snapshot, const Job& job) const {
@@ -274,7 +226,7 @@ PairDistance PairMeter::State::entryOf(const Snapshot& snapshot, const Job& job)
   }
   const bool has_distance = entry.proximity.status != Measure::not_measured;
   if (job.known.proximity.status != Measure::not_measured) entry.measured = job.known.measured_at;
-  entry.lower_bound = has_distance ? entry.proximity.distance : std::max(entry.gap, boundOf(snapshot, job.known));
+  entry.lower_bound = has_distance ? entry.proximity.distance : job.bound;
   const double least = std::isnan(entry.proximity.distance) ? entry.gap : entry.proximity.distance;
   if (isContact(entry.proximity.status)) {
     entry.time_to_contact = 0.0;
@@ -286,45 +238,16 @@ PairDistance PairMeter::State::entryOf(const Snapshot& snapshot, const Job& job)
   return entry;
 }
 
-std::shared_ptr<const PairDistances> PairMeter::measure(const Snapshot& snapshot) {
-  const DefaultFloatEnvironment environment;
-  State& s = *state_;
-  const Clock::time_point begin = Clock::now();
-  const auto budget = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s.options.budget));
-  s.recall(snapshot);
-  s.scratch.resize(static_cast<std::size_t>(s.workers.threads()));
-  std::atomic<bool> out_of_time{false};
-  const std::size_t per_job = s.workers.threads() == 1 ? 1 : kPairsPerJob;
-  s.workers.run((s.jobs.size() + per_job - 1) / per_job, [&](std::size_t number, std::size_t thread) {
-    const DefaultFloatEnvironment of_this_thread;
-    const std::size_t end = std::min((number + 1) * per_job, s.jobs.size());
-    for (std::size_t i = number * per_job; i < end; ++i) {
-      State::Job& job = s.jobs[i];
-      if (s.options.budget > 0.0 && !out_of_time && Clock::now() - begin > budget) out_of_time = true;
-      if (out_of_time) {
-        job.shown = job.left_out = true;
-      } else {
-        s.perform(snapshot, job, s.scratch[thread]);
-      }
-    }
-  });
-
+std::shared_ptr<const PairDistances> PairMeter::State::result(const Snapshot& snapshot) const {
   const auto result = std::make_shared<PairDistances>();
-  for (State::Job& job : s.jobs) {
-    State::Known& now = job.known;
-    const double distance = job.left_out ? Proximity::kUnknown : now.proximity.distance;
-    if (std::isfinite(distance) && std::isfinite(now.distance) && snapshot.stamp() > now.stamp) {
-      const double dt = seconds(snapshot.stamp() - now.stamp), raw = (now.distance - distance) / dt;
-      now.speed = std::isnan(now.speed) ? raw : now.speed + (raw - now.speed) * dt / (dt + kSmoothing);
-    } else if (snapshot.stamp() != now.stamp) {
-      now.speed = Proximity::kUnknown;
-    }
-    now.distance = distance;
-    now.stamp = snapshot.stamp();
+  for (const Job& job : jobs) {
+    const Proximity& proximity = job.known.proximity;
     result->left_out += job.left_out;
-    result->failed += !job.left_out && now.proximity.status == Measure::failed;
+    result->failed += !job.left_out && proximity.status == Measure::failed;
     result->measured += !job.left_out;
-    if (job.shown) result->pairs.push_back(s.entryOf(snapshot, job));
+    if (job.left_out) result->longest_wait = std::max(result->longest_wait, snapshot.sequence() - job.known.served);
+    const bool near = proximity.status == Measure::not_measured || proximity.distance <= job.report;
+    if (job.left_out || near) result->pairs.push_back(entryOf(snapshot, job));
   }
   std::sort(result->pairs.begin(), result->pairs.end(), [](const PairDistance& a, const PairDistance& b) {
     const bool unknown_a = std::isnan(a.proximity.distance), unknown_b = std::isnan(b.proximity.distance);
@@ -332,12 +255,25 @@ std::shared_ptr<const PairDistances> PairMeter::measure(const Snapshot& snapshot
     const double key_a = unknown_a ? a.gap : a.proximity.distance, key_b = unknown_b ? b.gap : b.proximity.distance;
     return std::tie(key_a, a.first, a.second) < std::tie(key_b, b.first, b.second);
   });
+  return result;
+}
+
+std::shared_ptr<const PairDistances> PairMeter::measure(const Snapshot& snapshot) {
+  const DefaultFloatEnvironment environment;
+  State& s = *state_;
+  const Clock::time_point begin = s.options.now();
+  s.recall(snapshot);
+  s.scratch.resize(static_cast<std::size_t>(s.workers.threads()));
+  for (State::Job& job : s.jobs) State::assess(snapshot, job);
+  s.measureDue(snapshot, begin);
+  for (State::Job& job : s.jobs) State::updateSpeed(snapshot, job);
+  auto result = s.result(snapshot);
   s.known.reserve(s.jobs.size());  // this may throw, but the code below cannot
   s.known.clear();
-  for (State::Job& job : s.jobs) s.known.push_back(std::move(job.known));
-  std::sort(s.known.begin(), s.known.end(), [](const State::Known& a, const State::Known& b) {
-    return std::tie(a.first, a.second) < std::tie(b.first, b.second);
-  });
+  for (State::Job& job : s.jobs) {
+    if (!job.left_out) job.known.served = snapshot.sequence();
+    s.known.push_back(std::move(job.known));
+  }
   return result;
 }
 

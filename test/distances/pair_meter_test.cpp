@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <map>
 #include <new>
 #include <thread>
 
@@ -17,7 +18,8 @@ namespace {
 using test::at;
 using test::put;
 
-/// A narrow phase for spheres only. It counts its measurements. Tests can make it slow, or make it fail or throw.
+/// A narrow phase for spheres only, with a clock that stands still except while it measures. It counts its
+/// measurements. Tests can make it slow, or make it fail or throw.
 class BallPhase final : public NarrowPhase {
  public:
   struct Ball final : Solid {
@@ -39,7 +41,7 @@ class BallPhase final : public NarrowPhase {
       thrown = true;
       throw std::bad_alloc();
     }
-    std::this_thread::sleep_for(takes);
+    elapsed_ += std::chrono::nanoseconds(takes).count();
     const double around = static_cast<const Ball&>(first.solid).radius + first.padding +
                           static_cast<const Ball&>(second.solid).radius + second.padding;
     const Eigen::Vector3d way = second.world_from_shape.translation() - first.world_from_shape.translation();
@@ -62,12 +64,19 @@ class BallPhase final : public NarrowPhase {
     return {contact};
   }
 
+  std::chrono::steady_clock::time_point now() const {
+    return std::chrono::steady_clock::time_point(std::chrono::nanoseconds(elapsed_));
+  }
+
   mutable std::atomic<int> asked{0};
   int throws_at = 0;              // number of the measurement that throws bad_alloc; 0: none
   std::thread::id throws_beside;  // if set: this thread waits, and the other threads throw bad_alloc
   mutable std::atomic<bool> thrown{false};
-  std::chrono::microseconds takes{0};
+  std::chrono::microseconds takes{0};  // how long each measurement takes by now()
   bool fails = false;
+
+ private:
+  mutable std::atomic<std::int64_t> elapsed_{1'000'000'000};  // [ns]
 };
 
 class PairMeterTest : public ::testing::Test {
@@ -85,7 +94,7 @@ class PairMeterTest : public ::testing::Test {
     return meter.measure(*snapshot_);
   }
   PairMeter meterOf(double report, double budget = 0.0, int threads = 1) {
-    return PairMeter(phase_, {report, budget, threads});
+    return PairMeter(phase_, {report, budget, threads, [phase = phase_] { return phase->now(); }});
   }
 
   std::shared_ptr<BallPhase> phase_ = std::make_shared<BallPhase>();
@@ -177,8 +186,11 @@ TEST_F(PairMeterTest, WhatDoesNotFitIntoTheBudgetStaysACandidateNearestFirst) {
 /// Claim: if there is no time to measure a pair, its lower bound never exceeds the true distance. The bound is larger
 /// than the gap if the pair was measured before and moved little.
 TEST_F(PairMeterTest, APairThatIsNotMeasuredHasALowerBoundFromItsLastMeasurement) {
-  const BodyId slow = add("slow", -20.0),
-               other = add("slow_too", -20.5);  // in contact, so this pair is always measured first
+  std::vector<BodyId> others;  // pairs in contact, which are measured first
+  for (int i = 0; i < 3; ++i) {
+    others.push_back(add("other" + std::to_string(i), -10.0 * (i + 1)));
+    add("still" + std::to_string(i), -10.0 * (i + 1) - 0.5);
+  }
   const BodyId a = add("a", 0.0), b = add("b", 1.0);
   PairMeter meter = meterOf(3.0, 0.002);
   test::Random random(7);
@@ -187,14 +199,14 @@ TEST_F(PairMeterTest, APairThatIsNotMeasuredHasALowerBoundFromItsLastMeasurement
     const bool in_time = step % 2 == 1;
     phase_->takes = in_time ? std::chrono::microseconds(0) : std::chrono::microseconds(5000);
     const Time now = std::chrono::milliseconds(step);
-    scene_.place(slow, at(-20.0 + random.uniform(-0.1, 0.1)), now);
-    scene_.place(other, at(-20.5), now);
+    for (int i = 0; i < 3; ++i) scene_.place(others[i], at(-10.0 * (i + 1) + random.uniform(-0.1, 0.1)), now);
     const double from_y = 0.55 + random.uniform(0.0, 0.02), to_y = -0.55 - random.uniform(0.0, 0.02);
     scene_.place(a, Pose(Eigen::Translation3d(0.0, from_y, 0.0)), now);
     scene_.place(b, Pose(Eigen::Translation3d(1.1, to_y, 0.0)), now);
     const auto found = measure(meter, step);
-    ASSERT_EQ(found->pairs.size(), 2u);
-    const PairDistance& pair = found->pairs[1];
+    ASSERT_EQ(found->pairs.size(), 4u);
+    EXPECT_EQ(found->left_out, in_time ? 0u : 2u);
+    const PairDistance& pair = found->pairs.back();
     const double distance = std::hypot(1.1, from_y - to_y) - 1.0;
     EXPECT_LE(pair.lower_bound, distance + 1e-9) << "step " << step;
     EXPECT_GE(pair.lower_bound, pair.gap);
@@ -206,7 +218,58 @@ TEST_F(PairMeterTest, APairThatIsNotMeasuredHasALowerBoundFromItsLastMeasurement
       better += pair.lower_bound > pair.gap + 0.1 ? 1 : 0;
     }
   }
-  EXPECT_GT(better, 40u);
+  EXPECT_EQ(better, 50u);
+}
+
+/// Claim: half of the budget keeps the nearest pairs up to date. With the other half, each pair is measured again
+/// within a bounded number of snapshots, however many pairs are nearer.
+TEST_F(PairMeterTest, EachPairIsMeasuredAgainWithinABoundedNumberOfSnapshots) {
+  constexpr int kPairs = 40;
+  std::vector<BodyId> movers;
+  for (int i = 0; i < kPairs; ++i) {
+    add("still" + std::to_string(i), 10.0 * i);
+    movers.push_back(add("mover" + std::to_string(i), 10.0 * i + 1.1));
+  }
+  PairMeter meter = meterOf(2.0, 0.0079);  // [s] eight measurements of 1 ms: four nearest, four that wait
+  phase_->takes = std::chrono::milliseconds(1);
+  std::map<std::uint32_t, std::uint64_t> measured;  // by first body: the last snapshot in which its pair was measured
+  std::uint64_t most = 0;
+  for (int step = 1; step <= 60; ++step) {
+    for (int i = 0; i < kPairs; ++i) {
+      scene_.place(movers[i], at(10.0 * i + 1.1 + 0.01 * i + 0.00001 * step), std::chrono::milliseconds(step));
+    }
+    const auto found = measure(meter, step);
+    ASSERT_EQ(found->pairs.size(), static_cast<std::size_t>(kPairs));
+    EXPECT_EQ(found->measured, 8u);
+    for (const PairDistance& pair : found->pairs) {
+      std::uint64_t& last = measured[pair.first];
+      if (pair.proximity.status == Measure::apart) last = static_cast<std::uint64_t>(step);
+      const std::uint64_t waited = static_cast<std::uint64_t>(step) - last;
+      EXPECT_LE(waited, 10u) << "step " << step;  // (40 - 4) / 4, and one for the pairs that were not measured before
+      most = std::max(most, step > 1 ? waited : 0);
+      if (waited > 0) {
+        EXPECT_LE(waited, found->longest_wait);
+      }
+      if (pair.gap < 0.1 + 0.01 * 3.5) {
+        EXPECT_EQ(waited, 0u) << "one of the four nearest pairs";
+      }
+    }
+  }
+  EXPECT_GE(most, 8u) << "the test must make pairs wait";
+}
+
+TEST_F(PairMeterTest, OnePairIsMeasuredForEachSnapshotEvenWithoutTime) {
+  const BodyId a = add("a", 0.0), b = add("b", 1.1);
+  add("c", 2.2);
+  PairMeter meter = meterOf(0.2, 1e-9);
+  phase_->takes = std::chrono::seconds(1);
+  for (int step = 1; step <= 6; ++step) {
+    scene_.place(a, at(0.0001 * step), std::chrono::milliseconds(step));
+    scene_.place(b, at(1.1 + 0.0002 * step), std::chrono::milliseconds(step));
+    const auto found = measure(meter, step);
+    EXPECT_GE(found->measured, 1u);
+    EXPECT_LE(found->longest_wait, 1u);
+  }
 }
 
 TEST_F(PairMeterTest, EstimatesHowFastTheyComeNearerAndWhen) {

@@ -3,43 +3,13 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <vector>
 
-#include "hgrid_proximity/narrow/narrow_phase.h"
-#include "hgrid_proximity/world/snapshot.h"
+#include "hgrid_proximity/distances/pair_distance.h"
 
 namespace hgrid {
-
-/// An occupied cell of a map or cloud that is near a body.
-struct NearCell {
-  Eigen::Vector3d center;  ///< [m, world]
-  double edge = 0.0;       ///< [m]
-  double distance = 0.0;   ///< [m] distance of the cell from the body
-};
-
-/// Maximum number of cells that PairDistance::cells lists.
-inline constexpr std::size_t kNearCells = 4;
-
-/// The exact distance of a pair of bodies: the distance of their nearest shapes. The shapes of a map are its occupied
-/// cells.
-struct PairDistance {
-  std::uint32_t first = 0;         ///< index into Structure::bodies, first < second
-  std::uint32_t second = 0;        ///< index into Structure::bodies
-  std::uint32_t first_shape = 0;   ///< index of the nearest shape among the shapes of the first body
-  std::uint32_t second_shape = 0;  ///< index of the nearest shape among the shapes of the second body
-  double gap = 0.0;                ///< [m] distance of the boxes of the two bodies
-  std::uint8_t flags = 0;          ///< the same as NearPair::flags
-  Proximity proximity;             ///< how the nearest shapes lie relative to each other
-  /// [m] The distance of the pair is at least this: its distance if it was measured in this tick. Otherwise the larger
-  /// of `gap` and the last measured distance minus what both bodies can have moved since.
-  double lower_bound = 0.0;
-  Time measured{0};             ///< stamp of the data of the last measurement of this pair; 0: never measured
-  std::vector<NearCell> cells;  ///< only in pairs with a map or cloud: its nearest cells, nearest first
-  double closing_speed = Proximity::kUnknown;      ///< [m/s] estimate from past ticks; > 0: the bodies come closer
-  double time_to_contact = Proximity::kUnknown;    ///< [s] estimate; infinite if the bodies do not come closer
-  double no_contact_before = Proximity::kUnknown;  ///< [s] as Snapshot::noContactBefore() returns it
-};
 
 /// The exact distances of the pairs of one snapshot. Immutable.
 struct PairDistances {
@@ -47,36 +17,27 @@ struct PairDistances {
   std::size_t measured = 0;         ///< number of pairs whose distance was measured or already known
   std::size_t failed = 0;           ///< number of measured pairs on which the solver failed: treat them as contacts
   std::size_t left_out = 0;         ///< number of pairs that were not measured because the time ran out
+  /// Number of successive snapshots, up to this one, in which a pair was left out: the largest number of all pairs.
+  std::uint64_t longest_wait = 0;
 };
-
-/// Measures one pair of bodies of a snapshot, even if the bodies are far apart. Fills in no gap, bounds or estimates.
-/// Both bodies must have poses.
-/// @param up_to  [m] a larger distance is returned as infinite
-PairDistance measurePair(const NarrowPhase& narrow_phase, const Snapshot& snapshot, std::uint32_t first,
-                         std::uint32_t second, double up_to);
-
-/// One contact of two bodies.
-struct PairContact {
-  std::uint32_t first_shape = 0;   ///< index of the touching shape among the shapes of the first body
-  std::uint32_t second_shape = 0;  ///< index of the touching shape among the shapes of the second body
-  Contact contact;                 ///< point, normal and depth of the contact
-};
-
-/// Finds the contacts of two bodies of a snapshot, deepest first. Both bodies must have poses. If the status of
-/// measurePair() is `failed`, there may be no contacts.
-/// @param most  the search ends after this many contacts, even if others are deeper
-std::vector<PairContact> contactsOf(const NarrowPhase& narrow_phase, const Snapshot& snapshot, std::uint32_t first,
-                                    std::uint32_t second, std::size_t most);
 
 /// The settings of a PairMeter.
 struct MeterOptions {
   double report_distance = 0.1;  ///< [m] pairs that are farther apart are not listed
   double budget = 0.0;           ///< [s] time for each snapshot; 0: no limit
   int threads = 1;               ///< number of threads, 1 .. 64
+  /// The clock that the budget refers to. Any thread may call it.
+  std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;
 };
 
-/// Measures the pairs of successive snapshots, those with the smallest gap first. It remembers results of each pair, so
-/// that later snapshots take less time. One thread at a time may call its functions.
+/// Measures the pairs of successive snapshots. It remembers results of each pair, so that later snapshots take less
+/// time. One thread at a time may call its functions.
+///
+/// A pair needs no measurement if it did not move, or if its last distance proves that it is farther apart than the
+/// report distance. If the budget does not suffice for all other pairs, half of it goes to the pairs with the smallest
+/// lower bounds. The other half goes to the pairs that have waited longest, and at least one of these is measured for
+/// each snapshot. So each pair is measured again within a bounded number of snapshots. A measurement that has begun is
+/// completed, even if the budget ends.
 class PairMeter {
  public:
   /// @param narrow_phase  measures the shapes; the solids of the bodies must come from it

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <vector>
+
+#include "hgrid_proximity/narrow/narrow_phase.h"
+#include "hgrid_proximity/world/snapshot.h"
+
+namespace hgrid {
+
+/// An occupied cell of a map or cloud that is near a body.
+struct NearCell {
+  Eigen::Vector3d center;  ///< [m, world]
+  double edge = 0.0;       ///< [m]
+  double distance = 0.0;   ///< [m] distance of the cell from the body
+};
+
+/// Maximum number of cells that PairDistance::cells lists.
+inline constexpr std::size_t kNearCells = 4;
+
+/// The exact distance of a pair of bodies: the distance of their nearest shapes. The shapes of a map are its occupied
+/// cells.
+struct PairDistance {
+  std::uint32_t first = 0;         ///< index into Structure::bodies, first < second
+  std::uint32_t second = 0;        ///< index into Structure::bodies
+  std::uint32_t first_shape = 0;   ///< index of the nearest shape among the shapes of the first body
+  std::uint32_t second_shape = 0;  ///< index of the nearest shape among the shapes of the second body
+  double gap = 0.0;                ///< [m] distance of the boxes of the two bodies
+  std::uint8_t flags = 0;          ///< the same as NearPair::flags
+  Proximity proximity;             ///< how the nearest shapes lie relative to each other
+  /// [m] The distance of the pair is at least this: its distance if it was measured in this tick. Otherwise the larger
+  /// of `gap` and the last measured distance minus what both bodies can have moved since.
+  double lower_bound = 0.0;
+  Time measured{0};             ///< stamp of the data of the last measurement of this pair; 0: never measured
+  std::vector<NearCell> cells;  ///< only in pairs with a map or cloud: its nearest cells, nearest first
+  double closing_speed = Proximity::kUnknown;      ///< [m/s] estimate from past ticks; > 0: the bodies come closer
+  double time_to_contact = Proximity::kUnknown;    ///< [s] estimate; infinite if the bodies do not come closer
+  double no_contact_before = Proximity::kUnknown;  ///< [s] as Snapshot::noContactBefore() returns it
+};
+
+/// Measures one pair of bodies of a snapshot, even if the bodies are far apart. Fills in no gap, bounds or estimates.
+/// Both bodies must have poses.
+/// @param up_to  [m] a larger distance is returned as infinite
+PairDistance measurePair(const NarrowPhase& narrow_phase, const Snapshot& snapshot, std::uint32_t first,
+                         std::uint32_t second, double up_to);
+
+/// One contact of two bodies.
+struct PairContact {
+  std::uint32_t first_shape = 0;   ///< index of the touching shape among the shapes of the first body
+  std::uint32_t second_shape = 0;  ///< index of the touching shape among the shapes of the second body
+  Contact contact;                 ///< point, normal and depth of the contact
+};
+
+/// Finds the contacts of two bodies of a snapshot, deepest first. Both bodies must have poses. If the status of
+/// measurePair() is `failed`, there may be no contacts.
+/// @param most  the search ends after this many contacts, even if others are deeper
+std::vector<PairContact> contactsOf(const NarrowPhase& narrow_phase, const Snapshot& snapshot, std::uint32_t first,
+                                    std::uint32_t second, std::size_t most);
+
+}  // namespace hgrid
