@@ -16,7 +16,7 @@ namespace {
 /// The rows of the table: the name in the table, and the node's own name of the timing.
 const std::vector<std::pair<const char*, const char*>> kParts = {
     {"tick", "tick"},        {"poses", "tick.poses"},     {"boxes", "tick.boxes"},         {"broad phase", "tick.grid"},
-    {"pairs", "tick.pairs"}, {"publish", "tick.publish"}, {"distances", "tick.distances"}, {"tf", "tf"},
+    {"pairs", "tick.pairs"}, {"publish", "tick.publish"}, {"distances", "distances"}, {"tf", "tf"},
     {"latency", "latency"},
 };
 

@@ -75,7 +75,10 @@ bool ProximityNode::isEnding() const { return stopping_ || ros::isShuttingDown()
 std::vector<TickLoop::Step> ProximityNode::tickSteps() {
   using TickPtr = std::shared_ptr<const Tick>;
   return {{"tick.publish", [this](const TickPtr& tick) { publishers_.publishTick(*tick); }},
-          {"tick.distances", [this](const TickPtr& tick) { publishers_.publishDistances(tick); }},
+          {"",
+           [this](const TickPtr& tick) {
+             if (const auto time = publishers_.publishDistances(tick)) stopwatch_.add("distances", *time);
+           }},
           {"", [this](const TickPtr& tick) { completeness_log_.log(*tick); }}};
 }
 

@@ -11,6 +11,8 @@ namespace {
 using diagnostic_msgs::DiagnosticStatus;
 using diagnostic_updater::DiagnosticStatusWrapper;
 
+constexpr std::uint64_t kLongestWait = 10;  // [ticks] a pair should be measured again within this many ticks
+
 void addAll(DiagnosticStatusWrapper& status, const std::string& key, const std::vector<std::string>& lines) {
   for (std::size_t i = 0; i < lines.size(); ++i) status.add(key + " " + std::to_string(i + 1), lines[i]);
 }
@@ -123,7 +125,19 @@ void NodeDiagnostics::ticks(DiagnosticStatusWrapper& status) {
   } else {
     status.summary(DiagnosticStatus::OK, "on time");
   }
+  if (health.failed_distances) {
+    status.mergeSummary(DiagnosticStatus::ERROR, std::string("the last measurement of ~distances failed: ") +
+                                                     name(health.failed_distances->code()) + " " +
+                                                     health.failed_distances->what());
+  }
+  if (health.longest_wait > kLongestWait) {
+    status.mergeSummary(DiagnosticStatus::WARN,
+                        "the distance of a pair was not measured for " + std::to_string(health.longest_wait) +
+                            " ticks; it should be at most " + std::to_string(kLongestWait) +
+                            "; increase ~distances/budget or ~distances/threads, or reduce ~distances/max");
+  }
   status.add("failed ticks", health.failed_ticks);
+  status.add("longest time without a measurement of a pair [ticks]", health.longest_wait);
   if (tick && tick->snapshot) status.add("sequence", tick->snapshot->sequence());
 }
 

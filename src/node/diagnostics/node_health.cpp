@@ -15,6 +15,16 @@ void NodeHealth::noteLateness(bool late) {
   report_.late_ticks_in_a_row = late ? report_.late_ticks_in_a_row + 1 : 0;
 }
 
+void NodeHealth::noteDistances(const std::optional<Refusal>& fault) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  report_.failed_distances = fault;
+}
+
+void NodeHealth::noteLongestWait(std::uint64_t ticks) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  report_.longest_wait = ticks;
+}
+
 void NodeHealth::noteConflicts(const std::vector<std::string>& frames) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (frames.size() != report_.conflicts.size()) report_.conflicts = frames;

@@ -17,9 +17,11 @@ namespace hgrid {
 struct HealthReport {
   std::map<std::string, std::string> failed_loads;  ///< by robot: why its description could not be loaded
   std::size_t late_ticks_in_a_row = 0;
-  std::uint64_t failed_ticks = 0;      ///< number of failed ticks since the start of the node
-  std::optional<Refusal> failed_tick;  ///< why the last tick failed; nullopt if it did not
-  std::vector<std::string> conflicts;  ///< frames that are published on both /tf and /tf_static
+  std::uint64_t failed_ticks = 0;           ///< number of failed ticks since the start of the node
+  std::optional<Refusal> failed_tick;       ///< why the last tick failed; nullopt if it did not
+  std::optional<Refusal> failed_distances;  ///< why the last measurement of distances failed; nullopt if it did not
+  std::uint64_t longest_wait = 0;           ///< [ticks] see PairDistances::longest_wait
+  std::vector<std::string> conflicts;       ///< frames that are published on both /tf and /tf_static
 };
 
 /// Collects data for /diagnostics from all parts of the node. Any thread may use it.
@@ -29,6 +31,10 @@ class NodeHealth {
   void noteTick(const std::optional<Refusal>& fault);
   /// Call this for every tick. @param late  true if the tick began more than one period too late
   void noteLateness(bool late);
+  /// Call this after each tick whose distances were measured. @param fault  why that failed; nullopt if it did not fail
+  void noteDistances(const std::optional<Refusal>& fault);
+  /// @param ticks  the largest number of successive ticks in which the distance of a pair was not measured
+  void noteLongestWait(std::uint64_t ticks);
   /// @param frames  all frames that are published on both /tf and /tf_static. A frame is never removed from this list.
   void noteConflicts(const std::vector<std::string>& frames);
   /// Notes why a robot could not be loaded. @returns whether the sentence differs from the last one for this robot

@@ -34,6 +34,7 @@ boost::shared_ptr<msg::Distances> distancesMessage(const Tick& tick, const msg::
   const std::size_t shown = std::min(distances->pairs.size(), static_cast<std::size_t>(params.max_pairs));
   message->total = static_cast<std::uint32_t>(distances->pairs.size());
   message->truncated = shown < distances->pairs.size() || snapshot.truncated();
+  message->longest_wait = distances->longest_wait;
   const std::vector<std::uint32_t> named = fillNames(snapshot.structure(), *distances, shown, message->names);
   const auto number = [&](std::uint32_t body) {
     return static_cast<std::uint32_t>(std::lower_bound(named.begin(), named.end(), body) - named.begin());

@@ -149,8 +149,9 @@ void visitParams(Visitor& v, Params& p) {
            "~distances lists pairs whose shapes are at most this far apart; it must be at most ~margin, even if pairs "
            "have larger margins; 0: the value of ~margin");
   v.number("distances/budget", p.distances_budget, "s", 0.0, 10.0,
-           "longest time per tick for measuring distances. Pairs that do not fit are not measured; these are the pairs "
-           "with the largest gaps. ~events may use up to a fifth of this in addition. 0: no limit");
+           "time for measuring the distances of one tick. If it is too short for all pairs, half of it goes to the "
+           "nearest pairs, and half to the pairs that have waited longest. ~events may use up to a fifth of this in "
+           "addition. 0: no limit");
   v.integer("distances/threads", p.distances_threads, 1, 64, "number of threads that measure distances");
 
   v.section("Limits");

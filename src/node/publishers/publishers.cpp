@@ -18,8 +18,8 @@ void Publishers::publishTick(const Tick& tick) {
   rules_.publish(tick);
 }
 
-void Publishers::publishDistances(const std::shared_ptr<const Tick>& tick) {
-  distances_.publish(tick, markers_.subscribed());
+std::optional<std::chrono::nanoseconds> Publishers::publishDistances(const std::shared_ptr<const Tick>& tick) {
+  return distances_.publish(tick, markers_.subscribed());
 }
 
 void Publishers::publishMarkers(const std::shared_ptr<const Tick>& newest) {

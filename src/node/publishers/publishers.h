@@ -4,7 +4,9 @@
 
 #include <ros/node_handle.h>
 
+#include <chrono>
 #include <memory>
+#include <optional>
 
 #include "node/commons.h"
 #include "node/publishers/bodies_publisher.h"
@@ -25,8 +27,8 @@ class Publishers {
 
   /// Publishes ~events, ~pairs and ~status, and also ~bodies and ~rules if they changed. The tick thread calls this.
   void publishTick(const Tick& tick);
-  /// Measures and publishes ~distances. The tick thread calls this.
-  void publishDistances(const std::shared_ptr<const Tick>& tick);
+  /// Starts to measure and publish ~distances, see DistancesPublisher::publish(). The tick thread calls this.
+  std::optional<std::chrono::nanoseconds> publishDistances(const std::shared_ptr<const Tick>& tick);
   /// Publishes ~markers. The admin thread calls this. @param newest  null before the first tick
   void publishMarkers(const std::shared_ptr<const Tick>& newest);
 

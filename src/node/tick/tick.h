@@ -37,7 +37,8 @@ struct Tick {
 /// A tick and the exact distances of its pairs.
 struct MeasuredTick {
   std::shared_ptr<const Tick> tick;
-  std::shared_ptr<const PairDistances> distances;
+  std::shared_ptr<const PairDistances> distances;  ///< null if the tick has no snapshot
+  std::chrono::nanoseconds time{0};                ///< how long the measurements took
 };
 
 }  // namespace hgrid

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
 // The node with a narrow phase that throws exceptions for tests. The parameter ~fault names the function that throws;
-// ~fault_kind is the kind of the exception.
+// ~fault_kind is the kind of the exception. While ~fault is "hang", measurements do not end.
 #include <ros/ros.h>
 
 #include <new>
@@ -28,6 +28,8 @@ class FaultyPhase final : public NarrowPhase {
   }
   Proximity measure(const PlacedSolid& first, const PlacedSolid& second, double up_to) const override {
     throwIf("measure");
+    while (isFault("hang") && ros::ok()) {
+    }
     return sound_->measure(first, second, up_to);
   }
   std::vector<Contact> contacts(const PlacedSolid& first, const PlacedSolid& second, std::size_t most) const override {
@@ -36,9 +38,13 @@ class FaultyPhase final : public NarrowPhase {
   }
 
  private:
+  static bool isFault(const std::string& fault) {
+    std::string now;
+    return ros::param::get("~fault", now) && now == fault;
+  }
   static void throwIf(const std::string& function) {
-    std::string fault, kind;
-    if (!ros::param::get("~fault", fault) || fault != function) return;
+    std::string kind;
+    if (!isFault(function)) return;
     ros::param::get("~fault_kind", kind);
     if (kind == "int") throw 1;
     if (kind == "memory") throw std::bad_alloc();

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "src/node/tick/newest_only.h"
+
+#include <gtest/gtest.h>
+
+#include <future>
+#include <vector>
+
+namespace hgrid {
+namespace {
+
+TEST(NewestOnly, DropsTheValueThatWaitsWhenANewerOneArrives) {
+  std::promise<void> begun, may_end, all_done;
+  std::vector<int> done;
+  NewestOnly<int> thread([&](const int& value) {
+    done.push_back(value);
+    if (value == 1) {
+      begun.set_value();
+      may_end.get_future().wait();
+    }
+    if (value == 3) all_done.set_value();
+  });
+  EXPECT_FALSE(thread.give(1));
+  begun.get_future().wait();
+  EXPECT_FALSE(thread.give(2)) << "the work on 1 has begun, so 1 is not dropped";
+  EXPECT_TRUE(thread.give(3)) << "2 still waits";
+  may_end.set_value();
+  all_done.get_future().wait();
+  EXPECT_EQ(done, std::vector<int>({1, 3}));
+}
+
+}  // namespace
+}  // namespace hgrid
