@@ -88,8 +88,6 @@ void PairFilter::resolve(const std::vector<Body>& bodies) {
   std::sort(named_.begin(), named_.end(), [](const NamedPair& a, const NamedPair& b) {
     return a.bodies != b.bodies ? a.bodies < b.bodies : a.rule > b.rule;
   });
-  const auto same_bodies = [](const NamedPair& a, const NamedPair& b) { return a.bodies == b.bodies; };
-  named_.erase(std::unique(named_.begin(), named_.end(), same_bodies), named_.end());
   if (!glob_rules_.empty()) fillSets(names, bodies.size());
 }
 
@@ -109,6 +107,39 @@ void PairFilter::fillSets(const NameIndex& names, std::size_t bodies) {
     note(rules_[glob_rules_[bit]].first, bit, as_first_);
     note(rules_[glob_rules_[bit]].second, bit, as_second_);
   }
+}
+
+PairFilter PairFilter::without(const std::vector<bool>& gone) const {
+  PairFilter rest = *this;
+  rest.rules_.clear();
+  rest.verdicts_.clear();
+  std::vector<std::uint32_t> new_rule(rules_.size(), kNoRule);  // indexed by old rule
+  for (std::size_t rule = 0; rule < rules_.size(); ++rule) {
+    if (gone[rule]) continue;
+    new_rule[rule] = static_cast<std::uint32_t>(rest.rules_.size());
+    rest.rules_.push_back(rules_[rule]);
+    rest.verdicts_.push_back(verdicts_[rule]);
+  }
+  for (Subject& subject : rest.subjects_) subject.ruled = 0;
+  rest.named_.clear();
+  for (const NamedPair& pair : named_) {
+    if (gone[pair.rule]) continue;
+    rest.named_.push_back({pair.bodies, new_rule[pair.rule]});
+    for (const std::uint64_t body : {pair.bodies >> 32, pair.bodies & 0xffffffff})
+      rest.subjects_[body].ruled |= kByName;
+  }
+  std::vector<std::uint64_t> staying(words_);
+  for (std::size_t bit = 0; bit < glob_rules_.size(); ++bit) {
+    std::uint32_t& rule = rest.glob_rules_[bit];
+    if (rule != kNoRule) rule = new_rule[rule];
+    if (rule != kNoRule) staying[bit / 64] |= std::uint64_t{1} << (bit % 64);
+  }
+  for (std::size_t i = 0; i < as_first_.size(); ++i) {
+    rest.as_first_[i] &= staying[i % words_];
+    rest.as_second_[i] &= staying[i % words_];
+    if ((rest.as_first_[i] | rest.as_second_[i]) != 0) rest.subjects_[i / words_].ruled |= kByGlob;
+  }
+  return rest;
 }
 
 /// Returns the rule that takes precedence for a pair, or kNoRule if no rule matches it.

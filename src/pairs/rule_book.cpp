@@ -70,12 +70,4 @@ void RuleBook::remove(const std::vector<PairRule>& rules) {
   rules_.erase(std::remove_if(rules_.begin(), rules_.end(), unwanted), rules_.end());
 }
 
-bool RuleBook::expire(PairRule::Clock::time_point now) {
-  const auto begin =
-      std::remove_if(rules_.begin(), rules_.end(), [&](const PairRule& rule) { return rule.ends <= now; });
-  const bool any = begin != rules_.end();
-  rules_.erase(begin, rules_.end());
-  return any;
-}
-
 }  // namespace hgrid

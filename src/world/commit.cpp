@@ -53,7 +53,8 @@ void Scene::State::rebuildStructure() {
   }
   next->first_proxy.push_back(static_cast<std::uint32_t>(next->body_of_proxy.size()));
   next->pair_margins = PairMargins(next->bodies, options.pair_margins);
-  next->filter = PairFilter(next->bodies, options.pair_kinds, options.allowed_pairs);
+  const bool is_prepared = prepared && !bodies_changed && prepared->revision == structure->revision;
+  next->filter = is_prepared ? prepared->filter : PairFilter(next->bodies, options.pair_kinds, options.allowed_pairs);
   next->silenced = silencesAll(next->bodies, options.pair_kinds, next->filter);
   std::vector<ProxyId> next_fixed;
   for (ProxyId proxy = 0; proxy < next->body_of_proxy.size(); ++proxy) {
@@ -68,7 +69,8 @@ void Scene::State::rebuildStructure() {
   structure = std::move(next);
   scale = GridScale::fitting(sizes);
   if (options.finest_edge > 0.0) scale.finest_edge = options.finest_edge;
-  structure_changed = false;
+  structure_changed = bodies_changed = false;
+  prepared.reset();
 }
 
 std::shared_ptr<PooledSnapshot> Scene::State::freshSnapshot() const {

@@ -181,7 +181,8 @@ std::vector<BodyId> Scene::exchange(const std::vector<BodyId>& out, std::vector<
     s.putIn(numbers[i], std::move(in[i]));
     ids[i] = {numbers[i], s.slots[numbers[i]].generation};
   }
-  s.structure_changed = s.structure_changed || !out.empty() || !ids.empty();
+  s.bodies_changed = s.bodies_changed || !out.empty() || !ids.empty();
+  s.structure_changed = s.structure_changed || s.bodies_changed;
   return ids;
 }
 
@@ -255,8 +256,31 @@ void Scene::setCells(BodyId id, std::shared_ptr<const MapCells> cells) {
 
 void Scene::setRules(std::vector<PairRule> rules) {
   state_->options.allowed_pairs = std::move(rules);
+  state_->prepared.reset();
   state_->structure_changed = true;
 }
+
+void Scene::setPreparedRules(PreparedRules prepared) {
+  setRules(prepared.filter.rules());
+  state_->prepared = std::move(prepared);
+}
+
+void Scene::removeRules(const std::vector<bool>& gone) {
+  State& s = *state_;
+  if (!s.structure_changed) {
+    setPreparedRules({s.structure->filter.without(gone), s.structure->revision});
+  } else if (s.prepared) {
+    setPreparedRules({s.prepared->filter.without(gone), s.prepared->revision});
+  } else {
+    std::vector<PairRule> rules;
+    for (std::size_t i = 0; i < gone.size(); ++i) {
+      if (!gone[i]) rules.push_back(s.options.allowed_pairs[i]);
+    }
+    setRules(std::move(rules));
+  }
+}
+
+const std::vector<PairRule>& Scene::rules() const { return state_->options.allowed_pairs; }
 
 void Scene::beginEpoch(std::uint64_t epoch) {
   state_->epoch = epoch;

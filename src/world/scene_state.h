@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -62,7 +63,9 @@ struct Scene::State {
   std::vector<std::shared_ptr<const MapCells>> cells;  // indexed by slot; null if the body is no map or cloud
   std::vector<std::uint32_t> free_slots;               // its capacity is enough for all slots
   std::map<std::string, std::uint32_t> slot_of_name;   // sorted by name, as the bodies of the structure are
-  bool structure_changed = true;
+  bool structure_changed = true;                       // whether bodies or rules changed since the last commit
+  bool bodies_changed = true;                          // whether bodies changed since the last commit
+  std::optional<PreparedRules> prepared;               // has the same rules as options.allowed_pairs
   std::uint64_t sequence = 0, epoch = 0, commits = 0;
 
   std::vector<std::uint32_t> checkedSlots(const std::vector<BodyId>& out);

@@ -156,10 +156,20 @@ std::uint32_t strongest(const std::vector<PairRule>& rules, const std::string& a
   return best;
 }
 
-TEST(PairRules, TheStrongestDecidesAndWhetherAnythingIsReportedIsKnownForAnyRules) {
+/// Returns random rules about names, some of which match no body.
+std::vector<PairRule> randomRules(Random& random) {
   const std::vector<std::string> names = {"*",        "arm/*",        "obstacle/*",     "?rm/elbow",
                                           "arm/hand", "obstacle/box", "obstacle/crate", "*/?a*",
                                           "arm/base", "nobody"};
+  std::vector<PairRule> rules;
+  for (int i = random.chance(0.1) ? 150 : random.between(0, 8); i > 0; --i) {
+    const std::string &a = names[std::size_t(random.below(10))], &b = names[std::size_t(random.below(10))];
+    rules.push_back(random.chance(0.7) ? allow(a, b, "") : enable(a, b, ""));
+  }
+  return rules;
+}
+
+TEST(PairRules, TheStrongestDecidesAndWhetherAnythingIsReportedIsKnownForAnyRules) {
   int silent = 0, loud = 0;
   for (unsigned seed = 1; seed <= 2000; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -167,11 +177,7 @@ TEST(PairRules, TheStrongestDecidesAndWhetherAnythingIsReportedIsKnownForAnyRule
     std::vector<Body> bodies = cell();
     for (Body& body : test::armBodies("leg")) bodies.push_back(body);
     bodies.resize(std::size_t(random.between(1, int(bodies.size()))));
-    std::vector<PairRule> rules;
-    for (int i = random.chance(0.1) ? 150 : random.between(0, 8); i > 0; --i) {
-      const std::string &a = names[std::size_t(random.below(10))], &b = names[std::size_t(random.below(10))];
-      rules.push_back(random.chance(0.7) ? allow(a, b, "") : enable(a, b, ""));
-    }
+    const std::vector<PairRule> rules = randomRules(random);
     const PairFilter filter(bodies, {}, rules), plain(bodies, {}, {});
     bool any = false, any_plain = false;
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
@@ -194,6 +200,43 @@ TEST(PairRules, TheStrongestDecidesAndWhetherAnythingIsReportedIsKnownForAnyRule
   }
   EXPECT_GT(silent, 50);
   EXPECT_GT(loud, 500);
+}
+
+/// Claim: a filter from which rules were removed, also in several steps, decides as a new filter with the other rules
+/// does.
+TEST(PairRules, WithoutSomeRulesTheOthersDecideAsInANewFilter) {
+  std::size_t left_out = 0, decided_by_rule = 0;
+  for (unsigned seed = 1; seed <= 300; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const std::vector<Body> bodies = cell();
+    PairFilter filter(bodies, {}, randomRules(random));
+    for (int step = 0; step < 3; ++step) {
+      std::vector<bool> gone;
+      std::vector<PairRule> staying;
+      for (const PairRule& rule : filter.rules()) {
+        gone.push_back(random.chance(0.3));
+        if (!gone.back()) staying.push_back(rule);
+        left_out += gone.back();
+      }
+      filter = filter.without(gone);
+      const PairFilter fresh(bodies, {}, staying);
+      ASSERT_EQ(filter.rules().size(), staying.size());
+      ASSERT_EQ(filter.reportsAny(), fresh.reportsAny());
+      for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+        ASSERT_EQ(filter.isRuled(i), fresh.isRuled(i));
+        for (std::uint32_t j = 0; j < bodies.size(); ++j) {
+          const PairDecision one = decided(filter, i, j), other = decided(fresh, i, j);
+          ASSERT_EQ(one.origin, other.origin);
+          ASSERT_EQ(one.rule, other.rule);
+          ASSERT_EQ(one.allowed, other.allowed);
+          decided_by_rule += one.rule != PairDecision::kNoRule;
+        }
+      }
+    }
+  }
+  EXPECT_GT(left_out, 1000u);
+  EXPECT_GT(decided_by_rule, 1000u);
 }
 
 }  // namespace

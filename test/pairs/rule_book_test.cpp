@@ -58,25 +58,11 @@ TEST(RuleBook, WhatCanNeverDecideAgainIsDropped) {
   EXPECT_EQ(book.rules().back().ends, kNow + seconds(100));
 }
 
-TEST(RuleBook, WhatOutlivesALaterRuleComesBack) {
+TEST(RuleBook, KeepsWhatOutlivesALaterRule) {
   RuleBook book;
   book.add({allow("a", "b")});
   book.add({until(enable("a", "b"), kNow + seconds(2))});
   EXPECT_EQ(gist(book), Lines({"a b +", "a b -"}));
-  EXPECT_FALSE(book.expire(kNow + seconds(1)));
-  EXPECT_TRUE(book.expire(kNow + seconds(2)));
-  EXPECT_EQ(gist(book), Lines({"a b +"}));
-  EXPECT_FALSE(book.expire(kNow + seconds(1000000)));
-}
-
-TEST(RuleBook, RulesEndEachAtItsTime) {
-  RuleBook book(configured());
-  book.add({until(allow("a", "b"), kNow + seconds(3)), until(allow("c", "d"), kNow + seconds(1)), allow("e", "f")});
-  EXPECT_FALSE(book.expire(kNow));
-  EXPECT_TRUE(book.expire(kNow + seconds(1)));
-  EXPECT_EQ(gist(book), Lines({"arm/* obstacle/table +", "a b +", "e f +"}));
-  EXPECT_TRUE(book.expire(kNow + seconds(9)));
-  EXPECT_EQ(gist(book), Lines({"arm/* obstacle/table +", "e f +"}));
 }
 
 TEST(RuleBook, RemovesByTheTwoNamesInEitherOrder) {

@@ -65,6 +65,43 @@ TEST_F(SceneRules, HoldForBodiesThatComeLaterAndLeaveSinceAlone) {
   }
 }
 
+TEST_F(SceneRules, ThatWerePreparedCountLikeOthersEvenIfBodiesChangedSince) {
+  const std::vector<PairRule> rules{allow("obstacle/*", "arm/h*"), enable("arm/shoulder", "arm/base")};
+  const auto prepared = [&] {
+    const Structure& structure = now().structure();
+    return PreparedRules{PairFilter(structure.bodies, {}, rules), structure.revision};
+  };
+  scene_.setRules(rules);
+  const NamePairs wanted = test::namedPairs(now());
+  scene_.setRules({});
+  scene_.setPreparedRules(prepared());
+  EXPECT_EQ(test::namedPairs(now()), wanted);
+  for (const bool before : {true, false}) {  // whether the body was added before the rules were set, or after
+    scene_.setRules({});
+    const PreparedRules old = prepared();
+    if (!before) scene_.setPreparedRules(old);
+    const BodyId late = test::put(scene_, test::ball("a"), test::at(0));  // the indices of all other obstacles change
+    if (before) scene_.setPreparedRules(old);
+    EXPECT_EQ(test::namedPairs(now()).count({"arm/hand", "obstacle/a"}), 0u);
+    EXPECT_EQ(test::namedPairs(*snapshot_).count({"obstacle/a", "obstacle/box"}), 1u);
+    scene_.remove(late);
+    EXPECT_EQ(test::namedPairs(now()), wanted);
+  }
+}
+
+TEST_F(SceneRules, ThatAreRemovedDecideNoLonger) {
+  const PairRule grip = allow("obstacle/*", "arm/h*"), rigid = enable("arm/shoulder", "arm/base");
+  scene_.setRules({grip});
+  const NamePairs wanted = test::namedPairs(now());
+  for (const bool committed : {true, false}) {
+    scene_.setRules({rigid, grip});
+    if (committed) now();
+    scene_.removeRules({true, false});
+    EXPECT_EQ(scene_.rules().size(), 1u);
+    EXPECT_EQ(test::namedPairs(now()), wanted) << committed;
+  }
+}
+
 TEST_F(SceneRules, ThatSwitchOffEveryPairAreNoted) {
   EXPECT_FALSE(now().structure().silenced);
   scene_.setRules({allow("arm/*", "*")});

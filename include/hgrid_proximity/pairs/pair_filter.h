@@ -45,6 +45,11 @@ class PairFilter {
   /// @param rules   if two equally exact rules match a pair, the later one decides (see PairRule)
   PairFilter(const std::vector<Body>& bodies, PairKinds kinds, std::vector<PairRule> rules);
 
+  /// Returns the filter without some of its rules, for the same bodies. Takes much less time than a new filter, because
+  /// it matches no globs.
+  /// @param gone  for each rule: whether it is left out; as many values as there are rules
+  PairFilter without(const std::vector<bool>& gone) const;
+
   /// Returns whether the two bodies may touch, so that their pair is not reported. Symmetric.
   bool allowed(std::uint32_t first, std::uint32_t second) const {
     Origin origin = Origin::none;
@@ -110,10 +115,11 @@ class PairFilter {
   std::vector<Subject> subjects_;        // indexed by body
   std::vector<std::shared_ptr<const LinkMatrix>> matrices_;  // keeps the matrices alive that subjects_ point into
   std::vector<PairRule> rules_;
-  std::vector<Origin> verdicts_;           // for each rule: its origin, or none if the rule says "report this pair"
-  std::vector<NamedPair> named_;           // sorted; if several rules name one pair, only the last of them
-  std::vector<std::uint32_t> glob_rules_;  // rules that contain a glob; bit k of the bit sets stands for glob_rules_[k]
-  std::size_t words_ = 0;                  // number of 64-bit words per body in the bit sets
+  std::vector<Origin> verdicts_;  // for each rule: its origin, or none if the rule says "report this pair"
+  std::vector<NamedPair> named_;  // sorted by bodies; of several rules that name one pair, the last comes first
+  std::vector<std::uint32_t> glob_rules_;  // rules that contain a glob; bit k of the bit sets stands for
+                                           // glob_rules_[k], kNoRule if without() left the rule out
+  std::size_t words_ = 0;                            // number of 64-bit words per body in the bit sets
   std::vector<std::uint64_t> as_first_, as_second_;  // bit k: the body matches the first, second glob of rule k
 };
 

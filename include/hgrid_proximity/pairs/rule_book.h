@@ -27,8 +27,6 @@ class RuleBook {
   /// Removes the rules of Origin::service that have the same two names or globs as one of `rules`, in either order.
   /// @throws Refusal unknown_id if one of `rules` has no such rule
   void remove(const std::vector<PairRule>& rules);
-  /// Drops the rules that have ended. @returns whether it dropped any
-  bool expire(PairRule::Clock::time_point now);
 
  private:
   std::vector<PairRule> rules_;

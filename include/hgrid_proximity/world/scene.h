@@ -40,6 +40,13 @@ struct SceneOptions {
   std::vector<PairRule> allowed_pairs;  ///< rules until setRules() replaces them
 };
 
+/// Rules, and the pair filter that they make for the bodies of a structure. It takes long to make a filter of many
+/// rules and bodies, so this can be done before a commit and on another thread.
+struct PreparedRules {
+  PairFilter filter;           ///< the filter, which contains the rules
+  std::uint64_t revision = 0;  ///< Structure::revision of the bodies for which the filter was made
+};
+
 /// Durations of the three parts of a commit.
 struct TickTimes {
   std::chrono::nanoseconds boxes{0};  ///< computes the boxes of the bodies
@@ -104,6 +111,13 @@ class Scene {
   /// Replaces all rules of the allowed collision matrix. They count from the next commit on. If two equally exact rules
   /// match a pair, the later one decides.
   void setRules(std::vector<PairRule> rules);
+  /// As above, with the rules of the filter in `prepared`. The next commit uses this filter, unless bodies changed
+  /// since.
+  void setPreparedRules(PreparedRules prepared);
+  /// Removes rules, from the next commit on. @param gone  for each rule in rules(): whether it is removed
+  void removeRules(const std::vector<bool>& gone);
+  /// Returns the rules that the next commit uses, in the order in which they were set.
+  const std::vector<PairRule>& rules() const;
 
   /// Makes a snapshot of the present state of the scene.
   /// @param stamp  time of the tick

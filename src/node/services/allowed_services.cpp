@@ -67,7 +67,9 @@ void AllowedServices::set(ServiceCall<msg::SetAllowed>& call) const {
   const PairFilter filter = filterAfter(call, structure);
   checkNotSilenced(structure, filter, call.request.force);
   const std::uint64_t changed = changedPairs(structure.bodies, structure.filter, filter);
-  call.tick = AnswerTick(change_world_([rules = filter.rules()](World& world) { world.setRules(rules); }));
+  // The filter is passed on, because making it of many rules and bodies would delay the tick.
+  const PreparedRules rules{filter, structure.revision};
+  call.tick = AnswerTick(change_world_([rules](World& world) { world.setRules(rules); }));
   call.response.pairs_changed = static_cast<std::uint32_t>(std::min<std::uint64_t>(changed, 0xffffffffu));
 }
 

@@ -77,7 +77,6 @@ World::World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& 
       maps_(simulated),
       clouds_(params, simulated, scene_, ledger),
       missing_(params),
-      rules_(params.allowed_pairs),
       world_frame_(params.world_frame),
       epoch_(epoch) {
   scene_.beginEpoch(epoch_);
@@ -158,7 +157,7 @@ void World::setMissing(const SourceId& source, const std::string& sentence) {
   if (robots_.find(source.name) == nullptr) missing_.set(source, sentence);
 }
 
-void World::setRules(std::vector<PairRule> rules) { rules_.set(std::move(rules)); }
+void World::setRules(PreparedRules rules) { rules_.set(std::move(rules)); }
 
 void World::reset() {
   const auto is_obstacle = [](const SourceId& source) { return source.kind == SourceKind::obstacle; };

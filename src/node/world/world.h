@@ -63,7 +63,7 @@ class World {
   /// Stores why a source is not in the world yet, or why its newest data could not be used. Bodies in the world stay.
   void setMissing(const SourceId& source, const std::string& sentence);
   /// Replaces all rules for allowed pairs, from the next tick on. Expired rules are removed automatically.
-  void setRules(std::vector<PairRule> rules);
+  void setRules(PreparedRules rules);
   /// Restores the configured obstacles, sets all counters to 0 and begins a new epoch. Rules stay.
   void reset();
 

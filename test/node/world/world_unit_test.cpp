@@ -94,7 +94,7 @@ Step settingCloud(double time, unsigned seed) {
   return {"setCloud", [=](World& world, Ticks&) { world.setCloud(cloud); }};
 }
 Step settingRules(const std::vector<PairRule>& rules) {
-  return {"setRules", [=](World& world, Ticks&) { world.setRules(rules); }};
+  return {"setRules", [=](World& world, Ticks&) { world.setRules({PairFilter({}, {}, rules), 0}); }};
 }
 Step settingMissing(const SourceId& source) {
   const std::string sentence = "NOT_READY " + source.name + ": a sentence of some length";

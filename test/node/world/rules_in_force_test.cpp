@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "src/node/world/rules_in_force.h"
+
+#include <gtest/gtest.h>
+
+#include "test/support/rules.h"
+
+namespace hgrid {
+namespace {
+
+using std::chrono::seconds;
+using test::allow;
+using test::enable;
+using test::until;
+
+/// Returns "first second" of each rule of the scene.
+std::vector<std::string> rulesOf(const Scene& scene) {
+  std::vector<std::string> lines;
+  for (const PairRule& rule : scene.rules()) lines.push_back(rule.first + " " + rule.second);
+  return lines;
+}
+
+TEST(RulesInForce, EachRuleEndsAtItsTime) {
+  using Lines = std::vector<std::string>;
+  const PairRule::Clock::time_point begin{std::chrono::hours(1)};
+  const auto after = [&](int time) { return Moment{Time{0}, begin + seconds(time)}; };
+  Scene scene{SceneOptions{}};
+  RulesInForce rules;
+  scene.setRules({allow("configured", "*")});
+  rules.set({PairFilter({}, {},
+                        {allow("configured", "*"), until(allow("a", "b"), begin + seconds(3)),
+                         until(enable("c", "d"), begin + seconds(1)), allow("e", "f")}),
+             0});
+  rules.apply(after(0), scene);
+  EXPECT_EQ(rulesOf(scene), Lines({"configured *", "a b", "c d", "e f"}));
+  rules.apply(after(1), scene);
+  EXPECT_EQ(rulesOf(scene), Lines({"configured *", "a b", "e f"}));
+  scene.commit(Time{1}, {});
+  rules.apply(after(2), scene);
+  EXPECT_EQ(rulesOf(scene), Lines({"configured *", "a b", "e f"}));
+  rules.apply(after(9), scene);
+  EXPECT_EQ(rulesOf(scene), Lines({"configured *", "e f"}));
+  EXPECT_EQ(scene.commit(Time{2}, {})->structure().filter.rules().size(), 2u);
+}
+
+TEST(RulesInForce, ARuleThatEndedBeforeItWasPassedOnNeverDecides) {
+  const PairRule::Clock::time_point begin{std::chrono::hours(1)};
+  Scene scene{SceneOptions{}};
+  RulesInForce rules;
+  rules.set({PairFilter({}, {}, {until(allow("a", "b"), begin)}), 0});
+  rules.apply(Moment{Time{0}, begin + seconds(1)}, scene);
+  EXPECT_TRUE(scene.rules().empty());
+}
+
+}  // namespace
+}  // namespace hgrid
