@@ -11,7 +11,7 @@ namespace {
 struct Order {
   bool given = false;
   Failing which = Failing::one;
-  std::size_t first = 0;  // number of the first call that fails; 0 if none fails
+  std::size_t first = 0;  // the call with this number, counted from 1, is the first that fails; 0: none fails
   std::size_t calls = 0;
 };
 thread_local Order order;

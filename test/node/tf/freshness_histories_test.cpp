@@ -21,7 +21,7 @@ constexpr double kRounding = 2e-6;  // [m] rounding of boxes that are stored as 
 
 /// Counts how often each case occurred. The test prints the counts, to show that it covers every case.
 struct Coverage {
-  std::size_t ticks = 0, fresh = 0, late = 0, stale = 0, lost = 0, disputed = 0, fought = 0, kept = 0, pairs = 0,
+  std::size_t ticks = 0, fresh = 0, late = 0, stale = 0, lost = 0, contested = 0, fought = 0, kept = 0, pairs = 0,
               grown_pairs = 0, jumps = 0;
 };
 
@@ -91,8 +91,8 @@ class RandomHistory {
   void speak(const Source& source, double stamp) {
     stamp = std::round(stamp * 1e6) / 1e6;
     if (!source.is_static && stamp > world_.now()) ahead_for_ = 2.0;
-    const Statement said{source.frame, source.parent,   source.publisher, source.x + source.speed * stamp,
-                         stamp,        source.is_static};
+    const PublishedTransform said{source.frame, source.parent,   source.publisher, source.x + source.speed * stamp,
+                                  stamp,        source.is_static};
     if (said.is_static) {
       world_.fix(said.publisher, said.parent, said.frame, said.x, random_.chance(0.1) ? 1e8 : 0.0);
     } else {
@@ -196,10 +196,10 @@ class RandomHistory {
     if (told_) {
       std::printf("  %s: %s x %.6f at %.6f, %.6f old; model: x %.6f at %.6f, %.6f old%s%s\n", frame.c_str(),
                   name(pose.state), pose.world_from_body.translation().x(), world_.stamp(frame), pose.age, known.x,
-                  known.stamp, known.age, known.disputed ? ", disputed" : "", known.at_tick ? ", at tick" : "");
+                  known.stamp, known.age, known.contested ? ", contested" : "", known.at_tick ? ", at tick" : "");
     }
     if (pose.state == Freshness::unplaced) {
-      EXPECT_FALSE(known.placed && !known.disputed);
+      EXPECT_FALSE(known.placed && !known.contested);
       EXPECT_FALSE(world_.snapshot().complete());
       return;
     }
@@ -210,7 +210,7 @@ class RandomHistory {
     if (known.fought) {
       EXPECT_NE(pose.state, Freshness::fresh);
     }
-    if (known.disputed) {
+    if (known.contested) {
       // The pose must be one that a publisher has sent for its stamp.
       if (known.moves && pose.age < kLost && coverage_.jumps == jumps_before_) {
         EXPECT_TRUE(model_.isSupported(frame, x, world_.stamp(frame))) << "x = " << x << " at " << world_.stamp(frame);
@@ -241,7 +241,7 @@ class RandomHistory {
     coverage_.late += pose.state == Freshness::late;
     coverage_.stale += pose.state == Freshness::stale;
     coverage_.lost += pose.state == Freshness::lost;
-    coverage_.disputed += known.disputed;
+    coverage_.contested += known.contested;
     coverage_.fought += known.fought;
     coverage_.kept += known.placed && !known.connected;
   }
@@ -252,7 +252,7 @@ class RandomHistory {
 
   void judgePair(const std::string& first, const std::string& second) {
     const FreshnessModel::Known &a = model_.known(first), &b = model_.known(second);
-    if (!a.placed || !b.placed || a.disputed || b.disputed) return;
+    if (!a.placed || !b.placed || a.contested || b.contested) return;
     const double gap = std::max(0.0, std::abs(a.x - b.x) - 0.2);
     if (gap > kMargin + growthOf(a) + growthOf(b) - kRounding) return;
     ++coverage_.pairs;
@@ -284,9 +284,9 @@ TEST(FreshnessHistories, ABodyIsNeverFresherThanTheDataAndNoPairIsLost) {
     if (HasFailure()) break;
   }
   std::printf(
-      "%d histories, %zu ticks; bodies: %zu fresh, %zu late, %zu stale, %zu lost, %zu disputed, %zu fought over, "
+      "%d histories, %zu ticks; bodies: %zu fresh, %zu late, %zu stale, %zu lost, %zu contested, %zu fought over, "
       "%zu kept; pairs that must be there: %zu, of which %zu by growth; %zu jumps of the clock\n",
-      histories, coverage.ticks, coverage.fresh, coverage.late, coverage.stale, coverage.lost, coverage.disputed,
+      histories, coverage.ticks, coverage.fresh, coverage.late, coverage.stale, coverage.lost, coverage.contested,
       coverage.fought, coverage.kept, coverage.pairs, coverage.grown_pairs, coverage.jumps);
 }
 
