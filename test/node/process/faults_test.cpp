@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// After an internal fault of the node, the caller receives the code INTERNAL. Nothing changes, and the node runs on.
+// After an internal fault of the node, the caller receives the code INTERNAL. Nothing changes, and the node goes on.
 #include <hgrid_proximity/CodeNames.h>
 #include <hgrid_proximity/Distances.h>
 #include <hgrid_proximity/UnknownReason.h>
@@ -19,7 +19,7 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// Two spheres that touch. The narrow phase of the node throws while a fault is set.
+/// Two spheres that touch. While a test has set a fault, the narrow phase of the node throws.
 class Faults : public ::testing::Test {
  protected:
   Faults() : node_(setup()) {
@@ -39,9 +39,9 @@ class Faults : public ::testing::Test {
     for (const std::string& name : names) content += link(name, sphereOf(0.1)) + joint("base", name);
     return urdf(content);
   }
-  /// Makes a function of the narrow phase throw, or ends that.
-  /// @param function  function of the narrow phase that throws from now on; empty: none
-  /// @param kind      exception: "int", "memory" (std::bad_alloc), anything else: std::runtime_error
+  /// Makes a function of the narrow phase throw from now on.
+  /// @param function  name of the function; empty: no function throws any more
+  /// @param kind      type of the exception: "int", "memory" (std::bad_alloc), otherwise std::runtime_error
   void breakDown(const std::string& function, const std::string& kind = "") {
     ros::param::set(node_.named("fault_kind"), kind);
     ros::param::set(node_.named("fault"), function);
@@ -102,7 +102,7 @@ TEST_F(Faults, InATickAreCountedAndPairsGoOn) {
   };
   ASSERT_TRUE(next(20.0));
   breakDown("measure");
-  transforms_.stream("base", "b", at(0.16));  // only a pair that moves is measured again
+  transforms_.stream("base", "b", at(0.16));  // the node measures a pair again only if a body of the pair moves
   EXPECT_FALSE(next(1.0));
   const std::size_t pairs = node_.heard().pairs.size();
   EXPECT_GE(counted("tick.failed.INTERNAL"), 1u);
@@ -115,12 +115,13 @@ TEST_F(Faults, InATickAreCountedAndPairsGoOn) {
 TEST_F(Faults, InATickAreOnDiagnosticsUntilATickSucceeds) {
   waitForTicksStatus(diagnostic_msgs::DiagnosticStatus::OK, "");
   const boost::function<void(const msg::Distances::ConstPtr&)> ignore = [](const msg::Distances::ConstPtr&) {};
-  const ros::Subscriber listener =  // distances are measured only while there is a subscriber
+  const ros::Subscriber listener =  // the node measures distances only while there is a subscriber
       ros::NodeHandle().subscribe<msg::Distances>(node_.named("distances"), 1, ignore);
   int b = 0;
   for (const char* kind : {"", "memory", "int"}) {
     breakDown("measure", kind);
-    transforms_.stream("base", "b", at(0.15 + 0.01 * ++b));  // only a pair that moves is measured again
+    transforms_.stream("base", "b", at(0.15 + 0.01 * ++b));  // the node measures a pair again only if a body of the
+                                                             // pair moves
     waitForTicksStatus(diagnostic_msgs::DiagnosticStatus::ERROR, "the last tick failed");
     breakDown("");
     waitForTicksStatus(diagnostic_msgs::DiagnosticStatus::OK, "on time");

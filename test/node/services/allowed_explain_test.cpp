@@ -14,8 +14,8 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// A robot of spheres that all overlap, except "far" and "ghost". Nobody publishes a transform for "ghost". A fixed
-/// joint connects "c" to "b".
+/// A robot of spheres that all overlap, except the spheres "far" and "ghost". Nobody publishes a transform for "ghost".
+/// A fixed joint connects "c" with "b".
 class ExplainPair : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -158,8 +158,8 @@ TEST_F(ExplainPair, WhatIsStaleSaysHowOldAndWhatThatDoes) {
   EXPECT_GT(response.age_first, 0.6);
   EXPECT_DOUBLE_EQ(response.growth, 0.05);
   EXPECT_DOUBLE_EQ(response.margin, 0.35);
-  EXPECT_TRUE(
-      says(response.explanation, "The margin is 0.05 m larger than usual because data is old. robot/d is STALE: its pose is"));
+  EXPECT_TRUE(says(response.explanation,
+                   "The margin is 0.05 m larger than usual because data is old. robot/d is STALE: its pose is"));
   transforms_->stream("base", "d", at(0));
   node_->waitForStatus("d is FRESH", [](const msg::Status& status) { return entryOf(status, "robot/d") == nullptr; });
 }

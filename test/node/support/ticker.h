@@ -15,10 +15,10 @@ namespace test {
 /// last call of such a timer may still run after the timer was destroyed.
 class Ticker {
  public:
-  Ticker(std::chrono::milliseconds period, std::function<void()> deed)
-      : thread_([this, period, deed = std::move(deed)] {
+  Ticker(std::chrono::milliseconds period, std::function<void()> function)
+      : thread_([this, period, function = std::move(function)] {
           std::unique_lock<std::mutex> lock(mutex_);
-          while (!ended_.wait_for(lock, period, [this] { return end_; })) deed();
+          while (!ended_.wait_for(lock, period, [this] { return end_; })) function();
         }) {}
   ~Ticker() {
     {

@@ -44,7 +44,7 @@ class TransformSource {
   /// Stops the stream of the transform of `child`.
   void stop(const std::string& child);
   /// Runs the function. All streams pause while it runs.
-  void pauseFor(const std::function<void()>& deed);
+  void pauseFor(const std::function<void()>& function);
   /// Waits until /tf and /tf_static have at least `count` subscribers each. @throws std::runtime_error after 20 s
   void waitForListeners(std::size_t count = 1);
   /// Returns the number of transforms that send() has published.

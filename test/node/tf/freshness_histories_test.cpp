@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Plays random sequences of transforms, and compares the node with a simple model of the last known pose of each body.
+// Sends random sequences of transforms to the node, and compares the node with a simple model of the last known poses.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -19,7 +19,7 @@ const std::vector<std::string> kFrames = {"m", "a", "b"};
 constexpr double kLate = 0.1, kStale = 0.25, kLost = 1.0, kCap = 0.7, kSpeed = 2.0, kMargin = 0.1;
 constexpr double kRounding = 2e-6;  // [m] rounding of boxes that are stored as float
 
-/// Counts how often each case occurred. The test prints the counts, to show that it covers every case.
+/// Counts how often each case occurred. The test prints the counts, which show whether it covers all cases.
 struct Coverage {
   std::size_t ticks = 0, fresh = 0, late = 0, stale = 0, lost = 0, contested = 0, fought = 0, kept = 0, pairs = 0,
               grown_pairs = 0, jumps = 0;
@@ -58,12 +58,12 @@ class RandomHistory {
   }
 
  private:
-  /// A publisher of one frame, which moves in its parent at a constant speed.
+  /// A publisher of one frame. The frame moves at a constant speed in its parent.
   struct Source {
     std::string frame, parent, publisher;
     double x = 0.0, speed = 0.0;  // position at time 0 [m], speed [m/s]
     bool is_static = false;
-    double delay = 0.0;  // [s] how old its stamps are; negative: they are in the future
+    double delay = 0.0;  // [s] age of its stamps; negative: the stamps are in the future
     double period = 0.0, next = 0.0;
     bool silent = false;
   };
@@ -105,11 +105,11 @@ class RandomHistory {
     }
   }
 
-  /// Causes one random fault or change.
+  /// Causes one random fault or change of a source.
   void upset(Source& source) {
     const std::string frame = source.frame;
     switch (random_.below(9)) {
-      case 0:  // the same publisher moves the frame to another place
+      case 0:  // the publisher moves the frame to another place
         source.parent = parentFor(frame);
         source.x = random_.uniform(-0.3, 0.3) - source.speed * world_.now();
         if (source.is_static) source.next = world_.now();
@@ -211,7 +211,7 @@ class RandomHistory {
       EXPECT_NE(pose.state, Freshness::fresh);
     }
     if (known.contested) {
-      // The pose must be one that a publisher has sent for its stamp.
+      // The pose must follow from transforms that publishers have sent for its stamp.
       if (known.moves && pose.age < kLost && coverage_.jumps == jumps_before_) {
         EXPECT_TRUE(model_.isSupported(frame, x, world_.stamp(frame))) << "x = " << x << " at " << world_.stamp(frame);
       }
@@ -270,14 +270,14 @@ class RandomHistory {
   bool has_rival_ = false, faulty_ = false;
   const bool told_ = std::getenv("HGRID_TEST_SEED") != nullptr;
   double elapsed_ = 0.0;    // [s] time since the last tick
-  double ahead_for_ = 0.0;  // [s] for how much longer an earlier stamp from the future may have an effect
+  double ahead_for_ = 0.0;  // [s] remaining time in which an earlier stamp from the future may have an effect
 };
 
 TEST(FreshnessHistories, ABodyIsNeverFresherThanTheDataAndNoPairIsLost) {
   const int histories = countFromEnvironment("HGRID_TEST_HISTORIES", 100000);
-  Ledger ledger;  // one ledger for all histories, so that it logs one line per second
+  Ledger ledger;  // all histories use one ledger, so they log one line per second in total
   Coverage coverage;
-  const int only = countFromEnvironment("HGRID_TEST_SEED", 0);  // if not 0, only this seed is played
+  const int only = countFromEnvironment("HGRID_TEST_SEED", 0);  // if it is not 0, the test plays only this seed
   for (int seed = only > 0 ? only : 1; seed <= (only > 0 ? only : histories); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     RandomHistory(static_cast<std::uint64_t>(seed), ledger, coverage).run();
