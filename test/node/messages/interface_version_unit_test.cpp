@@ -49,7 +49,7 @@ namespace {
 
 namespace msg = ::hgrid_proximity;
 
-constexpr std::uint32_t kPinnedVersion = 1;  // interface version that belongs to the MD5 sums below
+constexpr std::uint32_t kPinnedVersion = 1;  // interface version of the MD5 sums below
 
 /// A message or service file, its MD5 sum, and the MD5 sum that it must have in this interface version.
 struct Pin {

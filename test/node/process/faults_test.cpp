@@ -102,7 +102,7 @@ TEST_F(Faults, InATickAreCountedAndPairsGoOn) {
   };
   ASSERT_TRUE(next(20.0));
   breakDown("measure");
-  transforms_.stream("base", "b", at(0.16));  // the node measures a pair again only if a body of the pair moves
+  transforms_.stream("base", "b", at(0.16));  // only a pair that moves is measured again
   EXPECT_FALSE(next(1.0));
   const std::size_t pairs = node_.heard().pairs.size();
   EXPECT_GE(counted("tick.failed.INTERNAL"), 1u);
@@ -115,13 +115,12 @@ TEST_F(Faults, InATickAreCountedAndPairsGoOn) {
 TEST_F(Faults, InATickAreOnDiagnosticsUntilATickSucceeds) {
   waitForTicksStatus(diagnostic_msgs::DiagnosticStatus::OK, "");
   const boost::function<void(const msg::Distances::ConstPtr&)> ignore = [](const msg::Distances::ConstPtr&) {};
-  const ros::Subscriber listener =  // the node measures distances only while there is a subscriber
+  const ros::Subscriber listener =  // distances are measured only while there is a subscriber
       ros::NodeHandle().subscribe<msg::Distances>(node_.named("distances"), 1, ignore);
   int b = 0;
   for (const char* kind : {"", "memory", "int"}) {
     breakDown("measure", kind);
-    transforms_.stream("base", "b", at(0.15 + 0.01 * ++b));  // the node measures a pair again only if a body of the
-                                                             // pair moves
+    transforms_.stream("base", "b", at(0.15 + 0.01 * ++b));  // only a pair that moves is measured again
     waitForTicksStatus(diagnostic_msgs::DiagnosticStatus::ERROR, "the last tick failed");
     breakDown("");
     waitForTicksStatus(diagnostic_msgs::DiagnosticStatus::OK, "on time");

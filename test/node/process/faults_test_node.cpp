@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// The node with a narrow phase that throws exceptions for tests. The parameter ~fault is the name of the function that
-// throws. The parameter ~fault_kind is the type of the exception.
+// The node with a narrow phase that throws exceptions for tests. The parameter ~fault names the function that throws;
+// ~fault_kind is the kind of the exception.
 #include <ros/ros.h>
 
 #include <new>
