@@ -105,10 +105,7 @@ void play(const Options& options, const Setting& setting, const std::vector<Run>
   }
   const bool even = isEven(setting.workload);
   const int rounds = options.quick || setting.n >= 1000000 || !even ? 3 : 5;
-  const double limit_s = options.quick ? 20.0
-                         : even        ? 120.0
-                                       : 40.0;  // enough to load the boxes and run about four
-                                         // frames
+  const double limit_s = options.quick ? 20.0 : even ? 120.0 : 40.0;  // enough to load and run about four frames
   match.play(rounds, options.quick ? 40.0 : 150.0, limit_s);
 
   std::printf("\n%s, n = %zu, %g %% move%s\n", setting.workload.c_str(), setting.n, 100.0 * setting.moving,

@@ -13,9 +13,9 @@ namespace hgrid {
 namespace bench {
 
 /// Questions about a map, each near a random leaf.
+///
 /// Spheres have a radius of 0.25 m. Their centers are up to 0.5 m away from the middle of the leaf along each axis.
 /// Segments start at the centers of the spheres, have a random direction and are 10 m long.
-/// Segments start at the same points, have a random direction and are 10 m long.
 struct MapQuestions {
   std::vector<Sphere> spheres;
   std::vector<Segment> segments;

@@ -89,8 +89,7 @@ class OctomapMap final : public MapPeer {
 
 std::shared_ptr<const octomap::OcTree> ocTreeOf(const std::string& file) {
   const test::Silence silence;
-  const auto tree = std::make_shared<octomap::OcTree>(0.1);  // readBinary() replaces this resolution with the one in
-                                                             // the file
+  const auto tree = std::make_shared<octomap::OcTree>(0.1);  // readBinary() sets the right resolution
   if (!tree->readBinary(file)) throw std::runtime_error("OctoMap cannot read " + file);
   return tree;
 }

@@ -39,8 +39,7 @@ class PairsPlay {
   std::uint64_t age_;
   std::unique_ptr<Peer> peer_;
   std::vector<ProxyPair> pairs_;
-  double held_before_ = 0.0;  // [byte] memory that the process had allocated before it created the peer, without
-                              // `pairs_`
+  double held_before_ = 0.0;  // [byte] memory of the process without the peer and `pairs_`
 };
 
 }  // namespace bench

@@ -12,8 +12,7 @@ namespace {
 
 constexpr std::size_t kPrepared = 10;
 constexpr std::size_t kChanged = MapStream::kLeaves / 100;
-constexpr int kMarkKey = Voxel::kOriginKey - 200;  // smaller than all keys of the building, so the mark is first in
-                                                   // Morton order
+constexpr int kMarkKey = Voxel::kOriginKey - 200;  // less than all keys of the building: first in Morton order
 
 /// Returns for each leaf of the building the index of the one map that does not contain it. Each map lacks kChanged
 /// leaves.

@@ -10,7 +10,7 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-constexpr double kApart = 1.2;  // distance of the robot bases, so small that the robots come near each other
+constexpr double kApart = 1.2;  // [m] distance of the robot bases, so small that the robots come near each other
 
 geometry_msgs::TransformStamped frameOf(const RobotModel& model, std::size_t link, const std::string& prefix) {
   geometry_msgs::TransformStamped frame;

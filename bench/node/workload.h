@@ -19,8 +19,7 @@ struct Workload {
   std::string title;
   std::size_t bodies = 0;
   double rate = 100.0;                              ///< [Hz] rate of /tf and of the node's ticks
-  bool distances = false;                           ///< whether to subscribe to ~distances; with a subscriber, the node
-                                                    ///< measures them
+  bool distances = false;                           ///< whether to subscribe to ~distances
   XmlRpc::XmlRpcValue params;                       ///< the node's private parameters
   std::map<std::string, std::string> descriptions;  ///< robot descriptions: parameters in the node's namespace
   /// Returns the messages of one cycle of /tf at time `t` [s], without stamps.

@@ -13,8 +13,7 @@ namespace bench {
 
 /// Boxes sorted by their minimum along one axis, stored as a structure of arrays.
 struct SortedArrays {
-  static constexpr std::size_t kPad = 16;  ///< number of boxes at infinity after the last box; SIMD code loads eight
-                                           ///< boxes at a time
+  static constexpr std::size_t kPad = 16;  ///< boxes at infinity after the last one, for SIMD loads of eight boxes
 
   std::vector<float> min[3], max[3];  ///< [0]: along the sort axis; [1], [2]: along the other axes
   std::vector<ProxyId> id;

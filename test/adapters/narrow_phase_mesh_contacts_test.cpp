@@ -98,8 +98,7 @@ TEST(NarrowPhaseContacts, OfASphereInAFloorOfTwoTriangles) {
   EXPECT_NEAR(contacts[0].depth, 0.03, 1e-9);
   EXPECT_TRUE(contacts[0].normal.isApprox(Eigen::Vector3d::UnitZ(), 1e-9));
   EXPECT_TRUE(contacts[0].point.isApprox(Eigen::Vector3d(0.5, -0.5, 0.0), 1e-9)) << contacts[0].point.transpose();
-  placed.world_from_second.translation() << 0.5, 0.5 - 1e-3, 0.08;  // the sphere is almost above the common side of two
-                                                                    // triangles
+  placed.world_from_second.translation() << 0.5, 0.5 - 1e-3, 0.08;  // almost above their common side
   contacts = contactsOf(placed);
   ASSERT_EQ(contacts.size(), 2u);
   EXPECT_GT(contacts[0].depth, contacts[1].depth);

@@ -42,8 +42,7 @@ TEST(OctomapBad, EveryPrefixOfAMapIsTruncated) {
       do {
         Random random(++seed);
         map = randomMap(random, id, binary);
-      } while (map.file.size() < 1000 || map.file.size() > 10000);  // not more, because the test time grows with the
-                                                                    // square of the size
+      } while (map.file.size() < 1000 || map.file.size() > 10000);  // the test time grows with size squared
       maps.push_back(map);
     }
   }

@@ -32,8 +32,7 @@ namespace {
 
 std::string out;
 
-std::map<std::string, std::uint64_t>& counts() {  // number of instructions by function; qemu keeps pointers to the
-                                                  // values
+std::map<std::string, std::uint64_t>& counts() {  // by function; qemu keeps pointers to the values
   static auto* const counts = new std::map<std::string, std::uint64_t>;
   return *counts;
 }

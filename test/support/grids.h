@@ -55,8 +55,7 @@ inline void bringTo(BroadPhase& broad_phase, const std::vector<Aabb>& boxes, Ran
     ids.push_back(id);
     const bool few = sequence == 3 || sequence == 4;
     if (!random.chance(few ? 0.1 : 0.7)) continue;
-    before[id] = boxes[std::size_t(random.below(int(boxes.size())))];  // until it moves, this box has another place and
-                                                                       // size
+    before[id] = boxes[std::size_t(random.below(int(boxes.size())))];  // the box before its move
     some.push_back(id);
     moved.push_back(boxes[id]);
   }
@@ -67,9 +66,7 @@ inline void bringTo(BroadPhase& broad_phase, const std::vector<Aabb>& boxes, Ran
     return;
   }
   broad_phase.update(ids, before);
-  if (random.chance(0.5))
-    broad_phase.overlappingPairs(pairs);  // after this call HGrid keeps the pairs of resting
-                                          // boxes
+  if (random.chance(0.5)) broad_phase.overlappingPairs(pairs);  // HGrid then keeps pairs of resting boxes
   if (sequence == 1 || sequence == 3) {
     broad_phase.update(ids, boxes);
   } else if (sequence == 4) {

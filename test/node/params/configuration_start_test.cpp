@@ -55,8 +55,7 @@ TEST(ParamsFile, EveryParameterInItIsKnownAndNoOtherIs) {
   ASSERT_TRUE(ros::param::get("/params_file", loaded));
   for (auto& member : loaded) {
     Value one = dict();
-    one[member.first] = Value(dict({{"not", "like that"}}));  // a wrong value for every parameter; no group has such a
-                                                              // member
+    one[member.first] = Value(dict({{"not", "like that"}}));  // a wrong value for every parameter
     try {
       readParams(one);
       ADD_FAILURE() << member.first << " is not read";

@@ -38,8 +38,7 @@ namespace hgrid {
 namespace test {
 namespace {
 
-constexpr const char* kWhere = "a_callback_with_a_long_name.failed";  // so long that a std::string of it allocates
-                                                                      // memory
+constexpr const char* kWhere = "a_callback_with_a_long_name.failed";  // too long for a std::string without allocation
 
 TEST(Guarded, ReturnsNothingWhereNothingIsThrown) {
   Ledger ledger;

@@ -46,8 +46,7 @@ class WitnessRobot {
     Eigen::Isometry3d origin = Eigen::Isometry3d::Identity();
     Eigen::Vector3d axis = Eigen::Vector3d::UnitX();
   };
-  using Positions = std::map<std::string, double>;  // position of each joint by name [rad or m]; without joints that
-                                                    // mimic others
+  using Positions = std::map<std::string, double>;  // [rad or m] by joint; without mimic joints
   using Poses = std::map<std::string, Eigen::Isometry3d>;
 
   /// @param file_of  function that returns the path of the file for the URI of a mesh
@@ -75,8 +74,7 @@ class WitnessRobot {
   bool isAdjacent(const std::string& upper, std::string group) const;
 
   std::string root_;
-  std::map<std::string, std::vector<Points>> shapes_;  // by link; the points of a shape include all corners of its
-                                                       // convex hull
+  std::map<std::string, std::vector<Points>> shapes_;  // points that include all corners of the hull, by link
   std::map<std::string, Joint> joints_;                // by child link
   std::set<std::pair<std::string, std::string>> may_touch_;
 };

@@ -353,8 +353,7 @@ TEST_F(MapTopics, ComeWithTheTypeNameOfOctomapServerAndFollowTheirFrame) {
   send(messageOf("odom", nodesOfRow(1)));
   node_->waitForComplete();
   EXPECT_EQ(metAt(1.05), Names({"map/room"}));
-  transforms_.stream("base", "odom", at(2.0));  // the frame jumps; the map moves with it, but the node does not read
-                                                // the map again
+  transforms_.stream("base", "odom", at(2.0));  // the map moves with its frame and is not read again
   node_->waitForTicks(20);
   EXPECT_EQ(metAt(2.05), Names({"map/room"}));
   EXPECT_EQ(metAt(1.05), Names());

@@ -68,13 +68,11 @@ class FreshnessModel {
     std::optional<PublishedTransform> fixed, last;
     std::optional<double> newest;
     double step = 0.0, longest_period = 0.0;  // [s]
-    double claim_begin = -1e18;               // stamp of the first transform since the publisher or the parent last
-                                              // changed
+    double claim_begin = -1e18;               // first stamp after a change of publisher or parent
     double heard = -1e9, contested_until = -1e9;
     std::string source, former_parent;
     std::vector<double> turns;                                        // times at which another publisher took over
-    std::map<std::pair<std::string, std::string>, ByStamp> by_claim;  // all transforms from /tf, by publisher and
-                                                                      // parent
+    std::map<std::pair<std::string, std::string>, ByStamp> by_claim;  // from /tf
     std::vector<PublishedTransform> all_fixed, all;  // from /tf_static and from /tf, each in order of arrival
   };
 
