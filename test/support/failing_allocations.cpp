@@ -41,7 +41,7 @@ std::size_t FailingAllocations::calls() const { return order.calls; }
 }  // namespace test
 }  // namespace hgrid
 
-// Not inlined. Otherwise the compiler would warn that free() receives memory that does not come from malloc().
+// Not inlined, because the compiler would otherwise warn that free() receives memory that is not from malloc().
 __attribute__((noinline)) void* operator new(std::size_t size) { return hgrid::test::allocated(size, 1); }
 __attribute__((noinline)) void* operator new[](std::size_t size) { return hgrid::test::allocated(size, 1); }
 __attribute__((noinline)) void* operator new(std::size_t size, std::align_val_t alignment) {

@@ -77,6 +77,6 @@ def check_clock_of_node(facts: Facts, findings: Findings):
         "node_on_other_clock",
         ERROR,
         f"{facts.node} uses {kind}: its newest tick is of {made:.1f} s, and it is {now:.1f} s now.",
-        f"Start the node again, since it asks for /use_sim_time only at its start: `rosnode kill {facts.host}`.",
+        f"Start the node again, because it reads /use_sim_time only when it starts: `rosnode kill {facts.host}`.",
         [EVERYTHING],
     )

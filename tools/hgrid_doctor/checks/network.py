@@ -17,7 +17,7 @@ def check_master(facts: Facts, findings: Findings):
     if not facts.graph.error:
         return
     uri = facts.environment.master_uri
-    origin = "ROS_MASTER_URI" if facts.environment.master_uri_is_set else "the default, since ROS_MASTER_URI is not set"
+    origin = "ROS_MASTER_URI" if facts.environment.master_uri_is_set else "the default; ROS_MASTER_URI is not set"
     findings.add(
         "no_master",
         ERROR,

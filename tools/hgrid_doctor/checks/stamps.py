@@ -61,8 +61,7 @@ def check_offset(facts: Facts, publisher: str, streams: List[TfStream], robots, 
             ERROR,
             f"The stamps of {publisher} on /tf are of another clock: they are {abs(offset):.0f} s off.",
             f"Start {publisher} again with the present /use_sim_time ({str(facts.graph.use_sim_time).lower()}), which "
-            "it asks"
-            " for only at its start.",
+            "it reads only when it starts.",
             robots,
         )
         return
