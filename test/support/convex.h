@@ -31,7 +31,7 @@ class Convex {
 
   Real radius() const { return radius_; }             ///< [m] points this far from the core belong to the set
   const Vector3r& center() const { return center_; }  ///< center of a sphere that contains the core
-  Real reach() const { return reach_; }               ///< [m] radius of this sphere
+  Real reach() const { return reach_; }               ///< [m] radius of the sphere around center()
 
  private:
   struct Disc {
