@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Measures how fast broad phases are, side by side. bench/report turns the figures file that this program writes into
+// Compares how fast broad phases are. The program writes its results to a JSON file, from which bench/report makes
 // tables and verdicts.
 #include <signal.h>
 
@@ -51,7 +51,7 @@ int run(const Options& options) {
 }  // namespace hgrid
 
 int main(int count, char** arguments) {
-  signal(SIGPIPE, SIG_IGN);  // Contestant::play() detects by itself that its child process has ended
+  signal(SIGPIPE, SIG_IGN);  // Contestant::play() itself detects that a child process has ended
   try {
     return hgrid::bench::run(hgrid::bench::parsed(count, arguments));
   } catch (const std::invalid_argument& error) {

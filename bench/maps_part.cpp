@@ -15,7 +15,7 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-/// A temporary folder. The destructor removes it and the files in it.
+/// A temporary folder. The destructor removes the folder and its files.
 class ScratchFolder {
  public:
   ScratchFolder() : path_((std::filesystem::temp_directory_path() / "hgrid_bench.XXXXXX").string()) {
@@ -34,7 +34,7 @@ class ScratchFolder {
   std::string path_;
 };
 
-/// Adds a peer to the match. OctoMap's answers are the reference; if OctoMap does not take part, FCL's answers are.
+/// Adds a peer to the match. OctoMap's answers are the reference, or FCL's answers if OctoMap does not take part.
 void add(Match& match, const MapPeerKind& kind, const std::function<Contestant::Play()>& begin) {
   match.add(std::make_unique<Contestant>(begin, 1), kind.name != "hgrid", kind.name != "hgrid");
 }
@@ -77,8 +77,8 @@ std::vector<const MapPeerKind*> kindsFor(const Options& options, const Map& map)
   return kinds;
 }
 
-/// Measures how long it takes to load each peer from the file or to build it from the leaves. Also measures the bytes
-/// that the peer holds.
+/// Measures how long it takes to load each peer from the file and to build it from the leaves. Also measures how many
+/// bytes the peer holds.
 void playMaking(const Setting& setting, std::vector<Record>& records) {
   const Map& map = setting.map;
   struct Run {
@@ -110,7 +110,7 @@ void playMaking(const Setting& setting, std::vector<Record>& records) {
   std::fflush(stdout);
 }
 
-/// Measures how long the peers take to answer questions of one kind: in random order and, batched, in Morton order.
+/// Measures how long the peers take to answer questions of one kind, in random order and in Morton order (batched).
 void playAsking(const Setting& setting, const std::vector<std::unique_ptr<MapPeer>>& peers,
                 const MapQuestions& questions, const MapDoubts& doubts, MapQuestion question,
                 std::vector<Record>& records) {
@@ -159,7 +159,7 @@ void play(const Options& options, const Map& map, std::vector<Record>& records) 
   std::printf("\nmap %s, %zu occupied leaves of %g m or more\n", map.name.c_str(), map.leaves.size(), map.resolution);
   const Setting setting{options, map, kindsFor(options, map)};
   playMaking(setting, records);
-  std::vector<std::unique_ptr<MapPeer>> peers;  // built once: child processes inherit them
+  std::vector<std::unique_ptr<MapPeer>> peers;  // built once; the child processes inherit them
   for (const MapPeerKind* kind : setting.kinds) {
     peers.push_back((kind->from_file ? kind->from_file : kind->from_leaves)(map));
   }

@@ -33,7 +33,7 @@ std::vector<std::string> known(const std::vector<std::string>& items, const std:
 std::vector<std::string> allWorkloads() {
   std::vector<std::string> names = evenWorkloads();
   names.insert(names.end(), unevenWorkloads().begin(), unevenWorkloads().end());
-  names.insert(names.end(), {"building", "geb079", "cloud"});  // workloads of the part maps
+  names.insert(names.end(), {"building", "geb079", "cloud"});  // the part "maps" has these workloads
   return names;
 }
 

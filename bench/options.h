@@ -9,20 +9,20 @@
 namespace hgrid {
 namespace bench {
 
-/// The command line options. Each list selects what to run. An empty list selects everything; empty lists `sizes` and
-/// `moving` select the default values.
+/// The command line options. Each list selects what to run. An empty list selects everything. But if `sizes` or
+/// `moving` is empty, default values are used.
 struct Options {
   bool quick = false;
-  std::string json;             ///< file to write the figures to; empty: no file
-  std::string commit, command;  ///< Git commit and command line, for the figures file
+  std::string json;             ///< file to which the results are written; empty: no file
+  std::string commit, command;  ///< Git commit and command line; they are written to the file
   std::vector<std::string> parts, workloads, peers, movers;
   std::vector<std::size_t> sizes;
-  /// Number of different queries of each kind, a multiple of 1,000. They are asked in turn. If only 1,000 queries were
-  /// repeated, the branch predictor of the processor would learn them, and the times would be too short.
+  /// Number of different queries of each kind, a multiple of 1,000. If fewer queries were repeated all the time, the
+  /// branch predictor of the processor would learn them, and the times would be too short.
   std::size_t questions = 100000;
-  std::vector<double> moving;  ///< fractions of the boxes that move in a frame
+  std::vector<double> moving;  ///< fractions of the boxes that move in a frame (time step)
 
-  /// Whether this part of the benchmark is selected.
+  /// Returns whether this part of the benchmark is selected.
   bool part(const std::string& name) const;
   bool workload(const std::string& name) const;
   /// Returns the selected workloads that consist of boxes; `usual` if no workload is selected.
@@ -30,7 +30,7 @@ struct Options {
   bool peer(const std::string& name) const;
 };
 
-/// Parses the command line. @throws std::invalid_argument that names an unknown option or a wrong value.
+/// Parses the command line. @throws std::invalid_argument with the unknown option or the wrong value
 Options parsed(int count, const char* const* arguments);
 
 /// The usage text of the program.

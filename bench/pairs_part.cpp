@@ -14,7 +14,7 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-/// A peer with its settings: one line of the table that a match prints.
+/// A peer with its settings. Each run is one line of the table that a match prints.
 struct Run {
   std::string peer, instructions;
   int threads;
@@ -28,8 +28,8 @@ Run hgridRun(int threads, const std::string& instructions, std::uint64_t age = 0
 
 Run runOf(const PeerKind& kind, std::uint64_t age = 0) { return {kind.name, kind.instructions, 1, age, kind.make}; }
 
-/// Returns HGrid with its default settings. If all boxes of an even world move, adds the other instruction sets and,
-/// for 10,000 boxes or more, two threads.
+/// Returns HGrid with its default settings. If all boxes of an even world move, adds runs with the other instruction
+/// sets. For 10,000 boxes or more, also adds a run with two threads.
 std::vector<Run> hgridRuns(const Setting& setting) {
   const std::vector<std::string> all = hgridInstructions();
   std::vector<Run> runs{hgridRun(1, all.back())};
@@ -42,7 +42,7 @@ std::vector<Run> hgridRuns(const Setting& setting) {
 std::vector<Run> runsOf(const Options& options, const Setting& setting) {
   std::vector<Run> runs;
   if (options.peer("hgrid")) runs = hgridRuns(setting);
-  // In an uneven world, a frame may take ten times as long. So a quick run leaves out slow peers earlier.
+  // In an uneven world, a frame may take ten times as long. Therefore a quick run leaves out slow peers earlier.
   const std::size_t n = options.quick && !isEven(setting.workload) ? 10 * setting.n : setting.n;
   for (const PeerKind& kind : peers()) {
     const std::size_t most = options.quick ? kind.quick_most : kind.most;
@@ -82,8 +82,8 @@ void print(const Setting& setting, const Run& run, const Score& score, const std
                      : "WRONG");
 }
 
-/// Number of untimed frames at the beginning if other boxes move in each frame. A peer that keeps data from frame to
-/// frame takes some frames until its frame time is steady.
+/// Number of untimed frames at the beginning if different boxes move in each frame. A peer that keeps data from frame
+/// to frame needs some frames until its frame time is steady.
 constexpr std::uint64_t kSettled = 30;
 
 std::unique_ptr<Contestant> contestantOf(const Run& run, const Setting& setting, World& world) {
@@ -105,7 +105,7 @@ void play(const Options& options, const Setting& setting, const std::vector<Run>
   }
   const bool even = isEven(setting.workload);
   const int rounds = options.quick || setting.n >= 1000000 || !even ? 3 : 5;
-  const double limit_s = options.quick ? 20.0 : even ? 120.0 : 40.0;  // enough to load and for about four frames
+  const double limit_s = options.quick ? 20.0 : even ? 120.0 : 40.0;  // enough to load and run about four frames
   match.play(rounds, options.quick ? 40.0 : 150.0, limit_s);
 
   std::printf("\n%s, n = %zu, %g %% move%s\n", setting.workload.c_str(), setting.n, 100.0 * setting.moving,

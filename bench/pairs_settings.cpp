@@ -22,8 +22,8 @@ std::vector<std::string> usualWorkloads(const Options& options) {
   return names;
 }
 
-/// Returns the fractions of the boxes that move in a frame. In uneven worlds all boxes move by default. If other boxes
-/// move in each frame, the fraction 1 is left out.
+/// Returns the fractions of the boxes that move in a frame. In uneven worlds all boxes move by default. If different
+/// boxes move in each frame, the fraction 1 is left out.
 std::vector<double> fractions(const Options& options, const std::string& workload, Movers movers) {
   std::vector<double> moving = options.moving;
   if (moving.empty()) moving = isEven(workload) ? std::vector<double>{1.0, 0.1, 0.01} : std::vector<double>{1.0};

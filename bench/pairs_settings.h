@@ -19,7 +19,7 @@ struct Setting {
   Movers movers = Movers::same;
 };
 
-/// Returns the settings that the options select. Settings whose results are compared are next to each other.
+/// Returns the settings that the options select. Settings whose results are compared follow each other.
 std::vector<Setting> pairsSettings(const Options& options);
 
 }  // namespace bench

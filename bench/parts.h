@@ -12,19 +12,21 @@ namespace bench {
 
 // Each function runs one part of the benchmark, prints the results, and appends them to `records`.
 
-/// Measures the time to find all overlapping pairs of a frame, for each workload, number of boxes and moving fraction.
+/// Measures how long it takes to find all overlapping pairs, for each workload, number of boxes and moving fraction.
 void runPairs(const Options& options, std::vector<Record>& records);
 
 /// Measures whether HGrid and FCL's tree get slower after many frames.
 void runAgeing(const Options& options, std::vector<Record>& records);
 
-/// Compares HGrid with two threads and with one. Also measures how much a second processor can gain at that time.
+/// Compares HGrid with two threads and with one thread. Also measures how much the machine gains from a second
+/// processor.
 void runThreads(const Options& options, std::vector<Record>& records);
 
-/// Measures queries of every kind about boxes that do not move, one by one and batched.
+/// Measures queries of each kind. The boxes do not move. Asks the queries one by one and batched.
 void runQueries(const Options& options, std::vector<Record>& records);
 
-/// Measures maps beside OctoMap and FCL: loading, memory, and questions about the leaves. Also measures point clouds.
+/// Compares maps of hgrid, OctoMap and FCL: loading, memory, and questions about the leaves. Also measures point
+/// clouds.
 void runMaps(const Options& options, std::vector<Record>& records);
 
 }  // namespace bench

@@ -16,7 +16,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kFree = 1.9;  // both processors count as free if two are this many times faster than one
+constexpr double kFree = 1.9;  // both processors are considered free if two threads are this many times faster than one
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
@@ -32,7 +32,7 @@ class Side {
     peer_->load(world_.boxes());
   }
 
-  /// Returns the median time of `count` frames [ms].
+  /// Runs `count` frames and returns their median time [ms].
   double frames(int count) {
     std::vector<double> times;
     for (int i = -2; i < count; ++i) {  // the first two frames fill the caches and are not timed
@@ -51,7 +51,8 @@ class Side {
   std::vector<ProxyPair> pairs_;
 };
 
-/// Measures one thread and two threads in turn. Ends when both processors were free in 12 turns, or at the time limit.
+/// Measures one thread and two threads in turn. Ends after 12 turns in which both processors were free, or at the time
+/// limit.
 Record play(const std::string& workload, std::size_t n, bool quick) {
   Side one(workload, n, 1), two(workload, n, 2);
   const int frames = n >= 1000000 ? 4 : 10;

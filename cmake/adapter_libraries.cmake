@@ -1,13 +1,13 @@
-# Finds the foreign libraries that the adapters use. The package, test/ and bench/ include this file. It sets
+# Finds the foreign libraries that the adapters use. The package, test/ and bench/ include this file. It sets:
 #
 #   HGRID_ADAPTER_INCLUDE_DIRS   include folders of all these libraries and of Eigen
 #   HGRID_ADAPTER_LIBRARIES      urdfdom, tinyxml2, FCL and OctoMap: the libraries that HGRID_ADAPTER_SOURCES link
 #   HGRID_MESH_READER_LIBRARIES  assimp: linked only by proximity_mesh_reader, never by the node
 #   HGRID_ADAPTERS_MISSING       names of all headers and libraries that were not found; empty if all were found
-#   HGRID_FCL_MISSING            the same for FCL and OctoMap only
+# HGRID_FCL_MISSING            names of those of FCL and OctoMap that were not found
 #
-# Headers and libraries are searched by file name, because some config files are unusable: on Ubuntu 20.04
-# tinyxml2 has none and that of assimp is broken. The config file of urdfdom caches a result that differs between
+# Searches headers and libraries by file name, because some CMake config files are unusable. On Ubuntu 20.04, tinyxml2
+# has no config file and the one of assimp is broken. The config file of urdfdom caches a result that differs between
 # the first and the second run of cmake.
 find_package(Eigen3 REQUIRED)
 
@@ -21,13 +21,13 @@ find_path(HGRID_TINYXML2_INCLUDE_DIR tinyxml2.h)
 find_library(HGRID_TINYXML2_LIBRARY tinyxml2)
 find_path(HGRID_ASSIMP_INCLUDE_DIR assimp/scene.h)
 find_library(HGRID_ASSIMP_LIBRARY assimp)
-find_path(HGRID_FCL_INCLUDE_DIR fcl/narrowphase/distance.h)  # FCL 0.5 does not have it; Noetic installs 0.5 and 0.6
+find_path(HGRID_FCL_INCLUDE_DIR fcl/narrowphase/distance.h)  # FCL 0.5 has no such file; Noetic installs 0.5 and 0.6
 find_library(HGRID_FCL_LIBRARY fcl)
 find_library(HGRID_CCD_LIBRARY ccd)
 find_library(HGRID_OCTOMAP_LIBRARY octomap)
 find_library(HGRID_OCTOMATH_LIBRARY octomath)
 
-# hgrid_look(missing library...): appends the names of the libraries that were not found to the list `missing`.
+# hgrid_look(missing library...): appends the names of all libraries that were not found to the list `missing`.
 macro(hgrid_look missing)
   foreach(library ${ARGN})
     mark_as_advanced(HGRID_${library})
@@ -52,7 +52,8 @@ if(NOT HGRID_ADAPTERS_MISSING)
     ${HGRID_TINYXML2_INCLUDE_DIR} ${HGRID_ASSIMP_INCLUDE_DIR}
     ${HGRID_FCL_INCLUDE_DIR})
   list(REMOVE_DUPLICATES HGRID_ADAPTER_INCLUDE_DIRS)
-  list(REMOVE_ITEM HGRID_ADAPTER_INCLUDE_DIRS /usr/include)  # always searched; naming it would break #include_next
+  list(REMOVE_ITEM HGRID_ADAPTER_INCLUDE_DIRS /usr/include)  # the compiler always searches this folder; naming it would
+                                                             # break #include_next
   set(HGRID_ADAPTER_LIBRARIES ${HGRID_URDFDOM_MODEL_LIBRARY} ${HGRID_CONSOLE_BRIDGE_LIBRARY} ${HGRID_TINYXML2_LIBRARY}
     ${HGRID_FCL_LIBRARY} ${HGRID_CCD_LIBRARY} ${HGRID_OCTOMAP_LIBRARY} ${HGRID_OCTOMATH_LIBRARY})
   set(HGRID_MESH_READER_LIBRARIES ${HGRID_ASSIMP_LIBRARY})

@@ -1,4 +1,4 @@
-# The core: C++17 and Eigen, no ROS. Shared by the package and by the project in test/.
+# The sources of the core, which needs C++17 and Eigen but not ROS. The package and the project in test/ use this list.
 set(HGRID_CORE_SOURCES
   src/bodies/group_tree.cpp
   src/bodies/link_matrix.cpp
@@ -91,12 +91,13 @@ set(HGRID_KERNEL_FLAGS_sse2 -msse2)
 set(HGRID_KERNEL_FLAGS_avx2 -mavx2 -mfma -mbmi -mpopcnt)
 set(HGRID_KERNEL_FLAGS_avx512 -mavx2 -mfma -mbmi -mpopcnt -mavx512f -mavx512vl -mavx512bw -mavx512dq)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  # The AVX-512 header of gcc causes these warnings itself (gcc bug 105593). Clang does not know the first of them.
+  # The AVX-512 header of gcc itself causes these warnings (gcc bug 105593). Clang does not know the first warning.
   list(APPEND HGRID_KERNEL_FLAGS_avx512 -Wno-maybe-uninitialized -Wno-uninitialized)
 endif()
 
-# hgrid_core_options(target root): sets the options that a target built from the core's sources needs. Kernels are
-# optimized in every build type. All sources need -ffp-contract=off, so that one formula rounds in one way everywhere.
+# hgrid_core_options(target root): sets the options for a target that is built from the core's sources. Kernels are
+# optimized in every build type. All sources need -ffp-contract=off, so that a formula is rounded in the same way on all
+# machines.
 function(hgrid_core_options target root)
   target_include_directories(${target} PRIVATE "${root}/src")
   target_compile_options(${target} PRIVATE -ffp-contract=off)
@@ -105,7 +106,7 @@ function(hgrid_core_options target root)
     target_compile_definitions(${target} PRIVATE HGRID_X86_KERNELS)
     list(APPEND isas sse2 avx2 avx512)
   elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64|ARM64)$" AND CMAKE_SIZEOF_VOID_P EQUAL 8)
-    # The pointer size is checked because a 32-bit system may run on a 64-bit kernel; CMake then reports aarch64.
+    # Checks the pointer size, because a 32-bit system may run on a 64-bit kernel. CMake then reports aarch64.
     target_compile_definitions(${target} PRIVATE HGRID_NEON_KERNELS)
     list(APPEND isas neon)
   endif()
@@ -113,6 +114,6 @@ function(hgrid_core_options target root)
     set(kernels "${root}/src/broadphase/kernels/kernels_${isa}.cpp")
     target_sources(${target} PRIVATE "${kernels}")
     set_property(SOURCE "${kernels}" PROPERTY COMPILE_OPTIONS -O2 -ftree-vectorize ${HGRID_KERNEL_FLAGS_${isa}})
-    set_property(SOURCE "${kernels}" PROPERTY SKIP_PRECOMPILE_HEADERS ON)  # they are built with other flags
+    set_property(SOURCE "${kernels}" PROPERTY SKIP_PRECOMPILE_HEADERS ON)  # kernels are built with other flags
   endforeach()
 endfunction()

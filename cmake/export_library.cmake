@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
 
-# hgrid_export_library(name dependency...): installs a CMake package for the library hgrid_proximity_<name>, so that a
-# project without catkin can use it. The library must be installed with EXPORT hgrid_proximity_<name>-targets. Usage:
+# hgrid_export_library(name dependency...): installs a CMake package for the library hgrid_proximity_<name>. Projects
+# without catkin can then use the library. It must be installed with EXPORT hgrid_proximity_<name>-targets. Usage:
 #
 #   find_package(hgrid_proximity_<name> REQUIRED)
 #   target_link_libraries(my_program hgrid_proximity::<name>)
 #
-# Each dependency is the name of a CMake package that users of the library need as well.
+# Each dependency is the name of a CMake package that users of the library also need.
 function(hgrid_export_library name)
   set(package hgrid_proximity_${name})
   set_target_properties(${package} PROPERTIES EXPORT_NAME ${name})

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Asks the running node from Python: queries over persistent connections, and a check of every message of ~pairs.
+"""Asks the running node from Python: sends queries over persistent connections, and checks every message of ~pairs.
 
 Start it beside any launch file of this package: rosrun hgrid_proximity ask.py
 """
@@ -15,13 +15,13 @@ NODE = "/proximity"  # name of the proximity node
 
 
 class Question:
-    """A service with a connection that stays open. It connects again after the node was restarted."""
+    """A service with a connection that stays open. It connects again after a restart of the node."""
 
     def __init__(self, name, kind):
         self._name, self._kind, self._proxy = name, kind, None
 
     def ask(self, request):
-        """Asks and prints the answer. Only CLEAR means that nothing is there."""
+        """Sends the query and prints the answer. Only CLEAR means that nothing is there."""
         if self._proxy is None:
             self._proxy = rospy.ServiceProxy(self._name, self._kind, persistent=True)
         try:
@@ -42,7 +42,7 @@ class Question:
 
 
 def on_pairs(pairs):
-    """Judges a message of ~pairs. "Nothing is near" needs a complete world and a message that is still valid."""
+    """Judges a message of ~pairs. "Nothing is near" requires a complete world and a message that is still valid."""
     if rospy.Time.now() > pairs.world.valid_until:
         rospy.logwarn_throttle(1.0, "stop: the pairs are too old")
     elif not pairs.world.complete:

@@ -6,9 +6,9 @@
 usage: play_robot.py [JOINT:CENTER:AMPLITUDE...] [_base:=PARENT:CHILD:X:Y:Z:AMPLITUDE] [_post:=X:Y:HEIGHT]
 
 Each joint swings around CENTER [rad]. Its state is published on joint_states. The parameter ~base is the tf of the
-robot's base: CHILD stands in PARENT at X, Y, Z [m] and drives along x by AMPLITUDE [m]. With ~post, a depth camera on
+robot's base: CHILD is at X, Y, Z [m] in PARENT and drives along x by AMPLITUDE [m]. With ~post, a depth camera on
 the base sees a post in PARENT and a part of the robot itself. It publishes points in CHILD on camera/depth/points.
-All motion is a sine of the ROS time with a period of 8 s, so it is the same after every start.
+All motion is a sine of the ROS time with a period of 8 s. Therefore it is the same after every start.
 """
 
 from math import pi, sin
@@ -35,7 +35,8 @@ def split(text):
 
 
 def points_of(post, base_x, base_y):
-    """Returns the points [m, base] that the camera sees: the post, and the edge of the robot's deck, every 3 cm."""
+    """Returns the points that the camera sees [m, frame of the base]: the post, and the edge of the robot's deck,
+    every 3 cm."""
     x, y, height = post
     deck = [(0.39, 0.03 * i, 0.30) for i in range(-6, 7)]
     return deck + [

@@ -2,11 +2,11 @@
 # SPDX-FileCopyrightText: the hgrid_proximity authors
 # shellcheck shell=bash
 #
-# Functions that the scripts in this folder share. They install packages, build, start a separate ROS master, and clean
-# up when the script ends.
+# Functions that several scripts in this folder use. They install packages, build, start a separate ROS master, and
+# clean up when the script ends.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
-export PATH="/usr/bin:/usr/sbin:$PATH"  # ROS needs the python3 of the system, but another may come first in PATH
+export PATH="/usr/bin:/usr/sbin:$PATH"  # ROS needs the python3 of the system; another python3 may come first in PATH
 
 build_packages=(
   catkin cmake g++ make ros-core-dev
@@ -29,11 +29,11 @@ docs_packages=(doxygen)
 # shellcheck disable=SC2034
 long_test_packages=(clang g++-aarch64-linux-gnu googletest libclang-rt-dev qemu-user)
 
-# Options of cmake that make warnings errors, with the compilers of Debian 12. Other compilers may have other warnings.
+# Options of cmake that turn warnings into errors. The compilers of Debian 12 give no warnings; others may.
 werror=(-DHGRID_WERROR=ON)
 [[ ${ROS_DISTRO:-} != noetic ]] || werror=()
 
-# However the script ends, end() stops all background processes and removes the scratch folder.
+# When the script ends for any reason, end() stops all background processes and removes the scratch folder.
 started=()
 scratch=$(mktemp -d -t hgrid_proximity.XXXXXX)
 trap end EXIT
@@ -48,9 +48,9 @@ fail() {
   exit 1
 }
 
-# Starts a command in the background. Afterwards $! is its process id.
+# Starts a command in the background. Its process id is then in $!.
 start() {
-  set -m  # own process group: the terminal's Ctrl-C does not reach it, end() stops it, and it does not ignore SIGINT
+  set -m  # a process group of its own: end() stops it, Ctrl-C does not reach it, and it does not ignore SIGINT
   "$@" </dev/null &
   set +m
   started+=($!)
@@ -87,8 +87,8 @@ install_debian() {
     apt-get -o DPkg::Lock::Timeout=600 install -y --no-install-recommends "${missing[@]}" || fail "apt-get install failed"
 }
 
-# Installs the packages needed to build, and the named Debian packages. With ROS Noetic, installs the dependencies that
-# package.xml names instead.
+# Installs the packages that the build needs, and the Debian packages given as arguments. With ROS Noetic, installs the
+# dependencies that package.xml names instead.
 install_missing() {
   if [[ ${ROS_DISTRO:-} != noetic ]]; then
     install_debian "${build_packages[@]}" "$@"
@@ -116,7 +116,7 @@ build() {
   quietly cmake --build "$out" -j"$(nproc)" || fail "the build failed"
 }
 
-# Adds the build to ROS_PACKAGE_PATH and PATH, so that ROS finds it.
+# Adds the build to ROS_PACKAGE_PATH and PATH. Then ROS finds it.
 enter_build() {
   set +u  # the generated file reads variables that may not be set
   # shellcheck disable=SC1091
@@ -126,7 +126,7 @@ enter_build() {
   export PATH="/usr/bin:$PATH"
 }
 
-# Makes ROS use a free port for its master and the scratch folder for its files, until the script ends.
+# From now on, ROS uses a free port for its master, and the scratch folder for its files, until the script ends.
 begin_session() {
   local port
   port=$(python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])')
@@ -143,8 +143,9 @@ start_cell() {
 # Prints the end of the log of the demo cell and the node, up to the first "Initiating shutdown".
 show_logs() { sed '/Initiating shutdown/q' "$scratch/launch.log" | tail -n 30 >&2; }
 
-# Prints the ids of processes that still run: process groups that start() created, and processes of this ROS session
-# that lost their parent. The ROS log folder in its environment identifies a process of the session.
+# Prints the ids of processes that still run. These are the process groups that start() created, and processes of this
+# ROS session that lost their parent. A process belongs to the session if its environment has the ROS log folder of the
+# session.
 still_running() {
   local pid
   for pid in "${started[@]}"; do
@@ -155,7 +156,7 @@ still_running() {
   fi
 }
 
-# gone_within SECONDS: waits until no process is left. Fails after that time.
+# gone_within SECONDS: waits until still_running() prints nothing. Fails if a process still runs after that time.
 gone_within() {
   local tenths
   for ((tenths = $1 * 10; tenths > 0; --tenths)); do
@@ -165,7 +166,7 @@ gone_within() {
   return 1
 }
 
-# Stops all processes (SIGINT, then SIGTERM, then SIGKILL) and removes the scratch folder.
+# Stops all processes that still_running() prints (SIGINT, then SIGTERM, then SIGKILL) and removes the scratch folder.
 end() {
   local pid signal
   trap '' HUP INT TERM

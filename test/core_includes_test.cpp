@@ -28,7 +28,7 @@ std::string includedIn(const std::string& line) {
   return open < line.size() && close != std::string::npos ? line.substr(open + 1, close - open - 1) : std::string();
 }
 
-/// Returns whether a file belongs to the core: it is directly in include/hgrid_proximity or src, or in a core folder.
+/// Returns whether a file belongs to the core: it is directly in include/hgrid_proximity or src, or in a core room.
 bool isCore(const fs::path& file) {
   for (const fs::path& side : {kRoot / "include/hgrid_proximity", kRoot / "src"}) {
     const fs::path inside = file.lexically_normal().lexically_relative(side);
@@ -39,10 +39,10 @@ bool isCore(const fs::path& file) {
   return false;
 }
 
-/// Returns whether the core must not include a header. The core may include headers of the standard library (without
-/// slash and dot), of Eigen, of the compiler's intrinsics, and its own.
+/// Returns whether the core must not include a header. The core may include its own headers and those of the standard
+/// library (without slash and dot), of Eigen and of the compiler's intrinsics.
 bool isForeign(const std::string& header, const fs::path& folder) {
-  const std::string intrinsics = "intrin.h";  // end of the x86 header names; the ARM header is arm_neon.h
+  const std::string intrinsics = "intrin.h";  // end of the names of x86 headers; the ARM header is arm_neon.h
   const bool standard = header.find_first_of("/.") == std::string::npos;
   const bool compiler = header.size() > intrinsics.size() && header.find('/') == std::string::npos &&
                         header.compare(header.size() - intrinsics.size(), intrinsics.size(), intrinsics) == 0;
@@ -93,14 +93,14 @@ TEST(CoreIncludes, NoCoreFileIncludesAForeignHeader) {
   EXPECT_GT(includes, files.size()) << "too few include lines were read for a meaningful test";
 }
 
-/// Returns the index in kRooms of the folder that contains a path below include/hgrid_proximity or src; kRooms.size()
-/// if none does.
+/// Returns the index in kRooms of the room (folder) that contains a path below include/hgrid_proximity or src. Returns
+/// kRooms.size() if no room contains the path.
 std::size_t roomOf(const std::string& path) {
   const std::string room = path.substr(0, path.find('/'));
   return static_cast<std::size_t>(std::find(kRooms.begin(), kRooms.end(), room) - kRooms.begin());
 }
 
-/// Claim: a file of the core includes only files from its own folder and from folders before it in kRooms.
+/// Claim: a file of the core includes only files from its own room (folder) and from rooms before it in kRooms.
 TEST(CoreIncludes, ARoomIncludesOnlyRoomsBeforeIt) {
   const std::string prefix = "hgrid_proximity/";
   std::size_t checked = 0;
@@ -123,7 +123,7 @@ TEST(CoreIncludes, ARoomIncludesOnlyRoomsBeforeIt) {
 }
 
 /// Claim: code that is compiled for one instruction set includes no templates of the standard library or Eigen. The
-/// linker could use their inline copies everywhere, even on processors without this instruction set.
+/// linker could use the compiled templates everywhere, even on processors without this instruction set.
 TEST(CoreIncludes, KernelsIncludeNoTemplates) {
   const std::vector<std::string> allowed = {"arm_neon.h", "cstddef", "cstdint", "emmintrin.h", "immintrin.h"};
   std::size_t files = 0;

@@ -62,7 +62,7 @@ TEST(Printable, KeepsTextAndEscapesTheRest) {
   EXPECT_EQ(printable(std::string("a\0b", 3)), "a\\x00b");
   EXPECT_EQ(printable("\x1b[31m"), "\\x1b[31m");
   EXPECT_EQ(printable("\xff\xc0\x80"), "\\xff\\xc0\\x80");
-  EXPECT_EQ(printable("\xe2\x82"), "\\xe2\\x82");  // an incomplete character
+  EXPECT_EQ(printable("\xe2\x82"), "\\xe2\\x82");  // the first two bytes of a character of three bytes
   EXPECT_EQ(printable(""), "");
 }
 

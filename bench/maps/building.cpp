@@ -17,7 +17,7 @@ using Cell = Eigen::Vector3i;
 constexpr double kSeen = 0.97;   // fraction of the cells of a surface that are occupied
 constexpr double kRough = 0.10;  // fraction of a surface that has a second layer
 
-/// Moves bit 3 * i of the argument to bit i of the result: the inverse of spreadByThree().
+/// Moves bit 3 * i of the argument to bit i of the result. This is the inverse of spreadByThree().
 int everyThird(std::uint64_t bits) {
   std::uint64_t key = bits & 0x249249249249;
   key = (key | key >> 2) & 0x0c30c30c30c3;
@@ -27,7 +27,7 @@ int everyThird(std::uint64_t bits) {
 }
 Cell cellOf(std::uint64_t code) { return {everyThird(code), everyThird(code >> 1), everyThird(code >> 2)}; }
 
-/// Two rooms, one above the other, in a cube of 128 x 128 x 128 cells. Each cell is one bit, in Morton order.
+/// Two rooms, one above the other, in a cube of 128 x 128 x 128 cells. Each cell is stored as one bit, in Morton order.
 class Cube {
  public:
   explicit Cube(std::uint64_t number) : random_(number), corner_(cellOf(number) * kSide) {
@@ -74,7 +74,7 @@ class Cube {
     });
   }
 
-  /// Adds a layer of cells. At random places, adds a second layer above it along `axis`.
+  /// Adds a layer of cells. At random places, adds a second layer on top of it, in the direction of `axis`.
   void surface(Cell from, Cell end, int axis) {
     fill(from, end, kSeen);
     ++from[axis], ++end[axis];
@@ -83,7 +83,7 @@ class Cube {
     });
   }
 
-  /// Sets each cell with probability `chance`; clears the others.
+  /// Sets each cell with probability `chance`, and clears the other cells.
   void fill(const Cell& from, const Cell& end, double chance) {
     forEach(from, end, [&](const Cell& cell) { set(cell, chance); });
   }
@@ -97,7 +97,7 @@ class Cube {
     }
   }
 
-  /// Sets the cell with probability `chance`, else clears it.
+  /// Sets the cell with probability `chance`; otherwise clears the cell.
   void set(const Cell& cell, double chance) {
     const std::uint64_t code = mortonOf({static_cast<std::uint16_t>(cell.x()), static_cast<std::uint16_t>(cell.y()),
                                          static_cast<std::uint16_t>(cell.z()), 0});
@@ -106,7 +106,7 @@ class Cube {
     word = random_.uniform(0.0, 1.0) < chance ? word | bit : word & ~bit;
   }
 
-  /// Appends the leaves of the octree node of this level that begins at this Morton code.
+  /// Appends the occupied leaves of the octree node that has this level and begins at this Morton code.
   void appendLeaves(std::uint64_t code, int level, std::vector<Voxel>& leaves) const {
     if (level == 2 && bits_[code / 64] == 0) return;
     if (level == 0) {

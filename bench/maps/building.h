@@ -14,10 +14,10 @@ namespace bench {
 ///
 /// The building has rooms of 6.4 x 6.4 x 3.2 m, side by side and above each other. Floors and walls are one cell thick
 /// and rough, and each wall has a door. The rooms contain hollow and solid boxes and spheres. Some cells are missing.
-/// As in a pruned octree, eight equal cells are merged into one leaf.
+/// Eight equal neighboring cells are merged into one leaf, as in a pruned octree.
 ///
-/// The building grows from the map's origin along the Morton curve until it has this number of leaves. So buildings of
-/// different sizes begin with the same leaves.
+/// The building grows from the map's origin along the Morton curve until it has `leaves` leaves. Therefore all
+/// buildings begin with the same leaves.
 std::vector<Voxel> buildingOf(std::size_t leaves);
 
 }  // namespace bench

@@ -17,9 +17,9 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-constexpr std::uint32_t kWidth = 640, kHeight = 480, kStep = 16;  // kStep [byte] is the size of a point
+constexpr std::uint32_t kWidth = 640, kHeight = 480, kStep = 16;  // pixels of an image; kStep: size of a point [byte]
 constexpr int kFrames = 90;
-constexpr double kRate = 30.0;  // [Hz]
+constexpr double kRate = 30.0;  // [Hz] rate of the messages
 
 PointCloudFormat format() {
   PointCloudFormat format;
@@ -31,7 +31,7 @@ PointCloudFormat format() {
   return format;
 }
 
-/// Returns the points of the message at time `time` [s]. A tenth of them are NaN, like pixels without a depth.
+/// Returns the points of the message at time `time` [s]. A tenth of the points are NaN, like pixels without a depth.
 std::string frameAt(double time) {
   std::string data(std::size_t{kWidth} * kHeight * kStep, '\0');
   for (std::uint32_t row = 0; row < kHeight; ++row) {
@@ -55,7 +55,7 @@ void playClouds(std::vector<Record>& records) {
   std::printf("\nclouds of %u points, %d frames\n", kWidth * kHeight, kFrames);
   for (const double edge : {0.05, 0.02}) {
     CloudCells cells(edge, std::chrono::seconds(1), 20000000);
-    std::vector<double> took;  // [ms] one per message
+    std::vector<double> took;  // [ms] processing time of each message
     for (int frame = 0; frame < kFrames; ++frame) {
       const Time stamp(static_cast<std::int64_t>(1e9 * frame / kRate));
       const std::string data = frameAt(frame / kRate);

@@ -7,7 +7,7 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-/// FCL's tree of objects with one box per leaf. Coordinates are in units of voxel keys, see inKeys().
+/// FCL's dynamic AABB tree with one box per leaf. Coordinates are in units of voxel keys, see inKeys().
 class FclLeavesMap final : public MapPeer {
  public:
   explicit FclLeavesMap(const Map& map) : map_(&map), tree_(makeFclQueries()) {

@@ -18,7 +18,7 @@ namespace bench {
 Map building(std::size_t leaves, const std::string& folder) {
   Map map{"building", folder + "/building.bt", 0.05, buildingOf(leaves)};
   const std::string nodes = test::binaryNodesOf(map.leaves);
-  const std::size_t count = nodes.size() / 2 + leaves;  // `nodes` has two bytes per inner node
+  const std::size_t count = nodes.size() / 2 + leaves;  // `nodes` contains two bytes for each inner node
   std::ofstream out(map.file, std::ios::binary);
   out << test::btHeader("id OcTree\nsize " + std::to_string(count) + "\nres 0.05\n") << nodes;
   if (!out.flush()) throw std::runtime_error("cannot write " + map.file);

@@ -14,8 +14,10 @@
 namespace hgrid {
 namespace bench {
 
-/// Kinds of questions. touches: does a sphere touch any leaf? overlapping: which leaves does a sphere touch? segment:
-/// which leaf comes first along a segment?
+/// Kinds of questions:
+/// - touches: whether a sphere touches any leaf
+/// - overlapping: which leaves a sphere touches
+/// - segment: which leaf comes first along a segment
 enum class MapQuestion { touches, overlapping, segment };
 constexpr MapQuestion kMapQuestions[] = {MapQuestion::touches, MapQuestion::overlapping, MapQuestion::segment};
 
@@ -37,17 +39,19 @@ class MapPeer {
 
   /// Returns all occupied leaves, in any order.
   virtual std::vector<Voxel> leaves() = 0;
-  /// Returns the bytes that the peer reports to hold. 0: it reports nothing, so the bytes that it has allocated count.
+  /// Returns how many bytes the peer says that it holds. 0: the peer does not say it; its allocated bytes count
+  /// instead.
   virtual std::size_t bytes() const { return 0; }
 };
 
-/// A kind of peer and the functions that create it. A function is empty if the peer cannot be created in this way.
+/// A kind of peer and the functions that create the peer. A function is empty if the peer cannot be created in this
+/// way.
 struct MapPeerKind {
   using Make = std::function<std::unique_ptr<MapPeer>(const Map&)>;
 
   std::string name;
-  std::size_t most;  ///< number of leaves; with more, loading takes far too long
-  Make from_file;    ///< reads the file; the peer is then ready for questions
+  std::size_t most;  ///< largest number of leaves; with more leaves, loading takes far too long
+  Make from_file;    ///< reads the file of the map; afterwards the peer answers questions
   Make from_leaves;  ///< builds the peer from the list of leaves
 };
 
@@ -57,7 +61,7 @@ const std::vector<MapPeerKind>& mapPeers();
 /// Reads an OctoMap file with hgrid's reader.
 Octomap readMap(const std::string& file);
 
-// One or two factories per peer. If the library of a peer was not found, they are declared but not defined.
+// One or two factories per peer. If the library of a peer was not found, its factories are declared but not defined.
 std::unique_ptr<MapPeer> readStaticGrid(const Map& map);
 std::unique_ptr<MapPeer> makeStaticGrid(const Map& map);
 std::unique_ptr<MapPeer> readOcTree(const Map& map);

@@ -8,10 +8,11 @@
 namespace hgrid {
 namespace bench {
 
-/// Creates a peer from a map again and again and measures the time. Compares the leaves of the peer by a checksum.
+/// Creates a peer from a map again and again and measures the time. A checksum of the peer's leaves shows whether they
+/// are right.
 ///
-/// Each time, unused heap memory is first returned to the system, as if this were the first map of the process.
-/// Otherwise peers could reuse that memory, which would help trees of small nodes most.
+/// Before each creation, unused heap memory is returned to the system, as if the map were the first one of the process.
+/// A peer that reused this memory would seem faster, most of all a tree of small nodes.
 class MakeMapPlay {
  public:
   MakeMapPlay(const Map& map, MapPeerKind::Make make) : map_(&map), make_(std::move(make)) {}
@@ -25,9 +26,9 @@ class MakeMapPlay {
 
 /// Measures how long a peer takes to answer questions of one kind.
 ///
-/// First the peer answers all questions, untimed, to compare the answers. Then each sample asks kChunk questions in
-/// random order. If batched, each sample asks all questions and sorts them into Morton order first, as a user with many
-/// questions would do.
+/// First the peer answers all questions without timing; these answers are compared. Then each sample times kChunk
+/// questions in random order. If `batched` is true, each sample instead sorts all questions into Morton order and asks
+/// them all, as a user with many questions would do.
 class AskMapPlay {
  public:
   static constexpr std::size_t kChunk = 1000;
@@ -48,8 +49,8 @@ class AskMapPlay {
   const Map* map_;
   const MapQuestions* questions_;
   std::size_t next_ = 0;
-  std::vector<Voxel> found_;  // leaves that answer the last question; for `touches`: any leaf means yes
-  Sample result_;             // each sample is a copy of this with its own time
+  std::vector<Voxel> found_;  // leaves that answer the last question; for `touches`, any leaf means "yes"
+  Sample result_;             // template of all samples; only their times differ
 };
 
 }  // namespace bench

@@ -22,8 +22,8 @@ Voxel voxelOf(const Leaf& leaf) {
   return {key[0], key[1], key[2], static_cast<std::uint8_t>(Voxel::kLevels - leaf.getDepth())};
 }
 
-/// OctoMap's tree, used as OctoMap's users do. For a sphere, it visits the leaves in the box around it and tests them
-/// exactly. For a segment, it casts a ray that passes through unknown space.
+/// OctoMap's tree, used as most users of OctoMap do. For a sphere, this class visits the leaves in the box around the
+/// sphere and tests them exactly. For a segment, it casts a ray that passes through unknown space.
 class OctomapMap final : public MapPeer {
  public:
   explicit OctomapMap(std::shared_ptr<const octomap::OcTree> tree) : tree_(std::move(tree)) {}
@@ -46,8 +46,8 @@ class OctomapMap final : public MapPeer {
     });
   }
 
-  /// castRay() ends at the last cell whose center is within its range. So the range is half the diagonal of a cell
-  /// longer than the segment, and a cell that the segment does not meet is dropped afterwards.
+  /// castRay() ends at the last cell whose center is within its range. Therefore the range is the length of the segment
+  /// plus half the diagonal of a cell. A cell that the segment does not meet is dropped afterwards.
   std::optional<Voxel> firstAlong(const Segment& segment) override {
     const Eigen::Vector3d way = segment.to - segment.from;
     octomap::point3d end;
@@ -65,7 +65,7 @@ class OctomapMap final : public MapPeer {
   std::size_t bytes() const override { return tree_->memoryUsage(); }
 
  private:
-  static constexpr double kRounded = 1e-4;  // [keys] tolerance: the direction of the ray is in float
+  static constexpr double kRounded = 1e-4;  // [keys] tolerance, because the direction of the ray is rounded to float
 
   /// Calls `look` with each occupied leaf that the sphere touches. Stops when `look` returns false.
   template <class Look>
@@ -89,7 +89,7 @@ class OctomapMap final : public MapPeer {
 
 std::shared_ptr<const octomap::OcTree> ocTreeOf(const std::string& file) {
   const test::Silence silence;
-  const auto tree = std::make_shared<octomap::OcTree>(0.1);  // readBinary() sets the resolution of the file
+  const auto tree = std::make_shared<octomap::OcTree>(0.1);  // readBinary() sets the right resolution
   if (!tree->readBinary(file)) throw std::runtime_error("OctoMap cannot read " + file);
   return tree;
 }

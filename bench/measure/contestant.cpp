@@ -44,7 +44,8 @@ bool writeAll(int file, const void* data, std::size_t size) {
   return true;
 }
 
-/// Reads `size` bytes. Returns false at the end of the file or after the deadline; null: no deadline.
+/// Reads `size` bytes. Returns false at the end of the file or after the deadline. Null means that there is no
+/// deadline.
 bool readAll(int file, void* data, std::size_t size, const Clock::time_point* deadline) {
   char* to = static_cast<char*>(data);
   while (size > 0) {

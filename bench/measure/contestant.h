@@ -19,20 +19,20 @@ class Contestant {
   /// Runs the peer for about `budget_ms` milliseconds and returns the samples.
   using Play = std::function<std::vector<Sample>(double budget_ms)>;
 
-  /// Forks the child process, which calls `make` when play() is called for the first time. If `threads` is 1, the child
-  /// is pinned to the last processor that it may use.
+  /// Forks the child process. The child calls `make` when play() is called for the first time. If `threads` is 1, the
+  /// child is pinned to the last processor that it may use.
   /// @throws std::runtime_error if the system provides no pipe or no process
   Contestant(const std::function<Play()>& make, int threads);
   ~Contestant();
   Contestant(const Contestant&) = delete;
   Contestant& operator=(const Contestant&) = delete;
 
-  /// Runs the peer for one block of about `budget_ms` [ms] and stores the samples. If there is no answer within
-  /// `limit_s` [s], ends the child process. Does nothing once the child process has ended.
+  /// Runs the peer for one block of about `budget_ms` [ms] and stores the samples. If the child process does not answer
+  /// within `limit_s` [s], ends it. Does nothing if the child process has already ended.
   void play(double budget_ms, double limit_s);
 
   const std::vector<std::vector<Sample>>& blocks() const { return blocks_; }
-  /// "ok", or the reason why the child process has ended, as text for the table.
+  /// Returns "ok", or the reason why the child process has ended, as text for the table.
   const std::string& status() const { return status_; }
 
  private:

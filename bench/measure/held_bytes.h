@@ -7,7 +7,7 @@
 namespace hgrid {
 namespace bench {
 
-/// Returns the number of bytes that this process has allocated with malloc and not freed.
+/// Returns the number of bytes that this process has allocated with malloc and has not freed.
 inline double heldBytes() {
 #if defined(__GLIBC__) && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 33)
   const struct mallinfo2 info = mallinfo2();

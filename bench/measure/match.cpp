@@ -15,7 +15,8 @@ using Result = std::pair<std::uint64_t, std::uint64_t>;  // count and checksum
 
 Result resultOf(const Sample& sample) { return {sample.count, sample.checksum}; }
 
-/// Returns the result with the most votes. Returns null if it has only one vote or if another result has as many votes.
+/// Returns the result with the most votes. Returns null if that is only one vote, or if two results have the most
+/// votes.
 const Result* elected(const std::map<Result, int>& votes) {
   const Result* best = nullptr;
   int most = 1;

@@ -25,7 +25,7 @@ double PairsPlay::bytes() const {
 
 Sample PairsPlay::frame() {
   world_->step();
-  std::fill(pairs_.begin(), pairs_.end(), ProxyPair{});  // the peer must not reuse pairs of the frame before
+  std::fill(pairs_.begin(), pairs_.end(), ProxyPair{});  // the peer must not reuse its pairs of the previous frame
   Sample sample;
   const Clock::time_point begin = Clock::now();
   peer_->frame(world_->frame(), pairs_);

@@ -11,13 +11,15 @@
 namespace hgrid {
 namespace bench {
 
-/// Runs a peer frame by frame and measures the time of each frame.
+/// Runs a peer and measures the time of each frame. A frame of the benchmark is one time step: boxes move, then the
+/// peer finds all overlapping pairs.
 ///
-/// With age 0, every lap starts with a new peer. It loads the boxes of frame 0 and runs frames 1 .. kLap; the first
-/// kWarmUp of them are not timed. Laps repeat until the time budget is used. So trees that get slower with age are
-/// measured when they are new, and all peers run the same frames.
+/// With age 0, each lap creates a new peer, which loads the boxes of frame 0 and runs the frames 1 .. kLap. The first
+/// kWarmUp frames of a lap are not timed. Laps repeat until the time budget is used. Trees that get slower with age are
+/// thus measured when they are new, and all peers run the same frames.
 ///
-/// With another age, the peer is loaded once and runs `age` untimed frames. Then each block is a lap of timed frames.
+/// With another age, the peer is loaded once and runs `age` frames without timing. Then each block is a lap of timed
+/// frames.
 class PairsPlay {
  public:
   static constexpr std::uint64_t kWarmUp = 2, kLap = 12;
@@ -32,12 +34,12 @@ class PairsPlay {
   Sample frame();
   double bytes() const;
 
-  World* world_;  // a private copy, since this runs in a child process
+  World* world_;  // a private copy, because this class runs in a child process
   std::function<std::unique_ptr<Peer>()> make_;
   std::uint64_t age_;
   std::unique_ptr<Peer> peer_;
   std::vector<ProxyPair> pairs_;
-  double held_before_ = 0.0;  // [byte] allocated by this process, without the peer and `pairs_`
+  double held_before_ = 0.0;  // [byte] memory of the process without the peer and `pairs_`
 };
 
 }  // namespace bench

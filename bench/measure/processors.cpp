@@ -18,13 +18,13 @@ using Clock = std::chrono::steady_clock;
 constexpr int kRounds = 200000;
 constexpr int kTrials = 5;
 
-/// Adds to six independent sums, to use all adders of a core. A second thread on the same core then gains nothing.
+/// Adds numbers to six independent sums, which uses all adders of a core. A second thread on this core gains nothing.
 void addRegisters() {
   std::array<std::uint64_t, 6> sums{1, 2, 3, 4, 5, 6};
   for (int i = 0; i < kRounds; ++i) {
     for (std::uint64_t& sum : sums) {
       sum += 3;
-      __asm__ volatile("" : "+r"(sum));  // keeps the compiler from merging two additions
+      __asm__ volatile("" : "+r"(sum));  // prevents the compiler from merging two additions
       sum += 5;
       __asm__ volatile("" : "+r"(sum));
     }
@@ -37,7 +37,7 @@ double msOf(Clock::duration time) { return std::chrono::duration<double, std::mi
 
 double gainOfTwoProcessors() {
   std::atomic<int> asked{0}, answered{0};
-  // This thread spins while it waits, so that no trial includes the time to wake it up.
+  // This thread spins while it waits. Then no trial includes the time that the system needs to wake up a thread.
   std::thread other([&] {
     for (int trial = 1; trial <= kTrials; ++trial) {
       while (asked.load(std::memory_order_acquire) < trial) std::this_thread::yield();

@@ -9,7 +9,7 @@
 namespace hgrid {
 namespace bench {
 
-/// A flat JSON object. Fields are added one by one.
+/// A JSON object without nested values. Functions add one field each.
 class Record {
  public:
   explicit Record(const std::string& kind) { text("kind", kind); }
@@ -17,7 +17,7 @@ class Record {
   Record& text(const std::string& name, const std::string& value);
   Record& number(const std::string& name, double value);
   Record& flag(const std::string& name, bool value) { return raw(name, value ? "true" : "false"); }
-  /// Adds 64 bits as a string of 16 hexadecimal digits, since a JSON number cannot hold them exactly.
+  /// Adds 64 bits as a string of 16 hexadecimal digits, because a JSON number cannot store them exactly.
   Record& bits(const std::string& name, unsigned long long value);
 
   std::string json() const { return "{" + fields_ + "}"; }

@@ -11,17 +11,17 @@
 namespace hgrid {
 namespace bench {
 
-/// Time and result of one measured step, for example of a frame or of a pass over all queries.
+/// Time and result of one measured step, for example of one frame or of one pass over all queries.
 struct Sample {
   double ms = 0.0;             ///< [ms] duration of the step
-  double bytes = 0.0;          ///< bytes that the peer held; 0: not measured
+  double bytes = 0.0;          ///< memory that the peer held; 0: not measured
   std::uint64_t count = 0;     ///< number of pairs or hits
-  std::uint64_t checksum = 0;  ///< of the pairs, or of the hits of all judged queries; their order does not matter
-  std::uint64_t number = 0;    ///< frame number; results with equal numbers are results for the same boxes
-  std::uint64_t timed = 0;     ///< 0: warm-up, the time does not count
+  std::uint64_t checksum = 0;  ///< checksum of the pairs, or of the hits of all judged queries, in any order
+  std::uint64_t number = 0;    ///< number of the frame; samples with the same number have the same boxes
+  std::uint64_t timed = 0;     ///< whether the time counts; 0 for a warm-up step
 };
 
-/// A checksum of a set of numbers. Their order does not matter; a number that is added twice changes the checksum.
+/// A checksum of a set of numbers. It does not depend on their order. Adding a number twice changes the checksum.
 class Checksum {
  public:
   void add(std::uint64_t number) { sum_ += mixed(number + 0x9e3779b97f4a7c15ull); }

@@ -16,8 +16,8 @@ inline double msSince(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
-/// Calls `timed` until the budget is used, at least once. `timed` returns the duration of a step [ms]. Returns one copy
-/// of `result` with this duration for each call.
+/// Calls `timed` at least once and until the time budget is used. `timed` returns the duration of a step [ms]. Returns
+/// one copy of `result` for each call, with the duration of this call.
 template <class Timed>
 std::vector<Sample> samplesFor(double budget_ms, const Sample& result, Timed&& timed) {
   const Clock::time_point begin = Clock::now();

@@ -39,7 +39,7 @@ Workload freeBodies(std::size_t count, double rate) {
   workload.rate = rate;
   workload.params["rate"] = rate;
   workload.params["max_frames"] = static_cast<int>(count + 10);
-  workload.params["accept_uncovered"][0]["pattern"] = "robot/*";  // the robot only provides the frame "world"
+  workload.params["accept_uncovered"][0]["pattern"] = "robot/*";  // the robot has no shapes
   workload.params["accept_uncovered"][0]["reason"] = "it has no geometry";
   workload.descriptions["robot_description"] = "<robot name='nobody'><link name='world'/></robot>";
   const double side = kEdge * 2.0 * std::cbrt(4.0 * static_cast<double>(count));

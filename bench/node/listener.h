@@ -17,16 +17,16 @@ namespace bench {
 
 namespace msg = ::hgrid_proximity;
 
-/// Subscribes to the topics of a node and stores what it receives. All callbacks run on one other thread.
+/// Subscribes to the topics of a node and stores what it receives. All callbacks run on one separate thread.
 class Listener {
  public:
   /// @param node       name of the node
-  /// @param distances  whether to subscribe to ~distances of the node as well, so that it measures distances
+  /// @param distances  whether to subscribe to ~distances, too; with a subscriber, the node measures distances
   Listener(const std::string& node, bool distances);
 
-  /// Adds everything that is received from now on to `sightings`. Null: stores nothing.
+  /// Adds everything that is received from now on to `sightings`. Null means that nothing is stored.
   void noteIn(Sightings* sightings);
-  /// Whether the newest ~status of the node reports a complete world with this number of bodies.
+  /// Returns whether the newest ~status of the node reports a complete world with `bodies` bodies.
   bool serves(std::size_t bodies) const;
   /// Returns text for an error message: the number of bodies in the newest ~status, and why the world is not complete.
   std::string troubles() const;

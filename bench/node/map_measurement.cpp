@@ -32,8 +32,8 @@ void sleepUntil(Clock::time_point begin, double seconds) {
                                 std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds)));
 }
 
-/// Watches the node for `duration` [s]. Maps are sent in the middle of each second, so that the node has read the last
-/// one before the next turn. `maps` is null if the map shall not change.
+/// Watches the node for `duration` [s]. Sends the maps in the middle of each second, so that the node has time to read
+/// the last map before the next turn. `maps` is null if the map must not change.
 void turn(double duration, MapStream* maps, RunningNode& node, QuestionStream& questions, Seen& seen) {
   const Clock::time_point begin = Clock::now();
   node.watch(seen.ticks);

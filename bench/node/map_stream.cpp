@@ -12,9 +12,10 @@ namespace {
 
 constexpr std::size_t kPrepared = 10;
 constexpr std::size_t kChanged = MapStream::kLeaves / 100;
-constexpr int kMarkKey = Voxel::kOriginKey - 200;  // less than all keys of the building, so first in Morton order
+constexpr int kMarkKey = Voxel::kOriginKey - 200;  // less than all keys of the building: first in Morton order
 
-/// Returns for each leaf of a building the number of the map that does not contain it. Each map lacks kChanged leaves.
+/// Returns for each leaf of the building the index of the one map that does not contain it. Each map lacks kChanged
+/// leaves.
 std::vector<std::size_t> lackingMaps(std::size_t leaves) {
   const std::size_t groups = leaves / kChanged;
   std::vector<std::size_t> lacking(leaves);

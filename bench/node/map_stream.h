@@ -13,12 +13,13 @@
 namespace hgrid {
 namespace bench {
 
-/// Publishes maps of a building of 1,000,000 leaves (bench/maps/building.h), one after the other. From each map to the
-/// next, 10,000 leaves disappear and 10,000 appear, scattered over the building. The messages are like octomap_binary
-/// of octomap_server, in the frame "map".
+/// Publishes maps of a building of 1,000,000 leaves (bench/maps/building.h), one after the other. Each map lacks 10,000
+/// leaves of the map before and has 10,000 other leaves, scattered over the building. The messages are like those of
+/// octomap_server on octomap_binary, in the frame "map".
 ///
-/// The constructor prepares ten maps, since creating a map takes far longer than sending it; then they repeat. Each map
-/// has a mark: one more leaf outside of the building, at a different place than in the map before.
+/// The constructor prepares ten maps, because creating a map takes far longer than sending it. After the tenth map, the
+/// first one is sent again. Each map has a mark: one more leaf outside of the building. From map to map, the mark
+/// changes between two places.
 class MapStream {
  public:
   static constexpr std::size_t kLeaves = 1000000;
@@ -33,8 +34,8 @@ class MapStream {
   /// Returns the approximate size of one message [byte].
   std::size_t messageBytes() const { return messages_.front().bytes.size(); }
 
-  /// Returns the coordinate [m, frame "map"] of the center of the mark in the first map, the third and so on. It is the
-  /// same on all three axes.
+  /// Returns the coordinate of the center of the mark in the first map, the third map and so on [m, frame "map"]. It is
+  /// the same on all three axes.
   static double middleOfMark();
 
  private:

@@ -13,7 +13,7 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-/// The rows of the table: the name in the table, and the node's own name of the timing.
+/// The rows of the table: the name of the row, and the name of the timing in the ~status of the node.
 const std::vector<std::pair<const char*, const char*>> kParts = {
     {"tick", "tick"},        {"poses", "tick.poses"},     {"boxes", "tick.boxes"},         {"broad phase", "tick.grid"},
     {"pairs", "tick.pairs"}, {"publish", "tick.publish"}, {"distances", "distances"}, {"tf", "tf"},

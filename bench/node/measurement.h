@@ -12,7 +12,7 @@
 namespace hgrid {
 namespace bench {
 
-/// Median and 99th percentile of some values.
+/// Median and 99th percentile of a list of values.
 struct Spread {
   double median = 0.0, p99 = 0.0;
 };
@@ -26,16 +26,16 @@ struct Measurement {
   };
   std::string title;
   std::size_t bodies = 0;
-  double rate = 0.0;                 ///< [Hz] rate of /tf and of the ticks
+  double rate = 0.0;                 ///< [Hz] rate of the messages on /tf, and of the ticks
   bool distances = false;            ///< whether the node measured distances
   std::optional<double> maps_per_s;  ///< [1/s] how often the map was replaced; empty if the world has no map
   std::vector<Part> parts;           ///< parts of the ticks, then "latency"
   double cpu_percent = 0.0;          ///< processor time of the node, in percent of one processor
-  double bench_percent = 0.0;        ///< the same for this process, which moves the world and sends queries
-  double others_percent = 0.0;       ///< the same for all other processes together, which disturb the measurement
-  double pairs = 0.0;                ///< near pairs per tick, on average
+  double bench_percent = 0.0;        ///< processor time of this process, which moves the world and sends queries
+  double others_percent = 0.0;       ///< processor time of all other processes, which disturb the measurement
+  double pairs = 0.0;                ///< average number of near pairs per tick
   std::size_t ticks = 0;             ///< number of ticks that were measured
-  std::size_t late_cycles = 0;       ///< cycles of /tf that began late
+  std::size_t late_cycles = 0;       ///< number of cycles of /tf that began late
 };
 
 /// Returns the spread of durations [s] in milliseconds.
@@ -45,10 +45,11 @@ Measurement measurementOf(const Workload& workload, const Sightings& seen);
 
 /// Starts a node, lets it run in the workload, and measures it for `duration` [s].
 ///
-/// The parts are the node's own timings of every single tick (`last` of its ~status). "tf" is the time that the node
-/// spent on received transforms between two ticks. Latency is the time from the stamp of a cycle of /tf, taken just
-/// before the cycle is sent, until this process receives the first ~pairs with this stamp. It includes the wait for the
-/// next tick. A cycle is slightly longer than a tick, so that each phase between the two occurs once during a run.
+/// The parts of the tick are the node's own timings of each tick (`last` of its ~status). "tf" is the time that the
+/// node spent on received transforms between two ticks. "latency" begins at the stamp of a cycle of /tf, which is taken
+/// just before the cycle is sent. It ends when this process receives the first ~pairs with this stamp, so it includes
+/// the wait for the next tick. A cycle is slightly longer than a tick. Thus the offset between the two takes each value
+/// once during a run.
 ///
 /// @throws std::runtime_error if the node does not know the whole world within a minute
 Measurement measure(const Workload& workload, double duration);

@@ -17,17 +17,17 @@
 namespace hgrid {
 namespace bench {
 
-/// How long service calls to the node took, from the call to its return, over a persistent connection.
+/// Durations of service calls to the node over a persistent connection, from the call to its return.
 struct RoundTrips {
-  std::vector<double> sphere, segment;  ///< [s] one per query of this kind
+  std::vector<double> sphere, segment;  ///< [s] duration of each query of this kind
 };
 
-/// Sends queries to a node from its own thread until it is destroyed. Sphere and segment queries take turns, one at a
-/// time, at random places of a room.
+/// Sends queries to a node from its own thread until this object is destroyed. Sends a sphere query and a segment query
+/// in turn, at random places of a room. It waits for the answer of a query before it sends the next one.
 ///
-/// The pauses between queries are random, so that they cover every phase of the ticks. If an answer comes late, the
-/// next query follows at once. Ten times per second, the thread also asks for the mark of MapStream. This query is not
-/// timed; it shows that the map was replaced.
+/// The pauses between queries are random. Thus queries arrive in every phase of a tick. If an answer comes late, the
+/// next query follows at once. Ten times per second, the thread also asks for the mark of MapStream, which shows
+/// whether the map was replaced. This query is not timed.
 class QuestionStream {
  public:
   static constexpr double kRate = 200.0;  ///< [Hz] average rate of both kinds of queries together
@@ -35,9 +35,9 @@ class QuestionStream {
   explicit QuestionStream(const std::string& node);
   ~QuestionStream();
 
-  /// Adds the round trips of all queries from now on to `trips`. Null: stores nothing.
+  /// Adds the durations of all queries from now on to `trips`. Null means that nothing is stored.
   void noteIn(RoundTrips* trips);
-  /// Returns how many times the answer about the mark has changed, which means that a new map is in use.
+  /// Returns how many times the answer about the mark has changed. Each change means that the node uses a new map.
   std::size_t replacements() const { return replacements_; }
   /// Returns the number of queries that were not answered.
   std::size_t failures() const { return failures_; }
@@ -58,7 +58,7 @@ class QuestionStream {
   RoundTrips* trips_ = nullptr;
   std::atomic<std::size_t> replacements_{0}, failures_{0};
   std::atomic<bool> stopping_{false};
-  std::thread thread_;  // last member, since the thread uses the others
+  std::thread thread_;  // last member, because the thread uses the other members
 };
 
 }  // namespace bench

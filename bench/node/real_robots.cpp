@@ -10,7 +10,7 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-constexpr double kApart = 1.2;  // [m] between the bases, so that the robots come near each other
+constexpr double kApart = 1.2;  // [m] distance of the robot bases, so small that the robots come near each other
 
 geometry_msgs::TransformStamped frameOf(const RobotModel& model, std::size_t link, const std::string& prefix) {
   geometry_msgs::TransformStamped frame;
@@ -31,7 +31,7 @@ void setPose(const Pose& pose, geometry_msgs::Transform& transform) {
   transform.rotation.w = rotation.w();
 }
 
-/// Returns the pose of a joint that swings around the middle of its range. `t` is the phase of the swing [rad].
+/// Returns the pose of a joint that swings around the middle of its range. `t` is the phase angle of the swing [rad].
 Pose swung(const RobotLink& link, double t) {
   const bool limited = link.lower != link.upper;
   const double middle = limited ? 0.5 * (link.lower + link.upper) : 0.0;
@@ -48,7 +48,7 @@ Pose swung(const RobotLink& link, double t) {
 
 std::vector<Workload> realRobots(double rate) {
   if (test::sharedData().empty()) return {};
-  const char* others = std::getenv("ROS_PACKAGE_PATH");  // to find meshes with package:// paths
+  const char* others = std::getenv("ROS_PACKAGE_PATH");  // the node needs it to find meshes with package:// paths
   setenv("ROS_PACKAGE_PATH", (test::sharedData() + ":" + (others == nullptr ? "" : others)).c_str(), 1);
   Workload workload;
   workload.title = "UR5, Panda and PR2, distances measured";

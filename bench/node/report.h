@@ -15,8 +15,8 @@ namespace bench {
 void print(const Measurement& measurement);
 void print(const MapMeasurement& measurement);
 
-/// Writes all measurements as one JSON array of flat records, one record per part. The first record names the machine
-/// and the commit.
+/// Writes all measurements as one JSON array of flat records, one record per part of a measurement. The first record
+/// names the machine and the commit.
 /// @throws std::runtime_error if the file cannot be written
 void writeJson(const std::string& file, const std::string& commit, const std::vector<Measurement>& measurements);
 

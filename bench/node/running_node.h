@@ -13,19 +13,19 @@
 namespace hgrid {
 namespace bench {
 
-/// A node in a child process, in a workload that moves.
+/// A node in a child process. A workload moves the world of the node.
 class RunningNode {
  public:
-  /// Starts the node and waits until the cache of tf is full, since the node is slower with a full cache.
-  /// @param watched  [s] time between watch() and rest(). The period of /tf is chosen so that the phase between /tf and
-  ///                 the ticks takes every value once in this time.
+  /// Starts the node and waits until its cache of transforms is full, because a full cache makes the node slower.
+  /// @param watched  [s] time between watch() and rest(). The period of /tf is chosen for this time: the offset
+  ///   between                 /tf and the ticks takes each value once.
   /// @throws std::runtime_error if the node does not know the whole world within a minute
   RunningNode(const Workload& workload, double watched);
 
   const std::string& name() const { return name_; }
-  /// Adds everything that is measured from now on to `sightings`, until rest() is called.
+  /// Adds all measured data to `sightings` from now on, until rest() is called.
   void watch(Sightings& sightings);
-  /// Stops adding to the `sightings` of watch().
+  /// Ends what watch() began: adds no more data.
   void rest();
 
  private:

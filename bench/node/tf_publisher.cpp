@@ -23,7 +23,7 @@ void TfPublisher::run() {
   const auto period = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(period_));
   auto due = Clock::now();
   for (double t = 0.0; !stopping_; t += period_) {
-    std::vector<tf2_msgs::TFMessage> messages = workload_.move(t);  // before it is due: not part of the latency
+    std::vector<tf2_msgs::TFMessage> messages = workload_.move(t);  // not part of the latency
     std::this_thread::sleep_until(due);
     const auto now = Clock::now();
     if (now - due > period / 2) {

@@ -12,16 +12,16 @@
 namespace hgrid {
 namespace bench {
 
-/// Publishes the cycles of a workload on /tf from its own thread until it is destroyed. The stamp of all transforms of
-/// a cycle is the time when the cycle is sent.
+/// Publishes the cycles of a workload on /tf from its own thread until this object is destroyed. A cycle is one set of
+/// transforms. All of them have the same stamp: the time when the cycle is sent.
 class TfPublisher {
  public:
   /// @param period  [s] time from the start of a cycle to the start of the next
   TfPublisher(const Workload& workload, double period);
   ~TfPublisher();
-  /// Whether somebody subscribes to /tf.
+  /// Returns whether /tf has a subscriber.
   bool heard() const { return publisher_.getNumSubscribers() > 0; }
-  /// Returns the number of cycles that began more than half a period late, since the machine was too busy.
+  /// Returns the number of cycles that began more than half a period late, because the machine was too busy.
   std::size_t lateCycles() const { return late_; }
 
  private:
@@ -33,7 +33,7 @@ class TfPublisher {
   ros::Publisher publisher_;
   std::atomic<bool> stopping_{false};
   std::atomic<std::size_t> late_{0};
-  std::thread thread_;  // last member, since the thread uses the others
+  std::thread thread_;  // last member, because the thread uses the other members
 };
 
 }  // namespace bench

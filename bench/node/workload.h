@@ -19,29 +19,29 @@ struct Workload {
   std::string title;
   std::size_t bodies = 0;
   double rate = 100.0;                              ///< [Hz] rate of /tf and of the node's ticks
-  bool distances = false;                           ///< subscribe to ~distances, so that the node measures them
+  bool distances = false;                           ///< whether to subscribe to ~distances
   XmlRpc::XmlRpcValue params;                       ///< the node's private parameters
-  std::map<std::string, std::string> descriptions;  ///< further parameters in the node's namespace
+  std::map<std::string, std::string> descriptions;  ///< robot descriptions: parameters in the node's namespace
   /// Returns the messages of one cycle of /tf at time `t` [s], without stamps.
   std::function<std::vector<tf2_msgs::TFMessage>(double t)> move;
 };
 
-/// Returns robots on a square lattice. Each robot is a chain of `links` links, which are boxes, cylinders and spheres
-/// in turn. The first link is on a moving base; revolute joints connect the others. There is one message per robot, as
-/// from robot_state_publisher.
+/// Returns robots on a square lattice. Each robot is a chain of `links` links, whose shapes are boxes, cylinders and
+/// spheres in turn. The first link is on a moving base. Revolute joints connect the others. Each robot has its own
+/// message, like the messages of robot_state_publisher.
 Workload robots(std::size_t count, std::size_t links, double rate);
 
-/// Returns the same robots on the floor of a room of 6.4 x 6.4 x 3.2 m in a building. The map of the building comes on
-/// `topic`, in the frame "map". Robots with 20 links fit under the ceiling.
+/// Returns the robots of robots(), but on the floor of a room of 6.4 x 6.4 x 3.2 m in a building. The node receives the
+/// map of the building on `topic`, in the frame "map". Robots with up to 20 links fit under the ceiling.
 Workload robotsInBuilding(std::size_t count, std::size_t links, double rate, const std::string& topic);
 
 /// Returns boxes that fly around and turn. Each box is an obstacle with its own frame and has about one near neighbor.
-/// There is one message with all frames, as from a motion capture system.
+/// One message contains all frames, like the message of a motion capture system.
 Workload freeBodies(std::size_t count, double rate);
 
-/// Returns one workload: UR5, Panda and PR2 beside each other, swinging all joints. Returns no workload if their
-/// descriptions are not found. They are searched in HGRID_TEST_DATA or, if that is not set, in ../shared/data beside
-/// the project.
+/// Returns one workload: UR5, Panda and PR2 beside each other. All their joints swing. Returns no workload if the robot
+/// descriptions are not found in the folder HGRID_TEST_DATA. If that variable is not set, the folder is ../shared/data
+/// beside the project.
 std::vector<Workload> realRobots(double rate);
 
 }  // namespace bench

@@ -7,7 +7,7 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-/// Boost's R-tree. Each frame builds a new packed tree and queries it once per box.
+/// Boost's R-tree. In each frame, this peer builds a new packed tree and queries it once per box.
 class BoostPeer final : public Peer {
  public:
   void load(const std::vector<Aabb>&) override {}

@@ -23,7 +23,8 @@ using BoostTree = boost::geometry::index::rtree<BoostValue, boost::geometry::ind
 inline BoostPoint toBoost(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
 inline BoostBox toBoost(const Aabb& box) { return {toBoost(box.min), toBoost(box.max)}; }
 
-/// Returns the values to build a tree from. A tree that is built from a range packs them (sort-tile-recursive).
+/// Returns the values from which a tree is built. If Boost gets all values at once, it packs them
+/// (sort-tile-recursive).
 inline std::vector<BoostValue> boostValues(const std::vector<Aabb>& boxes) {
   std::vector<BoostValue> values;
   values.reserve(boxes.size());

@@ -6,13 +6,13 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-/// Same as hgrid::overlap, but without branches: a mispredicted branch costs more than the comparisons that it saves.
+/// Same as hgrid::overlap, but without branches. A mispredicted branch costs more than the comparisons that it saves.
 bool overlapping(const Aabb& a, const Aabb& b) {
   return (a.min.x() <= b.max.x()) & (b.min.x() <= a.max.x()) & (a.min.y() <= b.max.y()) & (b.min.y() <= a.max.y()) &
          (a.min.z() <= b.max.z()) & (b.min.z() <= a.max.z());
 }
 
-/// Compares every box with every later one. This is too simple to be wrong, so its pairs are the reference.
+/// Compares each box with all later boxes. This is too simple to be wrong, so its pairs are the reference.
 class BrutePeer final : public Peer {
  public:
   void load(const std::vector<Aabb>&) override {}

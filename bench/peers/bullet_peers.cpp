@@ -15,8 +15,8 @@ ProxyId idOf(const btBroadphaseProxy* proxy) {
   return static_cast<ProxyId>(reinterpret_cast<std::uintptr_t>(proxy->m_clientObject));
 }
 
-/// Bullet's broad phases enlarge the boxes and keep the list of pairs from frame to frame. Pairs whose exact boxes do
-/// not overlap are dropped when this class reads the list.
+/// Bullet's broad phases enlarge the boxes and keep the list of pairs from frame to frame. When this class reads the
+/// list, it drops pairs whose exact boxes do not overlap.
 class BulletPeer : public Peer {
  public:
   void load(const std::vector<Aabb>& boxes) override {
@@ -53,7 +53,7 @@ class BulletPeer : public Peer {
 class DbvtPeer final : public BulletPeer {
   std::unique_ptr<btBroadphaseInterface> makeBroadPhase(const std::vector<Aabb>&) const override {
     auto dbvt = std::make_unique<btDbvtBroadphase>();
-    dbvt->m_deferedcollide = true;  // tests all boxes once per frame; faster than at each setAabb()
+    dbvt->m_deferedcollide = true;  // tests all boxes once per frame, which is faster than testing in each setAabb()
     return dbvt;
   }
 };

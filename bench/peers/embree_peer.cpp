@@ -9,7 +9,7 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-/// Embree's bounding volume hierarchy. Each frame rebuilds it at low quality and collides it with itself.
+/// Embree's bounding volume hierarchy. In each frame, this peer rebuilds it at low quality and collides it with itself.
 class EmbreePeer final : public Peer {
  public:
   void load(const std::vector<Aabb>& boxes) override {
@@ -32,7 +32,7 @@ class EmbreePeer final : public Peer {
     std::vector<ProxyPair>* pairs;
   };
 
-  /// Stores the candidate pairs that overlap, in one of the two orders in which Embree reports each candidate.
+  /// Stores the candidate pairs that overlap. Embree reports each candidate in both orders; only one order is stored.
   static void take(void* to, RTCCollision* candidates, unsigned count) {
     const Found& found = *static_cast<Found*>(to);
     for (unsigned i = 0; i < count; ++i) {

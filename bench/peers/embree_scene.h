@@ -42,7 +42,7 @@ class EmbreeScene {
     rtcAttachGeometry(scene_, geometry_);
   }
 
-  /// Builds the scene from `boxes`, as many as attach() has set. The scene keeps a pointer to them.
+  /// Builds the scene from `boxes`. Their number must be the one given to attach(). The scene keeps a pointer to them.
   void build(const std::vector<Aabb>& boxes) {
     boxes_ = boxes.data();
     rtcCommitGeometry(geometry_);

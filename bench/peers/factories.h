@@ -26,7 +26,7 @@ std::unique_ptr<Peer> makeCgal();
 std::unique_ptr<Peer> makeBoostRtree();
 std::unique_ptr<Peer> makeEmbree();
 
-/// Whether this processor can run the peer of makeSweep().
+/// Returns whether this processor can run the peer of makeSweep().
 bool canSweep();
 
 }  // namespace bench

@@ -24,7 +24,7 @@ class FclBox : public fcl::CollisionObject<double> {
   ProxyId id() const { return id_; }
 
  private:
-  /// Returns a geometry that all objects share. FCL's managers ask for its type, but do not use anything else of it.
+  /// Returns a geometry that all objects share. FCL's managers read its type, but nothing else.
   static const std::shared_ptr<fcl::CollisionGeometry<double>>& sharedGeometry() {
     static const std::shared_ptr<fcl::CollisionGeometry<double>> sphere = std::make_shared<fcl::Sphere<double>>(1.0);
     return sphere;

@@ -29,8 +29,8 @@ std::unique_ptr<fcl::SpatialHashingCollisionManager<double>> spatialHash(std::ve
                                                                        static_cast<unsigned>(objects.size()));
 }
 
-/// FCL's managers, used as FCL's users do. All objects are registered at once. Each frame calls update(), for all
-/// objects or for those that moved, and then collide(), which tests the objects with each other.
+/// FCL's managers, used as most users of FCL do. All objects are registered at once. Each frame calls update(), either
+/// for all objects or for those that moved. Then it calls collide(), which tests the objects with each other.
 class FclPeer : public Peer {
  public:
   void load(const std::vector<Aabb>& boxes) override {

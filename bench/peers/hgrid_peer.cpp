@@ -15,7 +15,7 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-/// Passes all boxes to HGrid::update() if all of them moved, else the moved ones to HGrid::move().
+/// If all boxes moved, passes them to HGrid::update(). Otherwise passes the boxes that moved to HGrid::move().
 class HGridPeer final : public Peer {
  public:
   HGridPeer(int threads, Isa isa) : threads_(threads), isa_(isa) {}

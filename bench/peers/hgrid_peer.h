@@ -11,7 +11,7 @@
 namespace hgrid {
 namespace bench {
 
-/// Returns the names of the instruction sets that HGrid can use on this processor, the best one last.
+/// Returns the names of the instruction sets that HGrid can use on this processor. The best one is the last.
 std::vector<std::string> hgridInstructions();
 
 /// Creates HGrid with this number of threads and with one of the instruction sets of hgridInstructions().

@@ -10,7 +10,7 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-/// The user data of an ODE geometry. ODE gets its box by calling writeBox().
+/// The user data of an ODE geometry. ODE calls writeBox() to get the box of the geometry.
 struct Body {
   const Aabb* box;
   ProxyId id;
@@ -26,7 +26,7 @@ void writeBox(dGeomID geom, dReal* bounds) {
   }
 }
 
-/// Returns the number of an ODE geometry class whose geometries have only a box.
+/// Returns the number of a class of ODE geometries that have only a box.
 int boxClass() {
   static const int number = [] {
     dInitODE2(0);

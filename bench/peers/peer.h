@@ -12,20 +12,21 @@
 namespace hgrid {
 namespace bench {
 
-/// A broad phase in the benchmark. Every peer receives the same float boxes. In each frame, it must write all
-/// overlapping pairs into the caller's buffer. Boxes that only touch overlap.
+/// A broad phase in the benchmark. Each peer receives the same boxes of floats. In each frame (time step), it must
+/// write all overlapping pairs into the buffer of the caller. Boxes that only touch overlap.
 class Peer {
  public:
   virtual ~Peer() = default;
 
-  /// Loads the boxes of frame 0. The id of a box is its index.
+  /// Loads the boxes before the first step (frame 0). The id of a box is its index.
   virtual void load(const std::vector<Aabb>& boxes) = 0;
-  /// Updates the boxes that moved. Then replaces `pairs` with all overlapping pairs: each pair once, the smaller id
-  /// first, pairs in any order.
+  /// Updates the boxes that moved. Then replaces `pairs` with all overlapping pairs. Each pair is written once, the
+  /// smaller id first. The pairs may be in any order.
   virtual void frame(const Frame& frame, std::vector<ProxyPair>& pairs) = 0;
-  /// Whether the time of a frame depends on earlier frames. If not, untimed frames are skipped.
+  /// Returns whether the time of a frame depends on earlier frames. If not, the benchmark skips untimed frames.
   virtual bool remembers() const { return true; }
-  /// Returns the bytes that the peer reports to hold. 0: it reports nothing, so the bytes that it has allocated count.
+  /// Returns how many bytes the peer says that it holds. 0: the peer does not say it; its allocated bytes count
+  /// instead.
   virtual std::size_t bytes() const { return 0; }
 };
 
@@ -35,9 +36,9 @@ inline ProxyPair ordered(ProxyId a, ProxyId b) { return a < b ? ProxyPair{a, b} 
 /// A kind of peer: its name, the largest number of boxes it runs with, and how to create it.
 struct PeerKind {
   std::string name;
-  std::string instructions;    ///< instruction set that the peer uses, if known, else "default"
-  std::size_t most = 0;        ///< largest number of boxes; with more, a frame or loading takes far too long
-  std::size_t quick_most = 0;  ///< largest number of boxes in a quick run; 0: the peer is left out
+  std::string instructions;    ///< instruction set of the peer; "default" if it is not known
+  std::size_t most = 0;        ///< largest number of boxes; with more boxes, a frame or loading takes far too long
+  std::size_t quick_most = 0;  ///< largest number of boxes in a quick run; 0: a quick run leaves out the peer
   std::function<std::unique_ptr<Peer>()> make;
 };
 

@@ -18,7 +18,8 @@ inline std::uint32_t sortable(float value) {
   return bits ^ (static_cast<std::uint32_t>(-static_cast<std::int32_t>(bits >> 31)) | 0x80000000u);
 }
 
-/// Sorts (key, number) items by their 32-bit keys, in three passes of 11 bits. One loop counts all digits.
+/// Sorts (key, number) items by their 32-bit keys, in three passes of 11 bits. One loop counts the digits of all
+/// passes.
 class RadixSort {
  public:
   struct Item {

@@ -15,10 +15,10 @@ namespace bench {
 #if defined(__x86_64__)
 namespace {
 
-/// Array sort-and-sweep (after Ericson, Real-Time Collision Detection, 2005, section 7.5.2), a strong and simple rival.
+/// Array sort-and-sweep, a simple and strong peer (after Ericson, Real-Time Collision Detection, 2005, section 7.5.2).
 ///
-/// Each frame sorts the boxes by their minimum along one axis. Then it tests each box with the boxes that begin before
-/// this box ends, eight at a time. load() selects the axis that needs the fewest tests.
+/// Each frame sorts the boxes by their minimum along one axis. Then it tests each box with the later boxes that begin
+/// before the box ends, eight at a time. load() selects the axis that needs the fewest tests.
 class SweepPeer final : public Peer {
  public:
   void load(const std::vector<Aabb>& boxes) override {
@@ -42,7 +42,7 @@ class SweepPeer final : public Peer {
   }
 
  private:
-  /// Returns the number of overlap tests in a frame with the current order of the boxes.
+  /// Returns the number of overlap tests in a frame if the boxes are in their current order.
   std::uint64_t testCount() const {
     const auto begin = arrays_.min[0].begin(), end = begin + static_cast<std::ptrdiff_t>(arrays_.id.size());
     std::uint64_t count = 0;
@@ -53,9 +53,9 @@ class SweepPeer final : public Peer {
     return count;
   }
 
-  /// Writes the pairs of box i with later boxes, at most one per box. Returns the number of pairs.
+  /// Writes the pairs of box i with later boxes. A later box is in at most one pair. Returns the number of pairs.
   __attribute__((target("avx2,bmi"))) std::size_t sweep(std::size_t i, ProxyPair* out) const {
-    const float* min_x = arrays_.min[0].data();  // x means the sort axis
+    const float* min_x = arrays_.min[0].data();  // x stands for the sort axis
     const float* min_y = arrays_.min[1].data();
     const float* max_y = arrays_.max[1].data();
     const float* min_z = arrays_.min[2].data();

@@ -10,7 +10,7 @@ namespace {
 
 namespace bgi = boost::geometry::index;
 
-/// Boost's packed R-tree. For a sphere, it finds the boxes that meet the box around the sphere and tests them exactly.
+/// Boost's packed R-tree. For a sphere, this peer finds the boxes in the box around the sphere and tests them exactly.
 class BoostQueries final : public QueryPeer {
  public:
   void load(const std::vector<Aabb>& boxes) override {

@@ -18,7 +18,7 @@ btDbvtVolume toBullet(const Aabb& box) {
                               toBullet(Eigen::Vector3d(box.max.cast<double>())));
 }
 
-/// Bullet's tree, built top-down. The leaves that Bullet finds are tested exactly.
+/// Bullet's tree, built top-down. This peer exactly tests the boxes of the leaves that Bullet finds.
 class BulletQueries final : public QueryPeer {
  public:
   void load(const std::vector<Aabb>& boxes) override {

@@ -12,7 +12,7 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-/// Embree in its robust mode. Sphere and nearest queries use Embree's point queries. Segment queries use rays that
+/// Embree in its robust mode. Sphere and nearest queries use Embree's point queries. Segment queries use rays, which
 /// collect every box on their way.
 class EmbreeQueries final : public QueryPeer {
  public:
@@ -68,7 +68,7 @@ class EmbreeQueries final : public QueryPeer {
     NearestList list;
   };
   struct SegmentQuery {
-    RTCIntersectContext context;  // first member, since Embree passes back a pointer to it
+    RTCIntersectContext context;  // first member, because Embree passes back a pointer to it
     const EmbreeQueries* peer;
     const SlabTest* test;
     std::vector<ProxyId>* found;
@@ -98,17 +98,17 @@ class EmbreeQueries final : public QueryPeer {
     query.list.offer(squaredGap(query.peer->boxes_[arguments->primID], *query.point), arguments->primID);
     if (query.list.bound() == before) return false;
     arguments->query->radius = static_cast<float>(std::sqrt(query.list.bound()) + query.peer->slack_);
-    return true;  // tells Embree that the radius has changed
+    return true;  // tells Embree that the radius of the search has changed
   }
 
-  /// Stores the box and reports no hit to Embree, so that the ray continues to its end.
+  /// Stores the box, but reports no hit to Embree. Thus the ray continues to its end.
   static void takeMet(const RTCIntersectFunctionNArguments* arguments) {
     const SegmentQuery& query = *reinterpret_cast<const SegmentQuery*>(arguments->context);
     if (query.test->meets(query.peer->boxes_[arguments->primID])) query.found->push_back(arguments->primID);
   }
 
   std::vector<Aabb> boxes_;
-  double slack_ = 0.0;  // [m] added to radii, so that float rounding in Embree loses no box
+  double slack_ = 0.0;  // [m] added to all radii, so that Embree's float rounding loses no box
   std::optional<EmbreeScene> scene_;
 };
 

@@ -14,8 +14,8 @@
 namespace hgrid {
 namespace bench {
 
-/// Returns a tolerance [m]. If a box is nearer than this to the border between hit and miss, float rounding may decide.
-/// The tolerance is three units in the last place of the largest coordinate, at least 0.1 mm.
+/// Returns a tolerance [m]. If a box is nearer than this to the border between hit and miss, float rounding may decide
+/// whether it is a hit. The tolerance is three units in the last place of the largest coordinate, at least 0.1 mm.
 inline double doubtOf(const std::vector<Aabb>& boxes) {
   float largest = 0.f;
   for (const Aabb& box : boxes)
@@ -33,13 +33,13 @@ inline double squaredGap(const Aabb& box, const Eigen::Vector3d& point) {
   return sum;
 }
 
-/// Tests whether a segment meets a box, with the slab method. Peers that only find candidates use this as a last step.
+/// Tests whether a segment meets a box, with the slab method. Peers that find only candidates use it as the last step.
 class SlabTest {
  public:
   explicit SlabTest(const Segment& segment)
       : from_(segment.from), inverse_((segment.to - segment.from).cwiseInverse()) {}
 
-  /// Whether the segment meets the box. @param by  [m] grows the box by this length first; negative: shrinks it
+  /// Returns whether the segment meets the box. @param by  [m] first grows the box by this length; negative: shrinks it
   bool meets(const Aabb& box, double by = 0.0) const {
     double begin = 0.0, end = 1.0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -55,7 +55,7 @@ class SlabTest {
   Eigen::Vector3d from_, inverse_;
 };
 
-/// Returns the box around a sphere, rounded outward. Peers search for candidates in it.
+/// Returns the box around a sphere, rounded outward. Peers use it to find candidates.
 inline Aabb around(const Sphere& sphere) {
   Aabb box;
   for (int axis = 0; axis < 3; ++axis) {
@@ -64,7 +64,7 @@ inline Aabb around(const Sphere& sphere) {
   }
   return box;
 }
-/// Returns the box around a segment. The ends of all segments in the benchmark are exact in float.
+/// Returns the box around a segment. It is exact, because all coordinates of segments in the benchmark are floats.
 inline Aabb around(const Segment& segment) {
   return {segment.from.cwiseMin(segment.to).cast<float>(), segment.from.cwiseMax(segment.to).cast<float>()};
 }

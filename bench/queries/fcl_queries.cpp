@@ -18,7 +18,7 @@ using Object = fcl::CollisionObject<double>;
 
 ProxyId idOf(Object* object) { return static_cast<FclBox*>(object)->id(); }
 
-/// FCL's tree. It finds the boxes that meet the box around the query; the callback tests them exactly.
+/// FCL's tree. It finds the boxes that overlap the box around the query. The callback then tests them exactly.
 class FclQueries final : public QueryPeer {
  public:
   void load(const std::vector<Aabb>& boxes) override {

@@ -11,7 +11,7 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-/// Replaces `hits` with the boxes that the sphere touches. Returns false if rounding may decide one of them.
+/// Replaces `hits` with the boxes that the sphere touches. Returns false if rounding may decide whether a box is a hit.
 bool hitsOfSphere(const Sphere& sphere, const std::vector<Aabb>& boxes, double doubt, std::vector<ProxyId>& hits) {
   const double low = std::pow(std::max(0.0, sphere.radius - doubt), 2), high = std::pow(sphere.radius + doubt, 2);
   hits.clear();

@@ -10,24 +10,24 @@ namespace bench {
 
 /// The correct hits of the first kFirst queries of a set, found by testing every box.
 ///
-/// A query is not judged if a box is so near to the border between hit and miss that float rounding may decide, see
-/// doubtOf(). Box queries need no rounding, so all of them are judged.
+/// A query is not judged if float rounding may decide whether a box is a hit, see doubtOf(). Box queries need no
+/// rounding, so all of them are judged.
 class Judge {
  public:
   static constexpr std::size_t kFirst = 1000;
 
   Judge(QueryKind kind, const QuerySet& queries, const std::vector<Aabb>& boxes);
 
-  /// Number of queries that were tested: the first ones of the set.
+  /// Returns the number of queries that were tested. They are the first ones of the set.
   std::size_t size() const { return judged_.size(); }
-  /// Whether the query is judged.
+  /// Returns whether the query is judged, which means that its hits are compared.
   bool judges(std::size_t query) const { return judged_[query]; }
   std::size_t judgedCount() const { return judged_count_; }
-  /// Number of the correct hits of all judged queries, and their checksum.
+  /// Returns the number of correct hits of all judged queries. checksum() returns their checksum.
   std::uint64_t count() const { return count_; }
   std::uint64_t checksum() const { return checksum_.value(); }
 
-  /// Returns a number for the checksum that stands for one hit of one query.
+  /// Returns a number that represents one hit of one query in the checksum.
   static std::uint64_t hit(std::size_t query, ProxyId id) { return std::uint64_t{query} << 32 | id; }
 
  private:

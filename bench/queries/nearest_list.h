@@ -12,7 +12,7 @@
 namespace hgrid {
 namespace bench {
 
-/// The k nearest boxes found so far. Peers that search a tree with a shrinking bound use it.
+/// The k nearest boxes found so far. Peers use it when they search a tree with a bound that shrinks.
 class NearestList {
  public:
   void start(std::size_t k) {
@@ -28,7 +28,7 @@ class NearestList {
     heap_.emplace_back(squared_distance, id);
     std::push_heap(heap_.begin(), heap_.end());
   }
-  /// Returns the squared distance below which a box still enters the list.
+  /// Returns the squared distance below which a box is added to the list.
   double bound() const { return heap_.size() < k_ ? std::numeric_limits<double>::infinity() : heap_.front().first; }
   void write(std::vector<ProxyId>& found) const {
     found.clear();

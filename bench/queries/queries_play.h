@@ -10,8 +10,8 @@ namespace bench {
 
 /// Measures how long a peer takes to answer queries of one kind.
 ///
-/// First the peer answers the judged queries, untimed. Then it answers all queries in turn, kChunk of them per sample.
-/// If batched, it answers all queries in one call per sample.
+/// First the peer answers the judged queries without timing. Then each sample times the next kChunk queries of the set.
+/// If `batched` is true, each sample instead times one call that answers all queries.
 class QueriesPlay {
  public:
   static constexpr std::size_t kChunk = 1000;
@@ -33,7 +33,7 @@ class QueriesPlay {
   const Judge* judge_;
   std::size_t next_ = 0;
   std::vector<ProxyId> found_;
-  Sample result_;  // each sample is a copy of this with its own time
+  Sample result_;  // template of all samples; only their times differ
 };
 
 }  // namespace bench

@@ -18,11 +18,12 @@ class QueryPeer {
   virtual ~QueryPeer() = default;
 
   virtual void load(const std::vector<Aabb>& boxes) = 0;
-  /// Whether the peer answers queries of this kind: if batched, all of them in one call, else one by one.
+  /// Returns whether the peer answers queries of this kind. If `batched`, one call answers all queries; else each call
+  /// answers one.
   virtual bool answers(QueryKind kind, bool batched) const = 0;
 
-  // Each of the next four functions answers one query and replaces the list with its hits. They are only called for
-  // kinds of queries that answers() accepts.
+  // Each of the next four functions answers one query and replaces the list with its hits. The benchmark calls them
+  // only for kinds of queries that answers() accepts.
   virtual void sphere(const Sphere&, std::vector<ProxyId>&) {}
   virtual void segment(const Segment&, std::vector<ProxyId>&) {}
   virtual void box(const Aabb&, std::vector<ProxyId>&) {}

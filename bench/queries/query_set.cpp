@@ -15,7 +15,7 @@ const char* name(QueryKind kind) {
 
 const char* name(Placed placed) { return placed == Placed::near ? "near" : "anywhere"; }
 
-// Queries are rounded to float, so that peers that use float get the same queries as peers that use double.
+// Queries are rounded to float. Then peers that use float get the same queries as peers that use double.
 
 QuerySet queriesNear(const std::string& workload, const World& world, std::size_t count) {
   const double radius = workload == "robots" ? 0.25 : 1.0;

@@ -16,13 +16,13 @@ constexpr QueryKind kQueryKinds[] = {QueryKind::sphere, QueryKind::segment, Quer
 
 const char* name(QueryKind kind);
 
-/// Returns the number of boxes that a nearest query asks for.
+/// Returns how many boxes a nearest query asks for.
 inline std::size_t countOf(QueryKind kind) { return kind == QueryKind::nearest8 ? 8 : 1; }
 
-/// Where the queries of a set are.
+/// Selects the places of the queries.
 enum class Placed {
-  near,      ///< at points near boxes; the length of segments is a fifth of the world's side
-  anywhere,  ///< at random places in the bounds of all boxes; in many worlds most of this space is empty
+  near,      ///< at points near boxes; segments are a fifth of the world's side long
+  anywhere,  ///< at random places in the bounds of all boxes, which in many worlds are mostly empty
 };
 
 const char* name(Placed placed);
@@ -36,11 +36,11 @@ struct QuerySet {
   std::size_t size() const { return spheres.size(); }
 };
 
-/// Returns queries near boxes: spheres of radius 1 m (workload robots: 0.25 m), cubes of the same width, and segments
-/// in random directions.
+/// Returns queries near boxes: spheres of radius 1 m (0.25 m in the workload robots), cubes whose edge is the diameter
+/// of the spheres, and segments in random directions.
 QuerySet queriesNear(const std::string& workload, const World& world, std::size_t count);
 
-/// Returns queries at random places. They have about half a hit each if the world is not too empty for that; see
+/// Returns queries at random places. On average each has about half a hit, or fewer if the world is too empty, see
 /// sizesForEmptySpace().
 QuerySet queriesAnywhere(const World& world, std::size_t count);
 

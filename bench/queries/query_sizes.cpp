@@ -21,8 +21,8 @@ double medianEdge(const std::vector<Aabb>& boxes) {
   return *middle;
 }
 
-/// Returns the expected number of hits of a cube whose center is random in the bounds. Each box contributes the
-/// fraction of the centers with which the cube hits it.
+/// Returns the expected number of hits of a cube whose center is at a random place in the bounds. Each box adds the
+/// probability that the cube hits it.
 double hitsOfCube(const std::vector<Aabb>& boxes, const Aabb& bounds, double half_edge) {
   double sum = 0.0;
   for (const Aabb& box : boxes) {
@@ -46,8 +46,8 @@ double halfEdge(const std::vector<Aabb>& boxes, const Aabb& bounds, double low, 
   return low;
 }
 
-/// Returns the length [m] of segments with kHits expected hits. The area of a box as seen along a segment is a quarter
-/// of its surface, on average over all directions.
+/// Returns the length [m] of segments with kHits expected hits. The area of a box as seen along a segment is, on
+/// average over all directions, a quarter of the surface of the box.
 double lengthOf(const std::vector<Aabb>& boxes, const Aabb& bounds) {
   double volume = 0.0, swept = 0.0;
   for (const Aabb& box : boxes) {
@@ -74,7 +74,7 @@ QuerySizes sizesForEmptySpace(const std::vector<Aabb>& boxes) {
   const Aabb bounds = boundsOf(boxes);
   const double edge = medianEdge(boxes);
   const double half_edge = halfEdge(boxes, bounds, 1e-4 * edge, 2.0 * edge);
-  const double radius = 1.15 * half_edge;  // such a sphere meets about as many boxes as the cube
+  const double radius = 1.15 * half_edge;  // a sphere with this radius meets about as many boxes as the cube
   return {half_edge, radius, std::clamp(lengthOf(boxes, bounds), 1e-4 * edge, 0.2 * longestEdge(bounds))};
 }
 

@@ -21,8 +21,9 @@ struct QuerySizes {
 
 /// Returns sizes with which queries at random places in the bounds of the boxes have 0.4 .. 0.9 hits on average.
 ///
-/// If most of this space is empty, such queries would be as large as a whole heap of boxes. So cubes and spheres are at
-/// most a few boxes wide, and segments are at most a fifth of the bounds long. Then they have fewer hits.
+/// If most of this space is empty, such queries would be as large as a whole group of boxes. Therefore cubes and
+/// spheres are at most a few boxes wide, and segments are at most a fifth of the bounds long. They then have fewer
+/// hits.
 QuerySizes sizesForEmptySpace(const std::vector<Aabb>& boxes);
 
 }  // namespace bench

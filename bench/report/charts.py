@@ -53,7 +53,8 @@ def legend(svg, names, x, y, columns, step):
 
 
 def panel(svg, figures, workload, moving, left, top, width, height, low, high):
-    """Draws the time per box over the number of boxes, both logarithmic, one line per peer with correct results."""
+    """Draws the time per box against the number of boxes, both on logarithmic scales. Each peer with correct results
+    has a line."""
     sizes = figures.sizes()
     first, last = math.log10(sizes[0]), math.log10(sizes[-1])
 
@@ -93,7 +94,7 @@ def pairs_chart(figures, moving, path):
 
 
 def queries_chart(figures, kinds, path):
-    """Draws millions of queries per second, one group of bars per workload."""
+    """Draws bars of millions of queries per second, one group of bars per workload."""
     svg = Svg(1000, 60 + 330 * len(kinds))
     n = figures.all('query', placed='near')[0]['n']
     svg.text(20, 30, 'Queries, n = {:,}, one thread: millions per second'.format(n), 16, weight='bold')

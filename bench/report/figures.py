@@ -10,7 +10,7 @@ TREE = 'FCL DynamicAABBTree'
 
 
 class Figures:
-    """The records of one or several figures files. If several records are for the same setting, the last one counts."""
+    """The records of one or several figures files. If several records have the same setting, the last one is used."""
 
     def __init__(self, paths):
         self.records = []
@@ -18,7 +18,7 @@ class Figures:
             with open(path) as file:
                 self.records += json.load(file)
         for record in self.all('pairs'):
-            record.setdefault('movers', 'same')  # older files do not have these fields
+            record.setdefault('movers', 'same')  # older files do not have this field
         for record in self.all('query'):
             record.setdefault('placed', 'near')
         runs = self.all('run')
@@ -34,12 +34,13 @@ class Figures:
         return found[-1] if found else None
 
     def best_isa(self):
-        """Returns the instruction set that hgrid chooses by itself: that of its first record."""
+        """Returns the instruction set that hgrid chooses by itself. It is the one of hgrid's first record."""
         found = self.all('pairs', peer='hgrid') or self.all('ageing', peer='hgrid')
         return found[0]['isa'] if found else None
 
     def pairs(self, peer, workload, n, moving=1, threads=1, isa=None, movers='same'):
-        """Returns the record of a peer's frames; hgrid's default `isa` is the one that it chooses by itself."""
+        """Returns the record of the frames of a peer. For hgrid, `isa` defaults to the instruction set that it
+        chooses by itself."""
         wanted = dict(peer=peer, workload=workload, n=n, moving=moving, threads=threads, movers=movers)
         if peer == 'hgrid':
             wanted['isa'] = isa or self.best_isa()
@@ -49,7 +50,7 @@ class Figures:
         return sorted({record['n'] for record in self.all('pairs')})
 
     def even(self, moving):
-        """Returns the records of pairs in the even worlds, where the same boxes always move."""
+        """Returns the records of pairs in the even worlds in which the same boxes move in all frames."""
         return [record for record in self.all('pairs', moving=moving, movers='same') if record['workload'] in WORKLOADS]
 
     def uneven(self):
@@ -58,7 +59,7 @@ class Figures:
         return [name for name in names if name not in WORKLOADS]
 
     def peers(self, kind='pairs', **wanted):
-        """Returns the names of the peers: hgrid first, the others in order of appearance."""
+        """Returns the names of the peers: hgrid first, then the others in order of appearance."""
         names = list(dict.fromkeys(record['peer'] for record in self.all(kind, **wanted)))
         return sorted(names, key=lambda name: name != 'hgrid')
 
@@ -77,7 +78,8 @@ def short(value):
 
 
 def shown(record, field='median_ms', scale=1.0):
-    """Formats a figure for a table: "–" if it was not measured, with ✗ if the answer was wrong."""
+    """Formats a figure for a table. The text is "–" if the figure was not measured, and contains ✗ if the answer was
+    wrong."""
     if record is None:
         return '–'
     if record['status'] != 'ok':

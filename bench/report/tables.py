@@ -35,7 +35,7 @@ def machine(figures):
 
 
 def pairs(figures, moving):
-    """One row per peer, one column per number of boxes. Each cell has one figure per even workload."""
+    """Returns one row per peer and one column per number of boxes. Each cell has one figure per even workload."""
     sizes = sorted({record['n'] for record in figures.even(moving)})
     rows = []
     for peer in figures.peers():
@@ -59,7 +59,7 @@ def spread(figures):
 
 
 def variants(figures):
-    """One row per instruction set and number of threads of hgrid."""
+    """Returns one row per instruction set and number of threads of hgrid."""
     sizes = sorted({record['n'] for record in figures.all('pairs', peer='hgrid', moving=1)})
     ways = list(dict.fromkeys((record['isa'], record['threads']) for record in figures.all('pairs', peer='hgrid')))
     rows = []
@@ -71,7 +71,7 @@ def variants(figures):
 
 
 def threads(figures):
-    """One row per world: how much a second thread gains, and how much it can gain at that time."""
+    """Returns one row per world: how much a second thread gains, and how much it could gain at that time."""
     rows = [[record['workload'], count(record['n']), short(record['gain']), short(record['gain_of_registers']),
              '%d of %d' % (record['free_turns'], record['turns']),
              short(record['gain_in_free_turns']) if record['free_turns'] else '–'] for record in figures.all('threads')]
@@ -122,7 +122,8 @@ def queries(figures):
 
 
 def maps(figures):
-    """One table per map: times to load and to build it, bytes per leaf, and times of questions about its leaves."""
+    """Returns one table per map: times to load and to build the map, bytes per leaf, and times of questions about
+    its leaves."""
     tables = []
     for name, leaves in dict.fromkeys((record['map'], record['leaves']) for record in figures.all('map')):
         def one(peer, query, **wanted):
@@ -159,7 +160,8 @@ def node(figures):
 
 
 def node_maps(figures):
-    """One table per world with a map: ticks and queries while the map is at rest, and while it is replaced."""
+    """Returns one table per world with a map: ticks and queries while the map does not change, and while it is
+    replaced."""
     tables = []
     for world in dict.fromkeys(record['world'] for record in figures.all('node', maps_per_s=1)):
         def both(part, field):
@@ -179,7 +181,7 @@ def node_maps(figures):
 
 
 def sections(figures):
-    """Returns (title, text) of every table for which there are figures."""
+    """Returns title and text of each table for which there are figures."""
     cells = PEER_NOTE % 'uniform / mixed / floor / robots'
     found = [('Machine', machine(figures))]
     for moving, title in ((1, 'Pairs, all boxes move'), (0.1, 'Pairs, 10 % move'), (0.01, 'Pairs, 1 % move')):

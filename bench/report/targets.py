@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""The targets, compared with the figures. Targets for which there are no figures are left out."""
+"""Compares the figures with the targets. Leaves out targets for which there are no figures."""
 from figures import TREE, WORKLOADS, short
 from markdown import count, table
 from verdicts import Verdicts, ms, ratio
@@ -75,7 +75,7 @@ def queries(figures, verdicts):
 
 
 def maps(figures, verdicts):
-    """Judges loading and memory on every map, and questions only on the synthetic map building."""
+    """Judges loading and memory on every map. Judges questions only on the synthetic map "building"."""
     for name, leaves in dict.fromkeys((record['map'], record['leaves']) for record in figures.all('map')):
         def figure(peer, query, field, **wanted):
             record = figures.one('map', map=name, leaves=leaves, peer=peer, query=query, **wanted)
@@ -99,7 +99,7 @@ def maps(figures, verdicts):
 
 
 def sameness(figures, verdicts):
-    """Judges whether hgrid's results are correct, and whether two threads write the same bytes as one."""
+    """Judges whether hgrid's results are correct, and whether two threads give the same bytes as one thread."""
     ours = figures.all('pairs', peer='hgrid')
     verdicts.holds('hgrid\'s pair sets equal the reference in all %d settings' % len(ours),
                    all(record['correct'] for record in ours))
@@ -114,7 +114,7 @@ def sameness(figures, verdicts):
 
 
 def sweep_fairness(figures, verdicts):
-    """Judges whether our sweep, relative to FCL's tree, is about as fast as when the targets were set."""
+    """Judges whether the sweep peer is about as fast, relative to FCL's tree, as when the targets were set."""
     was = {'uniform': 26 / 32, 'mixed': 18 / 34, 'floor': 7.7 / 34, 'robots': 10 / 32}
     for workload, share in was.items():
         sweep, tree = (ms(figures.pairs(peer, workload, 100000)) for peer in ('sweep', TREE))
@@ -133,7 +133,8 @@ def node(figures, verdicts):
 
 
 def threads(figures, verdicts):
-    """Judges only turns in which both processors were free, or all turns if there are none. The table counts them."""
+    """Judges only turns in which both processors were free. If there are none, judges all turns. The table counts
+    them."""
     for record in figures.all('threads'):
         what = '%s, n = %s: two threads, times faster than one' % (record['workload'], count(record['n']))
         if record['free_turns']:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Tables of uneven worlds, of worlds in which other boxes move in each frame, and of queries anywhere."""
+"""Tables of uneven worlds, of worlds in which different boxes move in each frame, and of queries anywhere."""
 from figures import short, shown
 from markdown import count, table
 
@@ -16,7 +16,7 @@ EMPTY_NOTE = ('Median µs per query. The queries are at random places in the bou
 
 
 def uneven(figures):
-    """Returns a note, and one table per number of boxes, with a row per workload and a column per peer."""
+    """Returns a note and one table per number of boxes. A table has one row per workload and one column per peer."""
     tables = []
     for n in sorted({record['n'] for name in figures.uneven() for record in figures.all('pairs', workload=name)}):
         rows, ran = [], lambda peer: any(figures.pairs(peer, name, n) for name in figures.uneven())
@@ -32,7 +32,8 @@ def uneven(figures):
 
 
 def changing(figures):
-    """Returns a note, and one table per number of boxes. It has a row per peer, a column per workload and fraction."""
+    """Returns a note and one table per number of boxes. A table has one row per peer, one column per workload and
+    fraction."""
     tables = []
     found = figures.all('pairs', movers='changing')
     for n in sorted({record['n'] for record in found}):
@@ -48,7 +49,7 @@ def changing(figures):
 
 
 def empty_space(figures):
-    """Returns a note, and one table per kind of query, with a row per workload and a column per peer."""
+    """Returns a note and one table per kind of query. A table has one row per workload and one column per peer."""
     tables = []
     found = figures.all('query', placed='anywhere')
     for kind, n in dict.fromkeys((record['query'], record['n']) for record in found):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Targets for uneven worlds, for worlds in which other boxes move in each frame, and for queries anywhere."""
+"""Targets for uneven worlds, for worlds in which different boxes move in each frame, and for queries anywhere."""
 from markdown import count
 from verdicts import ms, ratio
 
@@ -10,7 +10,7 @@ def per_box_and_pair(record):
 
 
 def all_uneven(figures, verdicts):
-    """Compares hgrid with the fastest peer, and with hgrid in the uniform world."""
+    """Compares hgrid in uneven worlds with the fastest peer there, and with hgrid in the uniform world."""
     for n in figures.sizes():
         for workload in figures.uneven():
             ours, rivals = figures.pairs('hgrid', workload, n), figures.rivals(workload, n)

@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// Random edge lengths in low .. high [m] whose logarithms are distributed uniformly.
+/// Random edge lengths in low .. high [m]. Their logarithms are uniformly distributed.
 struct LogUniform {
   double low, high;
 
@@ -19,7 +19,7 @@ struct LogUniform {
   double moment(int power) const {
     return (std::pow(high, power) - std::pow(low, power)) / (power * std::log(high / low));
   }
-  /// Returns the side [m] of a cube of space in which n cubes have about one overlap each.
+  /// Returns the side [m] of a cube of space in which each of n cubes has about one overlap.
   double side(double n) const { return std::cbrt(n * (2.0 * moment(3) + 6.0 * moment(1) * moment(2)) / 2.0); }
 };
 

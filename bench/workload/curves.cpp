@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-/// Returns a row of n cubes with usualEdge(), one every `step` [m]. The origin is in the middle of the row.
+/// Returns a row of n cubes with usualEdge() and a distance of `step` [m]. The origin is in the middle of the row.
 Layout chain(std::size_t n, const Vector3d& step) {
   Layout layout;
   layout.side = double(n) * step.maxCoeff();
@@ -40,7 +40,7 @@ Layout levyLayout(std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
     const auto edge = static_cast<float>(usualEdge(random));
     layout.addSwaying(Vector3f::Constant(edge), edge, at, sway);
-    // The density of the step length is proportional to step^-2.5.
+    // The probability density of the step length is proportional to step^-2.5.
     const double step = kShortest * std::pow(1.0 - random.uniform(0.0, 1.0), -1.0 / 1.5);
     at += step * direction(random);
     low = low.cwiseMin(at), high = high.cwiseMax(at);
@@ -58,7 +58,7 @@ Layout torusLayout(std::size_t n) {
   while (layout.walkers.size() < n) {
     const double around = random.uniform(-kPi, kPi), across = random.uniform(-kPi, kPi);
     const double radius = kMajor + kMinor * std::cos(across);
-    if (random.uniform(0.0, kMajor + kMinor) > radius) continue;  // keeps the density equal over the surface
+    if (random.uniform(0.0, kMajor + kMinor) > radius) continue;  // makes the boxes equally dense on the whole surface
     Vector3f edges;
     for (int axis = 0; axis < 3; ++axis) edges[axis] = static_cast<float>(random.uniform(2.0, 10.0));
     const Vector3d at(radius * std::cos(around), radius * std::sin(around), kMinor * std::sin(across));

@@ -45,8 +45,8 @@ Layout straysLayout(std::size_t n) {
 }
 
 Layout decadesLayout(std::size_t n) {
-  // The radius is log-uniform over two decades, so the density falls by 10^3 per decade. The integral of the squared
-  // density gives n / (3 pi (2 ln 10)^2 r^3) overlaps per box, where r is the smallest radius.
+  // The radius is log-uniform over two decades. Therefore the density falls by a factor of 10^3 per decade. The
+  // integral of the squared density gives n / (3 pi (2 ln 10)^2 r^3) overlaps per box, where r is the smallest radius.
   constexpr double kPi = 3.14159265358979, kDecades = 2.0;
   const double smallest = std::cbrt(double(n) / (3.0 * kPi * std::pow(kDecades * std::log(10.0), 2)));
   Layout layout;

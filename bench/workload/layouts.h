@@ -7,7 +7,7 @@
 namespace hgrid {
 namespace bench {
 
-// One function per workload. Each returns n boxes, the same ones in every call. workloads.h describes the workloads.
+// One function per workload, each described in workloads.h. A function returns n boxes, the same ones in every call.
 
 // cubes.cpp: cubes spread evenly over a cube or a square.
 Layout uniformLayout(std::size_t n);

@@ -15,14 +15,14 @@ inline std::uint64_t mixed(std::uint64_t value) {
 }
 
 /// SplitMix64 random numbers. The same seed gives the same numbers on every machine. The distributions of the C++
-/// standard library do not promise this.
+/// standard library do not guarantee this.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
 
   std::uint64_t next() { return mixed(state_ += 0x9e3779b97f4a7c15ull); }
   double uniform(double low, double high) { return low + (high - low) * static_cast<double>(next() >> 11) * 0x1p-53; }
-  /// Returns a number of 0 .. count - 1. The bias of the modulus is below 2^-40 for the counts that are used here.
+  /// Returns a random number in 0 .. count - 1. The bias of the modulus is below 2^-40 for the counts used here.
   std::uint64_t below(std::uint64_t count) { return next() % count; }
 
  private:

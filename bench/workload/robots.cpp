@@ -11,7 +11,8 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// Adds robots with n boxes in total. @param hall  returns the region in which the base of robot i may move
+/// Adds robots with n boxes in total. @param hall  function that returns the region in which the base of robot i may
+/// move
 void addRobots(Layout& layout, std::size_t n, const std::function<const Region&(std::size_t)>& hall) {
   const Region& sway = layout.addRegion(Vector3f::Constant(-0.05f), Vector3f::Constant(0.05f));
   Random random(1);
@@ -24,7 +25,7 @@ void addRobots(Layout& layout, std::size_t n, const std::function<const Region&(
     } else {
       Vector3f direction;
       for (int axis = 0; axis < 3; ++axis) direction[axis] = static_cast<float>(random.uniform(-1.0, 1.0));
-      direction.z() += 0.5f;  // chains tend upward
+      direction.z() += 0.5f;  // chains grow upward more often than downward
       rest += static_cast<float>(random.uniform(0.10, 0.14)) * direction.normalized();
     }
     layout.rests.push_back(rest);
@@ -46,7 +47,7 @@ Layout robotsLayout(std::size_t n) {
 }
 
 Layout fleetLayout(std::size_t n) {
-  constexpr std::size_t kRobots = 50, kFloors = 16;              // robots per hall; floors of the site
+  constexpr std::size_t kRobots = 50, kFloors = 16;              // robots per hall; number of floors
   constexpr float kLength = 40.f, kWidth = 25.f, kStorey = 4.f;  // [m]
   Layout layout;
   layout.side = 5000.0;

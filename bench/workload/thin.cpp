@@ -11,8 +11,8 @@ namespace bench {
 using Eigen::Vector3f;
 
 Layout rodsLayout(std::size_t n) {
-  // Two rods overlap if the distance of their centers is at most half the sum of their edges on every axis. The volume
-  // of these positions is 17.5 m^3 on average: 1.25 m^3 for parallel rods, 25.6 m^3 for others.
+  // Two rods overlap if on each axis their centers are at most half the sum of their edges apart. On average, the
+  // centers that overlap a given rod fill 17.5 m^3: 1.25 m^3 for parallel rods, 25.6 m^3 for others.
   Layout layout;
   layout.side = std::cbrt(0.5 * 17.5 * double(n));
   const Region& region = layout.addRegion(Vector3f::Zero(), Vector3f::Constant(static_cast<float>(layout.side)));
@@ -28,8 +28,8 @@ Layout rodsLayout(std::size_t n) {
 }
 
 Layout oneCellLayout(std::size_t n) {
-  // Plates of 1 m x 1 m are in one cube. Needles of 1 m along a random axis are in a second cube beside it. Their
-  // thickness gives about four overlaps per box for any n. It is limited to 0.05 m; then there are fewer overlaps.
+  // One cube contains plates of 1 m x 1 m. A second cube beside it contains needles of 1 m along a random axis. The
+  // thickness is chosen for about four overlaps per box. It is at most 0.05 m; if this limit applies, there are fewer.
   constexpr double kSide = 4.0, kOverlaps = 4.0;
   const double volume = std::pow(kSide, 3), half = 0.5 * double(n);
   const double plate = std::min(0.05, kOverlaps * volume / (4.0 * half));

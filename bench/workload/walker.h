@@ -11,29 +11,29 @@
 namespace hgrid {
 namespace bench {
 
-/// The space [m] in which a walker may be. Walkers turn back at the border. So after 1,500 frames, the world is still
-/// as dense as in the beginning.
+/// The space [m] in which a walker may be. Walkers turn back at its border. Therefore the world stays as dense as in
+/// the beginning.
 struct Region {
   Eigen::Vector3f low, high;
 };
 
-/// A point that moves at random. In each frame it moves by 1 to 5 % of its size, in a direction that it keeps for some
-/// frames.
+/// A point that moves at random. In each frame (time step) it moves by 1 to 5 % of `size`. It keeps its direction for
+/// kLeg frames.
 class Walker {
  public:
-  static constexpr std::uint64_t kLeg = 20;  ///< frames between two changes of direction
+  static constexpr std::uint64_t kLeg = 20;  ///< number of frames between two changes of direction
 
-  /// @param number  number of the walker. Together with the frame number, it determines every step, so that worlds
-  ///                repeat exactly.
-  /// @param at      [m] position in frame 0
-  /// @param size    [m] the length of a step is 1 to 5 % of it
+  /// @param number  number of the walker. It determines every step together with the frame number. Thus two runs of a
+  ///                 world are equal.
+  /// @param at      [m] position in frame 0, before the first step
+  /// @param size    [m] each step is 1 to 5 % of this length
   Walker(std::uint64_t number, const Eigen::Vector3f& at, float size, const Region& region)
       : at_(at), size_(size), region_(&region), number_(number) {
     turn(0);
   }
 
   void walk(std::uint64_t frame) {
-    if ((frame + number_) % kLeg == 0) turn(frame);  // walkers turn in different frames
+    if ((frame + number_) % kLeg == 0) turn(frame);  // not all walkers turn in the same frame
     at_ += step_;
     for (int axis = 0; axis < 3; ++axis) {
       if (at_[axis] >= region_->low[axis] && at_[axis] <= region_->high[axis]) continue;

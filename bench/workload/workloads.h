@@ -24,8 +24,7 @@ const std::vector<std::string>& evenWorkloads();
 /// boxes are cubes with edges of 0.8 .. 1.2 m.
 ///
 /// - heaps2, heaps64: 2 or 64 heaps, each like uniform, at random places in a cube of 10 km.
-/// - fleet: robots as above, 50 robots per hall of 40 m x 25 m. The halls are at random places of a square of 5 km and
-/// on
+/// - fleet: robots as above, 50 robots per hall of 40 m x 25 m. The halls are at random places of a square of 5 km, on
 ///   16 floors.
 /// - strays: like uniform, but 5 % of the boxes are anywhere within 100 km of the origin on each axis.
 /// - diagonal: cubes in a row along (1, 1, 1), one every 0.35 m.
@@ -41,7 +40,7 @@ const std::vector<std::string>& evenWorkloads();
 /// - sizes: like mixed, but with log-uniform edges of 10^-3 .. 10^3 m.
 const std::vector<std::string>& unevenWorkloads();
 
-/// Whether this is the name of one of the evenWorkloads().
+/// Returns whether this is the name of one of the evenWorkloads().
 bool isEven(const std::string& workload);
 
 /// Returns the n boxes of a workload, the same ones in every call.

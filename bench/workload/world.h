@@ -12,17 +12,18 @@
 namespace hgrid {
 namespace bench {
 
-/// The input of a peer for one frame: all boxes, the ids of the boxes that moved (ascending), and these boxes again.
+/// One frame, which is one time step of the benchmark: all boxes, the ids of the boxes that moved in ascending order,
+/// and the boxes with these ids.
 struct Frame {
   const std::vector<Aabb>& boxes;
   const std::vector<ProxyId>& moved;
   const std::vector<Aabb>& moved_boxes;
 };
 
-/// Which boxes move in a frame if only a fraction of them moves.
+/// Selects the boxes that move in a frame (time step) if only a fraction of the boxes moves.
 enum class Movers {
-  same,      ///< the same boxes in every frame
-  changing,  ///< other boxes in each frame, chosen at random
+  same,      ///< the same boxes move in all frames
+  changing,  ///< different boxes move in each frame; they are chosen at random
 };
 
 const char* name(Movers movers);
@@ -30,13 +31,13 @@ const char* name(Movers movers);
 /// The n moving boxes of one workload. Two worlds with the same arguments are equal in every frame.
 class World {
  public:
-  /// @param moving  fraction of the boxes that move in a frame; a robot moves as a whole
+  /// @param moving  fraction of the boxes that move in a frame; all boxes of a robot move together
   /// @throws std::invalid_argument if there is no such workload.
   World(const std::string& workload, std::size_t n, double moving, Movers movers = Movers::same);
 
   /// Goes back to frame 0.
   void reset();
-  /// Goes on to the next frame: moves the boxes.
+  /// Moves the boxes to their places in the next frame.
   void step();
 
   std::uint64_t frameNumber() const { return frame_; }
@@ -55,7 +56,7 @@ class World {
   Movers movers_;
   std::size_t moved_groups_;
   Random choice_;                // selects the groups that move
-  std::vector<ProxyId> groups_;  // numbers of single boxes or of robots; those that move come first
+  std::vector<ProxyId> groups_;  // indices of boxes or of robots; those that move come first
   std::uint64_t frame_ = 0;
   std::vector<Aabb> boxes_;
   std::vector<ProxyId> moved_;

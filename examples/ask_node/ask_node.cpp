@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Asks the running node from C++: two queries a second over persistent connections, and a check of every message of
+// Asks the running node from C++: sends two queries per second over persistent connections, and checks every message of
 // ~pairs. Start it beside any launch file of this package: rosrun hgrid_proximity ask_node
 #include <hgrid_proximity/Answer.h>
 #include <hgrid_proximity/Pairs.h>
@@ -16,13 +16,13 @@ namespace {
 
 using hgrid_proximity::Verdict;
 
-/// A service with a connection that stays open. It connects again after the node was restarted.
+/// A service with a connection that stays open. It connects again after a restart of the node.
 template <class Service>
 class Question {
  public:
   Question(ros::NodeHandle& node, const std::string& name) : node_(node), name_(name) {}
 
-  /// Asks and prints the answer. Only CLEAR means that nothing is there.
+  /// Sends the query and prints the answer. Only CLEAR means that nothing is there.
   void ask(Service& service) {
     if (!client_.isValid()) client_ = node_.serviceClient<Service>(name_, true);  // true: persistent
     if (!client_.call(service)) {
@@ -46,7 +46,7 @@ class Question {
   ros::ServiceClient client_;
 };
 
-/// Judges a message of ~pairs. "Nothing is near" needs a complete world and a message that is still valid.
+/// Judges a message of ~pairs. "Nothing is near" requires a complete world and a message that is still valid.
 void onPairs(const hgrid_proximity::Pairs& pairs) {
   const bool valid = ros::Time::now() <= pairs.world.valid_until;
   if (!valid || !pairs.world.complete) {
@@ -61,7 +61,7 @@ void onPairs(const hgrid_proximity::Pairs& pairs) {
 int main(int argc, char** argv) {
   ros::init(argc, argv, "ask_node");
   ros::NodeHandle node("proximity");  // the name of the proximity node
-  ros::AsyncSpinner spinner(1);       // messages must not wait for answers: they would be too old
+  ros::AsyncSpinner spinner(1);       // with several threads, messages do not wait for answers and become too old
   spinner.start();
   const ros::Subscriber subscriber = node.subscribe("pairs", 1, onPairs);
   Question<hgrid_proximity::QuerySphere> sphere(node, "query_sphere");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Uses the hierarchical grid alone: boxes go in, overlapping pairs and answers to queries come out.
+// Uses only the hierarchical grid: stores boxes, prints overlapping pairs and answers to queries.
 #include <cstdio>
 #include <vector>
 
@@ -25,7 +25,7 @@ void printPairs(const hgrid::HGrid& grid) {
 }  // namespace
 
 int main() {
-  hgrid::HGrid grid;  // without bounds: boxes may be anywhere and of any size
+  hgrid::HGrid grid;  // the boxes may be anywhere and of any size
   grid.insert(0, cube(0.0, 0.0, 0.0, 4.0));
   grid.insert(1, cube(2.1, 0.0, 0.0, 0.5));
   grid.insert(2, cube(5.0, 0.0, 0.0, 0.1));

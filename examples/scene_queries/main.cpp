@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Uses the library without ROS: reads a robot from a URDF, poses it beside a table, lists the near pairs with their
-// exact distances, and asks what a sphere touches.
+// Uses the library without ROS. Reads a robot from a URDF, places it beside a table, lists the near pairs with their
+// exact distances, and asks which bodies a sphere touches.
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -18,13 +18,13 @@
 
 namespace {
 
-/// Adds a body at a pose that is known now.
+/// Adds a body whose pose is known.
 void put(hgrid::Scene& scene, hgrid::NarrowPhase& narrow, hgrid::Body body, const hgrid::Pose& world_from_body) {
-  for (hgrid::BodyShape& shape : body.shapes) shape.solid = narrow.solidOf(shape.shape);  // for exact distances
+  for (hgrid::BodyShape& shape : body.shapes) shape.solid = narrow.solidOf(shape.shape);  // needed for exact distances
   scene.place(scene.add(std::move(body)), world_from_body, hgrid::Time{1});
 }
 
-/// Adds every link that has collision shapes. All joints turn by the same angle [rad].
+/// Adds each link that has collision shapes. All joints have the same angle [rad].
 void putRobot(hgrid::Scene& scene, hgrid::NarrowPhase& narrow, const hgrid::RobotModel& model, double angle) {
   std::vector<std::string> warnings;
   const auto matrix = std::make_shared<const hgrid::LinkMatrix>(model, hgrid::LinkRules{}, warnings);
@@ -42,9 +42,9 @@ void putRobot(hgrid::Scene& scene, hgrid::NarrowPhase& narrow, const hgrid::Robo
     body.robot = "robot";
     body.link = i;
     body.rigid_group = link.rigid_group;
-    body.links = matrix;  // adjacent links may touch
+    body.links = matrix;  // adjacent links are allowed pairs
     body.shapes = link.shapes;
-    body.covered = link.unreadable.empty();  // otherwise queries never answer CLEAR
+    body.covered = link.unreadable.empty();  // if a shape could not be read, queries never answer CLEAR
     if (link.hasGeometry()) put(scene, narrow, body, pose);
   }
 }
@@ -57,7 +57,7 @@ int main(int argc, char** argv) {
   if (urdf.empty()) return std::fprintf(stderr, "usage: scene_queries FILE.urdf\n"), 2;
   const std::shared_ptr<hgrid::NarrowPhase> narrow = hgrid::makeFclNarrowPhase();
   hgrid::Scene scene{hgrid::SceneOptions{}};
-  putRobot(scene, *narrow, hgrid::readUrdf(urdf, {}), 0.7);  // {}: this robot has no mesh files
+  putRobot(scene, *narrow, hgrid::readUrdf(urdf, {}), 0.7);  // {}: no mesh loader, because this robot has no mesh files
   hgrid::Body table;
   table.name = "obstacle/table";
   table.shapes.push_back(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Compares exact queries with a check of every shape of every body, and with answers that are known in advance.
+// Compares exact queries with measurements of all shapes of all bodies, and with answers that are known in advance.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -39,8 +39,8 @@ class ExactQueries : public ::testing::Test {
     scope.exact = phase_.get();
     return scope;
   }
-  /// Returns the least distance of a solid to any shape of a body.
-  /// @param surely  ignores open meshes that only perhaps enclose the solid
+  /// Returns the least distance [m] between a solid and the shapes of a body.
+  /// @param surely  leaves out open meshes that may or may not enclose the solid
   double distanceTo(const Solid& solid, const Pose& pose, double padding, std::uint32_t body,
                     bool surely = false) const {
     double least = kInfinity;
@@ -73,17 +73,17 @@ class ExactQueries : public ::testing::Test {
     return least;
   }
   template <class DistanceTo>
-  void expectHits(const QueryAnswer& answer, const DistanceTo& distanceTo, double reach) const {
+  void expectHits(const QueryAnswer& answer, const DistanceTo& distanceTo, double limit) const {
     std::map<std::uint32_t, QueryHit> hits;
     for (const QueryHit& hit : answer.hits) ASSERT_TRUE(hits.emplace(hit.body, hit).second) << "a body is listed twice";
     for (std::uint32_t body = 0; body < snapshot_->structure().bodies.size(); ++body) {
       const double distance = distanceTo(body);
       SCOPED_TRACE(std::to_string(body) + " at " + std::to_string(distance));
       if (hits.count(body) == 0) {
-        ASSERT_GT(distance, reach) << "a hit is missing";
+        ASSERT_GT(distance, limit) << "a hit is missing";
         continue;
       }
-      ASSERT_LE(distance, reach + 1e-7) << "a hit is too far away";
+      ASSERT_LE(distance, limit + 1e-7) << "a hit is too far away";
       ASSERT_NEAR(hits[body].center_distance, distance, 1e-6);
     }
   }
@@ -145,7 +145,7 @@ TEST_F(ExactQueries, ARayMeetsABoxWhereItsFaceIs) {
   snapshot_ = scene_.commit(Time{1}, {});
   const QueryAnswer answer = query(*snapshot_, Segment{{0, 0.1, 0.2}, {10, 0.1, 0.2}, 0.0}, exactly());
   ASSERT_EQ(answer.hits.size(), 1u);
-  const double expected = 3.0 - std::sqrt(0.5) + 0.1;  // a vertical edge of the turned box points at the ray
+  const double expected = 3.0 - std::sqrt(0.5) + 0.1;  // a vertical edge of the rotated box points at the ray
   EXPECT_NEAR(answer.hits[0].along, expected, 1e-6);
   EXPECT_LT((answer.hits[0].point - Eigen::Vector3d(expected, 0.1, 0.2)).norm(), 1e-6);
   EXPECT_LT((answer.hits[0].normal - Eigen::Vector3d(-std::sqrt(0.5), std::sqrt(0.5), 0.0)).norm(), 1e-3);

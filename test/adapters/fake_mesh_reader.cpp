@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// A fake mesh reader: its own file name decides what it does instead of reading a mesh. mesh_helper_test.cpp copies it
-// under names such as `hang`. Under the name `replay` it writes all bytes of the file `replay.out` beside it. Under the
-// name `drip` it writes the bytes of `drip.out` one at a time.
+// A fake mesh reader. The name of its own file decides what it does instead of reading a mesh. mesh_helper_test.cpp
+// copies it under names such as `hang`. Under the name `replay` it writes all bytes of the file `replay.out`, which is
+// in the same folder. Under the name `drip` it writes the bytes of `drip.out` one at a time.
 #include <unistd.h>
 
 #include <csignal>
@@ -33,28 +33,28 @@ int main() {
   const ssize_t size = readlink("/proc/self/exe", buffer, sizeof buffer);
   if (size <= 0) return 3;
   const std::string self(buffer, static_cast<std::size_t>(size));
-  const std::string deed = self.substr(self.rfind('/') + 1);
-  if (deed == "silent") return 0;
-  if (deed == "fail") return 1;
-  if (deed == "crash") std::raise(SIGSEGV);
-  if (deed == "abort") std::abort();
-  if (deed == "hang") sleepForever();
-  if (deed == "hang_mute") {  // closes its output, but does not end
+  const std::string behavior = self.substr(self.rfind('/') + 1);
+  if (behavior == "silent") return 0;
+  if (behavior == "fail") return 1;
+  if (behavior == "crash") std::raise(SIGSEGV);
+  if (behavior == "abort") std::abort();
+  if (behavior == "hang") sleepForever();
+  if (behavior == "hang_mute") {  // closes its output, but does not end
     close(1);
     sleepForever();
   }
-  if (deed == "hang_deaf") {  // ignores the signals that ask it to end
+  if (behavior == "hang_deaf") {  // ignores the signals that ask it to end
     std::signal(SIGTERM, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
     sleepForever();
   }
-  if (deed == "flood") {
+  if (behavior == "flood") {
     for (;;) put(std::string(1 << 16, 'x'));
   }
-  if (deed == "replay" || deed == "drip") {
+  if (behavior == "replay" || behavior == "drip") {
     std::FILE* file = std::fopen((self + ".out").c_str(), "rb");
     if (!file) return 4;
-    const bool drips = deed == "drip";  // one byte every 20 ms, so that the whole file takes too long
+    const bool drips = behavior == "drip";  // one byte every 20 ms; the whole file takes too long
     std::size_t count = 0;
     while ((count = std::fread(buffer, 1, drips ? 1 : sizeof buffer, file)) > 0) {
       put(std::string(buffer, count));

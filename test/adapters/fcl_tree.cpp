@@ -35,7 +35,7 @@ struct Question {
 
 bool onPair(fcl::CollisionObjectd* first, fcl::CollisionObjectd* second, void* data, double& distance) {
   Question& question = *static_cast<Question*>(data);
-  distance = question.bound;  // tells the tree to skip pairs that are farther apart
+  distance = question.bound;  // the tree skips pairs that are farther apart
   const auto bodyOf = [](const fcl::CollisionObjectd& object) {
     return *static_cast<const std::size_t*>(object.getUserData());
   };

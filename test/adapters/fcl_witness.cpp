@@ -86,7 +86,7 @@ double FclBody::partDistance(const Part& a, const Pose& world_from_a, const Part
   request.enable_signed_distance = false;
   request.distance_tolerance = 1e-10;
   request.gjk_solver_type = fcl::GST_LIBCCD;
-  fcl::DistanceResultd result(cutoff);  // FCL skips everything that is farther away
+  fcl::DistanceResultd result(cutoff);  // FCL skips everything that is farther away than `cutoff`
   fcl::distance(a.geometry.get(), pose_a, b.geometry.get(), pose_b, request, result);
   if (result.min_distance <= 0.0) return 0.0;
   fcl::CollisionRequestd touch;

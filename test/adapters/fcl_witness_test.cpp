@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Tests the reference distances of FCL themselves, in cases whose distance is known.
+// Tests FCL's reference distances themselves, for shapes whose distance is known.
 #include "test/adapters/fcl_witness.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Compares exact distances between bodies and maps with those of a scan that measures every cell.
+// Compares exact distances between bodies and maps with measurements of all cells.
 #include <gtest/gtest.h>
 
 #include "hgrid_proximity/adapters/fcl.h"
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kEdge = 0.1, kInfinity = std::numeric_limits<double>::infinity();
 
-/// A world of two maps and of bodies with one to three solids. The name of one map sorts after the names of the bodies.
+/// A world of two maps and of bodies with one to three solids. The name of one map comes after the names of the bodies.
 class MapDistances : public ::testing::TestWithParam<unsigned> {
  protected:
   MapDistances() : random_(GetParam()) {
@@ -50,7 +50,7 @@ class MapDistances : public ::testing::TestWithParam<unsigned> {
     const auto grid = std::make_shared<StaticGrid>(kEdge, voxels_[name]);
     scene_.setCells(ids_[name], makeMapCells(grid, *narrow_phase_));
   }
-  /// Returns the distance [m] of every cell of a map from a body, in ascending order.
+  /// Returns the distances [m] of all cells of a map from a body, in ascending order.
   std::vector<double> distancesByHand(const Snapshot& snapshot, std::uint32_t map, std::uint32_t body) const {
     std::vector<double> distances;
     for (const Voxel& voxel : voxels_.at(snapshot.structure().bodies[map].name)) {
@@ -95,7 +95,7 @@ TEST_P(MapDistances, OfPairsAreThoseOfTheNearestCells) {
       EXPECT_EQ(isContact(found.proximity.status), expected.front() == 0.0);
       ASSERT_EQ(found.cells.size(), kNearCells);
       for (std::size_t i = 0; i < kNearCells; ++i) EXPECT_NEAR(found.cells[i].distance, expected[i], 1e-8);
-      if (expected.front() > 0.0) {  // the map can be the first body or the second one
+      if (expected.front() > 0.0) {  // the map can be the first or the second body of the pair
         const Eigen::Vector3d way = found.proximity.on_second - found.proximity.on_first;
         EXPECT_NEAR(way.norm(), expected.front(), 1e-6);
         const Eigen::Vector3d on_map = first == map ? found.proximity.on_first : found.proximity.on_second;
@@ -112,16 +112,16 @@ TEST_P(MapDistances, OfPairsAreThoseOfTheNearestCells) {
 }
 
 TEST_P(MapDistances, FromTickToTickEqualNewMeasurements) {
-  constexpr double kReport = 0.1;  // [m] small, so that many pairs are known to be farther apart
+  constexpr double kReport = 0.1;  // [m] so small that many pairs are known to be farther apart
   PairMeter meter(narrow_phase_, {kReport, 0.0, 1});
   std::size_t measured = 0;
   for (int tick = 1; tick <= 40; ++tick) {
     SCOPED_TRACE("tick " + std::to_string(tick));
-    const int deed = random_.below(6);
-    if (deed == 0) fill("map/room");
-    if (deed == 1) scene_.place(ids_["zone/cloud"], pose(), Time{tick});
-    if (deed > 1) {  // moves a body by a small step
-      const std::string name = deed == 2 ? "map/room" : "obstacle/" + std::to_string(random_.below(6));
+    const int change = random_.below(6);
+    if (change == 0) fill("map/room");
+    if (change == 1) scene_.place(ids_["zone/cloud"], pose(), Time{tick});
+    if (change > 1) {  // moves a body by a small step
+      const std::string name = change == 2 ? "map/room" : "obstacle/" + std::to_string(random_.below(6));
       const Pose step = randomPose(random_, 0.01);
       Pose moved = scene_.poseOf(ids_[name]).world_from_body;
       moved.translation() += step.translation();
@@ -146,20 +146,21 @@ TEST_P(MapDistances, FromTickToTickEqualNewMeasurements) {
   EXPECT_GT(measured, 40u);
 }
 
-// A bar that turns about the map's origin comes nearer to a cell, although its position does not change.
+// A bar rotates about the origin of the map and comes nearer to a cell, although the position of the bar stays the
+// same.
 TEST(MapDistancesOfABar, ThatTurnsTowardsACellAreMeasuredAgain) {
   const std::shared_ptr<NarrowPhase> narrow_phase = makeFclNarrowPhase();
   SceneOptions options;
   options.margin = 0.5;
   Scene scene(options);
   Body zone = mapBody("zone"), bar = obstacle("bar");
-  zone.name = "zone/cells";  // sorts after the name of the bar
+  zone.name = "zone/cells";  // this name comes after the name of the bar
   BodyShape shape = shapeOf(Shape::box({2.0, 0.1, 0.1}));
   shape.solid = narrow_phase->solidOf(shape.shape);
   bar.shapes.push_back(shape);
-  const BodyId id = put(scene, bar, at(0));  // turn() rotates it, so that its AABB contains the cell
+  const BodyId id = put(scene, bar, at(0));  // turn() rotates the bar until its AABB contains the cell
   const auto grid = std::make_shared<StaticGrid>(0.01, std::vector<Voxel>{{32768 + 54, 32768 + 79, 32768, 0}});
-  scene.setCells(put(scene, zone, at(0)), makeMapCells(grid, *narrow_phase));  // 0.12 m between cell and bar
+  scene.setCells(put(scene, zone, at(0)), makeMapCells(grid, *narrow_phase));  // cell and bar are 0.12 m apart
   PairMeter meter(narrow_phase, {0.1, 0.0, 1});
   const auto turn = [&](double angle) {
     Pose turned = Pose::Identity();
@@ -211,7 +212,7 @@ TEST_P(MapDistances, OfExactQueriesAreThoseOfTheNearestCells) {
   }
 }
 
-// A query of a box must be CLEAR exactly if the box is inside the extent of the map and touches no unknown cell.
+// A box query must be CLEAR exactly if the box is inside the extent of the map and touches no unknown cell.
 TEST(UnmappedBoxes, AreThoseOfAScanOfAllUnknownCells) {
   const auto narrow_phase = makeFclNarrowPhase();
   std::size_t clear = 0, unknown_space = 0;

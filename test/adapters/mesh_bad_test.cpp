@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Reads files that contain no mesh, and meshes that are invalid. All must be rejected with the right code.
+// Reads files that contain no mesh, and meshes that are invalid. The loader must refuse all of them with the right
+// code.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -19,7 +20,7 @@ namespace {
 
 using Triangle = std::array<std::array<float, 3>, 3>;
 
-/// Returns a binary STL file whose header claims `count` triangles.
+/// Returns a binary STL file with these triangles. Its header says that there are `count` triangles.
 std::string stl(const std::vector<Triangle>& triangles, std::uint32_t count) {
   std::string bytes(84, ' ');
   std::memcpy(&bytes[80], &count, 4);
@@ -63,7 +64,7 @@ TEST_F(BadMesh, WithoutAnAreaIsRefused) {
   EXPECT_EQ(refusal("one.stl", stl({kPoint, kFlat})), Code::ok) << sentence_;
   for (const Code code : {refusal("none.stl", stl({})), refusal("vertex.obj", "v 1 2 3\n"),
                           refusal("edge.obj", "v 1 2 3\nv 2 2 3\nl 1 2\n")}) {
-    EXPECT_TRUE(code == Code::bad_geometry || code == Code::parse) << name(code);  // the parser may find it first
+    EXPECT_TRUE(code == Code::bad_geometry || code == Code::parse) << name(code);  // the parser may be first to refuse
   }
 }
 
@@ -139,7 +140,7 @@ TEST_F(BadMesh, AMillionTrianglesAreTakenAndNoMore) {
   EXPECT_EQ(refusal("b.stl", stl(square(1000001))), Code::limit) << sentence_;
 }
 
-TEST_F(BadMesh, TooMuchMemoryIsRefusedAsALimit) {  // not as a parse error, since the file is valid
+TEST_F(BadMesh, TooMuchMemoryIsRefusedAsALimit) {  // not as a parse error, because the file is valid
 #if defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "the helper does not limit its memory under the address sanitizer";
 #endif

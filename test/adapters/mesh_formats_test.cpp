@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// The files corner.* in test/data/meshes contain the same solid. The loader must return that solid, bit for bit if the
-// file stores exact coordinates.
+// The files corner.* in test/data/meshes contain the same solid. The loader must return this solid for each of them.
+// The coordinates must be equal bit by bit if the file stores them exactly.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 using Corners = std::array<std::array<double, 3>, 3>;
 
-/// Returns the corners of all triangles, sorted. Each triangle is rotated so that its least corner comes first.
+/// Returns the corners of all triangles, sorted. The least corner of each triangle comes first.
 std::vector<Corners> trianglesOf(const TriangleMesh& mesh) {
   std::vector<Corners> all;
   for (const auto& triangle : mesh.triangles) {
@@ -61,7 +61,7 @@ TEST_F(MeshFormats, EveryFileShowsTheSameSolid) {
   }
 }
 
-/// Reads corner.dae with one of its parts replaced, with a new loader.
+/// Reads corner.dae with a new loader, after replacing `part` of its text with `instead`.
 std::shared_ptr<const TriangleMesh> loadCollada(const std::string& part, const std::string& instead) {
   std::string text = fileText(ownData() + "/meshes/corner.dae");
   text.replace(text.find(part), part.size(), instead);
@@ -71,7 +71,7 @@ std::shared_ptr<const TriangleMesh> loadCollada(const std::string& part, const s
   return MeshLoader(policy).load("file://" + folder.write("corner.dae", text), {1, 1, 1});
 }
 
-TEST_F(MeshFormats, ColladaCountsUnitsAndNodesButNotTheUpAxis) {  // RViz does the same
+TEST_F(MeshFormats, ColladaCountsUnitsAndNodesButNotTheUpAxis) {  // like RViz
   const auto expected = tetrahedron();
   for (const char* up : {"Y_UP", "Z_UP", "X_UP"}) {
     SCOPED_TRACE(up);
@@ -144,7 +144,7 @@ TEST_F(MeshFormats, FileExtensionsMayBeUpperCase) {
   same("a.b.Stl", binary);
   same("A.OBJ", fileText(ownData() + "/meshes/corner.obj"));
   binary.replace(0, 5, "solid");
-  same("solid.stl", binary);  // a binary file that begins like a text file
+  same("solid.stl", binary);  // a binary file whose first bytes are like those of a text file
 }
 
 TEST_F(MeshFormats, AFileIsReadOnceForEachLoader) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Whatever the helper does, the caller gets a refusal in time. No child process and no open file is left over, and the
-// next file can be read. The program HGRID_FAKE_MESH_READER misbehaves as the name of its file says.
+// The mesh loader reads files in a helper process. Whatever the helper does, the caller gets a refusal in time, and no
+// child process and no open file remains. The next file can be read. HGRID_FAKE_MESH_READER is a helper that
+// misbehaves.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <spawn.h>
@@ -30,7 +31,7 @@ constexpr const char* kCorner = "package://hgrid_test/meshes/corner.stl";
 
 std::ptrdiff_t openFiles() { return std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator()); }
 
-/// Returns the largest address space [bytes] that this process ever had.
+/// Returns the largest address space [bytes] that this process has ever had.
 std::size_t peakMemory() {
   const std::string status = fileText("/proc/self/status");
   return std::strtoull(status.c_str() + status.find("VmPeak:") + 7, nullptr, 10) << 10;
@@ -39,11 +40,11 @@ std::size_t peakMemory() {
 class MeshHelper : public ::testing::Test {
  protected:
   /// Reads a valid file with a fake helper. Stores the error sentence in sentence_.
-  /// @param deed  name of the fake helper, which decides what it does
-  /// @param ends  whether the helper ends by itself; otherwise its timeout is 300 ms
+  /// @param behavior  name of the fake helper, which decides what it does
+  /// @param ends      whether the helper ends by itself; if not, its timeout is 300 ms
   /// @returns the code of the refusal
-  Code refusalWith(const std::string& deed, bool ends = true) {
-    const std::string reader = folder_ / deed;
+  Code refusalWith(const std::string& behavior, bool ends = true) {
+    const std::string reader = folder_ / behavior;
     fs::copy_file(HGRID_FAKE_MESH_READER, reader, fs::copy_options::skip_existing);
     MeshPolicy policy = meshPolicy();
     policy.reader = reader;
@@ -96,15 +97,15 @@ std::string MeshHelper::trueOutput() {
 }
 
 TEST_F(MeshHelper, ACrashIsRefused) {
-  for (const char* deed : {"crash", "abort", "fail", "silent"}) {
-    EXPECT_EQ(refusalWith(deed), Code::truncated) << deed;
+  for (const char* behavior : {"crash", "abort", "fail", "silent"}) {
+    EXPECT_EQ(refusalWith(behavior), Code::truncated) << behavior;
     EXPECT_TRUE(says(sentence_, "corner.stl"));
   }
 }
 
 TEST_F(MeshHelper, AHangIsRefusedWhenItsTimeIsUp) {
-  for (const char* deed : {"hang", "hang_deaf"}) {
-    EXPECT_EQ(refusalWith(deed, false), Code::budget) << deed;
+  for (const char* behavior : {"hang", "hang_deaf"}) {
+    EXPECT_EQ(refusalWith(behavior, false), Code::budget) << behavior;
     for (const char* word : {"corner.stl", "0.3"}) EXPECT_TRUE(says(sentence_, word));
   }
   EXPECT_NE(refusalWith("hang_mute", false), Code::ok);

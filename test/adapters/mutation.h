@@ -10,8 +10,8 @@
 namespace hgrid {
 namespace test {
 
-/// Returns `text` with one or two random kinds of damage: a changed byte, the end cut off, an inserted word, or a part
-/// that is doubled or removed.
+/// Returns `text` with one or two random faults: a changed byte, a missing end, an inserted word, or a part that is
+/// doubled or removed.
 inline std::string mutated(const std::string& text, const std::vector<std::string>& words, Random& random) {
   std::string harmed = text;
   for (int harms = random.between(1, 2); harms > 0 && !harmed.empty(); --harms) {

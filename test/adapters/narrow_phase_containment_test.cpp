@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// A closed mesh is solid, so a shape wholly inside it is in contact. An open mesh has no defined inside, so a shape
-// that it may enclose must not count as apart.
+// A closed mesh is solid, so a shape completely inside it is in contact with it. An open mesh has no defined inside.
+// Therefore a shape that an open mesh may enclose must not count as apart from it.
 #include <gtest/gtest.h>
 
 #include "test/narrow/narrow_phase_judge.h"
@@ -11,7 +11,7 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// Returns closed meshes around the origin, with names. A sphere of radius 0.9 m fits into each of them.
+/// Returns closed meshes around the origin, and their names. A sphere of radius 0.9 m fits into each mesh.
 std::vector<std::pair<std::string, TriangleMesh>> vessels() {
   const auto scaled = [](TriangleMesh mesh, double factor) {
     for (Eigen::Vector3d& vertex : mesh.vertices) vertex *= factor;
@@ -71,7 +71,7 @@ TEST_P(Containment, AShapeBesideAClosedMeshIsApart) {
   }
 }
 
-// Each mesh lacks one triangle, on any side. For some points, rays and winding numbers then give a wrong answer.
+// Each mesh lacks one triangle on some side. Then rays and winding numbers give wrong answers for some points.
 TEST_P(Containment, AShapeInsideAnOpenMeshIsNeverApart) {
   Random random(7);
   for (const auto& [what, vessel] : vessels()) {
@@ -133,7 +133,7 @@ TEST(Cavity, OfAClosedMeshIsOutsideOfIt) {
   EXPECT_EQ(Trial({meshOf(hollow), ball, Pose::Identity(), pose, 0.0, 0.0}).measure().status, Measure::contained);
 }
 
-// Convex shapes are solid: any shape inside a sphere or a box is in contact with it, also a mesh.
+// Convex shapes are solid. A shape inside a sphere or a box is in contact with it, even if that shape is a mesh.
 TEST_P(Containment, AShapeInsideASolidIsInContact) {
   Random random(10);
   const Shape outers[] = {Shape::sphere(1.0),        Shape::box({2, 2, 2}),

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Tests the known distance of a mesh, and contacts of meshes: there is one contact for each pair of parts that touch.
+// Tests distances of meshes that are known, and contacts of meshes. Each pair of convex parts that touch is one
+// contact.
 #include <gtest/gtest.h>
 
 #include "test/narrow/narrow_phase_judge.h"
@@ -19,7 +20,7 @@ std::vector<Contact> contactsOf(const Case& placed, std::size_t most = kAll, boo
   return exchanged ? narrowPhase().contacts(b, a, most) : narrowPhase().contacts(a, b, most);
 }
 
-/// Returns the convex parts of a shape: the triangles of a mesh, or any other shape itself.
+/// Returns the convex parts of a shape: the triangles of a mesh, or else the shape itself.
 std::vector<Shape> partsOf(const Shape& shape) {
   if (shape.kind() != ShapeKind::mesh) return {shape};
   std::vector<Shape> parts;
@@ -31,7 +32,7 @@ std::vector<Shape> partsOf(const Shape& shape) {
   return parts;
 }
 
-/// Returns two counts of pairs of parts: those that certainly touch, and those that touch within a rounding error.
+/// Returns the number of pairs of parts that certainly touch, and the number that touch within a rounding error.
 std::pair<std::size_t, std::size_t> partsThatMeet(const Case& placed) {
   std::pair<std::size_t, std::size_t> count{0, 0};
   for (const Shape& a : partsOf(placed.first_shape)) {
@@ -91,13 +92,13 @@ TEST(NarrowPhaseKnown, SphereOverAMesh) {
 TEST(NarrowPhaseContacts, OfASphereInAFloorOfTwoTriangles) {
   const Shape floor = meshOf({{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}});
   Case placed{floor, Shape::sphere(0.1), Pose::Identity(), Pose::Identity(), 0.0, 0.01};
-  placed.world_from_second.translation() << 0.5, -0.5, 0.08;  // the sphere is over only one triangle
+  placed.world_from_second.translation() << 0.5, -0.5, 0.08;  // the sphere is above only one triangle
   std::vector<Contact> contacts = contactsOf(placed);
   ASSERT_EQ(contacts.size(), 1u);
   EXPECT_NEAR(contacts[0].depth, 0.03, 1e-9);
   EXPECT_TRUE(contacts[0].normal.isApprox(Eigen::Vector3d::UnitZ(), 1e-9));
   EXPECT_TRUE(contacts[0].point.isApprox(Eigen::Vector3d(0.5, -0.5, 0.0), 1e-9)) << contacts[0].point.transpose();
-  placed.world_from_second.translation() << 0.5, 0.5 - 1e-3, 0.08;  // the sphere is almost over their common side
+  placed.world_from_second.translation() << 0.5, 0.5 - 1e-3, 0.08;  // almost above their common side
   contacts = contactsOf(placed);
   ASSERT_EQ(contacts.size(), 2u);
   EXPECT_GT(contacts[0].depth, contacts[1].depth);

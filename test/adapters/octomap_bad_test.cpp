@@ -42,7 +42,7 @@ TEST(OctomapBad, EveryPrefixOfAMapIsTruncated) {
       do {
         Random random(++seed);
         map = randomMap(random, id, binary);
-      } while (map.file.size() < 1000 || map.file.size() > 10000);  // the test time grows with the square of the size
+      } while (map.file.size() < 1000 || map.file.size() > 10000);  // the test time grows with size squared
       maps.push_back(map);
     }
   }
@@ -227,7 +227,7 @@ TEST(OctomapBad, BytesNodesAndLeavesHaveTheirLimits) {
 }
 
 /// Returns the `.bt` nodes of a subtree that begins at this depth. `children` describes its first node, as in btNode().
-/// Below each 'n', all nodes are full down to the lowest level.
+/// Each child 'n' is completely occupied, down to the lowest level.
 std::string fullTree(int depth, const std::string& children) {
   if (depth == 15) return btNode("oooooooo");
   const std::string below = fullTree(depth + 1, "nnnnnnnn");
@@ -236,7 +236,7 @@ std::string fullTree(int depth, const std::string& children) {
   return bytes;
 }
 
-/// Returns the `.bt` nodes of a tree: a single path down to this depth, and fullTree() from there.
+/// Returns the `.bt` nodes of a tree: a single path down to this depth, and then fullTree().
 std::string fullBelow(int depth, const std::string& children) {
   std::string path;
   for (int i = 0; i < depth; ++i) path += btNode("n");
@@ -250,7 +250,7 @@ long peakKilobytes() {
 }
 
 // Two bytes of input create at most eight leaves of eight bytes each, even if unknown space counts as occupied. The
-// limit of nodes bounds this further.
+// limit of the number of nodes also limits the leaves.
 TEST(OctomapBad, SmallInputsDoNotExpand) {
   const std::string data = fullBelow(12, "nnnnnnn.");
   ASSERT_LT(data.size(), 4096u);

@@ -10,7 +10,7 @@ namespace hgrid {
 namespace test {
 
 /// Returns the bytes of a `.bt` node.
-/// @param children  its children in order: '.' unknown, 'f' free, 'o' occupied, 'n' an inner node
+/// @param children  eight letters, one per child: '.' unknown, 'f' free, 'o' occupied, 'n' an inner node
 inline std::string btNode(const std::string& children) {
   unsigned word = 0;
   for (std::size_t i = 0; i < children.size(); ++i) {
@@ -26,11 +26,11 @@ inline std::string otNode(float log_odds, unsigned children = 0) {
   return bytes + static_cast<char>(children);
 }
 
-/// Returns the header of a `.bt` file. @param lines  lines between the first one and "data", such as usualLines("1")
+/// Returns the header of a `.bt` file. @param lines  lines between the first line and "data", such as usualLines("1")
 inline std::string btHeader(const std::string& lines) { return "# Octomap OcTree binary file\n" + lines + "data\n"; }
 /// Returns the header of an `.ot` file.
 inline std::string otHeader(const std::string& lines) { return "# Octomap OcTree file\n" + lines + "data\n"; }
-/// Returns the header lines of a valid file. @param size  number of nodes
+/// Returns the header lines of a valid file. @param size  number of nodes of the map
 inline std::string usualLines(const std::string& size) { return "id OcTree\nsize " + size + "\nres 0.1\n"; }
 
 }  // namespace test

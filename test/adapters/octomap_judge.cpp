@@ -42,19 +42,19 @@ JudgedMap judgedAs(const OctomapFormat& format, const std::string& data, double 
   return leavesOf(tree);
 }
 
-/// Fills a cube with leaves of the finest level. Its side is 1, 2, 4 or 8 leaves long.
+/// Fills a cube with leaves of the finest level. A side of the cube is 1, 2, 4 or 8 leaves long.
 template <class Tree>
 void addCluster(Tree& tree, const octomap::OcTreeKey& at, Random& random) {
   const int side = 1 << random.below(4);
   const float threshold = tree.getOccupancyThresLog();
   const float same =
       random.chance(0.3) ? stepped(threshold, random.between(-2, 2)) : static_cast<float>(random.uniform(-2.0, 3.5));
-  const bool alike = random.chance(0.6);  // equal leaves: OctoMap can prune the cube to one leaf
+  const bool alike = random.chance(0.6);  // whether all leaves are equal; OctoMap can then prune the cube to one leaf
   for (int i = 0; i < side * side * side; ++i) {
     const octomap::OcTreeKey key(static_cast<octomap::key_type>((at[0] & -side) + i % side),
                                  static_cast<octomap::key_type>((at[1] & -side) + i / side % side),
                                  static_cast<octomap::key_type>((at[2] & -side) + i / side / side));
-    if (i == 0 || alike || random.chance(0.7)) {  // at least one leaf, since OctoMap fails for an empty tree
+    if (i == 0 || alike || random.chance(0.7)) {  // at least one leaf, because OctoMap fails for an empty tree
       tree.setNodeValue(key, alike ? same : static_cast<float>(random.uniform(-2.0, 3.5)), true);
     }
   }
@@ -73,7 +73,7 @@ WrittenMap randomMapAs(Random& random, bool binary, double occupied_from) {
   const OctomapFormat format{tree.getTreeType(), binary, tree.getResolution()};
   std::ostringstream out;
   if (binary) {
-    tree.writeBinaryData(out);  // not writeBinary(), which prints a message
+    tree.writeBinaryData(out);  // not writeBinary(), because it prints a message
     const std::string lines =
         "id " + format.id + "\nsize " + std::to_string(tree.size()) + "\nres " + text(format.resolution) + "\n";
     return {format, out.str(), btHeader(lines) + out.str()};

@@ -58,7 +58,8 @@ TEST(OctomapMutation, ADamagedMapIsValidOrRefused) {
   EXPECT_LT(read_anyway, count) << "the damage is too weak: all maps can be read";
 }
 
-// The seeds are the inputs from which the fuzzer starts, and inputs that once failed. All must be read correctly.
+// The seeds are the first inputs of the fuzzer, and inputs that once failed. The reader must read all of them
+// correctly.
 TEST(OctomapMutation, TheSeedsOfTheFuzzerAreReadCorrectly) {
   std::size_t seeds = 0, read = 0;
   for (const auto& entry : std::filesystem::directory_iterator(std::string(HGRID_PROJECT_DIR) + "/test/fuzz/octomap")) {

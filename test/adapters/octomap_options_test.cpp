@@ -38,7 +38,7 @@ TEST(OctomapOptions, ACropKeepsWhatTouchesIt) {
     options.keep_free = random.chance(0.5);
     const Octomap all = read(written.format, written.data, options);
     const Voxel& some = all.occupied.empty() ? Voxel{} : all.occupied[all.occupied.size() / 2];
-    const Eigen::Vector3d corner = minCorner(some, all.resolution);  // so that some faces touch the crop box exactly
+    const Eigen::Vector3d corner = minCorner(some, all.resolution);  // then some faces touch the crop box exactly
     const double side = all.resolution * random.below(100);
     options.crop = Eigen::AlignedBox3d(corner, corner + Eigen::Vector3d::Constant(side));
     if (random.chance(0.3)) options.crop->max().x() = kInfinity;
@@ -91,7 +91,7 @@ TEST(OctomapOptions, ACropIsABoxWithoutNan) {
 }
 
 TEST(OctomapOptions, NanIsRefusedOrOccupied) {
-  const std::string data = otNode(NAN, 3) + otNode(NAN) + otNode(-1.0f);  // the NaN of a parent node does not count
+  const std::string data = otNode(NAN, 3) + otNode(NAN) + otNode(-1.0f);  // the NaN of a parent node is ignored
   std::string sentence;
   OctomapOptions options;
   EXPECT_EQ(refusalOf([&] { read(kFull, data, options); }, &sentence), Code::parse);

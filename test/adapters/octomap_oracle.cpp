@@ -13,7 +13,7 @@ using Place = std::vector<Voxel>::const_iterator;
 
 bool inMortonOrder(const Voxel& a, const Voxel& b) { return mortonOf(a) < mortonOf(b); }
 
-/// Returns the number of Morton codes that a cube of this level covers.
+/// Returns the number of Morton codes of the finest cells in a cube of this level.
 std::uint64_t codesOf(int level) { return std::uint64_t{1} << 3 * level; }
 
 std::string shown(const Voxel& voxel) {
@@ -35,8 +35,8 @@ std::string flawOf(const std::vector<Voxel>& voxels) {
   return {};
 }
 
-/// Appends the node of this level whose Morton codes start at `begin`, and all nodes below it. The voxels first .. last
-/// are its leaves; all of them are smaller than the node.
+/// Appends the node of this level whose Morton codes start at `begin`, and all nodes below it. The leaves of the node
+/// are the voxels first .. last. All of them are smaller than the node.
 void write(std::uint64_t begin, int level, Place first, Place last, std::string& bytes) {
   const std::uint64_t part = codesOf(level - 1);
   std::vector<Place> bounds{first};
@@ -61,7 +61,7 @@ std::string flawOf(const Octomap& map, const OctomapOptions& options) {
              inMortonOrder);
   const auto middle = all.insert(all.end(), map.unknown.begin(), map.unknown.end());
   std::inplace_merge(all.begin(), middle, all.end(), inMortonOrder);
-  const std::string flaw = flawOf(all);  // merging keeps the order of each list, also a wrong one
+  const std::string flaw = flawOf(all);  // merging keeps the order of each list, even if the order is wrong
   if (!flaw.empty()) return flaw;
   if (all.size() > options.max_leaves) return std::to_string(all.size()) + " leaves exceed the limit";
   if (map.nodes > options.max_nodes) return std::to_string(map.nodes) + " nodes exceed the limit";

@@ -10,8 +10,8 @@
 namespace hgrid {
 namespace test {
 
-/// Checks a map that was read with these options: the voxels must be aligned, disjoint and in Morton order, and the
-/// limits must hold. Also writes the occupied voxels and reads them again, which must give the same voxels.
+/// Checks a map that was read with these options. The voxels must be aligned, disjoint and in Morton order, and the map
+/// must respect the limits. Also writes the occupied voxels and reads them again; this must give the same voxels.
 /// @returns what is wrong with the map; empty if nothing is wrong
 std::string flawOf(const Octomap& map, const OctomapOptions& options);
 

@@ -25,7 +25,7 @@ OctomapOptions keepingFree() {
   return options;
 }
 
-/// Expects the same leaves as those of the OctoMap library, in the same order. It is the order of a depth-first walk.
+/// Expects the leaves that the OctoMap library reads, in the order of a depth-first walk.
 void expectSame(const Octomap& map, const JudgedMap& truth) {
   EXPECT_EQ(map.nodes, truth.nodes);
   EXPECT_EQ(map.occupied.size(), truth.occupied.size());
@@ -34,8 +34,8 @@ void expectSame(const Octomap& map, const JudgedMap& truth) {
   EXPECT_TRUE(map.free == truth.free);
 }
 
-/// Returns the `.bt` nodes of a random subtree whose first node is at this depth; the tree is at most 16 levels deep.
-/// `chance` is the probability that a child has children.
+/// Returns the `.bt` nodes of a random subtree whose first node is at this depth. The tree is at most 16 levels deep.
+/// @param chance  probability that a child has children
 std::string randomBinaryNodes(Random& random, double chance, int depth = 0) {
   std::string kinds(8, '.'), below;
   for (char& kind : kinds) {
@@ -47,7 +47,7 @@ std::string randomBinaryNodes(Random& random, double chance, int depth = 0) {
   return btNode(kinds) + below;
 }
 
-/// Returns the `.ot` nodes of a random subtree. @param color  bytes of a color, empty for trees without color
+/// Returns the `.ot` nodes of a random subtree. @param color  bytes of a color; empty for a tree without colors
 std::string randomFullNodes(Random& random, const std::string& color, double chance, int depth = 0) {
   unsigned children = 0;
   std::string below;
@@ -107,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(All, OctomapFormats,
                                          OctomapFormat{"ColorOcTree", false, 0.1}),
                          [](const auto& format) { return format.param.id + (format.param.binary ? "Bt" : "Ot"); });
 
-// OctoMap never writes `.bt` nodes without children. Our reader must treat them as OctoMap does.
+// OctoMap never writes `.bt` nodes without children. Our reader must read such nodes as OctoMap does.
 TEST(Octomap, NodesWithoutChildrenMeanWhatOctoMapTakesThemFor) {
   const OctomapFormat binary{"OcTree", true, 0.1}, full{"OcTree", false, 0.1};
   const std::vector<std::pair<OctomapFormat, std::string>> cases = {
@@ -116,7 +116,7 @@ TEST(Octomap, NodesWithoutChildrenMeanWhatOctoMapTakesThemFor) {
       {binary, btNode("n.......") + btNode("n.......") + btNode("")},    // an empty node at depth 2: a free leaf
       {full, otNode(0.0f)},                                              // a root without children: its value decides
       {full, otNode(-1.0f)},                                             //
-      {full, otNode(3.0f, 1) + otNode(-0.5f)},                           // the value of a parent is ignored
+      {full, otNode(3.0f, 1) + otNode(-0.5f)},                           // the value of an inner node is ignored
       {full, otNode(-3.0f, 128) + otNode(-3.0f, 1) + otNode(INFINITY)},  //
   };
   for (const auto& [format, data] : cases) {

@@ -20,7 +20,7 @@ void put(std::string& bytes, std::size_t at, Number number) {
   std::memcpy(&bytes[at], &number, sizeof(number));
 }
 
-/// Returns the format that most drivers send: points of 16 bytes, with x, y, z as floats at bytes 0, 4 and 8.
+/// Returns the format that most drivers use: points of 16 bytes, with x, y, z as floats at the bytes 0, 4 and 8.
 PointCloudFormat usual(std::uint32_t height, std::uint32_t width) {
   PointCloudFormat format;
   format.height = height;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// A robot description may open only regular files of packages and of the configured roots.
+// A robot description may open only regular files in packages and in the configured root folders.
 #include "hgrid_proximity/adapters/resource.h"
 
 #include <fcntl.h>
@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Creates a package `p` in <folder>/p, a root in <folder>/root, and files outside of both.
+/// Creates a package `p` in <folder>/p, a root folder <folder>/root, and files outside of both.
 class Resource : public ::testing::Test {
  protected:
   Resource() {
@@ -139,7 +139,7 @@ TEST_F(Resource, NoSocketIsEverOpened) {
     EXPECT_EQ(refusalOf([&] { loader.load(uri, {1, 1, 1}); }), Code::resource_denied) << uri;
   }
   pollfd waiting{listener, POLLIN, 0};
-  EXPECT_EQ(poll(&waiting, 1, 0), 0) << "the loader opened a connection";  // no wait: connect() is synchronous
+  EXPECT_EQ(poll(&waiting, 1, 0), 0) << "the loader opened a connection";  // connect() is synchronous
   close(listener);
 }
 

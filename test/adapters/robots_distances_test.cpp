@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Measures UR5, Panda and PR2 in random states. The exact distances must equal those that FCL measures for every pair
-// without a broad phase. Also prints the time, and the time of FCL's DynamicAABBTree. The environment variable
-// HGRID_TEST_STATES sets the number of states.
+// Measures UR5, Panda and PR2 in random states. The exact distances must equal the distances that FCL measures for
+// every pair without a broad phase. Also prints the time, and the time of FCL's DynamicAABBTree. The environment
+// variable HGRID_TEST_STATES sets the number of states.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kReport = 0.1;  // [m] distances up to this are reported
+constexpr double kReport = 0.1;  // [m] greatest distance that is reported
 
 double median(std::vector<double>& values) {
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
@@ -54,7 +54,7 @@ class Trial {
   }
 
   void compare(const std::vector<Pose>& root_from_links, Time stamp) {
-    if (stamp.count() % 2 == 0) askTree(root_from_links);  // alternates the order, for a fair comparison
+    if (stamp.count() % 2 == 0) askTree(root_from_links);  // the two orders alternate, for a fair comparison of times
     const std::shared_ptr<const PairDistances> found = measure(root_from_links, stamp);
     if (stamp.count() % 2 != 0) askTree(root_from_links);
     std::map<std::pair<std::uint32_t, std::uint32_t>, const PairDistance*> ours;
@@ -142,11 +142,11 @@ class Trial {
   Scene scene_;
   PairMeter meter_;
   std::vector<std::pair<std::uint32_t, BodyId>> links_;
-  std::vector<FclBody> witnesses_;  // by index in links_
-  FclTree tree_;                    // its bodies are in the order of links_
+  std::vector<FclBody> witnesses_;  // one per element of links_
+  FclTree tree_;                    // its bodies are in the same order as links_
   std::shared_ptr<const Snapshot> snapshot_;
-  std::vector<std::uint32_t> index_;  // index in the structure, by index in links_
-  std::vector<bool> allowed_;         // for each pair of indices in links_
+  std::vector<std::uint32_t> index_;  // index of the body in the structure, for each element of links_
+  std::vector<bool> allowed_;         // whether a pair is allowed, for each pair of indices in links_
 };
 
 class RobotsDistances : public ::testing::TestWithParam<const char*> {

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
 // Tests UR5, Panda and PR2 in random states. Every pair that FCL finds within the margin must be a candidate pair.
-// There may be at most four times as many candidates as such pairs. The environment variable HGRID_TEST_STATES sets
-// the number of states.
+// There may be at most four times as many candidate pairs. The environment variable HGRID_TEST_STATES sets the number
+// of states.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -28,7 +28,7 @@ struct Figures {
   }
 };
 
-/// A robot in one Scene per margin, and a copy of its bodies for FCL.
+/// A robot in several Scenes, one for each margin, and a copy of its bodies for FCL.
 class Trial {
  public:
   Trial(const RobotModel& model, const LinkRules& rules) {
@@ -117,7 +117,7 @@ class Trial {
 
   std::vector<Scene> scenes_;
   std::vector<std::pair<std::uint32_t, BodyId>> links_;
-  std::vector<FclBody> bodies_;  // by index in links_
+  std::vector<FclBody> bodies_;  // one per element of links_
 };
 
 void expectNoMissedPair(const RealRobot& robot, const LinkRules& rules, const std::string& label, unsigned seed) {
@@ -139,7 +139,7 @@ void expectNoMissedPair(const RealRobot& robot, const LinkRules& rules, const st
                 f.candidates, f.ratio(), f.missed);
     EXPECT_EQ(f.missed, 0u);
     EXPECT_GT(f.true_pairs, 0u);
-    EXPECT_TRUE(f.candidates <= 4 * f.true_pairs || count < 1000);  // a ratio of few states has no meaning
+    EXPECT_TRUE(f.candidates <= 4 * f.true_pairs || count < 1000);  // for few states, the ratio has no meaning
   }
 }
 

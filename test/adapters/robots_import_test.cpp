@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Imports UR5, Panda and PR2. All shapes must be there, with bounding boxes that are as tight as floats allow.
+// Imports UR5, Panda and PR2. All shapes must be there. Their bounding boxes must be as tight as floats allow.
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
 
@@ -21,7 +21,7 @@ struct Extent {
   Real low, high;
 };
 
-/// Returns the extent of a shape along a world axis. Uses extended precision and other formulas than the product.
+/// Returns the extent of a shape along a world axis. Uses extended precision and other formulas than the product uses.
 Extent extentOf(const Shape& shape, const Pose& world_from_shape, int axis) {
   const Real row[3] = {world_from_shape.linear()(axis, 0), world_from_shape.linear()(axis, 1),
                        world_from_shape.linear()(axis, 2)};
@@ -156,7 +156,7 @@ Eigen::Vector3d numbers(const tinyxml2::XMLElement* element, const char* attribu
 
 TEST_P(RobotImport, JointsEqualThoseOfTheText) {
   const RealRobot robot = realRobot(GetParam());
-  const RobotModel model = readUrdf(robot.urdf, knowsOneMesh);  // skips the meshes, since the test needs only joints
+  const RobotModel model = readUrdf(robot.urdf, knowsOneMesh);  // skips the meshes, because the test needs only joints
   tinyxml2::XMLDocument document;
   ASSERT_EQ(document.Parse(robot.urdf.data(), robot.urdf.size()), tinyxml2::XML_SUCCESS);
   std::size_t joints = 0;

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
 // Places UR5 and PR2 at random in the map of a real building. Compares candidate pairs and exact distances with a scan
-// of all leaves of the map. The test uses a fifth of the states that the environment variable HGRID_TEST_STATES sets.
+// of all leaves of the map. Uses a fifth of the number of states in the environment variable HGRID_TEST_STATES.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -116,7 +116,7 @@ class RobotInBuilding {
       if (body == map) continue;
       SCOPED_TRACE(structure.bodies[body].name);
       double gap = kInfinity;
-      std::vector<std::pair<std::uint32_t, std::size_t>> close;  // shapes and leaves within the margin
+      std::vector<std::pair<std::uint32_t, std::size_t>> close;  // (shape, leaf) within the margin
       for (ProxyId proxy = structure.first_proxy[body]; proxy < structure.first_proxy[body + 1]; ++proxy) {
         for (std::size_t leaf = 0; leaf < low_.size(); ++leaf) {
           const double here = gapOf(snapshot.boxes()[proxy], leaf);
@@ -137,7 +137,7 @@ class RobotInBuilding {
       const double distance = found.proximity.distance;
       contacts += distance == 0.0 ? 1 : 0;
       double least = kInfinity;
-      for (const auto& [shape, leaf] : close) {  // no other leaf can be nearer
+      for (const auto& [shape, leaf] : close) {  // leaves beyond the margin cannot be nearer
         if (least == 0.0 || gapOf(snapshot.boxes()[structure.first_proxy[body] + shape], leaf) > distance + 1e-9)
           continue;
         least = std::min(least, distanceOf(snapshot, body, shape, leaf));

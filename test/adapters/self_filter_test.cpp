@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Tests withoutSelf(), which removes the cells of the robot itself from a map, against a check of every finest cell.
+// Tests withoutSelf(), which removes the cells of the robot itself from a map. The reference checks all finest cells.
 #include "hgrid_proximity/maps/self_filter.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ TEST(SelfFilter, LeavesOutExactlyTheFinestCellsWhoseMiddlesLieInAPaddedShape) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     std::vector<Voxel> voxels = randomVoxels(random, 300, 12);
-    if (random.chance(0.5)) voxels = {{32768, 32768, 32768, 4}};  // one voxel whose side is 16 finest cells long
+    if (random.chance(0.5)) voxels = {{32768, 32768, 32768, 4}};  // one voxel; its side is as long as 16 finest cells
     const Pose world_from_map = randomPose(random, 3.0);
     std::vector<SelfShape> shapes;
     for (int i = random.between(0, 3); i > 0; --i) {
@@ -46,7 +46,7 @@ TEST(SelfFilter, LeavesOutExactlyTheFinestCellsWhoseMiddlesLieInAPaddedShape) {
       shapes.push_back(selfShape(*narrow_phase, shape, world_from_map * randomPose(random, 0.5), padding));
     }
     const OthersCells others = withoutSelf(voxels, kEdge, world_from_map, shapes, *narrow_phase);
-    StaticGrid(kEdge, others.voxels);  // throws if the voxels are not disjoint and in order
+    StaticGrid(kEdge, others.voxels);  // throws if the voxels are not disjoint or not in Morton order
     EXPECT_EQ(others.undecided, 0u);
     const std::vector<Voxel> left = finestOf(others.voxels), all = finestOf(voxels);
     EXPECT_EQ(left.size() + others.left_out, all.size());
@@ -81,7 +81,7 @@ TEST(SelfFilter, ACellThatStaysWholeIsNotSplit) {
   const std::vector<Voxel> voxels{{32768, 32768, 32768, 3}};  // covers 0 .. 0.4 m on each axis
   Pose beside = Pose::Identity();
   beside.translation() = Eigen::Vector3d(-0.2, 0.2, 0.2);
-  // The sphere overlaps the voxel, but it contains no center of a finest cell.
+  // The sphere overlaps the voxel, but contains no center of a finest cell.
   const SelfShape ball = selfShape(*narrow_phase, Shape::sphere(0.21), beside, 0.0);
   EXPECT_EQ(withoutSelf(voxels, kEdge, Pose::Identity(), {ball}, *narrow_phase).voxels, voxels);
 }

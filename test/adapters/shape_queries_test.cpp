@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Compares queries for a shape in any pose with measurements of all shapes of all bodies. Tests penetration depths.
+// Compares queries with a shape in any pose with measurements of all shapes of all bodies. Tests penetration depths.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -42,7 +42,7 @@ class ShapeQueries : public ::testing::Test {
     return phase_->measure({*phase_->solidOf(asked.shape), asked.world_from_shape, asked.padding},
                            {*phase_->solidOf(shape), pose, padding}, kInfinity);
   }
-  /// Returns the least distance [m] to a body: to its shapes if `exact`, else to their boxes; for a map to its cells.
+  /// Returns the least distance [m] to the shapes (`exact`) or to the boxes of a body. For a map, measures its cells.
   double distanceTo(const QueryShape& asked, std::uint32_t body, bool exact) const {
     const Structure& structure = snapshot_->structure();
     const Pose& world_from_body = snapshot_->poses()[body].world_from_body;

@@ -11,7 +11,7 @@
 namespace hgrid {
 namespace test {
 
-/// A temporary folder for a test: empty at first, and deleted by the destructor. Its path contains no symbolic links.
+/// A temporary folder for a test. It is empty at first. The destructor deletes it. Its path contains no symbolic links.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Numbers are read with a decimal point, whatever the locale of the process is.
+// The reader reads numbers with a decimal point, even if the locale of the process has a decimal comma.
 #include <gtest/gtest.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -29,10 +29,10 @@ bool compileLocale(const std::string& folder) {
   pid_t child = 0;
   if (posix_spawnp(&child, "localedef", nullptr, nullptr, const_cast<char**>(arguments), environ) != 0) return false;
   int status = 0;
-  return waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) <= 1;  // status 1: warnings
+  return waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) <= 1;  // 1: with warnings
 }
 
-/// Sets a locale with a decimal comma while this object exists: for the process, its C++ streams and its children.
+/// While this object exists, the locale has a decimal comma, in the process, its C++ streams and its children.
 class DecimalComma {
  public:
   DecimalComma() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// A shape that cannot be read is reported by name, and the robot loads with its other shapes.
+// The robot loads without the shapes that cannot be read. The model reports each such shape by name.
 #include <gtest/gtest.h>
 
 #include "test/adapters/urdf_texts.h"
@@ -15,7 +15,7 @@ namespace {
 struct BadShape {
   std::string collision;
   Code code;
-  std::vector<std::string> words;  // words that the sentence must contain, besides the name of the link
+  std::vector<std::string> words;  // words that the sentence must contain, in addition to the name of the link
 };
 
 std::string sphere(const std::string& radius) { return collision("<sphere radius=\"" + radius + "\"/>"); }
@@ -43,7 +43,7 @@ void expectUnreadable(const BadShape& bad, MeshLoader& loader) {
 
   const RobotLink& claw = model.links[1];
   EXPECT_TRUE(claw.has_collision);
-  ASSERT_EQ(claw.shapes.size(), 2u);  // the valid shapes, each with its own origin
+  ASSERT_EQ(claw.shapes.size(), 2u);  // the valid shapes, each at its own origin
   EXPECT_EQ(claw.shapes[0].shape.dimensions(), std::vector<double>({1, 2, 3}));
   EXPECT_EQ(claw.shapes[0].body_from_shape.translation(), Eigen::Vector3d::Zero());
   EXPECT_EQ(claw.shapes[1].shape.dimensions(), std::vector<double>({2}));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// A robot whose links and joints form no tree is refused. The error sentence names a link or joint.
+// A robot is refused if its links and joints do not form a tree. The error sentence names a link or a joint.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -16,7 +16,7 @@ namespace {
 struct NoTree {
   const char* what;
   std::string content;
-  std::vector<std::string> one_of;  // names; the sentence must contain at least one of them
+  std::vector<std::string> one_of;  // the sentence must contain at least one of these names
 };
 
 const std::vector<NoTree>& noTrees() {

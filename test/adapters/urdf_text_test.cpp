@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Texts that are refused before the XML library reads them, and similar texts that must be accepted.
+// Texts that the reader refuses before the XML library reads them, and similar texts that it must accept.
 #include <gtest/gtest.h>
 
 #include "test/adapters/urdf_texts.h"

@@ -39,7 +39,7 @@ inline std::shared_ptr<const TriangleMesh> tetrahedron(const Eigen::Vector3d& sc
   return mesh;
 }
 
-/// A source of meshes: returns a tetrahedron for "package://p/tetrahedron.stl" and refuses everything else.
+/// A mesh loader. Returns a tetrahedron for "package://p/tetrahedron.stl" and refuses everything else.
 inline std::shared_ptr<const TriangleMesh> knowsOneMesh(const std::string& uri, const Eigen::Vector3d& scale) {
   if (uri == "package://p/tetrahedron.stl") return tetrahedron(scale);
   throw Refusal(Code::resource_missing, "mesh '" + printable(uri) + "' does not exist");
@@ -49,7 +49,7 @@ inline RobotModel read(const std::string& urdf, const DescriptionLimits& limits 
   return readUrdf(urdf, knowsOneMesh, limits);
 }
 
-/// Counts the <collision> elements of all links of a URDF, without the product's reader.
+/// Returns the number of <collision> elements of all links of a URDF. Does not use the product's reader.
 inline std::size_t collisionElements(const std::string& urdf) {
   tinyxml2::XMLDocument document;
   if (document.Parse(urdf.data(), urdf.size()) != tinyxml2::XML_SUCCESS) throw std::runtime_error("not XML");
@@ -61,7 +61,7 @@ inline std::size_t collisionElements(const std::string& urdf) {
   return count;
 }
 
-/// Counts the shapes of a model, including those that could not be read.
+/// Returns the number of shapes of a model, including the shapes that could not be read.
 inline std::size_t accountedFor(const RobotModel& model) {
   std::size_t count = 0;
   for (const RobotLink& link : model.links) count += link.shapes.size() + link.unreadable.size();

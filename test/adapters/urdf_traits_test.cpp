@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Compares the model that is read from test/data/robots/traits.urdf with the content of that file.
+// Reads test/data/robots/traits.urdf, and compares the model with the content of the file.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,8 +26,8 @@ class UrdfTraits : public ::testing::Test {
   }
 };
 
-/// Returns the rotation of roll, pitch and yaw, as REP-103 and URDF define it: first about the fixed axis x, then about
-/// the fixed axis y, then about the fixed axis z.
+/// Returns the rotation of roll, pitch and yaw as REP-103 and URDF define it: first about the x axis, then about the y
+/// axis, then about the z axis. The axes do not rotate with the body.
 Eigen::Matrix3d turned(double roll, double pitch, double yaw) {
   return (Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
           Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()))

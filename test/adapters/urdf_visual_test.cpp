@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Visual geometry replaces collision geometry only for links that the caller chooses and that have no <collision>.
+// Visual geometry replaces collision geometry only if the caller selects the link and the link has no <collision>.
 #include <gtest/gtest.h>
 
 #include "test/adapters/urdf_texts.h"

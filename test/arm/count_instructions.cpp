@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// A plugin for qemu-user. It counts the instructions that a program executes in each of its functions, and writes the
-// counts to the file given by the argument `out=`. The program must use only one thread.
+// A plugin for qemu-user. It counts the instructions that a program executes in each of its functions. It writes the
+// counts to the file that the argument `out=` names. The program must use only one thread.
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <map>
 #include <string>
 
-// The used part of qemu's plugin interface, version 1 (qemu 4.2 to 8.2). Debian has no package with its header.
+// The parts of qemu's plugin interface that are used here, version 1 (qemu 4.2 to 8.2). Debian does not package its
+// header.
 extern "C" {
 struct qemu_info_t;
 struct qemu_plugin_tb;
@@ -31,7 +32,7 @@ namespace {
 
 std::string out;
 
-std::map<std::string, std::uint64_t>& counts() {  // by function; qemu keeps pointers to the counts
+std::map<std::string, std::uint64_t>& counts() {  // by function; qemu keeps pointers to the values
   static auto* const counts = new std::map<std::string, std::uint64_t>;
   return *counts;
 }

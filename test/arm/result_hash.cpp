@@ -19,7 +19,7 @@ namespace {
 
 using test::Random;
 
-/// An FNV-1a hash over the bytes of numbers. So -0 and 0 give different hashes, and so do different orders of results.
+/// An FNV-1a hash of the bytes of numbers. It differs for -0 and 0, and for different orders of results.
 class Hash {
  public:
   template <class Number>
@@ -51,7 +51,7 @@ struct Topic {
 };
 using Topics = std::vector<Topic>;
 
-// Uses only uniform() and powers of two, because std::exp and std::cbrt may round differently on other systems.
+// Uses only uniform() and powers of two, because std::exp and std::cbrt are rounded differently on different systems.
 Eigen::Vector3d vectorIn(Random& random, double low, double high) {
   const double x = random.uniform(low, high), y = random.uniform(low, high);
   return {x, y, random.uniform(low, high)};
@@ -59,12 +59,12 @@ Eigen::Vector3d vectorIn(Random& random, double low, double high) {
 
 struct World {
   std::size_t boxes;
-  double room;  // [m] edge of the cube that contains a corner of each box
+  double room;  // [m] edge of a cube in which each box has a corner
   Eigen::Vector3d center;
-  double step;  // [m] corners are multiples of this, so that many boxes touch; 0: no rounding
+  double step;  // [m] corners are multiples of it, which makes many boxes touch; 0: not rounded
 };
 
-/// Returns a random box. One box in fifty is large, and one in fifty has size 0.
+/// Returns a random box. On average, one in fifty boxes is large, and one in fifty has size 0.
 Aabb someBox(Random& random, const World& world) {
   const int power = random.chance(0.02) ? random.between(0, 4) : random.between(-4, -1);
   const double edge = random.chance(0.02) ? 0.0 : std::ldexp(1.0, power);
@@ -77,7 +77,7 @@ Aabb someBox(Random& random, const World& world) {
   return {low, low + size};
 }
 
-/// A grid with a random world that changes in steps: boxes move, and some are removed and inserted again.
+/// A grid with a random world that changes in steps. Boxes move, and some boxes are removed and inserted again.
 class Play {
  public:
   Play(const World& world, unsigned seed, Isa isa) : world_(world), random_(seed) {

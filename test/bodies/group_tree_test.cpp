@@ -16,7 +16,7 @@ class HumanoidGroups : public ::testing::Test {
   std::uint32_t groupOf(const std::string& link) const {
     return model_.links.at(std::size_t(model_.find(link))).rigid_group;
   }
-  /// Returns the joints between the groups of two links. Checks that the order of the two links does not matter.
+  /// Returns the joints between the rigid groups of two links. Checks that the order of the two links does not matter.
   Names jointsBetween(const std::string& first, const std::string& second) const {
     const Names joints = groups_.jointsBetween(groupOf(first), groupOf(second));
     EXPECT_EQ(groups_.jointsBetween(groupOf(second), groupOf(first)), joints);

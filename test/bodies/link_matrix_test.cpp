@@ -40,7 +40,7 @@ TEST(LinkMatrix, LinksJoinedByAJointMayTouchAndOthersMayNot) {
   }
 }
 
-/// Returns the names of all pairs with this origin, among the links that have geometry.
+/// Returns the names of all pairs of links with geometry whose pair has this origin.
 std::set<std::pair<std::string, std::string>> pairsOf(const RobotModel& model, Origin origin) {
   const LinkMatrix matrix = matrixOf(model);
   std::set<std::pair<std::string, std::string>> pairs;
@@ -66,8 +66,8 @@ TEST(LinkMatrix, AHumanoidWithShapesOnLeafLinksHasOnlyThePairsOfItsOneJointsOff)
   EXPECT_EQ(pairsOf(model, Origin::none).size(), 36u - adjacent.size()) << "9 links with geometry make 36 pairs";
 }
 
-/// Returns two links a and b, connected by a chain of links without geometry. The origin of each joint in the chain has
-/// the given offset [m] from the one before.
+/// Returns two links a and b, and a chain of links without geometry between them. Joint i of the chain is
+/// offsets[i] [m] away from the joint before it.
 RobotModel chain(const std::vector<double>& offsets) {
   RobotModel model;
   int link = addLink(model, "empty", addLink(model, "a", -1), JointKind::revolute, false);
@@ -247,7 +247,7 @@ TEST(LinkMatrix, RulesForUnknownLinksWarnAndDoNothing) {
   for (const char* word : {"tail", "horn", "wing\\x0a", "fin"}) EXPECT_TRUE(says(all, word));
 }
 
-/// Implements the definition of adjacency directly, without rigid groups: it looks at the joints between two links.
+/// Implements the definition of adjacency directly. It does not use rigid groups, but the joints between two links.
 class AdjacencyOracle {
  public:
   explicit AdjacencyOracle(const RobotModel& model) : model_(model) {
@@ -263,7 +263,7 @@ class AdjacencyOracle {
  private:
   const RobotLink& link(int index) const { return model_.links[std::size_t(index)]; }
   bool moves(int index) const { return link(index).parent >= 0 && link(index).joint_kind != JointKind::fixed; }
-  /// Returns the link of a link's rigid group that is nearest to the root.
+  /// Returns the link that is nearest to the root among the links of the rigid group of `index`.
   int topOf(int index) const {
     while (link(index).parent >= 0 && !moves(index)) index = link(index).parent;
     return index;
@@ -274,8 +274,8 @@ class AdjacencyOracle {
     }
     return false;
   }
-  /// Returns whether a chain leads from `upper` down to `lower`: one moving joint, or several at one place without
-  /// geometry between them.
+  /// Returns whether a chain leads from `upper` down to `lower`. A chain is one moving joint, or several moving joints
+  /// at one place without geometry between them.
   bool isChain(int upper, int lower) const {
     std::vector<int> tops = {topOf(lower)};
     while (tops.back() != topOf(upper)) {
@@ -302,7 +302,7 @@ TEST(LinkMatrix, IsRightAndSymmetricForAnyTree) {
     RobotModel model = test::randomModel(random, random.between(1, 20));
     const double crowding = random.uniform(0, 1);
     for (RobotLink& link : model.links) {
-      // Shrinks many joint offsets, about half of them to less than 1 cm.
+      // Multiplies many joint offsets by 0.02. About half of them are then less than 1 cm.
       if (random.chance(crowding)) link.parent_from_joint.translation() *= 0.02;
       link.has_collision = link.has_collision && random.chance(0.6);
     }

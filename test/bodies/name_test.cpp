@@ -52,7 +52,7 @@ TEST(Name, RefusesWhatIsEmptyTooLongOrNoText) {
 
 TEST(Name, CountsBytesNotCharacters) {
   std::string name;
-  for (int i = 0; i < 42; ++i) name += "€";  // this character has three bytes
+  for (int i = 0; i < 42; ++i) name += "€";  // this character takes three bytes
   EXPECT_EQ(refusalOf([&] { checkLocal(name + "ab", "name"); }), Code::ok);
   EXPECT_EQ(refusalOf([&] { checkLocal(name + "abc", "name"); }), Code::bad_id);
 }
@@ -83,7 +83,7 @@ TEST(Glob, MatchesTheWholeName) {
   EXPECT_FALSE(matches("[a]", "a"));
 }
 
-/// Implements the definition of a glob match directly, letter by letter.
+/// Implements the definition of a glob directly, letter by letter. Returns whether the glob matches the name.
 bool matchesByDefinition(const std::string& glob, const std::string& name) {
   if (glob.empty()) return name.empty();
   if (glob[0] == '*') {
@@ -113,7 +113,7 @@ TEST(Glob, APatternOfManyStarsIsNoTrap) {
   std::string glob, name(100000, 'a');
   for (int i = 0; i < 60; ++i) glob += "*a";
   EXPECT_TRUE(matches(glob, name));
-  EXPECT_FALSE(matches(glob + "*b", name));  // a naive implementation takes exponential time
+  EXPECT_FALSE(matches(glob + "*b", name));  // a simple implementation takes exponential time
 }
 
 TEST(Glob, AnyOfNoneIsNone) {
@@ -133,7 +133,7 @@ std::vector<std::string> wordsOf(const std::string& alphabet, std::size_t longes
 }
 
 TEST(Name, TwoGlobsMatchTogetherExactlyIfSomeNameMatchesBoth) {
-  const std::vector<std::string> names = wordsOf("ab", 6);  // long enough to try all cases of two globs with 3 letters
+  const std::vector<std::string> names = wordsOf("ab", 6);  // long enough for all cases of two globs with 3 letters
   const std::vector<std::string> globs = wordsOf("ab?*", 3);
   for (const std::string& first : globs) {
     for (const std::string& second : globs) {

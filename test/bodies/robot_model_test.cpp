@@ -30,7 +30,7 @@ TEST(RigidGroups, AreTheLinksJoinedByFixedJoints) {
     Random random(seed);
     RobotModel model = test::randomModel(random, random.between(1, 30));
     findRigidGroups(model);  // a second call must not change the result
-    // For every link: its pose in the root frame with all joints at 0, and the topmost link of its rigid group.
+    // For each link: its pose in the root frame with all joints at 0, and the topmost link of its rigid group.
     std::vector<Pose> root_from_link;
     std::vector<std::uint32_t> top;
     for (std::uint32_t i = 0; i < model.links.size(); ++i) {
@@ -50,7 +50,7 @@ TEST(RigidGroups, AreTheLinksJoinedByFixedJoints) {
   }
 }
 
-/// Returns a robot with one joint of this kind and a sphere of radius 0.1 m, which is 0.5 m from the joint.
+/// Returns a robot with one joint of this kind. A sphere of radius 0.1 m is 0.5 m away from the joint.
 RobotModel pendulum(JointKind kind) {
   RobotModel model;
   addLink(model, "base", -1);
@@ -93,7 +93,7 @@ TEST(SpeedBound, ALinkWithoutShapesHasABoundThatIsANumber) {
   EXPECT_FALSE(std::isnan(speedBound(model, 1)));
 }
 
-// A prismatic joint without limits can move the link arbitrarily far from the revolute joint that turns it.
+// A prismatic joint without limits can move a link arbitrarily far from the revolute joint that rotates the link.
 TEST(SpeedBound, IsInfiniteWhereAnEndlessSlideIsTurned) {
   RobotModel model = pendulum(JointKind::revolute);
   addLink(model, "slide", 1, JointKind::prismatic);
@@ -103,8 +103,8 @@ TEST(SpeedBound, IsInfiniteWhereAnEndlessSlideIsTurned) {
   EXPECT_LT(speedBound(model, 2), kInfinity);
 }
 
-/// Returns the largest speed [m/s] among points on the shapes of the last link of a chain, at random positions and
-/// velocities of the joints.
+/// Returns the largest speed [m/s] that was found for points on the shapes of the last link of a chain. Tries random
+/// positions and velocities of the joints.
 double fastestPoint(const RobotModel& model, Random& random) {
   struct Turn {
     bool revolute;

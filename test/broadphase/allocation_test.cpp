@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// A separate test program, because it replaces operator new for the whole program.
+// This test is a separate program, because it replaces operator new for the whole program.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -14,8 +14,8 @@
 
 namespace {
 std::atomic<std::size_t> allocations{0};
-std::atomic<std::size_t> fails_at{0};            // number of the allocation that throws bad_alloc; 0: none
-std::atomic<std::size_t> held{0}, most_held{0};  // [bytes] allocated memory: now, and at most so far
+std::atomic<std::size_t> fails_at{0};            // the allocation with this number throws bad_alloc; 0: none throws
+std::atomic<std::size_t> held{0}, most_held{0};  // [bytes] allocated memory now, and its maximum so far
 
 void* counted(std::size_t size) {
   if (++allocations == fails_at) throw std::bad_alloc();
@@ -56,14 +56,15 @@ std::vector<Aabb> hallOf(std::size_t count, test::Random& random) {
   return boxes;
 }
 
-/// Selects the boxes that move: one of `among` boxes. These are always the same boxes, or others in each frame.
+/// Selects the boxes that move: one in every `among` boxes. If `in_turn` is true, different boxes move in each step;
+/// otherwise the same boxes move in all steps.
 struct Motion {
   const char* name;
   std::size_t among;
   bool in_turn;
 };
 
-/// Returns the number of calls of operator new in `kFrames` frames, after `kWarmUp` frames that do not count.
+/// Returns the number of calls of operator new in `kFrames` steps, after `kWarmUp` steps that do not count.
 std::size_t allocationsOf(const Motion& motion, std::size_t count, int threads) {
   test::Random random(count + unsigned(threads));
   const std::vector<Aabb> home = hallOf(count, random);
@@ -90,7 +91,7 @@ std::size_t allocationsOf(const Motion& motion, std::size_t count, int threads) 
   return counted;
 }
 
-/// Claim: once its arrays are large enough, a bulk update and the following search for pairs allocate no memory.
+/// Claim: after some steps, a bulk update and the following search for pairs allocate no memory.
 TEST(Allocation, ASteadyTickOfTheGridAllocatesNothing) {
   const Motion motions[] = {{"all move", 1, false},
                             {"the same tenth moves", 10, false},
@@ -102,7 +103,7 @@ TEST(Allocation, ASteadyTickOfTheGridAllocatesNothing) {
   }
 }
 
-/// Claim: a commit allocates no memory if the earlier snapshots have been released.
+/// Claim: after some ticks, Scene::commit() allocates no memory if the earlier snapshots have been released.
 TEST(Allocation, ASteadyCommitAllocatesNothing) {
   test::Random random(5);
   Scene scene{SceneOptions{}};
@@ -132,7 +133,7 @@ TEST(Allocation, ASteadyCommitAllocatesNothing) {
   EXPECT_EQ(allocations - before, 0u);
 }
 
-/// Returns the largest additional memory [bytes] that was allocated at any time while `work` ran.
+/// Returns the largest additional memory [bytes] that the program had allocated at any time while `work` ran.
 template <class Work>
 std::size_t peakOf(Work&& work) {
   const std::size_t before = held;
@@ -172,8 +173,8 @@ TEST(Allocation, ABoundedSearchTakesBoundedMemory) {
   }
 }
 
-/// Claim: a commit of 3,000 moving bodies at one place (4.5 million pairs) needs little memory. Once its arrays are
-/// large enough, it allocates no memory.
+/// Claim: Scene::commit() with 3,000 moving bodies at one place (4.5 million pairs) needs little memory. After some
+/// ticks, it allocates no memory.
 TEST(Allocation, ATruncatedCommitTakesBoundedMemory) {
   SceneOptions options;
   options.max_pairs = 1000;

@@ -25,7 +25,7 @@ struct Divisible {
   OverlapFilter filter() const { return OverlapFilter::of<isKept>(this); }
 };
 
-/// The boxes, indexed by id, and the settings of a bounded search for pairs.
+/// The boxes (the id of a box is its index) and the settings of a search for pairs with a bound.
 struct Task {
   std::vector<Aabb> boxes;
   std::vector<ProxyId> fixed;
@@ -39,7 +39,7 @@ struct Found {
   bool operator==(const Found& other) const { return pairs == other.pairs && all == other.all; }
 };
 
-/// Computes the pairs that the comment of PairBound promises.
+/// Computes the pairs that the comment of PairBound promises, by a scan of all pairs.
 inline Found ruleOf(const Task& task) {
   Found found;
   std::vector<bool> fixed(task.boxes.size());
@@ -87,13 +87,13 @@ inline void bringTo(BroadPhase& tested, const Task& task, Random& random) {
     return;
   }
   std::vector<Aabb> before = task.boxes;
-  const double share = random.chance(0.5) ? 0.1 : 0.8;  // share of the boxes that move
+  const double share = random.chance(0.5) ? 0.1 : 0.8;  // fraction of the boxes that move
   for (Aabb& box : before) {
     if (random.chance(share)) box = task.boxes[std::size_t(random.below(int(task.boxes.size())))];
   }
   std::vector<ProxyPair> pairs;
   tested.update(ids, before);
-  if (random.chance(0.7)) tested.boundedPairs(pairs);  // after the first search, HGrid keeps the pairs of resting boxes
+  if (random.chance(0.7)) tested.boundedPairs(pairs);  // after this search, HGrid keeps the pairs of resting boxes
   tested.update(ids, task.boxes);
   for (int i = random.below(4); i > 0; --i) {  // moves some boxes away and back
     const ProxyId id = ProxyId(random.below(int(ids.size())));
@@ -103,7 +103,7 @@ inline void bringTo(BroadPhase& tested, const Task& task, Random& random) {
   }
 }
 
-/// Returns a random task. Many of its boxes lie at one place, the others anywhere.
+/// Returns a random task. Many of its boxes are at one place, the others at random places.
 inline Task randomTask(unsigned seed, Random& random) {
   Task task;
   task.boxes = worldOf(static_cast<Family>(seed % kFamilies), seed);

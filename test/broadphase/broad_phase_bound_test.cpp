@@ -15,15 +15,15 @@ using test::Found;
 using test::Random;
 using test::Task;
 
-/// Whether the test is run with a reduced number of worlds, as with a sanitizer, which makes everything slow.
+/// Whether to run fewer cases. HGRID_TEST_WORLDS asks for this with a sanitizer, which makes everything slow.
 const bool kTakesItsTime = test::countFromEnvironment("HGRID_TEST_WORLDS", 10000) < 10000;
 
 template <class Tested>
 class BroadPhaseBound : public ::testing::Test {};
 TYPED_TEST_SUITE(BroadPhaseBound, test::AllBroadPhases, test::BroadPhaseNames);
 
-/// Claim: a bounded search finds the pairs that the comment of PairBound promises, for any boxes, bounds, settings and
-/// earlier calls.
+/// Claim: a search with a bound finds the pairs that the comment of PairBound promises. This holds for any boxes,
+/// bounds, settings and earlier calls.
 TYPED_TEST(BroadPhaseBound, FindsWhatTheRuleSays) {
   int cut = 0, whole = 0;
   const unsigned seeds = kTakesItsTime ? 60 : 220;
@@ -75,7 +75,7 @@ TYPED_TEST(BroadPhaseBound, DoesNotApplyToTheSearchForAllPairs) {
   EXPECT_EQ(test::pairsOf(tested).size(), 40u * 39u / 2u);
 }
 
-/// Claim: pairs of two fixed boxes do not count for the bound.
+/// Claim: pairs of two fixed boxes are not counted by the bound.
 TYPED_TEST(BroadPhaseBound, FixedPilesAreNotCut) {
   const std::vector<Aabb> boxes(20000, test::boxAround(Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()));
   std::vector<ProxyId> fixed = allIds(boxes.size());
@@ -89,7 +89,7 @@ TYPED_TEST(BroadPhaseBound, FixedPilesAreNotCut) {
   EXPECT_EQ(found.pairs.size(), 19999u);
 }
 
-/// Claim: when the pile is gone, the search finds all pairs again. It counts only the boxes that overlap now.
+/// Claim: when the pile of boxes is gone, the search finds all pairs again. It counts only boxes that overlap now.
 TYPED_TEST(BroadPhaseBound, EndsWithThePile) {
   std::vector<Aabb> boxes, pile;
   for (int i = 0; i < 1000; ++i) {

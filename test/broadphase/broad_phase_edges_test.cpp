@@ -13,8 +13,8 @@ namespace {
 using test::foundBy;
 using test::stepped;
 
-/// Inserts boxes as large as `box` that touch neither `box` nor `other`. Without them, the level would have few boxes,
-/// and HGrid would give it few cells.
+/// Inserts boxes of the size of `box` that touch neither `box` nor `other`. Without them, their level would have few
+/// boxes, and HGrid would give it few cells.
 void insertFillers(BroadPhase& tested, const Aabb& box, const Aabb& other, double edge) {
   const float side = std::max((box.max - box.min).maxCoeff(), float(edge));
   for (int i = 0; i < 100; ++i) {
@@ -25,7 +25,7 @@ void insertFillers(BroadPhase& tested, const Aabb& box, const Aabb& other, doubl
   }
 }
 
-/// Checks that two overlapping boxes are found as a pair, and that a query with each box finds the other one.
+/// Checks that two overlapping boxes are found as a pair, and that a query with each of them finds the other one.
 template <class Tested>
 void expectMeet(const Aabb& a, const Aabb& b, double edge) {
   ASSERT_TRUE(test::oracleOverlap(a, b));
@@ -89,8 +89,8 @@ TYPED_TEST(BroadPhaseEdges, BoxesThatStraddleZeroByVeryLittleAreFound) {
   }
 }
 
-// The size of this box is rounded to 1 m, even in double precision. So the box seems to fit a cell of 1 m, but it
-// extends over three such cells.
+// The size of this box is rounded to 1 m, even in double precision. Therefore the box seems to fit into a cell of 1 m,
+// but it extends over three such cells.
 TYPED_TEST(BroadPhaseEdges, ABoxWhoseSizeIsRoundedToACellReachesNoFartherThanPromised) {
   for (const float sliver : {1e-30f, 1e-20f, std::numeric_limits<float>::denorm_min()}) {
     const Aabb nasty = {{-sliver, -sliver, -sliver}, {1, 1, 1}};

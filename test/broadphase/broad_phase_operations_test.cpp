@@ -18,7 +18,7 @@ Aabb someBox(Random& random) {
   return test::boxAround(test::randomVector(random, -4, 4), size * test::randomVector(random, 0.1, 1.0));
 }
 
-/// Makes a bulk move of a random share of the boxes.
+/// Moves a random selection of the boxes with one call.
 void moveSome(BroadPhase& tested, BruteForce& model, Random& random) {
   std::vector<ProxyId> ids;
   std::vector<Aabb> boxes;
@@ -32,7 +32,7 @@ void moveSome(BroadPhase& tested, BruteForce& model, Random& random) {
   model.move(ids, boxes);
 }
 
-/// Makes a bulk update: most boxes stay or move, some are added or removed.
+/// Updates all boxes with one call: most boxes stay or move, some are added or removed.
 void replaceAll(BroadPhase& tested, BruteForce& model, Random& random) {
   std::vector<ProxyId> ids;
   std::vector<Aabb> boxes;
@@ -47,18 +47,18 @@ void replaceAll(BroadPhase& tested, BruteForce& model, Random& random) {
   model.update(ids, boxes);
 }
 
-/// Returns the box after a move or a change of its size. `deed` selects the kind of change.
-Aabb changed(Aabb box, int deed, Random& random) {
-  if (deed < 400) {  // a small move, often within the same cell
+/// Returns the box after a change of its position or size. `kind` (0 .. 999) selects the kind of change.
+Aabb changed(Aabb box, int kind, Random& random) {
+  if (kind < 400) {  // a small move, often within the same cell
     const Eigen::Vector3f by = test::randomVector(random, -0.05, 0.05).cast<float>();
     for (int k = 0; k < 3; ++k) box.min[k] += by[k], box.max[k] = std::max(box.min[k], box.max[k] + by[k]);
-  } else if (deed < 500) {  // a change of one coordinate by one unit in the last place
+  } else if (kind < 500) {  // a change of one coordinate by one unit in the last place
     box.max[random.below(3)] = test::stepped(box.max[random.below(3)], 1);
     box.max = box.max.cwiseMax(box.min);
-  } else if (deed < 700) {  // another size, often on another level
+  } else if (kind < 700) {  // another size, often on another level
     const auto factor = float(random.logUniform(0.01, 100));
     box.max = box.min + factor * (box.max - box.min);
-  } else if (deed < 800) {  // the same box again
+  } else if (kind < 800) {  // no change: the caller updates the box with the values it has
     box.min = box.min.cwiseMin(box.max);
   } else {
     box = someBox(random);
@@ -66,25 +66,25 @@ Aabb changed(Aabb box, int deed, Random& random) {
   return box;
 }
 
-/// Makes one random operation on the tested broad phase and on the model.
+/// Makes one random change of the tested broad phase and of the model.
 void step(BroadPhase& tested, BruteForce& model, Random& random) {
   const auto id = ProxyId(random.below(kIds));
   const auto known = model.boxes().find(id);
-  const int deed = random.below(1000);
-  if (deed < 2) {
+  const int kind = random.below(1000);
+  if (kind < 2) {
     tested.clear();
     model.clear();
-  } else if (deed < 10) {
+  } else if (kind < 10) {
     random.chance(0.5) ? moveSome(tested, model, random) : replaceAll(tested, model, random);
   } else if (known == model.boxes().end()) {
     const Aabb box = someBox(random);
     tested.insert(id, box);
     model.insert(id, box);
-  } else if (deed < 200) {
+  } else if (kind < 200) {
     tested.remove(id);
     model.remove(id);
   } else {
-    const Aabb box = changed(known->second, deed, random);
+    const Aabb box = changed(known->second, kind, random);
     tested.update(id, box);
     model.update(id, box);
   }

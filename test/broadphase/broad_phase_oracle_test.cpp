@@ -21,7 +21,7 @@ Eigen::Vector3d pointNear(const std::vector<Aabb>& boxes, Random& random) {
   return point;
 }
 
-/// Returns a random size for a query: 0, or up to 100 times the size of a box.
+/// Returns a random size [m] for a query: 0, or up to 100 times the size of a box.
 double someLength(const std::vector<Aabb>& boxes, Random& random) {
   if (random.chance(0.2) || boxes.empty()) return 0.0;
   const Aabb& box = boxes[std::size_t(random.below(int(boxes.size())))];
@@ -102,7 +102,7 @@ void expectRightNearest(const BroadPhaseReader& tested, const std::vector<Aabb>&
     const double limit = random.chance(0.5) ? std::numeric_limits<double>::infinity() : someLength(boxes, random);
     std::vector<std::pair<double, ProxyId>> expected;
     for (ProxyId id = 0; id < boxes.size(); ++id) {
-      const double away = distance(boxes[id], point);  // this function is tested in test/geometry
+      const double away = distance(boxes[id], point);  // test/geometry tests distance()
       if (away <= limit) expected.emplace_back(away, id);
     }
     std::sort(expected.begin(), expected.end());
@@ -143,7 +143,7 @@ void expectBatchesAsSingles(const BroadPhaseReader& tested, const std::vector<Aa
 }
 
 /// Claim: for this family of worlds, pairs, box queries and nearest queries give the same results as a scan of all
-/// boxes. Sphere and segment queries miss no box, and find extra boxes only within the rounding error.
+/// boxes. Sphere and segment queries find all boxes, and extra boxes only within the rounding error.
 template <class Tested>
 void expectAnswersOfAScan(Family family) {
   const int worlds = std::max(1, test::countFromEnvironment("HGRID_TEST_WORLDS", 10000) / test::kFamilies);
@@ -168,7 +168,7 @@ void expectAnswersOfAScan(Family family) {
   if (family == Family::empty) {
     EXPECT_EQ(true_pairs, 0u);
   } else {
-    // Makes sure that the lists are not empty: at least about 10^4 pairs in the default run.
+    // Makes sure that the test has found enough pairs: about 10^4 in a run with the default number of worlds.
     EXPECT_GE(true_pairs, std::size_t(worlds) * 12);
   }
 }

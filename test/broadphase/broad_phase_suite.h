@@ -18,10 +18,10 @@ namespace hgrid {
 namespace test {
 
 /// The broad phases that the tests broad_phase_*_test.cpp test. To test a new broad phase, add its type here. If it has
-/// no default constructor, or has settings of its own, also specialize Maker for it.
+/// no default constructor or has additional settings, also specialize Maker for it.
 using AllBroadPhases = ::testing::Types<HGrid, BruteForce>;
 
-/// Returns the type names that googletest shows in the names of tests.
+/// Returns the type names that googletest uses in the names of tests.
 struct BroadPhaseNames {
   template <class Tested>
   static std::string GetName(int) {
@@ -32,15 +32,15 @@ struct BroadPhaseNames {
   }
 };
 
-/// Creates broad phases of one type. Specialize it for a type with settings, to test that its answers do not depend on
-/// them.
+/// Creates broad phases of one type. Specialize it for a type with settings. The tests then check that the answers do
+/// not depend on the settings.
 template <class Tested>
 struct Maker {
   /// Creates a broad phase whose smallest cells have this edge [m]. Types without cells ignore the parameter.
   static std::unique_ptr<BroadPhase> withCells(double) { return std::make_unique<Tested>(); }
-  /// Returns the cell edges [m] to be tested. Types without cells return a single one.
+  /// Returns the cell edges [m] with which to test. For a type without cells, returns any single value.
   static std::vector<double> cells(const std::vector<double>&) { return {1.0}; }
-  /// Creates a broad phase with random settings. The parameter holds the boxes that it will store.
+  /// Creates a broad phase with random settings. The first parameter contains the boxes that it will store.
   static std::unique_ptr<BroadPhase> withAny(const std::vector<Aabb>&, Random&) { return std::make_unique<Tested>(); }
 };
 

@@ -10,7 +10,7 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// An arbitrary filter that keeps two thirds of the pairs.
+/// A filter for pairs. It keeps two thirds of the pairs.
 bool isReported(const void*, ProxyId first, ProxyId second) { return (first + second) % 3 != 0; }
 
 }  // namespace
@@ -46,19 +46,20 @@ Aabb ChurnWorld::someBox() {
   return boxAround(center, size * randomVector(random_, random_.chance(0.05) ? 0.0 : 0.3, 1.0));
 }
 
-/// Returns a changed box: moved a little, moved by one unit in the last place, resized, put elsewhere, or unchanged.
+/// Returns a changed box. It has moved a little or by one unit in the last place, has a new size or place, or is the
+/// same.
 Aabb ChurnWorld::changed(const Aabb& box) {
   Aabb now = box;
-  const int deed = random_.below(10);
-  if (deed < 4) {
+  const int kind = random_.below(10);
+  if (kind < 4) {
     const Eigen::Vector3f way = (0.1 * largest_ * randomVector(random_, -1, 1)).cast<float>();
     now = {box.min + way, box.max + way};
-  } else if (deed < 5) {
+  } else if (kind < 5) {
     const int axis = random_.below(3);
     now.max[axis] = stepped(now.max[axis], random_.between(-1, 1));
-  } else if (deed < 7) {
+  } else if (kind < 7) {
     now.max = now.min + float(random_.logUniform(0.2, 5)) * (now.max - now.min);
-  } else if (deed < 9) {
+  } else if (kind < 9) {
     now = someBox();
   }
   now.max = now.max.cwiseMax(now.min);
@@ -74,23 +75,23 @@ std::vector<ProxyId> ChurnWorld::storedIds() const {
 }
 
 void ChurnWorld::act() {
-  const int deed = random_.below(100);
-  if (deed < 60) {
+  const int kind = random_.below(100);
+  if (kind < 60) {
     for (int i = random_.chance(0.1) ? 150 : random_.between(1, 10); i > 0; --i) {
       actOnOne(ProxyId(random_.below(int(most_))));
     }
-  } else if (deed < 85) {
+  } else if (kind < 85) {
     moveSome();
-  } else if (deed < 96) {
+  } else if (kind < 96) {
     const bool same = random_.chance(0.5);
     updateAll(same ? 1.0 : 0.95, same ? 0.0 : 0.5);
-  } else if (deed < 99) {
+  } else if (kind < 99) {
     fixOthers();
   } else {
     grid_.clear();
     std::fill(stored_.begin(), stored_.end(), false);
   }
-  ++deeds_;
+  ++changes_;
 }
 
 void ChurnWorld::actOnOne(ProxyId id) {
@@ -120,8 +121,8 @@ void ChurnWorld::moveSome() {
   grid_.move(ids, boxes);
 }
 
-/// Updates all boxes at once. Keeps or moves a share `kept` of the stored boxes, and adds a share `coming` of the
-/// others.
+/// Updates all boxes with one call. Keeps or moves the fraction `kept` of the stored boxes, and adds the fraction
+/// `coming` of the others.
 void ChurnWorld::updateAll(double kept, double coming) {
   std::vector<ProxyId> ids;
   std::vector<Aabb> boxes;
@@ -139,7 +140,7 @@ void ChurnWorld::updateAll(double kept, double coming) {
 void ChurnWorld::fixOthers() {
   std::vector<ProxyId> ids;
   const double share = random_.chance(0.5) ? 0.0 : random_.uniform(0, 0.9);
-  for (ProxyId id = 0; id < fixed_.size(); ++id) {  // an id may be fixed even if no box is stored under it
+  for (ProxyId id = 0; id < fixed_.size(); ++id) {  // an id may be fixed even if no box with this id is stored
     fixed_[id] = random_.chance(share);
     if (fixed_[id]) ids.push_back(id);
   }
@@ -171,7 +172,7 @@ void ChurnWorld::expectRightQueries() {
   std::vector<ProxyId> in_box, in_ball;
   std::vector<SegmentHit> hits;
   std::vector<std::pair<double, ProxyId>> near;
-  for (const ProxyId id : ids) {  // the functions for single boxes are tested in test/geometry
+  for (const ProxyId id : ids) {  // test/geometry tests the functions for single boxes
     if (oracleOverlap(box, boxes_[id])) in_box.push_back(id);
     if (touches(ball, boxes_[id])) in_ball.push_back(id);
     if (const auto along = FirstTouch(segment)(boxes_[id])) hits.push_back({id, *along});

@@ -14,10 +14,10 @@ using test::Found;
 using test::Random;
 using test::Task;
 
-/// Whether the test is run with a reduced number of worlds, as with a sanitizer, which makes everything slow.
+/// Whether to run fewer cases. HGRID_TEST_WORLDS asks for this with a sanitizer, which makes everything slow.
 const bool kTakesItsTime = test::countFromEnvironment("HGRID_TEST_WORLDS", 10000) < 10000;
 
-/// Returns 40,000 boxes: `piled` boxes lie at one place, the others are spread so that few of them overlap.
+/// Returns 40,000 boxes. `piled` boxes are at one place. The others are so far apart that few of them overlap.
 std::vector<Aabb> hallWithPile(std::size_t piled, Random& random) {
   std::vector<Aabb> boxes;
   while (boxes.size() < 40000) {
@@ -28,8 +28,8 @@ std::vector<Aabb> hallWithPile(std::size_t piled, Random& random) {
   return boxes;
 }
 
-/// Claim: the results do not depend on the number of threads or on the instruction set, whether the search reaches its
-/// bound or not, and whether the boxes move or rest.
+/// Claim: the results do not depend on the number of threads or on the instruction set. This holds whether or not the
+/// search stops at its bound, and whether the boxes move or rest.
 TEST(HGridBound, ThreadsAndInstructionSetsDoNotShow) {
   Random random(4);
   Task task;
@@ -50,7 +50,7 @@ TEST(HGridBound, ThreadsAndInstructionSetsDoNotShow) {
     EXPECT_EQ(expected.all, bound.pairs == 1000000u);
     for (const Isa isa : isas) {
       for (const int threads : thread_counts) {
-        for (const double share : {0.0, 0.05, 1.0}) {  // share of the boxes that move
+        for (const double share : {0.0, 0.05, 1.0}) {  // fraction of the boxes that move
           SCOPED_TRACE(std::string(name(isa)) + ", threads " + std::to_string(threads) + ", share " +
                        std::to_string(share));
           HGrid grid;
@@ -62,7 +62,7 @@ TEST(HGridBound, ThreadsAndInstructionSetsDoNotShow) {
             if (random.chance(share)) box.max.x() += 0.1f;
           }
           grid.update(ids, before);
-          boundedPairsOf(grid);  // after the first search, the grid keeps the pairs of resting boxes
+          boundedPairsOf(grid);  // after this search, the grid keeps the pairs of resting boxes
           grid.update(ids, task.boxes);
           ASSERT_TRUE(boundedPairsOf(grid) == expected);
         }
@@ -71,7 +71,7 @@ TEST(HGridBound, ThreadsAndInstructionSetsDoNotShow) {
   }
 }
 
-/// Claim: a search passes a bounded number of pairs to the filter, even if the filter leaves out every pair. The grid
+/// Claim: a search passes a limited number of pairs to the filter, even if the filter leaves out every pair. The grid
 /// may pass twice the bound, plus all overlaps of one box, plus one full buffer of pairs for each thread.
 TEST(HGridBound, BoundsTheWorkOfPilesWhosePairsAreAllLeftOut) {
   constexpr std::size_t kBoxes = 40000, kOverlaps = 100000, kBuffer = 2 * 65536;

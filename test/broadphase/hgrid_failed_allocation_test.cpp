@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Claim: if memory runs out during a change of the grid, nothing has changed. The tests let each memory allocation of
-// each change fail once. Before and after that, the grid must hold the same boxes and find the same pairs as a plain
-// map of boxes.
+// Claim: if memory runs out during a change of the grid, the grid does not change. The tests let each memory allocation
+// of each change fail once. Before and after the failure, the grid must contain the same boxes and find the same pairs
+// as a simple model, which is a map of boxes by id.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -20,7 +20,7 @@ namespace {
 
 using Boxes = std::map<ProxyId, Aabb>;
 
-/// One change, as a function for the grid and as a function for the model.
+/// One change. It is stored as a function that changes the grid and a function that changes the model.
 struct Change {
   std::string name;
   std::function<void(HGrid&)> of_grid;
@@ -50,7 +50,7 @@ Change bulkUpdate(Boxes boxes) {
   return {"bulk update", [=](HGrid& grid) { grid.update(ids, values); }, [=](Boxes& model) { model = boxes; }};
 }
 
-/// Returns a random change that is possible in a world of these boxes. Most changes affect only a few boxes.
+/// Returns a random change that is possible if the world has the boxes `now`. Most changes affect only a few boxes.
 Change randomChange(const Boxes& now, test::Random& random) {
   const auto some = [&] { return std::next(now.begin(), random.below(int(now.size())))->first; };
   const double which = random.uniform(0, 1);
@@ -113,7 +113,7 @@ void expectHolds(const HGrid& grid, const Boxes& model) {
   ASSERT_EQ(pairsOf(grid), expected);
 }
 
-/// Returns a grid after the first `count` changes. It searches for pairs sometimes, so that the grid keeps the pairs of
+/// Returns a grid after the first `count` changes. Sometimes searches for pairs; the grid then keeps the pairs of
 /// resting boxes.
 HGrid gridAfter(const std::vector<Change>& changes, std::size_t count) {
   HGrid grid;
@@ -157,7 +157,7 @@ TEST(HGridFailedAllocation, ChangesNothing) {
   EXPECT_GT(failures, 500u) << "too few allocations failed for a meaningful test";
 }
 
-/// Claim: a failed search does not change the grid, not even the pairs that the grid keeps.
+/// Claim: a search that fails does not change the grid or the pairs that the grid keeps.
 TEST(HGridFailedAllocation, OfASearchLosesNoPair) {
   test::Random random(3);
   Boxes model;
@@ -234,7 +234,7 @@ TEST(HGridFailedAllocation, OfSetFixedKeepsTheFixedOnes) {
   }
 }
 
-/// Returns boxes in heaps that are far apart, so that the grid divides space into regions.
+/// Returns boxes in heaps that are far apart. The grid then divides space into regions.
 Boxes heaps(test::Random& random, int heaps, int boxes_each, const Eigen::Vector3d& moved) {
   Boxes boxes;
   for (int i = 0; i < heaps * boxes_each; ++i) {
@@ -281,7 +281,7 @@ TEST(HGridFailedAllocation, InAWorldOfRegionsChangesNothingOrMakesOneRegion) {
       << "most allocations are for regions, and the grid must also work without regions";
 }
 
-/// Claim: a cell plan never has more cells than the bound for which the grid reserves memory.
+/// Claim: a cell plan has at most as many cells as the bound for which the grid reserves memory.
 TEST(HGridFailedAllocation, APlanHasNoMoreCellsThanItsBoundSays) {
   for (int family = 0; family < test::kFamilies; ++family) {
     for (unsigned seed = 1; seed <= 300; ++seed) {

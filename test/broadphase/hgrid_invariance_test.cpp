@@ -50,7 +50,7 @@ TEST(HGridInvariance, TheWayToAWorldDoesNotShow) {
   }
 }
 
-/// Claim: not even the order of the pairs depends on the instruction set or on the number of threads.
+/// Claim: the pairs and their order do not depend on the instruction set or on the number of threads.
 TEST(HGridInvariance, InstructionSetsAndThreadsDoNotShow) {
   std::vector<Aabb> boxes;
   std::vector<ProxyId> ids;
@@ -119,7 +119,7 @@ TEST(HGridInvariance, ScaledByAPowerOfTwoTheSamePairsTouch) {
       const float factor = std::ldexp(1.f, power);
       std::vector<Aabb> scaled = boxes;
       for (Aabb& box : scaled) box.min *= factor, box.max *= factor;
-      bool exact = true;  // false if scaling has rounded a denormal number
+      bool exact = true;  // false if the scaling rounded a denormal number
       for (std::size_t i = 0; i < boxes.size(); ++i) {
         exact &= scaled[i].min / factor == boxes[i].min && scaled[i].max / factor == boxes[i].max;
       }
@@ -135,7 +135,7 @@ TEST(HGridInvariance, ShiftedByWholeCellsTheSamePairsTouch) {
   for (unsigned seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
-    std::vector<Aabb> boxes(100);  // coordinates are multiples of 1/256 m, so that no sum is rounded
+    std::vector<Aabb> boxes(100);  // their coordinates are multiples of 1/256 m, so no sum is rounded
     for (Aabb& box : boxes) {
       for (int k = 0; k < 3; ++k) {
         box.min[k] = float(random.between(-512, 512)) / 256.f;

@@ -6,8 +6,8 @@
 
 #include "test/support/expectations.h"
 
-// The grid moves boxes between its layers (fixed, resting, moving, loose) depending on how many boxes move. The results
-// must not depend on this.
+// The grid moves boxes between its layers (fixed, resting, moving, loose). The layer of a box depends on how many boxes
+// move. The results must not depend on the layers.
 
 namespace hgrid {
 namespace {
@@ -180,7 +180,7 @@ TEST(HGridLayers, FixedBoxesThatComeOrMoveOneByOneMakeNoPairsEither) {
 bool sameRemainder(const void*, ProxyId first, ProxyId second) { return first % 3 == second % 3; }
 bool otherRemainder(const void*, ProxyId first, ProxyId second) { return first % 3 != second % 3; }
 
-/// Claim: the filter applies to the pairs of all layers, for a few boxes and for so many that several threads search.
+/// Claim: the filter applies to the pairs of all layers. This holds for one thread and for several threads.
 TEST(HGridLayers, AFilterHoldsInAllLayersAndThreads) {
   for (const std::size_t count : {400, 40000}) {
     SCOPED_TRACE(std::to_string(count) + " boxes");

@@ -15,7 +15,7 @@ using test::expectRight;
 using test::Random;
 using test::randomVector;
 
-/// Returns boxes of about 0.5 m around a place, each with a few neighbors.
+/// Returns boxes with a size of about 0.5 m around a place. Each box has a few neighbors.
 std::vector<Aabb> crowd(std::size_t count, Random& random, const Eigen::Vector3d& place = Eigen::Vector3d::Zero()) {
   std::vector<Aabb> boxes;
   const double half = 0.35 * std::cbrt(double(count));
@@ -43,7 +43,7 @@ TEST(HGridWorlds, StraysAMillionMetersOutMeetTheirNeighborsOnly) {
     grid.setIsa(isa);
     for (int frame = 0; frame < 6; ++frame) {
       if (frame > 0) stir(boxes, random);
-      for (int k = 0; k < 12; ++k) {  // puts two boxes at each end of each axis, other boxes in each frame
+      for (int k = 0; k < 12; ++k) {  // moves two boxes to each end of each axis, different boxes in each step
         Eigen::Vector3d place(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-3, 3));
         place[k % 3] = k % 2 != 0 ? 1e6 : -1e6;
         boxes[std::size_t(100 * frame + k)] = boxAround(place, {2, 2, 2});
@@ -92,11 +92,11 @@ std::vector<Aabb> unevenWorld(int kind, std::size_t count, Random& random) {
       case 1:  // a random path with steps of all lengths
         place += 0.5 * random.logUniform(1.0, 1000.0) * (random.chance(0.05) ? 1.0 : 0.01) * direction;
         break;
-      case 2:  // the density of boxes increases toward the center
+      case 2:  // boxes are denser near the center
         place = random.logUniform(1e-2, 1e4) * direction;
         size *= 0.02 * place.norm() + 1e-3;
         break;
-      case 3:  // heaps of boxes, single boxes far away, and huge boxes that extend from heap to heap
+      case 3:  // heaps of boxes, single boxes far away, and huge boxes that extend over several heaps
         place = i % 50 == 0 ? randomVector(random, -1e5, 1e5) : 1e3 * double(i % 7) * Eigen::Vector3d(1, -1, 2);
         place += randomVector(random, -6, 6);
         if (i % 100 == 7) size *= 3e3;
@@ -125,7 +125,7 @@ TEST(HGridWorlds, UnevenWorldsAreRightWithAllThreadsAndWhileBoxesMove) {
       for (const ProxyId id : fixed) is_fixed[id] = true;
       grid.update(allIds(boxes.size()), boxes);
       ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes, allIds(boxes.size()), is_fixed));
-      // Every `stride`-th box moves.
+      // One in every `stride` boxes moves.
       for (const std::size_t stride : {std::size_t{1}, std::size_t{7}, std::size_t{101}}) {
         std::vector<ProxyId> ids;
         std::vector<Aabb> moved;
@@ -193,7 +193,7 @@ TEST(HGridWorlds, AHugeBoxAmongTinyOnesMeetsThemAll) {
 }
 
 TEST(HGridWorlds, BoxesWithoutSizeOnSomeAxesMeetWhereTheyTouch) {
-  for (int axes = 0; axes < 8; ++axes) {  // bit k: the boxes have a size on axis k
+  for (int axes = 0; axes < 8; ++axes) {  // bit k: the boxes have a size other than 0 on axis k
     SCOPED_TRACE("axes " + std::to_string(axes));
     Random random(unsigned(axes) + 1u);
     std::vector<Aabb> boxes(1000);
@@ -214,7 +214,7 @@ TEST(HGridWorlds, BoxesWithoutSizeOnSomeAxesMeetWhereTheyTouch) {
 TEST(HGridWorlds, MoreThan65536BoxesAreRightWithThreads) {
   Random random(4);
   std::vector<Aabb> boxes = crowd(70000, random);
-  for (Aabb& box : boxes) {  // stretches the world along x, because the reference is fast in a long world
+  for (Aabb& box : boxes) {  // stretches the world along x, because the reference is fastest in a long world
     const Eigen::Vector3f way(5 * box.min.x(), 0, 0);
     box = {box.min + way, box.max + way};
   }
@@ -229,7 +229,7 @@ TEST(HGridWorlds, MoreThan65536BoxesAreRightWithThreads) {
   ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes));
 }
 
-/// Claim: the results are correct even if the cells were chosen for the boxes of the previous frame.
+/// Claim: the results are correct even if the grid chose the cells for the boxes before their last move.
 TEST(HGridWorlds, AllBoxesMayLeaveTheirPlaceAtOnce) {
   Random random(5);
   const std::vector<Aabb> home = crowd(1500, random);
@@ -286,13 +286,13 @@ TEST(HGridWorlds, IdsWithGapsUpToAMillion) {
   ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes, {1000000}));
 }
 
-/// Claim: a box is found at its far end even if its length was rounded down to a float.
+/// Claim: a query at the far end of a box finds the box, even if the length of the box was rounded down to a float.
 TEST(HGridWorlds, ALengthThatWasRoundedDownReachesFarEnough) {
   const float length = 1024;     // neighboring floats of this size differ by 2^-13
-  std::vector<Aabb> boxes(193);  // for this number of boxes on a line, the grid chooses cells of 1/8 m
+  std::vector<Aabb> boxes(193);  // for 193 boxes on a line, the grid chooses cells of 1/8 m
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const float step = -16 + 0.125f * float(i * 256 / (boxes.size() - 1)), sliver = i % 192 == 0 ? 0.f : 5e-5f;
-    boxes[i] = {{step - sliver, 0, 0}, {length + step, 0, 0}};  // begins a little before a cell border
+    boxes[i] = {{step - sliver, 0, 0}, {length + step, 0, 0}};  // the box begins a little before a cell border
     ASSERT_EQ(boxes[i].max.x() - boxes[i].min.x(), length);
   }
   HGrid grid = test::gridOf(boxes, GridScale{});

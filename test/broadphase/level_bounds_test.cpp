@@ -19,7 +19,7 @@ using test::randomVector;
 
 constexpr Isa kIsas[] = {Isa::portable, Isa::sse2, Isa::avx2, Isa::avx512, Isa::neon};
 
-/// Levels that follow each other in space, as those of neighboring regions do. Every fifth one is empty.
+/// Returns levels that follow each other in space, like the levels of neighboring regions. One in five is empty.
 std::vector<kernels::Level> levelsAlongAWalk(Random& random, std::size_t count) {
   std::vector<kernels::Level> levels(count);
   Eigen::Vector3d place = Eigen::Vector3d::Zero();

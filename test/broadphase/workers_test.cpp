@@ -22,7 +22,7 @@ void expectEachJobOnce(Workers& workers, std::size_t count) {
   for (std::size_t number = 0; number < count; ++number) EXPECT_EQ(calls[number], 1) << "job " << number;
 }
 
-/// Lets each of the first `threads` jobs wait until every thread has a job. So every thread performs exactly one job.
+/// Each of the first `threads` jobs waits until every thread has a job. Thus every thread runs exactly one of them.
 class Meeting {
  public:
   explicit Meeting(const Workers& workers) : expected_(workers.threads()) {}
@@ -98,7 +98,7 @@ TEST(Workers, AnExceptionOnAllThreadsReachesTheCallerOnce) {
   }
 }
 
-/// Claim: when run() throws an exception from a job on the calling thread, no other thread is still inside a job.
+/// Claim: when run() throws the exception of a job on the calling thread, no other thread is still running a job.
 TEST(Workers, NoJobRunsAnyMoreWhenTheCallerSeesTheException) {
   Workers workers(4);
   for (int round = 0; round < 50; ++round) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Uses the core without ROS: a scene with two boxes and one robot link, a query, and a separate grid. Exit status 0 if
-// all answers are as expected.
+// Uses the core without ROS: a scene with two boxes and one robot link, a query, and a separate grid. The exit status
+// is 0 if all answers are as expected.
 #include <cstdio>
 #include <cstdlib>
 #include <memory>

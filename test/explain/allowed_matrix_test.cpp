@@ -18,7 +18,7 @@ using test::Random;
 
 constexpr std::size_t kAll = 1000000;
 
-/// Returns a snapshot of two arms, one of them with an SRDF, and of four obstacles, with these rules.
+/// Returns a snapshot of two arms and four obstacles with these rules. One of the arms has an SRDF.
 std::shared_ptr<const Snapshot> cellWith(const std::vector<PairRule>& rules) {
   Scene scene{SceneOptions{}};
   LinkRules srdf;
@@ -32,7 +32,7 @@ std::shared_ptr<const Snapshot> cellWith(const std::vector<PairRule>& rules) {
   return scene.commit(Time{1}, {});
 }
 
-/// Returns every entry as text: "first second origin +" if the pair is allowed, otherwise with "-".
+/// Returns each entry as text: "first second origin +" if the pair is allowed, otherwise with "-" instead of "+".
 std::vector<std::string> gist(const AllowedList& list) {
   std::vector<std::string> lines;
   for (const PairRule& entry : list.entries) {

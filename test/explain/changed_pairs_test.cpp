@@ -18,7 +18,7 @@ using test::allow;
 using test::enable;
 using test::Random;
 
-/// Returns two arms, one of them with an SRDF, and two moving and two fixed obstacles.
+/// Returns two arms, two moving obstacles and two fixed obstacles. One of the arms has an SRDF.
 std::vector<Body> cell() {
   LinkRules srdf;
   srdf.disabled = {{"elbow", "base", ""}};

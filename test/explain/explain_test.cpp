@@ -20,8 +20,8 @@ using test::says;
 
 constexpr double kMargin = 0.125;  // [m]
 
-/// A world with an arm, whose links are spheres of radius 0.1 m at one place, and with spheres of radius 0.5 m. The box
-/// of obstacle/near is 1/16 m from that of obstacle/box, the box of obstacle/far 3 m.
+/// A world with an arm and with spheres of radius 0.5 m. The links of the arm are spheres of radius 0.1 m at one place.
+/// The box of obstacle/box is 1/16 m away from the box of obstacle/near, and 3 m away from the box of obstacle/far.
 class Explain : public ::testing::Test {
  protected:
   static SceneOptions options() {
@@ -47,7 +47,7 @@ class Explain : public ::testing::Test {
     body.max_speed = 0.25;
     return body;
   }
-  /// Explains a pair. Checks that the explanation in the opposite order agrees.
+  /// Explains a pair. Checks that the explanation is the same if the two bodies are exchanged.
   Explanation ask(const std::string& first, const std::string& second, const PairDistance* exact = nullptr) {
     const auto snapshot = scene_.commit(Time{++tick_}, {});
     const Explanation there = explain(*snapshot, first, second, exact), back = explain(*snapshot, second, first, exact);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// A libFuzzer target for the reader of OctoMaps, as files and as messages. test/fuzz/run builds and runs it.
+// A libFuzzer target for the reader of OctoMap files and messages. test/fuzz/run builds and runs it.
 #include "test/fuzz/octomap_fuzz.h"
 
 #include <cstdint>

@@ -14,11 +14,11 @@ namespace test {
 /// The result of reading an input of the fuzzer.
 struct FuzzedOctomap {
   bool accepted = false;
-  std::string flaw;  ///< what is wrong with the map that was read; empty if nothing (see flawOf())
+  std::string flaw;  ///< what flawOf() says is wrong with the map; empty if nothing is wrong
 };
 
-/// Reads an input of the fuzzer. The bits of its first byte select options, and whether the other bytes are a file or
-/// the data of a message.
+/// Reads an input of the fuzzer. The bits of its first byte select the options and whether the other bytes are a file
+/// or the data of a message.
 inline FuzzedOctomap readFuzzed(std::string_view input) {
   if (input.empty()) return {};
   const auto bits = static_cast<unsigned char>(input[0]);

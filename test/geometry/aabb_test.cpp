@@ -24,7 +24,7 @@ Aabb boxAt(float x, float y, float z, float side = 0.f) {
   return box;
 }
 
-/// Returns two boxes with gaps of about `size` on up to three axes, at coordinates up to `far`.
+/// Returns two boxes. On up to three axes they are about `size` apart. Their coordinates are at most about `far`.
 std::pair<Aabb, Aabb> randomBoxes(Random& random, double size, double far) {
   Aabb a, b;
   for (int k = 0; k < 3; ++k) {
@@ -150,7 +150,7 @@ TEST(Aabb, GrownContainsEveryPointWithinTheGrowth) {
     for (int k = 0; k < 3; ++k) {
       ASSERT_TRUE(Exact(large.min[k]) <= Exact(box.min[k]) - Exact(by)) << "seed " << seed;
       ASSERT_TRUE(Exact(box.max[k]) + Exact(by) <= Exact(large.max[k])) << "seed " << seed;
-      // The box must not grow much more than that, because too large boxes would select too many candidates.
+      // The box must not grow much more than `by`, because boxes that are too large select too many candidates.
       ASSERT_GE(large.min[k], box.min[k] - by - 3e-7 * (std::fabs(box.min[k]) + by) - 1e-44) << "seed " << seed;
       ASSERT_LE(large.max[k], box.max[k] + by + 3e-7 * (std::fabs(box.max[k]) + by) + 1e-44) << "seed " << seed;
     }

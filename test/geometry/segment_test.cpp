@@ -51,7 +51,7 @@ void expectRight(const Case& c) {
   ASSERT_NEAR(meeting->axis_distance, double(approach.least), slack);
   ASSERT_GE(meeting->along, 0.0);
   ASSERT_LE(meeting->along, length * (1 + 1e-15));
-  // At the first touch, the sphere must touch the box, and it must not clearly touch the box before.
+  // At the first touch, the sphere must touch the box. Before, it must not clearly touch the box.
   if (length > 0) {
     ASSERT_LE(test::distanceAt(c.box, a, b, meeting->along / length), c.segment.radius + slack);
   }

@@ -11,8 +11,8 @@ namespace {
 
 using test::Random;
 
-/// Checks that meet() finds a box that a thin segment (radius 0) meets in exact arithmetic. Also checks that meet()
-/// finds no box that the segment misses by more than a rounding error.
+/// Compares meet() for a thin segment (radius 0) with exact arithmetic. meet() must find a box that the segment
+/// touches. It must not find a box that the segment misses by more than a rounding error.
 void expectSuperset(const Segment& segment, const Aabb& box) {
   const Eigen::Vector3d &a = segment.from, &b = segment.to;
   if (segment.radius == 0.0 && test::exactlyMeets(box, a, b)) {
@@ -29,11 +29,11 @@ TEST(ThinSegment, AlongFacesEdgesAndThroughVerticesIsASupersetOfTheExactAnswer) 
   for (unsigned seed = 1; seed <= 30000; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
-    // All coordinates lie on a lattice and are sometimes moved by one unit in the last place, so most cases are
+    // All coordinates lie on a lattice, and some are moved by one unit in the last place. Therefore most cases are
     // contacts.
     const float cell = std::ldexp(1.f, random.between(-6, 6)), offset = random.chance(0.3) ? 1e4f * cell : 0.f;
     const auto somewhere = [&] {
-      const int units = random.between(-1, 1);  // a variable: compilers evaluate arguments in different orders
+      const int units = random.between(-1, 1);  // a variable, because compilers evaluate arguments in different orders
       return test::stepped(double(offset + cell * float(random.between(-4, 4))), units);
     };
     Aabb box;
@@ -43,7 +43,7 @@ TEST(ThinSegment, AlongFacesEdgesAndThroughVerticesIsASupersetOfTheExactAnswer) 
       box.max[k] = box.min[k] + cell * float(random.between(0, 2));
       segment.from[k] = somewhere();
       segment.to[k] = somewhere();
-      if (random.chance(0.3)) segment.to[k] = segment.from[k];  // parallel to a face
+      if (random.chance(0.3)) segment.to[k] = segment.from[k];  // then the segment is parallel to a face
     }
     ASSERT_NO_FATAL_FAILURE(expectSuperset(segment, box));
     met += meet(segment, box).has_value();
@@ -76,7 +76,7 @@ TEST(ThickSegment, AlongAnAxisIsASupersetOfTheExactAnswer) {
   for (unsigned seed = 1; seed <= 30000; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
-    Aabb box, axis;  // the axis of the segment as a box of width 0, so that its distance can be computed exactly
+    Aabb box, axis;  // the axis of the segment as a box of width 0, which has an exact distance
     for (int k = 0; k < 3; ++k) {
       box.min[k] = float(random.between(-12, 12)), box.max[k] = box.min[k] + float(random.between(0, 4));
       axis.min[k] = axis.max[k] = float(random.between(-12, 12));

@@ -12,8 +12,8 @@ using test::Random;
 using Wide = Eigen::Matrix<long double, 3, 1>;
 using WideRotation = Eigen::Matrix<long double, 3, 3>;
 
-/// Returns how far [m] a rotated shape extends from its origin along an axis: its support function. Computes in
-/// extended precision, and uses the rotation matrix as it is, even if it is not exactly orthogonal.
+/// Returns how far a rotated shape extends from its origin along an axis [m] (its support function). Computes in
+/// extended precision. Uses the rotation matrix as it is, even if it is not exactly orthogonal.
 long double reachAlong(const Shape& shape, const WideRotation& rotation, int axis, int sign) {
   const Wide row = rotation.row(axis).transpose() * (long double)sign;
   const long double across = std::sqrt(row[0] * row[0] + row[1] * row[1]), length = row.norm();
@@ -90,7 +90,7 @@ TEST(BoxOfShape, ContainsTheShapeAndIsTightOnAllSixFaces) {
       const long double center = (long double)pose.translation()[k] - origin[k];
       const long double high = center + reachAlong(shape, rotation, k, 1) + padding;
       const long double low = center - reachAlong(shape, rotation, k, -1) - padding;
-      // boxOf() promises that the error is at most 64 rounding units of these terms, and then the step to the next
+      // boxOf() promises that the error is at most 64 rounding units of these terms. After that, it rounds to the next
       // float.
       const long double terms = std::abs(pose.translation()[k]) + std::abs(origin[k]) + shape.reach() + padding;
       const long double slack = 3e-14L * terms + 1e-44L;
@@ -122,7 +122,7 @@ TEST(BoxOfShape, ContainsPointsSampledFromThePaddedSurface) {
   }
 }
 
-// If a wide disc is tilted by a tiny angle, less than the square root of the rounding unit, its rim still rises.
+// A wide disc is tilted by a tiny angle, less than the square root of the rounding unit. Its rim still rises.
 TEST(BoxOfShape, ContainsTheRimOfAWideDiscThatIsHardlyTilted) {
   for (const double angle : {1e-9, 3e-9, 1e-8, 2e-8, 1e-7}) {
     for (const bool cone : {false, true}) {

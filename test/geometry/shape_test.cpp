@@ -141,7 +141,7 @@ TEST(Shape, RefusesMeshesWithoutSurface) {
 }
 
 TEST(Shape, RefusesTrianglesThatNameNoVertex) {
-  for (const std::uint32_t bad : {4u, 5u, 0xffffffffu}) {  // 0xffffffff: -1 read as an unsigned number
+  for (const std::uint32_t bad : {4u, 5u, 0xffffffffu}) {  // 0xffffffff is -1 as an unsigned number
     for (std::size_t corner = 0; corner < 3; ++corner) {
       auto mesh = tetrahedron();
       mesh->triangles[2][corner] = bad;

@@ -27,7 +27,7 @@ TEST(Sphere, TouchesWhateverItExactlyTouchesAndHardlyMore) {
       center[k] = base + size * random.uniform(-2, 2);
     }
     const double gap = std::sqrt(double(test::distanceAt(box, center, center, 0)));
-    // Radii that are equal to the distance, just beside it, and clearly different from it.
+    // Radii that are equal to the distance, slightly different from it, and clearly different from it.
     const double near = double(test::distanceAt(box, center, center, 0));
     const double slack = test::promisedSlack(center, center, near);
     for (const double radius :

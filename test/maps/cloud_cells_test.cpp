@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Compares the cells of a cloud with a simple model, which numbers the cells of a lattice over the whole world.
+// Compares the cells of a cloud with a simple model. The model stores cells of a lattice that covers the whole world.
 #include "hgrid_proximity/maps/cloud_cells.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ constexpr std::size_t kPlenty = 1000000;
 
 Time at(double seconds) { return Time(static_cast<std::int64_t>(seconds * 1e9)); }
 
-/// Returns the positions of the cells on the lattice of the world.
+/// Returns the keys of the cells on the lattice of the world.
 std::vector<Keys> latticeOf(const CloudCells& cloud) {
   std::vector<Keys> all;
   for (const Voxel& voxel : cloud.cells()) {
@@ -41,7 +41,7 @@ TEST(CloudCells, AreThoseOfTheModelWhateverIsSeenAndWhereverTheSensorGoes) {
     Random random(seed);
     const double edge = std::pow(10.0, random.uniform(-2.0, 0.0));
     CloudCells cloud(edge, at(1.0), kPlenty);
-    std::map<Keys, double> model;  // [s] for each cell: when it was last seen
+    std::map<Keys, double> model;  // [s] time at which each cell was last seen
     Eigen::Vector3d sensor = Eigen::Vector3d(1e5, -3e4, 10.0) * random.below(2);
     double now = 100.0;
     for (int step = 0; step < 60; ++step) {
@@ -52,7 +52,7 @@ TEST(CloudCells, AreThoseOfTheModelWhateverIsSeenAndWhereverTheSensorGoes) {
       const std::size_t lost = cloud.follow(sensor);
       jumps += cloud.corner() != before;
       std::size_t gone = 0;
-      for (auto one = model.begin(); one != model.end();) {  // removes the cells beyond the range of the keys
+      for (auto one = model.begin(); one != model.end();) {  // removes the cells whose keys are out of range
         bool in_reach = true;
         for (int axis = 0; axis < 3; ++axis) {
           const std::int64_t key = one->first[axis] - std::llround(cloud.corner()[axis] / edge) + Voxel::kOriginKey;
@@ -90,7 +90,7 @@ TEST(CloudCells, AreThoseOfTheModelWhateverIsSeenAndWhereverTheSensorGoes) {
       std::vector<Keys> expected;
       for (const auto& one : model) expected.push_back(one.first);
       ASSERT_EQ(latticeOf(cloud), expected);
-      StaticGrid(edge, cloud.cells());  // throws if the cells are not disjoint and sorted
+      StaticGrid(edge, cloud.cells());  // throws if the cells are not disjoint or not sorted
     }
   }
   EXPECT_GT(jumps, 20u);

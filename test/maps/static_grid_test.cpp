@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Compares StaticGrid with a scan of all voxels in extended precision, on many kinds of maps.
+// Compares StaticGrid with a scan of all voxels in extended precision, for many kinds of maps.
 #include "hgrid_proximity/maps/static_grid.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,8 @@ namespace {
 
 using Real = long double;
 
-/// Appends random voxels inside a cube. Each of its eight children is left out, added as a whole, or divided further.
+/// Appends random voxels inside a cube. Each of its eight child cubes is left out, added as a whole, or divided
+/// further.
 void divide(const Voxel& cube, Random& random, double kept, double divided, int least, std::vector<Voxel>& voxels) {
   for (unsigned child = 0; child < 8; ++child) {
     const auto level = static_cast<std::uint8_t>(cube.level - 1);
@@ -119,8 +120,8 @@ double slack(const Eigen::AlignedBox3d& box, double around) {
   return 1e-9 * (box.min().cwiseAbs().maxCoeff() + box.max().cwiseAbs().maxCoeff() + around + 1.0);
 }
 
-/// Checks that `found` contains all voxels that are surely at most `within` [m] from the box, and none that is surely
-/// farther away.
+/// Checks that `found` contains all voxels that are surely at most `within` [m] from the box. It must not contain a
+/// voxel that is surely farther away.
 void expectRight(const Map& map, const std::vector<Voxel>& found, const Eigen::AlignedBox3d& box, double within) {
   std::vector<Voxel> surely, perhaps;
   for (const Voxel& voxel : map.voxels) {
@@ -204,8 +205,8 @@ TEST_P(StaticGridOracle, FindsTheNearest) {
   }
 }
 
-/// Returns where a sphere that moves along a segment first touches a voxel, as a share of the segment; nothing if it
-/// does not. Searches by nested intervals, because the distance is a convex function along a line.
+/// Returns where a sphere that moves along a segment first touches a voxel, as a fraction of the segment; empty if it
+/// never does. Searches by nested intervals, because the distance is a convex function along a line.
 std::optional<Real> touchOf(const Map& map, const Voxel& voxel, const Segment& segment, Real radius) {
   const auto distanceAt = [&](Real share) {
     const Eigen::Vector3d min = minCorner(voxel, map.edge), max = maxCorner(voxel, map.edge);
@@ -271,8 +272,8 @@ TEST_P(StaticGridOracle, FindsWhatASegmentTouchesFirst) {
   }
 }
 
-/// Returns a segment for which rounding is critical. Its ends are on planes, edges and corners of cells, far away, or
-/// very close to each other.
+/// Returns a segment for which rounding is critical. Its ends are on planes, edges and corners of cells, far away from
+/// the map, or very close to each other.
 Segment hardSegment(const Map& map, Random& random) {
   Segment segment{somewhere(map, random), somewhere(map, random), 0.0};
   const int kind = random.below(8);
@@ -288,7 +289,7 @@ Segment hardSegment(const Map& map, Random& random) {
 
 TEST_P(StaticGridOracle, LeavesNoVoxelOutAlongASegment) {
   const int count = std::max(100, countFromEnvironment("HGRID_TEST_WORLDS", 10000) / 10);
-  std::vector<Aabb> boxes;  // the voxels as boxes; the unit is the edge of the smallest voxel
+  std::vector<Aabb> boxes;  // the voxels as boxes, in units of the edge of the smallest voxel
   for (const Voxel& voxel : map_.voxels) {
     const auto key = [](std::uint16_t at) { return static_cast<float>(at - Voxel::kOriginKey); };
     const Eigen::Vector3f min(key(voxel.x), key(voxel.y), key(voxel.z));

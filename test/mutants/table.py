@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""The mutants: (description of the fault, file under src/, text that is there exactly once, its replacement).
+"""The mutants: (description of the fault, file in src/, text that is in the file exactly once, its replacement).
 
 Each mutant is a fault that some broad phase had, or that a reviewer could easily overlook. Faults that only cost time
-are not listed. The mutants of one file follow each other, since the build then compiles fewer files.
+are not listed. Mutants of the same file follow each other, because the build then compiles fewer files.
 """
 
 PAIRS_BODY = "broadphase/kernels/pairs_body.h"

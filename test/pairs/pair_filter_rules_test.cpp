@@ -18,7 +18,7 @@ using test::Random;
 
 enum Index : std::uint32_t { base, shoulder, elbow, hand, box, crate, wall, floor_ };
 
-/// Returns an arm with an SRDF, whose first two links form one rigid group, and two moving and two fixed obstacles.
+/// Returns an arm with an SRDF, two moving obstacles and two fixed ones. The arm's first two links form a rigid group.
 std::vector<Body> cell() {
   LinkRules srdf;
   srdf.disabled = {{"elbow", "base", "Never"}};
@@ -30,7 +30,7 @@ std::vector<Body> cell() {
   return bodies;
 }
 
-/// Returns the decision about a pair. Checks that it does not depend on the order of the two bodies.
+/// Returns the decision about a pair. Checks that the decision does not depend on the order of the two bodies.
 PairDecision decided(const PairFilter& filter, std::uint32_t a, std::uint32_t b) {
   const PairDecision there = filter.decision(a, b), back = filter.decision(b, a);
   EXPECT_EQ(there.origin, back.origin);
@@ -142,7 +142,7 @@ TEST(PairRules, OfBodiesThatAreNotThereDoNothing) {
   }
 }
 
-/// Finds the rule that takes precedence by checking every rule, as the comment of PairRule defines it.
+/// Returns the index of the rule that takes precedence. Compares all rules, as the comment of PairRule defines it.
 std::uint32_t strongest(const std::vector<PairRule>& rules, const std::string& a, const std::string& b) {
   std::uint32_t best = PairDecision::kNoRule;
   for (std::uint32_t k = 0; k < rules.size(); ++k) {

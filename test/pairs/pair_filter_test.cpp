@@ -51,7 +51,7 @@ std::vector<Body> cell() {
   return bodies;
 }
 
-/// Returns the origin of the decision about a pair. Checks that it does not depend on the order of the two bodies.
+/// Returns the origin of the decision about a pair. Checks that the origin does not depend on the order of the bodies.
 Origin originOf(const PairFilter& filter, std::uint32_t a, std::uint32_t b) {
   EXPECT_EQ(filter.origin(a, b), filter.origin(b, a)) << a << " " << b;
   EXPECT_EQ(filter.allowed(a, b), filter.origin(a, b) != Origin::none);

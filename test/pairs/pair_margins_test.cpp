@@ -34,15 +34,15 @@ TEST(PairMargins, TheLastEntryThatMatchesCountsInEitherOrder) {
   EXPECT_EQ(PairMargins().of(0, 1), std::nullopt);
 }
 
-/// Claim: a snapshot lists a pair exactly if its gap is within the margin configured for this pair, whether this margin
-/// is larger or smaller than the margins of its bodies.
+/// Claim: a snapshot lists a pair exactly if its gap is at most the margin that is configured for this pair. This
+/// margin may be larger or smaller than the margins of the two bodies.
 TEST(PairMargins, SelectPairsInPlaceOfTheBodiesMargins) {
   for (const double told : {0.05, 0.3, 2.0}) {
     for (const double gap : {0.02, 0.08, 0.2, 0.5, 1.9, 2.1}) {
       SCOPED_TRACE(std::to_string(told) + ", " + std::to_string(gap));
       Scene scene(optionsWith(0.1, {{"obstacle/a", "obstacle/b", told}}));
       Body wide = test::ball("b");
-      wide.margin = 0.4;  // still counts for the pairs of this body with other bodies
+      wide.margin = 0.4;  // still holds for pairs of this body with other bodies
       put(scene, test::ball("a"), at(0.0));
       put(scene, wide, at(1.0 + gap));
       put(scene, test::ball("c"), at(1.0 + gap, 1.35));

@@ -52,7 +52,7 @@ TEST(PairTracker, NamesThePairsThatEnded) {
   EXPECT_EQ(tracker.ended(), Ended());
   sinceOf(tracker, kThree, 20, {{0, 2}});
   EXPECT_EQ(tracker.ended(), (Ended{{{0, 0}, {1, 0}}, {{1, 0}, {2, 0}}}));
-  sinceOf(tracker, {{0, 0}, {1, 0}}, 30, {});  // a body was removed, so its pair ends
+  sinceOf(tracker, {{0, 0}, {1, 0}}, 30, {});  // body 2 was removed, so its pair ends
   EXPECT_EQ(tracker.ended(), (Ended{{{0, 0}, {2, 0}}}));
   sinceOf(tracker, kThree, 40, {{0, 1}});
   EXPECT_EQ(tracker.ended(), Ended());
@@ -61,7 +61,7 @@ TEST(PairTracker, NamesThePairsThatEnded) {
 TEST(PairTracker, ANewNumberingOfTheBodiesDoesNotInterrupt) {
   PairTracker tracker;
   sinceOf(tracker, kThree, 10, {{0, 1}, {1, 2}});
-  const Ids turned = {{2, 0}, {7, 0}, {1, 0}, {0, 0}};  // a body was added, and the order of the bodies has changed
+  const Ids turned = {{2, 0}, {7, 0}, {1, 0}, {0, 0}};  // a body was added, and the order of the bodies changed
   EXPECT_EQ(sinceOf(tracker, turned, 20, {{0, 1}, {0, 2}, {2, 3}}), times({20, 10, 10}));
 }
 
@@ -85,7 +85,7 @@ TEST(PairTracker, AgreesWithASimpleModelOverManyTicks) {
     PairTracker tracker;
     std::map<std::set<std::uint32_t>, int> model;
     for (int stamp = 1; stamp <= 100; ++stamp) {
-      Ids ids;  // slots 0 .. 9 in random order
+      Ids ids;  // the bodies 0 .. 9 in random order
       for (std::uint32_t slot = 0; slot < 10; ++slot) ids.insert(ids.begin() + random.between(0, int(slot)), {slot, 3});
       std::vector<NearPair> pairs;
       std::map<std::set<std::uint32_t>, int> next;

@@ -25,7 +25,7 @@ std::vector<PairRule> configured() {
   return {rule};
 }
 
-/// Returns every rule as text: "first second +" if it allows the pair, "first second -" if not.
+/// Returns each rule as text: "first second +" if it allows the pair, otherwise "first second -".
 std::vector<std::string> gist(const RuleBook& book) {
   std::vector<std::string> lines;
   for (const PairRule& rule : book.rules()) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Queries with QueryScope::respect_allowed: they leave out bodies whose pair with a given body is switched off.
+// Queries with QueryScope::respect_allowed leave out the bodies that a given body may touch.
 #include <gtest/gtest.h>
 
 #include "hgrid_proximity/queries/query.h"
@@ -20,7 +20,7 @@ QueryScope respecting(const Snapshot& snapshot, const std::string& body) {
   return scope;
 }
 
-/// Returns the bodies of the hits, without those for which `left_out` returns true.
+/// Returns the bodies of the hits for which `left_out` returns false.
 template <class LeftOut>
 std::vector<std::uint32_t> bodiesOf(const QueryAnswer& answer, const LeftOut& left_out) {
   std::vector<std::uint32_t> bodies;

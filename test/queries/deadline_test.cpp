@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Answers of queries whose deadline passes before they have examined everything.
+// Tests the answers of queries whose deadline passes before the queries have examined everything.
 #include <gtest/gtest.h>
 
 #include "hgrid_proximity/queries/query.h"
@@ -78,8 +78,8 @@ TEST(Deadline, WithEnoughTimeAnswersAreTheSame) {
   }
 }
 
-/// A narrow phase that returns contact for everything. After the first `fast` measurements, each one lasts until the
-/// deadline.
+/// A narrow phase that returns contact for every pair of shapes. After `fast` measurements, each further measurement
+/// lasts until the deadline.
 class SlowNarrowPhase final : public NarrowPhase {
  public:
   SlowNarrowPhase(int fast, Clock::time_point deadline) : fast_(fast), deadline_(deadline) {}

@@ -18,8 +18,8 @@ struct Oracle {
   long double first = std::numeric_limits<long double>::infinity();     ///< [m] along the axis to the first touch
 };
 
-/// Returns the distance of a body's nearest box from an axis, and where a sphere that moves along the axis first
-/// touches a box.
+/// Returns the distance of a body's nearest box from an axis. Also returns where a sphere that moves along the axis
+/// first touches a box of the body.
 Oracle oracleOf(const Snapshot& snapshot, std::uint32_t body, const Segment& axis) {
   const Eigen::Vector3d a = axis.from - snapshot.origin(), b = axis.to - snapshot.origin();
   Oracle oracle;
@@ -31,7 +31,7 @@ Oracle oracleOf(const Snapshot& snapshot, std::uint32_t body, const Segment& axi
   return oracle;
 }
 
-/// Checks an answer: its hits are those of the oracle, one per body, with correct distances.
+/// Checks that an answer has the hits that the oracle finds, one per body, with correct distances.
 void expectRightHits(const Snapshot& snapshot, const Segment& axis, const QueryAnswer& answer, bool along) {
   const double slack =
       test::promisedSlack(axis.from - snapshot.origin(), axis.to - snapshot.origin(), axis.radius) + 1e-12;
@@ -72,7 +72,7 @@ void expectRightHits(const Snapshot& snapshot, const Segment& axis, const QueryA
 
 void expectInOrder(const QueryAnswer& answer, bool along) {
   for (std::size_t h = 1; h < answer.hits.size(); ++h) {
-    const QueryHit &a = answer.hits[h - 1], &b = answer.hits[h];  // body indices are in the order of the names
+    const QueryHit &a = answer.hits[h - 1], &b = answer.hits[h];  // indices of bodies are in the order of their names
     if (along) {
       ASSERT_TRUE(std::make_pair(a.along, a.body) < std::make_pair(b.along, b.body));
     } else {

@@ -34,7 +34,7 @@ QueryScope scopeOf(const std::vector<std::string>& include, const std::vector<st
   return scope;
 }
 
-/// A world with a robot, whose links are fresh, and an obstacle.
+/// A world with a robot and an obstacle. The links of the robot are FRESH.
 struct Cell {
   Cell() : scene(SceneOptions{}) {
     link = test::put(scene, linkOf("robot", "tool", 0.5), test::at(0));
@@ -85,7 +85,7 @@ TEST(Scope, ARobotWithoutAModelMakesUnknownWhatCanBeOneOfItsLinks) {
 
 TEST(Scope, ALostBodyMakesUnknownOnlyWhatItCanHaveReached) {
   Cell cell;
-  cell.scene.setState(cell.link, Freshness::lost, 10.0);  // at 0.5 m/s, it has moved at most 5 m
+  cell.scene.setState(cell.link, Freshness::lost, 10.0);  // at 0.5 m/s, the link has moved by at most 5 m
   const Snapshot& snapshot = cell.now();
   EXPECT_EQ(snapshot.incompleteSources(), std::vector<std::string>({"robot"}));
   EXPECT_EQ(snapshot.poses()[test::indexOf(snapshot, "robot/tool")].reach, 5.0);
@@ -112,7 +112,8 @@ TEST(Scope, ABodyWithAnOldPoseCanHaveMovedAlthoughItIsFreshAndMarginsDoNotGrow) 
   scene.setState(link, Freshness::fresh, 2.0);
   const auto snapshot = scene.commit(Time{1}, {});
   ASSERT_TRUE(snapshot->complete());
-  EXPECT_EQ(query(*snapshot, Sphere{{2.0, 0, 0}, 0.5}, {}).verdict, Verdict::unknown) << "the body can have come 2 m nearer";
+  EXPECT_EQ(query(*snapshot, Sphere{{2.0, 0, 0}, 0.5}, {}).verdict, Verdict::unknown)
+      << "the body can have come 2 m nearer";
   EXPECT_EQ(query(*snapshot, Sphere{{9.0, 0, 0}, 0.5}, {}).verdict, Verdict::clear);
 }
 
@@ -130,7 +131,7 @@ TEST(Scope, ABodyWhoseNewestDataContradictsItsPoseCanBeAnywhere) {
 
 TEST(Scope, WhatIsNearALostBodyIsUnknownAsFarAsTheBodyCanHaveMoved) {
   Cell cell;
-  cell.scene.setState(cell.link, Freshness::lost, 6.0);  // it may have moved 3 m; the table is 4 m away
+  cell.scene.setState(cell.link, Freshness::lost, 6.0);  // the link may have moved by 3 m; the table is 4 m away
   const std::uint32_t tool = test::indexOf(cell.now(), "robot/tool");
   EXPECT_EQ(nearest(*cell.snapshot, tool, 0.9, scopeOf({"obstacle/*"})).verdict, Verdict::clear);
   const QueryAnswer answer = nearest(*cell.snapshot, tool, 1.1, scopeOf({"obstacle/*"}));
@@ -204,8 +205,8 @@ TEST(Scope, AnUncoveredBodyCountsOnlyWhereItIsAskedAbout) {
       << "a body of unknown extent may be near to anything";
 }
 
-/// A random world in which some sources are incomplete. It decides whether a query may answer CLEAR by looking at every
-/// body and every gap, and compares this with the answer of the query.
+/// A random world in which some sources are incomplete. The test looks at every body and every incomplete source to
+/// decide whether a query may answer CLEAR. It compares this with the answer of the query.
 class RandomScopes {
  public:
   explicit RandomScopes(std::uint64_t seed) : random_(seed), scene_(SceneOptions{}) {
@@ -227,7 +228,7 @@ class RandomScopes {
     const QueryAnswer answer = from == to ? query(*snapshot_, Sphere{from, radius}, scope)
                                           : query(*snapshot_, Segment{from, to, radius}, scope);
     if (answer.verdict == Verdict::hit) return;
-    bool surely = false, perhaps = false;  // whether the verdict must be, or may be, UNKNOWN
+    bool surely = false, perhaps = false;  // whether the verdict must be UNKNOWN; whether it may be UNKNOWN
     for (std::uint32_t i = 0; i < snapshot_->poses().size(); ++i)
       judgeBody(i, scope, from, to, radius, surely, perhaps);
     for (const SourceGap& gap : gaps_) judgeGap(gap, scope, from, to, radius, surely, perhaps);
@@ -281,7 +282,7 @@ class RandomScopes {
   }
   static void judgeGap(const SourceGap& gap, const QueryScope& scope, const Eigen::Vector3d& from,
                        const Eigen::Vector3d& to, double radius, bool& surely, bool& perhaps) {
-    // These names are enough, because the globs of this test cannot distinguish other names from them.
+    // These names are enough, because for the globs of this test all other names are like one of them.
     bool meant = false, included = false;
     for (const char* name : {"cloud/front", "left/1", "left/2", "left/long"}) {
       if (!matches(gap.bodies, name)) continue;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Signed distances and depths of queries that measure boxes and cells, compared with simple formulas.
+// Compares signed distances and penetration depths of queries that measure boxes and cells with simple formulas.
 #include <gtest/gtest.h>
 
 #include "hgrid_proximity/queries/query.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// With SceneOptions::report_unmapped, queries answer CLEAR only for space that a map knows to be free.
+// With SceneOptions::report_unmapped, queries answer CLEAR only where a map knows that space is free.
 #include <gtest/gtest.h>
 
 #include "hgrid_proximity/queries/query.h"
@@ -26,8 +26,8 @@ SceneOptions reporting() {
   return options;
 }
 
-/// Returns the distance [m] of a sphere from all space that the map does not know, by a loop over the voxels. Negative
-/// if the sphere overlaps this space.
+/// Returns the distance [m] between a sphere and all space that the map does not know, by a scan of all voxels. It is
+/// negative if the sphere overlaps this space.
 double clearance(const std::vector<Voxel>& unknown, const Eigen::AlignedBox3d& extent, const Eigen::Vector3d& at,
                  double radius) {
   double least = std::min((at - extent.min()).minCoeff(), (extent.max() - at).minCoeff());
@@ -49,7 +49,7 @@ TEST(Unmapped, ClearIsSaidExactlyOfWhatTheMapKnowsToBeFree) {
     scene.setCells(put(scene, mapBody("room"), world_from_map), knowing(unknown, extent));
     const auto snapshot = scene.commit(Time{1}, {});
     const auto check = [&](double room, const QueryAnswer& answer, const char* what) {
-      if (std::abs(room) < 1e-3) return;  // too close to decide: the reference for segments samples only points
+      if (std::abs(room) < 1e-3) return;  // too close to decide, because the reference for segments samples only points
       SCOPED_TRACE("seed " + std::to_string(seed) + ", " + what + ", " + std::to_string(room) + " m of room");
       ASSERT_EQ(answer.verdict, room > 0.0 ? Verdict::clear : Verdict::unknown);
       ASSERT_EQ(answer.because, room > 0.0 ? Unknown::no : Unknown::unmapped);
@@ -75,7 +75,7 @@ TEST(Unmapped, ClearIsSaidExactlyOfWhatTheMapKnowsToBeFree) {
 
 TEST(Unmapped, WhatTouchesTheUnknownIsNotClear) {
   Scene scene(reporting());
-  // The unknown cell is at x 1 .. 1.1 m.
+  // The unknown cell extends from 1 m to 1.1 m along x.
   scene.setCells(put(scene, mapBody("room"), at(0)), knowing({{32778, 32768, 32768, 0}}, cube(2.0)));
   const auto snapshot = scene.commit(Time{1}, {});
   const auto verdict = [&](double x, double radius) {
@@ -142,7 +142,7 @@ TEST(Unmapped, IsNotAskedUnlessMapsAreToReport) {
 
 TEST(Unmapped, AStaleMapKnowsLess) {
   Scene scene(reporting());
-  const BodyId room = put(scene, mapBody("room", Mobility::moving), at(0));  // its max_speed is 1 m/s
+  const BodyId room = put(scene, mapBody("room", Mobility::moving), at(0));  // the map moves with at most 1 m/s
   scene.setCells(room, knowing({}, cube(1.0)));
   const auto because = [&] { return query(*scene.commit(Time{1}, {}), Sphere{{0.5, 0, 0}, 0.2}, {}).because; };
   EXPECT_EQ(because(), Unknown::no);
@@ -152,7 +152,7 @@ TEST(Unmapped, AStaleMapKnowsLess) {
 
 TEST(Unmapped, NearestToABodyLooksAroundAllOfIt) {
   Scene scene(reporting());
-  // The unknown cell is at x 1 .. 1.1 m.
+  // The unknown cell extends from 1 m to 1.1 m along x.
   scene.setCells(put(scene, mapBody("room"), at(0)), knowing({{32778, 32768, 32768, 0}}, cube(2.0)));
   put(scene, ball("tool", 0.25), at(0));
   const auto snapshot = scene.commit(Time{1}, {});

@@ -7,7 +7,7 @@
 namespace hgrid {
 namespace test {
 
-/// Returns `shape` as a shape of a body, at the origin of the body frame and without padding.
+/// Returns a BodyShape with `shape` at the origin of the body frame and without padding.
 inline BodyShape shapeOf(const Shape& shape) {
   return {shape, Pose::Identity(), 0.0, std::string(), Eigen::Vector3d::Ones()};
 }

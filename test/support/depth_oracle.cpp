@@ -13,7 +13,7 @@ namespace {
 constexpr Real kTolerance = 1e-8L;  // [m] the search stops when the bounds are this close
 constexpr int kMaxSteps = 150;
 
-/// A triangle of the polytope. Its normal points out. `offset` [m] is the distance of the origin from its plane.
+/// A triangle of the polytope. Its normal points outward. `offset` [m] is the distance of its plane from the origin.
 struct Face {
   std::array<int, 3> corners;
   Vector3r normal;
@@ -26,7 +26,7 @@ class Polytope {
   Polytope(const Convex& first, const Convex& second)
       : first_(first), second_(second), scale_(first.reach() + second.reach()) {}
 
-  /// Creates the first tetrahedron. Searches its corners along these axes, which are orthonormal.
+  /// Creates the first tetrahedron. Searches its corners along these orthonormal axes.
   /// @returns false if all differences lie in one plane
   bool begin(const std::array<Vector3r, 3>& axes) {
     Real longest = 0;
@@ -57,7 +57,7 @@ class Polytope {
     const Real rise = (above - points_[0]).dot(normal), fall = (points_[0] - below).dot(normal);
     if (std::max(rise, fall) <= flat()) return false;
     points_.push_back(rise > fall ? above : below);
-    if (rise > fall) std::swap(points_[0], points_[1]);  // so that the faces added below point out
+    if (rise > fall) std::swap(points_[0], points_[1]);  // the faces added below must point outward
     return add({0, 1, 2}) && add({1, 0, 3}) && add({2, 1, 3}) && add({0, 2, 3});
   }
 
@@ -68,8 +68,9 @@ class Polytope {
 
   Vector3r farthest(const Vector3r& direction) const { return first_.support(direction) - second_.support(-direction); }
 
-  /// Adds a point: removes the faces that the point is in front of, and connects the border of the hole to the point.
-  /// @returns false if the precision of the numbers does not suffice for that
+  /// Adds a point to the polytope. Removes the faces that the point is in front of, and connects the border of the hole
+  /// to the point.
+  /// @returns false if the numbers are not precise enough for this
   bool grow(const Vector3r& point) {
     std::map<std::pair<int, int>, int> sides;
     std::vector<Face> kept;
@@ -90,7 +91,7 @@ class Polytope {
     return true;
   }
 
-  /// Returns whether each side of a face has exactly one opposite side, and no point lies in front of a face.
+  /// Returns whether each side of a face has exactly one opposite side, and no point is in front of a face.
   bool isClosedAndConvex() const {
     std::map<std::pair<int, int>, int> sides;
     for (const Face& face : faces_) {
@@ -125,7 +126,7 @@ class Polytope {
   std::vector<Face> faces_;
 };
 
-/// Returns orthonormal axes. Each attempt turns them farther, since axes parallel to sides of a shape can fail.
+/// Returns orthonormal axes. Each attempt rotates them farther, because axes parallel to sides of a shape can fail.
 std::array<Vector3r, 3> axesOf(int attempt) {
   const Vector3r x = Vector3r(1, 0.31L * attempt, -0.17L * attempt).normalized();
   const Vector3r y = x.cross(Vector3r(0.13L * attempt, 0.29L * attempt, 1)).normalized();
@@ -134,7 +135,7 @@ std::array<Vector3r, 3> axesOf(int attempt) {
 
 Interval coreDepth(const Convex& first, const Convex& second, Real enough) {
   Real upper = std::numeric_limits<Real>::infinity();
-  for (int attempt = 0; attempt < 4; ++attempt) {  // retry with other axes, since points on a line can stop the growth
+  for (int attempt = 0; attempt < 4; ++attempt) {  // tries other axes if the growth stops
     Polytope polytope(first, second);
     if (!polytope.begin(axesOf(attempt))) return {};
     Real lower = 0;

@@ -10,12 +10,12 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// The difference of two points, one from each set.
+/// The difference of two points, one from each core.
 struct Difference {
   Vector3r v, on_first, on_second;
 };
 
-/// Up to four differences, the newest first. The weights describe the point of the simplex nearest to the origin.
+/// Up to four differences, the newest first. The weights of the corners give the point nearest to the origin.
 struct Simplex {
   std::array<Difference, 4> corners;
   std::array<Real, 4> weights{};
@@ -28,9 +28,9 @@ struct Simplex {
   }
 };
 
-/// Computes the weights of the point nearest to the origin in the plane (or line) through the corners. Takes orthogonal
+/// Computes the weights of the point nearest to the origin in the plane (or line) through the corners. Uses orthogonal
 /// steps from the first corner, because squared lengths of nearly parallel sides would lose half of the digits.
-/// @returns whether that point lies between the corners
+/// @returns whether the nearest point lies between the corners
 bool nearestBetween(Simplex& simplex) {
   const int sides = simplex.size - 1;
   Vector3r across[3], rest = simplex.corners[0].v;
@@ -42,7 +42,7 @@ bool nearestBetween(Simplex& simplex) {
       mixed[k][i] = across[k].dot(across[i]) / across[k].squaredNorm();
       across[i] -= mixed[k][i] * across[k];
     }
-    if (across[i].squaredNorm() <= 1e-34L * side.squaredNorm()) return false;  // flat: a face of it suffices
+    if (across[i].squaredNorm() <= 1e-34L * side.squaredNorm()) return false;  // flat; a face of the simplex is enough
     share[i] = -across[i].dot(rest) / across[i].squaredNorm();
     rest += share[i] * across[i];
   }
@@ -59,8 +59,8 @@ bool nearestBetween(Simplex& simplex) {
   return true;
 }
 
-/// Returns the face of the simplex that contains its point nearest to the origin. It can be the simplex itself. Tries
-/// only faces with the newest corner.
+/// Returns the face of the simplex that contains its point nearest to the origin. The result can be the simplex itself.
+/// Tries only faces that have the newest corner.
 Simplex nearestFace(const Simplex& simplex) {
   Simplex best;
   Real shortest = std::numeric_limits<Real>::infinity();

@@ -12,7 +12,7 @@ namespace hgrid {
 namespace test {
 namespace {
 
-constexpr double kClose = 1e-10;  // [m] largest allowed error, and largest allowed width of an interval
+constexpr double kClose = 1e-10;  // [m] greatest allowed error, and greatest allowed width of an interval
 constexpr int kTrials = 2000;
 
 Eigen::Vector3d randomPoint(Random& random, double far) { return randomPose(random, far).translation(); }
@@ -27,7 +27,8 @@ double fromSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eig
   return (p - a - std::min(1.0, std::max(0.0, along)) * (b - a)).norm();
 }
 
-/// Returns the distance of a point from a sphere, capsule, box, cylinder or cone, in the shape's frame; 0 inside.
+/// Returns the distance of a point from a sphere, capsule, box, cylinder or cone; 0 inside. `p` is in the shape's
+/// frame.
 double pointDistance(const Shape& shape, const Eigen::Vector3d& p) {
   const std::vector<double> size = shape.dimensions();
   const double beside = std::hypot(p.x(), p.y());
@@ -48,8 +49,8 @@ double pointDistance(const Shape& shape, const Eigen::Vector3d& p) {
   return inside ? 0.0 : std::min(fromSegment(q, axis, rim), fromSegment(q, rim, tip));
 }
 
-/// Returns the distance of `p` from the triangle `t`. If the projection of `p` lies inside the triangle, this is the
-/// distance from the plane, otherwise the distance from the nearest side.
+/// Returns the distance of `p` from the triangle `t`. If the projection of `p` is inside the triangle, this is the
+/// distance from its plane. Otherwise it is the distance from the nearest side.
 double fromTriangle(const Eigen::Vector3d& p, const std::array<Eigen::Vector3d, 3>& t) {
   const Eigen::Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
   double nearest = std::numeric_limits<double>::infinity();
@@ -116,7 +117,8 @@ TEST(DistanceOracle, MeasuresBetweenBoxesAsTheirSidesDo) {
   }
 }
 
-// There is no formula for two curved shapes. But each bound is a proof, so bounds that are close together suffice.
+// There is no formula for two curved shapes. But each bound is proved, so it is enough that the bounds are close
+// together.
 TEST(DistanceOracle, KnowsEveryPairOfKindsClosely) {
   Random random(4);
   for (int i = 1; i <= 6; ++i) {
@@ -151,7 +153,7 @@ TEST(DepthOracle, MeasuresHowDeepAPointLiesInACylinder) {
   EXPECT_LE(unknown, kTrials / 400);
 }
 
-// Pushes a shape into another one that it touches. The lower bound must not exceed the push, and is seldom unknown.
+// Moves a shape into another shape that it touches. The lower bound must not exceed the move. It is seldom unknown.
 TEST(DepthOracle, SeesWhatOverlaps) {
   Random random(6);
   for (int i = 2; i <= 6; ++i) {
@@ -224,7 +226,7 @@ TEST(SolidOracle, SeesWhetherAMeshIsClosed) {
   }
 }
 
-// The triangles of the test meshes face outward, as those of a solid mesh should.
+// The triangles of the test meshes must face outward, like those of a solid mesh.
 TEST(SolidOracle, MeshesOfTheTestsFaceOutward) {
   Random random(9);
   for (const TriangleMesh& mesh : {boxMesh({1, 2, 3}), ballMesh(0), ballMesh(2), lumpMesh(random, {1, 2, 3})}) {

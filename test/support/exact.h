@@ -10,11 +10,11 @@
 namespace hgrid {
 namespace test {
 
-/// An exact real number with a finite binary expansion. Uses schoolbook long arithmetic, without rounding, overflow, or
-/// any code of the product. Each double is such a number, and so are sums, differences and products of them.
+/// An exact real number with a finite binary expansion. Each double is such a number. Sums, differences and products of
+/// such numbers are computed with schoolbook long arithmetic, without rounding, overflow or any code of the product.
 class Exact {
  public:
-  Exact(double value = 0.0) {  // NOLINT: implicit, so that formulas read as they do on paper
+  Exact(double value = 0.0) {  // NOLINT: implicit, because formulas then read as on paper
     if (value == 0.0) return;
     int exponent = 0;
     const double fraction = std::frexp(std::fabs(value), &exponent);

@@ -19,9 +19,9 @@ inline std::vector<ProxyId> allIds(std::size_t count) {
   return ids;
 }
 
-/// Expects that the broad phase stores exactly the boxes with these ids. Compares its pairs with those of a sweep, and
-/// the results of a few queries with those of a scan of all boxes.
-/// @param fixed  tells by id which boxes are fixed; boxes with ids beyond its end are not fixed
+/// Expects that the broad phase stores exactly the boxes with these ids. Compares its pairs with those of
+/// sweptOverlaps(), and the answers of a few queries with those of a scan of all boxes.
+/// @param fixed  whether the box with this id is fixed, by id; boxes with greater ids are not fixed
 inline void expectRight(const BroadPhaseReader& broad_phase, const std::vector<Aabb>& boxes,
                         const std::vector<ProxyId>& ids, const std::vector<bool>& fixed = {}) {
   ASSERT_EQ(broad_phase.size(), ids.size());

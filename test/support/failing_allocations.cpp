@@ -11,7 +11,7 @@ namespace {
 struct Order {
   bool given = false;
   Failing which = Failing::one;
-  std::size_t first = 0;  // number of the first call that fails; 0 if none fails
+  std::size_t first = 0;  // the call with this number, counted from 1, is the first that fails; 0: none fails
   std::size_t calls = 0;
 };
 thread_local Order order;
@@ -41,7 +41,7 @@ std::size_t FailingAllocations::calls() const { return order.calls; }
 }  // namespace test
 }  // namespace hgrid
 
-// Not inlined. Otherwise the compiler would warn that free() receives memory that does not come from malloc().
+// Not inlined, because the compiler would otherwise warn that free() receives memory that is not from malloc().
 __attribute__((noinline)) void* operator new(std::size_t size) { return hgrid::test::allocated(size, 1); }
 __attribute__((noinline)) void* operator new[](std::size_t size) { return hgrid::test::allocated(size, 1); }
 __attribute__((noinline)) void* operator new(std::size_t size, std::align_val_t alignment) {

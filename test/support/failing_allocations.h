@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// A program that links failing_allocations.cpp has an operator new that can fail on request.
+// A program that links failing_allocations.cpp gets an operator new that fails when a test requests it.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 namespace hgrid {
 namespace test {
 
-/// Which allocations fail.
+/// Selects the allocations that fail. k is counted from 1.
 enum class Failing {
   one,           ///< only the k-th allocation
   from_then_on,  ///< the k-th allocation and all later ones
@@ -21,11 +21,11 @@ inline std::ostream& operator<<(std::ostream& out, Failing which) {
   return out << (which == Failing::one ? "one" : "from then on");
 }
 
-/// While this object exists, the requested calls of operator new on this thread throw std::bad_alloc. The object also
+/// While this object exists, operator new throws std::bad_alloc for the selected calls on this thread. The object also
 /// counts all calls on this thread.
 class FailingAllocations {
  public:
-  /// @param k  number of the first call of operator new that fails, counted from 1; 0 if none fails
+  /// @param k  the k-th call of operator new is the first that fails, counted from 1; 0 means that none fails
   explicit FailingAllocations(std::size_t k, Failing which = Failing::one);
   ~FailingAllocations();
   FailingAllocations(const FailingAllocations&) = delete;
@@ -35,7 +35,7 @@ class FailingAllocations {
   std::size_t calls() const;
 };
 
-/// Runs `act`. @returns how many allocations it made on this thread
+/// Runs `act`. @returns the number of allocations that `act` made on this thread
 template <class Act>
 std::size_t allocationsOf(Act&& act) {
   const FailingAllocations none(0);

@@ -14,14 +14,14 @@ inline bool operator==(const SegmentHit& a, const SegmentHit& b) { return a.id =
 
 namespace test {
 
-/// Returns a random grid scale: one that fits the boxes, or one that may be far too fine or far too coarse.
+/// Returns a random grid scale. It fits the boxes, or it may be far too fine or far too coarse for them.
 inline GridScale scaleFor(const std::vector<Aabb>& boxes, Random& random) {
   GridScale scale = GridScale::fitting(boxes);
   if (random.chance(0.5)) scale.finest_edge = std::ldexp(1.0, random.between(-30, 10));
   return scale;
 }
 
-/// Returns a grid that stores box i under id i. Stores all boxes in one bulk update.
+/// Returns a grid that stores boxes[i] under id i. Stores all boxes with one call of update().
 inline HGrid gridOf(const std::vector<Aabb>& boxes, const GridScale& scale) {
   HGrid grid(scale);
   std::vector<ProxyId> ids;
@@ -45,7 +45,8 @@ inline std::vector<Isa> supportedIsas() {
   return isas;
 }
 
-/// Stores box i under id i, by one of several random sequences of calls. Pairs and answers must not depend on it.
+/// Stores boxes[i] under id i. Chooses one of several sequences of calls at random. The pairs and answers of
+/// `broad_phase` must not depend on the sequence.
 inline void bringTo(BroadPhase& broad_phase, const std::vector<Aabb>& boxes, Random& random) {
   const int sequence = random.below(5);
   std::vector<ProxyId> ids, some;
@@ -54,7 +55,7 @@ inline void bringTo(BroadPhase& broad_phase, const std::vector<Aabb>& boxes, Ran
     ids.push_back(id);
     const bool few = sequence == 3 || sequence == 4;
     if (!random.chance(few ? 0.1 : 0.7)) continue;
-    before[id] = boxes[std::size_t(random.below(int(boxes.size())))];  // at first the box has another place and size
+    before[id] = boxes[std::size_t(random.below(int(boxes.size())))];  // the box before its move
     some.push_back(id);
     moved.push_back(boxes[id]);
   }
@@ -65,7 +66,7 @@ inline void bringTo(BroadPhase& broad_phase, const std::vector<Aabb>& boxes, Ran
     return;
   }
   broad_phase.update(ids, before);
-  if (random.chance(0.5)) broad_phase.overlappingPairs(pairs);  // then HGrid keeps pairs of resting boxes
+  if (random.chance(0.5)) broad_phase.overlappingPairs(pairs);  // HGrid then keeps pairs of resting boxes
   if (sequence == 1 || sequence == 3) {
     broad_phase.update(ids, boxes);
   } else if (sequence == 4) {
@@ -82,7 +83,7 @@ inline void bringTo(BroadPhase& broad_phase, const std::vector<Aabb>& boxes, Ran
   }
 }
 
-/// Returns a grid that uses a random instruction set and stores these boxes, by one of the sequences of bringTo().
+/// Returns a grid that stores these boxes and uses a random instruction set. It is filled by bringTo().
 inline HGrid gridBroughtTo(const std::vector<Aabb>& boxes, const GridScale& scale, Random& random) {
   HGrid grid(scale);
   const std::vector<Isa> isas = supportedIsas();
@@ -91,7 +92,8 @@ inline HGrid gridBroughtTo(const std::vector<Aabb>& boxes, const GridScale& scal
   return grid;
 }
 
-/// Returns all overlapping pairs, sorted. Keeps duplicates and exchanged ids, so that a comparison detects them.
+/// Returns all overlapping pairs, sorted. Does not remove duplicates or sort the two ids of a pair, because a test must
+/// detect such errors.
 inline Pairs pairsOf(const BroadPhaseReader& broad_phase) {
   std::vector<ProxyPair> found = {{7, 7}};  // the search must remove this old content of the buffer
   broad_phase.overlappingPairs(found);

@@ -21,18 +21,19 @@ inline Body mapBody(const std::string& name, Mobility mobility = Mobility::fixed
   return body;
 }
 
-/// Returns cells without cubes, so the narrow phase cannot measure them.
+/// Returns map cells that have only a grid, no cubes. A narrow phase needs the cubes, so it cannot measure these cells.
 inline std::shared_ptr<const MapCells> cellsOf(double edge, const std::vector<Voxel>& voxels) {
   auto cells = std::make_shared<MapCells>();
   cells->grid = std::make_shared<StaticGrid>(edge, voxels);
   return cells;
 }
 
-/// Returns disjoint random voxels of levels 0 and 1, at most `reach` keys from the map's origin, in Morton order.
-inline std::vector<Voxel> randomVoxels(Random& random, int count, int reach) {
+/// Returns random cells of a map, in Morton order. They are disjoint, and each is a leaf of level 0 or 1.
+/// @param far  greatest difference between a key of a cell and the key of the map's origin
+inline std::vector<Voxel> randomVoxels(Random& random, int count, int far) {
   std::vector<Voxel> voxels;
   const auto key = [&](int step) {
-    return static_cast<std::uint16_t>(Voxel::kOriginKey + random.between(-reach / step, reach / step) * step);
+    return static_cast<std::uint16_t>(Voxel::kOriginKey + random.between(-far / step, far / step) * step);
   };
   for (int i = 0; i < count; ++i) {
     const int level = random.below(2), step = 1 << level;
@@ -51,8 +52,8 @@ inline std::vector<Voxel> randomVoxels(Random& random, int count, int reach) {
   return disjoint;
 }
 
-/// Returns the gap [m] between a voxel of a map and a box, computed as the documentation defines it: the distance of
-/// the voxel from the bounding box of `box` in the frame of the map.
+/// Returns the gap [m] between a cell of a map and a box, computed as the documentation defines it: the distance
+/// between the cell and the bounding box of `box` in the frame of the map.
 inline double gapByHand(const Snapshot& snapshot, std::uint32_t map, const Voxel& voxel, double edge, const Aabb& box) {
   const Pose map_from_world = snapshot.poses()[map].world_from_body.inverse();
   Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;

@@ -13,7 +13,7 @@
 namespace hgrid {
 namespace test {
 
-/// Appends a link below `parent` (-1: a root) and returns its index.
+/// Appends a link with the parent link of index `parent` (-1: none, a root) and returns its index.
 inline int addLink(RobotModel& model, const std::string& name, int parent, JointKind kind = JointKind::revolute,
                    bool has_collision = true) {
   RobotLink link;
@@ -27,10 +27,11 @@ inline int addLink(RobotModel& model, const std::string& name, int parent, Joint
   return int(model.links.size()) - 1;
 }
 
-/// Returns a small humanoid whose moving links have no geometry. Each shape is on a fixed leaf link "<part>_shape".
+/// Returns a small humanoid robot. Its moving links have no geometry. Each shape is on a link "<part>_shape", which a
+/// fixed joint connects to a moving link.
 ///
-/// The waist and the wrists are universal joints written as two joints, the shoulders are spherical joints written as
-/// three joints. The two joints of the neck are 6 cm apart, so they are no universal joint.
+/// The waist and the wrists are universal joints, written as two joints each. The shoulders are spherical joints,
+/// written as three joints each. The two joints of the neck are 6 cm apart, so they do not form a universal joint.
 inline RobotModel humanoid() {
   RobotModel model;
   model.name = "humanoid";
@@ -74,7 +75,7 @@ inline LinkMatrix matrixOf(const RobotModel& model, const LinkRules& rules = {})
   return LinkMatrix(model, rules, warnings);
 }
 
-/// Returns the bodies of a robot: one per link with geometry, as an importer would create them.
+/// Returns the bodies of a robot as an importer would create them: one per link with geometry.
 inline std::vector<Body> bodiesOf(const RobotModel& model, const std::string& robot,
                                   const std::shared_ptr<const LinkMatrix>& matrix) {
   std::vector<Body> bodies;

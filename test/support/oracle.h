@@ -12,8 +12,8 @@
 namespace hgrid {
 namespace test {
 
-/// The oracle for boxes. It computes reference answers by brute force, in exact or extended arithmetic. From the
-/// product it uses only the struct Aabb.
+/// The oracle for boxes computes reference answers by brute force. It uses exact arithmetic (Exact) or extended
+/// precision (long double). Of the product it uses only the struct Aabb.
 
 inline bool oracleOverlap(const Aabb& a, const Aabb& b) {
   for (int k = 0; k < 3; ++k) {
@@ -54,7 +54,8 @@ inline bool exactlyWithin(const Aabb& a, const Aabb& b, double margin) {
   return exactSquaredDistance(a, b) <= Exact(margin) * Exact(margin);
 }
 
-/// Returns the same as exactlyWithin(), but is much faster if extended arithmetic decides the question.
+/// Returns the same as exactlyWithin(), but is usually much faster. It first computes with extended precision. Only if
+/// the distance is too close to `margin` for that, it computes exactly.
 inline bool oracleWithin(const Aabb& a, const Aabb& b, double margin) {
   long double sum = 0;
   for (int k = 0; k < 3; ++k) {
@@ -71,10 +72,13 @@ inline bool exactlyTouches(const Aabb& box, const Eigen::Vector3d& center, doubl
   return exactSquaredDistance(box, center) <= Exact(radius) * Exact(radius);
 }
 
-/// Returns whether the segment from a to b, end points included, touches the box. Represents the entry into and the
-/// exit from each of the three slabs as fractions. Compares them by cross-multiplication, so nothing is rounded.
+/// Returns whether the segment from a to b, end points included, touches the box.
+///
+/// A slab is the space between two opposite faces of the box. The segment enters and leaves each slab at a fraction of
+/// its length. The function compares these fractions by cross-multiplication, without rounding.
 inline bool exactlyMeets(const Aabb& box, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  // Fractions (numerator, denominator > 0) on the way 0 .. 1: where the segment enters and leaves each slab.
+  // Fractions (numerator, denominator > 0) of the length, from 0 to 1, at which the segment enters and leaves the
+  // slabs.
   std::vector<std::pair<Exact, Exact>> enter{{Exact(0.0), Exact(1.0)}}, leave{{Exact(1.0), Exact(1.0)}};
   for (int k = 0; k < 3; ++k) {
     const Exact way = Exact(b[k]) - Exact(a[k]);
@@ -99,10 +103,10 @@ inline bool exactlyMeets(const Aabb& box, const Eigen::Vector3d& a, const Eigen:
   return true;
 }
 
-/// How near the axis of a segment comes to a box, computed in extended arithmetic by bisection.
+/// How near the axis of a segment comes to a box. approachOf() computes it with extended precision by bisection.
 struct Approach {
   long double least = 0;  ///< [m] least distance between the axis and the box
-  long double first = 0;  ///< [m] length along the axis to its first point within `radius` of the box; infinite if none
+  long double first = 0;  ///< [m] length of the axis up to its first point within `radius` of the box; infinite if none
 };
 
 inline long double distanceAt(const Aabb& box, const Eigen::Vector3d& a, const Eigen::Vector3d& b, long double t,
@@ -120,14 +124,14 @@ inline long double distanceAt(const Aabb& box, const Eigen::Vector3d& a, const E
 }
 
 inline Approach approachOf(const Aabb& box, const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius) {
-  // The distance is a convex function of t, so its slope changes sign only once.
+  // The distance is a convex function of the fraction t of the axis, so its slope changes sign only once.
   long double low = 0, high = 1, slope = 0;
   for (int i = 0; i < 70; ++i) {
     const long double middle = (low + high) / 2;
     distanceAt(box, a, b, middle, &slope);
     (slope < 0 ? low : high) = middle;
   }
-  // `low` and `high` now enclose the first of the nearest points, also if the axis runs parallel to the box.
+  // `low` and `high` now enclose the first of the nearest points, even if the axis is parallel to a side of the box.
   Approach found;
   const long double ends[] = {distanceAt(box, a, b, 0), distanceAt(box, a, b, 1), distanceAt(box, a, b, low),
                               distanceAt(box, a, b, high)};
@@ -149,7 +153,7 @@ inline Approach approachOf(const Aabb& box, const Eigen::Vector3d& a, const Eige
   return found;
 }
 
-/// Returns the documented rounding error [m] that a query may have: 1e-9 * (|x| + r).
+/// Returns the rounding error [m] that the documentation allows for a query: 1e-9 * (|x| + r).
 inline double promisedSlack(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius) {
   return 1e-9 * (std::max(a.norm(), b.norm()) + radius);
 }

@@ -11,7 +11,7 @@ namespace hgrid {
 namespace test {
 namespace {
 
-// Tests the oracle itself: compares its long arithmetic with integers, which the machine computes exactly.
+// Tests the oracle itself: compares its long arithmetic with integers, which the processor computes exactly.
 TEST(Oracle, ComputesWithWholeNumbersAsTheMachineDoes) {
   Random random(1);
   for (int i = 0; i < 20000; ++i) {
@@ -36,14 +36,14 @@ TEST(Oracle, FindsWhereASlantedSegmentPassesACorner) {
   Aabb box;
   box.min.setConstant(0.f);
   box.max.setConstant(1.f);
-  EXPECT_TRUE(exactlyMeets(box, {2, 0, 0.5}, {0, 2, 0.5}));  // passes exactly through the edge x = 1, y = 1
+  EXPECT_TRUE(exactlyMeets(box, {2, 0, 0.5}, {0, 2, 0.5}));  // goes exactly through the edge x = 1, y = 1
   EXPECT_FALSE(exactlyMeets(box, {std::nextafter(2.0, 3.0), 0, 0.5}, {0, 2, 0.5}));
   const Approach approach = approachOf(box, {3, 0, 0.5}, {0, 3, 0.5}, 0.75);
   EXPECT_NEAR(double(approach.least), std::sqrt(0.5), 1e-15);
   EXPECT_NEAR(double(approach.first), std::sqrt(4.5) - 0.25, 1e-15);
 }
 
-// sweptOverlaps() serves as the oracle for worlds that are too large for brute force.
+// sweptOverlaps() is the oracle for worlds that are too large for brute force.
 TEST(Oracle, ASweepFindsTheOverlapsThatAllPairsHave) {
   for (unsigned seed = 1; seed <= 110; ++seed) {
     const std::vector<Aabb> boxes = worldOf(static_cast<Family>(seed % kFamilies), seed);

@@ -10,9 +10,9 @@
 namespace hgrid {
 namespace test {
 
-/// A generator of random numbers that are the same with every compiler and library (SplitMix64, Steele et al. 2014).
-/// So a seed in a failure message gives the same world everywhere. Numbers of the standard library's distributions
-/// differ between libraries.
+/// Generates random numbers that are the same with every compiler and library (SplitMix64, Steele et al. 2014).
+/// Therefore a seed in a failure message creates the same test data everywhere. The distributions of the standard
+/// library return different numbers in different libraries.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15u + 0x1234567u) {}
@@ -23,14 +23,14 @@ class Random {
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     return z ^ (z >> 31);
   }
-  /// Returns an evenly distributed number in [low, high).
+  /// Returns a uniformly distributed number in [low, high).
   double uniform(double low, double high) { return low + (high - low) * std::ldexp(double(bits() >> 11), -53); }
-  /// Returns one of the integers 0 .. count - 1.
+  /// Returns a random integer in 0 .. count - 1.
   int below(int count) { return int(bits() % std::uint64_t(count)); }
-  /// Returns one of the integers low .. high, both included.
+  /// Returns a random integer in low .. high, both included.
   int between(int low, int high) { return low + below(high - low + 1); }
   bool chance(double probability) { return uniform(0, 1) < probability; }
-  /// Returns a number in [low, high) whose logarithm is evenly distributed. Useful for sizes.
+  /// Returns a number in [low, high) whose logarithm is uniformly distributed. Useful for sizes.
   double logUniform(double low, double high) { return low * std::exp(uniform(0, std::log(high / low))); }
 
  private:
@@ -49,7 +49,7 @@ inline double stepped(double value, int steps) {
   return value;
 }
 
-/// Returns the count that an environment variable sets, to make a test shorter or longer; `otherwise` if it is not set.
+/// Returns the count in an environment variable, which makes a test shorter or longer; `otherwise` if it is not set.
 inline int countFromEnvironment(const char* variable, int otherwise) {
   const char* text = std::getenv(variable);
   return text ? std::atoi(text) : otherwise;

@@ -11,11 +11,12 @@
 namespace hgrid {
 namespace test {
 
-/// Returns the code with which `deed` is refused, or Code::ok if it is not. Stores the error sentence in `*sentence`.
-template <class Deed>
-Code refusalOf(Deed&& deed, std::string* sentence = nullptr) {
+/// Runs `act`. Returns the code with which `act` is refused, or Code::ok if it is not refused. Stores the error
+/// sentence in `*sentence`.
+template <class Act>
+Code refusalOf(Act&& act, std::string* sentence = nullptr) {
   try {
-    deed();
+    act();
   } catch (const Refusal& refusal) {
     if (sentence) *sentence = refusal.what();
     return refusal.code();
@@ -23,7 +24,7 @@ Code refusalOf(Deed&& deed, std::string* sentence = nullptr) {
   return Code::ok;
 }
 
-/// Returns whether `sentence` contains `word`. An error sentence must name the thing, the value and the rule.
+/// Returns whether the error sentence contains `word`. An error sentence must name the thing, the value and the rule.
 inline ::testing::AssertionResult says(const std::string& sentence, const std::string& word) {
   if (sentence.find(word) != std::string::npos) return ::testing::AssertionSuccess();
   return ::testing::AssertionFailure() << "\"" << sentence << "\" does not contain \"" << word << "\"";

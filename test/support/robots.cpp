@@ -64,13 +64,13 @@ RealRobot realRobot(const std::string& name) {
     const std::string folder = robots + name + "_description/";
     return {name, fileText(folder + "urdf/" + name + ".urdf"), fileText(folder + "srdf/" + name + ".srdf")};
   }
-  throw std::invalid_argument("no robot named " + name);
+  throw std::invalid_argument("there is no real robot named " + name + "; use ur5, panda or pr2");
 }
 
 RandomStates::RandomStates(const RobotModel& model, const std::string& urdf, unsigned seed)
     : model_(model), random_(seed) {
   tinyxml2::XMLDocument document;
-  if (document.Parse(urdf.data(), urdf.size()) != tinyxml2::XML_SUCCESS) throw std::runtime_error("not XML");
+  if (document.Parse(urdf.data(), urdf.size()) != tinyxml2::XML_SUCCESS) throw std::runtime_error("URDF is not XML");
   for (const auto* joint = document.RootElement()->FirstChildElement("joint"); joint;
        joint = joint->NextSiblingElement("joint")) {
     const auto* tag = joint->FirstChildElement("mimic");

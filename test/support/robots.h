@@ -17,32 +17,32 @@
 namespace hgrid {
 namespace test {
 
-/// Returns the folder of the project's own small robots and meshes. meshPolicy() calls it the package hgrid_test.
+/// Returns the folder of the project's own small robots and meshes. In meshPolicy() it is the package "hgrid_test".
 std::string ownData();
-/// Returns the folder of the real robots: HGRID_TEST_DATA if set, else ../shared/data beside the project. Returns an
-/// empty string if the folder does not contain them.
+/// Returns the folder of the real robots: the value of HGRID_TEST_DATA, or ../shared/data beside the project if
+/// HGRID_TEST_DATA is not set. Returns an empty string if the folder does not contain the robots.
 std::string sharedData();
 
-/// Skips the rest of a test if sharedData() is empty.
+/// Skips the rest of a test if sharedData() finds no real robots.
 #define HGRID_NEEDS_SHARED_DATA()        \
   if (hgrid::test::sharedData().empty()) \
   GTEST_SKIP() << "there are no real robots: set HGRID_TEST_DATA to a folder with example-robot-data"
 
-/// Returns all bytes of a file. @throws std::runtime_error if it cannot be read.
+/// Returns all bytes of a file. @throws std::runtime_error if the file cannot be read
 std::string fileText(const std::string& path);
 
-/// Returns a policy that reads meshes with the mesh reader of this build, and that knows the packages hgrid_test and
-/// example-robot-data.
+/// Returns a policy that reads meshes with the mesh reader of this build. It knows the packages "hgrid_test" and
+/// "example-robot-data".
 MeshPolicy meshPolicy();
 
-/// Reads a robot from the text of a URDF. `loader` reads its meshes.
+/// Reads a robot from the text of a URDF. `loader` reads the meshes of the robot.
 RobotModel readWith(MeshLoader& loader, const std::string& urdf);
 
 /// The texts that describe a real robot.
 struct RealRobot {
   std::string name;  ///< "ur5", "panda" or "pr2"
-  std::string urdf;  ///< text of its URDF
-  std::string srdf;  ///< text of its SRDF
+  std::string urdf;  ///< text of the URDF
+  std::string srdf;  ///< text of the SRDF
 };
 /// Reads a real robot from sharedData(). @param name  "ur5", "panda" or "pr2"
 RealRobot realRobot(const std::string& name);
@@ -50,10 +50,10 @@ RealRobot realRobot(const std::string& name);
 /// Generates random joint states of a robot. Joints stay within their limits. Mimic joints follow their master joint.
 class RandomStates {
  public:
-  /// @param urdf  text of the model's URDF, from which mimic joints are read
+  /// @param urdf  text of the URDF of `model`; mimic joints are read from it
   RandomStates(const RobotModel& model, const std::string& urdf, unsigned seed);
 
-  /// Returns the forward kinematics of the next state: root_from_link for each link.
+  /// Returns the next random state as the poses of all links: root_from_link by link index.
   std::vector<Pose> next();
 
  private:
@@ -69,7 +69,8 @@ class RandomStates {
   Random random_;
 };
 
-/// Returns a random pose: evenly distributed in rotation, and at most `far` [m] from the origin along each axis.
+/// Returns a random pose. Its rotation is uniformly distributed. It is at most `far` [m] from the origin along each
+/// axis.
 Pose uniformPose(Random& random, double far);
 
 /// Adds a body `robot/<link>` for each link with a <collision>. @returns the link index and the id of each body

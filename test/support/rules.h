@@ -12,7 +12,7 @@
 namespace hgrid {
 namespace test {
 
-/// Returns a rule as ~set_allowed creates it: the pair may touch.
+/// Returns a rule that allows the pair, as ~set_allowed creates it.
 inline PairRule allow(const std::string& first, const std::string& second, const std::string& reason = "") {
   PairRule rule;
   rule.first = first;
@@ -22,20 +22,21 @@ inline PairRule allow(const std::string& first, const std::string& second, const
   return rule;
 }
 
-/// Returns a rule as ~set_allowed creates it: the pair is reported.
+/// Returns a rule that reports the pair, as ~set_allowed creates it.
 inline PairRule enable(const std::string& first, const std::string& second, const std::string& reason = "") {
   PairRule rule = allow(first, second, reason);
   rule.allowed = false;
   return rule;
 }
 
-/// Returns the rule with a time at which it ends.
+/// Returns a copy of the rule that ends at `end`.
 inline PairRule until(PairRule rule, PairRule::Clock::time_point end) {
   rule.ends = end;
   return rule;
 }
 
-/// Returns the bodies of an arm of spheres: base, shoulder, elbow, hand. A fixed joint connects base and shoulder.
+/// Returns the bodies of an arm: base, shoulder, elbow and hand, each a sphere. A fixed joint connects base and
+/// shoulder.
 inline std::vector<Body> armBodies(const std::string& robot, const LinkRules& srdf = {}) {
   RobotModel model;
   model.name = robot;

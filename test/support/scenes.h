@@ -18,7 +18,7 @@
 namespace hgrid {
 namespace test {
 
-/// Returns a random multiple of 1/64 between `low` and `high`. Sums of such margins are exact in every order.
+/// Returns a random multiple of 1/64 between `low` and `high`. Sums of such numbers are exact in every order.
 inline double sixtyFourths(Random& random, double low, double high) {
   return std::floor(random.uniform(low, high) * 64.0) / 64.0;
 }
@@ -92,7 +92,7 @@ inline bool contains(const NamePairs& larger, const NamePairs& smaller) {
   return std::includes(larger.begin(), larger.end(), smaller.begin(), smaller.end());
 }
 
-/// Returns whether the default pair filter without patterns reports the pair, computed without the product.
+/// Returns whether a pair filter without rules reports the pair of bodies. Computes it without the product's filter.
 inline bool reported(const Body& a, const Body& b) {
   if (a.kind == BodyKind::link && b.kind == BodyKind::link && a.robot == b.robot) {
     return a.links->origin(a.link, b.link) == Origin::none;
@@ -100,8 +100,8 @@ inline bool reported(const Body& a, const Body& b) {
   return a.mobility == Mobility::moving || b.mobility == Mobility::moving;
 }
 
-/// Expects that the snapshot contains exactly the pairs whose recorded boxes are within the documented margin, and that
-/// their gaps are right. Finds the pairs by brute force over all shapes.
+/// Expects that the snapshot contains exactly the pairs whose boxes are within the documented margin, and that their
+/// gaps are right. Finds the pairs by brute force over all shapes.
 inline void expectPairsOfTheOracle(const Snapshot& snapshot, double global_margin) {
   const Structure& structure = snapshot.structure();
   const std::vector<Aabb>& boxes = snapshot.boxes();

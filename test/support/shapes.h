@@ -10,7 +10,7 @@
 namespace hgrid {
 namespace test {
 
-/// Returns a mesh with `corners` random vertices around a random place of its frame. Its triangles form an open fan.
+/// Returns a mesh with `corners` random vertices around a random point of its frame. Its triangles form an open fan.
 inline std::shared_ptr<const TriangleMesh> randomMesh(Random& random, double size, int corners = 8) {
   auto mesh = std::make_shared<TriangleMesh>();
   const Eigen::Vector3d center(random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size));
@@ -49,7 +49,7 @@ inline Shape randomShape(Random& random, double size) {
 }
 
 /// Returns a random pose, at most `far` [m] from the origin along each axis. Its rotation is arbitrary, a multiple of a
-/// quarter turn, or tiny. For such rotations, formulas with 1 - cos² lose digits.
+/// quarter turn, or tiny. For tiny rotations, formulas with 1 - cos² lose digits.
 inline Pose randomPose(Random& random, double far) {
   Pose pose = Pose::Identity();
   Eigen::Vector3d axis(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));

@@ -7,7 +7,7 @@
 namespace hgrid {
 namespace test {
 
-/// Suppresses output to std::cerr while this object exists. OctoMap writes there about each file that it reads.
+/// Suppresses output to std::cerr while this object exists. OctoMap prints a message there for each file that it reads.
 class Silence {
  public:
   Silence() : buffer_(std::cerr.rdbuf(nullptr)) {}

@@ -7,8 +7,8 @@
 namespace hgrid {
 namespace test {
 
-/// A shape in the world, as the oracle represents it: one or more convex pieces. The pieces of a mesh are its
-/// triangles; any other shape is one piece. From the product the oracle uses only the data of the shape.
+/// A shape in the world frame, represented by one or more convex pieces. The pieces of a mesh are its triangles. Any
+/// other shape is one piece. Of the product, this class uses only the data of the shape.
 class SolidOracle {
  public:
   SolidOracle(const Shape& shape, const Pose& world_from_shape, double padding);
@@ -16,12 +16,12 @@ class SolidOracle {
   const std::vector<Convex>& pieces() const { return pieces_; }
   Real radius() const { return pieces_.front().radius(); }
 
-  /// Returns whether the shape is a closed mesh: each side of a triangle matches an opposite side. Corners with equal
-  /// coordinates count as the same corner.
+  /// Returns whether the shape is a closed mesh: each side of a triangle has an opposite side of another triangle.
+  /// Corners with equal coordinates are one corner.
   bool isClosed() const { return closed_; }
 
-  /// Returns whether a point lies inside a closed mesh: most of five rays from the point cross the surface an odd
-  /// number of times. For a point on the surface the result can be either.
+  /// Returns whether a point is inside a closed mesh: most of five rays from the point cross the surface an odd number
+  /// of times. If the point is on the surface, the result may be either.
   bool encloses(const Vector3r& point) const;
 
  private:
@@ -30,15 +30,15 @@ class SolidOracle {
   bool closed_ = false;
 };
 
-/// The distance of two solids, and the nearest points of their cores (the shapes without their radii).
+/// The distance of two solids, and the nearest points of their cores (see Convex).
 struct SolidDistance {
-  Interval interval;      ///< [m] distance, radii included; 0 if they touch, or if one lies inside the other
-  bool enclosed = false;  ///< true if the surfaces are apart and one solid lies inside the other, a closed mesh
+  Interval interval;      ///< [m] distance including radii; 0 if they touch, or if one is inside the other
+  bool enclosed = false;  ///< whether the surfaces are apart and one solid is inside the other, a closed mesh
   Vector3r on_first = Vector3r::Zero(), on_second = Vector3r::Zero();
 };
 SolidDistance distanceOf(const SolidOracle& first, const SolidOracle& second);
 
-/// Returns bounds of the distance [m] of a point from a solid; 0 inside.
+/// Returns bounds of the distance [m] of a point from a solid; 0 if the point is inside.
 Interval distanceOf(const SolidOracle& solid, const Eigen::Vector3d& point);
 
 /// Returns whether two solids certainly overlap by more than `depth` [m].

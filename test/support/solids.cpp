@@ -10,7 +10,7 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// Returns three random dimensions [m] within the proportions; a random one of them is the longest.
+/// Returns three random dimensions [m] within the proportions. Any of them may be the longest.
 Eigen::Vector3d randomSize(Random& random, const Proportions& proportions) {
   const double longest = random.logUniform(proportions.smallest, proportions.largest);
   Eigen::Vector3d size;

@@ -10,29 +10,29 @@
 namespace hgrid {
 namespace test {
 
-/// Limits for random solids: of the longest dimension, and of the ratio of the longest to the shortest dimension.
+/// Limits for the dimensions of random solids.
 struct Proportions {
   double smallest = 0.01;    ///< [m] least value of the longest dimension
   double largest = 2.0;      ///< [m] greatest value of the longest dimension
   double max_aspect = 50.0;  ///< greatest ratio of the longest to the shortest dimension
 };
 
-/// Returns the closed mesh of a box around the origin. All triangles are counter-clockwise seen from outside.
+/// Returns the closed mesh of a box around the origin. All its triangles face outward (counter-clockwise).
 TriangleMesh boxMesh(const Eigen::Vector3d& size);
-/// Returns the closed mesh of a sphere of radius 1 m around the origin. It has 20 triangles. Each division splits every
+/// Returns the closed mesh of a sphere of radius 1 m around the origin. It has 20 triangles. Each division divides each
 /// triangle into four.
 TriangleMesh ballMesh(int divisions);
-/// Returns a sphere mesh of 20 or 80 triangles whose corners are moved to 0.5 .. 1 of the radius, stretched to `size`.
-/// It is closed and seldom convex, and it never intersects itself.
+/// Returns a closed mesh of 20 or 80 triangles. It is a sphere whose corners are moved to 0.5 .. 1 of the radius,
+/// scaled to `size`. It is seldom convex, and it never intersects itself.
 TriangleMesh lumpMesh(Random& random, const Eigen::Vector3d& size);
 
-/// Returns the same surface as an STL file stores it: each triangle has three corners of its own.
+/// Returns a mesh with the same surface, in the form of an STL file: triangles do not share corners.
 TriangleMesh unwelded(const TriangleMesh& mesh);
 TriangleMesh moved(TriangleMesh mesh, const Eigen::Vector3d& by);
 TriangleMesh without(TriangleMesh mesh, std::size_t triangle);
 Shape meshOf(TriangleMesh mesh);
 
-/// Returns a random closed solid of the given kind. Meshes have 12 .. 80 triangles, which may share corners or not.
+/// Returns a random closed solid of the given kind. A mesh has 12 .. 80 triangles. They may or may not share corners.
 Shape randomSolid(Random& random, ShapeKind kind, const Proportions& proportions = {});
 
 }  // namespace test

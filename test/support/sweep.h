@@ -10,8 +10,8 @@
 namespace hgrid {
 namespace test {
 
-/// Returns every pair of overlapping boxes among these ids, for worlds that are too large to check all pairs. Sorts the
-/// boxes by their minimum x. Compares each box only with later boxes that begin before it ends.
+/// Returns all pairs of overlapping boxes with these ids. Sorts the boxes by their minimum x. Compares each box only
+/// with later boxes that begin before it ends. Use it for worlds that are too large for allOverlaps().
 inline Pairs sweptOverlaps(const std::vector<Aabb>& boxes, std::vector<std::uint32_t> ids) {
   std::sort(ids.begin(), ids.end(), [&](std::uint32_t a, std::uint32_t b) {
     return boxes[a].min.x() != boxes[b].min.x() ? boxes[a].min.x() < boxes[b].min.x() : a < b;

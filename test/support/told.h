@@ -19,8 +19,8 @@ inline std::string bytes(const void* data, std::size_t size) {
   return std::string(static_cast<const char*>(data), size);
 }
 
-/// The content of a snapshot as texts and bytes. It does not include the revision of the structure, since revision
-/// numbers may have gaps.
+/// The content of a snapshot as texts and bytes. It does not include the revision of the structure, because equal
+/// snapshots may have different revisions.
 struct Told {
   std::string numbers, bodies, poses, ages, boxes, pairs, grid, answers;
   std::vector<std::string> events, reasons;
@@ -84,7 +84,7 @@ inline Told tell(const Snapshot& s) {
   return told;
 }
 
-/// Expects equal contents. Does not compare the ages and stamps of poses; the caller may do that.
+/// Expects equal contents. Does not compare the ages and stamps of poses.
 inline void expectEqual(const Told& told, const Told& expected) {
   ASSERT_EQ(told.numbers, expected.numbers);
   ASSERT_EQ(told.bodies, expected.bodies);

@@ -15,16 +15,16 @@
 namespace hgrid {
 namespace test {
 
-/// Kinds of random worlds. Each kind has a property that has revealed a bug in some grid.
+/// Kinds of random worlds. For each kind, there was a grid with a bug that only worlds of this kind revealed.
 enum class Family {
   uniform,      ///< boxes of similar size in a hall
   clustered,    ///< boxes in three clusters
-  lattice,      ///< corners of boxes on cell borders, or one or two units in the last place beside them
-  size_ratio,   ///< box sizes over six powers of ten
-  negative,     ///< all coordinates negative, where truncation and floor differ
-  far,          ///< a million meters away, where a float's unit in the last place is 1/16 m
+  lattice,      ///< corners of boxes are on cell borders, or one or two units in the last place beside them
+  size_ratio,   ///< sizes of boxes over six powers of ten
+  negative,     ///< all coordinates are negative, where truncation and floor differ
+  far,          ///< a million meters away, where neighboring floats differ by 1/16 m
   empty,        ///< no two boxes touch, or there is at most one box
-  same_place,   ///< all boxes around the same point
+  same_place,   ///< all boxes are around the same point
   thin_plates,  ///< flat, long boxes that cross each other
   points,       ///< boxes of size 0, several of them at the same point
   around_zero,  ///< boxes that contain zero and extend little beyond it, down to denormal numbers
@@ -47,7 +47,7 @@ inline Aabb boxAround(const Eigen::Vector3d& center, const Eigen::Vector3d& size
 }
 
 inline Eigen::Vector3d randomVector(Random& random, double low, double high) {
-  const double x = random.uniform(low, high), y = random.uniform(low, high);  // fixes the order of random calls
+  const double x = random.uniform(low, high), y = random.uniform(low, high);  // separate calls, to fix their order
   return {x, y, random.uniform(low, high)};
 }
 
@@ -61,7 +61,7 @@ inline Aabb latticeBox(Random& random, float cell) {
   return box;
 }
 
-/// Returns 2 to 500 random boxes of the family, more often few than many. The family `empty` may have none.
+/// Returns 2 to 500 random boxes of the family, more often few than many. Worlds of the family `empty` may have no box.
 inline std::vector<Aabb> worldOf(Family family, unsigned seed) {
   Random random(seed);
   const double few = random.uniform(0, 1);
@@ -69,7 +69,7 @@ inline std::vector<Aabb> worldOf(Family family, unsigned seed) {
   if (family == Family::same_place) count = std::min(count, 60);
   if (family == Family::empty && random.chance(0.2)) count = random.below(2);
   const float cell = std::ldexp(1.f, random.between(-8, 8));
-  const double crowd = std::cbrt(double(count));  // scales the room, so that even few boxes have neighbors
+  const double crowd = std::cbrt(double(count));  // scales the room: even few boxes have neighbors
   const Eigen::Vector3d heap = randomVector(random, -1e3, 1e3), away(1e6, -1e6, 1e6);
   std::vector<Aabb> boxes;
   for (int i = 0; i < count; ++i) {
@@ -134,7 +134,7 @@ inline std::vector<Aabb> worldOf(Family family, unsigned seed) {
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-/// Returns every pair of boxes with a point in common. Checks all pairs.
+/// Returns all pairs of boxes that have a point in common. Checks all pairs.
 inline Pairs allOverlaps(const std::vector<Aabb>& boxes) {
   Pairs pairs;
   for (std::uint32_t i = 0; i < boxes.size(); ++i) {

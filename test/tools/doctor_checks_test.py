@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""The doctor's checks with facts that are made up: each cause is found, and told once. No ROS is needed."""
+"""Tests the checks of the doctor with invented facts. It must find each cause and report it once. Needs no ROS."""
 import json
 import pathlib
 import sys
@@ -20,7 +20,7 @@ from hgrid_doctor.facts import LOST, STALE, UNPLACED  # noqa: E402
 from hgrid_doctor.finding import EXIT_ERROR, EXIT_OK, EXIT_WARN, exit_code  # noqa: E402
 from hgrid_doctor.settings import InputSettings, read_settings  # noqa: E402
 
-MOVED = (1.0, *UNIT[1:])  # another pose
+MOVED = (1.0, *UNIT[1:])  # a pose other than UNIT
 
 
 class DoctorChecks(unittest.TestCase):
@@ -28,7 +28,7 @@ class DoctorChecks(unittest.TestCase):
         self.facts = sound()
 
     def expect(self, *names, code=EXIT_ERROR):
-        """The names of all findings, in order. @returns the first"""
+        """Checks the names of all findings and their order. @returns the first finding"""
         findings = diagnose(self.facts)
         self.assertEqual([finding.name for finding in findings], list(names), findings)
         self.assertEqual(exit_code(findings), code if names else EXIT_OK)
@@ -37,7 +37,7 @@ class DoctorChecks(unittest.TestCase):
         return findings[0] if findings else None
 
     def unplace(self, *links, state=UNPLACED):
-        """The node has no pose of these links; nobody sends their frames."""
+        """Removes the poses of these links from the node, and their frames from tf."""
         self.facts.streams = [each for each in self.facts.streams if each.child not in links]
         self.break_source("robot", f"UNPLACED robot/{links[0]}")
         self.facts.status.bodies = [body(f"robot/{link}", state) for link in links]
@@ -162,7 +162,7 @@ class DoctorChecks(unittest.TestCase):
 
     def test_no_description(self):
         self.facts.robots[0].key, self.facts.robots[0].description = "", None
-        self.expect()  # the node has loaded it, under another name
+        self.expect()  # the node has loaded the description under another name
         self.break_source("robot", "NOT_READY robot 'robot': parameter 'robot_description' is not set")
         self.facts.status.sources[0].bodies = 0
         self.facts.robots[0].candidates = ["/arm/robot_description"]
@@ -229,7 +229,7 @@ class DoctorChecks(unittest.TestCase):
 
     def test_an_srdf_that_is_missing_or_no_xml(self):
         self.facts.robots[0].semantic = None
-        self.expect()  # it may be missing where nobody named it
+        self.expect()  # the SRDF may be missing if no parameter names it
         self.facts.robots[0].settings.semantic = "my_srdf"
         self.expect("no_srdf", code=EXIT_WARN)
         self.facts.robots[0].semantic = parse_srdf("<robot>")
@@ -341,7 +341,7 @@ class DoctorChecks(unittest.TestCase):
         self.assertIn("/tf comes from '/rsp' only", self.expect("no_state_publisher").what)
 
     def add_left_arm(self):
-        """A second arm, whose own robot_state_publisher waits for joint states of its own."""
+        """Adds a second arm. Its robot_state_publisher waits for joint states on a topic of its own."""
         robot = RobotFacts(RobotSettings("left", tf_prefix="left"), "/left/robot_description", [], parse_urdf(URDF))
         self.facts.robots.append(robot)
         self.facts.graph.publishers["/tf"].append("/left_rsp")
@@ -524,7 +524,7 @@ class DoctorChecks(unittest.TestCase):
         self.facts.map_file_errors = {"map/hall": "there is no file /maps/hall.bt"}
         self.expect("no_map_file")
 
-    # The node's own word
+    # Findings from the node's ~status
 
     def test_a_source_that_nothing_else_explains(self):
         self.break_source("obstacle", "UNPLACED obstacle/crate: it never had a pose (frame 'cart')")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""The doctor beside real systems, sound and broken ones: its first finding, and its exit code."""
+"""Runs the doctor in real systems, some of them broken. Checks its findings and its exit code."""
 import os
 import pathlib
 import signal
@@ -40,7 +40,7 @@ class DoctorSystems(unittest.TestCase):
         self.system.joint_states()
 
     def expect(self, code, *names, arguments=()):
-        """The exit code, and the names of all findings: one cause must not be told twice."""
+        """Checks the exit code and the names of all findings. One cause must not be reported twice."""
         exit_code, findings = self.system.doctor(*arguments)
         self.assertEqual([finding["name"] for finding in findings], list(names), findings)
         self.assertEqual(exit_code, code, findings)

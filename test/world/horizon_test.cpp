@@ -37,7 +37,7 @@ TEST_F(HorizonTest, PairsThatCanMeetWithinItAreCandidates) {
     SCOPED_TRACE(gap);
     Scene scene(withHorizon(0.5));
     put(scene, ballOf("a", 0.6), at(0.0));
-    put(scene, ballOf("b", 0.4), at(1.0 + gap));  // both together approach with at most 1 m/s
+    put(scene, ballOf("b", 0.4), at(1.0 + gap));  // the two bodies approach each other with at most 1 m/s
     const auto snapshot = commit(scene, 1);
     ASSERT_EQ(snapshot->pairs().size(), gap <= 0.5 ? 1u : 0u);
     if (gap > 0.5) continue;
@@ -56,7 +56,7 @@ TEST_F(HorizonTest, CountsWhatABodyCanHaveMovedSinceItsPose) {
     Scene scene(options);
     const BodyId a = put(scene, ballOf("a", 1.0), at(0.0));
     put(scene, ballOf("b", 0.0), at(1.7));   // its box is 0.7 m from the box of body a
-    put(scene, ballOf("c", 0.0), at(-2.5));  // its box is 1.5 m from the box of body a, which is out of reach
+    put(scene, ballOf("c", 0.0), at(-2.5));  // its box is 1.5 m from the box of body a, too far for the horizon
     scene.setState(a, Freshness::late, age);
     const auto pairs = test::namedPairs(*commit(scene, 1));
     EXPECT_EQ(pairs.count({"obstacle/a", "obstacle/b"}), age > 0.2 ? 1u : 0u);
@@ -80,14 +80,14 @@ TEST_F(HorizonTest, WhatPassedThroughBetweenTwoTicksIsNotMissed) {
   const BodyId a = put(scene, ballOf("a", 1000.0), at(-5.0), std::chrono::milliseconds(1));
   put(scene, ballOf("b", 1.0), at(0.0), std::chrono::milliseconds(1));
   scene.add(ballOf("unplaced", 1.0));
-  // Within the horizon, the fast body a can move by 10 m, so it makes a pair in any case. To test the swept boxes
-  // alone, the second scene has a slow body that jumps.
+  // Within the horizon, the fast body a can move by 10 m, so it always forms a pair. The second scene has a
+  // slow body that jumps. It tests only the box around the path of a body.
   EXPECT_EQ(commit(scene, 1)->pairs().size(), 1u);
   Scene slow(withHorizon(0.001));
   const BodyId jumper = put(slow, ballOf("a", 1.0), at(-5.0), std::chrono::milliseconds(1));
   put(slow, ballOf("b", 1.0), at(0.0), std::chrono::milliseconds(1));
   EXPECT_TRUE(commit(slow, 1)->pairs().empty());
-  move(slow, jumper, at(5.0), 11);  // on its way it passes through b
+  move(slow, jumper, at(5.0), 11);  // on its way, the body passes through b
   const auto snapshot = commit(slow, 11);
   ASSERT_EQ(snapshot->pairs().size(), 1u);
   EXPECT_EQ(snapshot->pairs()[0].flags, kHorizonFlag | kTeleportFlag)

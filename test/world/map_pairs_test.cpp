@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Pairs, gaps and queries of maps, compared with a scan of all cells. A map is a body whose boxes are its cells.
+// Compares pairs, gaps and queries of maps with a scan of all cells. A map is a body whose boxes are its cells.
 #include <gtest/gtest.h>
 
 #include "hgrid_proximity/queries/query.h"
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kEdge = 0.1;
 
-/// A world of bodies and maps that change at random. It keeps the voxels of the maps for comparisons.
+/// A world of bodies and maps that change at random. It keeps the voxels of the maps for the comparison.
 class MapWorld {
  public:
   explicit MapWorld(unsigned seed) : random_(seed), scene_(options(seed)) {
@@ -31,10 +31,10 @@ class MapWorld {
     return options;
   }
   std::shared_ptr<const Snapshot> step() {
-    const int deed = random_.below(4);
-    if (deed == 0) fill(random_.chance(0.5) ? "room" : "hall");
-    if (deed == 1) scene_.place(ids_["room"], pose(), Time{++time_});
-    if (deed == 2) scene_.setState(ids_["hall"], random_.chance(0.5) ? Freshness::stale : Freshness::fresh, 0.3);
+    const int kind = random_.below(4);
+    if (kind == 0) fill(random_.chance(0.5) ? "room" : "hall");
+    if (kind == 1) scene_.place(ids_["room"], pose(), Time{++time_});
+    if (kind == 2) scene_.setState(ids_["hall"], random_.chance(0.5) ? Freshness::stale : Freshness::fresh, 0.3);
     BodyId id;
     for (int moves = random_.below(5); moves > 0; --moves) {
       if (scene_.find("obstacle/" + std::to_string(random_.below(12)), id)) scene_.place(id, pose(), Time{++time_});
@@ -62,7 +62,7 @@ class MapWorld {
   std::int64_t time_ = 1;
 };
 
-/// Computes the gap [m] of a body and a map by a loop over all voxels.
+/// Computes the gap [m] between a body and a map by a scan of all voxels.
 double gapOf(const MapWorld& world, const Snapshot& snapshot, std::uint32_t map, std::uint32_t body) {
   const Structure& structure = snapshot.structure();
   double gap = std::numeric_limits<double>::infinity();
@@ -156,7 +156,7 @@ TEST(MapPairs, WhatPassedTheOtherBetweenTwoTicksIsTold) {
     EXPECT_EQ(passing->pairs()[0].flags & kHorizonFlag, kHorizonFlag);
     EXPECT_NEAR(passing->pairs()[0].gap, 2.9, 1e-6);
     EXPECT_TRUE(scene.commit(Time{3}, {})->pairs().empty());
-    scene.place(room, at(6, 0.2), Time{4});  // apart; in the next tick both move by the same distance
+    scene.place(room, at(6, 0.2), Time{4});  // apart from the map; in the next tick both move by the same distance
     scene.place(ball_id, at(3, 0.2), Time{4});
     scene.commit(Time{4}, {});
     scene.place(room, at(-6, 0.2), Time{5});
@@ -182,7 +182,7 @@ TEST(MapPairs, CellsAreForMapsWithoutShapes) {
   EXPECT_EQ(refusalOf([&] { scene.setCells(room, cellsOf(0.1, {})); }), Code::unknown_id);
 }
 
-/// Returns the distance [m] of a point (in the world frame) from a voxel of a map.
+/// Returns the distance [m] between a point in the world frame and a voxel of a map.
 double distanceTo(const Snapshot& snapshot, std::uint32_t map, const Voxel& voxel, const Eigen::Vector3d& point) {
   const Eigen::Vector3d at = snapshot.poses()[map].world_from_body.inverse() * point;
   return (minCorner(voxel, kEdge) - at).cwiseMax(at - maxCorner(voxel, kEdge)).cwiseMax(Eigen::Vector3d::Zero()).norm();
@@ -237,7 +237,7 @@ TEST(MapQueries, OfSegmentsTellWhatIsMetFirst) {
   turned.linear() = Eigen::AngleAxisd(0.5 * M_PI, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   scene.place(room, turned, Time{1});
   scene.setState(room, Freshness::fresh, 0.0);
-  // The cell is at x 5 .. 6 m, y 0 .. 1 m in the map, which is y 5 .. 6 m, x -1 .. 0 m in the world.
+  // In the map, the cell is at x 5 .. 6 m, y 0 .. 1 m. In the world, it is at y 5 .. 6 m, x -1 .. 0 m.
   scene.setCells(room, cellsOf(1.0, {{32773, 32768, 32768, 0}}));
   const auto snapshot = scene.commit(Time{1}, {});
   QueryScope scope;
@@ -275,7 +275,7 @@ TEST(MapQueries, NearestToAStaleBodyIsNeverClearWhereThatMayBe) {
   tool.max_speed = 1.0;
   const BodyId asking = put(scene, tool, at(0));
   put(scene, ball("post", 0.1, Mobility::fixed), at(1));                                          // 0.8 m from the tool
-  scene.setCells(put(scene, mapBody("room"), at(-5)), cellsOf(1.0, {{32771, 32768, 32768, 0}}));  // x -2 .. -1 m
+  scene.setCells(put(scene, mapBody("room"), at(-5)), cellsOf(1.0, {{32771, 32768, 32768, 0}}));  // x is -2 .. -1 m
   const auto because = [&](const std::string& what, double limit) {
     QueryScope scope;
     scope.include = {what};

@@ -11,7 +11,7 @@ namespace {
 
 using Events = std::vector<std::string>;
 
-/// Tests PairEvents without a Scene: two bodies whose boxes are `gap` [m] apart, and rules and margins that change.
+/// Tests PairEvents without a Scene. The boxes of two bodies are `gap` [m] apart. Rules and margins change.
 class PairEventsFilter : public ::testing::Test {
  protected:
   void setRules(double margin, bool allowed) {

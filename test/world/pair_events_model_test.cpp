@@ -13,7 +13,8 @@ namespace {
 
 using test::Random;
 
-/// An event that the model expects. `gone` means the cause EventCause::bodies. The model does not predict other causes.
+/// An event that the model expects. `gone` is true for the cause EventCause::bodies. The model predicts no other
+/// causes.
 struct Expected {
   std::string kind, first, second;
   Time since{0};
@@ -23,7 +24,8 @@ struct Expected {
   }
 };
 
-/// A simple reference for the events: computes them by name and by comparing all bodies of a snapshot with each other.
+/// A simple reference for the events. It identifies bodies by name and compares all bodies of a snapshot with each
+/// other.
 class Model {
  public:
   explicit Model(const SceneOptions& options) : options_(options) {}
@@ -116,7 +118,7 @@ class Model {
   std::size_t events_ = 0;
 };
 
-/// A random story: bodies are added, move, become stale, are replaced and are removed. Sometimes an epoch begins.
+/// A random sequence of changes: bodies are added, moved, replaced and removed, and become stale. New epochs begin.
 class Story {
  public:
   explicit Story(unsigned seed) : random_(seed), scene_(optionsOf(random_, options_)), model_(options_) {}
@@ -124,7 +126,7 @@ class Story {
   void run(int ticks) {
     for (int tick = 1; tick <= ticks; ++tick) {
       SCOPED_TRACE("tick " + std::to_string(tick));
-      for (int deeds = random_.below(8); deeds > 0; --deeds) deed(tick);
+      for (int changes = random_.below(8); changes > 0; --changes) change(tick);
       if (random_.chance(0.02)) {
         scene_.beginEpoch(static_cast<std::uint64_t>(tick));
         model_.beginEpoch();
@@ -145,7 +147,7 @@ class Story {
     return options;
   }
 
-  void deed(int tick) {
+  void change(int tick) {
     const std::string name = "o" + std::to_string(random_.below(25));
     BodyId id;
     if (!scene_.find("obstacle/" + name, id)) {
@@ -153,14 +155,14 @@ class Story {
       if (random_.chance(0.7)) scene_.place(id, test::randomPose(random_, 3.0), Time{tick});
       return;
     }
-    const int deed = random_.below(100);
-    if (deed < 4) {
+    const int kind = random_.below(100);
+    if (kind < 4) {
       scene_.remove(id);
-    } else if (deed < 8) {
+    } else if (kind < 8) {
       const Pose pose = scene_.poseOf(id).world_from_body;
       scene_.remove(id);
       test::put(scene_, test::randomBody(random_, name), pose, Time{tick});
-    } else if (deed < 80) {
+    } else if (kind < 80) {
       Pose pose = scene_.poseOf(id).world_from_body;
       pose.translation() += test::randomVector(random_, -0.3, 0.3);
       scene_.place(id, pose, Time{tick});

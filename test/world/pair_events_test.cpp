@@ -124,7 +124,7 @@ TEST_F(PairEvents, OfABodyThatIsReplacedEndAndBegin) {
   scene_.remove(a);
   put("a", 0);
   EXPECT_EQ(next(), Events({"2 END BODIES obstacle/a obstacle/b", "3 BEGIN BODIES obstacle/a obstacle/b"}));
-  scene_.remove(scene_.add(test::ball("0")));  // causes a new structure with the same bodies
+  scene_.remove(scene_.add(test::ball("0")));  // creates a new structure with the same bodies
   EXPECT_EQ(next(), Events());
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Events and NearPair::since of pairs that truncation removes from the list.
+// Tests events and NearPair::since of pairs that are not listed because there are too many pairs.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -129,9 +129,11 @@ TEST_F(PairLimitsEvents, APairWithAMapThatIsCutDoesNotEnd) {
   EXPECT_EQ(next(), Events({"5 END MOVED map/room obstacle/b"}));
 }
 
-/// Claims about randomly moving bodies: No pair begins twice without an end. No pair ends while its gap exceeds the
-/// margin by at most the hysteresis. The number of pairs that are on is at most four times the limit. Unless this
-/// number is reached, all listed pairs are on.
+/// Claims about bodies that move at random:
+/// - A pair ends before it begins again.
+/// - A pair does not end while its gap exceeds the margin by at most the hysteresis.
+/// - At most four times as many pairs as the limit have begun and not ended.
+/// - If there are fewer such pairs, all listed pairs are among them.
 TEST(PairLimitsEventsModel, EventsAreConsistentWhateverIsTruncated) {
   std::size_t cut = 0, full = 0, ends = 0;
   for (unsigned seed = 1; seed <= 30; ++seed) {
@@ -146,7 +148,7 @@ TEST(PairLimitsEventsModel, EventsAreConsistentWhateverIsTruncated) {
     for (int i = 0; i < 14; ++i) bodies.push_back(test::put(scene, test::ball(std::to_string(10 + i), 0.1), at(0)));
     std::map<std::pair<std::uint32_t, std::uint32_t>, Time> on;
     for (int tick = 1; tick <= 60; ++tick) {
-      // While the bodies are crowded, most pairs stay near, but it changes which of them are nearest.
+      // While the bodies are crowded, most pairs stay near. But the pairs with the smallest gaps change.
       const double far = (tick / 15) % 2 == 0 ? 0.3 : 3.0;
       for (const BodyId id : bodies) {
         if (random.chance(0.5)) scene.place(id, at(random.uniform(-far, far), random.uniform(-far, far)), Time{tick});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Tests which pairs a snapshot lists if there are more than SceneOptions::max_pairs.
+// Tests which pairs a snapshot lists if there are more than SceneOptions::max_pairs pairs.
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -18,7 +18,7 @@ namespace {
 using test::at;
 using test::Random;
 
-constexpr std::size_t kCollected = 65536;  // pairs of boxes that a tick collects if max_pairs is small
+constexpr std::size_t kCollected = 65536;  // number of pairs of boxes that a tick collects if max_pairs is small
 
 using Pairs = std::vector<NearPair>;
 
@@ -29,8 +29,8 @@ bool same(const Pairs& a, const Pairs& b) {
   });
 }
 
-/// A reference for the selection: returns the `most` pairs with the smallest gaps, of equal gaps the first by name. The
-/// result is sorted by name.
+/// A reference for the selection. Returns the `most` pairs with the smallest gaps. Among pairs with equal gaps, the
+/// first by name are taken. The result is sorted by name.
 Pairs nearestOf(Pairs pairs, std::size_t most) {
   std::sort(pairs.begin(), pairs.end(), [](const NearPair& a, const NearPair& b) {
     return std::tie(a.gap, a.first, a.second) < std::tie(b.gap, b.first, b.second);
@@ -42,8 +42,8 @@ Pairs nearestOf(Pairs pairs, std::size_t most) {
   return pairs;
 }
 
-/// Claim: of the pairs that were found, a snapshot lists those with the smallest gaps, of equal gaps the first by name.
-/// This includes bodies with several shapes, maps, and pairs that the horizon selects.
+/// Claim: a snapshot lists the pairs with the smallest gaps. Among pairs with equal gaps, it lists the first by name.
+/// This also holds for bodies with several shapes, for maps, and for pairs that are near because of the horizon.
 TEST(PairLimits, ListTheNearestPairs) {
   for (unsigned seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -80,7 +80,7 @@ class Pile {
   static constexpr int kBodies = 500;
   static constexpr std::size_t kPairs = kBodies * (kBodies - 1) / 2, kListed = 1000;
 
-  /// @param order  order in which the bodies are added
+  /// @param order  indices of the bodies in the order in which they are added
   Pile(SceneOptions options, const std::vector<int>& order) : scene_(withLimit(options)), ids_(kBodies) {
     for (const int i : order) ids_[std::size_t(i)] = scene_.add(test::ball(nameOf(i), 0.005));
     for (int i = 0; i < kBodies; ++i) place(i, poseOf(i));
@@ -114,7 +114,7 @@ std::vector<int> ascending() {
   return order;
 }
 
-/// Returns the pairs of the pile that a snapshot must list: the nearest of the first kCollected pairs by name.
+/// Returns the pairs that a snapshot of the pile must list: the nearest of the first kCollected pairs, sorted by name.
 Pairs expectedOf(const Snapshot& snapshot) {
   Pairs collected;
   for (std::uint32_t i = 0; i < Pile::kBodies; ++i) {
@@ -135,7 +135,8 @@ TEST(PairLimits, StopCollectingByName) {
   EXPECT_TRUE(same(snapshot->pairs(), expectedOf(*snapshot)));
 }
 
-/// Claim: the list depends neither on the number of threads, nor on the order of insertion, nor on earlier ticks.
+/// Claim: the list does not depend on the number of threads, on the order in which bodies were added, or on earlier
+/// ticks.
 TEST(PairLimits, SelectTheSamePairsInEveryHistory) {
   for (unsigned seed = 1; seed <= 12; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -168,8 +169,8 @@ TEST(PairLimits, ThatAreZeroListAllPairs) {
   EXPECT_EQ(snapshot->pairs().size(), Pile::kPairs);
 }
 
-/// Claim: a pile whose pairs are switched off by a rule takes bounded work. The snapshot says that the search stopped
-/// at its limit.
+/// Claim: if a rule switches off all pairs of a pile, the search for pairs still takes bounded work. The snapshot says
+/// that the search stopped at its limit.
 TEST(PairLimits, ApplyToPairsThatARuleSwitchesOff) {
   SceneOptions options;
   options.max_pairs = 1000;
@@ -192,8 +193,8 @@ TEST(PairLimits, DoNotApplyToFixedBodiesAmongEachOther) {
   EXPECT_FALSE(scene.commit(Time{1}, {})->truncated());
 }
 
-/// Claim: a tick collects pairs with maps in the order of the names of the maps, then of the bodies, up to the same
-/// limit.
+/// Claim: a tick collects at most kCollected pairs with maps. It collects the pairs of the first map by name first. For
+/// each map, it collects the pairs in the order of the names of the other bodies.
 TEST(PairLimits, ApplyToPairsWithMaps) {
   constexpr int kMaps = 270, kBodies = 250;
   SceneOptions options;

@@ -30,8 +30,9 @@ struct Cell {
   int tick = 0;
 };
 
-/// Checks a world that is incomplete because of `word`: queries far from all bodies answer UNKNOWN instead of CLEAR,
-/// and a query near a body still answers HIT.
+/// Checks an incomplete world: queries far from all bodies answer UNKNOWN instead of CLEAR, and a query near a body
+/// still answers HIT.
+/// @param word  text that the first reason of the snapshot must contain
 void expectDoubt(const Snapshot& snapshot, const std::string& word) {
   EXPECT_FALSE(snapshot.complete());
   ASSERT_FALSE(snapshot.reasons().empty());
@@ -67,7 +68,7 @@ TEST(Completeness, AnEmptyWorldIsCompleteAndClear) {
 TEST(Completeness, ABodyThatNeverHadAPoseIsMissedByName) {
   Cell cell;
   const BodyId ghost = cell.scene.add(test::ball("ghost"));
-  cell.scene.setState(ghost, Freshness::fresh, 0.0);  // does not place the body
+  cell.scene.setState(ghost, Freshness::fresh, 0.0);  // setState() does not place the body
   expectDoubt(cell.now(), "obstacle/ghost");
   EXPECT_EQ(cell.snapshot->poses()[test::indexOf(*cell.snapshot, "obstacle/ghost")].state, Freshness::unplaced);
   EXPECT_EQ(cell.snapshot->worstState(), Freshness::unplaced);
@@ -104,7 +105,7 @@ TEST(Completeness, LateAndStaleBodiesAreFlaggedOnly) {
   }
 }
 
-// A stale body may have moved since its pose, so a query near it must not answer CLEAR.
+// A stale body may have moved since the time of its pose, so a query near it must not answer CLEAR.
 TEST(Completeness, WhereAStaleBodyMayHaveComeIsNotClear) {
   Cell cell;
   Body body = test::ball("drifter");
@@ -113,7 +114,7 @@ TEST(Completeness, WhereAStaleBodyMayHaveComeIsNotClear) {
   const Sphere near{{102, 0, 0}, 1.0};
   const Segment beside{{102, -5, 0}, {102, 5, 0}, 1.0};
   EXPECT_EQ(query(cell.now(), near, {}).verdict, Verdict::clear);
-  cell.scene.setState(drifter, Freshness::stale, 1.5);  // it may have moved by 0.75 m; the query is 0.5 m away
+  cell.scene.setState(drifter, Freshness::stale, 1.5);  // the body may have moved by 0.75 m; the query is 0.5 m away
   cell.now();
   for (const QueryAnswer& answer : {query(*cell.snapshot, near, {}), query(*cell.snapshot, beside, {})}) {
     EXPECT_EQ(answer.verdict, Verdict::unknown);

@@ -16,7 +16,7 @@ using test::says;
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 const double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Two spheres that are near each other. Refused calls must change neither the spheres nor their pair.
+/// Two spheres that are near each other. Calls that are refused must not change the spheres or their pair.
 class Door : public ::testing::Test {
  protected:
   Door() : scene_(options()) {
@@ -37,9 +37,9 @@ class Door : public ::testing::Test {
     EXPECT_EQ(snapshot->pairs()[0].since, Time{1}) << "a refused call has interrupted the pair";
     EXPECT_TRUE(snapshot->complete());
   }
-  void expectRefused(Code code, const std::function<void()>& deed, const std::string& word) {
+  void expectRefused(Code code, const std::function<void()>& act, const std::string& word) {
     std::string sentence;
-    EXPECT_EQ(refusalOf(deed, &sentence), code) << word;
+    EXPECT_EQ(refusalOf(act, &sentence), code) << word;
     EXPECT_TRUE(says(sentence, word));
     expectUnchanged();
   }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Claim: if memory runs out during a change or a commit of a scene, nothing has changed. The tests play scripts of
+// Claim: if memory runs out during a change or a commit of a scene, the scene does not change. The tests run scripts of
 // changes and commits many times. Each time another memory allocation fails. Then the failed step is either repeated or
-// left out. Every later snapshot must equal the snapshot of a scene in which nothing failed.
+// left out. Every later snapshot must equal the snapshot of a scene in which no allocation failed.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -21,7 +21,7 @@ namespace {
 
 using Snapshots = std::vector<std::shared_ptr<const Snapshot>>;
 
-/// A step of a script. It finds its bodies by name, so it can be played even if an earlier step was left out.
+/// A step of a script. It finds its bodies by name, so it can run even if an earlier step was left out.
 struct Step {
   std::string name;
   std::function<void(Scene&, Snapshots&)> play;
@@ -43,7 +43,7 @@ Step removing(const std::string& name) {
           }};
 }
 
-/// Replaces the bodies of a source by other bodies, as when a robot or a map is loaded again.
+/// Replaces the bodies of a source by other bodies, like the reload of a robot or a map.
 Step exchanging(const std::string& source, const std::vector<Body>& in, const std::vector<std::string>& names) {
   return {"exchange " + source, [=](Scene& scene, Snapshots&) {
             std::vector<BodyId> out;
@@ -84,7 +84,7 @@ Step placing(const std::vector<Placing>& placings, Time stamp) {
           }};
 }
 
-/// Commits the scene. The snapshots are kept for a while, so that the scene reuses some of them later.
+/// Commits the scene. Keeps the snapshot for a while; the scene may reuse the snapshot after its release.
 Step committing(Time stamp, const std::vector<SourceGap>& gaps) {
   return {"commit", [=](Scene& scene, Snapshots& snapshots) {
             const std::shared_ptr<const Snapshot> snapshot = scene.commit(stamp, gaps);
@@ -184,14 +184,14 @@ class Writer {
   int stamp_ = 0, number_ = 0;
 };
 
-/// A failure to inject: the k-th memory allocation of a step fails.
+/// A fault that the test causes: the k-th memory allocation of a step fails.
 struct Fault {
   std::size_t step, k;
   test::Failing which;
-  bool again;  // true: the failed step is repeated at once; false: it is left out
+  bool again;  // whether the failed step is repeated at once; otherwise it is left out
 };
 
-/// The contents of the snapshots after a certain step, and whether the injected failure has happened.
+/// The contents of the snapshots after a certain step, and whether the fault has occurred.
 struct Played {
   std::vector<test::Told> told;
   bool failed = false;
@@ -221,7 +221,7 @@ Played play(const Script& script, std::size_t from, const Fault* fault, std::siz
   return played;
 }
 
-/// Returns the first step in which failures are tried. The steps before it only build the world.
+/// Returns the index of the first step in which allocations fail. The steps before it only build the world.
 std::size_t firstTried(const Script& script) {
   std::size_t commits = 0;
   for (std::size_t i = 0; i < script.steps.size(); ++i) {
@@ -267,7 +267,7 @@ TEST(SceneFailedAllocation, LeavesNoTraceInLaterSnapshots) {
   EXPECT_GT(failures, 2000u) << "too few allocations failed for a meaningful test";
 }
 
-/// Queries the snapshot on a new thread each time, because the buffers of a new thread are empty.
+/// Uses a new thread for each query, because the buffers of a new thread are empty.
 TEST(SceneFailedAllocation, OfAQueryChangesNoLaterAnswer) {
   Script script = Writer(11).written(2);
   Scene scene(script.options);
@@ -287,8 +287,8 @@ TEST(SceneFailedAllocation, OfAQueryChangesNoLaterAnswer) {
   EXPECT_GT(failures, 10u);
 }
 
-/// Claim: an added body may have the name of a removed one. If one of the bodies is invalid, exchange() changes
-/// nothing.
+/// Claim: exchange() may add a body with the name of a body that it removes. If one of the new bodies is invalid,
+/// exchange() changes nothing.
 TEST(SceneExchange, TakesAllOrNothing) {
   SceneOptions options;
   options.max_bodies = 3;

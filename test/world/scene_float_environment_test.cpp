@@ -17,8 +17,8 @@ namespace {
 
 using test::Random;
 
-/// A scene whose results depend on rounding: sizes and positions that floats cannot represent exactly, gaps close to
-/// the margin, and denormal numbers.
+/// A scene whose results depend on rounding. Floats cannot represent its sizes and positions exactly. Some gaps are
+/// close to the margin, and some numbers are denormal.
 struct World {
   World() : scene(options()) {
     Random random(11);
@@ -46,7 +46,7 @@ struct Outcome {
   }
 };
 
-/// Moves all bodies of an existing world, commits and queries it: everything that a tick and a query do.
+/// Moves all bodies of a world, then commits and queries it. This runs all code of a tick and of a query.
 Outcome outcomeOf(World& world) {
   Random random(12);
   for (const BodyId& id : world.ids) {
@@ -72,8 +72,8 @@ Outcome outcomeOf(World& world) {
   return outcome;
 }
 
-/// A floating-point mode of the processor. Only the code under test may run in it. The inputs of the test must be
-/// computed outside the mode, because they would differ too.
+/// A floating-point mode of the processor. Only the code under test may run in the mode. The inputs of the test must be
+/// computed in the normal mode, because otherwise they would differ, too.
 struct Mode {
   const char* name;
   std::function<void()> set;
@@ -161,8 +161,8 @@ TEST(SceneFloatEnvironment, CommitAndQueriesFindTheSameInEveryRoundingMode) {
   }
 }
 
-// The poses differ by one unit in the last place. In this range, a face of the box passes from one float to the next.
-// If an addition were rounded differently, the face would pass at another pose.
+// Successive poses differ by one unit in the last place. In this range of poses, a face of the box changes from one
+// float to the next. If an addition were rounded differently, the face would change at another pose.
 TEST(SceneFloatEnvironment, PlacingMakesTheSameBoxesInEveryRoundingMode) {
   std::vector<Pose> poses;
   double x = 0.5 + 0x1p-23 - 0x1p-44;

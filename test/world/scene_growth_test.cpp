@@ -9,7 +9,7 @@
 namespace hgrid {
 namespace {
 
-/// Two spheres whose boxes are 1 m apart (up to a rounding error), with a margin of 1/8 m.
+/// Two spheres whose boxes are 1 m apart, up to a rounding error. The margin is 1/8 m.
 class Growth : public ::testing::Test {
  protected:
   Growth() : scene_(optionsWithCap(2.0)) {}
@@ -41,7 +41,7 @@ TEST_F(Growth, BeginsWhenThePoseIsOldWhateverTheStateIsCalled) {
   scene_.setState(id, Freshness::fresh, 0.25);
   EXPECT_EQ(now().poses()[0].growth, 0.0);
   EXPECT_TRUE(snapshot_->pairs().empty());
-  // The pose of body a is old, but its state is not STALE because its frame is updated rarely.
+  // The pose of body a is old. But its state is not STALE, because its frame is published rarely.
   for (const Freshness state : {Freshness::fresh, Freshness::late}) {
     scene_.setState(id, state, 0.375);
     EXPECT_EQ(now().poses()[0].growth, 0.75);
@@ -105,7 +105,7 @@ TEST_F(Growth, EndsWhenTheBodyIsFreshAgain) {
   EXPECT_EQ(snapshot_->poses()[0].growth, 0.0);
 }
 
-/// Links 0 and 2 of one arm, which are not connected by a joint, and link 2 of another arm.
+/// Links 0 and 2 of one arm, which no joint connects directly, and link 2 of another arm.
 class RobotGrowth : public Growth {
  protected:
   RobotGrowth() {

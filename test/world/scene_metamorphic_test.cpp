@@ -19,7 +19,7 @@ struct Variation {
   double margin = 0.125;
   int count = 40;
   double growth_cap = 1.0;
-  bool degraded = false;   ///< whether every body is in a state other than FRESH
+  bool degraded = false;   ///< whether no body is FRESH
   bool backwards = false;  ///< whether the bodies are added in the opposite order
   double finest_edge = 0.0;
   int threads = 1;

@@ -9,7 +9,7 @@ namespace {
 
 using test::Random;
 
-/// The data of one body that the test passed to the scene. The test compares the snapshots with it.
+/// The data of one body that the test gave to the scene. The test compares the snapshots with this data.
 struct Told {
   Body body;
   BodyId id;
@@ -25,7 +25,7 @@ void expectRecorded(const Snapshot& snapshot, const World& world, const SceneOpt
   ASSERT_EQ(structure.first_proxy.size(), world.size() + 1);
   ASSERT_EQ(structure.least_margin, options.margin);
   std::uint32_t i = 0, proxy = 0;
-  for (const auto& entry : world) {  // the map is sorted by name, as the bodies of the structure are
+  for (const auto& entry : world) {  // the map and the bodies of the structure are sorted by name
     const Told& told = entry.second;
     ASSERT_EQ(structure.bodies[i].name, entry.first);
     ASSERT_EQ(structure.ids[i], told.id);
@@ -72,7 +72,7 @@ class Story {
   void run(int ticks) {
     for (int tick = 1; tick <= ticks; ++tick) {
       SCOPED_TRACE("tick " + std::to_string(tick));
-      for (int deeds = random_.below(10); deeds > 0; --deeds) deed(tick);
+      for (int changes = random_.below(10); changes > 0; --changes) change(tick);
       const auto snapshot = scene_.commit(Time{tick}, {});
       ASSERT_EQ(snapshot->sequence(), std::uint64_t(tick));
       ASSERT_EQ(snapshot->stamp(), Time{tick});
@@ -81,7 +81,7 @@ class Story {
       ASSERT_NO_FATAL_FAILURE(test::expectPairsOfTheOracle(*snapshot, options_.margin));
       ASSERT_NO_THROW(snapshot->broadPhase().checkInvariants());
       pairs_ += snapshot->pairs().size();
-      if (random_.chance(0.3)) kept_.push_back(snapshot);  // like a reader that keeps a snapshot for a while
+      if (random_.chance(0.3)) kept_.push_back(snapshot);  // keeps some snapshots for a while, like a reader
       if (kept_.size() > 3) kept_.erase(kept_.begin());
     }
   }
@@ -97,9 +97,9 @@ class Story {
     return options;
   }
 
-  void deed(int tick) {
-    const int deed = random_.below(100);
-    if (deed < 30 || world_.empty()) {
+  void change(int tick) {
+    const int kind = random_.below(100);
+    if (kind < 30 || world_.empty()) {
       Told told;
       const std::string name = "o" + std::to_string(random_.below(60));
       if (world_.count("obstacle/" + name) != 0) return;
@@ -111,10 +111,10 @@ class Story {
     auto chosen = world_.begin();
     std::advance(chosen, random_.below(int(world_.size())));
     Told& told = chosen->second;
-    if (deed < 38) {
+    if (kind < 38) {
       scene_.remove(told.id);
       world_.erase(chosen);
-    } else if (deed < 80) {
+    } else if (kind < 80) {
       told.pose = test::randomPose(random_, 3.0);
       const Pose before = scene_.poseOf(told.id).world_from_body;
       if (random_.chance(0.2)) told.pose = before;  // the same pose with a later stamp
@@ -159,7 +159,7 @@ TEST(SceneOracle, MarginsEqualToTheGapCountAndLessDoesNot) {
                  right = test::put(scene, test::ball("right"), test::at(9));
     const auto apart = scene.commit(Time{1}, {});
     const float edge = apart->boxes()[0].max.x();
-    // Moves the right sphere in tiny steps, so that its gap is alternately just within and just beyond the margin.
+    // Moves the right sphere in tiny steps. Its gap changes between a little less and a little more than the margin.
     double x = double(edge) + margin + 0.5;
     for (int i = 0; i < 40; ++i) {
       scene.place(right, test::at(x), Time{i + 2});

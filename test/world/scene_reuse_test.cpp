@@ -12,7 +12,7 @@ namespace {
 
 using test::Random;
 
-/// Compares a snapshot with the snapshot of a new scene that has the same bodies.
+/// Compares a snapshot with a snapshot of a new scene that has the same bodies.
 void expectAsFromANewScene(const Snapshot& snapshot, const std::map<std::string, BodyPose>& told) {
   Scene fresh{SceneOptions{}};
   for (const auto& named : told) {
@@ -47,8 +47,8 @@ TEST(SceneReuse, ASnapshotThatWasUsedBeforeSaysWhatANewOneWould) {
     std::map<std::string, BodyPose> told;
     std::vector<std::shared_ptr<const Snapshot>> held;
     for (int tick = 1; tick <= 60; ++tick) {
-      const int deeds = random.below(4);  // a small number, so that most bodies rest for many ticks
-      for (int deed = 0; deed < deeds; ++deed) {
+      const int changes = random.below(4);  // so few that most bodies rest for many ticks
+      for (int change = 0; change < changes; ++change) {
         const std::string name = std::to_string(random.below(12));
         BodyId id;
         if (!scene.find("obstacle/" + name, id)) {
@@ -70,7 +70,7 @@ TEST(SceneReuse, ASnapshotThatWasUsedBeforeSaysWhatANewOneWould) {
       }
       held.push_back(scene.commit(Time{tick}, {}));
       expectAsFromANewScene(*held.back(), told);
-      // Releases snapshots in random order, so that the scene also reuses old ones.
+      // Releases snapshots in random order. Then the scene also reuses old ones.
       while (static_cast<int>(held.size()) > random.below(5)) {
         held.erase(held.begin() + random.below(static_cast<int>(held.size())));
       }

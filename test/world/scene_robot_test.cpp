@@ -90,7 +90,7 @@ TEST(SceneRobot, SinceOutlivesOtherBodiesComingAndGoing) {
   test::put(scene, test::ball("m"), test::at(0));
   const BodyId n = test::put(scene, test::ball("n"), test::at(0.5));
   EXPECT_EQ(scene.commit(Time{10}, {})->pairs().at(0).since, Time{10});
-  const BodyId a = test::put(scene, test::ball("a"), test::at(50));  // its name comes before m and n
+  const BodyId a = test::put(scene, test::ball("a"), test::at(50));  // the name is before m and n
   const auto later = scene.commit(Time{20}, {});
   ASSERT_EQ(later->pairs().size(), 1u);
   EXPECT_EQ(later->pairs()[0].first, 1u);

@@ -14,7 +14,7 @@ namespace {
 
 using test::Random;
 
-/// A copy of the data of a snapshot, for later comparisons.
+/// A copy of the data of a snapshot for later comparisons.
 struct Copy {
   explicit Copy(const Snapshot& snapshot)
       : sequence(snapshot.sequence()), boxes(snapshot.boxes()), reasons(snapshot.reasons()) {
@@ -85,7 +85,7 @@ TEST(SceneThreads, ASnapshotOutlivesItsScene) {
   EXPECT_GT(query(*snapshot, Sphere{{0, 0, 0}, 5}, {}).total, 5u);
 }
 
-/// With ThreadSanitizer this test also finds data races between the readers and the writer.
+/// Readers query snapshots while the writer commits. ThreadSanitizer also finds data races between them.
 TEST(SceneThreads, ReadersAskSnapshotsWhileTheWriterCommits) {
   std::mutex mutex;
   std::shared_ptr<const Snapshot> latest;
@@ -116,7 +116,7 @@ TEST(SceneThreads, ReadersAskSnapshotsWhileTheWriterCommits) {
   Scene scene{SceneOptions{}};
   Random random(3);
   std::vector<BodyId> ids;
-  // Runs at least 300 ticks, and more until the readers have read 30 snapshots.
+  // Runs at least 300 ticks. Continues until the readers have read 30 snapshots.
   for (int tick = 1; tick <= 300 || (asked < 30 && tick < 1000000); ++tick) {
     anotherTick(scene, random, ids, tick);
     auto snapshot = scene.commit(Time{tick}, {});

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""What `doctor` is made of.
+"""The modules of `doctor`.
 
-`observe` reads a running system and makes plain data of it (`facts`), `checks` are pure functions from that data to
-findings, `report` prints them.
+`observe` reads a running system and stores what it sees as plain data (`facts`). `checks` are pure functions that turn
+facts into findings. `report` prints the findings.
 """

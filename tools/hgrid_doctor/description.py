@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Robot descriptions as far as a diagnosis needs them: links, joints, shapes, and why a text is no description."""
+"""The data of robot descriptions that the checks need: links, joints, shapes, and why a text is not a description."""
 from __future__ import annotations
 
 import re
@@ -30,18 +30,18 @@ class Joint:
 
 @dataclass
 class Description:
-    """A URDF. Where `flaw` is set, the rest is empty."""
+    """A URDF. If `flaw` is not empty, the members below `detail` are empty."""
 
     name: str = ""
-    flaw: str = ""  # FLAWS
+    flaw: str = ""  # one of FLAWS; empty: none
     detail: str = ""  # where the flaw is
     links: Dict[str, Link] = field(default_factory=dict)
     joints: List[Joint] = field(default_factory=list)
     root: str = ""
-    joint_above: Dict[str, Joint] = field(default_factory=dict)  # by child link
+    joint_above: Dict[str, Joint] = field(default_factory=dict)  # joint by its child link
 
     def group_root(self, link: str) -> str:
-        """The link whose frame places a link: only fixed joints are between them."""
+        """Returns the topmost link that only fixed joints connect with `link`. Its frame places `link`."""
         above, seen = self.joint_above, set()
         while link in above and above[link].type == "fixed" and link not in seen:
             seen.add(link)
@@ -60,12 +60,12 @@ class Description:
 
 @dataclass
 class Semantic:
-    """An SRDF. Where `flaw` is set, the rest is empty."""
+    """An SRDF. If `flaw` is not empty, the members below `detail` are empty."""
 
     name: str = ""
     flaw: str = ""
     detail: str = ""
-    links: Set[str] = field(default_factory=set)  # that its rules name
+    links: Set[str] = field(default_factory=set)  # links that its rules name
     rules: int = 0
 
 
@@ -109,13 +109,13 @@ def parse_srdf(text: object) -> Semantic:
 
 
 def _parse(text):
-    """Root element, flaw, detail."""
+    """Returns the root element, the flaw and its details."""
     if not isinstance(text, str) or not text.strip():
         return None, "not_text", "it is empty" if isinstance(text, str) else f"it is of type {type(text).__name__}"
     try:
         root = xml.fromstring(text.strip())
     except (xml.ParseError, ValueError) as error:
-        # A macro whose prefix is not declared is no XML, but what is wrong is the missing expansion.
+        # XML with an undeclared prefix is invalid. But the cause is that the xacro was not expanded.
         return (None, "xacro", "it uses <xacro:...>") if "<xacro:" in text else (None, "not_xml", str(error))
     macro = _macro_in(root)
     if macro:
@@ -126,7 +126,7 @@ def _parse(text):
 
 
 def _macro_in(root):
-    """What is left of xacro: an element or an expression; empty: nothing."""
+    """Returns an element or an expression of xacro that was not expanded; empty if there is none."""
     for element in root.iter():
         if isinstance(element.tag, str) and re.match(r"\{[^}]*xacro[^}]*\}", element.tag):
             return f"<xacro:{element.tag.rpartition('}')[2]}>"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""What was observed, as plain data: no ROS is needed to make it or to judge it."""
+"""The facts: what was observed, as plain data. Facts can be created and judged without ROS."""
 from __future__ import annotations
 
 from dataclasses import dataclass, field
@@ -9,25 +9,25 @@ from typing import Any, Dict, List, Optional, Set, Tuple
 from hgrid_doctor.description import Description, Semantic
 from hgrid_doctor.settings import RobotSettings, Settings
 
-STATES = ("FRESH", "LATE", "STALE", "LOST", "FROZEN", "INVALID", "UNPLACED")  # as BodyState.msg numbers them
+STATES = ("FRESH", "LATE", "STALE", "LOST", "FROZEN", "INVALID", "UNPLACED")  # numbered as in BodyState.msg
 STALE, LOST, FROZEN, INVALID, UNPLACED = range(2, 7)
 
 
 @dataclass
 class Environment:
-    """This shell's idea of the network."""
+    """How this shell sees the network."""
 
     master_uri: str = ""
     master_uri_is_set: bool = True
     ros_ip: str = ""
     ros_hostname: str = ""
-    own_name: str = ""  # what nodes of this shell would announce
-    own_name_error: str = ""
+    own_name: str = ""  # address that nodes of this shell announce
+    own_name_error: str = ""  # why others cannot use it; empty: they can
 
 
 @dataclass
 class Graph:
-    """What the master says: nodes by topic, types by topic."""
+    """What the master reports: publishers, subscribers and types by topic, nodes by service."""
 
     error: str = ""  # why the master does not answer
     publishers: Dict[str, List[str]] = field(default_factory=dict)
@@ -41,45 +41,45 @@ class Graph:
         return {node for nodes in registrations for node in nodes}
 
     def topics_of(self, node: str) -> Tuple[Set[str], Set[str]]:
-        """What a node publishes, and what it subscribes to."""
+        """Returns the topics that a node publishes, and the topics that it subscribes to."""
         published = {topic for topic, nodes in self.publishers.items() if node in nodes}
         return published, {topic for topic, nodes in self.subscribers.items() if node in nodes}
 
 
 @dataclass
 class NodeFacts:
-    """A node and its ping."""
+    """A node, and how it answered a request for its process id."""
 
     name: str
     uri: str = ""  # empty: the master does not know it
     host: str = ""
     host_error: str = ""  # why the host's name cannot be resolved
     pid: Optional[int] = None
-    error: str = ""  # why it does not answer
+    error: str = ""  # why the node does not answer
 
 
 @dataclass
 class TfStream:
-    """What one publisher says of one frame in one parent."""
+    """What one publisher sends about one frame with one parent."""
 
     publisher: str
     parent: str
     child: str
     static: bool
     count: int = 0
-    offsets: List[float] = field(default_factory=list)  # [s] stamp - time of arrival; negative: in the past
+    offsets: List[float] = field(default_factory=list)  # [s] stamp - time of arrival; negative for a stamp in the past
     zero_stamps: int = 0
     poses: List[Tuple[float, Tuple[float, ...]]] = field(default_factory=list)  # stamp [s]; x y z [m], quaternion
 
 
 @dataclass
 class TopicFacts:
-    """What came on a topic while it was listened to, by publisher."""
+    """What the publishers of a topic sent while the doctor listened. Each member is by name of the publisher."""
 
-    counts: Dict[str, int] = field(default_factory=dict)
-    errors: Dict[str, str] = field(default_factory=dict)  # why nothing could come
+    counts: Dict[str, int] = field(default_factory=dict)  # number of messages
+    errors: Dict[str, str] = field(default_factory=dict)  # why nothing could be received
     types: Dict[str, str] = field(default_factory=dict)
-    frames: Dict[str, str] = field(default_factory=dict)  # frame_id of the newest header, where that was looked at
+    frames: Dict[str, str] = field(default_factory=dict)  # frame_id of the newest header, for topics of maps and clouds
 
     def total(self) -> int:
         return sum(self.counts.values())
@@ -87,48 +87,48 @@ class TopicFacts:
 
 @dataclass
 class RobotFacts:
-    """A robot of the node's parameters, with its descriptions."""
+    """A robot of the parameter ~robots, and its descriptions."""
 
     settings: RobotSettings
-    key: str = ""  # the parameter that holds the URDF; empty: there is none
-    candidates: List[str] = field(default_factory=list)  # other parameters of that name
+    key: str = ""  # name of the parameter that contains the URDF; empty if there is none
+    candidates: List[str] = field(default_factory=list)  # other parameters whose name ends in robot_description
     description: Optional[Description] = None
     semantic_key: str = ""
     semantic: Optional[Semantic] = None
-    mesh_errors: Dict[str, str] = field(default_factory=dict)  # by URI
+    mesh_errors: Dict[str, str] = field(default_factory=dict)  # why a mesh cannot be read, by its URI
 
 
 @dataclass
 class Facts:
-    """Everything that the checks look at."""
+    """All facts that the checks use."""
 
     node: str = "/proximity"
-    host: str = ""  # the process that serves the node: itself, or a nodelet manager; empty: nobody
-    others: List[str] = field(default_factory=list)  # other proximity nodes
+    host: str = ""  # name of the process that runs the node: the node itself or a nodelet manager; empty: none
+    others: List[str] = field(default_factory=list)  # names of other proximity nodes
     environment: Environment = field(default_factory=Environment)
     graph: Graph = field(default_factory=Graph)
-    nodes: Dict[str, NodeFacts] = field(default_factory=dict)  # those that matter
-    pid_after: Optional[int] = None  # of the host, when listening was over
+    nodes: Dict[str, NodeFacts] = field(default_factory=dict)  # nodes that the checks need, by name
+    pid_after: Optional[int] = None  # process id of `host` at the end of listening
     settings: Settings = field(default_factory=Settings)
     robots: List[RobotFacts] = field(default_factory=list)
-    listened: float = 0.0  # [s]
-    wall: float = 0.0  # [s] the wall clock when listening was over
+    listened: float = 0.0  # [s] how long the doctor listened to topics
+    wall: float = 0.0  # [s] wall clock at the end of listening
     topics: Dict[str, TopicFacts] = field(default_factory=dict)
-    clock: List[float] = field(default_factory=list)  # [s] values of /clock
+    clock: List[float] = field(default_factory=list)  # [s] values received on /clock
     streams: List[TfStream] = field(default_factory=list)
-    joints: Dict[str, Set[str]] = field(default_factory=dict)  # names that came, by topic of joint states
-    descriptions_of_nodes: Dict[str, str] = field(default_factory=dict)  # robot_description as they find it
+    joints: Dict[str, Set[str]] = field(default_factory=dict)  # names of received joints, by topic
+    descriptions_of_nodes: Dict[str, str] = field(default_factory=dict)  # robot_description that a node finds
     status_error: str = ""  # why ~status could not be read
     first_status: Any = None  # hgrid_proximity/Status
-    status: Any = None  # the newest
-    map_file_errors: Dict[str, str] = field(default_factory=dict)  # by name of the map
+    status: Any = None  # the newest status
+    map_file_errors: Dict[str, str] = field(default_factory=dict)  # why the file of a map cannot be read, by source
 
     def alive(self, node: str) -> bool:
         known = self.nodes.get(node)
         return known is None or not known.error
 
     def gone_publishers(self, topic: str) -> List[str]:
-        """Nodes that are registered, but do not answer."""
+        """Returns the nodes that are registered as publishers of the topic but do not answer."""
         return [node for node in self.graph.publishers.get(topic, []) if not self.alive(node)]
 
     def alive_publishers(self, topic: str) -> List[str]:
@@ -138,7 +138,7 @@ class Facts:
         return self.topics.get(name) or TopicFacts()
 
     def world_frame(self) -> str:
-        """Empty: it follows from a robot that was not read."""
+        """Returns the name of the world frame; empty if it is the root of a robot whose description was not read."""
         if self.status is not None and self.status.header.frame_id:
             return self.status.header.frame_id
         if self.settings.world_frame:
@@ -148,7 +148,7 @@ class Facts:
         return first.settings.frame(root) if root else ""
 
     def source(self, name: str) -> Any:
-        """The node's own word about a source; None if it said nothing."""
+        """Returns the entry of a source in ~status; None if there is none."""
         sources = self.status.sources if self.status is not None else []
         return next((source for source in sources if source.name == name), None)
 

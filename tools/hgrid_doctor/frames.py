@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""The tree of frames that was heard on /tf and /tf_static."""
+"""The tree of frames that was received on /tf and /tf_static."""
 from __future__ import annotations
 
 from statistics import median
@@ -10,7 +10,7 @@ from hgrid_doctor.facts import Facts, RobotFacts, TfStream
 
 
 class Tree:
-    """Who places which frame where."""
+    """A tree of frames, with the streams that place each frame."""
 
     def __init__(self, streams: Iterable[TfStream]):
         self.of_child: Dict[str, List[TfStream]] = {}
@@ -26,7 +26,7 @@ class Tree:
         return self._frames
 
     def chain(self, frame: str) -> List[str]:
-        """The frame and all above it."""
+        """Returns the frame, its parent and so on, up to the root."""
         chain = [frame]
         while chain[-1] in self.of_child:
             parent = self.of_child[chain[-1]][0].parent
@@ -42,12 +42,12 @@ class Tree:
         return sorted({self.root(frame) for frame in self._frames})
 
     def publishers(self, frame: str) -> Set[str]:
-        """Of the frame and of all above it."""
+        """Returns the publishers of all frames in the chain of the frame."""
         return {stream.publisher for each in self.chain(frame) for stream in self.of_child.get(each, [])}
 
 
 def shaped_links(robot: RobotFacts, facts: Facts) -> List[str]:
-    """Links that are bodies."""
+    """Returns the links that are bodies, which means that they have shapes."""
     if robot.description is None:
         return []
     return [
@@ -58,23 +58,24 @@ def shaped_links(robot: RobotFacts, facts: Facts) -> List[str]:
 
 
 def frame_of_group(robot: RobotFacts, link: str) -> str:
-    """The frame by which the node places a link: links that fixed joints connect follow one frame."""
+    """Returns the frame with which the node places a link. Links that only fixed joints connect have the same frame."""
     return robot.settings.frame(robot.description.group_root(link))
 
 
 def needed_frames(robot: RobotFacts, facts: Facts) -> Dict[str, str]:
-    """Frames that place the robot, each with one of the links of the description it stands for."""
+    """Returns the frames that place the links of a robot, each with the link of the description that has this frame."""
     return {frame_of_group(robot, link): robot.description.group_root(link) for link in shaped_links(robot, facts)}
 
 
 def needed_chains(facts: Facts, tree: Tree) -> Set[str]:
-    """Every frame between the world and a robot; all that were heard where no robot was read."""
+    """Returns all frames between the world and the robots. If no robot was read, returns all frames that were
+    received."""
     needed = {frame for robot in facts.robots for frame in needed_frames(robot, facts)}
     return {above for frame in needed for above in tree.chain(frame)} if needed else set(tree.frames())
 
 
 def robots_placed_by(facts: Facts, tree: Tree, frames: Set[str]) -> Set[str]:
-    """Names of the robots that need one of the frames."""
+    """Returns the names of the robots that need one of the frames."""
     return {
         robot.settings.name
         for robot in facts.robots
@@ -83,7 +84,7 @@ def robots_placed_by(facts: Facts, tree: Tree, frames: Set[str]) -> Set[str]:
 
 
 def joint_state_topics(facts: Facts, node: str) -> Set[str]:
-    """Topics of joint states that a node subscribes to."""
+    """Returns the topics of joint states to which a node subscribes."""
     types = facts.graph.types
     return {topic for topic in facts.graph.topics_of(node)[1] if types.get(topic) == "sensor_msgs/JointState"}
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Prints findings, and what was looked at, for people or for scripts."""
+"""Formats the findings and the values that were looked at, for people or for scripts."""
 from __future__ import annotations
 
 import json
@@ -43,7 +43,7 @@ def as_json(facts: Facts, findings: List[Finding]) -> str:
 
 
 def printable(text: str) -> str:
-    """Names come from outside: none of them may control the terminal."""
+    """Replaces characters that could control the terminal. Names come from outside."""
     return "".join(character if character.isprintable() else "?" for character in text)
 
 
@@ -62,7 +62,7 @@ def summary(facts: Facts, findings: List[Finding], color: bool) -> str:
 
 
 def looked_at(facts: Facts) -> Iterator[str]:
-    """About ten lines, with the values that were found."""
+    """Yields about ten lines with the values that were found."""
     graph = facts.graph
     if graph.error:
         yield f"master: {facts.environment.master_uri} does not answer"
@@ -146,7 +146,7 @@ def state_text(source) -> str:
 
 
 def refusals_line(facts: Facts) -> str:
-    """Of all the time since the node started or was reset; checks judge what grows now."""
+    """Returns counts since the node started or was reset. The checks judge only counters that grow now."""
     refused = [f"{each.name} {each.value}" for each in facts.status.counters if ".refused." in each.name]
     return f"refused so far: {', '.join(refused) or 'nothing'}"
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""The node's parameters, as far as a diagnosis needs them. Wrong values read as the default: the node names them."""
+"""The parameters of the node that the checks need. A wrong value is replaced by the default; the node reports it."""
 from __future__ import annotations
 
 from dataclasses import dataclass, field
@@ -10,7 +10,7 @@ from typing import Any, Dict, List
 
 @dataclass
 class RobotSettings:
-    """A robot of ~robots."""
+    """A robot of the parameter ~robots."""
 
     name: str = "robot"
     description: str = "robot_description"
@@ -24,17 +24,17 @@ class RobotSettings:
 
 @dataclass
 class InputSettings:
-    """A map or a cloud."""
+    """A map or a cloud of the parameters ~maps and ~clouds."""
 
-    source: str  # map/hall
-    topic: str = ""  # absolute; empty: from a file
+    source: str  # name of the source, for example map/hall
+    topic: str = ""  # absolute name; empty: the map comes from a file
     file: str = ""
-    type: str = ""  # of the topic
+    type: str = ""  # message type of the topic
 
 
 @dataclass
 class Settings:
-    """See config/params.yaml."""
+    """The parameters, see config/params.yaml."""
 
     world_frame: str = ""
     rate: float = 50.0
@@ -53,7 +53,7 @@ class Settings:
 
 
 def read_settings(values: Any, node: str) -> Settings:
-    """@param values  the private parameters of the node, as the parameter server returns them"""
+    """Returns the settings. @param values  the private parameters of the node, as the parameter server returns them"""
     values = values if isinstance(values, dict) else {}
     settings = Settings()
     settings.world_frame = _text(values, "world_frame", "").lstrip("/")
@@ -73,7 +73,7 @@ def read_settings(values: Any, node: str) -> Settings:
 
 
 def absolute(name: str, node: str) -> str:
-    """A relative name belongs to the namespace of the node."""
+    """Returns the absolute name of a topic. A relative name is in the namespace of the node."""
     return name if name.startswith("/") else node.rpartition("/")[0] + "/" + name
 
 

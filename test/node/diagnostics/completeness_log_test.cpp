@@ -17,8 +17,8 @@ const CompletenessLog::Time kStart{std::chrono::hours(1)};
 
 SourceGap gapOf(const std::string& source, const std::string& sentence) { return {source, source + "/*", sentence}; }
 
-/// A world of two spheres that touch. Its functions make a tick and return the line that is logged about it: "+" and
-/// the text if the world is complete, otherwise the reason.
+/// A world of two spheres that touch. Its functions make a tick and return the line that the node logs about the tick:
+/// the reason if the world is not complete, otherwise "+" and the text.
 class CompletenessLogs : public ::testing::Test {
  protected:
   CompletenessLogs() {
@@ -26,7 +26,7 @@ class CompletenessLogs : public ::testing::Test {
     ball_ = put(scene_, ball("b"), at(0.5));
   }
   /// @param seconds  [s] time of the tick since the start
-  /// @param gaps     what sources lack
+  /// @param gaps     sources that are not complete, with their reasons
   std::string logged(double seconds, const std::vector<SourceGap>& gaps) {
     Tick tick = tickAt(seconds);
     tick.snapshot = scene_.commit(Time{++stamp_}, gaps);

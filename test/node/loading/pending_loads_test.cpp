@@ -11,8 +11,8 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// Tries all loads. Loads in `good` succeed, and the load `fatal` throws. @returns the names of the tried loads in
-/// order, followed by '!' if one threw
+/// Tries all loads. Loads in `good` succeed, and the load `fatal` throws.
+/// @returns the names of the tried loads in order, and '!' if one threw
 std::string tried(PendingLoads<char>& loads, const std::set<char>& good, char fatal = 0) {
   std::string order;
   try {

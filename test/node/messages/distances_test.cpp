@@ -24,8 +24,8 @@ namespace {
 using msg::Answer;
 using msg::Distances;
 
-/// A sphere that follows the frame "rider" above a table whose top is at z = 0. A box rotated by 45 degrees, and a post
-/// that overlaps the AABB of that box but not the box itself.
+/// A world with a sphere that follows the frame "rider", above a table whose top is at z = 0. It also has a box that is
+/// rotated by 45 degrees. A post overlaps the AABB of this box, but not the box itself.
 class DistancesNode : public ::testing::Test {
  protected:
   DistancesNode() : node_(setup()) {
@@ -102,7 +102,7 @@ TEST_F(DistancesNode, AreEmptyWhereNothingIsNearAndSayContactWhereThereIs) {
 }
 
 TEST_F(DistancesNode, ExactQueriesMeetShapesNotTheirBoxes) {
-  msg::QuerySphere::Request sphere;  // in a corner of the AABB of the rotated box, outside that box
+  msg::QuerySphere::Request sphere;  // in a corner of the AABB of the rotated box, but outside the box
   sphere.center.x = 3.6;
   sphere.center.y = 0.6;
   sphere.radius = 0.1;
@@ -157,7 +157,7 @@ TEST_F(DistancesNode, BoxesAndNearestAnswer) {
   EXPECT_EQ(call<msg::QueryNearest>("query_nearest", nearest).answer.verdict, msg::Verdict::CLEAR);
 }
 
-/// Claim: query_shape tests the shape itself and not its AABB. It refuses kinds of shapes that cannot be measured.
+/// Claim: query_shape tests the shape itself, not its AABB. It refuses kinds of shapes that it cannot measure.
 TEST_F(DistancesNode, QueryShapeTestsTheShapeAtItsPose) {
   msg::QueryShape::Request request;
   request.shape.kind = msg::ShapeKind::CYLINDER;

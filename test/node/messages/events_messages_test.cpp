@@ -67,7 +67,7 @@ TEST(EventsMessages, ContainAllEventsOfTheSnapshotInAsManyMessagesAsNeeded) {
     Random random(seed);
     Params params;
     params.max_events = kMost;
-    params.distances_budget = 0.0;  // no time limit: on a busy machine it would leave out distances
+    params.distances_budget = 0.0;  // no time limit, because a busy machine would leave out distances
     Scene scene{SceneOptions{}};
     for (int tick = 1; tick <= 100; ++tick) {
       const std::string name = std::to_string(random.below(12));

@@ -10,8 +10,8 @@ namespace {
 
 using Told = std::vector<std::string>;
 
-/// Two spheres of one robot: "a" rests at 0, near a post; the test moves "b". Late poses stay FRESH, so that a busy
-/// machine does not cause events.
+/// Two spheres of one robot: "a" rests at 0, near a post; the test moves "b". Late poses stay FRESH, because otherwise
+/// a busy machine would cause events.
 class Events : public ::testing::Test {
  protected:
   Events() : node_(setup()) {
@@ -46,7 +46,7 @@ class Events : public ::testing::Test {
     transforms_.stream("base", "b", at(x));
     node_.waitForPairs("b at " + std::to_string(x), [&](const msg::Pairs& p) { return p.total == pairs; });
     waitForEvents(events);
-    node_.waitForTicks(3);  // gives ticks the chance to report an event that they should not
+    node_.waitForTicks(3);  // in these ticks the node could report an event that it should not report
   }
 
   TransformSource transforms_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// A message or service must not change without a new interface version.
+// If a message or service changes, the interface version must change as well.
 #include <gtest/gtest.h>
 #include <hgrid_proximity/AllowedPair.h>
 #include <hgrid_proximity/Answer.h>
@@ -102,7 +102,7 @@ const std::vector<Pin>& pins() {
   return all;
 }
 
-/// Whether a type must be in pins(): the comment at the top of its file contains neither "DRAFT" nor "Constants only".
+/// Returns whether pins() must contain a type: the first comment of its file has neither "DRAFT" nor "Constants only".
 bool mustBePinned(const std::filesystem::path& file) {
   std::ifstream text(file);
   for (std::string line; std::getline(text, line) && line.substr(0, 1) == "#";) {

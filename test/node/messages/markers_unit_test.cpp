@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// What RViz draws of a tick.
+// Tests the markers that RViz draws for a tick.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -48,7 +48,7 @@ Pose poseOf(const Marker& marker) {
 
 Eigen::Vector3d scaleOf(const Marker& marker) { return {marker.scale.x, marker.scale.y, marker.scale.z}; }
 
-/// Draws one body at a rotated pose, which is the pose of the shape too.
+/// Returns the markers of one body at a rotated pose. The shape of the body has the same pose.
 std::vector<Marker> drawn(const Body& body, const Pose& pose) {
   Scene scene{SceneOptions()};
   put(scene, body, pose);
@@ -99,7 +99,8 @@ TEST(ShapeMarkers, OfAConeAreClosedAndPointOutward) {
   for (std::size_t i = 0; i < markers[0].points.size(); i += 3) {
     volume += point(i).dot(point(i + 1).cross(point(i + 2))) / 6.0;
   }
-  EXPECT_NEAR(volume, M_PI * 0.2 * 0.2 * 0.6 / 3.0, 3e-4) << "of a pyramid with 32 sides, counter-clockwise from outside";
+  EXPECT_NEAR(volume, M_PI * 0.2 * 0.2 * 0.6 / 3.0, 3e-4)
+      << "of a pyramid with 32 sides, counter-clockwise from outside";
 }
 
 TEST(ShapeMarkers, OfAMeshFileNameTheFile) {
@@ -156,7 +157,7 @@ TEST(ShapeMarkers, HaveAnIdOfTheirOwnAndAColorForEachState) {
                                              "obstacle/c: STALE"}));
 }
 
-/// Two spheres, 40 mm apart, whose boxes are nearer to each other than that.
+/// Two spheres that are 40 mm apart. Their boxes are less than 40 mm apart.
 class PairMarkersOf : public ::testing::Test {
  protected:
   void SetUp() override {

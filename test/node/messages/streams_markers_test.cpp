@@ -48,7 +48,7 @@ class Ear {
   ros::Subscriber subscriber_;
 };
 
-/// Whether a marker array adds a marker in this namespace.
+/// Returns whether a marker array adds a marker in this namespace.
 bool draws(const MarkerArray& array, const std::string& layer) {
   return std::any_of(array.markers.begin(), array.markers.end(),
                      [&](const Marker& marker) { return marker.ns == layer && marker.action == Marker::ADD; });
@@ -66,9 +66,8 @@ TEST(Markers, ArePublishedForSubscribersAndBeginWithDeleteAll) {
   for (int viewer = 0; viewer < 2; ++viewer) {
     SCOPED_TRACE(viewer);
     Ear<MarkerArray> eye(node.named("markers"));
-    const auto seen = eye.until([](const MarkerArray& array) {
-      return draws(array, "shapes") && draws(array, "pairs");
-    });
+    const auto seen =
+        eye.until([](const MarkerArray& array) { return draws(array, "shapes") && draws(array, "pairs"); });
     ASSERT_FALSE(seen.front()->markers.empty());
     EXPECT_EQ(seen.front()->markers[0].action, Marker::DELETEALL);
     std::set<std::pair<std::string, int>> ids;

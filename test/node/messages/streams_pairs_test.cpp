@@ -12,8 +12,8 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// Setup with two spheres of one robot, "a" and "b", 0.05 m apart, and two obstacles: "near" is 0.05 m away from "a",
-/// "far" 0.3 m.
+/// Setup with two spheres of one robot, "a" and "b", that are 0.05 m apart, and with two obstacles. The obstacle "near"
+/// is 0.05 m away from "a", the obstacle "far" 0.3 m.
 NodeSetup nearBodies(std::initializer_list<std::pair<const char*, Value>> more = {}) {
   NodeSetup setup;
   setup.params =
@@ -22,7 +22,7 @@ NodeSetup nearBodies(std::initializer_list<std::pair<const char*, Value>> more =
   return setup;
 }
 
-/// Runs the node with nearBodies() and these parameters, and returns its pairs.
+/// Runs a node with nearBodies() and these parameters, and returns its pairs.
 msg::Pairs pairsWith(std::initializer_list<std::pair<const char*, Value>> more) {
   TransformSource transforms;
   transforms.fix({stamped("base", "a", at(0)), stamped("base", "b", at(0.25))});
@@ -50,7 +50,7 @@ TEST(Pairs, AreThoseWithinTheMarginByNameWithGapMarginAndSince) {
   EXPECT_GT(later->header.stamp, later->since[0]);
 }
 
-/// Three pairs with robot/base: obstacle/b touches it, obstacle/a is 0.02 m and obstacle/c 0.04 m away.
+/// Three obstacles are near robot/base: obstacle/b touches it, obstacle/a is 0.02 m and obstacle/c 0.04 m away.
 TEST(Pairs, AreTruncatedToTheNearestAndTheWorldIsThenNotComplete) {
   NodeSetup setup;
   setup.params = dict(

@@ -32,7 +32,7 @@ std::vector<std::string> saidBy(const Snapshot& snapshot) {
   return pairs;
 }
 
-/// A message that a subscriber still holds, and a copy from the time of its arrival.
+/// A message that a subscriber still holds, and a copy that was made when the message arrived.
 struct Held {
   boost::shared_ptr<const msg::Pairs> message;
   msg::Pairs copy;

@@ -100,7 +100,7 @@ TEST(Streams, ALateSubscriberGetsTheStructureAtOnceAndTheNextTick) {
   EXPECT_EQ(base.margin, 0.1);
 }
 
-/// Serializes the pairs of a message without header, world and `since`, which differ between nodes.
+/// Serializes the pairs of a message without header, world and `since`, because these differ between nodes.
 std::vector<std::uint8_t> bytesOf(const msg::Pairs& pairs) {
   msg::Pairs bare = pairs;
   bare.header = {};

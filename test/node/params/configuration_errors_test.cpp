@@ -8,7 +8,7 @@
 #include "test/node/support/claims.h"
 #include "test/node/support/values.h"
 
-// Error messages about wrong parameters. No node is needed: it would only print the message and end.
+// Tests the error messages about wrong parameters. Needs no node, which would only print the message and end.
 
 namespace hgrid {
 namespace test {

@@ -28,7 +28,7 @@ void expectEqual(const Struct& a, const Struct& b, Member... member) {
 }
 
 TEST(ParamsFile, LoadingItGivesTheDefaults) {
-  Value loaded;  // loaded by configuration.test
+  Value loaded;  // the values that configuration.test loads
   ASSERT_TRUE(ros::param::get("/params_file", loaded));
   const Params read = readParams(loaded), defaults = readParams(dict());
   using P = Params;
@@ -55,7 +55,7 @@ TEST(ParamsFile, EveryParameterInItIsKnownAndNoOtherIs) {
   ASSERT_TRUE(ros::param::get("/params_file", loaded));
   for (auto& member : loaded) {
     Value one = dict();
-    one[member.first] = Value(dict({{"not", "like that"}}));  // wrong for each parameter, and no group has this member
+    one[member.first] = Value(dict({{"not", "like that"}}));  // a wrong value for every parameter
     try {
       readParams(one);
       ADD_FAILURE() << member.first << " is not read";

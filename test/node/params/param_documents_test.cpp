@@ -13,7 +13,7 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// Expects that a file of the project holds the generated text. If HGRID_WRITE_PARAMS is set, writes the file first.
+/// Expects that a file of the project contains the generated text. If HGRID_WRITE_PARAMS is set, first writes the file.
 void expectGenerated(const std::string& name, const std::string& text) {
   const std::string path = std::string(HGRID_PROJECT_DIR) + "/" + name;
   if (std::getenv("HGRID_WRITE_PARAMS") != nullptr) std::ofstream(path, std::ios::binary) << text;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// No exception of any type leaves a guarded callback, even if there is no memory to report the exception.
+// No exception of any type leaves a guarded callback, even if there is no memory for the report of the exception.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -38,7 +38,7 @@ namespace hgrid {
 namespace test {
 namespace {
 
-constexpr const char* kWhere = "a_callback_with_a_long_name.failed";  // a std::string of it allocates memory
+constexpr const char* kWhere = "a_callback_with_a_long_name.failed";  // too long for a std::string without allocation
 
 TEST(Guarded, ReturnsNothingWhereNothingIsThrown) {
   Ledger ledger;
@@ -48,7 +48,7 @@ TEST(Guarded, ReturnsNothingWhereNothingIsThrown) {
 
 TEST(Guarded, CountsAndReturnsWhatIsThrownOfEveryType) {
   Ledger ledger;
-  const auto code = [&](auto&& deed) { return guarded(ledger, kWhere, deed).value().code(); };
+  const auto code = [&](auto&& function) { return guarded(ledger, kWhere, function).value().code(); };
   EXPECT_EQ(code([] { throw Refusal(Code::bad_id, "no name"); }), Code::bad_id);
   EXPECT_EQ(code([] { throw std::bad_alloc(); }), Code::limit);
   EXPECT_EQ(code([] { throw std::runtime_error("a fault"); }), Code::internal);
@@ -76,7 +76,7 @@ TEST(Guarded, StillCountsWhereThereIsNoMemoryForAReport) {
   EXPECT_EQ(ledger.counters().count("unreported"), 0u);
 }
 
-/// An empty world and a queue of jobs. Each job appends its name to `done`.
+/// An empty world and its queue of jobs. Each job appends its name to `done`.
 struct JobsOfTick {
   Params params;
   Ledger ledger;

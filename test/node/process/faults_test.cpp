@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// After an internal fault of the node, the caller receives the code INTERNAL. Nothing changes, and the node runs on.
+// After an internal fault of the node, the caller receives the code INTERNAL. Nothing changes, and the node goes on.
 #include <hgrid_proximity/CodeNames.h>
 #include <hgrid_proximity/Distances.h>
 #include <hgrid_proximity/UnknownReason.h>
@@ -19,7 +19,7 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// Two spheres that touch. The narrow phase of the node throws while a fault is set.
+/// Two spheres that touch. While a test has set a fault, the narrow phase of the node throws.
 class Faults : public ::testing::Test {
  protected:
   Faults() : node_(setup()) {
@@ -39,9 +39,9 @@ class Faults : public ::testing::Test {
     for (const std::string& name : names) content += link(name, sphereOf(0.1)) + joint("base", name);
     return urdf(content);
   }
-  /// Makes a function of the narrow phase throw, or ends that.
-  /// @param function  function of the narrow phase that throws from now on; empty: none
-  /// @param kind      exception: "int", "memory" (std::bad_alloc), anything else: std::runtime_error
+  /// Makes a function of the narrow phase throw from now on.
+  /// @param function  name of the function; empty: no function throws any more
+  /// @param kind      type of the exception: "int", "memory" (std::bad_alloc), otherwise std::runtime_error
   void breakDown(const std::string& function, const std::string& kind = "") {
     ros::param::set(node_.named("fault_kind"), kind);
     ros::param::set(node_.named("fault"), function);

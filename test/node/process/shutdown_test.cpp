@@ -32,7 +32,7 @@ XmlRpc::XmlRpcValue stateOfMaster() {
   return state;
 }
 
-/// Succeeds if a node ends with exit code 0 and has no registrations at the master left.
+/// Succeeds if a node ends with exit code 0 and has removed all its registrations at the master.
 ::testing::AssertionResult endsAndUnregisters(NodeUnderTest& node) {
   const std::optional<int> code = node.process().waitForEnd(20.0);
   if (!code) return ::testing::AssertionFailure() << "the node still runs";
@@ -66,7 +66,7 @@ TEST(Shutdown, DuringQueriesUnregisters) {
     std::thread client([&] {
       try {
         for (;; ++answers) node.sphere(0, 0, 0, 0.1);
-      } catch (const std::runtime_error&) {  // thrown when the node has ended
+      } catch (const std::runtime_error&) {  // the node has ended
       }
     });
     node.waitForTicks(5);
@@ -77,8 +77,8 @@ TEST(Shutdown, DuringQueriesUnregisters) {
   }
 }
 
-/// A folder with a copy of the node's library and a mesh reader that never ends. The node uses this reader, because it
-/// searches for the mesh reader relative to its library.
+/// A folder with a copy of the node's library and a mesh reader that never ends. The node uses this mesh reader,
+/// because it searches for the mesh reader relative to its library.
 class HangingReader {
  public:
   HangingReader() {
@@ -94,7 +94,7 @@ class HangingReader {
   }
   ~HangingReader() { fs::remove_all(folder_); }
 
-  /// Setup of a node that uses this reader and is allowed to read the mesh of description().
+  /// Returns the setup of a node that uses this mesh reader and may read the mesh of description().
   NodeSetup setup() const {
     NodeSetup setup = setupOfWorld();
     setup.params["mesh_roots"] = list({folder_.string()});
@@ -102,11 +102,11 @@ class HangingReader {
     setup.environment["LD_PRELOAD"] = library().string();
     return setup;
   }
-  /// A URDF with one mesh.
+  /// Returns a URDF with one mesh.
   std::string description() const {
     return urdf(link("world", collision("<mesh filename=\"file://" + (folder_ / "part.stl").string() + "\"/>")));
   }
-  /// Waits until the node has started the reader. Polls, because the reader cannot send messages.
+  /// Waits until the node has started the mesh reader. Polls, because the mesh reader cannot send messages.
   void waitForStart() const {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     while (!fs::exists(started()) && std::chrono::steady_clock::now() < deadline) {
@@ -140,7 +140,7 @@ TEST(Shutdown, DuringAReloadOfASlowMeshUnregisters) {
   std::thread client([&] {
     try {
       node.reload("");
-    } catch (const std::runtime_error&) {  // thrown when the node has ended
+    } catch (const std::runtime_error&) {  // the node has ended
     }
   });
   reader.waitForStart();
@@ -187,7 +187,7 @@ TEST(Shutdown, EndsANodeThatWaitsForTheMaster) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     std::string said;
     while (said.find("Failed to contact master") == std::string::npos && std::chrono::steady_clock::now() < deadline) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));  // polling, because the output is a file
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));  // polls, because the output is a file
       std::ifstream file(output);
       said.assign(std::istreambuf_iterator<char>(file), {});
     }
@@ -198,7 +198,7 @@ TEST(Shutdown, EndsANodeThatWaitsForTheMaster) {
   }
 }
 
-/// Whether a process ignores a signal.
+/// Returns whether a process ignores a signal.
 bool ignores(pid_t process, int number) {
   std::ifstream file("/proc/" + std::to_string(process) + "/status");
   for (std::string line; std::getline(file, line);) {

@@ -20,9 +20,9 @@ constexpr double kMargin = 0.1;  // [m] value of ~margin in robots.test
 /// One of the three robots.
 struct Robot {
   std::string name;
-  std::size_t bodies, shapes;  ///< numbers of links with <collision> and of shapes in its URDF
-  Eigen::Vector3d base;        ///< [m] position of its root in the world, near the other robots
-  double yaw;                  ///< [rad] of its root in the world
+  std::size_t bodies, shapes;  ///< number of links with <collision>, and number of shapes, in its URDF
+  Eigen::Vector3d base;        ///< [m] position of its root in the world frame, near the other robots
+  double yaw;                  ///< [rad] rotation of its root in the world frame
   std::unique_ptr<WitnessRobot> witness;
 
   Eigen::Isometry3d worldFromRoot() const;

@@ -23,7 +23,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kStep = std::chrono::milliseconds(20);
-constexpr double kCycle = 10.0;  // [s] from one limit to the other and back
+constexpr double kCycle = 10.0;  // [s] time in which a joint moves from one limit to the other and back
 
 /// Triangle wave with period 2: rises from 0 at x = 0 to 1 at x = 1, and falls to 0 at x = 2.
 double triangle(double x) {

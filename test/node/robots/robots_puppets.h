@@ -38,23 +38,23 @@ class Child {
   pid_t pid_ = -1;
 };
 
-/// Publishes the joint states of all robots at 50 Hz. Either all joints stand still, or each joint moves back and forth
+/// Publishes the joint states of all robots at 50 Hz. Either all joints rest, or each joint moves back and forth
 /// between its limits.
 class Puppeteer {
  public:
   struct Puppet {
-    std::string name;  ///< name and namespace of the robot
+    std::string name;  ///< name of the robot and of its namespace
     const WitnessRobot* robot;
   };
 
   Puppeteer(ros::NodeHandle& node, const std::vector<Puppet>& puppets, std::uint64_t seed);
   ~Puppeteer();
 
-  /// Draws a random state and holds it. @returns the time from which it is published
+  /// Chooses a random state of all joints and holds it. @returns the time from which the state is published
   ros::Time holdAnother();
   /// Moves all joints from now on.
   void move();
-  /// Current positions of the joints of a robot.
+  /// Returns the current positions of the joints of a robot.
   WitnessRobot::Positions positions(const std::string& robot) const;
 
  private:
@@ -73,7 +73,7 @@ class Puppeteer {
   Random random_;
   std::vector<Driven> driven_;
   bool moving_ = false;
-  double time_ = 0.0;  // [s] how long the joints have moved
+  double time_ = 0.0;  // [s] total time during which the joints have moved
   bool stop_ = false;
   std::thread thread_;
 };
@@ -83,11 +83,11 @@ class PairsListener {
  public:
   explicit PairsListener(ros::NodeHandle node);
 
-  /// Waits for the next message for which `wanted` is true. @returns null if none comes within `patience`
+  /// Waits for the next message for which `wanted` is true. @returns null if no such message comes within `patience`
   hgrid_proximity::PairsConstPtr waitFor(const std::function<bool(const hgrid_proximity::Pairs&)>& wanted,
                                          std::chrono::seconds patience);
-  /// Returns the next `count` messages in the order in which they arrived, or fewer if they take longer than
-  /// `patience`.
+  /// Returns the next `count` messages in the order in which they arrived. Returns fewer messages if `patience` ends
+  /// before.
   std::vector<hgrid_proximity::PairsConstPtr> next(std::size_t count, std::chrono::seconds patience);
 
  private:
@@ -97,7 +97,7 @@ class PairsListener {
   std::mutex mutex_;
   std::condition_variable came_;
   hgrid_proximity::PairsConstPtr last_;
-  std::vector<hgrid_proximity::PairsConstPtr> arrived_;  // since the last call of next()
+  std::vector<hgrid_proximity::PairsConstPtr> arrived_;  // messages since the last call of next()
   ros::Subscriber subscriber_;
   ros::AsyncSpinner spinner_;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// ~pairs while three robots move. `scripts/bench --node` measures how long the ticks take.
+// Tests ~pairs while three robots move. `scripts/bench --node` measures how long the ticks take.
 #include "robots_cell.h"
 
 namespace hgrid {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Runs the node with UR5, Panda and PR2 at once, with the real robot_state_publisher and tf. The pairs that the node
-// reports and the hits of its queries must be those that an independent brute force reference finds.
+// Runs the node with UR5, Panda and PR2 at once, with the real robot_state_publisher and tf. An independent brute force
+// reference must find the same pairs and the same hits of queries as the node.
 #include "test/support/robots.h"
 
 #include <gtest/gtest.h>
@@ -27,12 +27,12 @@ namespace {
 using hgrid_proximity::Hit;
 using hgrid_proximity::WorldState;
 
-constexpr double kTolerance = 1e-5;  // [m] for rounding to float, and for rotations sent through tf as quaternions
+constexpr double kTolerance = 1e-5;  // [m] covers rounding to float, and quaternions in tf messages
 constexpr auto kPatience = std::chrono::seconds(30);
 
 class Robots : public RobotsTest {
  protected:
-  /// Draws a random state of all joints. Waits until the node uses it: all poses are FRESH and newer than the state.
+  /// Chooses a random state of all joints. Waits until the node uses it: all poses are FRESH and newer than the state.
   void holdAnother() {
     const ros::Time from = cell_->puppeteer->holdAnother() + ros::Duration(0.2);
     near_ = cell_->pairs->waitFor(
@@ -60,7 +60,7 @@ class Robots : public RobotsTest {
     return false;
   }
 
-  /// The smallest `measure` of the boxes of a body, after each face was moved outward by `by` [m].
+  /// Moves each face of the boxes of a body outward by `by` [m]. Returns the smallest `measure(box)` of these boxes.
   template <class Measure>
   static double least(const WitnessBody& body, double by, Measure&& measure) {
     double result = std::numeric_limits<double>::infinity();
@@ -74,7 +74,7 @@ class Robots : public RobotsTest {
 
   void comparePairs();
   template <class Measure>
-  void compareAnswer(const hgrid_proximity::Answer& answer, double reach, double Hit::*member, Measure&& measure);
+  void compareAnswer(const hgrid_proximity::Answer& answer, double limit, double Hit::*member, Measure&& measure);
   template <class Query>
   void ask(const std::string& service, Query& query);
   void askSphere(const std::string& frame);
@@ -83,7 +83,7 @@ class Robots : public RobotsTest {
 
   Random random_{11};
   hgrid_proximity::PairsConstPtr near_;
-  std::map<std::string, Eigen::Isometry3d> frames_;  // pose in the world, world_from_frame
+  std::map<std::string, Eigen::Isometry3d> frames_;  // world_from_frame: the pose in the world frame, by frame
   std::map<std::string, WitnessBody> bodies_;
   std::size_t pairs_seen_ = 0, pairs_of_two_robots_ = 0, hits_seen_ = 0;
 };
@@ -119,12 +119,12 @@ void Robots::comparePairs() {
   }
 }
 
-/// Compares the hits of a query with a brute force search over the witness's boxes, made a little smaller and a little
-/// larger.
-/// @param reach   [m] a body is hit if `measure` of one of its boxes is at most this
-/// @param member  field of Hit that must equal `measure`
+/// Compares the hits of a query with a brute force search over the boxes of the witness (the reference). Makes the
+/// boxes a little smaller and a little larger to allow for rounding.
+/// @param limit   [m] a body is hit if `measure(box)` is at most this for one of its boxes
+/// @param member  field of Hit that must equal the least `measure(box)` of the body
 template <class Measure>
-void Robots::compareAnswer(const hgrid_proximity::Answer& answer, double reach, double Hit::*member,
+void Robots::compareAnswer(const hgrid_proximity::Answer& answer, double limit, double Hit::*member,
                            Measure&& measure) {
   ASSERT_TRUE(answer.success) << answer.code.text;
   EXPECT_FALSE(answer.truncated);
@@ -144,18 +144,18 @@ void Robots::compareAnswer(const hgrid_proximity::Answer& answer, double reach, 
                  at_most = least(named.second, -kTolerance, measure);
     const auto found = told.find(named.first);
     if (found == told.end()) {
-      EXPECT_GT(at_most, reach) << "the hit is missing";
+      EXPECT_GT(at_most, limit) << "the hit is missing";
       continue;
     }
-    EXPECT_LE(at_least, reach) << "the hit body is too far away";
+    EXPECT_LE(at_least, limit) << "the hit body is too far away";
     EXPECT_GE(found->second->*member, at_least - kTolerance);
     EXPECT_LE(found->second->*member, at_most + kTolerance);
     EXPECT_LT(found->second->shape, named.second.size());
   }
 }
 
-/// Calls a service, and tries again up to nine times: the answer is UNKNOWN if a busy machine delays ticks, and roscpp
-/// sometimes loses a call.
+/// Calls a service. Tries again up to nine times, because a busy machine delays ticks and the answer is then UNKNOWN.
+/// Also, roscpp sometimes loses a call.
 template <class Query>
 void Robots::ask(const std::string& service, Query& query) {
   for (int i = 0; i < 10; ++i) {
@@ -204,7 +204,7 @@ TEST_F(Robots, EveryShapeIsThere) {
   const auto status = ros::topic::waitForMessage<hgrid_proximity::Status>("/proximity/status", ros::Duration(10));
   const auto bodies = ros::topic::waitForMessage<hgrid_proximity::Bodies>("/proximity/bodies", ros::Duration(10));
   ASSERT_TRUE(status && bodies);
-  EXPECT_TRUE(status->world.complete);  // although many links of the PR2 have no <collision>
+  EXPECT_TRUE(status->world.complete);  // even though many links of the PR2 have no <collision>
   EXPECT_GT(status->without_collision.size(), 40u);
   EXPECT_TRUE(status->uncovered.empty());
   EXPECT_EQ(status->robots, 3u);
@@ -250,7 +250,7 @@ TEST_F(Robots, NearPairsAndHitsAreThoseOfBruteForce) {
 int main(int argc, char** argv) {
   ::testing::InitGoogleTest(&argc, argv);
   const std::string data = hgrid::test::sharedData();
-  if (!data.empty()) {  // so that the node finds the meshes in the package example-robot-data
+  if (!data.empty()) {  // the node then finds the meshes in the package example-robot-data
     const char* others = std::getenv("ROS_PACKAGE_PATH");
     setenv("ROS_PACKAGE_PATH", (data + ":" + (others ? others : "")).c_str(), 1);
   }

@@ -45,8 +45,8 @@ Eigen::Isometry3d originOf(const XMLElement& element) {
   return pose;
 }
 
-/// Reads the vertices of a binary STL file. It has an 80-byte header, a count, and for each triangle a normal, three
-/// vertices and two more bytes.
+/// Reads the vertices of a binary STL file. The file has a header of 80 bytes and a count. Then each triangle has a
+/// normal, three vertices and two more bytes.
 std::vector<Eigen::Vector3d> verticesOf(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
@@ -102,7 +102,7 @@ double gap(const WitnessBox& box, const Eigen::Vector3d& point) { return gap(box
 
 double firstTouch(const WitnessBox& box, const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius) {
   const auto at = [&](double t) { return gap(box, from + t * (to - from)); };
-  double low = 0.0, high = 1.0;  // ternary search for the minimum; the distance is convex in t
+  double low = 0.0, high = 1.0;  // a ternary search finds the minimum, because the distance is convex in t
   for (int i = 0; i < 100; ++i) {
     const double third = (high - low) / 3.0;
     if (at(low + third) <= at(high - third)) {
@@ -172,8 +172,8 @@ std::string WitnessRobot::rigidGroup(std::string link) const {
   return link;
 }
 
-/// Whether one moving joint connects two rigid groups, with `upper` as the parent. A chain of joints counts as one
-/// joint if the groups in between have no shapes and successive joint origins are at most 1 cm apart.
+/// Returns whether one moving joint connects two rigid groups, with `upper` as the parent. A chain of joints counts as
+/// one joint if the groups between them have no shapes and successive joint origins are at most 1 cm apart.
 bool WitnessRobot::isAdjacent(const std::string& upper, std::string group) const {
   while (group != root_) {
     const Joint& joint = joints_.at(group);

@@ -14,8 +14,8 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// A robot of spheres that all overlap, except "far" and "ghost". Nobody publishes a transform for "ghost". A fixed
-/// joint connects "c" to "b".
+/// A robot of spheres that all overlap, except the spheres "far" and "ghost". Nobody publishes a transform for "ghost".
+/// A fixed joint connects "c" with "b".
 class ExplainPair : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {

@@ -53,7 +53,7 @@ msg::SetAllowed::Request toRemove(const std::vector<AllowedPair>& rules) {
   return request;
 }
 
-/// Three spheres in a row, each touching the next one, a post that touches the last one, and one configured rule.
+/// Three spheres in a row, each of which touches the next one. A post touches the last one. One rule is configured.
 class AllowedRules : public ::testing::Test {
  protected:
   AllowedRules() {
@@ -68,7 +68,7 @@ class AllowedRules : public ::testing::Test {
     node_ = std::make_unique<NodeUnderTest>(setup);
     node_->waitForComplete();
   }
-  /// Returns the pairs of the tick that a response names. That tick must be the first with its bodies_revision.
+  /// Returns the pairs of the tick that a response names. Checks that this tick is the first with its bodies_revision.
   Names pairsOf(const msg::SetAllowed::Response& response) {
     EXPECT_TRUE(response.success) << response.code.text;
     node_->waitForPairs("the tick of the reply",
@@ -92,7 +92,7 @@ class AllowedRules : public ::testing::Test {
     node_->waitForTicks(2);
     EXPECT_EQ(namesOf(*node_->heard().pairs.back()), before) << "nothing has changed";
   }
-  /// Returns all rules as "first second origin +", or "-" instead of "+" for a rule that does not allow the pair.
+  /// Returns each rule as "first second origin +"; "-" instead of "+" means that the rule does not allow the pair.
   Names rules() {
     msg::GetAllowed::Request request;
     request.rules = true;
@@ -239,7 +239,7 @@ class RulesTopic : public AllowedRules {
     };
     subscriber_ = ros::NodeHandle().subscribe<msg::Rules>(node_->named("rules"), 10, hear);
   }
-  /// Waits until the newest message has these rules and an epoch greater than `after_epoch`.
+  /// Waits until the newest message has these rules and an epoch greater than `after_epoch`. Returns this message.
   msg::Rules::ConstPtr waitFor(const Names& rules, std::uint64_t after_epoch = 0) {
     msg::Rules::ConstPtr message;
     node_->waitUntil("~rules", [&](const Heard&) {
@@ -321,7 +321,7 @@ TEST_F(AllowedRules, TheMatrixIsReturnedForGlobsWithALimitAndAsSrdf) {
 }
 
 TEST(RulesBeforeTheWorld, AreTheConfiguredOnes) {
-  NodeSetup setup;  // there is no robot, so there is no world frame
+  NodeSetup setup;  // without a robot there is no world frame
   setup.params = dict({{"allowed_pairs", list({dict({{"first", "a/b"}, {"second", "*"}})})}});
   NodeUnderTest node(setup);
   const auto message = ros::topic::waitForMessage<msg::Rules>(node.named("rules"), ros::Duration(20.0));
@@ -333,7 +333,7 @@ TEST(RulesBeforeTheWorld, AreTheConfiguredOnes) {
 }
 
 TEST(AllowedBeforeTheWorld, IsNotReady) {
-  NodeUnderTest node(NodeSetup{});  // there is no robot, so there is no world frame
+  NodeUnderTest node(NodeSetup{});  // without a robot there is no world frame
   EXPECT_EQ(node.setAllowed(toAdd({allow("*", "*")})).code.name, "NOT_READY");
   EXPECT_EQ(node.getAllowed().code.name, "NOT_READY");
   EXPECT_EQ(node.explain("robot/a", "robot/b").code.name, "NOT_READY");

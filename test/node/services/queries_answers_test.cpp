@@ -116,7 +116,7 @@ TEST_F(QueryAnswers, PatternsSelectBodiesAndExcludeTakesPrecedenceOverInclude) {
 }
 
 TEST_F(QueryAnswers, AQuestionInATurnedFrameIsAnsweredInIt) {
-  // The x axis of the frame is the y axis of the world. The obstacle is at (1, 0, 0) in the frame, and so at (1, 3, 3)
+  // The x axis of the frame is the y axis of the world. The obstacle is at (1, 0, 0) in the frame, which is (1, 3, 3)
   // in the world.
   const auto there = node_->sphere(1, 0, 0, 0.05, "turned");
   EXPECT_EQ(namesOf(there.answer), std::vector<std::string>({"obstacle/turned"}));

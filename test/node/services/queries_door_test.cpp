@@ -98,7 +98,7 @@ TEST_F(QueryDoor, AFrameThatNobodyKnowsIsRefused) {
 }
 
 TEST_F(QueryDoor, AStampOtherThanThatOfTheTickIsRefused) {
-  const ros::Time stamp = node_->heard().status.back()->header.stamp;  // stays the same, as no transform comes
+  const ros::Time stamp = node_->heard().status.back()->header.stamp;  // stays the same, because no transform arrives
   msg::QuerySphere::Request request;
   request.center.x = 2;
   request.header.stamp = stamp;
@@ -134,7 +134,7 @@ TEST_F(QueryDoor, RefusalsAreCountedExactlyAndLoggedAtMostOnceASecond) {
 }
 
 TEST(QueryBeforeTheWorld, IsNotReadyAndNeverClear) {
-  NodeUnderTest node(NodeSetup{});  // there is no robot, so there is no world frame
+  NodeUnderTest node(NodeSetup{});  // without a robot there is no world frame
   node.waitForStatus("the missing robot description is reported", [](const msg::Status& s) {
     return says(s.not_ready.at(0), "parameter 'robot_description' is not set");
   });

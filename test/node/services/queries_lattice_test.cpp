@@ -13,20 +13,21 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-/// A checkerboard of 5 x 5 x 5 places for boxes of 1 m, with corners at integers from -2 to 3. Every other place is
-/// empty. The cells of the grid are 1 m long as well, so a segment along faces of cells is also along faces of boxes.
+/// A lattice of 5 x 5 x 5 places for boxes of 1 m, whose corners have integer coordinates from -2 to 3. Like on a
+/// checkerboard, every second place is empty. The cells of the grid are also 1 m long. Therefore a segment along faces
+/// of cells is also along faces of boxes.
 class QueryLattice : public ::testing::Test {
  protected:
   static bool filled(int x, int y, int z) { return (x + y + z) % 2 == 0; }
   static std::string nameOf(int x, int y, int z) {
     return "box_" + std::to_string(x) + "_" + std::to_string(y) + "_" + std::to_string(z);
   }
-  template <class Deed>
-  static void forEachBox(Deed&& deed) {
+  template <class Function>
+  static void forEachBox(Function&& function) {
     for (int x = -2; x <= 2; ++x) {
       for (int y = -2; y <= 2; ++y) {
         for (int z = -2; z <= 2; ++z) {
-          if (filled(x, y, z)) deed(x, y, z);
+          if (filled(x, y, z)) function(x, y, z);
         }
       }
     }
@@ -42,8 +43,8 @@ class QueryLattice : public ::testing::Test {
     setup.beside["robot_description"] = urdf(link("base"));
     return setup;
   }
-  /// Whether the segment touches the closed box [low, low + 1]^3. The result is exact, because all coordinates are
-  /// small multiples of 1/4.
+  /// Returns whether the segment touches the closed box [low, low + 1]^3. The result is exact, because all coordinates
+  /// are small multiples of 1/4.
   static bool meets(const Point& from, const Point& to, const Point& low) {
     double enter = 0.0, leave = 1.0;
     for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// How success, a refusal or a fault is written into the different kinds of service responses.
+// Tests how the node writes success, a refusal or a fault into the different kinds of service responses.
 #include "src/node/services/envelope/reply.h"
 
 #include <gtest/gtest.h>

@@ -13,7 +13,7 @@ namespace {
 
 const AgeLimits kLimits{0.1, 0.25, 2.0};
 
-/// Returns a cloud whose newest message has this stamp and this arrival time [s].
+/// Returns a cloud whose newest message has the stamp `stamp` [s] and arrived at the time `received` [s].
 LoadedCloud seenAt(double stamp, double received, double lifetime = 1.0) {
   LoadedCloud cloud;
   cloud.lifetime = lifetime;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Tests of point clouds: their cells are added, are placed by the pose of the sensor at the stamp, and expire. A
-// refused message does no harm.
+// Tests point clouds. The node adds the cells of a message, places them by the pose of the sensor at the stamp of the
+// message, and removes them after their lifetime. A message that is refused does no harm.
 #include <hgrid_proximity/BodyState.h>
 #include <hgrid_proximity/UnknownReason.h>
 #include <hgrid_proximity/Verdict.h>
@@ -46,8 +46,8 @@ sensor_msgs::PointCloud2 cloudOf(const std::string& frame, ros::Time stamp, cons
   return cloud;
 }
 
-/// A robot with a sphere of radius 0.1 m at the origin of "base", and a cloud with cells of 0.1 m that is sent
-/// repeatedly.
+/// A robot with a sphere of radius 0.1 m at the origin of "base", and a cloud with cells of 0.1 m. The test sends the
+/// cloud repeatedly.
 class Clouds : public ::testing::Test {
  protected:
   /// Starts the node. @param cloud  additional parameters of the cloud
@@ -67,7 +67,7 @@ class Clouds : public ::testing::Test {
   }
   void send(const std::string& bytes) { publisher_.publish(CloudBytes{bytes}); }
   void send(const sensor_msgs::PointCloud2& cloud) { send(serialized(cloud)); }
-  /// Sends points in the frame "camera", stamped with the current time, until the condition holds.
+  /// Sends points in the frame "camera", with the current time as stamp, until `holds` is true for a status.
   void sendUntil(const Points& points, const std::string& what, const std::function<bool(const msg::Status&)>& holds) {
     node_->waitUntil(what, [&](const Heard& heard) {
       if (heard.status.empty()) return false;
@@ -239,7 +239,7 @@ TEST_F(Clouds, WithWrongLengthsLeaveTheCloudAsItWas) {
       return all == sent && counter(status, "cloud/front.refused." + code) > 0;
     });
   };
-  const std::size_t frame_at = 12, fields_at = frame_at + 4 + 6 + 8;  // positions of frame_id and fields
+  const std::size_t frame_at = 12, fields_at = frame_at + 4 + 6 + 8;  // positions of frame_id and of the fields [bytes]
   const auto with = [&](std::size_t at, std::uint32_t number) {
     return whole.substr(0, at) + bytesOf(number) + whole.substr(at + 4);
   };
@@ -301,7 +301,7 @@ TEST_F(Clouds, AreStaleAsSoonAfterAnOutageAsBeforeIt) {
 TEST_F(Clouds, DoNotContainTheRobotItself) {
   start(20.0, {}, dict({{"map", dict({{"self_filter", list({dict({{"pattern", "robot/a"}, {"padding", 0.09}})})}})}}));
   Points points;
-  for (int i = 0; i < 200; ++i) {  // points on the sphere, as a camera sees them
+  for (int i = 0; i < 200; ++i) {  // points on the sphere of the robot, as a camera sees them
     const float angle = 0.0314f * static_cast<float>(i);
     points.push_back({0.1f * std::cos(angle), 0.1f * std::sin(angle), -1.0f});
   }

@@ -134,8 +134,8 @@ TEST(Reload, OfARobotThatNobodyNamedIsRefused) {
   EXPECT_EQ(answer.world.bodies_revision, node.heard().status.back()->world.bodies_revision);
 }
 
-/// A robot with a readable sphere, a link with one readable and one unreadable sphere, a link whose mesh file is
-/// missing, and a link without geometry.
+/// A robot with a link that has a readable sphere, a link with one readable and one unreadable sphere, a link whose
+/// mesh file is missing, and a link without geometry.
 std::string holey() {
   return urdf(link("base", sphereOf(0.1)) + link("torn", sphereOf(0.1) + collision("<sphere radius=\"nan\"/>")) +
               link("meshless", collision("<mesh filename=\"package://hgrid_proximity/no/such.stl\"/>")) + link("bare") +
@@ -280,8 +280,9 @@ TEST(VisualGeometry, ThatCannotBeReadIsUncovered) {
   EXPECT_EQ(node.sphere(9, 0, 0, 0.05).answer.verdict, msg::Verdict::UNKNOWN);
 }
 
-/// A robot with a torso and two arms. Each arm has two joints that are 0.3 m apart. Only the torso and the gloves
-/// have shapes. Fixed joints connect the torso to the base, and each glove to a hand.
+/// A robot with a base, a torso and two arms. Each arm has two moving joints, 0.3 m apart, and a hand. Each hand wears
+/// a link that is called "glove". Fixed joints connect the torso to the base, and each glove to its hand. Only the
+/// torso and the gloves have shapes.
 std::string twoArms() {
   std::string content = link("base") + link("torso", sphereOf(0.1, "0 0 -5")) + joint("base", "torso", "fixed");
   for (const std::string side : {"left", "right"}) {
@@ -309,7 +310,7 @@ TEST(SelfPairs, HandsWhoseArmsHaveNoGeometryAreReportedWhenTheyAreNear) {
   EXPECT_EQ(counts[0].rigid + counts[0].adjacent + counts[0].srdf, 0u);
 }
 
-/// Waits until the log has one line with this text. The line may be written after the first tick with the robot.
+/// Waits until the log has exactly one line with this text. The line may come after the first tick with the robot.
 void waitForLine(NodeUnderTest& node, const std::string& text) {
   node.waitUntil("the log says " + text, [&](const Heard&) { return node.lines(text) == 1; });
 }

@@ -9,7 +9,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// Returns the moment that is this many milliseconds after the start of each clock.
+/// Returns the moment `ros_ms` [ms] after the start of the ROS clock and `steady_ms` [ms] after that of the steady
+/// clock.
 Moment after(int ros_ms, int steady_ms) {
   Moment moment;
   moment.ros = Time(milliseconds(1000000 + ros_ms));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Tests how the node treats space that a map does not know, and cells outside the crop box of ~map.
+// Tests how the node treats space that a map does not know, and cells outside of the crop box of ~map.
 #include <gtest/gtest.h>
 #include <hgrid_proximity/UnknownReason.h>
 #include <hgrid_proximity/UnknownSpace.h>
@@ -21,8 +21,9 @@ namespace {
 using msg::Answer;
 using Names = std::vector<std::string>;
 
-/// A robot with a sphere at the origin, and a cubic map with edges of 6553.6 m. The octant with positive x, y and z is
-/// free. The octant with negative x and positive y and z is occupied. The other octants are unknown.
+/// A robot with a sphere at the origin, and a cubic map with edges of 6553.6 m. In the octant with positive x, y and z
+/// the map is free. In the octant with negative x and positive y and z the map is occupied. All other octants are
+/// unknown.
 class MapSpace : public ::testing::Test {
  protected:
   MapSpace() { folder_.write("octants.bt", btHeader(usualLines("3")) + btNode("......of")); }
@@ -85,7 +86,7 @@ TEST_F(MapSpace, OutsideTheCropIsNotRead) {
 
 TEST_F(MapSpace, TheRobotsOwnCellsAreLeftOutOnceItIsKnownWhereItIs) {
   const std::string nodes =
-      binaryNodesOf({{32768, 32768, 32768, 0}, {32778, 32768, 32768, 0}});  // in the sphere, and 1 m from it
+      binaryNodesOf({{32768, 32768, 32768, 0}, {32778, 32768, 32768, 0}});  // in the sphere, and 1 m away
   const Octomap read = readOctomapData({"OcTree", true, 0.1}, nodes, "the two");
   folder_.write("octants.bt", btHeader(usualLines(std::to_string(read.nodes))) + nodes);
   streams_ = false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Tests of OctoMaps from files and topics: they are loaded, replaced and removed, and a refused map does no harm.
+// Tests OctoMaps from files and topics. The node loads, replaces and removes maps. A refused map does no harm.
 #include <hgrid_proximity/BodyState.h>
 #include <hgrid_proximity/ClearMap.h>
 #include <hgrid_proximity/Distances.h>
@@ -30,7 +30,7 @@ namespace {
 using msg::Answer;
 using Names = std::vector<std::string>;
 
-/// Returns a `.bt` file with `count` cells of 0.1 m, in a row along x that begins at the origin.
+/// Returns a `.bt` file with a row of `count` cells of 0.1 m. The row begins at the origin and runs along x.
 std::string rowOf(int count) {
   std::vector<Voxel> voxels;
   for (int i = 0; i < count; ++i) voxels.push_back({static_cast<std::uint16_t>(32768 + i), 32768, 32768, 0});
@@ -71,7 +71,7 @@ class Maps : public ::testing::Test {
     if (!ros::service::call(node_->named("clear_map"), request, response)) throw std::runtime_error("no answer");
     return response;
   }
-  /// Returns the names of the maps that a vertical line at x [m] meets.
+  /// Returns the names of the maps that a vertical segment at x [m] hits.
   Names metAt(double x) {
     msg::QuerySegment::Request request;
     request.start.x = request.end.x = x;
@@ -131,7 +131,7 @@ TEST_F(Maps, MakePairsAnswersAndDistances) {
 }
 
 TEST_F(Maps, AreDrawnWhereBodiesAre) {
-  folder_.write("long.bt", rowOf(100));  // a row of 10 m
+  folder_.write("long.bt", rowOf(100));  // a row of cells that is 10 m long
   start(list({mapOf("room", "long.bt")}));
   node_->waitForComplete();
   std::vector<visualization_msgs::Marker> cubes;
@@ -253,7 +253,7 @@ TEST_F(Maps, ThatWereMissingDoNotComeBackOnceOthersWereChosen) {
   folder_.write("later.bt", rowOf(5));
   const auto refusals = [](const msg::Status& status) { return counter(status, "maps.refused.RESOURCE_MISSING"); };
   const std::uint64_t before = refusals(*node_->heard().status.back());
-  node_->waitForTicks(75);  // 1.5 s; the next try would follow after 0.5 s
+  node_->waitForTicks(75);  // 1.5 s, which includes the time of the next try (after 0.5 s)
   EXPECT_EQ(metAt(0.05), Names({"map/room"}));
   EXPECT_EQ(metAt(0.45), Names()) << "the file that appeared later is not read";
   EXPECT_EQ(refusals(*node_->heard().status.back()), before);
@@ -315,7 +315,7 @@ TEST_F(Maps, OneThousandReplacementsLeaveNothingBehind) {
   EXPECT_EQ(metAt(0.05), Names({"map/room"}));
 }
 
-/// Returns the bytes of a message as octomap_server sends it on octomap_binary, or on octomap_full if not `binary`.
+/// Returns the bytes of a message of octomap_server, from octomap_binary if `binary` is true, else from octomap_full.
 std::string messageOf(const std::string& frame, const std::string& nodes, const std::string& id = "OcTree",
                       bool binary = true) {
   return bytesOf(std::uint32_t{7}) + bytesOf(std::uint64_t{0}) + stringOf(frame) +
@@ -353,7 +353,7 @@ TEST_F(MapTopics, ComeWithTheTypeNameOfOctomapServerAndFollowTheirFrame) {
   send(messageOf("odom", nodesOfRow(1)));
   node_->waitForComplete();
   EXPECT_EQ(metAt(1.05), Names({"map/room"}));
-  transforms_.stream("base", "odom", at(2.0));  // the frame jumps; the map moves with it and is not read again
+  transforms_.stream("base", "odom", at(2.0));  // the map moves with its frame and is not read again
   node_->waitForTicks(20);
   EXPECT_EQ(metAt(2.05), Names({"map/room"}));
   EXPECT_EQ(metAt(1.05), Names());
@@ -447,7 +447,7 @@ TEST_F(Maps, ThatAreRequiredMakeUnknownWhatWasClearWhenTheyAreGone) {
   setup.params = dict({{"map", dict({{"folder", folder_.path()}})}, {"required", list({Value("map/hall")})}});
   setup.beside["robot_description"] = balls({"a"});
   transforms_.stream("base", "a", at(0.05, 0.05, 0.3));
-  for (int life = 0; life < 2; ++life) {  // the second run follows after the node was killed
+  for (int life = 0; life < 2; ++life) {  // the second run begins after the node was killed
     node_ = std::make_unique<NodeUnderTest>(setup);
     node_->waitForStatus("the robot is placed", [](const msg::Status& now) {
       return now.body_count == 2 && now.bodies_total == 0 && now.world.incomplete == Names({"map/hall"});

@@ -19,8 +19,8 @@ class ChildProcess {
  public:
   /// Starts the program.
   /// @param command      program (searched in PATH if it contains no slash) and arguments
-  /// @param output_file  file to which the output is appended
-  /// @param environment  variables added to the environment of this process
+  /// @param output_file  the output of the program is appended to this file
+  /// @param environment  variables that are added to the environment of the test
   /// @throws std::runtime_error if the program cannot be started
   ChildProcess(const std::vector<std::string>& command, const std::string& output_file,
                const std::map<std::string, std::string>& environment);
@@ -31,7 +31,8 @@ class ChildProcess {
   pid_t pid() const { return pid_; }
   bool alive() { return !waitForEnd(0.0); }
   void signal(int number) const;
-  /// Returns the exit code (128 + n if signal n ended the process), or nullopt if it still runs after `patience` [s].
+  /// Waits at most `patience` [s] for the end of the process.
+  /// @returns its exit code, or 128 + n if signal n ended it; nullopt if it still runs
   std::optional<int> waitForEnd(double patience);
 
  private:

@@ -17,13 +17,13 @@
 namespace hgrid {
 namespace test {
 
-/// Succeeds if a sentence contains the words.
+/// Succeeds if `sentence` contains `words`.
 inline ::testing::AssertionResult says(const std::string& sentence, const std::string& words) {
   if (sentence.find(words) != std::string::npos) return ::testing::AssertionSuccess();
   return ::testing::AssertionFailure() << "'" << sentence << "' does not contain '" << words << "'";
 }
 
-/// Succeeds if one of the sentences contains the words.
+/// Succeeds if one of the sentences contains `words`.
 inline ::testing::AssertionResult oneSays(const std::vector<std::string>& sentences, const std::string& words) {
   for (const std::string& sentence : sentences) {
     if (says(sentence, words)) return ::testing::AssertionSuccess();
@@ -31,7 +31,7 @@ inline ::testing::AssertionResult oneSays(const std::vector<std::string>& senten
   return ::testing::AssertionFailure() << "none of " << sentences.size() << " sentences contains '" << words << "'";
 }
 
-/// Succeeds if the node logged a cause, and at most once per second.
+/// Succeeds if the node logged lines with the text `cause`, but on average at most one per second.
 inline ::testing::AssertionResult throttled(const NodeUnderTest& node, const std::string& cause) {
   const std::size_t lines = node.lines(cause);
   const double seconds = node.uptime();
@@ -39,14 +39,14 @@ inline ::testing::AssertionResult throttled(const NodeUnderTest& node, const std
   return ::testing::AssertionFailure() << lines << " lines with '" << cause << "' in " << seconds << " s";
 }
 
-/// Names of the bodies that a query hit, in the order of the answer.
+/// Returns the names of the bodies that a query hit, in the order of the answer.
 inline std::vector<std::string> namesOf(const msg::Answer& answer) {
   std::vector<std::string> names;
   for (const msg::Hit& hit : answer.hits) names.push_back(hit.name);
   return names;
 }
 
-/// [kB] Resident memory and virtual memory of a process.
+/// Returns the resident and the virtual memory [kB] of a process.
 inline std::pair<std::size_t, std::size_t> memoryOf(pid_t process) {
   std::ifstream file("/proc/" + std::to_string(process) + "/statm");
   std::size_t pages = 0, resident = 0;
@@ -56,7 +56,7 @@ inline std::pair<std::size_t, std::size_t> memoryOf(pid_t process) {
 inline std::size_t residentKilobytes(pid_t process) { return memoryOf(process).first; }
 inline std::size_t virtualKilobytes(pid_t process) { return memoryOf(process).second; }
 
-/// [kB] Largest resident memory of a process since it was started.
+/// Returns the largest resident memory [kB] of a process since it was started.
 inline std::size_t peakKilobytes(pid_t process) {
   std::ifstream file("/proc/" + std::to_string(process) + "/status");
   std::string word;
@@ -66,8 +66,8 @@ inline std::size_t peakKilobytes(pid_t process) {
   return kilobytes;
 }
 
-/// Returns the x coordinate [m] of the center of a spherical body, measured by a segment query along x through (y, z).
-/// NaN if the segment does not hit exactly one body.
+/// Returns the x coordinate [m] of the center of the spherical body `body` with radius `radius`. Measures it with a
+/// segment query along x through (y, z). Returns NaN if the segment does not hit exactly one body.
 inline double xOf(NodeUnderTest& node, const std::string& body, double radius = 0.1, double y = 0.0, double z = 0.0) {
   msg::QuerySegment::Request request;
   request.start.x = -50.0;

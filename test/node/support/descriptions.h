@@ -30,14 +30,14 @@ inline std::string joint(const std::string& parent, const std::string& child, co
          "\"/><child link=\"" + child + "\"/>" + content + "</joint>";
 }
 
-/// Returns a URDF <visual>. Its material has no name, so urdfdom refuses it.
+/// Returns a URDF <visual>. Its <material> has no name, therefore urdfdom refuses the <visual>.
 inline std::string visual(const std::string& geometry, const std::string& xyz = "0 0 0") {
   return "<visual><origin xyz=\"" + xyz + "\"/><geometry>" + geometry + "</geometry><material/></visual>";
 }
 
-/// Returns a URDF with a root link "base" and one link per name, connected to "base" by a floating joint. Each link has
-/// a sphere of radius 0.1 m at its origin. The sphere of "base" is 5 m below its origin, far from the others; it makes
-/// "base" a body even in a robot without other links.
+/// Returns a URDF with a root link "base" and one link for each of `names`. A floating joint connects each link to
+/// "base". Each link has a sphere of radius 0.1 m at its origin. The sphere of "base" is 5 m below its origin, far from
+/// the others. Because of this sphere, "base" is a body even in a robot without other links.
 inline std::string balls(const std::vector<std::string>& names) {
   std::string content = link("base", sphereOf(0.1, "0 0 -5"));
   for (const std::string& name : names) content += link(name, sphereOf(0.1)) + joint("base", name);

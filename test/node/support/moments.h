@@ -9,7 +9,7 @@
 namespace hgrid {
 namespace test {
 
-/// Returns this number of seconds as a time or a duration.
+/// Converts seconds into a time or a duration.
 inline Time s(double seconds) { return Time(std::llround(1e9 * seconds)); }
 
 /// Returns the moment at which the ROS clock and the steady clock show these times [s].

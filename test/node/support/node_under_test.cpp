@@ -17,7 +17,7 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// Returns a namespace that no other node of this master uses, so that no message of an earlier node is received.
+/// Returns a namespace that no other node of this master uses. Then the test receives no message of an earlier node.
 std::string nextSpace() {
   static std::atomic<int> count{0};
   return "/cell_" + std::to_string(getpid()) + "_" + std::to_string(++count);

@@ -36,12 +36,12 @@ namespace test {
 
 /// The parameters, environment and program with which a node is started.
 struct NodeSetup {
-  /// Private parameters of the node. The default of ~valid_for is 10 s here, so that a busy machine does not turn CLEAR
-  /// into UNKNOWN.
+  /// Private parameters of the node. Here the default of ~valid_for is 10 s. With a shorter time, a busy machine could
+  /// turn CLEAR into UNKNOWN.
   Value params = dict();
-  std::map<std::string, Value> beside;             ///< parameters in the namespace of the node: robot_description, ...
-  std::map<std::string, std::string> environment;  ///< variables added to those of the test
-  std::vector<std::string> command;                ///< program and arguments; empty: proximity_node
+  std::map<std::string, Value> beside;             ///< parameters of the namespace of the node: robot_description, ...
+  std::map<std::string, std::string> environment;  ///< variables that are added to the environment of the test
+  std::vector<std::string> command;                ///< program and arguments; empty means proximity_node
 };
 
 /// All messages of a node since it was started, the newest last.
@@ -56,8 +56,8 @@ struct Heard {
 /// Runs the node in its own process and namespace, stores its messages, and calls its services through persistent
 /// connections.
 ///
-/// Waiting functions wait for messages and never just sleep. Functions throw std::runtime_error if a message or an
-/// answer does not come; this fails the test.
+/// Functions that wait return when a message arrives; they do not sleep for a fixed time. Functions throw
+/// std::runtime_error if a message or an answer does not come; the test then fails.
 class NodeUnderTest {
  public:
   /// Starts the node. Waits for its first ~status if `must_serve` is true.
@@ -65,19 +65,19 @@ class NodeUnderTest {
   ~NodeUnderTest();
 
   const std::string& space() const { return space_; }
-  /// Full name of a topic or service of the node.
+  /// Returns the full name of the topic or service `what` of the node.
   std::string named(const std::string& what) const { return space_ + "/proximity/" + what; }
-  /// Sets a parameter in the namespace of the node, outside the private parameters.
+  /// Sets a parameter in the namespace of the node. It is not a private parameter of the node.
   void setBeside(const std::string& parameter, const Value& value);
   ChildProcess& process() { return *process_; }
 
-  /// Waits until the predicate is true for all messages received so far. Checks now and after each message.
-  /// @param what      what the test waits for; part of the error message
+  /// Waits until `holds` is true for all messages received so far. Checks it at once and after each message.
+  /// @param what      what the test waits for, as text for the error message
   /// @param patience  [s] longest time to wait
   void waitUntil(const std::string& what, const std::function<bool(const Heard&)>& holds, double patience = 20.0);
   /// Returns the newest ~status for which `wanted` is true. Waits for one if necessary.
   msg::Status::ConstPtr waitForStatus(const std::string& what, const std::function<bool(const msg::Status&)>& wanted);
-  /// Like waitForStatus(), for ~pairs and ~bodies.
+  /// Returns the newest ~pairs or ~bodies for which `wanted` is true. Waits for one if necessary.
   msg::Pairs::ConstPtr waitForPairs(const std::string& what, const std::function<bool(const msg::Pairs&)>& wanted);
   msg::Bodies::ConstPtr waitForBodies(const std::string& what, const std::function<bool(const msg::Bodies&)>& wanted);
   /// Waits for `count` more ticks.
@@ -98,11 +98,11 @@ class NodeUnderTest {
   msg::ExplainPair::Response explain(const std::string& first, const std::string& second, std::uint32_t contacts = 0,
                                      ros::Time stamp = ros::Time());
 
-  /// What the node has written to standard output and standard error so far.
+  /// Returns the text that the node has written to standard output and standard error so far.
   std::string output() const;
-  /// Number of lines of output() that contain the text.
+  /// Returns the number of lines of output() that contain the text.
   std::size_t lines(const std::string& text) const;
-  /// [s] Time since the node was started.
+  /// Returns the time since the node was started [s].
   double uptime() const;
 
  private:

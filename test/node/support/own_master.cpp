@@ -20,7 +20,8 @@ namespace {
 
 constexpr auto kPatience = std::chrono::seconds(20);
 
-/// Asks the master at this port for its state. @returns an invalid value if the master does not answer
+/// Asks the master at this port of 127.0.0.1 for its state, a list of all publishers, subscribers and services.
+/// @returns an invalid value if the master does not answer
 XmlRpc::XmlRpcValue stateOf(int port) {
   XmlRpc::XmlRpcClient client("127.0.0.1", port, "/");
   XmlRpc::XmlRpcValue request, answer;
@@ -29,7 +30,7 @@ XmlRpc::XmlRpcValue stateOf(int port) {
   return answer[2];
 }
 
-/// Polls until the condition is true, because a master sends no message when it starts or when a node registers.
+/// Checks the condition again and again, because a master sends no message when it starts or when a node registers.
 template <class Condition>
 void waitFor(const std::string& what, Condition&& holds) {
   const auto deadline = std::chrono::steady_clock::now() + kPatience;

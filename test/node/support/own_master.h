@@ -11,18 +11,19 @@
 namespace hgrid {
 namespace test {
 
-/// A separate ROS master for one test, in a process that the test may stop.
+/// A separate ROS master for one test. It runs in its own process, which the test may stop.
 class OwnMaster {
  public:
   /// Starts the master and waits for its first answer. @throws std::runtime_error after 20 s
   OwnMaster();
 
   ChildProcess& process() { return *process_; }
-  /// Value of ROS_MASTER_URI for nodes that shall use this master.
+  /// Returns the value of ROS_MASTER_URI for nodes that use this master.
   std::string uri() const { return "http://127.0.0.1:" + std::to_string(port_); }
-  /// Registrations of a node at this master, see registrationsOf().
+  /// Returns the registrations of a node at this master, as registrationsOf() lists them, such as "publishes /a/b".
   std::vector<std::string> registrations(const std::string& node) const;
-  /// Waits until the node has registered `what`. @throws std::runtime_error after 20 s
+  /// Waits until the registrations of the node contain `what`, such as "publishes /a/b".
+  /// @throws std::runtime_error after 20 s
   void waitForRegistration(const std::string& node, const std::string& what) const;
 
  private:

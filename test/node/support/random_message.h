@@ -16,7 +16,7 @@
 namespace hgrid {
 namespace test {
 
-/// Fills a message of any generated type: numbers have random bits, lists have 0 to 3 elements, strings 0 to 21 bytes.
+/// Fills a message of any generated type. Numbers get random bits, lists 0 to 3 elements, strings 0 to 21 bytes.
 class RandomMessage {
  public:
   explicit RandomMessage(unsigned seed) : random_(seed) {}
@@ -55,7 +55,7 @@ class RandomMessage {
   std::mt19937_64 random_;
 };
 
-/// Finds the positions of the length fields of strings and lists in a serialized message [bytes].
+/// Finds the length fields of strings and lists in a serialized message. A position is an offset in bytes.
 class LengthPositions {
  public:
   template <class Message>

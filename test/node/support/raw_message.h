@@ -13,8 +13,8 @@
 namespace hgrid {
 namespace test {
 
-/// Arbitrary bytes, valid or not, that can be published as a message of a type. The package of the type, for example
-/// octomap_msgs, is not needed.
+/// Bytes that a test publishes as a message of the type `Kind`. They may be an invalid message. The test does not need
+/// the package of the type, for example octomap_msgs.
 template <class Kind>
 struct RawMessage {
   std::string bytes;
@@ -38,22 +38,22 @@ struct TransformsKind {
   static constexpr const char* kType = "tf2_msgs/TFMessage";
   static constexpr const char* kDefinition = "geometry_msgs/TransformStamped[] transforms\n";
 };
-/// The kind of service requests. It has no type, because the type belongs to the service.
+/// Marks bytes that are the request of a service. It names no message type, because the service determines the type.
 struct RequestKind {};
 using OctomapBytes = RawMessage<OctomapKind>;
 using CloudBytes = RawMessage<CloudKind>;
 using TransformsBytes = RawMessage<TransformsKind>;
 using RequestBytes = RawMessage<RequestKind>;
 
-/// Returns the bytes of a number, as in a serialized message.
+/// Returns the bytes of a number as they are in a serialized message.
 template <class Number>
 std::string bytesOf(Number number) {
   return {reinterpret_cast<const char*>(&number), sizeof(number)};
 }
-/// Returns the bytes of a string, as in a serialized message.
+/// Returns the bytes of a string as they are in a serialized message.
 inline std::string stringOf(const std::string& text) { return bytesOf(static_cast<std::uint32_t>(text.size())) + text; }
 
-/// Returns the bytes of a message of a generated type.
+/// Returns the bytes of a serialized message.
 template <class Message>
 std::string serialized(const Message& message) {
   std::string bytes(ros::serialization::serializationLength(message), '\0');
@@ -63,7 +63,7 @@ std::string serialized(const Message& message) {
   return bytes;
 }
 
-/// Returns a cloud that contains one point [m], with float coordinates, as most drivers send it.
+/// Returns a cloud that contains one point [m]. Its coordinates are floats, which most drivers send.
 inline CloudBytes cloudOfOne(const std::string& frame, ros::Time stamp, float x, float y, float z) {
   std::string fields = bytesOf(std::uint32_t{3});
   for (std::uint32_t i = 0; i < 3; ++i) {

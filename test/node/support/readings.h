@@ -21,9 +21,9 @@ namespace test {
 const msg::BodyStatus* entryOf(const msg::Status& status, const std::string& body);
 /// Returns the state of a body in ~status. A body that is not listed is FRESH.
 int stateOf(const msg::Status& status, const std::string& body);
-/// Returns the value of a counter in ~status; 0 if there is none of this name.
+/// Returns the value of the counter `name` in ~status; 0 if ~status has no such counter.
 std::uint64_t counter(const msg::Status& status, const std::string& name);
-/// Returns the index of a pair in ~pairs; -1 if it is not listed. `first` must be the smaller name.
+/// Returns the index of a pair in ~pairs; -1 if ~pairs does not contain it. `first` must be the name that sorts first.
 int indexOf(const msg::Pairs& pairs, const std::string& first, const std::string& second);
 /// Returns all pairs as "first|second", in the order of the message.
 std::vector<std::string> namesOf(const msg::Pairs& pairs);

@@ -11,7 +11,7 @@ namespace hgrid {
 namespace test {
 
 /// Lists the registrations of a node, such as "publishes /a/b".
-/// @param state  the third element of the master's answer to getSystemState: publishers, subscribers and services
+/// @param state  third element of the master's answer to getSystemState: all publishers, subscribers and services
 inline std::vector<std::string> registrationsOf(const std::string& node, XmlRpc::XmlRpcValue state) {
   std::vector<std::string> found;
   const char* kinds[] = {"publishes ", "subscribes to ", "serves "};

@@ -27,6 +27,7 @@ def received(connection, count):
 
 
 def serve(listener, type_name, md5sum):
+    """Answers the connection header of each subscriber and announces the message. Never returns."""
     """Answers the connection header of each subscriber and announces the message."""
     kept = []
     while True:

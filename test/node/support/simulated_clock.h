@@ -18,7 +18,7 @@ class SimulatedClock {
   explicit SimulatedClock(double begin);
 
   ros::Time now() const;
-  /// Starts or stops the clock. A stopped clock publishes nothing, like that of a paused simulation.
+  /// Starts or stops the clock. A stopped clock publishes nothing, like the clock of a paused simulation.
   void run(bool running);
   /// Jumps to another time [s].
   void set(double time);

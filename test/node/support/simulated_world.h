@@ -15,26 +15,26 @@ namespace test {
 
 /// A World with clocks that the test sets. It needs no ROS master, and wait() returns immediately.
 ///
-/// The world frame is "base". Each name of `frames` is an obstacle of one sphere (radius 0.1 m) at the origin of the tf
-/// frame of that name.
+/// The world frame is "base". For each name in `frames` there is an obstacle: a sphere of radius 0.1 m at the origin of
+/// the tf frame of this name.
 class SimulatedWorld {
  public:
   enum class Clock { wall, simulated };
   static constexpr double kStart = 1e6;  ///< [s] ROS time when a test begins
 
   explicit SimulatedWorld(const std::vector<std::string>& frames, Clock clock = Clock::wall, Params params = Params{});
-  /// Uses a ledger that outlives this object. Many worlds can share one ledger, so that they log one line per second
-  /// together.
+  /// Uses a ledger that outlives this object. If many worlds share one ledger, they log at most one line per second in
+  /// total.
   SimulatedWorld(const std::vector<std::string>& frames, Clock clock, Params params, Ledger& ledger);
 
-  /// [s] Time by the ROS clock since the start.
+  /// Returns the time since the start by the ROS clock [s].
   double now() const { return now_; }
   /// Advances both clocks by this time [s].
   void wait(double duration);
   /// Sets the ROS clock to another time [s] since the start. The steady clock does not change.
   void setRosClock(double time) { now_ = time; }
 
-  /// Takes in a transform of a publisher on /tf: `child` is at (x, y, 0) [m] in `parent`, `stamp` [s] after the start.
+  /// Receives a transform of a publisher on /tf: `child` is at (x, y, 0) [m] in `parent`, `stamp` [s] after the start.
   void send(const std::string& publisher, const std::string& parent, const std::string& child, double x, double stamp,
             double y = 0.0);
   /// Like send(), with the current time as stamp.
@@ -44,29 +44,29 @@ class SimulatedWorld {
   /// Like send(), but on /tf_static.
   void fix(const std::string& publisher, const std::string& parent, const std::string& child, double x,
            double stamp = 0.0, double y = 0.0);
-  /// Takes in a transform from /tf or /tf_static.
+  /// Receives a transform from /tf or /tf_static.
   void take(const geometry_msgs::TransformStamped& transform, bool is_static, const std::string& publisher);
 
   /// Runs the next tick and returns it.
   const Tick& tick();
-  /// The newest tick.
+  /// Returns the newest tick.
   const Tick& last() const { return *tick_; }
   const Snapshot& snapshot() const { return *tick_->snapshot; }
-  /// The pose of the body at a frame, as the newest tick uses it.
+  /// Returns the pose of the obstacle at a frame, as the newest tick uses it.
   const BodyPose& pose(const std::string& frame) const;
   double x(const std::string& frame) const { return pose(frame).world_from_body.translation().x(); }
-  /// [s] Stamp of that pose, since the start.
+  /// Returns the stamp of pose(frame), counted from the start [s].
   double stamp(const std::string& frame) const;
-  /// [s] Time of the newest tick, since the start.
+  /// Returns the time of the newest tick, counted from the start [s].
   double tickTime() const;
-  /// The newest tick's entry about the body at a frame; null if there is none.
+  /// Returns the entry of the newest tick about the obstacle at a frame; null if there is none.
   const BodyTrouble* trouble(const std::string& frame) const;
-  /// Whether the newest tick reports the bodies at two frames as near.
+  /// Returns whether the newest tick reports the obstacles at two frames as a pair.
   bool near(const std::string& first, const std::string& second) const;
-  /// The verdict of a query with a sphere at (x, 0, 0) [m] in the newest tick.
+  /// Returns the verdict of a query with a sphere at (x, 0, 0) [m] in the newest tick.
   Verdict sphere(double x, double radius) const;
 
-  /// Value of a counter of the ledger; 0 if there is none of this name.
+  /// Returns the value of the counter `name` of the ledger; 0 if the ledger has no such counter.
   std::uint64_t counter(const std::string& name) const;
   World& world() { return *world_; }
   Moment moment() const;

@@ -11,14 +11,14 @@
 namespace hgrid {
 namespace test {
 
-/// Calls a function periodically on a separate thread until this object is destroyed. It replaces ros::SteadyTimer,
-/// whose last call may still run after the timer was destroyed.
+/// Calls a function periodically on a separate thread until this object is destroyed. Replaces ros::SteadyTimer: the
+/// last call of such a timer may still run after the timer was destroyed.
 class Ticker {
  public:
-  Ticker(std::chrono::milliseconds period, std::function<void()> deed)
-      : thread_([this, period, deed = std::move(deed)] {
+  Ticker(std::chrono::milliseconds period, std::function<void()> function)
+      : thread_([this, period, function = std::move(function)] {
           std::unique_lock<std::mutex> lock(mutex_);
-          while (!ended_.wait_for(lock, period, [this] { return end_; })) deed();
+          while (!ended_.wait_for(lock, period, [this] { return end_; })) function();
         }) {}
   ~Ticker() {
     {
@@ -33,7 +33,7 @@ class Ticker {
   std::mutex mutex_;
   std::condition_variable ended_;
   bool end_ = false;
-  std::thread thread_;  // declared last, because the thread uses the other members
+  std::thread thread_;  // declared last because the thread uses the other members
 };
 
 }  // namespace test

@@ -71,9 +71,9 @@ void TransformSource::stop(const std::string& child) {
   streams_.erase(child);
 }
 
-void TransformSource::pauseFor(const std::function<void()>& deed) {
+void TransformSource::pauseFor(const std::function<void()>& function) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  deed();
+  function();
 }
 
 void TransformSource::publishStreams() {

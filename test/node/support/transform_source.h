@@ -23,11 +23,11 @@ geometry_msgs::Transform at(double x, double y = 0.0, double z = 0.0, double yaw
 geometry_msgs::TransformStamped stamped(const std::string& parent, const std::string& child,
                                         const geometry_msgs::Transform& transform, ros::Time stamp = ros::Time());
 
-/// Returns the time of the system clock, even if /use_sim_time is set.
+/// Returns the time of the system clock, even if /use_sim_time is true.
 ros::Time wallTime();
 
-/// Publishes transforms: streams at 50 Hz, as a robot does, and single messages, also faulty ones. All functions may be
-/// called from any thread.
+/// Publishes transforms: streams at 50 Hz like those of a robot, and single messages, which may be faulty. All
+/// functions may be called from any thread.
 class TransformSource {
  public:
   explicit TransformSource(std::function<ros::Time()> now = wallTime);
@@ -35,19 +35,19 @@ class TransformSource {
   ros::Time now() const { return now_(); }
   /// Publishes the transforms on /tf as one message. Waits for a subscriber first.
   void send(const std::vector<geometry_msgs::TransformStamped>& transforms);
-  /// Publishes the transforms on /tf_static, together with all transforms of earlier calls.
+  /// Publishes the transforms on /tf_static, together with the transforms of all earlier calls of fix().
   void fix(const std::vector<geometry_msgs::TransformStamped>& transforms);
-  /// Publishes a transform on /tf at 50 Hz from now on, stamped `delay` [s] before the current time. Another call for
-  /// the same child replaces the transform.
+  /// Publishes a transform on /tf at 50 Hz from now on. Its stamp is `delay` [s] before the current time. Another call
+  /// for the same child replaces the transform.
   void stream(const std::string& parent, const std::string& child, const geometry_msgs::Transform& transform,
               double delay = 0.0);
   /// Stops the stream of the transform of `child`.
   void stop(const std::string& child);
-  /// Runs the function and publishes no stream meanwhile.
-  void pauseFor(const std::function<void()>& deed);
-  /// Waits for `count` subscribers of /tf and of /tf_static. @throws std::runtime_error after 20 s
+  /// Runs the function. All streams pause while it runs.
+  void pauseFor(const std::function<void()>& function);
+  /// Waits until /tf and /tf_static have at least `count` subscribers each. @throws std::runtime_error after 20 s
   void waitForListeners(std::size_t count = 1);
-  /// Number of transforms that send() has published.
+  /// Returns the number of transforms that send() has published.
   std::uint64_t sent() const { return sent_; }
 
  private:

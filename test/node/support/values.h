@@ -17,7 +17,7 @@ using Value = XmlRpc::XmlRpcValue;
 
 inline Value dict(std::initializer_list<std::pair<const char*, Value>> members = {}) {
   Value value;
-  value.begin();  // makes the value a dictionary, even if it stays empty
+  value.begin();  // makes the value a dictionary, even if no member follows
   for (const auto& member : members) value[member.first] = member.second;
   return value;
 }
@@ -32,7 +32,7 @@ inline Value list(std::initializer_list<Value> elements = {}) {
 
 inline Value xyz(double x, double y, double z) { return list({Value(x), Value(y), Value(z)}); }
 
-/// Returns an obstacle that is one sphere [m].
+/// Returns an obstacle with one sphere. Center and radius are in m.
 inline Value ball(const std::string& name, double x, double y, double z, double radius, const std::string& frame = "") {
   return dict({{"name", name},
                {"frame", frame},
@@ -40,7 +40,7 @@ inline Value ball(const std::string& name, double x, double y, double z, double 
                {"shapes", list({dict({{"type", "sphere"}, {"radius", radius}})})}});
 }
 
-/// Returns an obstacle that is one box [m], with sides parallel to the axes of its frame.
+/// Returns an obstacle with one box [m]. The sides of the box are parallel to the axes of its frame.
 inline Value box(const std::string& name, const Value& at, const Value& size, const std::string& frame = "") {
   return dict({{"name", name},
                {"frame", frame},
@@ -53,7 +53,7 @@ inline Value waiver(const std::string& pattern, const std::string& reason) {
   return dict({{"pattern", pattern}, {"reason", reason}});
 }
 
-/// Returns `params` with these members changed or added.
+/// Returns a copy of `params` in which these members are changed or added.
 inline Value with(Value params, std::initializer_list<std::pair<const char*, Value>> members) {
   for (const auto& member : members) params[member.first] = member.second;
   return params;

@@ -12,8 +12,8 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// Tests with a simulated clock: the launch file sets /use_sim_time. A robot has two moving spheres that are near each
-/// other. The obstacle "post" does not move.
+/// Tests with a simulated clock: the launch file sets /use_sim_time to true. A robot has two moving spheres that are
+/// near each other. The obstacle "post" does not move.
 class Clock : public ::testing::Test {
  protected:
   explicit Clock() : clock_(1000.0), transforms_([this] { return clock_.now(); }), node_(setup()) {
@@ -33,7 +33,7 @@ class Clock : public ::testing::Test {
   void stop() {
     transforms_.stop("a");
     transforms_.stop("b");
-    node_.waitForTicks(2);  // by now, the node has received all transforms
+    node_.waitForTicks(2);  // after these ticks, the node has received all transforms
   }
   void expectTheObstacleServes() {
     EXPECT_EQ(node_.sphere(2, 0, 0, 0.05).answer.verdict, msg::Verdict::HIT);

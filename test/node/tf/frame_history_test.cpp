@@ -29,7 +29,7 @@ PoseSample seamAt(double time, double x) {
   return result;
 }
 
-/// Returns x [m] at a time in the newest parent, or no value if the pose is not known.
+/// Returns the position x [m] of the frame in its newest parent at a time; empty if the pose is not known.
 std::optional<double> xAt(const FrameHistory& history, double time) {
   const auto pose = history.at(s(time));
   return pose ? std::optional<double>(pose->translation.x()) : std::nullopt;
@@ -166,7 +166,7 @@ TEST(FrameHistory, SaysForWhichTimesAPoseIsKnown) {
   EXPECT_EQ(history.knownTimes(s(13)), "has received no transform since the clock jumped");
 }
 
-/// A simple reference implementation of FrameHistory. It checks each pair of successive samples, one by one.
+/// A simple reference for FrameHistory. It checks all pairs of successive samples one by one.
 class Oracle {
  public:
   void advance(const PoseSample& sample, Time keep_from) {

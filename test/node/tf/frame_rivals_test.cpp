@@ -10,8 +10,8 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// The publisher "/a" holds frame 3, which is called "tool" and is in "hand" at x = 0 m. "/a" has sent transforms with
-/// stamps from 8 s to 10 s.
+/// The publisher "/a" holds frame 3, whose name is "tool". The frame is in "hand" at x = 0 m. "/a" has sent transforms
+/// with stamps from 8 s to 10 s.
 class FrameRivalsTest : public ::testing::Test {
  protected:
   FrameRivals::Holder holder() const {

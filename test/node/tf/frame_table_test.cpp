@@ -70,7 +70,7 @@ TEST(FrameTable, RefusesOneFrameMoreThanTheLimitAndGoesOnWithTheOthers) {
   EXPECT_EQ(refusalOf([&] { put(table, "b", "a"); }), Code::limit) << "'b' would be a third parent";
 }
 
-/// admit() guesses the next frame from the order of earlier calls. A wrong guess must not change the result.
+/// admit() guesses the next frame from the order of earlier calls. A wrong guess must not change the results.
 TEST(FrameTable, FindsFramesInAnyOrder) {
   FrameTable table(100);
   const auto name = [](int i) { return "frame" + std::to_string(i); };

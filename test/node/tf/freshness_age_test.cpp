@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Claim: the age of a body is the age of its pose in use, whatever other transforms arrive.
+// Claim: the age of a body is the age of the pose that the node uses for it. Other transforms do not change the age.
 #include <gtest/gtest.h>
 
 #include "test/node/support/simulated_world.h"
@@ -27,7 +27,7 @@ TEST_P(Ages, APoseTakenAtAnOlderTimeThanItsNewestTransformHasTheAgeOfThatTime) {
     for (int i = 0; i < 50; ++i) {
       world.wait(0.02);
       world.sendNow("/fast", "base", "a", 0.0);
-      world.send("/slow", "base", "b", 5.0, world.now() - delay);  // the tick waits for b
+      world.send("/slow", "base", "b", 5.0, world.now() - delay);  // the tick uses the newest time for which it knows b
       world.tick();
     }
     for (const char* frame : {"a", "b"}) {
@@ -101,7 +101,7 @@ TEST_P(Ages, LateAndStaleBeginAtOneAndAHalfPeriodsOfASlowFrameButGrowthDoesNot) 
   Params params;
   params.lost_after = 10.0;
   SimulatedWorld world({"a"}, GetParam(), params);
-  for (int i = 0; i < 60; ++i) {  // one transform per second
+  for (int i = 0; i < 60; ++i) {  // sends one transform per second
     world.wait(1.0);
     world.sendNow("/slow", "base", "a", 0.0);
     world.tick();
@@ -129,7 +129,7 @@ TEST_P(Ages, AnOutageDoesNotCountAsThePeriodOfAFrame) {
   };
   stream(20);
   for (int outage = 0; outage < 3; ++outage) {
-    for (int i = 0; i < 25; ++i) {  // an outage of 5 s, in steps that are too short to count as jumps of the clock
+    for (int i = 0; i < 25; ++i) {  // an outage of 5 s; the steps are too short to count as jumps of the clock
       world.wait(0.2);
       world.tick();
     }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Several publishers place one frame. These tests check whose transforms are used, what is reported, and for how long.
+// Several publishers place one frame. The tests check whose transforms the node uses, what it reports, and for how
+// long.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -24,8 +25,8 @@ class Fights : public ::testing::Test {
  protected:
   Fights() : world_({"a", "b"}) {}
 
-  /// Plays 20 ms. First sends a transform of the frame a, calls `first` and makes a tick. 10 ms later, calls `second`
-  /// and makes another tick.
+  /// Advances the clocks by 20 ms. After 10 ms, sends a transform of the frame a, calls `first` and makes a tick. After
+  /// 10 ms more, calls `second` and makes another tick.
   void cycle(const std::function<void()>& first, const std::function<void()>& second = {}) {
     world_.wait(0.01);
     world_.sendNow("/robot", "base", "a", 0.0);
@@ -46,7 +47,7 @@ class Fights : public ::testing::Test {
   }
 
   SimulatedWorld world_;
-  std::function<void()> look_ = [] {};  // called after each tick
+  std::function<void()> look_ = [] {};  // the cycle() function calls it after each tick
 };
 
 TEST_F(Fights, WhileTwoPublishersDisagreeAboutTheParentNothingReadsAsClear) {
@@ -153,7 +154,7 @@ TEST_F(Fights, AreNoneBetweenPublishersThatAgree) {
   };
   cycle(same("/one"));
   for (int i = 0; i < 100; ++i) cycle(same("/one"), same("/other"));
-  // A relay sends copies of the same transforms, sometimes before and sometimes after the original.
+  // A relay sends copies of the transforms of /one, sometimes before and sometimes after the original.
   for (int i = 0; i < 100; ++i) {
     x += 0.01;
     const auto one = same("/one"), relay = same("/relay");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Plays random sequences of transforms, and compares the node with a simple model of the last known pose of each body.
+// Sends random sequences of transforms to the node, and compares the node with a simple model of the last known poses.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -19,9 +19,9 @@ const std::vector<std::string> kFrames = {"m", "a", "b"};
 constexpr double kLate = 0.1, kStale = 0.25, kLost = 1.0, kCap = 0.7, kSpeed = 2.0, kMargin = 0.1;
 constexpr double kRounding = 2e-6;  // [m] rounding of boxes that are stored as float
 
-/// Counts how often each case occurred. The test prints the counts, to show that it covers every case.
+/// Counts how often each case occurred. The test prints the counts, which show whether it covers all cases.
 struct Coverage {
-  std::size_t ticks = 0, fresh = 0, late = 0, stale = 0, lost = 0, disputed = 0, fought = 0, kept = 0, pairs = 0,
+  std::size_t ticks = 0, fresh = 0, late = 0, stale = 0, lost = 0, contested = 0, fought = 0, kept = 0, pairs = 0,
               grown_pairs = 0, jumps = 0;
 };
 
@@ -58,12 +58,12 @@ class RandomHistory {
   }
 
  private:
-  /// A publisher of one frame, which moves in its parent at a constant speed.
+  /// A publisher of one frame. The frame moves at a constant speed in its parent.
   struct Source {
     std::string frame, parent, publisher;
     double x = 0.0, speed = 0.0;  // position at time 0 [m], speed [m/s]
     bool is_static = false;
-    double delay = 0.0;  // [s] how old its stamps are; negative: they are in the future
+    double delay = 0.0;  // [s] age of its stamps; negative: the stamps are in the future
     double period = 0.0, next = 0.0;
     bool silent = false;
   };
@@ -91,8 +91,8 @@ class RandomHistory {
   void speak(const Source& source, double stamp) {
     stamp = std::round(stamp * 1e6) / 1e6;
     if (!source.is_static && stamp > world_.now()) ahead_for_ = 2.0;
-    const Statement said{source.frame, source.parent,   source.publisher, source.x + source.speed * stamp,
-                         stamp,        source.is_static};
+    const PublishedTransform said{source.frame, source.parent,   source.publisher, source.x + source.speed * stamp,
+                                  stamp,        source.is_static};
     if (said.is_static) {
       world_.fix(said.publisher, said.parent, said.frame, said.x, random_.chance(0.1) ? 1e8 : 0.0);
     } else {
@@ -105,11 +105,11 @@ class RandomHistory {
     }
   }
 
-  /// Causes one random fault or change.
+  /// Causes one random fault or change of a source.
   void upset(Source& source) {
     const std::string frame = source.frame;
     switch (random_.below(9)) {
-      case 0:  // the same publisher moves the frame to another place
+      case 0:  // the publisher moves the frame to another place
         source.parent = parentFor(frame);
         source.x = random_.uniform(-0.3, 0.3) - source.speed * world_.now();
         if (source.is_static) source.next = world_.now();
@@ -196,10 +196,10 @@ class RandomHistory {
     if (told_) {
       std::printf("  %s: %s x %.6f at %.6f, %.6f old; model: x %.6f at %.6f, %.6f old%s%s\n", frame.c_str(),
                   name(pose.state), pose.world_from_body.translation().x(), world_.stamp(frame), pose.age, known.x,
-                  known.stamp, known.age, known.disputed ? ", disputed" : "", known.at_tick ? ", at tick" : "");
+                  known.stamp, known.age, known.contested ? ", contested" : "", known.at_tick ? ", at tick" : "");
     }
     if (pose.state == Freshness::unplaced) {
-      EXPECT_FALSE(known.placed && !known.disputed);
+      EXPECT_FALSE(known.placed && !known.contested);
       EXPECT_FALSE(world_.snapshot().complete());
       return;
     }
@@ -210,8 +210,8 @@ class RandomHistory {
     if (known.fought) {
       EXPECT_NE(pose.state, Freshness::fresh);
     }
-    if (known.disputed) {
-      // The pose must be one that a publisher has sent for its stamp.
+    if (known.contested) {
+      // The pose must follow from transforms that publishers have sent for its stamp.
       if (known.moves && pose.age < kLost && coverage_.jumps == jumps_before_) {
         EXPECT_TRUE(model_.isSupported(frame, x, world_.stamp(frame))) << "x = " << x << " at " << world_.stamp(frame);
       }
@@ -241,7 +241,7 @@ class RandomHistory {
     coverage_.late += pose.state == Freshness::late;
     coverage_.stale += pose.state == Freshness::stale;
     coverage_.lost += pose.state == Freshness::lost;
-    coverage_.disputed += known.disputed;
+    coverage_.contested += known.contested;
     coverage_.fought += known.fought;
     coverage_.kept += known.placed && !known.connected;
   }
@@ -252,7 +252,7 @@ class RandomHistory {
 
   void judgePair(const std::string& first, const std::string& second) {
     const FreshnessModel::Known &a = model_.known(first), &b = model_.known(second);
-    if (!a.placed || !b.placed || a.disputed || b.disputed) return;
+    if (!a.placed || !b.placed || a.contested || b.contested) return;
     const double gap = std::max(0.0, std::abs(a.x - b.x) - 0.2);
     if (gap > kMargin + growthOf(a) + growthOf(b) - kRounding) return;
     ++coverage_.pairs;
@@ -270,23 +270,23 @@ class RandomHistory {
   bool has_rival_ = false, faulty_ = false;
   const bool told_ = std::getenv("HGRID_TEST_SEED") != nullptr;
   double elapsed_ = 0.0;    // [s] time since the last tick
-  double ahead_for_ = 0.0;  // [s] for how much longer an earlier stamp from the future may have an effect
+  double ahead_for_ = 0.0;  // [s] remaining time in which an earlier stamp from the future may have an effect
 };
 
 TEST(FreshnessHistories, ABodyIsNeverFresherThanTheDataAndNoPairIsLost) {
   const int histories = countFromEnvironment("HGRID_TEST_HISTORIES", 100000);
-  Ledger ledger;  // one ledger for all histories, so that it logs one line per second
+  Ledger ledger;  // all histories use one ledger, so they log one line per second in total
   Coverage coverage;
-  const int only = countFromEnvironment("HGRID_TEST_SEED", 0);  // if not 0, only this seed is played
+  const int only = countFromEnvironment("HGRID_TEST_SEED", 0);  // if it is not 0, the test plays only this seed
   for (int seed = only > 0 ? only : 1; seed <= (only > 0 ? only : histories); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     RandomHistory(static_cast<std::uint64_t>(seed), ledger, coverage).run();
     if (HasFailure()) break;
   }
   std::printf(
-      "%d histories, %zu ticks; bodies: %zu fresh, %zu late, %zu stale, %zu lost, %zu disputed, %zu fought over, "
+      "%d histories, %zu ticks; bodies: %zu fresh, %zu late, %zu stale, %zu lost, %zu contested, %zu fought over, "
       "%zu kept; pairs that must be there: %zu, of which %zu by growth; %zu jumps of the clock\n",
-      histories, coverage.ticks, coverage.fresh, coverage.late, coverage.stale, coverage.lost, coverage.disputed,
+      histories, coverage.ticks, coverage.fresh, coverage.late, coverage.stale, coverage.lost, coverage.contested,
       coverage.fought, coverage.kept, coverage.pairs, coverage.grown_pairs, coverage.jumps);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Claim: a single wrong message, or a wrong stamp, does not make a frame unusable for long.
+// Claim: a single wrong message or a wrong stamp makes a frame unusable only for a short time.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -16,7 +16,7 @@ class Poison : public ::testing::Test {
  protected:
   Poison() : world_({"a", "b"}) {}
 
-  /// Sends transforms of the frame a at 50 Hz for `duration` [s], with a tick after each.
+  /// Sends transforms of the frame a at 50 Hz for `duration` [s]. Makes a tick after each transform.
   void stream(double duration, double x = 1.0) {
     const double end = world_.now() + duration - 1e-9;
     while (world_.now() < end) {
@@ -115,7 +115,7 @@ TEST_F(Poison, AStampAheadOfTheClockCountsOnlyUntilTheNextTransform) {
 }
 
 TEST_F(Poison, AStampOfZeroIsRefusedAndNamed) {
-  world_.send("/mistake", "base", "a", 7.0, -SimulatedWorld::kStart);  // the stamp is 0
+  world_.send("/mistake", "base", "a", 7.0, -SimulatedWorld::kStart);  // relative to the start; the stamp itself is 0
   idle(0.1);
   EXPECT_EQ(world_.pose("a").state, Freshness::unplaced);
   EXPECT_EQ(world_.counter("tf.refused.CLOCK"), 1u);

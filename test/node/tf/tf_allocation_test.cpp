@@ -36,7 +36,7 @@ TEST(FrameTableFailedAllocation, ChangesNothing) {
   EXPECT_GT(failures, 80u);
 }
 
-/// Returns x [m] of each frame in its parent at 1 s. -1 means that the pose is not known.
+/// Returns the position x [m] of each frame in its parent at the time 1 s. -1 means that the pose is not known.
 std::vector<double> positions(const TfIntake& intake) {
   std::vector<double> x;
   for (std::uint32_t frame = 0; frame < intake.table().size(); ++frame) {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kBound = 10000;  // [bytes]
 
-/// Returns a message of `size` bytes that arrived `at` [ms] after the start.
+/// Returns a message of `size` bytes that arrived at the time `at` [ms].
 ReceivedTransforms message(std::size_t size, int at, bool is_static = false) {
   const auto bytes = boost::make_shared<TransformBytes>();
   bytes->most_bytes = kBound;
@@ -30,7 +30,7 @@ int arrivalOf(const ReceivedTransforms& transforms) {
       std::chrono::duration_cast<std::chrono::milliseconds>(transforms.received.steady.time_since_epoch()).count());
 }
 
-/// Removes all messages. Returns their arrival times [ms], in the order in which the queue returned them.
+/// Removes all messages. Returns their arrival times [ms] in the order in which the queue returned the messages.
 std::vector<int> drain(TfQueue& queue) {
   std::vector<int> arrivals;
   while (const auto next = queue.pop()) arrivals.push_back(arrivalOf(*next));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// The node computes poses with its own tree of transforms. These tests compare those poses with the poses of tf2.
+// The node computes poses with its own tree of transforms. The tests compare these poses with the poses of tf2.
 #include "src/node/tf/tf_tree.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ geometry_msgs::Transform randomTransform(Random& random) {
 }
 
 /// A random tree of frames. Some frames are static, some are sent at different rates, and some change their parents.
-/// The order of the transforms changes from message to message.
+/// The order of the transforms is different in each message.
 class RandomTree {
  public:
   RandomTree(std::uint64_t seed, Ledger& ledger) : random_(seed), intake_(1e9, 10.0, 1000, false, ledger) {
@@ -119,8 +119,8 @@ class RandomTree {
       EXPECT_FALSE(looked_up);
       return;
     }
-    // While a frame changes its parent, tf2 uses the old parent, but our pose is not known. For earlier times, TfTree
-    // knows only the chain through the newest parents.
+    // While a frame changes its parent, tf2 uses the old parent, but the node does not know the pose. For earlier
+    // times, TfTree knows only the chain through the newest parents.
     if (!changes_ || looked_up) {
       ASSERT_TRUE(looked_up) << why_not;
       expectTheSamePose(*looked_up, *witness);
@@ -137,7 +137,7 @@ class RandomTree {
     EXPECT_LE((ours.pose().linear() - witness.pose().linear()).norm(), 1e-12);
   }
 
-  /// Expects that the newest time of a chain is the oldest of the newest stamps of its moving frames.
+  /// Expects that the newest time of a chain is the oldest among the newest stamps of its moving frames.
   void expectNewest(const ChainState& state, int frame) const {
     const auto upFrom = [&](int at) {
       std::vector<int> chain = {at};
@@ -158,7 +158,7 @@ class RandomTree {
   }
 
  public:
-  /// Returns the number of poses that both the node and tf2 knew.
+  /// Returns the number of compared poses. These are the poses that both the node and tf2 knew.
   std::size_t compared() const { return compared_; }
 
  private:
@@ -167,14 +167,14 @@ class RandomTree {
   TfIntake intake_;
   tf2::BufferCore witness_{ros::Duration(10.0)};
   std::map<int, int> parent_, pace_;
-  std::map<int, std::int64_t> newest_;  // newest stamp on /tf of each frame that moves
+  std::map<int, std::int64_t> newest_;  // newest stamp on /tf, by moving frame
   int world_ = 0;
   bool changes_ = false;  // whether frames change their parents
 };
 
 TEST(TfTree, PutsFramesWhereTf2SaysAtAnyTime) {
   std::size_t compared = 0;
-  Ledger ledger;  // one ledger for all trees: it then logs one line per second, not one per tree
+  Ledger ledger;  // all trees use one ledger, so they log one line per second in total
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     RandomTree tree(seed, ledger);

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kMaxApart = 0.25;  // [s]
 
-/// The frame "arm" is known in "base" at 10 s (x = 1 m) and at 12 s (x = 3 m). The frame "tool" is fixed to "arm" at
-/// x = 0.5 m. The frame "island" is not connected to these frames.
+/// The frame "arm" is known in "base" at 10 s (x = 1 m) and at 12 s (x = 3 m). The frame "tool" is fixed to "arm" at x
+/// = 0.5 m. The frame "island" is not connected with the other frames.
 class TransformLookupTest : public ::testing::Test {
  protected:
   void SetUp() override {

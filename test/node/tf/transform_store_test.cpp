@@ -52,8 +52,8 @@ TEST(TransformStore, SetsTheParentOfASample) {
   EXPECT_FALSE(store.history(arm).moves());
 }
 
-// Two transforms of one chain always get opposite x, so that their sum is 0. A thread that reads while they are written
-// must never get a pose that mixes two times. ThreadSanitizer reports a missing lock.
+// A thread writes two transforms of one chain. They always have opposite x, so their sum is 0. Another thread that
+// reads meanwhile must never get a pose that mixes two times. ThreadSanitizer reports a missing lock.
 TEST(TransformStore, IsReadByOtherThreadsWhileItIsWritten) {
   TransformStore store(s(1), 1000);
   const TransformLookup lookup(store);

@@ -13,7 +13,7 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-/// Starts another node that publishes the frame b in `parent` 20 times per second.
+/// Starts another process that publishes the frame b in `parent` 20 times per second.
 std::unique_ptr<ChildProcess> rivalOf(const std::string& parent) {
   const std::string message = "{transforms: [{header: {stamp: now, frame_id: " + parent +
                               "}, child_frame_id: b, transform: {translation: {x: 3.0}, rotation: {w: 1.0}}}]}";

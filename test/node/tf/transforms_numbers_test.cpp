@@ -16,8 +16,9 @@ namespace {
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 const double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A robot has three spheres: a and b are near each other, c is far away. Each message has one transform for each of
-/// them, with the same stamp. A wrong transform of a must not affect b and c. The age limits are too long to matter.
+/// A robot has three spheres: a and b are near each other, c is far away. Each message has one transform for each
+/// sphere, all with the same stamp. A wrong transform of a must not affect b and c. The age limits are too long to have
+/// an effect.
 class TransformNumbers : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -27,7 +28,7 @@ class TransformNumbers : public ::testing::Test {
     setup.beside["robot_description"] = balls({"a", "b", "c"});
     node_ = std::make_unique<NodeUnderTest>(setup);
     send(at(0));
-    node_->waitForComplete();  // the robot may be loaded after the first transforms arrive
+    node_->waitForComplete();  // the node may load the robot after the first transforms arrive
   }
   static void TearDownTestSuite() {
     node_.reset();
@@ -45,7 +46,8 @@ class TransformNumbers : public ::testing::Test {
     return node_->waitForTransforms(transforms_->sent());
   }
   static void good() { EXPECT_TRUE(take(at(0))->world.complete); }
-  /// Waits until robot/a is INVALID with this code. Checks that its last valid pose is used. Then sends a valid one.
+  /// Waits until robot/a is INVALID with this code. Checks that the node uses its last valid pose. Then sends a valid
+  /// pose.
   static void expectRefused(const std::string& code, const std::string& words) {
     const auto status = node_->waitForStatus("a is refused: " + code + " " + words, [&](const msg::Status& s) {
       const auto* entry = entryOf(s, "robot/a");

@@ -10,7 +10,7 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// Returns a setup in which the age limits are so long that no pose becomes LATE by its age.
+/// Returns a setup with age limits that are so long that no pose becomes LATE.
 NodeSetup ageless() {
   NodeSetup setup;
   setup.params = dict({{"stale_after", 3600.0},
@@ -32,7 +32,7 @@ class Stamps : public ::testing::Test {
   geometry_msgs::TransformStamped frame(const std::string& child, double x, double after) const {
     return stamped("base", child, at(x), begin_ + ros::Duration(after));
   }
-  /// Sends transforms. Waits until the node has read them, and until it has made a tick after their stamps.
+  /// Sends transforms. Waits until the node has read them and has made a tick after their stamps.
   msg::Status::ConstPtr take(const std::vector<geometry_msgs::TransformStamped>& transforms) {
     transforms_.send(transforms);
     for (const auto& transform : transforms) {
@@ -42,13 +42,14 @@ class Stamps : public ::testing::Test {
     node_.waitForTransforms(transforms_.sent());
     return node_.waitForStatus("a tick after the stamps", [&](const msg::Status& s) { return s.made > newest_; });
   }
-  /// Returns how long `time` is after begin_ [s].
+  /// Returns the time [s] from begin_ to `time`.
   double after(const ros::Time& time) const { return (time - begin_).toSec(); }
 
   TransformSource transforms_;
   NodeUnderTest node_;
-  ros::Time begin_;   // in the future, because ticks use the current time until a frame moves, and never run back
-  ros::Time newest_;  // newest stamp that was sent, except stamps that are refused
+  ros::Time begin_;   // in the future, because until a frame moves, ticks use the current time, and their time never
+                      // goes back
+  ros::Time newest_;  // newest stamp that was sent; stamps that are refused do not count
 };
 
 TEST_F(Stamps, TheTimeOfTheWorldIsTheNewestThatAllFreshFramesHave) {
@@ -109,7 +110,7 @@ TEST_F(Stamps, ATransformFromTheFutureIsRefusedAndDoesNotPoisonItsFrame) {
 
 TEST_F(Stamps, AStampThatComesAgainWithAnotherPoseIsIgnoredAndCounted) {
   take({frame("a", 0.0, 0.1), frame("b", 5.0, 0.1), frame("c", 9.0, 0.1)});
-  transforms_.send({frame("a", 0.0, 0.1)});  // an identical transform is not counted
+  transforms_.send({frame("a", 0.0, 0.1)});  // the node does not count a transform that is equal to an earlier one
   for (int i = 0; i < 100; ++i) transforms_.send({frame("a", 1.0, 0.1)});
   const auto status = node_.waitForStatus("all repeated stamps are counted",
                                           [](const msg::Status& s) { return counter(s, "tf.ignored.DUP_ID") == 100; });
@@ -122,7 +123,7 @@ TEST_F(Stamps, AStampThatComesAgainWithAnotherPoseIsIgnoredAndCounted) {
 TEST_F(Stamps, OfTransformsOutOfOrderTheNewestCounts) {
   take({frame("a", 0.0, 0.1), frame("b", 5.0, 0.1), frame("c", 9.0, 0.1)});
   take({frame("a", 0.2, 0.2), frame("b", 5.0, 0.2), frame("c", 9.0, 0.2)});
-  const auto status = take({frame("a", 0.15, 0.15)});  // 50 ms older than the newest one
+  const auto status = take({frame("a", 0.15, 0.15)});  // 50 ms older than the newest stamp
   EXPECT_NEAR(after(status->header.stamp), 0.2, 1e-6);
   EXPECT_NEAR(xOf(node_, "robot/a"), 0.2, 1e-5);
   EXPECT_EQ(counter(*status, "tf.out_of_order"), 1u);
@@ -151,7 +152,7 @@ TEST_F(Stamps, StampsThatComeAgainLaterDoNotFloodTheLog) {
 TEST(TimeOfTheWorld, NeverRunsBackWithinAnEpoch) {
   TransformSource transforms;
   NodeUnderTest node(ageless());
-  node.waitForTicks(5);  // no frame moves yet
+  node.waitForTicks(5);  // no frame has moved so far
   transforms.stream("base", "a", at(0), 0.3);
   transforms.stream("base", "b", at(5), 0.25);
   transforms.stream("base", "c", at(9), 0.0);
@@ -166,7 +167,7 @@ TEST(TimeOfTheWorld, NeverRunsBackWithinAnEpoch) {
   const Heard all = node.heard();
   for (std::size_t i = 1; i < all.pairs.size(); ++i) {
     const msg::Pairs &last = *all.pairs[i - 1], &next = *all.pairs[i];
-    if (last.world.sequence == 0) continue;  // there was no world yet
+    if (last.world.sequence == 0) continue;  // there was no world so far
     ASSERT_EQ(last.world.epoch, next.world.epoch);
     ASSERT_GT(next.world.sequence, last.world.sequence);
     ASSERT_GE(next.header.stamp, last.header.stamp) << "tick " << next.world.sequence;

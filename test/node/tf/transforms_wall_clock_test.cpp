@@ -16,9 +16,9 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// Tests in which the wall clock is set. libfaketime (package libfaketime) shifts the clock of the node; it reads the
-/// shift from a file each time the node reads the clock. The test shifts the stamps of its transforms by itself. The
-/// steady clock is not shifted.
+/// Tests that change the wall clock. libfaketime (package libfaketime) shifts the clock of the node. It reads the shift
+/// from a file whenever the node reads the clock. The test itself shifts the stamps of its transforms. The steady clock
+/// is not shifted.
 class WallClock : public ::testing::Test {
  protected:
   WallClock() : transforms_([this] { return wallTime() + ros::Duration(shift_); }) { write(0.0); }
@@ -48,7 +48,7 @@ class WallClock : public ::testing::Test {
     return setup;
   }
 
-  double shift_ = 0.0;  // [s]
+  double shift_ = 0.0;  // [s] current shift of the wall clock
   const std::string file_ = std::string(std::getenv("TMPDIR") ? std::getenv("TMPDIR") : "/tmp") + "/shifted_clock_" +
                             std::to_string(getpid());
   TransformSource transforms_;
@@ -91,7 +91,7 @@ TEST_F(WallClock, SettingItAgesNothing) {
     const auto epoch = node.heard().status.back()->world.epoch;
     std::size_t begin = 0;
     transforms_.pauseFor([&] {
-      node.waitForTicks(3);  // the node has received all transforms with stamps of the old clock
+      node.waitForTicks(3);  // after these ticks, the node has received all transforms with stamps of the old clock
       begin = node.heard().status.size();
       write(shift);
     });

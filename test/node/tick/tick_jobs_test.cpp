@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Tests of jobs that another thread waits for. (faults_guarded_test.cpp tests jobs that no thread waits for.)
+// Tests jobs for which another thread waits. (faults_guarded_test.cpp tests jobs for which no thread waits.)
 #include "src/node/tick/tick_jobs.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// An empty world, and a thread that does the jobs without pause.
+/// An empty world, and a thread that runs its jobs without pause.
 class Ticking {
  public:
   explicit Ticking(TickJobs& jobs)

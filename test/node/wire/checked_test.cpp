@@ -54,7 +54,8 @@ namespace msg = ::hgrid_proximity;
 constexpr unsigned kMessages = 50;
 constexpr std::size_t kSentence = 2048;  // [bytes] memory that an error sentence may allocate
 
-/// Deserializes the bytes as roscpp does. Checks that the allocated memory is at most proportional to their number.
+/// Deserializes the bytes as roscpp does. Checks that the allocated memory is at most proportional to the number of
+/// bytes.
 template <class Message>
 Checked<Message> received(std::string bytes) {
   Checked<Message> message;
@@ -78,7 +79,7 @@ template <class Message>
   return ::testing::AssertionFailure() << "accepted";
 }
 
-/// Succeeds if the bytes are refused, or if the message that is read from them has exactly these bytes.
+/// Succeeds if the bytes are refused. Also succeeds if the message that is read, when serialized, has the same bytes.
 template <class Message>
 ::testing::AssertionResult refusedOrEqual(const std::string& bytes) {
   const Checked<Message> message = received<Message>(bytes);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Sends a running node messages and requests that declare more data than they contain, or more transforms than it can
-// store.
+// Sends messages and requests to a running node that declare more data than they contain, or more transforms than the
+// node can store.
 #include <hgrid_proximity/ClearMap.h>
 #include <hgrid_proximity/LoadOctomap.h>
 #include <hgrid_proximity/QueryBox.h>
@@ -22,9 +22,9 @@ namespace hgrid {
 namespace test {
 namespace {
 
-constexpr std::size_t kMostGrowth = 8000;  // [kB] how much the node's memory may grow while it refuses messages
+constexpr std::size_t kMostGrowth = 8000;  // [kB] limit for the growth of the node's memory while it refuses messages
 
-/// Returns how many transforms, or whole messages, of tf the node has accepted, refused, dropped or ignored.
+/// Returns how many transforms or whole messages of tf the node has accepted, refused, dropped or ignored.
 std::uint64_t decided(const msg::Status& status) {
   std::uint64_t count = 0;
   for (const msg::Counter& counter : status.counters) {
@@ -35,8 +35,8 @@ std::uint64_t decided(const msg::Status& status) {
   return count;
 }
 
-/// A robot with a sphere of radius 0.1 m at the origin of "base" that never becomes LOST, and publishers that can send
-/// any bytes.
+/// A robot that never becomes LOST, with a sphere of radius 0.1 m at the origin of "base". Also publishers that can
+/// send any bytes.
 class Lengths : public ::testing::Test {
  protected:
   void start(std::optional<int> queue_bytes = std::nullopt) {
@@ -116,7 +116,7 @@ class Lengths : public ::testing::Test {
   ros::NodeHandle ros_;
   std::unique_ptr<NodeUnderTest> node_;
   ros::Publisher moving_, static_;
-  std::size_t memory_ = 0;  // [kB]
+  std::size_t memory_ = 0;  // [kB] memory of the node at the start
 };
 
 TEST_F(Lengths, OfTransformsThatAMessageDoesNotHoldCostNoMemory) {
@@ -163,7 +163,7 @@ TEST_F(Lengths, OfMessagesThatExceedTheQueueAreRefusedByName) {
 
 TEST_F(Lengths, OfLongMessagesDoNotStopTheTicks) {
   start();
-  constexpr std::uint32_t kTransforms = 200000;  // without names, so each of them is refused
+  constexpr std::uint32_t kTransforms = 200000;  // they have no names, so each of them is refused
   moving_.publish(TransformsBytes{bytesOf(kTransforms) + std::string(kTransforms * std::size_t{76}, '\0')});
   waitForRefusals("BAD_ID", kTransforms);
   bool ticked = false;

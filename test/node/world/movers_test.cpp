@@ -19,8 +19,8 @@ Body bodyOf(const std::string& name) {
 
 Pose shifted(double x) { return Pose(Eigen::Translation3d(x, 0.0, 0.0)); }
 
-/// A scene with two robots and the obstacle "post". The robot "arm" has two links on one frame and one link on another
-/// frame. The robot "cart" has one link.
+/// A scene with two robots and the obstacle "post". Two links of the robot "arm" are on one frame, one link is on
+/// another frame. The robot "cart" has one link.
 class MoversTest : public ::testing::Test {
  protected:
   void SetUp() override {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Claim: if memory runs out during a change or a tick of the world, later ticks are not affected. A script of changes
-// and ticks is played many times. Each time, another allocation of one step fails. Then the step is either repeated or
-// left out. Every later tick must be the same as in a world in which no allocation failed. These tests need no ROS
-// master.
+// Claim: if memory runs out during a change or a tick of the world, later ticks are not affected. The tests run a
+// script of changes and ticks many times. Each time, another allocation of one step fails. Then the step is either
+// repeated or left out. Every later tick must be the same as in a world in which no allocation failed. The tests need
+// no ROS master.
 #include <gtest/gtest.h>
 #include <ros/console.h>
 
@@ -44,7 +44,7 @@ LoadedRobot armOf(const std::string& name, double margin) {
   robot.bodies = test::armBodies(name);
   for (std::size_t i = 0; i < robot.bodies.size(); ++i) {
     robot.bodies[i].margin = margin;
-    if (robot.bodies[i].frame == "shoulder") {  // moves together with the previous link
+    if (robot.bodies[i].frame == "shoulder") {  // the link moves together with the link before it
       robot.groups.back().members.push_back({i, test::at(0.1)});
     } else {
       robot.groups.push_back({name + "_" + robot.bodies[i].frame, {{i, Pose::Identity()}}});
@@ -107,7 +107,8 @@ Step ticking(const Moment& now) {
   return {"tick", [=](World& world, Ticks& ticks) { ticks.push_back(world.tick(now)); }};
 }
 
-/// Sends the transforms of all frames. The first link of each robot moves, and the other links are fixed to it.
+/// Returns the step that sends transforms of all frames. The first link of each robot moves, the others are fixed to
+/// it.
 Step hearing(const Moment& now, double x) {
   tf2_msgs::TFMessage moving, standing;
   for (const std::string robot : {"arm", "other"}) {
@@ -139,7 +140,7 @@ Params paramsOfTheWorld() {
   ObstacleParams post{test::ball("post", 0.3)}, gripped{test::ball("gripped", 0.1)}, twin{test::ball("post", 0.5)};
   post.body.frame.clear();
   gripped.body.frame = "arm_hand";
-  // The world refuses the twin, because its name is taken.
+  // The world refuses `twin`, because `post` has the same name.
   for (const ObstacleParams& obstacle : {post, gripped, twin}) params.obstacles.push_back(obstacle);
   return params;
 }
@@ -171,10 +172,10 @@ std::vector<Step> script() {
   steps.push_back(resetting());
   tick(0.2);
   tick(0.2);
-  steps.back().may_be_left_out = false;  // after the jump, only the poses of the last tick are known
+  steps.back().may_be_left_out = false;  // after the jump of the clock, only the poses of the last tick are known
   jump = -5.0;
   tick(0.1);
-  steps.back().may_be_left_out = false;  // the jump drops all transforms that arrive before it is noticed
+  steps.back().may_be_left_out = false;  // all transforms that arrive before the node notices the jump are dropped
   steps.push_back(clearingMap("room"));
   steps.push_back(clearingMap(""));
   tick(0.0);
@@ -209,7 +210,7 @@ void expectEqual(const Told& told, const Told& expected) {
 
 constexpr std::size_t kNone = ~std::size_t{0};
 
-/// A fault: the k-th allocation of a step fails.
+/// A fault that the test causes: the k-th allocation of a step fails.
 struct Fault {
   std::size_t step = kNone, k = 0;
   test::Failing which = test::Failing::one;
@@ -217,7 +218,7 @@ struct Fault {
 };
 
 struct Played {
-  std::vector<Told> told;  // descriptions of all ticks from a given step on
+  std::vector<Told> told;  // contents of all ticks from a given step on
   bool failed = false;
 };
 

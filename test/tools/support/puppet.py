@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Publishes joint states and transforms, 50 times a second, until it is stopped.
+"""Publishes joint states and transforms 50 times per second until it is stopped.
 
 usage: puppet.py NAME [--joints JOINT,JOINT,...] [--tf PARENT CHILD X] [--offset S]
 """

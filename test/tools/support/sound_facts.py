@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Facts of a sound system, which tests break. No ROS is needed."""
+"""Facts of a system without faults. Tests change them to create faults. Needs no ROS."""
 import pathlib
 import sys
 from types import SimpleNamespace
@@ -21,7 +21,7 @@ URDF = f"""<robot name="arm">
   <joint name="weld" type="fixed"><parent link="hand"/><child link="tip"/></joint>
 </robot>"""
 SRDF = '<robot name="arm"><disable_collisions link1="base" link2="hand" reason="Never"/></robot>'
-UNIT = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)  # pose
+UNIT = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)  # the identity pose
 
 
 def stamp(seconds):
@@ -69,7 +69,7 @@ def status(sequence=100, made=1000.0, **changes):
 
 
 def sound():
-    """One arm, its robot_state_publisher /rsp, its /driver, the node /proximity."""
+    """Returns the facts of one arm with its robot_state_publisher /rsp, its driver /driver, and the node /proximity."""
     graph = Graph(
         publishers={
             "/tf": ["/rsp"],

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""A ROS system of a test's own: a master on a free port of 127.0.0.1, nodes, parameters; and the doctor beside it."""
+"""A ROS system for one test: a master on a free port of 127.0.0.1, nodes and parameters. Also runs the doctor."""
 import json
 import os
 import pathlib
@@ -18,25 +18,25 @@ sys.path.insert(0, str(ROOT / "tools"))
 
 from hgrid_doctor.observe.connection import Connection  # noqa: E402  (the path comes first)
 
-PATIENCE = 20.0  # [s] for what must come
+PATIENCE = 20.0  # [s] timeout for everything that a test waits for
 ARM = (ROOT / "demo/six_axis_arm.urdf").read_text()
 ARM_SRDF = (ROOT / "demo/six_axis_arm.srdf").read_text()
 ARM_JOINTS = ["joint_%d" % number for number in range(1, 7)]
 
 
 def wait_for(what, condition):
-    """The first value of a condition that counts as true."""
+    """Waits until the condition is true. Returns its value."""
     deadline = time.monotonic() + PATIENCE
     while time.monotonic() < deadline:
         value = condition()
         if value:
             return value
-        time.sleep(0.01)  # a poll: the master sends no message when something registers
+        time.sleep(0.01)  # polls, because the master sends no message when something registers
     raise AssertionError("waited %g s for %s" % (PATIENCE, what))
 
 
 class System:
-    """Ends with everything that it started."""
+    """A system. Its end stops all processes that it started."""
 
     def __init__(self):
         with socket.socket() as free:
@@ -58,17 +58,17 @@ class System:
 
     def __exit__(self, *_):
         for process in self._processes:
-            process.kill()  # nothing of it is used again, so it need not say goodbye
+            process.kill()  # SIGKILL is enough, because nothing of the process is used again
         for process in self._processes:
             process.wait()
         shutil.rmtree(self._folder, ignore_errors=True)
 
     def lose_master(self):
-        """From now on the doctor looks for a master where none is."""
+        """From now on, the doctor uses an address at which there is no master."""
         self._environment["ROS_MASTER_URI"] = "http://127.0.0.1:1"
 
     def hang_master(self):
-        """From now on the master accepts connections and never answers."""
+        """From now on, the master accepts connections but never answers."""
         os.kill(self._processes[0].pid, signal.SIGSTOP)
 
     def start(self, *command):
@@ -81,7 +81,7 @@ class System:
         self._master.setParam("/test", name, value)
 
     def robot(self, description=ARM, semantic=ARM_SRDF):
-        """Descriptions on the parameter server."""
+        """Sets the descriptions of the robot on the parameter server."""
         self.set("/robot_description", description)
         if semantic:
             self.set("/robot_description_semantic", semantic)
@@ -100,7 +100,7 @@ class System:
 
     def node(self, until, name="/proximity"):
         """Starts the node and waits until its ~status meets a condition."""
-        self.set(name + "/rate", 20)  # [Hz] no tick is late because other tests run beside this one
+        self.set(name + "/rate", 20)  # [Hz] so low that ticks are not late while other tests run
         namespace, _, base = name.rpartition("/")
         process = self.start(
             "rosrun", "hgrid_proximity", "proximity_node", "__name:=" + base, "__ns:=" + (namespace or "/")
@@ -111,7 +111,7 @@ class System:
         return process
 
     def doctor(self, *arguments):
-        """Exit code, findings."""
+        """Runs the doctor. Returns its exit code and its findings."""
         command = ["rosrun", "hgrid_proximity", "doctor", "--json", "--listen", "1", "--timeout", "1", *arguments]
         streams = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE}
         ended = subprocess.run(command, env=self._environment, timeout=PATIENCE, check=False, **streams)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Pure functions from facts to findings, in the order in which causes come before consequences."""
+"""Pure functions that turn facts into findings. They run in an order in which causes come before consequences."""
 from __future__ import annotations
 
 from typing import List
@@ -23,11 +23,11 @@ CHECKS = (
 
 
 def diagnose(facts: Facts) -> List[Finding]:
-    """What is wrong, the worst first."""
+    """Returns the findings, the worst first."""
     findings = Findings()
     network.check(facts, findings)
     if facts.graph.error:
-        return findings.ordered()  # nothing else is known
+        return findings.ordered()  # without a master or the network, nothing else is known
     for check in CHECKS:
         check(facts, findings)
     return findings.ordered()

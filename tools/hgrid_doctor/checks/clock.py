@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""The ROS clock: simulated or not, and whether it runs."""
+"""Checks the ROS clock: whether it is simulated, and whether it runs."""
 from __future__ import annotations
 
 from hgrid_doctor.facts import Facts
 from hgrid_doctor.finding import ERROR, EVERYTHING, WARN, Findings, listing
 from hgrid_doctor.frames import middle
 
-OTHER_CLOCK = 1e6  # [s] two clocks that differ by more are of different kinds: wall and simulation
+OTHER_CLOCK = 1e6  # [s] if two clocks differ by more, one is a wall clock and the other a simulated clock
 
 
 def check(facts: Facts, findings: Findings):
@@ -49,7 +49,7 @@ def check_simulated(facts: Facts, findings: Findings):
 
 
 def check_wall(facts: Facts, findings: Findings):
-    """A simulation runs, but nobody was told."""
+    """Finds a simulation that runs although /use_sim_time is not set."""
     if not facts.clock:
         return
     offsets = [offset for stream in facts.streams if not stream.static for offset in stream.offsets]
@@ -65,7 +65,7 @@ def check_wall(facts: Facts, findings: Findings):
 
 
 def check_clock_of_node(facts: Facts, findings: Findings):
-    """A node asks for /use_sim_time only when it starts."""
+    """Compares the clock of the node with the ROS clock. A node reads /use_sim_time only when it starts."""
     if facts.status is None or findings.has("no_clock", "clock_silent", "clock_unused"):
         return
     made = facts.status.made.to_sec()
@@ -77,6 +77,6 @@ def check_clock_of_node(facts: Facts, findings: Findings):
         "node_on_other_clock",
         ERROR,
         f"{facts.node} uses {kind}: its newest tick is of {made:.1f} s, and it is {now:.1f} s now.",
-        f"Start the node again, since it asks for /use_sim_time only at its start: `rosnode kill {facts.host}`.",
+        f"Start the node again, because it reads /use_sim_time only when it starts: `rosnode kill {facts.host}`.",
         [EVERYTHING],
     )

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Frames that several publishers place."""
+"""Checks for frames that several publishers place."""
 from __future__ import annotations
 
 from math import acos, dist
@@ -10,14 +10,14 @@ from hgrid_doctor.facts import Facts, TfStream
 from hgrid_doctor.finding import ERROR, WARN, Findings, counted, listing
 from hgrid_doctor.frames import Tree, needed_chains, robots_placed_by
 
-SAME_TIME = 0.02  # [s] poses of stamps that are so near are compared
-SAME_DISTANCE, SAME_ANGLE = 0.01, 0.01  # [m], [rad] as the node judges
+SAME_TIME = 0.02  # [s] two poses are compared if their stamps differ by at most this time
+SAME_DISTANCE, SAME_ANGLE = 0.01, 0.01  # [m], [rad] the limits that the node uses
 
 
 def check(facts: Facts, findings: Findings):
     tree = Tree(facts.streams)
     chains = needed_chains(facts, tree)
-    groups = {}  # by publishers and whether they contradict each other: frames
+    groups = {}  # frames by (publishers, whether the publishers contradict each other)
     for child, streams in sorted(tree.of_child.items()):
         if len(streams) < 2:
             continue
@@ -61,14 +61,14 @@ def said_by_node(facts: Facts, child: str) -> bool:
 
 
 def contradict(streams: List[TfStream]) -> bool:
-    """Whether parents differ, or poses of about one time."""
+    """Returns whether the streams have different parents, or different poses at about the same time."""
     if len({stream.parent for stream in streams}) > 1:
         return True
     return any(differ(a, b) for i, a in enumerate(streams) for b in streams[i + 1 :])
 
 
 def differ(a: TfStream, b: TfStream) -> bool:
-    static = a.static or b.static  # its stamp means nothing
+    static = a.static or b.static  # the stamp of a static transform means nothing
     for stamp, pose in a.poses:
         nearest = min(b.poses, key=lambda other: abs(other[0] - stamp), default=None)
         if nearest and (static or abs(nearest[0] - stamp) <= SAME_TIME) and not same(pose, nearest[1]):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Robot descriptions: there, XML, with shapes whose meshes can be read."""
+"""Checks the robot descriptions: whether they exist, are valid XML, and name meshes that can be read."""
 from __future__ import annotations
 
 from hgrid_doctor.facts import Facts, RobotFacts
@@ -33,7 +33,7 @@ def reload_command(facts: Facts, robot: RobotFacts) -> str:
 def check_missing(facts: Facts, robot: RobotFacts, findings: Findings):
     settings = robot.settings
     if facts.is_loaded(settings.name):
-        return  # it was remapped, or was there when the node started
+        return  # its name was remapped, or it existed when the node started
     there = f" (there is {listing(robot.candidates)})" if robot.candidates else ""
     first = robot.candidates[0] if robot.candidates else ""
     fix = (
@@ -71,11 +71,11 @@ def check_flaw(facts: Facts, robot: RobotFacts, findings: Findings):
 
 
 def check_meshes(facts: Facts, robot: RobotFacts, findings: Findings):
-    """Missing packages are said once each, other causes once for all files."""
+    """Adds one finding per missing package, and one finding for all files that cannot be read for other reasons."""
     if facts.is_loaded(robot.settings.name) and not any(
         text.startswith(robot.settings.name + "/") for text in facts.status.uncovered
     ):
-        return  # the node can read what this shell cannot, on another computer for example
+        return  # the node can read files that this shell cannot, for example on another computer
     packages, others = {}, {}
     for uri, error in robot.mesh_errors.items():
         if error.startswith("there is no package"):

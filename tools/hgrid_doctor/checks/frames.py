@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Frames that robots need: who should publish them, and whether they hang below the world frame."""
+"""Checks the frames that robots need: whether they are published, and whether tf connects them with the world frame."""
 from __future__ import annotations
 
 from typing import Dict, List, Set
@@ -21,7 +21,7 @@ def check(facts: Facts, findings: Findings):
     if findings.explain(EVERYTHING, ERROR):
         return
     tree = Tree(facts.streams)
-    apart: Dict[str, Set[str]] = {}  # by root of a tree that is not the world's: robots
+    apart: Dict[str, Set[str]] = {}  # names of robots by the root of their tree, if the world frame is not in that tree
     waiting: List[Waiting] = []
     for robot in facts.robots:
         if robot.description is None or robot.description.flaw:
@@ -40,14 +40,16 @@ def check(facts: Facts, findings: Findings):
 
 
 def is_absent(facts: Facts, tree: Tree, robot: RobotFacts, frame: str, link: str) -> bool:
-    """Nobody sent it. The root of a robot and the world frame may be heard as the parent of others only."""
+    """Returns whether nobody publishes the frame. The world frame and the root of a robot need no publisher of their
+    own."""
     if frame in tree.of_child or frame == facts.world_frame():
         return False
     return link != robot.description.root or not tree.has(frame)
 
 
 def unplaced_frames(facts: Facts, tree: Tree, robot: RobotFacts) -> Dict[str, str]:
-    """Frames whose links have no pose, by the node's word or, where it says nothing, by what was heard."""
+    """Returns the frames whose links have no pose. Asks the node's ~status; if it does not say it, uses the received
+    tf."""
     needed = needed_frames(robot, facts)
     name = robot.settings.name
     if facts.is_loaded(name):
@@ -67,7 +69,8 @@ def unplaced_frames(facts: Facts, tree: Tree, robot: RobotFacts) -> Dict[str, st
 
 
 def sources_below(facts: Facts, tree: Tree, frames: Set[str]) -> Set[str]:
-    """Sources whose bodies without a pose all follow one of the frames, through others or not."""
+    """Returns the sources for which each body without a pose depends on one of the frames, directly or through
+    others."""
     follow: Dict[str, List[bool]] = {}
     for body in facts.status.bodies if facts.status is not None else []:
         if body.state in (LOST, UNPLACED):
@@ -80,7 +83,10 @@ def sources_below(facts: Facts, tree: Tree, frames: Set[str]) -> Set[str]:
 def check_absent(
     facts: Facts, tree: Tree, robot: RobotFacts, absent: Dict[str, str], findings: Findings, waiting: List[Waiting]
 ):
-    """@param waiting  gets the robot if its joint states have no publisher"""
+    """Adds a finding for frames that are not published.
+
+    @param waiting  the robot is added if its joint states have no publisher
+    """
     name = robot.settings.name
     needed = needed_frames(robot, facts)
     what = f"{len(absent)} of {counted(len(needed), 'frame')} of robot '{name}' do not come ({listing(sorted(absent))})"
@@ -124,7 +130,7 @@ def check_absent(
 
 
 def place(robot: RobotFacts) -> str:
-    """Arguments by which a robot_state_publisher finds the description of the robot."""
+    """Returns arguments with which a robot_state_publisher finds the description of the robot."""
     key = robot.key or robot.settings.description
     namespace, _, name = key.rpartition("/")
     if name != "robot_description":
@@ -133,7 +139,8 @@ def place(robot: RobotFacts) -> str:
 
 
 def other_prefix(facts: Facts, tree: Tree, robot: RobotFacts, absent: Dict[str, str]):
-    """A prefix of no other robot under which most of the links come; None: there is none."""
+    """Returns the prefix under which most of the links are published, if no other robot uses the prefix; otherwise
+    None."""
     taken = {other.settings.tf_prefix.lstrip("/") for other in facts.robots if other is not robot}
     votes: Dict[str, int] = {}
     for link in absent.values():
@@ -147,13 +154,13 @@ def other_prefix(facts: Facts, tree: Tree, robot: RobotFacts, absent: Dict[str, 
 
 
 def was_connected(facts: Facts, robots: List[str]) -> bool:
-    """Whether the node had a pose of some link."""
+    """Returns whether the node once had a pose of a link of one of the robots."""
     bodies = facts.status.bodies if facts.status is not None else []
     return any(body.state == LOST and body.name.partition("/")[0] in robots for body in bodies)
 
 
 def check_connected(facts: Facts, tree: Tree, apart: Dict[str, Set[str]], findings: Findings):
-    """The frames come, but not below the world frame."""
+    """Adds a finding for robots whose frames are published, but are not connected with the world frame."""
     world, roots = facts.world_frame(), sorted(apart)
     names = sorted({name for robots in apart.values() for name in robots})
     who = f"robot{'s' if len(names) > 1 else ''} {listing(names)}"
@@ -176,7 +183,7 @@ def check_connected(facts: Facts, tree: Tree, apart: Dict[str, Set[str]], findin
             "world_frame_lost",
             ERROR,
             f"Nothing connects the world frame '{world}' any more with {who}, below {listing(roots)}.",
-            "Start again what said where the robot is (localization, odometry): see what is missing in `rosnode list`.",
+            "Start the node again that published where the robot is (localization, odometry): see `rosnode list`.",
             explained,
         )
     elif not tree.has(world):
@@ -195,6 +202,6 @@ def check_connected(facts: Facts, tree: Tree, apart: Dict[str, Set[str]], findin
             f"tf is in parts that nothing connects: the world frame '{world}' is below '{tree.root(world)}', {who} "
             "below"
             f" {listing(roots)}.",
-            f"Start what says where the robot is (localization, odometry), or publish it: {publish}; or {set_frame}.",
+            f"Start a node that publishes where the robot is (localization, odometry), or run {publish}, or {set_frame}.",
             explained,
         )

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Maps and clouds: files, topics, types, frames."""
+"""Checks the inputs of maps and clouds: files, topics, types and frames."""
 from __future__ import annotations
 
 from hgrid_doctor.facts import Facts

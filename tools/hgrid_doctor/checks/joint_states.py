@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Why frames that a robot_state_publisher should send do not come."""
+"""Finds out why a robot_state_publisher does not publish frames that it should publish."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -13,12 +13,12 @@ from hgrid_doctor.frames import joint_state_topics
 
 @dataclass
 class Absent:
-    """Frames of a robot that do not come."""
+    """Frames of a robot that nobody publishes."""
 
     robot: RobotFacts
-    frames: Dict[str, str]  # with the link that each is for
-    what: str  # the begin of a sentence about them
-    explains: Set[str]  # sources that are not complete without them
+    frames: Dict[str, str]  # frame: a link that needs the frame
+    what: str  # the begin of a sentence about the frames
+    explains: Set[str]  # sources that are incomplete because of the missing frames
 
 
 @dataclass
@@ -31,7 +31,7 @@ class Waiting:
 
 
 def state_publishers(facts: Facts, robot: RobotFacts) -> Set[str]:
-    """Nodes that make frames of joint states, for this robot as far as that can be known."""
+    """Returns the nodes that turn joint states into frames. Leaves out nodes that are known to serve another robot."""
     own = {robot.settings.frame(link) for link in robot.description.links}
     others = {other.key for other in facts.robots if other is not robot}
     sending, silent = set(), set()
@@ -92,7 +92,7 @@ def check_joint_states(facts: Facts, absent: Absent, publisher: str, findings: F
 
 
 def add_no_joint_states(waiting: List[Waiting], findings: Findings):
-    """One finding for all robots: one driver may be what is missing."""
+    """Adds one finding for all robots, because the same driver may be missing for all of them."""
     first = waiting[0]
     topics = sorted({each.topic for each in waiting})
     if len(waiting) == 1:

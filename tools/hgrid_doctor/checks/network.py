@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""The master, and whether this shell and the nodes can reach each other."""
+"""Checks the master, and whether this shell and the nodes can reach each other."""
 from __future__ import annotations
 
 from hgrid_doctor.facts import Facts
@@ -17,7 +17,7 @@ def check_master(facts: Facts, findings: Findings):
     if not facts.graph.error:
         return
     uri = facts.environment.master_uri
-    origin = "ROS_MASTER_URI" if facts.environment.master_uri_is_set else "the default, since ROS_MASTER_URI is not set"
+    origin = "ROS_MASTER_URI" if facts.environment.master_uri_is_set else "the default; ROS_MASTER_URI is not set"
     findings.add(
         "no_master",
         ERROR,
@@ -27,7 +27,7 @@ def check_master(facts: Facts, findings: Findings):
 
 
 def check_own_name(facts: Facts, findings: Findings):
-    """What nodes that start in this shell announce, others must be able to reach."""
+    """Checks the address that nodes of this shell announce. Other computers must be able to reach it."""
     environment = facts.environment
     if not environment.own_name_error:
         return
@@ -44,7 +44,7 @@ def check_own_name(facts: Facts, findings: Findings):
 
 
 def check_hosts(facts: Facts, findings: Findings):
-    """Nodes whose host this computer does not find: their topics never arrive here."""
+    """Finds nodes whose host name this computer cannot resolve. Nothing from their topics arrives here."""
     unknown = {}
     for node in facts.nodes.values():
         if node.host_error:

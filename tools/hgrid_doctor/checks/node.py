@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""The proximity node itself: is it there, does it answer, does it speak?"""
+"""Checks the proximity node itself: whether it runs, answers and publishes ~status."""
 from __future__ import annotations
 
 from hgrid_doctor.facts import Facts
@@ -29,7 +29,7 @@ def check(facts: Facts, findings: Findings):
         return
     known = facts.nodes.get(host)
     if known and known.host_error:
-        return  # check_hosts has said it
+        return  # check_hosts has added a finding
     if known and known.error:
         findings.add(
             "node_gone",

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""SRDF: there, XML, and of this robot."""
+"""Checks the SRDF: whether it exists, is valid XML, and belongs to the robot."""
 from __future__ import annotations
 
 from hgrid_doctor.facts import Facts, RobotFacts

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Stamps of /tf that are constantly early or late: two computers whose clocks differ, or a publisher that is slow."""
+"""Checks for stamps on /tf that are always early or late: the clocks of two computers differ, or a publisher is
+slow."""
 from __future__ import annotations
 
 from typing import List
@@ -10,8 +11,8 @@ from hgrid_doctor.facts import Facts, TfStream
 from hgrid_doctor.finding import ERROR, WARN, Findings
 from hgrid_doctor.frames import Tree, middle, needed_chains, robots_placed_by
 
-EARLY = 0.2  # [s] some publishers stamp deliberately a little ahead, amcl by 0.1 s
-LEAST_MESSAGES = 3  # of one publisher, to judge it
+EARLY = 0.2  # [s] some publishers deliberately use stamps in the near future, amcl by 0.1 s
+LEAST_MESSAGES = 3  # a publisher with fewer messages is not judged
 
 
 def check(facts: Facts, findings: Findings):
@@ -42,7 +43,7 @@ def check_zero(publisher: str, streams: List[TfStream], robots, findings: Findin
 
 
 def clock_step(facts: Facts) -> float:
-    """[s] by which simulated time may lag, since it only advances with messages of /clock."""
+    """Returns how far simulated time may lag [s]: the longest step between two messages of /clock."""
     return max((after - before for before, after in zip(facts.clock, facts.clock[1:])), default=0.0)
 
 
@@ -60,8 +61,7 @@ def check_offset(facts: Facts, publisher: str, streams: List[TfStream], robots, 
             ERROR,
             f"The stamps of {publisher} on /tf are of another clock: they are {abs(offset):.0f} s off.",
             f"Start {publisher} again with the present /use_sim_time ({str(facts.graph.use_sim_time).lower()}), which "
-            "it asks"
-            " for only at its start.",
+            "it reads only when it starts.",
             robots,
         )
         return

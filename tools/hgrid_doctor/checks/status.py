@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""What the node itself says in ~status and nothing else explains."""
+"""Reports problems that the node itself states in ~status and that no earlier finding explains."""
 from __future__ import annotations
 
 from typing import Dict
@@ -8,9 +8,9 @@ from typing import Dict
 from hgrid_doctor.facts import STALE, STATES, Facts
 from hgrid_doctor.finding import ERROR, EVERYTHING, WARN, Findings, counted
 
-LATE_SHARE = 0.1  # of the ticks that may be late
+LATE_SHARE = 0.1  # fraction of the ticks that may be late
 
-HINTS = {  # by the first word of a reason
+HINTS = {  # fix by the first word of the reason
     "UNPLACED": "See whether tf connects its frame with the world: `rosrun tf tf_echo {world} <frame>`.",
     "UNCOVERED": "Correct the shape, or waive it with ~accept_uncovered and a reason.",
     "LOST": "See why its publisher stopped: `rostopic hz /tf`, `rosnode list`.",
@@ -19,7 +19,7 @@ HINTS = {  # by the first word of a reason
     "REQUIRED": "Add what ~required names, or do not require it.",
     "PARSE": "Correct the description, then `rosservice call {node}/reload_robot {source}`.",
 }
-OTHER_HINT = "Correct that; the node's log says more: `rostopic echo -n 1 {node}/status`."
+OTHER_HINT = "Correct the cause; the status of the node says more: `rostopic echo -n 1 {node}/status`."
 
 
 def check(facts: Facts, findings: Findings):
@@ -94,13 +94,13 @@ def check_models(facts: Facts, findings: Findings):
         findings.add(
             "model_warnings",
             WARN,
-            f"The node accepted what is odd in descriptions or parameters: {warnings[0]}{more}.",
-            f"See them all: `rostopic echo -n 1 {facts.node}/status/model_warnings`.",
+            f"The node accepted descriptions or parameters that are unusual: {warnings[0]}{more}.",
+            f"See all warnings: `rostopic echo -n 1 {facts.node}/status/model_warnings`.",
         )
 
 
 def growth(facts: Facts) -> Dict[str, int]:
-    """By how much each counter grew while it was listened to."""
+    """Returns by how much each counter grew while the doctor listened."""
     before = {counter.name: counter.value for counter in facts.first_status.counters}
     now = {counter.name: counter.value for counter in facts.status.counters}
     return {name: value - before.get(name, 0) for name, value in now.items() if value > before.get(name, 0)}
@@ -122,7 +122,7 @@ def check_counters(facts: Facts, findings: Findings):
         findings.add(
             "input_refused",
             WARN,
-            f"The node refuses what it is sent: {amounts(refused)} in {facts.listened:.1f} s.",
+            f"The node refuses messages or transforms: {amounts(refused)} in {facts.listened:.1f} s.",
             "Read its log, which says each cause once a second: `rosconsole echo` or `rostopic echo /rosout`.",
         )
 
@@ -132,7 +132,7 @@ def amounts(counters: Dict[str, int]) -> str:
 
 
 def is_explained(counter: str, findings: Findings) -> bool:
-    """Whether an earlier finding says why it grows."""
+    """Returns whether an earlier finding explains why the counter grows."""
     if counter.startswith("tf.refused.CLOCK"):
         stamps = findings.has("stamps_early", "stamps_zero", "stamps_of_other_clock")
         return stamps or findings.explain(EVERYTHING)
@@ -157,8 +157,8 @@ def check_ticks(facts: Facts, findings: Findings):
             WARN,
             f"{late} of {ticks} ticks were late: this computer is too busy, or ~rate ({facts.settings.rate:g} Hz) is "
             "too high.",
-            "See what uses the processors (`top`), lower ~rate, or let ~threads be more than 1 for many thousands of "
-            "shapes.",
+            "See what uses the processors (`top`), or lower ~rate. With many thousands of shapes, set ~threads to more than "
+            "1.",
         )
     elif timing is not None and timing.median > period:
         findings.add(

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Calls that end in time, whatever they call: a name server, a stopped process, a disk that is gone."""
+"""Calls with a time limit. The limit also holds if a name server, a process or a disk does not answer."""
 from __future__ import annotations
 
 import threading
@@ -11,15 +11,15 @@ from typing import Any, Callable, Dict, Hashable
 
 @dataclass
 class Outcome:
-    """What a call returned, or why it did not."""
+    """The value that a call returned, or the reason why it did not return one."""
 
     value: Any = None
-    error: str = ""  # empty: it returned
+    error: str = ""  # empty if the call returned a value
 
 
 def call_all(calls: Dict[Hashable, Callable[[], Any]], timeout: float) -> Dict[Hashable, Outcome]:
-    """Runs calls side by side and gives all of them `timeout` [s] together. What has not ended then goes on in a
-    daemon thread, and its result is not read."""
+    """Runs calls in parallel. All of them together have `timeout` [s]. A call that has not ended by then continues
+    in a daemon thread, and its result is not used."""
     outcomes = {key: Outcome(error=f"no answer within {timeout:g} s") for key in calls}
     threads = []
     for key, function in calls.items():
@@ -39,11 +39,11 @@ def call(function: Callable[[], Any], timeout: float) -> Outcome:
 def _run(function, outcomes, key):
     try:
         outcomes[key] = Outcome(value=function())
-    except Exception as error:  # whatever it is, it is the answer
+    except Exception as error:  # any exception is the outcome of the call
         outcomes[key] = Outcome(error=sentence_of(error))
 
 
 def sentence_of(error: Exception) -> str:
-    """What people need of it: no error numbers."""
+    """Returns the text of an error for people, without error numbers."""
     text = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
     return text or type(error).__name__

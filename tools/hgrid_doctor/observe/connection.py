@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Reads a topic from one publisher over TCPROS, without a registration at the master.
+"""Reads a topic from one publisher over TCPROS. Does not register with the master.
 
-The publisher sends as to any subscriber. Every call has a timeout, and the end of listening ends a connection.
+The publisher treats this program as an ordinary subscriber. Every call has a timeout. Connections end with listening.
 """
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from typing import Dict, Iterator
 
 from hgrid_doctor.observe.graph import CALLER, Api
 
-MOST_BYTES = 64 * 1024 * 1024  # of a message; a longer one ends the connection
-MOST_HEADER = 1024 * 1024  # bytes of a connection header
+MOST_BYTES = 64 * 1024 * 1024  # longest message [bytes]; a longer message ends the connection
+MOST_HEADER = 1024 * 1024  # longest connection header [bytes]
 
 
 class Connection:
     """A connection to one publisher of one topic. Its methods throw OSError or ApiError."""
 
     def __init__(self, topic: str, publisher_uri: str, deadline: float, timeout: float):
-        """@param deadline  [s] of time.monotonic() when listening ends"""
+        """Connects to the publisher. @param deadline  [s] end of listening, in time.monotonic()"""
         self._deadline = deadline
         answer = Api(publisher_uri, timeout)("requestTopic", topic, [["TCPROS"]])
         if not answer or answer[0] != "TCPROS":
@@ -40,7 +40,7 @@ class Connection:
         self._socket.close()
 
     def messages(self) -> Iterator[bytes]:
-        """Until listening ends or the publisher closes the connection."""
+        """Yields the bytes of each message until listening ends or the publisher closes the connection."""
         while True:
             try:
                 yield self._receive(self._length(MOST_BYTES))
@@ -48,7 +48,7 @@ class Connection:
                 return
 
     def first_bytes(self, most: int) -> bytes:
-        """Of the next message; empty if none comes."""
+        """Returns the first bytes of the next message; empty if none arrives."""
         try:
             return self._receive(min(most, self._length(2**31)))
         except (socket.timeout, ConnectionError):
@@ -88,7 +88,7 @@ def _fields(header: bytes) -> Dict[str, str]:
 
 
 def header_frame(message: bytes) -> str:
-    """frame_id of a message that begins with a std_msgs/Header."""
+    """Returns the frame_id of a message that begins with a std_msgs/Header."""
     if len(message) < 16:
         return ""
     length = struct.unpack_from("<I", message, 12)[0]

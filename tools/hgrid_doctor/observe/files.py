@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Looks at the files that descriptions and parameters name, as far as this computer has them."""
+"""Checks whether the files that descriptions and parameters name can be read on this computer."""
 from __future__ import annotations
 
 import os
@@ -13,7 +13,7 @@ import rospkg
 
 @lru_cache(maxsize=None)
 def package_folder(package: str) -> str:
-    """Empty: there is none."""
+    """Returns the folder of a package; empty if the package is not found."""
     try:
         return rospkg.RosPack().get_path(package)
     except rospkg.ResourceNotFound:
@@ -21,9 +21,9 @@ def package_folder(package: str) -> str:
 
 
 def mesh_error(uri: str, roots: List[str]) -> str:
-    """Why a mesh cannot be read; empty: it can.
+    """Returns why a mesh cannot be read; empty if it can be read.
 
-    @param roots  folders below which file:// may read
+    @param roots  folders in which the files of file:// URIs may be
     """
     if uri.startswith("package://"):
         package, _, path = uri[len("package://") :].partition("/")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Gathers the facts of a running system, step by step. Every step ends in time."""
+"""Collects the facts of a running system, step by step. Each step has a time limit."""
 from __future__ import annotations
 
 import time
@@ -20,9 +20,11 @@ STATUS_TYPE = "hgrid_proximity/Status"
 
 
 def gather(node: str, timeout: float, listen: float) -> Facts:
-    """@param node  empty: the only proximity node that runs, or else /proximity
-    @param timeout  [s] for each call
-    @param listen  [s] to topics
+    """Collects all facts.
+
+    @param node  name of the node; empty: the only proximity node that runs, otherwise /proximity
+    @param timeout  [s] time limit of each call
+    @param listen  [s] how long to listen to topics
     """
     facts = Facts(node=absolute(node.rstrip("/"), "") if node else DEFAULT_NODE)
     facts.environment = read_environment(timeout)
@@ -44,7 +46,8 @@ def gather(node: str, timeout: float, listen: float) -> Facts:
 
 
 def find_node(facts: Facts, asked: str):
-    """Whose process it is: the publisher of ~status, since a nodelet's process has another name."""
+    """Finds the process of the node. It is the publisher of ~status, because the process of a nodelet has another
+    name."""
     running = {
         topic[: -len("/status")]: facts.graph.publishers.get(topic, [])
         for topic, kind in facts.graph.types.items()
@@ -75,7 +78,8 @@ def read_parameters(facts: Facts, master: Api, timeout: float):
 
 
 def follow_remaps(facts: Facts):
-    """A remapping shows only in what the node subscribes to. It is followed where there is no doubt."""
+    """Finds remapped input topics. If the node subscribes to exactly one unknown topic of the type, that topic is
+    used."""
     subscribed = facts.graph.topics_of(facts.host)[1] if facts.host else set()
     expected = input_topics(facts)
     for each in facts.settings.inputs:
@@ -87,7 +91,7 @@ def follow_remaps(facts: Facts):
 
 
 def find_parameter(node: str, name: str, master: Api, timeout: float):
-    """Key and value; searched from the node's namespace upwards, as the node does."""
+    """Returns the name and the value of a parameter. Searches it like the node, from the node's namespace upwards."""
 
     def read():
         key = name if name.startswith("/") else optional(master, "searchParam", name, caller=node)
@@ -98,13 +102,13 @@ def find_parameter(node: str, name: str, master: Api, timeout: float):
 
 
 def all_joint_state_topics(facts: Facts) -> Set[str]:
-    """Those that publishers of tf subscribe to."""
+    """Returns the topics of joint states to which publishers of tf subscribe."""
     publishers = {node for topic in ("/tf", "/tf_static") for node in facts.graph.publishers.get(topic, [])}
     return {topic for node in publishers for topic in joint_state_topics(facts, node)}
 
 
 def find_descriptions_of_nodes(facts: Facts, master: Api, timeout: float):
-    """Tells robot_state_publishers of several robots apart."""
+    """Finds the robot_description of each robot_state_publisher, which shows to which robot it belongs."""
     publishers = {node for topic in ("/tf", "/tf_static") for node in facts.graph.publishers.get(topic, [])}
     search = {
         node: lambda node=node: optional(master, "searchParam", "robot_description", caller=node)

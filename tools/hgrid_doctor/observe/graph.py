@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""The XML-RPC interfaces of the master and of nodes, with a timeout for every call."""
+"""Calls the XML-RPC interfaces of the master and of nodes. Every call has a timeout."""
 from __future__ import annotations
 
 import http.client
@@ -13,12 +13,12 @@ from urllib.parse import urlparse
 from hgrid_doctor.facts import Environment, Graph, NodeFacts
 from hgrid_doctor.observe.bounded import call, call_all
 
-CALLER = f"/hgrid_doctor_{os.getpid()}"  # how this program names itself; it is registered nowhere
+CALLER = f"/hgrid_doctor_{os.getpid()}"  # name of this program in calls; it is not registered with the master
 DEFAULT_MASTER = "http://localhost:11311"
 
 
 class ApiError(Exception):
-    """The other side refused the call; the text is its own."""
+    """The master or node refused the call. The text is the one that it sent."""
 
 
 class _Transport(xmlrpc.client.Transport):
@@ -31,14 +31,14 @@ class _Transport(xmlrpc.client.Transport):
 
 
 class Api:
-    """The master or the slave interface behind a URI."""
+    """The XML-RPC interface of the master or of a node at a URI."""
 
     def __init__(self, uri: str, timeout: float):
         self._uri = uri
         self._timeout = timeout
 
     def __call__(self, method: str, *arguments: Any, caller: str = CALLER) -> Any:
-        """@throws ApiError, OSError"""
+        """Calls a method. @throws ApiError, OSError"""
         try:
             proxy = xmlrpc.client.ServerProxy(self._uri, _Transport(self._timeout), allow_none=True)
             code, text, value = getattr(proxy, method)(caller, *arguments)
@@ -63,7 +63,7 @@ def read_environment(timeout: float) -> Environment:
 
 
 def _check_own(name):
-    """@throws OSError if the name cannot be resolved, or is not an address of this computer"""
+    """Checks a host name. @throws OSError if it cannot be resolved, or is not an address of this computer"""
     try:
         addresses = socket.getaddrinfo(name, 0, type=socket.SOCK_STREAM)
     except socket.gaierror as error:
@@ -79,7 +79,7 @@ def _check_own(name):
 
 
 def read_graph(uri: str, timeout: float) -> Graph:
-    """What the master knows. `error` says why it does not answer."""
+    """Returns what the master knows. If the master does not answer, `error` says why."""
     graph = Graph()
     if urlparse(uri).scheme != "http" or not urlparse(uri).hostname:
         graph.error = "it is not of the form http://host:port"
@@ -106,7 +106,7 @@ def read_graph(uri: str, timeout: float) -> Graph:
 
 
 def optional(master: Api, method: str, *arguments: Any, caller: str = CALLER) -> Any:
-    """As a call; None where the master says that there is no such thing."""
+    """Calls a method of the master. Returns None if the master says that the requested thing does not exist."""
     try:
         return master(method, *arguments, caller=caller)
     except ApiError:
@@ -114,7 +114,7 @@ def optional(master: Api, method: str, *arguments: Any, caller: str = CALLER) ->
 
 
 def ask_nodes(uri: str, names: List[str], timeout: float) -> Dict[str, NodeFacts]:
-    """Looks nodes up and pings them, all at once."""
+    """Looks up all nodes and asks them for their process ids, in parallel."""
     master = Api(uri, timeout)
     places = call_all({name: lambda name=name: master("lookupNode", name) for name in names}, timeout)
     nodes = {name: NodeFacts(name, uri=place.value or "", error=place.error) for name, place in places.items()}

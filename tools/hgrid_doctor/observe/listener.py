@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Listens to many topics at once for a while and keeps of them what facts.py has a place for."""
+"""Listens to many topics in parallel for some time, and stores what the facts need."""
 from __future__ import annotations
 
 import threading
@@ -11,12 +11,12 @@ from hgrid_doctor.facts import Facts, TfStream, TopicFacts
 from hgrid_doctor.observe.bounded import sentence_of
 from hgrid_doctor.observe.connection import Connection, header_frame
 
-MOST_OFFSETS = 500  # of one stream
+MOST_OFFSETS = 500  # longest list of offsets of a stream
 MOST_POSES = 100
 
 
 class Listener:
-    """One thread for each publisher of each topic. Nothing is written to the facts after finish()."""
+    """Listens with one thread for each publisher of each topic. After finish(), nothing is written to the facts."""
 
     def __init__(self, facts: Facts, listen: float, timeout: float):
         self._facts, self._timeout = facts, timeout
@@ -25,7 +25,7 @@ class Listener:
         self._finished = False
         self._threads: List[threading.Thread] = []
         self._streams: Dict[Tuple[str, str, str, bool], TfStream] = {}
-        self._newest_clock = None  # [s]
+        self._newest_clock = None  # [s] newest time on /clock
 
     def clock(self, topic: str = "/clock"):
         from rosgraph_msgs.msg import Clock
@@ -49,7 +49,7 @@ class Listener:
         self._start(topic, Status, lambda _, message: self._take_status(message), only=host)
 
     def frame_of(self, topic: str):
-        """Reads of one message no more than the begin: maps and clouds are large."""
+        """Reads only the begin of one message of the topic, because maps and clouds are large."""
         self._start(topic, None, None)
 
     def finish(self):
@@ -84,7 +84,7 @@ class Listener:
                     self._read_all(connection, node.name, facts, kind, take)
             finally:
                 connection.close()
-        except Exception as error:  # a strange publisher must not end the diagnosis
+        except Exception as error:  # an unusual publisher must not end the diagnosis
             facts.errors[node.name] = sentence_of(error)
 
     @staticmethod
@@ -118,7 +118,7 @@ class Listener:
         self._facts.status = message
 
     def _now(self):
-        """[s] ROS time; None before the first message of /clock."""
+        """Returns the ROS time [s]; None before the first message of /clock."""
         return self._newest_clock if self._facts.graph.use_sim_time else time.time()
 
     def _take_transforms(self, publisher, message, static):
