@@ -40,7 +40,7 @@ class ExactSum {
   int size_ = 0;
 };
 
-/// The gap of two intervals along one axis, given as high - low. Both numbers are 0 if the intervals overlap.
+/// The distance of two intervals along one axis is high - low. Both numbers are 0 if the intervals overlap.
 struct AxisGap {
   double high = 0.0, low = 0.0;
 };
@@ -53,7 +53,8 @@ AxisGap axisGap(const Aabb& a, const Aabb& b, int axis) {
 
 /// Returns the sign of distance² - margin², without rounding.
 ///
-/// The gap of an axis is exactly h + l, so its square is h² + 2hl + l².
+/// The distance along an axis is exactly h + l, where h is the rounded difference and l its rounding error. So the
+/// square of the distance is h² + 2hl + l².
 double exactComparison(const Aabb& a, const Aabb& b, double margin) {
   ExactSum sum;
   for (int axis = 0; axis < 3; ++axis) {
@@ -85,8 +86,8 @@ bool isValid(const Aabb& box) {
 }
 
 float roundedDown(double value) {
-  // Works like std::nextafter, but without a function call, since every box needs six of these roundings. It also
-  // avoids a branch on the last digits, which a processor cannot predict.
+  // Works like std::nextafter, but without a function call, because every box needs six of these roundings. It also
+  // avoids a branch on the last digits, because a processor cannot predict such a branch.
   const float nearest = static_cast<float>(value);
   const std::int32_t above = static_cast<double>(nearest) > value ? 1 : 0;
   if (nearest == 0.0f) return above == 0 ? nearest : -std::numeric_limits<float>::denorm_min();

@@ -53,7 +53,8 @@ class FirstTouch {
   // has a length.
   bool clips_;
   double length_;
-  Eigen::Vector3d inverse_, rounded_;  // per axis: 1 / step, and the rounding error of a fraction
+  Eigen::Vector3d inverse_;  // 1 / step for each axis, where step is the vector from the start to the end
+  Eigen::Vector3d rounded_;  // for each axis: bound of the rounding error of a fraction of the segment
 };
 
 }  // namespace hgrid

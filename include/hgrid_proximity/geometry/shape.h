@@ -38,7 +38,7 @@ struct ShapeLimits {
   bool allow_flat = false;  ///< whether one side of a box may be 0 (a plate)
 };
 
-/// One collision shape in its own frame. It is immutable and cheap to copy, since copies share the vertices.
+/// One collision shape in its own frame. It is immutable and cheap to copy, because copies share the vertices.
 ///
 /// Sphere, box, cylinder, cone and capsule are centered at the origin. The axis of cylinder, cone and capsule is z. The
 /// tip of a cone is at +z.
