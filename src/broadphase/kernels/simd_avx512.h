@@ -85,8 +85,8 @@ struct SimdAvx512 : SimdSse2 {
   }
 
  private:
-  /// Returns the ids of the lanes in `bits`, moved to the front. Compresses in a register, because compressing directly
-  /// to memory is slow on some processors.
+  /// Returns the ids[k] for which bit k of `bits` is 1, moved to the front. Compresses in a register, because
+  /// compressing directly to memory is slow on some processors.
   static __m512i packed(const std::uint32_t* ids, std::uint32_t bits) {
     return _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), _mm512_loadu_si512(ids));
   }
