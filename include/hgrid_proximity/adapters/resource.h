@@ -8,12 +8,12 @@
 
 namespace hgrid {
 
-/// The rules for which files a robot description or a map source may read.
+/// Says which files a robot description or a map source may read.
 struct ResourcePolicy {
   /// Returns the folder of a package, or an empty text if there is no package of this name.
   std::function<std::string(const std::string& package)> package_path;
-  /// Folders from which file:// URIs may read, and to which symbolic links in a package may lead. Symbolic links are
-  /// resolved before the comparison.
+  /// Folders from which file:// URIs may read. Symbolic links in a package may also lead to these folders. Symbolic
+  /// links are resolved before a path is compared with these folders.
   std::vector<std::string> file_roots;
   std::size_t max_bytes = 64u << 20;  ///< largest size of a file
 };
