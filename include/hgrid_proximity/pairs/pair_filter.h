@@ -60,7 +60,7 @@ class PairFilter {
     return matrices_[subjects_[first].matrix]->origin(subjects_[first].link, subjects_[second].link);
   }
 
-  /// Returns the decision about a pair with all details. Unlike origin(), it also tells which rule or SRDF tag says
+  /// Returns the decision about a pair with all details. Unlike origin(), it also names the rule or SRDF tag that says
   /// that the pair is reported.
   PairDecision decision(std::uint32_t first, std::uint32_t second) const;
   /// Returns the rules in the order in which the constructor received them.

@@ -99,12 +99,13 @@ class Scene {
   /// Returns the last known pose of a body. @throws Refusal unknown_id
   const BodyPose& poseOf(BodyId id) const;
 
-  /// Sets the occupied cells of a map or cloud. They count from the next commit on. The structure does not change.
+  /// Sets the occupied cells of a map or cloud. The next commit is the first to use the new cells. The structure does
+  /// not change.
   /// @throws Refusal unknown_id for the handle; bad_geometry if the body cannot have cells or `cells` is null
   void setCells(BodyId id, std::shared_ptr<const MapCells> cells);
 
-  /// Replaces all rules of the allowed collision matrix. They count from the next commit on. If two equally exact rules
-  /// match a pair, the later one decides.
+  /// Replaces all rules of the allowed collision matrix. The next commit is the first to use the new rules. If two
+  /// equally exact rules match a pair, the later one decides.
   void setRules(std::vector<PairRule> rules);
 
   /// Makes a snapshot of the present state of the scene.

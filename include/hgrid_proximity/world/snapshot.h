@@ -26,7 +26,7 @@ class Snapshot {
   const Structure& structure() const { return *structure_; }
   /// Time of the tick.
   Time stamp() const { return stamp_; }
-  /// Number of the tick in its epoch; the first one has number 1.
+  /// Number of the tick in its epoch. The first tick of an epoch has the number 1.
   std::uint64_t sequence() const { return sequence_; }
   /// Number of the epoch, as passed to Scene::beginEpoch().
   std::uint64_t epoch() const { return epoch_; }
@@ -53,7 +53,7 @@ class Snapshot {
   bool searchCut() const { return search_cut_; }
   /// Number of pairs that the search found. If searchCut(), there may be more pairs.
   std::uint64_t pairsFound() const { return pairs_found_; }
-  /// Events since the previous snapshot, sorted by number: first the pairs that ended, then those that began.
+  /// Events since the previous snapshot, sorted by number: first the END events, then the BEGIN events.
   const std::vector<PairEvent>& events() const { return events_.events; }
   /// Number of the newest event of the epoch; 0: there was none.
   std::uint64_t lastEvent() const { return events_.last; }
@@ -87,7 +87,7 @@ class Snapshot {
   /// Why the world is not complete: first the gaps(), then single bodies, the worst state first. At most
   /// SceneOptions::max_reasons reasons.
   const std::vector<std::string>& reasons() const { return reasons_; }
-  /// Number of reasons why the world is not complete, including those that reasons() does not list.
+  /// Number of reasons why the world is not complete, including the reasons that reasons() does not list.
   std::uint32_t reasonsTotal() const { return reasons_total_; }
   /// The worst state of any body.
   Freshness worstState() const { return worst_state_; }

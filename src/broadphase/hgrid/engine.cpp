@@ -237,7 +237,8 @@ void HGrid::Engine::sortMoved() {
 
 void HGrid::Engine::keepPairs() {
   if (!pairs_wanted.load(std::memory_order_relaxed)) return;
-  // kept_overlaps still counts the overlaps of boxes that have left. If it is large, a new search corrects it.
+  // kept_overlaps still counts the overlaps of boxes that have left their layer. If kept_overlaps is large, a new
+  // search corrects its value.
   if (!kept_valid || (kept_dirty && kept_overlaps > bound.overlaps / 2)) {
     kept_valid = false;
     try {

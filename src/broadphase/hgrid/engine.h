@@ -31,7 +31,7 @@ struct SearchTask {
   std::size_t to = 0;  // index of the task's first pair in the result of the search
 };
 
-/// Copies of those boxes of one level that may overlap boxes of another level.
+/// Copies of boxes of one level: all boxes that may overlap boxes of another level.
 struct GatheredBoxes {
   std::vector<std::uint32_t> levels;     // indices of the other levels whose bounds overlap the bounds of a level
   std::vector<std::uint32_t> positions;  // positions of the copied boxes in their level

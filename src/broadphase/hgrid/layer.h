@@ -59,7 +59,7 @@ class Layer {
   /// Returns an array that the caller may use until the next sort(). reserve() keeps its values.
   std::vector<std::uint32_t>& spare() { return other_ids_; }
 
-  std::size_t size() const { return count_; }  ///< number of positions, including those of withdrawn boxes
+  std::size_t size() const { return count_; }  ///< number of boxes, withdrawn boxes included
   /// Returns the id of the box at each position.
   const ProxyId* ids() const { return ids_.data(); }
   /// Returns the box at a position.

@@ -31,8 +31,8 @@ class LevelBounds {
   }
 
   /// Calls visit(index) for each level whose bounds pass the test, in ascending order of the indices.
-  /// @param test  called as bool test(const kernels::Box&). If it is true for a box, it must be true for every box that
-  ///              contains that box.
+  /// @param test  called as bool test(const kernels::Box&). If it accepts a box, it must accept every box that contains
+  ///              this box.
   template <class Test, class Visit>
   void visit(const Test& test, const Visit& visit) const {
     if (tier_count_ > 0)

@@ -74,7 +74,7 @@ class PairWriter {
   PairWriter& operator=(const PairWriter&) = delete;
 
   kernels::PairSink* sink() { return &sink_; }
-  /// Filters the pairs written since the last call.
+  /// Filters the pairs that were written since the last call.
   /// @returns the end of the kept pairs; meaningless if the bound is exceeded
   std::size_t filter() {
     if (tally_.exceeded()) return wanted_end_;
@@ -86,7 +86,7 @@ class PairWriter {
 
  private:
   static constexpr std::size_t kRoom = 65536;  // least number of pairs that fit in between two calls of filter()
-  static constexpr std::size_t kLeast = 16;    // number of pairs for which a kernel needs room
+  static constexpr std::size_t kLeast = 16;    // a kernel needs room for so many pairs before it writes
 
   kernels::Pair* data() const { return reinterpret_cast<kernels::Pair*>(pairs_.data()); }
   std::size_t used() const { return static_cast<std::size_t>(sink_.next - data()); }
@@ -125,8 +125,8 @@ void addTask(std::vector<SearchTask>& tasks, const kernels::Level& asking, const
   }
 }
 
-/// Decides in which direction two levels are tested. Returns true if the boxes of `first` search fewer rows of cells of
-/// `second` than the other way round.
+/// Decides in which direction two levels are tested. Returns true if testing the boxes of `first` against the cells of
+/// `second` visits fewer rows of cells than testing the boxes of `second` against the cells of `first`.
 bool firstAsks(const kernels::Level& first, const kernels::Level& second) {
   return static_cast<double>(first.end - first.begin) * rowsAsked(first, second) <=
          static_cast<double>(second.end - second.begin) * rowsAsked(second, first);
@@ -262,7 +262,7 @@ class RegionSearch {
     }
   }
 
-  /// Finds the pairs of two levels. Tests only those boxes of `asking` that overlap the bounds of `asked`.
+  /// Finds the pairs of two levels. Tests only the boxes of `asking` that overlap the bounds of `asked`.
   void ask(const kernels::Level& asking, const kernels::Level& asked) {
     constexpr std::uint32_t kFew = 8;  // number of boxes; it is cheaper to test so few boxes without a selection
     if (asking.end - asking.begin <= kFew)

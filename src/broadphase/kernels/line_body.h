@@ -92,7 +92,7 @@ class Crossing {
   Span before_, after_;   // added in the first cell and in the last cell, because these cells extend to infinity
 };
 
-/// The positions of the boxes in those cells of a row that a line passes.
+/// The range of positions of the boxes in the cells of a row that a line passes.
 struct Passage {
   std::uint32_t begin, end;
 };

@@ -8,8 +8,8 @@ namespace hgrid {
 namespace kernels {
 namespace {
 
-/// The vector operations of the kernels, in plain C++. The other simd_ files have the same operations for one
-/// instruction set each. The comments here also explain the operations in those files.
+/// The vector operations of the kernels, in plain C++. Each other simd_ file has the same operations for one
+/// instruction set. The comments in this file explain the operations for all instruction sets.
 struct SimdPortable {
   static constexpr std::uint32_t kWidth = 8;  ///< number of boxes that overlaps() tests at once
 
