@@ -70,7 +70,7 @@ struct PairMeter::State {
   MeterOptions options;
   Workers workers;
   std::uint64_t revision = 0, epoch = 0;
-  std::vector<Known> known;  // sorted by (first, second)
+  std::vector<Known> known;  // the last results of the pairs, sorted by (first, second)
   std::vector<Job> jobs;
   std::vector<Job*> due;
   std::vector<std::vector<ShapePair>> scratch;  // one buffer for each thread
@@ -110,7 +110,7 @@ std::shared_ptr<const MapCells> PairMeter::State::mapOf(const Snapshot& snapshot
   return snapshot.cellsOf(snapshot.structure().isMap(known.first) ? known.first : known.second);
 }
 
-/// Returns by how much [m] the distance of a pair can have changed at most since its last measurement, according to the
+/// Returns the largest possible change [m] of the distance of a pair since its last measurement, computed from the
 /// poses of its bodies. Infinite if the pair was never measured or if the cells of its map have changed.
 double PairMeter::State::motionSince(const Snapshot& snapshot, const Known& known) {
   const Structure& structure = snapshot.structure();

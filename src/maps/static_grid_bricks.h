@@ -17,7 +17,7 @@ inline Aabb keysOf(const Voxel& voxel) {
   const auto along = static_cast<float>(keysAlong(voxel));
   constexpr int kOrigin = Voxel::kOriginKey;
   const Eigen::Vector3i key(voxel.x - kOrigin, voxel.y - kOrigin, voxel.z - kOrigin);
-  const Eigen::Vector3f min = key.cast<float>();  // exact for all keys
+  const Eigen::Vector3f min = key.cast<float>();  // a float holds every key exactly
   return {min, min + Eigen::Vector3f::Constant(along)};
 }
 

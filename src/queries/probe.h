@@ -14,7 +14,7 @@ struct Probe {
   const NarrowPhase& narrow_phase;
   const Solid& solid;
   Pose world_from_solid;
-  double padding = 0.0;  // [m]
+  double padding = 0.0;  // [m] how much the solid is grown
 
   /// Measures this solid against the shape of a proxy. This solid is the first of the two in the result. Returns
   /// Measure::not_measured if the shape of the proxy has no solid.

@@ -87,7 +87,7 @@ class SolidQuestion final : public Question {
   const Shape shape_;
   const Pose world_from_shape_;
   const Eigen::Vector3d center_;    // [m, world] origin of the shape
-  const double padding_;            // [m]
+  const double padding_;            // [m] how much the shape is grown
   const double radius_;             // [m] distance from the center to the farthest point of the shape, padding included
   const double slack_;              // [m] rounding error of a distance
   std::optional<OrientedBox> box_;  // the solid, if it is a box without padding

@@ -47,14 +47,14 @@ class Horizon {
   /// The data of one tick that the next tick needs.
   struct Kept {
     std::shared_ptr<const Structure> structure;
-    std::vector<Aabb> boxes;   // indexed by proxy
-    std::vector<Time> stamps;  // indexed by body; negative: the body had no pose
+    std::vector<Aabb> boxes;   // for each proxy: its box
+    std::vector<Time> stamps;  // for each body: stamp of its pose; negative: the body had no pose
   };
   Kept last_, now_;               // last_: the last accepted tick; now_: the tick of the last step()
-  std::vector<Aabb> swept_;       // indexed by proxy: box around its box in the last tick and its present box
-  std::vector<bool> was_placed_;  // indexed by body: whether it had a pose in the last tick, in the same structure
-  std::vector<bool> teleported_;  // indexed by body
-  std::vector<double> reach_;     // [m] indexed by body
+  std::vector<Aabb> swept_;       // for each proxy: box around its box in the last tick and its present box
+  std::vector<bool> was_placed_;  // for each body: whether it had a pose in the last tick, in the same structure
+  std::vector<bool> teleported_;  // for each body: see teleported()
+  std::vector<double> reach_;     // [m] for each body: see reachOf()
 };
 
 }  // namespace hgrid

@@ -41,7 +41,7 @@ class MapPairs {
     Pose world_from_map = Pose::Identity(), map_from_world = Pose::Identity();
     Pose map_from_world_last = Pose::Identity();  // map_from_world in the last accepted tick
     bool was_there = false;                       // whether the map had cells in the last accepted tick
-    std::vector<Gap> gaps;                        // indexed by proxy
+    std::vector<Gap> gaps;                        // for each proxy: the last gap that was computed
 
     /// Returns the inverse pose of the map in the last accepted tick. If the map had no cells in that tick, returns the
     /// inverse pose in this tick.

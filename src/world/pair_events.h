@@ -75,7 +75,7 @@ class PairEvents {
   bool epoch_began_ = false;
 
   // Data of the last accepted tick.
-  std::vector<On> on_;  // sorted by (first, second)
+  std::vector<On> on_;  // the pairs that are on, sorted by (first, second)
   std::shared_ptr<const Structure> structure_ = std::make_shared<Structure>();
   std::vector<Known> known_;  // indexed by body; empty if all bodies were placed and none was stale
 

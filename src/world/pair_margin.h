@@ -10,8 +10,8 @@ namespace hgrid {
 
 /// The data of a body that determines how much the margins of its pairs grow.
 struct Staleness {
-  double growth = 0.0;  ///< [m]
-  std::uint32_t cohort = 0;
+  double growth = 0.0;       ///< [m] BodyPose::growth
+  std::uint32_t cohort = 0;  ///< BodyPose::cohort
 };
 
 inline Staleness stalenessOf(const BodyPose& pose) { return {pose.growth, pose.cohort}; }

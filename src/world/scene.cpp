@@ -12,7 +12,7 @@
 namespace hgrid {
 namespace {
 
-constexpr double kLargestMargin = 1e3;  // [m]
+constexpr double kLargestMargin = 1e3;  // [m] also the largest padding, hysteresis, growth cap and finest edge
 // [m] Largest coordinate of a shape in the frame of its body, and of a body in the world frame.
 constexpr double kFarthestShape = 1e6;
 

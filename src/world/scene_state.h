@@ -37,10 +37,10 @@ struct Scene::State {
     double padding;
   };
 
-  /// The box and the length from which a grown box was computed.
+  /// What a grown box was computed from.
   struct GrownFrom {
-    Aabb box;
-    double by = -1.0;  // [m]
+    Aabb box;          // the box before it was grown
+    double by = -1.0;  // [m] how much it was grown; negative: nothing was computed yet
   };
 
   explicit State(const SceneOptions& scene_options)
@@ -52,14 +52,14 @@ struct Scene::State {
 
   // scene.cpp: the bodies.
 
-  /// @throws Refusal unknown_id
+  /// Returns the slot of a body. @throws Refusal unknown_id if the handle is not valid
   Slot& at(BodyId id);
 
   SceneOptions options;
   PairLimits limits;
   std::vector<Slot> slots;
-  std::vector<Body> bodies;                            // indexed by slot
-  std::vector<std::shared_ptr<const MapCells>> cells;  // indexed by slot; null if the body is no map or cloud
+  std::vector<Body> bodies;                            // the body in each slot
+  std::vector<std::shared_ptr<const MapCells>> cells;  // the cells of the body in each slot; null: it has no cells
   std::vector<std::uint32_t> free_slots;               // indices of the unused slots; has capacity for all slots
   std::map<std::string, std::uint32_t> slot_of_name;   // sorted by name, as the bodies of the structure are
   bool structure_changed = true;

@@ -43,7 +43,9 @@ class OpenResource {
 
 /// Opens `package://name/path` or `file:///path`. It never opens a network address, a device, a FIFO, or a file outside
 /// the package and the allowed folders, even if a symbolic link leads there.
-/// @throws Refusal with code resource_denied, resource_missing, limit
+/// @throws Refusal resource_denied if the policy does not allow the file
+/// @throws Refusal resource_missing if the package or the file does not exist or cannot be read
+/// @throws Refusal limit if the file is too large
 OpenResource openResource(const std::string& uri, const ResourcePolicy& policy);
 
 }  // namespace hgrid

@@ -14,7 +14,7 @@ inline constexpr std::size_t kLongestName = 128;
 /// Checks one part of a name `source/local`. Each part must have 1 to kLongestName bytes of UTF-8 without control
 /// characters. A source must not contain a slash.
 /// @param what  name of the object for the error sentence, such as "obstacle name"
-/// @throws Refusal with code bad_id
+/// @throws Refusal bad_id if the part breaks one of these rules
 void checkSource(const std::string& source, const std::string& what);
 void checkLocal(const std::string& local, const std::string& what);
 ///@}

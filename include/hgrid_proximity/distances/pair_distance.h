@@ -11,8 +11,8 @@ namespace hgrid {
 
 /// An occupied cell of a map or cloud that is near a body.
 struct NearCell {
-  Eigen::Vector3d center;  ///< [m, world]
-  double edge = 0.0;       ///< [m]
+  Eigen::Vector3d center;  ///< [m, world] center of the cell
+  double edge = 0.0;       ///< [m] edge of the cell
   double distance = 0.0;   ///< [m] distance of the cell from the body
 };
 

@@ -21,14 +21,15 @@ const char* name(ShapeKind kind);
 
 /// A mesh: vertices [m], and triangles as three vertex indices each, counter-clockwise when seen from outside.
 struct TriangleMesh {
-  std::vector<Eigen::Vector3d> vertices;                ///< [m]
+  std::vector<Eigen::Vector3d> vertices;                ///< [m] in the frame of the shape
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `vertices`
 };
 
 /// Checks that all vertices are finite and within `max_size` [m], that all indices are in range, and that at least one
 /// triangle has an area.
 /// @param what  name of the mesh for the error sentence
-/// @throws Refusal with code nonfinite, out_of_range, bad_geometry
+/// @throws Refusal nonfinite or out_of_range for a vertex
+/// @throws Refusal bad_geometry for an index, or if no triangle has an area
 void checkMesh(const TriangleMesh& mesh, double max_size, const std::string& what);
 
 /// Limits for the size of a shape.

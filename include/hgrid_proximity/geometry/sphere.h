@@ -10,8 +10,8 @@ namespace hgrid {
 
 /// A sphere [m], relative to the same frame as the boxes that it is compared with. With radius 0 it is a point.
 struct Sphere {
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< [m]
-  double radius = 0.0;                               ///< [m] >= 0
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< [m] center of the sphere
+  double radius = 0.0;                               ///< [m] radius of the sphere, >= 0
 };
 
 /// Returns the squared distance of the point from the box [m²], or 0 if the point is inside.

@@ -110,7 +110,7 @@ class PairFilter {
   std::vector<std::uint32_t> representatives() const;
 
   bool exists_[2][kTypes][kTypes] = {};  // by (links of one robot or not, type, type): whether such pairs exist
-  std::vector<Subject> subjects_;        // indexed by body
+  std::vector<Subject> subjects_;        // one for each body
   std::vector<std::shared_ptr<const LinkMatrix>> matrices_;  // keeps the matrices alive that subjects_ point into
   std::vector<PairRule> rules_;
   std::vector<Origin> verdicts_;           // for each rule: its origin, or none if the rule says "report this pair"

@@ -37,7 +37,7 @@ class PairMargins {
   std::optional<double> look(std::uint32_t first, std::uint32_t second) const;
 
   std::vector<double> margins_;
-  std::vector<double> largest_;           // [m] indexed by body
+  std::vector<double> largest_;           // [m] for each body: largest margin of its entries
   std::size_t words_ = 0;                 // number of 64-bit words per body in the bit sets
   std::vector<std::uint64_t> as_first_;   // bit sets, one per body: bit k: it matches `first` of entry k
   std::vector<std::uint64_t> as_second_;  // bit sets, one per body: bit k: it matches `second` of entry k

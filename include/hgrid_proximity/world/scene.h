@@ -60,7 +60,7 @@ struct TickTimes {
 /// pair and no event is lost.
 class Scene {
  public:
-  /// @throws Refusal out_of_range with the name of the option
+  /// @throws Refusal out_of_range if an option is out of range; its sentence names the option
   explicit Scene(const SceneOptions& options);
   ~Scene();
   /// Takes over the content of another scene, which may then only be destroyed.
@@ -81,27 +81,28 @@ class Scene {
   /// Sets `id` to the handle of the body with this name. @returns whether there is such a body
   bool find(const std::string& name, BodyId& id) const;
   /// Returns the description of a body.
-  /// @throws Refusal unknown_id
+  /// @throws Refusal unknown_id if the handle is not valid
   const Body& body(BodyId id) const;
   /// Returns the number of bodies.
   std::size_t size() const;
 
   /// Sets the pose of a body and the stamp of this pose. The first pose makes the body fresh. Later poses do not change
   /// its state.
-  /// @throws Refusal unknown_id for the handle; nonfinite or out_of_range for the pose
+  /// @throws Refusal unknown_id if the handle is not valid; nonfinite or out_of_range if the pose is not valid
   void place(BodyId id, const Pose& world_from_body, Time stamp);
   /// Throws what place() would throw for the same arguments, and changes nothing.
   void checkPlace(BodyId id, const Pose& world_from_body) const;
   /// Sets how far the pose of a body can be trusted. `age` is in seconds; `cohort` is BodyPose::cohort. Does nothing
   /// for a body that has no pose. For a body that has one, `unplaced` counts as `invalid`.
-  /// @throws Refusal unknown_id
+  /// @throws Refusal unknown_id if the handle is not valid
   void setState(BodyId id, Freshness state, double age, std::uint32_t cohort = 0);
-  /// Returns the last known pose of a body. @throws Refusal unknown_id
+  /// Returns the last known pose of a body. @throws Refusal unknown_id if the handle is not valid
   const BodyPose& poseOf(BodyId id) const;
 
   /// Sets the occupied cells of a map or cloud. The next commit is the first to use the new cells. The structure does
   /// not change.
-  /// @throws Refusal unknown_id for the handle; bad_geometry if the body cannot have cells or `cells` is null
+  /// @throws Refusal unknown_id if the handle is not valid
+  /// @throws Refusal bad_geometry if the body cannot have cells or `cells` is null
   void setCells(BodyId id, std::shared_ptr<const MapCells> cells);
 
   /// Replaces all rules of the allowed collision matrix. The next commit is the first to use the new rules. If two

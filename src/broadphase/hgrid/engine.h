@@ -110,9 +110,9 @@ struct HGrid::Engine {
   Isa isa = bestIsa();
   OverlapFilter filter;
   PairBound bound;
-  std::vector<Aabb> boxes;            // by id
-  std::vector<LayerNumber> layer_of;  // by id
-  std::vector<bool> fixed;            // by id; ids beyond its end are not fixed
+  std::vector<Aabb> boxes;            // the box of each id
+  std::vector<LayerNumber> layer_of;  // the layer of each id; kAbsent if there is no box with this id
+  std::vector<bool> fixed;            // for each id: whether it is fixed; ids beyond the end are not fixed
   std::array<Layer, kLayers> layers;
   std::array<std::vector<ProxyId>, kLayers> members;  // ids of the moving boxes and of the loose boxes
   std::array<bool, kLayers> located{};                // whether positions() is valid for the boxes of a layer

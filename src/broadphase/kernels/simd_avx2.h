@@ -79,9 +79,9 @@ struct SimdAvx2 : SimdSse2 {
   }
 
   using Lanes = __m256;
-  using SimdSse2::minus;  // for Quad
-  using SimdSse2::plus;   // for Two
-  using SimdSse2::times;  // for Two
+  using SimdSse2::minus;  // the overload for Quad
+  using SimdSse2::plus;   // the overload for Two
+  using SimdSse2::times;  // the overload for Two
   static Lanes lanesOf(float value) { return _mm256_set1_ps(value); }
   static Lanes lanesAt(const float* from) { return _mm256_loadu_ps(from); }
   static Lanes plus(Lanes a, Lanes b) { return _mm256_add_ps(a, b); }
