@@ -107,7 +107,7 @@ bool withinDistance(const Aabb& a, const Aabb& b, double margin) {
   if (margin > 1e40) return true;  // no two floats are that far apart, and margin² might overflow
   const double squared = squaredDistance(a, b);
   const double limit = margin * margin;
-  const double doubt = 1e-14 * limit + 1e-290;  // far above the rounding errors of both sides and above underflow
+  const double doubt = 1e-14 * limit + 1e-290;  // far above underflow and the errors of `squared` and `limit`
   if (squared < limit - doubt) return true;
   if (squared > limit + doubt) return false;
   return exactComparison(a, b, margin) <= 0.0;
@@ -124,7 +124,8 @@ Aabb grown(const Aabb& box, double by) {
 }
 
 double penetrationDepth(const Eigen::AlignedBox3d& first, const Eigen::AlignedBox3d& second) {
-  const Eigen::Vector3d up = first.max() - second.min(), down = second.max() - first.min();  // moves of `second`
+  // The lengths of the moves of `second`, up or down along each axis, that separate the two boxes.
+  const Eigen::Vector3d up = first.max() - second.min(), down = second.max() - first.min();
   return std::max(0.0, up.cwiseMin(down).minCoeff());
 }
 

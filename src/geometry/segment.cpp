@@ -33,11 +33,11 @@ Breaks breaksOf(const Eigen::Vector3d& from, const Eigen::Vector3d& step, const 
   return breaks;
 }
 
-/// One piece of the squared distance from the point to the box, between two breaks. It is computed as
-/// least + a * (fraction - lowest)².
+/// Between two breaks, the squared distance from the point to the box is a quadratic function of the fraction. This
+/// struct describes the function as least + a * (fraction - lowest)².
 ///
-/// `lowest` may be outside of the piece. The form a * fraction² + b * fraction + c would lose precision far away from
-/// the box.
+/// `lowest` may be outside of the two breaks. The form a * fraction² + b * fraction + c would lose precision far away
+/// from the box.
 struct Piece {
   double a = 0.0, lowest = 0.0, least = 0.0;
 };

@@ -58,7 +58,7 @@ inline std::uint64_t cellsBetween(int axis, double min, double max) {
   const auto& sets = kCellRanges.sets[static_cast<std::size_t>(axis)];
 #ifdef __aarch64__  // computes both limits at once; gcc would turn std::min and std::max into branches
   const float64x2_t ends = vminq_f64(vmaxq_f64(float64x2_t{min, max + 1.0}, vdupq_n_f64(0.0)), vdupq_n_f64(4.0));
-  const uint64x2_t numbers = vcvtq_u64_f64(ends);  // NaN becomes 0, as below
+  const uint64x2_t numbers = vcvtq_u64_f64(ends);  // NaN becomes 0, as in the code for other processors
   return sets[vgetq_lane_u64(numbers, 0)][vgetq_lane_u64(numbers, 1)];
 #else
   const auto number = [](double at) {

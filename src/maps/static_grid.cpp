@@ -37,7 +37,7 @@ class Builder {
     for (int open = 0; open < kBrickLevels; ++open) close(open);
     BrickLevel& top = bricks_.levels.back();
     if (!top.cells.empty()) return;
-    top.cells.push_back(0);  // an empty root brick
+    top.cells.push_back(0);  // there are no voxels: store an empty root brick
     top.full.push_back(0);
     top.first_below.push_back(0);
     top.blocks.push_back(0);

@@ -21,7 +21,7 @@ struct PairLimits {
   static PairLimits of(std::size_t max_pairs) {
     if (max_pairs == 0) return {};
     // A tick must collect more pairs than it lists, for two reasons: a pair of bodies can have several pairs of boxes,
-    // and only from many pairs can the nearest ones be chosen. kFloor costs little memory. Without it, a small
+    // and the tick lists only the nearest of the collected pairs. kFloor costs little memory. Without it, a small
     // max_pairs would stop the search too early.
     constexpr std::size_t kShare = 4, kFloor = 65536, kMost = std::size_t{1} << 40;
     const std::size_t listed = std::min(max_pairs, kMost);

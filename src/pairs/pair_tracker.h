@@ -19,8 +19,8 @@ using IsCut = std::function<bool(std::uint32_t first, std::uint32_t second)>;
 /// when the bodies get other indices.
 class PairTracker {
  public:
-  /// @param most  maximum number of remembered pairs; if there are more, the tracker forgets pairs that truncation
-  ///              removed, the last in the order (first, second) first
+  /// @param most  maximum number of remembered pairs. If there are more, the tracker forgets some of the pairs that
+  ///              truncation removed: the last ones in the order (first, second).
   explicit PairTracker(std::size_t most = std::numeric_limits<std::size_t>::max()) : most_(most) {}
 
   /// Sets `since` of every pair. A new pair gets `stamp`. A pair that was remembered after the last accepted update()

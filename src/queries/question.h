@@ -25,8 +25,8 @@ void checkQueryLength(double length, const std::string& what);
 /// @throws Refusal unknown_id if `respect_allowed` is not the index of a body
 void checkScope(const Snapshot& snapshot, const QueryScope& scope);
 
-/// Returns a bound [m] of the rounding error of a distance at these coordinates. If a query misses a body by less than
-/// this bound, the body counts as a hit.
+/// Returns a bound [m] of the rounding error of a distance from a sphere of `radius` [m] around the point `at`. If a
+/// query misses a body by less than this bound, the body counts as a hit.
 inline double touchSlack(const Eigen::Vector3d& at, double radius) { return 1e-9 * (at.norm() + radius); }
 
 /// Copies a result of the narrow phase into a hit. The first solid of the result is the query.

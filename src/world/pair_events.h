@@ -36,7 +36,7 @@ struct PairsNow {
 /// the maximum number of pairs is on, listed pairs do not begin. They begin in the first tick that has room for them.
 class PairEvents {
  public:
-  /// @param hysteresis  [m] >= 0
+  /// @param hysteresis  [m] how far the gap must exceed the margin before a pair ends, >= 0
   /// @param most        maximum number of pairs that are on at a time
   explicit PairEvents(double hysteresis, std::size_t most = std::numeric_limits<std::size_t>::max())
       : hysteresis_(hysteresis), most_(most) {}

@@ -50,7 +50,7 @@ struct Scene::State {
         tracker(limits.remembered),
         pair_events(scene_options.event_hysteresis, limits.remembered) {}
 
-  // scene.cpp: the bodies.
+  // scene.cpp: adds and removes bodies.
 
   /// Returns the slot of a body. @throws Refusal unknown_id if the handle is not valid
   Slot& at(BodyId id);
@@ -61,7 +61,7 @@ struct Scene::State {
   std::vector<Body> bodies;                            // the body in each slot
   std::vector<std::shared_ptr<const MapCells>> cells;  // the cells of the body in each slot; null: it has no cells
   std::vector<std::uint32_t> free_slots;               // indices of the unused slots; has capacity for all slots
-  std::map<std::string, std::uint32_t> slot_of_name;   // sorted by name, as the bodies of the structure are
+  std::map<std::string, std::uint32_t> slot_of_name;   // sorted by name, like Structure::bodies
   bool structure_changed = true;
   std::uint64_t sequence = 0, epoch = 0, commits = 0;
 

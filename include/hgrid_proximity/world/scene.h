@@ -38,7 +38,7 @@ struct SceneOptions {
   /// Globs over names of required bodies. If no body matches one of them, the world is incomplete.
   std::vector<std::string> required;
   PairKinds pair_kinds;                 ///< which kinds of pair exist at all
-  std::vector<PairRule> allowed_pairs;  ///< rules until setRules() replaces them
+  std::vector<PairRule> allowed_pairs;  ///< rules at the start; setRules() replaces them
 };
 
 /// Durations of the three parts of a commit.
@@ -93,7 +93,7 @@ class Scene {
   /// Throws what place() would throw for the same arguments, and changes nothing.
   void checkPlace(BodyId id, const Pose& world_from_body) const;
   /// Sets how far the pose of a body can be trusted. `age` is in seconds; `cohort` is BodyPose::cohort. Does nothing
-  /// for a body that has no pose. For a body that has one, `unplaced` counts as `invalid`.
+  /// for a body that has no pose. For a body that has a pose, `unplaced` counts as `invalid`.
   /// @throws Refusal unknown_id if the handle is not valid
   void setState(BodyId id, Freshness state, double age, std::uint32_t cohort = 0);
   /// Returns the last known pose of a body. @throws Refusal unknown_id if the handle is not valid

@@ -41,8 +41,8 @@ class Snapshot {
   /// The occupied cells of a body; null if the body is no map or cloud, or while its cells are not known.
   std::shared_ptr<const MapCells> cellsOf(std::uint32_t body) const;
   /// Returns the gap [m] of two bodies: the least distance of their boxes. It is infinite if it exceeds `up_to` or a
-  /// body has no boxes. The boxes of a map are its occupied cells. They are compared, in the map's frame, with the box
-  /// around the other body's box.
+  /// body has no boxes. The boxes of a map are its occupied cells. For a pair with a map, each box of the other body is
+  /// replaced by a box around it whose sides are parallel to the axes of the map.
   double gapOf(std::uint32_t first, std::uint32_t second, double up_to = std::numeric_limits<double>::infinity()) const;
   /// The pairs, sorted by (first, second). If truncated(), some pairs are missing. Then this lists the pairs with the
   /// smallest gaps among the pairs that the search collected. Among equal gaps, the names decide.

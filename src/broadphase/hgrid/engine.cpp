@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t kMostLoose = 64;  // if there are more loose boxes, they join the moving boxes
 
-// Each moving box is searched in two or three layers. If more than a quarter of all boxes moves, it is cheaper to sort
-// all boxes.
+// For each moving box, a search for pairs visits two or three layers. So if more than a quarter of all boxes moves, it
+// is cheaper to sort all boxes.
 constexpr std::size_t kShareOfMoving = 4;
 // If less than half of the moving layer still moves, and the layer holds more than a seventh of all boxes, it is
 // cheaper to sort all boxes.

@@ -212,7 +212,7 @@ SphereSearch searchAround(const Engine& engine, const Eigen::Vector3d& point, st
 template <class Engine, class Query, class Found>
 void answerAll(const Engine& engine, const std::vector<Query>& queries, BatchOf<Found>& batch) {
   constexpr std::size_t kFitsTheCache = std::size_t{1} << 18;  // with fewer boxes, sorting the queries does not pay
-  constexpr std::size_t kAhead = 8;                            // a query is prefetched this many queries before
+  constexpr std::size_t kAhead = 8;                            // how many queries before its turn a query is prefetched
   batch.begin.resize(queries.size());
   batch.count.resize(queries.size());
   batch.found.clear();
