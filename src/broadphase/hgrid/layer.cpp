@@ -17,7 +17,8 @@ constexpr std::size_t kWorthCopying = std::size_t{1} << 18;  // number of boxes;
 constexpr std::size_t kWorthAThread = 16384;                 // least number of boxes per thread
 constexpr int kSortsPerPlan = 64;                            // after so many sorts, the layer makes a new plan
 constexpr std::size_t kWorthRegions = 64;                    // a layer with fewer boxes than this has one region
-constexpr double kCrowded = 32.0, kLessCrowded = 0.6;        // limits of crowding(); evenly spread boxes have about 2
+constexpr double kCrowded = 32.0;     // from this crowding() on, regions are tried; evenly spread boxes have about 2
+constexpr double kLessCrowded = 0.6;  // regions are used if they reduce crowding() to less than this fraction
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();  // every comparison with it is false
 

@@ -34,7 +34,7 @@ struct CombinedFilter {
 /// Counts the pairs and overlaps that all threads of a search find. Says whether they exceed the bound.
 class Tally {
  public:
-  /// @param pairs, overlaps  numbers that are known before the search
+  /// @param pairs, overlaps  numbers of pairs and overlaps that were found before this search and count as well
   Tally(const PairBound& bound, std::size_t pairs, std::size_t overlaps)
       : bound_(bound),
         pairs_(pairs),
