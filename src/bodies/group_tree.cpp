@@ -9,8 +9,8 @@
 namespace hgrid {
 namespace {
 
-// [m] Largest distance of joint origins that count as one place: 1 cm, plus the rounding error of two origins that are
-// exactly 1 cm apart.
+// [m] Two joint origins that are at most this far apart count as one place. It is 1 cm plus the rounding error of two
+// origins that are exactly 1 cm apart.
 constexpr double kOnePlace = 0.01 + 1e-9;
 
 }  // namespace
@@ -34,7 +34,7 @@ std::vector<std::uint32_t> GroupTree::adjacentAbove(std::uint32_t group) const {
   while (groups_[group].parent != kNone) {
     const Group& here = groups_[group];
     above.push_back(here.parent);
-    // Whether this joint and the joint above it together act as one joint.
+    // Whether the joint of this group and the joint of its parent group together act as one joint.
     const bool one_joint = here.offset <= kOnePlace && !groups_[here.parent].has_geometry;
     if (!one_joint) break;
     group = here.parent;

@@ -12,13 +12,12 @@ struct RobotModel;
 
 /// A tree of the rigid groups of a robot model. Its edges are the moving joints. It decides which groups are adjacent.
 ///
-/// Two groups are adjacent if exactly one moving joint connects them. They are also adjacent if several moving joints
-/// connect them in one chain from parent to child, no link of a group between them has geometry, and the origins of
-/// consecutive joints (all joints at zero) are at most 1 cm apart. Such a chain is a universal or spherical joint that
-/// the URDF describes as several joints. Groups on different branches are never adjacent.
+/// LinkMatrix explains which groups are adjacent. If several joints connect two adjacent groups, these joints are a
+/// universal or spherical joint that the URDF describes as several joints. Groups on different branches are never
+/// adjacent.
 class GroupTree {
  public:
-  /// @param model  must have been prepared by findRigidGroups()
+  /// @param model  a robot model; call findRigidGroups() for it before
   explicit GroupTree(const RobotModel& model);
 
   /// Returns the number of groups.
@@ -32,9 +31,9 @@ class GroupTree {
  private:
   static constexpr std::uint32_t kNone = 0xffffffff;
   struct Group {
-    std::uint32_t parent = kNone;  // index of the parent group, always smaller than the own index
+    std::uint32_t parent = kNone;  // index of the parent group, always smaller than the index of this group
     std::string joint;             // name of the joint that connects the group to its parent; empty for the root
-    double offset = 0.0;           // [m] between the origins of this joint and of the parent's joint
+    double offset = 0.0;           // [m] distance of the origins of this joint and of the parent group's joint
     bool has_geometry = false;     // whether any of its links has geometry
   };
   std::vector<Group> groups_;

@@ -28,7 +28,7 @@ struct LinkMatrix::State {
         allowed(size * words) {
     setGroups(model);
     applyRules(model, rules, warnings);
-    for (std::uint32_t i = 0; i < size; ++i) set(i, i, Origin::self);  // set last, so that no rule can change it
+    for (std::uint32_t i = 0; i < size; ++i) set(i, i, Origin::self);  // last, so that no rule can change these entries
   }
   void setGroups(const RobotModel& model);
   void applyRules(const RobotModel& model, const LinkRules& rules, std::vector<std::string>& warnings);
@@ -38,7 +38,7 @@ struct LinkMatrix::State {
   GroupTree groups;
   std::vector<std::uint32_t> group_of;  // rigid group of each link
   std::vector<Origin> origins;
-  std::vector<std::uint64_t> allowed;                           // bit sets of links; a set bit means: not Origin::none
+  std::vector<std::uint64_t> allowed;  // one bit set of links for each link; a bit is 1 if the origin is not none
   std::map<std::pair<std::uint32_t, std::uint32_t>, Tag> tags;  // by two links, the smaller first; few pairs have a tag
 };
 

@@ -9,9 +9,9 @@ namespace hgrid {
 /// Returns an upper bound [m] of the distance from the origin of a body to the points of its padded shapes.
 double reachOf(const Body& body);
 
-/// Returns an upper bound [m] of the change of the distance of two bodies, if each moves from its first pose to its
-/// pose now.
-/// @param reach  [m] reachOf() the second body
+/// Returns an upper bound [m] of how much the distance of two bodies changes, if each moves from its former pose to
+/// its pose now. `world_from_first` and `world_from_second` are the former poses.
+/// @param reach  [m] reachOf() of the second body
 double relativeMotion(const Pose& world_from_first, const Pose& world_from_second, const Pose& world_from_first_now,
                       const Pose& world_from_second_now, double reach);
 

@@ -35,8 +35,8 @@ void checkSource(const std::string& source, const std::string& what) {
 std::string joined(const std::string& source, const std::string& local) { return source + "/" + local; }
 
 bool matches(const std::string& glob, const std::string& name) {
-  // After a mismatch, only the last star before it is tried again with a longer match. A longer match of an earlier
-  // star would not help.
+  // After a mismatch, the last star before the mismatch is tried again with a longer match. The earlier stars are not,
+  // because a longer match of an earlier star would not help.
   std::size_t g = 0, n = 0, star = std::string::npos, resume = 0;
   while (n < name.size()) {
     if (g < glob.size() && glob[g] == '*') {

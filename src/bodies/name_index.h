@@ -12,7 +12,7 @@
 namespace hgrid {
 
 /// Finds bodies by name or by glob without visiting every body. A glob is compared only with the names that start with
-/// the text before its first `*` or `?`. The index refers to the bodies it was created from, which must outlive it.
+/// the text before its first `*` or `?`. The index refers to the bodies that it was created from: they must outlive it.
 class NameIndex {
  public:
   static constexpr std::uint32_t kNone = 0xffffffff;

@@ -11,9 +11,8 @@ namespace hgrid {
 
 /// Returns the names of up to three bodies that are most similar to `name`, the most similar first.
 ///
-/// A name is similar if few bytes must be replaced, removed or added, in the whole name or in the part after the
-/// source. The list is empty if no name is similar, or if there are so many bodies that the comparison would take too
-/// long.
+/// A body is similar if few bytes of its whole name, or of the part after the source, must be replaced, removed or
+/// added to get `name`. The list is empty if no name is similar, or if there are too many bodies to compare all names.
 std::vector<std::string> nearestNames(const std::string& name, const std::vector<Body>& bodies);
 
 /// Returns the error sentence for a name that no body has. It lists similar names.

@@ -32,7 +32,7 @@ void findRigidGroups(RobotModel& model) {
 
 double speedBound(const RobotModel& model, std::uint32_t link) {
   const double infinity = std::numeric_limits<double>::infinity();
-  double reach = 0.0;  // [m] bound of the distance from the origin of link `at` to the points of `link`
+  double reach = 0.0;  // [m] bound of the distance from the origin of link `at` (see the loop) to the points of `link`
   for (const BodyShape& shape : model.links[link].shapes) {
     reach = std::max(reach, shape.body_from_shape.translation().norm() + shape.shape.reach() + shape.padding);
   }

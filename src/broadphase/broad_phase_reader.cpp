@@ -5,7 +5,8 @@
 namespace hgrid {
 namespace {
 
-/// Calls ask(query, found) for each query. Replaces the batch by the answers, which `ask` writes to `found`.
+/// Calls ask(query, found) for each query. `ask` writes the answers to `found`. Replaces the content of `batch` with
+/// all these answers.
 template <class Query, class Found, class Ask>
 void askOneByOne(const std::vector<Query>& queries, BatchOf<Found>& batch, Ask&& ask) {
   batch.begin.clear();

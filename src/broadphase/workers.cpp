@@ -36,14 +36,14 @@ bool waitBriefly(Condition&& condition) {
 }  // namespace
 
 struct Workers::State {
-  // Each call of run() is one round. A round is open until the caller finds no more jobs. A thread that wakes up after
-  // that takes no part, and the caller does not wait for it. The bits of `round` hold the number of the round, whether
-  // it is open, and the number of threads inside it, without the caller.
+  // Each call of run() is one round. A round is open until the caller finds no more jobs. If a thread wakes up later,
+  // it does not enter the round, and the caller does not wait for it. The bits of `round` hold three values: the number
+  // of the round, whether the round is open, and how many threads are inside it, without the caller.
   static constexpr std::uint64_t kInside = 0xffff, kOpen = 0x10000, kNumber = ~(kInside | kOpen);
 
-  /// The jobs that one thread starts with: from `begin` (lower half of `left`) up to `end` (upper half). The thread
-  /// takes jobs from the front. Threads that have finished their own jobs take some from the back. So one thread mostly
-  /// runs consecutive jobs, whose data are in its cache.
+  /// The jobs that one thread starts with: begin .. end - 1. `left` holds `begin` in its lower half and `end` in its
+  /// upper half. The thread takes jobs from the front. Threads that have finished their own jobs take jobs from the
+  /// back. So one thread mostly runs consecutive jobs, and their data are in its cache.
   struct alignas(64) Share {
     std::atomic<std::uint64_t> left{0};
 
@@ -72,8 +72,8 @@ struct Workers::State {
   bool stop = false;
   std::unique_ptr<Share[]> shares;
   std::vector<std::thread> threads;
-  std::atomic_flag failed = ATOMIC_FLAG_INIT;  // a job of this round has thrown an exception
-  std::exception_ptr error;                    // that exception; written by the thread that set `failed`
+  std::atomic_flag failed = ATOMIC_FLAG_INIT;  // whether a job of this round has thrown an exception
+  std::exception_ptr error;                    // the first exception; written by the thread that set `failed`
 
   void work(std::size_t self) {
     const std::size_t count = threads.size() + 1;
@@ -94,7 +94,8 @@ struct Workers::State {
     std::rethrow_exception(std::exchange(error, nullptr));
   }
 
-  /// Enters the open round, unless its number is `seen`: then this thread was in it before. @returns whether it entered
+  /// Enters the open round, if there is one. Does not enter a round with the number `seen`, because this thread was in
+  /// that round before. @returns whether it entered
   bool enter(std::uint64_t& seen) {
     std::uint64_t now = round.load(std::memory_order_relaxed);
     while ((now & kOpen) != 0 && (now & kNumber) != seen) {

@@ -11,8 +11,8 @@ namespace hgrid {
 /// A pool of threads that run jobs in parallel. One thread at a time may call run(). That thread runs jobs, too.
 class Workers {
  public:
-  /// @param threads  number of threads that work at once, including the caller, at least 1. There are fewer if the
-  ///                 system cannot create them all.
+  /// @param threads  number of threads that work at once, including the caller, at least 1. If the system cannot
+  ///                 create so many threads, there are fewer.
   explicit Workers(int threads);
   ~Workers();
 
@@ -20,8 +20,8 @@ class Workers {
   int threads() const;
 
   /// Calls job(0, thread) .. job(count - 1, thread), each once and in any order. Returns when all jobs are done.
-  /// `thread` is the number of the thread that runs the job; it is less than threads(). For the same `count`, each
-  /// thread starts with the same share of consecutive jobs in every call. Allocates nothing.
+  /// `thread` is the index of the thread that runs the job, 0 .. threads() - 1. For the same `count`, each thread
+  /// starts with the same share of consecutive jobs in every call. Allocates nothing.
   ///
   /// When a job throws, no thread starts another job. After all threads have finished their current jobs, run() throws
   /// the first exception. Then run() can be called again.

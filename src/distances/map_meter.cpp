@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A pair of bodies: one is a map or cloud, the other one has shapes.
+/// A pair of bodies. One of them is a map or cloud, the other has shapes.
 class MapPair {
  public:
   MapPair(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second)
@@ -25,8 +25,8 @@ class MapPair {
 
   /// Calls `look` for each shape and each voxel that is at most `limit` [m] from the box of the shape. Does nothing if
   /// isReady() is false.
-  /// @param look  function (index of the shape, voxel, first solid of the pair, second solid) that returns the new
-  ///              limit [m]; a negative limit ends the visit
+  /// @param look  called as double look(index of the shape, voxel, first solid of the pair, second solid); returns the
+  ///              new limit [m]; a negative limit ends the visit
   template <class Look>
   void visit(double limit, const Look& look) const {
     if (!isReady()) return;
@@ -54,7 +54,8 @@ class MapPair {
     return {worldFromCube(voxel).translation(), edgeOf(voxel, cells_->grid->finestEdge()), distance};
   }
   bool mapIsFirst() const { return map_first_; }
-  /// Returns whether both bodies can be measured: the map has cells, the other body has shapes, and all have solids.
+  /// Returns whether both bodies can be measured: the map has cells, the other body has shapes, and there is a solid
+  /// for each cell and shape.
   bool isReady() const {
     const std::vector<BodyShape>& shapes = snapshot_.structure().bodies[body_].shapes;
     return cells_ && cells_->cubes.front() && !shapes.empty() &&

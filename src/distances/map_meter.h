@@ -9,7 +9,7 @@ namespace hgrid {
 /// How a map and another body lie relative to each other.
 struct MapProximity {
   std::uint32_t shape = 0;      ///< index of the shape of the body that is nearest to the map
-  Proximity proximity;          ///< proximity of this shape and the nearest cell, in the order of the pair
+  Proximity proximity;          ///< proximity of this shape and the nearest cell; "first" is the first body of the pair
   std::vector<NearCell> cells;  ///< the cells nearest to the body, nearest first
 };
 

@@ -9,10 +9,10 @@
 
 namespace hgrid {
 
-/// A pair of shapes of two bodies, by index among the shapes of their bodies.
+/// A pair of shapes of two bodies.
 struct ShapePair {
-  double gap;  ///< [m] distance of their boxes
-  std::uint32_t first, second;
+  double gap;                   ///< [m] distance of the boxes of the two shapes
+  std::uint32_t first, second;  ///< index of each shape among the shapes of its body
 };
 
 /// The nearest shapes of two bodies, and how they lie relative to each other.

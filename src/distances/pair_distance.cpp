@@ -29,7 +29,7 @@ void collectShapePairs(const Snapshot& snapshot, std::uint32_t first, std::uint3
   });
 }
 
-/// Calls `ask` with a pair of shapes as solids at their poses. Does nothing if one of the shapes has no solid.
+/// Calls `ask` with the placed solids of a pair of shapes. Does nothing if one of the shapes has no solid.
 template <class Ask>
 void placed(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second, const ShapePair& shapes, Ask&& ask) {
   const std::vector<Body>& bodies = snapshot.structure().bodies;

@@ -18,9 +18,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kLittle = 0.25;         // a smaller move than this share of the report distance is a small one
+constexpr double kLittle = 0.25;         // a move is small if it is less than this fraction of the report distance
 constexpr double kSmoothing = 0.05;      // [s] time constant of the low-pass filter for the closing speed
-constexpr std::size_t kPairsPerJob = 8;  // pairs that a thread measures before it takes the next job
+constexpr std::size_t kPairsPerJob = 8;  // number of pairs that a thread measures before it takes the next job
 
 }  // namespace
 
@@ -29,17 +29,18 @@ struct PairMeter::State {
   struct Known {
     std::uint32_t first = 0, second = 0;
     bool measured = false;  // whether the pair was ever measured; if not, the members below are meaningless
-    Time measured_at{0};    // stamp of the snapshot for which this result is valid
+    Time measured_at{0};    // stamp of the newest snapshot for which this result is valid
     Pose world_from_first = Pose::Identity(), world_from_second = Pose::Identity();
     std::uint32_t first_shape = 0, second_shape = 0;
     Proximity proximity;
     std::vector<NearCell> cells;
-    std::shared_ptr<const MapCells> map;  // the cells of the map at the measurement; null without a map
-    double up_to = 0.0;                   // [m] the search ended at this distance
+    std::shared_ptr<const MapCells> map;  // the cells of the map at the measurement; null if neither body is a map
+    double up_to = 0.0;                   // [m] larger distances were not searched
     // The last sample of the distance, for the closing speed.
     Time stamp{0};
     double distance = Proximity::kUnknown, speed = Proximity::kUnknown;
-    // Sequence number of the last snapshot that did not leave the pair out, or of the one before the pair appeared.
+    // Sequence number of the last snapshot that did not leave out the pair. If there is none: sequence number of the
+    // last snapshot before the pair appeared.
     std::uint64_t served = 0;
   };
   struct Job {
@@ -48,7 +49,7 @@ struct PairMeter::State {
     Known known;           // input: the last result; output: the new result
     double moved = 0.0;    // [m] see motionSince()
     double bound = 0.0;    // [m] lower bound of the distance, from the boxes and the last result
-    bool left_out = true;  // it needs a measurement that was not made (yet)
+    bool left_out = true;  // whether the pair needs a measurement that was not made (yet)
   };
 
   State(std::shared_ptr<const NarrowPhase> phase, const MeterOptions& given)
@@ -69,7 +70,7 @@ struct PairMeter::State {
   MeterOptions options;
   Workers workers;
   std::uint64_t revision = 0, epoch = 0;
-  std::vector<Known> known;  // sorted by (first, second)
+  std::vector<Known> known;  // the last results of the pairs, sorted by (first, second)
   std::vector<Job> jobs;
   std::vector<Job*> due;
   std::vector<std::vector<ShapePair>> scratch;  // one buffer for each thread
@@ -109,8 +110,8 @@ std::shared_ptr<const MapCells> PairMeter::State::mapOf(const Snapshot& snapshot
   return snapshot.cellsOf(snapshot.structure().isMap(known.first) ? known.first : known.second);
 }
 
-/// Returns the largest change [m] of the distance of a pair that its motion since the last measurement allows. Infinite
-/// if the pair was never measured or if the cells of its map have changed.
+/// Returns the largest possible change [m] of the distance of a pair since its last measurement, computed from the
+/// poses of its bodies. Infinite if the pair was never measured or if the cells of its map have changed.
 double PairMeter::State::motionSince(const Snapshot& snapshot, const Known& known) {
   const Structure& structure = snapshot.structure();
   const bool map_first = structure.isMap(known.first);
@@ -128,7 +129,7 @@ double PairMeter::State::motionSince(const Snapshot& snapshot, const Known& know
                         reachOf(structure.bodies[known.first]));
 }
 
-/// Sets what follows from the last result of a pair: its motion, its lower bound, and whether it must be measured.
+/// Computes from the last result of a pair: its motion, its lower bound, and whether it must be measured.
 void PairMeter::State::assess(const Snapshot& snapshot, Job& job) {
   Known& now = job.known;
   job.moved = motionSince(snapshot, now);
@@ -139,7 +140,7 @@ void PairMeter::State::assess(const Snapshot& snapshot, Job& job) {
   if (job.moved == 0.0 && !job.left_out) now.measured_at = snapshot.stamp();
 }
 
-/// Measures the pairs that must be measured, as the comment of PairMeter says.
+/// Measures the pairs that must be measured, in the order that the comment of PairMeter describes.
 void PairMeter::State::measureDue(const Snapshot& snapshot, Clock::time_point begin) {
   due.clear();
   for (Job& job : jobs) {
@@ -179,7 +180,7 @@ void PairMeter::State::measureUntil(const Snapshot& snapshot, std::vector<Job*>&
 
 void PairMeter::State::perform(const Snapshot& snapshot, Job& job, std::vector<ShapePair>& shape_pairs) const {
   Known& now = job.known;
-  // The distance cannot exceed this bound, so the search may end there. The addend is larger than any solver error.
+  // The distance cannot exceed this bound, so no larger distance is searched. 1e-6 is larger than any solver error.
   const double at_most = now.proximity.distance + job.moved + 1e-6;
   // After a small move, search a little farther than the report distance, so that the next tick need not measure.
   now.up_to = job.moved < kLittle * job.report ? (1.0 + kLittle) * job.report : job.report;

@@ -26,7 +26,7 @@ Matched match(const AllowedScope& scope, const std::string& name) {
 
 bool inScope(const Matched& a, const Matched& b) { return (a.first && b.second) || (b.first && a.second); }
 
-/// The bodies that may have entries in the matrix: those that rules match, and the links of each robot.
+/// The bodies that may have entries in the matrix: all bodies that a rule matches, and the links of each robot.
 struct Circles {
   std::vector<std::uint32_t> ruled;
   std::map<std::string, std::vector<std::uint32_t>> robots;
@@ -84,7 +84,8 @@ AllowedList decidedPairs(const Structure& structure, const AllowedScope& scope) 
   const auto count = [&](bool Matched::*by) {
     return std::count_if(matched.begin(), matched.end(), [by](const Matched& body) { return body.*by; });
   };
-  // In each pair of the scope, at least one body matches the glob that fewer bodies match.
+  // In each pair of the scope, one body matches the first glob and the other matches the second glob. `rare` is the
+  // glob that fewer bodies match. So at least one body of each pair matches `rare`.
   bool Matched::*const rare = count(&Matched::first) < count(&Matched::second) ? &Matched::first : &Matched::second;
   const Circles everybody(structure, [](std::uint32_t) { return true; });
   const Circles few(structure, [&](std::uint32_t body) { return matched[body].*rare; });

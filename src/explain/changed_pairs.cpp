@@ -18,8 +18,8 @@ using Bodies = std::vector<std::uint32_t>;
 
 /// Returns the names and globs of the rules in which two lists differ.
 ///
-/// If two equally exact rules match a pair, the later one decides, so the order of rules matters. Only the rules at the
-/// start and at the end of the lists, as far as both lists agree, surely make no difference.
+/// If two equally exact rules match a pair, the later one decides, so the order of rules matters. Therefore only two
+/// parts of the lists surely make no difference: the common rules at the start, and the common rules at the end.
 std::vector<std::string> changedNames(const std::vector<PairRule>& before, const std::vector<PairRule>& after) {
   const auto same = [](const PairRule& a, const PairRule& b) {
     return std::tie(a.first, a.second, a.allowed) == std::tie(b.first, b.second, b.allowed);
@@ -63,10 +63,10 @@ Bodies matching(const std::vector<std::string>& names, const std::vector<Body>& 
   return found;
 }
 
-/// Links of one robot, or bodies that are no links, that both filters treat alike in pairs with bodies outside the
-/// robot.
+/// A group of bodies that both filters treat alike in pairs with bodies outside their robot. The bodies are links of
+/// one robot, or none of them is a link.
 struct Group {
-  std::string robot;  // empty: the bodies are no links
+  std::string robot;  // name of the robot; empty if the bodies are no links
   Bodies bodies;
 };
 
@@ -90,7 +90,7 @@ std::vector<Group> groupsOf(const Bodies& chosen, const std::vector<Body>& bodie
 /// @param same  whether the two groups are the same
 template <class IsChanged>
 std::uint64_t countBetween(const Group& first, const Group& second, bool same, const IsChanged& is_changed) {
-  if (!first.robot.empty() && first.robot == second.robot) {  // the robot model may decide differently for each pair
+  if (!first.robot.empty() && first.robot == second.robot) {  // the matrix of the robot decides for each pair of links
     std::uint64_t count = 0;
     for (std::size_t i = 0; i < first.bodies.size(); ++i) {
       for (std::size_t j = same ? i + 1 : 0; j < second.bodies.size(); ++j) {

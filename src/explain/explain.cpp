@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// Returns a length as text, rounded to a micrometer: the coordinates of boxes are not more precise.
+/// Returns a length as text, rounded to a micrometer, because the coordinates of boxes are not more precise.
 std::string meters(double length) { return text(std::round(length * 1e6) / 1e6) + " m"; }
 
 std::uint32_t known(const Structure& structure, const std::string& name) {
@@ -72,7 +72,7 @@ class Words {
     return "their boxes are " + meters(what_.gap) + " apart, " + (near_ ? "within " : "more than ") + margin + soon;
   }
 
-  /// Returns a sentence about the shapes of a body that could not be read; empty if all were read.
+  /// Returns a sentence about the shapes of a body that could not be read; empty if all shapes were read.
   static std::string unread(const Body& body) {
     if (body.covered || body.shapes.empty()) return {};
     return " Not all shapes of " + body.name + " could be read, so it may be nearer: " + body.note + ".";
@@ -153,7 +153,7 @@ class Words {
     return near_ ? " Otherwise they would be reported: " + nearness() + "." : " Also, " + nearness() + ".";
   }
 
-  /// Returns a sentence that names the rule or SRDF that makes the pair reported; empty if there is none.
+  /// Returns a sentence that names the rule or SRDF that says "report this pair"; empty if there is none.
   std::string enabled() const {
     const PairRule& rule = what_.rule;
     if (rule.origin == Origin::none) return {};
@@ -225,7 +225,7 @@ bool fillGap(const Snapshot& snapshot, Explanation& what) {
       near = near || withinDistance(snapshot.boxes()[i], snapshot.boxes()[j], what.margin);
     }
   }
-  if (near) what.gap = std::min(what.gap, what.margin);  // in reported pairs the gap is limited in the same way
+  if (near) what.gap = std::min(what.gap, what.margin);  // Snapshot::pairs() limits gaps in the same way
   return near;
 }
 

@@ -40,7 +40,7 @@ class ExactSum {
   int size_ = 0;
 };
 
-/// The gap of two intervals along one axis, given as high - low. Both numbers are 0 if the intervals overlap.
+/// The distance of two intervals along one axis is high - low. Both numbers are 0 if the intervals overlap.
 struct AxisGap {
   double high = 0.0, low = 0.0;
 };
@@ -53,7 +53,8 @@ AxisGap axisGap(const Aabb& a, const Aabb& b, int axis) {
 
 /// Returns the sign of distance² - margin², without rounding.
 ///
-/// The gap of an axis is exactly h + l, so its square is h² + 2hl + l².
+/// The distance along an axis is exactly h + l, where h is the rounded difference and l its rounding error. So the
+/// square of the distance is h² + 2hl + l².
 double exactComparison(const Aabb& a, const Aabb& b, double margin) {
   ExactSum sum;
   for (int axis = 0; axis < 3; ++axis) {
@@ -85,8 +86,8 @@ bool isValid(const Aabb& box) {
 }
 
 float roundedDown(double value) {
-  // Works like std::nextafter, but without a function call, since every box needs six of these roundings. It also
-  // avoids a branch on the last digits, which a processor cannot predict.
+  // Works like std::nextafter, but without a function call, because every box needs six of these roundings. It also
+  // avoids a branch on the last digits, because a processor cannot predict such a branch.
   const float nearest = static_cast<float>(value);
   const std::int32_t above = static_cast<double>(nearest) > value ? 1 : 0;
   if (nearest == 0.0f) return above == 0 ? nearest : -std::numeric_limits<float>::denorm_min();
@@ -106,7 +107,7 @@ bool withinDistance(const Aabb& a, const Aabb& b, double margin) {
   if (margin > 1e40) return true;  // no two floats are that far apart, and margin² might overflow
   const double squared = squaredDistance(a, b);
   const double limit = margin * margin;
-  const double doubt = 1e-14 * limit + 1e-290;  // far above the rounding errors of both sides and above underflow
+  const double doubt = 1e-14 * limit + 1e-290;  // far above underflow and the errors of `squared` and `limit`
   if (squared < limit - doubt) return true;
   if (squared > limit + doubt) return false;
   return exactComparison(a, b, margin) <= 0.0;
@@ -123,7 +124,8 @@ Aabb grown(const Aabb& box, double by) {
 }
 
 double penetrationDepth(const Eigen::AlignedBox3d& first, const Eigen::AlignedBox3d& second) {
-  const Eigen::Vector3d up = first.max() - second.min(), down = second.max() - first.min();  // moves of `second`
+  // The lengths of the moves of `second`, up or down along each axis, that separate the two boxes.
+  const Eigen::Vector3d up = first.max() - second.min(), down = second.max() - first.min();
   return std::max(0.0, up.cwiseMin(down).minCoeff());
 }
 

@@ -33,10 +33,11 @@ Breaks breaksOf(const Eigen::Vector3d& from, const Eigen::Vector3d& step, const 
   return breaks;
 }
 
-/// The squared distance to the box between two breaks: least + a * (fraction - lowest)².
+/// Between two breaks, the squared distance from the point to the box is a quadratic function of the fraction. This
+/// struct describes the function as least + a * (fraction - lowest)².
 ///
-/// `lowest` may be outside of the piece. The form a * fraction² + b * fraction + c would lose precision far away from
-/// the box.
+/// `lowest` may be outside of the two breaks. The form a * fraction² + b * fraction + c would lose precision far away
+/// from the box.
 struct Piece {
   double a = 0.0, lowest = 0.0, least = 0.0;
 };
@@ -74,7 +75,7 @@ std::optional<Meeting> meet(const Segment& segment, const Aabb& box) {
     const double begin = breaks.fraction[i], end = breaks.fraction[i + 1];
     const Piece piece = pieceBetween(begin, end, segment.from, step, box);
     const double lowest = piece.a > 0.0 ? std::clamp(piece.lowest, begin, end) : end;
-    for (const double fraction : {lowest, end}) {  // also the end, as rounding may have moved `lowest`
+    for (const double fraction : {lowest, end}) {  // also the end, because rounding may have moved `lowest`
       const double here = distanceAt(fraction);
       if (here <= radius && !first) {
         // `root` is the smaller solution of least + a * (fraction - lowest)² = radius².

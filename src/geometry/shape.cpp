@@ -31,8 +31,8 @@ void checkVertices(const TriangleMesh& mesh, double max_size, const std::string&
 /// Returns the half-widths of a disc of radius 1 whose axis is `axis`.
 ///
 /// The half-width along a direction is the sine of the angle between the direction and the axis (Ericson 2005, section
-/// 4.2). The sine is computed from the two other components, since 1 - cosine² would lose all digits for small angles.
-/// std::hypot is not needed: squares that underflow are far below the slack of a box.
+/// 4.2). The sine is computed from the other two components of the axis, because 1 - cosine² would lose all digits for
+/// small angles. std::hypot is not needed, because squares that underflow are far below the slack of a box.
 Eigen::Vector3d discHalfWidths(const Eigen::Vector3d& axis) {
   const Eigen::Vector3d squares = axis.cwiseAbs2();
   return {std::sqrt(squares.y() + squares.z()), std::sqrt(squares.x() + squares.z()),

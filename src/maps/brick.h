@@ -12,10 +12,11 @@
 
 namespace hgrid {
 
-// The cells of a brick of 4 x 4 x 4 are numbered in Morton order. Bits 0, 1, 2 of a number are the lower bits of x, y,
-// z; bits 3, 4, 5 are their upper bits. A set of cells is stored as 64 bits.
+// A brick has 4 x 4 x 4 cells. They have the indices 0 .. 63 in Morton order. Bits 0, 1, 2 of an index are the lower
+// bits of the cell's coordinates x, y, z in the brick. Bits 3, 4, 5 are the upper bits of x, y, z. A set of cells is
+// stored as 64 bits.
 
-/// Returns the position of a cell along an axis, 0 .. 3.
+/// Returns the coordinate of a cell in its brick along an axis, counted in cells: 0 .. 3.
 constexpr std::int32_t cellAlong(unsigned cell, int axis) {
   return static_cast<std::int32_t>((cell >> axis & 1u) | (cell >> (axis + 3) & 1u) << 1);
 }
@@ -26,11 +27,11 @@ inline int bitCount(std::uint64_t cells) {
   cells = (cells & 0x3333333333333333) + (cells >> 2 & 0x3333333333333333);
   return static_cast<int>(((cells + (cells >> 4)) & 0x0f0f0f0f0f0f0f0f) * 0x0101010101010101 >> 56);
 }
-/// Returns the first cell of a set, which must not be empty.
+/// Returns the index of the first cell of a set. The set must not be empty.
 inline unsigned firstCell(std::uint64_t cells) { return static_cast<unsigned>(__builtin_ctzll(cells)); }
 
-/// sets[axis][first][end] has the cells whose position along the axis is at least `first` and less than `end`. Both are
-/// 0 .. 4.
+/// For each axis and each range of coordinates: the set of the cells in this range. sets[axis][first][end] holds the
+/// cells whose cellAlong() is at least `first` and less than `end`. `first` and `end` are 0 .. 4.
 struct CellRanges {
   std::array<std::array<std::array<std::uint64_t, 5>, 5>, 3> sets{};
 
@@ -55,9 +56,9 @@ inline constexpr CellRanges kCellRanges;
 /// to the brick's corner.
 inline std::uint64_t cellsBetween(int axis, double min, double max) {
   const auto& sets = kCellRanges.sets[static_cast<std::size_t>(axis)];
-#ifdef __aarch64__  // both at once; gcc turns std::min and std::max into branches
+#ifdef __aarch64__  // computes both limits at once; gcc would turn std::min and std::max into branches
   const float64x2_t ends = vminq_f64(vmaxq_f64(float64x2_t{min, max + 1.0}, vdupq_n_f64(0.0)), vdupq_n_f64(4.0));
-  const uint64x2_t numbers = vcvtq_u64_f64(ends);  // NaN becomes 0, as below
+  const uint64x2_t numbers = vcvtq_u64_f64(ends);  // NaN becomes 0, as in the code for other processors
   return sets[vgetq_lane_u64(numbers, 0)][vgetq_lane_u64(numbers, 1)];
 #else
   const auto number = [](double at) {

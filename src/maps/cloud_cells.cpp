@@ -58,7 +58,7 @@ std::vector<Voxel> CloudCells::cellsOf(const std::vector<Eigen::Vector3d>& point
   std::vector<std::uint64_t> codes;
   Keys last{};
   for (const Eigen::Vector3d& point : points) {
-    if (!((point - sensor).cwiseAbs().maxCoeff() < reach + edge_)) {  // so far away that its keys might overflow
+    if (!((point - sensor).cwiseAbs().maxCoeff() < reach + edge_)) {  // the keys of a point far away might overflow
       ++left_out;
       continue;
     }

@@ -13,16 +13,16 @@
 
 namespace hgrid {
 
-/// A vector of four numbers, one for each slice of a brick. It is a vector extension of gcc and clang, which use SSE2
-/// or NEON if available. Otherwise they generate plain code with the same results.
+/// A vector of four numbers, one for each slice of a brick. It uses the vector extension of gcc and clang. These
+/// compilers use SSE2 or NEON if available; if not, they generate plain code with the same results.
 using Four = float __attribute__((vector_size(16)));
 using FourCounts = std::uint32_t __attribute__((vector_size(16)));
 
 /// Returns a vector of four equal values.
 inline Four allFour(float value) { return Four{value, value, value, value}; }
 
-// Return the smaller or greater value of each lane, or `b` if one of the two is NaN. They use intrinsics, since
-// compilers turn a < b ? a : b into branches or five instructions.
+// least() and greatest() return for each lane the smaller or greater value, or the value of `b` if one of the two is
+// NaN. They use intrinsics, because compilers turn a < b ? a : b into branches or five instructions.
 #ifdef __SSE2__
 inline Four least(Four a, Four b) { return _mm_min_ps(a, b); }
 inline Four greatest(Four a, Four b) { return _mm_max_ps(a, b); }
@@ -36,7 +36,7 @@ inline FourCounts countsOf(Four values) {
 #ifdef __aarch64__  // NaN stays NaN until the conversion, which turns it into 0
   return reinterpret_cast<FourCounts>(vcvtq_u32_f32(vminq_f32(vmaxq_f32(values, allFour(0.0f)), allFour(4.0f))));
 #else
-  using FourInts = std::int32_t __attribute__((vector_size(16)));  // one instruction converts floats to these
+  using FourInts = std::int32_t __attribute__((vector_size(16)));  // one instruction converts floats to this type
   const Four within = least(greatest(values, allFour(0.0f)), allFour(4.0f));
   return reinterpret_cast<FourCounts>(__builtin_convertvector(within, FourInts));
 #endif

@@ -9,7 +9,7 @@ namespace hgrid {
 /// [m] A StaticGrid::Look returns this limit to end the search.
 constexpr double kNoFurther = -1.0;
 
-/// Returns a box [m, map frame] that contains a box of the world. It is larger if the map is rotated.
+/// Returns a box [m, map frame] that contains `box`. It is larger than `box` if the map is rotated.
 /// @param origin  [m, world] the point that `box` is relative to
 Eigen::AlignedBox3d boxInMap(const Pose& map_from_world, const Aabb& box, const Eigen::Vector3d& origin);
 

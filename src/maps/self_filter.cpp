@@ -10,7 +10,7 @@
 namespace hgrid {
 namespace {
 
-constexpr std::size_t kMostLooks = 4'000'000;  // largest number of distance measurements; they take some seconds
+constexpr std::size_t kMostLooks = 4'000'000;  // largest number of distance measurements; so many take some seconds
 
 /// Splits cells until each part is inside a shape or outside all shapes.
 class Splitter {
@@ -60,7 +60,7 @@ class Splitter {
       const Proximity found =
           narrow_phase_.measure({*point_, world_from_middle, 0.0},
                                 {*one.shape->solid, one.shape->world_from_shape, 0.0}, padding + half_diagonal);
-      // A cell is kept if it is not known whether it lies inside an open mesh.
+      // If it is not known whether the cell lies inside an open mesh, the cell is kept.
       const bool is_known = found.status != Measure::containment_unknown && found.status != Measure::failed;
       const bool inside =
           is_known && (cell.level == 0 ? found.distance <= padding : found.distance + half_diagonal <= padding);

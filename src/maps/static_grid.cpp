@@ -12,7 +12,8 @@
 namespace hgrid {
 namespace {
 
-/// Builds bricks from voxels in Morton order. Only the bricks that contain the last voxel are still incomplete.
+/// Builds bricks from voxels in Morton order. The bricks that contain the last voxel stay open: later voxels may add
+/// cells to them. All other bricks are complete.
 class Builder {
  public:
   explicit Builder(Bricks& bricks) : bricks_(bricks) {}
@@ -21,10 +22,10 @@ class Builder {
     const std::uint64_t code = mortonOf(voxel), after = code + (std::uint64_t{1} << 3 * voxel.level);
     const bool sound = voxel.level <= Voxel::kLevels && code % (std::uint64_t{1} << 3 * voxel.level) == 0;
     if (!sound || code < end_) refuse(voxel, number, sound);
-    // Bricks that end before this voxel are complete.
+    // Close the open bricks that end before this voxel.
     const int level = std::min(voxel.level / 2, kBrickLevels - 1);
     for (int open = 0; open < kBrickLevels - 1; ++open) {
-      if (open >= level && (code ^ last_) >> 6 * (open + 1) == 0) break;  // the larger bricks are not complete either
+      if (open >= level && (code ^ last_) >> 6 * (open + 1) == 0) break;  // this and all larger bricks contain `voxel`
       close(open);
     }
     last_ = code;
@@ -36,7 +37,7 @@ class Builder {
     for (int open = 0; open < kBrickLevels; ++open) close(open);
     BrickLevel& top = bricks_.levels.back();
     if (!top.cells.empty()) return;
-    top.cells.push_back(0);  // an empty root brick
+    top.cells.push_back(0);  // there are no voxels: store an empty root brick
     top.full.push_back(0);
     top.first_below.push_back(0);
     top.blocks.push_back(0);
@@ -77,13 +78,14 @@ class Builder {
     for (int above = level + 1; above < kBrickLevels; ++above) {
       Open& outer = open_[static_cast<std::size_t>(above)];
       const std::uint64_t part = std::uint64_t{1} << (code >> 6 * above & 63u);
-      if ((outer.cells & part) != 0) break;  // the cells of all larger bricks are already set, too
+      if ((outer.cells & part) != 0) break;  // then the bits in all larger bricks are already set, too
       if (outer.cells == 0) begin(above);
       outer.cells |= part;
     }
   }
 
-  /// Notes where the bricks below this brick start. All bricks that are added between begin() and close() belong to it.
+  /// Opens the brick of a level and notes the index of the first brick below it. All bricks of the level below that
+  /// are added until close() are inside this brick.
   void begin(int level) {
     if (level == 0) return;
     const std::size_t below = bricks_.levels[static_cast<std::size_t>(level) - 1].cells.size();

@@ -17,30 +17,31 @@ inline Aabb keysOf(const Voxel& voxel) {
   const auto along = static_cast<float>(keysAlong(voxel));
   constexpr int kOrigin = Voxel::kOriginKey;
   const Eigen::Vector3i key(voxel.x - kOrigin, voxel.y - kOrigin, voxel.z - kOrigin);
-  const Eigen::Vector3f min = key.cast<float>();  // exact for all keys
+  const Eigen::Vector3f min = key.cast<float>();  // a float holds every key exactly
   return {min, min + Eigen::Vector3f::Constant(along)};
 }
 
 constexpr int kBrickLevels = Voxel::kLevels / 2;
 
-/// All bricks of one level. Their cells have an edge of 4^level finest edges. Each array has one element per brick.
+/// All bricks of one level. The cells of these bricks have an edge of 4^level finest edges. Each array has one element
+/// per brick.
 struct BrickLevel {
   std::vector<std::uint64_t> cells;  // bit set of the cells that are not empty
-  // Bit set of the cells that are voxels; every other cell in `cells` has a brick below. This array is empty on level
-  // 0, where all cells are voxels.
+  // Bit set of the cells that are voxels. Every other cell in `cells` is a brick of the level below. This array is
+  // empty on level 0, because all cells of level 0 are voxels.
   std::vector<std::uint64_t> full;
-  std::vector<std::uint32_t> first_below;  // number of the first brick below this brick; empty on level 0
-  std::vector<std::uint8_t> blocks;        // bit b is set if the cells 8 b .. 8 b + 7 are one voxel
+  std::vector<std::uint32_t> first_below;  // index of the first brick inside this brick; empty on level 0
+  std::vector<std::uint8_t> blocks;        // bit b is set if the cells 8 b .. 8 b + 7 together are one voxel
 };
 
-/// A brick, given by its level, its number on that level, and its position.
+/// A brick, given by its level, its index in the arrays of this level, and its corner.
 struct Brick {
   int level;
   std::uint32_t number;
   std::array<std::int32_t, 3> corner;  // minimum corner in keys, relative to the origin of the map
 };
 
-/// The storage of a StaticGrid. Everything is inline, since searches spend most of their time here.
+/// The storage of a StaticGrid. Everything is inline, because searches spend most of their time here.
 class Bricks {
  public:
   /// Returns the cells of a brick that are not empty, as a bit set.
@@ -49,14 +50,14 @@ class Bricks {
   }
   /// Returns the cells of a brick that are voxels, as a bit set.
   std::uint64_t fullOf(const Brick& brick) const;
-  /// Returns the brick that fills a cell of a brick.
+  /// Returns the brick of the level below that fills a cell of `brick`.
   Brick below(const Brick& brick, unsigned cell) const;
   /// Returns the voxel that a full cell belongs to.
   Voxel voxelAt(const Brick& brick, unsigned cell) const;
   /// Returns all cells of the voxel that a full cell belongs to, as a bit set.
   std::uint64_t cellsOfVoxel(const Brick& brick, unsigned cell) const;
 
-  bool is_whole = false;  ///< whether one voxel is the whole map; it is stored as eight voxels
+  bool is_whole = false;  ///< whether one voxel is the whole map; it is stored as eight blocks
   std::array<BrickLevel, kBrickLevels> levels;
   /// The smallest brick that contains all voxels. Searches start here.
   Brick start{kBrickLevels - 1, 0, {-Voxel::kOriginKey, -Voxel::kOriginKey, -Voxel::kOriginKey}};

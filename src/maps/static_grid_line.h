@@ -17,11 +17,11 @@
 
 namespace hgrid {
 
-/// The cells of one slice of a brick that are in a range of positions along another axis.
+/// For each slice of a brick: the cells of the slice that are in a range of coordinates along another axis.
 ///
-/// A slice is perpendicular to the main axis. sets[main][other][slice][5 * first + end] has the cells of the slice
-/// whose position is at least `first` and less than `end`, both 0 .. 4. The position is measured along the axis
-/// (main + 1 + other) % 3.
+/// A slice is one of the four layers of 4 x 4 cells perpendicular to the main axis. The set
+/// sets[main][other][slice][5 * first + end] holds the cells of the slice whose cellAlong() is at least `first` and
+/// less than `end`. `first` and `end` are 0 .. 4. cellAlong() is taken along the axis (main + 1 + other) % 3.
 struct SliceRanges {
   using Slice = std::array<std::uint64_t, 25>;
   std::array<std::array<std::array<Slice, 4>, 2>, 3> sets{};
@@ -41,7 +41,8 @@ struct SliceRanges {
 };
 inline constexpr SliceRanges kSliceRanges;
 
-/// The position of each cell of a brick: per axis, and as one number with 16 bits per axis, x lowest.
+/// The coordinates of each cell in its brick, counted in cells. `along` holds them per axis. `keys` holds them in one
+/// number with 16 bits per axis, x lowest.
 struct CellPlaces {
   std::array<std::array<float, 64>, 3> along{};
   std::array<std::uint64_t, 64> keys{};
@@ -59,17 +60,17 @@ inline constexpr CellPlaces kCellPlaces;
 
 /// Searches a grid along a segment.
 ///
-/// The search visits the bricks in the order in which the segment passes them. In each brick it selects all cells that
-/// the segment passes at once. The main axis is the axis along which the segment is longest, and a slice is
-/// perpendicular to it. In each slice, the search selects the cells between the points where the segment enters and
-/// leaves the slice.
+/// The search visits the bricks in the order in which the segment passes them. In each brick it selects, in one step,
+/// all cells that the segment passes. The main axis is the axis along which the segment is longest. A slice is a layer
+/// of cells perpendicular to the main axis. In each slice, the search selects the cells between the points where the
+/// segment enters and leaves the slice.
 ///
-/// The position of the segment in a brick is computed from its position in the brick of the level above. Floats are
-/// precise enough for this: they only select cells, with a tolerance that is larger than their rounding error. The test
+/// The coordinates of the segment in a brick are computed from its coordinates in the brick of the level above. They
+/// are floats, because they only select cells, with a tolerance that is larger than their rounding error. The test
 /// whether a voxel is touched uses doubles.
 class LineSearch {
  public:
-  /// @param segment  [keys] relative to the origin of the map
+  /// @param segment  in keys (finest edges), relative to the origin of the map
   LineSearch(const Bricks& bricks, const Segment& segment) : bricks_(bricks), segment_(segment) {
     const Eigen::Vector3d step = segment.to - segment.from;
     const double longest = step.cwiseAbs().maxCoeff(&main_);
@@ -92,8 +93,8 @@ class LineSearch {
     }
   }
 
-  /// Returns the voxel that the segment touches first. VoxelTouch::along is the fraction of the segment, or infinity if
-  /// it touches no voxel.
+  /// Returns the voxel that the segment touches first. VoxelTouch::along is a fraction of the segment, 0 .. 1. It is
+  /// infinite if the segment touches no voxel.
   VoxelTouch first() {
     const int top = bricks_.start.level;
     Frame* frame = &frames_[static_cast<std::size_t>(top)];
@@ -116,9 +117,9 @@ class LineSearch {
   }
 
  private:
-  /// [cells] Tolerance for rounding errors in the brick where the search starts. On each level below it is four times
-  /// as many cells. All numbers that matter are less than 8, so the rounding error of a level is less than 2^-20 of its
-  /// cells.
+  /// [cells] Tolerance for rounding errors in the brick where the search starts. Each level below has a tolerance of
+  /// four times as many of its own cells. All numbers that matter are less than 8. So the rounding error of a level is
+  /// less than 2^-20 of the edge of its cells.
   static constexpr float kRoom = 1.0f / (1 << 18);
 
   /// The state of the search in one brick. Positions of the segment are in cells of the brick, relative to its corner.
@@ -128,14 +129,15 @@ class LineSearch {
     std::uint64_t keys;         // keys of the brick's corner, 16 bits per axis
     std::uint32_t number;
     Four main;  // range of the segment along the main axis: from, to; the other two values are not used
-    // For each other axis: range (from, to) where the main axis is 0, then range (from, to) of the whole segment.
+    // For each other axis four values: the range (from, to) of the segment where its coordinate along the main axis is
+    // 0, then the range (from, to) of the whole segment.
     std::array<Four, 2> others;
   };
   /// One of the two axes that are not the main axis.
   struct Other {
-    Four from, to;                       // per slice: offset of its range from the range where the main axis is 0
-    Four slope;                          // change of the ranges in Frame::others per cell along the main axis
-    const std::array<float, 64>* along;  // position of each cell along this axis
+    Four from, to;  // for each slice: the range of the segment in it, relative to the first range in Frame::others
+    Four slope;     // change of the ranges in Frame::others per cell along the main axis
+    const std::array<float, 64>* along;  // CellPlaces::along for this axis
   };
 
   int axisOf(std::size_t other) const { return (main_ + 1 + static_cast<int>(other)) % 3; }
@@ -166,7 +168,7 @@ class LineSearch {
     }
   }
 
-  /// Fills the frame of the brick that fills `cell`.
+  /// Computes the Frame `below` of the brick that fills `cell` of the brick of `frame`.
   void goBelow(const Frame& frame, int level, unsigned cell, Frame& below) const {
     const std::uint64_t before = frame.cells & ~frame.full & ((std::uint64_t{1} << cell) - 1);
     below.number = bricks_.levels[static_cast<std::size_t>(level)].first_below[frame.number] +
@@ -180,7 +182,7 @@ class LineSearch {
     enter(below, level - 1);
   }
 
-  /// Loads the cells of a brick and selects those that the segment passes.
+  /// Loads the cells of the brick of `frame` and selects the cells that the segment passes.
   void enter(Frame& frame, int level) const {
     const BrickLevel& here = bricks_.levels[static_cast<std::size_t>(level)];
     frame.cells = here.cells[frame.number];
@@ -202,7 +204,7 @@ class LineSearch {
     return sets[0][range[0]] | sets[1][range[1]] | sets[2][range[2]] | sets[3][range[3]];
   }
 
-  /// Returns those of the given cells that are in the first slice along the segment that has any of them.
+  /// Finds the first slice along the segment that contains any of the given cells. Returns the given cells in it.
   std::uint64_t firstSlice(std::uint64_t cells) const {
     std::uint64_t first = cells;
     for (const std::size_t i : {2u, 1u, 0u}) {
@@ -261,8 +263,9 @@ class LineSearch {
   const Bricks& bricks_;
   const Segment segment_;
   int main_ = 0;
-  double around_, length_;  // [keys] radius of the segment plus tolerance; length of the segment
-  double step_;             // [keys] change along the main axis from the start of the segment to its end
+  double around_;  // [keys] radius of the segment plus a tolerance
+  double length_;  // [keys] length of the segment
+  double step_;    // [keys] change along the main axis from the start of the segment to its end
   std::array<Other, 2> others_;
   // The slices perpendicular to the main axis, in the order in which the segment passes them.
   std::array<std::uint64_t, 4> slices_;

@@ -17,8 +17,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Searches the bricks. All coordinates are in keys, which count finest edges from the origin of the map. So the
-/// corners of cells are integers.
+/// Searches the bricks. All coordinates are in keys: they count finest edges from the origin of the map. So the corners
+/// of cells are integers.
 class Search {
  public:
   Search(const Bricks& bricks, double finest_edge) : bricks_(bricks), finest_edge_(finest_edge) {}
@@ -36,8 +36,8 @@ class Search {
     return {min.array() - (by + rounded), max.array() + (by + rounded)};
   }
 
-  /// Calls `look` for every voxel in a brick whose cells `chosen` selects, in Morton order. Stops if `look` returns
-  /// false.
+  /// Calls `look` for the voxels in a brick, in Morton order. `chosen` selects the cells that are visited. Stops if
+  /// `look` returns false.
   /// @returns false if `look` returned false
   template <class Chosen, class Look>
   bool visit(const Brick& brick, const Chosen& chosen, const Look& look) const {
@@ -60,8 +60,8 @@ class Search {
   static auto inRange(const Range& range) {
     return [range](const Brick& brick, bool) { return cellsWithin(brick, range); };
   }
-  /// Selects the cells of a brick that touch a sphere [keys]. If none of its cells is a voxel, it selects all cells
-  /// that overlap the box of the sphere, which is faster.
+  /// Selects the cells of a brick that touch a sphere [keys]. If no cell of the brick is a voxel, it selects all cells
+  /// that overlap the box of the sphere, because that is faster.
   static auto inSphere(const Sphere& sphere) {
     const double near = touchingDistance(sphere);
     return [range = rangeAround(sphere.center, sphere.center, sphere.radius), sphere, near](const Brick& brick,
@@ -70,8 +70,8 @@ class Search {
     };
   }
 
-  /// Calls `look` for the voxels within `limit` [keys] of a box [keys]. It visits the cells of each brick in the order
-  /// of their distance. `look` returns the new limit.
+  /// Calls `look` for the voxels within `limit` [keys] of a box [keys]. Visits the cells of each brick in the order of
+  /// their distance from the box. `look` returns the new limit.
   template <class Look>
   void near(const Brick& brick, const Eigen::AlignedBox3d& box, double& limit, const Look& look) const {
     struct Cell {
@@ -112,8 +112,8 @@ class Search {
     return cells;
   }
 
-  /// Returns the cells that touch a sphere. It computes four squared distances along each axis. The squared distance of
-  /// each cell is the sum of three of them.
+  /// Returns the cells that touch a sphere. Computes the squared distances of the four layers of cells along each axis.
+  /// The squared distance of a cell is the sum of three of these values.
   static std::uint64_t cellsTouching(const Brick& brick, const Eigen::Vector3d& center, double most_squared) {
     const double edge = static_cast<double>(std::int64_t{1} << 2 * brick.level);
     std::array<std::array<double, 4>, 3> squared;
@@ -129,7 +129,7 @@ class Search {
     for (unsigned z = 0; z < 4; ++z) {
       for (unsigned y = 0; y < 4; ++y) {
         const double rest = most_squared - (squared[2][z] + squared[1][y]);
-        std::uint64_t row = 0;  // the cells 0, 1, 8 and 9 form a row along x
+        std::uint64_t row = 0;  // a set of the cells 0, 1, 8 and 9, which form a row along x
         for (const unsigned x : {0u, 1u, 2u, 3u}) {
           row |= static_cast<std::uint64_t>(squared[0][x] <= rest) << ((x & 1) + (x >> 1) * 8);
         }

@@ -7,8 +7,8 @@
 
 namespace hgrid {
 
-/// Sorts the collected pairs by (first, second, gap): a counting sort by the first body, then a sort of the few pairs
-/// of each first body.
+/// Sorts the collected pairs by (first, second, gap). First a counting sort by `first`, then a sort of the few pairs
+/// that have the same `first`.
 void PairChoice::sort(std::size_t bodies, std::vector<NearPair>& sorted) {
   next_of_first_.assign(bodies + 1, 0);
   for (const NearPair& pair : collected_) ++next_of_first_[pair.first + 1];

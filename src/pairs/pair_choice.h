@@ -12,11 +12,11 @@ namespace hgrid {
 /// Selects the pairs that a snapshot lists from the pairs that a tick collected. Reuses its memory in the next tick.
 class PairChoice {
  public:
-  /// The collected pairs, in any order. If two bodies occur in several of them, the one with the smallest gap counts.
+  /// The collected pairs, in any order. If several of them have the same two bodies, the smallest gap counts.
   std::vector<NearPair>& collected() { return collected_; }
 
-  /// Replaces `listed` by at most `most` pairs, each pair of bodies once, sorted by (first, second). If more pairs were
-  /// collected, lists those with the smallest gaps. Of pairs with equal gaps, lists the first by (first, second).
+  /// Replaces `listed` by at most `most` pairs, sorted by (first, second). Each pair of bodies is there once. If more
+  /// pairs were collected, lists the pairs with the smallest gaps. Among equal gaps, the order (first, second) decides.
   /// @param bodies  number of bodies
   /// @returns the number of different pairs of bodies that were collected
   std::size_t list(std::size_t bodies, std::size_t most, std::vector<NearPair>& listed);

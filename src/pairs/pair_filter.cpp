@@ -33,7 +33,7 @@ bool exists(const PairKinds& kinds, const Type& a, const Type& b, bool same_robo
   const auto moving_obstacle = [](const Type& type) {
     return type.kind == BodyKind::obstacle && type.mobility == Mobility::moving;
   };
-  // A moving map and a fixed obstacle make no pair: the cells of the map show the fixed obstacles too.
+  // A moving map and a fixed obstacle make no pair, because the cells of the map contain the fixed obstacles too.
   return kinds.moving_obstacle && (moving_obstacle(a) || moving_obstacle(b));
 }
 
@@ -142,7 +142,7 @@ PairFilter PairFilter::without(const std::vector<bool>& gone) const {
   return rest;
 }
 
-/// Returns the rule that takes precedence for a pair, or kNoRule if no rule matches it.
+/// Returns the index of the rule that takes precedence for a pair, or kNoRule if no rule matches the pair.
 std::uint32_t PairFilter::ruleOf(std::uint32_t first, std::uint32_t second) const {
   const std::uint64_t key = keyOf(first, second);
   const auto named = std::lower_bound(named_.begin(), named_.end(), key,
@@ -192,11 +192,12 @@ void PairFilter::appendKey(std::uint32_t body, std::vector<std::uint64_t>& key) 
   }
 }
 
-/// Returns bodies that stand for all bodies in pairs that are not within one robot. For each key, these are one body
-/// with this key and, if there is one, a second body with this key outside the robot of the first.
+/// Returns representatives of the bodies: if any pair is reported that is not within one robot, then a pair of
+/// representatives is reported too. There are up to two representatives for each key (see appendKey()). The second one
+/// is outside the robot of the first one.
 std::vector<std::uint32_t> PairFilter::representatives() const {
   struct Chosen {
-    std::uint32_t robot;  // robot of the first body with this key
+    std::uint32_t robot;  // robot of the first chosen body
     bool two;             // whether a second body was chosen
   };
   std::map<std::vector<std::uint64_t>, Chosen> chosen;  // the chosen bodies of each key
@@ -215,7 +216,7 @@ std::vector<std::uint32_t> PairFilter::representatives() const {
 
 bool PairFilter::reportsAny() const {
   const std::size_t count = subjects_.size();
-  for (std::size_t i = 0; i < count; ++i) {  // a quick check of a few pairs, which nearly always finds a reported one
+  for (std::size_t i = 0; i < count; ++i) {  // a quick check of a few pairs nearly always finds a reported pair
     for (const std::size_t j : {(i + 1) % count, (i + count / 2) % count}) {
       if (!allowed(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j))) return true;
     }

@@ -14,7 +14,7 @@ void PairTracker::clear() {
   ended_.clear();
 }
 
-/// Translates the known pairs to the body indices of the new ids. Pairs of removed bodies have ended.
+/// Converts the known pairs to the body indices of the new ids. A pair with a removed body has ended.
 void PairTracker::renumber(const std::vector<BodyId>& ids) {
   constexpr std::uint32_t kGone = std::numeric_limits<std::uint32_t>::max();
   std::uint32_t slots = 0;

@@ -19,12 +19,12 @@ using IsCut = std::function<bool(std::uint32_t first, std::uint32_t second)>;
 /// when the bodies get other indices.
 class PairTracker {
  public:
-  /// @param most  maximum number of remembered pairs; above it, the tracker forgets the last of the pairs that
-  ///              truncation removed
+  /// @param most  maximum number of remembered pairs. If there are more, the tracker forgets some of the pairs that
+  ///              truncation removed: the last ones in the order (first, second).
   explicit PairTracker(std::size_t most = std::numeric_limits<std::size_t>::max()) : most_(most) {}
 
-  /// Sets `since` of every pair: `stamp` for a new pair; the old value for a pair that was there after the last
-  /// accepted update(). Truncation does not interrupt a remembered pair.
+  /// Sets `since` of every pair. A new pair gets `stamp`. A pair that was remembered after the last accepted update()
+  /// keeps its value. Truncation does not interrupt a remembered pair.
   /// @param ids    handle of each body, in the order of the body indices
   /// @param pairs  sorted by (first, second), each pair once; not more than the maximum number of remembered pairs
   void update(const std::vector<BodyId>& ids, Time stamp, std::vector<NearPair>& pairs, const IsCut& is_cut = nullptr);
@@ -46,9 +46,9 @@ class PairTracker {
   std::vector<Known> known_;  // sorted by (first, second), which are indices into ids_
 
   // Results of the last update(), until it is accepted.
-  bool renumbered_ = false;          // whether the ids have changed
-  std::vector<BodyId> next_ids_;     // only if renumbered_
-  std::vector<Known> carried_over_;  // only if renumbered_: known_ with indices into next_ids_
+  bool renumbered_ = false;          // whether the ids have changed; only then the next two members are valid
+  std::vector<BodyId> next_ids_;     // the new ids
+  std::vector<Known> carried_over_;  // known_ with indices into next_ids_
   std::vector<Known> next_known_;
   std::vector<std::pair<BodyId, BodyId>> ended_;
 };

@@ -30,7 +30,7 @@ void RuleBook::add(const std::vector<PairRule>& rules) {
     rule.origin = Origin::service;
     all.push_back(std::move(rule));
   }
-  std::map<Names, PairRule::Clock::time_point> decided;  // for two names: until when a later rule decides
+  std::map<Names, PairRule::Clock::time_point> decided;  // for two names: the end of the later rules for them
   std::vector<PairRule> kept;
   for (auto rule = all.rbegin(); rule != all.rend(); ++rule) {
     if (rule->origin == Origin::service) {

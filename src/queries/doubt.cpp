@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Decides whether a query that hit nothing may answer CLEAR. It may not if something in its scope can be in its region
-// unseen:
-//  - a body that a gap of a source hides,
+// Decides whether a query that hit nothing may answer CLEAR. The query must answer UNKNOWN if one of these, in the
+// scope of the query, can be in its region unseen:
+//  - a body that its source does not know yet (SourceGap),
 //  - a body without a pose, or with shapes that could not be read,
 //  - a body that may have moved since its last known pose,
-//  - something in space that no map knows to be free.
+//  - anything in space that no map knows to be free.
+//
+// The region of a query is the part of space in which a body would be a hit.
 #include "hgrid_proximity/queries/query.h"
 #include "hgrid_proximity/refusal.h"
 #include "queries/question.h"
@@ -16,7 +18,7 @@
 namespace hgrid {
 namespace {
 
-/// Returns whether the body can be anywhere: either its position or its size is not bounded.
+/// Returns whether the body can be anywhere, because its position or its size is not bounded.
 bool canBeAnywhere(const Body& body, const BodyPose& pose) {
   if (!body.covered && !body.waived) return true;
   // FROZEN: the clock stands still, so the age of the pose is unknown. INVALID: newer data was refused, or several
@@ -47,7 +49,7 @@ double reachBetween(const Snapshot& snapshot, std::uint32_t first, std::uint32_t
   return movedTogether(snapshot.structure(), first, a.cohort, second, b.cohort) ? 0.0 : a.reach + b.reach;
 }
 
-/// Returns whether a body may have reached the region since its pose, by its own movement or that of the asking body.
+/// Returns whether a body may have come into the region since its pose, because it moved or the asking body moved.
 bool mayBeInRegion(const Question& question, std::uint32_t body) {
   const Snapshot& snapshot = question.snapshot;
   const Structure& structure = snapshot.structure();
@@ -70,7 +72,7 @@ bool mayBeInRegion(const Question& question, std::uint32_t body) {
   return met;
 }
 
-/// If a gap of a source prevents CLEAR, sets the reason in `answer` and returns true.
+/// If missing data of a source (SourceGap) prevents CLEAR, sets the reason in `answer` and returns true.
 bool noteGap(const Question& question, QueryAnswer& answer) {
   for (const SourceGap& gap : question.snapshot.gaps()) {
     if (!inScope(question.snapshot, question.scope, gap)) continue;
@@ -123,7 +125,7 @@ bool noteBodies(const Question& question, QueryAnswer& answer) {
   return false;
 }
 
-/// Returns whether a map must know the region to be free. A query whose scope leaves out all maps needs no map.
+/// Returns whether a map must know the region to be free. That is not so if the scope of the query leaves out all maps.
 bool asksMaps(const Snapshot& snapshot, const QueryScope& scope) {
   bool has_maps = false;
   for (const std::uint32_t map : snapshot.structure().maps) {
@@ -135,7 +137,7 @@ bool asksMaps(const Snapshot& snapshot, const QueryScope& scope) {
 }
 
 /// If the region is not known to be free, sets the reason in `answer` and returns true. A single map must know the
-/// whole region. A region that only several maps together know counts as unknown.
+/// whole region: a region that only several maps together know to be free counts as unknown.
 bool noteUnmapped(const Question& question, QueryAnswer& answer) {
   const Snapshot& snapshot = question.snapshot;
   if (!snapshot.reportsUnmapped() || !asksMaps(snapshot, question.scope)) return false;

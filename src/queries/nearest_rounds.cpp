@@ -5,11 +5,12 @@
 namespace hgrid {
 namespace {
 
-constexpr std::size_t kFirstRound = 16;  // boxes in the first round, in addition to four for each wanted body
+constexpr std::size_t kFirstRound = 16;  // the first round requests so many boxes plus four for each wanted body
 
 }  // namespace
 
-/// Returns whether enough hits were found: all boxes that were not gathered yet are farther away than these hits.
+/// Returns whether enough hits were found. That is so if all boxes that were not gathered yet are farther away than the
+/// wanted hits.
 bool NearestRounds::isEnough(std::vector<QueryHit>& hits) const {
   if (near_.size() < count_) return true;  // there are no more boxes
   sortOnePerBody(question_, hits);

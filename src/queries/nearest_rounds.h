@@ -6,13 +6,13 @@
 
 namespace hgrid {
 
-/// Gathers boxes for a query for the nearest bodies, in several rounds, in the order of their distance. The distance of
-/// a box is a lower bound of the distance of its body. So the search ends when no further box can be nearer than the
-/// last wanted body.
+/// Gathers the boxes for a query for the nearest bodies. Each round gathers more boxes, in the order of their distance.
+/// The distance of a box is a lower bound of the distance of its body. So the search ends when no further box can be
+/// nearer than the last wanted body.
 class NearestRounds {
  public:
   /// @param center  [m, world] the point of the query, or the center of the asking body's bounds
-  /// @param reach   [m] distance from that center to the farthest point of the asking body; 0 for a point
+  /// @param reach   [m] distance from `center` to the farthest point of the asking body; 0 for a point
   /// @param limit   [m] bodies farther away are no hits; may be infinite
   NearestRounds(const Question& question, const Eigen::Vector3d& center, double reach, double limit)
       : question_(question), center_(center), reach_(reach), limit_(limit) {}

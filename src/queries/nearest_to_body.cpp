@@ -99,7 +99,7 @@ class NearestToBody final : public Question {
   NearestRounds rounds_;
 };
 
-/// If `gap`, the distance of the two boxes, is smaller than the distance of `hit`, stores the two boxes in `hit`.
+/// If `gap`, the distance of the two boxes, is smaller than the distance of `hit`, sets `hit` from the two boxes.
 void NearestToBody::takeNearerBox(ProxyId own, ProxyId proxy, double gap, QueryHit& hit) const {
   if (!(gap < hit.distance)) return;
   const Eigen::AlignedBox3d own_box = inDouble(boxOf(own)), box = inDouble(boxOf(proxy));
@@ -110,7 +110,7 @@ void NearestToBody::takeNearerBox(ProxyId own, ProxyId proxy, double gap, QueryH
   hit.point = origin() + nearest.on_second;
 }
 
-/// If the measured distance is smaller than the distance of `hit`, stores the measurement in `hit`. The first shape of
+/// If the measured distance is smaller than the distance of `hit`, sets `hit` from the measurement. The first shape of
 /// the measurement belongs to the asking body.
 void NearestToBody::takeNearer(const Proximity& found, QueryHit& hit) {
   if (!(found.distance < hit.distance)) return;
@@ -145,7 +145,7 @@ bool NearestToBody::hitsShape(ProxyId proxy, const NarrowPhase& exact, QueryHit&
   return hit.distance <= limit_;
 }
 
-/// Returns the distance [m] up to which the search for nearer cells must continue.
+/// Returns the limit [m] of the search for cells that are nearer than `nearest`. kNoFurther ends the search.
 double NearestToBody::farthest(const QueryHit& nearest) const {
   return nearest.distance > 0.0 ? std::min(limit_, nearest.distance) : kNoFurther;
 }

@@ -25,7 +25,7 @@ struct PlacedMap {
   Pose worldFromCube(const Voxel& voxel) const { return world_from_map * Eigen::Translation3d(cells.centerOf(voxel)); }
   /// Returns a hit for a voxel. QueryHit::point is the point of the voxel that is nearest to `center`.
   /// @param center    [m] center of the query, in the frame of the map
-  /// @param distance  [m] distance of the voxel from that center
+  /// @param distance  [m] distance of the voxel from `center`
   QueryHit hitOf(const Voxel& voxel, const Eigen::Vector3d& center, double distance, bool exact) const;
 };
 

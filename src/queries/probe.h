@@ -14,10 +14,10 @@ struct Probe {
   const NarrowPhase& narrow_phase;
   const Solid& solid;
   Pose world_from_solid;
-  double padding = 0.0;  // [m]
+  double padding = 0.0;  // [m] how much the solid is grown
 
-  /// Measures this solid, as the first one, against the shape of a proxy. Returns Measure::not_measured if that shape
-  /// has no solid.
+  /// Measures this solid against the shape of a proxy. This solid is the first of the two in the result. Returns
+  /// Measure::not_measured if the shape of the proxy has no solid.
   /// @param up_to  [m] as in NarrowPhase::measure()
   Proximity measure(const Snapshot& snapshot, ProxyId proxy, double up_to) const {
     const std::uint32_t body = snapshot.structure().body_of_proxy[proxy];
@@ -26,7 +26,7 @@ struct Probe {
     const Pose world_from_shape = snapshot.poses()[body].world_from_body * shape.body_from_shape;
     return measure(*shape.solid, world_from_shape, shape.padding, up_to);
   }
-  /// Measures this solid, as the first one, against another solid.
+  /// Measures this solid against another solid. This solid is the first of the two in the result.
   Proximity measure(const Solid& other, const Pose& world_from_other, double other_padding, double up_to) const {
     return narrow_phase.measure({solid, world_from_solid, padding}, {other, world_from_other, other_padding}, up_to);
   }

@@ -9,7 +9,8 @@
 namespace hgrid {
 namespace {
 
-/// Returns whether `respect_allowed` excludes a body: it is the same body, or its pair with it is switched off.
+/// Returns whether QueryScope::respect_allowed excludes `body`. It excludes the body that it names, and all bodies
+/// whose pair with the named body is switched off.
 bool isAllowed(const Snapshot& snapshot, const QueryScope& scope, std::uint32_t body) {
   return scope.respect_allowed != Structure::kNone && snapshot.structure().filter.allowed(scope.respect_allowed, body);
 }

@@ -108,9 +108,10 @@ bool SegmentQuestion::hitsBox(ProxyId proxy, QueryHit& hit) const {
   return true;
 }
 
-/// Returns how far [m] a sphere moves along the segment before it first touches a shape. The sphere advances in steps,
-/// each as long as the sphere surely moves without a touch (conservative advancement; after Mirtich 1996, section 2.3).
-/// @param found  receives the proximity of the sphere's center and the shape at that point
+/// Returns how far [m] a sphere moves along the segment before it first touches a shape. The sphere advances in steps.
+/// Each step is as long as the sphere surely moves without a touch (conservative advancement; after Mirtich 1996,
+/// section 2.3).
+/// @param found  receives the proximity of the sphere's center and the shape at the first touch
 double SegmentQuestion::firstTouch(ProxyId proxy, const NarrowPhase& exact, Proximity& found) const {
   const Eigen::Vector3d step = segment_.to - segment_.from;
   double along = 0.0;
@@ -150,7 +151,7 @@ bool SegmentQuestion::hitsMap(const PlacedMap& map, QueryHit& hit) const {
   const Eigen::AlignedBox3d cube = map.cubeOf(first->voxel);
   hit = map.hitOf(first->voxel, at, (nearestPoint(cube, at) - at).norm(), isExact());
   hit.along = first->along;
-  const double gap = hit.center_distance - segment_.radius;  // at the first touch, which need not be the nearest point
+  const double gap = hit.center_distance - segment_.radius;  // at the first touch; other points may be nearer
   setDistance(hit, gap > 0.0 ? gap : QueryHit::kUnknown);
   if (isExact() && (segment_.radius == 0.0 || hit.normal.hasNaN())) {
     hit.normal = map.world_from_map.linear() * normalWhereEntered(cube, at, step);

@@ -26,8 +26,8 @@ class SolidQuestion final : public Question {
         world_from_shape_(world_from_shape),
         center_(world_from_shape.translation()),
         padding_(padding),
-        reach_(shape.reach() + padding),
-        slack_(touchSlack(center_, 2.0 * reach_)) {
+        radius_(shape.reach() + padding),
+        slack_(touchSlack(center_, 2.0 * radius_)) {
     if (shape.kind() != ShapeKind::box || padding > 0.0) return;
     const std::vector<double> size = shape.dimensions();
     box_ = OrientedBox{world_from_shape, {size[0], size[1], size[2]}};
@@ -87,14 +87,14 @@ class SolidQuestion final : public Question {
   const Shape shape_;
   const Pose world_from_shape_;
   const Eigen::Vector3d center_;    // [m, world] origin of the shape
-  const double padding_;            // [m]
-  const double reach_;              // [m] distance from the center to the farthest point, including the padding
+  const double padding_;            // [m] how much the shape is grown
+  const double radius_;             // [m] distance from the center to the farthest point of the shape, padding included
   const double slack_;              // [m] rounding error of a distance
   std::optional<OrientedBox> box_;  // the solid, if it is a box without padding
 };
 
-/// Returns the penetration depth [m] of the solid and a box. If the solid is not a box, this is the depth that the
-/// narrow phase returned, if any.
+/// Returns the penetration depth [m] of the solid and a box. If the solid is not a box, this is the depth in `found`,
+/// the result of the narrow phase. That depth may be NaN.
 double SolidQuestion::depthIn(const OrientedBox& box, const Proximity& found) const {
   return box_ && !(found.distance > 0.0) ? penetrationDepth(*box_, box) : found.depth;
 }
@@ -123,10 +123,10 @@ bool SolidQuestion::hitsShape(ProxyId proxy, const NarrowPhase& exact, QueryHit&
   return true;
 }
 
-/// Visits the cells nearest to the center first. The hit is the nearest cell that the solid touches.
+/// Visits the cells in the order of their distance from the center. The hit is the nearest cell that the solid touches.
 bool SolidQuestion::hitsMap(const PlacedMap& map, QueryHit& hit) const {
   const Eigen::Vector3d center = map.map_from_world * center_;
-  const double most = reach_ + slack_;
+  const double most = radius_ + slack_;
   std::optional<NearVoxel> met;
   Proximity contact;
   map.cells.grid->visitNear(Eigen::AlignedBox3d(center), most, [&](const Voxel& voxel, double distance) {
@@ -150,11 +150,11 @@ bool SolidQuestion::hitsMap(const PlacedMap& map, QueryHit& hit) const {
 bool SolidQuestion::meetsCell(const PlacedMap& map, const StaticGrid& cells, double distance) const {
   const double limit = slack_ + distance;
   bool met = false;
-  cells.visitNear(Eigen::AlignedBox3d(Eigen::Vector3d(map.map_from_world * center_)), reach_ + limit,
+  cells.visitNear(Eigen::AlignedBox3d(Eigen::Vector3d(map.map_from_world * center_)), radius_ + limit,
                   [&](const Voxel& voxel, double) {
                     if (time.isOver(TimeBudget::Step::slow)) return kNoFurther;
                     met = met || measureCell(map, voxel, limit).distance <= limit;
-                    return met ? kNoFurther : reach_ + limit;
+                    return met ? kNoFurther : radius_ + limit;
                   });
   return met;
 }
@@ -189,7 +189,8 @@ QueryAnswer query(const Snapshot& snapshot, const QueryShape& shape, NarrowPhase
   const std::shared_ptr<const Solid> solid = narrow_phase.solidOf(shape.shape);
   if (!solid) {
     throw Refusal(Code::unsupported, std::string("the query's shape is a ") + name(shape.shape.kind()) +
-                                         ", which this narrow phase cannot measure; use a narrow phase that can");
+                                         ", which the given narrow phase cannot measure; use another shape, or "
+                                         "makeFclNarrowPhase()");
   }
   SolidQuestion question(snapshot, scope, narrow_phase, solid, shape.shape, shape.world_from_shape, shape.padding);
   return answerTo(question);

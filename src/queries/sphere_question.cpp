@@ -46,7 +46,7 @@ class AroundPoint : public Question {
   Probe center(const NarrowPhase& narrow_phase) const {
     return {narrow_phase, *narrow_phase.point(), Pose(Eigen::Translation3d(region_.center))};
   }
-  // The functions below set the distances of a hit as distances from a sphere of `radius` [m] around the center.
+  // The functions below set the distances of a hit. They are distances from a sphere of `radius` [m] around the center.
 
   /// Returns whether a cell is at most `limit` [m] from the center. If so, sets `hit` to the nearest cell.
   bool hitsNearestCell(const PlacedMap& map, double limit, double radius, QueryHit& hit) const {

@@ -7,7 +7,8 @@
 
 namespace hgrid {
 
-/// The time that a query may take. Reads the clock rarely, and never if there is no deadline. For one thread.
+/// The time that a query may take. Reads the clock rarely, and never if there is no deadline. Only one thread may use
+/// an object of this class.
 class TimeBudget {
  public:
   using Clock = std::chrono::steady_clock;
@@ -27,7 +28,7 @@ class TimeBudget {
   bool wasOver() const { return over_; }
 
  private:
-  static constexpr unsigned kFastSteps = 32;  // they take about 3 us together, far longer than reading the clock
+  static constexpr unsigned kFastSteps = 32;  // so many fast steps take about 3 us, much longer than reading the clock
 
   std::optional<Clock::time_point> deadline_;
   unsigned steps_ = 0;

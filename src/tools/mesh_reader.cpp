@@ -95,7 +95,7 @@ void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent
     }
     if (mesh.triangles.size() > max_triangles) {
       throw Refusal(Code::limit,
-                    "it has more than " + std::to_string(max_triangles) + " triangles, which is the limit");
+                    "it has more triangles than the limit of " + std::to_string(max_triangles) + "; simplify the mesh");
     }
   }
   for (unsigned i = 0; i < node.mNumChildren; ++i) {
@@ -105,7 +105,7 @@ void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent
 
 Mesh parse(const std::string& data, const std::string& kind, std::size_t max_triangles) {
   Assimp::Importer importer;
-  // Same rule as in RViz: apply the unit of a COLLADA file, but ignore its up axis.
+  // Apply the unit of a COLLADA file, but ignore its up axis. RViz does the same.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = importer.ReadFileFromMemory(
       data.data(), data.size(), aiProcess_Triangulate | aiProcess_JoinIdenticalVertices, kind.c_str());

@@ -9,7 +9,7 @@
 namespace hgrid {
 
 /// Returns why a body makes its source incomplete, such as "LOST robot/tool0: its pose is 3 s old (frame 'tool0')".
-/// Empty if the body does not make it incomplete.
+/// The text is empty if the body does not make its source incomplete.
 std::string gapLeftBy(const Body& body, const BodyPose& pose);
 
 }  // namespace hgrid

@@ -12,8 +12,8 @@
 namespace hgrid {
 namespace {
 
-/// Returns how far [m] a point of the body may have moved since its pose was taken; 0 if the pose is not old. The pose
-/// of a rarely updated frame can be old although its state is still FRESH or LATE.
+/// Returns how far [m] a point of the body may have moved since its pose was taken; 0 if the pose is not old. If a
+/// frame is updated rarely, the pose can be old although the state is still FRESH or LATE.
 double reachOf(const BodyPose& pose, const Body& body, double growth_after) {
   const bool old = pose.state >= Freshness::stale || pose.age > growth_after;
   if (!old || pose.state == Freshness::unplaced || !(pose.age > 0.0)) return 0.0;
@@ -62,7 +62,7 @@ void Scene::State::rebuildStructure() {
   }
   fillSources(*next);
   // The code below allocates no memory, so it cannot fail.
-  for (const auto& named : slot_of_name) slots[named.second].moved = true;  // the proxy numbers may have changed
+  for (const auto& named : slot_of_name) slots[named.second].moved = true;  // the proxies may have other ids
   uncovered.swap(next_uncovered);
   shapes.swap(next_shapes);
   fixed_proxies.swap(next_fixed);
@@ -92,8 +92,8 @@ void Scene::State::makeBoxes(std::size_t body, const Pose& world_from_body, Snap
   }
 }
 
-/// Fills poses and boxes. Copies the boxes of bodies that did not move since the last commit from the last snapshot. If
-/// this snapshot object was used before, writes only the poses that changed since then.
+/// Fills poses and boxes. If a body did not move since the last commit, copies its boxes from the last snapshot. If
+/// this snapshot object was used before, writes only the poses that changed since its last use.
 void Scene::State::fillBodies(Snapshot& snapshot) {
   const std::uint64_t known = snapshot.structure_ == structure ? snapshot.commit_ : 0;
   snapshot.structure_ = structure;
@@ -132,9 +132,9 @@ void Scene::State::fillBodies(Snapshot& snapshot) {
   horizon.step(structure, snapshot.poses_, snapshot.boxes_);
 }
 
-/// Grows the boxes of placed bodies by their shares of the margins, so that two boxes overlap if they are within their
-/// pair's margin plus the growth of both bodies. The share of a body is half of the global margin. If its own margin or
-/// a margin of its pairs is larger than the global one, the whole difference is added.
+/// Grows the boxes of placed bodies by their shares of the margins. Then two boxes overlap if their gap is at most the
+/// margin of their pair plus the growth of both bodies. The share of a body is half of the global margin. If the margin
+/// of the body or of one of its pairs is larger than the global margin, the whole difference is added.
 ///
 /// Keeps a grown box of the last commit if it was computed from the same box and the same length.
 void Scene::State::growBoxes(const Snapshot& snapshot) {
@@ -162,7 +162,7 @@ void Scene::State::growBoxes(const Snapshot& snapshot) {
   grown_boxes.resize(count);
 }
 
-/// Stores the grown boxes in the grid, and finds their overlapping pairs that the filter keeps, within the limits.
+/// Stores the grown boxes in the grid. Finds the overlapping pairs that the filter keeps, up to the limit.
 void Scene::State::fillGrid(PooledSnapshot& pooled) {
   HGrid& grid = pooled.grid;
   if (pooled.grid_revision != structure->revision) {
@@ -203,7 +203,7 @@ bool Scene::State::isCandidate(const Snapshot& snapshot, std::uint32_t first, st
 void Scene::State::fillPairs(Snapshot& snapshot) {
   choice.collected().clear();
   for (const ProxyPair& proxies : proxy_pairs) {
-    // Proxies are numbered in the order of their bodies, so `first` is never larger than `second`.
+    // The ids of proxies are in the order of their bodies, so `first` is never larger than `second`.
     const std::uint32_t first = structure->body_of_proxy[proxies.first],
                         second = structure->body_of_proxy[proxies.second];
     const Aabb &a = snapshot.boxes_[proxies.first], &b = snapshot.boxes_[proxies.second];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Decides which sources of a snapshot are complete, and why the others are not.
+// Decides which sources of a snapshot are complete, and why the other sources are not.
 #include <algorithm>
 
 #include "hgrid_proximity/bodies/name.h"
@@ -12,7 +12,7 @@
 namespace hgrid {
 namespace {
 
-/// Returns the gap for a pattern of required bodies that no body matches.
+/// Returns the source gap for a pattern of required bodies that no body matches.
 SourceGap gapOfAbsent(const std::string& pattern) {
   const std::string source = pattern.substr(0, pattern.find('/'));
   const bool one_of_many = source == "map" || source == "cloud";  // each map or cloud is a source of its own
@@ -73,8 +73,8 @@ void Scene::State::fillCompleteness(Snapshot& snapshot, const std::vector<Source
   sortNames(snapshot.incomplete_);
 }
 
-/// Lists the bodies that a query must check before it answers CLEAR. Of the bodies that make their source incomplete,
-/// lists the worst as reasons.
+/// Lists the bodies that a query must check before it answers CLEAR. Lists the reasons for the worst of the bodies that
+/// make their source incomplete.
 void Scene::State::fillDoubtful(Snapshot& snapshot) const {
   std::vector<std::pair<int, std::uint32_t>> worst_first;  // negated state and body, so that the worst sorts first
   std::vector<bool> incomplete(structure->sources.size());

@@ -10,8 +10,8 @@ namespace {
 
 constexpr Time kNever{-1};  // stamp of a body that had no pose
 
-/// Returns the largest distance [m] by which a face of the box moved. No face of the box around a body moves farther
-/// than the fastest point of the body.
+/// Returns the largest distance [m] by which a face of the box moved. A face of the box around a body never moves
+/// farther than the fastest point of the body.
 double shiftOf(const Aabb& before, const Aabb& now) {
   return std::max((now.min - before.min).cast<double>().cwiseAbs().maxCoeff(),
                   (now.max - before.max).cast<double>().cwiseAbs().maxCoeff());

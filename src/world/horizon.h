@@ -9,8 +9,8 @@
 namespace hgrid {
 
 /// Looks at the time between two ticks and a short time ahead. It computes the boxes that shapes swept since the last
-/// tick. It also computes how far bodies can move, by their max_speed, from their poses to the end of the horizon. Off
-/// if the horizon is 0.
+/// tick. It also computes how far each body can move before the end of the horizon, according to its max_speed. It does
+/// nothing if the horizon is 0.
 class Horizon {
  public:
   /// @param seconds  [s] length of the horizon, >= 0
@@ -19,8 +19,8 @@ class Horizon {
   Horizon(double seconds, double cap) : seconds_(seconds), cap_(cap) {}
 
   bool on() const { return seconds_ > 0.0; }
-  /// Sets the poses and boxes of a new tick and compares them with the last accepted tick. If a body had no pose then,
-  /// or if the structure is new, the swept box is the present box.
+  /// Sets the poses and boxes of a new tick and compares them with the last accepted tick. If a body had no pose in the
+  /// last accepted tick, or if the structure is new, the swept box is the present box.
   void step(const std::shared_ptr<const Structure>& structure, const std::vector<BodyPose>& poses,
             const std::vector<Aabb>& boxes);
   /// Accepts the tick of the last step(): the next step() compares with it. Allocates no memory.
@@ -29,7 +29,8 @@ class Horizon {
   double reachOf(std::uint32_t body) const { return on() ? reach_[body] : 0.0; }
   /// Returns the box around a proxy's boxes of this tick and of the last accepted tick.
   const Aabb& swept(ProxyId proxy) const { return swept_[proxy]; }
-  /// Returns the box of a proxy in the last accepted tick, or its present box if it had none then.
+  /// Returns the box of a proxy in the last accepted tick. If the proxy had no box in that tick, returns its present
+  /// box.
   const Aabb& before(ProxyId proxy) const {
     return was_placed_[now_.structure->body_of_proxy[proxy]] ? last_.boxes[proxy] : now_.boxes[proxy];
   }
@@ -46,14 +47,14 @@ class Horizon {
   /// The data of one tick that the next tick needs.
   struct Kept {
     std::shared_ptr<const Structure> structure;
-    std::vector<Aabb> boxes;   // indexed by proxy
-    std::vector<Time> stamps;  // indexed by body; negative: the body had no pose
+    std::vector<Aabb> boxes;   // for each proxy: its box
+    std::vector<Time> stamps;  // for each body: stamp of its pose; negative: the body had no pose
   };
   Kept last_, now_;               // last_: the last accepted tick; now_: the tick of the last step()
-  std::vector<Aabb> swept_;       // indexed by proxy: box around its boxes at the last tick and now
-  std::vector<bool> was_placed_;  // indexed by body: whether it had a pose in the last tick, in the same structure
-  std::vector<bool> teleported_;  // indexed by body
-  std::vector<double> reach_;     // [m] indexed by body
+  std::vector<Aabb> swept_;       // for each proxy: box around its box in the last tick and its present box
+  std::vector<bool> was_placed_;  // for each body: whether it had a pose in the last tick, in the same structure
+  std::vector<bool> teleported_;  // for each body: see teleported()
+  std::vector<double> reach_;     // [m] for each body: see reachOf()
 };
 
 }  // namespace hgrid

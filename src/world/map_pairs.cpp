@@ -13,7 +13,7 @@ namespace hgrid {
 /// Drops the stored gaps to maps that moved or that have other cells.
 void MapPairs::recall(const Snapshot& snapshot) {
   const Structure& structure = snapshot.structure();
-  if (revision_ != structure.revision) maps_.clear();  // the proxy numbers may have changed
+  if (revision_ != structure.revision) maps_.clear();  // because the proxies may have other ids
   maps_.resize(structure.maps.size());
   revision_ = structure.revision;
   for (std::size_t i = 0; i < maps_.size(); ++i) {
@@ -21,7 +21,7 @@ void MapPairs::recall(const Snapshot& snapshot) {
     const Pose& pose = snapshot.poses()[structure.maps[i]].world_from_body;
     const std::shared_ptr<const MapCells> cells = snapshot.cellsOf(structure.maps[i]);
     if (map.cells == cells && map.world_from_map.matrix() == pose.matrix()) continue;
-    map.gaps.assign(structure.body_of_proxy.size(), Gap{});  // this comes first because it may throw
+    map.gaps.assign(structure.body_of_proxy.size(), Gap{});  // this call comes first because it may throw
     map.world_from_map = pose;
     map.map_from_world = pose.inverse();
     map.cells = cells;
@@ -50,8 +50,8 @@ bool MapPairs::find(const Snapshot& snapshot, const Horizon& horizon, std::size_
   return true;
 }
 
-/// Returns whether a box may have come within the margin of a cell between the last tick and this one. Compares in the
-/// frame of the map, so a map that moves together with the box does not count.
+/// Returns whether a box may have come within the margin of a cell between the last tick and this tick. Compares in the
+/// frame of the map, so a common movement of map and box does not count.
 bool MapPairs::passed(const OfMap& map, ProxyId proxy, const Snapshot& snapshot, const Horizon& horizon,
                       double margin) const {
   const Aabb &from = horizon.before(proxy), &to = snapshot.boxes()[proxy];
@@ -61,7 +61,9 @@ bool MapPairs::passed(const OfMap& map, ProxyId proxy, const Snapshot& snapshot,
   return gapTo(*map.cells->grid, swept, margin) <= margin;
 }
 
-/// Adds the pairs of a map with the shapes of a body. @returns false if `left` was too small for all of them
+/// Adds the pairs of a map with the shapes of a body. `left` is the number of pairs that may still be added.
+/// @param number  index of the map in Structure::bodies
+/// @returns false if `left` was too small for all pairs
 bool MapPairs::addShapes(OfMap& map, std::uint32_t number, std::uint32_t body, const Snapshot& snapshot,
                          const Horizon& horizon, std::size_t& left, const Add& add) const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();

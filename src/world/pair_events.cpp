@@ -51,9 +51,10 @@ void PairEvents::beginEpoch() {
   last_ = 0;
 }
 
-/// Translates the indices of bodies between the previous and the present structure. Both are sorted by name, so pairs
-/// keep their order. A pair ends if one of its bodies was removed, or was replaced by another body of the same name. In
-/// a new epoch only the name counts, because a reset replaces obstacles by equal ones.
+/// Finds the index of each body of the previous structure in the present structure, and the reverse. Both structures
+/// are sorted by name, so pairs keep their order. A pair ends if one of its bodies was removed, or was replaced by
+/// another body of the same name. In a new epoch only the name counts, because a reset replaces obstacles by equal
+/// obstacles.
 void PairEvents::renumber(const Structure& now, PairEventList& list) {
   const Structure& was = *structure_;
   before_.assign(now.bodies.size(), kNone);
@@ -79,7 +80,7 @@ void PairEvents::renumber(const Structure& now, PairEventList& list) {
 }
 
 double PairEvents::marginBefore(std::uint32_t first, std::uint32_t second) const {
-  if (known_.empty()) return toldMargin(*structure_, first, second);
+  if (known_.empty()) return configuredMargin(*structure_, first, second);
   const Known &a = known_[first], &b = known_[second];
   return pairMargin(*structure_, first, {a.growth, a.cohort}, second, {b.growth, b.cohort});
 }
@@ -93,8 +94,8 @@ EventCause PairEvents::causeOfBegin(const NearPair& pair, const Structure& now) 
   if (structure_->filter.allowed(first, second)) return EventCause::filter;
   const double margin = marginBefore(first, second);
   if (pair.margin <= margin || pair.gap <= margin) return EventCause::moved;
-  const bool told_wider = toldMargin(now, pair.first, pair.second) > toldMargin(*structure_, first, second);
-  return told_wider ? EventCause::filter : EventCause::staleness;
+  const bool is_wider = configuredMargin(now, pair.first, pair.second) > configuredMargin(*structure_, first, second);
+  return is_wider ? EventCause::filter : EventCause::staleness;
 }
 
 /// Returns why a pair ended. If the gap also exceeds the margin of the previous tick, the cause is a movement of the
@@ -104,8 +105,8 @@ EventCause PairEvents::causeOfEnd(const On& on, double margin, double gap, const
   const std::uint32_t first = numberBefore(on.first), second = numberBefore(on.second);
   const double margin_before = marginBefore(first, second);
   if (margin >= margin_before || gap > margin_before + hysteresis_) return EventCause::moved;
-  const bool told_narrower = toldMargin(now, on.first, on.second) < toldMargin(*structure_, first, second);
-  return told_narrower ? EventCause::filter : EventCause::staleness;
+  const bool is_narrower = configuredMargin(now, on.first, on.second) < configuredMargin(*structure_, first, second);
+  return is_narrower ? EventCause::filter : EventCause::staleness;
 }
 
 /// Decides whether a pair that is on but not listed ends. It stays on if its gap exceeds the margin by at most the
@@ -119,7 +120,7 @@ void PairEvents::judge(const On& on, const PairsNow& now, PairEventList& list) {
     next_.push_back(on);
     return;
   }
-  if (now.is_cut && now.is_cut(on.first, on.second)) {  // a pair that the horizon selects may have a larger gap
+  if (now.is_cut && now.is_cut(on.first, on.second)) {  // if the horizon selects a pair, its gap may be larger
     next_.push_back(on);
     return;
   }

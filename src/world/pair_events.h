@@ -23,20 +23,20 @@ struct PairsNow {
   Time stamp;
   /// Returns the gap [m] of a map and another body; infinite if it exceeds `up_to`. Called only for pairs with a map.
   std::function<double(std::uint32_t first, std::uint32_t second, double up_to)> gap_to_map = nullptr;
-  IsCut is_cut = nullptr;  ///< called for pairs that are on but not in `pairs`
+  IsCut is_cut = nullptr;  ///< called for pairs that are on (see PairEvents) but not in `pairs`
 };
 
 /// Finds the pairs that began or ended since the previous tick, and the cause of each event.
 ///
-/// A pair is on from its BEGIN event to its END event. It ends when its gap exceeds its margin by more than the
+/// A pair is "on" from its BEGIN event to its END event. It ends when its gap exceeds its margin by more than the
 /// hysteresis. The broad phase does not know the hysteresis. So this class computes the gaps of pairs that are on but
 /// not listed.
 ///
-/// A pair that only truncation removed from the list stays on. So more pairs may be on than are listed. While the
-/// maximum number of pairs is on, listed pairs do not begin. They begin in the first tick that has room for them.
+/// If only truncation removed a pair from the list, the pair stays on. So more pairs may be on than are listed. While
+/// the maximum number of pairs is on, listed pairs do not begin. They begin in the first tick that has room for them.
 class PairEvents {
  public:
-  /// @param hysteresis  [m] >= 0
+  /// @param hysteresis  [m] how far the gap must exceed the margin before a pair ends, >= 0
   /// @param most        maximum number of pairs that are on at a time
   explicit PairEvents(double hysteresis, std::size_t most = std::numeric_limits<std::size_t>::max())
       : hysteresis_(hysteresis), most_(most) {}
@@ -75,9 +75,9 @@ class PairEvents {
   bool epoch_began_ = false;
 
   // Data of the last accepted tick.
-  std::vector<On> on_;  // sorted by (first, second)
+  std::vector<On> on_;  // the pairs that are on, sorted by (first, second)
   std::shared_ptr<const Structure> structure_ = std::make_shared<Structure>();
-  std::vector<Known> known_;  // indexed by body; empty: all bodies were placed and none was stale
+  std::vector<Known> known_;  // indexed by body; empty if all bodies were placed and none was stale
 
   // Data of this tick, until it is accepted.
   std::uint64_t next_last_ = 0;
@@ -86,8 +86,8 @@ class PairEvents {
   std::vector<Known> next_known_;
 
   // Buffers that are used within one update().
-  bool renumbered_ = false;            // whether the structure has changed
-  std::vector<On> carried_over_;       // only if renumbered_: on_ with the body indices of this tick
+  bool renumbered_ = false;            // whether the structure has changed; only then the next three are valid
+  std::vector<On> carried_over_;       // on_ with the body indices of this tick
   std::vector<std::uint32_t> before_;  // for each present body: its previous index
   std::vector<std::uint32_t> after_;   // for each previous body: its present index
   std::vector<PairEvent> begun_;       // the BEGIN events of this tick

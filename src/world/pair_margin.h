@@ -10,20 +10,20 @@ namespace hgrid {
 
 /// The data of a body that determines how much the margins of its pairs grow.
 struct Staleness {
-  double growth = 0.0;  ///< [m]
-  std::uint32_t cohort = 0;
+  double growth = 0.0;       ///< [m] BodyPose::growth
+  std::uint32_t cohort = 0;  ///< BodyPose::cohort
 };
 
 inline Staleness stalenessOf(const BodyPose& pose) { return {pose.growth, pose.cohort}; }
 
-/// Returns the margin [m] of a pair of bodies that are not stale.
-inline double toldMargin(const Structure& structure, std::uint32_t first, std::uint32_t second) {
+/// Returns the configured margin [m] of a pair: the margin that it has while both bodies are not stale.
+inline double configuredMargin(const Structure& structure, std::uint32_t first, std::uint32_t second) {
   if (const auto own = structure.pair_margins.of(first, second)) return std::max(structure.least_margin, *own);
   return std::max(structure.margin[first], structure.margin[second]);
 }
 
-/// Returns whether two bodies are links of one robot with poses of the same age. Then their relative pose is correct
-/// even if the poses are old.
+/// Returns whether two bodies are links of one robot with poses of the same age. The relative pose of such links is
+/// correct even if the poses are old.
 inline bool movedTogether(const Structure& structure, std::uint32_t first, std::uint32_t cohort_of_first,
                           std::uint32_t second, std::uint32_t cohort_of_second) {
   if (cohort_of_first == 0 || cohort_of_first != cohort_of_second) return false;
@@ -40,7 +40,7 @@ inline double widening(const Structure& structure, std::uint32_t first, Stalenes
 /// Returns the margin [m] of a pair, including its growth.
 inline double pairMargin(const Structure& structure, std::uint32_t first, Staleness a, std::uint32_t second,
                          Staleness b) {
-  return toldMargin(structure, first, second) + widening(structure, first, a, second, b);
+  return configuredMargin(structure, first, second) + widening(structure, first, a, second, b);
 }
 
 }  // namespace hgrid

@@ -12,8 +12,9 @@
 namespace hgrid {
 namespace {
 
-constexpr double kLargestMargin = 1e3;  // [m]
-constexpr double kFarthestShape = 1e6;  // [m] of a shape from the origin of its body, or of a body from the world's
+constexpr double kLargestMargin = 1e3;  // [m] also the largest padding, hysteresis, growth cap and finest edge
+// [m] Largest coordinate of a shape in the frame of its body, and of a body in the world frame.
+constexpr double kFarthestShape = 1e6;
 
 void checkLength(double value, double limit, const std::string& what) {
   if (!(value >= 0.0 && value <= limit)) {
@@ -119,7 +120,8 @@ void Scene::State::checkIn(const std::vector<std::uint32_t>& leaving, const std:
   }
 }
 
-/// Returns slots for the bodies to be added: first those of the bodies to be removed, then free ones, then new ones.
+/// Returns slots for the bodies to be added: first the slots of the bodies to be removed, then free slots, then new
+/// slots.
 std::vector<std::uint32_t> Scene::State::slotsFor(const std::vector<BodyId>& out, std::size_t count) const {
   std::vector<std::uint32_t> numbers;
   for (auto id = out.rbegin(); id != out.rend() && numbers.size() < count; ++id) numbers.push_back(id->slot);

@@ -22,14 +22,14 @@ namespace hgrid {
 
 /// The data of a Scene: the bodies, and the data that commits keep from tick to tick.
 struct Scene::State {
-  /// The part of a body that every tick reads and writes. The rest is in `bodies`, so that a tick accesses little
-  /// memory.
+  /// The part of a body that every tick reads and writes. The rest of the body is in State::bodies, so that a tick
+  /// accesses little memory. A slot is used again after its body was removed.
   struct Slot {
     bool used = false;
     bool fixed = false;
-    bool moved = false;  // whether its boxes must be computed again, because it moved since the last commit
-    std::uint32_t generation = 0;
-    std::uint64_t changed = 0;  // number of the first commit with the present `pose`
+    bool moved = false;            // whether the body moved since the last commit: its boxes must be computed again
+    std::uint32_t generation = 0;  // how many bodies used this slot before
+    std::uint64_t changed = 0;     // number of the first commit with the present `pose`
     BodyPose pose;
   };
   struct ShapeInBody {
@@ -38,10 +38,10 @@ struct Scene::State {
     double padding;
   };
 
-  /// The box and the length from which a grown box was computed.
+  /// What a grown box was computed from.
   struct GrownFrom {
-    Aabb box;
-    double by = -1.0;  // [m]
+    Aabb box;          // the box before it was grown
+    double by = -1.0;  // [m] how much it was grown; negative: nothing was computed yet
   };
 
   explicit State(const SceneOptions& scene_options)
@@ -51,18 +51,18 @@ struct Scene::State {
         tracker(limits.remembered),
         pair_events(scene_options.event_hysteresis, limits.remembered) {}
 
-  // scene.cpp: the bodies.
+  // scene.cpp: adds and removes bodies.
 
-  /// @throws Refusal unknown_id
+  /// Returns the slot of a body. @throws Refusal unknown_id if the handle is not valid
   Slot& at(BodyId id);
 
   SceneOptions options;
   PairLimits limits;
   std::vector<Slot> slots;
-  std::vector<Body> bodies;                            // indexed by slot
-  std::vector<std::shared_ptr<const MapCells>> cells;  // indexed by slot; null if the body is no map or cloud
-  std::vector<std::uint32_t> free_slots;               // its capacity is enough for all slots
-  std::map<std::string, std::uint32_t> slot_of_name;   // sorted by name, as the bodies of the structure are
+  std::vector<Body> bodies;                            // the body in each slot
+  std::vector<std::shared_ptr<const MapCells>> cells;  // the cells of the body in each slot; null: it has no cells
+  std::vector<std::uint32_t> free_slots;               // indices of the unused slots; has capacity for all slots
+  std::map<std::string, std::uint32_t> slot_of_name;   // sorted by name, like Structure::bodies
   bool structure_changed = true;                       // whether bodies or rules changed since the last commit
   bool bodies_changed = true;                          // whether bodies changed since the last commit
   std::optional<PreparedRules> prepared;               // has the same rules as options.allowed_pairs
@@ -75,9 +75,9 @@ struct Scene::State {
   void takeOut(std::uint32_t slot);
   void putIn(std::uint32_t slot, Body&& body);
 
-  // commit.cpp: makes a snapshot. Before accept(), which cannot fail, a step does not overwrite results of the last
-  // commit. It writes to separate members, or it writes what the next commit would write as well. So a commit that
-  // throws has no effect on the next one.
+  // commit.cpp: Scene::commit() makes a snapshot. Its last step is accept(), which cannot fail. The steps before it do
+  // not overwrite results of the last commit. They write to separate members, or they write what the next commit would
+  // write as well. So a commit that throws has no effect on the next commit.
 
   void rebuildStructure();
   void accept(const std::shared_ptr<PooledSnapshot>& accepted);
@@ -111,7 +111,7 @@ struct Scene::State {
 
   // Buffers of a commit. They are members so that the next commit need not allocate them again.
   std::vector<std::uint32_t> boxed;   // slots whose boxes were computed in this commit
-  std::vector<ProxyId> ids;           // placed proxies; the next two arrays are in the same order
+  std::vector<ProxyId> ids;           // proxies of placed bodies; the next two arrays are in the same order
   std::vector<Aabb> grown_boxes;      // the boxes that the grid stores
   std::vector<GrownFrom> grown_from;  // for each grown box: what it was computed from
   std::vector<ProxyPair> proxy_pairs;

@@ -37,7 +37,7 @@ double Snapshot::gapOf(std::uint32_t first, std::uint32_t second, double up_to) 
 }
 
 double Snapshot::marginOf(std::uint32_t first, std::uint32_t second) const {
-  return toldMargin(*structure_, first, second);
+  return configuredMargin(*structure_, first, second);
 }
 
 double Snapshot::growthOf(std::uint32_t first, std::uint32_t second) const {

@@ -20,11 +20,12 @@ struct PooledSnapshot {
   Snapshot snapshot;
   HGrid grid;
   std::uint64_t grid_revision = 0;  ///< revision of the structure that `grid` was set up for
-  bool finished = false;            ///< whether a commit has filled it; if a commit failed, it is not used again
+  bool finished = false;  ///< whether a commit has filled the snapshot; if the commit failed, it is not used again
 };
 
 /// Keeps the snapshots that nobody reads any more, so that later ticks can fill them again without allocating memory.
-/// Also keeps the memory blocks of the shared pointers to them. Thread-safe: each call holds a lock for a short time.
+/// Also keeps the memory blocks of the shared pointers to these snapshots. Any thread may call the functions: each call
+/// holds a lock for a short time.
 class SnapshotPool {
  public:
   SnapshotPool() {

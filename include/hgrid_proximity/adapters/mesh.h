@@ -35,14 +35,19 @@ class MeshLoader {
 
   /// Returns the triangles of a file, with each coordinate multiplied by `scale`. If `scale` mirrors the mesh, the
   /// order of the corners is reversed, so that the triangles still face outward.
-  /// @throws Refusal with code resource_denied, resource_missing, unsupported, limit, budget, parse, truncated (the
-  /// helper died), nonfinite, out_of_range, bad_geometry, internal (the helper returned invalid data), busy (reading
-  /// was canceled)
+  /// @throws Refusal with one of these codes:
+  /// - resource_denied, resource_missing, limit: see openResource(); limit also if there are too many triangles
+  /// - unsupported, parse: the file is of another kind, or it cannot be parsed
+  /// - nonfinite, out_of_range, bad_geometry: the scale or the mesh is not valid
+  /// - budget: reading took longer than the timeout
+  /// - truncated: the helper ended too early
+  /// - internal: the helper returned invalid data
+  /// - busy: reading was canceled
   std::shared_ptr<const TriangleMesh> load(const std::string& uri, const Eigen::Vector3d& scale);
 
  private:
   MeshPolicy policy_;
-  std::map<std::string, std::shared_ptr<const TriangleMesh>> read_;  // unscaled meshes by real path
+  std::map<std::string, std::shared_ptr<const TriangleMesh>> read_;  // unscaled meshes by OpenResource::path()
 };
 
 }  // namespace hgrid

@@ -15,8 +15,8 @@
 
 namespace hgrid {
 
-/// How to treat space for which a map has no leaf. The whole range of the keys counts as space of the map. The numbers
-/// are part of the interface: do not change them.
+/// How to treat unknown space, that is, space for which a map has no leaf. The whole range of the keys counts as space
+/// of the map. The numbers are part of the interface: do not change them.
 enum class UnknownSpace : std::uint8_t {
   ignore = 0,    ///< unknown space counts as free
   report = 1,    ///< unknown space is stored separately, so that answers can report it
@@ -32,8 +32,8 @@ struct OctomapOptions {
   UnknownSpace unknown = UnknownSpace::ignore;  ///< how to treat space without a leaf
   bool keep_free = false;                       ///< whether Octomap::free is filled
   bool allow_empty = false;  ///< true: data without nodes is a map that is wholly unknown; false: it is rejected
-  /// Crop box [m, map frame]. Voxels that are wholly outside are dropped while reading. Voxels that touch the box are
-  /// kept whole. Its sides may be infinite.
+  /// Crop box [m, map frame]. Voxels that are wholly outside the box are dropped while reading. Voxels that touch the
+  /// box are kept whole. The sides of the box may be infinite.
   std::optional<Eigen::AlignedBox3d> crop;
 
   std::size_t max_bytes = 256u << 20;     ///< largest size of a file or a message
@@ -52,7 +52,7 @@ struct Octomap {
   std::uint64_t free_leaves = 0;     ///< number of free leaves in the data
   std::uint64_t nan_leaves = 0;      ///< number of leaves with NaN log-odds, which count as occupied
   std::uint64_t unknown_leaves = 0;  ///< number of unknown voxels; 0 if OctomapOptions::unknown is ignore
-  std::uint64_t cropped = 0;         ///< number of voxels that were dropped only because they are outside the crop
+  std::uint64_t cropped = 0;         ///< number of voxels that were dropped only because they are outside the crop box
 };
 
 /// Encoding of the nodes of a map, as given in the header of a file or in the fields of an octomap_msgs/Octomap.
@@ -73,24 +73,30 @@ struct OctomapFormat {
 /// @param format  how the bytes are encoded
 /// @param data    the nodes, without the header of a file
 /// @param what    name of the map for the error sentence, such as "map 'room'"
-/// @throws Refusal with code truncated if the data ends before the tree is complete; parse for data without a node, for
-/// bytes after the tree, for more than 16 levels, or for NaN log-odds; out_of_range (resolution, occupied_from, a crop
-/// with min > max), nonfinite (a crop with NaN), unsupported (another id), limit (also if memory runs out)
+/// @throws Refusal with one of these codes:
+/// - truncated: the data ends before the tree is complete
+/// - parse: there is no node, bytes follow the tree, the tree has more than 16 levels, or log-odds are NaN
+/// - out_of_range: the resolution or occupied_from is out of range, or the crop box has min > max
+/// - nonfinite: the crop box contains NaN
+/// - unsupported: the id is neither OcTree nor ColorOcTree
+/// - limit: the map exceeds a limit of the options, or memory runs out
 Octomap readOctomapData(const OctomapFormat& format, std::string_view data, const std::string& what,
                         const OctomapOptions& options = {});
 
 /// Reads the bytes of a complete `.bt` or `.ot` file. The first line of the file selects the format.
 ///
-/// The header is checked more strictly than by OctoMap. `size` must be present and correct; OctoMap reads a `.bt` file
-/// without it as an empty map. Each of id, size and res may appear only once. Unknown keywords are ignored, as by
-/// OctoMap.
-/// @throws Refusal as readOctomapData(); parse if the header is missing, broken or wrong; unsupported for the binary
-/// header of OctoMap before 1.0
+/// The header is checked more strictly than by OctoMap. `size` must be present and correct, because OctoMap reads a
+/// `.bt` file without `size` as an empty map. Each of id, size and res may appear only once. Unknown keywords are
+/// ignored, as OctoMap ignores them.
+/// @throws Refusal in the same cases as readOctomapData()
+/// @throws Refusal parse if the header is missing, broken or wrong
+/// @throws Refusal unsupported for the binary header of OctoMap before 1.0
 Octomap readOctomap(std::string_view file, const std::string& what, const OctomapOptions& options = {});
 
 /// Reads a `.bt` or `.ot` file that openResource() has opened.
-/// @throws Refusal as readOctomap(); truncated if the file became shorter after it was opened; resource_missing if
-/// reading fails
+/// @throws Refusal in the same cases as readOctomap()
+/// @throws Refusal truncated if the file became shorter after it was opened
+/// @throws Refusal resource_missing if reading fails
 Octomap readOctomapFile(const OpenResource& file, const OctomapOptions& options = {});
 
 }  // namespace hgrid

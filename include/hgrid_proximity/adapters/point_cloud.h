@@ -25,7 +25,7 @@ struct PointCloudFormat {
   std::uint32_t height = 0;        ///< number of rows
   std::uint32_t width = 0;         ///< number of points in a row
   std::vector<PointField> fields;  ///< the fields of each point
-  bool big_endian = false;         ///< order of the bytes in a number; only little-endian numbers can be read
+  bool big_endian = false;         ///< whether numbers are big-endian; only little-endian numbers can be read
   std::uint32_t point_step = 0;    ///< [bytes] size of a point
   std::uint32_t row_step = 0;      ///< [bytes] size of a row
 };
@@ -38,9 +38,10 @@ struct PointCloud {
 
 /// Reads the fields x, y and z of all points and ignores other fields. Any thread may call this.
 /// @param what  name of the cloud for the error sentence, such as "cloud 'front'"
-/// @throws Refusal with code unsupported (big-endian numbers, or no x, y or z of type FLOAT32 or FLOAT64), parse (a
-/// field does not fit into a point, the points do not fit into a row, or bytes follow the last row), truncated (too few
-/// bytes for the rows)
+/// @throws Refusal with one of these codes:
+/// - unsupported: numbers are big-endian, or there is no x, y or z of type FLOAT32 or FLOAT64
+/// - parse: there are two fields of one name, or a field, the points or the rows do not have the size of the format
+/// - truncated: there are too few bytes for the rows
 PointCloud readPointCloud(const PointCloudFormat& format, std::string_view data, const std::string& what);
 
 }  // namespace hgrid

@@ -8,12 +8,12 @@
 
 namespace hgrid {
 
-/// The rules for which files a robot description or a map source may read.
+/// Says which files a robot description or a map source may read.
 struct ResourcePolicy {
   /// Returns the folder of a package, or an empty text if there is no package of this name.
   std::function<std::string(const std::string& package)> package_path;
-  /// Folders from which file:// URIs may read, and to which symbolic links in a package may lead. Symbolic links are
-  /// resolved before the comparison.
+  /// Folders from which file:// URIs may read. Symbolic links in a package may also lead to these folders. Symbolic
+  /// links are resolved before a path is compared with these folders.
   std::vector<std::string> file_roots;
   std::size_t max_bytes = 64u << 20;  ///< largest size of a file
 };
@@ -43,7 +43,9 @@ class OpenResource {
 
 /// Opens `package://name/path` or `file:///path`. It never opens a network address, a device, a FIFO, or a file outside
 /// the package and the allowed folders, even if a symbolic link leads there.
-/// @throws Refusal with code resource_denied, resource_missing, limit
+/// @throws Refusal resource_denied if the policy does not allow the file
+/// @throws Refusal resource_missing if the package or the file does not exist or cannot be read
+/// @throws Refusal limit if the file is too large
 OpenResource openResource(const std::string& uri, const ResourcePolicy& policy);
 
 }  // namespace hgrid

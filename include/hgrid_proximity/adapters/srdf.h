@@ -10,7 +10,7 @@
 namespace hgrid {
 
 /// Reads the collision rules of an SRDF: disable_collisions, disable_default_collisions and enable_collisions.
-/// @throws Refusal with code parse, limit, unsupported
+/// @throws Refusal in the same cases as checkXml(); parse also if a tag lacks an attribute
 LinkRules readSrdf(const std::string& xml, const DescriptionLimits& limits = {});
 
 }  // namespace hgrid

@@ -12,7 +12,7 @@ namespace hgrid {
 /// Limits for XML text. They protect the XML libraries.
 struct DescriptionLimits {
   std::size_t max_bytes = 16u << 20;  ///< largest size of the text
-  std::size_t max_depth = 256;        ///< largest depth of nested elements, since the parsers are recursive
+  std::size_t max_depth = 256;        ///< largest depth of nested elements; needed because the parsers are recursive
   std::size_t max_links = 2000;       ///< largest number of links
 };
 
@@ -23,10 +23,11 @@ using MeshSource =
 /// Returns whether a link without `<collision>` uses its `<visual>` geometry instead. The link is given by name.
 using VisualChoice = std::function<bool(const std::string& link)>;
 
-/// Rejects XML text that is too long, nested too deeply, has a DOCTYPE, is not well-formed, or whose root element is
-/// not `<robot>`.
+/// Checks that XML text is well-formed and that its root element is `<robot>`.
 /// @param what  name of the text for the error sentence, such as "robot_description"
-/// @throws Refusal with code limit, parse (its sentence names the line), unsupported
+/// @throws Refusal limit if the text is too long or nested too deeply
+/// @throws Refusal unsupported if the text has a DOCTYPE
+/// @throws Refusal parse if the text is not well-formed or has another root element
 void checkXml(const std::string& xml, const DescriptionLimits& limits, const std::string& what);
 
 /// Reads a URDF: its links, its joints, and every `<collision>` of every link. In the result, parents come before their
@@ -36,8 +37,9 @@ void checkXml(const std::string& xml, const DescriptionLimits& limits, const std
 /// holds for `<collision>` elements that urdfdom drops silently, and for the `<visual>` elements of a link that uses
 /// its visual geometry.
 /// @param takes_visual  may be empty; then no link uses its visual geometry
-/// @throws Refusal with code parse, limit, unsupported, nonfinite (a joint's origin), bad_id (a link's name) or
-/// out_of_range (a joint's origin) if the text does not describe a robot
+/// @throws Refusal with code parse, limit or unsupported if the text does not describe a robot
+/// @throws Refusal with code bad_id for the name of a link
+/// @throws Refusal with code nonfinite or out_of_range for the origin of a joint
 RobotModel readUrdf(const std::string& xml, const MeshSource& meshes, const DescriptionLimits& limits = {},
                     const ShapeLimits& shape_limits = {}, const VisualChoice& takes_visual = {});
 

@@ -48,9 +48,10 @@ enum class BodyKind : std::uint8_t { link, obstacle, map, cloud };
 /// Whether bodies of this kind have occupied cells instead of shapes.
 inline bool hasCells(BodyKind kind) { return kind == BodyKind::map || kind == BodyKind::cloud; }
 
-/// Handle of a body in a Scene: the number of a slot, and how many bodies used this slot before.
+/// Handle of a body in a Scene. The scene stores each body in a slot of an array. It uses the slot of a removed body
+/// again for a new body.
 struct BodyId {
-  std::uint32_t slot = 0;        ///< number of the slot
+  std::uint32_t slot = 0;        ///< index of the slot
   std::uint32_t generation = 0;  ///< how many bodies used the slot before
 
   /// Whether both are the handle of the same body.
@@ -64,9 +65,9 @@ struct BodyShape {
   Shape shape;                                      ///< the shape in its own frame
   Pose body_from_shape = Pose::Identity();          ///< pose of the shape in the frame of the body
   double padding = 0.0;                             ///< [m] how much the shape is grown, >= 0
-  std::string resource;                             ///< URI of a mesh file; empty otherwise
+  std::string resource;                             ///< URI of the mesh file; empty if the shape is from no file
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< scale of the mesh file per axis
-  std::shared_ptr<const Solid> solid = nullptr;     ///< for exact distances; null: not measured
+  std::shared_ptr<const Solid> solid = nullptr;     ///< the shape, prepared for exact distances; null: not measured
 };
 
 /// The description of a body, which does not change while the body moves.
@@ -78,17 +79,17 @@ struct Body {
   Mobility mobility = Mobility::moving;     ///< whether the body can move in the world
   std::vector<BodyShape> shapes;            ///< may be empty, if no shape could be read
   double margin = 0.0;                      ///< [m] margin of this body; a larger global margin takes precedence
-  double max_speed = std::numeric_limits<double>::infinity();  ///< [m/s] largest speed of its points
-  /// [m/s] Guaranteed largest speed of its points; infinite if there is no guarantee. Bounds of the time to contact use
-  /// only this value.
+  double max_speed = std::numeric_limits<double>::infinity();  ///< [m/s] expected largest speed of its points
+  /// [m/s] Guaranteed largest speed of its points; infinite if there is no guarantee. Only this value, not max_speed,
+  /// bounds the time until a contact is possible.
   double speed_bound = std::numeric_limits<double>::infinity();
-  bool covered = true;  ///< every shape in its description could be read
-  bool waived = false;  ///< the body is not covered, but the user accepts this
+  bool covered = true;  ///< whether every shape in the description of the body could be read
+  bool waived = false;  ///< whether the body is not covered, but the user accepts this
   std::string note;     ///< why the body is not covered, or why the user accepts this
 
   std::string robot;                        ///< name of the robot, only for links
   std::uint32_t link = 0;                   ///< index in the robot's model, only for links
-  std::uint32_t rigid_group = 0;            ///< only for links; links with the same number move together
+  std::uint32_t rigid_group = 0;            ///< index of the rigid group in the robot's model, only for links
   std::shared_ptr<const LinkMatrix> links;  ///< allowed pairs of the robot, only for links; equal robots share it
 };
 

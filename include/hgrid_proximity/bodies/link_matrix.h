@@ -11,7 +11,8 @@ namespace hgrid {
 
 struct RobotModel;
 
-/// Why a pair is switched off, so that it is not reported. The numbers are part of the interface: do not change them.
+/// Why a pair is switched off, which means: it is never reported. The numbers are part of the interface: do not change
+/// them.
 enum class Origin : std::uint8_t {
   none = 0,
   rigid = 1,
@@ -33,11 +34,11 @@ struct LinkRules {
     std::string reason;  ///< attribute `reason` of the tag; may be empty
   };
   std::vector<Pair> disabled;                 ///< tags disable_collisions: these pairs are switched off
-  std::vector<std::string> disabled_default;  ///< tags disable_default_collisions: all pairs of these links are off
+  std::vector<std::string> disabled_default;  ///< tags disable_default_collisions: every pair with such a link is off
   std::vector<Pair> enabled;  ///< tags enable_collisions: override disabled_default, adjacency and rigid groups
 };
 
-/// Stores which pairs of links of one robot model are allowed to touch, so that they are not reported.
+/// Stores for each pair of links of one robot model whether the two links may touch. Such pairs are switched off.
 ///
 /// Equal robots share one matrix. It is symmetric, and the pair of a link with itself is Origin::self. It is immutable,
 /// and copies share memory.
@@ -45,9 +46,10 @@ class LinkMatrix {
  public:
   /// Switches off all pairs of links of one rigid group and of two adjacent groups, then applies the rules of an SRDF.
   ///
-  /// Two groups are adjacent if exactly one moving joint connects them. They are also adjacent if several moving joints
-  /// connect them in one chain from parent to child, no link of a group between them has geometry, and the origins of
-  /// consecutive joints (all joints at zero) are at most 1 cm apart.
+  /// Two groups are adjacent in two cases:
+  /// - Exactly one moving joint connects the two groups.
+  /// - Several moving joints connect the two groups in one chain from parent to child. No link between the two groups
+  ///   has geometry. While all joints are at zero, the origins of consecutive joints are at most 1 cm apart.
   ///
   /// disable_collisions takes precedence over enable_collisions. enable_collisions takes precedence over
   /// disable_default_collisions, adjacency and rigid groups. A rule with a link that the model does not have is ignored
@@ -56,8 +58,8 @@ class LinkMatrix {
 
   /// Whether the pair is allowed to touch, that is, switched off.
   bool allowed(std::uint32_t first, std::uint32_t second) const { return isIn(allowedWith(first), second); }
-  /// Returns all links whose pair with `link` is allowed, as a bit set for isIn(). The pair filter reads these sets for
-  /// every near pair of many robots, so they are small enough for the caches.
+  /// Returns all links whose pair with `link` is allowed, as a bit set for isIn(). Bit sets are small enough for the
+  /// caches. That matters because the pair filter reads them for every near pair of many robots.
   const std::uint64_t* allowedWith(std::uint32_t link) const;
   /// Whether a bit set of allowedWith() contains `link`.
   static bool isIn(const std::uint64_t* links, std::uint32_t link) {

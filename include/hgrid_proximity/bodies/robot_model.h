@@ -22,15 +22,15 @@ struct RobotLink {
   JointKind joint_kind = JointKind::fixed;          ///< kind of the joint to the parent; fixed for the root
   Pose parent_from_joint = Pose::Identity();        ///< pose of the link in its parent at joint position 0
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< axis of the joint, a unit vector in the link's frame
-  double max_velocity = 0.0;                        ///< [rad/s] or [m/s]; 0: the URDF gives none
+  double max_velocity = 0.0;                        ///< [rad/s] or [m/s] limit of the joint; 0: the URDF gives none
   double lower = 0.0;                               ///< [rad] or [m] lower joint limit; both limits 0: no limits
   double upper = 0.0;                               ///< [rad] or [m] upper joint limit
-  bool has_collision = false;                       ///< the URDF has a `<collision>` for this link
-  bool uses_visual = false;                         ///< the shapes come from `<visual>`, as there is no `<collision>`
+  bool has_collision = false;                       ///< whether the URDF has a `<collision>` for this link
+  bool uses_visual = false;                         ///< whether `<visual>` gives the shapes instead of `<collision>`
   std::vector<BodyShape> shapes;                    ///< the shapes that could be read
   std::vector<Refusal> unreadable;                  ///< why the other shapes could not be read, one per shape
-  std::uint32_t rigid_group = 0;                    ///< links with the same number move together
-  Pose group_from_link = Pose::Identity();          ///< pose of the link in the first link of its group
+  std::uint32_t rigid_group = 0;                    ///< index of the link's rigid group in RobotModel::group_roots
+  Pose group_from_link = Pose::Identity();          ///< pose of the link in the frame of the first link of its group
 
   /// Whether the URDF gives the link any shape that counts, even if the shape could not be read.
   bool hasGeometry() const { return has_collision || uses_visual; }
@@ -52,9 +52,9 @@ void findRigidGroups(RobotModel& model);
 
 /// Returns an upper bound [m/s] of the speed of all points of the link's shapes in the root frame.
 ///
-/// Every joint between the root and the link adds to the bound. A prismatic joint adds its velocity limit. A revolute
-/// joint adds its velocity limit times the largest possible distance of the link's points from the joint. The bound is
-/// infinite if one of these joints has no limit.
+/// Every moving joint between the root and the link adds to the bound. A prismatic joint adds its velocity limit. A
+/// revolute joint adds its velocity limit times the largest possible distance of the link's points from the joint. The
+/// bound is infinite if one of these joints has no velocity limit, or is planar or floating.
 double speedBound(const RobotModel& model, std::uint32_t link);
 
 }  // namespace hgrid

@@ -10,14 +10,14 @@ namespace hgrid {
 class LinkMatrix;
 struct RobotModel;
 
-/// Counts the pairs of links within one robot, and how many of them are switched off, by origin. Only links with
-/// geometry count.
+/// Counts the pairs of links within one robot. For each Origin, it also counts the pairs that this origin switched off.
+/// Only links with geometry count.
 struct SelfPairs {
   std::size_t links = 0;     ///< links with geometry
   std::size_t pairs = 0;     ///< all pairs of these links
-  std::size_t rigid = 0;     ///< pairs that are switched off by Origin::rigid
-  std::size_t adjacent = 0;  ///< pairs that are switched off by Origin::adjacent
-  std::size_t srdf = 0;      ///< pairs that are switched off by Origin::srdf
+  std::size_t rigid = 0;     ///< pairs that are switched off because of Origin::rigid
+  std::size_t adjacent = 0;  ///< pairs that are switched off because of Origin::adjacent
+  std::size_t srdf = 0;      ///< pairs that are switched off because of Origin::srdf
 
   /// Returns the number of pairs that are switched off.
   std::size_t off() const { return rigid + adjacent + srdf; }

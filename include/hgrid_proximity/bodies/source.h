@@ -18,7 +18,7 @@ std::string sourceOf(const Body& body);
 struct SourceGap {
   std::string source;    ///< name of the source, as sourceOf() returns it
   std::string bodies;    ///< glob that matches the names of the missing bodies
-  std::string sentence;  ///< starts with a code or state: "NOT_READY map 'hall': its file has not been read yet"
+  std::string sentence;  ///< begins with a code or state: "NOT_READY map 'hall': its file has not been read yet"
   /// [m, world] The missing bodies are inside this sphere. nullopt: they can be anywhere.
   std::optional<Sphere> within = std::nullopt;
 };

@@ -76,7 +76,7 @@ class BroadPhase : public BroadPhaseReader {
   virtual void update(const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) = 0;
   /// Bulk move: replaces the box of ids[i] by boxes[i] and keeps all other boxes as they are. The ids must ascend. In
   /// an HGrid, the cost depends on the number of boxes that move, not on the number of stored boxes.
-  /// @throws std::invalid_argument as the bulk update does, or if an id is not stored.
+  /// @throws std::invalid_argument in the same cases as the bulk update, and if an id is not stored.
   virtual void move(const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) = 0;
 
   /// Sets which boxes are fixed: two fixed boxes never form a pair. The ids must ascend. They need not be stored yet.

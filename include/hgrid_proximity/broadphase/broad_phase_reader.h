@@ -54,7 +54,7 @@ using SegmentBatch = BatchOf<SegmentHit>;
 
 /// One level of a broad phase that sorts boxes by size.
 struct BroadPhaseLevel {
-  double edge = 0.0;      ///< [m] the boxes of the level have no longer side than this; infinite for the last level
+  double edge = 0.0;      ///< [m] longest side that a box of the level can have; infinite for the last level
   std::size_t boxes = 0;  ///< number of stored boxes on the level
 };
 
@@ -101,7 +101,7 @@ class BroadPhaseReader {
   /// Returns the index of the level that a box is stored on; -1 if the box is not stored or there are no levels.
   virtual int levelOf(ProxyId) const { return -1; }
 
-  /// Checks the invariants of the data structure. @throws std::logic_error that names the first one that is violated
+  /// Checks the invariants of the data structure. @throws std::logic_error that names the first violated invariant
   virtual void checkInvariants() const = 0;
 };
 

@@ -12,7 +12,7 @@ namespace hgrid {
 /// The box sizes of an HGrid's levels.
 struct GridScale {
   static constexpr int kLevels = 16;     ///< number of levels, without the extra level for boxes that fit none of them
-  static constexpr double kRatio = 4.0;  ///< longest box side of a level, divided by that of the next finer level
+  static constexpr double kRatio = 4.0;  ///< longest box side of a level / longest box side of the next finer level
 
   double finest_edge = 0.0625;  ///< [m] longest side of a box on the finest level; 2^-30 .. 2^30
 
@@ -28,14 +28,14 @@ struct GridScale {
 /// levels.
 ///
 /// - Boxes are sorted by cell and stored as a structure of arrays. The boxes in a row of cells are one range of array
-///   positions, so SIMD instructions test several of them at a time. Rows lie along the axis on which the world is
-///   longest. The inner loops are compiled once per instruction set.
+///   indices, so SIMD instructions test several boxes at a time. Rows lie along the axis on which the world is longest.
+///   The inner loops are compiled once per instruction set.
 /// - Levels with few boxes share one grid. A cost model computes the cell size from the boxes.
 /// - Where boxes are spread unevenly, a k-d tree (section 7.3.7) divides space into regions of about even density, and
-///   each region has its own cells. So the cost depends on the boxes and their pairs, not on the empty space between.
+///   each region has its own cells. So the cost depends on the boxes and their pairs, not on the empty space.
 /// - A box outside the range of the cells is stored in the nearest outermost cell, so the world has no border.
-/// - Boxes that move are sorted again when they move. Boxes that rest keep their positions, and the grid keeps the
-///   pairs among them.
+/// - Boxes that move are sorted again when they move. Boxes that rest keep their places in the arrays. The grid stores
+///   the pairs of resting boxes, and does not search for them again.
 /// - Fixed boxes are stored in a separate layer. The grid does not search for pairs of two fixed boxes.
 ///
 /// Results depend neither on the order of insertion, nor on the instruction set, nor on the number of threads.
@@ -80,7 +80,7 @@ class HGrid final : public BroadPhase {
   void nearest(const Eigen::Vector3d& point, std::size_t count, double limit,
                std::vector<NearHit>& found) const override;
   ///@{
-  /// Answers the queries in the order of their positions in space, which saves cache misses.
+  /// Processes the queries in the order of their coordinates, which saves cache misses.
   void overlapping(const std::vector<Aabb>& boxes, IdBatch& found) const override;
   void overlapping(const std::vector<Sphere>& spheres, IdBatch& found) const override;
   void along(const std::vector<Segment>& segments, SegmentBatch& found) const override;

@@ -14,7 +14,7 @@ const char* name(Isa isa);
 /// Returns whether this build contains the instruction set and this processor supports it; always true for portable.
 bool isSupported(Isa isa);
 
-/// Returns the largest supported instruction set. The processor is queried only once.
+/// Returns the supported instruction set with the widest vectors. Only the first call asks the processor.
 Isa bestIsa();
 
 }  // namespace hgrid

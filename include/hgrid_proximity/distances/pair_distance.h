@@ -11,8 +11,8 @@ namespace hgrid {
 
 /// An occupied cell of a map or cloud that is near a body.
 struct NearCell {
-  Eigen::Vector3d center;  ///< [m, world]
-  double edge = 0.0;       ///< [m]
+  Eigen::Vector3d center;  ///< [m, world] center of the cell
+  double edge = 0.0;       ///< [m] edge of the cell
   double distance = 0.0;   ///< [m] distance of the cell from the body
 };
 
@@ -29,18 +29,19 @@ struct PairDistance {
   double gap = 0.0;                ///< [m] distance of the boxes of the two bodies
   std::uint8_t flags = 0;          ///< the same as NearPair::flags
   Proximity proximity;             ///< how the nearest shapes lie relative to each other
-  /// [m] The distance of the pair is at least this: its distance if it was measured in this tick. Otherwise the larger
-  /// of `gap` and the last measured distance minus what both bodies can have moved since.
+  /// [m] Lower bound of the distance of the pair. If the distance is known for this tick, it is the distance. If not,
+  /// it is the larger of two values: `gap`, and the last measured distance minus how far the two bodies have moved
+  /// relative to each other since that measurement.
   double lower_bound = 0.0;
   Time measured{0};             ///< stamp of the data of the last measurement of this pair; 0: never measured
   std::vector<NearCell> cells;  ///< only in pairs with a map or cloud: its nearest cells, nearest first
   double closing_speed = Proximity::kUnknown;      ///< [m/s] estimate from past ticks; > 0: the bodies come closer
   double time_to_contact = Proximity::kUnknown;    ///< [s] estimate; infinite if the bodies do not come closer
-  double no_contact_before = Proximity::kUnknown;  ///< [s] as Snapshot::noContactBefore() returns it
+  double no_contact_before = Proximity::kUnknown;  ///< [s] the result of Snapshot::noContactBefore()
 };
 
-/// Measures one pair of bodies of a snapshot, even if the bodies are far apart. Fills in no gap, bounds or estimates.
-/// Both bodies must have poses.
+/// Measures one pair of bodies of a snapshot, even if the bodies are far apart. Both bodies must have poses. The result
+/// has no gap, no lower bound and no estimates.
 /// @param up_to  [m] a larger distance is returned as infinite
 PairDistance measurePair(const NarrowPhase& narrow_phase, const Snapshot& snapshot, std::uint32_t first,
                          std::uint32_t second, double up_to);

@@ -13,11 +13,12 @@ namespace hgrid {
 
 /// The exact distances of the pairs of one snapshot. Immutable.
 struct PairDistances {
-  std::vector<PairDistance> pairs;  ///< measured pairs by distance, then the others by gap; equal ones by name
+  std::vector<PairDistance> pairs;  ///< measured pairs, sorted by distance, then others by gap; equal pairs by name
   std::size_t measured = 0;         ///< number of pairs whose distance was measured or already known
   std::size_t failed = 0;           ///< number of measured pairs on which the solver failed: treat them as contacts
   std::size_t left_out = 0;         ///< number of pairs that were not measured because the time ran out
-  /// Number of successive snapshots, up to this one, in which a pair was left out: the largest number of all pairs.
+  /// For how many successive snapshots, including this one, the pair that waits longest was left out. 0 if no pair was
+  /// left out.
   std::uint64_t longest_wait = 0;
 };
 
@@ -33,11 +34,11 @@ struct MeterOptions {
 /// Measures the pairs of successive snapshots. It remembers results of each pair, so that later snapshots take less
 /// time. One thread at a time may call its functions.
 ///
-/// A pair needs no measurement if it did not move, or if its last distance proves that it is farther apart than the
-/// report distance. If the budget does not suffice for all other pairs, half of it goes to the pairs with the smallest
-/// lower bounds. The other half goes to the pairs that have waited longest, and at least one of these is measured for
-/// each snapshot. So each pair is measured again within a bounded number of snapshots. A measurement that has begun is
-/// completed, even if the budget ends.
+/// A pair needs no measurement if its bodies did not move relative to each other, or if its last distance proves that
+/// they are farther apart than the report distance. If the budget does not suffice for all other pairs, half of it goes
+/// to the pairs with the smallest lower bounds. The other half goes to the pairs that have waited longest. At least one
+/// of the waiting pairs is measured for each snapshot. So each pair is measured again within a bounded number of
+/// snapshots. A measurement that has begun is completed, even if the budget ends.
 class PairMeter {
  public:
   /// @param narrow_phase  measures the shapes; the solids of the bodies must come from it

@@ -10,12 +10,12 @@
 
 namespace hgrid {
 
-/// Counts the pairs of bodies that a change of the rules has switched off or on: one filter allows them to touch, the
-/// other does not.
+/// Counts the pairs of bodies that a change of the rules has switched off or on: exactly one of the two filters
+/// switches off such a pair.
 ///
-/// The function looks only at bodies that match a rule of just one of the filters. It examines bodies that all rules
-/// treat alike only once, so rules with globs take no longer than it took to create the filters. It compares links of
-/// one robot pair by pair.
+/// The function looks only at bodies that match a rule in which the filters differ. If all rules treat several bodies
+/// alike, it examines these bodies only once. So rules with globs take no longer than it took to create the filters.
+/// The function compares links of one robot pair by pair.
 /// @param bodies  the bodies that both filters were created from
 /// @param before  the filter before the change
 /// @param after   the filter after the change

@@ -8,8 +8,8 @@
 
 namespace hgrid {
 
-/// Returns the rule that decides about a pair of bodies. If a rule of a user decides, returns it unchanged, with its
-/// globs. Otherwise, for example for an SRDF, returns a rule with the names of the two bodies.
+/// Returns the rule that decides about a pair of bodies. If a rule of a user decides, returns this rule unchanged, with
+/// its globs. If something else decides, for example an SRDF, returns a rule with the names of the two bodies.
 inline PairRule decidedRule(const Structure& structure, std::uint32_t first, std::uint32_t second) {
   PairDecision decision = structure.filter.decision(first, second);
   if (decision.rule != PairDecision::kNoRule) return structure.filter.rules()[decision.rule];

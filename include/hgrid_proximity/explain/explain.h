@@ -11,18 +11,18 @@
 namespace hgrid {
 
 /// Says whether a pair of bodies is reported, and everything that decides this. "First" and "second" are the two bodies
-/// in the order of the call. NaN: unknown.
+/// in the order of the call. Values that are not known are NaN.
 struct Explanation {
   std::uint32_t first = 0;                       ///< index of the first body in Structure::bodies
   std::uint32_t second = 0;                      ///< index of the second body in Structure::bodies
   bool reported = false;                         ///< whether Snapshot::pairs() lists the pair
   std::size_t position = 0;                      ///< index in Snapshot::pairs(), if the pair is reported
-  bool cut = false;                              ///< true: the pair is within its margin, but truncation removed it
+  bool cut = false;                              ///< whether the pair is within its margin, but truncation removed it
   std::string text;                              ///< the explanation in sentences, for users
   PairRule rule;                                 ///< the rule that decides about the pair; Origin::none: no rule
   double gap = 0.0;                              ///< [m] distance of the boxes of the two bodies
   double margin = 0.0;                           ///< [m] margin of the pair in this snapshot, including the growth
-  double growth = 0.0;                           ///< [m] part of the margin that is there because data is old
+  double growth = 0.0;                           ///< [m] part of the margin that was added because data is old
   double margin_pair = 0.0;                      ///< [m] margin configured for this pair; NaN if there is none
   double margin_first = 0.0;                     ///< [m] margin of the first body, at least the global margin
   double margin_second = 0.0;                    ///< [m] margin of the second body, at least the global margin
@@ -48,7 +48,7 @@ struct OptionNames {
 /// @param first   name of one body
 /// @param second  name of the other body
 /// @param exact  the measured distance of this pair, in either order of its bodies; null if it was not measured
-/// @throws Refusal unknown_id, with the most similar existing names
+/// @throws Refusal unknown_id if there is no body of this name; the sentence lists the most similar names
 Explanation explain(const Snapshot& snapshot, const std::string& first, const std::string& second,
                     const PairDistance* exact, const OptionNames& options = {});
 

@@ -9,8 +9,8 @@ namespace hgrid {
 
 /// An axis-aligned box [m]. The box is closed: boxes that only touch do overlap.
 ///
-/// The coordinates are floats to save memory. They are relative to the origin of the world, which is in double, so
-/// boxes keep their precision far away from the origin of the frame.
+/// The coordinates are floats to save memory. In a snapshot they are relative to Snapshot::origin(), a point in double
+/// precision. So boxes keep their precision far away from the origin of the world frame.
 struct Aabb {
   Eigen::Vector3f min = Eigen::Vector3f::Zero();  ///< [m] smallest coordinate on each axis
   Eigen::Vector3f max = Eigen::Vector3f::Zero();  ///< [m] largest coordinate on each axis
@@ -24,9 +24,9 @@ struct Aabb {
 /// Whether all coordinates are finite and min <= max holds on every axis.
 bool isValid(const Aabb& box);
 
-/// Returns the largest float that is not larger than `value`; infinite below the range of float.
+/// Returns the largest float that is not larger than `value`; -infinity if `value` is below the range of float.
 float roundedDown(double value);
-/// Returns the smallest float that is not smaller than `value`; infinite above the range of float.
+/// Returns the smallest float that is not smaller than `value`; infinity if `value` is above the range of float.
 float roundedUp(double value);
 
 /// Whether the two boxes have at least one point in common.
@@ -45,8 +45,8 @@ double distance(const Aabb& a, const Aabb& b);
 bool withinDistance(const Aabb& a, const Aabb& b, double margin);
 
 ///@{
-/// Returns `box` with every face moved outward by at least `by` [m], by >= 0. Two boxes whose distance is at most m
-/// overlap after they are grown by a and b, if a + b >= m.
+/// Returns `box` with every face moved outward by at least `by` [m]; `by` must not be negative. Two boxes that are at
+/// most a + b apart overlap after one of them is grown by a and the other by b.
 Aabb grown(const Aabb& box, double by);
 inline Eigen::AlignedBox3d grown(const Eigen::AlignedBox3d& box, double by) {
   return {box.min().array() - by, box.max().array() + by};

@@ -20,8 +20,8 @@ inline constexpr double kQuaternionTolerance = 0.03;
 /// Converts a position [m] and a quaternion that come from outside into a pose.
 ///
 /// If the squared norm of the quaternion is within kQuaternionTolerance of 1, the quaternion is normalized. If the
-/// difference from 1 is more than 1e-6, `*renormalized` is set to true. It is never set to false, and the pointer may
-/// be null.
+/// difference from 1 is more than 1e-6, `*renormalized` is set to true. If not, `*renormalized` keeps its value. The
+/// pointer may be null.
 /// @param what  name of the object for the error sentence, such as "transform of frame 'tool0'"
 /// @throws Refusal with code nonfinite or bad_rotation; its sentence names the field
 Pose checkedPose(const Eigen::Vector3d& position, const Eigen::Vector4d& xyzw, const std::string& what,

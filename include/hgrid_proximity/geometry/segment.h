@@ -31,8 +31,8 @@ struct Meeting {
 /// count as touched, where |x| is the largest coordinate and r the radius.
 ///
 /// Method: consider a point that moves along the axis. Its squared distance to the box is a convex, piecewise quadratic
-/// function of the fraction of the axis. The pieces meet where the point crosses the plane of a face, which happens at
-/// most six times. Each piece is solved in closed form.
+/// function of the fraction of the axis. A new piece begins where the point crosses the plane of a face. This happens
+/// at most six times. Each piece is solved in closed form.
 std::optional<Meeting> meet(const Segment& segment, const Aabb& box);
 
 /// Computes only Meeting::along. It is faster than meet(), and the results differ only by rounding.
@@ -53,7 +53,8 @@ class FirstTouch {
   // has a length.
   bool clips_;
   double length_;
-  Eigen::Vector3d inverse_, rounded_;  // per axis: 1 / step, and the rounding error of a fraction
+  Eigen::Vector3d inverse_;  // 1 / step for each axis, where step is the vector from the start to the end
+  Eigen::Vector3d rounded_;  // for each axis: bound of the rounding error of a fraction of the segment
 };
 
 }  // namespace hgrid

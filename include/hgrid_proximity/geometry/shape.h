@@ -21,14 +21,15 @@ const char* name(ShapeKind kind);
 
 /// A mesh: vertices [m], and triangles as three vertex indices each, counter-clockwise when seen from outside.
 struct TriangleMesh {
-  std::vector<Eigen::Vector3d> vertices;                ///< [m]
+  std::vector<Eigen::Vector3d> vertices;                ///< [m] in the frame of the shape
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `vertices`
 };
 
 /// Checks that all vertices are finite and within `max_size` [m], that all indices are in range, and that at least one
 /// triangle has an area.
 /// @param what  name of the mesh for the error sentence
-/// @throws Refusal with code nonfinite, out_of_range, bad_geometry
+/// @throws Refusal nonfinite or out_of_range for a vertex
+/// @throws Refusal bad_geometry for an index, or if no triangle has an area
 void checkMesh(const TriangleMesh& mesh, double max_size, const std::string& what);
 
 /// Limits for the size of a shape.
@@ -38,7 +39,7 @@ struct ShapeLimits {
   bool allow_flat = false;  ///< whether one side of a box may be 0 (a plate)
 };
 
-/// One collision shape in its own frame. It is immutable and cheap to copy, since copies share the vertices.
+/// One collision shape in its own frame. It is immutable and cheap to copy, because copies share the vertices.
 ///
 /// Sphere, box, cylinder, cone and capsule are centered at the origin. The axis of cylinder, cone and capsule is z. The
 /// tip of a cone is at +z.
@@ -59,9 +60,11 @@ class Shape {
   static Shape mesh(std::shared_ptr<const TriangleMesh> mesh, const ShapeLimits& limits = {});
   ///@}
 
-  /// Creates a primitive from the number of its kind and its dimensions [m], in the order of the functions above.
-  /// @throws Refusal with code unsupported if `kind` is not 1 .. 5; bad_geometry if the number or size of the
-  /// dimensions is wrong
+  /// Creates a sphere, box, cylinder, cone or capsule.
+  /// @param kind        a ShapeKind as a number, 1 .. 5
+  /// @param dimensions  [m] the lengths in the order in which the function above with this name takes them
+  /// @throws Refusal with code unsupported if `kind` is not 1 .. 5
+  /// @throws Refusal with code bad_geometry if there are too few or too many dimensions, or if one is out of range
   static Shape primitive(int kind, const std::vector<double>& dimensions, const ShapeLimits& limits = {});
 
   /// Returns the kind of the shape.
@@ -85,9 +88,9 @@ class Shape {
 
 /// Returns the tight box of a shape at a pose, relative to `origin` [m, world]. The shape is grown by `padding` [m].
 ///
-/// The result always contains the exact box of the shape. It is computed in double, enlarged by 64 units of rounding of
-/// its terms (several times what the formulas need), and then rounded outward to float. The formulas follow Ericson,
-/// Real-Time Collision Detection, 2005, section 4.2.
+/// The result always contains the exact box of the shape. The box is computed in double, enlarged by 64 units of
+/// rounding of its terms, and then rounded outward to float. The formulas need only a part of these 64 units. They
+/// follow Ericson, Real-Time Collision Detection, 2005, section 4.2.
 Aabb boxOf(const Shape& shape, const Pose& world_from_shape, double padding, const Eigen::Vector3d& origin);
 
 }  // namespace hgrid

@@ -10,13 +10,13 @@ namespace hgrid {
 
 /// A sphere [m], relative to the same frame as the boxes that it is compared with. With radius 0 it is a point.
 struct Sphere {
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< [m]
-  double radius = 0.0;                               ///< [m] >= 0
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< [m] center of the sphere
+  double radius = 0.0;                               ///< [m] radius of the sphere, >= 0
 };
 
 /// Returns the squared distance of the point from the box [m²], or 0 if the point is inside.
 inline double squaredDistance(const Aabb& box, const Eigen::Vector3d& point) {
-  // Computes axis by axis, without vectors and branches, since queries call this for every candidate.
+  // Computes axis by axis, without vectors and branches, because queries call this for every candidate.
   double sum = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     const double under = box.min[axis] - point[axis], over = point[axis] - box.max[axis];
@@ -31,8 +31,8 @@ inline double squaredDistance(const Aabb& box, const Eigen::Vector3d& point) {
 inline double distance(const Aabb& box, const Eigen::Vector3d& point) { return std::sqrt(squaredDistance(box, point)); }
 
 /// Returns the length [m] by which a query grows itself, so that rounding can add a hit but never lose one. It is a
-/// bound of the rounding errors for coordinates up to `reach` [m] and is far below the promised 1e-9 * reach.
-inline double roundingSlack(double reach) { return 1e-12 * reach; }
+/// bound of the rounding errors for coordinates up to `largest` [m] and is far below the promised 1e-9 * largest.
+inline double roundingSlack(double largest) { return 1e-12 * largest; }
 
 /// Returns the largest distance [m] from the center of the sphere at which a box still counts as touching it.
 inline double touchingDistance(const Sphere& sphere) {

@@ -81,7 +81,8 @@ inline std::uint16_t gatheredByThree(std::uint64_t bits) {
 }
 
 /// Returns the Morton code of the voxel: the 48 bits of its keys interleaved, with x lowest. An octree stores its
-/// leaves in the order of these codes. The voxel covers the codes from `morton` up to, but without, `morton` + 8^level.
+/// leaves in the order of these codes. A voxel with code m contains the voxels of level 0 with the codes m up to
+/// m + 8^level - 1.
 inline std::uint64_t mortonOf(const Voxel& voxel) {
   return spreadByThree(voxel.x) | spreadByThree(voxel.y) << 1 | spreadByThree(voxel.z) << 2;
 }

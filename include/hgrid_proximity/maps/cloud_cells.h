@@ -15,12 +15,12 @@ namespace hgrid {
 /// Stores the cells in which a sensor has seen points. Each cell is kept for a lifetime after it was last seen.
 ///
 /// The cells form a fixed lattice in the world frame, and cell (0, 0, 0) begins at the world's origin. So an object
-/// fills the same cells from wherever the sensor sees it. The keys of the cells are relative to corner(), which follows
-/// the sensor in rare, large steps. So the keys reach equally far around the sensor, as they do around the origin of a
-/// map. Only one thread may use this object at a time.
+/// fills the same cells wherever the sensor is. Keys have only 16 bits, so they describe a limited space around
+/// corner(). corner() follows the sensor in rare, large steps, then the cells get new keys. Only one thread may use
+/// this object at a time.
 class CloudCells {
  public:
-  /// Points are ignored if they are this many cells or more away from the sensor along an axis.
+  /// Number of cells. Points that are this far or farther away from the sensor along an axis are ignored.
   static constexpr int kReach = 1 << 14;
 
   /// @param edge      [m] edge of a cell, 0.001 .. 100
@@ -39,7 +39,7 @@ class CloudCells {
   std::size_t follow(const Eigen::Vector3d& sensor);
   /// Returns the cells that contain the points [m, world], each cell once, in Morton order.
   /// @param sensor    [m, world] position of the sensor
-  /// @param left_out  receives the number of points that were ignored, since they are too far from the sensor
+  /// @param left_out  receives the number of points that were ignored because they are too far from the sensor
   std::vector<Voxel> cellsOf(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& sensor,
                              std::size_t& left_out) const;
   /// Adds cells that were seen at time `stamp`. They must be disjoint, of level 0 and in Morton order.
@@ -55,7 +55,7 @@ class CloudCells {
   std::size_t size() const { return seen_.size(); }
 
  private:
-  using Keys = std::array<std::int64_t, 3>;  // of a cell in the lattice of the world
+  using Keys = std::array<std::int64_t, 3>;  // index of a cell along x, y and z in the lattice of the world
   struct Seen {
     std::uint64_t code;  // Morton code of the cell, a voxel of level 0
     Time stamp;          // when the cell was last seen
@@ -66,7 +66,7 @@ class CloudCells {
   double edge_;
   Time lifetime_;
   std::size_t most_;
-  Keys middle_{};           // the cell whose three keys are Voxel::kOriginKey
+  Keys middle_{};           // the cell that has Voxel::kOriginKey as its x, y and z in a Voxel
   std::vector<Seen> seen_;  // sorted by Seen::code
 };
 

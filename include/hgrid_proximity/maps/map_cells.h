@@ -10,7 +10,7 @@
 
 namespace hgrid {
 
-/// The space of which a map does not know whether it is free: the unknown cells, and everything outside `extent`. All
+/// The space that a map does not know to be free or occupied: the unknown cells, and everything outside `extent`. All
 /// values are in the frame of the map.
 struct UnmappedSpace {
   StaticGrid cells;            ///< the unknown cells
@@ -20,8 +20,8 @@ struct UnmappedSpace {
 /// The occupied cells of a map or a cloud, with the solids for measuring them. It is immutable, and snapshots share it.
 struct MapCells {
   std::shared_ptr<const StaticGrid> grid;                   ///< occupied cells in the body's frame
-  std::shared_ptr<const UnmappedSpace> unmapped = nullptr;  ///< null: it does not say which space is free
-  std::array<std::shared_ptr<const Solid>, Voxel::kLevels + 1> cubes = {};  ///< one cube per voxel level
+  std::shared_ptr<const UnmappedSpace> unmapped = nullptr;  ///< unknown space; null: any space may be unknown
+  std::array<std::shared_ptr<const Solid>, Voxel::kLevels + 1> cubes = {};  ///< for each level: a cell as a solid
 
   /// Returns the center of a voxel [m] in the frame of its body.
   Eigen::Vector3d centerOf(const Voxel& voxel) const {
@@ -29,7 +29,7 @@ struct MapCells {
   }
 };
 
-/// Creates the cells of a map or a cloud. `narrow_phase` creates one cube for each voxel level.
+/// Creates the cells of a map or a cloud. `narrow_phase` creates MapCells::cubes.
 std::shared_ptr<const MapCells> makeMapCells(std::shared_ptr<const StaticGrid> grid, const NarrowPhase& narrow_phase,
                                              std::shared_ptr<const UnmappedSpace> unmapped = nullptr);
 

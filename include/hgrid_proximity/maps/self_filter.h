@@ -23,7 +23,7 @@ struct SelfShape {
 struct OthersCells {
   std::vector<Voxel> voxels;    ///< the cells that are left, disjoint and in Morton order
   std::uint64_t left_out = 0;   ///< cells of level 0 that were removed: they are inside a padded shape
-  std::uint64_t undecided = 0;  ///< cells kept without a check, since there were too many to check
+  std::uint64_t undecided = 0;  ///< cells that were kept without a check, because there were too many to check
 };
 
 /// Removes the cells of the robot itself from the cells of a map.

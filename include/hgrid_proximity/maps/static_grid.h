@@ -36,7 +36,8 @@ struct VoxelTouch {
 ///   level below, whose cells are four times finer.
 /// - The edge of a voxel selects its level. A voxel is stored as one cell, or as a block of 2 x 2 x 2 cells. So two
 ///   depths of an octree share one level.
-/// - Empty space costs only a bit of the brick around it. Three ANDs mask the bits of a cell range.
+/// - Empty space costs only one bit of the brick around it. Three ANDs, one for each axis, select a range of cells in a
+///   brick.
 /// - Bricks are stored in Morton order, and the bricks inside one brick are stored one after the other. So a search
 ///   compares no keys and computes no hashes, and one pass in Morton order builds the grid.
 ///

@@ -19,8 +19,8 @@ enum class Measure : std::uint8_t {
   not_measured = 0,         ///< no measurement was requested, or there was no time for it
   apart = 1,                ///< the shapes are apart; distance, points and normal are valid
   contact = 2,              ///< the shapes are in contact; the distance is 0
-  contained = 3,            ///< one shape is inside the other, a closed mesh; counts as contact
-  containment_unknown = 4,  ///< one shape may be inside the other, an open mesh; counts as contact
+  contained = 3,            ///< one shape is inside the other shape, which is a closed mesh; counts as contact
+  containment_unknown = 4,  ///< one shape may be inside the other shape, which is an open mesh; counts as contact
   failed = 5,               ///< the solver failed; counts as contact
 };
 
@@ -67,8 +67,8 @@ class Solid {
   virtual ~Solid() = default;
 };
 
-/// A solid at a pose in the world, grown by its padding on all sides. It refers to the solid and the pose, which must
-/// outlive it.
+/// A solid at a pose in the world, grown by its padding on all sides. The solid and the pose are not copied: they must
+/// outlive this object.
 struct PlacedSolid {
   const Solid& solid;            ///< not owned
   const Pose& world_from_shape;  ///< pose of the solid in the world; not owned

@@ -20,7 +20,7 @@ struct NearPair {
   std::uint32_t second = 0;  ///< index into Structure::bodies
   double gap = 0.0;          ///< [m] least distance of their boxes
   double margin = 0.0;       ///< [m] margin that selected the pair, including the growth for stale bodies
-  Time since{0};             ///< stamp of the tick since which the pair has been selected without interruption
+  Time since{0};             ///< stamp of the tick that first selected the pair; every tick since then selected it
   std::uint8_t flags = 0;    ///< bits of PairFlags
 };
 

@@ -40,9 +40,9 @@ struct PairEvent {
 
 /// The events of one tick.
 struct PairEventList {
-  std::vector<PairEvent> events;            ///< sorted by number: first the pairs that end, then those that begin
+  std::vector<PairEvent> events;            ///< sorted by number: first the END events, then the BEGIN events
   std::uint64_t last = 0;                   ///< number of the newest event of the epoch; 0: there was none
-  std::shared_ptr<const Structure> before;  ///< previous structure, if an ended pair has a removed body; else null
+  std::shared_ptr<const Structure> before;  ///< previous structure if a removed body ended a pair; otherwise null
 };
 
 }  // namespace hgrid

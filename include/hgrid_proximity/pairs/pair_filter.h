@@ -50,45 +50,48 @@ class PairFilter {
   /// @param gone  for each rule: whether it is left out; as many values as there are rules
   PairFilter without(const std::vector<bool>& gone) const;
 
-  /// Returns whether the two bodies may touch, so that their pair is not reported. Symmetric.
+  /// Returns whether the pair of the two bodies is switched off, which means that it is not reported. Symmetric.
   bool allowed(std::uint32_t first, std::uint32_t second) const {
     Origin origin = Origin::none;
     if (!asksMatrix(first, second, origin)) return origin != Origin::none;
     return LinkMatrix::isIn(subjects_[first].allowed, subjects_[second].link);
   }
-  /// Returns why the two bodies may touch; Origin::none if their pair is reported. The first of these decides: the two
-  /// bodies are the same, their kind of pair does not exist, the strongest rule, the matrix of the robot model.
+  /// Returns why the pair is switched off; Origin::none if it is reported. The first of these that applies decides: the
+  /// two bodies are the same body, their kind of pair does not exist, the rule that takes precedence, the matrix of the
+  /// robot model.
   Origin origin(std::uint32_t first, std::uint32_t second) const {
     Origin origin = Origin::none;
     if (!asksMatrix(first, second, origin)) return origin;
     return matrices_[subjects_[first].matrix]->origin(subjects_[first].link, subjects_[second].link);
   }
 
-  /// Returns the decision about a pair with all details. Unlike origin(), it also tells which rule or SRDF tag says
+  /// Returns the decision about a pair with all details. Unlike origin(), it also names the rule or SRDF tag that says
   /// that the pair is reported.
   PairDecision decision(std::uint32_t first, std::uint32_t second) const;
   /// Returns the rules in the order in which the constructor received them.
   const std::vector<PairRule>& rules() const { return rules_; }
-  /// Returns whether a rule matches some pair of this body.
+  /// Returns whether a rule may match a pair that contains this body.
   bool isRuled(std::uint32_t body) const { return subjects_[body].ruled != 0; }
   /// Appends numbers to `key` that describe how the filter treats this body in pairs with bodies outside its robot.
-  /// If several bodies get equal numbers, the filter gives the same result for each of them with any such other body.
-  /// It also gives the same result for all pairs among them, except for two links of one robot.
+  ///
+  /// Bodies with equal numbers are treated alike. The filter gives the same result for the pair of any of them with a
+  /// third body outside their robots. It also gives the same result for each pair of two of them, except for two links
+  /// of one robot.
   void appendKey(std::uint32_t body, std::vector<std::uint64_t>& key) const;
   /// Returns whether at least one pair is reported when its bodies are near.
   bool reportsAny() const;
 
  private:
   static constexpr std::uint32_t kNoRobot = 0xffffffff;    // stands for "no robot"
-  static constexpr std::size_t kTypes = 8;                 // number of kinds of body, times 2 for fixed and moving
+  static constexpr std::size_t kTypes = 8;                 // a type is one of 4 kinds of body, fixed or moving
   static constexpr std::uint8_t kByName = 1, kByGlob = 2;  // bits of Subject::ruled
   struct Subject {
-    const std::uint64_t* allowed = nullptr;  // links of its robot that it may touch by the model; null: no model
+    const std::uint64_t* allowed = nullptr;  // bit set of LinkMatrix::allowedWith() for this link; null: no model
     std::uint32_t robot = kNoRobot;          // equal for links of one robot
     std::uint32_t link = 0;
     std::uint32_t matrix = 0;  // index of its model's matrix in matrices_
     std::uint8_t type = 0;
-    std::uint8_t ruled = 0;  // kinds of rule that match it; a rule for a pair needs one kind that matches both bodies
+    std::uint8_t ruled = 0;  // bits kByName and kByGlob: which kinds of rule have a name or glob for this body
   };
   struct NamedPair {
     std::uint64_t bodies;  // the two indices, the smaller one in the upper 32 bits
@@ -111,16 +114,17 @@ class PairFilter {
   std::uint32_t ruleOf(std::uint32_t first, std::uint32_t second) const;
   std::vector<std::uint32_t> representatives() const;
 
-  bool exists_[2][kTypes][kTypes] = {};  // indexed by whether both are links of one robot, and by both types
-  std::vector<Subject> subjects_;        // indexed by body
+  bool exists_[2][kTypes][kTypes] = {};  // by (links of one robot or not, type, type): whether such pairs exist
+  std::vector<Subject> subjects_;        // one for each body
   std::vector<std::shared_ptr<const LinkMatrix>> matrices_;  // keeps the matrices alive that subjects_ point into
   std::vector<PairRule> rules_;
   std::vector<Origin> verdicts_;  // for each rule: its origin, or none if the rule says "report this pair"
   std::vector<NamedPair> named_;  // sorted by bodies; of several rules that name one pair, the last comes first
   std::vector<std::uint32_t> glob_rules_;  // rules that contain a glob; bit k of the bit sets stands for
                                            // glob_rules_[k], kNoRule if without() left the rule out
-  std::size_t words_ = 0;                            // number of 64-bit words per body in the bit sets
-  std::vector<std::uint64_t> as_first_, as_second_;  // bit k: the body matches the first, second glob of rule k
+  std::size_t words_ = 0;                  // number of 64-bit words per body in the bit sets
+  std::vector<std::uint64_t> as_first_;    // bit sets, one per body: bit k: the body matches the first glob of rule k
+  std::vector<std::uint64_t> as_second_;   // bit sets, one per body: bit k: the body matches the second glob of rule k
 };
 
 /// Returns whether the rules switch off every pair that would be reported without them.

@@ -25,21 +25,22 @@ class PairMargins {
   /// @param bodies  the bodies that the indices in the other functions refer to; not kept
   PairMargins(const std::vector<Body>& bodies, const std::vector<PairMargin>& margins);
 
-  /// Returns the margin [m] of the last entry that matches a pair; nothing if no entry does.
+  /// Returns the margin [m] of the last entry that matches a pair; nullopt if no entry matches the pair.
   std::optional<double> of(std::uint32_t first, std::uint32_t second) const {
     if (words_ == 0) return std::nullopt;
     return look(first, second);
   }
-  /// Returns the largest margin [m] of all entries that match this body; 0 if no entry does.
+  /// Returns the largest margin [m] of all entries with a glob that matches this body; 0 if there is no such entry.
   double largestOf(std::uint32_t body) const { return words_ == 0 ? 0.0 : largest_[body]; }
 
  private:
   std::optional<double> look(std::uint32_t first, std::uint32_t second) const;
 
   std::vector<double> margins_;
-  std::vector<double> largest_;                      // [m] indexed by body
-  std::size_t words_ = 0;                            // number of 64-bit words per body in the bit sets
-  std::vector<std::uint64_t> as_first_, as_second_;  // bit k: the body matches the first, second glob of entry k
+  std::vector<double> largest_;           // [m] for each body: largest margin of its entries
+  std::size_t words_ = 0;                 // number of 64-bit words per body in the bit sets
+  std::vector<std::uint64_t> as_first_;   // bit sets, one per body: bit k: it matches `first` of entry k
+  std::vector<std::uint64_t> as_second_;  // bit sets, one per body: bit k: it matches `second` of entry k
 };
 
 }  // namespace hgrid

@@ -37,11 +37,11 @@ inline constexpr std::size_t kLongestRuleText = 512;
 bool isGlob(const std::string& name);
 
 /// Checks the names and the reason of a rule: their length and that they are printable UTF-8.
-/// @throws Refusal bad_id for a name, out_of_range for the reason
+/// @throws Refusal bad_id if a name is not valid, out_of_range if the reason is not valid
 void checkRule(const PairRule& rule);
 
 /// Checks that every name in the rules is the name of a body, and that every glob matches at least one body.
-/// @throws Refusal unknown_id with the missing name and the most similar existing names
+/// @throws Refusal unknown_id if not; its sentence has the missing name and the most similar existing names
 void checkKnown(const std::vector<PairRule>& rules, const std::vector<Body>& bodies);
 
 }  // namespace hgrid

@@ -20,12 +20,12 @@ class RuleBook {
   /// Returns the rules in force, in their order.
   const std::vector<PairRule>& rules() const { return rules_; }
 
-  /// Adds rules as Origin::service. Drops older rules of Origin::service that have the same two names or globs as a new
-  /// rule and do not end later than it, since they can never decide again.
+  /// Adds rules as Origin::service. Drops an older rule of Origin::service if a new rule has the same two names or
+  /// globs and does not end earlier, because the older rule can never decide again.
   /// @throws Refusal bad_id or out_of_range as checkRule() does; limit if there would be too many rules
   void add(const std::vector<PairRule>& rules);
   /// Removes the rules of Origin::service that have the same two names or globs as one of `rules`, in either order.
-  /// @throws Refusal unknown_id if one of `rules` has no such rule
+  /// @throws Refusal unknown_id if there is no such rule for one of `rules`
   void remove(const std::vector<PairRule>& rules);
 
  private:

@@ -11,16 +11,17 @@
 
 namespace hgrid {
 
-/// The result of a query: it hit a body (hit), it surely hits no body in its scope (clear), or neither is known.
+/// The result of a query. hit: the query hit a body. clear: it surely hits no body in its scope. unknown: neither is
+/// known.
 enum class Verdict : std::uint8_t { unknown = 0, clear = 1, hit = 2 };
 
-/// Why a verdict is unknown. The numbers are stable: interfaces outside the library send them.
+/// Why a verdict is unknown. Do not change the numbers: messages contain them.
 enum class Unknown : std::uint8_t {
   no = 0,          ///< the verdict is not unknown
   refused = 1,     ///< the query is not valid; the library throws a Refusal instead of returning this
-  incomplete = 2,  ///< an unknown body of an incomplete source may be there, or a known body can be anywhere
-  stale_body = 3,  ///< a body may have moved there since its last known pose
-  outdated = 4,    ///< the snapshot is too old; only callers that check its age set this
+  incomplete = 2,  ///< an unknown body of an incomplete source may be a hit, or a known body can be anywhere
+  stale_body = 3,  ///< a body may have moved since its last known pose, and may now be a hit
+  outdated = 4,    ///< the snapshot is too old; the library never returns this, but callers that check the age set it
   unmapped = 5,    ///< no map knows the space to be free, and SceneOptions::report_unmapped is set
   budget = 6,      ///< QueryScope::deadline passed before the query had examined everything
 };
@@ -35,15 +36,18 @@ struct QueryHit {
   /// [m] Distance from the surface of the query to the box of the body, or to its shape if the query is exact. 0 if
   /// they overlap.
   double distance = 0.0;
-  /// [m] Equal to `distance` if the two are apart, otherwise -depth. For a sphere or point and a shape: the distance of
-  /// the shape from the center, minus the radius.
+  /// [m] Equal to `distance` if the two are apart, otherwise -depth. If the query is a sphere or a point, it is the
+  /// signed distance of its center from the box or shape, minus the radius.
   double signed_distance = kUnknown;
   /// [m] Penetration depth, >= 0: a move of this length separates the query from the box, shape or cell of this hit. A
-  /// mesh, or a body with other shapes that are penetrated deeper, may need a longer move. NaN if the two are apart.
-  /// NaN also if the depth is unknown: inside a mesh, if the axis of a segment touches the box, for the cell that a
-  /// segment touches, and if the narrow phase returns none. The depth of two boxes is always known.
+  /// mesh, or a body with other shapes that are penetrated deeper, may need a longer move. The depth of two boxes is
+  /// always known. The depth is NaN in these cases:
+  /// - The two are apart.
+  /// - The query is inside a mesh, or the narrow phase returns no depth.
+  /// - The axis of a segment touches the box, or the hit is a cell that a segment touches.
   double depth = kUnknown;
-  /// [m] Distance from the center of the query, or from the axis of a segment. Between two bodies: `distance`.
+  /// [m] Distance of the box or shape from the center of the query, or from the axis of a segment. In nearest() to a
+  /// body, it is equal to `distance`.
   double center_distance = 0.0;
   /// [m] Segment only: how far along the segment its sphere first touches the body. A segment may enter an open mesh
   /// without touching it; then `along` is not larger than where the segment reaches the surface.

@@ -26,13 +26,13 @@ struct QueryScope {
   /// switched off by the pair filter: they are neither hits nor reasons for UNKNOWN.
   std::uint32_t respect_allowed = Structure::kNone;
   /// When the query stops. It then returns the hits found so far. Without a hit, the verdict is unknown
-  /// (Unknown::budget). The query may end later by the time that it needs for one shape. Nullopt: no deadline.
+  /// (Unknown::budget). A query that is measuring a shape at this time first completes the shape. Nullopt: no deadline.
   std::optional<std::chrono::steady_clock::time_point> deadline = std::nullopt;
 };
 
 /// Returns whether a body is in the scope of a query.
 bool inScope(const Snapshot& snapshot, const QueryScope& scope, std::uint32_t body);
-/// Returns whether a gap may hide a body that is in the scope of a query.
+/// Returns whether a missing body of a source gap may be in the scope of a query.
 bool inScope(const Snapshot& snapshot, const QueryScope& scope, const SourceGap& gap);
 
 }  // namespace hgrid

@@ -19,8 +19,8 @@ struct SceneOptions {
   double finest_edge = 0.0;    ///< [m] GridScale::finest_edge, 1e-6 .. 1e3; 0: computed from the sizes of the bodies
   double world_limit = 1e6;    ///< [m] poses with a larger coordinate on any axis are refused; at most 1e6
   double growth_cap = 1.0;     ///< [m] largest growth of the margins of a stale body, 0 .. 1e3
-  double growth_after = 0.25;  ///< [s] the margins of a body with an older pose grow, whatever its state is
-  std::size_t max_bodies = 100000;  ///< bodies that the scene can hold
+  double growth_after = 0.25;  ///< [s] if the pose of a body is older than this, its margins grow in every state
+  std::size_t max_bodies = 100000;  ///< largest number of bodies in the scene
   /// Maximum number of pairs that a snapshot lists; 0: no limit. It also bounds the work and the memory of a tick: the
   /// search collects at most 4 times as many pairs of boxes, or 65536 if that is more. Snapshot::truncated() tells
   /// whether a limit was reached.
@@ -32,12 +32,13 @@ struct SceneOptions {
   double horizon = 0.0;
   /// Margins of single pairs, 0 .. 1e3 [m]. A value below `margin` is replaced by `margin`.
   std::vector<PairMargin> pair_margins;
-  /// If true, a query answers CLEAR only if one of the maps in its scope knows the space to be free, otherwise UNKNOWN.
+  /// If true, a query without a hit answers CLEAR only if a map in its scope knows the space to be free. If no map
+  /// does, the query answers UNKNOWN.
   bool report_unmapped = false;
   /// Globs over names of required bodies. If no body matches one of them, the world is incomplete.
   std::vector<std::string> required;
   PairKinds pair_kinds;                 ///< which kinds of pair exist at all
-  std::vector<PairRule> allowed_pairs;  ///< rules until setRules() replaces them
+  std::vector<PairRule> allowed_pairs;  ///< rules at the start; setRules() replaces them
 };
 
 /// Rules, and the pair filter that they make for the bodies of a structure. It takes long to make a filter of many
@@ -49,9 +50,9 @@ struct PreparedRules {
 
 /// Durations of the three parts of a commit.
 struct TickTimes {
-  std::chrono::nanoseconds boxes{0};  ///< computes the boxes of the bodies
-  std::chrono::nanoseconds grid{0};   ///< updates the grid and searches it for overlapping boxes
-  std::chrono::nanoseconds pairs{0};  ///< selects the pairs and does everything else
+  std::chrono::nanoseconds boxes{0};  ///< time to compute the boxes of the bodies
+  std::chrono::nanoseconds grid{0};   ///< time to update the grid and to find overlapping boxes in it
+  std::chrono::nanoseconds pairs{0};  ///< time to select the pairs and to do everything else
 };
 
 /// Holds the bodies of the world and their poses, and makes snapshots of them.
@@ -61,55 +62,58 @@ struct TickTimes {
 ///
 /// Usage in each tick: call add(), remove(), place() and setState() for everything that changed, then commit().
 ///
-/// Wrong input throws Refusal, as everywhere in the core except the broad phase. A call that throws changes nothing,
-/// even if memory ran out. After a commit() that threw, the next commit() makes the same snapshot as if the failed call
-/// had never happened: numbers have no gap, and no pair and no event is lost.
+/// Wrong input throws Refusal. A call that throws changes nothing, even if memory ran out. After a commit() that threw,
+/// the next commit() makes the same snapshot as if the failed call had never happened: no number is skipped, and no
+/// pair and no event is lost.
 class Scene {
  public:
-  /// @throws Refusal out_of_range with the name of the option
+  /// @throws Refusal out_of_range if an option is out of range; its sentence names the option
   explicit Scene(const SceneOptions& options);
   ~Scene();
   /// Takes over the content of another scene, which may then only be destroyed.
   Scene(Scene&&) noexcept;
 
   /// Adds a body. It is unplaced until place() is called.
-  /// @throws Refusal dup_id or bad_id for the name; limit if there are too many bodies; out_of_range or nonfinite for
-  /// a pose, padding, margin or speed
+  /// @throws Refusal dup_id or bad_id for the name
+  /// @throws Refusal limit if there are too many bodies
+  /// @throws Refusal out_of_range or nonfinite for a pose, padding, margin or speed
   BodyId add(Body body);
   /// Removes a body. @throws Refusal unknown_id if the handle is not valid (any more)
   void remove(BodyId id);
   /// Removes the bodies `out` and adds the bodies `in`. Does all of this or, if it throws, nothing. An added body may
   /// have the name of a removed one.
   /// @returns the handles of the added bodies, in the order of `in`
-  /// @throws Refusal unknown_id for a handle; dup_id if a handle occurs twice; otherwise as add() does
+  /// @throws Refusal unknown_id for a handle, dup_id if a handle occurs twice, or any Refusal of add()
   std::vector<BodyId> exchange(const std::vector<BodyId>& out, std::vector<Body> in);
   /// Sets `id` to the handle of the body with this name. @returns whether there is such a body
   bool find(const std::string& name, BodyId& id) const;
   /// Returns the description of a body.
-  /// @throws Refusal unknown_id
+  /// @throws Refusal unknown_id if the handle is not valid
   const Body& body(BodyId id) const;
   /// Returns the number of bodies.
   std::size_t size() const;
 
   /// Sets the pose of a body and the stamp of this pose. The first pose makes the body fresh. Later poses do not change
   /// its state.
-  /// @throws Refusal unknown_id for the handle; nonfinite or out_of_range for the pose
+  /// @throws Refusal unknown_id if the handle is not valid; nonfinite or out_of_range if the pose is not valid
   void place(BodyId id, const Pose& world_from_body, Time stamp);
   /// Throws what place() would throw for the same arguments, and changes nothing.
   void checkPlace(BodyId id, const Pose& world_from_body) const;
   /// Sets how far the pose of a body can be trusted. `age` is in seconds; `cohort` is BodyPose::cohort. Does nothing
-  /// for a body that has no pose. For a body that has one, `unplaced` counts as `invalid`.
-  /// @throws Refusal unknown_id
+  /// for a body that has no pose. For a body that has a pose, `unplaced` counts as `invalid`.
+  /// @throws Refusal unknown_id if the handle is not valid
   void setState(BodyId id, Freshness state, double age, std::uint32_t cohort = 0);
-  /// Returns the last known pose of a body. @throws Refusal unknown_id
+  /// Returns the last known pose of a body. @throws Refusal unknown_id if the handle is not valid
   const BodyPose& poseOf(BodyId id) const;
 
-  /// Sets the occupied cells of a map or cloud. They count from the next commit on. The structure does not change.
-  /// @throws Refusal unknown_id for the handle; bad_geometry if the body cannot have cells or `cells` is null
+  /// Sets the occupied cells of a map or cloud. The next commit is the first to use the new cells. The structure does
+  /// not change.
+  /// @throws Refusal unknown_id if the handle is not valid
+  /// @throws Refusal bad_geometry if the body cannot have cells or `cells` is null
   void setCells(BodyId id, std::shared_ptr<const MapCells> cells);
 
-  /// Replaces all rules of the allowed collision matrix. They count from the next commit on. If two equally exact rules
-  /// match a pair, the later one decides.
+  /// Replaces all rules of the allowed collision matrix. The next commit is the first to use the new rules. If two
+  /// equally exact rules match a pair, the later one decides.
   void setRules(std::vector<PairRule> rules);
   /// As above, with the rules of the filter in `prepared`. The next commit uses this filter, unless bodies changed
   /// since.

@@ -26,7 +26,7 @@ class Snapshot {
   const Structure& structure() const { return *structure_; }
   /// Time of the tick.
   Time stamp() const { return stamp_; }
-  /// Number of the tick in its epoch; the first one has number 1.
+  /// Number of the tick in its epoch. The first tick of an epoch has the number 1.
   std::uint64_t sequence() const { return sequence_; }
   /// Number of the epoch, as passed to Scene::beginEpoch().
   std::uint64_t epoch() const { return epoch_; }
@@ -41,19 +41,19 @@ class Snapshot {
   /// The occupied cells of a body; null if the body is no map or cloud, or while its cells are not known.
   std::shared_ptr<const MapCells> cellsOf(std::uint32_t body) const;
   /// Returns the gap [m] of two bodies: the least distance of their boxes. It is infinite if it exceeds `up_to` or a
-  /// body has no boxes. The boxes of a map are its occupied cells. They are compared, in the map's frame, with the box
-  /// around the other body's box.
+  /// body has no boxes. The boxes of a map are its occupied cells. For a pair with a map, each box of the other body is
+  /// replaced by a box around it whose sides are parallel to the axes of the map.
   double gapOf(std::uint32_t first, std::uint32_t second, double up_to = std::numeric_limits<double>::infinity()) const;
-  /// The pairs, sorted by (first, second). If truncated(), some are missing: of the pairs that the search collected,
-  /// this lists those with the smallest gaps. Of pairs with equal gaps, it lists the first by name.
+  /// The pairs, sorted by (first, second). If truncated(), some pairs are missing. Then this lists the pairs with the
+  /// smallest gaps among the pairs that the search collected. Among equal gaps, the names decide.
   const std::vector<NearPair>& pairs() const { return pairs_; }
   /// Whether pairs() may lack some pairs, because of SceneOptions::max_pairs. Queries miss nothing in this case.
   bool truncated() const { return searchCut() || pairs_found_ > pairs_.size(); }
-  /// Whether the search for pairs stopped at its limit. Otherwise it found all pairs.
+  /// Whether the search for pairs stopped at its limit. If not, the search found all pairs.
   bool searchCut() const { return search_cut_; }
-  /// Number of pairs that the search found. If searchCut(), there may be more.
+  /// Number of pairs that the search found. If searchCut(), there may be more pairs.
   std::uint64_t pairsFound() const { return pairs_found_; }
-  /// Events since the previous snapshot, sorted by number: first the pairs that ended, then those that began.
+  /// Events since the previous snapshot, sorted by number: first the END events, then the BEGIN events.
   const std::vector<PairEvent>& events() const { return events_.events; }
   /// Number of the newest event of the epoch; 0: there was none.
   std::uint64_t lastEvent() const { return events_.last; }
@@ -77,7 +77,7 @@ class Snapshot {
   /// What the sources lack, apart from problems of single bodies: the gaps passed to Scene::commit(), then the absent
   /// required bodies.
   const std::vector<SourceGap>& gaps() const { return gaps_; }
-  /// Whether one of gaps() is about exactly the body of this name.
+  /// Whether one of gaps() names exactly this body as missing, not a glob.
   bool hasGap(const std::string& body) const;
   /// Indices of the bodies that are stale or worse, that may have moved since their pose, or that are not covered;
   /// ascending.
@@ -87,7 +87,7 @@ class Snapshot {
   /// Why the world is not complete: first the gaps(), then single bodies, the worst state first. At most
   /// SceneOptions::max_reasons reasons.
   const std::vector<std::string>& reasons() const { return reasons_; }
-  /// Number of reasons why the world is not complete, including those that reasons() does not list.
+  /// Number of reasons why the world is not complete, including the reasons that reasons() does not list.
   std::uint32_t reasonsTotal() const { return reasons_total_; }
   /// The worst state of any body.
   Freshness worstState() const { return worst_state_; }
@@ -108,7 +108,8 @@ class Snapshot {
 
   std::shared_ptr<const Structure> structure_;
   Time stamp_{0};
-  std::uint64_t sequence_ = 0, epoch_ = 0, commit_ = 0;  // commit_ counts on in a new epoch, unlike sequence_
+  // commit_ is the number of the commit. Unlike sequence_, it does not start again from 1 in a new epoch.
+  std::uint64_t sequence_ = 0, epoch_ = 0, commit_ = 0;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   std::vector<BodyPose> poses_;
   std::vector<Aabb> boxes_;

@@ -30,7 +30,7 @@ struct Structure {
   double least_margin = 0.0;                 ///< [m] the global margin
   PairMargins pair_margins;                  ///< margins that are configured for single pairs
   PairFilter filter;                         ///< decides which pairs are reported
-  bool silenced = false;                     ///< true: rules switch off every pair that would be reported without them
+  bool silenced = false;                     ///< whether rules switch off every pair that is reported without rules
 
   /// Returns whether the body is a map or a cloud, which has cells instead of shapes.
   bool isMap(std::uint32_t body) const { return hasCells(bodies[body].kind); }

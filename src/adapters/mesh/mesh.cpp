@@ -69,14 +69,15 @@ class Reader {
 
   ~Reader() {
     close(output_);
-    kill(process_, SIGKILL);  // safe: its output was read completely, or is not needed any more
+    kill(process_, SIGKILL);  // the output of the process was read completely, or is not needed any more
     while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
     }
   }
 
   /// Fills the buffer with output of the helper.
-  /// @throws Refusal with code budget after the deadline, busy if reading was canceled, truncated if the helper ends
-  /// too early
+  /// @throws Refusal budget after the deadline
+  /// @throws Refusal busy if reading was canceled
+  /// @throws Refusal truncated if the helper ends too early
   void read(void* buffer, std::size_t bytes) {
     auto* at = static_cast<char*>(buffer);
     while (bytes > 0) {

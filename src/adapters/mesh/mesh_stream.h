@@ -15,8 +15,8 @@ struct StreamHeader {
   static constexpr std::uint64_t kRefusal = 0x31304c4941464748;  // "HGFAIL01"
 
   std::uint64_t kind = 0;
-  std::uint32_t vertices = 0;   // kRefusal: the number of the Code
-  std::uint32_t triangles = 0;  // kRefusal: [bytes] length of the sentence
+  std::uint32_t vertices = 0;   // number of vertices; if `kind` is kRefusal: the number of the Code
+  std::uint32_t triangles = 0;  // number of triangles; if `kind` is kRefusal: [bytes] length of the sentence
 };
 
 }  // namespace hgrid

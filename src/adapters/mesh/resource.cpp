@@ -37,8 +37,8 @@ bool startsWith(const std::string& text, const char* prefix) {
   return text.compare(0, std::strlen(prefix), prefix) == 0;
 }
 
-/// Whether the ".." parts of a relative path lead out of the folder where the path starts. It does not look at the
-/// disk.
+/// Whether the ".." parts of a relative path lead out of the folder where the path starts. This function looks only at
+/// the text of the path, not at the disk.
 bool leadsOut(const std::string& relative) {
   int depth = 0;
   for (std::size_t begin = 0; begin < relative.size();) {
@@ -102,8 +102,8 @@ OpenResource::OpenResource(OpenResource&& other) noexcept
 
 OpenResource openResource(const std::string& uri, const ResourcePolicy& policy) {
   const Place place = placeOf(uri, policy);
-  // O_PATH finds the file without opening it, so it touches no device and waits for no FIFO. After the checks, the same
-  // file is opened through /proc, even if its name was changed in the meantime.
+  // O_PATH finds the file without opening it. So this call touches no device and waits for no FIFO. After the checks,
+  // the file is opened through /proc. This opens the checked file, even if its name was changed in the meantime.
   const OpenResource looked(open(place.path.c_str(), O_PATH | O_CLOEXEC), place.path, 0);
   if (looked.fd() < 0) {
     throw Refusal(Code::resource_missing,

@@ -20,17 +20,17 @@ namespace {
 
 constexpr double kLeastResolution = 1e-3, kGreatestResolution = 100.0;  // [m] accepted range
 
-/// The voxels that touch an interval along one axis. Such a voxel ends at key `first` or later and begins at key `last`
-/// or before.
+/// An interval along one axis, in keys.
 struct KeyRange {
-  int first = 0, last = 0;
+  int first = 0;  // least key that is not below the interval
+  int last = 0;   // greatest key that is not above the interval
 
-  /// Whether a voxel touches the interval. It begins at `key` and is `along` keys long.
+  /// Whether a voxel touches the interval. The voxel begins at `key` and is `along` keys long.
   bool touches(int key, int along) const { return key + along >= first && key <= last; }
 };
 
-/// Returns how many of the keys 0 .. 65536 have a coordinate for which `holds` is true. If it is true for a coordinate,
-/// it must be true for all smaller ones.
+/// Returns how many of the keys 0 .. 65536 have a coordinate for which `holds` is true. If `holds` is true for a
+/// coordinate, it must be true for all smaller coordinates.
 template <class Holds>
 int keysWith(double resolution, Holds&& holds) {
   int low = 0, high = (1 << Voxel::kLevels) + 1;
@@ -45,14 +45,14 @@ int keysWith(double resolution, Holds&& holds) {
   return low;
 }
 
-/// Returns the voxels that touch the interval min .. max [m]. It searches instead of dividing, so the keys are rounded
-/// exactly as the corners of voxels are.
+/// Converts the interval min .. max [m] to keys. Searches the keys instead of dividing by the resolution. So the keys
+/// are rounded exactly like the corners of voxels.
 KeyRange keysTouching(double min, double max, double resolution) {
   return {keysWith(resolution, [&](double coordinate) { return coordinate < min; }),
           keysWith(resolution, [&](double coordinate) { return coordinate <= max; }) - 1};
 }
 
-/// Receives the nodes and leaves of a tree. It counts them and stores the leaves that the options select.
+/// Receives the nodes and leaves of a tree. Counts both and stores the leaves that the options select.
 class Leaves {
  public:
   Leaves(const OctomapOptions& options, double resolution, const std::string& what) : options_(options), what_(what) {
@@ -104,7 +104,7 @@ class Leaves {
 
   [[noreturn]] void refuse(const char* things, std::uint64_t most) const {
     throw Refusal(Code::limit,
-                  what_ + " has more than " + std::to_string(most) + " " + things + ", which is the limit");
+                  what_ + " has more than " + std::to_string(most) + " " + things + "; use a map with at most so many");
   }
 
   const OctomapOptions& options_;
@@ -152,7 +152,7 @@ auto withinMemory(const std::string& what, Read&& read) {
   try {
     return read();
   } catch (const std::bad_alloc&) {
-    throw Refusal(Code::limit, what + " does not fit into the memory that is left");
+    throw Refusal(Code::limit, what + " does not fit into the memory that is left; use a smaller map or free memory");
   }
 }
 

@@ -16,13 +16,13 @@ constexpr std::size_t kLongestLine = 1024;
 constexpr std::string_view kSpace = " \t\r";
 constexpr std::string_view kBinaryMagic = "# Octomap OcTree binary file";
 constexpr std::string_view kFullMagic = "# Octomap OcTree file";
-constexpr std::string_view kLegacyMagic("\3\0\0\0", 4);  // OctoMap before 1.0: the tree type as an int
+constexpr std::string_view kLegacyMagic("\3\0\0\0", 4);  // OctoMap before 1.0 stored the tree type as an int
 
 bool startsWith(std::string_view text, std::string_view beginning) {
   return text.substr(0, beginning.size()) == beginning;
 }
 
-/// Returns the text without white space at both ends. This includes the \r of a line that ends with CRLF.
+/// Returns the text without white space at both ends. Also removes the \r of a line that ends with CRLF.
 std::string_view trimmed(std::string_view text) {
   const std::size_t begin = std::min(text.find_first_not_of(kSpace), text.size());
   return text.substr(begin, text.find_last_not_of(kSpace) + 1 - begin);
@@ -70,8 +70,8 @@ class HeaderReader {
     const std::string_view rest = file_.substr(at_, kLongestLine + 1);
     const std::size_t end = rest.find('\n');
     if (end == std::string_view::npos && rest.size() > kLongestLine) {
-      refuse(Code::limit, " has a header line '" + shown(rest) + "' of more than " + std::to_string(kLongestLine) +
-                              " bytes, which is the limit");
+      refuse(Code::limit, " has a header line '" + shown(rest) + "' that is too long; at most " +
+                              std::to_string(kLongestLine) + " bytes are allowed");
     }
     if (end == std::string_view::npos) {
       refuse(Code::truncated,
@@ -81,7 +81,8 @@ class HeaderReader {
     return trimmed(rest.substr(0, end));
   }
 
-  /// Reads the keywords id, size and res. Ignores comments and unknown keywords, since a newer OctoMap may add some.
+  /// Reads the keywords id, size and res. Ignores comments and unknown keywords, because a newer OctoMap may add
+  /// keywords.
   void readLine(std::string_view line) {
     const std::string_view key = line.substr(0, line.find_first_of(kSpace));
     const std::string_view value = trimmed(line.substr(key.size()));

@@ -19,8 +19,10 @@ struct OctomapHeader {
 };
 
 /// Reads the header of a `.bt` or `.ot` file.
-/// @throws Refusal with code truncated, parse, unsupported (another kind of file), limit (a line of more than 1024
-/// bytes)
+/// @throws Refusal truncated if the file ends within the header
+/// @throws Refusal parse if the header is not valid
+/// @throws Refusal unsupported for the binary header of OctoMap before 1.0
+/// @throws Refusal limit if a line has more than 1024 bytes
 OctomapHeader readOctomapHeader(std::string_view file, const std::string& what);
 
 }  // namespace hgrid

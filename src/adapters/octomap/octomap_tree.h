@@ -14,16 +14,18 @@
 
 namespace hgrid {
 
-/// The content of an octant. The first four numbers are the two-bit values in a `.bt` file.
+/// The content of an octant, that is, of one of the eight parts of a cube. The first four numbers are the two-bit
+/// values in a `.bt` file.
 enum class Octant : std::uint8_t { unknown = 0, free = 1, occupied = 2, node = 3, nan = 4 };
 
 /// A node as it was read. A node without children is a leaf.
 struct OctreeNode {
-  std::uint16_t children;  ///< an Octant of two bits for each child, the first child lowest; 0: no children
-  Octant leaf;             ///< content of the leaf, if there are no children
+  std::uint16_t
+      children;  ///< two bits for each child: its Octant; the first child is in the lowest bits; 0: no children
+  Octant leaf;   ///< content of the leaf, if there are no children
 };
 
-/// The bytes of the nodes, with the position of the next byte to read.
+/// The bytes of the nodes, with the index of the next byte to read.
 class NodeBytes {
  public:
   NodeBytes(std::string_view data, const std::string& what) : data_(data), what_(what) {}
@@ -58,7 +60,7 @@ class BinaryNodes : public NodeBytes {
 
   OctreeNode next() {
     const unsigned char* bytes = take(2);
-    const Octant leaf = is_root_ ? Octant::occupied : Octant::free;  // as OctoMap treats a node without children
+    const Octant leaf = is_root_ ? Octant::occupied : Octant::free;  // OctoMap treats a node without children like this
     is_root_ = false;
     return {static_cast<std::uint16_t>(bytes[0] | bytes[1] << 8), leaf};
   }
@@ -84,7 +86,7 @@ class FullNodes : public NodeBytes {
   }
 
  private:
-  /// Returns two bits for each child: Octant::node for each bit that is set, else Octant::unknown.
+  /// Returns two bits for each child: Octant::node if the bit of the child is set, otherwise Octant::unknown.
   static std::uint16_t allNodes(unsigned bits) {
     bits = (bits | bits << 4) & 0x0f0f;
     bits = (bits | bits << 2) & 0x3333;
@@ -105,20 +107,21 @@ class FullNodes : public NodeBytes {
 
 constexpr Voxel kWhole{0, 0, 0, Voxel::kLevels};  ///< the root of the octree: the whole map
 
-/// Returns how many of the bits 0, 2, .. 14 are set. No other bit may be set. The compiler's builtin would call a
-/// function.
+/// Returns how many of the bits 0, 2, .. 14 are set. No other bit may be set. It is used instead of the builtin of the
+/// compiler, because the builtin would call a function.
 inline unsigned bitsIn(unsigned bits) {
   bits = (bits & 0x3333) + (bits >> 2 & 0x3333);
   bits += bits >> 4;
   return ((bits & 0x0f0f) + (bits >> 8)) & 0x0f;
 }
 
-/// Reads all nodes and passes them to `leaves`. They are stored depth first, which is Morton order.
+/// Reads all nodes and calls functions of `leaves` for them. The nodes are stored depth first, which is Morton order.
 ///
 /// - count(nodes, free) receives how many more nodes and how many more free leaves were read.
-/// - add(cube, octant) receives each leaf, in order. Free leaves are passed only if wantsFree() is true. Octants
-///   without a leaf are passed, as unknown, only if wantsUnknown() is true.
-/// @throws Refusal with code parse for a node below a cube of level 0; also everything that `nodes` and `leaves` throw
+/// - add(cube, octant) receives each leaf, in order. It receives free leaves only if wantsFree() is true. It receives
+///   octants without a leaf, as Octant::unknown, only if wantsUnknown() is true.
+/// @throws Refusal with code parse for a node below a cube of level 0
+/// @throws everything that `nodes` and `leaves` throw
 template <class Nodes, class Leaves>
 void readTree(Nodes& nodes, Leaves& leaves, const std::string& what) {
   struct Inner {
@@ -140,7 +143,7 @@ void readTree(Nodes& nodes, Leaves& leaves, const std::string& what) {
     }
     if (cube.level == 0) {
       throw Refusal(Code::parse, what + " has nodes deeper than " + std::to_string(Voxel::kLevels) +
-                                     " levels, which is the depth of an OctoMap");
+                                     " levels; an OctoMap must not have more levels");
     }
     const unsigned low = node.children & kEach, high = node.children >> 1 & kEach;
     const unsigned free = low & ~high, unknown = kEach & ~(low | high);

@@ -18,7 +18,8 @@ namespace {
 
 /// Keeps the first error that urdfdom reports during the lifetime of this object, so that it is not printed.
 ///
-/// urdfdom reports errors to a global log with a single handler. So a lock allows only one object at a time.
+/// urdfdom reports errors to a global log that has a single handler. So a lock allows only one object of this class at
+/// a time.
 class UrdfdomErrors : private console_bridge::OutputHandler {
  public:
   UrdfdomErrors() : lock_(mutex()) { console_bridge::useOutputHandler(this); }
@@ -64,15 +65,15 @@ std::string asCollision(const tinyxml2::XMLElement& element) {
   return printed(document);
 }
 
-/// Reads one <collision> or <visual> with urdfdom, as the only element of a separate robot. This detects elements that
-/// urdfdom drops silently. It also keeps a broken element from affecting the other elements of the link.
+/// Reads one <collision> or <visual> with urdfdom, as the only element of a separate robot. So this function detects
+/// elements that urdfdom drops silently, and a broken element does not affect the other elements of the link.
 urdf::CollisionSharedPtr parseShape(const tinyxml2::XMLElement& element, const std::string& what) {
   const tinyxml2::XMLElement* geometry = element.FirstChildElement("geometry");
   const std::string shown = printable(printed(element), 200);
   const tinyxml2::XMLElement* shape = geometry == nullptr ? nullptr : geometry->FirstChildElement();
   if (shape == nullptr || shape->NextSiblingElement() != nullptr ||
       geometry->NextSiblingElement("geometry") != nullptr) {
-    throw Refusal(Code::parse, what + " is " + shown + "; it must have one <geometry> that contains one shape");
+    throw Refusal(Code::parse, what + " reads '" + shown + "'; it must contain one <geometry> with one shape");
   }
   const UrdfdomErrors errors;
   const auto robot = urdf::parseURDF("<robot name=\"r\"><link name=\"l\">" + asCollision(element) + "</link></robot>");
@@ -133,7 +134,8 @@ bool readShapes(const tinyxml2::XMLElement& element, const char* tag, RobotLink&
   return number > 0;
 }
 
-/// Refuses too many links or joints. urdfdom needs seconds for a hundred thousand of them, so it must not see them.
+/// Refuses too many links or joints. This check comes before urdfdom, because urdfdom needs seconds for a hundred
+/// thousand links or joints.
 void checkCounts(const tinyxml2::XMLElement& robot, const DescriptionLimits& limits) {
   for (const char* tag : {"link", "joint"}) {
     std::size_t count = 0;
@@ -144,8 +146,8 @@ void checkCounts(const tinyxml2::XMLElement& robot, const DescriptionLimits& lim
   }
 }
 
-/// Throws a Refusal that names the joint that urdfdom cannot read. The error text of urdfdom does not always name it,
-/// so this function reads each joint separately.
+/// Throws a Refusal that names the joint that urdfdom cannot read. The error text of urdfdom does not always name the
+/// joint, so this function reads each joint separately.
 [[noreturn]] void nameUnreadableJoint(const tinyxml2::XMLElement& robot) {
   for (auto* joint = robot.FirstChildElement("joint"); joint != nullptr; joint = joint->NextSiblingElement("joint")) {
     tinyxml2::XMLDocument alone;
@@ -165,7 +167,7 @@ void checkCounts(const tinyxml2::XMLElement& robot, const DescriptionLimits& lim
   throw Refusal(Code::parse, "the URDF's links and joints cannot be read");
 }
 
-/// Reads the links and joints of the robot with urdfdom. All other elements are left out before.
+/// Reads the links and joints of the robot with urdfdom. urdfdom gets a copy of the robot without all other elements.
 urdf::ModelInterfaceSharedPtr parseTree(const tinyxml2::XMLElement& robot) {
   const UrdfdomErrors errors;
   tinyxml2::XMLDocument bare;

@@ -14,7 +14,7 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& sentence) { throw Refusal(Code::parse, sentence); }
 
-/// Returns the name of a link or joint. @throws Refusal with code parse if it has none
+/// Returns the name of a link or joint. @throws Refusal with code parse if the element has no name
 std::string nameOf(const tinyxml2::XMLElement& element) {
   const char* name = element.Attribute("name");
   if (name == nullptr || *name == '\0') {

@@ -7,13 +7,14 @@
 namespace hgrid {
 namespace {
 
-/// Returns the position after the next `end`, searched from position `at`; the length of the text if there is none.
+/// Searches the text `end` from index `at` on. Returns the index after `end`, or the length of the text if there is no
+/// `end`.
 std::size_t after(const std::string& xml, const char* end, std::size_t at) {
   const std::size_t found = xml.find(end, at);
   return found == std::string::npos ? xml.size() : found + std::strlen(end);
 }
 
-/// Returns the position after the tag that begins at position `at`. Quoted attributes may contain '>'.
+/// Returns the index after the tag that begins at index `at`. Quoted attributes may contain '>'.
 std::size_t afterTag(const std::string& xml, std::size_t at) {
   char quote = 0;
   for (; at < xml.size(); ++at) {
@@ -29,7 +30,8 @@ std::size_t afterTag(const std::string& xml, std::size_t at) {
   return at;
 }
 
-/// Rejects text that is nested too deeply or has a DOCTYPE. It does not use a parser, since parsers are recursive.
+/// Rejects text that is nested too deeply or has a DOCTYPE. This function uses no parser, because parsers are
+/// recursive.
 void scan(const std::string& xml, const DescriptionLimits& limits, const std::string& what) {
   std::size_t depth = 0;
   for (std::size_t at = xml.find('<'); at < xml.size(); at = xml.find('<', at)) {

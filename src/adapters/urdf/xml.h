@@ -10,9 +10,9 @@
 
 namespace hgrid {
 
-/// Checks the text like checkXml() and parses it into `document`. Returns the root element, which must have the name
-/// `root`.
-/// @throws Refusal as checkXml(); parse if the root element has another name
+/// Checks the text like checkXml() and parses the text into `document`. Returns the root element.
+/// @param root  the name that the root element must have
+/// @throws Refusal in the same cases as checkXml()
 const tinyxml2::XMLElement& parseXml(const std::string& xml, const DescriptionLimits& limits, const std::string& what,
                                      const char* root, tinyxml2::XMLDocument& document);
 

@@ -11,9 +11,9 @@ namespace {
 
 using Vector = std::array<double, 3>;
 
-// Costs [ns], measured on one machine; only their ratios matter.
+// Costs [ns] in the estimates below. They were measured on one machine. Only their ratios matter.
 constexpr double kPerBox = 4.0, kPerRow = 3.0, kPerAskedRow = 6.0, kPerTest = 3.0, kPerCell = 0.15;
-constexpr double kLanes = 8.0;  // boxes per test; the same for all instruction sets, so that plans do not differ
+constexpr double kLanes = 8.0;  // boxes per test; one value for all instruction sets, so that all make the same plan
 constexpr double kMostCellsPerBox = 1.0;  // must be an integer for CellPlan::mostCells()
 
 /// Statistics of the boxes of one size class, or of several size classes together.
@@ -31,8 +31,9 @@ struct Census {
   double mean(std::size_t axis) const { return total[axis] / boxes; }
 };
 
-/// The part of space that contains the minimum corners of nearly all boxes [m]. Rows of cells lie along axes[0], the
-/// rows of a slab follow each other along axes[1], and slabs follow each other along axes[2].
+/// The window: the part of space [m] that is divided into cells. It contains the minimum corners of nearly all boxes.
+/// Rows of cells lie along axes[0]. Rows that follow each other along axes[1] form a slab. Slabs follow each other
+/// along axes[2].
 struct Window {
   Vector low{}, high{};
   std::array<std::size_t, 3> axes{0, 1, 2};
@@ -41,7 +42,7 @@ struct Window {
   double mostCells(double boxes) const { return kMostCellsPerBox * boxes + spare_cells; }
 };
 
-/// The cells of a level: their edge [m] and number per axis, and the estimated cost [ns] to find the level's pairs.
+/// The cells of a level: edge [m] and count for each axis, and the estimated cost [ns] to find the level's pairs.
 struct Cells {
   Vector edge{};
   std::array<double, 3> count{};
@@ -50,8 +51,9 @@ struct Cells {
 
 double cellsAlong(double length, double edge) { return std::floor(length / edge) + 1.0; }
 
-/// Plans the cells of a level and estimates the cost to find its pairs. `across` [m] is the edge of a cell on the two
-/// axes across the rows. Along the rows, cells are shorter, because a range of cells can begin at any cell of a row.
+/// Plans the cells of a level and estimates the cost to find its pairs. Along the rows, cells are shorter than
+/// `across`, because a range of cells can begin at any cell of a row.
+/// @param across  [m] edge of a cell on the two axes perpendicular to the rows
 Cells cellsOf(const Census& level, const Window& window, double across) {
   const auto [x, y, z] = window.axes;
   Cells cells;
@@ -60,7 +62,7 @@ Cells cellsOf(const Census& level, const Window& window, double across) {
   cells.count[z] = cellsAlong(window.length(z), across);
   const double rows = cells.count[y] * cells.count[z];
   const double most = window.mostCells(level.boxes);
-  if (rows > most) return cells;  // too many cells: the cost stays infinite
+  if (rows > most) return cells;  // there would be too many cells; the cost remains infinite
   // If fewer than two cells per row are allowed, the edge is longer than the window, so a row has one cell.
   const double along = most / rows - 1.0;
   cells.edge[x] = std::max(across / 12.0, window.length(x) / (along < 1.0 ? 0.5 : along));
@@ -98,7 +100,7 @@ Cells bestCellsOf(const Census& level, const Window& window) {
   return best;
 }
 
-/// Estimates the cost [ns] to find the pairs of the boxes `asking` with those of a coarser level, `asked`.
+/// Estimates the cost [ns] to find the pairs of the boxes `asking` with the boxes `asked` of a coarser level.
 double costOfAsking(const Census& asking, const Census& asked, const Cells& cells, const Window& window) {
   const auto [x, y, z] = window.axes;
   double rows = 1.0;
@@ -111,9 +113,9 @@ double costOfAsking(const Census& asking, const Census& asked, const Cells& cell
   return asking.boxes * (kPerBox + rows * (kPerAskedRow + kPerTest * (1.0 + candidates / kLanes)));
 }
 
-/// Computes the window from a sample of at most 1024 boxes. On each axis, it contains the middle 98 % of the minimum
-/// corners and half of this length beyond each end, but nothing beyond the outermost corner. So one box that is a
-/// million meters away does not make the cells of the others a thousand times too large.
+/// Computes the window from a sample of at most 1024 boxes. On each axis, the window contains the middle 98 % of the
+/// minimum corners, and it extends beyond each end by half of their length. It never extends beyond the outermost
+/// corner. So one box that is a million meters away does not make the cells of the others a thousand times too large.
 Window windowOf(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, const Vector& lower,
                 const Vector& upper) {
   constexpr std::size_t kSample = 1024;
@@ -208,8 +210,9 @@ CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t
     plan.windowed = plan.windowed || window.low[i] > lower[i] || window.high[i] < upper[i];
   }
 
-  // Goes through the size classes from the coarsest to the finest. Each class shares the level of the class before, or
-  // has a level of its own, whose boxes are then tested against the coarser levels. The cheaper way is taken.
+  // Goes through the size classes from the coarsest to the finest. Each class either shares the level of the class
+  // before, or has a level of its own. The boxes of a level of its own are tested against the coarser levels. The
+  // cheaper way is taken.
   std::array<Census, GridScale::kLevels + 1> finer;  // per size class: this class and all finer ones
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     if (i > 0) finer[i] = finer[i - 1];

@@ -15,8 +15,8 @@ namespace hgrid {
 /// Returns the longest of the three sides of a box [m]. It selects the level of the box.
 float longestSide(const Aabb& box);
 
-/// Says how the boxes of a region are divided into levels, and each level into cells. With every plan, searches give
-/// the right answers. With a good plan, they are fast.
+/// Says how the boxes of a region are divided into levels, and each level into cells. Searches give the right answers
+/// with every plan. They are fast with a good plan.
 struct CellPlan {
   static constexpr std::size_t kMostLevels = GridScale::kLevels + 1;
   template <class Value>
@@ -25,16 +25,18 @@ struct CellPlan {
   std::size_t levels = 0;  ///< number of levels
   PerLevel<kernels::Grid> grids{};
   PerLevel<float> sides{};                      ///< [m] longest box side; the last level also holds longer boxes
-  PerLevel<std::uint32_t> first_cells{};        ///< number of the level's first cell, counted through all levels
+  PerLevel<std::uint32_t> first_cells{};        ///< index of the level's first cell among the cells of all levels
   PerLevel<std::array<float, 3>> largest{};     ///< [m] longest box side per axis, when the plan was made
   PerLevel<std::array<float, 3>> mean_sides{};  ///< [m] mean box side per axis, when the plan was made
 
   std::uint32_t cells = 0;                ///< number of cells of all levels
   std::size_t boxes = 0;                  ///< number of boxes that the plan was made for
-  std::array<float, 3> lower{}, upper{};  ///< [m] least and greatest minimum corner of these boxes
-  bool windowed = false;                  ///< some boxes were outside the window, the space that is divided into cells
+  std::array<float, 3> lower{}, upper{};  ///< [m] bounds of the minimum corners of these boxes
+  /// Whether some minimum corners were outside the window. The window is the part of space that is divided into cells.
+  bool windowed = false;
 
-  /// A level has at most this many cells more than boxes. The second limit is for a layer with several regions.
+  /// Largest number of cells that a level can have beyond its number of boxes. kSpareCellsOfRegion is the limit for a
+  /// layer with several regions.
   static constexpr std::size_t kSpareCells = 64, kSpareCellsOfRegion = 16;
 
   /// Returns the largest number of cells that a plan for `count` boxes can have.
@@ -42,14 +44,15 @@ struct CellPlan {
 };
 
 /// Plans levels and cells for the boxes of `count` ids. A cost model estimates the time of a search for all pairs, and
-/// the function selects what is cheapest:
+/// the function selects the cheapest plan:
 ///
-/// - Boxes belong to one size class if their longest sides differ by less than a factor of GridScale::kRatio. Each
-///   class has its own level, or shares one with other classes if two levels with few boxes cost more.
+/// - Boxes are divided into size classes by their longest side. From one class to the next, the largest possible side
+///   grows by the factor GridScale::kRatio. Each class has its own level, or shares a level with other classes if that
+///   costs less.
 /// - The edge of the cells is one of several multiples of the longest box side, from 1 to 10000.
 ///
 /// @param finest_edge  [m] longest box side of the smallest size class
-/// @param even  true for one region of several: the boxes are spread evenly, so the window contains all of them
+/// @param even  true if the boxes are spread evenly, as in one of several regions; then the window contains all boxes
 CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge,
                  bool even = false);
 

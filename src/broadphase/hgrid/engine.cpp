@@ -12,11 +12,11 @@ namespace {
 
 constexpr std::size_t kMostLoose = 64;  // if there are more loose boxes, they join the moving boxes
 
-// Each moving box is searched in two or three layers. If more than a quarter of all boxes moves, it is cheaper to sort
-// all boxes.
+// For each moving box, a search for pairs visits two or three layers. So if more than a quarter of all boxes moves, it
+// is cheaper to sort all boxes.
 constexpr std::size_t kShareOfMoving = 4;
-// If less than half of the moving layer still moves, it is cheaper to sort all boxes if that layer holds more than a
-// seventh of them.
+// If less than half of the moving layer still moves, and the layer holds more than a seventh of all boxes, it is
+// cheaper to sort all boxes.
 constexpr std::size_t kShareOfIdle = 7;
 
 /// Reserves memory for `count` ids. Like push_back(), it at least doubles the capacity.
@@ -100,7 +100,7 @@ void HGrid::Engine::reserveLoose(ProxyId id) {
   members[kLoose].reserve(kMostLoose + 1);
   reserveLayer(kLoose, loose);
   if (!settlesLoose(loose, withdrawn_then, stored_then)) return;
-  const std::size_t moving = members[kMoving].size() + loose;  // at most: some boxes may have been taken out
+  const std::size_t moving = members[kMoving].size() + loose;  // upper limit: some boxes may have been taken out
   makeRoom(members[kMoving], moving);
   reserveLayer(kMoving, moving);
   if (!settlesAll(moving, withdrawn_then, stored_then)) return;
@@ -140,7 +140,8 @@ void HGrid::Engine::putLoose(ProxyId id) {
   sortLayer(kLoose);
 }
 
-/// Turns the loose boxes into moving boxes. Removes boxes from the list of moving boxes that were taken out.
+/// Turns the loose boxes into moving boxes. From the list of moving boxes, removes the boxes that were taken out of the
+/// moving layer.
 void HGrid::Engine::joinLoose() {
   std::vector<ProxyId>& moving = members[kMoving];
   moving.erase(std::remove_if(moving.begin(), moving.end(), [this](ProxyId id) { return layer_of[id] != kMoving; }),
@@ -210,7 +211,7 @@ void HGrid::Engine::sortMoved() {
   if (count > stored / kShareOfMoving || withdrawn + started > stored || wasted > 2.0 * static_cast<double>(stored)) {
     return sortAll();
   }
-  // If few boxes move at a time, but other boxes each time, then most boxes of the moving layer do not move anymore.
+  // If few boxes move at a time, but other boxes each time, most boxes of the moving layer do not move anymore.
   const bool others = 2 * started > moved.size() && moved.size() < count / 2;
   if (others && count > stored / kShareOfIdle) return sortAll();
   if (regroup) makeRoom(moving, count);
@@ -236,7 +237,8 @@ void HGrid::Engine::sortMoved() {
 
 void HGrid::Engine::keepPairs() {
   if (!pairs_wanted.load(std::memory_order_relaxed)) return;
-  // kept_overlaps still counts the overlaps of boxes that have left. If it is large, a new search corrects it.
+  // kept_overlaps still counts the overlaps of boxes that have left their layer. If kept_overlaps is large, a new
+  // search corrects its value.
   if (!kept_valid || (kept_dirty && kept_overlaps > bound.overlaps / 2)) {
     kept_valid = false;
     try {

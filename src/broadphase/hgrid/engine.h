@@ -13,27 +13,27 @@
 
 namespace hgrid {
 
-/// A part of a search for pairs. It is about one of these two:
+/// A part of a search for pairs. There are two kinds of tasks:
 ///
-/// - Positions of one level. Their boxes are tested against the later boxes of this level, or against all boxes of
-///   another level.
-/// - Regions of a layer. Their boxes are tested against each other and against later regions, or against all boxes of
-///   another layer.
+/// - A range of positions (see Layer) of one level. The task tests the boxes at these positions against the later boxes
+///   of this level, or against all boxes of another level.
+/// - A range of regions of a layer. The task tests the boxes in these regions against each other and against later
+///   regions, or against all boxes of another layer.
 struct SearchTask {
   const kernels::Level* asking;  // level of the positions
-  const kernels::Level* asked;   // the other level; null: the level itself
-  std::uint32_t begin, end;      // range of positions or of regions
-  const Layer* layer = nullptr;  // layer of the regions; null: the task is about positions
-  const Layer* other = nullptr;  // the other layer; null: the layer itself
+  const kernels::Level* asked;   // the other level; null: the same level
+  std::uint32_t begin, end;      // range of positions or of indices of regions
+  const Layer* layer = nullptr;  // layer of the regions; null: the task has positions
+  const Layer* other = nullptr;  // the other layer; null: the same layer
   std::size_t boxes = 0;         // number of boxes in the range
-  // The result of the task: `found` pairs from index `first` on, in the part of this thread (SearchBuffers::parts).
+  // The result of the task: `found` pairs from index `first` on in SearchBuffers::parts[thread].
   std::size_t thread = 0, first = 0, found = 0;
   std::size_t to = 0;  // index of the task's first pair in the result of the search
 };
 
-/// Copies of those boxes of one level that may overlap boxes of another level.
+/// Copies of boxes of one level: all boxes that may overlap boxes of another level.
 struct GatheredBoxes {
-  std::vector<std::uint32_t> levels;     // numbers of the other levels that a level overlaps
+  std::vector<std::uint32_t> levels;     // indices of the other levels whose bounds overlap the bounds of a level
   std::vector<std::uint32_t> positions;  // positions of the copied boxes in their level
   std::vector<float> bounds;
   std::vector<std::uint32_t> ids;
@@ -42,7 +42,7 @@ struct GatheredBoxes {
 /// Buffers of a search for pairs.
 struct SearchBuffers {
   std::vector<SearchTask> tasks;
-  std::vector<std::vector<ProxyPair>> parts;  // pairs per thread, with room for all: one thread may do all tasks
+  std::vector<std::vector<ProxyPair>> parts;  // pairs per thread; each has room for all pairs: one may do all tasks
   std::vector<std::size_t> used;              // number of pairs in each part
   std::vector<GatheredBoxes> gathered;        // per thread: the copied boxes
 };
@@ -53,6 +53,8 @@ struct SearchBuffers {
 ///   resting  boxes that did not move for a while; the grid keeps their pairs with resting and fixed boxes
 ///   moving   boxes that moved recently; all of them are sorted again when one of them moves
 ///   loose    boxes that were inserted or moved one at a time; they are few, because they soon join the moving boxes
+///
+/// "Withdrawn" boxes are still in the arrays of a layer, but searches no longer find them.
 ///
 /// Every change allocates all memory that it needs before it changes a layer. If the allocation fails, the change
 /// throws, and the grid holds the boxes that it held before.
@@ -79,10 +81,10 @@ struct HGrid::Engine {
   /// Stores exactly these boxes, given[i] under ids[i], and removes all others.
   void replace(const std::vector<ProxyId>& ids, const std::vector<Aabb>& given);
   /// Sorts all boxes into the fixed and the resting layer. If an allocation fails, the layers are unchanged.
-  /// @param others  true if the layers may hold other boxes than those stored, or a box in the wrong one of the two
+  /// @param others  true if the layers may hold boxes that are not stored, or a box may be in the wrong layer
   void sortAll(bool others = false);
-  /// Sorts the boxes whose ids are in `moved`, together with those that moved recently. The caller has already written
-  /// their new coordinates to `boxes`. If an allocation fails, the layers are unchanged.
+  /// Sorts the boxes whose ids are in `moved`, together with the boxes that moved recently. The caller has already
+  /// written the new coordinates to `boxes`. If an allocation fails, the layers are unchanged.
   void sortMoved();
   /// Restores `boxes`, `layer_of` and `stored` from the layers, which still hold the boxes from before the change.
   void restoreFromLayers();
@@ -90,8 +92,9 @@ struct HGrid::Engine {
   void sortLayer(LayerNumber layer);
   /// Writes the positions of the layer's boxes to positions().
   void locate(LayerNumber layer);
-  /// Returns the position of each box in its layer, by id. Only the layers in `located` have valid positions. The sort
-  /// of the resting layer overwrites this array, but then all layers are sorted, so all positions change anyway.
+  /// Returns the position of each box in its layer, by id. The positions in a layer are valid only if `located` says
+  /// so. A sort of the resting layer overwrites this array. That is no loss: then all layers are sorted, so all
+  /// positions change.
   std::vector<std::uint32_t>& positions() { return layers[kResting].spare(); }
   /// Updates `kept`, so that the next search need not find the pairs of resting boxes again.
   void keepPairs();
@@ -107,32 +110,33 @@ struct HGrid::Engine {
   Isa isa = bestIsa();
   OverlapFilter filter;
   PairBound bound;
-  std::vector<Aabb> boxes;            // by id
-  std::vector<LayerNumber> layer_of;  // by id
-  std::vector<bool> fixed;            // by id; ids beyond its end are not fixed
+  std::vector<Aabb> boxes;            // the box of each id
+  std::vector<LayerNumber> layer_of;  // the layer of each id; kAbsent if there is no box with this id
+  std::vector<bool> fixed;            // for each id: whether it is fixed; ids beyond the end are not fixed
   std::array<Layer, kLayers> layers;
   std::array<std::vector<ProxyId>, kLayers> members;  // ids of the moving boxes and of the loose boxes
   std::array<bool, kLayers> located{};                // whether positions() is valid for the boxes of a layer
-  bool fixed_astray = false;                          // some fixed boxes are in the loose or moving layer
-  bool moving_changed = false;                        // some boxes of the moving layer were withdrawn
+  bool fixed_astray = false;                          // whether some fixed boxes are in the loose or moving layer
+  bool moving_changed = false;                        // whether some boxes of the moving layer were withdrawn
   std::size_t stored = 0;                             // number of stored boxes
   std::size_t withdrawn = 0;                          // number of withdrawn boxes in all layers
-  double waste = 0.0;          // number of boxes sorted although they did not move, summed since the last sortAll()
+  double waste = 0.0;          // how many boxes were sorted although they did not move, summed since the last sortAll()
   std::vector<ProxyId> moved;  // ids of the boxes that sortMoved() sorts
   SortScratch scratch;
   std::unique_ptr<Workers> workers = std::make_unique<Workers>(1);
 
   std::vector<ProxyPair> kept;    // pairs of resting boxes with resting and fixed boxes
   std::size_t kept_overlaps = 0;  // overlapping pairs that the search for `kept` looked at
-  bool kept_valid = false;
-  bool kept_dirty = false;  // some boxes of these pairs are not in the resting or fixed layer anymore
-  mutable std::atomic<bool> pairs_wanted{false};  // whether there was a search for pairs; else `kept` is not needed
+  bool kept_valid = false;        // whether `kept` can be used
+  bool kept_dirty = false;        // whether some boxes of `kept` are not in the resting or fixed layer anymore
+  mutable std::atomic<bool> pairs_wanted{false};  // whether there was a search for pairs; if not, `kept` is not needed
 
-  // Search for pairs (pair_search.cpp, pair_collection.cpp). One search at a time uses the threads and the shared
-  // buffers. A search that runs at the same time uses neither.
+  // Search for pairs (pair_search.cpp, pair_collection.cpp). Only one search at a time uses the threads and the shared
+  // buffers. If another search runs at the same time, it uses one thread and buffers of its own.
   /// Finds the pairs for `kept`. If they exceed the bound, `kept` is empty and kept_valid is false.
   void findKept();
-  /// Finds all pairs, if they do not exceed the bound. @returns whether it found all; if not, `pairs` is meaningless
+  /// Finds all pairs if they do not exceed the bound. @returns whether it found all pairs; if not, `pairs` is
+  /// meaningless
   bool findPairs(std::vector<ProxyPair>& pairs, const PairBound& up_to) const;
   /// Collects pairs in the order that PairBound specifies, up to the bound. @returns whether these are all pairs
   bool collectPairs(std::vector<ProxyPair>& pairs) const;

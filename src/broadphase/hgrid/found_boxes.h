@@ -8,7 +8,7 @@
 
 namespace hgrid {
 
-/// Lets kernels write positions into a vector. Enlarges the vector when it is full.
+/// Lets kernels write positions of boxes (see Layer) into a vector. Enlarges the vector when it is full.
 class PositionWriter {
  public:
   explicit PositionWriter(std::vector<std::uint32_t>& buffer) : buffer_(buffer) {
@@ -39,7 +39,7 @@ class PositionWriter {
   kernels::PositionSink sink_{};
 };
 
-/// Returns this thread's buffer for positions. It keeps its memory, so only the first few queries allocate memory.
+/// Returns this thread's buffer for positions. The buffer keeps its memory, so only the first few queries allocate.
 inline std::vector<std::uint32_t>& bufferOfThread() {
   thread_local std::vector<std::uint32_t> buffer;
   return buffer;
@@ -56,7 +56,8 @@ inline bool overlap(const kernels::Box& a, const kernels::Box& b) {
 }
 
 /// Searches each layer. Calls visit(layer, positions) for each layer in which `search` finds boxes.
-/// @param search  called as void search(const kernels::LevelSet&, kernels::PositionSink*); writes positions
+/// @param search  called as void search(const kernels::LevelSet&, kernels::PositionSink*); writes the positions of the
+///                boxes that it finds
 template <class Engine, class Search, class Visit>
 void visitFound(const Engine& engine, Search&& search, Visit&& visit) {
   PositionWriter writer(bufferOfThread());

@@ -52,7 +52,8 @@ GridScale GridScale::fitting(const std::vector<Aabb>& boxes) {
 
 void HGrid::Engine::requireValid(const std::vector<ProxyId>& ids, const std::vector<Aabb>& given) {
   if (ids.size() != given.size())
-    throw std::invalid_argument("HGrid: the numbers of ids and of boxes differ; each box needs one id");
+    throw std::invalid_argument("HGrid: there are " + std::to_string(ids.size()) + " ids but " +
+                                std::to_string(given.size()) + " boxes; each box needs one id");
   std::atomic<bool> all_ascend{true}, all_sound{true};
   inParts(*workers, ids.size(), [&](std::size_t begin, std::size_t end) {
     bool ascend = true;
@@ -158,8 +159,8 @@ void HGrid::update(const std::vector<ProxyId>& ids, const std::vector<Aabb>& box
   }
 }
 
-/// Performs the bulk update. Changes `boxes` and `layer_of` before it sorts. If it throws, the caller must restore
-/// them.
+/// Performs the bulk update. Changes `boxes` and `layer_of` before it sorts. If this function throws, the caller must
+/// restore both.
 void HGrid::Engine::replace(const std::vector<ProxyId>& ids, const std::vector<Aabb>& given) {
   bool same = stored == ids.size();
   if (same && !(areAll(ids) && layer_of.size() == ids.size())) {

@@ -13,22 +13,23 @@ namespace hgrid {
 namespace {
 
 constexpr std::size_t kReadBeyond = 16;                      // positions that kernels may read beyond the last box
-constexpr std::size_t kWorthCopying = std::size_t{1} << 18;  // boxes; fewer boxes mostly stay in the cache
-constexpr std::size_t kWorthAThread = 16384;                 // boxes per thread
+constexpr std::size_t kWorthCopying = std::size_t{1} << 18;  // number of boxes; fewer boxes mostly stay in the cache
+constexpr std::size_t kWorthAThread = 16384;                 // least number of boxes per thread
 constexpr int kSortsPerPlan = 64;                            // after so many sorts, the layer makes a new plan
-constexpr std::size_t kWorthRegions = 64;                    // boxes; a smaller layer has one region
-constexpr double kCrowded = 32.0, kLessCrowded = 0.6;        // limits of crowding(); evenly spread boxes have about 2
+constexpr std::size_t kWorthRegions = 64;                    // a layer with fewer boxes than this has one region
+constexpr double kCrowded = 32.0;     // from this crowding() on, regions are tried; evenly spread boxes have about 2
+constexpr double kLessCrowded = 0.6;  // regions are used if they reduce crowding() to less than this fraction
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();  // every comparison with it is false
 
 static_assert(sizeof(Aabb) == sizeof(kernels::Box), "kernels read a box as six floats");
 static_assert(sizeof(ProxyPair) == sizeof(kernels::Pair), "kernels write a pair as two numbers");
 
-/// Returns the size to allocate. The first allocation is exact. Later ones are larger than requested, so that a grid
-/// with a steady number of boxes allocates nothing.
+/// Returns the size to allocate. The first allocation is exact. Later allocations are larger than requested, so that a
+/// grid with a steady number of boxes soon allocates nothing.
 std::size_t roomFor(std::size_t size, bool first) { return first ? size : size + size / 16; }
 
-/// Enlarges an array if it is too small. Then it loses its values, and the caller writes all of them again.
+/// Enlarges an array if it is too small. An enlarged array has lost its values, so the caller writes all of them again.
 template <class Value>
 void growTo(std::vector<Value>& values, std::size_t size) {
   if (values.size() < size) std::vector<Value>(roomFor(size, values.empty())).swap(values);
@@ -62,8 +63,8 @@ ProxyId* Layer::setIds(std::size_t count) {
 /// Moves the six arrays farther apart, so that each has room for `count` boxes.
 void Layer::widen(std::size_t count) {
   std::size_t stride = (count + (bounds_.empty() ? 0 : count / 16) + 2 * kReadBeyond) / 16 * 16;
-  // The distance of the arrays must not be near a multiple of a page. Otherwise the six coordinates of a box would
-  // compete for one set of the cache.
+  // The distance of the arrays must not be near a multiple of a memory page, because then the six coordinates of a box
+  // would compete for one set of the cache.
   if (stride % 1024 < 64) stride += 160;
   std::vector<float> bounds(6 * stride);
   for (std::size_t i = 0; i < 6 && count_ > 0; ++i) {
@@ -122,8 +123,8 @@ void Layer::sort(const std::vector<Aabb>& boxes, double finest_edge, const Machi
   describe(scratch);
 }
 
-/// Makes a new plan and counts the boxes per cell. Divides the layer into regions if too many boxes share a cell and
-/// the regions improve that. If the layer is already divided, first tries to divide it again.
+/// Makes a new plan and counts the boxes per cell. If too many boxes share a cell, and regions make the cells less
+/// crowded, divides the layer into regions. If the layer is already divided, first tries to divide it again.
 void Layer::makePlan(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine, std::size_t threads) {
   if (isDivided() && divide(boxes, finest_edge, machine, threads)) return count(boxes, machine, threads);
   plan_.planOneRegion(boxes, ids_.data(), count_, finest_edge);
@@ -155,7 +156,7 @@ bool Layer::divide(const std::vector<Aabb>& boxes, double finest_edge, const Mac
   return true;
 }
 
-/// Returns how crowded cells are: the number of boxes in the cell of a box, averaged over all boxes.
+/// Returns how crowded the cells are: the average over all boxes of the number of boxes in the cell of a box.
 double Layer::crowding(const Machine& machine, std::size_t threads) const {
   double sum = 0.0;
   for (std::size_t cell = 0; cell < plan_.cells(); ++cell) {
@@ -166,9 +167,8 @@ double Layer::crowding(const Machine& machine, std::size_t threads) const {
   return sum / static_cast<double>(count_);
 }
 
-/// Returns the counters of a thread, one for each cell. Those of the last thread are in `start_`, where the counter of
-/// a cell is stored one entry later. So after the second pass, the counter is the end of its cell and the start of the
-/// next one.
+/// Returns the counters of a thread, one for each cell. The counters of the last thread are in `start_`: the counter of
+/// cell i is start_[i + 1]. After the second pass, this counter is the end of cell i and the start of cell i + 1.
 std::uint32_t* Layer::countsOf(std::size_t thread, std::size_t threads, const Machine& machine) {
   return thread + 1 == threads ? start_.data() + 1 : machine.scratch->counts.data() + thread * plan_.cells();
 }
@@ -318,7 +318,8 @@ void Layer::point() {
 }
 
 void Layer::withdraw(std::uint32_t position) {
-  // The minimum remains: pairsWithin() computes the row of the position from it. It must not search beyond that row.
+  // The minimum corner remains, because pairsWithin() computes the row of the position from it. If the minimum corner
+  // changed, pairsWithin() would search beyond that row.
   for (std::size_t axis = 3; axis < 6; ++axis) bounds_[axis * stride_ + position] = kNothing;
 }
 

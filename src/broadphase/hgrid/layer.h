@@ -12,12 +12,13 @@
 
 namespace hgrid {
 
-/// Buffers for sorting. All layers of a grid share them. "Position" is here the position of a box before the sort.
+/// Buffers for sorting. All layers of a grid share them. "By position" means: in the order that the boxes have before
+/// the sort.
 struct SortScratch {
   std::vector<Aabb> copies;              // boxes by position; used only if the boxes do not fit into the cache
-  std::vector<std::uint32_t> cells;      // number of each box's new cell, by position
+  std::vector<std::uint32_t> cells;      // by position: index of the box's new cell
   std::vector<std::uint32_t> counts;     // number of boxes per cell, for each thread but the last
-  std::vector<std::uint32_t> sums;       // per thread and range of cells: number of boxes that it counted there
+  std::vector<std::uint32_t> sums;       // per thread and range of cells: number of boxes that the thread counted there
   std::vector<float> sizes;              // [m] per thread and level: 4 floats, see kernels::Keying
   std::vector<float> corners;            // [m] per thread and level: 8 floats; only for layers with several regions
   std::vector<kernels::Keying> keyings;  // per thread
@@ -30,12 +31,13 @@ struct Machine {
   SortScratch* scratch = nullptr;
 };
 
-/// A set of boxes that are sorted by region, level and cell, and stored as a structure of arrays. A counting sort with
-/// two passes (Ericson 2005, 7.1.4) sorts all of them at a time. Between two sorts, boxes can be withdrawn.
+/// A set of boxes that are sorted by region, level and cell, and stored as a structure of arrays. The "position" of a
+/// box is its index in these arrays. A counting sort with two passes (Ericson 2005, 7.1.4) sorts all boxes at a time.
+/// Between two sorts, boxes can be withdrawn.
 ///
-/// The caller calls reserve() before it changes anything, so a failed allocation leaves the layer unchanged. No other
-/// change throws. If sort() finds that several regions are better than one, it allocates memory for them. If that
-/// fails, the layer has one region.
+/// The caller calls reserve() before it changes anything, so a failed allocation leaves the layer unchanged. The other
+/// functions that change the layer do not throw. If sort() finds that several regions are better than one, it
+/// allocates memory for these regions. If this allocation fails, the layer has one region.
 class Layer {
  public:
   /// Allocates the memory that setIds() and sort() need for `count` boxes. The layer keeps its boxes and their order.
@@ -43,7 +45,7 @@ class Layer {
   void reserve(std::size_t count, std::size_t ids, const Machine& machine);
   /// Sets which boxes the layer holds, in any order. Call reserve() before this function and sort() after it.
   void setIds(const std::vector<ProxyId>& ids);
-  /// Does the same, but the caller writes the `count` ids to the returned array.
+  /// Sets the number of boxes that the layer holds. The caller then writes their ids to the returned array.
   ProxyId* setIds(std::size_t count);
   /// Sorts the boxes with their current coordinates. Starts from the order of the last sort, because boxes move little.
   /// After reserve() for at least as many boxes, allocates nothing except memory for additional regions.
@@ -57,7 +59,7 @@ class Layer {
   /// Returns an array that the caller may use until the next sort(). reserve() keeps its values.
   std::vector<std::uint32_t>& spare() { return other_ids_; }
 
-  std::size_t size() const { return count_; }  ///< number of positions, including those of withdrawn boxes
+  std::size_t size() const { return count_; }  ///< number of boxes, withdrawn boxes included
   /// Returns the id of the box at each position.
   const ProxyId* ids() const { return ids_.data(); }
   /// Returns the box at a position.
@@ -96,7 +98,7 @@ class Layer {
   std::vector<ProxyId> ids_, other_ids_;  // by position; a sort reads ids_, writes other_ids_ and swaps the two
   std::vector<float> bounds_;             // [m] six arrays, stride_ floats apart: min x y z, max x y z, by position
   std::size_t stride_ = 0;
-  std::vector<std::uint32_t> start_;  // position of the first box of each cell, and the end of the last cell
+  std::vector<std::uint32_t> start_;  // position of the first box of each cell; at last, the end of the last cell
   std::vector<kernels::Level> levels_;
   LevelBounds level_bounds_;
 };

@@ -9,7 +9,7 @@
 namespace hgrid {
 namespace {
 
-/// Sorts the ids by region. @returns the index at which each region begins, and the end of the last region
+/// Sorts the ids by region. @returns for each region the index of its first id, and at last the number of ids
 std::vector<std::size_t> sortByRegion(const RegionTree& tree, const std::vector<Aabb>& boxes, ProxyId* ids,
                                       std::uint32_t* scratch, std::size_t count) {
   std::vector<std::size_t> next(tree.size() + 1, 0);
@@ -100,7 +100,7 @@ bool LayerPlan::fits(const BoxCensus& now) const {
       if (size > 1.25f * then || size < 0.5f * then) return false;
     }
   }
-  if (windowed_) return true;  // a few far boxes determine lower_ and upper_, which say nothing about the others
+  if (windowed_) return true;  // lower_ and upper_ then depend on a few far boxes and say nothing about the others
   for (std::size_t i = 0; i < 3; ++i) {
     const double length = static_cast<double>(upper_[i]) - lower_[i], some = 0.1 * length + largest_.back()[i];
     const double length_now = static_cast<double>(now.upper[i]) - now.lower[i];
@@ -113,7 +113,7 @@ bool LayerPlan::fits(const BoxCensus& now) const {
 
 bool LayerPlan::fits(const std::vector<kernels::Level>& levels) const {
   if (!isDivided()) return true;
-  constexpr double kMostElsewhere = 0.25;  // fraction of the boxes that may have moved to other places
+  constexpr double kMostElsewhere = 0.25;  // largest fraction of boxes that may be in other places than planned
   double elsewhere = 0.0;
   for (std::size_t region = 0; region < tree_.size(); ++region) {
     const kernels::Region& r = tree_.region(region);

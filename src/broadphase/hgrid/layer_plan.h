@@ -12,10 +12,10 @@
 
 namespace hgrid {
 
-/// Statistics of the current boxes, which the first pass of a sort computes.
+/// Statistics of the current boxes. The first pass of a sort computes them.
 struct BoxCensus {
-  const float *lower = nullptr, *upper = nullptr;  ///< [m] least and greatest minimum corner, if there is one region
-  const float* sizes = nullptr;                    ///< [m] 4 per level: longest side on x, y, z; the 4th is undefined
+  const float *lower = nullptr, *upper = nullptr;  ///< [m] bounds of the minimum corners; valid if there is one region
+  const float* sizes = nullptr;  ///< [m] 4 values per level: longest sides along x, y, z; the 4th is undefined
 };
 
 /// Says how a layer is divided into regions, each region into levels, and each level into cells.
@@ -46,7 +46,7 @@ class LayerPlan {
   std::uint32_t cells() const { return cells_; }  ///< number of cells of all levels
   const kernels::Grid* grids() const { return grids_.data(); }
   const float* sides() const { return sides_.data(); }  ///< [m] longest box side of each level
-  /// Returns the number of each level's first cell, counted through all levels.
+  /// Returns for each level the index of its first cell among the cells of all levels.
   const std::uint32_t* firstCells() const { return first_cells_.data(); }
   /// Returns the mean box sides [m] of a level, per axis.
   const float* meanSides(std::size_t level) const { return mean_sides_[level].data(); }
@@ -68,15 +68,16 @@ class LayerPlan {
 
   std::vector<kernels::Grid> grids_;
   std::vector<float> sides_;
-  std::vector<std::uint32_t> first_cells_;        // per level: number of its first cell, counted through all levels
+  std::vector<std::uint32_t> first_cells_;        // per level: index of its first cell among the cells of all levels
   std::vector<std::array<float, 3>> largest_;     // [m] per level and axis: longest box side when the plan was made
-  std::vector<std::array<float, 3>> mean_sides_;  // [m] per level and axis: mean box side at that time
+  std::vector<std::array<float, 3>> mean_sides_;  // [m] per level and axis: mean box side when the plan was made
   std::vector<std::uint32_t> region_boxes_;       // number of boxes per region when the plan was made
   RegionTree tree_;
   std::uint32_t cells_ = 0;
-  std::size_t boxes_ = 0;                   // number of boxes that the plan was made for
-  std::array<float, 3> lower_{}, upper_{};  // [m] for one region: least and greatest minimum corner
-  bool windowed_ = false;                   // for one region: some boxes were outside the window of the cells
+  std::size_t boxes_ = 0;  // number of boxes that the plan was made for
+  // The next three members are valid only if the layer has one region. They describe the boxes of the plan.
+  std::array<float, 3> lower_{}, upper_{};  // [m] bounds of the minimum corners
+  bool windowed_ = false;                   // whether some minimum corners were outside the window (see CellPlan)
 };
 
 }  // namespace hgrid

@@ -16,8 +16,8 @@ namespace hgrid {
 /// With the hierarchy, a search quickly finds the few levels that it needs.
 ///
 /// The hierarchy is a tree of bounding volumes (Ericson 2005, chapter 6), stored in tiers. The boxes of the first tier
-/// are the bounds of the levels. Each box of a higher tier contains 16 successive boxes of the tier below. Successive
-/// levels belong to neighboring regions.
+/// are the bounds of the levels. Each box of a higher tier contains 16 successive boxes of the tier below. These boxes
+/// are near each other, because successive levels belong to neighboring regions.
 class LevelBounds {
  public:
   /// Allocates the memory that set() needs for this number of levels.
@@ -25,14 +25,14 @@ class LevelBounds {
   /// Computes the hierarchy for these levels. Allocates nothing after reserve() for at least as many levels.
   void set(const std::vector<kernels::Level>& levels);
 
-  /// Returns the levels together with their hierarchy of bounds. They must be the levels that were given to set().
+  /// Returns `levels` together with their hierarchy of bounds. `levels` must be the levels that were passed to set().
   kernels::LevelSet over(const std::vector<kernels::Level>& levels) const {
     return {levels.data(), static_cast<std::uint32_t>(levels.size()), tiers_.data(), tier_count_};
   }
 
-  /// Calls visit(number) for each level whose bounds pass the test, in ascending order.
-  /// @param test  called as bool test(const kernels::Box&). If it is true for a box, it must be true for every box that
-  ///              contains that box.
+  /// Calls visit(index) for each level whose bounds pass the test, in ascending order of the indices.
+  /// @param test  called as bool test(const kernels::Box&). If it accepts a box, it must accept every box that contains
+  ///              this box.
   template <class Test, class Visit>
   void visit(const Test& test, const Visit& visit) const {
     if (tier_count_ > 0)

@@ -19,8 +19,8 @@ class Collection {
   /// Returns whether pairs were left out.
   bool isCut() const { return cut_; }
 
-  /// Applies the filter and the bound to the pairs of one box. The caller has appended them, in any order, from index
-  /// `begin` on. They need not be sorted: if the bound is exceeded, the first pairs of this box are selected.
+  /// Applies the filter and the bound to the pairs of one box. The caller has appended these pairs from index `begin`
+  /// on, in any order. If they exceed the bound, this function keeps the pairs that are first in the order of pairs.
   void take(std::size_t begin) {
     cutAt(begin + std::min(bound_.overlaps - overlaps_, pairs_.size() - begin), begin);
     overlaps_ += pairs_.size() - begin;
@@ -30,7 +30,8 @@ class Collection {
   }
 
  private:
-  /// Keeps `most` pairs if there are more: all pairs before index `begin`, and the smallest of the others.
+  /// If there are more than `most` pairs, keeps `most` of them: all pairs before index `begin`, and the smallest of the
+  /// other pairs.
   void cutAt(std::size_t most, std::size_t begin) {
     if (pairs_.size() <= most) return;
     const auto from = pairs_.begin();
@@ -49,7 +50,7 @@ class Collection {
 }  // namespace
 
 // A pair of two boxes that are not fixed is found twice and taken once. So this function looks at no more overlaps than
-// twice the bound, plus those of one box.
+// twice the bound plus the overlaps of one box.
 bool HGrid::Engine::collectPairs(std::vector<ProxyPair>& pairs) const {
   pairs.clear();
   Collection collection(bound, filter, pairs);

@@ -17,7 +17,7 @@ bool notBothFixed(const void* fixed, ProxyId first, ProxyId second) {
   return !(first < is.size() && is[first] && second < is.size() && is[second]);
 }
 
-/// Leaves out the pairs of two fixed boxes, then those that the overlap filter does not keep.
+/// Leaves out the pairs of two fixed boxes, then the pairs that the overlap filter does not keep.
 struct CombinedFilter {
   const OverlapFilter& overlaps;
   const std::vector<bool>* fixed;  // by id; null if all fixed boxes are in the fixed layer
@@ -34,7 +34,7 @@ struct CombinedFilter {
 /// Counts the pairs and overlaps that all threads of a search find. Says whether they exceed the bound.
 class Tally {
  public:
-  /// @param pairs, overlaps  numbers that are known before the search
+  /// @param pairs, overlaps  numbers of pairs and overlaps that were found before this search and count as well
   Tally(const PairBound& bound, std::size_t pairs, std::size_t overlaps)
       : bound_(bound),
         pairs_(pairs),
@@ -58,8 +58,9 @@ class Tally {
 
 /// Lets kernels write pairs into a vector, after the first `used` pairs.
 ///
-/// The vector grows until it has room for the bound and kRoom more pairs. When it is full, the pairs are filtered to
-/// make room. When the bound is exceeded, the kernels are asked to stop. PairWriter never shrinks the vector.
+/// The vector grows until it has room for kRoom pairs more than the bound allows. When the vector is full, the pairs
+/// are filtered to make room. When the pairs exceed the bound, Sink::full asks the kernels to stop. PairWriter never
+/// shrinks the vector.
 class PairWriter {
  public:
   PairWriter(std::vector<ProxyPair>& pairs, std::size_t used, const CombinedFilter& filter, Tally& tally)
@@ -73,7 +74,7 @@ class PairWriter {
   PairWriter& operator=(const PairWriter&) = delete;
 
   kernels::PairSink* sink() { return &sink_; }
-  /// Filters the pairs written since the last call.
+  /// Filters the pairs that were written since the last call.
   /// @returns the end of the kept pairs; meaningless if the bound is exceeded
   std::size_t filter() {
     if (tally_.exceeded()) return wanted_end_;
@@ -84,8 +85,8 @@ class PairWriter {
   }
 
  private:
-  static constexpr std::size_t kRoom = 65536;  // pairs that kernels can write between two calls of filter(), at least
-  static constexpr std::size_t kLeast = 16;    // number of pairs for which a kernel needs room
+  static constexpr std::size_t kRoom = 65536;  // least number of pairs that fit in between two calls of filter()
+  static constexpr std::size_t kLeast = 16;    // a kernel needs room for so many pairs before it writes
 
   kernels::Pair* data() const { return reinterpret_cast<kernels::Pair*>(pairs_.data()); }
   std::size_t used() const { return static_cast<std::size_t>(sink_.next - data()); }
@@ -115,7 +116,8 @@ class PairWriter {
   kernels::PairSink sink_{};
 };
 
-/// Adds tasks that test all boxes of the level `asking` against the level `asked`, or against itself if that is null.
+/// Adds tasks that test all boxes of the level `asking` against the level `asked`. If `asked` is null, they are tested
+/// against each other.
 void addTask(std::vector<SearchTask>& tasks, const kernels::Level& asking, const kernels::Level* asked) {
   for (std::uint32_t begin = asking.begin; begin < asking.end; begin += kTask) {
     tasks.push_back({&asking, asked, begin, std::min(begin + kTask, asking.end)});
@@ -123,8 +125,8 @@ void addTask(std::vector<SearchTask>& tasks, const kernels::Level& asking, const
   }
 }
 
-/// Decides in which direction two levels are tested. Returns true if the boxes of `first` search fewer rows of cells of
-/// `second` than the other way round.
+/// Decides in which direction two levels are tested. Returns true if testing the boxes of `first` against the cells of
+/// `second` visits fewer rows of cells than testing the boxes of `second` against the cells of `first`.
 bool firstAsks(const kernels::Level& first, const kernels::Level& second) {
   return static_cast<double>(first.end - first.begin) * rowsAsked(first, second) <=
          static_cast<double>(second.end - second.begin) * rowsAsked(second, first);
@@ -172,7 +174,8 @@ void addWithin(std::vector<SearchTask>& tasks, const Layer& layer) {
   }
 }
 
-/// Adds tasks that test the boxes of all regions against one level. Successive levels that overlap it share tasks.
+/// Adds tasks that test the boxes of all regions of a layer against one level of another layer. Successive levels that
+/// overlap `asked` share tasks.
 void addRegionsAcross(std::vector<SearchTask>& tasks, const Layer& layer, const kernels::Level& asked) {
   const std::vector<kernels::Level>& levels = layer.levels();
   const kernels::Level* first = nullptr;
@@ -218,7 +221,7 @@ class RegionSearch {
   RegionSearch(const kernels::Kernels& kernels, GatheredBoxes& gathered, kernels::PairSink* sink)
       : kernels_(kernels), gathered_(gathered), sink_(sink) {}
 
-  /// Finds the pairs of a region's boxes with each other and with those of later regions.
+  /// Finds the pairs of a region's boxes with each other and with the boxes of later regions.
   void within(const Layer& layer, std::uint32_t number) {
     const std::vector<kernels::Level>& levels = layer.levels();
     const kernels::Region& region = layer.regions().region(number);
@@ -236,7 +239,7 @@ class RegionSearch {
   }
 
  private:
-  /// Finds the pairs of a region's boxes with those of the layer `other`, in its levels with the numbers >= `least`.
+  /// Finds the pairs of a region's boxes with the boxes of the layer `other` on the levels with an index >= `least`.
   void meetAll(const Layer& layer, const kernels::Region& region, const Layer& other, std::uint32_t least) {
     const kernels::LevelSet others = other.levelSet();
     for (std::uint32_t i = 0; i < region.levels; ++i) {
@@ -259,9 +262,9 @@ class RegionSearch {
     }
   }
 
-  /// Finds the pairs of two levels. Tests only those boxes of `asking` that overlap the bounds of `asked`.
+  /// Finds the pairs of two levels. Tests only the boxes of `asking` that overlap the bounds of `asked`.
   void ask(const kernels::Level& asking, const kernels::Level& asked) {
-    constexpr std::uint32_t kFew = 8;  // boxes: it is cheaper to test so few without a selection
+    constexpr std::uint32_t kFew = 8;  // number of boxes; it is cheaper to test so few boxes without a selection
     if (asking.end - asking.begin <= kFew)
       return kernels_.pairsAcross(&asking, asking.begin, asking.end, &asked, sink_);
     PositionWriter writer(gathered_.positions);
@@ -418,8 +421,8 @@ void HGrid::setPairBound(const PairBound& bound) {
 
 void HGrid::overlappingPairs(std::vector<ProxyPair>& pairs) const { engine_->findPairs(pairs, PairBound{}); }
 
-// findPairs() may count more overlaps than collectPairs(): it also counts overlaps of boxes that have left their layer,
-// and of fixed boxes in other layers. It never counts fewer. So collectPairs() decides whether the bound is exceeded.
+// findPairs() may count more overlaps than collectPairs(), but never fewer: it also counts overlaps of boxes that have
+// left their layer, and of fixed boxes in other layers. So collectPairs() decides whether the bound is exceeded.
 bool HGrid::boundedPairs(std::vector<ProxyPair>& pairs) const {
   return engine_->findPairs(pairs, engine_->bound) || engine_->collectPairs(pairs);
 }

@@ -11,7 +11,8 @@
 namespace hgrid {
 namespace {
 
-/// Sorts by insertion if there are few elements, because std::sort is slower then. Most answers are short.
+/// Sorts the elements begin .. end - 1. For few elements it uses insertion sort, because std::sort is slower for them.
+/// Most answers have few elements.
 template <class Iterator, class Less>
 void sortFew(Iterator begin, Iterator end, Less less) {
   if (end - begin > 24) return std::sort(begin, end, less);
@@ -23,8 +24,8 @@ void sortFew(Iterator begin, Iterator end, Less less) {
   }
 }
 
-/// Sorts ids, which must not contain duplicates. If they are few, counts for each id how many are smaller. This takes
-/// more steps than other methods, but it has no branches that could be mispredicted.
+/// Sorts ids. Each id must be there only once. If there are few ids, counts for each id how many ids are smaller. This
+/// takes more steps than other methods, but it has no branches that could be mispredicted.
 void sortIds(ProxyId* ids, std::size_t count) {
   constexpr std::size_t kFew = 32;
   if (count > kFew) return std::sort(ids, ids + count);
@@ -37,8 +38,8 @@ void sortIds(ProxyId* ids, std::size_t count) {
   }
 }
 
-/// Returns a box that contains the sphere. It may be slightly too large, because the boxes that it finds are then
-/// tested against the sphere itself.
+/// Returns a box that contains the sphere. The box may be slightly too large, because the found boxes are then tested
+/// against the sphere itself.
 kernels::Box boxOf(const Sphere& sphere) {
   const double half = sphere.radius + 2.0 * roundingSlack(sphere.center.cwiseAbs().maxCoeff() + sphere.radius);
   kernels::Box box;
@@ -117,8 +118,8 @@ Eigen::Vector3f positionOf(const Aabb& box) { return box.min; }
 Eigen::Vector3f positionOf(const Sphere& sphere) { return sphere.center.cast<float>(); }
 Eigen::Vector3f positionOf(const Segment& segment) { return segment.from.cast<float>(); }
 
-/// Assigns positions in space to buckets. The buckets are the regions of a layer. If it has only one region, they are
-/// the cells of a coarse grid.
+/// Assigns points in space to buckets. The buckets are the regions of a layer. If the layer has only one region, the
+/// buckets are the cells of a coarse grid.
 class Buckets {
  public:
   explicit Buckets(const Layer& layer) : layer_(layer), grid_(layer.levels().front().grid) {}
@@ -126,7 +127,7 @@ class Buckets {
   std::size_t size() const {
     return layer_.isDivided() ? layer_.regions().size() : static_cast<std::size_t>(kAcross * kAcross * kAcross);
   }
-  /// Returns the bucket of a position [m].
+  /// Returns the index of the bucket that a point [m] belongs to.
   std::uint32_t at(const Eigen::Vector3f& position) const {
     if (layer_.isDivided()) return layer_.regions().regionOf(position.data());
     std::uint32_t bucket = 0;
@@ -145,7 +146,7 @@ class Buckets {
   const kernels::Grid& grid_;
 };
 
-/// Returns the indices of the queries, sorted by the buckets of their positions. So queries that need the same boxes
+/// Returns the indices of the queries, sorted by the buckets of positionOf(query). So queries that need the same boxes
 /// follow each other.
 template <class Query>
 std::vector<std::uint32_t> byPosition(const std::vector<Query>& queries, const Layer& layer) {
@@ -180,10 +181,11 @@ double distanceTo(const kernels::Box& bounds, const Eigen::Vector3d& point) {
 
 /// A search for the boxes nearest to a point. It searches spheres of growing radius around the point.
 struct SphereSearch {
-  double radius = std::numeric_limits<double>::infinity();  // [m] estimate: a sphere this large has enough boxes
+  double radius = std::numeric_limits<double>::infinity();  // [m] estimate: a sphere of this radius has enough boxes
   double step = radius;                                     // [m] how much the radius grows if there were too few boxes
 
-  /// Uses a level that is `away` [m] from the point, if a smaller sphere contains `count` of its boxes.
+  /// Takes the estimate from a level, if this makes the sphere smaller. The sphere must contain `count` boxes of the
+  /// level. `away` [m] is the distance of the level from the point.
   void consider(const kernels::Level& level, std::size_t count, double away) {
     const double within = likelyRadius(level, count);
     if (!(away + within < radius)) return;
@@ -206,11 +208,11 @@ SphereSearch searchAround(const Engine& engine, const Eigen::Vector3d& point, st
   return search;
 }
 
-/// Answers many queries. If the boxes do not fit into the cache, answers them in the order of their positions.
+/// Answers many queries. If the boxes do not fit into the cache, answers the queries in the order of byPosition().
 template <class Engine, class Query, class Found>
 void answerAll(const Engine& engine, const std::vector<Query>& queries, BatchOf<Found>& batch) {
-  constexpr std::size_t kFitsTheCache = std::size_t{1} << 18;  // boxes; with fewer, sorting the queries does not pay
-  constexpr std::size_t kAhead = 8;                            // a query is prefetched this many queries before
+  constexpr std::size_t kFitsTheCache = std::size_t{1} << 18;  // with fewer boxes, sorting the queries does not pay
+  constexpr std::size_t kAhead = 8;                            // how many queries before its turn a query is prefetched
   batch.begin.resize(queries.size());
   batch.count.resize(queries.size());
   batch.found.clear();
@@ -269,7 +271,8 @@ void HGrid::nearest(const Eigen::Vector3d& point, std::size_t count, double limi
   const auto nearer = [](const NearHit& a, const NearHit& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.id < b.id;
   };
-  // Searches spheres of growing radius until one holds enough boxes. A sphere finds all boxes within its radius.
+  // Searches spheres of growing radius until a sphere contains enough boxes. Each search finds all boxes within the
+  // radius.
   SphereSearch search = searchAround(e, point, count);
   for (double radius = std::min(search.radius, limit);;) {
     const bool all = !(radius < 1e30);  // the coordinates of a larger sphere may exceed the range of float
@@ -289,8 +292,8 @@ void HGrid::nearest(const Eigen::Vector3d& point, std::size_t count, double limi
     }
     const std::size_t kept = std::min(count, found.size());
     std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(kept), found.end(), nearer);
-    // The search also finds boxes in the corners of the box around the sphere, which are farther away than the radius.
-    // If it found enough boxes, the next radius is the distance of the farthest box that is kept.
+    // The search also finds boxes that are farther away than the radius: they are in the corners of the box around the
+    // sphere. If the search found enough boxes, the next radius is the distance of the farthest box that is kept.
     const bool enough = kept == count;
     if (all || radius >= limit || (enough && found[kept - 1].distance <= radius)) return found.resize(kept);
     radius = std::min(enough ? found[kept - 1].distance : radius + search.step, limit);

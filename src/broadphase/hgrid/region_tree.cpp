@@ -12,10 +12,10 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr std::size_t kLeast = 4;           // smallest number of samples in a region
-constexpr std::size_t kFewSamples = 8192;   // all boxes are samples if there are not more than this
-constexpr std::size_t kBoxesPerSample = 4;  // at most: of very many boxes, every fourth is a sample
-// [nats] The cost of a split: kGain, and kGainPerSample for each sample. The log-likelihood must rise by more than
-// this. With random samples of evenly spread boxes, it rises by less.
+constexpr std::size_t kFewSamples = 8192;   // up to this number of boxes, all boxes are samples
+constexpr std::size_t kBoxesPerSample = 4;  // if there are very many boxes, one in every four is a sample
+// [nats] The cost of a split: kGain, plus kGainPerSample for each sample. A split is made only if the log-likelihood
+// rises by more than its cost. For random samples of evenly spread boxes, the log-likelihood rises by less.
 constexpr double kGainPerSample = 0.25, kGain = 40.0;
 
 using Corner = std::array<float, 3>;
@@ -80,9 +80,9 @@ class RegionTree::Division {
   /// A part of space. It is split into two parts, or it is a region.
   struct Part {
     float split = 0.0f;
-    std::int32_t axis = -1;            // -1: it is a region
-    std::size_t below = 0, above = 0;  // indices of the two parts
-    double likelihood = 0.0;           // log-likelihood of its samples, minus the cost of the splits
+    std::int32_t axis = -1;            // axis of the split; -1: the part is a region
+    std::size_t below = 0, above = 0;  // indices of the two parts into which this part is split
+    double likelihood = 0.0;           // log-likelihood of the samples in this part, minus the cost of the splits
   };
   struct Split {
     std::size_t axis = 0;
@@ -90,7 +90,8 @@ class RegionTree::Division {
     bool exists = false;
   };
 
-  /// Returns the log-likelihood of corners that are spread evenly within their bounds, without a constant summand.
+  /// Returns the log-likelihood of the corners of a group, if corners are spread evenly within the bounds of the group.
+  /// A summand that is the same for all divisions is left out.
   double likelihood(const Group& group) const {
     if (group.count == 0.0) return 0.0;
     double volume = 1.0;
@@ -98,7 +99,8 @@ class RegionTree::Division {
     return group.count * std::log(group.count / volume);
   }
 
-  /// Adds a part with the samples begin .. end - 1, and splits it if that is worth its cost. @returns its index
+  /// Adds a part with the samples begin .. end - 1. Splits the part if the gain is more than the cost of the split.
+  /// @returns the index of the part
   std::size_t divide(std::size_t begin, std::size_t end, int depth) {
     const std::size_t number = parts_.size();
     parts_.emplace_back();
@@ -123,7 +125,7 @@ class RegionTree::Division {
     return number;
   }
 
-  /// Returns the best split on the axis on which the group is longest, in mean box sides. Tries a few planes.
+  /// Returns the best split of a few. All of them are on the axis on which the group is longest, in mean box sides.
   Split bestSplit(const Group& group, std::size_t begin, std::size_t end) const {
     constexpr std::size_t kBins = 32;
     Split best;
@@ -144,7 +146,7 @@ class RegionTree::Division {
       const double bin = (static_cast<double>(samples_[i][axis]) - low) * scale;
       bins[std::min(static_cast<std::size_t>(bin), kBins - 1)].add(samples_[i]);
     }
-    std::array<Group, kBins> above;  // sum of the bins from this one on
+    std::array<Group, kBins> above;  // above[i]: the sum of the bins i .. kBins - 1
     above[kBins - 1] = bins[kBins - 1];
     for (std::size_t i = kBins - 1; i-- > 0;) {
       above[i] = above[i + 1];
@@ -158,7 +160,7 @@ class RegionTree::Division {
       const double gain = likelihood(below) + likelihood(above[i]);
       if (gain <= most) continue;
       most = gain;
-      // Split in the middle of the gap, so that few boxes cross the split when they move.
+      // Split midway between the two groups, so that few boxes cross the split when they move.
       const float at = 0.5f * below.high[axis] + 0.5f * above[i].low[axis];
       best.at = at > below.high[axis] ? at : above[i].low[axis];
       best.exists = best.at > below.high[axis];

@@ -14,8 +14,8 @@ namespace hgrid {
 
 /// A k-d tree (Ericson 2005, 7.3.7) that divides space into regions in which boxes are spread evenly.
 ///
-/// A single grid is good for boxes that are spread evenly. Otherwise its cells are far too large in dense places. So
-/// each region has its own grid. A box belongs to the region of its minimum corner; it may extend into other regions.
+/// If boxes are spread evenly, a single grid is good. If not, its cells are far too large in dense places. So each
+/// region has its own grid. A box belongs to the region of its minimum corner; it may extend into other regions.
 class RegionTree {
  public:
   /// Creates a tree with one region, which is all space.
@@ -34,9 +34,10 @@ class RegionTree {
   const kernels::Region& region(std::size_t number) const { return regions_[number]; }
   const kernels::Region* regions() const { return regions_.data(); }
   const kernels::Branch* branches() const { return branches_.data(); }
-  /// Returns the number of the region that contains a minimum corner.
+  /// Returns the index of the region that contains a minimum corner.
   std::uint32_t regionOf(const float* corner) const;
-  /// Sets the levels of a region: the number of the first one, counted through all regions, and how many there are.
+  /// Sets the levels of a region. `first_level` is the index of the first of them among the levels of all regions,
+  /// `levels` is how many there are.
   void setLevels(std::size_t region, std::uint32_t first_level, std::uint32_t levels);
 
   /// Returns the allocated memory [bytes].

@@ -13,7 +13,7 @@ namespace hgrid {
 namespace kernels {
 namespace {
 
-/// Returns the number of the cell that contains a coordinate [m], on one axis.
+/// Returns the index, along one axis, of the cell that contains a coordinate [m].
 inline std::int32_t cellOf(float value, const Grid& grid, int axis) {
   float cell = value * grid.inverse[axis] - grid.origin[axis];
   cell = cell > 0.0f ? cell : 0.0f;
@@ -21,7 +21,7 @@ inline std::int32_t cellOf(float value, const Grid& grid, int axis) {
   return static_cast<std::int32_t>(cell);
 }
 
-/// Finds the boxes of one level that overlap a box. `query` is the same box as `box`.
+/// Finds the boxes of one level that overlap a box. `query` holds the same box as `box`, in SIMD registers.
 inline void searchLevel(const Level& level, const Box& box, const Simd::Box& query, Output<std::uint32_t>& found) {
   const Level l = level;
   const Grid& grid = l.grid;

@@ -5,9 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 
-// The inner loops of the hgrid (kernels_body.h). The same source is compiled once per instruction set. The files in
-// this folder include neither Eigen nor templates of the standard library: such an inline function would be compiled
-// for several instruction sets, and the linker could choose one that the processor does not support.
+// The inner loops of the hgrid, called kernels (kernels_body.h). The same source is compiled once per instruction set.
+// The files in this folder include neither Eigen nor templates of the standard library. Inline functions of these would
+// be compiled for several instruction sets, and the linker could choose code that the processor does not support.
+//
+// The "position" of a box is its index in the arrays of its layer (see Layer).
 
 namespace hgrid {
 
@@ -27,16 +29,16 @@ struct Pair {
   std::uint32_t first, second;
 };
 
-/// Maps coordinates to cells. A window, which is a part of space, is divided into cells. The outermost cells also hold
+/// Maps coordinates to cells. The window is the part of space that is divided into cells. The outermost cells also hold
 /// the boxes outside the window.
 ///
-/// The number of the cell of coordinate v is trunc(clamp(v * inverse - origin, 0, last)), on each axis. Each of these
-/// steps is monotone in v, in spite of rounding. So if two intervals overlap, their ranges of cells overlap. A window
-/// that fits the boxes badly makes a search slower, but the search never misses a pair.
+/// On each axis, the index of the cell that contains coordinate v is trunc(clamp(v * inverse - origin, 0, last)). Each
+/// of these steps is monotone in v, in spite of rounding. So if two intervals overlap, their ranges of cells overlap. A
+/// window that fits the boxes badly makes a search slower, but the search never misses a pair.
 struct Grid {
   float inverse[3];   ///< [1/m] reciprocal of the edge of a cell
   float origin[3];    ///< [cells] lower corner of the window, divided by the edge of a cell
-  float last[3];      ///< number of the last cell; the first cell has the number 0
+  float last[3];      ///< index of the last cell along the axis; the first cell has the index 0
   std::int32_t row;   ///< number of cells in a row; rows lie along axes[0]
   std::int32_t slab;  ///< number of cells in a slab; a slab consists of rows that follow each other along axes[1]
   /// Difference of the indices of neighboring cells along x, y, z: 1, `row` and `slab` in some order. The last value is
@@ -45,21 +47,22 @@ struct Grid {
   std::int32_t axes[3];  ///< 0 (x), 1 (y) and 2 (z) in some order; slabs follow each other along axes[2]
 };
 
-/// Boxes as a structure of arrays. A kernel may read up to 16 values beyond the last box of each array.
+/// Boxes as a structure of arrays. Each array must have room for 16 values after the last box, because kernels may read
+/// them.
 struct Columns {
   const float* bounds;  ///< [m] six arrays, `stride` floats apart: min x, min y, min z, max x, max y, max z
   std::size_t stride;
 };
 
 /// One level of a region of a layer. Its boxes are sorted by cell. So the boxes in a row of cells are one range of
-/// positions in the arrays.
+/// positions.
 struct Level : Columns {
   Grid grid;
-  float reach[3];              ///< [m] per axis: the longest side of the level's boxes, or slightly more
+  float reach[3];              ///< [m] per axis: the longest side of the level's boxes, rounded up
   float mean_sides[3];         ///< [m] per axis: mean side of the boxes when the cells were planned
   Box around;                  ///< contains all boxes of the level; min > max if there are none
   const std::uint32_t* id;     ///< id of the box at each position
-  const std::uint32_t* start;  ///< per cell: position of its first box; the boxes end where the next cell starts
+  const std::uint32_t* start;  ///< per cell: position of its first box; the next entry is the end of its boxes
   std::uint32_t begin, end;    ///< range of positions of the level's boxes
 };
 
@@ -84,52 +87,53 @@ struct Line {
   double around;
 };
 
-/// A buffer that kernels write their results to. They write at `next` and advance it. When fewer than 16 places are
-/// left before `limit`, they first call `grow`, which makes room.
+/// A buffer that kernels write their results to. They write at `next` and advance `next`. If fewer than 16 places are
+/// left before `limit`, they first call `grow`, and `grow` makes room.
 template <class Found>
 struct Sink {
   Found* next;
   Found* limit;
-  void* owner;  ///< the object that owns the buffer; for `grow`
+  void* owner;  ///< the object that owns the buffer; only `grow` uses it
   void (*grow)(Sink*);
-  bool full;  ///< `grow` sets it when no more results are needed; a search for pairs then ends soon
+  bool full;  ///< `grow` sets this to true if no more results are needed; a search for pairs then ends soon
 };
 using PairSink = Sink<Pair>;
 using PositionSink = Sink<std::uint32_t>;
 
 /// A part of space with levels of its own. A box belongs to the region that contains its minimum corner.
 struct Region {
-  float low[3], high[3];              ///< [m] low <= corner < high, per axis; infinite where the region has no border
-  std::uint32_t first_level, levels;  ///< index of its first level among those of all regions; number of its levels
+  float low[3], high[3];      ///< [m] low <= corner < high, per axis; infinite where the region has no border
+  std::uint32_t first_level;  ///< index of its first level among the levels of all regions
+  std::uint32_t levels;       ///< number of its levels
 };
 
 /// A node of the k-d tree that divides space into regions (Ericson 2005, 7.3.7).
 struct Branch {
   float split;                 ///< [m] corners with a smaller coordinate are in the part `below`, all others in `above`
-  std::int32_t axis;           ///< axis of the split; -1: a leaf, which is region number `below`
+  std::int32_t axis;           ///< axis of the split; -1: the node is a leaf, and `below` is the index of a region
   std::uint32_t below, above;  ///< indices of the nodes of the two parts
 };
 
 /// Input and output of the first pass of a counting sort. The pass finds the cell of each box and counts the boxes of
-/// each cell.
+/// each cell. "By position" means here: in the order of `order`.
 struct Keying {
   const Box* boxes;                  ///< in: all boxes, by id
   const std::uint32_t* order;        ///< in: ids in the order in which the boxes are visited
   std::size_t begin, end;            ///< in: range of positions in `order` that are visited
   std::size_t readable;              ///< in: size of `order`; ids before it may be prefetched
   Box* copies;                       ///< out: copies of the boxes, by position; null if not needed
-  std::uint32_t* cells;              ///< out: number of each box's cell, by position
+  std::uint32_t* cells;              ///< out: for each box the index of its cell, by position
   std::uint32_t* counts;             ///< in and out: number of boxes per cell
   const Grid* grids;                 ///< in: the grid of each level
   const float* sides;                ///< in: [m] longest side per level, ascending in a region; the last is not read
-  const std::uint32_t* first_cells;  ///< in: number of the first cell of each level
+  const std::uint32_t* first_cells;  ///< in: for each level the index of its first cell
   int levels;                        ///< in: number of levels
   float* sizes;                      ///< in and out: [m] 4 floats per level: longest side on x, y, z; 4th unused
-  float lower[4], upper[4];          ///< in and out: [m] least and greatest minimum corner; not used by keyRegions()
+  float lower[4], upper[4];          ///< in and out: [m] bounds of the minimum corners; not used by keyRegions()
   // The following members are only used by keyRegions(). The levels are stored region after region.
   const Region* regions;
   const Branch* branches;  ///< in: the first one is the root
-  float* corners;          ///< in and out: [m] 8 floats per level: least minimum corner (4), greatest one (4)
+  float* corners;          ///< in and out: [m] 8 floats per level: lower (4) and upper (4) bounds of minimum corners
 };
 
 /// The inner loops, compiled for one instruction set.
@@ -138,14 +142,14 @@ struct Kernels {
   bool (*sound)(const Box* boxes, std::size_t count);
   /// First pass of a counting sort (Ericson 2005, 7.1.4): finds the cell of each box and counts the boxes per cell.
   void (*key)(Keying* keying);
-  /// Does the same as key() if there are several regions.
+  /// Works like key(), but for a layer with several regions.
   void (*keyRegions)(Keying* keying);
   /// Finds the overlapping pairs of one level. Tests each box at positions begin .. end - 1 against the boxes after it.
   void (*pairsWithin)(const Level* level, std::uint32_t begin, std::uint32_t end, PairSink* sink);
   /// Finds the overlapping pairs of two levels. Tests the boxes of `asking` at positions begin .. end - 1 against all
   /// boxes of `asked`.
   void (*pairsAcross)(const Level* asking, std::uint32_t begin, std::uint32_t end, const Level* asked, PairSink* sink);
-  /// Finds the levels whose bounds overlap `box`. Writes their numbers in ascending order.
+  /// Finds the levels whose bounds overlap `box`. Writes their indices in ascending order.
   void (*reaching)(const LevelSet* set, const Box* box, PositionSink* sink);
   /// Finds the boxes that overlap `box`. Writes their positions, in ascending order within each level.
   void (*overlapping)(const LevelSet* set, const Box* box, PositionSink* sink);

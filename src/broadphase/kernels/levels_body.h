@@ -11,10 +11,10 @@ namespace hgrid {
 namespace kernels {
 namespace {
 
-/// Calls visit(number) for each level whose bounds pass the test, in ascending order. Considers only the levels in the
-/// boxes begin .. end - 1 of the tier. One test is enough for several boxes (kWidth) that are far from the search.
+/// Calls visit(number) for each level whose bounds pass the test, in ascending order. `number` is the index of the
+/// level. Considers only the levels in the boxes begin .. end - 1 of the tier. Tests kWidth boxes at once.
 /// @param test  called as uint32_t test(const Columns&, position, count). Bit k of the result says whether the box at
-///              position + k passes. It is 0 for k >= count and for k >= kWidth.
+///              position + k passes. Bit k is 0 for k >= count and for k >= kWidth.
 template <class Test, class Visit>
 void visitTier(const LevelSet& set, int tier, std::uint32_t begin, std::uint32_t end, const Test& test,
                const Visit& visit) {

@@ -14,19 +14,19 @@ namespace hgrid {
 namespace kernels {
 namespace {
 
-/// A range of cells on one axis: the number of the lowest cell, and minus the number of the highest cell. So the
+/// A range of cells on one axis: the index of the lowest cell, and minus the index of the highest cell. So the
 /// component-wise maximum of two spans is the intersection of their ranges.
 using Span = Simd::Two;
 
 constexpr double kEndless = 1e300;  // [cells] stands for infinity
 
-/// The coordinate of a line on one axis of a level. All values are in cells. A box of cell c can touch the line only
-/// where the coordinate of the line is within c - below .. c + 1 + above. The outermost cells also hold the boxes
-/// beyond them.
+/// The coordinate of a line on one axis of a level. All values are in cells. A box that is stored in cell c can touch
+/// the line only where the coordinate of the line is within c - below .. c + 1 + above. The outermost cells also hold
+/// the boxes outside the window.
 struct Track {
   double from, step, below, above, last;
 
-  /// Returns the cells whose boxes a line between `low` and `high` can touch. Their numbers are not rounded yet.
+  /// Returns the cells whose boxes a line between `low` and `high` can touch. The indices are not rounded yet.
   Span cellsBetween(double low, double high) const { return Simd::twoOf(low - above, -(high + below)); }
   /// Limits a span to the cells that exist: the lowest is at most `last`, the highest at least 0.
   Span within(Span cells) const { return Simd::least(cells, Simd::twoOf(last, 0.0)); }
@@ -45,7 +45,8 @@ inline Track trackOf(const Line& line, const Level& level, int axis) {
   track.last = static_cast<double>(level.grid.last[axis]);
   track.from = line.from[axis] * inverse - origin;
   track.step = line.step[axis] * inverse;
-  // The cells of the boxes were computed in float, those of the line are computed in double. Allow for both roundings.
+  // The cells of the boxes were computed in float, the cells of the line are computed in double. Allow for both
+  // roundings.
   const double rounded =
       1e-6 * (magnitude(origin) + track.last + 1.0) + 1e-9 * (magnitude(track.step) + magnitude(track.from));
   track.below = line.around * inverse + rounded;
@@ -57,8 +58,8 @@ inline Track trackOf(const Line& line, const Level& level, int axis) {
 class Crossing {
  public:
   Crossing(const Track& on, const Track& passing) : on_(on), last_(passing.last) {
-    // A line that hardly moves on the axis `passing` may be in one cell there on its whole length. Then the slope is 0,
-    // which makes the span unlimited.
+    // A line that hardly moves along the axis `passing` may be in one cell of this axis on its whole length. Then the
+    // slope is set to 0, and the span is unlimited.
     const double slope = magnitude(passing.step) > 1e-3 ? on.step / passing.step : 0.0;
     const double enter = on.from - slope * (passing.from + passing.below);
     const double leave = on.from - slope * (passing.from - 1.0 - passing.above);
@@ -74,7 +75,8 @@ class Crossing {
     }
   }
 
-  /// Returns those of `cells` that the line can touch while it passes cell number `passed` of the other axis.
+  /// Returns the part of `cells` that the line can touch while it passes the cell with index `passed` of the other
+  /// axis.
   Span within(std::int32_t passed, Span cells) const {
     const double cell = passed;
     Span met = Simd::plus(zero_, Simd::times(per_cell_, Simd::twoOf(cell, cell)));
@@ -87,15 +89,15 @@ class Crossing {
   const Track& on_;
   double last_;
   Span zero_, per_cell_;  // the span in cell 0, and its change from each cell to the next
-  Span before_, after_;   // added in the first and last cell, which extend to infinity
+  Span before_, after_;   // added in the first cell and in the last cell, because these cells extend to infinity
 };
 
-/// The positions of the boxes in those cells of a row that a line passes.
+/// The range of positions of the boxes in the cells of a row that a line passes.
 struct Passage {
   std::uint32_t begin, end;
 };
 
-/// Writes the positions of those boxes in the passages that may touch the line.
+/// Writes the positions of the boxes in the passages that may touch the line.
 void __attribute__((noinline)) searchPassages(const Level& level, const LineFilter& line, const Passage* passages,
                                               int count, Output<std::uint32_t>& out) {
   const LineFilter filter = line;  // a local copy, which the compiler can keep in registers
@@ -111,9 +113,9 @@ void __attribute__((noinline)) searchPassages(const Level& level, const LineFilt
 /// Finds the boxes of one level that may touch a line. Goes through the slabs of cells that the line crosses. In each
 /// slab, goes through the rows that the line crosses there, and finds the cells of each row.
 ///
-/// The cells are computed from the line itself, not from the cells before. So rounding errors do not add up, as they do
-/// in a walk from cell to cell (Ericson 2005, 7.4.2). Several rows are searched together, so that the processor can
-/// load one row while it computes another.
+/// The cells are computed from the line itself, not from the cells before. So rounding errors do not add up. They would
+/// add up in a walk from cell to cell (Ericson 2005, 7.4.2). Several rows are searched together, so that the processor
+/// can load one row while it computes another.
 void searchLevel(const Level& level, const Line& line, const LineFilter& filter, Output<std::uint32_t>& found) {
   constexpr int kPassages = 32;
   const Level l = level;
@@ -124,7 +126,7 @@ void searchLevel(const Level& level, const Line& line, const LineFilter& filter,
   const Span x_whole = x.whole(), y_whole = y.whole();
   Passage passages[kPassages];
   int count = 0;
-  std::int32_t slabs[2], rows[2], cells[2];  // as in Span: lowest, minus highest
+  std::int32_t slabs[2], rows[2], cells[2];  // as in Span: index of the lowest, minus the index of the highest
   Simd::store(z.whole(), slabs);
   for (std::int32_t slab = slabs[0]; slab <= -slabs[1]; ++slab) {
     const Span x_here = x_in_slab.within(slab, x_whole);

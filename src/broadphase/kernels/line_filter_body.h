@@ -11,10 +11,10 @@ namespace hgrid {
 namespace kernels {
 namespace {
 
-/// The values with which a quick test rejects boxes that do not touch a line. It compares the line and the box on six
-/// separating axes (Ericson 2005, 4.4):
+/// The values of a line that a quick test needs. The test rejects boxes that do not touch the line. It compares the
+/// line and the box on six separating axes (Ericson 2005, 4.4):
 ///
-/// - On the three axes of space, it compares the box with the box around the line.
+/// - On the axes x, y and z, it compares the box with the box around the line.
 /// - On the three axes that are normal to the line and to a side of the box, it compares the distance of the centers
 ///   with the sum of the half-widths.
 ///
@@ -68,7 +68,7 @@ inline LineFilter filterOf(const Line& line) {
   return filter;
 }
 
-/// kWidth boxes on one axis of space.
+/// The extents of kWidth boxes along x, y or z.
 struct Extents {
   Simd::Lanes away, size;  // [m] twice the distance of the centers from the line's start, and twice the half-widths
   Simd::Mask within;       // whether the boxes overlap the box around the line on this axis
@@ -81,9 +81,9 @@ inline Extents extentsOf(const LineFilter& filter, int axis, const Columns& boxe
           Simd::both(Simd::notGreater(min, filter.max[axis]), Simd::notGreater(filter.min[axis], max))};
 }
 
-/// Tests boxes on the axis that is normal to the line and to coordinate axis i; j and k are the other two coordinate
-/// axes. Returns true for a box if the distance of its center from the line, on this axis, is at most the sum of the
-/// half-widths.
+/// Tests boxes on the axis that is normal to the line and to coordinate axis i. The other two coordinate axes are j and
+/// k. For each box, the result says whether the distance of its center from the line, measured on the tested axis, is
+/// at most the sum of the half-widths.
 inline Simd::Mask onAxis(const LineFilter& filter, int i, int j, int k, const Extents& at_j, const Extents& at_k) {
   const Simd::Lanes apart = Simd::timesMinus(filter.step[j], at_k.away, Simd::times(filter.step[k], at_j.away));
   const Simd::Lanes reach =
@@ -91,8 +91,8 @@ inline Simd::Mask onAxis(const LineFilter& filter, int i, int j, int k, const Ex
   return Simd::notGreater(Simd::size(apart), reach);
 }
 
-/// Tests the boxes from `position` on. Bit k of the result is 1 if the box at `position` + k may touch the line. It is
-/// 0 for k >= count and for k >= kWidth.
+/// Tests the boxes from `position` on. Bit k of the result is 1 if the box at `position` + k may touch the line. Bit k
+/// is 0 for k >= count and for k >= kWidth.
 inline __attribute__((always_inline)) std::uint32_t onLine(const LineFilter& filter, const Columns& boxes,
                                                            std::uint32_t position, std::uint32_t count) {
   const Extents x = extentsOf(filter, 0, boxes, position), y = extentsOf(filter, 1, boxes, position),

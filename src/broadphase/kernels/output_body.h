@@ -13,13 +13,13 @@ namespace {
 
 constexpr int kBlock = 16;  // boxes that a kernel processes together; the same number for every instruction set
 
-/// A copy of a sink, to which a kernel writes. The compiler can keep its pointers in registers. With the sink itself,
-/// the compiler would have to assume that writing a result changes the pointers.
+/// A local copy of a sink. A kernel writes its results through this copy, because the compiler can keep the pointers of
+/// the copy in registers. With the sink itself, it would have to assume that writing a result changes the pointers.
 template <class Found>
 class Output {
  public:
   explicit Output(Sink<Found>* sink) : sink_(sink), next_(sink->next), limit_(sink->limit) {}
-  /// Returns where to write next, with room for at least kBlock results.
+  /// Returns where to write the next results. There is room for at least kBlock results.
   Found* room() {
     if (__builtin_expect(limit_ - next_ < kBlock, 0)) grow();
     return next_;

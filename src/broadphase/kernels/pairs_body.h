@@ -12,10 +12,11 @@ namespace hgrid {
 namespace kernels {
 namespace {
 
-/// Computes for 16 boxes, from `position` on, the cell of one of their bounds minus `reach` [m], on one axis. A box
-/// that overlaps a box with minimum v has its own minimum at v - reach or above. Rounding is monotone, so its cell is
-/// not below the cell of v - reach.
-/// @param side  which bound: 0 for the minimum, 3 for the maximum
+/// Computes the cells, along one axis, of the coordinates (bound - reach) of 16 boxes from `position` on.
+///
+/// Reason: a box that overlaps a box with minimum v has its own minimum at v - reach or above. Rounding is monotone, so
+/// the cell of this box is not below the cell of v - reach.
+/// @param side  which bound of the boxes: 0 for the minimum, 3 for the maximum
 inline void cellsOf(const Level& level, std::uint32_t position, int side, float reach, const Grid& grid, int axis,
                     std::int32_t* cells) {
   const float* const values = level.bounds + static_cast<std::size_t>(side + axis) * level.stride + position;
@@ -28,8 +29,8 @@ inline void cellsOf(const Level& level, std::uint32_t position, int side, float 
   }
 }
 
-/// Tests box i of `asking` against `left` boxes of `asked` from position `begin` on. It is always inlined: function
-/// calls would take about a tenth of the time of a benchmark frame.
+/// Tests box i of `asking` against `left` boxes of `asked` from position `begin` on. This function is always inlined,
+/// because calls would take about a tenth of the time of a search.
 inline __attribute__((always_inline)) void meetRange(const Level& asking, std::uint32_t i, const Level& asked,
                                                      std::uint32_t begin, std::uint32_t left, Output<Pair>& found) {
   const Simd::Box box = Simd::boxAt(asking, i);
@@ -43,9 +44,9 @@ inline __attribute__((always_inline)) void meetRange(const Level& asking, std::u
   }
 }
 
-/// For each bit k that is set, tests box first + k against the boxes of one row of cells. The row begins with cell
-/// row[k] + offset; its cells x_low[k] .. x_high[k] are tested. A loop over bits causes fewer branch mispredictions
-/// than a loop over 16 boxes with a branch for each: whether one box extends into the next row cannot be predicted.
+/// For each bit k that is set, tests box first + k against the boxes of one row of cells. The row begins with the cell
+/// row[k] + offset. The boxes in the cells x_low[k] .. x_high[k] of the row are tested. A loop over bits causes fewer
+/// branch mispredictions than a loop over 16 boxes with a branch for each box.
 inline void meetRows(const Level& asking, std::uint32_t first, std::uint32_t bits, const Level& asked,
                      const std::int32_t* row, std::int32_t offset, const std::int32_t* x_low,
                      const std::int32_t* x_high, Output<Pair>& found) {
@@ -60,10 +61,10 @@ inline void meetRows(const Level& asking, std::uint32_t first, std::uint32_t bit
 
 inline std::uint32_t bitsBelow(std::uint32_t count) { return count >= kBlock ? 0xffffu : (1u << count) - 1u; }
 
-/// A box is stored in the cell of its minimum corner (Ericson 2005, 7.1.6). So the boxes that overlap it are in cells
-/// between the cell of (minimum - reach) and the cell of its maximum. Each box is tested against the boxes that follow
-/// it in the order of cells: first the rest of its own row up to its maximum, then the later rows, whose cells begin
-/// at that of (minimum - reach).
+/// A box is stored in the cell of its minimum corner (Ericson 2005, 7.1.6). So all boxes that overlap a given box are
+/// in the cells from the cell of (minimum - reach) to the cell of the maximum of the given box. Each box is tested only
+/// against the boxes that follow it in the order of cells. These are the rest of its own row up to its maximum, and
+/// then the later rows, each from the cell of (minimum - reach) on.
 void pairsWithin(const Level* level, std::uint32_t begin, std::uint32_t end, PairSink* sink) {
   const Level l = *level;
   const Grid& grid = l.grid;
@@ -110,13 +111,13 @@ void pairsWithin(const Level* level, std::uint32_t begin, std::uint32_t end, Pai
   found.close();
 }
 
-/// One box of a level, and a range of positions in another level. The boxes at these positions may overlap that box.
+/// One box of a level, and a range of positions in another level. The boxes at these positions may overlap the one box.
 struct Encounter {
   std::uint32_t box, begin, left;
 };
 
-/// Encounters of boxes of one level with boxes of another. They are collected first and tested later. Meanwhile their
-/// data, which may be far apart in memory, are loaded into the cache.
+/// Encounters of boxes of one level with boxes of another level. They are collected first and tested later. Meanwhile
+/// the processor loads the boxes into the cache, because they may be far apart in memory.
 class Encounters {
  public:
   Encounters(const Level& asking, const Level& asked) : asking_(asking), asked_(asked) {}
@@ -151,8 +152,8 @@ class Encounters {
   Encounter encounters_[kMost];
 };
 
-/// Works like pairsWithin(), but each box is tested against all cells from (minimum - reach) on, because the boxes of
-/// two levels or layers have no common order.
+/// Works like pairsWithin(), but on each axis all cells from the cell of (minimum - reach) on are searched. The reason:
+/// the boxes of two levels or layers have no common order.
 void pairsAcross(const Level* asking, std::uint32_t begin, std::uint32_t end, const Level* asked, PairSink* sink) {
   const Level a = *asking, b = *asked;
   const Grid& grid = b.grid;

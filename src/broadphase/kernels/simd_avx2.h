@@ -10,7 +10,8 @@ namespace hgrid {
 namespace kernels {
 namespace {
 
-/// A table: for each of the 256 sets of lanes, the numbers of its lanes in ascending order, in four bits each.
+/// A table: for each of the 256 subsets of the 8 SIMD lanes, the indices of its lanes in ascending order. Each index
+/// has four bits.
 struct PackedLanes {
   std::uint32_t of[256];
   constexpr PackedLanes() : of() {
@@ -78,9 +79,9 @@ struct SimdAvx2 : SimdSse2 {
   }
 
   using Lanes = __m256;
-  using SimdSse2::minus;  // for Quad
-  using SimdSse2::plus;   // for Two
-  using SimdSse2::times;  // for Two
+  using SimdSse2::minus;  // the overload for Quad
+  using SimdSse2::plus;   // the overload for Two
+  using SimdSse2::times;  // the overload for Two
   static Lanes lanesOf(float value) { return _mm256_set1_ps(value); }
   static Lanes lanesAt(const float* from) { return _mm256_loadu_ps(from); }
   static Lanes plus(Lanes a, Lanes b) { return _mm256_add_ps(a, b); }
@@ -106,13 +107,13 @@ struct SimdAvx2 : SimdSse2 {
   }
 
  private:
-  /// Returns the numbers of the lanes in `bits` in ascending order, then zeros.
+  /// Returns the indices of the bits that are 1 in `bits`, in ascending order, then zeros.
   static __m256i lanesIn(std::uint32_t bits) {
     const __m256i packed = _mm256_set1_epi32(static_cast<int>(kPackedLanes.of[bits]));
     const __m256i shifted = _mm256_srlv_epi32(packed, _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28));
     return _mm256_and_si256(shifted, _mm256_set1_epi32(7));
   }
-  /// Returns the ids of the lanes in `bits`, moved to the front.
+  /// Returns the ids[k] for which bit k of `bits` is 1, moved to the front.
   static __m256i packed(const std::uint32_t* ids, std::uint32_t bits) {
     return _mm256_permutevar8x32_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(ids)), lanesIn(bits));
   }

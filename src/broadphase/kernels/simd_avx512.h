@@ -62,9 +62,9 @@ struct SimdAvx512 : SimdSse2 {
   }
 
   using Lanes = __m512;
-  using SimdSse2::minus;  // for Quad
-  using SimdSse2::plus;   // for Two
-  using SimdSse2::times;  // for Two
+  using SimdSse2::minus;  // the overload for Quad
+  using SimdSse2::plus;   // the overload for Two
+  using SimdSse2::times;  // the overload for Two
   static Lanes lanesOf(float value) { return _mm512_set1_ps(value); }
   static Lanes lanesAt(const float* from) { return _mm512_loadu_ps(from); }
   static Lanes plus(Lanes a, Lanes b) { return _mm512_add_ps(a, b); }
@@ -85,8 +85,8 @@ struct SimdAvx512 : SimdSse2 {
   }
 
  private:
-  /// Returns the ids of the lanes in `bits`, moved to the front. Compresses in a register, because compressing directly
-  /// to memory is slow on some processors.
+  /// Returns the ids[k] for which bit k of `bits` is 1, moved to the front. Compresses in a register, because
+  /// compressing directly to memory is slow on some processors.
   static __m512i packed(const std::uint32_t* ids, std::uint32_t bits) {
     return _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), _mm512_loadu_si512(ids));
   }

@@ -14,11 +14,11 @@ namespace {
 struct NeonTables {
   /// bit_of_lane[count] has the value 1 << lane in each lane below `count`, and 0 in the other lanes.
   alignas(16) std::uint32_t bit_of_lane[5][4];
-  /// For each of the 16 sets of lanes: the numbers of its lanes in ascending order, then zeros.
+  /// For each of the 16 subsets of the 4 lanes: the indices of its lanes in ascending order, then zeros.
   alignas(16) std::uint32_t lanes[16][4];
-  /// For each of the 16 sets of lanes: the numbers of the bytes of its lanes, in ascending order, then those of lane 0.
+  /// For each of the 16 subsets: the indices of the bytes of its lanes, in ascending order, then the bytes of lane 0.
   alignas(16) std::uint8_t bytes[16][16];
-  /// For each of the 16 sets of lanes: the number of its lanes.
+  /// For each of the 16 subsets: how many lanes it has.
   std::uint8_t count[16];
 
   constexpr NeonTables() : bit_of_lane(), lanes(), bytes(), count() {
@@ -39,8 +39,8 @@ constexpr NeonTables kNeonTables;
 
 /// The vector operations for NEON, which every 64-bit ARM processor supports. simd_portable.h explains them.
 ///
-/// The instructions FMIN and FMAX return NaN if one operand is NaN, and FMINNM and FMAXNM return the other operand. But
-/// least() and greatest() must return the second operand then, so they compare and select.
+/// If one operand is NaN, the instructions FMIN and FMAX return NaN, and FMINNM and FMAXNM return the other operand.
+/// But least() and greatest() must return the second operand in this case, so they compare and select.
 struct SimdNeon {
   /// With 8 boxes, in two registers, pairsWithin(), overlapping() and along() would execute about a tenth more
   /// instructions, because most ranges of positions are short.
@@ -107,7 +107,7 @@ struct SimdNeon {
   static Lanes timesPlus(Lanes a, Lanes b, Lanes c) { return vfmaq_f32(c, a, b); }
   static Lanes timesMinus(Lanes a, Lanes b, Lanes c) { return vnegq_f32(vfmsq_f32(c, a, b)); }
   static Lanes size(Lanes a) { return vabsq_f32(a); }
-  using Mask = uint32x4_t;  // inverted: ones mean false, because NEON has no comparison "not greater"
+  using Mask = uint32x4_t;  // inverted, because NEON has no comparison "not greater": bits with value 1 mean false
   static Mask notGreater(Lanes a, Lanes b) { return vcgtq_f32(a, b); }
   static Mask both(Mask a, Mask b) { return vorrq_u32(a, b); }
   static std::uint32_t bitsOf(Mask mask, std::uint32_t count) { return vaddvq_u32(vbicq_u32(bitsBelow(count), mask)); }

@@ -8,8 +8,8 @@ namespace hgrid {
 namespace kernels {
 namespace {
 
-/// The vector operations of the kernels, in plain C++. The other simd_ files have the same operations for one
-/// instruction set each. The comments here also explain the operations in those files.
+/// The vector operations of the kernels, in plain C++. Each other simd_ file has the same operations for one
+/// instruction set. The comments in this file explain the operations for all instruction sets.
 struct SimdPortable {
   static constexpr std::uint32_t kWidth = 8;  ///< number of boxes that overlaps() tests at once
 
@@ -24,8 +24,8 @@ struct SimdPortable {
   }
   static Id idAt(const Level& level, std::uint32_t i) { return level.id[i]; }
 
-  /// Tests `box` against the boxes at the positions from j on. Bit k of the result is 1 if `box` overlaps the one at
-  /// position j + k. It is 0 for k >= count and for k >= kWidth.
+  /// Tests `box` against the boxes at the positions from j on. Bit k of the result is 1 if `box` overlaps the box at
+  /// position j + k. Bit k is 0 for k >= count and for k >= kWidth.
   static std::uint32_t overlaps(const Box& box, const Columns& boxes, std::uint32_t j, std::uint32_t count) {
     std::uint32_t bits = 0;
     for (std::uint32_t k = 0; k < kWidth; ++k) {
@@ -111,7 +111,7 @@ struct SimdPortable {
     return mask;
   }
   static Mask both(Mask a, Mask b) { return a & b; }
-  /// Converts a mask to bits. Bit k is the value of lane k. It is 0 for k >= count and for k >= kWidth.
+  /// Converts a mask to bits. Bit k is the value of lane k. Bit k is 0 for k >= count and for k >= kWidth.
   static std::uint32_t bitsOf(Mask mask, std::uint32_t count) {
     return mask & ((1u << (count < kWidth ? count : kWidth)) - 1u);
   }
@@ -174,7 +174,7 @@ struct SimdPortable {
     const float xy = a.v[0] > a.v[1] ? a.v[0] : a.v[1];
     return xy > a.v[2] ? xy : a.v[2];
   }
-  /// Computes the number of the cell of each coordinate. `cell` needs room for four values.
+  /// Computes for each coordinate the index of the cell along its axis. `cell` needs room for four values.
   static void cellsOf(const Quad& quad, const Grid& grid, std::int32_t* cell) {
     for (int i = 0; i < 3; ++i) {
       float number = quad.v[i] * grid.inverse[i] - grid.origin[i];

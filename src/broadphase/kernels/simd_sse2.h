@@ -10,8 +10,8 @@ namespace hgrid {
 namespace kernels {
 namespace {
 
-/// The vector operations for SSE2; simd_portable.h explains them. AVX2 and AVX-512 replace some of these operations and
-/// use the others as they are.
+/// The vector operations for SSE2; simd_portable.h explains them. SimdAvx2 and SimdAvx512 replace some of these
+/// operations and inherit the others.
 struct SimdSse2 {
   static constexpr std::uint32_t kWidth = 4;
 

@@ -26,7 +26,7 @@ inline const Box& fetched(const Keying& k, std::size_t i) {
   return k.boxes[k.order[i]];
 }
 
-/// Finds the cell of box i in `order` from its minimum corner, stores the number of the cell and counts the box there.
+/// Finds the cell of box i in `order` from its minimum corner, stores the index of the cell and counts the box there.
 inline void countIn(Keying& k, std::size_t i, std::uint32_t level, Simd::Quad min) {
   const Grid& grid = k.grids[level];
   std::int32_t cell[4];
@@ -38,8 +38,8 @@ inline void countIn(Keying& k, std::size_t i, std::uint32_t level, Simd::Quad mi
   ++k.counts[number];
 }
 
-/// Visits the boxes in the order of the last sort, which is nearly the order of their cells. So counts and copies are
-/// written almost sequentially. Only the boxes are read at random places, by id; they are prefetched.
+/// Visits the boxes in the order of the last sort. This is nearly the order of their cells. So counts and copies are
+/// written almost sequentially. Only the boxes are read at random places, by id. So they are prefetched.
 void key(Keying* keying) {
   constexpr int kMostLevels = 17;
   Keying& k = *keying;
@@ -73,8 +73,8 @@ inline bool isIn(const Region& region, const float* corner) {
   return in;
 }
 
-/// Works like key(), for several regions. First tries the region of the box before: in the order of the last sort,
-/// successive boxes are nearly always in the same region.
+/// Works like key(), but for several regions. First tries the region of the box before, because successive boxes in
+/// the order of the last sort are nearly always in the same region.
 void keyRegions(Keying* keying) {
   Keying& k = *keying;
   const Region* region = k.regions;
