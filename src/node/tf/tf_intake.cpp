@@ -25,11 +25,12 @@ geometry_msgs::TransformStamped withoutSlashes(geometry_msgs::TransformStamped t
 
 }  // namespace
 
-TfIntake::TfIntake(double max_future, double cache, std::size_t max_frames, bool simulated, Ledger& ledger)
+TfIntake::TfIntake(double max_future, double cache, std::size_t max_frames, bool simulated, Ledger& ledger,
+                   std::size_t max_samples)
     : max_future_(max_future),
       ledger_(ledger),
       ages_(simulated),
-      store_(Time(std::llround(1e9 * cache)), max_frames),
+      store_(Time(std::llround(1e9 * cache)), max_frames, max_samples),
       rivals_(ledger) {}
 
 void TfIntake::take(const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher,
@@ -47,6 +48,7 @@ void TfIntake::take(const tf2_msgs::TFMessage& message, bool is_static, const st
     }
   }
   if (accepted_ > 0) ledger_.count("tf.accepted", accepted_);
+  if (const std::size_t dropped = store_.takeDropped()) ledger_.count("tf.samples.LIMIT", dropped);
 }
 
 void TfIntake::takeOne(const geometry_msgs::TransformStamped& transform, bool is_static, const std::string& publisher,

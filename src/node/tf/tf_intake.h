@@ -43,14 +43,18 @@ class TfIntake {
     bool hasConflict() const { return from_tf && from_static; }
   };
 
-  /// @param max_future  [s] how far a stamp may be ahead of ROS time
-  /// @param cache       [s] how long transforms are kept
-  /// @param max_frames  limits the number of frames, as in FrameTable
-  /// @param simulated   whether /clock drives ROS time
-  TfIntake(double max_future, double cache, std::size_t max_frames, bool simulated, Ledger& ledger);
+  /// @param max_future   [s] how far a stamp may be ahead of ROS time
+  /// @param cache        [s] how long transforms are kept
+  /// @param max_frames   limits the number of frames, as in FrameTable
+  /// @param simulated    whether /clock drives ROS time
+  /// @param max_samples  how many transforms of one frame are kept
+  TfIntake(double max_future, double cache, std::size_t max_frames, bool simulated, Ledger& ledger,
+           std::size_t max_samples = TransformStore::kMaxSamples);
 
   /// Handles the transforms of one message. Counts and logs each refused transform, and uses the others.
   void take(const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher, const Moment& now);
+  /// Sets which frames bodies need. There is room for them even if there are too many other frames.
+  void need(const std::vector<std::string>& names) { store_.need(names); }
   /// Drops the stamps and periods of all frames of /tf. Call this after a simulated clock jumped back. Static
   /// transforms stay.
   void forgetMoving();

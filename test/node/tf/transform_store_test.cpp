@@ -39,6 +39,22 @@ TEST(TransformStore, DropsNothingBecauseOfAStampFarAheadOfTheClock) {
   EXPECT_TRUE(store.history(arm).at(s(105)));
 }
 
+TEST(TransformStore, KeepsAtMostMaxSamplesOfEachFrameAndCountsTheOthers) {
+  TransformStore store(s(100), 100, 5);
+  const std::uint32_t arm = store.admit("base", "arm"), cart = store.admit("base", "cart");
+  for (int time = 1; time <= 12; ++time) store.advance(arm, "base", sample(time, time), s(time));
+  store.advance(cart, "base", sample(1, 1), s(1));
+  EXPECT_EQ(store.takeDropped(), 7u);
+  EXPECT_EQ(store.takeDropped(), 0u);
+  EXPECT_TRUE(store.history(arm).at(s(8)));
+  EXPECT_FALSE(store.history(arm).at(s(7.9)));
+  EXPECT_TRUE(store.history(cart).at(s(1)));
+  EXPECT_TRUE(store.fill(arm, sample(9.5, 0))) << "an older sample takes the room of the oldest";
+  EXPECT_EQ(store.takeDropped(), 1u);
+  EXPECT_FALSE(store.history(arm).at(s(8)));
+  EXPECT_FALSE(store.fill(arm, sample(8.5, 0)));
+}
+
 TEST(TransformStore, SetsTheParentOfASample) {
   TransformStore store(s(10), 100);
   const std::uint32_t arm = store.admit("base", "arm");
