@@ -76,7 +76,8 @@ std::vector<TickLoop::Step> ProximityNode::tickSteps() {
   using TickPtr = std::shared_ptr<const Tick>;
   return {{"tick.publish", [this](const TickPtr& tick) { publishers_.publishTick(*tick); }},
           {"tick.distances", [this](const TickPtr& tick) { publishers_.publishDistances(tick); }},
-          {"", [this](const TickPtr& tick) { completeness_log_.log(*tick); }}};
+          {"", [this](const TickPtr& tick) { completeness_log_.log(*tick); }},
+          {"", [this](const TickPtr& tick) { model_log_.log(tick->models); }}};
 }
 
 /// Returns what the admin thread does at regular times, in this order.

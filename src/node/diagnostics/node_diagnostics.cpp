@@ -11,7 +11,10 @@ namespace {
 using diagnostic_msgs::DiagnosticStatus;
 using diagnostic_updater::DiagnosticStatusWrapper;
 
-void addAll(DiagnosticStatusWrapper& status, const std::string& key, const std::vector<std::string>& lines) {
+constexpr std::size_t kMostLines = 20;  // largest number of entries of a list; ~status has longer lists
+
+void addAll(DiagnosticStatusWrapper& status, const std::string& key, const std::vector<std::string>& all) {
+  const std::vector<std::string> lines = shortened(all, kMostLines);
   for (std::size_t i = 0; i < lines.size(); ++i) status.add(key + " " + std::to_string(i + 1), lines[i]);
 }
 
@@ -72,9 +75,6 @@ void NodeDiagnostics::robots(DiagnosticStatusWrapper& status) {
     status.summary(DiagnosticStatus::ERROR, "UNCOVERED " + report.uncovered.front());
   } else if (!report.warnings.empty()) {
     status.summary(DiagnosticStatus::WARN, report.warnings.front());
-  } else if (!report.without_collision.empty()) {
-    status.summary(DiagnosticStatus::WARN, std::to_string(report.without_collision.size()) +
-                                               " links have no <collision>; their extent is unknown");
   } else {
     status.summary(DiagnosticStatus::OK, "all shapes were read");
   }
