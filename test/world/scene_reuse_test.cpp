@@ -87,7 +87,8 @@ TEST(SceneReuse, SnapshotsThatNobodyReadsKeepNeitherOldMapsNorOldBodies) {
   Body tool = test::ball("tool");
   tool.shapes[0].solid = narrow_phase->solidOf(tool.shapes[0].shape);
   const std::weak_ptr<const Solid> solid = tool.shapes[0].solid;
-  const BodyId tool_id = test::put(scene, std::move(tool), test::at(0));
+  const BodyId tool_id = test::put(scene, tool, test::at(0));
+  tool = Body{};
   test::put(scene, test::ball("part"), test::at(0));
   const BodyId room = test::put(scene, test::mapBody("room"), test::at(0));
   std::vector<std::shared_ptr<const Snapshot>> held;

@@ -37,6 +37,8 @@ class FrameTable {
   /// Sets which frames bodies need. The parents of a needed frame are needed too, also those that it gets later. Call
   /// this when bodies were added or removed.
   void need(const std::vector<std::string>& names);
+  /// Whether bodies need a frame, or a frame below it.
+  bool isNeeded(const std::string& name) const { return isNeeded(find(name), name); }
 
   /// Returns the number of the frame `name`, or kNone if this name has not occurred.
   std::uint32_t find(const std::string& name) const;

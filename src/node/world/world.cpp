@@ -165,12 +165,12 @@ void World::setCloudFrame(const std::string& cloud, const std::string& frame) {
 }
 
 /// Tells the transforms which frames have priority, if the bodies have changed.
-void World::needFrames() {
+void World::needFrames(const Moment& now) {
   if (needed_revision_ == movers_.revision()) return;
   std::vector<std::string> frames{world_frame_};
   for (const Mover& mover : movers_.all()) frames.push_back(mover.frame);
   for (const auto& cloud : cloud_frames_) frames.push_back(cloud.second);
-  transforms_.need(frames);
+  transforms_.need(frames, now);
   needed_revision_ = movers_.revision();
 }
 
@@ -247,7 +247,7 @@ std::shared_ptr<const Tick> World::tick(const Moment& now) {
   const bool can_begin = findWorldFrame() && clock_.running();
   // This comes before listMissing(), because obstacles that are refused become missing sources.
   if (can_begin) obstacles_.addAll(world_frame_, movers_, missing_);
-  needFrames();
+  needFrames(now);
   tick->world_frame = world_frame_;
   tick->models = robots_.report();
   tick->frames = transforms_.table().placed();

@@ -78,7 +78,7 @@ class World {
   void handleClock(const Moment& now);
   void beginEpoch();
   bool findWorldFrame();
-  void needFrames();
+  void needFrames(const Moment& now);
   std::vector<SourceGap> listMissing(const Moment& now, Tick& tick) const;
 
   const Params& params_;
