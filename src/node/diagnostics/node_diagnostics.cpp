@@ -76,7 +76,8 @@ void NodeDiagnostics::robots(DiagnosticStatusWrapper& status) {
   } else if (!report.warnings.empty()) {
     status.summary(DiagnosticStatus::WARN, report.warnings.front());
   } else {
-    status.summary(DiagnosticStatus::OK, "all shapes were read");
+    status.summary(DiagnosticStatus::OK, report.waived.empty() ? "all shapes were read"
+                                                               : "all shapes were read, except those that are waived");
   }
   addSelfPairs(status, report);
   status.add("robots loaded", report.robots);

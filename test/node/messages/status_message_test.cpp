@@ -53,7 +53,7 @@ TEST(StatusMessage, HasTheReasonsThatExplainManyBodiesFirst) {
   params.max_reasons = 2;
   const msg::Status status = statusOf(tick, params);
   EXPECT_EQ(status.world.reasons,
-            std::vector<std::string>({tick.unplaced[0], "UNPLACED obstacle/a: it never had a pose (frame '')"}));
+            std::vector<std::string>({tick.unplaced[0], "UNPLACED obstacle/a: it never had a pose (frame 'world')"}));
   EXPECT_EQ(status.world.reasons_total, 3u);
   EXPECT_EQ(status.not_ready, tick.unplaced);
 }

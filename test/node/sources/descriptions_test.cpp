@@ -177,6 +177,7 @@ TEST(Uncovered, AWaiverMakesTheWorldCompleteAndIsListed) {
   EXPECT_EQ(status->waived.size(), 2u);
   EXPECT_TRUE(oneSays(status->waived, "robot/torn: far from everything (PARSE: <collision> 2 of link 'torn'"));
   EXPECT_EQ(node.sphere(9, 0, 0, 0.05).answer.verdict, msg::Verdict::CLEAR);
+  waitForDiagnostic(node, "robots", DiagnosticStatus::OK, "all shapes were read, except those that are waived");
   const auto bodies = node.waitForBodies("structure", [](const msg::Bodies& b) { return b.bodies.size() == 4; });
   for (const msg::Body& body : bodies->bodies) {
     EXPECT_EQ(body.waived, body.name == "robot/torn" || body.name == "robot/meshless") << body.name;
@@ -268,6 +269,7 @@ TEST(VisualGeometry, IsUsedWhereAPatternMatchesAndIsListed) {
       return entry.key == "uses visual geometry 1" && entry.value == "robot/shell";
     });
   });
+  EXPECT_EQ(node.lines("~use_visual: 'robot/none' matches no body"), 1u) << "the log has each warning once";
 }
 
 TEST(VisualGeometry, ThatCannotBeReadIsUncovered) {
