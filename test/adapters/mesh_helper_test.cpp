@@ -128,7 +128,8 @@ TEST_F(MeshHelper, ManyHangsTogetherEndAtTheLimitForAllFiles) {
     EXPECT_TRUE(says(sentence_, "/" + std::to_string(i) + ".stl"));
     asked += says(sentence_, "took longer") ? 1 : 0;
   }
-  EXPECT_EQ(asked, 3);
+  EXPECT_GE(asked, 1);
+  EXPECT_LE(asked, 5) << "each of them takes 100 ms, apart from rounding";
   EXPECT_TRUE(says(sentence_, "it was not read, because reading the files before it took 0.25 s"));
 }
 
