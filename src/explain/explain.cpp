@@ -87,10 +87,10 @@ class Words {
       }
     }
     for (const auto* body : {&a_, &b_}) {
-      if (hasCells(body->kind)) return body->name + " has no occupied cells";
+      if (hasCells(body->kind) || !body->shapes.empty()) continue;
+      return body->name + " has no shape that could be read" + (body->note.empty() ? "" : ": " + body->note);
     }
-    const Body& body = a_.shapes.empty() ? a_ : b_;
-    return body.name + " has no shape that could be read" + (body.note.empty() ? "" : ": " + body.note);
+    return (hasCells(a_.kind) ? a_ : b_).name + " has no occupied cells";
   }
 
   std::string switchedOff() const {
@@ -149,6 +149,7 @@ class Words {
   /// Returns a sentence that says whether the pair would be reported if no rule switched it off.
   std::string without() const {
     if (what_.rule.origin == Origin::self) return {};
+    if (hasCells(a_.kind) && hasCells(b_.kind)) return {};  // the gap of two maps is never computed
     if (!hasBoxes()) return " Also, " + missing() + ".";
     return near_ ? " Otherwise they would be reported: " + nearness() + "." : " Also, " + nearness() + ".";
   }
@@ -158,7 +159,7 @@ class Words {
     const PairRule& rule = what_.rule;
     if (rule.origin == Origin::none) return {};
     const std::string who = rule.origin == Origin::srdf ? "The SRDF's enable_collisions" : theRule("Rule");
-    return " " + who + " says that the pair must be reported when its bodies are near" + because() + ".";
+    return " " + who + " does not allow them to touch" + because() + ".";
   }
 
   std::string grown() const {

@@ -5,6 +5,13 @@
 #include <limits>
 
 namespace hgrid {
+namespace {
+
+/// Bounds the relative rounding errors of a box in the map and of its distance from a cell. Far from the origin they
+/// would otherwise hide a pair whose gap equals its margin.
+constexpr double kRounding = 1e-14;
+
+}  // namespace
 
 std::shared_ptr<const MapCells> makeMapCells(std::shared_ptr<const StaticGrid> grid, const NarrowPhase& narrow_phase,
                                              std::shared_ptr<const UnmappedSpace> unmapped) {
@@ -20,8 +27,10 @@ std::shared_ptr<const MapCells> makeMapCells(std::shared_ptr<const StaticGrid> g
 
 Eigen::AlignedBox3d boxInMap(const Pose& map_from_world, const Aabb& box, const Eigen::Vector3d& origin) {
   const Eigen::Vector3d low = box.min.cast<double>(), high = box.max.cast<double>();
-  const Eigen::Vector3d center = map_from_world * (origin + 0.5 * (low + high));
-  const Eigen::Vector3d half = map_from_world.linear().cwiseAbs() * (0.5 * (high - low));
+  const Eigen::Vector3d middle = origin + 0.5 * (low + high);
+  const Eigen::Vector3d center = map_from_world * middle;
+  const double rounding = kRounding * (middle.norm() + map_from_world.translation().norm() + (high - low).norm());
+  const Eigen::Vector3d half = (map_from_world.linear().cwiseAbs() * (0.5 * (high - low))).array() + rounding;
   return {center - half, center + half};
 }
 

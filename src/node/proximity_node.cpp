@@ -79,7 +79,8 @@ std::vector<TickLoop::Step> ProximityNode::tickSteps() {
            [this](const TickPtr& tick) {
              if (const auto time = publishers_.publishDistances(tick)) stopwatch_.add("distances", *time);
            }},
-          {"", [this](const TickPtr& tick) { completeness_log_.log(*tick); }}};
+          {"", [this](const TickPtr& tick) { completeness_log_.log(*tick); }},
+          {"", [this](const TickPtr& tick) { model_log_.log(tick->models); }}};
 }
 
 /// Returns what the admin thread does at regular times, in this order.

@@ -11,6 +11,7 @@
 #include "node/callback_threads.h"
 #include "node/commons.h"
 #include "node/diagnostics/completeness_log.h"
+#include "node/diagnostics/model_log.h"
 #include "node/diagnostics/node_diagnostics.h"
 #include "node/housekeeping.h"
 #include "node/loading/loading.h"
@@ -52,6 +53,7 @@ class ProximityNode {
   TickLoop tick_loop_;
   Publishers publishers_;
   CompletenessLog completeness_log_;
+  ModelLog model_log_;
   Loading loading_;
   NodeServices services_;
   NodeDiagnostics diagnostics_;

@@ -18,6 +18,8 @@
 #include <cerrno>
 #include <cstdlib>
 #include <exception>
+#include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -103,7 +105,42 @@ void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent
   }
 }
 
+/// Returns the next line of an OBJ file, without its line break. A line that ends with a backslash goes on in the next.
+std::string nextLine(std::istringstream& lines) {
+  std::string line, more;
+  while (std::getline(lines, more)) {
+    if (!more.empty() && more.back() == '\r') more.pop_back();
+    line += more;
+    if (line.empty() || line.back() != '\\') break;
+    line.back() = ' ';
+  }
+  return line;
+}
+
+/// Refuses an OBJ file that ends within a line, or that has a face with fewer than 3 corners. The parser would accept
+/// such a file and leave out triangles. A file that was cut between two lines cannot be told from a complete one.
+void checkObj(const std::string& data) {
+  std::istringstream lines(data);
+  std::string line, word;
+  while (lines) {
+    line = nextLine(lines);
+    std::istringstream words(line);
+    words >> word;
+    if (!words || word != "f") continue;
+    const auto corners = std::distance(std::istream_iterator<std::string>(words), std::istream_iterator<std::string>());
+    if (corners < 3) throw Refusal(Code::parse, "its face '" + line + "' has fewer than 3 corners");
+  }
+  const std::size_t begin = data.find_last_of('\n') + 1;  // of the last line; 0 if there is no line break
+  const std::size_t text = data.find_first_not_of(" \t\r", begin);
+  if (text != std::string::npos && data[text] != '#') {
+    throw Refusal(Code::truncated,
+                  "its last line has no line break, so it may have been written only in part; write it again, or add "
+                  "a line break if it is complete");
+  }
+}
+
 Mesh parse(const std::string& data, const std::string& kind, std::size_t max_triangles) {
+  if (kind == "obj") checkObj(data);
   Assimp::Importer importer;
   // Apply the unit of a COLLADA file, but ignore its up axis. RViz does the same.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);

@@ -245,6 +245,7 @@ void Scene::State::accept(const std::shared_ptr<PooledSnapshot>& accepted) {
   sequence = pooled.snapshot.sequence_;
   pooled.finished = true;
   last = {accepted, &pooled.snapshot};
+  pool->keepOnly(structure->revision);
 }
 
 std::shared_ptr<const Snapshot> Scene::commit(Time stamp, const std::vector<SourceGap>& gaps) {

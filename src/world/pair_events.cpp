@@ -3,6 +3,7 @@
 #include "world/pair_events.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "pairs/pair_order.h"
@@ -125,8 +126,9 @@ void PairEvents::judge(const On& on, const PairsNow& now, PairEventList& list) {
     return;
   }
   const double gap = gapOf(now, on.first, on.second);
+  const double told = std::isfinite(gap) ? gap : std::numeric_limits<double>::quiet_NaN();  // infinite: no cell is left
   list.events.push_back(
-      {0, EventKind::end, causeOfEnd(on, margin, gap, structure), on.first, on.second, on.since, gap});
+      {0, EventKind::end, causeOfEnd(on, margin, gap, structure), on.first, on.second, on.since, told});
 }
 
 void PairEvents::begin(const NearPair& pair, EventCause cause, const PairsNow& now) {

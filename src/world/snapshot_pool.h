@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <mutex>
 #include <new>
@@ -21,11 +23,19 @@ struct PooledSnapshot {
   HGrid grid;
   std::uint64_t grid_revision = 0;  ///< revision of the structure that `grid` was set up for
   bool finished = false;  ///< whether a commit has filled the snapshot; if the commit failed, it is not used again
+
+  /// Releases what the next commit does not need: the cells of maps, and the structure before the last change.
+  void release() {
+    snapshot.cells_.clear();
+    snapshot.events_.before.reset();
+  }
 };
 
 /// Keeps the snapshots that nobody reads any more, so that later ticks can fill them again without allocating memory.
 /// Also keeps the memory blocks of the shared pointers to these snapshots. Any thread may call the functions: each call
 /// holds a lock for a short time.
+///
+/// The snapshots in the pool keep no map alive, and no bodies but those of the newest structure.
 class SnapshotPool {
  public:
   SnapshotPool() {
@@ -46,8 +56,19 @@ class SnapshotPool {
     return snapshot;
   }
   void giveBack(std::unique_ptr<PooledSnapshot> snapshot) {
+    snapshot->release();
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (free_.size() < kMostKept) free_.push_back(std::move(snapshot));
+    const bool current = snapshot->snapshot.structure().revision == revision_;
+    if (current && free_.size() < kMostKept) free_.push_back(std::move(snapshot));
+  }
+  /// Drops the snapshots of other structures, now and when they are given back. Allocates no memory.
+  void keepOnly(std::uint64_t revision) {
+    std::array<std::unique_ptr<PooledSnapshot>, kMostKept> dropped;  // destroyed after the lock was released
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (revision == revision_) return;
+    revision_ = revision;
+    std::move(free_.begin(), free_.end(), dropped.begin());
+    free_.clear();
   }
 
   /// Returns memory for the control block of a shared pointer to a snapshot. `size` is the same in every call.
@@ -70,6 +91,7 @@ class SnapshotPool {
  private:
   static constexpr std::size_t kMostKept = 4;
   std::mutex mutex_;
+  std::uint64_t revision_ = 0;  // of the newest structure
   std::vector<std::unique_ptr<PooledSnapshot>> free_;
   std::vector<void*> free_blocks_;
 };

@@ -68,6 +68,23 @@ TEST_F(BadMesh, WithoutAnAreaIsRefused) {
   }
 }
 
+TEST_F(BadMesh, AnObjFileThatEndsWithinALineOrFaceIsRefused) {
+  const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n# the end";
+  EXPECT_EQ(refusal("a.obj", obj), Code::ok) << sentence_;
+  const std::size_t face = obj.find("f 1 2 4");
+  for (std::size_t size = 1; size <= face + 7; ++size) {
+    const Code code = refusal("a.obj", obj.substr(0, size));
+    const bool is_complete = size == face;  // all lines of this part are complete
+    EXPECT_EQ(code == Code::ok, is_complete) << size << ": " << sentence_;
+    if (size == face + 7) {
+      EXPECT_EQ(code, Code::truncated) << sentence_;
+    }
+  }
+  EXPECT_EQ(refusal("a.obj", obj.substr(0, face) + "f 1 2\n"), Code::parse) << sentence_;
+  EXPECT_TRUE(says(sentence_, "'f 1 2' has fewer than 3 corners"));
+  EXPECT_EQ(refusal("a.obj", obj.substr(0, face) + "f 1 2 \\\n 4\r\n"), Code::ok) << sentence_;
+}
+
 TEST_F(BadMesh, IndicesOutOfRangeAreRefused) {
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   for (const char* face : {"f 1 2 4\n", "f 1 2 99999999\n", "f -1 -2 -9\n", "f 0 1 2\n", "f 1 2 4294967297\n"}) {
@@ -187,7 +204,7 @@ TEST_F(BadMesh, ContentOfAnotherKindIsRefused) {
   for (const char* name : {"a.stl", "a.obj", "a.dae"}) {
     for (const std::string& bytes : {zip, ply, std::string(), std::string(1, 'x'), std::string(1000, '\0')}) {
       const Code code = refusal(name, bytes);
-      EXPECT_TRUE(code == Code::parse || code == Code::bad_geometry)
+      EXPECT_TRUE(code == Code::parse || code == Code::bad_geometry || code == Code::truncated)
           << name << " " << hgrid::name(code) << " " << sentence_;
     }
   }

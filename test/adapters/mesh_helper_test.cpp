@@ -113,6 +113,27 @@ TEST_F(MeshHelper, AHangIsRefusedWhenItsTimeIsUp) {
   EXPECT_EQ(refusalWith("drip", false), Code::budget) << "the timeout is for the whole file, not for each byte";
 }
 
+TEST_F(MeshHelper, ManyHangsTogetherEndAtTheLimitForAllFiles) {
+  const std::string reader = folder_ / "hang";
+  fs::copy_file(HGRID_FAKE_MESH_READER, reader);
+  MeshPolicy policy = meshPolicy();
+  policy.reader = reader;
+  policy.resources.file_roots = {folder_.path()};
+  policy.timeout = std::chrono::milliseconds(100);
+  policy.total = std::chrono::milliseconds(250);
+  MeshLoader loader(policy);
+  int asked = 0;  // files for which the helper was started
+  for (int i = 0; i < 20; ++i) {
+    const std::string uri = "file://" + folder_.write(std::to_string(i) + ".stl", "x");
+    EXPECT_EQ(refusalOf([&] { loader.load(uri, {1, 1, 1}); }, &sentence_), Code::budget);
+    EXPECT_TRUE(says(sentence_, "/" + std::to_string(i) + ".stl"));
+    asked += says(sentence_, "took longer") ? 1 : 0;
+  }
+  EXPECT_GE(asked, 1);
+  EXPECT_LE(asked, 5) << "each of them takes 100 ms, apart from rounding";
+  EXPECT_TRUE(says(sentence_, "it was not read, because reading the files before it took 0.25 s"));
+}
+
 TEST_F(MeshHelper, AHangEndsWhenTheReadingIsCanceled) {
   const std::string reader = folder_ / "hang";
   fs::copy_file(HGRID_FAKE_MESH_READER, reader);

@@ -119,6 +119,25 @@ TEST_P(Containment, TheSideThatATriangleFacesDoesNotMatter) {
   }
 }
 
+/// The center of the sphere is 0.25 m below the surface of the box.
+TEST(Surfaces, ThatTouchOrCrossAreInContactWhereverTheCentersAre) {
+  const Pose sphere_pose(Eigen::Translation3d(0.25, 0, 0));
+  for (const TriangleMesh& box : {boxMesh({1, 1, 1}), unwelded(boxMesh({1, 1, 1}))}) {
+    const auto status = [&](double radius, double padding_of_box, double padding_of_sphere) {
+      return Trial(
+                 {meshOf(box), Shape::sphere(radius), Pose::Identity(), sphere_pose, padding_of_box, padding_of_sphere})
+          .measure()
+          .status;
+    };
+    EXPECT_EQ(status(0.1, 0.0, 0.0), Measure::contained);
+    EXPECT_EQ(status(0.25, 0.0, 0.0), Measure::contact) << "the surfaces touch";
+    EXPECT_EQ(status(0.4, 0.0, 0.0), Measure::contact);
+    EXPECT_EQ(status(0.1, 0.0, 0.15), Measure::contact);
+    EXPECT_EQ(status(0.4, 0.25, 0.0), Measure::contained) << "the padding of the box moves its surface away";
+    EXPECT_EQ(status(0.4, 0.1, 0.0), Measure::contact);
+  }
+}
+
 // A hollow sphere has an outer and an inner surface. Its cavity counts as outside.
 TEST(Cavity, OfAClosedMeshIsOutsideOfIt) {
   TriangleMesh hollow = ballMesh(2);

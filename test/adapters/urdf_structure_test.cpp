@@ -43,6 +43,8 @@ const std::vector<NoTree>& noTrees() {
       {"missing child", link("base") + joint("j1", "base", "ghost"), {"ghost"}},
       {"missing parent", link("base") + joint("j1", "ghost", "base"), {"ghost"}},
       {"duplicate link", link("base") + link("twin") + link("twin") + joint("j1", "base", "twin"), {"twin"}},
+      {"xacro that was not expanded", "<xacro:include filename=\"arm.xacro\"/>", {"xacro:include"}},
+      {"xacro inside a link", link("base", "<xacro:box size=\"1\"/>"), {"xacro:box"}},
       {"duplicate joint",
        link("base") + link("left") + link("right") + joint("hinge", "base", "left") + joint("hinge", "base", "right"),
        {"hinge"}},

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "test/support/maps.h"
 #include "test/support/refusals.h"
 #include "test/support/rules.h"
 #include "test/support/scenes.h"
@@ -155,16 +156,15 @@ TEST_F(Explain, WhatIsSwitchedOnAgainstTheModelSaysSo) {
   EXPECT_TRUE(srdf.reported);
   EXPECT_EQ(srdf.rule.origin, Origin::srdf);
   EXPECT_FALSE(srdf.rule.allowed);
-  EXPECT_TRUE(
-      says(srdf.text, "The SRDF's enable_collisions says that the pair must be reported when its bodies are near."));
+  EXPECT_TRUE(says(srdf.text, "The SRDF's enable_collisions does not allow them to touch."));
   scene_.setRules({enable("arm/base", "arm/shoulder", "they came loose")});
   const Explanation rule = ask("arm/base", "arm/shoulder");
   EXPECT_TRUE(rule.reported);
   EXPECT_EQ(rule.rule.origin, Origin::service);
   EXPECT_TRUE(says(rule.text, "their boxes touch or overlap"));
   EXPECT_TRUE(says(rule.text,
-                   "Rule 'arm/base', 'arm/shoulder' of Scene::setRules() says that the pair must be reported when its "
-                   "bodies are near (they came loose)."));
+                   "Rule 'arm/base', 'arm/shoulder' of Scene::setRules() does not allow them to touch (they came "
+                   "loose)."));
 }
 
 TEST_F(Explain, ARuleThatEndsSaysWhen) {
@@ -219,6 +219,37 @@ TEST_F(Explain, WhatHasNoPoseOrNoShapeSaysSo) {
   const Explanation shapeless = ask("obstacle/box", "obstacle/bare");
   EXPECT_TRUE(says(shapeless.text, "obstacle/bare has no shape that could be read: PARSE: broken.stl."));
   EXPECT_TRUE(std::isnan(shapeless.gap));
+}
+
+TEST_F(Explain, OnlyAMapWithoutCellsIsCalledEmpty) {
+  for (const char* name : {"hall", "shelf"}) {
+    const BodyId map = test::put(scene_, test::mapBody(name, Mobility::moving), test::at(0));
+    scene_.setCells(map, test::cellsOf(0.25, {{Voxel::kOriginKey, Voxel::kOriginKey, Voxel::kOriginKey, 0}}));
+  }
+  test::put(scene_, test::mapBody("empty"), test::at(0));
+  Body bare = test::obstacle("bare");
+  bare.kind = BodyKind::link;
+  test::put(scene_, bare, test::at(0));
+  const std::string two_maps = ask("map/hall", "map/shelf").text;
+  EXPECT_TRUE(says(two_maps, "a pair needs a link of a robot or an obstacle that moves, and neither body is one."));
+  EXPECT_FALSE(says(two_maps, "no occupied cells")) << two_maps;
+  EXPECT_TRUE(says(ask("map/empty", "obstacle/near").text, "map/empty has no occupied cells"));
+  const std::string shapeless = ask("map/hall", "obstacle/bare").text;
+  EXPECT_TRUE(says(shapeless, "obstacle/bare has no shape that could be read")) << shapeless;
+}
+
+TEST_F(Explain, APairThatTruncationRemovedIsNotAlsoCalledReported) {
+  SceneOptions with = options();
+  with.max_pairs = 1;
+  Scene scene(with);
+  for (const char* name : {"a", "b", "c"}) test::put(scene, test::ball(name), test::at(0));
+  scene.setRules({enable("obstacle/*", "obstacle/*", "they came loose")});
+  const auto snapshot = scene.commit(Time{1}, {});
+  const Explanation what = explain(*snapshot, "obstacle/b", "obstacle/c", nullptr);
+  EXPECT_TRUE(what.cut);
+  EXPECT_TRUE(says(what.text, "are not reported, although their boxes touch or overlap"));
+  EXPECT_TRUE(says(what.text, "'obstacle/*', 'obstacle/*' of Scene::setRules() does not allow them to touch"));
+  EXPECT_FALSE(says(what.text, "must be reported")) << what.text;
 }
 
 TEST_F(Explain, OldDataIsToldWithWhatItDoesToTheMargin) {

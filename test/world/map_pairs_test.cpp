@@ -4,6 +4,8 @@
 // Compares pairs, gaps and queries of maps with a scan of all cells. A map is a body whose boxes are its cells.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "hgrid_proximity/queries/query.h"
 #include "test/support/maps.h"
 #include "test/support/refusals.h"
@@ -118,6 +120,40 @@ TEST(MapPairs, AreThoseOfAScanOfAllCellsWhateverMoves) {
   EXPECT_GT(far, 500u);
 }
 
+using Exact = Eigen::Matrix<long double, 3, 1>;
+
+/// Returns the gap [m] between a cell that begins at the origin of its map, and the box around `box` in that map.
+long double exactGap(const Pose& world_from_map, double edge, const Aabb& box) {
+  const Eigen::Matrix<long double, 3, 3> turn = world_from_map.linear().cast<long double>().transpose();
+  const Exact low = box.min.cast<long double>(), high = box.max.cast<long double>();
+  const Exact center = turn * ((low + high) / 2 - world_from_map.translation().cast<long double>());
+  const Exact half = turn.cwiseAbs() * ((high - low) / 2), zero = Exact::Zero();
+  return (center - half - Exact::Constant(edge)).cwiseMax(-center - half).cwiseMax(zero).norm();
+}
+
+TEST(MapPairs, FarFromTheOriginNoGapIsRoundedUp) {
+  Random random(11);
+  for (const double far : {1.0, 1e3, 1e6}) {
+    SCOPED_TRACE(far);
+    Scene scene{SceneOptions{}};
+    const BodyId room = put(scene, mapBody("room", Mobility::moving), at(0)), probe = put(scene, ball("ball"), at(0));
+    scene.setCells(room, cellsOf(0.1, {{32768, 32768, 32768, 0}}));
+    for (int i = 0; i < 300; ++i) {
+      Pose map = Pose::Identity();
+      const Eigen::Vector3d axis(random.uniform(-1, 1), random.uniform(-1, 1), 1.0);
+      if (i % 2 == 0) map.linear() = Eigen::AngleAxisd(random.uniform(-3, 3), axis.normalized()).matrix();
+      for (int k = 0; k < 3; ++k) map.translation()[k] = random.uniform(-0.99, 0.99) * far;
+      scene.place(room, map, Time{1});
+      scene.place(probe, at(map.translation().x() + 1.5, map.translation().y(), map.translation().z()), Time{1});
+      const auto snapshot = scene.commit(Time{2}, {});
+      const long double exact = exactGap(map, 0.1, snapshot->boxes()[0]);
+      const double gap = snapshot->gapOf(0, 1);
+      ASSERT_LE(gap, exact) << i;
+      ASSERT_NEAR(gap, static_cast<double>(exact), 1e-13 * far + 1e-12);
+    }
+  }
+}
+
 TEST(MapPairs, BeginAndEndLikeAllOthers) {
   Scene scene{SceneOptions{}};  // margin 0.1 m, hysteresis 0.02 m
   const BodyId room = put(scene, mapBody("room"), at(0));
@@ -137,7 +173,10 @@ TEST(MapPairs, BeginAndEndLikeAllOthers) {
   EXPECT_EQ(told(0.73), "end 0");
   told(0.69);
   scene.setCells(room, cellsOf(0.1, {}));
-  EXPECT_EQ(told(0.69), "end 0") << "the cell was removed, so the pair must end";
+  const auto emptied = scene.commit(Time{2}, {});
+  ASSERT_EQ(emptied->events().size(), 1u) << "the cell was removed, so the pair must end";
+  EXPECT_EQ(emptied->events()[0].kind, EventKind::end);
+  EXPECT_TRUE(std::isnan(emptied->events()[0].gap)) << "without a cell there is no gap";
 }
 
 TEST(MapPairs, WhatPassedTheOtherBetweenTwoTicksIsTold) {

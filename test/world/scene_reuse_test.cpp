@@ -4,6 +4,8 @@
 
 #include <map>
 
+#include "hgrid_proximity/narrow/convex_narrow_phase.h"
+#include "test/support/maps.h"
 #include "test/support/random.h"
 #include "test/support/scenes.h"
 
@@ -77,6 +79,40 @@ TEST(SceneReuse, ASnapshotThatWasUsedBeforeSaysWhatANewOneWould) {
     }
     if (::testing::Test::HasFailure()) return;
   }
+}
+
+TEST(SceneReuse, SnapshotsThatNobodyReadsKeepNeitherOldMapsNorOldBodies) {
+  const auto narrow_phase = makeConvexNarrowPhase();
+  Scene scene{SceneOptions{}};
+  Body tool = test::ball("tool");
+  tool.shapes[0].solid = narrow_phase->solidOf(tool.shapes[0].shape);
+  const std::weak_ptr<const Solid> solid = tool.shapes[0].solid;
+  const BodyId tool_id = test::put(scene, tool, test::at(0));
+  tool = Body{};
+  test::put(scene, test::ball("part"), test::at(0));
+  const BodyId room = test::put(scene, test::mapBody("room"), test::at(0));
+  std::vector<std::shared_ptr<const Snapshot>> held;
+  std::weak_ptr<const MapCells> cells;
+  const auto tick = [&] { held.push_back(scene.commit(Time{1}, {})); };
+  const auto setCells = [&] {
+    const auto next = test::cellsOf(0.1, {{32768, 32768, 32768, 0}});
+    cells = next;
+    scene.setCells(room, next);
+  };
+  setCells();
+  for (int i = 0; i < 4; ++i) tick();
+  const std::weak_ptr<const MapCells> old_cells = cells;
+  setCells();
+  for (int i = 0; i < 2; ++i) tick();
+  held.clear();
+  EXPECT_TRUE(old_cells.expired()) << "the pool must release cells that were replaced";
+  EXPECT_FALSE(cells.expired());
+  for (int i = 0; i < 4; ++i) tick();
+  scene.remove(tool_id);
+  for (int i = 0; i < 2; ++i) tick();  // the first of these snapshots has an event of the body that was removed
+  EXPECT_FALSE(solid.expired()) << "snapshots that are in use must keep their bodies";
+  held.clear();
+  EXPECT_TRUE(solid.expired()) << "the pool must release bodies that were removed";
 }
 
 }  // namespace

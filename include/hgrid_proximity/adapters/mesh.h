@@ -19,6 +19,7 @@ struct MeshPolicy {
   ResourcePolicy resources;                 ///< which files may be read
   std::size_t max_triangles = 1000000;      ///< largest number of triangles in one file
   std::chrono::milliseconds timeout{5000};  ///< time per file; afterwards the helper is killed
+  std::chrono::milliseconds total{20000};   ///< time for all files of a loader; then it refuses files not yet read
   std::size_t max_memory = 512u << 20;      ///< [bytes] limit for the address space of the helper
   std::function<bool()> cancelled;          ///< called at least every 50 ms; reading stops once it returns true
 };
@@ -46,7 +47,10 @@ class MeshLoader {
   std::shared_ptr<const TriangleMesh> load(const std::string& uri, const Eigen::Vector3d& scale);
 
  private:
+  std::shared_ptr<const TriangleMesh> read(const OpenResource& file, const std::string& what);
+
   MeshPolicy policy_;
+  std::chrono::steady_clock::duration spent_{0};                     // time for reading files so far
   std::map<std::string, std::shared_ptr<const TriangleMesh>> read_;  // unscaled meshes by OpenResource::path()
 };
 

@@ -74,10 +74,11 @@ std::optional<Overlap> overlapByFcl(const ConvexSolid& a, const ConvexSolid& b, 
   return Overlap{depth, contact.normal / length, contact.pos};
 }
 
-/// Whether one solid is inside the other, and a point of the inner solid.
+/// Whether the core of one solid is inside the other, and a point of the inner core.
 struct Enclosed {
   Measure status = Measure::apart;
   Vector point = Vector::Zero();
+  double crossing = 0.0;  ///< [m] if the gap of the cores is at most this, the surfaces of the solids touch or cross
 };
 
 /// Calls ask(begin, end) with some points of each part of the solid, until one call returns true.
@@ -91,10 +92,11 @@ bool anyPart(const Side& side, const Ask& ask) {
 }
 
 /// Returns whether a part of `inner` is inside `outer`, and a point of this part in the frame of `outer`. The surfaces
-/// of the two solids must be apart.
+/// of the two cores must be apart.
 Enclosed enclosedBy(const Side& outer, const Side& inner, const Pose& outer_from_inner) {
   Enclosed result;
-  if (!isMesh(outer)) return result;  // the gap to a filled convex solid would have been 0
+  result.crossing = inner.around - outer.around;  // the padding of the outer solid moves its surface away
+  if (!isMesh(outer)) return result;              // the gap to a filled convex solid would have been 0
   const Enclosure& enclosure = meshOf(outer).enclosure();
   const double least = enclosure.closed() ? 0.5 : kMaybeInside;
   const bool inside = anyPart(inner, [&](const Vector* begin, const Vector* end) {
@@ -124,8 +126,10 @@ Proximity measureMesh(const Side& mesh, const Side& other, double up_to) {
   const CoreGap gap = gapOfMesh(mesh, other, mesh_from_other, std::max(0.0, up_to) + around + kTouchingGap);
   if (std::isnan(gap.lower) || std::isnan(gap.upper)) return answerOf(Measure::failed, 0.0);
   if (gap.lower <= 0.0) return answerOf(Measure::contact, 0.0);
-  const Measure inside = enclosed(mesh, other, mesh_from_other).status;
-  if (inside != Measure::apart) return answerOf(inside, 0.0);
+  const Enclosed inside = enclosed(mesh, other, mesh_from_other);
+  if (inside.status != Measure::apart) {
+    return answerOf(gap.lower > inside.crossing ? inside.status : Measure::contact, 0.0);
+  }
   return answerByGap(mesh, other, mesh_from_other, gap, up_to);
 }
 

@@ -154,6 +154,16 @@ std::shared_ptr<const TriangleMesh> scaled(const TriangleMesh& mesh, const Eigen
   return result;
 }
 
+/// Adds its lifetime to a sum.
+struct AddedTime {
+  explicit AddedTime(Clock::duration& total) : sum(total) {}
+  AddedTime(const AddedTime&) = delete;
+  AddedTime& operator=(const AddedTime&) = delete;
+  ~AddedTime() { sum += Clock::now() - begin; }
+  Clock::duration& sum;
+  const Clock::time_point begin = Clock::now();
+};
+
 void checkScale(const Eigen::Vector3d& scale, const std::string& what) {
   for (int axis = 0; axis < 3; ++axis) {
     const double factor = std::abs(scale[axis]);
@@ -166,12 +176,26 @@ void checkScale(const Eigen::Vector3d& scale, const std::string& what) {
 
 }  // namespace
 
+/// Reads a file within the time that is left for all files.
+std::shared_ptr<const TriangleMesh> MeshLoader::read(const OpenResource& file, const std::string& what) {
+  const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(policy_.total - spent_);
+  if (left.count() <= 0) {
+    throw Refusal(Code::budget, what + ": it was not read, because reading the files before it took " +
+                                    text(std::chrono::duration<double>(policy_.total).count()) +
+                                    " s, which is the limit for all mesh files of a robot; allow more time");
+  }
+  MeshPolicy policy = policy_;
+  policy.timeout = std::min(policy.timeout, left);
+  const AddedTime added(spent_);
+  return readMesh(file, policy, what);
+}
+
 std::shared_ptr<const TriangleMesh> MeshLoader::load(const std::string& uri, const Eigen::Vector3d& scale) {
   const std::string what = "mesh '" + printable(uri) + "'";
   checkScale(scale, what);
   const OpenResource file = openResource(uri, policy_.resources);
   std::shared_ptr<const TriangleMesh>& raw = read_[file.path()];
-  if (!raw) raw = readMesh(file, policy_, what);
+  if (!raw) raw = read(file, what);
   if (scale == Eigen::Vector3d::Ones()) return raw;
   auto mesh = scaled(*raw, scale);
   checkMesh(*mesh, ShapeLimits{}.max_size, what + " after scaling");

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "adapters/urdf/urdf_tree.h"
 
+#include <cstring>
 #include <map>
 #include <set>
 #include <string>
@@ -35,9 +36,21 @@ std::string linkOf(const tinyxml2::XMLElement& joint, const char* end, const std
   return link;
 }
 
+/// Refuses elements that only xacro understands. A parser of URDF would silently leave them out.
+void refuseXacro(const tinyxml2::XMLElement& parent) {
+  for (auto* child = parent.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+    if (std::strncmp(child->Name(), "xacro:", 6) == 0) {
+      refuse("the URDF contains <" + printable(child->Name()) + "> in line " + std::to_string(child->GetLineNum()) +
+             ": it is a xacro file that was not expanded; use the output of the command xacro instead");
+    }
+    refuseXacro(*child);
+  }
+}
+
 }  // namespace
 
 void checkTree(const tinyxml2::XMLElement& robot) {
+  refuseXacro(robot);
   std::set<std::string> links, joints;
   for (auto* link = robot.FirstChildElement("link"); link != nullptr; link = link->NextSiblingElement("link")) {
     const std::string name = nameOf(*link);

@@ -14,9 +14,14 @@
 namespace hgrid {
 namespace {
 
+/// Returns the worst reason, and how many others there are.
 std::string reasonOf(const Tick& tick) {
-  if (!tick.snapshot) return tick.not_ready.front();
-  return tick.snapshot->complete() ? truncationOf(*tick.snapshot) : tick.snapshot->reasons().front();
+  if (tick.snapshot && tick.snapshot->complete()) return truncationOf(*tick.snapshot);
+  const std::size_t all = tick.snapshot ? tick.unplaced.size() + tick.snapshot->reasonsTotal() : tick.not_ready.size();
+  const std::string& worst = !tick.snapshot          ? tick.not_ready.front()
+                             : tick.unplaced.empty() ? tick.snapshot->reasons().front()
+                                                     : tick.unplaced.front();
+  return all > 1 ? worst + " (and " + std::to_string(all - 1) + " more in ~status)" : worst;
 }
 
 }  // namespace
@@ -27,16 +32,19 @@ void CompletenessLog::log(const Tick& tick) {
   if (line->complete) {
     ROS_INFO("%s", line->text.c_str());
   } else {
-    ROS_WARN_THROTTLE(1.0, "%s", line->text.c_str());
+    ROS_WARN("%s", line->text.c_str());
   }
 }
 
 std::optional<CompletenessLog::Line> CompletenessLog::next(const Tick& tick) {
   State state = stateOf(tick);
   if (isKnown(state)) return std::nullopt;
-  if (!state.complete && tick.made.steady - started_ < kGrace) return std::nullopt;
+  if (!state.complete && tick.made.steady < quiet_until_) return std::nullopt;
   known_ = std::move(state);
-  if (!known_->complete) return Line{false, "The world is not complete: " + reasonOf(tick)};
+  if (!known_->complete) {
+    quiet_until_ = tick.made.steady + kPause;
+    return Line{false, "The world is not complete: " + reasonOf(tick)};
+  }
   return Line{true, "The world is complete: " + std::to_string(tick.snapshot->poses().size()) + " bodies in frame '" +
                         tick.world_frame + "'."};
 }

@@ -22,17 +22,20 @@ class CompletenessLog {
   using Time = std::chrono::steady_clock::time_point;
   /// During this time after the start, an incomplete world is not logged, because its sources may still be starting.
   static constexpr std::chrono::seconds kGrace{1};
+  /// Least time between two warnings. A cause that is shorter is not logged; a cause that lasts is logged later.
+  static constexpr std::chrono::seconds kPause{1};
 
   struct Line {
     bool complete;  ///< true: log the line as information; false: as a warning
     std::string text;
   };
 
-  explicit CompletenessLog(Time started) : started_(started) {}
+  explicit CompletenessLog(Time started) : quiet_until_(started + kGrace) {}
 
-  /// Logs the line that next() returns, but at most one warning per second. Call this for every tick.
+  /// Logs the line that next() returns. Call this for every tick.
   void log(const Tick& tick);
-  /// Compares the tick with the state that was logged last. @returns the line to log; nullopt if nothing changed
+  /// Compares the tick with the state that was logged last. @returns the line to log; nullopt if nothing changed, or
+  /// if the last warning is younger than kPause
   std::optional<Line> next(const Tick& tick);
 
  private:
@@ -47,7 +50,7 @@ class CompletenessLog {
   static State stateOf(const Tick& tick);
   bool isKnown(const State& state) const;
 
-  const Time started_;
+  Time quiet_until_;            // no warning before this time
   std::optional<State> known_;  // the state that was logged last; nullopt: none yet
 };
 

@@ -12,8 +12,10 @@ using diagnostic_msgs::DiagnosticStatus;
 using diagnostic_updater::DiagnosticStatusWrapper;
 
 constexpr std::uint64_t kLongestWait = 10;  // [ticks] a pair should be measured again within this many ticks
+constexpr std::size_t kMostLines = 20;      // largest number of entries of a list; ~status has longer lists
 
-void addAll(DiagnosticStatusWrapper& status, const std::string& key, const std::vector<std::string>& lines) {
+void addAll(DiagnosticStatusWrapper& status, const std::string& key, const std::vector<std::string>& all) {
+  const std::vector<std::string> lines = shortened(all, kMostLines);
   for (std::size_t i = 0; i < lines.size(); ++i) status.add(key + " " + std::to_string(i + 1), lines[i]);
 }
 
@@ -74,11 +76,9 @@ void NodeDiagnostics::robots(DiagnosticStatusWrapper& status) {
     status.summary(DiagnosticStatus::ERROR, "UNCOVERED " + report.uncovered.front());
   } else if (!report.warnings.empty()) {
     status.summary(DiagnosticStatus::WARN, report.warnings.front());
-  } else if (!report.without_collision.empty()) {
-    status.summary(DiagnosticStatus::WARN, std::to_string(report.without_collision.size()) +
-                                               " links have no <collision>; their extent is unknown");
   } else {
-    status.summary(DiagnosticStatus::OK, "all shapes were read");
+    status.summary(DiagnosticStatus::OK, report.waived.empty() ? "all shapes were read"
+                                                               : "all shapes were read, except those that are waived");
   }
   addSelfPairs(status, report);
   status.add("robots loaded", report.robots);

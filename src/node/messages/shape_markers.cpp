@@ -15,7 +15,7 @@ using visualization_msgs::Marker;
 constexpr int kMostParts = 3;  // markers of one shape: a capsule has a cylinder and two spheres
 constexpr std::size_t kMostTriangles = 20000;
 constexpr int kMostStates = 20;
-constexpr double kTextHeight = 0.05;  // [m]
+constexpr double kStateTextHeight = 0.05;  // [m]
 
 std_msgs::ColorRGBA colorOf(BodyKind kind, Freshness state) {
   switch (state) {
@@ -194,7 +194,7 @@ std::vector<Marker> stateMarkers(const Tick& tick) {
   std::vector<Marker> texts;
   for (int i = 0; i < kMostStates; ++i) {
     texts.push_back(markerOf(tick, "states", i, Marker::TEXT_VIEW_FACING));
-    texts.back().scale.z = kTextHeight;
+    texts.back().scale.z = kStateTextHeight;
   }
   if (!tick.snapshot) return texts;
   const Snapshot& snapshot = *tick.snapshot;

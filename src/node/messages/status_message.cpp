@@ -21,17 +21,30 @@ msg::SelfPairs toMsg(const std::string& robot, const SelfPairs& counts) {
   return message;
 }
 
+/// Adds the lists of names and sentences. `most` limits the length of each.
+void addLists(const Tick& tick, std::size_t most, msg::Status& message) {
+  std::vector<std::string> not_ready = tick.not_ready;
+  not_ready.insert(not_ready.end(), tick.unplaced.begin(), tick.unplaced.end());
+  message.not_ready = shortened(not_ready, most);
+  message.missing_frames = shortened(tick.missing_frames, most);
+  message.contested_frames = shortened(tick.contested_frames, most);
+  message.uncovered = shortened(tick.models->uncovered, most);
+  message.waived = shortened(tick.models->waived, most);
+  message.without_collision = shortened(tick.models->without_collision, most);
+  message.uses_visual = shortened(tick.models->uses_visual, most);
+  message.model_warnings = shortened(tick.models->warnings, most);
+}
+
 }  // namespace
 
 msg::Status statusMessage(const Tick& tick, const msg::WorldState& world, const Params& params, const Ledger& ledger,
-                   const Stopwatch& stopwatch) {
+                          const Stopwatch& stopwatch) {
   msg::Status message;
   message.header = headerOf(tick);
   message.world = world;
   message.node_version = HGRID_PROXIMITY_VERSION;
   message.interface_version = kInterfaceVersion;
   message.made = toRos(tick.made.ros);
-  message.not_ready = tick.not_ready;
   message.sources = sourcesOf(tick, params);
   message.sources_total = static_cast<std::uint32_t>(message.sources.size());
   message.sources.resize(std::min(message.sources.size(), static_cast<std::size_t>(params.max_listed)));
@@ -47,13 +60,7 @@ msg::Status statusMessage(const Tick& tick, const msg::WorldState& world, const 
     body.code = toMsg(trouble.code, trouble.sentence);
     message.bodies.push_back(body);
   }
-  message.missing_frames = tick.missing_frames;
-  message.contested_frames = tick.contested_frames;
-  message.uncovered = tick.models->uncovered;
-  message.waived = tick.models->waived;
-  message.without_collision = tick.models->without_collision;
-  message.uses_visual = tick.models->uses_visual;
-  message.model_warnings = tick.models->warnings;
+  addLists(tick, static_cast<std::size_t>(params.max_listed), message);
   for (const auto& robot : tick.models->self_pairs) message.self_pairs.push_back(toMsg(robot.first, robot.second));
   message.robots = static_cast<std::uint32_t>(tick.models->robots);
   if (tick.snapshot) {

@@ -56,4 +56,10 @@ std::vector<std::string> firstOf(const std::vector<std::string>& all, std::size_
   return {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), most))};
 }
 
+std::vector<std::string> shortened(const std::vector<std::string>& all, std::size_t most) {
+  std::vector<std::string> result = firstOf(all, most);
+  if (result.size() < all.size()) result.push_back("... and " + std::to_string(all.size() - result.size()) + " more");
+  return result;
+}
+
 }  // namespace hgrid

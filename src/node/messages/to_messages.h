@@ -30,5 +30,7 @@ msg::Code toMsg(Code code, const std::string& sentence);
 std_msgs::Header headerOf(const Tick& tick);
 /// Returns the first strings of a list, at most `most`.
 std::vector<std::string> firstOf(const std::vector<std::string>& all, std::size_t most);
+/// Returns the same list. If there are more strings, the list ends with "... and N more" in addition.
+std::vector<std::string> shortened(const std::vector<std::string>& all, std::size_t most);
 
 }  // namespace hgrid

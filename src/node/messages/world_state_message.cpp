@@ -18,6 +18,22 @@ std::string truncationOf(const Snapshot& snapshot) {
          "; ~pairs lists only " + listed + " pairs (~max_pairs)";
 }
 
+namespace {
+
+/// Adds the reasons of the snapshot. Reasons that explain many of them come first.
+void addWorldReasons(const Tick& tick, std::size_t most, msg::WorldState& world) {
+  const Snapshot& snapshot = *tick.snapshot;
+  world.reasons = tick.unplaced;
+  world.reasons.insert(world.reasons.end(), snapshot.reasons().begin(), snapshot.reasons().end());
+  world.reasons = firstOf(world.reasons, most);
+  world.reasons_total = static_cast<std::uint32_t>(tick.unplaced.size()) + snapshot.reasonsTotal();
+  if (!snapshot.truncated()) return;
+  world.reasons.push_back(truncationOf(snapshot));
+  ++world.reasons_total;
+}
+
+}  // namespace
+
 msg::WorldState worldState(const Tick& tick, const Params& params, std::uint64_t config_hash, double age_since) {
   msg::WorldState world;
   world.epoch = tick.epoch;
@@ -25,7 +41,7 @@ msg::WorldState worldState(const Tick& tick, const Params& params, std::uint64_t
   world.valid_until = toRos(tick.made.ros + std::chrono::nanoseconds(std::llround(1e9 * params.valid_for)));
   world.unknown_space = static_cast<std::uint8_t>(params.map_unknown);
   if (!tick.snapshot) {
-    world.reasons = tick.not_ready;
+    world.reasons = firstOf(tick.not_ready, static_cast<std::size_t>(params.max_reasons));
     world.reasons_total = static_cast<std::uint32_t>(tick.not_ready.size());
     world.worst_state = msg::BodyState::UNPLACED;
     for (const msg::SourceStatus& source : sourcesOf(tick, params)) world.incomplete.push_back(source.name);
@@ -40,12 +56,7 @@ msg::WorldState worldState(const Tick& tick, const Params& params, std::uint64_t
   world.complete = snapshot.complete() && !snapshot.truncated();
   world.incomplete = firstOf(snapshot.incompleteSources(), static_cast<std::size_t>(params.max_listed));
   world.incomplete_total = static_cast<std::uint32_t>(snapshot.incompleteSources().size());
-  world.reasons = snapshot.reasons();
-  world.reasons_total = snapshot.reasonsTotal();
-  if (snapshot.truncated()) {
-    world.reasons.push_back(truncationOf(snapshot));
-    ++world.reasons_total;
-  }
+  addWorldReasons(tick, static_cast<std::size_t>(params.max_reasons), world);
   world.worst_state = static_cast<std::uint8_t>(snapshot.worstState());
   world.last_event = snapshot.lastEvent();
   world.max_age = snapshot.maxAge() > 0.0 ? snapshot.maxAge() + age_since : 0.0;

@@ -125,7 +125,8 @@ void visitParams(Visitor& v, Params& p) {
            "a pose is STALE if it is older than this and older than 1.5 periods of its frame; the margins of a body "
            "widen when its pose is older than this");
   v.number("lost_after", p.lost_after, "s", 0.001, 86400.0,
-           "a pose is LOST if it is older than this; then the world is not complete");
+           "a pose is LOST if it is older than this and older than 1.5 periods of its frame; then the world is not "
+           "complete");
   v.values("max_speed", p.max_speed, "speed", "m/s", 0.0, 1e6,
            "list of {pattern, speed}: upper bound of the speed of any point of a body that matches the glob. If "
            "several globs match, the last one counts");
@@ -163,7 +164,14 @@ void visitParams(Visitor& v, Params& p) {
             "number of threads that the broad phase of a tick may use; more than 1 helps from some tens of thousands "
             "of shapes on");
   v.integer("max_bodies", p.max_bodies, 1, 1000000, "largest number of bodies");
-  v.integer("max_frames", p.max_frames, 1, 1000000, "largest number of tf frames that are kept");
+  v.integer("max_maps", p.max_maps, 1, 10000, "largest number of maps, configured and loaded with ~load_octomap");
+  v.integer(
+      "max_frames", p.max_frames, 1, 1000000,
+      "largest number of tf frames that are kept. The frames that bodies follow, the world frame and the frames above "
+      "them do not count: there is room for as many of them");
+  v.integer("max_samples", p.max_samples, 10, 10000000,
+            "largest number of transforms of one frame that are kept, even if tf_cache would keep more; the oldest are "
+            "dropped (counter tf.samples.LIMIT in ~status)");
   v.integer("tf_queue_bytes", p.tf_queue_bytes, 1000, 1 << 30,
             "largest total size, in bytes, of the messages of /tf that wait for the tick thread, and again as much for "
             "/tf_static. A message counts as its own size plus 256 bytes plus the length of its publisher's name. When "
@@ -179,8 +187,10 @@ void visitParams(Visitor& v, Params& p) {
             "message is dropped");
   v.integer("max_hits", p.max_hits, 1, 1000000,
             "largest number of hits in one answer; if there are more, the answer is truncated");
-  v.integer("max_listed", p.max_listed, 1, 100000,
-            "largest number of bodies, and of sources, that a message lists as not complete or not fresh");
+  v.integer(
+      "max_listed", p.max_listed, 1, 100000,
+      "largest number of bodies, and of sources, that a message lists as not complete or not fresh, and of entries of "
+      "each list of ~status");
   v.integer("max_reasons", p.max_reasons, 1, 1000,
             "largest number of reasons for an incomplete world that a message lists");
   v.integer("max_rules", p.max_rules, 1, 10000,
@@ -194,7 +204,10 @@ void visitParams(Visitor& v, Params& p) {
   v.integer("mesh_memory", p.mesh_memory, 64 << 20, 2147483647,
             "largest amount of memory for reading a mesh, in bytes; a mesh with nearly max_mesh_triangles needs more "
             "than the default");
-  v.number("mesh_timeout", p.mesh_timeout, "s", 0.1, 600.0, "longest time for reading a mesh");
+  v.number(
+      "mesh_timeout", p.mesh_timeout, "s", 0.1, 600.0,
+      "longest time for reading a mesh; all meshes of a robot together may take 4 times as long, and the rest is not "
+      "read");
 
   v.section("The node");
   v.integer("query_threads", p.query_threads, 1, 64, "number of threads that answer queries");

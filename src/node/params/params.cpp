@@ -263,6 +263,9 @@ Params readParams(XmlRpc::XmlRpcValue values) {
   require(params.allowed_pairs.size() <= static_cast<std::size_t>(params.max_rules),
           "~allowed_pairs has " + std::to_string(params.allowed_pairs.size()) + " rules; at most ~max_rules, " +
               std::to_string(params.max_rules) + ", are allowed");
+  require(params.maps.size() <= static_cast<std::size_t>(params.max_maps),
+          "~maps has " + std::to_string(params.maps.size()) + " maps; at most ~max_maps, " +
+              std::to_string(params.max_maps) + ", are allowed");
   for (const PatternValue& padding : params.padding) {
     require(padding.pattern.rfind("map/", 0) != 0 && padding.pattern.rfind("cloud/", 0) != 0,
             "~padding has the pattern '" + printable(padding.pattern) +

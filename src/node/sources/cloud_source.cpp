@@ -102,6 +102,10 @@ void CloudSource::take(const CloudMessage& message) {
   PointCloud cloud = readPointCloud(message.format, message.data, what_);
   const std::size_t points = cloud.points.size();
   const std::string frame = message.frame.empty() ? tick->world_frame : withoutSlash(message.frame);
+  if (frame != frame_) {
+    sink_.follow(frame);
+    frame_ = frame;
+  }
   const Pose world_from_sensor = sensorPose(frame, tick->world_frame, stamp);
   const std::vector<Voxel> voxels = voxelsOf(std::move(cloud), world_from_sensor, stamp);
   const Time latency = std::max(Time{0}, now - stamp);

@@ -27,8 +27,9 @@ namespace hgrid {
 /// messages are dropped.
 class CloudSource {
  public:
-  /// Functions that receive the results. CloudSource calls both on its own thread.
+  /// Functions that receive the results. CloudSource calls them on its own thread.
   struct Sink {
+    std::function<void(const std::string& frame)> follow;   // names the frame of the messages, once for each frame
     std::function<void(const LoadedCloud&)> put;            // puts the cells into the world; may throw Refusal
     std::function<void(const std::string& sentence)> miss;  // says why a message could not be used
   };
@@ -65,6 +66,7 @@ class CloudSource {
   Ledger& ledger_;
 
   std::atomic<bool> stopping_{false};
+  std::string frame_;  // of the newest message
   CloudCells cells_;
   LoadedCloud loaded_;
   ros::CallbackQueue queue_;

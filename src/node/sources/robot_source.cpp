@@ -45,6 +45,8 @@ std::vector<std::string> fileRoots(const Params& params) {
   return roots;
 }
 
+constexpr int kMeshTimeouts = 4;  // the mesh files of a robot may take this many times as long as one of them
+
 MeshPolicy meshPolicy(const Params& params, const std::function<bool()>& cancelled) {
   MeshPolicy policy;
   policy.cancelled = cancelled;
@@ -54,6 +56,7 @@ MeshPolicy meshPolicy(const Params& params, const std::function<bool()>& cancell
   policy.resources.max_bytes = static_cast<std::size_t>(params.max_mesh_bytes);
   policy.max_triangles = static_cast<std::size_t>(params.max_mesh_triangles);
   policy.timeout = std::chrono::milliseconds(std::llround(1e3 * params.mesh_timeout));
+  policy.total = kMeshTimeouts * policy.timeout;
   policy.max_memory = static_cast<std::size_t>(params.mesh_memory);
   return policy;
 }

@@ -66,6 +66,13 @@ bool FrameHistory::fill(const PoseSample& sample) {
   return true;
 }
 
+std::size_t FrameHistory::trim(std::size_t most) {
+  const std::size_t before = samples_.size();
+  while (samples_.size() > most) samples_.pop_front();
+  if (samples_.size() < before) kept_from_ = std::max(kept_from_, samples_.front().stamp);
+  return before - samples_.size();
+}
+
 void FrameHistory::forgetStamps() {
   if (!moves_) return;
   samples_.erase(samples_.begin(), samples_.end() - 1);

@@ -42,6 +42,8 @@ class FrameHistory {
   /// Adds a sample that is not the newest. If there already is a sample with the same stamp, that one is kept.
   /// @returns false if the sample is too old to be kept, or older than the newest seam; then nothing was changed
   bool fill(const PoseSample& sample);
+  /// Drops the oldest samples beyond `most`, which must not be 0. @returns how many were dropped
+  std::size_t trim(std::size_t most);
   /// Drops all stamps. The newest pose stays, but its time is no longer known.
   void forgetStamps();
 

@@ -26,7 +26,8 @@ class FramePoses {
   };
 
   /// @param max_wait  [s] how long a tick may wait for slower frames, as in TickTime
-  FramePoses(const TfIntake& intake, double max_wait) : intake_(intake), tree_(intake), time_(max_wait) {}
+  FramePoses(const TfIntake& intake, const AgeLimits& limits, double max_wait)
+      : intake_(intake), tree_(intake, limits), time_(max_wait) {}
 
   /// Whether a new frame or a new parent has appeared in tf since the last plan().
   bool stale() const { return tree_.stale(); }

@@ -22,6 +22,7 @@ std::uint32_t FrameTable::add(const std::string& name) {
   const auto number = static_cast<std::uint32_t>(entries_.size());
   Entry entry;
   entry.name = name;
+  entry.needed = needed_.count(name) != 0;
   if (entries_.size() == entries_.capacity()) entries_.reserve(2 * entries_.size() + 8);
   numbers_.emplace(name, number);
   entries_.push_back(std::move(entry));  // does not throw, because the capacity was reserved above
@@ -33,7 +34,9 @@ void FrameTable::checkRoom(const std::string& parent, std::uint32_t number, cons
   const std::uint32_t known_parent = find(parent);
   const bool new_child = number == kNone || !entries_[number].placed;
   const bool new_parent = known_parent == kNone || !entries_[known_parent].is_parent;
-  if ((new_child && placed_ >= max_frames_) || (new_parent && parents_ >= max_frames_)) {
+  const bool needed = isNeeded(number, child), parent_needed = needed || isNeeded(known_parent, parent);
+  if ((new_child && placed_.isFull(needed, max_frames_)) ||
+      (new_parent && parents_.isFull(parent_needed, max_frames_))) {
     throw Refusal(Code::limit, "transform of frame '" + printable(child) +
                                    "' would add one frame too many; ~max_frames is " + std::to_string(max_frames_));
   }
@@ -46,7 +49,7 @@ std::uint32_t FrameTable::admit(const std::string& parent, const std::string& ch
     if (number == kNone) number = add(child);
     if (!entries_[number].placed) {
       entries_[number].placed = true;
-      ++placed_;
+      placed_.add(entries_[number].needed);
       ++revision_;
     }
   }
@@ -64,10 +67,35 @@ void FrameTable::setParent(std::uint32_t frame, const std::string& parent) {
   const std::uint32_t number = numberOf(parent);
   if (!entries_[number].is_parent) {
     entries_[number].is_parent = true;
-    ++parents_;
+    parents_.add(entries_[number].needed);
   }
   entries_[frame].parent = number;
+  if (entries_[frame].needed) setNeeded(number);
   ++revision_;
+}
+
+/// Whether bodies need a frame that may not have a number yet.
+bool FrameTable::isNeeded(std::uint32_t number, const std::string& name) const {
+  return number == kNone ? needed_.count(name) != 0 : entries_[number].needed;
+}
+
+/// Marks a frame and the frames above it as needed.
+void FrameTable::setNeeded(std::uint32_t number) {
+  for (; number != kNone && !entries_[number].needed; number = entries_[number].parent) {
+    Entry& entry = entries_[number];
+    entry.needed = true;
+    placed_.needed += entry.placed ? 1 : 0;
+    parents_.needed += entry.is_parent ? 1 : 0;
+  }
+}
+
+void FrameTable::need(const std::vector<std::string>& names) {
+  std::unordered_set<std::string> needed(names.begin(), names.end());
+  // The code below does not throw.
+  needed_.swap(needed);
+  placed_.needed = parents_.needed = 0;
+  for (Entry& entry : entries_) entry.needed = false;
+  for (const std::string& name : needed_) setNeeded(find(name));
 }
 
 const std::string& FrameTable::parentName(std::uint32_t frame) const {

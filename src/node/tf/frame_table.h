@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 namespace hgrid {
@@ -13,29 +14,38 @@ namespace hgrid {
 ///
 /// A frame gets a number when its name first occurs, and keeps that number. Numbers begin at 0 and have no gaps. A call
 /// that throws changes nothing.
+///
+/// The frames that bodies need have room of their own. So a flood of other frames cannot keep them out.
 class FrameTable {
  public:
   static constexpr std::uint32_t kNone = 0xffffffff;
   /// The largest number of parents that are followed upwards from a frame. This ends the search in a loop of parents.
   static constexpr std::size_t kLongestChain = 1000;
 
-  /// @param max_frames  ~max_frames: at most this many frames may have a parent, and at most this many may be a parent
+  /// @param max_frames  ~max_frames: at most this many frames may have a parent, and at most this many may be a parent.
+  ///                    As many needed frames may have a parent or be a parent, in addition.
   explicit FrameTable(std::size_t max_frames) : max_frames_(max_frames) {}
 
   /// Returns the number of the frame `child`, which a transform places in `parent`. A new child gets a number.
-  /// @throws Refusal limit if there would be more than `max_frames` children or parents
+  /// @throws Refusal limit if there is no room for another child or parent
   std::uint32_t admit(const std::string& parent, const std::string& child);
   /// Returns the number of the frame `name`. A new frame gets a number.
   std::uint32_t numberOf(const std::string& name);
   /// Sets the parent of a frame. A new parent gets a number. Does not throw if the parent has a number.
   void setParent(std::uint32_t frame, const std::string& parent);
 
+  /// Sets which frames bodies need. The parents of a needed frame are needed too, also those that it gets later. Call
+  /// this when bodies were added or removed.
+  void need(const std::vector<std::string>& names);
+  /// Whether bodies need a frame, or a frame below it.
+  bool isNeeded(const std::string& name) const { return isNeeded(find(name), name); }
+
   /// Returns the number of the frame `name`, or kNone if this name has not occurred.
   std::uint32_t find(const std::string& name) const;
   /// Returns how many frames have a number.
   std::size_t size() const { return entries_.size(); }
   /// Returns how many frames a transform has placed in a parent.
-  std::size_t placed() const { return placed_; }
+  std::size_t placed() const { return placed_.all; }
   bool isPlaced(std::uint32_t frame) const { return entries_[frame].placed; }
   const std::string& name(std::uint32_t frame) const { return entries_[frame].name; }
   /// Returns the number of the frame's newest parent, or kNone if it has no parent.
@@ -53,16 +63,29 @@ class FrameTable {
     std::uint32_t next = kNone;  // the frame that admit() got right after this one
     bool placed = false;         // whether a transform has placed this frame in a parent
     bool is_parent = false;
+    bool needed = false;
+  };
+  /// How many frames there are of a kind.
+  struct Count {
+    std::size_t all = 0, needed = 0;
+    bool isFull(bool for_needed, std::size_t most) const { return (for_needed ? needed : all - needed) >= most; }
+    void add(bool of_needed) {
+      ++all;
+      needed += of_needed ? 1 : 0;
+    }
   };
 
   std::uint32_t add(const std::string& name);
   std::uint32_t guess(const std::string& child) const;
+  bool isNeeded(std::uint32_t number, const std::string& name) const;
+  void setNeeded(std::uint32_t number);
   void checkRoom(const std::string& parent, std::uint32_t number, const std::string& child) const;
 
   std::size_t max_frames_;
   std::vector<Entry> entries_;
   std::unordered_map<std::string, std::uint32_t> numbers_;
-  std::size_t placed_ = 0, parents_ = 0;
+  Count placed_, parents_;
+  std::unordered_set<std::string> needed_;  // names that need() received; some of them may have no number yet
   std::uint64_t revision_ = 0;
   std::uint32_t last_ = kNone;  // the frame of the last call of admit()
 };

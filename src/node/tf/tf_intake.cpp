@@ -25,16 +25,19 @@ geometry_msgs::TransformStamped withoutSlashes(geometry_msgs::TransformStamped t
 
 }  // namespace
 
-TfIntake::TfIntake(double max_future, double cache, std::size_t max_frames, bool simulated, Ledger& ledger)
+TfIntake::TfIntake(double max_future, double cache, std::size_t max_frames, bool simulated, Ledger& ledger,
+                   std::size_t max_samples)
     : max_future_(max_future),
+      most_late_(max_frames),
       ledger_(ledger),
       ages_(simulated),
-      store_(Time(std::llround(1e9 * cache)), max_frames),
+      store_(Time(std::llround(1e9 * cache)), max_frames, max_samples),
       rivals_(ledger) {}
 
 void TfIntake::take(const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher,
                     const Moment& now) {
   accepted_ = 0;
+  const std::uint64_t before = table().revision();
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {
     try {
       if (hasSlash(transform.header.frame_id) || hasSlash(transform.child_frame_id)) {
@@ -44,9 +47,42 @@ void TfIntake::take(const tf2_msgs::TFMessage& message, bool is_static, const st
       }
     } catch (const Refusal& refusal) {
       noteRefusal(refusal, withoutSlash(transform.child_frame_id), is_static, publisher);
+      if (is_static && refusal.code() == Code::limit) keepLate(transform, publisher);
     }
   }
+  if (table().revision() != before) takeLate(now);  // another frame may be above one that bodies need
   if (accepted_ > 0) ledger_.count("tf.accepted", accepted_);
+  if (const std::size_t dropped = store_.takeDropped()) ledger_.count("tf.samples.LIMIT", dropped);
+}
+
+void TfIntake::need(const std::vector<std::string>& names, const Moment& now) {
+  store_.need(names);
+  takeLate(now);
+}
+
+/// Keeps a static transform that found no room. It is sent only once, but a body may need it later.
+void TfIntake::keepLate(const geometry_msgs::TransformStamped& transform, const std::string& publisher) {
+  const std::string child = withoutSlash(transform.child_frame_id);
+  if (late_.size() < most_late_ || late_.count(child) != 0) late_.insert_or_assign(child, Late{transform, publisher});
+}
+
+/// Takes in the kept static transforms of frames that bodies need by now. One of them can make another one needed.
+void TfIntake::takeLate(const Moment& now) {
+  for (auto next = late_.begin(); next != late_.end();) {
+    if (!table().isNeeded(next->first)) {
+      ++next;
+      continue;
+    }
+    const Late late = std::move(next->second);
+    late_.erase(next);
+    try {
+      takeOne(withoutSlashes(late.transform), true, late.publisher, now);
+      next = late_.begin();
+    } catch (const Refusal& refusal) {
+      ledger_.refuse("tf.refused", refusal);
+      return;
+    }
+  }
 }
 
 void TfIntake::takeOne(const geometry_msgs::TransformStamped& transform, bool is_static, const std::string& publisher,
@@ -110,6 +146,7 @@ void TfIntake::takeStatic(std::uint32_t number, const Arrival& arrival) {
   const FramePose pose = arrival.pose();
   if (moved || !(pose == history(number).newest().parent_from_frame)) ++static_revision_;
   store_.fix(number, arrival.parent(), pose);
+  if (!late_.empty()) late_.erase(arrival.transform.child_frame_id);  // an older transform of the frame
   frame.pace.forgetPeriod();
   frame.publisher = arrival.publisher;
   frame.stray = Time(0);

@@ -5,6 +5,7 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,14 +44,18 @@ class TfIntake {
     bool hasConflict() const { return from_tf && from_static; }
   };
 
-  /// @param max_future  [s] how far a stamp may be ahead of ROS time
-  /// @param cache       [s] how long transforms are kept
-  /// @param max_frames  limits the number of frames, as in FrameTable
-  /// @param simulated   whether /clock drives ROS time
-  TfIntake(double max_future, double cache, std::size_t max_frames, bool simulated, Ledger& ledger);
+  /// @param max_future   [s] how far a stamp may be ahead of ROS time
+  /// @param cache        [s] how long transforms are kept
+  /// @param max_frames   limits the number of frames, as in FrameTable
+  /// @param simulated    whether /clock drives ROS time
+  /// @param max_samples  how many transforms of one frame are kept
+  TfIntake(double max_future, double cache, std::size_t max_frames, bool simulated, Ledger& ledger,
+           std::size_t max_samples = TransformStore::kMaxSamples);
 
   /// Handles the transforms of one message. Counts and logs each refused transform, and uses the others.
   void take(const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher, const Moment& now);
+  /// Sets which frames bodies need. There is room for them even if there are too many other frames.
+  void need(const std::vector<std::string>& names, const Moment& now);
   /// Drops the stamps and periods of all frames of /tf. Call this after a simulated clock jumped back. Static
   /// transforms stay.
   void forgetMoving();
@@ -120,8 +125,17 @@ class TfIntake {
   std::uint32_t admit(const Arrival& arrival);
   void accept(Frame& frame);
   void forgetStamps();
+  void keepLate(const geometry_msgs::TransformStamped& transform, const std::string& publisher);
+  void takeLate(const Moment& now);
+
+  /// A static transform that found no room, and its publisher.
+  struct Late {
+    geometry_msgs::TransformStamped transform;
+    std::string publisher;
+  };
 
   double max_future_;
+  const std::size_t most_late_;
   Ledger& ledger_;
   AgeClock ages_;
   TransformStore store_;
@@ -129,6 +143,7 @@ class TfIntake {
   std::vector<Frame> frames_;  // indexed by frame number
   FrameRivals rivals_;
   std::vector<std::string> conflicts_;
+  std::map<std::string, Late> late_;  // by child; they are sent only once, and somebody may need them later
   std::uint64_t static_revision_ = 0;
   std::uint64_t accepted_ = 0;  // number of accepted transforms of the current message
 };

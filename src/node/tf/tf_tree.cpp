@@ -7,8 +7,14 @@
 namespace hgrid {
 namespace {
 
+/// Returns the age [s] of the newest transform of a frame: as ChainState::bornAt(), but of this frame alone.
+double ageOf(const FramePace& pace, Time stamp, Time reading) {
+  return seconds(reading - std::min(pace.received(), stamp + pace.lead()));
+}
+
 /// Updates the state of a chain that is extended by the transform of one more frame.
-void extend(ChainState& state, const TfIntake& intake, std::uint32_t number, bool upwards, Time reading) {
+void extend(ChainState& state, const TfIntake& intake, std::uint32_t number, bool upwards, Time reading,
+            const AgeLimits& limits) {
   const TfIntake::Frame& frame = intake.frame(number);
   if (frame.refused && (upwards || state.refused == nullptr)) state.refused = &*frame.refused;
   if (frame.hasConflict()) state.conflict = true;
@@ -21,6 +27,7 @@ void extend(ChainState& state, const TfIntake& intake, std::uint32_t number, boo
   state.received = state.moves ? std::min(state.received, frame.pace.received()) : frame.pace.received();
   state.lead = state.moves ? std::min(state.lead, frame.pace.lead()) : frame.pace.lead();
   state.period = std::max(state.period, frame.pace.period());
+  state.worst = std::max(state.worst, freshnessOf(ageOf(frame.pace, stamp, reading), frame.pace.period(), limits));
   state.moves = true;
 }
 
@@ -98,7 +105,7 @@ void TfTree::look(Time reading) {
   for (std::size_t i = 2; i < steps_.size(); ++i) {
     Step& step = steps_[i];
     step.state = steps_[step.from].state;
-    extend(step.state, intake_, step.moved, step.upwards, reading);
+    extend(step.state, intake_, step.moved, step.upwards, reading, limits_);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "node/tf/tf_intake.h"
+#include "node/time/freshness.h"
 
 namespace hgrid {
 
@@ -17,11 +18,14 @@ struct ChainState {
   bool moves = false;      ///< whether a transform of the chain is published on /tf
   bool conflict = false;   ///< whether a frame of the chain is published on both /tf and /tf_static
 
-  // The next four values are set only if the chain moves. Each combines the values of all moving frames of the chain.
+  // The next five values are set only if the chain moves. Each combines the values of all moving frames of the chain.
   Time newest{0};       ///< newest time at which the whole chain is known
   Time received{0};     ///< least FramePace::received()
   Time lead{0};         ///< least FramePace::lead()
   double period = 0.0;  ///< [s] longest FramePace::period()
+  /// Worst state of a moving frame. Each is judged by its own age and its own period, so that a slow frame of the chain
+  /// does not hide that a fast one has stopped.
+  Freshness worst = Freshness::fresh;
 
   /// Why the newest transform of a frame of the chain was refused. Null: none was refused. Valid until the next
   /// TfIntake::take().
@@ -41,7 +45,7 @@ struct ChainState {
 /// Each tick calls plan() if stale(), then look(), then place().
 class TfTree {
  public:
-  explicit TfTree(const TfIntake& intake) : intake_(intake) {}
+  explicit TfTree(const TfIntake& intake, const AgeLimits& limits = {}) : intake_(intake), limits_(limits) {}
 
   /// Whether a new frame or a new parent has appeared in tf since the last plan().
   bool stale() const { return revision_ != intake_.table().revision(); }
@@ -89,6 +93,7 @@ class TfTree {
   static constexpr std::size_t kNowhere = 0, kWorld = 1;  // index for "no step"; index of the step to the world frame
 
   const TfIntake& intake_;
+  const AgeLimits limits_;
   std::uint64_t revision_ = ~std::uint64_t{0};
   std::vector<Step> steps_ = std::vector<Step>(2);  // each step comes after its `from`
   std::vector<Chain> chains_;

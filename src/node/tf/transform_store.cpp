@@ -25,6 +25,11 @@ std::uint32_t TransformStore::admit(const std::string& parent, const std::string
   return table_.admit(parent, child);
 }
 
+void TransformStore::need(const std::vector<std::string>& names) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  table_.need(names);
+}
+
 void TransformStore::fix(std::uint32_t frame, const std::string& parent, const FramePose& parent_from_frame) {
   const std::lock_guard<std::mutex> lock(mutex_);
   histories_[frame].fix({Time(0), numberOfParent(frame, parent), true, parent_from_frame});
@@ -35,13 +40,16 @@ void TransformStore::advance(std::uint32_t frame, const std::string& parent, Pos
   const std::lock_guard<std::mutex> lock(mutex_);
   sample.parent = numberOfParent(frame, parent);
   histories_[frame].advance(sample, std::min(sample.stamp, now + cache_ / 2) - cache_);
+  dropped_ += histories_[frame].trim(max_samples_);
   table_.setParent(frame, parent);
 }
 
 bool TransformStore::fill(std::uint32_t frame, PoseSample sample) {
   const std::lock_guard<std::mutex> lock(mutex_);
   sample.parent = table_.parent(frame);
-  return histories_[frame].fill(sample);
+  const bool filled = histories_[frame].fill(sample);
+  dropped_ += histories_[frame].trim(max_samples_);
+  return filled;
 }
 
 void TransformStore::forgetStamps() {

@@ -6,6 +6,7 @@
 #include <deque>
 #include <mutex>
 #include <string>
+#include <utility>
 
 #include "node/tf/frame_history.h"
 #include "node/tf/frame_table.h"
@@ -18,13 +19,20 @@ namespace hgrid {
 /// A call that throws changes nothing.
 class TransformStore {
  public:
-  /// @param cache       [ns] how long transforms are kept
-  /// @param max_frames  limits the number of frames, as in FrameTable
-  TransformStore(Time cache, std::size_t max_frames) : cache_(cache), table_(max_frames) {}
+  /// @param cache        [ns] how long transforms are kept
+  /// @param max_frames   limits the number of frames, as in FrameTable
+  /// @param max_samples  how many transforms of one frame are kept; the oldest are dropped
+  TransformStore(Time cache, std::size_t max_frames, std::size_t max_samples = kMaxSamples)
+      : cache_(cache), max_samples_(max_samples), table_(max_frames) {}
   TransformStore(const TransformStore&) = delete;
   TransformStore& operator=(const TransformStore&) = delete;
 
+  static constexpr std::size_t kMaxSamples = 10000;  ///< default of `max_samples`
+
   Time cache() const { return cache_; }
+  /// Returns how many samples were dropped because of `max_samples` since the last call. Only the writing thread may
+  /// call it.
+  std::size_t takeDropped() { return std::exchange(dropped_, 0); }
 
   // Only the writing thread may call the functions from here to Reading.
   /// Returns the names, numbers and parents of all frames.
@@ -32,6 +40,8 @@ class TransformStore {
   const FrameHistory& history(std::uint32_t frame) const { return histories_[frame]; }
   /// Does the same as FrameTable::admit().
   std::uint32_t admit(const std::string& parent, const std::string& child);
+  /// Does the same as FrameTable::need().
+  void need(const std::vector<std::string>& names);
   /// Makes the frame static at this pose in its parent.
   void fix(std::uint32_t frame, const std::string& parent, const FramePose& parent_from_frame);
   /// Stores the newest sample of a frame that moves.
@@ -60,6 +70,8 @@ class TransformStore {
   std::uint32_t numberOfParent(std::uint32_t frame, const std::string& parent);
 
   const Time cache_;
+  const std::size_t max_samples_;
+  std::size_t dropped_ = 0;
   mutable std::mutex mutex_;  // the writing thread holds it while it changes the members below
   FrameTable table_;
   std::deque<FrameHistory> histories_;  // indexed by frame number; may have more entries than the table

@@ -25,7 +25,9 @@ struct Tick {
   std::vector<std::string> not_ready;  ///< one sentence for each thing that is missing
   /// The subject of the first sentence of not_ready: the name of a source, "clock" or "world frame".
   std::string waits_for;
-  std::vector<BodyTrouble> troubles;          ///< bodies that are not FRESH or have a conflict, worst state first
+  std::vector<BodyTrouble> troubles;  ///< bodies that are not FRESH or have a conflict, worst state first
+  /// Why robots have links that never had a pose, and what to do; one sentence each.
+  std::vector<std::string> unplaced;
   std::vector<std::string> missing_frames;    ///< names of frames that were never published, sorted
   std::vector<std::string> contested_frames;  ///< one sentence for each contested frame
   std::shared_ptr<const ModelReport> models;

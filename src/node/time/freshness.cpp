@@ -9,12 +9,13 @@
 namespace hgrid {
 namespace {
 
-constexpr double kPeriods = 1.5;  // data are not LATE up to this many periods, even if the limits are shorter
+constexpr double kPeriods = 1.5;  // data are FRESH up to this many periods, even if the limits are shorter
 
 Freshness judgeByAge(const KeptPose& pose, const PoseCircumstances& circumstances, const AgeLimits& limits) {
   if (pose.settled()) return Freshness::fresh;
   if (pose.frozen()) return Freshness::frozen;
-  const Freshness by_age = freshnessOf(pose.age(circumstances.reading), circumstances.period, limits);
+  const Freshness by_age =
+      std::max(circumstances.chain, freshnessOf(pose.age(circumstances.reading), circumstances.period, limits));
   return pose.stamp() < circumstances.tick_time ? std::max(by_age, Freshness::late) : by_age;
 }
 
@@ -22,7 +23,7 @@ Freshness judgeByAge(const KeptPose& pose, const PoseCircumstances& circumstance
 
 Freshness freshnessOf(double age, double period, const AgeLimits& limits) {
   const double usual = kPeriods * period;
-  if (age > limits.lost_after) return Freshness::lost;
+  if (age > std::max(limits.lost_after, usual)) return Freshness::lost;
   if (age > std::max(limits.stale_after, usual)) return Freshness::stale;
   return age > std::max(limits.late_after, usual) ? Freshness::late : Freshness::fresh;
 }
@@ -34,7 +35,8 @@ Freshness judgePose(const KeptPose& pose, const PoseCircumstances& circumstances
 }
 
 Freshness judgeCloud(double age, double period, bool clock_frozen, const AgeLimits& limits) {
-  return clock_frozen ? Freshness::frozen : freshnessOf(age, period, limits);
+  if (clock_frozen) return Freshness::frozen;
+  return age > limits.lost_after ? Freshness::lost : freshnessOf(age, period, limits);
 }
 
 }  // namespace hgrid

@@ -27,6 +27,7 @@ class MapBodies {
   explicit MapBodies(bool simulated) : news_(simulated) {}
 
   bool has(const SourceId& map) const { return seats_.count(map) != 0; }
+  std::size_t size() const { return seats_.size(); }
   /// Whether the map is already in the world at the same pose in the same frame, so that only its cells change.
   bool hasSame(const SourceId& map, const Body& body) const;
   /// Notes that the map is now in the world.

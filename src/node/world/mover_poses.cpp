@@ -10,7 +10,7 @@ MoverPoses::MoverPoses(const Params& params, const TfIntake& intake, Scene& scen
       scene_(scene),
       movers_(movers),
       ledger_(ledger),
-      frames_(intake, params.max_sync_wait) {}
+      frames_(intake, limits_, params.max_sync_wait) {}
 
 Time MoverPoses::update(const Moment& now, bool clock_frozen, Tick& tick) {
   planChains(tick.world_frame);
@@ -54,7 +54,7 @@ void MoverPoses::updateOne(std::size_t index, bool clock_frozen, Tick& tick) {
     tick.missing_frames.push_back(frames_.unknownFrame(index));
   }
   mover.settled = is_static && !mover.trouble;
-  setState(mover, judge(mover, chain.period, clock_frozen));
+  setState(mover, judge(mover, chain, clock_frozen));
   appendTroubles(mover, tick);
 }
 
@@ -82,11 +82,12 @@ void MoverPoses::place(Mover& mover, const FramePoses::Found& found, bool moves)
   }
 }
 
-Freshness MoverPoses::judge(const Mover& mover, double period, bool clock_frozen) const {
+Freshness MoverPoses::judge(const Mover& mover, const ChainState& chain, bool clock_frozen) const {
   PoseCircumstances circumstances;
   circumstances.reading = frames_.reading();
   circumstances.tick_time = frames_.tickTime();
-  circumstances.period = period;
+  circumstances.period = chain.period;
+  if (chain.connected) circumstances.chain = chain.worst;
   circumstances.refused = mover.trouble && mover.trouble->code() != Code::unknown_frame;
   circumstances.clock_frozen = clock_frozen && !mover.settled;  // a settled mover needs no new data
   return judgePose(mover.pose, circumstances, limits_);

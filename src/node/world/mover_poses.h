@@ -42,7 +42,7 @@ class MoverPoses {
   void setState(const Mover& mover, Freshness state);
   void setStamp(const Mover& mover);
   void unsettleAll();
-  Freshness judge(const Mover& mover, double period, bool clock_frozen) const;
+  Freshness judge(const Mover& mover, const ChainState& chain, bool clock_frozen) const;
   void appendTroubles(const Mover& mover, Tick& tick) const;
 
   const AgeLimits limits_;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hgrid_proximity/refusal.h"
+#include "node/world/unplaced_robots.h"
 
 namespace hgrid {
 namespace {
@@ -68,7 +69,8 @@ World::World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& 
     : params_(params),
       ledger_(ledger),
       scene_(optionsOf(params)),
-      transforms_(params.max_future, params.tf_cache, static_cast<std::size_t>(params.max_frames), simulated, ledger),
+      transforms_(params.max_future, params.tf_cache, static_cast<std::size_t>(params.max_frames), simulated, ledger,
+                  static_cast<std::size_t>(params.max_samples)),
       clock_(simulated, params.clock_jump, params.stale_after),
       movers_(scene_),
       poses_(params, transforms_, scene_, movers_, ledger),
@@ -109,6 +111,10 @@ void World::setMap(const LoadedMap& map) {
   const std::string what = "map '" + map.params.name + "'";
   if (!findWorldFrame()) throw Refusal(Code::not_ready, what + " cannot be placed yet: there is no world frame");
   const SourceId source = SourceId::ofMap(map.params.name);
+  if (!maps_.has(source) && maps_.size() >= static_cast<std::size_t>(params_.max_maps)) {
+    throw Refusal(Code::limit, what + " would be one map too many; ~max_maps is " + std::to_string(params_.max_maps) +
+                                   ": remove a map with ~clear_map, or give it the name of a map to replace");
+  }
   const Body body = mapBodyOf(map, world_frame_, params_);
   const bool same = maps_.hasSame(source, body);
   if (maps_.has(source) && !same && !transforms_.lookup().isConnected(world_frame_, body.frame)) {
@@ -152,6 +158,21 @@ void World::setCloud(const LoadedCloud& cloud) {
   missing_.erase(source);
 }
 
+void World::setCloudFrame(const std::string& cloud, const std::string& frame) {
+  cloud_frames_[cloud] = frame;
+  needed_revision_.reset();
+}
+
+/// Tells the transforms which frames have priority, if the bodies have changed.
+void World::needFrames(const Moment& now) {
+  if (needed_revision_ == movers_.revision()) return;
+  std::vector<std::string> frames{world_frame_};
+  for (const Mover& mover : movers_.all()) frames.push_back(mover.frame);
+  for (const auto& cloud : cloud_frames_) frames.push_back(cloud.second);
+  transforms_.need(frames, now);
+  needed_revision_ = movers_.revision();
+}
+
 void World::setMissing(const SourceId& source, const std::string& sentence) {
   if (clouds_.noteRefused(source, sentence) || maps_.noteRefused(source, sentence)) return;
   if (robots_.find(source.name) == nullptr) missing_.set(source, sentence);
@@ -174,6 +195,7 @@ bool World::findWorldFrame() {
   if (world_frame_.empty()) {
     const LoadedRobot* first = robots_.find(params_.robots.front().name);
     if (first != nullptr) world_frame_ = first->root_frame;
+    needed_revision_.reset();
   }
   return !world_frame_.empty();
 }
@@ -224,6 +246,7 @@ std::shared_ptr<const Tick> World::tick(const Moment& now) {
   const bool can_begin = findWorldFrame() && clock_.running();
   // This comes before listMissing(), because obstacles that are refused become missing sources.
   if (can_begin) obstacles_.addAll(world_frame_, movers_, missing_);
+  needFrames(now);
   tick->world_frame = world_frame_;
   tick->models = robots_.report();
   tick->frames = transforms_.table().placed();
@@ -235,6 +258,9 @@ std::shared_ptr<const Tick> World::tick(const Moment& now) {
   tick->contested_frames = transforms_.claims().sentences(poses_.reading());
   clouds_.update(time, now, clock_.frozen(), *tick, gaps);
   sortWorstFirst(tick->troubles);
+  if (!tick->troubles.empty() && tick->troubles.front().state == Freshness::unplaced) {
+    tick->unplaced = whyUnplaced(movers_.all(), transforms_.table(), world_frame_, world_frame_ == params_.world_frame);
+  }
   sortUnique(tick->missing_frames);
   tick->poses_time = std::chrono::steady_clock::now() - begin;
   tick->snapshot = scene_.commit(time, gaps);

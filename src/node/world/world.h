@@ -2,7 +2,9 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,6 +62,8 @@ class World {
   /// Replaces the cells of a cloud. The first call for a cloud adds the body of the cloud.
   /// @throws Refusal limit (~max_bodies)
   void setCloud(const LoadedCloud& cloud);
+  /// Notes which frame the messages of a cloud refer to, so that there is room for its transforms.
+  void setCloudFrame(const std::string& cloud, const std::string& frame);
   /// Stores why a source is not in the world yet, or why its newest data could not be used. Bodies in the world stay.
   void setMissing(const SourceId& source, const std::string& sentence);
   /// Replaces all rules for allowed pairs, from the next tick on. Expired rules are removed automatically.
@@ -74,6 +78,7 @@ class World {
   void handleClock(const Moment& now);
   void beginEpoch();
   bool findWorldFrame();
+  void needFrames(const Moment& now);
   std::vector<SourceGap> listMissing(const Moment& now, Tick& tick) const;
 
   const Params& params_;
@@ -89,6 +94,8 @@ class World {
   CloudBodies clouds_;
   MissingSources missing_;
   RulesInForce rules_;
+  std::map<std::string, std::string> cloud_frames_;  // by cloud
+  std::optional<std::uint64_t> needed_revision_;     // of the movers whose frames are needed; nullopt: not up to date
   std::string world_frame_;
   std::uint64_t epoch_;
 };

@@ -77,10 +77,21 @@ TEST_F(CompletenessLogs, AreSilentWhileOnlyTheAgeInTheSentenceChanges) {
 TEST_F(CompletenessLogs, SayThatAnotherSourceIsIncomplete) {
   const SourceGap hall = gapOf("map/hall", "LOST map/hall: 1 s old"), eye = gapOf("cloud/eye", "LOST cloud/eye");
   EXPECT_NE(logged(2.0, {hall}), "");
-  EXPECT_NE(logged(2.1, {hall, eye}), "");
-  EXPECT_EQ(logged(2.2, {eye}), "LOST cloud/eye");
-  EXPECT_EQ(logged(2.3, {}), "+2 bodies in frame 'world'.");
-  EXPECT_EQ(logged(2.4, {eye}), "LOST cloud/eye") << "logged again, because the world was complete meanwhile";
+  EXPECT_EQ(logged(3.1, {hall, eye}), "LOST map/hall: 1 s old (and 1 more in ~status)");
+  EXPECT_EQ(logged(4.2, {eye}), "LOST cloud/eye");
+  EXPECT_EQ(logged(4.3, {}), "+2 bodies in frame 'world'.");
+  EXPECT_EQ(logged(5.3, {eye}), "LOST cloud/eye") << "logged again, because the world was complete meanwhile";
+}
+
+TEST_F(CompletenessLogs, SayLaterWhatCameSoonAfterAnotherWarning) {
+  const SourceGap robot = gapOf("robot", "NOT_READY robot 'robot'"), tool = gapOf("robot", "UNPLACED robot/tool");
+  const SourceGap hall = gapOf("map/hall", "NOT_READY map 'hall'");
+  EXPECT_EQ(logged(2.0, {hall}), "NOT_READY map 'hall'");
+  EXPECT_EQ(logged(2.1, {robot}), "") << "the last warning is younger than a second";
+  EXPECT_EQ(logged(2.2, {tool}), "");
+  EXPECT_EQ(logged(3.1, {tool}), "UNPLACED robot/tool") << "the cause that lasts must not be lost";
+  EXPECT_EQ(logged(4.2, {tool}), "");
+  EXPECT_EQ(logged(4.3, {hall}), "NOT_READY map 'hall'") << "no pause without a warning";
 }
 
 TEST_F(CompletenessLogs, SayThatABodyGotAWorseStateButNotThatOneIsLate) {
@@ -89,15 +100,16 @@ TEST_F(CompletenessLogs, SayThatABodyGotAWorseStateButNotThatOneIsLate) {
   scene_.setState(ball_, Freshness::late, 0.2);
   EXPECT_EQ(logged(2.1, {hall}), "");
   scene_.setState(ball_, Freshness::lost, 20.0);
-  EXPECT_NE(logged(2.2, {hall}), "");
-  EXPECT_EQ(logged(2.3, {hall}), "");
+  EXPECT_NE(logged(3.2, {hall}), "");
+  EXPECT_EQ(logged(4.3, {hall}), "");
 }
 
 TEST_F(CompletenessLogs, SayWhatAWorldThatDoesNotExistLacks) {
-  EXPECT_EQ(loggedWithoutWorld(2.0, {"NOT_READY: no time", "NOT_READY: no frame"}), "NOT_READY: no time");
-  EXPECT_EQ(loggedWithoutWorld(2.1, {"NOT_READY: no time", "NOT_READY: no frame"}), "");
-  EXPECT_EQ(loggedWithoutWorld(2.2, {"NOT_READY: no frame"}), "NOT_READY: no frame");
-  EXPECT_EQ(logged(2.3, {}), "+2 bodies in frame 'world'.");
+  const std::string worst = "NOT_READY: no time (and 1 more in ~status)";
+  EXPECT_EQ(loggedWithoutWorld(2.0, {"NOT_READY: no time", "NOT_READY: no frame"}), worst);
+  EXPECT_EQ(loggedWithoutWorld(3.1, {"NOT_READY: no time", "NOT_READY: no frame"}), "");
+  EXPECT_EQ(loggedWithoutWorld(3.2, {"NOT_READY: no frame"}), "NOT_READY: no frame");
+  EXPECT_EQ(logged(3.3, {}), "+2 bodies in frame 'world'.");
 }
 
 TEST(CompletenessLog, SaysThatTheListOfPairsIsTruncated) {

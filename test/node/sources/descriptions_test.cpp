@@ -225,6 +225,7 @@ TEST(NoGeometry, AWaiverForEveryLinkMakesTheWorldCompleteAndIsListed) {
   EXPECT_EQ(status->waived, std::vector<std::string>({kNoGeometry + ": in the floor; only shown"}));
   EXPECT_TRUE(status->uncovered.empty());
   EXPECT_TRUE(status->model_warnings.empty()) << status->model_warnings.front();
+  waitForDiagnostic(node, "robots", DiagnosticStatus::OK, "all shapes were read, except those that are waived");
   EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Verdict::CLEAR);
 }
 
@@ -268,6 +269,7 @@ TEST(VisualGeometry, IsUsedWhereAPatternMatchesAndIsListed) {
       return entry.key == "uses visual geometry 1" && entry.value == "robot/shell";
     });
   });
+  EXPECT_EQ(node.lines("~use_visual: 'robot/none' matches no body"), 1u) << "the log has each warning once";
 }
 
 TEST(VisualGeometry, ThatCannotBeReadIsUncovered) {

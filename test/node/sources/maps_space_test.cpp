@@ -92,8 +92,9 @@ TEST_F(MapSpace, TheRobotsOwnCellsAreLeftOutOnceItIsKnownWhereItIs) {
   streams_ = false;
   start(dict({{"self_filter", list({dict({{"pattern", "robot/*"}, {"padding", 0.05}})})}}));
   node_->waitForStatus("the map waits for the pose of the robot", [](const msg::Status& status) {
-    return !status.world.reasons.empty() &&
-           status.world.reasons[0].find("NOT_READY map 'octants': body 'robot/a'") == 0;
+    return std::any_of(status.world.reasons.begin(), status.world.reasons.end(), [](const std::string& reason) {
+      return reason.find("NOT_READY map 'octants': body 'robot/a'") == 0;
+    });
   });
   transforms_.stream("base", "a", at(0));
   node_->waitForComplete();

@@ -70,6 +70,44 @@ TEST(FrameTable, RefusesOneFrameMoreThanTheLimitAndGoesOnWithTheOthers) {
   EXPECT_EQ(refusalOf([&] { put(table, "b", "a"); }), Code::limit) << "'b' would be a third parent";
 }
 
+TEST(FrameTable, HasRoomForTheFramesThatBodiesNeedAndForThoseAboveThem) {
+  FrameTable table(2);
+  table.need({"hand"});
+  put(table, "junk", "a");
+  put(table, "junk", "b");
+  EXPECT_EQ(refusalOf([&] { put(table, "junk", "c"); }), Code::limit);
+  EXPECT_EQ(refusalOf([&] { put(table, "base", "arm"); }), Code::limit) << "nobody needs this frame yet";
+  put(table, "arm", "hand");
+  put(table, "base", "arm");  // hand is in it
+  EXPECT_EQ(refusalOf([&] { put(table, "map", "base"); }), Code::limit) << "there is room for 2 needed frames";
+  EXPECT_EQ(refusalOf([&] { put(table, "junk", "c"); }), Code::limit);
+  EXPECT_EQ(table.placed(), 4u);
+  table.need({"a", "b"});  // now nobody needs hand and arm
+  put(table, "junk", "b");
+  EXPECT_EQ(refusalOf([&] { put(table, "arm", "finger"); }), Code::limit) << "hand and arm use the room of the others";
+  table.need({"finger"});
+  put(table, "arm", "finger");
+}
+
+/// A flood of frames came first. A body that is added later gets its chain, whichever of its frames come first.
+TEST(FrameTable, LetsAChainGrowFromEitherEnd) {
+  for (const bool downwards : {false, true}) {
+    FrameTable table(3);
+    for (const char* child : {"a", "b", "c"}) put(table, "junk", child);
+    table.need({"hand"});
+    const std::vector<std::pair<std::string, std::string>> chain = {{"base", "arm"}, {"arm", "hand"}};
+    for (int round = 0; round < 2; ++round) {  // as on /tf, where each transform is sent again
+      for (std::size_t i = 0; i < chain.size(); ++i) {
+        const auto& link = chain[downwards ? i : chain.size() - 1 - i];
+        const bool comes_too_early = downwards && round == 0 && i == 0;
+        EXPECT_EQ(refusalOf([&] { put(table, link.first, link.second); }), comes_too_early ? Code::limit : Code::ok);
+      }
+    }
+    EXPECT_EQ(table.parentName(table.find("hand")), "arm");
+    EXPECT_EQ(table.parentName(table.find("arm")), "base");
+  }
+}
+
 /// admit() guesses the next frame from the order of earlier calls. A wrong guess must not change the results.
 TEST(FrameTable, FindsFramesInAnyOrder) {
   FrameTable table(100);

@@ -97,9 +97,9 @@ TEST_P(Ages, WhatWasPlacedByStaticTransformsAgesFromTheMomentTheyStopPlacingIt) 
   EXPECT_EQ(world.pose("a").state, Freshness::late);
 }
 
-TEST_P(Ages, LateAndStaleBeginAtOneAndAHalfPeriodsOfASlowFrameButGrowthDoesNot) {
+TEST_P(Ages, LateStaleAndLostBeginAtOneAndAHalfPeriodsOfASlowFrameButGrowthDoesNot) {
   Params params;
-  params.lost_after = 10.0;
+  params.lost_after = 1.0;
   SimulatedWorld world({"a"}, GetParam(), params);
   for (int i = 0; i < 60; ++i) {  // sends one transform per second
     world.wait(1.0);
@@ -113,9 +113,26 @@ TEST_P(Ages, LateAndStaleBeginAtOneAndAHalfPeriodsOfASlowFrameButGrowthDoesNot) 
     EXPECT_EQ(world.pose("a").state, Freshness::fresh) << age;
     EXPECT_NEAR(world.pose("a").growth, age > 0.25 ? std::min(1.0, 2.0 * age) : 0.0, 1e-6) << age;
   }
+  EXPECT_TRUE(world.snapshot().complete());
   world.wait(0.2);
   world.tick();
-  EXPECT_EQ(world.pose("a").state, Freshness::stale);
+  EXPECT_EQ(world.pose("a").state, Freshness::lost);
+  EXPECT_FALSE(world.snapshot().complete());
+}
+
+TEST_P(Ages, AFastFrameThatStopsIsLostEvenIfASlowFrameCarriesIt) {
+  SimulatedWorld world({"a"}, GetParam());
+  for (int i = 0; i <= 1000; ++i) {
+    world.wait(0.02);
+    if (i % 250 == 0) world.sendNow("/slow", "base", "cart", 0.0);  // every 5 s
+    world.sendNow("/fast", "cart", "a", 0.0);
+    world.tick();
+  }
+  for (int i = 0; i < 21; ++i) {
+    world.wait(0.1);
+    world.tick();
+  }
+  EXPECT_EQ(world.pose("a").state, Freshness::lost) << "age " << world.pose("a").age;
 }
 
 TEST_P(Ages, AnOutageDoesNotCountAsThePeriodOfAFrame) {

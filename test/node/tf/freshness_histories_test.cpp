@@ -227,7 +227,7 @@ class RandomHistory {
     if (known.moves && known.age > std::max(kStale + 1e-5, periods)) {
       EXPECT_GE(pose.state, Freshness::stale);
     }
-    if (known.moves && known.age > kLost + 1e-5) {
+    if (known.moves && known.age > std::max(kLost + 1e-5, periods)) {
       EXPECT_GE(pose.state, Freshness::lost);
     }
     const bool well = known.at_tick && (!known.moves || (known.age < 0.05 && ahead_for_ <= 0.0));

@@ -57,6 +57,37 @@ TEST_F(Poison, AStaticTransformStampedInTheFutureIsAsGoodAsAnyOther) {
   }
 }
 
+TEST(Flood, OfOtherFramesKeepsOutNoFrameThatABodyFollows) {
+  Params params;
+  params.max_frames = 20;
+  SimulatedWorld world({"a"}, SimulatedWorld::Clock::wall, params);
+  world.tick();  // from now on, the world knows which frames it needs
+  for (int round = 0; round < 5; ++round) {
+    world.wait(0.02);
+    for (int i = 0; i < 100; ++i) world.sendNow("/flood", "flood" + std::to_string(i), "f" + std::to_string(i), 0.0);
+    world.sendNow("/robot", "base", "cart", 1.0);
+    world.sendNow("/robot", "cart", "a", 2.0);
+    world.tick();
+  }
+  EXPECT_GT(world.counter("tf.refused.LIMIT"), 0u);
+  EXPECT_EQ(world.pose("a").state, Freshness::fresh);
+  EXPECT_NEAR(world.x("a"), 3.0, 1e-9);
+}
+
+TEST(Flood, DoesNotLoseStaticTransformsThatABodyNeedsLater) {
+  Params params;
+  params.max_frames = 20;
+  SimulatedWorld world({"a"}, SimulatedWorld::Clock::wall, params);  // no tick yet: nobody needs a frame
+  for (int i = 0; i < 20; ++i) world.fix("/flood", "flood", "f" + std::to_string(i), 0.0);
+  world.fix("/robot", "base", "cart", 1.0);
+  world.fix("/robot", "cart", "lift", 1.0);
+  world.fix("/robot", "lift", "a", 1.0);
+  EXPECT_EQ(world.counter("tf.refused.LIMIT"), 3u);
+  world.tick();
+  EXPECT_EQ(world.pose("a").state, Freshness::fresh);
+  EXPECT_NEAR(world.x("a"), 3.0, 1e-9);
+}
+
 TEST_F(Poison, OneTransformOnTfDoesNotEndAStaticFrame) {
   world_.fix("/setup", "base", "a", 3.0);
   idle(0.1);

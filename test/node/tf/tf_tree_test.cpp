@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <map>
 
+#include "test/node/support/moments.h"
 #include "test/support/random.h"
 
 namespace hgrid {
@@ -183,6 +184,37 @@ TEST(TfTree, PutsFramesWhereTf2SaysAtAnyTime) {
     if (::testing::Test::HasFailure()) return;
   }
   EXPECT_GT(compared, 40000u);
+}
+
+/// The frame "base" arrives every 4 s, and the frame "arm" above it every 20 ms until it stops at 8 s.
+TEST(TfTree, JudgesEachFrameOfAChainByItsOwnPeriod) {
+  Ledger ledger;
+  TfIntake intake(1.0, 60.0, 100, false, ledger);
+  const auto send = [&](const std::string& parent, const std::string& child, double time) {
+    tf2_msgs::TFMessage message;
+    message.transforms.resize(1);
+    message.transforms[0].header.frame_id = parent;
+    message.transforms[0].header.stamp = ros::Time(100.0 + time);
+    message.transforms[0].child_frame_id = child;
+    message.transforms[0].transform.rotation.w = 1.0;
+    intake.take(message, false, "test", test::moment(100.0 + time, time));
+  };
+  for (int i = 0; i <= 400; ++i) {
+    if (i % 200 == 0) send("world", "base", 0.02 * i);
+    send("base", "arm", 0.02 * i);
+  }
+  TfTree tree(intake, {0.1, 0.25, 2.0});
+  tree.plan("world", {"base", "arm"});
+  const auto worst = [&](std::size_t frame, double time) {
+    tree.look(intake.ages().read(test::moment(100.0 + time, time)));
+    return tree.state(frame).worst;
+  };
+  EXPECT_EQ(worst(1, 8.05), Freshness::fresh);
+  EXPECT_EQ(worst(1, 8.15), Freshness::late);
+  EXPECT_EQ(worst(1, 8.5), Freshness::stale);
+  EXPECT_EQ(worst(1, 10.5), Freshness::lost) << "the period of base must not hide that arm stopped";
+  EXPECT_EQ(worst(0, 10.5), Freshness::fresh) << "base is not due before 12 s";
+  EXPECT_EQ(worst(0, 14.5), Freshness::lost);
 }
 
 TEST(TfTree, NamesTheFrameThatWasNeverPublished) {

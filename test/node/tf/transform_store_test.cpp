@@ -14,7 +14,7 @@ namespace hgrid {
 namespace test {
 namespace {
 
-PoseSample sample(double time, double x) {
+PoseSample stored(double time, double x) {
   PoseSample result;
   result.stamp = s(time);
   result.parent_from_frame.translation.x() = x;
@@ -24,27 +24,43 @@ PoseSample sample(double time, double x) {
 TEST(TransformStore, KeepsTransformsForAsLongAsTheCache) {
   TransformStore store(s(10), 100);
   const std::uint32_t arm = store.admit("base", "arm");
-  for (int time = 100; time <= 120; ++time) store.advance(arm, "base", sample(time, time), s(time));
+  for (int time = 100; time <= 120; ++time) store.advance(arm, "base", stored(time, time), s(time));
   EXPECT_TRUE(store.history(arm).at(s(110)));
   EXPECT_FALSE(store.history(arm).at(s(109.9)));
-  EXPECT_FALSE(store.fill(arm, sample(109.5, 0)));
-  EXPECT_TRUE(store.fill(arm, sample(110.5, 0)));
+  EXPECT_FALSE(store.fill(arm, stored(109.5, 0)));
+  EXPECT_TRUE(store.fill(arm, stored(110.5, 0)));
 }
 
 TEST(TransformStore, DropsNothingBecauseOfAStampFarAheadOfTheClock) {
   TransformStore store(s(10), 100);
   const std::uint32_t arm = store.admit("base", "arm");
-  for (int time = 100; time <= 110; ++time) store.advance(arm, "base", sample(time, time), s(time));
-  store.advance(arm, "base", sample(1000, 0), s(110));
+  for (int time = 100; time <= 110; ++time) store.advance(arm, "base", stored(time, time), s(time));
+  store.advance(arm, "base", stored(1000, 0), s(110));
   EXPECT_TRUE(store.history(arm).at(s(105)));
+}
+
+TEST(TransformStore, KeepsAtMostMaxSamplesOfEachFrameAndCountsTheOthers) {
+  TransformStore store(s(100), 100, 5);
+  const std::uint32_t arm = store.admit("base", "arm"), cart = store.admit("base", "cart");
+  for (int time = 1; time <= 12; ++time) store.advance(arm, "base", stored(time, time), s(time));
+  store.advance(cart, "base", stored(1, 1), s(1));
+  EXPECT_EQ(store.takeDropped(), 7u);
+  EXPECT_EQ(store.takeDropped(), 0u);
+  EXPECT_TRUE(store.history(arm).at(s(8)));
+  EXPECT_FALSE(store.history(arm).at(s(7.9)));
+  EXPECT_TRUE(store.history(cart).at(s(1)));
+  EXPECT_TRUE(store.fill(arm, stored(9.5, 0))) << "an older sample takes the room of the oldest";
+  EXPECT_EQ(store.takeDropped(), 1u);
+  EXPECT_FALSE(store.history(arm).at(s(8)));
+  EXPECT_FALSE(store.fill(arm, stored(8.5, 0)));
 }
 
 TEST(TransformStore, SetsTheParentOfASample) {
   TransformStore store(s(10), 100);
   const std::uint32_t arm = store.admit("base", "arm");
-  store.advance(arm, "base", sample(1, 0), s(1));
+  store.advance(arm, "base", stored(1, 0), s(1));
   EXPECT_EQ(store.table().name(store.history(arm).newest().parent), "base");
-  store.advance(arm, "cart", sample(2, 0), s(2));
+  store.advance(arm, "cart", stored(2, 0), s(2));
   EXPECT_EQ(store.table().name(store.history(arm).newest().parent), "cart");
   EXPECT_EQ(store.table().parentName(arm), "cart");
   store.fix(arm, "wall", {});
@@ -72,8 +88,8 @@ TEST(TransformStore, IsReadByOtherThreadsWhileItIsWritten) {
   int written = 0;
   for (; written < 2000 || (looks < 1000 && written < 20000000); ++written) {
     const double time = 1.0 + 0.01 * written, x = written % 7;
-    store.advance(store.admit("base", "arm"), "base", sample(time, x), s(time));
-    store.advance(store.admit("arm", "tool"), "arm", sample(time, -x), s(time));
+    store.advance(store.admit("base", "arm"), "base", stored(time, x), s(time));
+    store.advance(store.admit("arm", "tool"), "arm", stored(time, -x), s(time));
     const std::string other = "other" + std::to_string(written % 500);
     store.fix(store.admit("base", other), "base", {});
   }

@@ -45,6 +45,7 @@ TEST(Freshness, AFrameThatWasNeverPublishedIsNamedAndTheRestServes) {
   EXPECT_FALSE(status->world.complete);
   EXPECT_EQ(status->world.worst_state, msg::BodyState::UNPLACED);
   EXPECT_TRUE(oneSays(status->world.reasons, "UNPLACED robot/c"));
+  EXPECT_TRUE(oneSays(status->world.reasons, "links never had a pose: frame 'c' was never published; start"));
 
   const auto pairs = node.waitForPairs("the others are near", [](const msg::Pairs& p) { return p.total > 0; });
   EXPECT_EQ(namesOf(*pairs), std::vector<std::string>({"robot/a|robot/b"}));

@@ -113,16 +113,18 @@ TEST(TransformTree, AFrameWhoseParentAlternatesIsNeverFreshAndRecovers) {
   EXPECT_EQ(pairs->world.worst_state, msg::BodyState::FRESH);
 }
 
-TEST(TransformTree, OneFrameTooManyIsRefused) {
+TEST(TransformTree, OneFrameTooManyThatNoBodyNeedsIsRefused) {
   TransformSource transforms;
   NodeSetup setup = threeBalls();
   setup.params = with(setup.params, {{"max_frames", 3}});
   NodeUnderTest node(setup);
-  transforms.fix({stamped("base", "a", at(0)), stamped("base", "b", at(0.25)), stamped("base", "c", at(9)),
-                  stamped("base", "d", at(0))});
+  node.waitForStatus("the robot", [](const msg::Status& s) { return s.robots == 1; });
+  transforms.fix({stamped("base", "d", at(0)), stamped("base", "e", at(0)), stamped("base", "f", at(0)),
+                  stamped("base", "g", at(0)), stamped("base", "a", at(0)), stamped("base", "b", at(0.25)),
+                  stamped("base", "c", at(9))});
   const auto status = node.waitForStatus("one frame is refused",
                                          [](const msg::Status& s) { return counter(s, "tf.refused.LIMIT") > 0; });
-  EXPECT_TRUE(says(node.output(), "frame 'd' would add one frame too many; ~max_frames is 3"));
+  EXPECT_TRUE(says(node.output(), "frame 'g' would add one frame too many; ~max_frames is 3"));
   node.waitForComplete();
 }
 

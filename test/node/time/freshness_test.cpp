@@ -43,7 +43,9 @@ TEST(KeptPose, OfASlowFrameIsLateAndStaleAfterOneAndAHalfPeriods) {
   EXPECT_EQ(judged(pose, s(0.26), s(50), 0.1, limits), Freshness::stale);
   EXPECT_EQ(judged(pose, s(1.49), s(50), 1.0, limits), Freshness::fresh);
   EXPECT_EQ(judged(pose, s(1.51), s(50), 1.0, limits), Freshness::stale);
-  EXPECT_EQ(judged(pose, s(2.01), s(50), 9.0, limits), Freshness::lost) << "LOST does not depend on the period";
+  EXPECT_EQ(judged(pose, s(2.01), s(50), 1.0, limits), Freshness::lost);
+  EXPECT_EQ(judged(pose, s(13.49), s(50), 9.0, limits), Freshness::fresh) << "LOST does not begin before STALE";
+  EXPECT_EQ(judged(pose, s(13.51), s(50), 9.0, limits), Freshness::lost);
 }
 
 TEST(KeptPose, DoesNotAgeWhileOnlyStaticTransformsGiveIt) {
@@ -80,6 +82,16 @@ TEST(Freshness, OfAPoseWithARefusedTransformIsInvalidHoweverYoungItIs) {
   EXPECT_EQ(judgePose(pose, circumstances, {}), Freshness::invalid) << "an old pose is INVALID as well";
   pose.settle(s(50));
   EXPECT_EQ(judgePose(pose, circumstances, {}), Freshness::invalid) << "a settled pose is INVALID as well";
+}
+
+TEST(Freshness, OfAPoseIsAtLeastThatOfTheWorstFrameOfItsChain) {
+  KeptPose pose;
+  pose.renew(s(50), s(7));
+  PoseCircumstances circumstances{s(7.2), s(50), 0.0, false, false};
+  circumstances.chain = Freshness::stale;
+  EXPECT_EQ(judgePose(pose, circumstances, {}), Freshness::stale);
+  circumstances.reading = s(10);
+  EXPECT_EQ(judgePose(pose, circumstances, {}), Freshness::lost);
 }
 
 TEST(Freshness, OfAnyPoseIsFrozenWhileTheClockStandsStill) {

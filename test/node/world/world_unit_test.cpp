@@ -14,6 +14,7 @@
 #include "src/node/world/world.h"
 #include "test/support/failing_allocations.h"
 #include "test/support/maps.h"
+#include "test/support/refusals.h"
 #include "test/support/rules.h"
 #include "test/support/told.h"
 
@@ -305,6 +306,22 @@ TEST_P(WorldFailedAllocation, IsTriedOnAWorldThatHasPairsEventsAndSeveralEpochs)
   EXPECT_EQ(pairs, played.told.size());
   EXPECT_GT(events, 20u);
   EXPECT_EQ(played.told.back().epoch, 7u) << "one ~reset and one jump of the clock";
+}
+
+TEST(WorldMaps, AreAtMostMaxMaps) {
+  Params params;
+  params.world_frame = "world";
+  params.max_maps = 2;
+  Ledger ledger;
+  World world(params, false, 1, ledger, makeFclNarrowPhase());
+  world.setMap(mapOf("hall", 0.0, 1));
+  world.setMap(mapOf("shelf", 1.0, 2));
+  std::string sentence;
+  EXPECT_EQ(test::refusalOf([&] { world.setMap(mapOf("third", 2.0, 3)); }, &sentence), Code::limit);
+  EXPECT_TRUE(test::says(sentence, "map 'third' would be one map too many; ~max_maps is 2"));
+  world.setMap(mapOf("shelf", 3.0, 4));  // replaces a map
+  world.clearMap("hall");
+  world.setMap(mapOf("third", 2.0, 3));
 }
 
 INSTANTIATE_TEST_SUITE_P(Clock, WorldFailedAllocation, ::testing::Values(false, true),

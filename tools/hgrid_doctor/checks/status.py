@@ -89,6 +89,7 @@ def check_models(facts: Facts, findings: Findings):
         warnings = [text for text in warnings if "names link" not in text]
     if findings.has("no_srdf"):
         warnings = [text for text in warnings if "SRDF" not in text]
+    warnings = [text for text in warnings if not text.startswith("... and")]  # the end of a list that is cut
     if warnings:
         more = f" (and {counted(len(warnings) - 1, 'warning')} more)" if len(warnings) > 1 else ""
         findings.add(

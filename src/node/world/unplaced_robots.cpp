@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/world/unplaced_robots.h"
+
+#include <map>
+
+#include "hgrid_proximity/refusal.h"
+
+namespace hgrid {
+namespace {
+
+constexpr std::size_t kMostRoots = 3;  // number of root frames that a sentence names
+
+/// The links of one robot that never had a pose.
+struct UnplacedLinks {
+  std::size_t all = 0, unplaced = 0;
+  const Mover* first = nullptr;  // first mover without a pose
+};
+
+/// Returns the names of frames without a parent, as text: "; frames without a parent are 'map', 'odom'".
+std::string rootsOf(const FrameTable& frames) {
+  std::string names;
+  std::size_t count = 0;
+  for (std::uint32_t frame = 0; frame < frames.size() && count < kMostRoots; ++frame) {
+    if (frames.parent(frame) != FrameTable::kNone) continue;
+    names += (count++ == 0 ? "" : ", ") + ("'" + printable(frames.name(frame)) + "'");
+  }
+  return count == 0 ? "" : "; frames without a parent are " + names;
+}
+
+std::string sentenceOf(const std::string& robot, const UnplacedLinks& links, const std::string& world_frame,
+                       const FrameTable& frames) {
+  const std::string& frame = links.first->frame;
+  const bool published = frames.find(frame) != FrameTable::kNone;
+  return "UNPLACED robot '" + robot + "': " + std::to_string(links.unplaced) + " of its " + std::to_string(links.all) +
+         " links never had a pose: frame '" + printable(frame) + "' " +
+         (published ? "is not connected to the world frame '" + printable(world_frame) +
+                          "'; publish a transform that connects them"
+                    : "was never published; start robot_state_publisher and what publishes joint_states, or correct "
+                      "tf_prefix in ~robots");
+}
+
+}  // namespace
+
+std::vector<std::string> whyUnplaced(const std::vector<Mover>& movers, const FrameTable& frames,
+                                     const std::string& world_frame, bool configured) {
+  const bool world_is_unknown = configured && frames.placed() > 0 && frames.find(world_frame) == FrameTable::kNone;
+  std::map<std::string, UnplacedLinks> robots;
+  for (const Mover& mover : movers) {
+    if (mover.source.kind != SourceKind::robot) continue;
+    UnplacedLinks& links = robots[mover.source.name];
+    links.all += mover.last - mover.first;
+    if (mover.pose.exists()) continue;
+    links.unplaced += mover.last - mover.first;
+    const bool blame_world = world_is_unknown && frames.find(mover.frame) != FrameTable::kNone;
+    const bool blame_robot = mover.trouble && mover.trouble->code() == Code::unknown_frame && !blame_world;
+    if (blame_robot && links.first == nullptr) links.first = &mover;
+  }
+  std::vector<std::string> sentences;
+  if (world_is_unknown) {
+    sentences.push_back("UNPLACED: ~world_frame is '" + printable(world_frame) +
+                        "', but no transform names this frame, so nothing can be placed in it; set ~world_frame to a "
+                        "frame of tf, or publish it" +
+                        rootsOf(frames));
+  }
+  for (const auto& [robot, links] : robots) {
+    if (links.first != nullptr) sentences.push_back(sentenceOf(robot, links, world_frame, frames));
+  }
+  return sentences;
+}
+
+}  // namespace hgrid
