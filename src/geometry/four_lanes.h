@@ -13,7 +13,7 @@
 
 namespace hgrid {
 
-/// A vector of four numbers, one for each slice of a brick. It is a vector extension of gcc and clang, which use SSE2
+/// A vector of four numbers. It is a vector extension of gcc and clang, which use SSE2
 /// or NEON if available. Otherwise they generate plain code with the same results.
 using Four = float __attribute__((vector_size(16)));
 using FourCounts = std::uint32_t __attribute__((vector_size(16)));
