@@ -8,7 +8,6 @@
 #include <optional>
 
 namespace hgrid {
-extern long nExpand,nLeaf,nReject,nFull;
 namespace {
 
 using Vector = Eigen::Vector3d;
@@ -84,7 +83,7 @@ struct Best {
 bool tryEdges(const Prepared& a, const Prepared& b, double enough, double doubt, Best& best) {
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
-      ++nReject; const Points nearest = nearestOfSegments(a.corners[i], a.edges[i], b.corners[j], b.edges[j]);
+      const Points nearest = nearestOfSegments(a.corners[i], a.edges[i], b.corners[j], b.edges[j]);
       best.offer(nearest.on_first, nearest.on_second);
       // Both edges lie beyond the planes through the nearest points. So only the third corners can be between them.
       const Vector between = nearest.on_second - nearest.on_first;
@@ -131,7 +130,7 @@ CoreGap gapOfTriangles(const Triangle& first, const Triangle& second, double siz
   CoreGap gap;
   gap.lower = kInfinity;
   Best best;
-  if (!tryEdges(a, b, enough, rounding * size, best)) {++nFull;
+  if (!tryEdges(a, b, enough, rounding * size, best)) {
     tryInside(a, b, best, [&](const Vector& on_a, const Vector& on_b) { best.offer(on_a, on_b); });
     tryInside(b, a, best, [&](const Vector& on_b, const Vector& on_a) { best.offer(on_a, on_b); });
   }
