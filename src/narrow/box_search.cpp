@@ -22,8 +22,8 @@ struct MovedBox {
         const auto& axis = node.axes[k];
         axes[k][i] = row[0] * axis[0][lane] + row[1] * axis[1][lane] + row[2] * axis[2][lane];
       }
-      center[i] = row[0] * node.center[0][lane] + row[1] * node.center[1][lane] + row[2] * node.center[2][lane] +
-                  pose.shift[i];
+      center[i] =
+          row[0] * node.center[0][lane] + row[1] * node.center[1][lane] + row[2] * node.center[2][lane] + pose.shift[i];
       half[i] = node.half[i][lane];
     }
   }
@@ -45,9 +45,9 @@ Four squaredGaps(const BoxNode& node, const BoxNode& other, std::size_t lane, co
   Four way[3];
   for (std::size_t i = 0; i < 3; ++i) way[i] = node.center[i] - allFour(box.center[i]);
   const Four squared_way = dot(way, way);
-  Four by_node = zero, by_other = zero;        // squared distances of boxes around the boxes, along the axes of each
-  Four by_centers = squared_way;               // distance along the way between the centers, times that way
-  Four other_reach[3] = {zero, zero, zero};    // of the boxes of the node, along the axes of the other box
+  Four by_node = zero, by_other = zero;      // squared distances of boxes around the boxes, along the axes of each
+  Four by_centers = squared_way;             // distance along the way between the centers, times that way
+  Four other_reach[3] = {zero, zero, zero};  // of the boxes of the node, along the axes of the other box
   for (std::size_t i = 0; i < 3; ++i) {
     Four reach = node.half[i];
     for (std::size_t k = 0; k < 3; ++k) {

@@ -52,12 +52,14 @@ class BoxSearch {
         if (rest != limit) setLimit(limit = rest);
       } else if (second < 0 || (first >= 0 && sizeOf(node_a, lane_a) >= sizeOf(node_b, lane_b))) {
         const auto number = static_cast<Child>(first);
-        expand(a_[number], node_b, lane_b, a_from_b_,
-               [&](std::uint32_t key, Child lane) { return Waiting{key, 4 * number + lane, next.second}; });
+        expand(a_[number], node_b, lane_b, a_from_b_, [&](std::uint32_t key, Child lane) {
+          return Waiting{key, 4 * number + lane, next.second};
+        });
       } else {
         const auto number = static_cast<Child>(second);
-        expand(b_[number], node_a, lane_a, b_from_a_,
-               [&](std::uint32_t key, Child lane) { return Waiting{key, next.first, 4 * number + lane}; });
+        expand(b_[number], node_a, lane_a, b_from_a_, [&](std::uint32_t key, Child lane) {
+          return Waiting{key, next.first, 4 * number + lane};
+        });
       }
     }
   }

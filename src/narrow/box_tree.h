@@ -35,7 +35,7 @@ struct BoxTree {
   /// node, rounded up.
   static constexpr std::size_t kMostLevels = 40;
 
-  std::vector<BoxNode> nodes;  // the first node has one child, the root
+  std::vector<BoxNode> nodes;                        // the first node has one child, the root
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  // [m]
   double reach = 0.0;                                // [m] no corner is farther from the center
 };

@@ -104,8 +104,7 @@ bool tryEdges(const Prepared& a, const Prepared& b, double enough, double doubt,
 /// Tries the corners and edges of `other` with the inside of a triangle.
 /// @param offer  receives a point of the triangle and a point of `other`
 template <class Offer>
-void tryInside(const Prepared& triangle, const Prepared& other, const Best& best,
-               const Offer& offer) {
+void tryInside(const Prepared& triangle, const Prepared& other, const Best& best, const Offer& offer) {
   const Vector normal = triangle.edges[0].cross(triangle.edges[1]);
   const double squared = normal.squaredNorm();
   std::array<double, 3> heights;  // times the length of the normal

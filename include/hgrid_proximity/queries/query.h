@@ -52,8 +52,7 @@ QueryAnswer query(const Snapshot& snapshot, const QueryBox& box, const NarrowPha
 /// Finds the bodies whose boxes (exact query: shapes) touch the shape. The center of the query is the origin of the
 /// shape's frame.
 /// @param narrow_phase  as in a box query; it also converts the shape into a solid
-/// @throws Refusal as the sphere query and NarrowPhase::solidOf() do; unsupported if the narrow phase cannot measure
-/// this kind of shape
+/// @throws Refusal as the sphere query and NarrowPhase::solidOf() do
 QueryAnswer query(const Snapshot& snapshot, const QueryShape& shape, NarrowPhase& narrow_phase,
                   const QueryScope& scope);
 
