@@ -27,5 +27,8 @@ void runQueries(const Options& options, std::vector<Record>& records);
 /// Measures maps beside OctoMap and FCL: loading, memory, and questions about the leaves. Also measures point clouds.
 void runMaps(const Options& options, std::vector<Record>& records);
 
+/// Measures distances of two meshes beside FCL, and winding numbers.
+void runMeshes(const Options& options, std::vector<Record>& records);
+
 }  // namespace bench
 }  // namespace hgrid
