@@ -42,6 +42,7 @@ int run(const Options& options) {
   if (options.part("threads") && options.peer("hgrid")) runThreads(options, records);
   if (options.part("queries")) runQueries(options, records);
   if (options.part("maps") && !(options.quick && options.parts.empty())) runMaps(options, records);
+  if (options.part("meshes")) runMeshes(options, records);
   if (!options.json.empty()) writeRecords(options.json, records);
   return 0;
 }

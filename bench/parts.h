@@ -29,5 +29,8 @@ void runQueries(const Options& options, std::vector<Record>& records);
 /// clouds.
 void runMaps(const Options& options, std::vector<Record>& records);
 
+/// Measures distances of two meshes beside FCL, and winding numbers.
+void runMeshes(const Options& options, std::vector<Record>& records);
+
 }  // namespace bench
 }  // namespace hgrid

@@ -38,13 +38,20 @@ set(HGRID_CORE_SOURCES
   src/maps/self_filter.cpp
   src/maps/static_grid.cpp
   src/maps/static_grid_search.cpp
-  src/narrow/convex_narrow_phase.cpp
+  src/narrow/box_search.cpp
+  src/narrow/box_tree.cpp
   src/narrow/convex_pair.cpp
   src/narrow/convex_solid.cpp
+  src/narrow/core_narrow_phase.cpp
   src/narrow/enclosure.cpp
   src/narrow/gjk.cpp
+  src/narrow/mesh_pair.cpp
+  src/narrow/mesh_solid.cpp
+  src/narrow/mesh_tree.cpp
   src/narrow/narrow_phase.cpp
   src/narrow/ordered_solid.cpp
+  src/narrow/triangle_gap.cpp
+  src/narrow/winding_tree.cpp
   src/pairs/pair_choice.cpp
   src/pairs/pair_filter.cpp
   src/pairs/pair_margins.cpp
@@ -73,7 +80,6 @@ set(HGRID_CORE_SOURCES
 )
 set(HGRID_ADAPTER_SOURCES
   src/adapters/fcl/fcl.cpp
-  src/adapters/fcl/fcl_mesh.cpp
   src/adapters/fcl/fcl_solid.cpp
   src/adapters/mesh/mesh.cpp
   src/adapters/mesh/resource.cpp

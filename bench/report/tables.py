@@ -17,6 +17,11 @@ MAPS_NOTE = ('Load: read the file and prepare for questions; build: the same fro
              'reports to hold; for FCL, what it has allocated. – = not measured, or too many leaves; ✗ = the '
              'answers differ from those of OctoMap, or there is no other peer to compare with.')
 
+MESHES_NOTE = ('Mean µs per distance of two meshes, hgrid / FCL. The second mesh moves in steps of 2 mm and 0.01 rad. '
+               'Without a limit: the search knows nothing. With a limit: it ends at the last distance plus the motion '
+               'since then, as in the node. Both libraries find the same distances; ✗ = they differ by more than '
+               '1e-9, or FCL was not found.')
+
 NODE_MAPS_NOTE = ('Every second, a message (binary, like octomap_binary of octomap_server) brings a map in which 1 % '
                   'of the leaves have changed. Spans of time with the map at rest and with such messages take turns. '
                   'query_sphere and query_segment: round trips over persistent connections, 200 per second together. '
@@ -180,6 +185,25 @@ def node_maps(figures):
     return '\n\n'.join(tables)
 
 
+def meshes(figures):
+    """One row per pair of meshes, one column per distance and kind of search. Then a row per winding number."""
+    found = figures.all('mesh')
+    gaps = sorted({record['gap'] for record in found})
+    rows = []
+    for first, second in dict.fromkeys((record['first'], record['second']) for record in found):
+        records = [figures.one('mesh', first=first, second=second, gap=gap) for gap in gaps]
+        cells = ['–' if record is None else '%s / %s%s' % (short(record['hgrid' + field]), short(record['fcl' + field]),
+                                                          '' if record['correct'] else ' ✗')
+                 for field in ('_us', '_limited_us') for record in records]
+        rows.append(['%s, %s' % (first, second)] + cells)
+    heads = ['%g m%s' % (gap, kind) for kind in ('', ', with a limit') for gap in gaps]
+    text = table(['µs, hgrid / FCL'] + heads, rows)
+    for record in figures.all('inside'):
+        text += '\n\nWinding number of a point in a sphere of %s triangles: %s µs.' % (count(record['triangles']),
+                                                                                    short(record['us']))
+    return text
+
+
 def sections(figures):
     """Returns title and text of each table for which there are figures."""
     cells = PEER_NOTE % 'uniform / mixed / floor / robots'
@@ -205,6 +229,8 @@ def sections(figures):
         found.append(('Queries anywhere', world_tables.empty_space(figures)))
     if figures.all('map'):
         found.append(('Maps', MAPS_NOTE + '\n\n' + maps(figures)))
+    if figures.all('mesh'):
+        found.append(('Meshes', MESHES_NOTE + '\n\n' + meshes(figures)))
     if figures.all('node', maps_per_s=None):
         found.append(('The node', node(figures)))
     if figures.all('node', maps_per_s=1):

@@ -12,7 +12,7 @@
 
 #include "hgrid_proximity/maps/static_grid.h"
 #include "maps/brick.h"
-#include "maps/four_lanes.h"
+#include "geometry/four_lanes.h"
 #include "maps/static_grid_bricks.h"
 
 namespace hgrid {

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numeric>
-#include <utility>
 
 namespace hgrid {
 namespace {
@@ -31,18 +29,16 @@ std::vector<Index> weldedNumbers(const std::vector<Eigen::Vector3d>& vertices) {
   return numbers;
 }
 
-/// Whether there are as many edges from vertex a to vertex b as from b to a, for all a and b.
-bool isBalanced(const std::vector<std::array<Index, 3>>& triangles) {
-  std::vector<std::pair<Index, Index>> there, back;
-  for (const auto& triangle : triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      there.emplace_back(triangle[i], triangle[(i + 1) % 3]);
-      back.emplace_back(triangle[(i + 1) % 3], triangle[i]);
-    }
+/// Returns the triangles of a mesh with the numbers of weldedNumbers(). Leaves out triangles with two equal corners,
+/// since they are lines, which enclose nothing.
+std::vector<WindingTree::Corners> weldedTriangles(const TriangleMesh& mesh) {
+  const std::vector<Index> numbers = weldedNumbers(mesh.vertices);
+  std::vector<WindingTree::Corners> triangles;
+  for (const auto& given : mesh.triangles) {
+    const WindingTree::Corners t{numbers[given[0]], numbers[given[1]], numbers[given[2]]};
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.push_back(t);
   }
-  std::sort(there.begin(), there.end());
-  std::sort(back.begin(), back.end());
-  return !there.empty() && there == back;
+  return triangles;
 }
 
 /// Returns the root of `i` in a union-find forest, and shortens the path to it.
@@ -53,23 +49,17 @@ Index rootOf(std::vector<Index>& parent, Index i) {
 
 }  // namespace
 
-Enclosure::Enclosure(const TriangleMesh& mesh) {
-  const std::vector<Index> numbers = weldedNumbers(mesh.vertices);
-  std::vector<std::array<Index, 3>> triangles;
+Enclosure::Enclosure(const TriangleMesh& mesh) : Enclosure(mesh, weldedTriangles(mesh)) {}
+
+Enclosure::Enclosure(const TriangleMesh& mesh, const std::vector<WindingTree::Corners>& triangles)
+    : winding_(mesh.vertices, triangles) {
   std::vector<Index> parent(mesh.vertices.size());
   std::iota(parent.begin(), parent.end(), 0);
-  for (const auto& given : mesh.triangles) {
-    const std::array<Index, 3> t{numbers[given[0]], numbers[given[1]], numbers[given[2]]};
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;  // the triangle is a line, which encloses nothing
-    triangles.push_back(t);
-    triangles_.push_back({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
+  for (const auto& t : triangles) {
     const Index root = rootOf(parent, t[0]);
     parent[rootOf(parent, t[1])] = root;
     parent[rootOf(parent, t[2])] = root;
   }
-  closed_ = isBalanced(triangles);
-  low_.setConstant(std::numeric_limits<double>::infinity());
-  high_ = -low_;
   std::vector<std::size_t> part_of(parent.size(), parts_.max_size());
   for (const auto& triangle : triangles) {
     const Index root = rootOf(parent, triangle[0]);
@@ -81,8 +71,6 @@ Enclosure::Enclosure(const TriangleMesh& mesh) {
     Part& part = parts_[part_of[root]];
     for (const Index i : triangle) {
       const Eigen::Vector3d& vertex = mesh.vertices[i];
-      low_ = low_.cwiseMin(vertex);
-      high_ = high_.cwiseMax(vertex);
       for (Eigen::Index axis = 0; axis < 3; ++axis) {
         const auto least = static_cast<std::size_t>(axis), most = least + 3;
         if (vertex[axis] < part[least][axis]) part[least] = vertex;
@@ -90,16 +78,6 @@ Enclosure::Enclosure(const TriangleMesh& mesh) {
       }
     }
   }
-}
-
-double Enclosure::windingNumber(const Eigen::Vector3d& point) const {
-  double half_angles = 0.0;
-  for (const Corners& triangle : triangles_) {
-    const Eigen::Vector3d a = triangle.a - point, b = triangle.b - point, c = triangle.c - point;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    half_angles += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
-  return half_angles / (2.0 * M_PI);
 }
 
 }  // namespace hgrid

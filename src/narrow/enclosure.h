@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hgrid_proximity/geometry/shape.h"
+#include "narrow/winding_tree.h"
 
 namespace hgrid {
 
@@ -18,32 +19,22 @@ class Enclosure {
 
   explicit Enclosure(const TriangleMesh& mesh);
 
-  /// Whether each edge of a triangle has a matching edge of opposite direction in another triangle. Then the mesh is
-  /// closed and has an inside.
-  bool closed() const { return closed_; }
+  /// Whether the mesh is closed, so that it has an inside. See WindingTree::closed().
+  bool closed() const { return winding_.closed(); }
   /// Returns the extreme points of each connected part of the mesh.
   const std::vector<Part>& parts() const { return parts_; }
   /// Whether a point lies in the bounding box of the mesh. A point outside the box is not enclosed.
   /// @param point  [m, mesh frame]
-  bool boxHolds(const Eigen::Vector3d& point) const {
-    return (point.array() >= low_.array()).all() && (point.array() <= high_.array()).all();
-  }
-  /// Returns how often the mesh winds around a point: the sum of the signed solid angles of its triangles / (4 pi).
-  ///
-  /// For a closed mesh it is an integer, and 0 outside. For an open mesh it can be any number. The running time is
-  /// linear in the number of triangles. See Jacobson, Kavan, Sorkine-Hornung 2013, "Robust Inside-Outside Segmentation
-  /// using Generalized Winding Numbers"; the formula for the angle is by Van Oosterom and Strackee 1983.
+  bool boxHolds(const Eigen::Vector3d& point) const { return winding_.boxHolds(point); }
+  /// Returns how often the mesh winds around a point. See WindingTree.
   /// @param point  [m, mesh frame]
-  double windingNumber(const Eigen::Vector3d& point) const;
+  double windingNumber(const Eigen::Vector3d& point) const { return winding_.windingNumber(point); }
 
  private:
-  struct Corners {
-    Eigen::Vector3d a, b, c;
-  };
-  bool closed_ = false;
-  Eigen::Vector3d low_, high_;
+  Enclosure(const TriangleMesh& mesh, const std::vector<WindingTree::Corners>& triangles);
+
+  WindingTree winding_;
   std::vector<Part> parts_;
-  std::vector<Corners> triangles_;
 };
 
 }  // namespace hgrid

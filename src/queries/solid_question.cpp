@@ -187,11 +187,6 @@ QueryAnswer query(const Snapshot& snapshot, const QueryShape& shape, NarrowPhase
   checkQueryPoint(shape.world_from_shape.translation(), "the query's center");
   checkQueryLength(shape.padding, "the padding of the query's shape");
   const std::shared_ptr<const Solid> solid = narrow_phase.solidOf(shape.shape);
-  if (!solid) {
-    throw Refusal(Code::unsupported, std::string("the query's shape is a ") + name(shape.shape.kind()) +
-                                         ", which the given narrow phase cannot measure; use another shape, or "
-                                         "makeFclNarrowPhase()");
-  }
   SolidQuestion question(snapshot, scope, narrow_phase, solid, shape.shape, shape.world_from_shape, shape.padding);
   return answerTo(question);
 }

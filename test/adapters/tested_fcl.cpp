@@ -11,5 +11,7 @@ NarrowPhase& narrowPhase() {
   return *shared;
 }
 
+bool testsMeshes() { return false; }
+
 }  // namespace test
 }  // namespace hgrid

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "hgrid_proximity/broadphase/hgrid.h"
-#include "hgrid_proximity/narrow/convex_narrow_phase.h"
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "hgrid_proximity/queries/query.h"
 #include "hgrid_proximity/world/scene.h"
 
@@ -44,7 +44,7 @@ void put(Scene& scene, const Body& body, const Pose& world_from_body) {
 }
 
 void useScene() {
-  const std::shared_ptr<NarrowPhase> narrow_phase = makeConvexNarrowPhase();
+  const std::shared_ptr<NarrowPhase> narrow_phase = makeCoreNarrowPhase();
   Scene scene{SceneOptions{}};
   put(scene, body("obstacle/table", Shape::box({2.0, 2.0, 0.1}), *narrow_phase), at(0.0, 0.0, -0.05));
   put(scene, body("obstacle/crate", Shape::box({0.2, 0.2, 0.2}), *narrow_phase), at(0.62, 0.0, 0.35));

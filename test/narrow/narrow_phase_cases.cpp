@@ -35,17 +35,15 @@ bool sameBits(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 
 }  // namespace
 
-bool measuresMeshes() { return narrowPhase().solidOf(meshOf(boxMesh({1, 1, 1}))) != nullptr; }
-
-std::vector<ShapeKind> measuredKinds() {
+std::vector<ShapeKind> testedKinds() {
   std::vector<ShapeKind> kinds;
-  for (int kind = 1; kind <= (measuresMeshes() ? 7 : 6); ++kind) kinds.push_back(ShapeKind(kind));
+  for (int kind = 1; kind <= (testsMeshes() ? 7 : 6); ++kind) kinds.push_back(ShapeKind(kind));
   return kinds;
 }
 
 std::vector<KindPair> allKindPairs() {
   std::vector<KindPair> pairs;
-  const std::vector<ShapeKind> kinds = measuredKinds();
+  const std::vector<ShapeKind> kinds = testedKinds();
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     for (std::size_t j = i; j < kinds.size(); ++j) pairs.push_back({kinds[i], kinds[j]});
   }

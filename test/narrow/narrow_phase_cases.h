@@ -16,11 +16,9 @@ namespace test {
 struct KindPair {
   ShapeKind first, second;
 };
-/// Returns the shape kinds that narrowPhase() measures: all seven, or all except meshes.
-std::vector<ShapeKind> measuredKinds();
-/// Returns whether narrowPhase() measures meshes.
-bool measuresMeshes();
-/// Returns all pairs of measuredKinds(), also of a kind with itself: 28 pairs for seven kinds.
+/// Returns the shape kinds that are tested: all seven, or all except meshes if testsMeshes() is false.
+std::vector<ShapeKind> testedKinds();
+/// Returns all pairs of testedKinds(), also of a kind with itself: 28 pairs for seven kinds.
 std::vector<KindPair> allKindPairs();
 /// Returns a name for tests, for example "box_mesh".
 std::string nameOf(const KindPair& kinds);
@@ -75,9 +73,11 @@ class Trial {
   std::shared_ptr<const Solid> first_, second_;
 };
 
-/// Returns the narrow phase under test. The same tests are built twice. One build links test/narrow/tested_convex.cpp,
-/// the other test/adapters/tested_fcl.cpp; each of these files defines this function.
+/// Returns the narrow phase under test. The same tests are built twice. One build links test/narrow/tested_core.cpp,
+/// the other test/adapters/tested_fcl.cpp; each of these files defines these two functions.
 NarrowPhase& narrowPhase();
+/// Returns whether meshes are tested too. The core measures them for every narrow phase, so one build is enough.
+bool testsMeshes();
 
 /// Returns the answer with its first and second point exchanged and its normal reversed.
 Proximity swapped(Proximity answer);

@@ -24,7 +24,7 @@ std::vector<std::pair<Shape, Shape>> twins() {
                                                 {Shape::cone(0.6, 0.4), Shape::cone(0.8, 0.3)},
                                                 {Shape::capsule(0.5, 0.25), Shape::capsule(0.75, 0.125)},
                                                 {hullOf(lump), hullOf(turned)}};
-  if (measuresMeshes()) {
+  if (testsMeshes()) {
     twins.insert(twins.end(),
                  {{meshOf(lump), meshOf(turned)}, {meshOf(lump), meshOf(lump)}, {meshOf(lump), meshOf(rolled)}});
   }
@@ -51,7 +51,7 @@ TEST(NarrowPhaseOrder, OfTwinsDoesNotMatter) {
 // Two solids that are created from the same shape give the same answers.
 TEST(NarrowPhaseOrder, OfAShapeWithItselfDoesNotMatter) {
   Random random(15);
-  for (const ShapeKind kind : measuredKinds()) {
+  for (const ShapeKind kind : testedKinds()) {
     const Shape shape = randomSolid(random, kind);
     for (int i = 0; i < 100; ++i) {
       const Case placed{shape, shape, randomPose(random, 1.0), randomPose(random, 1.0), 0.01, 0.02};

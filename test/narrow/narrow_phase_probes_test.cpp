@@ -31,7 +31,7 @@ class Probes : public testing::TestWithParam<ShapeKind> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(NarrowPhase, Probes, testing::ValuesIn(measuredKinds()),
+INSTANTIATE_TEST_SUITE_P(NarrowPhase, Probes, testing::ValuesIn(testedKinds()),
                          [](const auto& info) { return std::string(name(info.param)); });
 
 TEST_P(Probes, APointWithARadiusIsASphere) {

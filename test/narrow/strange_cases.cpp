@@ -74,7 +74,7 @@ Shape strangeShape(Random& random) {
 Case strangeCase(Random& random) {
   const auto measurable = [&] {
     Shape shape = strangeShape(random);
-    while (shape.kind() == ShapeKind::mesh && !measuresMeshes()) shape = strangeShape(random);
+    while (shape.kind() == ShapeKind::mesh && !testsMeshes()) shape = strangeShape(random);
     return shape;
   };
   const Shape first = measurable(), second = random.chance(0.1) ? first : measurable();

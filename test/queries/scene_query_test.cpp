@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include <gtest/gtest.h>
 
-#include "hgrid_proximity/narrow/convex_narrow_phase.h"
 #include "hgrid_proximity/queries/query.h"
 #include "test/support/refusals.h"
 #include "test/support/scenes.h"
@@ -255,18 +254,6 @@ TEST(SceneQuery, QuestionsLargerThanTheWorldFindAll) {
   const auto snapshot = randomSnapshot(3);
   EXPECT_EQ(query(*snapshot, Sphere{{0, 0, 0}, 1e9}, {}).total, 40u);
   EXPECT_EQ(query(*snapshot, Segment{{-1e9, 0, 0}, {1e9, 0, 0}, 1e3}, {}).total, 40u);
-}
-
-TEST(SceneQuery, AShapeThatTheNarrowPhaseCannotMeasureIsRefused) {
-  const auto snapshot = randomSnapshot(3);
-  const auto mesh = std::make_shared<TriangleMesh>();
-  mesh->vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  mesh->triangles = {{0, 1, 2}};
-  const std::shared_ptr<NarrowPhase> convex = makeConvexNarrowPhase();
-  std::string sentence;
-  EXPECT_EQ(refusalOf([&] { query(*snapshot, QueryShape{Shape::mesh(mesh)}, *convex, {}); }, &sentence),
-            Code::unsupported);
-  EXPECT_NE(sentence.find("mesh"), std::string::npos) << sentence;
 }
 
 }  // namespace

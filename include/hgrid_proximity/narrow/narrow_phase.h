@@ -86,7 +86,6 @@ class NarrowPhase {
   /// Prepares a shape for measuring. Any thread may call this.
   ///
   /// Solids of the same mesh share its data as long as one of these solids exists.
-  /// @returns null if this narrow phase cannot measure shapes of this kind (see makeConvexNarrowPhase())
   /// @throws Refusal with code bad_geometry
   virtual std::shared_ptr<const Solid> solidOf(const Shape& shape) = 0;
 

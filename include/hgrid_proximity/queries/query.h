@@ -56,7 +56,6 @@ QueryAnswer query(const Snapshot& snapshot, const QueryBox& box, const NarrowPha
 /// shape's frame.
 /// @param narrow_phase  as in a box query; it also converts the shape into a solid
 /// @throws Refusal in the same cases as the sphere query and NarrowPhase::solidOf()
-/// @throws Refusal unsupported if the narrow phase cannot measure this kind of shape
 QueryAnswer query(const Snapshot& snapshot, const QueryShape& shape, NarrowPhase& narrow_phase,
                   const QueryScope& scope);
 

@@ -8,9 +8,6 @@
 #include <fcl/geometry/shape/convex.h>
 #include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/sphere.h>
-#include <fcl/math/bv/utility.h>
-
-#include <array>
 
 namespace hgrid {
 namespace {
@@ -41,28 +38,8 @@ std::unique_ptr<const fcl::CollisionGeometryd> geometryOf(const Shape& shape) {
   return nullptr;
 }
 
-/// Returns a bounding volume of a core.
-fcl::OBBRSSd volumeAround(const ConvexCore& core) {
-  Vector low, high;
-  for (int axis = 0; axis < 3; ++axis) {
-    low[axis] = core.support(-Vector::Unit(axis))[axis];
-    high[axis] = core.support(Vector::Unit(axis))[axis];
-  }
-  std::array<Vector, 8> corners;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    corners[i] = {i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(), i & 4 ? high.z() : low.z()};
-  }
-  fcl::OBBRSSd volume;
-  fcl::fit(corners.data(), static_cast<int>(corners.size()), volume);
-  return volume;
-}
-
 }  // namespace
 
-FclConvexSolid::FclConvexSolid(const Shape& shape)
-    : ConvexSolid(shape), volume_(volumeAround(core())), geometry_(geometryOf(shape)) {}
-
-FclConvexSolid::FclConvexSolid(const ConvexCore& core, const std::vector<double>& size)
-    : ConvexSolid(core, size), volume_(volumeAround(core)) {}
+FclConvexSolid::FclConvexSolid(const Shape& shape) : ConvexSolid(shape), geometry_(geometryOf(shape)) {}
 
 }  // namespace hgrid

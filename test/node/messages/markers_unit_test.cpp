@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "hgrid_proximity/narrow/convex_narrow_phase.h"
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "src/node/messages/pair_markers.h"
 #include "src/node/messages/shape_markers.h"
 #include "test/support/scenes.h"
@@ -161,7 +161,7 @@ TEST(ShapeMarkers, HaveAnIdOfTheirOwnAndAColorForEachState) {
 class PairMarkersOf : public ::testing::Test {
  protected:
   void SetUp() override {
-    const std::shared_ptr<NarrowPhase> narrow_phase = makeConvexNarrowPhase();
+    const std::shared_ptr<NarrowPhase> narrow_phase = makeCoreNarrowPhase();
     for (const char* name : {"a", "b"}) {
       Body body = bodyOf(name, Shape::sphere(0.5));
       body.shapes[0].solid = narrow_phase->solidOf(body.shapes[0].shape);

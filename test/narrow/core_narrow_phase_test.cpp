@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "hgrid_proximity/narrow/convex_narrow_phase.h"
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 
 #include <gtest/gtest.h>
-
-#include "test/support/solids.h"
 
 namespace hgrid {
 namespace test {
@@ -17,18 +15,12 @@ Pose at(double x, double y, double z) {
 }
 
 Proximity measured(const Shape& first, const Shape& second, const Pose& world_from_second) {
-  const auto narrow_phase = makeConvexNarrowPhase();
+  const auto narrow_phase = makeCoreNarrowPhase();
   const auto a = narrow_phase->solidOf(first), b = narrow_phase->solidOf(second);
   return narrow_phase->measure({*a, Pose::Identity(), 0.0}, {*b, world_from_second, 0.0}, 10.0);
 }
 
-TEST(ConvexNarrowPhase, MakesNoSolidOfAMesh) {
-  const auto narrow_phase = makeConvexNarrowPhase();
-  EXPECT_EQ(narrow_phase->solidOf(meshOf(boxMesh({1, 1, 1}))), nullptr);
-  EXPECT_NE(narrow_phase->solidOf(Shape::hull(std::make_shared<TriangleMesh>(boxMesh({1, 1, 1})))), nullptr);
-}
-
-TEST(ConvexNarrowPhase, KnowsTheDepthOfRoundShapesWhoseCoresAreApart) {
+TEST(CoreNarrowPhase, KnowsTheDepthOfRoundShapesWhoseCoresAreApart) {
   const Proximity spheres = measured(Shape::sphere(0.5), Shape::sphere(0.5), at(0.75, 0, 0));
   EXPECT_EQ(spheres.status, Measure::contact);
   EXPECT_EQ(spheres.distance, 0.0);
@@ -38,7 +30,7 @@ TEST(ConvexNarrowPhase, KnowsTheDepthOfRoundShapesWhoseCoresAreApart) {
   EXPECT_NEAR(spheres.on_second.x(), 0.25, 1e-9);
 }
 
-TEST(ConvexNarrowPhase, KnowsNoDepthOfCoresThatOverlap) {
+TEST(CoreNarrowPhase, KnowsNoDepthOfCoresThatOverlap) {
   const Proximity boxes = measured(Shape::box({1, 1, 1}), Shape::box({1, 1, 1}), at(0.75, 0, 0));
   EXPECT_EQ(boxes.status, Measure::contact);
   EXPECT_EQ(boxes.distance, 0.0);

@@ -8,19 +8,18 @@
 
 namespace hgrid {
 
-/// Creates the narrow phase for convex shapes. It needs no other library.
+/// Creates the narrow phase for all shapes, meshes included. It needs no other library.
 ///
-/// It measures spheres, boxes, cylinders, cones, capsules and hulls, and the points, needles and blocks of queries.
-/// solidOf() returns null for a mesh.
-///
-/// - The distance is accurate to 1e-10 m, or to the precision of doubles if that is coarser. The solver proves this
-///   with a lower and an upper bound (src/narrow/gjk.h).
+/// - The distance of convex shapes is accurate to 1e-10 m, or to the precision of doubles if that is coarser. The
+///   solver proves this with a lower and an upper bound (src/narrow/gjk.h).
+/// - The distance to a mesh is that to its nearest triangle. A tree of boxes finds the triangle
+///   (src/narrow/mesh_tree.h).
 /// - Each shape is a core with a radius around it. The core of a sphere is a point, the core of a capsule is a segment.
 ///   Padding is added to the radius, so round shapes are measured exactly.
 /// - Two solids are always measured in the same order, in the frame of one of them. So the result does not depend on
 ///   the order of the arguments, and no precision is lost far from the origin.
 /// - Depth, normal and points of a contact are known if the cores are apart or only touch. If the cores overlap, these
 ///   values are NaN. makeFclNarrowPhase() finds these values in more cases.
-std::shared_ptr<NarrowPhase> makeConvexNarrowPhase();
+std::shared_ptr<NarrowPhase> makeCoreNarrowPhase();
 
 }  // namespace hgrid

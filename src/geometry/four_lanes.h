@@ -13,8 +13,8 @@
 
 namespace hgrid {
 
-/// A vector of four numbers, one for each slice of a brick. It uses the vector extension of gcc and clang. These
-/// compilers use SSE2 or NEON if available; if not, they generate plain code with the same results.
+/// A vector of four numbers. It uses the vector extension of gcc and clang. These compilers use SSE2 or NEON if
+/// available; if not, they generate plain code with the same results.
 using Four = float __attribute__((vector_size(16)));
 using FourCounts = std::uint32_t __attribute__((vector_size(16)));
 

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "narrow/core_narrow_phase.h"
+
+#include "narrow/mesh_pair.h"
+
+namespace hgrid {
+
+std::shared_ptr<const Solid> CoreNarrowPhase::solidOf(const Shape& shape) {
+  if (shape.kind() == ShapeKind::mesh) return std::make_shared<MeshSolid>(shape, meshes_.of(shape.mesh()));
+  return convexSolidOf(shape);
+}
+
+std::shared_ptr<const Solid> CoreNarrowPhase::convexSolidOf(const Shape& shape) const {
+  return std::make_shared<ConvexSolid>(shape);
+}
+
+std::shared_ptr<const Solid> CoreNarrowPhase::needle(double length) const {
+  return std::make_shared<ConvexSolid>(ConvexCore::segment(length), std::vector<double>{length});
+}
+
+std::shared_ptr<const Solid> CoreNarrowPhase::block(const Eigen::Vector3d& size) const {
+  return std::make_shared<ConvexSolid>(ConvexCore::box(size), std::vector<double>{size.x(), size.y(), size.z()});
+}
+
+// Meshes come first in the order of solids, so only `a` needs to be tested.
+Proximity CoreNarrowPhase::measureInOrder(const Side& a, const Side& b, double up_to) const {
+  return a.solid.kind() == ShapeKind::mesh ? measureMesh(a, b, up_to) : measureConvex(a, b, up_to, findOverlap_);
+}
+
+std::vector<Contact> CoreNarrowPhase::contactsInOrder(const Side& a, const Side& b, std::size_t most) const {
+  return a.solid.kind() == ShapeKind::mesh ? contactsOfMesh(a, b, most) : contactsOfConvex(a, b, most, findOverlap_);
+}
+
+std::shared_ptr<NarrowPhase> makeCoreNarrowPhase() { return std::make_shared<CoreNarrowPhase>(noOverlap); }
+
+}  // namespace hgrid

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
+#include "narrow/convex_pair.h"
+#include "narrow/mesh_solid.h"
+
+namespace hgrid {
+
+/// The narrow phase of the core. A subclass can add a library that proposes depth and normal of overlapping solids.
+class CoreNarrowPhase : public OrderedNarrowPhase {
+ public:
+  explicit CoreNarrowPhase(FindOverlap findOverlap) : findOverlap_(findOverlap) {}
+
+  std::shared_ptr<const Solid> solidOf(const Shape& shape) final;
+  std::shared_ptr<const Solid> point() const final { return point_; }
+  std::shared_ptr<const Solid> needle(double length) const final;
+  std::shared_ptr<const Solid> block(const Eigen::Vector3d& size) const final;
+
+ protected:
+  Proximity measureInOrder(const Side& a, const Side& b, double up_to) const final;
+  std::vector<Contact> contactsInOrder(const Side& a, const Side& b, std::size_t most) const final;
+
+ private:
+  /// Creates a ConvexSolid of the kind that `findOverlap` expects.
+  virtual std::shared_ptr<const Solid> convexSolidOf(const Shape& shape) const;
+
+  const FindOverlap findOverlap_;
+  const std::shared_ptr<const Solid> point_ = std::make_shared<ConvexSolid>(ConvexCore::point(), std::vector<double>{});
+  PreparedMeshes meshes_;
+};
+
+}  // namespace hgrid

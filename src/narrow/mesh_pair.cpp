@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "narrow/mesh_pair.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "narrow/convex_pair.h"
+#include "narrow/mesh_solid.h"
+
+namespace hgrid {
+namespace {
+
+using Vector = Eigen::Vector3d;
+
+constexpr double kMaybeInside = 0.25;  // an open mesh may enclose a point with at least this winding number
+
+bool isMesh(const Side& side) { return side.solid.kind() == ShapeKind::mesh; }
+const MeshSolid& meshOf(const Side& side) { return static_cast<const MeshSolid&>(side.solid); }
+const ConvexSolid& convexOf(const Side& side) { return static_cast<const ConvexSolid&>(side.solid); }
+
+/// Returns the gap of a mesh and another solid, in the frame of the mesh. It is infinite if it is larger than `up_to`
+/// [m].
+CoreGap gapOfMesh(const Side& mesh, const Side& other, const Pose& mesh_from_other, double up_to) {
+  const MeshTree& tree = meshOf(mesh).tree();
+  return isMesh(other) ? tree.gapTo(meshOf(other).tree(), mesh_from_other, up_to)
+                       : tree.gapTo(convexOf(other).core(), mesh_from_other, up_to);
+}
+
+/// Whether the core of one solid is inside the other, and a point of the inner core.
+struct Enclosed {
+  Measure status = Measure::apart;
+  Vector point = Vector::Zero();
+  double crossing = 0.0;  // [m] if the gap of the cores is at most this, the surfaces of the solids touch or cross
+};
+
+/// Calls ask(begin, end) with some points of each part of the solid, until one call returns true.
+/// @returns whether a call returned true
+template <class Ask>
+bool anyPart(const Side& side, const Ask& ask) {
+  if (!isMesh(side)) return ask(&convexOf(side).somePoint(), &convexOf(side).somePoint() + 1);
+  const std::vector<Enclosure::Part>& parts = meshOf(side).enclosure().parts();
+  return std::any_of(parts.begin(), parts.end(),
+                     [&](const Enclosure::Part& part) { return ask(part.data(), part.data() + part.size()); });
+}
+
+/// Returns whether a part of `inner` is inside `outer`, and a point of this part in the frame of `outer`. The surfaces
+/// of the two cores must be apart.
+Enclosed enclosedBy(const Side& outer, const Side& inner, const Pose& outer_from_inner) {
+  Enclosed result;
+  result.crossing = inner.around - outer.around;  // the padding of the outer solid moves its surface away
+  if (!isMesh(outer)) return result;              // the gap to a filled convex solid would have been 0
+  const Enclosure& enclosure = meshOf(outer).enclosure();
+  const double least = enclosure.closed() ? 0.5 : kMaybeInside;
+  const bool inside = anyPart(inner, [&](const Vector* begin, const Vector* end) {
+    const auto in_box = [&](const Vector& point) { return enclosure.boxHolds(outer_from_inner * point); };
+    result.point = outer_from_inner * *begin;
+    return std::all_of(begin, end, in_box) && std::abs(enclosure.windingNumber(result.point)) >= least;
+  });
+  if (inside) result.status = enclosure.closed() ? Measure::contained : Measure::containment_unknown;
+  return result;
+}
+
+/// Returns whether either solid is inside the other. The point is in the frame of the first solid.
+Enclosed enclosed(const Side& a, const Side& b, const Pose& a_from_b) {
+  const Enclosed second = enclosedBy(a, b, a_from_b);
+  if (second.status != Measure::apart) return second;
+  Enclosed first = enclosedBy(b, a, a_from_b.inverse());
+  first.point = a_from_b * first.point;
+  return first;
+}
+
+}  // namespace
+
+Proximity measureMesh(const Side& mesh, const Side& other, double up_to) {
+  const Pose mesh_from_other = mesh.world_from_shape.inverse() * other.world_from_shape;
+  if (const auto answer = answerByReach(mesh, other, mesh_from_other, up_to)) return *answer;
+  const double around = mesh.around + other.around;
+  const CoreGap gap = gapOfMesh(mesh, other, mesh_from_other, std::max(0.0, up_to) + around + kTouchingGap);
+  if (std::isnan(gap.lower) || std::isnan(gap.upper)) return answerOf(Measure::failed, 0.0);
+  if (gap.lower <= 0.0) return answerOf(Measure::contact, 0.0);
+  const Enclosed inside = enclosed(mesh, other, mesh_from_other);
+  if (inside.status != Measure::apart) {
+    return answerOf(gap.lower > inside.crossing ? inside.status : Measure::contact, 0.0);
+  }
+  return answerByGap(mesh, other, mesh_from_other, gap, up_to);
+}
+
+std::vector<Contact> contactsOfMesh(const Side& mesh, const Side& other, std::size_t most) {
+  const Measure status = most > 0 ? measureMesh(mesh, other, 0.0).status : Measure::not_measured;
+  if (!isContact(status) || status == Measure::failed) return {};
+  const Pose mesh_from_other = mesh.world_from_shape.inverse() * other.world_from_shape;
+  const double reach = mesh.around + other.around + kTouchingGap;
+  std::vector<Contact> contacts;
+  const auto met = [&](const CoreGap& gap) {
+    contacts.push_back(contactByGap(mesh, other, gap));
+    return contacts.size() < most;
+  };
+  if (isMesh(other)) {
+    meshOf(mesh).tree().meetings(meshOf(other).tree(), mesh_from_other, reach, met);
+  } else {
+    meshOf(mesh).tree().meetings(convexOf(other).core(), mesh_from_other, reach, met);
+  }
+  if (!contacts.empty()) return contacts;
+  const Enclosed inside = enclosed(mesh, other, mesh_from_other);
+  if (inside.status != Measure::apart) {
+    contacts.emplace_back();
+    contacts.back().point = inside.point;
+  }
+  return contacts;
+}
+
+}  // namespace hgrid

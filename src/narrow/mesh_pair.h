@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <vector>
+
+#include "narrow/ordered_solid.h"
+
+namespace hgrid {
+
+/// Measures a mesh and another solid, in the frame of the mesh. It sets no depth for a contact, since another part of
+/// the mesh may prevent the move that would separate the two.
+Proximity measureMesh(const Side& mesh, const Side& other, double up_to);
+/// Returns at most `most` contacts of a mesh with another solid, in the frame of the mesh.
+std::vector<Contact> contactsOfMesh(const Side& mesh, const Side& other, std::size_t most);
+
+}  // namespace hgrid

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "narrow/mesh_solid.h"
+
+#include <iterator>
+
+namespace hgrid {
+
+std::shared_ptr<const PreparedMesh> PreparedMeshes::of(const std::shared_ptr<const TriangleMesh>& mesh) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (auto known = meshes_[mesh.get()].lock()) return known;
+  }
+  auto made = std::make_shared<const PreparedMesh>(mesh);  // slow, so it runs without the lock
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (auto known = meshes_.begin(); known != meshes_.end();) {
+    known = known->second.expired() ? meshes_.erase(known) : std::next(known);
+  }
+  meshes_[mesh.get()] = made;
+  return made;
+}
+
+}  // namespace hgrid

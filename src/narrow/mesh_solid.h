@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include "narrow/enclosure.h"
+#include "narrow/mesh_tree.h"
+#include "narrow/ordered_solid.h"
+
+namespace hgrid {
+
+/// A mesh that is prepared for measuring. All solids of one mesh share it.
+struct PreparedMesh {
+  explicit PreparedMesh(std::shared_ptr<const TriangleMesh> mesh)
+      : source(std::move(mesh)), tree(*source), enclosure(*source) {}
+
+  std::shared_ptr<const TriangleMesh> source;  // kept, so that no other mesh gets its address
+  MeshTree tree;
+  Enclosure enclosure;
+};
+
+/// A mesh as a solid.
+class MeshSolid final : public OrderedSolid {
+ public:
+  MeshSolid(const Shape& shape, std::shared_ptr<const PreparedMesh> mesh)
+      : OrderedSolid(shape), mesh_(std::move(mesh)) {}
+  const MeshTree& tree() const { return mesh_->tree; }
+  const Enclosure& enclosure() const { return mesh_->enclosure; }
+
+ private:
+  std::shared_ptr<const PreparedMesh> mesh_;
+};
+
+/// Prepares each mesh once, as long as a solid uses it. Several threads may use it.
+class PreparedMeshes {
+ public:
+  std::shared_ptr<const PreparedMesh> of(const std::shared_ptr<const TriangleMesh>& mesh);
+
+ private:
+  std::mutex mutex_;
+  std::map<const TriangleMesh*, std::weak_ptr<const PreparedMesh>> meshes_;
+};
+
+}  // namespace hgrid

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "narrow/mesh_tree.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "narrow/box_search.h"
+
+namespace hgrid {
+namespace {
+
+using Vector = Eigen::Vector3d;
+
+std::vector<Triangle> trianglesOf(const TriangleMesh& mesh) {
+  std::vector<Triangle> triangles;
+  triangles.reserve(mesh.triangles.size());
+  for (const auto& t : mesh.triangles) {
+    triangles.push_back({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
+  }
+  return triangles;
+}
+
+/// Returns a tree with one box, that of a convex core.
+BoxTree boxTreeOf(const ConvexCore& core) {
+  Vector low, high;
+  for (int axis = 0; axis < 3; ++axis) {
+    low[axis] = core.support(-Vector::Unit(axis))[axis];
+    high[axis] = core.support(Vector::Unit(axis))[axis];
+  }
+  BoxTree tree;
+  tree.center = 0.5 * (low + high);
+  tree.reach = 0.5 * (high - low).norm();
+  tree.nodes.resize(1);
+  addChild(tree.nodes[0], Eigen::Matrix3d::Identity(), low - tree.center, high - tree.center, ~0);
+  return tree;
+}
+
+/// Measures a triangle of the mesh and a convex core, in the frame of the mesh.
+struct CoreMeter {
+  CoreGap operator()(std::size_t i, std::size_t, double enough) const {
+    return gapOf(ConvexCore::hull(triangles[i].data(), 3), core, mesh_from_core, enough);
+  }
+  const std::vector<Triangle>& triangles;
+  const ConvexCore& core;
+  const Pose& mesh_from_core;
+};
+
+/// Measures two triangles of two meshes, in the frame of the first.
+struct TriangleMeter {
+  TriangleMeter(const std::vector<Triangle>& a, const BoxTree& a_boxes, const std::vector<Triangle>& b,
+                const BoxTree& b_boxes, const Pose& pose)
+      : mine(a),
+        theirs(b),
+        mesh_from_other(pose),
+        size(2.0 * (a_boxes.center.norm() + a_boxes.reach + (pose * b_boxes.center).norm() + b_boxes.reach)) {}
+
+  CoreGap operator()(std::size_t i, std::size_t j, double enough) const {
+    const Triangle& t = theirs[j];
+    return gapOfTriangles(mine[i], {mesh_from_other * t[0], mesh_from_other * t[1], mesh_from_other * t[2]}, size,
+                          enough);
+  }
+  const std::vector<Triangle>&mine, &theirs;
+  const Pose& mesh_from_other;
+  double size;  // [m] for gapOfTriangles()
+};
+
+/// Returns the least gap of two parts; it is infinite if it is larger than `up_to` [m].
+template <class Meter>
+CoreGap leastGap(BoxSearch search, const Meter& measure, double up_to) {
+  CoreGap best;
+  best.lower = std::numeric_limits<double>::infinity();
+  search.run(up_to, [&](std::size_t i, std::size_t j) {
+    const double enough = std::min(up_to, best.upper);
+    const CoreGap gap = measure(i, j, enough);
+    if (gap.lower <= 0.0 || (gap.upper < best.upper && gap.lower <= enough)) best = gap;
+    return best.lower <= 0.0 ? -1.0 : std::min(up_to, best.upper);
+  });
+  return best;
+}
+
+template <class Meter>
+void allMeetings(BoxSearch search, const Meter& measure, double reach, const MeshTree::Met& met) {
+  search.run(reach, [&](std::size_t i, std::size_t j) {
+    const CoreGap gap = measure(i, j, reach);
+    return gap.lower > reach || met(gap) ? reach : -1.0;
+  });
+}
+
+}  // namespace
+
+MeshTree::MeshTree(const TriangleMesh& mesh) : triangles_(trianglesOf(mesh)), boxes_(hgrid::boxTreeOf(triangles_)) {}
+
+CoreGap MeshTree::gapTo(const ConvexCore& core, const Pose& mesh_from_core, double up_to) const {
+  const BoxTree box = boxTreeOf(core);
+  return leastGap(BoxSearch(boxes_, box, mesh_from_core), CoreMeter{triangles_, core, mesh_from_core}, up_to);
+}
+
+CoreGap MeshTree::gapTo(const MeshTree& other, const Pose& mesh_from_other, double up_to) const {
+  return leastGap(BoxSearch(boxes_, other.boxes_, mesh_from_other),
+                  TriangleMeter(triangles_, boxes_, other.triangles_, other.boxes_, mesh_from_other), up_to);
+}
+
+void MeshTree::meetings(const ConvexCore& core, const Pose& mesh_from_core, double reach, const Met& met) const {
+  const BoxTree box = boxTreeOf(core);
+  allMeetings(BoxSearch(boxes_, box, mesh_from_core), CoreMeter{triangles_, core, mesh_from_core}, reach, met);
+}
+
+void MeshTree::meetings(const MeshTree& other, const Pose& mesh_from_other, double reach, const Met& met) const {
+  allMeetings(BoxSearch(boxes_, other.boxes_, mesh_from_other),
+              TriangleMeter(triangles_, boxes_, other.triangles_, other.boxes_, mesh_from_other), reach, met);
+}
+
+}  // namespace hgrid

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "narrow/box_tree.h"
+#include "narrow/gjk.h"
+#include "narrow/triangle_gap.h"
+
+namespace hgrid {
+
+/// The triangles of a mesh in a tree of boxes, for exact distances. Immutable.
+///
+/// The boxes are floats and only decide which triangles are measured. The distances of triangles are computed in
+/// double.
+class MeshTree {
+ public:
+  /// @param mesh  must have at least one triangle
+  explicit MeshTree(const TriangleMesh& mesh);
+
+  /// Returns the gap between the triangles and a convex core, with points in the frame of the mesh. It is infinite if
+  /// it is larger than `up_to` [m].
+  CoreGap gapTo(const ConvexCore& core, const Pose& mesh_from_core, double up_to) const;
+  /// Returns the gap between the triangles of two meshes, in the same way.
+  CoreGap gapTo(const MeshTree& other, const Pose& mesh_from_other, double up_to) const;
+
+  /// Receives the gap of two parts, in the frame of this mesh. @returns whether the search should continue
+  using Met = std::function<bool(const CoreGap&)>;
+  /// Calls `met` for each triangle that is within `reach` [m] of the core, until a call returns false.
+  void meetings(const ConvexCore& core, const Pose& mesh_from_core, double reach, const Met& met) const;
+  /// Calls `met` for each triangle of this mesh and each triangle of the other mesh that are within `reach` [m] of each
+  /// other, until a call returns false.
+  void meetings(const MeshTree& other, const Pose& mesh_from_other, double reach, const Met& met) const;
+
+ private:
+  std::vector<Triangle> triangles_;
+  BoxTree boxes_;
+};
+
+}  // namespace hgrid
