@@ -30,6 +30,8 @@ std::optional<Overlap> overlapByFcl(const ConvexSolid& a, const ConvexSolid& b, 
   return Overlap{depth, contact.normal / length, contact.pos};
 }
 
+/// Measures like the narrow phase of the core. For overlapping convex shapes it asks FCL for depth and normal.
+class FclNarrowPhase final : public CoreNarrowPhase {
  public:
   FclNarrowPhase() : CoreNarrowPhase(overlapByFcl) {}
 
