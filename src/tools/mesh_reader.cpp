@@ -13,13 +13,13 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <assimp/Importer.hpp>
 #include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
-#include <iterator>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -105,33 +105,45 @@ void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent
   }
 }
 
-/// Returns the next line of an OBJ file, without its line break. A line that ends with a backslash goes on in the next.
-std::string nextLine(std::istringstream& lines) {
-  std::string line, more;
-  while (std::getline(lines, more)) {
-    if (!more.empty() && more.back() == '\r') more.pop_back();
-    line += more;
-    if (line.empty() || line.back() != '\\') break;
-    line.back() = ' ';
+constexpr char kBlanks[] = " \t\r";
+
+/// Returns the end of the line of an OBJ file that begins at `begin`. A line that ends with a backslash goes on in the
+/// next one.
+std::size_t endOfLine(const std::string& data, std::size_t begin) {
+  for (;; ++begin) {
+    const std::size_t end = std::min(data.find('\n', begin), data.size());
+    const std::size_t last = end > begin && data[end - 1] == '\r' ? end - 1 : end;
+    if (end == data.size() || last == begin || data[last - 1] != '\\') return end;
+    begin = end;
   }
-  return line;
+}
+
+/// Counts the words of a line of an OBJ file from `begin` to `end`.
+std::size_t wordsIn(const std::string& data, std::size_t begin, std::size_t end) {
+  std::size_t words = 0;
+  bool in_word = false;
+  for (; begin < end; ++begin) {
+    const bool blank = std::strchr(" \t\r\n\\", data[begin]) != nullptr;
+    words += !blank && !in_word ? 1 : 0;
+    in_word = !blank;
+  }
+  return words;
 }
 
 /// Refuses an OBJ file that ends within a line, or that has a face with fewer than 3 corners. The parser would accept
 /// such a file and leave out triangles. A file that was cut between two lines cannot be told from a complete one.
 void checkObj(const std::string& data) {
-  std::istringstream lines(data);
-  std::string line, word;
-  while (lines) {
-    line = nextLine(lines);
-    std::istringstream words(line);
-    words >> word;
-    if (!words || word != "f") continue;
-    const auto corners = std::distance(std::istream_iterator<std::string>(words), std::istream_iterator<std::string>());
-    if (corners < 3) throw Refusal(Code::parse, "its face '" + line + "' has fewer than 3 corners");
+  for (std::size_t begin = 0, end = 0; begin < data.size(); begin = end + 1) {
+    end = endOfLine(data, begin);
+    const std::size_t first = data.find_first_not_of(kBlanks, begin);
+    if (first >= end || data[first] != 'f' || first + 1 == end) continue;
+    if (std::strchr(kBlanks, data[first + 1]) == nullptr || data[first + 1] == '\0') continue;
+    if (wordsIn(data, first + 1, end) < 3) {
+      throw Refusal(Code::parse, "its face '" + data.substr(first, end - first) + "' has fewer than 3 corners");
+    }
   }
   const std::size_t begin = data.find_last_of('\n') + 1;  // of the last line; 0 if there is no line break
-  const std::size_t text = data.find_first_not_of(" \t\r", begin);
+  const std::size_t text = data.find_first_not_of(kBlanks, begin);
   if (text != std::string::npos && data[text] != '#') {
     throw Refusal(Code::truncated,
                   "its last line has no line break, so it may have been written only in part; write it again, or add "
