@@ -112,7 +112,8 @@ TEST(Scope, ABodyWithAnOldPoseCanHaveMovedAlthoughItIsFreshAndMarginsDoNotGrow) 
   scene.setState(link, Freshness::fresh, 2.0);
   const auto snapshot = scene.commit(Time{1}, {});
   ASSERT_TRUE(snapshot->complete());
-  EXPECT_EQ(query(*snapshot, Sphere{{2.0, 0, 0}, 0.5}, {}).verdict, Verdict::unknown) << "the body can have come 2 m nearer";
+  EXPECT_EQ(query(*snapshot, Sphere{{2.0, 0, 0}, 0.5}, {}).verdict, Verdict::unknown)
+      << "the body can have come 2 m nearer";
   EXPECT_EQ(query(*snapshot, Sphere{{9.0, 0, 0}, 0.5}, {}).verdict, Verdict::clear);
 }
 
@@ -167,6 +168,24 @@ TEST(Scope, ALostCloudWithoutAGapOfItsOwnHidesAnything) {
   gap.within = Sphere{{0, 0, 0}, 5.0};
   EXPECT_EQ(query(cell.now({gap}), kPlace, {}).verdict, Verdict::clear);
   EXPECT_EQ(cell.snapshot->reasonsTotal(), 1u) << "a lost cloud must be counted only once";
+}
+
+TEST(Scope, AMapOrACloudCannotBeAskedFrom) {
+  Cell cell;
+  test::put(cell.scene, test::mapBody("room"), test::at(0));
+  Body cloud = test::mapBody("front", Mobility::moving);
+  cloud.name = "cloud/front";
+  cloud.kind = BodyKind::cloud;
+  test::put(cell.scene, cloud, test::at(0));
+  const Snapshot& snapshot = cell.now();
+  std::string sentence;
+  const auto ask = [&](const char* name) {
+    return test::refusalOf([&] { nearest(snapshot, test::indexOf(snapshot, name), 1.0, {}); }, &sentence);
+  };
+  EXPECT_EQ(ask("map/room"), Code::unsupported);
+  EXPECT_EQ(sentence, "'map/room' is a map; ask from a link or an obstacle");
+  EXPECT_EQ(ask("cloud/front"), Code::unsupported);
+  EXPECT_EQ(sentence, "'cloud/front' is a cloud; ask from a link or an obstacle");
 }
 
 TEST(Scope, ARequiredBodyThatIsNotThereMakesItsSourceIncomplete) {

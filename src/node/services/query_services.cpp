@@ -8,7 +8,9 @@
 #include <optional>
 #include <utility>
 
+#include "bodies/nearest_names.h"
 #include "hgrid_proximity/bodies/name.h"
+#include "hgrid_proximity/pairs/pair_rule.h"
 #include "hgrid_proximity/queries/query.h"
 #include "node/messages/from_messages.h"
 #include "node/messages/snapshot_stamp.h"
@@ -79,12 +81,12 @@ void checkPatterns(const std::vector<std::string>& patterns) {
 /// Returns the index of the body of this name. @throws Refusal unknown_id
 std::uint32_t indexOf(const Snapshot& snapshot, const std::string& name) {
   const std::uint32_t body = snapshot.structure().find(name);
-  if (body == Structure::kNone) throw Refusal(Code::unknown_id, "there is no body '" + printable(name) + "'");
+  if (body == Structure::kNone) throw Refusal(Code::unknown_id, noSuchBody(name, snapshot.structure().bodies));
   return body;
 }
 
-/// Returns the name of the body whose allowed pairs a request may respect: as_body. If that is empty, query_nearest
-/// uses the body that it asks from.
+/// Returns the name of the body whose allowed pairs respect_allowed leaves out: as_body. If as_body is empty in a
+/// request of query_nearest, this is the body from which the query measures.
 template <class Request>
 std::string asBody(const Request& request) {
   return request.as_body;
@@ -116,8 +118,10 @@ std::size_t asked(const QueryScope& scope, const Snapshot& snapshot) {
         std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) { return matches(pattern, body.name); });
     const bool awaited = std::any_of(gaps.begin(), gaps.end(),
                                      [&](const SourceGap& gap) { return canMatchTogether(pattern, gap.bodies); });
-    if (!known && !awaited)
-      throw Refusal(Code::unknown_id, "no body matches the glob '" + printable(pattern) + "' of include");
+    if (!known && !awaited) {
+      throw Refusal(Code::unknown_id, "no body matches the glob '" + printable(pattern) + "' of include" +
+                                          (isGlob(pattern) ? "" : similarNames(pattern, bodies)));
+    }
   }
   std::size_t count = 0;
   for (std::uint32_t body = 0; body < bodies.size(); ++body) count += inScope(snapshot, scope, body) ? 1 : 0;
@@ -201,7 +205,8 @@ QueryScope QueryServices::scopeOf(const Request& request, const Snapshot& snapsh
   if (request.respect_allowed) {
     if (asBody(request).empty()) {
       throw Refusal(Code::bad_id,
-                    "respect_allowed is true but as_body is empty; it must name the body whose allowed pairs count");
+                    "respect_allowed is true but as_body is empty; it must name the body whose allowed pairs are left "
+                    "out");
     }
     scope.respect_allowed = indexOf(snapshot, asBody(request));
   }
