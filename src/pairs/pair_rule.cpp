@@ -27,7 +27,7 @@ void checkName(const std::string& name, const char* what) {
   };
   if (name.empty()) refuse("it must not be empty");
   if (name.size() > kLongestRuleText) {
-    refuse("it has " + std::to_string(name.size()) + " bytes, at most " + std::to_string(kLongestRuleText) +
+    refuse("it has " + std::to_string(name.size()) + " bytes; at most " + std::to_string(kLongestRuleText) +
            " are allowed");
   }
   if (!isPrintable(name)) refuse("it must be UTF-8 without control characters");

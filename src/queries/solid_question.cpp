@@ -188,8 +188,9 @@ QueryAnswer query(const Snapshot& snapshot, const QueryShape& shape, NarrowPhase
   checkQueryLength(shape.padding, "the padding of the query's shape");
   const std::shared_ptr<const Solid> solid = narrow_phase.solidOf(shape.shape);
   if (!solid) {
-    throw Refusal(Code::unsupported, std::string("the query's shape is a ") + name(shape.shape.kind()) +
-                                         ", which this narrow phase cannot measure; use a narrow phase that can");
+    throw Refusal(Code::unsupported,
+                  std::string("the query's shape is a ") + name(shape.shape.kind()) +
+                      ", which the given NarrowPhase cannot measure; give another NarrowPhase or a convex shape");
   }
   SolidQuestion question(snapshot, scope, narrow_phase, solid, shape.shape, shape.world_from_shape, shape.padding);
   return answerTo(question);

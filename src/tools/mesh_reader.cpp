@@ -94,8 +94,8 @@ void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent
       mesh.vertices.push_back({p.x, p.y, p.z});
     }
     if (mesh.triangles.size() > max_triangles) {
-      throw Refusal(Code::limit,
-                    "it has more than " + std::to_string(max_triangles) + " triangles, which is the limit");
+      throw Refusal(Code::limit, "it has too many triangles; at most " + std::to_string(max_triangles) +
+                                     " are allowed; simplify it");
     }
   }
   for (unsigned i = 0; i < node.mNumChildren; ++i) {

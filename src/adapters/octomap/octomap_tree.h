@@ -140,7 +140,7 @@ void readTree(Nodes& nodes, Leaves& leaves, const std::string& what) {
     }
     if (cube.level == 0) {
       throw Refusal(Code::parse, what + " has nodes deeper than " + std::to_string(Voxel::kLevels) +
-                                     " levels, which is the depth of an OctoMap");
+                                     " levels; an OctoMap has at most these");
     }
     const unsigned low = node.children & kEach, high = node.children >> 1 & kEach;
     const unsigned free = low & ~high, unknown = kEach & ~(low | high);

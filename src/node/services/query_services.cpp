@@ -204,9 +204,10 @@ QueryScope QueryServices::scopeOf(const Request& request, const Snapshot& snapsh
   scope.deadline = deadlineOf(request.max_time);
   if (request.respect_allowed) {
     if (asBody(request).empty()) {
-      throw Refusal(Code::bad_id,
-                    "respect_allowed is true but as_body is empty; it must name the body whose allowed pairs are left "
-                    "out");
+      throw Refusal(
+          Code::bad_id,
+          "respect_allowed is true but as_body is empty; set as_body to the body whose allowed pairs are to be left "
+          "out");
     }
     scope.respect_allowed = indexOf(snapshot, asBody(request));
   }

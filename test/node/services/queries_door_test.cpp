@@ -116,7 +116,7 @@ TEST_F(QueryDoor, AStampOtherThanThatOfTheTickIsRefused) {
     SCOPED_TRACE(shift);
     request.header.stamp = stamp + ros::Duration(shift);
     const std::string range = std::to_string(stamp.sec) + ".";
-    expectRefused(node_->ask(request), "EXTRAPOLATION", "available is " + range);
+    expectRefused(node_->ask(request), "EXTRAPOLATION", "the node stores only the tick of " + range);
   }
 }
 
