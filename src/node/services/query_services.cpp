@@ -19,7 +19,7 @@
 namespace hgrid {
 namespace {
 
-constexpr std::size_t kMostPatterns = 256, kLongestPattern = 512;  // number, [bytes]
+constexpr std::size_t kMostPatterns = 256, kLongestPattern = 512;  // patterns in a request; bytes in a pattern
 
 msg::Hit toMsg(const QueryHit& source, const Snapshot& snapshot, const Pose& frame_from_world, double age_since) {
   msg::Hit hit;
@@ -42,8 +42,8 @@ msg::Hit toMsg(const QueryHit& source, const Snapshot& snapshot, const Pose& fra
   return hit;
 }
 
-/// Returns what the summary of a CLEAR answer adds if the world is not complete: the sources that are not complete.
-/// They do not affect the verdict.
+/// Returns the end of the summary of a CLEAR answer: it names sources that are not complete but do not affect the
+/// verdict. Empty if the world is complete.
 std::string elsewhere(const Snapshot& snapshot) {
   if (snapshot.complete()) return "";
   const std::vector<std::string>& sources = snapshot.incompleteSources();
@@ -195,7 +195,7 @@ void QueryServices::answer(ServiceCall<Service>& call, const Ask& ask) const {
   result.truncated = found.total > found.hits.size();
 }
 
-/// Returns the options that all kinds of query have in common: the bodies that they ask about and how to answer.
+/// Reads the options that all kinds of query have in common: which bodies they ask about, and how to answer.
 template <class Request>
 QueryScope QueryServices::scopeOf(const Request& request, const Snapshot& snapshot) const {
   const auto most = static_cast<std::uint32_t>(params_.max_hits);
