@@ -108,7 +108,11 @@ void World::setRobot(LoadedRobot loaded) {
 
 void World::setMap(const LoadedMap& map) {
   const std::string what = "map '" + map.params.name + "'";
-  if (!findWorldFrame()) throw Refusal(Code::not_ready, what + " cannot be placed yet: there is no world frame");
+  if (!findWorldFrame()) {
+    throw Refusal(
+        Code::not_ready,
+        what + " cannot be placed yet: the world frame is not known; load the first robot or set ~world_frame");
+  }
   const SourceId source = SourceId::ofMap(map.params.name);
   const Body body = mapBodyOf(map, world_frame_, params_);
   const bool same = maps_.hasSame(source, body);
