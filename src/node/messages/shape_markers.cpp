@@ -46,7 +46,7 @@ void setScale(Marker& marker, double x, double y, double z) {
   marker.scale.z = z;
 }
 
-/// Returns the triangles of a cone. Its center is the origin and its tip is at +z.
+/// Adds the triangles of a cone to a marker. Its center is the origin and its tip is at +z.
 void addCone(Marker& marker, double height, double radius) {
   constexpr int kSides = 32;
   const auto rim = [&](int side) {
