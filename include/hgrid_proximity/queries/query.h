@@ -65,7 +65,8 @@ QueryAnswer nearest(const Snapshot& snapshot, const Eigen::Vector3d& point, doub
                     const QueryScope& scope);
 
 /// Finds the bodies nearest to the body with index `from`. That body itself is no hit.
-/// @throws Refusal as the query for a point does; not_ready if that body has no pose or no shapes
+/// @throws Refusal as the query for a point does; not_ready if that body has no pose or no shapes; unsupported if it is
+/// a map or a cloud
 QueryAnswer nearest(const Snapshot& snapshot, std::uint32_t from, double max_distance, const QueryScope& scope);
 
 }  // namespace hgrid
