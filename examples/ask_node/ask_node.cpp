@@ -3,8 +3,10 @@
 //
 // Asks the running node from C++: sends two queries per second over persistent connections, and checks every message of
 // ~pairs. Start it beside any launch file of this package: rosrun hgrid_proximity ask_node
+// With _body:=robot/gripper it also asks which bodies are nearest to that body.
 #include <hgrid_proximity/Answer.h>
 #include <hgrid_proximity/Pairs.h>
+#include <hgrid_proximity/QueryNearest.h>
 #include <hgrid_proximity/QuerySegment.h>
 #include <hgrid_proximity/QuerySphere.h>
 #include <hgrid_proximity/Verdict.h>
@@ -46,6 +48,16 @@ class Question {
   ros::ServiceClient client_;
 };
 
+/// Returns the question: which three bodies are nearest to this body?
+hgrid_proximity::QueryNearest nearestTo(const std::string& body) {
+  hgrid_proximity::QueryNearest nearest;
+  nearest.request.body = body;
+  nearest.request.limit = 3;
+  nearest.request.exact = true;            // measures the shapes, not their boxes
+  nearest.request.respect_allowed = true;  // leaves out what may touch the body, such as its neighbors at a joint
+  return nearest;
+}
+
 /// Judges a message of ~pairs. "Nothing is near" requires a complete world and a message that is still valid.
 void onPairs(const hgrid_proximity::Pairs& pairs) {
   const bool valid = ros::Time::now() <= pairs.world.valid_until;
@@ -66,6 +78,8 @@ int main(int argc, char** argv) {
   const ros::Subscriber subscriber = node.subscribe("pairs", 1, onPairs);
   Question<hgrid_proximity::QuerySphere> sphere(node, "query_sphere");
   Question<hgrid_proximity::QuerySegment> segment(node, "query_segment");
+  Question<hgrid_proximity::QueryNearest> nearest(node, "query_nearest");
+  const auto body = ros::param::param<std::string>("~body", "");
   ros::service::waitForService(node.resolveName("query_sphere"));
   for (ros::WallRate rate(2.0); ros::ok(); rate.sleep()) {
     hgrid_proximity::QuerySphere in_sphere;
@@ -80,5 +94,9 @@ int main(int argc, char** argv) {
     on_beam.request.start.z = on_beam.request.end.z = 0.5;
     on_beam.request.exact = true;
     segment.ask(on_beam);
+
+    if (body.empty()) continue;
+    hgrid_proximity::QueryNearest near_body = nearestTo(body);
+    nearest.ask(near_body);
   }
 }

@@ -55,14 +55,16 @@ std::vector<std::string> nearestNames(const std::string& name, const std::vector
   return names;
 }
 
-std::string noSuchBody(const std::string& name, const std::vector<Body>& bodies) {
-  std::string sentence = "there is no body '" + printable(name) + "'";
-  std::string separator = "; similar names are ";
+std::string similarNames(const std::string& name, const std::vector<Body>& bodies) {
+  std::string listed;
   for (const std::string& near : nearestNames(name, bodies)) {
-    sentence += separator + "'" + near + "'";
-    separator = ", ";
+    listed += (listed.empty() ? "; similar names are '" : ", '") + near + "'";
   }
-  return sentence;
+  return listed;
+}
+
+std::string noSuchBody(const std::string& name, const std::vector<Body>& bodies) {
+  return "there is no body '" + printable(name) + "'" + similarNames(name, bodies);
 }
 
 }  // namespace hgrid

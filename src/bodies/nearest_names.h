@@ -15,6 +15,9 @@ namespace hgrid {
 /// added to get `name`. The list is empty if no name is similar, or if there are too many bodies to compare all names.
 std::vector<std::string> nearestNames(const std::string& name, const std::vector<Body>& bodies);
 
+/// Returns the end of an error sentence: "; similar names are 'robot/gripper'". Empty if no name is similar.
+std::string similarNames(const std::string& name, const std::vector<Body>& bodies);
+
 /// Returns the error sentence for a name that no body has. It lists similar names.
 std::string noSuchBody(const std::string& name, const std::vector<Body>& bodies);
 

@@ -25,7 +25,7 @@ ConvexCore coreOf(const Shape& shape) {
     case ShapeKind::mesh:
       break;
   }
-  throw std::invalid_argument("ConvexSolid: a mesh is not convex");
+  throw std::invalid_argument("ConvexSolid: the shape is a mesh; it must be convex, for example the hull of the mesh");
 }
 
 }  // namespace

@@ -16,12 +16,12 @@ namespace hgrid {
 /// A task that the node repeats at regular times.
 struct Chore {
   using Time = std::chrono::steady_clock::time_point;
-  const char* fault;                ///< name of the counter of its exceptions
-  std::chrono::milliseconds pause;  ///< least time between two runs; 0: it runs at every call of doDue()
+  const char* fault;                ///< name of the counter that counts its exceptions
+  std::chrono::milliseconds pause;  ///< shortest time between two runs; 0: the task runs at every call of doDue()
   std::function<void(Time now)> act;
 };
 
-/// A list of chores, each with its own pause. If a chore throws, the others still run. One thread may use a list.
+/// A list of chores, each with its own pause. If a chore throws, the others still run. Only one thread may use a list.
 class ChoreList {
  public:
   using Time = Chore::Time;

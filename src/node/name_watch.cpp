@@ -28,10 +28,11 @@ NameWatch::NameWatch() {
         *taken = true;
         ROS_ERROR(
             "Another node has registered under the name '%s', so this node ends with exit code %d. A name can belong "
-            "to one node only: start one of the two nodes with another __name.",
+            "to one node only: end the launch of one of the two nodes, or start one of them with another __name.",
             ros::this_node::getName().c_str(), kExitCode);
       } else {
-        ROS_WARN("A shutdown request ends this node. Its reason is '%s'.", printable(reason).c_str());
+        ROS_WARN("This node ends because another process requested its shutdown. The request gives the reason '%s'.",
+                 printable(reason).c_str());
       }
       ros::requestShutdown();
     }

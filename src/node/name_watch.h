@@ -16,7 +16,7 @@ class NameWatch {
   /// Handles shutdown requests of the master instead of roscpp. Construct it before the first ros::NodeHandle.
   NameWatch();
 
-  /// Whether another node has taken the name of this node. Any thread may call this.
+  /// Returns whether another node has taken the name of this node. Any thread may call this.
   bool nameTaken() const { return *taken_; }
 
  private:

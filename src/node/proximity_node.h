@@ -37,7 +37,7 @@ class ProximityNode {
   ~ProximityNode();
 
  private:
-  /// Whether the node or its process is about to end. Then no work may take long. Any thread may call this.
+  /// Returns whether the node or its process is about to end. Long work must then stop. Any thread may call this.
   bool isEnding() const;
   std::vector<TickLoop::Step> tickSteps();
   std::vector<Chore> chores();

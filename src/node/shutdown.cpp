@@ -27,7 +27,7 @@ void onEndSignal(int) {
 
 void onAlarm(int) {
   if (write(STDERR_FILENO, kGaveUp, sizeof(kGaveUp) - 1) < 0) {
-    // There is no other way to report this.
+    // If even this text cannot be written, nothing else can report it.
   }
   _exit(0);
 }

@@ -194,6 +194,10 @@ QueryAnswer nearest(const Snapshot& snapshot, std::uint32_t from, double max_dis
   const DefaultFloatEnvironment environment;
   checkQueryLength(max_distance, "max_distance");
   const Body& body = snapshot.structure().bodies[from];
+  if (snapshot.structure().isMap(from)) {
+    const std::string kind = body.kind == BodyKind::map ? "map" : "cloud";
+    throw Refusal(Code::unsupported, "'" + body.name + "' is a " + kind + "; ask from a link or an obstacle");
+  }
   if (snapshot.poses()[from].state == Freshness::unplaced || body.shapes.empty()) {
     throw Refusal(Code::not_ready, "body '" + body.name + "' has no " + (body.shapes.empty() ? "shapes" : "pose") +
                                        "; distances from it need a pose and a shape");

@@ -96,8 +96,8 @@ void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent
       mesh.vertices.push_back({p.x, p.y, p.z});
     }
     if (mesh.triangles.size() > max_triangles) {
-      throw Refusal(Code::limit,
-                    "it has more triangles than the limit of " + std::to_string(max_triangles) + "; simplify the mesh");
+      throw Refusal(Code::limit, "it has too many triangles; at most " + std::to_string(max_triangles) +
+                                     " are allowed; simplify it");
     }
   }
   for (unsigned i = 0; i < node.mNumChildren; ++i) {

@@ -215,11 +215,11 @@ TEST(OctomapBad, BytesNodesAndLeavesHaveTheirLimits) {
   EXPECT_EQ(fileCode(btHeader(usualLines("5")) + smallBt(), &sentence, bytes), Code::limit);
   nodes.max_nodes = 4;
   EXPECT_EQ(dataCode(kBinary, smallBt(), nodes, &sentence), Code::limit);
-  EXPECT_TRUE(says(sentence, "more than 4 nodes"));
+  EXPECT_TRUE(says(sentence, "too many nodes; at most 4 are allowed"));
   EXPECT_EQ(dataCode(kFull, smallOt(), nodes), Code::ok) << "as many nodes as the limit are allowed";
   leaves.max_leaves = 1;
   EXPECT_EQ(dataCode(kBinary, smallBt(), leaves, &sentence), Code::limit);
-  EXPECT_TRUE(says(sentence, "more than 1 leaves"));
+  EXPECT_TRUE(says(sentence, "too many leaves to keep; at most 1 are allowed"));
   leaves.max_leaves = 2;
   EXPECT_EQ(dataCode(kBinary, smallBt(), leaves), Code::ok);
   leaves.keep_free = true;

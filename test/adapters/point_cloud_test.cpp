@@ -111,10 +111,10 @@ TEST(PointCloud, WithAWrongFormatIsRefusedByName) {
   expect(Code::parse, "has its field 'z' at byte 4294967295", format, data);
   format = usual(1, 3);
   format.row_step = 47;
-  expect(Code::parse, "has rows of 47 bytes", format, data);
+  expect(Code::parse, "has a row_step of 47 bytes", format, data);
   format = usual(0xffffffff, 0xffffffff);  // the product of these sizes does not fit into 64 bits
   format.row_step = 0xffffffff;
-  expect(Code::parse, "has rows of 4294967295 bytes", format, data);
+  expect(Code::parse, "has a row_step of 4294967295 bytes", format, data);
   format.point_step = 0;
   expect(Code::parse, "has its field 'x' at byte 0 of points of 0 bytes", format, data);
   format = usual(0x10000, 0x1000000);

@@ -43,6 +43,21 @@ TEST(SelfPairs, AllAreOffOnlyWhereThereArePairs) {
   EXPECT_FALSE(countSelfPairs(model, test::matrixOf(model)).allOff()) << "the pair of base and hand is not off";
 }
 
+TEST(SelfPairs, OfTwoLinksLookWrongOnlyIfTheSrdfSwitchesThemOff) {
+  RobotModel model;
+  addLink(model, "base", -1);
+  addLink(model, "belt", 0);
+  findRigidGroups(model);
+  EXPECT_FALSE(countSelfPairs(model, test::matrixOf(model)).looksWrong()) << "a joint connects the two links";
+  LinkRules rules;
+  rules.disabled = {{"base", "belt", "Never"}};
+  EXPECT_TRUE(countSelfPairs(model, test::matrixOf(model, rules)).looksWrong());
+  addLink(model, "cover", 0, JointKind::fixed);
+  addLink(model, "motor", 0, JointKind::fixed);
+  findRigidGroups(model);
+  EXPECT_TRUE(countSelfPairs(model, test::matrixOf(model)).looksWrong()) << "all pairs of four links are off";
+}
+
 TEST(SelfPairs, VisualGeometryThatIsUsedCounts) {
   RobotModel model;
   addLink(model, "base", -1);

@@ -170,6 +170,24 @@ TEST(Scope, ALostCloudWithoutAGapOfItsOwnHidesAnything) {
   EXPECT_EQ(cell.snapshot->reasonsTotal(), 1u) << "a lost cloud must be counted only once";
 }
 
+TEST(Scope, AMapOrACloudCannotBeAskedFrom) {
+  Cell cell;
+  test::put(cell.scene, test::mapBody("room"), test::at(0));
+  Body cloud = test::mapBody("front", Mobility::moving);
+  cloud.name = "cloud/front";
+  cloud.kind = BodyKind::cloud;
+  test::put(cell.scene, cloud, test::at(0));
+  const Snapshot& snapshot = cell.now();
+  std::string sentence;
+  const auto ask = [&](const char* name) {
+    return test::refusalOf([&] { nearest(snapshot, test::indexOf(snapshot, name), 1.0, {}); }, &sentence);
+  };
+  EXPECT_EQ(ask("map/room"), Code::unsupported);
+  EXPECT_EQ(sentence, "'map/room' is a map; ask from a link or an obstacle");
+  EXPECT_EQ(ask("cloud/front"), Code::unsupported);
+  EXPECT_EQ(sentence, "'cloud/front' is a cloud; ask from a link or an obstacle");
+}
+
 TEST(Scope, ARequiredBodyThatIsNotThereMakesItsSourceIncomplete) {
   SceneOptions options;
   options.required = {"map/hall", "robot/tool*", "obstacle/*"};

@@ -23,6 +23,9 @@ struct SelfPairs {
   std::size_t off() const { return rigid + adjacent + srdf; }
   /// Whether there are pairs, and all of them are switched off.
   bool allOff() const { return pairs > 0 && off() == pairs; }
+  /// Whether the counts deserve a warning: all pairs are switched off. A robot of two links is an exception if the URDF
+  /// switches off their only pair, because that is normal for a slide or a turntable.
+  bool looksWrong() const { return allOff() && (links > 2 || srdf > 0); }
 };
 
 /// Counts the pairs of the links of `model`. `matrix` must belong to the same model.

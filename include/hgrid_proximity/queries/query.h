@@ -69,6 +69,7 @@ QueryAnswer nearest(const Snapshot& snapshot, const Eigen::Vector3d& point, doub
 /// Finds the bodies nearest to the body with index `from`. The body `from` itself is no hit.
 /// @throws Refusal in the same cases as the query for a point
 /// @throws Refusal not_ready if the body `from` has no pose or no shapes
+/// @throws Refusal unsupported if the body `from` is a map or a cloud
 QueryAnswer nearest(const Snapshot& snapshot, std::uint32_t from, double max_distance, const QueryScope& scope);
 
 }  // namespace hgrid

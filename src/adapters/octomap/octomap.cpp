@@ -104,7 +104,7 @@ class Leaves {
 
   [[noreturn]] void refuse(const char* things, std::uint64_t most) const {
     throw Refusal(Code::limit,
-                  what_ + " has more than " + std::to_string(most) + " " + things + "; use a map with at most so many");
+                  what_ + " has too many " + things + "; at most " + std::to_string(most) + " are allowed");
   }
 
   const OctomapOptions& options_;
@@ -152,7 +152,7 @@ auto withinMemory(const std::string& what, Read&& read) {
   try {
     return read();
   } catch (const std::bad_alloc&) {
-    throw Refusal(Code::limit, what + " does not fit into the memory that is left; use a smaller map or free memory");
+    throw Refusal(Code::limit, what + " does not fit into the memory that is left; use a smaller or coarser map");
   }
 }
 

@@ -70,7 +70,7 @@ class HeaderReader {
     const std::string_view rest = file_.substr(at_, kLongestLine + 1);
     const std::size_t end = rest.find('\n');
     if (end == std::string_view::npos && rest.size() > kLongestLine) {
-      refuse(Code::limit, " has a header line '" + shown(rest) + "' that is too long; at most " +
+      refuse(Code::limit, " has a header line that is too long, '" + shown(rest) + "'; at most " +
                               std::to_string(kLongestLine) + " bytes are allowed");
     }
     if (end == std::string_view::npos) {

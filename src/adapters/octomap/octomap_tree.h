@@ -143,7 +143,7 @@ void readTree(Nodes& nodes, Leaves& leaves, const std::string& what) {
     }
     if (cube.level == 0) {
       throw Refusal(Code::parse, what + " has nodes deeper than " + std::to_string(Voxel::kLevels) +
-                                     " levels; an OctoMap must not have more levels");
+                                     " levels; an OctoMap has at most these");
     }
     const unsigned low = node.children & kEach, high = node.children >> 1 & kEach;
     const unsigned free = low & ~high, unknown = kEach & ~(low | high);

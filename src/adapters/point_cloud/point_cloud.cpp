@@ -55,7 +55,7 @@ Place placeOf(const char* name, const PointCloudFormat& format, const std::strin
 
 void checkSizes(const PointCloudFormat& format, std::string_view data, const std::string& what) {
   if (std::uint64_t{format.width} * format.point_step > format.row_step) {
-    throw Refusal(Code::parse, what + " has rows of " + std::to_string(format.row_step) +
+    throw Refusal(Code::parse, what + " has a row_step of " + std::to_string(format.row_step) +
                                    " bytes; each row must hold " + std::to_string(format.width) + " points of " +
                                    std::to_string(format.point_step) + " bytes");
   }

@@ -73,7 +73,7 @@ urdf::CollisionSharedPtr parseShape(const tinyxml2::XMLElement& element, const s
   const tinyxml2::XMLElement* shape = geometry == nullptr ? nullptr : geometry->FirstChildElement();
   if (shape == nullptr || shape->NextSiblingElement() != nullptr ||
       geometry->NextSiblingElement("geometry") != nullptr) {
-    throw Refusal(Code::parse, what + " reads '" + shown + "'; it must contain one <geometry> with one shape");
+    throw Refusal(Code::parse, what + " must have one <geometry> that contains one shape, but it reads " + shown);
   }
   const UrdfdomErrors errors;
   const auto robot = urdf::parseURDF("<robot name=\"r\"><link name=\"l\">" + asCollision(element) + "</link></robot>");

@@ -14,7 +14,8 @@ namespace hgrid {
 namespace {
 
 void requireValid(const Aabb& box) {
-  if (!isValid(box)) throw std::invalid_argument("HGrid: a box has a coordinate that is not finite, or min > max");
+  if (!isValid(box))
+    throw std::invalid_argument("HGrid: a box has min > max or a coordinate that is not finite; correct it");
 }
 
 constexpr std::size_t kPerJob = 4096;  // boxes that one job checks or copies
@@ -51,9 +52,10 @@ GridScale GridScale::fitting(const std::vector<Aabb>& boxes) {
 }
 
 void HGrid::Engine::requireValid(const std::vector<ProxyId>& ids, const std::vector<Aabb>& given) {
-  if (ids.size() != given.size())
-    throw std::invalid_argument("HGrid: there are " + std::to_string(ids.size()) + " ids but " +
-                                std::to_string(given.size()) + " boxes; each box needs one id");
+  if (ids.size() != given.size()) {
+    throw std::invalid_argument("HGrid: " + std::to_string(ids.size()) + " ids but " + std::to_string(given.size()) +
+                                " boxes were given; each box needs one id");
+  }
   std::atomic<bool> all_ascend{true}, all_sound{true};
   inParts(*workers, ids.size(), [&](std::size_t begin, std::size_t end) {
     bool ascend = true;
@@ -63,7 +65,8 @@ void HGrid::Engine::requireValid(const std::vector<ProxyId>& ids, const std::vec
     if (!kernels::of(isa).sound(first, end - begin)) all_sound = false;
   });
   if (!all_ascend) throw std::invalid_argument("HGrid: the ids do not ascend; sort them, and use each id once");
-  if (!all_sound) throw std::invalid_argument("HGrid: a box has a coordinate that is not finite, or min > max");
+  if (!all_sound)
+    throw std::invalid_argument("HGrid: a box has min > max or a coordinate that is not finite; correct it");
 }
 
 HGrid::HGrid(const GridScale& scale) {
@@ -80,7 +83,8 @@ HGrid& HGrid::operator=(HGrid&&) noexcept = default;
 
 void HGrid::setIsa(Isa isa) {
   if (!isSupported(isa)) {
-    throw std::invalid_argument(std::string("HGrid: this processor or build does not support ") + hgrid::name(isa));
+    throw std::invalid_argument(std::string("HGrid: this processor or build does not support ") + hgrid::name(isa) +
+                                "; choose another instruction set");
   }
   engine_->isa = isa;
 }

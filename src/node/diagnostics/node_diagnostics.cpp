@@ -19,11 +19,11 @@ void addAll(DiagnosticStatusWrapper& status, const std::string& key, const std::
   for (std::size_t i = 0; i < lines.size(); ++i) status.add(key + " " + std::to_string(i + 1), lines[i]);
 }
 
-/// Adds the counts of self pairs of all robots, and a warning for each robot all of whose self pairs are switched off.
+/// Adds the counts of self pairs of all robots, and a warning for each robot whose counts look wrong.
 void addSelfPairs(DiagnosticStatusWrapper& status, const ModelReport& report) {
   for (const auto& [robot, counts] : report.self_pairs) {
     status.add("self pairs of " + robot, text(counts));
-    if (counts.allOff()) status.mergeSummary(DiagnosticStatus::WARN, robot + ": " + text(counts));
+    if (counts.looksWrong()) status.mergeSummary(DiagnosticStatus::WARN, robot + ": " + text(counts));
   }
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 void logLoaded(const std::string& robot, const SelfPairs& self_pairs) {
   const std::string line = "Robot '" + robot + "' is loaded: " + text(self_pairs) + ".";
-  if (self_pairs.allOff()) {
+  if (self_pairs.looksWrong()) {
     ROS_WARN("%s", line.c_str());
   } else {
     ROS_INFO("%s", line.c_str());

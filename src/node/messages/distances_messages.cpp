@@ -7,7 +7,7 @@
 namespace hgrid {
 namespace {
 
-/// Appends the name of each body of the first `shown` pairs to `names`, each once and sorted.
+/// Appends to `names` the names of all bodies of the first `shown` pairs, sorted, each once.
 /// @returns the indices of these bodies in Structure::bodies, in the same order
 std::vector<std::uint32_t> fillNames(const Structure& structure, const PairDistances& distances, std::size_t shown,
                                      std::vector<std::string>& names) {

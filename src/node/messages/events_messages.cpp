@@ -20,9 +20,11 @@ std::string textOf(const PairRule& rule) {
   return rule.first + " " + rule.second + (rule.reason.empty() ? "" : ": " + rule.reason);
 }
 
-constexpr double kShareOfBudget = 0.2;  // share of ~distances/budget; small, because ~pairs waits for it
+// The share of ~distances/budget that the distances of events may use. Small, because ~pairs waits for them.
+constexpr double kShareOfBudget = 0.2;
 
-/// Whether a body of the event is no longer in the world. The indices of the event then refer to the structure before.
+/// Returns whether a body of the event was removed from the world. Then the indices in the event are those of the
+/// structure before the removal.
 bool hasLostABody(const PairEvent& event, const Snapshot& snapshot) {
   return &snapshot.structureOf(event) != &snapshot.structure();
 }
@@ -65,7 +67,7 @@ class EventMeter {
   Clock::time_point until_;
 };
 
-/// Appends the values of an event that exist only while both bodies are in the world: margin, states and rule.
+/// Appends the margin, the states and the rule of an event. They are unknown if a body was removed.
 void addState(const PairEvent& event, const Snapshot& snapshot, msg::Events& message) {
   const auto stateOf = [&](std::uint32_t body) { return static_cast<std::uint8_t>(snapshot.poses()[body].state); };
   if (hasLostABody(event, snapshot)) {

@@ -26,7 +26,7 @@ std::vector<Voxel> voxelsNearBodies(const Snapshot& snapshot, std::uint32_t map,
     const Eigen::Vector3d low = box.min.cast<double>(), high = box.max.cast<double>();
     const Eigen::Vector3d center = map_from_world * (snapshot.origin() + 0.5 * (low + high));
     grid.overlapping(Sphere{center, 0.5 * (high - low).norm() + within}, most, found);
-    std::vector<Voxel> both;  // a cell that is near several bodies counts once
+    std::vector<Voxel> both;  // the cells of `all` and `found`, each once
     std::set_union(all.begin(), all.end(), found.begin(), found.end(), std::back_inserter(both),
                    [](const Voxel& a, const Voxel& b) { return mortonOf(a) < mortonOf(b); });
     all.swap(both);

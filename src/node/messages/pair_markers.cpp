@@ -18,20 +18,20 @@ namespace {
 using visualization_msgs::Marker;
 
 constexpr std::size_t kMostPairs = 2000;
-constexpr std::size_t kMostNames = 8;  // more could not be read
-constexpr double kTextHeight = 0.04;    // [m]
+constexpr std::size_t kMostNames = 8;  // more texts on the screen could not be read
+constexpr double kTextHeight = 0.04;   // [m]
 
 /// What is drawn of one pair.
 struct DrawnPair {
   std::uint32_t first = 0, second = 0;
   Eigen::Vector3d on_first = Eigen::Vector3d::Zero(), on_second = Eigen::Vector3d::Zero();  // [m, world]
-  double distance = 0.0;  // [m]
-  double nearness = 0.0;  // 0 at the margin, 1 in contact
-  bool measured = false;
-  std::string note;  // what is written in place of the distance
+  double distance = 0.0;                                                                    // [m]
+  double nearness = 0.0;  // 0: the distance equals the margin; 1: contact
+  bool measured = false;  // whether the points and the distance are those of the shapes; false: of the boxes
+  std::string note;       // text in place of the distance; empty: the distance is shown
 };
 
-/// Nearest points of the boxes of two bodies. Empty if one of them is a map.
+/// Returns the pair with the nearest points of its boxes. nullopt if one of the bodies is a map.
 std::optional<DrawnPair> byBoxes(const Snapshot& snapshot, const NearPair& pair) {
   const Structure& structure = snapshot.structure();
   double least = std::numeric_limits<double>::infinity();
@@ -67,7 +67,7 @@ std_msgs::ColorRGBA colorOf(const DrawnPair& pair) {
   return rgba(std::min(1.0, 2.0 * pair.nearness), std::min(1.0, 2.0 - 2.0 * pair.nearness), 0.1, 1.0);
 }
 
-/// The pairs to draw, nearest first.
+/// Returns the pairs to draw, the nearest first.
 std::vector<DrawnPair> drawnPairs(const Snapshot& snapshot, const PairDistances* distances) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, const PairDistance*> measured;
   if (distances != nullptr) {
@@ -78,7 +78,8 @@ std::vector<DrawnPair> drawnPairs(const Snapshot& snapshot, const PairDistances*
   }
   std::vector<const NearPair*> nearest;
   for (const NearPair& pair : snapshot.pairs()) nearest.push_back(&pair);
-  std::stable_sort(nearest.begin(), nearest.end(), [](const NearPair* a, const NearPair* b) { return a->gap < b->gap; });
+  std::stable_sort(nearest.begin(), nearest.end(),
+                   [](const NearPair* a, const NearPair* b) { return a->gap < b->gap; });
   if (nearest.size() > kMostPairs) nearest.resize(kMostPairs);
   std::vector<DrawnPair> drawn;
   for (const NearPair* pair : nearest) {
@@ -102,7 +103,8 @@ std::string labelOf(const Snapshot& snapshot, const DrawnPair& pair) {
   return bodies[pair.first].name + " to " + bodies[pair.second].name + ": " + distance;
 }
 
-/// Places texts so that they do not cover each other: one that is too near to an earlier one stands above it.
+/// Finds a place for each text such that no text covers another. A text that is too near to an earlier text is placed
+/// above it.
 class TextPlaces {
  public:
   Eigen::Vector3d placeFor(Eigen::Vector3d wanted) {
@@ -110,8 +112,8 @@ class TextPlaces {
     for (std::size_t i = 0; i < taken_.size();) {
       const Eigen::Vector3d away = wanted - taken_[i];
       if (away.head<2>().norm() < kWidth && std::abs(away.z()) < kApart) {
-        wanted.z() = taken_[i].z() + kStep;  // always higher than before, so this ends
-        i = 0;  // the new place may be too near to another one
+        wanted.z() = taken_[i].z() + kStep;  // higher than before, so the loop ends
+        i = 0;                               // the new place may be too near to an earlier text
       } else {
         ++i;
       }

@@ -46,8 +46,8 @@ PairsMessages::Pooled& PairsMessages::unused() {
   return extra_ = Pooled{};
 }
 
-/// Fills the names of the bodies that are in a pair, and number_ with the index of each such body in these names. The
-/// names are sorted, because the bodies are sorted by name.
+/// Writes the names of all bodies that are in a pair into the message, and the index of each of these names into
+/// number_. The names are sorted, because Structure::bodies is sorted by name.
 void PairsMessages::fillNames(const Snapshot& snapshot, Pooled& pooled) {
   const Structure& structure = snapshot.structure();
   number_.assign(structure.bodies.size(), 0);

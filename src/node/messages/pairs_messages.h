@@ -11,8 +11,9 @@
 
 namespace hgrid {
 
-/// Builds the messages of ~pairs. It keeps a small pool of messages and fills a message again once nobody else holds
-/// it. Names that such a message already contains are not copied again. Only one thread may use this object.
+/// Builds the messages of ~pairs. It keeps a small pool of messages. When nobody else holds a message of the pool, the
+/// message is filled again, and a name that is already in its place is not copied again. Only one thread may use this
+/// object.
 class PairsMessages {
  public:
   /// Returns the message of ~pairs for a tick.

@@ -14,7 +14,7 @@
 
 namespace hgrid {
 
-/// Remembers the last sphere query and the last segment query, so that they can be drawn. Any thread may call it.
+/// Stores the last sphere query and the last segment query for the markers. Any thread may use it.
 class QuerySketch {
  public:
   void show(const Sphere& sphere, Verdict verdict);
@@ -35,7 +35,8 @@ class QuerySketch {
   std::optional<Drawn<Segment>> segment_;
 };
 
-/// Draws these queries for 3 s, in namespace "queries". The color says the verdict: orange HIT, green CLEAR, gray UNKNOWN.
+/// Returns markers for the queries of the last 3 s, in namespace "queries". The color shows the verdict: orange HIT,
+/// green CLEAR, gray UNKNOWN.
 std::vector<visualization_msgs::Marker> queryMarkers(const Tick& tick, const QuerySketch& queries);
 
 }  // namespace hgrid

@@ -12,7 +12,7 @@ namespace {
 
 using visualization_msgs::Marker;
 
-constexpr int kMostParts = 3;  // markers of one shape: a capsule has a cylinder and two spheres
+constexpr int kMostParts = 3;  // most markers that draw one shape: a capsule is a cylinder and two spheres
 constexpr std::size_t kMostTriangles = 20000;
 constexpr int kMostStates = 20;
 constexpr double kStateTextHeight = 0.05;  // [m]
@@ -31,7 +31,8 @@ std_msgs::ColorRGBA colorOf(BodyKind kind, Freshness state) {
   }
 }
 
-/// One color per level. People who confuse red and green can distinguish them as well (after Okabe and Ito, 2008).
+/// Returns the color of a level of the grid. People who confuse red and green can distinguish the colors, too (after
+/// Okabe and Ito, 2008).
 std_msgs::ColorRGBA levelColor(int level) {
   static const std_msgs::ColorRGBA kColors[] = {rgba(0.34, 0.71, 0.91, 0.9), rgba(0.90, 0.62, 0.00, 0.9),
                                                 rgba(0.00, 0.62, 0.45, 0.9), rgba(0.80, 0.47, 0.65, 0.9),
@@ -45,7 +46,7 @@ void setScale(Marker& marker, double x, double y, double z) {
   marker.scale.z = z;
 }
 
-/// Triangles of a cone whose tip is at +z, around the origin.
+/// Adds the triangles of a cone to a marker. Its center is the origin and its tip is at +z.
 void addCone(Marker& marker, double height, double radius) {
   constexpr int kSides = 32;
   const auto rim = [&](int side) {

@@ -10,21 +10,22 @@
 
 namespace hgrid {
 
-/// The collision shapes of all placed bodies as solids in their poses, in namespace "shapes". The color says what a body
-/// is and how far its pose can be trusted:
+/// Returns markers that draw the collision shapes of all placed bodies, in namespace "shapes". The color shows what a
+/// body is and how far its pose can be trusted:
 ///
 ///   blue    a link whose pose is FRESH or LATE        orange  STALE
 ///   beige   an obstacle whose pose is FRESH or LATE   purple  FROZEN
 ///                                                     red     LOST or INVALID
 ///
-/// Shapes are drawn with their padding, except meshes and hulls. A mesh is drawn from its file if it came from one;
-/// otherwise, if it has more than 20,000 triangles, its box is drawn instead.
+/// Shapes are drawn with their padding, except meshes and hulls. RViz reads a mesh from its file if there is one. A
+/// mesh without a file is drawn by its triangles, or by its box if it has more than 20,000 triangles.
 std::vector<visualization_msgs::Marker> shapeMarkers(const Tick& tick);
 
-/// The boxes that the broad phase compares, as wireframes in namespace "boxes", with one color per level of the grid.
+/// Returns markers for the boxes of the broad phase: wireframes in namespace "boxes", one color for each level of the
+/// grid.
 visualization_msgs::Marker boxMarker(const Tick& tick);
 
-/// Names and states of bodies whose pose is STALE or worse, as texts in namespace "states": the 20 worst.
+/// Returns texts with the names and states of the 20 worst bodies whose pose is STALE or worse, in namespace "states".
 std::vector<visualization_msgs::Marker> stateMarkers(const Tick& tick);
 
 }  // namespace hgrid

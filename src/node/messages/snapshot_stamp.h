@@ -13,9 +13,9 @@ namespace hgrid {
 inline void checkStamp(const ros::Time& stamp, const Snapshot& snapshot) {
   const ros::Time available = toRos(snapshot.stamp());
   if (stamp.isZero() || stamp == available) return;
-  throw Refusal(Code::extrapolation, "the query asks for time " + text(stamp.toSec()) + " s; available is " +
-                                         text(available.toSec()) + " .. " + text(available.toSec()) +
-                                         " s (stamp 0 asks for now)");
+  throw Refusal(Code::extrapolation, "the query asks for time " + text(stamp.toSec()) +
+                                         " s; the node stores only the tick of " + text(available.toSec()) +
+                                         " s; ask with this stamp, or with 0 for now");
 }
 
 }  // namespace hgrid

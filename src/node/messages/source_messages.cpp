@@ -17,7 +17,7 @@ namespace {
 
 using Sources = std::map<std::string, msg::SourceStatus>;
 
-/// Returns the entry of a source. A new entry says that nothing is known about the source.
+/// Returns the entry of a source. If there is none yet, adds one that says that nothing is known about the source.
 msg::SourceStatus& entryOf(Sources& sources, const std::string& name) {
   const auto known = sources.emplace(name, msg::SourceStatus());
   msg::SourceStatus& source = known.first->second;

@@ -11,7 +11,7 @@
 
 namespace hgrid {
 
-/// Reads a pose {xyz: [m], rpy: [rad]}. A part that is left out is zero.
+/// Reads a pose {xyz: [m], rpy: [rad]}. If xyz or rpy is left out, it is zero.
 Pose readPose(ParamValue value);
 
 /// Reads ~obstacles: a list of {name, frame, pose, shapes: [{type, ..., pose}]}. If an entry has no frame, the frame of
@@ -19,7 +19,7 @@ Pose readPose(ParamValue value);
 std::vector<ObstacleParams> readObstacles(ParamValue value, const ShapeLimits& limits);
 
 /// Reads the required name of an element of a list. It is the name without its source.
-/// @param names  the names of the elements before; the new name must differ from them and is added
+/// @param names  the names of the earlier elements. The new name must differ from all of them and is added to them.
 void readLocalName(ParamValue& element, std::string& name, std::set<std::string>& names);
 
 }  // namespace hgrid

@@ -12,10 +12,10 @@ namespace {
 /// One parameter, as the documents show it.
 struct ParamRow {
   std::string section, name;
-  std::string type;    ///< of its value in YAML
-  std::string unit;    ///< empty: none
+  std::string type;    ///< type of the value in YAML
+  std::string unit;    ///< unit of the value; empty: it has none
   std::string value;   ///< default value, in YAML
-  std::string range;   ///< allowed values; empty: `meaning` says which
+  std::string range;   ///< allowed values; empty: `meaning` names them
   bool range_is_text;  ///< true: config/params.yaml appends the range to the meaning
   std::string meaning;
 };
@@ -83,7 +83,8 @@ class RowCollector {
     for (const char* word : list) all += (all.empty() ? "" : ", ") + std::string(word);
     return all;
   }
-  static std::string decimal(double value) {  // YAML 1.1 reads 1e+06 as a string
+  /// Returns a number with a decimal point: YAML 1.1 would read 1e+06 as a string, but it reads 1.0e+06 as a number.
+  static std::string decimal(double value) {
     std::string shown = text(value);
     const std::size_t exponent = shown.find('e');
     if (shown.find('.') == std::string::npos)

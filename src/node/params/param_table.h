@@ -10,7 +10,8 @@ inline constexpr const char* kUnknownSpace[] = {"ignore", "report", "occupied"};
 inline constexpr const char* kEmptyCloud[] = {"unknown", "clear"};
 inline constexpr const char* kKinds[] = {"self", "robot_robot", "robot_obstacle", "robot_map", "moving_obstacle"};
 
-/// Calls the visitor for every parameter with its name, value, unit, range and meaning. This is the only table of them.
+/// Calls the visitor for every parameter with its name, value, unit, range and meaning. There is no other table of
+/// them.
 template <class Visitor>
 void visitParams(Visitor& v, Params& p) {
   v.section("The world");

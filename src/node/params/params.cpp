@@ -121,7 +121,7 @@ class Reader {
     }
   }
   void obstacles(const char* name, std::vector<ObstacleParams>& value, const char*) {
-    obstacles_ = get(name);  // finish() reads them, since the limits on sizes are parameters too
+    obstacles_ = get(name);  // finish() reads them, because the limits of sizes are parameters, too
     obstacles_target_ = &value;
   }
   void maps(const char* name, std::vector<MapParams>& value, const char*) {
@@ -183,7 +183,7 @@ class Reader {
     if (auto given = required ? element.require(key) : element.get(key)) given->string(value);
   }
 
-  /// Reads a word of the list `words`. Its position in the list is the value of the enum.
+  /// Reads a word of the list `words`. The index of the word in the list is the value of the enum.
   template <std::size_t count, class Enum>
   static void readWord(ParamValue& given, const char* const (&words)[count], const char* rule, Enum& value) {
     std::string word = words[static_cast<std::size_t>(value)];

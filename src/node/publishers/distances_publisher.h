@@ -40,12 +40,12 @@ class DistancesPublisher {
 
   Commons& commons_;
   ros::Publisher publisher_;
-  // State of publish():
-  bool needed_ = false;                           // whether its last call found that distances are needed
-  std::shared_ptr<const MeasuredTick> reported_;  // the measurements whose time it returned last
+  // Results of the last call of publish():
+  bool needed_ = false;                           // whether somebody needed distances
+  std::shared_ptr<const MeasuredTick> reported_;  // the measurements whose duration it has returned
   PairMeter meter_;                               // only the measuring thread uses it
   std::shared_ptr<const MeasuredTick> measured_;  // accessed by atomic functions only
-  NewestOnly<Request> thread_;                    // the last member, because its work uses the others
+  NewestOnly<Request> thread_;                    // declared last, because its thread uses the members above
 };
 
 }  // namespace hgrid

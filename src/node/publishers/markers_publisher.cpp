@@ -39,7 +39,7 @@ void MarkersPublisher::publish(const Tick& newest, const std::shared_ptr<const M
   publisher_.publish(array);
 }
 
-/// Whether the ids of the shapes may mean other shapes than at the last call.
+/// Returns whether the id of a marker may now belong to another shape than at the last call.
 bool MarkersPublisher::haveOthers(const Tick& tick) {
   const std::uint64_t revision = tick.snapshot ? tick.snapshot->structure().revision : 0;
   const bool others = revision != revision_ || tick.epoch != epoch_;

@@ -15,7 +15,8 @@
 
 namespace hgrid {
 
-/// Publishes ~markers for RViz while somebody listens. Used by one thread; subscribed() may be called by any.
+/// Publishes ~markers for RViz while there are subscribers. Only one thread may use it, but any thread may call
+/// subscribed().
 class MarkersPublisher {
  public:
   MarkersPublisher(ros::NodeHandle& private_node, const Params& params, const QuerySketch& sketch);
@@ -30,7 +31,7 @@ class MarkersPublisher {
   const Params& params_;
   const QuerySketch& sketch_;
   ros::Publisher publisher_;
-  // At the last call of publish():
+  // Values at the last call of publish(): number of subscribers, revision of the structure, epoch.
   std::size_t viewers_ = 0;
   std::uint64_t revision_ = 0, epoch_ = 0;
 };

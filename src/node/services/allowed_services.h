@@ -16,8 +16,8 @@ namespace hgrid {
 
 /// Serves ~set_allowed and ~get_allowed, which change and read the allowed-pair matrix.
 ///
-/// A request is checked against the rules of the newest tick. A later tick only takes over the result. So only one
-/// thread at a time may serve requests, and nobody else may add rules. (Rules may end in between.)
+/// A request is checked against the rules of the newest tick, and a later tick puts the new rules in force. Nobody may
+/// add other rules in between. Therefore only one thread may serve requests. Rules may end in between.
 class AllowedServices {
  public:
   /// `envelope` and `params` must outlive this object.

@@ -35,7 +35,9 @@ bool hasPose(const Snapshot& snapshot, std::uint32_t body) {
 void checkHasCollision(const ModelReport& models, const std::string& name) {
   const std::vector<std::string>& bare = models.without_collision;
   if (std::find(bare.begin(), bare.end(), name) == bare.end()) return;
-  throw Refusal(Code::unknown_id, "link '" + name + "' has no <collision>: its extent is unknown, so it is in no pair");
+  throw Refusal(Code::unknown_id,
+                "link '" + name +
+                    "' has no <collision>: its extent is unknown, so it is in no pair; add one, or set ~use_visual");
 }
 
 /// Returns a response in which all values are unknown.

@@ -11,8 +11,8 @@
 
 namespace hgrid {
 
-/// Serves ~explain_pair from the newest tick. Any number of threads may serve requests at the same time. None of them
-/// waits for a tick.
+/// Serves ~explain_pair from the newest tick. Any number of threads may serve requests at the same time. No
+/// request waits for a tick.
 class ExplainService {
  public:
   /// `envelope` and `params` must outlive this object.

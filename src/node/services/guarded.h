@@ -9,15 +9,15 @@
 
 namespace hgrid {
 
-/// Calls `deed`, which is the content of a callback. Every callback that roscpp, a timer or a tick calls must use this
-/// function, because an exception that leaves a callback ends the process.
+/// Calls `work`, the function that does all the work of a callback. Every callback of roscpp, of a timer or of a tick
+/// must do its work in this way, because an exception that leaves a callback ends the process.
 ///
 /// An exception of any type is counted as "<where>.<CODE>" and logged (see Ledger::fault()).
-/// @returns why the deed failed; nullopt if it did not throw
-template <class Deed>
-std::optional<Refusal> guarded(Ledger& ledger, const char* where, Deed&& deed) noexcept {
+/// @returns why the work failed; nullopt if it did not throw
+template <class Work>
+std::optional<Refusal> guarded(Ledger& ledger, const char* where, Work&& work) noexcept {
   try {
-    std::forward<Deed>(deed)();
+    std::forward<Work>(work)();
     return std::nullopt;
   } catch (...) {
     return ledger.fault(where);

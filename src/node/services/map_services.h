@@ -16,7 +16,7 @@
 namespace hgrid {
 
 /// Serves ~load_octomap and ~clear_map. The thread that serves a request reads the map, while ticks continue with the
-/// old map. A tick only takes over the new map.
+/// old map. A tick only replaces the old map by the finished one.
 class MapServices {
  public:
   /// Called after a map was loaded or removed; an empty name means all maps. The callee must drop older loads of this

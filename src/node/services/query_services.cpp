@@ -8,7 +8,9 @@
 #include <optional>
 #include <utility>
 
+#include "bodies/nearest_names.h"
 #include "hgrid_proximity/bodies/name.h"
+#include "hgrid_proximity/pairs/pair_rule.h"
 #include "hgrid_proximity/queries/query.h"
 #include "node/messages/from_messages.h"
 #include "node/messages/snapshot_stamp.h"
@@ -17,7 +19,7 @@
 namespace hgrid {
 namespace {
 
-constexpr std::size_t kMostPatterns = 256, kLongestPattern = 512;  // number, [bytes]
+constexpr std::size_t kMostPatterns = 256, kLongestPattern = 512;  // patterns in a request; bytes in a pattern
 
 msg::Hit toMsg(const QueryHit& source, const Snapshot& snapshot, const Pose& frame_from_world, double age_since) {
   msg::Hit hit;
@@ -40,8 +42,8 @@ msg::Hit toMsg(const QueryHit& source, const Snapshot& snapshot, const Pose& fra
   return hit;
 }
 
-/// Returns what the summary of a CLEAR answer adds if the world is not complete: the sources that are not complete.
-/// They do not affect the verdict.
+/// Returns the end of the summary of a CLEAR answer: it names sources that are not complete but do not affect the
+/// verdict. Empty if the world is complete.
 std::string elsewhere(const Snapshot& snapshot) {
   if (snapshot.complete()) return "";
   const std::vector<std::string>& sources = snapshot.incompleteSources();
@@ -79,12 +81,12 @@ void checkPatterns(const std::vector<std::string>& patterns) {
 /// Returns the index of the body of this name. @throws Refusal unknown_id
 std::uint32_t indexOf(const Snapshot& snapshot, const std::string& name) {
   const std::uint32_t body = snapshot.structure().find(name);
-  if (body == Structure::kNone) throw Refusal(Code::unknown_id, "there is no body '" + printable(name) + "'");
+  if (body == Structure::kNone) throw Refusal(Code::unknown_id, noSuchBody(name, snapshot.structure().bodies));
   return body;
 }
 
-/// Returns the name of the body whose allowed pairs a request may respect: as_body. If that is empty, query_nearest
-/// uses the body that it asks from.
+/// Returns the name of the body whose allowed pairs respect_allowed leaves out: as_body. If as_body is empty in a
+/// request of query_nearest, this is the body from which the query measures.
 template <class Request>
 std::string asBody(const Request& request) {
   return request.as_body;
@@ -116,8 +118,10 @@ std::size_t asked(const QueryScope& scope, const Snapshot& snapshot) {
         std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) { return matches(pattern, body.name); });
     const bool awaited = std::any_of(gaps.begin(), gaps.end(),
                                      [&](const SourceGap& gap) { return canMatchTogether(pattern, gap.bodies); });
-    if (!known && !awaited)
-      throw Refusal(Code::unknown_id, "no body matches the glob '" + printable(pattern) + "' of include");
+    if (!known && !awaited) {
+      throw Refusal(Code::unknown_id, "no body matches the glob '" + printable(pattern) + "' of include" +
+                                          (isGlob(pattern) ? "" : similarNames(pattern, bodies)));
+    }
   }
   std::size_t count = 0;
   for (std::uint32_t body = 0; body < bodies.size(); ++body) count += inScope(snapshot, scope, body) ? 1 : 0;
@@ -191,7 +195,7 @@ void QueryServices::answer(ServiceCall<Service>& call, const Ask& ask) const {
   result.truncated = found.total > found.hits.size();
 }
 
-/// Returns the options that all kinds of query have in common: the bodies that they ask about and how to answer.
+/// Reads the options that all kinds of query have in common: which bodies they ask about, and how to answer.
 template <class Request>
 QueryScope QueryServices::scopeOf(const Request& request, const Snapshot& snapshot) const {
   const auto most = static_cast<std::uint32_t>(params_.max_hits);
@@ -200,8 +204,10 @@ QueryScope QueryServices::scopeOf(const Request& request, const Snapshot& snapsh
   scope.deadline = deadlineOf(request.max_time);
   if (request.respect_allowed) {
     if (asBody(request).empty()) {
-      throw Refusal(Code::bad_id,
-                    "respect_allowed is true but as_body is empty; it must name the body whose allowed pairs count");
+      throw Refusal(
+          Code::bad_id,
+          "respect_allowed is true but as_body is empty; set as_body to the body whose allowed pairs are to be left "
+          "out");
     }
     scope.respect_allowed = indexOf(snapshot, asBody(request));
   }

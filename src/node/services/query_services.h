@@ -20,7 +20,7 @@
 namespace hgrid {
 
 /// Serves ~query_sphere, ~query_segment, ~query_box, ~query_shape and ~query_nearest from the newest tick. Any number
-/// of threads may serve requests at the same time. None of them waits for a tick.
+/// of threads may serve requests at the same time. No request waits for a tick.
 class QueryServices {
  public:
   /// All objects that are passed by reference must outlive this object.
@@ -30,7 +30,8 @@ class QueryServices {
                 std::shared_ptr<NarrowPhase> narrow_phase, QuerySketch& sketch);
 
  private:
-  /// What every query has: the snapshot that answers it, the frame of its geometry, and the bodies that it asks about.
+  /// What all kinds of query have: the snapshot that answers it, the frame of its geometry, and the bodies that it asks
+  /// about.
   struct Question {
     const Snapshot& snapshot;
     Pose world_from_frame;

@@ -89,7 +89,9 @@ void CloudSource::take(const CloudMessage& message) {
   }
   const std::shared_ptr<const Tick> tick = newest_();
   if (!tick || tick->world_frame.empty()) {
-    throw Refusal(Code::not_ready, what_ + " cannot be placed yet: there is no world frame");
+    throw Refusal(
+        Code::not_ready,
+        what_ + " cannot be placed yet: the world frame is not known; load the first robot or set ~world_frame");
   }
   const Time now = rosNow();
   const Time given(static_cast<std::int64_t>(message.stamp.toNSec()));
@@ -120,9 +122,10 @@ void CloudSource::take(const CloudMessage& message) {
   if (seen || loaded_.cells) put();
   if (!seen) {
     throw Refusal(Code::out_of_range,
-                  what_ + " has a message with " + std::to_string(points) + " finite points; min_points is " +
+                  "a message of " + what_ + " has " + std::to_string(points) + " finite points; it needs at least " +
                       std::to_string(cloud_.min_points) +
-                      ", so it does not keep the cloud fresh (if it should, set empty: clear for this cloud)");
+                      " (min_points) to count as new data; if few points mean free space, set 'empty' of this cloud to "
+                      "'clear'");
   }
 }
 

@@ -51,7 +51,8 @@ LoadedMap MapSource::finished(ReadMap map) const {
   try {
     return built(std::move(map));
   } catch (const std::bad_alloc&) {
-    throw Refusal(Code::limit, "map '" + map.params.name + "' does not fit into the memory that is left");
+    throw Refusal(Code::limit, "map '" + map.params.name +
+                                   "' does not fit into the memory that is left; use a smaller or coarser map");
   }
 }
 

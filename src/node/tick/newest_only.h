@@ -18,7 +18,7 @@ class NewestOnly {
  public:
   /// @param work  called on the thread for each value that is not dropped; must not throw
   explicit NewestOnly(std::function<void(const Value&)> work) : work_(std::move(work)), thread_([this] { run(); }) {}
-  /// Waits until the work that has begun is done. Drops the value that waits.
+  /// Waits until the work that has begun is done. Drops a value that still waits.
   ~NewestOnly() {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -60,7 +60,7 @@ class NewestOnly {
   std::condition_variable changed_;
   std::optional<Value> waiting_;  // guarded by mutex_
   bool ends_ = false;             // guarded by mutex_
-  std::thread thread_;            // the last member, because it uses the others
+  std::thread thread_;            // declared last, because it uses the members above
 };
 
 }  // namespace hgrid

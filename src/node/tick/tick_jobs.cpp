@@ -36,7 +36,8 @@ void TickJobs::run(const Job& job) {
   struct Request {
     std::atomic<State> state{State::waiting};
     std::promise<void> done;
-    /// Returns whether the request was still waiting. Only one of the two threads can end that.
+    /// If the request is waiting, sets its state to `next` and returns true. Two threads may try, but only one
+    /// succeeds.
     bool leaveWaiting(State next) {
       State expected = State::waiting;
       return state.compare_exchange_strong(expected, next);
@@ -57,7 +58,7 @@ void TickJobs::run(const Job& job) {
   while (result.wait_for(std::min(kPause, patience_)) != std::future_status::ready) {
     const bool ending = is_ending_();
     if (!ending && std::chrono::steady_clock::now() <= deadline) continue;
-    if (!request->leaveWaiting(State::withdrawn)) continue;  // a tick is doing it now
+    if (!request->leaveWaiting(State::withdrawn)) continue;  // a tick is doing the job now
     throw Refusal(Code::busy, ending ? "the node is shutting down; it makes no more changes"
                                      : "no tick has started within " + secondsOf(patience_) +
                                            "; this change will not be made: request it again");

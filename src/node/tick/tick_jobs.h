@@ -20,7 +20,8 @@ class TickJobs {
   using Job = std::function<void(World&)>;
 
   /// @param is_ending  returns whether the node is shutting down; threads that wait in run() call it
-  /// @param patience   how long run() waits for a tick to start the job; ticks take milliseconds, so a timeout means that the tick thread hangs
+  /// @param patience   how long run() waits for a tick to start the job; ticks take milliseconds, so a timeout means
+  /// that the tick thread hangs
   explicit TickJobs(
       std::function<bool()> is_ending = [] { return false; },
       std::chrono::milliseconds patience = std::chrono::seconds(10));
@@ -29,13 +30,13 @@ class TickJobs {
   void add(Job job);
   /// Adds a job and waits until a tick has done it. Any thread except the tick thread may call this.
   /// @throws whatever the job throws; Refusal busy if no tick starts the job in time, or if the node is shutting down.
-  /// After that no tick does the job.
+  /// After a Refusal busy, no tick does the job.
   void run(const Job& job);
 
   /// Does all waiting jobs. Only the tick thread may call this.
   ///
-  /// If a job of add() throws, `ledger` counts it as "job.failed.<CODE>", and the next call does it again. Otherwise
-  /// its change to the world would be lost. The other jobs are still done.
+  /// If a job of add() throws, `ledger` counts it as "job.failed.<CODE>", and the next call does it again, because its
+  /// change of the world must not be lost. The other jobs are still done.
   void doAll(World& world, Ledger& ledger);
 
  private:

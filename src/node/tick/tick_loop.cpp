@@ -38,9 +38,9 @@ void TickLoop::start(std::vector<Step> steps) {
 
 std::shared_ptr<const Tick> TickLoop::tickAfter(const TickJobs::Job& job) {
   jobs_.run(job);
-  // When a second job runs in the next tick, the tick that did the first job is published.
-  const auto tick =
-      std::make_shared<std::shared_ptr<const Tick>>();  // shared, because run() may give up before the job is done
+  // A job runs before its tick is complete. The second job runs in a later tick. Then the tick of the first job has
+  // been published.
+  const auto tick = std::make_shared<std::shared_ptr<const Tick>>();  // shared: run() may end before the job is done
   jobs_.run([this, tick](World&) { *tick = newest(); });
   return *tick;
 }

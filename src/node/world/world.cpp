@@ -109,7 +109,11 @@ void World::setRobot(LoadedRobot loaded) {
 
 void World::setMap(const LoadedMap& map) {
   const std::string what = "map '" + map.params.name + "'";
-  if (!findWorldFrame()) throw Refusal(Code::not_ready, what + " cannot be placed yet: there is no world frame");
+  if (!findWorldFrame()) {
+    throw Refusal(
+        Code::not_ready,
+        what + " cannot be placed yet: the world frame is not known; load the first robot or set ~world_frame");
+  }
   const SourceId source = SourceId::ofMap(map.params.name);
   if (!maps_.has(source) && maps_.size() >= static_cast<std::size_t>(params_.max_maps)) {
     throw Refusal(Code::limit, what + " would be one map too many; ~max_maps is " + std::to_string(params_.max_maps) +

@@ -84,12 +84,20 @@ TEST_F(QueryDoor, PatternsThatMatchNoBodyAreRefused) {
     return node_->ask(request);
   };
   expectRefused(ask({"no_such/*"}, {}), "UNKNOWN_ID", "no body matches the glob 'no_such/*' of include");
-  expectRefused(ask({"obstacle/post", "obstacle/pots"}, {}), "UNKNOWN_ID", "no body matches the glob 'obstacle/pots'");
+  expectRefused(ask({"obstacle/post", "obstacle/pots"}, {}), "UNKNOWN_ID",
+                "no body matches the glob 'obstacle/pots' of include; similar names are 'obstacle/post'");
   expectRefused(ask({""}, {}), "UNKNOWN_ID", "no body matches the glob ''");
   expectRefused(ask({}, {"*"}), "UNKNOWN_ID", "exclude leaves out all bodies");
   const auto clear = ask({"obstacle/*"}, {"nobody"}).answer;
   EXPECT_EQ(clear.verdict, msg::Verdict::CLEAR);
   EXPECT_EQ(clear.summary, "CLEAR: none of the 1 requested bodies is there");
+}
+
+TEST_F(QueryDoor, AMisspelledBodyIsRefusedWithSimilarNames) {
+  msg::QuerySphere::Request request;
+  request.respect_allowed = true;
+  request.as_body = "post";
+  expectRefused(node_->ask(request), "UNKNOWN_ID", "there is no body 'post'; similar names are 'obstacle/post'");
 }
 
 TEST_F(QueryDoor, AFrameThatNobodyKnowsIsRefused) {
@@ -108,7 +116,7 @@ TEST_F(QueryDoor, AStampOtherThanThatOfTheTickIsRefused) {
     SCOPED_TRACE(shift);
     request.header.stamp = stamp + ros::Duration(shift);
     const std::string range = std::to_string(stamp.sec) + ".";
-    expectRefused(node_->ask(request), "EXTRAPOLATION", "available is " + range);
+    expectRefused(node_->ask(request), "EXTRAPOLATION", "the node stores only the tick of " + range);
   }
 }
 

@@ -105,7 +105,8 @@ TEST(AnswerTick, RefusesToGiveASnapshotThatDoesNotExist) {
     }
     return "OK";
   };
-  EXPECT_EQ(refusal(AnswerTick(nullptr)), "NOT_READY there is no world yet: the node has not computed its first tick");
+  EXPECT_EQ(refusal(AnswerTick(nullptr)),
+            "NOT_READY there is no world yet: the node has not computed its first tick; ask again");
   EXPECT_EQ(refusal(AnswerTick(tickOf(nullptr))), "NOT_READY there is no world yet: NOT_READY: no frame");
 }
 

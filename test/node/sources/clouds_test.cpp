@@ -123,7 +123,7 @@ TEST_F(Clouds, WithoutFinitePointsDoNotKeepTheCloudFresh) {
     const Answer answer = askedAt(0.05, 0.05, 3.05);
     EXPECT_EQ(answer.verdict, msg::Verdict::UNKNOWN) << "the wall may still be there";
     EXPECT_EQ(answer.unknown_because, msg::UnknownReason::INCOMPLETE);
-    EXPECT_TRUE(says(answer.summary, "finite points; min_points is 1"));
+    EXPECT_TRUE(says(answer.summary, "finite points; it needs at least 1 (min_points)"));
   }
 }
 

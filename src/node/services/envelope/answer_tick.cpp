@@ -14,7 +14,8 @@ AnswerTick::AnswerTick(std::shared_ptr<const Tick> tick) : tick_(std::move(tick)
 }
 
 const Snapshot& AnswerTick::snapshot() const {
-  if (!tick_) throw Refusal(Code::not_ready, "there is no world yet: the node has not computed its first tick");
+  if (!tick_)
+    throw Refusal(Code::not_ready, "there is no world yet: the node has not computed its first tick; ask again");
   if (!tick_->snapshot) throw Refusal(Code::not_ready, "there is no world yet: " + tick_->not_ready.front());
   return *tick_->snapshot;
 }

@@ -59,7 +59,7 @@ void writeTick(const AnswerTick& tick, const Settings& settings, Response& respo
   }
 }
 
-/// Writes that the request succeeded. The envelope calls this before the deed, which may add a sentence to the code.
+/// Writes that the request succeeded. The envelope calls this before the work, which may add a sentence to the code.
 template <class Response>
 void writeSuccess(Response& response) {
   if constexpr (HasAnswer<Response>::value) {

@@ -20,22 +20,22 @@
 
 namespace hgrid {
 
-/// One request of the service type `Service`, with all that a deed needs.
+/// One request of the service type `Service`, with all that a work needs.
 template <class Service>
 struct ServiceCall {
   const typename Service::Request& request;
   typename Service::Response& response;
   std::string caller;  ///< name of the node that sent the request, made safe for logs and messages
-  AnswerTick& tick;    ///< the newest tick. A deed that changes the world assigns the first tick with the change.
+  AnswerTick& tick;    ///< the newest tick. A work that changes the world assigns the first tick with the change.
 };
 
 /// Answers the requests of all services in one way.
 ///
-/// A deed is the function that does the work of one service. For every request, the envelope
+/// A work is the function that does the work of one service. For every request, the envelope
 /// - takes the newest tick,
 /// - checks that the bytes of the request are a valid message,
 /// - fills `header`, `world` and `success` of the response,
-/// - turns a Refusal or any other exception of the deed into a code,
+/// - turns a Refusal or any other exception of the work into a code,
 /// - counts "<counter>.asked", "<counter>.refused.<CODE>" and "<counter>.failed.<CODE>".
 ///
 /// Callbacks run on the threads that serve the queue of the node handle.
@@ -43,7 +43,7 @@ class ServiceEnvelope {
  public:
   using NewestTick = std::function<std::shared_ptr<const Tick>()>;
   template <class Service>
-  using Deed = std::function<void(ServiceCall<Service>&)>;
+  using Work = std::function<void(ServiceCall<Service>&)>;
 
   /// @param private_node  node handle whose namespace contains the services
   /// All other parameters must outlive the servers.
@@ -55,20 +55,20 @@ class ServiceEnvelope {
   /// Advertises the service `name`. The names of its counters begin with its name.
   /// @returns the server, which must not outlive this object
   template <class Service>
-  ros::ServiceServer serve(const std::string& name, Deed<Service> deed) {
-    return serve<Service>(name, name, std::move(deed));
+  ros::ServiceServer serve(const std::string& name, Work<Service> work) {
+    return serve<Service>(name, name, std::move(work));
   }
   /// As above.
   /// @param counter  the names of the counters begin with this
   /// @param blank    the response that each request starts with, before anything is known
   template <class Service>
-  ros::ServiceServer serve(const std::string& name, const std::string& counter, Deed<Service> deed,
+  ros::ServiceServer serve(const std::string& name, const std::string& counter, Work<Service> work,
                            const typename Service::Response& blank = {}) {
     using Event = ros::ServiceEvent<Checked<typename Service::Request>, typename Service::Response>;
-    const boost::function<bool(Event&)> callback = [this, deed, blank, counters = Counters(counter)](Event& event) {
+    const boost::function<bool(Event&)> callback = [this, work, blank, counters = Counters(counter)](Event& event) {
       const auto answered = [&] {
         event.getResponse() = blank;
-        answer<Service>(event, counters, deed);
+        answer<Service>(event, counters, work);
       };
       return !guarded(ledger_, counters.failed.c_str(), answered);  // false: roscpp reports a failed call
     };
@@ -83,7 +83,7 @@ class ServiceEnvelope {
   };
 
   template <class Service, class Event>
-  void answer(const Event& event, const Counters& counters, const Deed<Service>& deed) const {
+  void answer(const Event& event, const Counters& counters, const Work<Service>& work) const {
     typename Service::Response& response = event.getResponse();
     ledger_.count(counters.asked);
     AnswerTick tick(newest_());
@@ -92,7 +92,7 @@ class ServiceEnvelope {
     try {
       ServiceCall<Service> call{event.getRequest().value(), response, printable(event.getCallerName()), tick};
       writeSuccess(response);
-      deed(call);
+      work(call);
     } catch (const Refusal& refusal) {
       writeRefusal(refusal, false, response);
       ledger_.refuse(counters.refused, refusal);
