@@ -185,6 +185,13 @@ def node_maps(figures):
     return '\n\n'.join(tables)
 
 
+def mesh_times(record, field):
+    if record is None:
+        return '–'
+    times = '%s / %s' % (short(record['hgrid' + field]), short(record['fcl' + field]))
+    return times + ('' if record['correct'] else ' ✗')
+
+
 def meshes(figures):
     """One row per pair of meshes, one column per distance and kind of search. Then a row per winding number."""
     found = figures.all('mesh')
@@ -192,9 +199,7 @@ def meshes(figures):
     rows = []
     for first, second in dict.fromkeys((record['first'], record['second']) for record in found):
         records = [figures.one('mesh', first=first, second=second, gap=gap) for gap in gaps]
-        cells = ['–' if record is None else '%s / %s%s' % (short(record['hgrid' + field]), short(record['fcl' + field]),
-                                                          '' if record['correct'] else ' ✗')
-                 for field in ('_us', '_limited_us') for record in records]
+        cells = [mesh_times(record, field) for field in ('_us', '_limited_us') for record in records]
         rows.append(['%s, %s' % (first, second)] + cells)
     heads = ['%g m%s' % (gap, kind) for kind in ('', ', with a limit') for gap in gaps]
     text = table(['µs, hgrid / FCL'] + heads, rows)

@@ -104,12 +104,17 @@ class BoxSearch {
     std::array<std::uint32_t, 4> keys;
     std::memcpy(keys.data(), &gaps, sizeof(keys));
     for (std::uint32_t i = 0; i < 4; ++i) keys[i] = (keys[i] & ~3u) | i;
-    // A sorting network, the largest first. Branches would be mispredicted.
-    for (const auto& [i, k] : {std::pair{0u, 1u}, {2u, 3u}, {0u, 2u}, {1u, 3u}, {1u, 2u}}) {
+    const auto sort = [&keys](std::size_t i, std::size_t k) {
       const std::uint32_t less = std::min(keys[i], keys[k]), more = std::max(keys[i], keys[k]);
       keys[i] = more;
       keys[k] = less;
-    }
+    };
+    // A sorting network, the largest first. Branches would be mispredicted.
+    sort(0, 1);
+    sort(2, 3);
+    sort(0, 2);
+    sort(1, 3);
+    sort(1, 2);
     for (const std::uint32_t key : keys) {
       if (key <= limit_key_ && (key & 3u) < static_cast<Child>(node.count)) waiting_[count_++] = make(key, key & 3u);
     }

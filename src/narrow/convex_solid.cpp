@@ -28,10 +28,29 @@ ConvexCore coreOf(const Shape& shape) {
   throw std::invalid_argument("ConvexSolid: the shape is a mesh; it must be convex, for example the hull of the mesh");
 }
 
+/// Returns a tree with one box, that of the core.
+BoxTree boxAround(const ConvexCore& core) {
+  Eigen::Vector3d low, high;
+  for (int axis = 0; axis < 3; ++axis) {
+    low[axis] = core.support(-Eigen::Vector3d::Unit(axis))[axis];
+    high[axis] = core.support(Eigen::Vector3d::Unit(axis))[axis];
+  }
+  BoxTree tree;
+  tree.center = 0.5 * (low + high);
+  tree.reach = 0.5 * (high - low).norm();
+  tree.nodes.resize(1);
+  addChild(tree.nodes[0], Eigen::Matrix3d::Identity(), low - tree.center, high - tree.center, ~0);
+  return tree;
+}
+
 }  // namespace
 
-ConvexSolid::ConvexSolid(const Shape& shape) : OrderedSolid(shape), core_(coreOf(shape)), is_shape_(true) {
+ConvexSolid::ConvexSolid(const Shape& shape)
+    : OrderedSolid(shape), core_(coreOf(shape)), box_(boxAround(core_)), is_shape_(true) {
   if (shape.kind() == ShapeKind::hull) some_point_ = shape.mesh()->vertices.front();
 }
+
+ConvexSolid::ConvexSolid(const ConvexCore& core, const std::vector<double>& size)
+    : OrderedSolid(size, core.reach()), core_(core), box_(boxAround(core)) {}
 
 }  // namespace hgrid

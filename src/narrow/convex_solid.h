@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "narrow/box_tree.h"
 #include "narrow/gjk.h"
 #include "narrow/ordered_solid.h"
 
@@ -15,10 +16,11 @@ class ConvexSolid : public OrderedSolid {
   /// @param shape  must not be a mesh
   explicit ConvexSolid(const Shape& shape);
   /// Creates a solid for queries: a point, a needle or a block. OrderedSolid::before() compares `size`.
-  ConvexSolid(const ConvexCore& core, const std::vector<double>& size)
-      : OrderedSolid(size, core.reach()), core_(core) {}
+  ConvexSolid(const ConvexCore& core, const std::vector<double>& size);
 
   const ConvexCore& core() const { return core_; }
+  /// Returns a tree with one box, that of the core.
+  const BoxTree& box() const { return box_; }
   /// Returns a point of the core, in the frame of the shape [m].
   const Eigen::Vector3d& somePoint() const { return some_point_; }
   /// Whether it was created from a Shape, not for a query. Nobody reads the details of contacts with query solids, so
@@ -27,6 +29,7 @@ class ConvexSolid : public OrderedSolid {
 
  private:
   ConvexCore core_;
+  BoxTree box_;
   Eigen::Vector3d some_point_ = Eigen::Vector3d::Zero();
   bool is_shape_ = false;
 };

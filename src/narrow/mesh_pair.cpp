@@ -13,6 +13,8 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
+// A closed mesh winds around a point 0 times or a whole number of times, so rounding cannot matter at one half.
+constexpr double kInside = 0.5;
 constexpr double kMaybeInside = 0.25;  // an open mesh may enclose a point with at least this winding number
 
 bool isMesh(const Side& side) { return side.solid.kind() == ShapeKind::mesh; }
@@ -24,7 +26,7 @@ const ConvexSolid& convexOf(const Side& side) { return static_cast<const ConvexS
 CoreGap gapOfMesh(const Side& mesh, const Side& other, const Pose& mesh_from_other, double up_to) {
   const MeshTree& tree = meshOf(mesh).tree();
   return isMesh(other) ? tree.gapTo(meshOf(other).tree(), mesh_from_other, up_to)
-                       : tree.gapTo(convexOf(other).core(), mesh_from_other, up_to);
+                       : tree.gapTo(convexOf(other), mesh_from_other, up_to);
 }
 
 /// Whether the core of one solid is inside the other, and a point of the inner core.
@@ -51,7 +53,7 @@ Enclosed enclosedBy(const Side& outer, const Side& inner, const Pose& outer_from
   result.crossing = inner.around - outer.around;  // the padding of the outer solid moves its surface away
   if (!isMesh(outer)) return result;              // the gap to a filled convex solid would have been 0
   const Enclosure& enclosure = meshOf(outer).enclosure();
-  const double least = enclosure.closed() ? 0.5 : kMaybeInside;
+  const double least = enclosure.closed() ? kInside : kMaybeInside;
   const bool inside = anyPart(inner, [&](const Vector* begin, const Vector* end) {
     const auto in_box = [&](const Vector& point) { return enclosure.boxHolds(outer_from_inner * point); };
     result.point = outer_from_inner * *begin;
@@ -99,7 +101,7 @@ std::vector<Contact> contactsOfMesh(const Side& mesh, const Side& other, std::si
   if (isMesh(other)) {
     meshOf(mesh).tree().meetings(meshOf(other).tree(), mesh_from_other, reach, met);
   } else {
-    meshOf(mesh).tree().meetings(convexOf(other).core(), mesh_from_other, reach, met);
+    meshOf(mesh).tree().meetings(convexOf(other), mesh_from_other, reach, met);
   }
   if (!contacts.empty()) return contacts;
   const Enclosed inside = enclosed(mesh, other, mesh_from_other);

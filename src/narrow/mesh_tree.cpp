@@ -6,11 +6,10 @@
 #include <limits>
 
 #include "narrow/box_search.h"
+#include "narrow/gjk.h"
 
 namespace hgrid {
 namespace {
-
-using Vector = Eigen::Vector3d;
 
 std::vector<Triangle> trianglesOf(const TriangleMesh& mesh) {
   std::vector<Triangle> triangles;
@@ -21,29 +20,14 @@ std::vector<Triangle> trianglesOf(const TriangleMesh& mesh) {
   return triangles;
 }
 
-/// Returns a tree with one box, that of a convex core.
-BoxTree boxTreeOf(const ConvexCore& core) {
-  Vector low, high;
-  for (int axis = 0; axis < 3; ++axis) {
-    low[axis] = core.support(-Vector::Unit(axis))[axis];
-    high[axis] = core.support(Vector::Unit(axis))[axis];
-  }
-  BoxTree tree;
-  tree.center = 0.5 * (low + high);
-  tree.reach = 0.5 * (high - low).norm();
-  tree.nodes.resize(1);
-  addChild(tree.nodes[0], Eigen::Matrix3d::Identity(), low - tree.center, high - tree.center, ~0);
-  return tree;
-}
-
 /// Measures a triangle of the mesh and a convex core, in the frame of the mesh.
 struct CoreMeter {
   CoreGap operator()(std::size_t i, std::size_t, double enough) const {
-    return gapOf(ConvexCore::hull(triangles[i].data(), 3), core, mesh_from_core, enough);
+    return gapOf(ConvexCore::hull(triangles[i].data(), 3), core, mesh_from_solid, enough);
   }
   const std::vector<Triangle>& triangles;
   const ConvexCore& core;
-  const Pose& mesh_from_core;
+  const Pose& mesh_from_solid;
 };
 
 /// Measures two triangles of two meshes, in the frame of the first.
@@ -89,11 +73,11 @@ void allMeetings(BoxSearch search, const Meter& measure, double reach, const Mes
 
 }  // namespace
 
-MeshTree::MeshTree(const TriangleMesh& mesh) : triangles_(trianglesOf(mesh)), boxes_(hgrid::boxTreeOf(triangles_)) {}
+MeshTree::MeshTree(const TriangleMesh& mesh) : triangles_(trianglesOf(mesh)), boxes_(boxTreeOf(triangles_)) {}
 
-CoreGap MeshTree::gapTo(const ConvexCore& core, const Pose& mesh_from_core, double up_to) const {
-  const BoxTree box = boxTreeOf(core);
-  return leastGap(BoxSearch(boxes_, box, mesh_from_core), CoreMeter{triangles_, core, mesh_from_core}, up_to);
+CoreGap MeshTree::gapTo(const ConvexSolid& solid, const Pose& mesh_from_solid, double up_to) const {
+  return leastGap(BoxSearch(boxes_, solid.box(), mesh_from_solid), CoreMeter{triangles_, solid.core(), mesh_from_solid},
+                  up_to);
 }
 
 CoreGap MeshTree::gapTo(const MeshTree& other, const Pose& mesh_from_other, double up_to) const {
@@ -101,9 +85,9 @@ CoreGap MeshTree::gapTo(const MeshTree& other, const Pose& mesh_from_other, doub
                   TriangleMeter(triangles_, boxes_, other.triangles_, other.boxes_, mesh_from_other), up_to);
 }
 
-void MeshTree::meetings(const ConvexCore& core, const Pose& mesh_from_core, double reach, const Met& met) const {
-  const BoxTree box = boxTreeOf(core);
-  allMeetings(BoxSearch(boxes_, box, mesh_from_core), CoreMeter{triangles_, core, mesh_from_core}, reach, met);
+void MeshTree::meetings(const ConvexSolid& solid, const Pose& mesh_from_solid, double reach, const Met& met) const {
+  allMeetings(BoxSearch(boxes_, solid.box(), mesh_from_solid), CoreMeter{triangles_, solid.core(), mesh_from_solid},
+              reach, met);
 }
 
 void MeshTree::meetings(const MeshTree& other, const Pose& mesh_from_other, double reach, const Met& met) const {

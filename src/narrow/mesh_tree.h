@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "narrow/box_tree.h"
-#include "narrow/gjk.h"
+#include "narrow/convex_solid.h"
 #include "narrow/triangle_gap.h"
 
 namespace hgrid {
@@ -20,16 +20,16 @@ class MeshTree {
   /// @param mesh  must have at least one triangle
   explicit MeshTree(const TriangleMesh& mesh);
 
-  /// Returns the gap between the triangles and a convex core, with points in the frame of the mesh. It is infinite if
-  /// it is larger than `up_to` [m].
-  CoreGap gapTo(const ConvexCore& core, const Pose& mesh_from_core, double up_to) const;
+  /// Returns the gap between the triangles and the core of a convex solid, with points in the frame of the mesh. It is
+  /// infinite if it is larger than `up_to` [m].
+  CoreGap gapTo(const ConvexSolid& solid, const Pose& mesh_from_solid, double up_to) const;
   /// Returns the gap between the triangles of two meshes, in the same way.
   CoreGap gapTo(const MeshTree& other, const Pose& mesh_from_other, double up_to) const;
 
   /// Receives the gap of two parts, in the frame of this mesh. @returns whether the search should continue
   using Met = std::function<bool(const CoreGap&)>;
-  /// Calls `met` for each triangle that is within `reach` [m] of the core, until a call returns false.
-  void meetings(const ConvexCore& core, const Pose& mesh_from_core, double reach, const Met& met) const;
+  /// Calls `met` for each triangle that is within `reach` [m] of the core of the solid, until a call returns false.
+  void meetings(const ConvexSolid& solid, const Pose& mesh_from_solid, double reach, const Met& met) const;
   /// Calls `met` for each triangle of this mesh and each triangle of the other mesh that are within `reach` [m] of each
   /// other, until a call returns false.
   void meetings(const MeshTree& other, const Pose& mesh_from_other, double reach, const Met& met) const;

@@ -139,6 +139,12 @@ TEST(MeshTree, FindsTheDistanceOfMeshesThatTouch) {
   }
 }
 
+TEST(MeshTree, FindsTheDistanceOfMeshesWithTheSameCenter) {
+  EXPECT_NEAR(compare(boxMesh({1, 1, 1}), boxMesh({0.5, 0.5, 0.5}), Pose::Identity()), 0.25, 1e-15);
+  const TriangleMesh triangle{{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+  EXPECT_EQ(compare(triangle, triangle, Pose::Identity()), 0.0);
+}
+
 TEST(MeshTree, IsExactFarFromTheOriginOfTheMesh) {
   Random random(3);
   for (int i = 0; i < 50; ++i) {
@@ -177,7 +183,7 @@ TEST(MeshTree, FindsTheDistanceToAConvexCore) {
                                                  Eigen::Vector3d(0.3, 0.2, 0.5),
                                                  Eigen::Vector3d(random.uniform(-1, 1), 0.1, 0.4)};
     const Pose pose = randomPose(random, 2.0);
-    const CoreGap gap = MeshTree(mesh).gapTo(ConvexCore::hull(corners.data(), 3), pose, kInfinity);
+    const CoreGap gap = MeshTree(mesh).gapTo(ConvexSolid(ConvexCore::hull(corners.data(), 3), {}), pose, kInfinity);
     const double expected = bruteForceDistance(mesh, {{corners[0], corners[1], corners[2]}, {{0, 1, 2}}}, pose);
     EXPECT_NEAR(gap.upper, expected, 2e-9);
   }
