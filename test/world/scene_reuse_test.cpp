@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "hgrid_proximity/narrow/convex_narrow_phase.h"
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "test/support/maps.h"
 #include "test/support/random.h"
 #include "test/support/scenes.h"
@@ -82,7 +82,7 @@ TEST(SceneReuse, ASnapshotThatWasUsedBeforeSaysWhatANewOneWould) {
 }
 
 TEST(SceneReuse, SnapshotsThatNobodyReadsKeepNeitherOldMapsNorOldBodies) {
-  const auto narrow_phase = makeConvexNarrowPhase();
+  const auto narrow_phase = makeCoreNarrowPhase();
   Scene scene{SceneOptions{}};
   Body tool = test::ball("tool");
   tool.shapes[0].solid = narrow_phase->solidOf(tool.shapes[0].shape);
