@@ -220,6 +220,7 @@ TEST(Shutdown, KeepsIgnoringHangupsUnderNohup) {
 TEST(Shutdown, IsLoggedAndHasExitCode3IfAnotherNodeTakesTheName) {
   NodeUnderTest first(setupOfWorld());
   const std::string name = first.space() + "/proximity";
+  first.waitForTicks(1);  // if the first node still registered topics, the master would end the second node
   ChildProcess second({HGRID_NODE, "__ns:=" + first.space(), "__name:=proximity"}, "/dev/null", {});
   EXPECT_EQ(first.process().waitForEnd(20.0).value_or(-1), 3);
   EXPECT_EQ(first.lines("Another node has registered under the name '" + name + "'"), 1u) << first.output();
