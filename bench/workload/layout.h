@@ -23,7 +23,7 @@ struct Layout {
   std::vector<Walker> walkers;          ///< one per box, moves the box
   std::vector<Walker> bases;            ///< one per robot, moves its base; empty: no robots
   std::vector<Eigen::Vector3f> rests;   ///< [m] rest positions by box; empty if there are none
-  std::vector<Eigen::Vector3f> halves;  ///< [m] half edges by box
+  std::vector<Eigen::Vector3f> halves;  ///< [m] for each box: half of its edge lengths
 
   Layout() = default;
   Layout(Layout&&) = default;

@@ -122,7 +122,7 @@ class LineSearch {
   /// less than 2^-20 of the edge of its cells.
   static constexpr float kRoom = 1.0f / (1 << 18);
 
-  /// The state of the search in one brick. Positions of the segment are in cells of the brick, relative to its corner.
+  /// The state of the search in one brick. Positions on the segment are measured in cells, from the minimum corner of the brick.
   struct Frame {
     std::uint64_t left;         // cells that the segment passes and that the search has not visited yet
     std::uint64_t cells, full;  // cells that are not empty; cells that are voxels

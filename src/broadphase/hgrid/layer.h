@@ -20,7 +20,7 @@ struct SortScratch {
   std::vector<std::uint32_t> counts;     // number of boxes per cell, for each thread but the last
   std::vector<std::uint32_t> sums;       // per thread and range of cells: number of boxes that the thread counted there
   std::vector<float> sizes;              // [m] per thread and level: 4 floats, see kernels::Keying
-  std::vector<float> corners;            // [m] per thread and level: 8 floats; only for layers with several regions
+  std::vector<float> corners;            // [m] per thread and level: corners of the region's boxes, see kernels::Keying
   std::vector<kernels::Keying> keyings;  // per thread
 };
 
@@ -32,7 +32,7 @@ struct Machine {
 };
 
 /// A set of boxes that are sorted by region, level and cell, and stored as a structure of arrays. The "position" of a
-/// box is its index in these arrays. A counting sort with two passes (Ericson 2005, 7.1.4) sorts all boxes at a time.
+/// box is its index in these arrays. A counting sort with two passes (Ericson 2005, 7.1.4) sorts all boxes at once.
 /// Between two sorts, boxes can be withdrawn.
 ///
 /// The caller calls reserve() before it changes anything, so a failed allocation leaves the layer unchanged. The other

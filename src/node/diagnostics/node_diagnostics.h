@@ -14,7 +14,7 @@
 namespace hgrid {
 
 /// Publishes four statuses on /diagnostics (REP-107): world, robots, transforms and ticks. They are for people and
-/// dashboards. A program that stops a robot must use ~pairs and ~status instead. One thread may use it.
+/// dashboards. A program that stops a robot must use ~pairs and ~status instead. Only one thread at a time may use it.
 class NodeDiagnostics {
  public:
   using NewestTick = std::function<std::shared_ptr<const Tick>()>;

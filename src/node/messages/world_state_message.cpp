@@ -20,7 +20,7 @@ std::string truncationOf(const Snapshot& snapshot) {
 
 namespace {
 
-/// Adds the reasons of the snapshot. Reasons that explain many of them come first.
+/// Adds at most `most` reasons why the world is not complete. The reasons that cause many others come first.
 void addWorldReasons(const Tick& tick, std::size_t most, msg::WorldState& world) {
   const Snapshot& snapshot = *tick.snapshot;
   world.reasons = tick.unplaced;

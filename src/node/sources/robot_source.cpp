@@ -45,7 +45,7 @@ std::vector<std::string> fileRoots(const Params& params) {
   return roots;
 }
 
-constexpr int kMeshTimeouts = 4;  // the mesh files of a robot may take this many times as long as one of them
+constexpr int kMeshTimeouts = 4;  // all mesh files of a robot together have this many times the timeout of one file
 
 MeshPolicy meshPolicy(const Params& params, const std::function<bool()>& cancelled) {
   MeshPolicy policy;

@@ -32,8 +32,8 @@ struct ChainState {
   const Refusal* refused = nullptr;
   std::uint32_t contested = TfIntake::kNone;  ///< number of a contested frame of the chain, or kNone
 
-  /// Returns the reading of the age clock when the chain's pose at `time` was 0 s old. This reading corresponds to
-  /// `time`, but it is never later than the arrival of the data. Call this only if the chain moves.
+  /// Converts a time to the AgeClock: at the returned reading, the chain's pose at `time` had the age 0. The reading is
+  /// never later than the arrival of the data. Call this only if the chain moves.
   Time bornAt(Time time) const { return std::min(received, time + lead); }
 };
 
