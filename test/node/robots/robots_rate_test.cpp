@@ -10,13 +10,14 @@ namespace {
 
 using RobotsRate = RobotsTest;
 
-TEST_F(RobotsRate, EveryTickIsPublishedOnceWhileAllMove) {
+/// Claim: messages arrive in order, each once. Some may be missing: a subscriber that is slow misses ticks.
+TEST_F(RobotsRate, EachTickIsPublishedAtMostOnceAndInOrderWhileAllMove) {
   cell_->puppeteer->move();
   const std::vector<hgrid_proximity::PairsConstPtr> messages = cell_->pairs->next(200, std::chrono::seconds(60));
   ASSERT_EQ(messages.size(), 200u);
   for (std::size_t i = 1; i < messages.size(); ++i) {
     SCOPED_TRACE("message " + std::to_string(i));
-    EXPECT_EQ(messages[i]->world.sequence, messages[i - 1]->world.sequence + 1);
+    EXPECT_GT(messages[i]->world.sequence, messages[i - 1]->world.sequence);
     EXPECT_GE(messages[i]->world.stamp, messages[i - 1]->world.stamp);
   }
   EXPECT_GT(messages.back()->world.stamp, messages.front()->world.stamp);
