@@ -67,7 +67,8 @@ std_msgs::ColorRGBA colorOf(const DrawnPair& pair) {
   return rgba(std::min(1.0, 2.0 * pair.nearness), std::min(1.0, 2.0 - 2.0 * pair.nearness), 0.1, 1.0);
 }
 
-/// Returns the pairs to draw, the nearest first.
+/// Returns the pairs to draw: first those whose shapes were measured, then the others, each by distance. In a crowd of
+/// bodies, many boxes overlap although the shapes are far apart, so boxes say little about which pairs are the nearest.
 std::vector<DrawnPair> drawnPairs(const Snapshot& snapshot, const PairDistances* distances) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, const PairDistance*> measured;
   if (distances != nullptr) {
@@ -91,8 +92,9 @@ std::vector<DrawnPair> drawnPairs(const Snapshot& snapshot, const PairDistances*
     one->second = pair->second;
     drawn.push_back(std::move(*one));
   }
-  std::stable_sort(drawn.begin(), drawn.end(),
-                   [](const DrawnPair& a, const DrawnPair& b) { return a.distance < b.distance; });
+  std::stable_sort(drawn.begin(), drawn.end(), [](const DrawnPair& a, const DrawnPair& b) {
+    return a.measured != b.measured ? a.measured : a.distance < b.distance;
+  });
   return drawn;
 }
 

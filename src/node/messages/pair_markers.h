@@ -12,7 +12,7 @@ namespace hgrid {
 
 /// Returns markers for the pairs of a tick. In namespace "pairs": a line between the nearest points of the two bodies,
 /// and a dot at each of the two points. In namespace "pair_names": the names and the distance [mm] of the 8 nearest
-/// pairs.
+/// pairs; measured pairs come first.
 ///
 /// - If the pair was measured, the points are on the shapes. The color is green at the margin and red in contact.
 /// - If the pair was not measured, the points are on the boxes and the line is gray. The text says "at least" and the
