@@ -129,7 +129,7 @@ void Scene::State::fillBodies(Snapshot& snapshot) {
   for (const std::uint32_t map : structure->maps) {
     snapshot.cells_.push_back(cells[structure->ids[map].slot]);
   }
-  horizon.step(structure, snapshot.poses_, snapshot.boxes_);
+  horizon.step(structure, snapshot.poses_, snapshot.boxes_, snapshot.stamp_);
 }
 
 /// Grows the boxes of placed bodies by their shares of the margins. Then two boxes overlap if their gap is at most the

@@ -24,46 +24,76 @@ double roundingOf(const Aabb& box) {
 
 }  // namespace
 
-double Horizon::reachOf(const Body& body, const BodyPose& pose) const {
+double Horizon::reachOf(const Body& body, const BodyPose& pose, double drift) const {
   if (body.mobility == Mobility::fixed) return 0.0;
   if (!std::isfinite(body.max_speed)) return cap_;
-  return body.max_speed * seconds_ + std::min(body.max_speed * pose.age, cap_);
+  return body.max_speed * seconds_ + std::max(drift, std::min(body.max_speed * pose.age, cap_));
+}
+
+double Horizon::driftOf(const Body& body, const BodyPose& pose, Time stamp) const {
+  if (body.mobility == Mobility::fixed || pose.stamp >= stamp) return 0.0;
+  return std::min(body.max_speed * seconds(stamp - pose.stamp), cap_);
+}
+
+/// Finds the index that each body had in the last accepted tick. Bodies keep their handles when other bodies come and
+/// go, but not their indices.
+void Horizon::matchBodies(const Structure& structure) {
+  last_body_.assign(structure.ids.size(), Structure::kNone);
+  if (!last_.structure) return;
+  const std::vector<BodyId>& old = last_.structure->ids;
+  std::uint32_t slots = 0;
+  for (const BodyId id : old) slots = std::max(slots, id.slot + 1);
+  last_slots_.assign(slots, Structure::kNone);
+  for (std::uint32_t body = 0; body < old.size(); ++body) last_slots_[old[body].slot] = body;
+  for (std::size_t body = 0; body < structure.ids.size(); ++body) {
+    const BodyId id = structure.ids[body];
+    const std::uint32_t known = id.slot < slots ? last_slots_[id.slot] : Structure::kNone;
+    if (known != Structure::kNone && old[known].generation == id.generation) last_body_[body] = known;
+  }
+}
+
+/// Sets the swept boxes of a body, and whether it teleported.
+void Horizon::sweep(const Structure& structure, std::uint32_t body, const BodyPose& pose) {
+  const std::uint32_t known = last_body_[body];
+  if (known == Structure::kNone || last_.stamps[known] == kNever) return;
+  const double may = structure.bodies[body].max_speed * std::max(0.0, seconds(pose.stamp - last_.stamps[known]));
+  const ProxyId first = structure.first_proxy[body], last_first = last_.structure->first_proxy[known];
+  for (ProxyId proxy = first; proxy < structure.first_proxy[body + 1]; ++proxy) {
+    const Aabb &from = last_.boxes[last_first + (proxy - first)], &to = now_.boxes[proxy];
+    if (from == to) continue;
+    before_[proxy] = from;
+    swept_[proxy] = {from.min.cwiseMin(to.min), from.max.cwiseMax(to.max)};
+    if (shiftOf(from, to) > may + roundingOf(to)) teleported_[body] = true;
+  }
 }
 
 void Horizon::step(const std::shared_ptr<const Structure>& structure, const std::vector<BodyPose>& poses,
-                   const std::vector<Aabb>& boxes) {
+                   const std::vector<Aabb>& boxes, Time stamp) {
   if (!on()) return;
   const std::size_t count = structure->bodies.size();
-  const bool renumbered = structure != last_.structure;
+  if (now_.structure != structure || last_.structure != structure || last_body_.size() != count)
+    matchBodies(*structure);
   now_.structure = structure;
-  now_.boxes = swept_ = boxes;
+  now_.boxes = before_ = swept_ = boxes;
   now_.stamps.assign(count, kNever);
   teleported_.assign(count, false);
-  was_placed_.assign(count, false);
   reach_.resize(count);
+  drift_.resize(count);
   for (std::uint32_t body = 0; body < count; ++body) {
     const BodyPose& pose = poses[body];
-    reach_[body] = reachOf(structure->bodies[body], pose);
+    drift_[body] = driftOf(structure->bodies[body], pose, stamp);
+    reach_[body] = reachOf(structure->bodies[body], pose, drift_[body]);
     if (pose.state == Freshness::unplaced) continue;
     now_.stamps[body] = pose.stamp;
-    const Time before = renumbered ? kNever : last_.stamps[body];
-    if (before == kNever) continue;
-    was_placed_[body] = true;
-    const double may = structure->bodies[body].max_speed * std::max(0.0, seconds(pose.stamp - before));
-    for (ProxyId proxy = structure->first_proxy[body]; proxy < structure->first_proxy[body + 1]; ++proxy) {
-      const Aabb &from = last_.boxes[proxy], &to = boxes[proxy];
-      if (from == to) continue;
-      swept_[proxy] = {from.min.cwiseMin(to.min), from.max.cwiseMax(to.max)};
-      if (shiftOf(from, to) > may + roundingOf(to)) teleported_[body] = true;
-    }
+    sweep(*structure, body, pose);
   }
 }
 
 void Horizon::accept() { std::swap(last_, now_); }
 
 bool Horizon::canMeet(const Structure& structure, ProxyId first, ProxyId second, double gap, double margin) const {
-  const double reach = reachOf(structure.body_of_proxy[first]) + reachOf(structure.body_of_proxy[second]);
-  return gap <= reach || withinDistance(swept_[first], swept_[second], margin);
+  const std::uint32_t a = structure.body_of_proxy[first], b = structure.body_of_proxy[second];
+  return gap <= reach_[a] + reach_[b] || withinDistance(swept_[first], swept_[second], margin + drift_[a] + drift_[b]);
 }
 
 }  // namespace hgrid

@@ -20,20 +20,21 @@ class Horizon {
 
   bool on() const { return seconds_ > 0.0; }
   /// Sets the poses and boxes of a new tick and compares them with the last accepted tick. If a body had no pose in the
-  /// last accepted tick, or if the structure is new, the swept box is the present box.
+  /// last accepted tick, or if it was added since, the swept box is the present box.
+  /// @param stamp  time of the new tick; a pose with an older stamp lags behind it
   void step(const std::shared_ptr<const Structure>& structure, const std::vector<BodyPose>& poses,
-            const std::vector<Aabb>& boxes);
+            const std::vector<Aabb>& boxes, Time stamp);
   /// Accepts the tick of the last step(): the next step() compares with it. Allocates no memory.
   void accept();
   /// Returns how far [m] a body can be from its pose at the end of the horizon.
   double reachOf(std::uint32_t body) const { return on() ? reach_[body] : 0.0; }
+  /// Returns how far [m] a body can have moved from the stamp of its pose to the time of the tick.
+  double driftOf(std::uint32_t body) const { return on() ? drift_[body] : 0.0; }
   /// Returns the box around a proxy's boxes of this tick and of the last accepted tick.
   const Aabb& swept(ProxyId proxy) const { return swept_[proxy]; }
   /// Returns the box of a proxy in the last accepted tick. If the proxy had no box in that tick, returns its present
   /// box.
-  const Aabb& before(ProxyId proxy) const {
-    return was_placed_[now_.structure->body_of_proxy[proxy]] ? last_.boxes[proxy] : now_.boxes[proxy];
-  }
+  const Aabb& before(ProxyId proxy) const { return before_[proxy]; }
   /// Returns whether two proxies may have come within the margin since the last tick, or may meet before the end of the
   /// horizon.
   bool canMeet(const Structure& structure, ProxyId first, ProxyId second, double gap, double margin) const;
@@ -41,7 +42,10 @@ class Horizon {
   bool teleported(std::uint32_t body) const { return on() && teleported_[body]; }
 
  private:
-  double reachOf(const Body& body, const BodyPose& pose) const;
+  double reachOf(const Body& body, const BodyPose& pose, double drift) const;
+  double driftOf(const Body& body, const BodyPose& pose, Time stamp) const;
+  void matchBodies(const Structure& structure);
+  void sweep(const Structure& structure, std::uint32_t body, const BodyPose& pose);
 
   double seconds_, cap_;
   /// The data of one tick that the next tick needs.
@@ -50,11 +54,14 @@ class Horizon {
     std::vector<Aabb> boxes;   // for each proxy: its box
     std::vector<Time> stamps;  // for each body: stamp of its pose; negative: the body had no pose
   };
-  Kept last_, now_;               // last_: the last accepted tick; now_: the tick of the last step()
-  std::vector<Aabb> swept_;       // for each proxy: box around its box in the last tick and its present box
-  std::vector<bool> was_placed_;  // for each body: whether it had a pose in the last tick, in the same structure
-  std::vector<bool> teleported_;  // for each body: see teleported()
-  std::vector<double> reach_;     // [m] for each body: see reachOf()
+  Kept last_, now_;                        // last_: the last accepted tick; now_: the tick of the last step()
+  std::vector<Aabb> before_;               // for each proxy: see before()
+  std::vector<Aabb> swept_;                // for each proxy: box around its box in the last tick and its present box
+  std::vector<std::uint32_t> last_body_;   // for each body: its index in last_.structure, or Structure::kNone
+  std::vector<std::uint32_t> last_slots_;  // buffer of matchBodies(): for each slot: index in last_.structure
+  std::vector<bool> teleported_;           // for each body: see teleported()
+  std::vector<double> reach_;              // [m] for each body: see reachOf()
+  std::vector<double> drift_;              // [m] for each body: see driftOf()
 };
 
 }  // namespace hgrid

@@ -10,12 +10,26 @@
 
 namespace hgrid {
 
+/// Prepares for a new structure: drops all stored gaps, because the proxies may have other ids. Keeps where each map
+/// was in the last accepted tick.
+void MapPairs::renumber(const Structure& structure) {
+  std::vector<OfMap> next(structure.maps.size());
+  for (std::size_t i = 0; i < next.size(); ++i) {
+    next[i].id = structure.ids[structure.maps[i]];
+    for (const OfMap& known : maps_) {
+      if (known.id != next[i].id) continue;
+      next[i].map_from_world_last = known.map_from_world_last;
+      next[i].was_there = known.was_there;
+    }
+  }
+  maps_.swap(next);
+  revision_ = structure.revision;
+}
+
 /// Drops the stored gaps to maps that moved or that have other cells.
 void MapPairs::recall(const Snapshot& snapshot) {
   const Structure& structure = snapshot.structure();
-  if (revision_ != structure.revision) maps_.clear();  // because the proxies may have other ids
-  maps_.resize(structure.maps.size());
-  revision_ = structure.revision;
+  if (revision_ != structure.revision) renumber(structure);
   for (std::size_t i = 0; i < maps_.size(); ++i) {
     OfMap& map = maps_[i];
     const Pose& pose = snapshot.poses()[structure.maps[i]].world_from_body;
@@ -52,13 +66,14 @@ bool MapPairs::find(const Snapshot& snapshot, const Horizon& horizon, std::size_
 
 /// Returns whether a box may have come within the margin of a cell between the last tick and this tick. Compares in the
 /// frame of the map, so a common movement of map and box does not count.
-bool MapPairs::passed(const OfMap& map, ProxyId proxy, const Snapshot& snapshot, const Horizon& horizon,
-                      double margin) const {
+/// @param drift  [m] how far both can have moved since their poses, which may be older than the tick
+bool MapPairs::passed(const OfMap& map, ProxyId proxy, const Snapshot& snapshot, const Horizon& horizon, double margin,
+                      double drift) const {
   const Aabb &from = horizon.before(proxy), &to = snapshot.boxes()[proxy];
-  if (from == to && map.mapFromWorldBefore().matrix() == map.map_from_world.matrix()) return false;
+  if (drift == 0.0 && from == to && map.mapFromWorldBefore().matrix() == map.map_from_world.matrix()) return false;
   const Eigen::AlignedBox3d swept = boxInMap(map.mapFromWorldBefore(), from, snapshot.origin())
                                         .merged(boxInMap(map.map_from_world, to, snapshot.origin()));
-  return gapTo(*map.cells->grid, swept, margin) <= margin;
+  return gapTo(*map.cells->grid, swept, margin + drift) <= margin + drift;
 }
 
 /// Adds the pairs of a map with the shapes of a body. `left` is the number of pairs that may still be added.
@@ -75,12 +90,13 @@ bool MapPairs::addShapes(OfMap& map, std::uint32_t number, std::uint32_t body, c
   const double margin =
       pairMargin(structure, body, stalenessOf(snapshot.poses()[body]), number, stalenessOf(snapshot.poses()[number]));
   const double can_go = horizon.reachOf(number) + horizon.reachOf(body), up_to = std::max(margin, can_go);
+  const double drift = horizon.driftOf(number) + horizon.driftOf(body);
   for (ProxyId proxy = structure.first_proxy[body]; proxy < structure.first_proxy[body + 1]; ++proxy) {
     const Aabb& box = snapshot.boxes()[proxy];
     Gap& known = map.gaps[proxy];
     if (known.up_to < up_to || known.box != box) known = {box, up_to, gapOf(box, up_to)};
     const bool near = known.gap <= margin, soon = known.gap <= can_go;
-    if (!near && !soon && !(horizon.on() && passed(map, proxy, snapshot, horizon, margin))) continue;
+    if (!near && !soon && !(horizon.on() && passed(map, proxy, snapshot, horizon, margin, drift))) continue;
     if (left == 0) return false;
     --left;
     add(first, second, near || soon ? known.gap : gapOf(box, kInfinity), margin, near);

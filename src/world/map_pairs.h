@@ -37,6 +37,7 @@ class MapPairs {
     double gap = 0.0;     // [m] gap of the box and the nearest cell; infinite if no cell was found
   };
   struct OfMap {
+    BodyId id;
     std::shared_ptr<const MapCells> cells;
     Pose world_from_map = Pose::Identity(), map_from_world = Pose::Identity();
     Pose map_from_world_last = Pose::Identity();  // map_from_world in the last accepted tick
@@ -47,8 +48,10 @@ class MapPairs {
     /// inverse pose in this tick.
     const Pose& mapFromWorldBefore() const { return was_there ? map_from_world_last : map_from_world; }
   };
+  void renumber(const Structure& structure);
   void recall(const Snapshot& snapshot);
-  bool passed(const OfMap& map, ProxyId proxy, const Snapshot& snapshot, const Horizon& horizon, double margin) const;
+  bool passed(const OfMap& map, ProxyId proxy, const Snapshot& snapshot, const Horizon& horizon, double margin,
+              double drift) const;
   bool addShapes(OfMap& map, std::uint32_t number, std::uint32_t body, const Snapshot& snapshot, const Horizon& horizon,
                  std::size_t& left, const Add& add) const;
 

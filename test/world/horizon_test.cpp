@@ -2,6 +2,9 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include <gtest/gtest.h>
 
+#include <limits>
+
+#include "test/support/random.h"
 #include "test/support/refusals.h"
 #include "test/support/scenes.h"
 
@@ -95,6 +98,72 @@ TEST_F(HorizonTest, WhatPassedThroughBetweenTwoTicksIsNotMissed) {
   EXPECT_TRUE(commit(slow, 21)->pairs().empty()) << "in the next tick the two bodies are far apart";
   move(scene, a, at(-5.1), 11);
   for (const NearPair& pair : commit(scene, 11)->pairs()) EXPECT_EQ(pair.flags & kTeleportFlag, 0);
+}
+
+/// Claim: no pair that came within its margin between two ticks is missing in the later tick, although poses lag behind
+/// the ticks and bodies come and go. The bodies move in straight lines, which a fine simulation follows.
+TEST_F(HorizonTest, WhatPassedThroughIsNotMissedWhilePosesLagAndBodiesComeAndGo) {
+  constexpr int kBodies = 6, kTick = 10;  // [ms] period of the ticks
+  std::size_t passed = 0, passed_lagging = 0, passed_changed = 0;
+  for (unsigned seed = 1; seed <= 100; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    test::Random random(seed);
+    SceneOptions options = withHorizon(0.0001);
+    options.growth_cap = 100.0;
+    Scene scene(options);
+    struct Mover {
+      BodyId id;
+      Eigen::Vector3d start, speed;  // [m], [m/s]
+      int known = 0;                 // [ms] stamp of its pose
+      Eigen::Vector3d at(double milliseconds) const { return start + 1e-3 * milliseconds * speed; }
+    };
+    std::vector<Mover> movers(kBodies);
+    for (int i = 0; i < kBodies; ++i) {
+      Mover& mover = movers[std::size_t(i)];
+      for (int k = 0; k < 3; ++k) {
+        mover.speed[k] = random.uniform(-40, 40);
+        mover.start[k] = random.uniform(-0.5, 0.5) - 0.1 * mover.speed[k];  // all meet after about 100 ms
+      }
+      Body body = test::ball(std::string(1, char('b' + i)), 0.1);
+      body.max_speed = mover.speed.norm();
+      mover.id = put(scene, body, Pose(Eigen::Translation3d(mover.start)), std::chrono::milliseconds(0));
+    }
+    commit(scene, 0);
+    BodyId guest;
+    bool has_guest = false;
+    for (int now = kTick; now <= 20 * kTick; now += kTick) {
+      const bool changes = random.chance(0.3);
+      if (changes && has_guest) scene.remove(guest);
+      if (changes && !has_guest) guest = put(scene, test::ball("a"), at(1000.0));  // first by name: all others move up
+      has_guest = has_guest != changes;
+      for (Mover& mover : movers) {
+        if (random.chance(0.4)) continue;  // no new pose, so the last one lags behind the tick
+        mover.known = now;
+        move(scene, mover.id, Pose(Eigen::Translation3d(mover.at(now))), now);
+      }
+      for (const Mover& mover : movers) scene.setState(mover.id, Freshness::fresh, 1e-3 * (now - mover.known), 0);
+      const auto snapshot = commit(scene, now);
+      const auto pairs = test::namedPairs(*snapshot);
+      for (std::size_t i = 0; i < movers.size(); ++i) {
+        for (std::size_t j = i + 1; j < movers.size(); ++j) {
+          double least = std::numeric_limits<double>::infinity();  // [m] distance of the boxes, which are cubes
+          for (double time = now - kTick; time <= now; time += 0.05) {
+            const Eigen::Vector3d apart = (movers[i].at(time) - movers[j].at(time)).cwiseAbs().array() - 0.2;
+            least = std::min(least, apart.cwiseMax(0.0).norm());
+          }
+          if (least > 0.0999) continue;
+          ++passed;
+          passed_lagging += movers[i].known < now || movers[j].known < now;
+          passed_changed += changes;
+          const std::string a = scene.body(movers[i].id).name, b = scene.body(movers[j].id).name;
+          EXPECT_EQ(pairs.count({a, b}), 1u) << a << ", " << b << " at " << now << " ms";
+        }
+      }
+    }
+  }
+  EXPECT_GT(passed, 300u);
+  EXPECT_GT(passed_lagging, 100u);
+  EXPECT_GT(passed_changed, 50u);
 }
 
 TEST_F(HorizonTest, WhatMovesAsFastAsItMayDidNotTeleport) {
