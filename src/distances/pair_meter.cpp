@@ -60,7 +60,7 @@ struct PairMeter::State {
   static double motionSince(const Snapshot& snapshot, const Known& known);
   static void assess(const Snapshot& snapshot, Job& job);
   void measureDue(const Snapshot& snapshot, Clock::time_point begin);
-  void measureUntil(const Snapshot& snapshot, std::vector<Job*>& due, Clock::time_point deadline, std::size_t at_least);
+  void measureUntil(const Snapshot& snapshot, Clock::time_point deadline, std::size_t at_least);
   void perform(const Snapshot& snapshot, Job& job, std::vector<ShapePair>& shape_pairs) const;
   static void updateSpeed(const Snapshot& snapshot, Job& job);
   PairDistance entryOf(const Snapshot& snapshot, const Job& job) const;
@@ -150,18 +150,17 @@ void PairMeter::State::measureDue(const Snapshot& snapshot, Clock::time_point be
     return std::tie(job->bound, job->pair->gap, job->pair->first, job->pair->second);
   };
   std::sort(due.begin(), due.end(), [&](const Job* a, const Job* b) { return by_bound(a) < by_bound(b); });
-  if (options.budget == 0.0) return measureUntil(snapshot, due, begin, due.size());
+  if (options.budget == 0.0) return measureUntil(snapshot, begin, due.size());
   const auto budget = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.budget));
-  measureUntil(snapshot, due, begin + budget / 2, 0);
+  measureUntil(snapshot, begin + budget / 2, 0);
   std::stable_sort(due.begin(), due.end(),
                    [](const Job* a, const Job* b) { return a->known.served < b->known.served; });
-  measureUntil(snapshot, due, begin + budget, 1);
+  measureUntil(snapshot, begin + budget, 1);
 }
 
 /// Measures the pairs in `due` in their order, and removes them from `due`. Ends at the deadline, but not before the
 /// first `at_least` pairs were measured.
-void PairMeter::State::measureUntil(const Snapshot& snapshot, std::vector<Job*>& due, Clock::time_point deadline,
-                                    std::size_t at_least) {
+void PairMeter::State::measureUntil(const Snapshot& snapshot, Clock::time_point deadline, std::size_t at_least) {
   std::atomic<bool> out_of_time{false};
   const std::size_t per_job = workers.threads() == 1 ? 1 : kPairsPerJob;
   workers.run((due.size() + per_job - 1) / per_job, [&](std::size_t number, std::size_t thread) {

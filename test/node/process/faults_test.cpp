@@ -119,6 +119,14 @@ TEST_F(Faults, InATickAreCountedAndPairsGoOn) {
     return !all.status.empty() && counter(*all.status.back(), "tick.failed.INTERNAL") >= 1;
   });
   breakDown("");
+  node_.waitUntil("the failed tick on /diagnostics", [](const Heard& all) {
+    const auto found = all.diagnostics.find("ticks");
+    if (found == all.diagnostics.end()) return false;
+    const auto& values = found->second.values;
+    return std::any_of(values.begin(), values.end(), [](const diagnostic_msgs::KeyValue& value) {
+      return value.key == "failed ticks" && std::stoi(value.value) >= 1;
+    });
+  });
   transforms_.stream("base", "b", at(0.15));
   node_.waitUntil("the pair",
                   [](const Heard& all) { return !all.pairs.empty() && all.pairs.back()->first.size() == 1; });

@@ -15,7 +15,8 @@
 namespace hgrid {
 namespace test {
 
-constexpr double kMargin = 0.1;  // [m] value of ~margin in robots.test
+constexpr double kPeriod = 1.0 / 50;  // [s] one period of ~rate in robots.test
+constexpr double kMargin = 0.1;       // [m] value of ~margin in robots.test
 
 /// One of the three robots.
 struct Robot {

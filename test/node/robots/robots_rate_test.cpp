@@ -10,7 +10,8 @@ namespace {
 
 using RobotsRate = RobotsTest;
 
-/// Claim: messages arrive in order, each once. Some may be missing: a subscriber that is slow misses ticks.
+/// Claim: messages arrive in order, each once, and the ticks keep their rate by the stamps of their data. Some messages
+/// may be missing: a subscriber that is slow misses ticks.
 TEST_F(RobotsRate, EachTickIsPublishedAtMostOnceAndInOrderWhileAllMove) {
   cell_->puppeteer->move();
   const std::vector<hgrid_proximity::PairsConstPtr> messages = cell_->pairs->next(200, std::chrono::seconds(60));
@@ -20,7 +21,10 @@ TEST_F(RobotsRate, EachTickIsPublishedAtMostOnceAndInOrderWhileAllMove) {
     EXPECT_GT(messages[i]->world.sequence, messages[i - 1]->world.sequence);
     EXPECT_GE(messages[i]->world.stamp, messages[i - 1]->world.stamp);
   }
-  EXPECT_GT(messages.back()->world.stamp, messages.front()->world.stamp);
+  const auto ticks = static_cast<double>(messages.back()->world.sequence - messages.front()->world.sequence);
+  const double period = (messages.back()->world.stamp - messages.front()->world.stamp).toSec() / ticks;
+  EXPECT_GE(period, 0.9 * kPeriod) << "[s] by the stamps: the ticks come faster than ~rate";
+  EXPECT_LE(period, 1.5 * kPeriod) << "[s] by the stamps: the ticks come slower than ~rate";
   EXPECT_TRUE(cell_->proximity->running());
 }
 

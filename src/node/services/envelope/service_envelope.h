@@ -26,7 +26,7 @@ struct ServiceCall {
   const typename Service::Request& request;
   typename Service::Response& response;
   std::string caller;  ///< name of the node that sent the request, made safe for logs and messages
-  AnswerTick& tick;    ///< the newest tick. A work that changes the world assigns the first tick with the change.
+  AnswerTick& tick;    ///< the newest tick. Work that changes the world sets it to the first tick with the change.
 };
 
 /// Answers the requests of all services in one way.
