@@ -35,8 +35,9 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
       commons_{readSettings(private_node), std::move(narrow_phase), {}, {}},
       world_(commons_.settings.params, ros::Time::isSimTime(), newEpoch(), commons_.ledger, commons_.narrow_phase),
       jobs_([this] { return isEnding(); }),
+      auditor_(commons_),
       tick_loop_(tick_thread_.node(), commons_.settings.params, world_, jobs_, stopwatch_, commons_.health,
-                 commons_.ledger),
+                 auditor_.listener(), commons_.ledger),
       publishers_(tick_thread_.privateNode(), admin_thread_.privateNode(), commons_, stopwatch_, sketch_),
       completeness_log_(std::chrono::steady_clock::now()),
       loading_(
@@ -80,7 +81,8 @@ std::vector<TickLoop::Step> ProximityNode::tickSteps() {
              if (const auto time = publishers_.publishDistances(tick)) stopwatch_.add("distances", *time);
            }},
           {"", [this](const TickPtr& tick) { completeness_log_.log(*tick); }},
-          {"", [this](const TickPtr& tick) { model_log_.log(tick->models); }}};
+          {"", [this](const TickPtr& tick) { model_log_.log(tick->models); }},
+          {"audit", [this](const TickPtr& tick) { auditor_.see(tick); }}};
 }
 
 /// Returns what the admin thread does at regular times, in this order.

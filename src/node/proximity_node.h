@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "node/audit/auditor.h"
 #include "node/callback_threads.h"
 #include "node/commons.h"
 #include "node/diagnostics/completeness_log.h"
@@ -50,6 +51,7 @@ class ProximityNode {
   World world_;  // only the tick thread uses it; all threads may use its transforms
   TickJobs jobs_;
   Stopwatch stopwatch_;  // only the tick thread uses it
+  Auditor auditor_;
   TickLoop tick_loop_;
   Publishers publishers_;
   CompletenessLog completeness_log_;

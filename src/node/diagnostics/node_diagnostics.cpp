@@ -37,6 +37,7 @@ NodeDiagnostics::NodeDiagnostics(ros::NodeHandle node, ros::NodeHandle private_n
   updater_.add("robots", this, &NodeDiagnostics::robots);
   updater_.add("transforms", this, &NodeDiagnostics::transforms);
   updater_.add("ticks", this, &NodeDiagnostics::ticks);
+  updater_.add("audit", this, &NodeDiagnostics::audit);
 }
 
 void NodeDiagnostics::world(DiagnosticStatusWrapper& status) {
@@ -139,6 +140,19 @@ void NodeDiagnostics::ticks(DiagnosticStatusWrapper& status) {
   status.add("failed ticks", health.failed_ticks);
   status.add("longest time without a measurement of a pair [ticks]", health.longest_wait);
   if (tick && tick->snapshot) status.add("sequence", tick->snapshot->sequence());
+}
+
+void NodeDiagnostics::audit(DiagnosticStatusWrapper& status) {
+  const HealthReport health = health_.report();
+  if (health.different_audits > 0) {
+    status.summary(DiagnosticStatus::ERROR, health.audit_difference);
+  } else if (health.audits > 0) {
+    status.summary(DiagnosticStatus::OK, "no difference");
+  } else {
+    status.summary(DiagnosticStatus::OK, "no tick was audited yet; see ~audit_rate");
+  }
+  status.add("audited ticks", health.audits);
+  status.add("audits with a difference", health.different_audits);
 }
 
 }  // namespace hgrid

@@ -13,8 +13,9 @@
 
 namespace hgrid {
 
-/// Publishes four statuses on /diagnostics (REP-107): world, robots, transforms and ticks. They are for people and
-/// dashboards. A program that stops a robot must use ~pairs and ~status instead. Only one thread at a time may use it.
+/// Publishes five statuses on /diagnostics (REP-107): world, robots, transforms, ticks and audit. They are for people
+/// and dashboards. A program that stops a robot must use ~pairs and ~status instead. Only one thread at a time may use
+/// it.
 class NodeDiagnostics {
  public:
   using NewestTick = std::function<std::shared_ptr<const Tick>()>;
@@ -29,6 +30,7 @@ class NodeDiagnostics {
   void robots(diagnostic_updater::DiagnosticStatusWrapper& status);
   void transforms(diagnostic_updater::DiagnosticStatusWrapper& status);
   void ticks(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void audit(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   NewestTick newest_;
   const NodeHealth& health_;

@@ -30,6 +30,14 @@ void NodeHealth::noteConflicts(const std::vector<std::string>& frames) {
   if (frames.size() != report_.conflicts.size()) report_.conflicts = frames;
 }
 
+void NodeHealth::noteAudit(const std::string& difference) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++report_.audits;
+  if (difference.empty()) return;
+  ++report_.different_audits;
+  report_.audit_difference = difference;
+}
+
 bool NodeHealth::noteFailedLoad(const std::string& robot, const std::string& sentence) {
   const std::lock_guard<std::mutex> lock(mutex_);
   std::string& known = report_.failed_loads[robot];

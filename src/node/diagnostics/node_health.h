@@ -22,6 +22,9 @@ struct HealthReport {
   std::optional<Refusal> failed_distances;  ///< why the last measurement of distances failed; nullopt if it did not
   std::uint64_t longest_wait = 0;           ///< [ticks] see PairDistances::longest_wait
   std::vector<std::string> conflicts;       ///< frames that are published on both /tf and /tf_static
+  std::uint64_t audits = 0;                 ///< number of audited ticks since the start of the node
+  std::uint64_t different_audits = 0;       ///< number of audits that found a difference
+  std::string audit_difference;             ///< what the newest of these found; empty: nothing
 };
 
 /// Collects data for /diagnostics from all parts of the node. Any thread may use it.
@@ -37,6 +40,8 @@ class NodeHealth {
   void noteLongestWait(std::uint64_t ticks);
   /// @param frames  all frames that are published on both /tf and /tf_static. A frame is never removed from this list.
   void noteConflicts(const std::vector<std::string>& frames);
+  /// Call this after each audit. @param difference  what it found; empty: nothing
+  void noteAudit(const std::string& difference);
   /// Notes why a robot could not be loaded. @returns whether the sentence differs from the last one for this robot
   bool noteFailedLoad(const std::string& robot, const std::string& sentence);
   void noteLoaded(const std::string& robot);

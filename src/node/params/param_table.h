@@ -212,6 +212,11 @@ void visitParams(Visitor& v, Params& p) {
 
   v.section("The node");
   v.integer("query_threads", p.query_threads, 1, 64, "number of threads that answer queries");
+  v.number("audit_rate", p.audit_rate, "Hz", 0.0, 10.0,
+           "how many ticks per second are audited: a thread of low priority computes the poses, the pairs and some "
+           "queries of the tick again, by brute force from the transforms as they were received; 0: none");
+  v.string("audit_folder", p.audit_folder,
+           "folder for a file with all data of an audit that found a difference; empty: the folder of ROS's logs");
   v.number("marker_rate", p.marker_rate, "Hz", 0.1, 100.0, "how often ~markers is published while it has subscribers");
 }
 

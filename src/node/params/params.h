@@ -113,6 +113,8 @@ struct Params {
   double mesh_timeout = 5.0;
   int query_threads = 2;
   double marker_rate = 5.0;
+  double audit_rate = 0.2;
+  std::string audit_folder;
 
   double distances_max = 0.0, distances_budget = 0.005;
   int distances_threads = 1;

@@ -19,10 +19,12 @@ struct TfReader::ReadNext : ros::CallbackInterface {
   TfReader& reader;
 };
 
-TfReader::TfReader(ros::NodeHandle node, std::size_t most_bytes, Now now, Sink sink, Ledger& ledger)
+TfReader::TfReader(ros::NodeHandle node, std::size_t most_bytes, Now now, Sink sink, TfListener* listener,
+                   Ledger& ledger)
     : most_bytes_(most_bytes),
       now_(std::move(now)),
       sink_(std::move(sink)),
+      listener_(listener),
       ledger_(ledger),
       queue_(most_bytes, ledger),
       tick_queue_(*node.getCallbackQueue()),
@@ -80,6 +82,7 @@ void TfReader::readFor(std::chrono::duration<double> most_time) {
 
 /// @returns whether there may be more to read
 bool TfReader::readSlice() {
+  bool complete = true;
   try {
     if (!slices_.left() && !open()) return false;
     sink_(slices_.next(), current_.is_static, current_.publisher, current_.received);
@@ -88,9 +91,10 @@ bool TfReader::readSlice() {
   } catch (...) {  // out of memory; drop the rest of the message and continue
     slices_ = TransformSlices();
     ledger_.fault("tf.failed");
+    complete = false;
   }
   if (slices_.left()) return true;
-  current_ = ReceivedTransforms();  // frees the bytes of the message
+  close(complete);
   return !queue_.empty();
 }
 
@@ -100,7 +104,14 @@ bool TfReader::open() {
   if (!next) return false;
   current_ = std::move(*next);
   slices_ = TransformSlices(current_.message->bytes);
+  if (listener_ != nullptr) listener_->begins(current_);
   return true;
+}
+
+/// Ends the message that was read, and frees its bytes. @param complete  false: the rest of it was dropped
+void TfReader::close(bool complete) {
+  if (listener_ != nullptr) listener_->ends(complete);
+  current_ = ReceivedTransforms();
 }
 
 }  // namespace hgrid

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "node/tf/tf_listener.h"
 #include "node/tf/tf_queue.h"
 #include "node/wire/transform_slices.h"
 
@@ -33,7 +34,8 @@ class TfReader {
   /// @param most_bytes  [bytes] how much may wait in the queue of each topic
   /// @param now         returns the current time; the thread that receives messages calls it
   /// @param sink        gets the messages; the thread that runs the callback queue or calls readFor() calls it
-  TfReader(ros::NodeHandle node, std::size_t most_bytes, Now now, Sink sink, Ledger& ledger);
+  /// @param listener    learns which messages were read; may be null
+  TfReader(ros::NodeHandle node, std::size_t most_bytes, Now now, Sink sink, TfListener* listener, Ledger& ledger);
   ~TfReader();
   TfReader(const TfReader&) = delete;
   TfReader& operator=(const TfReader&) = delete;
@@ -58,10 +60,12 @@ class TfReader {
   void readNext();
   bool readSlice();
   bool open();
+  void close(bool complete);
 
   std::size_t most_bytes_;
   Now now_;
   Sink sink_;
+  TfListener* const listener_;
   Ledger& ledger_;
   TfQueue queue_;
   ReceivedTransforms current_;  ///< tick thread only: the message that is being read

@@ -15,7 +15,7 @@ constexpr double kShareForTransforms = 0.5;
 }  // namespace
 
 TickLoop::TickLoop(ros::NodeHandle node, const Params& params, World& world, TickJobs& jobs, Stopwatch& stopwatch,
-                   NodeHealth& health, Ledger& ledger)
+                   NodeHealth& health, TfListener* listener, Ledger& ledger)
     : node_(std::move(node)),
       period_(1.0 / params.rate),
       world_(world),
@@ -29,7 +29,7 @@ TickLoop::TickLoop(ros::NodeHandle node, const Params& params, World& world, Tic
                  const Moment& received) {
             guarded(ledger_, "tf.failed", [&] { takeTransforms(message, is_static, publisher, received); });
           },
-          ledger_) {}
+          listener, ledger_) {}
 
 void TickLoop::start(std::vector<Step> steps) {
   steps_ = std::move(steps);

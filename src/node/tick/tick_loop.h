@@ -34,9 +34,10 @@ class TickLoop {
   };
 
   /// All parameters except `node` must outlive this object. Only the tick thread may use `world` and `stopwatch`.
-  /// @param node  its callback queue must be that of the tick thread
+  /// @param node      its callback queue must be that of the tick thread
+  /// @param listener  learns which messages of /tf were read; may be null
   TickLoop(ros::NodeHandle node, const Params& params, World& world, TickJobs& jobs, Stopwatch& stopwatch,
-           NodeHealth& health, Ledger& ledger);
+           NodeHealth& health, TfListener* listener, Ledger& ledger);
 
   /// Starts the ticks. Call this once. @param steps  called with every tick, in this order
   void start(std::vector<Step> steps);

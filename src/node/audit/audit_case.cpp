@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/audit/audit_case.h"
+
+#include <cstring>
+#include <random>
+
+#include "hgrid_proximity/refusal.h"
+
+namespace hgrid {
+namespace {
+
+constexpr std::size_t kMostMapCells = 1000000;  // cells of larger maps are left out
+constexpr int kQueries = 8;                     // number of queries of an audit; two of each kind
+
+/// Reads the values of a serialized tf2_msgs/TFMessage. It checks each length before it reads.
+class Walk {
+ public:
+  explicit Walk(const std::string& bytes) : at_(bytes.data()), left_(bytes.size()) {}
+
+  template <class Value>
+  bool read(Value& value) {
+    if (left_ < sizeof value) return false;
+    std::memcpy(&value, at_, sizeof value);
+    skip(sizeof value);
+    return true;
+  }
+  bool read(std::string& text) {
+    std::uint32_t length = 0;
+    if (!read(length) || left_ < length) return false;
+    text.assign(at_, length);
+    skip(length);
+    return true;
+  }
+  bool done() const { return left_ == 0; }
+
+ private:
+  void skip(std::size_t count) {
+    at_ += count;
+    left_ -= count;
+  }
+  const char* at_;
+  std::size_t left_;
+};
+
+std::string withoutFirstSlash(const std::string& frame) {
+  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
+}
+
+/// Appends the transforms of a message; none if the bytes are no such message, because the node refuses it then.
+void append(const ReceivedTransforms& message, std::vector<RecordedTransform>& all) {
+  Walk walk(message.message->bytes);
+  std::uint32_t count = 0;
+  if (!walk.read(count)) return;
+  const std::size_t before = all.size();
+  bool valid = true;
+  for (std::uint32_t i = 0; i < count && valid; ++i) {
+    RecordedTransform transform;
+    std::uint32_t sequence = 0, seconds = 0, nanoseconds = 0;
+    valid = walk.read(sequence) && walk.read(seconds) && walk.read(nanoseconds) && walk.read(transform.parent) &&
+            walk.read(transform.child) && walk.read(transform.numbers);
+    if (!valid) break;
+    transform.parent = withoutFirstSlash(transform.parent);
+    transform.child = withoutFirstSlash(transform.child);
+    transform.publisher = message.publisher;
+    transform.is_static = message.is_static;
+    transform.stamp = std::chrono::seconds(seconds) + Time(nanoseconds);
+    transform.received = message.received.ros;
+    all.push_back(std::move(transform));
+  }
+  if (!valid || !walk.done()) all.resize(before);
+}
+
+/// Lists the pairs of links of one robot that the model of the robot switches off.
+void listSwitchedOff(const std::vector<Body>& bodies, AuditCase& result) {
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    if (!bodies[i].links) continue;
+    for (std::uint32_t j = i + 1; j < bodies.size() && bodies[j].robot == bodies[i].robot; ++j) {
+      if (bodies[j].links && bodies[i].links->allowed(bodies[i].link, bodies[j].link))
+        result.switched_off.push_back({i, j});
+    }
+  }
+}
+
+void listCells(const Snapshot& snapshot, AuditCase& result) {
+  for (const std::uint32_t map : snapshot.structure().maps) {
+    const auto cells = snapshot.cellsOf(map);
+    if (!cells || cells->grid->size() > kMostMapCells) continue;
+    result.cells.push_back({map, cells->grid->finestEdge(), cells->grid->voxels()});
+  }
+}
+
+void note(const QueryAnswer& answer, RecordedQuery& query) {
+  query.verdict = answer.verdict;
+  for (const QueryHit& hit : answer.hits) query.hits.push_back({hit.body, hit.distance});
+}
+
+/// Asks random queries near random bodies, so that most of them hit something.
+class Asker {
+ public:
+  Asker(const Snapshot& snapshot, const NarrowPhase& narrow_phase, std::uint64_t seed)
+      : snapshot_(snapshot), narrow_phase_(narrow_phase), random_(seed) {}
+
+  RecordedQuery ask(RecordedQuery::Kind kind) {
+    RecordedQuery query;
+    query.kind = kind;
+    query.from = place();
+    query.to = place();
+    query.radius = uniform(0.0, 0.5);
+    query.box.size = Eigen::Vector3d(uniform(0.05, 1.0), uniform(0.05, 1.0), uniform(0.05, 1.0));
+    query.box.world_from_box.translation() = query.from;
+    query.box.world_from_box.linear() =
+        Eigen::AngleAxisd(uniform(0.0, 3.0), Eigen::Vector3d(uniform(0.1, 1.0), uniform(0.1, 1.0), 1.0).normalized())
+            .toRotationMatrix();
+    note(answerTo(query), query);
+    return query;
+  }
+
+ private:
+  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+  Eigen::Vector3d place() {
+    const auto& poses = snapshot_.poses();
+    Eigen::Vector3d place = Eigen::Vector3d::Zero();
+    if (!poses.empty()) {
+      const BodyPose& pose = poses[random_() % poses.size()];
+      if (pose.state != Freshness::unplaced) place = pose.world_from_body.translation();
+    }
+    return place + Eigen::Vector3d(uniform(-0.5, 0.5), uniform(-0.5, 0.5), uniform(-0.5, 0.5));
+  }
+  QueryAnswer answerTo(const RecordedQuery& query) const {
+    switch (query.kind) {
+      case RecordedQuery::Kind::sphere:
+        return hgrid::query(snapshot_, Sphere{query.from, query.radius}, {});
+      case RecordedQuery::Kind::segment:
+        return hgrid::query(snapshot_, Segment{query.from, query.to, query.radius}, {});
+      case RecordedQuery::Kind::box:
+        return hgrid::query(snapshot_, query.box, narrow_phase_, {});
+      case RecordedQuery::Kind::nearest:
+        break;
+    }
+    return hgrid::nearest(snapshot_, query.from, 0.0, {});
+  }
+
+  const Snapshot& snapshot_;
+  const NarrowPhase& narrow_phase_;
+  std::mt19937_64 random_;
+};
+
+void takeSettings(const Params& params, AuditCase& result) {
+  result.margin = params.margin;
+  result.growth_cap = params.growth_cap;
+  result.growth_after = params.stale_after;
+  result.max_sync_wait = params.max_sync_wait;
+  result.max_future = params.max_future;
+  result.world_limit = params.world_limit;
+  result.origin_distance = params.origin.cwiseAbs().maxCoeff();
+  result.pair_kinds = params.pair_kinds;
+  result.pair_margins = params.pair_margins;
+}
+
+}  // namespace
+
+AuditCase caseOf(const Tick& tick, const TransformRecord::Content& record, const Params& params,
+                 std::uint64_t config_hash, std::uint64_t seed, const NarrowPhase& narrow_phase) {
+  if (record.overflown)
+    throw Refusal(Code::limit,
+                  "the messages on /tf_static have more bytes than ~tf_queue_bytes; no tick can be audited");
+  const Snapshot& snapshot = *tick.snapshot;
+  AuditCase result;
+  takeSettings(params, result);
+  result.config_hash = std::to_string(config_hash);
+  result.epoch = tick.epoch;
+  result.sequence = snapshot.sequence();
+  result.stamp = snapshot.stamp();
+  result.made = tick.made.ros;
+  result.world_frame = tick.world_frame;
+  result.rules = snapshot.structure().filter.rules();
+  for (const TransformRecord::Message& message : record.messages) append(*message, result.transforms);
+  result.record_begin = record.begin;
+  result.bodies = snapshot.structure().bodies;
+  listSwitchedOff(result.bodies, result);
+  listCells(snapshot, result);
+  result.poses = snapshot.poses();
+  result.pairs = snapshot.pairs();
+  result.truncated = snapshot.truncated();
+  Asker asker(snapshot, narrow_phase, seed);
+  for (int i = 0; i < kQueries; ++i) result.queries.push_back(asker.ask(static_cast<RecordedQuery::Kind>(i % 4)));
+  return result;
+}
+
+}  // namespace hgrid

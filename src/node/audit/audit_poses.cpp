@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/audit/audit_poses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <optional>
+
+#include "hgrid_proximity/refusal.h"
+#include "node/audit/recorded_frames.h"
+
+namespace hgrid {
+namespace {
+
+constexpr double kPosition = 1e-6;  // [m] largest difference of two equal positions, plus kRelative of the distance
+constexpr double kRelative = 1e-10;
+constexpr double kRotation = 1e-7;  // largest difference of the entries of two equal rotation matrices
+
+/// Returns a small number with three digits.
+std::string shortText(double number) {
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%.3g", number);
+  return digits;
+}
+
+std::string secondsOf(Time time) { return text(seconds(time)) + " s"; }
+
+Time nanosecondsOf(double duration) { return Time(std::llround(1e9 * duration)); }
+
+std::string unexplained(const Body& body, const BodyPose& pose) {
+  return "body '" + printable(body.name) + "' has a pose of " + secondsOf(pose.stamp) +
+         ", but no transforms that were received place it then";
+}
+
+/// Compares the pose of one body.
+class PoseAudit {
+ public:
+  PoseAudit(const AuditCase& audited, const RecordedFrames& frames, const RecordedFrames::Chain& chain,
+            std::size_t body)
+      : audited_(audited), frames_(frames), chain_(chain), body_(audited.bodies[body]), pose_(audited.poses[body]) {}
+
+  /// Returns a sentence about the difference; empty if there is none. Sets `compared` to false if the record cannot
+  /// tell.
+  std::string difference(bool& compared) const {
+    if (pose_.state == Freshness::unplaced) return unplaced(compared);
+    if (const std::string lag = lagging(); !lag.empty()) return lag;
+    const auto expected = frames_.poseAt(chain_, chain_.moves ? pose_.stamp : audited_.stamp);
+    if (!expected) return withoutTransforms(compared);
+    return differenceFrom(*expected * body_.frame_from_body);
+  }
+
+ private:
+  std::string subject() const { return "body '" + printable(body_.name) + "'"; }
+
+  std::string unplaced(bool& compared) const {
+    const auto expected = frames_.poseAt(chain_, audited_.stamp);
+    compared =
+        expected && (*expected * body_.frame_from_body).translation().cwiseAbs().maxCoeff() < audited_.world_limit;
+    return compared ? subject() + " has no pose, but the transforms place it at the time of the tick" : "";
+  }
+
+  /// Whether the node must use newer transforms than it did.
+  std::string lagging() const {
+    if (!chain_.moves || pose_.state >= Freshness::frozen) return "";
+    const Time known = std::min(audited_.stamp, frames_.newestTime(chain_));
+    const auto newest = frames_.sampledUpTo(chain_, known);
+    if (!newest || pose_.stamp >= *newest) return "";
+    return subject() + " has a pose of " + secondsOf(pose_.stamp) + ", but transforms of " + secondsOf(*newest) +
+           " had been read";
+  }
+
+  /// Says that no transforms explain the pose, unless transforms that the record has dropped may explain it.
+  std::string withoutTransforms(bool& compared) const {
+    compared = frames_.newestTime(chain_) < pose_.stamp || audited_.record_begin.count() == 0;
+    return compared ? unexplained(body_, pose_) : "";
+  }
+
+  std::string differenceFrom(const Pose& expected) const {
+    const Eigen::Vector3d off = pose_.world_from_body.translation() - expected.translation();
+    const double allowed = kPosition + kRelative * expected.translation().cwiseAbs().maxCoeff();
+    const double turned = (pose_.world_from_body.linear() - expected.linear()).cwiseAbs().maxCoeff();
+    if (off.norm() <= allowed && turned <= kRotation) return "";
+    return subject() + " is " + shortText(off.norm()) + " m away from where the transforms of " +
+           secondsOf(pose_.stamp) + " place it (entries of its rotation matrix differ by " + shortText(turned) + ")";
+  }
+
+  const AuditCase& audited_;
+  const RecordedFrames& frames_;
+  const RecordedFrames::Chain& chain_;
+  const Body& body_;
+  const BodyPose& pose_;
+};
+
+/// Checks that the tick did not wait longer for slow frames than ~max_sync_wait says.
+void auditTime(const AuditCase& audited, Time newest, AuditFindings& findings) {
+  if (newest == Time::min() || audited.stamp >= newest - nanosecondsOf(audited.max_sync_wait)) return;
+  findings.add("the time of the tick is " + secondsOf(audited.stamp) + ", but transforms of " + secondsOf(newest) +
+               " had been read; ~max_sync_wait is " + text(audited.max_sync_wait) + " s");
+}
+
+}  // namespace
+
+void auditPoses(const AuditCase& audited, AuditFindings& findings) {
+  const RecordedFrames frames(audited);
+  std::map<std::string, std::optional<RecordedFrames::Chain>> chains;
+  Time newest = Time::min();
+  // A transform with a later stamp than this was received after the oldest one of the record.
+  const Time explained_from = audited.record_begin + nanosecondsOf(audited.max_future);
+  const Time latest = audited.made + nanosecondsOf(audited.max_sync_wait);
+  for (std::size_t i = 0; i < audited.bodies.size(); ++i) {
+    const Body& body = audited.bodies[i];
+    const auto [entry, is_new] = chains.try_emplace(body.frame);
+    if (is_new) entry->second = frames.chain(audited.world_frame, body.frame);
+    const auto& chain = entry->second;
+    const BodyPose& pose = audited.poses[i];
+    bool compared = body.kind != BodyKind::cloud && chain && !chain->doubtful;
+    if (!chain && pose.state != Freshness::unplaced && body.kind != BodyKind::cloud && pose.stamp > explained_from) {
+      findings.add(unexplained(body, pose));
+    }
+    if (compared) {
+      const std::string difference = PoseAudit(audited, frames, *chain, i).difference(compared);
+      if (!difference.empty()) findings.add(difference);
+      if (chain->moves && frames.newestTime(*chain) <= latest) newest = std::max(newest, frames.newestTime(*chain));
+    }
+    ++(compared ? findings.poses : findings.poses_skipped);
+  }
+  auditTime(audited, newest, findings);
+}
+
+}  // namespace hgrid

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/audit/expected_filter.h"
+
+#include <algorithm>
+#include <string>
+
+namespace hgrid {
+namespace {
+
+bool fits(const std::string& glob, const std::string& name) {
+  std::size_t g = 0, n = 0, star = std::string::npos, resume = 0;
+  while (n < name.size()) {
+    if (g < glob.size() && glob[g] == '*') {
+      star = g++;
+      resume = n;
+    } else if (g < glob.size() && (glob[g] == '?' || glob[g] == name[n])) {
+      ++g;
+      ++n;
+    } else if (star != std::string::npos) {
+      g = star + 1;
+      n = ++resume;
+    } else {
+      return false;
+    }
+  }
+  while (g < glob.size() && glob[g] == '*') ++g;
+  return g == glob.size();
+}
+
+template <class Entry>
+bool names(const Entry& entry, const std::string& a, const std::string& b) {
+  return (fits(entry.first, a) && fits(entry.second, b)) || (fits(entry.first, b) && fits(entry.second, a));
+}
+
+bool hasWildcard(const PairRule& rule) { return (rule.first + rule.second).find_first_of("*?") != std::string::npos; }
+
+}  // namespace
+
+/// Whether pairs of this kind exist at all (~pair_kinds).
+bool ExpectedFilter::exists(std::uint32_t first, std::uint32_t second) const {
+  const Body &a = audited_.bodies[first], &b = audited_.bodies[second];
+  const PairKinds& kinds = audited_.pair_kinds;
+  if (a.mobility == Mobility::fixed && b.mobility == Mobility::fixed) return false;
+  const int links = (a.kind == BodyKind::link) + (b.kind == BodyKind::link);
+  if (links == 2) return a.robot == b.robot ? kinds.self : kinds.robot_robot;
+  if (links == 1) {
+    const Body& other = a.kind == BodyKind::link ? b : a;
+    return other.kind == BodyKind::obstacle ? kinds.robot_obstacle : kinds.robot_map;
+  }
+  const auto moves = [](const Body& body) {
+    return body.kind == BodyKind::obstacle && body.mobility == Mobility::moving;
+  };
+  return kinds.moving_obstacle && (moves(a) || moves(b));
+}
+
+bool ExpectedFilter::reports(std::uint32_t first, std::uint32_t second) const {
+  if (!exists(first, second)) return false;
+  const std::string &a = audited_.bodies[first].name, &b = audited_.bodies[second].name;
+  for (const bool wildcard : {false, true}) {  // a rule without a wildcard is more exact
+    for (auto rule = audited_.rules.rbegin(); rule != audited_.rules.rend(); ++rule) {
+      if (hasWildcard(*rule) == wildcard && names(*rule, a, b)) return !rule->allowed;
+    }
+  }
+  const std::pair<std::uint32_t, std::uint32_t> pair(std::min(first, second), std::max(first, second));
+  return !std::binary_search(audited_.switched_off.begin(), audited_.switched_off.end(), pair);
+}
+
+/// Returns how much the margins of a body grow because its pose is old.
+double ExpectedFilter::growthOf(std::uint32_t body) const {
+  const BodyPose& pose = audited_.poses[body];
+  const bool old = pose.state >= Freshness::stale || pose.age > audited_.growth_after;
+  if (!old || !(pose.age > 0.0)) return 0.0;
+  return std::min(audited_.growth_cap, audited_.bodies[body].max_speed * pose.age);
+}
+
+double ExpectedFilter::marginOf(std::uint32_t first, std::uint32_t second) const {
+  const Body &a = audited_.bodies[first], &b = audited_.bodies[second];
+  const bool together = a.kind == BodyKind::link && a.robot == b.robot;  // their growth depends on their ages
+  const double growth = together ? 0.0 : growthOf(first) + growthOf(second);
+  for (auto entry = audited_.pair_margins.rbegin(); entry != audited_.pair_margins.rend(); ++entry) {
+    if (names(*entry, a.name, b.name)) return std::max(audited_.margin, entry->margin) + growth;
+  }
+  return std::max({audited_.margin, a.margin, b.margin}) + growth;
+}
+
+double ExpectedFilter::mostOf(std::uint32_t body) const {
+  double most = std::max(audited_.margin, audited_.bodies[body].margin);
+  for (const PairMargin& entry : audited_.pair_margins) most = std::max(most, entry.margin);
+  return most + growthOf(body);
+}
+
+}  // namespace hgrid

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/audit/real_boxes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hgrid {
+namespace {
+
+constexpr double kSinglePrecision = 1e-6;  // bound of the relative rounding of boxes, with a reserve
+
+/// Returns how far [m] the shape reaches along a unit vector of its own frame (its support function).
+double reachAlong(const Shape& shape, const Eigen::Vector3d& direction) {
+  const std::vector<double> d = shape.dimensions();
+  const double across = std::hypot(direction.x(), direction.y());  // share of the direction perpendicular to the axis
+  switch (shape.kind()) {
+    case ShapeKind::sphere:
+      return d[0];
+    case ShapeKind::box:
+      return 0.5 * (d[0] * std::abs(direction.x()) + d[1] * std::abs(direction.y()) + d[2] * std::abs(direction.z()));
+    case ShapeKind::cylinder:
+      return 0.5 * d[0] * std::abs(direction.z()) + d[1] * across;
+    case ShapeKind::cone:
+      return std::max(0.5 * d[0] * direction.z(), -0.5 * d[0] * direction.z() + d[1] * across);
+    case ShapeKind::capsule:
+      return 0.5 * d[0] * std::abs(direction.z()) + d[1];
+    case ShapeKind::hull:
+    case ShapeKind::mesh:
+      break;
+  }
+  double reach = -std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector3d& vertex : shape.mesh()->vertices) reach = std::max(reach, vertex.dot(direction));
+  return reach;
+}
+
+double distanceOf(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& point) { return box.exteriorDistance(point); }
+
+/// Returns the distance of a segment from a box. The distance of a point that moves along the segment is a convex
+/// function, so dividing the segment finds the minimum.
+double distanceOf(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  double low = 0.0, high = 1.0;
+  const auto at = [&](double part) { return distanceOf(box, from + part * (to - from)); };
+  for (int step = 0; step < 100; ++step) {
+    const double first = low + (high - low) / 3.0, second = high - (high - low) / 3.0;
+    (at(first) <= at(second) ? high : low) = at(first) <= at(second) ? second : first;
+  }
+  return std::min({at(low), at(0.0), at(1.0)});
+}
+
+}  // namespace
+
+RealBoxes realBoxesOf(const Body& body, const Pose& world_from_body) {
+  RealBoxes result;
+  for (const BodyShape& shape : body.shapes) {
+    const Pose world_from_shape = world_from_body * shape.body_from_shape;
+    Eigen::AlignedBox3d box;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Eigen::Vector3d direction = world_from_shape.linear().row(axis).transpose();
+      const double center = world_from_shape.translation()[axis];
+      box.max()[axis] = center + reachAlong(shape.shape, direction) + shape.padding;
+      box.min()[axis] = center - reachAlong(shape.shape, -direction) - shape.padding;
+    }
+    result.shapes.push_back(box);
+    result.all.extend(box);
+  }
+  return result;
+}
+
+double RealBoxes::gapTo(const RealBoxes& other) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Eigen::AlignedBox3d& mine : shapes) {
+    for (const Eigen::AlignedBox3d& theirs : other.shapes) least = std::min(least, mine.exteriorDistance(theirs));
+  }
+  return least;
+}
+
+double RealBoxes::distanceTo(const Eigen::Vector3d& point) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Eigen::AlignedBox3d& box : shapes) least = std::min(least, distanceOf(box, point));
+  return least;
+}
+
+double RealBoxes::distanceTo(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Eigen::AlignedBox3d& box : shapes) least = std::min(least, distanceOf(box, from, to));
+  return least;
+}
+
+double distanceTo(const RecordedCells& cells, const Eigen::Vector3d& point) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Voxel& voxel : cells.voxels) {
+    const double edge = std::ldexp(cells.finest_edge, voxel.level);
+    double sum = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int key = axis == 0 ? voxel.x : axis == 1 ? voxel.y : voxel.z;
+      const double low = cells.finest_edge * (key - 32768);
+      const double off = std::max({low - point[axis], point[axis] - low - edge, 0.0});
+      sum += off * off;
+    }
+    least = std::min(least, sum);
+  }
+  return std::sqrt(least);
+}
+
+double roundingOf(const AuditCase& audited, const RealBoxes& boxes) {
+  if (boxes.shapes.empty()) return kPoseSlack;
+  const double largest = std::max(boxes.all.min().cwiseAbs().maxCoeff(), boxes.all.max().cwiseAbs().maxCoeff());
+  return kPoseSlack + kSinglePrecision * (largest + audited.origin_distance);
+}
+
+}  // namespace hgrid

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/audit/recorded_frames.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hgrid {
+namespace {
+
+constexpr double kFarthest = 1e9;  // [m] the node refuses transforms beyond it
+
+/// Whether the node uses a transform like this one.
+bool isValid(const RecordedTransform& transform, double max_future) {
+  double norm = 0.0;
+  for (std::size_t i = 0; i < 7; ++i) {
+    const double number = transform.numbers[i];
+    if (!std::isfinite(number) || (i < 3 && std::abs(number) > kFarthest)) return false;
+    if (i >= 3) norm += number * number;
+  }
+  if (transform.parent.empty() || transform.child.empty() || transform.parent == transform.child) return false;
+  if (!(std::abs(norm - 1.0) <= kQuaternionTolerance)) return false;
+  return transform.is_static || (transform.stamp.count() > 0 && transform.received.count() > 0 &&
+                                 seconds(transform.stamp - transform.received) <= max_future);
+}
+
+}  // namespace
+
+RecordedFrames::RecordedFrames(const AuditCase& audited) {
+  for (const RecordedTransform& transform : audited.transforms) add(transform, audited);
+  for (Frame& frame : frames_) finish(frame);
+}
+
+std::size_t RecordedFrames::numberOf(const std::string& name) {
+  const auto [entry, is_new] = numbers_.emplace(name, frames_.size());
+  if (is_new) frames_.emplace_back();
+  return entry->second;
+}
+
+void RecordedFrames::add(const RecordedTransform& transform, const AuditCase& audited) {
+  const std::size_t parent = numberOf(transform.parent);
+  Frame& frame = frames_[numberOf(transform.child)];
+  if (!isValid(transform, audited.max_future)) {
+    frame.doubtful = true;
+    return;
+  }
+  const auto& n = transform.numbers;
+  Sample sample;
+  sample.stamp = transform.stamp;
+  sample.parent = parent;
+  sample.rotation = Eigen::Quaterniond(n[6], n[3], n[4], n[5]).normalized();
+  sample.translation = Eigen::Vector3d(n[0], n[1], n[2]);
+  (transform.is_static ? frame.fixed : frame.moves) = true;
+  if (!frame.publisher.empty() && frame.publisher != transform.publisher) frame.doubtful = true;
+  frame.publisher = transform.publisher;
+  if (transform.is_static) frame.samples.clear();  // the newest one counts
+  frame.samples.push_back(sample);
+}
+
+void RecordedFrames::finish(Frame& frame) {
+  if (frame.fixed && frame.moves) frame.doubtful = true;
+  if (!frame.moves) return;
+  const auto earlier = [](const Sample& a, const Sample& b) { return a.stamp < b.stamp; };
+  const auto same = [](const Sample& a, const Sample& b) { return a.stamp == b.stamp; };
+  std::stable_sort(frame.samples.begin(), frame.samples.end(), earlier);
+  frame.samples.erase(std::unique(frame.samples.begin(), frame.samples.end(), same), frame.samples.end());
+  for (const Sample& sample : frame.samples)
+    frame.doubtful = frame.doubtful || sample.parent != frame.samples[0].parent;
+}
+
+/// Returns a frame and its ancestors, the frame first. If they form a loop, returns nothing.
+std::vector<std::size_t> RecordedFrames::ancestors(std::size_t frame) const {
+  std::vector<std::size_t> result{frame};
+  while (!frames_[result.back()].samples.empty()) {
+    if (result.size() > frames_.size()) return {};
+    result.push_back(frames_[result.back()].samples.back().parent);
+  }
+  return result;
+}
+
+std::optional<RecordedFrames::Chain> RecordedFrames::chain(const std::string& target, const std::string& frame) const {
+  Chain chain;
+  if (target == frame) return chain;
+  const auto from = numbers_.find(target), to = numbers_.find(frame);
+  if (from == numbers_.end() || to == numbers_.end()) return std::nullopt;
+  chain.up = ancestors(from->second);
+  chain.down = ancestors(to->second);
+  if (chain.up.empty() || chain.down.empty() || chain.up.back() != chain.down.back()) return std::nullopt;
+  while (!chain.up.empty() && !chain.down.empty() && chain.up.back() == chain.down.back()) {
+    chain.up.pop_back();
+    chain.down.pop_back();
+  }
+  for (const auto* side : {&chain.up, &chain.down}) {
+    for (const std::size_t number : *side) {
+      chain.doubtful = chain.doubtful || frames_[number].doubtful;
+      chain.moves = chain.moves || frames_[number].moves;
+    }
+  }
+  return chain;
+}
+
+/// Returns the pose of a frame in its parent.
+std::optional<Pose> RecordedFrames::edgeAt(std::size_t number, Time time) const {
+  const Frame& frame = frames_[number];
+  const auto poseOf = [](const Eigen::Quaterniond& rotation, const Eigen::Vector3d& translation) {
+    Pose pose = Pose::Identity();
+    pose.linear() = rotation.toRotationMatrix();
+    pose.translation() = translation;
+    return pose;
+  };
+  if (!frame.moves) return poseOf(frame.samples.back().rotation, frame.samples.back().translation);
+  const auto after = std::lower_bound(frame.samples.begin(), frame.samples.end(), time,
+                                      [](const Sample& sample, Time wanted) { return sample.stamp < wanted; });
+  if (after == frame.samples.end()) return std::nullopt;
+  if (after->stamp == time) return poseOf(after->rotation, after->translation);
+  if (after == frame.samples.begin()) return std::nullopt;
+  const Sample& before = *(after - 1);
+  const double part = seconds(time - before.stamp) / seconds(after->stamp - before.stamp);
+  return poseOf(before.rotation.slerp(part, after->rotation),
+                before.translation + part * (after->translation - before.translation));
+}
+
+std::optional<Pose> RecordedFrames::poseAt(const Chain& chain, Time time) const {
+  Pose ancestor_from_frame = Pose::Identity(), ancestor_from_target = Pose::Identity();
+  for (const std::size_t number : chain.down) {
+    const auto edge = edgeAt(number, time);
+    if (!edge) return std::nullopt;
+    ancestor_from_frame = *edge * ancestor_from_frame;
+  }
+  for (const std::size_t number : chain.up) {
+    const auto edge = edgeAt(number, time);
+    if (!edge) return std::nullopt;
+    ancestor_from_target = *edge * ancestor_from_target;
+  }
+  return ancestor_from_target.inverse() * ancestor_from_frame;
+}
+
+Time RecordedFrames::newestTime(const Chain& chain) const {
+  Time newest = Time::max();
+  for (const auto* side : {&chain.up, &chain.down}) {
+    for (const std::size_t number : *side) {
+      if (frames_[number].moves) newest = std::min(newest, frames_[number].samples.back().stamp);
+    }
+  }
+  return newest;
+}
+
+std::optional<Time> RecordedFrames::sampledUpTo(const Chain& chain, Time time) const {
+  Time result = time;
+  for (const auto* side : {&chain.up, &chain.down}) {
+    for (const std::size_t number : *side) {
+      const Frame& frame = frames_[number];
+      if (!frame.moves) continue;
+      const auto after = std::upper_bound(frame.samples.begin(), frame.samples.end(), time,
+                                          [](Time wanted, const Sample& sample) { return wanted < sample.stamp; });
+      if (after == frame.samples.begin()) return std::nullopt;
+      result = std::min(result, (after - 1)->stamp);
+    }
+  }
+  return result;
+}
+
+}  // namespace hgrid

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "src/node/audit/audit.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+#include "audited_world.h"
+#include "hgrid_proximity/refusal.h"
+#include "src/node/audit/case_file.h"
+
+namespace hgrid {
+namespace {
+
+using test::AuditedWorld;
+
+std::string sentences(const AuditFindings& findings) {
+  std::string result;
+  for (const std::string& sentence : findings.differences) result += sentence + "\n";
+  return result;
+}
+
+/// Audits every third tick up to ten times, and returns the sentences of the first audit that finds a difference.
+/// `plant` may change a case before its audit.
+std::string foundWithinTen(AuditedWorld& world, const std::function<void(AuditCase&)>& plant = {}) {
+  for (int i = 0; i < 10; ++i) {
+    for (int tick = 0; tick < 3; ++tick) world.step();
+    AuditCase audited = world.audited();
+    if (plant) plant(audited);
+    const AuditFindings findings = audit(audited, 1);
+    if (findings.total > 0) return sentences(findings);
+  }
+  return "";
+}
+
+/// Makes ticks until all frames are known.
+void begin(AuditedWorld& world) {
+  for (int i = 0; i < 3; ++i) world.step();
+  ASSERT_EQ(sentences(audit(world.audited(), 1)), "");
+}
+
+void expectTells(const std::string& found, const std::string& part) {
+  EXPECT_NE(found.find(part), std::string::npos) << "found: " << found.substr(0, 500);
+}
+
+TEST(Audit, ComparesAllPosesPairsAndQueriesOfASmallWorld) {
+  AuditedWorld world(1);
+  world.addRobot(0.0);
+  begin(world);
+  const AuditFindings findings = audit(world.audited(), 1);
+  EXPECT_EQ(findings.poses + 1, world.world().snapshot().poses().size());
+  EXPECT_EQ(findings.poses_skipped, 1u) << "only frame 'slow' has no transforms";
+  EXPECT_EQ(findings.pairs, 17u * 16 / 2);
+  EXPECT_EQ(findings.queries, 8u);
+  EXPECT_GT(world.world().snapshot().pairs().size(), 5u) << "the world has too few pairs for this test";
+}
+
+TEST(Audit, FindsAPoseThatDoesNotFitItsTransforms) {
+  AuditedWorld world(2);
+  begin(world);
+  world.tamper = [](geometry_msgs::TransformStamped& transform) {
+    if (transform.child_frame_id == "f3") transform.transform.translation.z += 1e-5;
+    return true;
+  };
+  expectTells(foundWithinTen(world), "'obstacle/part3' is 1e-05 m away from where the transforms");
+}
+
+TEST(Audit, FindsTransformsThatTheNodeLost) {
+  AuditedWorld world(3);
+  begin(world);
+  world.tamper = [](const geometry_msgs::TransformStamped& transform) { return transform.child_frame_id != "f4"; };
+  expectTells(foundWithinTen(world), "'obstacle/part4' has a pose of");
+}
+
+TEST(Audit, FindsABodyThatStaysWithoutAPose) {
+  AuditedWorld world(4);
+  world.tamper = [](const geometry_msgs::TransformStamped& transform) { return transform.child_frame_id != "f5"; };
+  expectTells(foundWithinTen(world), "'obstacle/part5' has no pose, but the transforms place it");
+}
+
+TEST(Audit, FindsALinkThatIsPlacedWrongInItsRobot) {
+  AuditedWorld world(5);
+  world.addRobot(0.001);
+  expectTells(foundWithinTen(world), "'arm/arm_tool' is 0.001 m away");
+}
+
+TEST(Audit, FindsAPairThatTheGridMissed) {
+  AuditedWorld world(6);
+  begin(world);
+  const std::string found = foundWithinTen(world, [](AuditCase& audited) {
+    if (!audited.pairs.empty()) audited.pairs.erase(audited.pairs.begin() + audited.pairs.size() / 2);
+  });
+  expectTells(found, "is missing: the gap of its boxes is");
+}
+
+TEST(Audit, FindsAMarginThatIsTooSmall) {
+  AuditedWorld world(7);
+  begin(world);
+  const std::string found = foundWithinTen(world, [](AuditCase& audited) {
+    auto& pairs = audited.pairs;
+    for (NearPair& pair : pairs) pair.margin *= 0.5;
+    pairs.erase(std::remove_if(pairs.begin(), pairs.end(), [](const NearPair& p) { return p.gap > p.margin; }),
+                pairs.end());
+  });
+  expectTells(found, "has the margin");
+  expectTells(found, "is missing");
+}
+
+TEST(Audit, FindsAPairThatTheFilterShouldHaveSwitchedOff) {
+  AuditedWorld world(8);
+  begin(world);
+  const std::string found = foundWithinTen(world, [](AuditCase& audited) {
+    PairRule rule;
+    rule.first = "obstacle/part*";
+    rule.second = "obstacle/part?";
+    audited.rules.push_back(rule);
+  });
+  expectTells(found, "is listed, but it is switched off");
+}
+
+TEST(Audit, FindsAPairThatTheFilterSwitchedOffWithoutARule) {
+  AuditedWorld world(9);
+  begin(world);
+  expectTells(foundWithinTen(world, [](AuditCase& audited) { audited.rules.clear(); }), "is missing");
+}
+
+TEST(Audit, FindsAGapThatIsWrong) {
+  AuditedWorld world(10);
+  begin(world);
+  const std::string found = foundWithinTen(world, [](AuditCase& audited) {
+    for (NearPair& pair : audited.pairs) pair.gap += 1e-4;
+  });
+  expectTells(found, "has the gap");
+}
+
+TEST(Audit, FindsAQueryThatMissedABody) {
+  AuditedWorld world(11);
+  begin(world);
+  const std::string found = foundWithinTen(world, [](AuditCase& audited) {
+    for (RecordedQuery& query : audited.queries) {
+      query.hits.clear();
+      query.verdict = Verdict::clear;
+    }
+  });
+  expectTells(found, "is no hit, but the query touches its box");
+  expectTells(found, "a nearest query");
+}
+
+TEST(Audit, FindsAPairWithAMapThatTheNodeMissed) {
+  AuditedWorld world(12);
+  begin(world);
+  const std::string found = foundWithinTen(world, [](AuditCase& audited) {
+    Body body;
+    body.name = "map/z";
+    body.frame = "base";
+    body.kind = BodyKind::map;
+    body.mobility = Mobility::fixed;
+    BodyPose pose;
+    pose.state = Freshness::fresh;
+    RecordedCells cells;
+    cells.body = static_cast<std::uint32_t>(audited.bodies.size());
+    cells.finest_edge = 0.5;
+    cells.voxels = {{32767, 32767, 32767, 1}};  // a cube of 1 m around the origin
+    audited.bodies.push_back(body);
+    audited.poses.push_back(pose);
+    audited.cells.push_back(cells);
+  });
+  expectTells(found, "'map/z' is missing: a cell is");
+}
+
+/// One of the things that happen to transforms in a real system.
+void disturb(AuditedWorld& world) {
+  test::Random& random = world.random();
+  const std::string frame = "f" + std::to_string(random.below(10));
+  switch (random.below(10)) {
+    case 0:  // a frame stops or starts
+      world.is_silent = [frame](const std::string& other) { return other == frame; };
+      break;
+    case 1:
+      world.is_silent = nullptr;
+      break;
+    case 2: {  // not a number
+      auto transform = world.randomTransform("hub", frame, 0.0);
+      transform.transform.translation.x = std::numeric_limits<double>::quiet_NaN();
+      world.send(transform);
+      break;
+    }
+    case 3:  // out of order
+      world.send(world.randomTransform("hub", frame, random.uniform(0.0, 0.3)));
+      break;
+    case 4:  // another publisher
+      world.send(world.randomTransform("hub", frame, 0.0), false, "/rival");
+      break;
+    case 5:  // another parent
+      world.send(world.randomTransform("base", frame, 0.0));
+      break;
+    case 6:  // stamped ahead
+      world.send(world.randomTransform("hub", frame, random.uniform(-0.6, 0.0)));
+      break;
+    case 7:  // the wall clock is set
+      if (random.chance(0.2)) world.world().setRosClock(world.world().now() + random.uniform(-30.0, 30.0));
+      break;
+    case 8:  // a new static transform above everything
+      world.send(world.randomTransform("map", "base", 0.0), true);
+      break;
+    default:  // nothing is received for a while
+      world.world().wait(random.uniform(0.0, 0.5));
+      break;
+  }
+}
+
+TEST(Audit, FindsNoDifferenceWhateverTheTransformsDo) {
+  std::uint64_t poses = 0, skipped = 0;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    AuditedWorld world(100 + seed);
+    world.addRobot(0.0);
+    for (int i = 0; i < 200; ++i) {
+      if (world.random().chance(0.1)) disturb(world);
+      if (i % 70 == 0) world.send(world.randomTransform("f1", "slow", 0.0));  // less than one per second
+      if (!world.step().snapshot) continue;
+      const AuditFindings findings = audit(world.audited(), 1);
+      ASSERT_EQ(sentences(findings), "") << "seed " << seed << ", tick " << i;
+      poses += findings.poses;
+      skipped += findings.poses_skipped;
+    }
+  }
+  EXPECT_GT(poses, skipped) << "the audits skipped most poses";
+}
+
+TEST(CaseFile, HasEverythingThatAnAuditNeeds) {
+  AuditedWorld world(20);
+  world.addRobot(0.001);
+  for (int i = 0; i < 5; ++i) world.step();
+  AuditCase audited = world.audited();
+  ASSERT_FALSE(audited.pairs.empty());
+  audited.pairs.pop_back();
+  std::stringstream file;
+  writeCase(audited, file);
+  const AuditFindings before = audit(audited, 1), after = audit(readCase(file), 1);
+  EXPECT_GE(before.total, 2u);
+  EXPECT_EQ(sentences(before), sentences(after));
+  EXPECT_EQ(before.poses, after.poses);
+  EXPECT_EQ(before.pairs, after.pairs);
+}
+
+TEST(CaseFile, ThatIsCutIsRefusedByLine) {
+  AuditedWorld world(21);
+  world.step();
+  std::stringstream file;
+  writeCase(world.audited(), file);
+  const std::string whole = file.str();
+  for (std::size_t size = 0; size + 2 < whole.size(); size += 1 + whole.size() / 500) {
+    std::istringstream cut(whole.substr(0, size));
+    try {
+      readCase(cut);
+      ADD_FAILURE() << "the first " << size << " bytes were accepted";
+    } catch (const Refusal& refusal) {
+      EXPECT_EQ(refusal.code(), Code::parse);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hgrid
