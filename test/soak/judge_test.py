@@ -19,7 +19,9 @@ def table(**changes):
         "ticks": 18000,
         "missed": 0,
         "incomplete": 0,
+        "tick_p50": 1.0,
         "tick_p99": 4.0,
+        "query_p50": 0.5,
         "query_p99": 2.0,
         "failed": 0,
         "rss": [90.0] + [100.0] * 9,
@@ -28,6 +30,8 @@ def table(**changes):
         "refusals": 0,
         "audited": 5,
         "different": 0,
+        "cpu": 30,
+        "others": 5,
     }
     columns.update(changes)
     lists = [value if isinstance(value, list) else [value] * 10 for value in columns.values()]
@@ -49,8 +53,13 @@ class Judge(unittest.TestCase):
         self.assert_finds("growth of the memory (early: 100.8 MB): 2.4 MB", rss=[100.0 + 0.4 * tenth for tenth in range(10)])
 
     def test_finds_times_that_grow(self):
-        self.assert_finds("late tick_p99", tick_p99=[4.0 + 0.7 * tenth for tenth in range(10)])
-        self.assert_finds("late query_p99", query_p99=[2.0 + 0.5 * tenth for tenth in range(10)])
+        for column in ("tick_p50", "tick_p99", "query_p50", "query_p99", "cpu"):
+            self.assert_finds("late " + column, **{column: [4.0 + 0.9 * tenth for tenth in range(10)]})
+
+    def test_blames_the_node_for_no_delay_by_other_programs(self):
+        busy = {"others": [5] * 9 + [150], "missed": 2000}
+        self.assertEqual([], judge.faults(judge.read(table(tick_p99=[4.0] * 6 + [40.0] * 4, **busy))))
+        self.assert_finds("late tick_p50", tick_p50=[4.0] * 6 + [40.0] * 4, **busy)
 
     def test_forgives_one_disturbed_tenth(self):
         self.assertEqual([], judge.faults(judge.read(table(tick_p99=[4.0] * 8 + [40.0, 4.0]))))
