@@ -70,7 +70,7 @@ class Cell(System):
         self.output = pathlib.Path(self.folder) / "node.log"
         self._lock = threading.Lock()
         self._heard = []
-        self._proxy = None
+        self._proxy = self._answers = None
 
     def __enter__(self):
         super().__enter__()
@@ -85,13 +85,16 @@ class Cell(System):
         rospy.signal_shutdown("the test has ended")
         super().__exit__(*details)
 
-    def begin(self, links=("hand",), **options):
-        """Starts the node and its world. `options` are parameters of the node."""
-        self.set("/robot_description", robot(*links))
-        self.params(**options)
-        self.hand = self.start_puppet(links)
-        self.node = self.start_node()
+    def begin(self, **options):
+        """Starts the node and its world, and waits until the world is complete. `options` are parameters of the node."""
+        self.start_all(**options)
         self.wait_until_right()
+
+    def start_all(self, **options):
+        self.set("/robot_description", robot("hand"))
+        self.params(**options)
+        self.hand = self.start_puppet()
+        self.node = self.start_node()
 
     def params(self, **options):
         self.set(NAME, dict({"world_frame": "world", "obstacles": [POST]}, **options))
@@ -140,8 +143,11 @@ class Cell(System):
             log = "\n".join(self.output.read_text(errors="replace").splitlines()[-15:])
         if status is None:
             return "no ~status was heard; end of the node's output:\n" + log
-        return "newest ~status: sequence %d, complete %s, reasons %s; end of the node's output:\n%s" % (
-            status.world.sequence, status.world.complete, status.world.reasons, log)
+        answers = self._answers
+        if isinstance(answers, list):
+            answers = [answer.summary for answer in answers]
+        return "newest ~status: sequence %d, complete %s, reasons %s; last answers: %s; end of the node's output:\n%s" % (
+            status.world.sequence, status.world.complete, status.world.reasons, answers, log)
 
     def ask(self, place):
         """Asks what a small sphere touches. Returns the response. Only one thread may call this."""
@@ -165,20 +171,24 @@ class Cell(System):
     def is_right(self):
         """Whether the world is complete, and the answers about three places are right."""
         try:
-            seen = [self.verdict(place) for place in (HAND, POST_PLACE, FREE)]
-        except (rospy.ServiceException, rospy.ROSException, OSError):
+            self._answers = [self.ask(place).answer for place in (HAND, POST_PLACE, FREE)]
+        except (rospy.ServiceException, rospy.ROSException, OSError) as error:
+            self._answers = error
             return False
         status = self.status()
+        seen = [VERDICTS[answer.verdict] for answer in self._answers]
         return bool(status and status.world.complete and seen == ["HIT", "HIT", "CLEAR"])
 
     def wait_until_right(self):
         self.wait("a complete world with right answers", self.is_right)
 
     def received(self, topic):
-        """Returns how many messages of a topic roscpp received in the node, and how many of them it dropped."""
-        uri = self.master.lookupNode("/test", NAME)[2]
-        links = [each for name, stats in ServerProxy(uri).getBusStats("/test")[2][1] if name == topic for each in stats]
-        return sum(link[2] for link in links), sum(link[3] for link in links)
+        """Returns how many messages of a topic roscpp received in the node, and how many of them it dropped.
+
+        roscpp reports one connection of a topic only."""
+        subscriptions = ServerProxy(self.master.lookupNode("/test", NAME)[2]).getBusStats("/test")[1]
+        links = [link for name, stats in subscriptions if name == topic for link in stats]
+        return sum(link[2] for link in links), sum(link[3] for link in links)  # link: id, bytes, messages, dropped, ...
 
     @staticmethod
     def pause(process):
