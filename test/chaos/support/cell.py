@@ -101,7 +101,7 @@ class Cell(System):
 
     def start_node(self, *arguments, **options):
         with open(self.output, "ab") as output:
-            return self.start(NODE, "__name:=proximity", *arguments, stdout=output, stderr=output, **options)
+            return self.start(NODE, "__name:=proximity", *arguments, **dict({"stdout": output, "stderr": output}, **options))
 
     def start_puppet(self, links=("hand",), name="puppet"):
         """Starts a process that publishes the frames of links 50 times per second."""

@@ -40,8 +40,8 @@ def transform(rng, stamp, child):
 
 
 def cloud(rng, stamp):
-    """A cloud of 20 points, or one that declares more bytes than it has."""
-    points = struct.pack("<60f", *[5.0 + rng.random() for _ in range(60)])
+    """A cloud of 20 points, far away, or one that declares more bytes than it has."""
+    points = struct.pack("<60f", *[300.0 + rng.random() for _ in range(60)])
     fields = b"".join(text(name) + struct.pack("<IBI", 4 * i, 7, 1) for i, name in enumerate("xyz"))
     declared = len(points) + (1000 if rng.random() < 0.2 else 0)
     return (header(stamp, "world") + struct.pack("<II", 1, 20) + struct.pack("<I", 3) + fields +
