@@ -44,7 +44,7 @@ class System:
             self._port = free.getsockname()[1]
         self.uri = "http://127.0.0.1:%d" % self._port
         self.folder = tempfile.mkdtemp(prefix="hgrid_doctor.")
-        self._processes = []
+        self.processes = []
         self.master = ServerProxy(self.uri)
         self.environment = dict(os.environ, ROS_MASTER_URI=self.uri, ROS_IP="127.0.0.1", ROS_HOME=self.folder)
         self.environment["ROS_LOG_DIR"] = self.folder + "/log"
@@ -52,16 +52,21 @@ class System:
             self.environment.pop(name, None)
 
     def __enter__(self):
-        self.start("rosmaster", "--core", "-p", str(self._port))
-        wait_for("the master", self._state)
+        self.start_master()
         return self
 
     def __exit__(self, *_):
-        for process in self._processes:
+        for process in self.processes:
             process.kill()  # SIGKILL is enough, because nothing of the process is used again
-        for process in self._processes:
+        for process in self.processes:
             process.wait()
         shutil.rmtree(self.folder, ignore_errors=True)
+
+    def start_master(self):
+        """Starts the master and waits for its first answer. Returns its process."""
+        process = self.start("rosmaster", "--core", "-p", str(self._port))
+        wait_for("the master", self._state)
+        return process
 
     def lose_master(self):
         """From now on, the doctor uses an address at which there is no master."""
@@ -69,13 +74,13 @@ class System:
 
     def hang_master(self):
         """From now on, the master accepts connections but never answers."""
-        os.kill(self._processes[0].pid, signal.SIGSTOP)
+        os.kill(self.processes[0].pid, signal.SIGSTOP)
 
     def start(self, *command, **options):
         """Starts a process without input and output. Its options are those of subprocess.Popen."""
         silent = {stream: subprocess.DEVNULL for stream in ("stdin", "stdout", "stderr")}
         process = subprocess.Popen(command, env=self.environment, **{**silent, **options})
-        self._processes.append(process)
+        self.processes.append(process)
         return process
 
     def set(self, name, value):
