@@ -11,13 +11,12 @@ namespace bench {
 namespace {
 
 constexpr std::size_t kPrepared = 10;
-constexpr std::size_t kChanged = MapStream::kLeaves / 100;
 constexpr int kMarkKey = Voxel::kOriginKey - 200;  // less than all keys of the building: first in Morton order
 
-/// Returns for each leaf of the building the index of the one map that does not contain it. Each map lacks kChanged
+/// Returns for each leaf of the building the index of the one map that does not contain it. Each map lacks `changed`
 /// leaves.
-std::vector<std::size_t> lackingMaps(std::size_t leaves) {
-  const std::size_t groups = leaves / kChanged;
+std::vector<std::size_t> lackingMaps(std::size_t leaves, std::size_t changed) {
+  const std::size_t groups = leaves / changed;
   std::vector<std::size_t> lacking(leaves);
   for (std::size_t i = 0; i < leaves; ++i) lacking[i] = i % groups;
   Random random(1);
@@ -40,9 +39,10 @@ test::OctomapBytes messageOf(const std::vector<Voxel>& voxels) {
 
 }  // namespace
 
-MapStream::MapStream(const std::string& topic) {
-  const std::vector<Voxel> leaves = buildingOf(kLeaves + kChanged);
-  const std::vector<std::size_t> lacking = lackingMaps(leaves.size());
+MapStream::MapStream(const std::string& topic, std::size_t count) {
+  const std::size_t changed = count / 100;
+  const std::vector<Voxel> leaves = buildingOf(count + changed);
+  const std::vector<std::size_t> lacking = lackingMaps(leaves.size(), changed);
   for (std::size_t number = 0; number < kPrepared; ++number) {
     const auto mark = static_cast<std::uint16_t>(kMarkKey - 2 * static_cast<int>(number % 2));
     std::vector<Voxel> voxels{{mark, mark, mark, 0}};

@@ -13,9 +13,9 @@
 namespace hgrid {
 namespace bench {
 
-/// Publishes maps of a building of 1,000,000 leaves (bench/maps/building.h), one after the other. Each map lacks 10,000
-/// leaves of the map before and has 10,000 other leaves, scattered over the building. The messages are like those of
-/// octomap_server on octomap_binary, in the frame "map".
+/// Publishes maps of a building (bench/maps/building.h), one after the other. Each map lacks 1 % of the leaves of the
+/// map before and has as many other leaves, scattered over the building. The messages are like those of octomap_server
+/// on octomap_binary, in the frame "map".
 ///
 /// The constructor prepares ten maps, because creating a map takes far longer than sending it. After the tenth map, the
 /// first one is sent again. Each map has a mark: one more leaf outside of the building. From map to map, the mark
@@ -25,8 +25,8 @@ class MapStream {
   static constexpr std::size_t kLeaves = 1000000;
   static constexpr double kEdge = 0.05;  ///< [m] edge of the smallest leaves
 
-  /// Prepares the maps and publishes the first one on `topic`.
-  explicit MapStream(const std::string& topic);
+  /// Prepares maps of `leaves` leaves and publishes the first one on `topic`.
+  explicit MapStream(const std::string& topic, std::size_t leaves = kLeaves);
 
   void publishNext();
   /// Returns the number of maps published so far.

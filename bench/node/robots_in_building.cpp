@@ -9,7 +9,7 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-/// Returns the pose of the building. The robots are in the middle of its first room, on the floor.
+/// Returns the pose of the building. The robots of robots() are in the middle of its first room, on the floor.
 geometry_msgs::TransformStamped frameOfMap() {
   geometry_msgs::TransformStamped transform;
   transform.header.frame_id = "world";
@@ -22,9 +22,7 @@ geometry_msgs::TransformStamped frameOfMap() {
 
 }  // namespace
 
-Workload robotsInBuilding(std::size_t count, std::size_t links, double rate, const std::string& topic) {
-  Workload workload = robots(count, links, rate);
-  workload.title += " in a building of 1,000,000 leaves";
+Workload inBuilding(Workload workload, const std::string& topic) {
   ++workload.bodies;
   XmlRpc::XmlRpcValue& map = workload.params["maps"][0];
   map["name"] = "building";
@@ -37,6 +35,12 @@ Workload robotsInBuilding(std::size_t count, std::size_t links, double rate, con
     return messages;
   };
   return workload;
+}
+
+Workload robotsInBuilding(std::size_t count, std::size_t links, double rate, const std::string& topic) {
+  Workload workload = robots(count, links, rate);
+  workload.title += " in a building of 1,000,000 leaves";
+  return inBuilding(std::move(workload), topic);
 }
 
 }  // namespace bench

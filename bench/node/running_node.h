@@ -18,11 +18,12 @@ class RunningNode {
  public:
   /// Starts the node and waits until its cache of transforms is full, because a full cache makes the node slower.
   /// @param watched  [s] time between watch() and rest(). The period of /tf is chosen for this time: the offset
-  ///   between                 /tf and the ticks takes each value once.
+  ///   between /tf and the ticks takes each value once.
   /// @throws std::runtime_error if the node does not know the whole world within a minute
   RunningNode(const Workload& workload, double watched);
 
   const std::string& name() const { return name_; }
+  test::ChildProcess& process() const { return *process_; }
   /// Adds all measured data to `sightings` from now on, until rest() is called.
   void watch(Sightings& sightings);
   /// Ends what watch() began: adds no more data.

@@ -35,6 +35,9 @@ Workload robots(std::size_t count, std::size_t links, double rate);
 /// map of the building on `topic`, in the frame "map". Robots with up to 20 links fit under the ceiling.
 Workload robotsInBuilding(std::size_t count, std::size_t links, double rate, const std::string& topic);
 
+/// Returns the workload in a building. The node receives the map of the building on `topic`, in the frame "map".
+Workload inBuilding(Workload workload, const std::string& topic);
+
 /// Returns boxes that fly around and turn. Each box is an obstacle with its own frame and has about one near neighbor.
 /// One message contains all frames, like the message of a motion capture system.
 Workload freeBodies(std::size_t count, double rate);

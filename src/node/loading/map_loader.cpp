@@ -62,6 +62,7 @@ bool MapLoader::put(const MapParams& map, const std::function<LoadedMap()>& load
   try {
     const LoadedMap loaded = load();
     jobs_.run([loaded](World& world) { world.setMap(loaded); });
+    ledger_.count("maps.accepted");
     return true;
   } catch (...) {
     const Refusal why = caughtRefusal();

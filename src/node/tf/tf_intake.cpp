@@ -207,7 +207,10 @@ bool TfIntake::takeRepeated(std::uint32_t number, const Arrival& arrival) {
   Frame& frame = frames_[number];
   if (arrival.stamp != history(number).newest().stamp) return false;
   const bool same_parent = table().isInParent(number, arrival.parent());
-  if (same_parent && arrival.pose() == history(number).newest().parent_from_frame) return true;
+  if (same_parent && arrival.pose() == history(number).newest().parent_from_frame) {
+    ledger_.count("tf.repeated");
+    return true;
+  }
   if (frame.publisher != arrival.publisher) {
     takeRival(number, arrival);
     return true;

@@ -110,11 +110,12 @@ TEST_F(Stamps, ATransformFromTheFutureIsRefusedAndDoesNotPoisonItsFrame) {
 
 TEST_F(Stamps, AStampThatComesAgainWithAnotherPoseIsIgnoredAndCounted) {
   take({frame("a", 0.0, 0.1), frame("b", 5.0, 0.1), frame("c", 9.0, 0.1)});
-  transforms_.send({frame("a", 0.0, 0.1)});  // the node does not count a transform that is equal to an earlier one
+  transforms_.send({frame("a", 0.0, 0.1)});  // equal to the one before: this is a repetition
   for (int i = 0; i < 100; ++i) transforms_.send({frame("a", 1.0, 0.1)});
   const auto status = node_.waitForStatus("all repeated stamps are counted",
                                           [](const msg::Status& s) { return counter(s, "tf.ignored.DUP_ID") == 100; });
   EXPECT_TRUE(status->world.complete);
+  EXPECT_EQ(counter(*status, "tf.repeated"), 1u);
   EXPECT_NEAR(xOf(node_, "robot/a"), 0.0, 1e-6) << "the first pose is kept";
   EXPECT_TRUE(throttled(node_, "tf.ignored.DUP_ID"));
   EXPECT_TRUE(says(node_.output(), "frame 'a' was sent twice with stamp"));

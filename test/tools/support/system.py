@@ -43,42 +43,48 @@ class System:
             free.bind(("127.0.0.1", 0))
             self._port = free.getsockname()[1]
         self.uri = "http://127.0.0.1:%d" % self._port
-        self._folder = tempfile.mkdtemp(prefix="hgrid_doctor.")
-        self._processes = []
-        self._master = ServerProxy(self.uri)
-        self._environment = dict(os.environ, ROS_MASTER_URI=self.uri, ROS_IP="127.0.0.1", ROS_HOME=self._folder)
-        self._environment["ROS_LOG_DIR"] = self._folder + "/log"
+        self.folder = tempfile.mkdtemp(prefix="hgrid_doctor.")
+        self.processes = []
+        self.master = ServerProxy(self.uri)
+        self.environment = dict(os.environ, ROS_MASTER_URI=self.uri, ROS_IP="127.0.0.1", ROS_HOME=self.folder)
+        self.environment["ROS_LOG_DIR"] = self.folder + "/log"
         for name in ("ROS_HOSTNAME", "ROS_NAMESPACE"):
-            self._environment.pop(name, None)
+            self.environment.pop(name, None)
 
     def __enter__(self):
-        self.start("rosmaster", "--core", "-p", str(self._port))
-        wait_for("the master", self._state)
+        self.start_master()
         return self
 
     def __exit__(self, *_):
-        for process in self._processes:
+        for process in self.processes:
             process.kill()  # SIGKILL is enough, because nothing of the process is used again
-        for process in self._processes:
+        for process in self.processes:
             process.wait()
-        shutil.rmtree(self._folder, ignore_errors=True)
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def start_master(self):
+        """Starts the master and waits for its first answer. Returns its process."""
+        process = self.start("rosmaster", "--core", "-p", str(self._port))
+        wait_for("the master", self._state)
+        return process
 
     def lose_master(self):
         """From now on, the doctor uses an address at which there is no master."""
-        self._environment["ROS_MASTER_URI"] = "http://127.0.0.1:1"
+        self.environment["ROS_MASTER_URI"] = "http://127.0.0.1:1"
 
     def hang_master(self):
         """From now on, the master accepts connections but never answers."""
-        os.kill(self._processes[0].pid, signal.SIGSTOP)
+        os.kill(self.processes[0].pid, signal.SIGSTOP)
 
-    def start(self, *command):
+    def start(self, *command, **options):
+        """Starts a process without input and output. Its options are those of subprocess.Popen."""
         silent = {stream: subprocess.DEVNULL for stream in ("stdin", "stdout", "stderr")}
-        process = subprocess.Popen(command, env=self._environment, **silent)
-        self._processes.append(process)
+        process = subprocess.Popen(command, env=self.environment, **{**silent, **options})
+        self.processes.append(process)
         return process
 
     def set(self, name, value):
-        self._master.setParam("/test", name, value)
+        self.master.setParam("/test", name, value)
 
     def robot(self, description=ARM, semantic=ARM_SRDF):
         """Sets the descriptions of the robot on the parameter server."""
@@ -106,7 +112,7 @@ class System:
             "rosrun", "hgrid_proximity", "proximity_node", "__name:=" + base, "__ns:=" + (namespace or "/")
         )
         wait_for("~status of " + name, lambda: name in self.publishers(name + "/status"))
-        uri = wait_for(name, lambda: self._master.lookupNode("/test", name)[2])
+        uri = wait_for(name, lambda: self.master.lookupNode("/test", name)[2])
         self._wait_for_status(name, uri, until)
         return process
 
@@ -114,7 +120,7 @@ class System:
         """Runs the doctor. Returns its exit code and its findings."""
         command = ["rosrun", "hgrid_proximity", "doctor", "--json", "--listen", "1", "--timeout", "1", *arguments]
         streams = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE}
-        ended = subprocess.run(command, env=self._environment, timeout=PATIENCE, check=False, **streams)
+        ended = subprocess.run(command, env=self.environment, timeout=PATIENCE, check=False, **streams)
         return ended.returncode, json.loads(ended.stdout.decode())["findings"]
 
     def publishers(self, topic):
@@ -122,7 +128,7 @@ class System:
 
     def _state(self):
         try:
-            return self._master.getSystemState("/test")[2]
+            return self.master.getSystemState("/test")[2]
         except OSError:
             return None
 

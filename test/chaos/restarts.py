@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: the hgrid_proximity authors
+"""kill -9, rosnode kill and an XML-RPC request that crashes roscpp, at random times. proximity.launch starts the node again."""
+import collections
+import http.client
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import time
+import xmlrpc.client
+
+sys.path.insert(0, str(pathlib.Path(__file__).with_name("support")))
+
+from cell import NAME, POST, expect, robot  # noqa: E402  (the path comes first)
+from chaos import Deadline, check_audit, main  # noqa: E402
+
+RESTART = 2.0  # [s] a new process must exist within this time after the end of the old one
+DEPTH = 200000  # of the nested arrays
+
+
+def node_uri(cell):
+    return cell.master.lookupNode("/test", NAME)[2]
+
+
+def is_running(pid):
+    """Whether a process exists and is not a zombie."""
+    try:
+        return pathlib.Path("/proc/%d/stat" % pid).read_text().rpartition(")")[2].split()[0] != "Z"
+    except FileNotFoundError:
+        return False
+
+
+def children_of(thread):
+    """Returns the processes that a thread has started, a folder below /proc. The thread may have ended."""
+    try:
+        return [int(pid) for pid in (thread / "children").read_text().split()]
+    except (FileNotFoundError, ProcessLookupError):
+        return []
+
+
+def node_of(launch):
+    """Returns the process of the node that roslaunch has started; None if there is none."""
+    threads = list(pathlib.Path("/proc/%d/task" % launch.pid).iterdir())
+    running = [pid for thread in threads for pid in children_of(thread) if is_running(pid)]
+    expect("nodes of one launch file", "at most 1", running, len(running) <= 1)
+    return running[0] if running else None
+
+
+def kill(_, pid):
+    os.kill(pid, signal.SIGKILL)
+
+
+def end_by_rosnode(cell, _):
+    cell.start("rosnode", "kill", NAME).wait()
+
+
+def crash(cell, _):
+    """Sends a request of nested arrays. Its reader in roscpp calls itself for each of them."""
+    body = "<methodCall><methodName>getPid</methodName><params><param>%s%s</param></params></methodCall>" % (
+        "<value><array><data>" * DEPTH, "</data></array></value>" * DEPTH)
+    host, port = node_uri(cell).rstrip("/").rpartition("//")[2].split(":")
+    connection = http.client.HTTPConnection(host, int(port), timeout=10)
+    try:
+        connection.request("POST", "/", body, {"Content-Type": "text/xml"})
+        connection.getresponse()
+    except (OSError, http.client.HTTPException):
+        pass  # the node has ended
+    finally:
+        connection.close()
+
+
+WAYS = {"kill -9": kill, "rosnode kill": end_by_rosnode, "deep XML-RPC": crash}
+
+
+def restart(cell, launch, way):
+    """Ends the node in this way. Returns how long it took until there was another process [s]."""
+    old = cell.wait("a node", lambda: node_of(launch))
+    WAYS[way](cell, old)
+    cell.wait("the end of the node by " + way, lambda: not is_running(old))
+    begin = time.monotonic()
+    cell.wait("a new node after " + way, lambda: node_of(launch) not in (None, old))
+    took = time.monotonic() - begin
+    expect("new start after " + way, "at most %g s" % RESTART, "%.2f s" % took, took <= RESTART)
+    cell.take()
+    epoch = cell.status().world.epoch
+    cell.wait("a message of the new node", lambda: cell.status().world.epoch != epoch)
+    cell.wait_until_right()
+    return took
+
+
+def restarts(cell, rng, seconds):
+    cell.set("/robot_description", robot("hand"))
+    cell.hand = cell.start_puppet()
+    params = pathlib.Path(cell.folder) / "cell.yaml"
+    params.write_text("world_frame: world\nobstacles: [%s]\n" % POST)
+    with open(cell.output, "ab") as output:
+        launch = cell.start("roslaunch", "-p", cell.uri.rpartition(":")[2], "hgrid_proximity", "proximity.launch",
+                            "params:=%s" % params, stdout=output, stderr=subprocess.STDOUT)
+    cell.wait_until_right()
+    counts, slowest, deadline = collections.Counter(), 0.0, Deadline(seconds)
+    while deadline or len(counts) < len(WAYS):
+        time.sleep(rng.uniform(0.0, 0.5))  # the chaos: the node ends at any time
+        way = rng.choice([way for way in WAYS if way not in counts] or sorted(WAYS))
+        slowest = max(slowest, restart(cell, launch, way))
+        counts[way] += 1
+    check_audit(cell)
+    print("%s; the slowest new start took %.2f s" % (dict(counts), slowest))
+    expect("roslaunch", None, launch.poll())
+
+
+if __name__ == "__main__":
+    main(restarts)

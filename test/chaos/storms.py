@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: the hgrid_proximity authors
+"""5,000 messages per second on each of /tf, /tf_static, a cloud and a map. Counters account for every message."""
+import pathlib
+import subprocess
+import sys
+import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).with_name("support")))
+
+from cell import expect  # noqa: E402  (the path comes first)
+from chaos import calm_after, main  # noqa: E402
+
+FLOOD = str(pathlib.Path(__file__).with_name("support") / "flood.py")
+RATE = 5000.0  # [Hz] messages of each kind
+KINDS = ("tf", "tf_static", "cloud", "map")
+TICKS = 0.8  # share of the ticks that must come, although the floods need the processors too
+DECIDED = ("tf.accepted", "tf.refused.", "tf.dropped.", "tf.ignored.", "tf.too_old", "tf.repeated", "tf.rival")
+INPUTS = {  # topic -> beginnings of the counters of its messages
+    "/cloud": ("cloud/front.accepted", "cloud/front.refused."),
+    "/octomap_binary": ("maps.accepted", "maps.refused."),
+}
+
+
+def total(counters, beginnings):
+    return sum(value for name, value in counters.items() if name.startswith(beginnings))
+
+
+def check_tf(cell, sent, earlier):
+    """Each message has one transform, so counts of transforms are counts of messages."""
+    def counted():
+        return total(cell.counters(), DECIDED) - earlier
+
+    cell.wait("%d messages of tf to be counted; counted are %d" % (sent, counted()), lambda: counted() == sent)
+
+
+def check_input(cell, topic, sent, earlier):
+    """The node counts each message that it reads. roscpp counts those that newer ones replaced before."""
+    received, dropped = cell.received(topic)
+    expect("messages that arrived on " + topic, sent, received)
+
+    def counted():
+        return total(cell.counters(), INPUTS[topic]) - earlier
+
+    cell.wait("%d messages of %s to be counted, as %d arrived and roscpp dropped %d; counted are %d" % (
+        received - dropped, topic, received, dropped, counted()), lambda: counted() == received - dropped)
+    print("%s: of %d messages, %d were replaced before they were read" % (topic, received, dropped))
+
+
+def flood(cell, kind, rate, seconds, seed):
+    command = (sys.executable, FLOOD, kind, str(rate), str(seconds), str(seed))
+    return cell.start(*command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+
+
+def sent_by(process):
+    """Waits until a flood is over. Returns the number of its messages."""
+    return int(process.stdout.readline())
+
+
+def storms(cell, rng, seconds):
+    cell.start_all(maps=[{"name": "room", "topic": "octomap_binary"}],
+                   clouds=[{"name": "front", "topic": "cloud", "lifetime": 3600}])
+    cell.wait("the first tick", cell.status)
+    first = [flood(cell, kind, 10, 1, 1) for kind in ("tf_static", "cloud", "map")]  # complete the world
+    for process in first:
+        sent_by(process)
+    cell.wait_until_right()
+    for process in first:
+        process.communicate()  # ends it
+    cell.hand.kill()  # now the flood places the hand
+    cell.hand.wait()
+    earlier = cell.counters()
+    with calm_after(cell, growth=30.0):
+        begin, sequence = time.monotonic(), cell.status().world.sequence
+        floods = {kind: flood(cell, kind, RATE, seconds, rng.randrange(1000)) for kind in KINDS}
+        sent = {kind: sent_by(process) for kind, process in floods.items()}
+        lasted = time.monotonic() - begin
+        share = (cell.status().world.sequence - sequence) / (50.0 * lasted)
+        print("sent in %.1f s: %s; %.0f %% of the ticks came" % (lasted, sent, 100 * share))
+        expect("share of the ticks during the storm", "at least %g" % TICKS, "%.3f" % share, share >= TICKS)
+        check_tf(cell, sent["tf"] + sent["tf_static"], total(earlier, DECIDED))
+        check_input(cell, "/cloud", sent["cloud"], total(earlier, INPUTS["/cloud"]))
+        check_input(cell, "/octomap_binary", sent["map"], total(earlier, INPUTS["/octomap_binary"]))
+        cell.hand = cell.start_puppet()
+
+
+if __name__ == "__main__":
+    main(storms)

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: the hgrid_proximity authors
+"""Runs one chaos test as a program, and checks after the chaos that the node is as it was before."""
+import argparse
+import contextlib
+import inspect
+import pathlib
+import random
+import sys
+import time
+import traceback
+
+from cell import Cell, Failure, expect, resident
+
+GROWTH = 8.0  # [MB] the memory of the node may be larger by this after the chaos
+
+
+class Deadline:
+    """Ends the chaos after some seconds."""
+
+    def __init__(self, seconds):
+        self._end = time.monotonic() + seconds
+
+    def __bool__(self):
+        return time.monotonic() < self._end
+
+
+@contextlib.contextmanager
+def calm_after(cell, growth=GROWTH):
+    """Runs the chaos within this context. Then the node must be right again, and as large as before."""
+    before, pid = resident(cell.node.pid), cell.node.pid
+    cell.take()
+    yield
+    heard = cell.take()
+    expect("the node after the chaos", "alive", cell.node.poll(), cell.node.poll() is None and cell.node.pid == pid)
+    cell.wait_until_right()
+    cell.wait("memory of at most %.1f + %.1f MB; it is %.1f MB" % (before, growth, resident(pid)),
+              lambda: resident(pid) <= before + growth)
+    check_audit(cell)
+    print("memory before and after: %.1f MB, %.1f MB" % (before, resident(pid)))
+    print_ticks(heard)
+
+
+def check_audit(cell):
+    """Fails if the audit of the node has found a wrong tick."""
+    counters = cell.counters()
+    if "audit.checked" not in counters:
+        print("no audit: the node has no counter audit.checked")
+        return
+    expect("audit.different", 0, counters.get("audit.different", 0))
+    print("audit: %d ticks checked" % counters["audit.checked"])
+
+
+def print_ticks(heard):
+    """Prints how long the ticks of the chaos took."""
+    times = sorted(timing.last for _, status in heard for timing in status.timings if timing.name == "tick")
+    if times:
+        print("ticks of the chaos: %d heard, median %.2f ms, p99 %.2f ms" % (
+            len(times), 1e3 * times[len(times) // 2], 1e3 * times[len(times) * 99 // 100]))
+
+
+def main(test, simulated=False):
+    """Runs test(cell, rng, deadline) with the arguments of the command line, and exits."""
+    program = pathlib.Path(inspect.getfile(test)).resolve()
+    parser = argparse.ArgumentParser(description=inspect.getmodule(test).__doc__)
+    parser.add_argument("--seconds", type=float, default=20.0, help="length of the chaos")
+    parser.add_argument("--seed", type=int, default=1, help="seed of all random choices")
+    args = parser.parse_args()
+    again = "test/chaos/run --seconds %g --seed %d %s" % (args.seconds, args.seed, program.stem)
+    try:
+        with Cell(simulated) as cell:
+            test(cell, random.Random(args.seed), args.seconds)
+    except Failure as failure:
+        print("FAILED: %s\nagain: %s" % (failure, again))
+        sys.exit(1)
+    except Exception:
+        traceback.print_exc(file=sys.stdout)
+        print("FAILED: the test itself broke down\nagain: " + again)
+        sys.exit(1)
+    print("passed: " + again)

@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: the hgrid_proximity authors
+"""Floods one input of the node with messages, some of them invalid. Prints how many it has sent.
+
+usage: flood.py KIND RATE SECONDS SEED, where KIND is tf, tf_static, cloud or map
+
+The last message is valid. Ends only when its input ends, so that roscpp keeps the counters of the connection.
+"""
+import pathlib
+import random
+import struct
+import sys
+import time
+
+import rospy
+from sensor_msgs.msg import PointCloud2
+from tf2_msgs.msg import TFMessage
+
+ROOM = pathlib.Path(__file__).resolve().parents[3] / "demo/room.bt"
+BATCH = 0.01  # [s] pause between two groups of messages
+
+
+def text(value):
+    return struct.pack("<I", len(value)) + value.encode()
+
+
+def header(stamp, frame):
+    nanoseconds = round(1e9 * stamp)
+    return struct.pack("<III", 0, nanoseconds // 10**9, nanoseconds % 10**9) + text(frame)
+
+
+def transform(rng, stamp, child):
+    """One transform: valid, not finite, too old, from the future, or a message that ends too early."""
+    kind = rng.choice(("valid",) * 6 + ("nan", "old", "future", "short"))
+    stamp += {"old": -100.0, "future": 100.0}.get(kind, 0.0)
+    x = float("nan") if kind == "nan" else 1.0
+    data = struct.pack("<I", 1) + header(stamp, "world") + text(child) + struct.pack("<7d", x, 0, 0, 0, 0, 0, 1)
+    return data[:-8] if kind == "short" else data
+
+
+def cloud(rng, stamp):
+    """A cloud of 20 points, far away, or one that declares more bytes than it has."""
+    points = struct.pack("<60f", *[300.0 + rng.random() for _ in range(60)])
+    fields = b"".join(text(name) + struct.pack("<IBI", 4 * i, 7, 1) for i, name in enumerate("xyz"))
+    declared = len(points) + (1000 if rng.random() < 0.2 else 0)
+    return (header(stamp, "world") + struct.pack("<II", 1, 20) + struct.pack("<I", 3) + fields +
+            struct.pack("<BII", 0, 12, 240) + struct.pack("<I", declared) + points + struct.pack("<B", 1))
+
+
+def octomap(rng, stamp, nodes):
+    """A map of the demo room, far away, or one that ends too early."""
+    data = nodes[:-7] if rng.random() < 0.2 else nodes
+    return header(stamp, "room") + b"\1" + text("OcTree") + struct.pack("<d", 0.05) + struct.pack("<I", len(data)) + data
+
+
+class Sound:
+    """Takes the place of random numbers in the last message, which is valid."""
+
+    @staticmethod
+    def random():
+        return 0.5
+
+    @staticmethod
+    def choice(options):
+        return options[0]
+
+
+def kinds():
+    """Returns for each kind: the topic, the type, the md5 sum, and a function that makes a message."""
+    nodes = ROOM.read_bytes().split(b"data\n", 1)[1]
+    tf = (TFMessage._type, TFMessage._md5sum)
+    return {
+        "tf": ("/tf",) + tf + (lambda rng, stamp: transform(rng, stamp, "hand"),),
+        "tf_static": ("/tf_static",) + tf + (lambda rng, stamp: transform(rng, stamp, "room"),),
+        "cloud": ("/cloud", PointCloud2._type, PointCloud2._md5sum, cloud),
+        "map": ("/octomap_binary", "octomap_msgs/Octomap", "9a45536b45c5e409cd49f04bb2d9999f",
+                lambda rng, stamp: octomap(rng, stamp, nodes)),
+    }
+
+
+def publisher(topic, type_name, md5sum):
+    """Returns the first connection of a publisher of bytes, as soon as there is one."""
+    raw = type("Raw", (rospy.AnyMsg,), {"_type": type_name, "_md5sum": md5sum, "_full_text": ""})
+    found = rospy.Publisher(topic, raw, queue_size=None)
+    while not found.impl.connections:
+        time.sleep(0.01)
+    return found, found.impl.connections[0]
+
+
+def main():
+    kind, rate, seconds, seed = sys.argv[1], float(sys.argv[2]), float(sys.argv[3]), int(sys.argv[4])
+    rospy.init_node("flood_" + kind, disable_signals=True, disable_rosout=True)
+    topic, type_name, md5sum, make = kinds()[kind]
+    rng = random.Random(seed)
+    kept, connection = publisher(topic, type_name, md5sum)
+    begin, sent, last = time.monotonic(), 0, False
+    while not last:
+        last = time.monotonic() - begin > seconds
+        due = 1 if last else int(rate * (time.monotonic() - begin)) - sent
+        messages = [make(Sound if last else rng, time.time()) for _ in range(due)]
+        connection.write_data(b"".join(struct.pack("<I", len(each)) + each for each in messages))
+        sent += due
+        time.sleep(BATCH)
+    print(sent, flush=True)
+    sys.stdin.read()
+    kept.unregister()
+
+
+if __name__ == "__main__":
+    main()
