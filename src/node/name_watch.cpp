@@ -16,26 +16,29 @@ namespace {
 
 constexpr const char* kReasonOfMaster = "new node registered with same name";
 
+/// Returns the reason that a request `shutdown` gives. The reason is optional, so it may be empty.
+std::string reasonOf(XmlRpc::XmlRpcValue& params) {
+  const bool given = params.getType() == XmlRpc::XmlRpcValue::TypeArray && params.size() > 1 &&
+                     params[1].getType() == XmlRpc::XmlRpcValue::TypeString;
+  return given ? static_cast<std::string&>(params[1]) : "";
+}
+
 }  // namespace
 
 NameWatch::NameWatch() {
   const auto on_shutdown = [taken = taken_](XmlRpc::XmlRpcValue& params, XmlRpc::XmlRpcValue& result) {
-    const bool has_reason = params.getType() == XmlRpc::XmlRpcValue::TypeArray && params.size() > 1 &&
-                            params[1].getType() == XmlRpc::XmlRpcValue::TypeString;
-    if (has_reason) {
-      const std::string reason = params[1];
-      if (reason.find(kReasonOfMaster) != std::string::npos) {
-        *taken = true;
-        ROS_ERROR(
-            "Another node has registered under the name '%s', so this node ends with exit code %d. A name can belong "
-            "to one node only: end the launch of one of the two nodes, or start one of them with another __name.",
-            ros::this_node::getName().c_str(), kExitCode);
-      } else {
-        ROS_WARN("This node ends because another process requested its shutdown. The request gives the reason '%s'.",
-                 printable(reason).c_str());
-      }
-      ros::requestShutdown();
+    const std::string reason = reasonOf(params);
+    if (reason.find(kReasonOfMaster) != std::string::npos) {
+      *taken = true;
+      ROS_ERROR(
+          "Another node has registered under the name '%s', so this node ends with exit code %d. A name can belong "
+          "to one node only: end the launch of one of the two nodes, or start one of them with another __name.",
+          ros::this_node::getName().c_str(), kExitCode);
+    } else {
+      ROS_WARN("This node ends because another process requested its shutdown. The request gives %s.",
+               reason.empty() ? "no reason" : ("the reason '" + printable(reason) + "'").c_str());
     }
+    ros::requestShutdown();
     result = ros::xmlrpc::responseInt(1, "", 0);
   };
   // roscpp later binds its own handler to the same name. That has no effect, because this handler was bound first.

@@ -10,6 +10,7 @@
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <strings.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -55,13 +56,15 @@ void limitProcess(rlim_t memory, rlim_t cpu_seconds) {
   limit(RLIMIT_NOFILE, 3);
 }
 
+/// Returns the content of standard input. @throws Refusal resource_missing if it cannot be read to its end
 std::string readAll() {
   std::string data;
   std::vector<char> chunk(1 << 16);
   for (;;) {
     const ssize_t got = read(0, chunk.data(), chunk.size());
     if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return data;
+    if (got < 0) throw Refusal(Code::resource_missing, std::string("it cannot be read: ") + std::strerror(errno));
+    if (got == 0) return data;
     data.append(chunk.data(), static_cast<std::size_t>(got));
   }
 }
@@ -151,6 +154,27 @@ void checkObj(const std::string& data) {
   }
 }
 
+/// Whether an STL file has the size that its number of triangles requires if it is binary.
+bool isBinaryStl(const std::string& data) {
+  constexpr std::size_t kHeader = 80, kTriangle = 50;
+  std::uint32_t count = 0;
+  if (data.size() < kHeader + sizeof count) return false;
+  std::memcpy(&count, data.data() + kHeader, sizeof count);
+  return data.size() == kHeader + sizeof count + std::size_t{count} * kTriangle;
+}
+
+/// Refuses an STL text without its last line. The parser would accept it and leave out triangles.
+void checkStl(const std::string& data) {
+  if (isBinaryStl(data)) return;
+  const std::size_t last = data.find_last_not_of(" \t\r\n");
+  const std::size_t begin = data.find_last_of('\n', last) + 1;  // of the last line that is not blank
+  const std::string line = data.substr(std::min(data.find_first_not_of(kBlanks, begin), data.size()));
+  constexpr char kEnd[] = "endsolid";
+  if (strncasecmp(line.c_str(), kEnd, sizeof kEnd - 1) == 0) return;
+  throw Refusal(Code::truncated,
+                "it does not end with a line 'endsolid', so it may have been written only in part; write it again");
+}
+
 Mesh parse(const std::string& data, const std::string& kind, std::size_t max_triangles) {
   if (kind == "obj") checkObj(data);
   Assimp::Importer importer;
@@ -164,6 +188,7 @@ Mesh parse(const std::string& data, const std::string& kind, std::size_t max_tri
       throw std::bad_alloc();  // assimp has turned the exception into text
     throw Refusal(Code::parse, "it cannot be read: " + error);
   }
+  if (kind == "stl") checkStl(data);  // after the parser, which says more about a file that is no STL at all
   Mesh mesh;
   collect(*scene, *scene->mRootNode, aiMatrix4x4(), mesh, max_triangles);
   return mesh;

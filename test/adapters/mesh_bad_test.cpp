@@ -85,6 +85,28 @@ TEST_F(BadMesh, AnObjFileThatEndsWithinALineOrFaceIsRefused) {
   EXPECT_EQ(refusal("a.obj", obj.substr(0, face) + "f 1 2 \\\n 4\r\n"), Code::ok) << sentence_;
 }
 
+/// Claim: a text STL file that was cut anywhere before its last line is refused, also between two facets.
+TEST_F(BadMesh, AnStlTextThatEndsBeforeItsLastLineIsRefused) {
+  std::string text = "solid part\n";
+  for (const char* apex : {"0 1 0", "0 0 1"}) {
+    text += std::string("facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex ") + apex +
+            "\nendloop\nendfacet\n";
+  }
+  const std::string whole = text + "endsolid part\n";
+  for (const char* ending : {"endsolid part\n", "endsolid\n", "endsolid", " ENDSOLID part\r\n\n", "endsolid\n \n"}) {
+    EXPECT_EQ(refusal("whole.stl", text + ending), Code::ok) << ending << sentence_;
+    EXPECT_EQ(mesh_->triangles.size(), 2u);
+  }
+  EXPECT_EQ(refusal("facets.stl", text), Code::truncated) << sentence_;
+  EXPECT_NE(sentence_.find("does not end with a line 'endsolid'"), std::string::npos) << sentence_;
+  const std::size_t last_line = whole.find("endsolid");
+  for (std::size_t length = last_line + 8; length-- > 0;) {
+    const bool between_lines = length == 0 || whole[length - 1] == '\n';
+    if (!between_lines && length < last_line && length % 16 != 0) continue;  // each cut takes a process
+    if (refusal("cut.stl", whole.substr(0, length)) == Code::ok) ADD_FAILURE() << length << " bytes were accepted";
+  }
+}
+
 TEST_F(BadMesh, IndicesOutOfRangeAreRefused) {
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   for (const char* face : {"f 1 2 4\n", "f 1 2 99999999\n", "f -1 -2 -9\n", "f 0 1 2\n", "f 1 2 4294967297\n"}) {

@@ -58,7 +58,9 @@ class MeshHelper : public ::testing::Test {
     return refusalWith("replay");
   }
   /// Returns the output of the real helper for the file that refusalWith() reads.
-  static std::string trueOutput();
+  static std::string trueOutput() { return outputOfHelperFor(ownData() + "/meshes/corner.stl"); }
+  /// Returns the output of the real helper whose standard input is this file.
+  static std::string outputOfHelperFor(const std::string& file);
 
   void TearDown() override {
     EXPECT_TRUE(waitpid(-1, nullptr, WNOHANG) == -1 && errno == ECHILD) << "a child process is left over";
@@ -73,12 +75,12 @@ class MeshHelper : public ::testing::Test {
   std::shared_ptr<const TriangleMesh> mesh_;
 };
 
-std::string MeshHelper::trueOutput() {
+std::string MeshHelper::outputOfHelperFor(const std::string& file) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("cannot create a pipe");
-  posix_spawn_file_actions_addopen(&actions, 0, (ownData() + "/meshes/corner.stl").c_str(), O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, 0, file.c_str(), O_RDONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, ends[1], 1);
   posix_spawn_file_actions_addclose(&actions, ends[0]);
   const char* arguments[] = {HGRID_MESH_READER, "stl", "1000000", "536870912", "6", nullptr};
@@ -198,6 +200,17 @@ TEST_F(MeshHelper, OutputOfTheHelperIsCheckedAgain) {
       for (const std::uint32_t index : t) EXPECT_LT(index, mesh_->vertices.size()) << seed;
     }
   }
+}
+
+/// Claim: the real helper does not take an error while it reads the file for the end of the file.
+TEST_F(MeshHelper, AnErrorWhileTheFileIsReadIsReported) {
+  const std::string output = outputOfHelperFor(folder_ / ".");  // read() fails for a folder
+  StreamHeader header;
+  ASSERT_GE(output.size(), sizeof header);
+  std::memcpy(&header, output.data(), sizeof header);
+  EXPECT_EQ(header.kind, StreamHeader::kRefusal);
+  EXPECT_EQ(static_cast<Code>(header.vertices), Code::resource_missing);
+  EXPECT_EQ(output.substr(sizeof header), "it cannot be read: Is a directory");
 }
 
 TEST_F(MeshHelper, AMissingHelperIsReported) {

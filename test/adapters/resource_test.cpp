@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <poll.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -175,6 +176,37 @@ TEST_F(Resource, MissingFilesAreReported) {
   }
   policy_.package_path = nullptr;
   EXPECT_EQ(refusal("package://p/meshes/a.stl"), Code::resource_missing) << "without package_path no package is known";
+}
+
+/// Lets this process open only `more` further files, until it is destroyed.
+class FewFiles {
+ public:
+  explicit FewFiles(int more) {
+    getrlimit(RLIMIT_NOFILE, &before_);
+    const int lowest = open("/", O_PATH | O_CLOEXEC);
+    close(lowest);
+    rlimit limit = before_;
+    limit.rlim_cur = static_cast<rlim_t>(lowest + more);
+    setrlimit(RLIMIT_NOFILE, &limit);
+  }
+  ~FewFiles() { setrlimit(RLIMIT_NOFILE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+/// Claim: if the process may open no further file, the refusal says so. It does not say that the file is missing.
+TEST_F(Resource, TheLimitOfOpenFilesIsReportedAsALimit) {
+  for (const int more : {0, 1}) {  // the file is opened twice: first without its content, then with it
+    std::string sentence;
+    const FewFiles few(more);
+    EXPECT_EQ(refusal("package://p/meshes/a.stl", &sentence), Code::limit) << more;
+    EXPECT_TRUE(says(sentence, "this process may open no further file (Too many open files); raise its limit"));
+  }
+  policy_.package_path = [](const std::string&) { return std::string(); };  // as if no folder could be searched
+  std::string sentence;
+  const FewFiles few(0);
+  EXPECT_EQ(refusal("package://p/meshes/a.stl", &sentence), Code::limit) << sentence;
 }
 
 TEST_F(Resource, OddPathsAreRefusedAndPrintable) {

@@ -74,7 +74,7 @@ TEST(HGridBound, ThreadsAndInstructionSetsDoNotShow) {
 /// Claim: a search passes a limited number of pairs to the filter, even if the filter leaves out every pair. The grid
 /// may pass twice the bound, plus all overlaps of one box, plus one full buffer of pairs for each thread.
 TEST(HGridBound, BoundsTheWorkOfPilesWhosePairsAreAllLeftOut) {
-  constexpr std::size_t kBoxes = 40000, kOverlaps = 100000, kBuffer = 2 * 65536;
+  constexpr std::size_t kBoxes = 100000, kOverlaps = 100000, kBuffer = 2 * 65536;
   const std::vector<Aabb> boxes(kBoxes, test::boxAround(Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()));
   std::vector<Aabb> moved = boxes;
   for (std::size_t i = 0; i < kBoxes; i += 100) moved[i].max.x() += 0.1f;

@@ -43,5 +43,24 @@ TEST(HGridEdges, BoxesLargerThanEveryLevelPairWithEverythingTheyOverlap) {
   grid.checkInvariants();
 }
 
+/// Claim: a box of 10 km among boxes of 1 mm is stored once. It does not take memory for the cells that it covers.
+TEST(HGridEdges, AHugeBoxTakesTheMemoryOfOneBox) {
+  const Aabb huge = {{-5e3f, -5e3f, -5e3f}, {5e3f, 5e3f, 5e3f}}, tiny = {{1, 1, 1}, {1.001f, 1.001f, 1.001f}};
+  std::size_t bytes[2] = {};
+  for (const bool is_huge : {false, true}) {
+    HGrid grid(finest(1e-3));
+    for (ProxyId i = 0; i < 1000; ++i) {
+      const float x = 0.002f * float(i);
+      grid.insert(i, {{x, 0, 0}, {x + 0.001f, 0.001f, 0.001f}});
+    }
+    grid.insert(1000, is_huge ? huge : tiny);
+    std::size_t stored = 0;
+    for (const BroadPhaseLevel& level : grid.levels()) stored += level.boxes;
+    EXPECT_EQ(stored, 1001u);
+    bytes[is_huge ? 1 : 0] = grid.bytes();
+  }
+  EXPECT_LE(bytes[1], bytes[0] + 4096);
+}
+
 }  // namespace
 }  // namespace hgrid

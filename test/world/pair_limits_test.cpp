@@ -185,6 +185,28 @@ TEST(PairLimits, ApplyToPairsThatARuleSwitchesOff) {
   }
 }
 
+/// Claim: in a pile of 100,000 bodies in one place, the search stops at its limits, and the nearest of the pairs that
+/// it found are listed. Queries find all bodies.
+TEST(PairLimits, BoundTheSearchInAPileOf100000Bodies) {
+  constexpr int kBodies = 100000;
+  SceneOptions options;
+  options.max_pairs = 1000;
+  options.max_bodies = kBodies;
+  Scene scene(options);
+  std::vector<Body> bodies;
+  for (int i = 0; i < kBodies; ++i) bodies.push_back(test::ball(std::to_string(i), 0.01));
+  for (const BodyId id : scene.exchange({}, bodies)) {
+    scene.place(id, at(1, 2, 3), Time{1});
+    scene.setState(id, Freshness::fresh, 0.0);
+  }
+  const auto snapshot = scene.commit(Time{1}, {});
+  EXPECT_TRUE(snapshot->truncated());
+  EXPECT_TRUE(snapshot->searchCut());
+  EXPECT_EQ(snapshot->pairsFound(), kCollected);
+  EXPECT_EQ(snapshot->pairs().size(), options.max_pairs);
+  EXPECT_EQ(query(*snapshot, Sphere{{1, 2, 3}, 0.1}, {}).total, std::uint64_t(kBodies));
+}
+
 TEST(PairLimits, DoNotApplyToFixedBodiesAmongEachOther) {
   SceneOptions options;
   options.max_pairs = 1000;

@@ -9,6 +9,8 @@
 #include <immintrin.h>
 #endif
 
+#include "hgrid_proximity/distances/pair_meter.h"
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "hgrid_proximity/queries/query.h"
 #include "test/support/scenes.h"
 
@@ -185,6 +187,61 @@ TEST(SceneFloatEnvironment, PlacingMakesTheSameBoxesInEveryRoundingMode) {
   EXPECT_NE(expected.front(), expected.back())
       << "no face of the box passes from one float to the next, so this test is useless";
   for (const Mode& mode : modes()) EXPECT_TRUE(boxesIn(&mode) == expected) << mode.name;
+}
+
+/// A scene of 2000 spheres whose gaps depend on rounding, and the exact distances of its pairs. Both use several
+/// threads.
+struct MeasuredWorld {
+  static constexpr int kSpheres = 2000;
+  explicit MeasuredWorld(const Mode* mode) {
+    SceneOptions options;
+    options.margin = 0.1;
+    options.threads = 3;
+    Scene scene(options);
+    const std::shared_ptr<NarrowPhase> narrow_phase = makeCoreNarrowPhase();
+    Random random(5);
+    std::vector<Pose> later;
+    std::vector<BodyId> ids;
+    for (int i = 0; i < kSpheres; ++i) {
+      Body body = test::ball(std::to_string(i), 0.1 + 0.001 * random.below(100));
+      body.shapes[0].solid = narrow_phase->solidOf(body.shapes[0].shape);
+      ids.push_back(test::put(scene, body, test::at(0, 0, 0)));
+      later.push_back(test::at(random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-2, 2)));
+    }
+    {
+      const Restored restored;
+      if (mode != nullptr) mode->set();  // threads begin in the mode of the thread that creates them
+      PairMeter meter(narrow_phase, {0.1, 0.0, 3});
+      for (std::size_t i = 0; i < ids.size(); ++i) scene.place(ids[i], later[i], Time{2});
+      snapshot = scene.commit(Time{2}, {});
+      distances = meter.measure(*snapshot);
+    }
+  }
+  std::shared_ptr<const Snapshot> snapshot;
+  std::shared_ptr<const PairDistances> distances;
+};
+
+/// Claim: the threads of a tick and of the distances find the same as well, although they may begin in another mode.
+TEST(SceneFloatEnvironment, ThreadsAndDistancesFindTheSameInEveryRoundingMode) {
+  const MeasuredWorld expected(nullptr);
+  ASSERT_GT(expected.snapshot->pairs().size(), 10000u);
+  ASSERT_GT(expected.distances->pairs.size(), 1000u);
+  for (const Mode& mode : modes()) {
+    SCOPED_TRACE(mode.name);
+    const MeasuredWorld world(&mode);
+    ASSERT_EQ(world.snapshot->pairs().size(), expected.snapshot->pairs().size());
+    for (std::size_t i = 0; i < expected.snapshot->pairs().size(); ++i) {
+      const NearPair &a = world.snapshot->pairs()[i], &b = expected.snapshot->pairs()[i];
+      ASSERT_TRUE(a.first == b.first && a.second == b.second && a.gap == b.gap);
+    }
+    ASSERT_EQ(world.distances->pairs.size(), expected.distances->pairs.size());
+    for (std::size_t i = 0; i < expected.distances->pairs.size(); ++i) {
+      const PairDistance &a = world.distances->pairs[i], &b = expected.distances->pairs[i];
+      ASSERT_TRUE(a.first == b.first && a.second == b.second);
+      ASSERT_EQ(a.proximity.distance, b.proximity.distance);
+      ASSERT_EQ(a.proximity.on_first, b.proximity.on_first);
+    }
+  }
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
+#include <map>
 
 #include "test/support/scenes.h"
 
@@ -23,6 +25,7 @@ struct Variation {
   bool backwards = false;  ///< whether the bodies are added in the opposite order
   double finest_edge = 0.0;
   int threads = 1;
+  std::function<std::string(int)> name = [](int i) { return "o" + std::to_string(i); };
 };
 
 std::shared_ptr<const Snapshot> snapshotOf(unsigned seed, const Variation& variation) {
@@ -37,7 +40,7 @@ std::shared_ptr<const Snapshot> snapshotOf(unsigned seed, const Variation& varia
   if (variation.backwards) std::reverse(order.begin(), order.end());
   for (const int i : order) {
     Random random(seed * 1000 + unsigned(i));
-    const BodyId id = test::putRandom(scene, random, "o" + std::to_string(i));
+    const BodyId id = test::putRandom(scene, random, variation.name(i));
     const auto state = static_cast<Freshness>(random.between(1, 5));
     if (variation.degraded) scene.setState(id, state, random.uniform(0, 5), std::uint32_t(random.below(3)));
   }
@@ -96,7 +99,7 @@ TEST(SceneMetamorphic, AddingABodyRemovesNoPairAndRemovingOneRemovesOnlyItsOwn) 
   }
 }
 
-TEST(SceneMetamorphic, OrderCellsAndHashSeedDoNotShow) {
+TEST(SceneMetamorphic, OrderCellsAndThreadsDoNotShow) {
   for (unsigned seed = 1; seed <= 30; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const auto expected = snapshotOf(seed, {});
@@ -112,6 +115,36 @@ TEST(SceneMetamorphic, OrderCellsAndHashSeedDoNotShow) {
         const NearPair &a = snapshot->pairs()[k], &b = expected->pairs()[k];
         ASSERT_TRUE(a.first == b.first && a.second == b.second && a.gap == b.gap && a.margin == b.margin);
       }
+    }
+  }
+}
+
+/// Returns the pairs of a snapshot, with the numbers of the bodies instead of their names.
+std::map<std::pair<int, int>, std::pair<double, double>> numberedPairs(const Snapshot& snapshot,
+                                                                       const Variation& variation) {
+  std::map<std::string, int> number;
+  for (int i = 0; i < variation.count; ++i) number["obstacle/" + variation.name(i)] = i;
+  std::map<std::pair<int, int>, std::pair<double, double>> pairs;
+  const std::vector<Body>& bodies = snapshot.structure().bodies;
+  for (const NearPair& pair : snapshot.pairs()) {
+    const auto both = std::minmax(number.at(bodies[pair.first].name), number.at(bodies[pair.second].name));
+    pairs[both] = {pair.gap, pair.margin};
+  }
+  return pairs;
+}
+
+/// Claim: bodies with other names form the same pairs, with the same gaps and margins. The names only change the order.
+TEST(SceneMetamorphic, NamesDoNotShow) {
+  for (unsigned seed = 1; seed <= 30; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const auto expected = numberedPairs(*snapshotOf(seed, {}), {});
+    ASSERT_GT(expected.size(), 10u);
+    Variation reversed, scattered, longer;
+    reversed.name = [](int i) { return std::to_string(1000 - i); };
+    scattered.name = [](int i) { return std::to_string((i + 1) * 7919 % 1009); };
+    longer.name = [](int i) { return std::string(std::size_t(i + 1), 'x'); };
+    for (const Variation& variation : {reversed, scattered, longer}) {
+      EXPECT_EQ(numberedPairs(*snapshotOf(seed, variation), variation), expected) << variation.name(0);
     }
   }
 }

@@ -22,6 +22,22 @@ constexpr std::size_t kLongestUri = 4096;
   throw Refusal(Code::resource_denied, "resource '" + printable(uri) + "' is denied: " + rule);
 }
 
+/// Throws that a resource cannot be used.
+/// @param what   what is wrong, such as "cannot be opened: No such file or directory"
+/// @param error  the error number of the system. If it means that no further file can be opened, the sentence says that
+[[noreturn]] void refuse(const std::string& uri, const std::string& what, int error) {
+  const std::string resource = "resource '" + printable(uri) + "'";
+  if (error != EMFILE && error != ENFILE) throw Refusal(Code::resource_missing, resource + what);
+  throw Refusal(Code::limit, resource + " cannot be opened: this process may open no further file (" +
+                                 std::strerror(error) + "); raise its limit (ulimit -n, or LimitNOFILE of systemd)");
+}
+
+/// Returns the error number with which the system refuses to open any file, such as EMFILE; 0: it does not.
+int errorOfAnyFile() {
+  const OpenResource root(open("/", O_PATH | O_CLOEXEC), "/", 0);
+  return root.fd() < 0 ? errno : 0;
+}
+
 /// Returns the path with all symbolic links resolved, or an empty text if the path does not exist.
 std::string realFolder(const std::string& path) {
   char resolved[PATH_MAX];
@@ -73,10 +89,7 @@ Place placeOf(const std::string& uri, const ResourcePolicy& policy) {
     if (leadsOut(relative)) deny(uri, "it must not lead out of package '" + printable(package) + "'");
     const std::string folder = policy.package_path ? policy.package_path(package) : "";
     const std::string real = realFolder(folder);
-    if (real.empty()) {
-      throw Refusal(Code::resource_missing,
-                    "resource '" + printable(uri) + "': there is no package '" + printable(package) + "'");
-    }
+    if (real.empty()) refuse(uri, ": there is no package '" + printable(package) + "'", errorOfAnyFile());
     Place place{real + "/" + relative, {real}};
     for (const std::string& root : policy.file_roots) place.roots.push_back(realFolder(root));
     return place;
@@ -105,10 +118,7 @@ OpenResource openResource(const std::string& uri, const ResourcePolicy& policy) 
   // O_PATH finds the file without opening it. So this call touches no device and waits for no FIFO. After the checks,
   // the file is opened through /proc. This opens the checked file, even if its name was changed in the meantime.
   const OpenResource looked(open(place.path.c_str(), O_PATH | O_CLOEXEC), place.path, 0);
-  if (looked.fd() < 0) {
-    throw Refusal(Code::resource_missing,
-                  "resource '" + printable(uri) + "' cannot be opened: " + std::strerror(errno));
-  }
+  if (looked.fd() < 0) refuse(uri, std::string(" cannot be opened: ") + std::strerror(errno), errno);
   const std::string handle = "/proc/self/fd/" + std::to_string(looked.fd());
   const std::string real = realFolder(handle);
   bool below = false;
@@ -122,9 +132,7 @@ OpenResource openResource(const std::string& uri, const ResourcePolicy& policy) 
                                    std::to_string(policy.max_bytes) + " are allowed");
   }
   const int fd = open(handle.c_str(), O_RDONLY | O_CLOEXEC);
-  if (fd < 0) {
-    throw Refusal(Code::resource_missing, "resource '" + printable(uri) + "' cannot be read: " + std::strerror(errno));
-  }
+  if (fd < 0) refuse(uri, std::string(" cannot be read: ") + std::strerror(errno), errno);
   return OpenResource(fd, real, bytes);
 }
 

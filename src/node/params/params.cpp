@@ -19,6 +19,8 @@
 namespace hgrid {
 namespace {
 
+constexpr const char* kReserved[] = {"obstacle", "map", "cloud", "track"};  // other sources have these names
+
 /// A visitor that fills Params with the values from the parameter server.
 class Reader {
  public:
@@ -61,8 +63,8 @@ class Reader {
         } catch (const Refusal& refusal) {
           given->error(std::string("is not a valid name: ") + refusal.what());
         }
-        if (robot.name == "obstacle" || robot.name == "map" || robot.name == "cloud") {
-          given->error("is '" + robot.name + "'; obstacle, map and cloud are reserved");
+        if (std::find(std::begin(kReserved), std::end(kReserved), robot.name) != std::end(kReserved)) {
+          given->error("is '" + robot.name + "'; obstacle, map, cloud and track are reserved");
         }
         if (!names.insert(robot.name).second)
           given->error("is '" + printable(robot.name) + "', which is already used; names must differ");

@@ -111,7 +111,9 @@ TEST(ParamErrors, RobotsNeedNamesOfTheirOwnAndACommonFrame) {
   };
   EXPECT_EQ(errors(robot("a"), robot("b")), "");
   EXPECT_TRUE(says(errors(robot("a"), robot("a")), "~robots[1]/name is 'a', which is already used"));
-  EXPECT_TRUE(says(errors(robot("a"), robot("map")), "obstacle, map and cloud are reserved"));
+  for (const char* reserved : {"obstacle", "map", "cloud", "track"}) {
+    EXPECT_TRUE(says(errors(robot("a"), robot(reserved)), "obstacle, map, cloud and track are reserved")) << reserved;
+  }
   EXPECT_TRUE(says(errors(robot("a"), robot("a/b")), "it must not contain a slash"));
   EXPECT_TRUE(says(errors(robot("a"), robot("")), "it must not be empty"));
   EXPECT_TRUE(says(errors(robot("a"), dict({{"name", "b"}})), "~robots[1] has no 'description'; it must have one"));

@@ -3,7 +3,9 @@
 //
 // SIGINT, SIGTERM and SIGHUP end the node in the same way: it unregisters from the master, and its exit code is 0.
 #include <ros/master.h>
+#include <ros/network.h>
 #include <ros/service.h>
+#include <xmlrpcpp/XmlRpcClient.h>
 
 #include <atomic>
 #include <chrono>
@@ -231,6 +233,23 @@ TEST(Shutdown, ByRosnodeKillUnregisters) {
   NodeUnderTest node(setupOfWorld());
   ChildProcess killer({"rosnode", "kill", node.space() + "/proximity"}, "/dev/null", {});
   EXPECT_TRUE(endsAndUnregisters(node));
+}
+
+/// Claim: the reason of an XML-RPC request `shutdown` is optional, as the interface of ROS nodes says.
+TEST(Shutdown, NeedsNoReason) {
+  NodeUnderTest node(setupOfWorld());
+  XmlRpc::XmlRpcValue who, response, uri, request, result;
+  who[0] = "/shutdown_test";
+  who[1] = node.space() + "/proximity";
+  ASSERT_TRUE(ros::master::execute("lookupNode", who, response, uri, false));
+  std::string host;
+  std::uint32_t port = 0;
+  ASSERT_TRUE(ros::network::splitURI(uri, host, port));
+  request[0] = "/shutdown_test";
+  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
+  ASSERT_TRUE(client.execute("shutdown", request, result));
+  EXPECT_TRUE(endsAndUnregisters(node));
+  EXPECT_EQ(node.lines("gives no reason"), 1u) << node.output();
 }
 
 }  // namespace
