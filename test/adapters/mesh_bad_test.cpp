@@ -85,6 +85,25 @@ TEST_F(BadMesh, AnObjFileThatEndsWithinALineOrFaceIsRefused) {
   EXPECT_EQ(refusal("a.obj", obj.substr(0, face) + "f 1 2 \\\n 4\r\n"), Code::ok) << sentence_;
 }
 
+// The parser alone would leave out some of these faces, and read other vertices for the rest.
+TEST_F(BadMesh, EveryFaceOfAnObjFileIsReadHoweverItsLinesAreWritten) {
+  const std::string vertices = "v 0 0 0\n v 1 0 0\r\n\tv 0 1 0\n\x0bv 0 0 1\n";
+  for (const char* faces : {"f 1 2 3\n f 1 2 4\n", "\tf 1 2 3\nf 1 2 4\r\n", "f 1 2 3\\\n\nf 1 2 4\n",
+                            "\\\n f 1 2 3\nf 1 2 4\n", "f 1 2 3\rf 1 2 4\n",
+                            "f\x0b"
+                            "1 2 3\nf 1 2\x0c"
+                            "4\n"}) {
+    EXPECT_EQ(refusal("a.obj", vertices + faces), Code::ok) << faces << sentence_;
+    EXPECT_EQ(mesh_->triangles.size(), 2u) << faces;
+    EXPECT_EQ(mesh_->vertices.size(), 4u) << faces;
+  }
+  EXPECT_EQ(refusal("a.obj", "\xef\xbb\xbf" + vertices + "f 1 2 3\n"), Code::ok) << sentence_;
+  for (const std::string& face : {std::string("\\\nf 1 2\n"), std::string("f 1 2\r3 4\n"),
+                                  std::string("f 1\0 2 3\n", 9), std::string("f +1 +2 +3\n")}) {
+    EXPECT_EQ(refusal("a.obj", vertices + "f 1 2 3\n" + face), Code::parse) << face;
+  }
+}
+
 TEST_F(BadMesh, IndicesOutOfRangeAreRefused) {
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   for (const char* face : {"f 1 2 4\n", "f 1 2 99999999\n", "f -1 -2 -9\n", "f 0 1 2\n", "f 1 2 4294967297\n"}) {
