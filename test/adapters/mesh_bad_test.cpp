@@ -11,6 +11,7 @@
 #include "test/adapters/mutation.h"
 #include "test/adapters/temporary_folder.h"
 #include "test/adapters/urdf_texts.h"
+#include "test/fuzz/seeds.h"
 #include "test/support/refusals.h"
 #include "test/support/robots.h"
 
@@ -245,6 +246,11 @@ TEST_F(BadMesh, ADamagedFileIsAValidMeshOrARefusal) {
     }
   }
   EXPECT_GT(read_anyway, 20);
+}
+
+TEST_F(BadMesh, TheSeedsOfTheFuzzersAreReadCorrectly) {
+  expectNoFlawInSeeds("mesh", fuzzMesh);
+  expectNoFlawInSeeds("obj", fuzzObj);
 }
 
 }  // namespace
