@@ -26,6 +26,7 @@
 
 #include "adapters/mesh/mesh_stream.h"
 #include "hgrid_proximity/refusal.h"
+#include "tools/plain_obj.h"
 
 namespace {
 
@@ -110,50 +111,6 @@ void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent
 
 constexpr char kBlanks[] = " \t\r";
 
-/// Returns the end of the line of an OBJ file that begins at `begin`. A line that ends with a backslash goes on in the
-/// next one.
-std::size_t endOfLine(const std::string& data, std::size_t begin) {
-  for (;; ++begin) {
-    const std::size_t end = std::min(data.find('\n', begin), data.size());
-    const std::size_t last = end > begin && data[end - 1] == '\r' ? end - 1 : end;
-    if (end == data.size() || last == begin || data[last - 1] != '\\') return end;
-    begin = end;
-  }
-}
-
-/// Counts the words of a line of an OBJ file from `begin` to `end`.
-std::size_t wordsIn(const std::string& data, std::size_t begin, std::size_t end) {
-  std::size_t words = 0;
-  bool in_word = false;
-  for (; begin < end; ++begin) {
-    const bool blank = std::strchr(" \t\r\n\\", data[begin]) != nullptr;
-    words += !blank && !in_word ? 1 : 0;
-    in_word = !blank;
-  }
-  return words;
-}
-
-/// Refuses an OBJ file that ends within a line, or that has a face with fewer than 3 corners. The parser would accept
-/// such a file and leave out triangles. A file that was cut between two lines cannot be told from a complete one.
-void checkObj(const std::string& data) {
-  for (std::size_t begin = 0, end = 0; begin < data.size(); begin = end + 1) {
-    end = endOfLine(data, begin);
-    const std::size_t first = data.find_first_not_of(kBlanks, begin);
-    if (first >= end || data[first] != 'f' || first + 1 == end) continue;
-    if (std::strchr(kBlanks, data[first + 1]) == nullptr || data[first + 1] == '\0') continue;
-    if (wordsIn(data, first + 1, end) < 3) {
-      throw Refusal(Code::parse, "its face '" + data.substr(first, end - first) + "' has fewer than 3 corners");
-    }
-  }
-  const std::size_t begin = data.find_last_of('\n') + 1;  // of the last line; 0 if there is no line break
-  const std::size_t text = data.find_first_not_of(kBlanks, begin);
-  if (text != std::string::npos && data[text] != '#') {
-    throw Refusal(Code::truncated,
-                  "its last line has no line break, so it may have been written only in part; write it again, or add "
-                  "a line break if it is complete");
-  }
-}
-
 /// Whether an STL file has the size that its number of triangles requires if it is binary.
 bool isBinaryStl(const std::string& data) {
   constexpr std::size_t kHeader = 80, kTriangle = 50;
@@ -175,8 +132,8 @@ void checkStl(const std::string& data) {
                 "it does not end with a line 'endsolid', so it may have been written only in part; write it again");
 }
 
-Mesh parse(const std::string& data, const std::string& kind, std::size_t max_triangles) {
-  if (kind == "obj") checkObj(data);
+Mesh parse(const std::string& file, const std::string& kind, std::size_t max_triangles) {
+  const std::string data = kind == "obj" ? hgrid::plainObj(file) : file;
   Assimp::Importer importer;
   // Apply the unit of a COLLADA file, but ignore its up axis. RViz does the same.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);

@@ -11,6 +11,7 @@
 #include "test/adapters/mutation.h"
 #include "test/adapters/temporary_folder.h"
 #include "test/adapters/urdf_texts.h"
+#include "test/fuzz/seeds.h"
 #include "test/support/refusals.h"
 #include "test/support/robots.h"
 
@@ -104,6 +105,25 @@ TEST_F(BadMesh, AnStlTextThatEndsBeforeItsLastLineIsRefused) {
     const bool between_lines = length == 0 || whole[length - 1] == '\n';
     if (!between_lines && length < last_line && length % 16 != 0) continue;  // each cut takes a process
     if (refusal("cut.stl", whole.substr(0, length)) == Code::ok) ADD_FAILURE() << length << " bytes were accepted";
+  }
+}
+
+// The parser alone would leave out some of these faces, and read other vertices for the rest.
+TEST_F(BadMesh, EveryFaceOfAnObjFileIsReadHoweverItsLinesAreWritten) {
+  const std::string vertices = "v 0 0 0\n v 1 0 0\r\n\tv 0 1 0\n\x0bv 0 0 1\n";
+  for (const char* faces : {"f 1 2 3\n f 1 2 4\n", "\tf 1 2 3\nf 1 2 4\r\n", "f 1 2 3\\\n\nf 1 2 4\n",
+                            "\\\n f 1 2 3\nf 1 2 4\n", "f 1 2 3\rf 1 2 4\n",
+                            "f\x0b"
+                            "1 2 3\nf 1 2\x0c"
+                            "4\n"}) {
+    EXPECT_EQ(refusal("a.obj", vertices + faces), Code::ok) << faces << sentence_;
+    EXPECT_EQ(mesh_->triangles.size(), 2u) << faces;
+    EXPECT_EQ(mesh_->vertices.size(), 4u) << faces;
+  }
+  EXPECT_EQ(refusal("a.obj", "\xef\xbb\xbf" + vertices + "f 1 2 3\n"), Code::ok) << sentence_;
+  for (const std::string& face : {std::string("\\\nf 1 2\n"), std::string("f 1 2\r3 4\n"),
+                                  std::string("f 1\0 2 3\n", 9), std::string("f +1 +2 +3\n")}) {
+    EXPECT_EQ(refusal("a.obj", vertices + "f 1 2 3\n" + face), Code::parse) << face;
   }
 }
 
@@ -248,6 +268,11 @@ TEST_F(BadMesh, ADamagedFileIsAValidMeshOrARefusal) {
     }
   }
   EXPECT_GT(read_anyway, 20);
+}
+
+TEST_F(BadMesh, TheSeedsOfTheFuzzersAreReadCorrectly) {
+  expectNoFlawInSeeds("mesh", fuzzMesh);
+  expectNoFlawInSeeds("obj", fuzzObj);
 }
 
 }  // namespace

@@ -2,14 +2,12 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 #include "hgrid_proximity/adapters/octomap.h"
 #include "hgrid_proximity/refusal.h"
 #include "test/adapters/mutation.h"
 #include "test/adapters/octomap_judge.h"
 #include "test/adapters/octomap_oracle.h"
-#include "test/fuzz/octomap_fuzz.h"
+#include "test/fuzz/seeds.h"
 #include "test/support/robots.h"
 
 namespace hgrid {
@@ -58,19 +56,7 @@ TEST(OctomapMutation, ADamagedMapIsValidOrRefused) {
   EXPECT_LT(read_anyway, count) << "the damage is too weak: all maps can be read";
 }
 
-// The seeds are the first inputs of the fuzzer, and inputs that once failed. The reader must read all of them
-// correctly.
-TEST(OctomapMutation, TheSeedsOfTheFuzzerAreReadCorrectly) {
-  std::size_t seeds = 0, read = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(HGRID_PROJECT_DIR) + "/test/fuzz/octomap")) {
-    const FuzzedOctomap result = readFuzzed(fileText(entry.path().string()));
-    EXPECT_EQ(result.flaw, "") << entry.path();
-    ++seeds;
-    read += result.accepted ? 1 : 0;
-  }
-  EXPECT_GE(seeds, 8u);
-  EXPECT_GE(read, 6u) << "too many seeds are refused; the fuzzer needs valid ones";
-}
+TEST(OctomapMutation, TheSeedsOfTheFuzzerAreReadCorrectly) { expectNoFlawInSeeds("octomap", fuzzOctomap); }
 
 }  // namespace
 }  // namespace test

@@ -11,15 +11,18 @@
 #include <random>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace hgrid {
 namespace test {
 
-/// Fills a message of any generated type. Numbers get random bits, lists 0 to 3 elements, strings 0 to 21 bytes.
-class RandomMessage {
+/// Fills a message of any generated type. Numbers get bits of the source, lists 0 to 3 elements, strings 0 to 21 bytes.
+/// @tparam Source  a function object that returns 64 bits
+template <class Source>
+class FilledMessage {
  public:
-  explicit RandomMessage(unsigned seed) : random_(seed) {}
+  explicit FilledMessage(Source source) : random_(std::move(source)) {}
 
   template <class Message>
   Message make() {
@@ -33,7 +36,7 @@ class RandomMessage {
       const std::uint64_t bits = random_();
       std::memcpy(&field, &bits, sizeof(field));
     } else {
-      ros::serialization::Serializer<Field>::template allInOne<RandomMessage, Field&>(*this, field);
+      ros::serialization::Serializer<Field>::template allInOne<FilledMessage, Field&>(*this, field);
     }
   }
   void next(ros::Time& time) { time = ros::Time(length(), length()); }
@@ -52,7 +55,13 @@ class RandomMessage {
  private:
   std::uint32_t length() { return static_cast<std::uint32_t>(random_() % 4); }
 
-  std::mt19937_64 random_;
+  Source random_;
+};
+
+/// Fills a message with random values.
+class RandomMessage : public FilledMessage<std::mt19937_64> {
+ public:
+  explicit RandomMessage(unsigned seed) : FilledMessage(std::mt19937_64(seed)) {}
 };
 
 /// Finds the length fields of strings and lists in a serialized message. A position is an offset in bytes.

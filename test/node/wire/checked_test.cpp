@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Tests all types of messages and requests that the node reads with a generated deserializer. This program replaces
-// operator new to count the allocated bytes. It needs no ROS master.
+// Tests all types of messages and requests that the node reads with a generated deserializer. This program counts
+// the allocated bytes. It needs no ROS master.
 #include "src/node/wire/checked.h"
 
 #include <gtest/gtest.h>
@@ -21,29 +21,10 @@
 #include <std_srvs/Trigger.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
+#include "test/fuzz/seeds.h"
 #include "test/node/support/random_message.h"
 #include "test/node/support/raw_message.h"
-
-namespace {
-std::atomic<std::size_t> allocated{0};  // total number of allocated bytes
-
-void* counted(std::size_t size) {
-  allocated += size;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-}  // namespace
-
-__attribute__((noinline)) void* operator new(std::size_t size) { return counted(size); }
-__attribute__((noinline)) void* operator new[](std::size_t size) { return counted(size); }
-__attribute__((noinline)) void operator delete(void* memory) noexcept { std::free(memory); }
-__attribute__((noinline)) void operator delete[](void* memory) noexcept { std::free(memory); }
-__attribute__((noinline)) void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-__attribute__((noinline)) void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+#include "test/support/counted_allocations.h"
 
 namespace hgrid {
 namespace test {
@@ -61,9 +42,9 @@ Checked<Message> received(std::string bytes) {
   Checked<Message> message;
   ros::serialization::IStream stream(reinterpret_cast<std::uint8_t*>(&bytes[0]),
                                      static_cast<std::uint32_t>(bytes.size()));
-  const std::size_t before = allocated;
+  const std::size_t before = allocatedBytes();
   EXPECT_NO_THROW(ros::serialization::deserialize(stream, message));
-  EXPECT_LE(allocated - before, 64 * bytes.size() + kSentence) << "allocated for " << bytes.size() << " bytes";
+  EXPECT_LE(allocatedBytes() - before, 64 * bytes.size() + kSentence) << "allocated for " << bytes.size() << " bytes";
   EXPECT_EQ(stream.getLength(), 0u) << "roscpp's stream is at its end";
   return message;
 }
@@ -185,6 +166,8 @@ TEST(CheckedFlaw, SaysWhatTheBytesDeclareAndWhatTheyHold) {
   EXPECT_EQ(sentence("abc"), "the message is 3 bytes long; from byte 0 on, a list needs 4 bytes");
   EXPECT_EQ(sentence(bytesOf(0u) + "xyz"), "the message is 7 bytes long; it must end at byte 4");
 }
+
+TEST(CheckedSeeds, OfTheFuzzerAreReadCorrectly) { expectNoFlawInSeeds("wire", fuzzWire); }
 
 }  // namespace
 }  // namespace test
