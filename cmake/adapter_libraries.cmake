@@ -58,3 +58,10 @@ if(NOT HGRID_ADAPTERS_MISSING)
     ${HGRID_FCL_LIBRARY} ${HGRID_CCD_LIBRARY} ${HGRID_OCTOMAP_LIBRARY} ${HGRID_OCTOMATH_LIBRARY})
   set(HGRID_MESH_READER_LIBRARIES ${HGRID_ASSIMP_LIBRARY})
 endif()
+
+# hgrid_mesh_reader_options(target): sets the options for the target of proximity_mesh_reader.
+function(hgrid_mesh_reader_options target)
+  if(HGRID_SANITIZE MATCHES "undefined")
+    target_compile_options(${target} PRIVATE -fno-sanitize=vptr)  # vptr opens files; the reader must not
+  endif()
+endfunction()

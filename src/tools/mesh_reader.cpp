@@ -46,7 +46,7 @@ void limit(int resource, rlim_t value) {
 }
 
 void limitProcess(rlim_t memory, rlim_t cpu_seconds) {
-#if !defined(__SANITIZE_ADDRESS__)  // the shadow memory of the sanitizer exceeds any useful limit
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // their shadow memory exceeds any useful limit
   limit(RLIMIT_AS, memory);
 #endif
   static_cast<void>(memory);

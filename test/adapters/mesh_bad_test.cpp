@@ -200,8 +200,8 @@ TEST_F(BadMesh, AMillionTrianglesAreTakenAndNoMore) {
 }
 
 TEST_F(BadMesh, TooMuchMemoryIsRefusedAsALimit) {  // not as a parse error, because the file is valid
-#if defined(__SANITIZE_ADDRESS__)
-  GTEST_SKIP() << "the helper does not limit its memory under the address sanitizer";
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the helper does not limit its memory under a sanitizer";
 #endif
   const std::string bytes = stl(square(100000));
   ASSERT_EQ(refusal("a.stl", bytes), Code::ok) << sentence_;
