@@ -20,6 +20,28 @@ double reachOf(const BodyPose& pose, const Body& body, double growth_after) {
   return body.max_speed * pose.age;
 }
 
+/// Returns the box of a shape in its own frame, grown by half of the margin. The grid chooses its cells by these boxes.
+Aabb sizeOf(const BodyShape& shape, double margin) {
+  return grown(boxOf(shape.shape, Pose::Identity(), shape.padding, Eigen::Vector3d::Zero()), 0.5 * margin);
+}
+
+/// Finds the bodies of an earlier structure by their handles.
+class BodiesBefore {
+ public:
+  BodiesBefore(const Structure& before, std::size_t slots) : before_(before), of_slot_(slots, Structure::kNone) {
+    for (std::uint32_t body = 0; body < before.ids.size(); ++body) of_slot_[before.ids[body].slot] = body;
+  }
+  /// Returns the index of a body in the earlier structure, or kNone.
+  std::uint32_t find(const BodyId& id) const {
+    const std::uint32_t body = of_slot_[id.slot];
+    return body != Structure::kNone && before_.ids[body] == id ? body : Structure::kNone;
+  }
+
+ private:
+  const Structure& before_;
+  std::vector<std::uint32_t> of_slot_;
+};
+
 /// The overlap filter of the grid: keeps the pairs of proxies whose bodies the pair filter reports.
 bool isReported(const void* structure, ProxyId first, ProxyId second) {
   const Structure& s = *static_cast<const Structure*>(structure);
@@ -32,7 +54,8 @@ void Scene::State::rebuildStructure() {
   auto next = std::make_shared<Structure>();
   next->revision = structure->revision + 1;
   next->least_margin = options.margin;
-  std::vector<Aabb> sizes;
+  const BodiesBefore before(*structure, slots.size());
+  std::vector<Aabb> next_sizes;
   std::vector<std::uint32_t> next_uncovered;
   std::vector<ShapeInBody> next_shapes;
   for (const auto& named : slot_of_name) {
@@ -45,10 +68,12 @@ void Scene::State::rebuildStructure() {
     next->bodies.push_back(body);
     next->ids.push_back({named.second, slots[named.second].generation});
     next->margin.push_back(std::max(options.margin, body.margin));
-    for (const BodyShape& shape : body.shapes) {
+    const std::uint32_t known = before.find(next->ids.back());
+    for (std::size_t i = 0; i < body.shapes.size(); ++i) {
+      const BodyShape& shape = body.shapes[i];
       next_shapes.push_back({shape.shape, shape.body_from_shape, shape.padding});
-      sizes.push_back(
-          grown(boxOf(shape.shape, Pose::Identity(), shape.padding, Eigen::Vector3d::Zero()), 0.5 * options.margin));
+      next_sizes.push_back(known != Structure::kNone ? sizes[structure->first_proxy[known] + i]
+                                                     : sizeOf(shape, options.margin));
     }
   }
   next->first_proxy.push_back(static_cast<std::uint32_t>(next->body_of_proxy.size()));
@@ -62,9 +87,9 @@ void Scene::State::rebuildStructure() {
   }
   fillSources(*next);
   // The code below allocates no memory, so it cannot fail.
-  for (const auto& named : slot_of_name) slots[named.second].moved = true;  // the proxies may have other ids
   uncovered.swap(next_uncovered);
   shapes.swap(next_shapes);
+  sizes.swap(next_sizes);
   fixed_proxies.swap(next_fixed);
   structure = std::move(next);
   scale = GridScale::fitting(sizes);
@@ -92,6 +117,18 @@ void Scene::State::makeBoxes(std::size_t body, const Pose& world_from_body, Snap
   }
 }
 
+/// Copies the boxes of the bodies that were in the last snapshot, whose structure was another one.
+void Scene::State::keepBoxes(Snapshot& snapshot) const {
+  const Structure& earlier = *last->structure_;
+  const BodiesBefore before(earlier, slots.size());
+  for (std::size_t body = 0; body < structure->ids.size(); ++body) {
+    const std::uint32_t known = before.find(structure->ids[body]);
+    if (known == Structure::kNone) continue;
+    std::copy(last->boxes_.begin() + earlier.first_proxy[known], last->boxes_.begin() + earlier.first_proxy[known + 1],
+              snapshot.boxes_.begin() + structure->first_proxy[body]);
+  }
+}
+
 /// Fills poses and boxes. If a body did not move since the last commit, copies its boxes from the last snapshot. If
 /// this snapshot object was used before, writes only the poses that changed since its last use.
 void Scene::State::fillBodies(Snapshot& snapshot) {
@@ -102,7 +139,8 @@ void Scene::State::fillBodies(Snapshot& snapshot) {
   if (last && last->structure_ == structure) {
     snapshot.boxes_ = last->boxes_;
   } else {
-    snapshot.boxes_.assign(structure->body_of_proxy.size(), Aabb{});  // all bodies count as moved
+    snapshot.boxes_.assign(structure->body_of_proxy.size(), Aabb{});
+    if (last) keepBoxes(snapshot);
   }
   boxed.clear();
   boxed.reserve(structure->ids.size());

@@ -83,6 +83,7 @@ struct Scene::State {
   void accept(const std::shared_ptr<PooledSnapshot>& accepted);
   std::shared_ptr<PooledSnapshot> freshSnapshot() const;
   void makeBoxes(std::size_t body, const Pose& world_from_body, Snapshot& snapshot) const;
+  void keepBoxes(Snapshot& snapshot) const;
   void fillBodies(Snapshot& snapshot);
   void growBoxes(const Snapshot& snapshot);
   void fillGrid(PooledSnapshot& pooled);
@@ -99,6 +100,7 @@ struct Scene::State {
   std::shared_ptr<const Structure> structure = std::make_shared<Structure>();
   std::vector<std::uint32_t> uncovered;  // bodies of the structure that are neither covered nor waived, ascending
   std::vector<ShapeInBody> shapes;       // indexed by the proxies of the structure
+  std::vector<Aabb> sizes;               // [m] the same; boxes of the shapes in their own frames, see sizeOf()
   std::shared_ptr<const Snapshot> last;  // snapshot of the last commit; null before the first one
   GridScale scale;
   std::vector<ProxyId> fixed_proxies;

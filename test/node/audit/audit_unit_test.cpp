@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "src/node/audit/audit.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 
 #include "audited_world.h"
 #include "hgrid_proximity/refusal.h"
+#include "src/node/audit/audit.h"
 #include "src/node/audit/case_file.h"
 
 namespace hgrid {
