@@ -6,12 +6,14 @@ import contextlib
 import inspect
 import pathlib
 import random
+import signal
 import sys
 import time
 import traceback
 
 from cell import Cell, Failure, expect, resident
 
+PATIENCE = 180  # [s] a test that takes longer than its chaos by this hangs
 GROWTH = 8.0  # [MB] the memory of the node may be larger by this after the chaos
 
 
@@ -59,6 +61,10 @@ def print_ticks(heard):
             len(times), 1e3 * times[len(times) // 2], 1e3 * times[len(times) * 99 // 100]))
 
 
+def on_alarm(*_):
+    raise Failure("the test hangs: expected an end within %d s after the chaos" % PATIENCE)
+
+
 def main(test, simulated=False):
     """Runs test(cell, rng, deadline) with the arguments of the command line, and exits."""
     program = pathlib.Path(inspect.getfile(test)).resolve()
@@ -66,6 +72,8 @@ def main(test, simulated=False):
     parser.add_argument("--seconds", type=float, default=20.0, help="length of the chaos")
     parser.add_argument("--seed", type=int, default=1, help="seed of all random choices")
     args = parser.parse_args()
+    signal.signal(signal.SIGALRM, on_alarm)
+    signal.alarm(int(args.seconds) + PATIENCE)
     again = "test/chaos/run --seconds %g --seed %d %s" % (args.seconds, args.seed, program.stem)
     try:
         with Cell(simulated) as cell:
