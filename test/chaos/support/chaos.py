@@ -61,8 +61,12 @@ def print_ticks(heard):
             len(times), 1e3 * times[len(times) // 2], 1e3 * times[len(times) * 99 // 100]))
 
 
+class Hang(BaseException):
+    """No Exception, because rospy catches those."""
+
+
 def on_alarm(*_):
-    raise Failure("the test hangs: expected an end within %d s after the chaos" % PATIENCE)
+    raise Hang("the test hangs: expected an end within %d s after the chaos" % PATIENCE)
 
 
 def main(test, simulated=False):
@@ -72,13 +76,14 @@ def main(test, simulated=False):
     parser.add_argument("--seconds", type=float, default=20.0, help="length of the chaos")
     parser.add_argument("--seed", type=int, default=1, help="seed of all random choices")
     args = parser.parse_args()
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # stops the processes of the test
     signal.signal(signal.SIGALRM, on_alarm)
     signal.alarm(int(args.seconds) + PATIENCE)
     again = "test/chaos/run --seconds %g --seed %d %s" % (args.seconds, args.seed, program.stem)
     try:
         with Cell(simulated) as cell:
             test(cell, random.Random(args.seed), args.seconds)
-    except Failure as failure:
+    except (Failure, Hang) as failure:
         print("FAILED: %s\nagain: %s" % (failure, again))
         sys.exit(1)
     except Exception:
