@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""kill -9, rosnode kill and an XML-RPC request that crashes roscpp, at random times. proximity.launch starts the node again."""
+"""The node is killed, asked to end, and crashed, at random times. Each time, proximity.launch starts it again."""
 import collections
 import contextlib
 import http.client

@@ -86,7 +86,7 @@ class Cell(System):
         super().__exit__(*details)
 
     def begin(self, **options):
-        """Starts the node and its world, and waits until the world is complete. `options` are parameters of the node."""
+        """Starts the node and its world. Waits until the world is complete. `options` are parameters of the node."""
         self.start_all(**options)
         self.wait_until_right()
 
@@ -101,7 +101,8 @@ class Cell(System):
 
     def start_node(self, *arguments, **options):
         with open(self.output, "ab") as output:
-            return self.start(NODE, "__name:=proximity", *arguments, **dict({"stdout": output, "stderr": output}, **options))
+            options = dict({"stdout": output, "stderr": output}, **options)
+            return self.start(NODE, "__name:=proximity", *arguments, **options)
 
     def start_puppet(self, links=("hand",), name="puppet"):
         """Starts a process that publishes the frames of links 50 times per second."""
@@ -146,8 +147,9 @@ class Cell(System):
         answers = self._answers
         if isinstance(answers, list):
             answers = [answer.summary for answer in answers]
+        world = status.world
         return "newest ~status: sequence %d, complete %s, reasons %s; last answers: %s; end of the node's output:\n%s" % (
-            status.world.sequence, status.world.complete, status.world.reasons, answers, log)
+            world.sequence, world.complete, world.reasons, answers, log)
 
     def ask(self, place):
         """Asks what a small sphere touches. Returns the response. Only one thread may call this."""
