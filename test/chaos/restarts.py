@@ -5,6 +5,7 @@
 import collections
 import contextlib
 import http.client
+import json
 import os
 import pathlib
 import signal
@@ -15,7 +16,7 @@ import xmlrpc.client
 
 sys.path.insert(0, str(pathlib.Path(__file__).with_name("support")))
 
-from cell import NAME, POST, expect, robot  # noqa: E402  (the path comes first)
+from cell import AUDIT, NAME, POST, expect, robot  # noqa: E402  (the path comes first)
 from chaos import Deadline, check_audit, main  # noqa: E402
 
 RESTART = 2.0  # [s] a new process must exist within this time after the end of the old one
@@ -96,7 +97,7 @@ def restart(cell, launch, way):
 def launched(cell):
     """Runs proximity.launch. At the end, roslaunch ends in order, because it must end its node too."""
     params = pathlib.Path(cell.folder) / "cell.yaml"
-    params.write_text("world_frame: world\nobstacles: [%s]\n" % POST)
+    params.write_text(json.dumps(dict({"world_frame": "world", "obstacles": [POST]}, **AUDIT)))  # JSON is YAML
     with open(cell.output, "ab") as output:
         launch = cell.start("roslaunch", "-p", cell.uri.rpartition(":")[2], "hgrid_proximity", "proximity.launch",
                             "params:=%s" % params, stdout=output, stderr=subprocess.STDOUT)

@@ -21,6 +21,8 @@ from hgrid_proximity.srv import QuerySphere  # noqa: E402
 NODE = str(ROOT / "devel/lib/hgrid_proximity/proximity_node")
 NAME = "/proximity"
 SPHERE = '<collision><origin xyz="%s"/><geometry><sphere radius="0.1"/></geometry></collision>'
+# The node under test audits itself as often as it can. Nodes without this parameter have no audit.
+AUDIT = {"audit_rate": 10.0} if "audit_rate" in (ROOT / "src/node/params/params.h").read_text() else {}
 POST = {"name": "post", "pose": {"xyz": [2, 0, 0]}, "shapes": [{"type": "sphere", "radius": 0.1}]}
 HAND, POST_PLACE, FREE = (1.0, 0.0, 0.0), (2.0, 0.0, 0.0), (0.0, 3.0, 0.0)  # [m] places for queries
 VERDICTS = {Verdict.UNKNOWN: "UNKNOWN", Verdict.CLEAR: "CLEAR", Verdict.HIT: "HIT"}
@@ -97,7 +99,7 @@ class Cell(System):
         self.node = self.start_node()
 
     def params(self, **options):
-        self.set(NAME, dict({"world_frame": "world", "obstacles": [POST]}, **options))
+        self.set(NAME, dict({"world_frame": "world", "obstacles": [POST]}, **AUDIT, **options))
 
     def start_node(self, *arguments, **options):
         with open(self.output, "ab") as output:
@@ -148,8 +150,8 @@ class Cell(System):
         if isinstance(answers, list):
             answers = [answer.summary for answer in answers]
         world = status.world
-        return "newest ~status: sequence %d, complete %s, reasons %s; last answers: %s; end of the node's output:\n%s" % (
-            world.sequence, world.complete, world.reasons, answers, log)
+        state = "sequence %d, complete %s, reasons %s" % (world.sequence, world.complete, world.reasons)
+        return "newest ~status: %s; last answers: %s; end of the node's output:\n%s" % (state, answers, log)
 
     def ask(self, place):
         """Asks what a small sphere touches. Returns the response. Only one thread may call this."""
