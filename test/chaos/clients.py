@@ -81,7 +81,7 @@ def clients(cell, rng, seconds):
     sphere(HAND).serialize(buffer)
     call = tcpros.header(service=SERVICE, md5sum=QuerySphere._md5sum, callerid="/leaving") + tcpros.framed(
         buffer.getvalue())
-    with calm_after(cell, growth=20.0):
+    with calm_after(cell):
         idle = [tcpros.connect(place) for _ in range(IDLE)]
         cell.wait_until_right()
         begin, first = time.monotonic(), cell.status().world.sequence

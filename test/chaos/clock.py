@@ -61,32 +61,42 @@ def stand_still(cell, simulator, rng):
     simulator.stands = False
 
 
+def disturb(cell, simulator, rng, kind):
+    if kind == "back":
+        jump(cell, simulator, rng.uniform(0.1, simulator.now - 0.1))
+    elif kind == "ahead":
+        jump(cell, simulator, simulator.now + rng.uniform(20.0, 2000.0))
+    else:
+        stand_still(cell, simulator, rng)
+
+
+def check_clock(cell, simulator, rng, seconds):
+    """After each disturbance, the world is soon complete and the answers are right."""
+    counts, slowest, deadline = {"back": 0, "ahead": 0, "stands still": 0}, 0.0, Deadline(seconds)
+    while deadline or not all(counts.values()):
+        kind = rng.choice(sorted(counts))
+        disturb(cell, simulator, rng, kind)
+        begin = time.monotonic()
+        cell.wait_until_right()
+        took = time.monotonic() - begin
+        expect("recovery after the clock: " + kind, "at most %g s" % RECOVERY, "%.2f s" % took, took <= RECOVERY)
+        slowest, counts[kind] = max(slowest, took), counts[kind] + 1
+    print("clock: %s; slowest recovery %.2f s" % (counts, slowest))
+
+
 def clock(cell, rng, seconds):
-    simulator = Simulator(1000.0)
     cell.set("/robot_description", robot("hand"))
     cell.params(obstacles=[POST])
     cell.node = cell.start_node()
+    simulator = Simulator(1000.0)
     simulator.start()
-    cell.wait_until_right()
-    counts, slowest = {"back": 0, "ahead": 0, "stands still": 0}, 0.0
-    with calm_after(cell):
-        deadline = Deadline(seconds)
-        while deadline or not all(counts.values()):
-            kind = rng.choice(sorted(counts))
-            if kind == "back":
-                jump(cell, simulator, rng.uniform(0.1, simulator.now - 0.1))
-            elif kind == "ahead":
-                jump(cell, simulator, simulator.now + rng.uniform(20.0, 2000.0))
-            else:
-                stand_still(cell, simulator, rng)
-            begin = time.monotonic()
-            cell.wait_until_right()
-            took = time.monotonic() - begin
-            expect("recovery after the clock: " + kind, "at most %g s" % RECOVERY, "%.2f s" % took, took <= RECOVERY)
-            slowest, counts[kind] = max(slowest, took), counts[kind] + 1
-    simulator.ends = True
-    simulator.join()
-    print("clock: %s; slowest recovery %.2f s" % (counts, slowest))
+    try:
+        cell.wait_until_right()
+        with calm_after(cell):
+            check_clock(cell, simulator, rng, seconds)
+    finally:
+        simulator.ends = True
+        simulator.join()
 
 
 if __name__ == "__main__":

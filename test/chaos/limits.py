@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""A node that runs out of file descriptors, and a node whose log is on a full disk. Both go on, and the first recovers."""
+"""A node runs out of file descriptors, and logs to a full disk. It goes on, and recovers."""
 import pathlib
 import resource
 import sys
@@ -42,7 +42,7 @@ def check_descriptors(cell, rng, seconds):
         deadline = Deadline(seconds)
         while deadline or rounds == 0:
             connections = [tcpros.connect(place) for _ in range(CONNECTIONS)]
-            cell.wait("a node that can accept no more connections",  # the last descriptor stays free: accept() needs two
+            cell.wait("a node that can accept no more connections",  # one descriptor stays free; accept() needs two
                       lambda: open_descriptors(cell.node.pid) >= DESCRIPTORS - 1)
             used, begin = processor_time(cell.node.pid), time.monotonic()
             full = Deadline(rng.uniform(0.5, 1.5))

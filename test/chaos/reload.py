@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""200 reloads of the robot while four clients ask: each answer is about one of the two models, never about a mixture."""
+"""200 reloads of the robot while four clients ask. Each answer is about one of the two models, not about a mixture."""
 import pathlib
 import sys
 import threading

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""kill -9, rosnode kill and an XML-RPC request that crashes roscpp, at random times. proximity.launch starts the node again."""
+"""The node is killed, asked to end, and crashed, at random times. Each time, proximity.launch starts it again."""
 import collections
+import contextlib
 import http.client
+import json
 import os
 import pathlib
 import signal
@@ -14,7 +16,7 @@ import xmlrpc.client
 
 sys.path.insert(0, str(pathlib.Path(__file__).with_name("support")))
 
-from cell import NAME, POST, expect, robot  # noqa: E402  (the path comes first)
+from cell import AUDIT, NAME, POST, expect, robot  # noqa: E402  (the path comes first)
 from chaos import Deadline, check_audit, main  # noqa: E402
 
 RESTART = 2.0  # [s] a new process must exist within this time after the end of the old one
@@ -91,24 +93,37 @@ def restart(cell, launch, way):
     return took
 
 
-def restarts(cell, rng, seconds):
-    cell.set("/robot_description", robot("hand"))
-    cell.hand = cell.start_puppet()
+@contextlib.contextmanager
+def launched(cell):
+    """Runs proximity.launch. At the end, roslaunch ends in order, because it must end its node too."""
     params = pathlib.Path(cell.folder) / "cell.yaml"
-    params.write_text("world_frame: world\nobstacles: [%s]\n" % POST)
+    params.write_text(json.dumps(dict({"world_frame": "world", "obstacles": [POST]}, **AUDIT)))  # JSON is YAML
     with open(cell.output, "ab") as output:
         launch = cell.start("roslaunch", "-p", cell.uri.rpartition(":")[2], "hgrid_proximity", "proximity.launch",
                             "params:=%s" % params, stdout=output, stderr=subprocess.STDOUT)
-    cell.wait_until_right()
-    counts, slowest, deadline = collections.Counter(), 0.0, Deadline(seconds)
-    while deadline or len(counts) < len(WAYS):
-        time.sleep(rng.uniform(0.0, 0.5))  # the chaos: the node ends at any time
-        way = rng.choice([way for way in WAYS if way not in counts] or sorted(WAYS))
-        slowest = max(slowest, restart(cell, launch, way))
-        counts[way] += 1
-    check_audit(cell)
+    try:
+        yield launch
+    finally:
+        last = node_of(launch)
+        launch.send_signal(signal.SIGINT)
+        launch.wait()
+        expect("the node after the end of roslaunch", "it has ended", last, last is None or not is_running(last))
+
+
+def restarts(cell, rng, seconds):
+    cell.set("/robot_description", robot("hand"))
+    cell.hand = cell.start_puppet()
+    counts, slowest = collections.Counter(), 0.0
+    with launched(cell) as launch:
+        cell.wait_until_right()
+        deadline = Deadline(seconds)
+        while deadline or len(counts) < len(WAYS):
+            time.sleep(rng.uniform(0.0, 0.5))  # the chaos: the node ends at any time
+            way = rng.choice([way for way in WAYS if way not in counts] or sorted(WAYS))
+            slowest = max(slowest, restart(cell, launch, way))
+            counts[way] += 1
+        check_audit(cell)
     print("%s; the slowest new start took %.2f s" % (dict(counts), slowest))
-    expect("roslaunch", None, launch.poll())
 
 
 if __name__ == "__main__":

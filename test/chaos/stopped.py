@@ -76,7 +76,7 @@ def check_stalled_subscribers(cell, seconds):
 
 
 def check_publishers(cell, rng, seconds):
-    """While a publisher is stopped or killed, the hand grows old and nothing near it is CLEAR. Then all is as before."""
+    """While a publisher is stopped or killed, the hand is lost and nothing near it is CLEAR. Then all is as before."""
     deadline = Deadline(seconds)
     rounds = 0
     while deadline or rounds == 0:

@@ -9,12 +9,13 @@ import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).with_name("support")))
 
-from cell import expect  # noqa: E402  (the path comes first)
+from cell import AUDIT, expect  # noqa: E402  (the path comes first)
 from chaos import calm_after, main  # noqa: E402
 
 FLOOD = str(pathlib.Path(__file__).with_name("support") / "flood.py")
 RATE = 5000.0  # [Hz] messages of each kind
 KINDS = ("tf", "tf_static", "cloud", "map")
+GROWTH = 80.0 if AUDIT else 30.0  # [MB] the audit keeps up to ~tf_queue_bytes of each topic of tf
 TICKS = 0.8  # share of the ticks that must come, although the floods need the processors too
 DECIDED = ("tf.accepted", "tf.refused.", "tf.dropped.", "tf.ignored.", "tf.too_old", "tf.repeated", "tf.rival")
 INPUTS = {  # topic -> beginnings of the counters of its messages
@@ -71,7 +72,7 @@ def storms(cell, rng, seconds):
     cell.hand.kill()  # now the flood places the hand
     cell.hand.wait()
     earlier = cell.counters()
-    with calm_after(cell, growth=30.0):
+    with calm_after(cell, growth=GROWTH):
         begin, sequence = time.monotonic(), cell.status().world.sequence
         floods = {kind: flood(cell, kind, RATE, seconds, rng.randrange(1000)) for kind in KINDS}
         sent = {kind: sent_by(process) for kind, process in floods.items()}

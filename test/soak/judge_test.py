@@ -13,7 +13,7 @@ LOADER.exec_module(judge)
 
 
 def table(**changes):
-    """Returns a table without drift. `changes` replaces columns: a value for all tenths, or one value for each tenth."""
+    """Returns a table without drift. `changes` replaces columns: a value for all tenths, or one for each tenth."""
     columns = {
         "tenth": list(range(1, 11)),
         "ticks": 18000,
@@ -50,7 +50,8 @@ class Judge(unittest.TestCase):
         self.assertEqual([], judge.faults(judge.read(table(audited="-", different="-"))))
 
     def test_finds_memory_that_grows(self):
-        self.assert_finds("growth of the memory (early: 100.8 MB): 2.4 MB", rss=[100.0 + 0.4 * tenth for tenth in range(10)])
+        grown = [100.0 + 0.4 * tenth for tenth in range(10)]
+        self.assert_finds("growth of the memory (early: 100.8 MB): 2.4 MB", rss=grown)
 
     def test_finds_times_that_grow(self):
         for column in ("tick_p50", "tick_p99", "query_p50", "query_p99", "cpu"):

@@ -21,6 +21,8 @@ from hgrid_proximity.srv import QuerySphere  # noqa: E402
 NODE = str(ROOT / "devel/lib/hgrid_proximity/proximity_node")
 NAME = "/proximity"
 SPHERE = '<collision><origin xyz="%s"/><geometry><sphere radius="0.1"/></geometry></collision>'
+# The node under test audits itself as often as it can. Nodes without this parameter have no audit.
+AUDIT = {"audit_rate": 10.0} if "audit_rate" in (ROOT / "src/node/params/params.h").read_text() else {}
 POST = {"name": "post", "pose": {"xyz": [2, 0, 0]}, "shapes": [{"type": "sphere", "radius": 0.1}]}
 HAND, POST_PLACE, FREE = (1.0, 0.0, 0.0), (2.0, 0.0, 0.0), (0.0, 3.0, 0.0)  # [m] places for queries
 VERDICTS = {Verdict.UNKNOWN: "UNKNOWN", Verdict.CLEAR: "CLEAR", Verdict.HIT: "HIT"}
@@ -86,7 +88,7 @@ class Cell(System):
         super().__exit__(*details)
 
     def begin(self, **options):
-        """Starts the node and its world, and waits until the world is complete. `options` are parameters of the node."""
+        """Starts the node and its world. Waits until the world is complete. `options` are parameters of the node."""
         self.start_all(**options)
         self.wait_until_right()
 
@@ -97,11 +99,12 @@ class Cell(System):
         self.node = self.start_node()
 
     def params(self, **options):
-        self.set(NAME, dict({"world_frame": "world", "obstacles": [POST]}, **options))
+        self.set(NAME, dict({"world_frame": "world", "obstacles": [POST]}, **AUDIT, **options))
 
     def start_node(self, *arguments, **options):
         with open(self.output, "ab") as output:
-            return self.start(NODE, "__name:=proximity", *arguments, **dict({"stdout": output, "stderr": output}, **options))
+            options = dict({"stdout": output, "stderr": output}, **options)
+            return self.start(NODE, "__name:=proximity", *arguments, **options)
 
     def start_puppet(self, links=("hand",), name="puppet"):
         """Starts a process that publishes the frames of links 50 times per second."""
@@ -146,8 +149,9 @@ class Cell(System):
         answers = self._answers
         if isinstance(answers, list):
             answers = [answer.summary for answer in answers]
-        return "newest ~status: sequence %d, complete %s, reasons %s; last answers: %s; end of the node's output:\n%s" % (
-            status.world.sequence, status.world.complete, status.world.reasons, answers, log)
+        world = status.world
+        state = "sequence %d, complete %s, reasons %s" % (world.sequence, world.complete, world.reasons)
+        return "newest ~status: %s; last answers: %s; end of the node's output:\n%s" % (state, answers, log)
 
     def ask(self, place):
         """Asks what a small sphere touches. Returns the response. Only one thread may call this."""

@@ -6,12 +6,14 @@ import contextlib
 import inspect
 import pathlib
 import random
+import signal
 import sys
 import time
 import traceback
 
-from cell import Cell, Failure, expect, resident
+from cell import AUDIT, Cell, Failure, expect, resident
 
+PATIENCE = 180  # [s] a test that takes longer than its chaos by this hangs
 GROWTH = 8.0  # [MB] the memory of the node may be larger by this after the chaos
 
 
@@ -43,12 +45,13 @@ def calm_after(cell, growth=GROWTH):
 
 def check_audit(cell):
     """Fails if the audit of the node has found a wrong tick."""
-    counters = cell.counters()
-    if "audit.checked" not in counters:
-        print("no audit: the node has no counter audit.checked")
+    if not AUDIT:
+        print("no audit: the node has no parameter audit_rate")
         return
+    cell.wait("an audit", lambda: "audit.checked" in cell.counters())
+    counters = cell.counters()
     expect("audit.different", 0, counters.get("audit.different", 0))
-    print("audit: %d ticks checked" % counters["audit.checked"])
+    print("audit: %d ticks checked, %d skipped" % (counters["audit.checked"], counters.get("audit.skipped", 0)))
 
 
 def print_ticks(heard):
@@ -59,18 +62,29 @@ def print_ticks(heard):
             len(times), 1e3 * times[len(times) // 2], 1e3 * times[len(times) * 99 // 100]))
 
 
+class Hang(BaseException):
+    """No Exception, because rospy catches those."""
+
+
+def on_alarm(*_):
+    raise Hang("the test hangs: expected an end within %d s after the chaos" % PATIENCE)
+
+
 def main(test, simulated=False):
-    """Runs test(cell, rng, deadline) with the arguments of the command line, and exits."""
+    """Runs test(cell, rng, seconds) with the arguments of the command line. Exits with 1 if it fails."""
     program = pathlib.Path(inspect.getfile(test)).resolve()
     parser = argparse.ArgumentParser(description=inspect.getmodule(test).__doc__)
     parser.add_argument("--seconds", type=float, default=20.0, help="length of the chaos")
     parser.add_argument("--seed", type=int, default=1, help="seed of all random choices")
     args = parser.parse_args()
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # stops the processes of the test
+    signal.signal(signal.SIGALRM, on_alarm)
+    signal.alarm(int(args.seconds) + PATIENCE)
     again = "test/chaos/run --seconds %g --seed %d %s" % (args.seconds, args.seed, program.stem)
     try:
         with Cell(simulated) as cell:
             test(cell, random.Random(args.seed), args.seconds)
-    except Failure as failure:
+    except (Failure, Hang) as failure:
         print("FAILED: %s\nagain: %s" % (failure, again))
         sys.exit(1)
     except Exception:

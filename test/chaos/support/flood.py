@@ -51,7 +51,7 @@ def cloud(rng, stamp):
 def octomap(rng, stamp, nodes):
     """A map of the demo room, far away, or one that ends too early."""
     data = nodes[:-7] if rng.random() < 0.2 else nodes
-    return header(stamp, "room") + b"\1" + text("OcTree") + struct.pack("<d", 0.05) + struct.pack("<I", len(data)) + data
+    return header(stamp, "room") + b"\1" + text("OcTree") + struct.pack("<dI", 0.05, len(data)) + data
 
 
 class Sound:
