@@ -79,6 +79,11 @@ std::vector<TickLoop::Step> ProximityNode::tickSteps() {
            [this](const TickPtr& tick) {
              if (const auto time = publishers_.publishDistances(tick)) stopwatch_.add("distances", *time);
            }},
+          {"",
+           [this](const TickPtr& tick) {
+             if (tick->snapshot)
+               commons_.health.noteThreads("~threads", commons_.settings.params.threads, tick->threads);
+           }},
           {"", [this](const TickPtr& tick) { completeness_log_.log(*tick); }},
           {"", [this](const TickPtr& tick) { model_log_.log(tick->models); }}};
 }

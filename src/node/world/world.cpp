@@ -269,6 +269,7 @@ std::shared_ptr<const Tick> World::tick(const Moment& now) {
   tick->poses_time = std::chrono::steady_clock::now() - begin;
   tick->snapshot = scene_.commit(time, gaps);
   tick->times = scene_.lastTimes();
+  tick->threads = scene_.lastThreads();
   return tick;
 }
 
