@@ -59,7 +59,8 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
   loading_.startClouds();
 }
 
-ProximityNode::~ProximityNode() {
+/// Stops all threads that use the parts of the node.
+void ProximityNode::stop() {
   stopping_ = true;
   tick_loop_.stop();
   housekeeping_.stop();
