@@ -94,6 +94,7 @@ std::vector<Chore> ProximityNode::chores() {
   using Time = Chore::Time;
   constexpr std::chrono::milliseconds kAlways{0};
   return {{"loading.failed", kAlways, [this](Time now) { loading_.retry(now); }},
+          {"loading.failed", kAlways, [this](Time) { loading_.robots().loadChanged(); }},
           {"markers.failed", kAlways, [this](Time) { publishers_.publishMarkers(tick_loop_.newest()); }},
           {"diagnostics.failed", kDiagnosticsPause, [this](Time) { diagnostics_.update(); }}};
 }

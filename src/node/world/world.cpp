@@ -179,7 +179,10 @@ void World::needFrames(const Moment& now) {
 
 void World::setMissing(const SourceId& source, const std::string& sentence) {
   if (clouds_.noteRefused(source, sentence) || maps_.noteRefused(source, sentence)) return;
-  if (robots_.find(source.name) == nullptr) missing_.set(source, sentence);
+  const bool known = robots_.find(source.name) != nullptr;
+  missing_.set(source, known ? "REFUSED '" + source.name + "': its newest description could not be used (" + sentence +
+                                   "), so its model may be out of date"
+                             : sentence);
 }
 
 void World::setRules(PreparedRules rules) { rules_.set(std::move(rules)); }
