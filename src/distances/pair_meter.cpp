@@ -258,6 +258,8 @@ std::shared_ptr<const PairDistances> PairMeter::State::result(const Snapshot& sn
   return result;
 }
 
+int PairMeter::threads() const { return state_->workers.threads(); }
+
 std::shared_ptr<const PairDistances> PairMeter::measure(const Snapshot& snapshot) {
   const DefaultFloatEnvironment environment;
   State& s = *state_;

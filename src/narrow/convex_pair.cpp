@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace hgrid {
 namespace {
@@ -69,6 +70,13 @@ Proximity answerOf(Measure status, double distance) {
   return result;
 }
 
+bool hasContacts(Measure status) {
+  if (status == Measure::failed) {
+    throw std::runtime_error("the contacts are not known, because the distance of two shapes could not be computed");
+  }
+  return isContact(status);
+}
+
 std::optional<Proximity> answerByReach(const Side& a, const Side& b, const Pose& a_from_b, double up_to) {
   const double around = a.around + b.around;
   if (!a_from_b.matrix().allFinite() || !(around >= 0.0)) return answerOf(Measure::failed, 0.0);
@@ -131,7 +139,7 @@ Proximity measureConvex(const Side& a, const Side& b, double up_to, FindOverlap 
 
 std::vector<Contact> contactsOfConvex(const Side& a, const Side& b, std::size_t most, FindOverlap findOverlap) {
   const Measure status = most > 0 ? measureConvex(a, b, 0.0, findOverlap).status : Measure::not_measured;
-  if (!isContact(status) || status == Measure::failed) return {};
+  if (!hasContacts(status)) return {};
   const Pose a_from_b = a.world_from_shape.inverse() * b.world_from_shape;
   const CoreGap gap = gapOf(convex(a).core(), convex(b).core(), a_from_b, a.around + b.around + kTouchingGap);
   Contact contact = contactByGap(a, b, gap);

@@ -33,6 +33,8 @@ std::vector<Contact> contactsOfConvex(const Side& a, const Side& b, std::size_t 
 
 /// Returns a result that has only a status and a distance [m].
 Proximity answerOf(Measure status, double distance);
+/// Whether two solids with this status have contacts. @throws std::runtime_error if the measurement failed
+bool hasContacts(Measure status);
 /// Returns a result if it is known without measuring the cores: the poses are not finite, or the solids are too far
 /// apart.
 std::optional<Proximity> answerByReach(const Side& a, const Side& b, const Pose& a_from_b, double up_to);

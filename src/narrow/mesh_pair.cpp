@@ -90,7 +90,7 @@ Proximity measureMesh(const Side& mesh, const Side& other, double up_to) {
 
 std::vector<Contact> contactsOfMesh(const Side& mesh, const Side& other, std::size_t most) {
   const Measure status = most > 0 ? measureMesh(mesh, other, 0.0).status : Measure::not_measured;
-  if (!isContact(status) || status == Measure::failed) return {};
+  if (!hasContacts(status)) return {};
   const Pose mesh_from_other = mesh.world_from_shape.inverse() * other.world_from_shape;
   const double reach = mesh.around + other.around + kTouchingGap;
   std::vector<Contact> contacts;

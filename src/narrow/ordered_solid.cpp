@@ -77,12 +77,7 @@ std::vector<Contact> OrderedNarrowPhase::contacts(const PlacedSolid& first, cons
   const Side a(first), b(second);
   const bool exchanged = goesAfter(a, b);
   const Pose& world_from_frame = exchanged ? b.world_from_shape : a.world_from_shape;
-  std::vector<Contact> found;
-  try {
-    found = exchanged ? contactsInOrder(b, a, most) : contactsInOrder(a, b, most);
-  } catch (const std::exception&) {
-    return {};
-  }
+  std::vector<Contact> found = exchanged ? contactsInOrder(b, a, most) : contactsInOrder(a, b, most);
   for (Contact& contact : found) {
     contact.point = world_from_frame * contact.point;
     contact.normal = world_from_frame.linear() * contact.normal;

@@ -57,8 +57,7 @@ class OrderedNarrowPhase : public NarrowPhase {
  protected:
   /// Implements measure() for a sorted pair, in the frame of `a`. May throw std::exception.
   virtual Proximity measureInOrder(const Side& a, const Side& b, double up_to) const = 0;
-  /// Implements contacts() for a sorted pair, in the frame of `a`. The contacts may have any order. May throw
-  /// std::exception.
+  /// Implements contacts() for a sorted pair, in the frame of `a`. The contacts may have any order.
   virtual std::vector<Contact> contactsInOrder(const Side& a, const Side& b, std::size_t most) const = 0;
 };
 

@@ -60,7 +60,8 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
   loading_.startClouds();
 }
 
-ProximityNode::~ProximityNode() {
+/// Stops all threads that use the parts of the node.
+void ProximityNode::stop() {
   stopping_ = true;
   tick_loop_.stop();
   housekeeping_.stop();
@@ -80,6 +81,11 @@ std::vector<TickLoop::Step> ProximityNode::tickSteps() {
            [this](const TickPtr& tick) {
              if (const auto time = publishers_.publishDistances(tick)) stopwatch_.add("distances", *time);
            }},
+          {"",
+           [this](const TickPtr& tick) {
+             if (tick->snapshot)
+               commons_.health.noteThreads("~threads", commons_.settings.params.threads, tick->threads);
+           }},
           {"", [this](const TickPtr& tick) { completeness_log_.log(*tick); }},
           {"", [this](const TickPtr& tick) { model_log_.log(tick->models); }},
           {"audit", [this](const TickPtr& tick) { auditor_.see(tick); }}};
@@ -90,6 +96,7 @@ std::vector<Chore> ProximityNode::chores() {
   using Time = Chore::Time;
   constexpr std::chrono::milliseconds kAlways{0};
   return {{"loading.failed", kAlways, [this](Time now) { loading_.retry(now); }},
+          {"loading.failed", kAlways, [this](Time) { loading_.robots().loadChanged(); }},
           {"markers.failed", kAlways, [this](Time) { publishers_.publishMarkers(tick_loop_.newest()); }},
           {"diagnostics.failed", kDiagnosticsPause, [this](Time) { diagnostics_.update(); }}};
 }

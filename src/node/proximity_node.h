@@ -35,9 +35,9 @@ class ProximityNode {
   /// As above, but measures exact distances with `narrow_phase` instead of FCL.
   ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                 std::shared_ptr<NarrowPhase> narrow_phase);
-  ~ProximityNode();
 
  private:
+  void stop();
   /// Returns whether the node or its process is about to end. Long work must then stop. Any thread may call this.
   bool isEnding() const;
   std::vector<TickLoop::Step> tickSteps();
@@ -60,6 +60,11 @@ class ProximityNode {
   NodeServices services_;
   NodeDiagnostics diagnostics_;
   Housekeeping housekeeping_;
+  /// Stops all threads before any part is destroyed, also if the constructor throws after some threads were started.
+  struct StopsThreads {
+    ProximityNode& node;
+    ~StopsThreads() { node.stop(); }
+  } stops_threads_{*this};
 };
 
 }  // namespace hgrid

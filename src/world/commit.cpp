@@ -211,6 +211,7 @@ void Scene::State::fillGrid(PooledSnapshot& pooled) {
     grid.setPairBound(limits.boundOf(structure->body_of_proxy.size()));
     pooled.grid_revision = structure->revision;
   }
+  threads = grid.threads();
   grid.update(ids, grown_boxes);
   pooled.snapshot.search_cut_ = !grid.boundedPairs(proxy_pairs);
 }

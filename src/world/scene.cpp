@@ -294,4 +294,6 @@ void Scene::beginEpoch(std::uint64_t epoch) {
 std::uint64_t Scene::revision() const { return state_->structure->revision; }
 const TickTimes& Scene::lastTimes() const { return state_->times; }
 
+int Scene::lastThreads() const { return state_->threads; }
+
 }  // namespace hgrid

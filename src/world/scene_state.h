@@ -109,6 +109,7 @@ struct Scene::State {
   PairTracker tracker;
   PairEvents pair_events;
   TickTimes times;
+  int threads = 1;
   std::shared_ptr<SnapshotPool> pool = std::make_shared<SnapshotPool>();
 
   // Buffers of a commit. They are members so that the next commit need not allocate them again.

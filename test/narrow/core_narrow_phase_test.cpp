@@ -4,6 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <stdexcept>
+
+#include "narrow/core_narrow_phase.h"
+
 namespace hgrid {
 namespace test {
 namespace {
@@ -36,6 +41,38 @@ TEST(CoreNarrowPhase, KnowsNoDepthOfCoresThatOverlap) {
   EXPECT_EQ(boxes.distance, 0.0);
   EXPECT_TRUE(std::isnan(boxes.depth));
   EXPECT_TRUE(boxes.normal.hasNaN());
+}
+
+std::optional<Overlap> throwFault(const ConvexSolid&, const ConvexSolid&, const Pose&) {
+  throw std::runtime_error("a fault of the solver");
+}
+
+/// Claim: a pair on which the solver throws counts as contact. A list of its contacts is never just empty, because that
+/// would mean that there are none.
+TEST(CoreNarrowPhase, AFaultOfTheSolverIsAContactAndNoListOfContactsIsReturned) {
+  const CoreNarrowPhase faulty(throwFault);
+  const ConvexSolid box(Shape::box({1, 1, 1}));
+  const Pose here = Pose::Identity(), there = at(0.75, 0, 0), far = at(9, 0, 0);
+  const Proximity measured = faulty.measure({box, here, 0.0}, {box, there, 0.0}, 10.0);
+  EXPECT_EQ(measured.status, Measure::failed);
+  EXPECT_TRUE(isContact(measured.status));
+  EXPECT_EQ(measured.distance, 0.0);
+  EXPECT_THROW(faulty.contacts({box, here, 0.0}, {box, there, 0.0}, 5), std::runtime_error);
+  EXPECT_EQ(faulty.measure({box, here, 0.0}, {box, far, 0.0}, 10.0).status, Measure::apart);
+  EXPECT_TRUE(faulty.contacts({box, here, 0.0}, {box, far, 0.0}, 5).empty());
+}
+
+/// Claim: the same holds if the solver does not throw, but knows no answer.
+TEST(CoreNarrowPhase, AMeasurementThatFailsHasNoListOfContacts) {
+  const auto narrow_phase = makeCoreNarrowPhase();
+  const auto box = narrow_phase->solidOf(Shape::box({1, 1, 1}));
+  const auto mesh = narrow_phase->solidOf(
+      Shape::mesh(std::make_shared<TriangleMesh>(TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}})));
+  const Pose here = Pose::Identity(), nowhere = at(std::nan(""), 0, 0);
+  for (const auto& solid : {box, mesh}) {
+    EXPECT_EQ(narrow_phase->measure({*solid, here, 0.0}, {*box, nowhere, 0.0}, 1.0).status, Measure::failed);
+    EXPECT_THROW(narrow_phase->contacts({*solid, here, 0.0}, {*box, nowhere, 0.0}, 5), std::runtime_error);
+  }
 }
 
 }  // namespace

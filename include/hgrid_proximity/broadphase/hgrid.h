@@ -59,6 +59,8 @@ class HGrid final : public BroadPhase {
   /// 1 .. 64, initially 1.
   /// @throws std::invalid_argument if the number is outside this range.
   void setThreads(int threads);
+  /// Returns how many threads work. If the system could not create all of them, it is less than setThreads() asked for.
+  int threads() const;
 
   void insert(ProxyId id, const Aabb& box) override;
   void update(ProxyId id, const Aabb& box) override;

@@ -53,9 +53,9 @@ struct PairContact {
   Contact contact;                 ///< point, normal and depth of the contact
 };
 
-/// Finds the contacts of two bodies of a snapshot, deepest first. Both bodies must have poses. If the status of
-/// measurePair() is `failed`, there may be no contacts.
+/// Finds the contacts of two bodies of a snapshot, deepest first. Both bodies must have poses.
 /// @param most  the search ends after this many contacts, even if others are deeper
+/// @throws std::exception if the solver failed for one of their shapes
 std::vector<PairContact> contactsOf(const NarrowPhase& narrow_phase, const Snapshot& snapshot, std::uint32_t first,
                                     std::uint32_t second, std::size_t most);
 

@@ -49,6 +49,10 @@ class PairMeter {
   /// The meter is then in the same state as before the call and can be used again.
   std::shared_ptr<const PairDistances> measure(const Snapshot& snapshot);
 
+  /// Returns how many threads measure. If the system could not create all of them, it is less than
+  /// MeterOptions::threads.
+  int threads() const;
+
  private:
   struct State;
   std::unique_ptr<State> state_;

@@ -105,11 +105,12 @@ class NarrowPhase {
   /// value can be much faster
   virtual Proximity measure(const PlacedSolid& first, const PlacedSolid& second, double up_to) const = 0;
 
-  /// Lists the contacts of two solids that this narrow phase created, deepest first. Never throws.
+  /// Lists the contacts of two solids that this narrow phase created, deepest first.
   ///
   /// Each pair of parts that meet is one contact. If one solid is wholly inside the other, there is one contact. The
-  /// list is empty if the solids are apart or if the solver failed.
+  /// list is empty if the solids are apart.
   /// @param most  the search ends after this many contacts
+  /// @throws std::exception if the solver failed, so that an empty list always means that there are no contacts
   virtual std::vector<Contact> contacts(const PlacedSolid& first, const PlacedSolid& second,
                                         std::size_t most) const = 0;
 };

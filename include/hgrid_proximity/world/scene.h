@@ -135,6 +135,9 @@ class Scene {
   std::uint64_t revision() const;
   /// Returns how long the last commit took.
   const TickTimes& lastTimes() const;
+  /// Returns how many threads the last commit used. If the system could not create all of them, it is less than
+  /// SceneOptions::threads.
+  int lastThreads() const;
 
  private:
   struct State;

@@ -98,6 +98,8 @@ void HGrid::setThreads(int threads) {
   if (threads != engine_->workers->threads()) engine_->workers = std::make_unique<Workers>(threads);
 }
 
+int HGrid::threads() const { return engine_->workers->threads(); }
+
 void HGrid::setFixed(const std::vector<ProxyId>& ids) {
   if (!std::is_sorted(ids.begin(), ids.end())) throw std::invalid_argument("HGrid: the ids do not ascend; sort them");
   std::vector<bool> fixed(ids.empty() ? 0 : ids.back() + std::size_t{1});

@@ -137,6 +137,7 @@ void NodeDiagnostics::ticks(DiagnosticStatusWrapper& status) {
                             " ticks; it should be at most " + std::to_string(kLongestWait) +
                             "; increase ~distances/budget or ~distances/threads, or reduce ~distances/max");
   }
+  for (const auto& missing : health.missing_threads) status.mergeSummary(DiagnosticStatus::WARN, missing.second);
   status.add("failed ticks", health.failed_ticks);
   status.add("longest time without a measurement of a pair [ticks]", health.longest_wait);
   if (tick && tick->snapshot) status.add("sequence", tick->snapshot->sequence());

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/diagnostics/node_health.h"
 
+#include <ros/console.h>
+
 namespace hgrid {
 
 void NodeHealth::noteTick(const std::optional<Refusal>& fault) {
@@ -49,6 +51,21 @@ bool NodeHealth::noteFailedLoad(const std::string& robot, const std::string& sen
 void NodeHealth::noteLoaded(const std::string& robot) {
   const std::lock_guard<std::mutex> lock(mutex_);
   report_.failed_loads.erase(robot);
+}
+
+void NodeHealth::noteThreads(const std::string& parameter, int configured, int created) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (created >= configured) {
+    report_.missing_threads.erase(parameter);
+    return;
+  }
+  const std::string sentence = "the system could create only " + std::to_string(created) + " of the " +
+                               std::to_string(configured) + " threads of " + parameter +
+                               "; results are the same but may come later: allow more threads or memory, or reduce " +
+                               parameter;
+  std::string& known = report_.missing_threads[parameter];
+  if (known != sentence) ROS_WARN("%s", sentence.c_str());
+  known = sentence;
 }
 
 HealthReport NodeHealth::report() const {

@@ -21,10 +21,11 @@ struct HealthReport {
   std::optional<Refusal> failed_tick;       ///< why the last tick failed; nullopt if it did not
   std::optional<Refusal> failed_distances;  ///< why the last measurement of distances failed; nullopt if it did not
   std::uint64_t longest_wait = 0;           ///< [ticks] see PairDistances::longest_wait
-  std::vector<std::string> conflicts;       ///< frames that are published on both /tf and /tf_static
-  std::uint64_t audits = 0;                 ///< number of audited ticks since the start of the node
-  std::uint64_t different_audits = 0;       ///< number of audits that found a difference
-  std::string audit_difference;             ///< what the newest of these found; empty: nothing
+  std::map<std::string, std::string> missing_threads;  ///< by parameter: how many of its threads could not be created
+  std::vector<std::string> conflicts;                  ///< frames that are published on both /tf and /tf_static
+  std::uint64_t audits = 0;                            ///< number of audited ticks since the start of the node
+  std::uint64_t different_audits = 0;                  ///< number of audits that found a difference
+  std::string audit_difference;                        ///< what the newest of these found; empty: nothing
 };
 
 /// Collects data for /diagnostics from all parts of the node. Any thread may use it.
@@ -45,6 +46,10 @@ class NodeHealth {
   /// Notes why a robot could not be loaded. @returns whether the sentence differs from the last one for this robot
   bool noteFailedLoad(const std::string& robot, const std::string& sentence);
   void noteLoaded(const std::string& robot);
+  /// Notes how many threads work, and logs it if the system could not create all of them.
+  /// @param parameter   name of the parameter that says how many there should be
+  /// @param configured  its value
+  void noteThreads(const std::string& parameter, int configured, int created);
 
   HealthReport report() const;
 

@@ -29,7 +29,7 @@ void Loading::startCloud(const CloudParams& cloud) {
   CloudSource::Sink sink;
   sink.put = [this](const LoadedCloud& loaded) { jobs_.run([loaded](World& world) { world.setCloud(loaded); }); };
   sink.follow = [this, name = cloud.name](const std::string& frame) {
-    jobs_.add([name, frame](World& world) { world.setCloudFrame(name, frame); });
+    jobs_.add("frame of " + name, [name, frame](World& world) { world.setCloudFrame(name, frame); });
   };
   sink.miss = [this, source = SourceId::ofCloud(cloud.name)](const std::string& sentence) {
     noteMissing(jobs_, source, sentence);

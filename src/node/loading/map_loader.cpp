@@ -32,6 +32,7 @@ void MapLoader::subscribe(ros::NodeHandle& node, const MapParams& map) {
 /// Puts the map of a message into the world. If that is not possible yet, the message waits for a retry, and replaces
 /// an older waiting message.
 void MapLoader::onMessage(const MapParams& map, const OctomapMessage& message) {
+  if (message.stamp.isZero()) ledger_.count("maps.unstamped");  // its age counts from its arrival
   std::optional<ReadMap> read;
   const bool done = put(map, [&] {
     read = source_.read(map, message);

@@ -12,7 +12,7 @@ namespace hgrid {
 
 /// Lets the next tick report why a robot, map or cloud is not in the world, or why its newest data could not be used.
 inline void noteMissing(TickJobs& jobs, const SourceId& source, const std::string& sentence) {
-  jobs.add([source, sentence](World& world) { world.setMissing(source, sentence); });
+  jobs.add("missing " + source.name, [source, sentence](World& world) { world.setMissing(source, sentence); });
 }
 
 }  // namespace hgrid

@@ -25,7 +25,7 @@ void logLoaded(const std::string& robot, const SelfPairs& self_pairs) {
 }  // namespace
 
 RobotLoader::RobotLoader(const RobotSource& source, const Params& params, TickJobs& jobs, NodeHealth& health)
-    : source_(source), params_(params), jobs_(jobs), health_(health) {
+    : source_(source), params_(params), jobs_(jobs), health_(health), watch_(source, params) {
   for (const RobotParams& robot : params_.robots) missing_.put(robot.name, &robot);
 }
 
@@ -39,20 +39,38 @@ Refusal RobotLoader::reload(const std::string& name) {
   for (const RobotParams& robot : params_.robots) {
     if (!name.empty() && robot.name != name) continue;
     if (!std::exchange(found, true)) outcome = Refusal(Code::ok, "");
-    const Refusal result = load(robot);
-    if (result.code() == Code::ok) {
-      missing_.remove(robot.name);
-    } else {
+    const Refusal result = loadAgain(robot);
+    if (result.code() != Code::ok) {
       outcome = Refusal(result.code(), "robot '" + robot.name + "': " + result.what());
     }
   }
   return outcome;
 }
 
+void RobotLoader::loadChanged() {
+  for (const RobotParams* robot : watch_.changed()) {
+    ROS_INFO("The description of robot '%s' has changed; it is loaded again.", robot->name.c_str());
+    loadAgain(*robot);
+  }
+}
+
+/// Loads a robot. If that fails and the node follows the description, loadMissing() tries again.
+Refusal RobotLoader::loadAgain(const RobotParams& robot) {
+  const Refusal result = load(robot);
+  if (result.code() == Code::ok) {
+    missing_.remove(robot.name);
+  } else if (params_.watch_descriptions) {
+    missing_.put(robot.name, &robot);
+  }
+  return result;
+}
+
 /// Reads a robot and puts it into the world. @returns ok, or the reason of the failure
 Refusal RobotLoader::load(const RobotParams& robot) {
   try {
-    const auto loaded = std::make_shared<LoadedRobot>(source_.load(robot));
+    const RobotDescription description = source_.describe(robot);
+    watch_.noteRead(robot, description);
+    const auto loaded = std::make_shared<LoadedRobot>(source_.load(robot, description));
     const SelfPairs self_pairs = loaded->self_pairs;
     jobs_.run([loaded](World& world) { world.setRobot(std::move(*loaded)); });
     health_.noteLoaded(robot.name);

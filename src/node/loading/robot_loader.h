@@ -6,6 +6,7 @@
 
 #include "hgrid_proximity/refusal.h"
 #include "node/diagnostics/node_health.h"
+#include "node/loading/description_watch.h"
 #include "node/loading/pending_loads.h"
 #include "node/params/params.h"
 #include "node/sources/robot_source.h"
@@ -28,7 +29,12 @@ class RobotLoader {
   /// @returns ok; unknown_id if there is no such robot; otherwise the reason of the last failure
   Refusal reload(const std::string& name);
 
+  /// Loads each robot again whose description has changed. If that fails, the old model stays, and loadMissing() tries
+  /// again.
+  void loadChanged();
+
  private:
+  Refusal loadAgain(const RobotParams& robot);
   Refusal load(const RobotParams& robot);
   void noteFailed(const RobotParams& robot, const Refusal& why);
 
@@ -37,6 +43,7 @@ class RobotLoader {
   TickJobs& jobs_;
   NodeHealth& health_;
   PendingLoads<const RobotParams*> missing_;
+  DescriptionWatch watch_;
 };
 
 }  // namespace hgrid

@@ -14,7 +14,14 @@ namespace {
 
 namespace msg = ::hgrid_proximity;
 
-std::shared_ptr<const TriangleMesh> fromMesh(const shape_msgs::Mesh& source) {
+/// Converts a mesh. Its vertices are limited as well, because not every vertex needs to belong to a triangle.
+std::shared_ptr<const TriangleMesh> fromMesh(const shape_msgs::Mesh& source, std::size_t max_triangles) {
+  if (source.triangles.size() > max_triangles || source.vertices.size() > 3 * max_triangles) {
+    throw Refusal(Code::limit, "the shape has " + std::to_string(source.triangles.size()) + " triangles and " +
+                                   std::to_string(source.vertices.size()) + " vertices; at most " +
+                                   std::to_string(max_triangles) +
+                                   " triangles (~max_mesh_triangles) and three times as many vertices are allowed");
+  }
   const auto mesh = std::make_shared<TriangleMesh>();
   for (const geometry_msgs::Point& vertex : source.vertices) mesh->vertices.push_back(fromPoint(vertex));
   for (const shape_msgs::MeshTriangle& triangle : source.triangles) {
@@ -32,15 +39,15 @@ Pose fromPose(const geometry_msgs::Pose& pose, const std::string& what) {
   return checkedPose(fromPoint(pose.position), rotation, what);
 }
 
-Shape fromShape(const msg::Shape& shape) {
-  if (shape.kind == msg::ShapeKind::HULL) return Shape::hull(fromMesh(shape.mesh));
-  if (shape.kind == msg::ShapeKind::MESH) return Shape::mesh(fromMesh(shape.mesh));
+Shape fromShape(const msg::Shape& shape, const ShapeLimits& limits, std::size_t max_triangles) {
+  if (shape.kind == msg::ShapeKind::HULL) return Shape::hull(fromMesh(shape.mesh, max_triangles), limits);
+  if (shape.kind == msg::ShapeKind::MESH) return Shape::mesh(fromMesh(shape.mesh, max_triangles), limits);
   if (shape.kind == msg::ShapeKind::CELLS || shape.kind == msg::ShapeKind::PLANE) {
     throw Refusal(Code::unsupported, std::string("the shape's kind is ") +
                                          (shape.kind == msg::ShapeKind::CELLS ? "CELLS" : "PLANE") +
                                          "; it must be SPHERE, BOX, CYLINDER, CONE, CAPSULE, HULL or MESH");
   }
-  return Shape::primitive(shape.kind, shape.dimensions);
+  return Shape::primitive(shape.kind, shape.dimensions, limits);
 }
 
 }  // namespace hgrid

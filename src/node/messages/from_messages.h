@@ -23,7 +23,8 @@ inline Eigen::Vector3d fromPoint(const geometry_msgs::Point& point) { return {po
 Pose fromPose(const geometry_msgs::Pose& pose, const std::string& what);
 
 /// Converts a shape, without its pose, padding and resource.
-/// @throws Refusal unsupported (queries do not accept this kind), bad_geometry, nonfinite, out_of_range
-Shape fromShape(const ::hgrid_proximity::Shape& shape);
+/// @param max_triangles  largest number of triangles of a mesh or hull
+/// @throws Refusal unsupported (queries do not accept this kind), limit, bad_geometry, nonfinite, out_of_range
+Shape fromShape(const ::hgrid_proximity::Shape& shape, const ShapeLimits& limits, std::size_t max_triangles);
 
 }  // namespace hgrid

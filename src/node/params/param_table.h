@@ -32,6 +32,9 @@ void visitParams(Visitor& v, Params& p) {
            "the parameter that holds the URDF, required. semantic: name of the parameter that holds the SRDF; empty: "
            "there is no SRDF. tf_prefix: prefix of the robot's tf frames. Empty list: one robot named 'robot', from "
            "robot_description and robot_description_semantic");
+  v.flag("watch_descriptions", p.watch_descriptions,
+         "whether to look about once per second whether a description has changed, and to load that robot again; "
+         "~reload_robot always does");
   v.waivers(
       "accept_uncovered", p.accept_uncovered,
       "list of {pattern, reason}: bodies that match the glob may have unreadable shapes, and the world is complete "

@@ -78,6 +78,7 @@ struct Params {
   double finest_edge = 0.0;
 
   std::vector<RobotParams> robots;
+  bool watch_descriptions = true;
   std::vector<ObstacleParams> obstacles;
   std::vector<MapParams> maps;
   std::vector<CloudParams> clouds;

@@ -46,6 +46,7 @@ void DistancesPublisher::measure(const Request& request) {
   auto measured = std::make_shared<MeasuredTick>();
   measured->tick = request.tick;
   if (request.tick->snapshot) measured->distances = meter_.measure(*request.tick->snapshot);
+  commons_.health.noteThreads("~distances/threads", commons_.settings.params.distances_threads, meter_.threads());
   measured->time = std::chrono::steady_clock::now() - begin;
   std::atomic_store(&measured_, std::shared_ptr<const MeasuredTick>(measured));
   const PairDistances* distances = measured->distances.get();

@@ -239,8 +239,10 @@ QueryAnswer QueryServices::askBox(const msg::QueryBox::Request& request, const Q
 
 QueryAnswer QueryServices::askShape(const msg::QueryShape::Request& request, const Question& question) const {
   const Pose frame_from_shape = fromPose(request.shape.pose, "the query's shape");
-  const QueryShape shape{fromShape(request.shape), question.world_from_frame * frame_from_shape, request.shape.padding};
-  return query(question.snapshot, shape, *narrow_phase_, question.scope);
+  const Shape shape =
+      fromShape(request.shape, params_.shapeLimits(), static_cast<std::size_t>(params_.max_mesh_triangles));
+  const QueryShape placed{shape, question.world_from_frame * frame_from_shape, request.shape.padding};
+  return query(question.snapshot, placed, *narrow_phase_, question.scope);
 }
 
 QueryAnswer QueryServices::askNearest(const msg::QueryNearest::Request& request, const Question& question) const {

@@ -95,7 +95,13 @@ void CloudSource::take(const CloudMessage& message) {
   }
   const Time now = rosNow();
   const Time given(static_cast<std::int64_t>(message.stamp.toNSec()));
-  const Time stamp = given.count() == 0 ? now : given;  // without a stamp, the arrival time counts
+  const Time stamp = given.count() == 0 ? now : given;
+  if (given.count() == 0) {
+    ledger_.refuse(
+        counter_ + "unstamped",
+        Refusal(Code::clock, what_ + " has no stamp; its time of arrival is used instead, so its points may be "
+                                     "placed wrongly while the sensor moves: let its publisher set header.stamp"));
+  }
   if (seconds(stamp - now) > params_.max_future) {
     throw Refusal(Code::clock, what_ + " is stamped " + secondsText(seconds(stamp - now)) +
                                    " in the future; at most ~max_future, " + secondsText(params_.max_future) +

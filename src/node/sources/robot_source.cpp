@@ -130,7 +130,7 @@ RobotSource::RobotSource(ros::NodeHandle node, const Params& params, std::shared
       narrow_phase_(std::move(narrow_phase)),
       cancelled_(std::move(cancelled)) {}
 
-std::string RobotSource::description(const std::string& name) const {
+std::string RobotSource::parameter(const std::string& name) const {
   std::string key;
   XmlRpc::XmlRpcValue value;
   if (!node_.searchParam(name, key) || !node_.getParam(key, value)) {
@@ -142,20 +142,25 @@ std::string RobotSource::description(const std::string& name) const {
   return value;
 }
 
-LoadedRobot RobotSource::load(const RobotParams& params) const {
+RobotDescription RobotSource::describe(const RobotParams& robot) const {
+  RobotDescription description{parameter(robot.description), std::nullopt};
+  std::string key;
+  if (!robot.semantic.empty() && node_.searchParam(robot.semantic, key)) description.srdf = parameter(robot.semantic);
+  return description;
+}
+
+LoadedRobot RobotSource::load(const RobotParams& params, const RobotDescription& description) const {
   const DescriptionLimits limits{static_cast<std::size_t>(params_.max_description_bytes),
                                  static_cast<std::size_t>(params_.max_description_depth),
                                  static_cast<std::size_t>(params_.max_links)};
-  const std::string urdf = description(params.description);
   MeshLoader meshes(meshPolicy(params_, cancelled_));
   RobotModel model = readUrdf(
-      urdf, [&](const std::string& uri, const Eigen::Vector3d& scale) { return meshes.load(uri, scale); }, limits,
-      params_.shapeLimits(),
+      description.urdf, [&](const std::string& uri, const Eigen::Vector3d& scale) { return meshes.load(uri, scale); },
+      limits, params_.shapeLimits(),
       [&](const std::string& link) { return matchesAny(params_.use_visual, joined(params.name, link)); });
   LinkRules rules;
-  std::string key;
-  if (!params.semantic.empty() && node_.searchParam(params.semantic, key)) {
-    rules = readSrdf(description(params.semantic), limits);
+  if (description.srdf) {
+    rules = readSrdf(*description.srdf, limits);
   } else if (!params.semantic.empty() && params.semantic != RobotParams{}.semantic) {
     model.warnings.push_back("parameter '" + printable(params.semantic) +
                              "' is not set; it should hold the robot's SRDF");

@@ -5,6 +5,7 @@
 #include <ros/node_handle.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,6 +38,12 @@ struct LoadedRobot {
   std::vector<std::string> warnings;
 };
 
+/// The description of a robot, as text.
+struct RobotDescription {
+  std::string urdf;
+  std::optional<std::string> srdf;  ///< nullopt: the robot has none
+};
+
 /// Reads robots: their descriptions (URDF and SRDF) from the parameter server, and their meshes.
 class RobotSource {
  public:
@@ -45,14 +52,15 @@ class RobotSource {
   RobotSource(ros::NodeHandle node, const Params& params, std::shared_ptr<NarrowPhase> narrow_phase,
               std::function<bool()> cancelled);
 
-  /// Reads a robot. This is slow, because it reads files and asks the ROS master. Only one thread at a time may call
-  /// this.
-  /// @throws Refusal not_ready while there is no description, busy if the load was canceled, or as readUrdf() and
-  /// readSrdf()
-  LoadedRobot load(const RobotParams& robot) const;
+  /// Reads the description of a robot from the parameter server. Asks the ROS master.
+  /// @throws Refusal not_ready while there is no description
+  RobotDescription describe(const RobotParams& robot) const;
+  /// Makes a robot from its description. This is slow, because it reads files. Only one thread at a time may call this.
+  /// @throws Refusal busy if the load was canceled, or as readUrdf() and readSrdf()
+  LoadedRobot load(const RobotParams& robot, const RobotDescription& description) const;
 
  private:
-  std::string description(const std::string& name) const;
+  std::string parameter(const std::string& name) const;
 
   ros::NodeHandle node_;
   const Params& params_;

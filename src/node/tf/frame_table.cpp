@@ -90,7 +90,7 @@ void FrameTable::setNeeded(std::uint32_t number) {
 }
 
 void FrameTable::need(const std::vector<std::string>& names) {
-  std::unordered_set<std::string> needed(names.begin(), names.end());
+  std::set<std::string> needed(names.begin(), names.end());
   // The code below does not throw.
   needed_.swap(needed);
   placed_.needed = parents_.needed = 0;

@@ -3,9 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <set>
 #include <string>
-#include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
 namespace hgrid {
@@ -83,9 +83,10 @@ class FrameTable {
 
   std::size_t max_frames_;
   std::vector<Entry> entries_;
-  std::unordered_map<std::string, std::uint32_t> numbers_;
+  // Sorted, not hashed, because senders choose the names and could choose names that collide.
+  std::map<std::string, std::uint32_t> numbers_;
   Count placed_, parents_;
-  std::unordered_set<std::string> needed_;  // names that need() received; some of them may have no number yet
+  std::set<std::string> needed_;  // names that need() received; some of them may have no number yet
   std::uint64_t revision_ = 0;
   std::uint32_t last_ = kNone;  // the frame of the last call of admit()
 };

@@ -32,6 +32,7 @@ struct Tick {
   std::vector<std::string> contested_frames;  ///< one sentence for each contested frame
   std::shared_ptr<const ModelReport> models;
   TickTimes times;
+  int threads = 0;                         ///< number of threads that made the snapshot
   std::size_t frames = 0;                  ///< number of frames that a transform has placed
   std::chrono::nanoseconds poses_time{0};  ///< how long the computation of all poses took
 };

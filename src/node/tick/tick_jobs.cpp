@@ -26,9 +26,29 @@ std::string secondsOf(std::chrono::milliseconds duration) {
 TickJobs::TickJobs(std::function<bool()> is_ending, std::chrono::milliseconds patience)
     : is_ending_(std::move(is_ending)), patience_(patience) {}
 
-void TickJobs::add(Job job) {
+void TickJobs::add(const std::string& key, Job job) { put(key, std::move(job)); }
+
+/// Adds a job. Removes the waiting job of the same key, unless the key is empty. @returns the number of the job
+std::uint64_t TickJobs::put(const std::string& key, Job job) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  added_.push_back(std::move(job));
+  added_.reserve(added_.size() + 1);
+  const auto same = [&](const Waiting& waiting) { return !key.empty() && waiting.key == key; };
+  Waiting added{key, ++last_number_, std::move(job)};
+  added_.erase(std::remove_if(added_.begin(), added_.end(), same), added_.end());
+  added_.push_back(std::move(added));
+  return last_number_;
+}
+
+/// Removes a job that no tick has begun to do.
+void TickJobs::remove(std::uint64_t number) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto same = [&](const Waiting& waiting) { return waiting.number == number; };
+  added_.erase(std::remove_if(added_.begin(), added_.end(), same), added_.end());
+}
+
+std::size_t TickJobs::waiting() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return added_.size();
 }
 
 void TickJobs::run(const Job& job) {
@@ -45,7 +65,7 @@ void TickJobs::run(const Job& job) {
   };
   const auto request = std::make_shared<Request>();  // shared: this call may return while the job is in the queue
   std::future<void> result = request->done.get_future();
-  add([job, request](World& world) {
+  const std::uint64_t number = put("", [job, request](World& world) {
     if (!request->leaveWaiting(State::started)) return;
     try {
       job(world);
@@ -59,6 +79,7 @@ void TickJobs::run(const Job& job) {
     const bool ending = is_ending_();
     if (!ending && std::chrono::steady_clock::now() <= deadline) continue;
     if (!request->leaveWaiting(State::withdrawn)) continue;  // a tick is doing the job now
+    remove(number);
     throw Refusal(Code::busy, ending ? "the node is shutting down; it makes no more changes"
                                      : "no tick has started within " + secondsOf(patience_) +
                                            "; this change will not be made: request it again");
@@ -69,10 +90,16 @@ void TickJobs::run(const Job& job) {
 void TickJobs::doAll(World& world, Ledger& ledger) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
+    pending_.reserve(pending_.size() + added_.size());
+    const auto replaced = [&](const Waiting& old) {
+      return std::any_of(added_.begin(), added_.end(),
+                         [&](const Waiting& added) { return !old.key.empty() && added.key == old.key; });
+    };
+    pending_.erase(std::remove_if(pending_.begin(), pending_.end(), replaced), pending_.end());
     pending_.insert(pending_.end(), std::make_move_iterator(added_.begin()), std::make_move_iterator(added_.end()));
     added_.clear();
   }
-  const auto succeeds = [&](const Job& job) { return !guarded(ledger, "job.failed", [&] { job(world); }); };
+  const auto succeeds = [&](const Waiting& one) { return !guarded(ledger, "job.failed", [&] { one.job(world); }); };
   pending_.erase(std::remove_if(pending_.begin(), pending_.end(), succeeds), pending_.end());
 }
 

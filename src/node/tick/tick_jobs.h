@@ -3,8 +3,11 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <mutex>
+#include <string>
 #include <vector>
 
 #include "node/diagnostics/ledger.h"
@@ -26,11 +29,12 @@ class TickJobs {
       std::function<bool()> is_ending = [] { return false; },
       std::chrono::milliseconds patience = std::chrono::seconds(10));
 
-  /// Adds a job and returns at once. Any thread may call this.
-  void add(Job job);
+  /// Adds a job and returns at once. Any thread may call this. Removes a job of the same key that no tick has done yet.
+  /// So the number of waiting jobs is limited by the number of keys, however long no tick comes.
+  void add(const std::string& key, Job job);
   /// Adds a job and waits until a tick has done it. Any thread except the tick thread may call this.
   /// @throws whatever the job throws; Refusal busy if no tick starts the job in time, or if the node is shutting down.
-  /// After a Refusal busy, no tick does the job.
+  /// After a Refusal busy, no tick does the job, and it leaves the queue.
   void run(const Job& job);
 
   /// Does all waiting jobs. Only the tick thread may call this.
@@ -39,12 +43,25 @@ class TickJobs {
   /// change of the world must not be lost. The other jobs are still done.
   void doAll(World& world, Ledger& ledger);
 
+  /// Returns the number of jobs that were added since the last call of doAll(). Any thread may call this.
+  std::size_t waiting() const;
+
  private:
+  /// A job and its key. The key of a job of run() is empty.
+  struct Waiting {
+    std::string key;
+    std::uint64_t number;
+    Job job;
+  };
+  std::uint64_t put(const std::string& key, Job job);
+  void remove(std::uint64_t number);
+
   const std::function<bool()> is_ending_;
   const std::chrono::milliseconds patience_;
-  std::mutex mutex_;
-  std::vector<Job> added_;    // guarded by mutex_
-  std::vector<Job> pending_;  // only the tick thread uses it
+  mutable std::mutex mutex_;
+  std::vector<Waiting> added_;     // guarded by mutex_
+  std::uint64_t last_number_ = 0;  // guarded by mutex_
+  std::vector<Waiting> pending_;   // only the tick thread uses it
 };
 
 }  // namespace hgrid

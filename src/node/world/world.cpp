@@ -179,7 +179,10 @@ void World::needFrames(const Moment& now) {
 
 void World::setMissing(const SourceId& source, const std::string& sentence) {
   if (clouds_.noteRefused(source, sentence) || maps_.noteRefused(source, sentence)) return;
-  if (robots_.find(source.name) == nullptr) missing_.set(source, sentence);
+  const bool known = robots_.find(source.name) != nullptr;
+  missing_.set(source, known ? "REFUSED '" + source.name + "': its newest description could not be used (" + sentence +
+                                   "), so its model may be out of date"
+                             : sentence);
 }
 
 void World::setRules(PreparedRules rules) { rules_.set(std::move(rules)); }
@@ -269,6 +272,7 @@ std::shared_ptr<const Tick> World::tick(const Moment& now) {
   tick->poses_time = std::chrono::steady_clock::now() - begin;
   tick->snapshot = scene_.commit(time, gaps);
   tick->times = scene_.lastTimes();
+  tick->threads = scene_.lastThreads();
   return tick;
 }
 

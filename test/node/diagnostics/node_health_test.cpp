@@ -19,6 +19,20 @@ TEST(NodeHealth, CountsFailedTicksAndForgetsAFaultAfterATickThatSucceeds) {
   EXPECT_EQ(health.report().failed_ticks, 2u);
 }
 
+TEST(NodeHealth, KnowsTheThreadsThatCouldNotBeCreated) {
+  NodeHealth health;
+  health.noteThreads("~threads", 4, 4);
+  EXPECT_TRUE(health.report().missing_threads.empty());
+  health.noteThreads("~threads", 4, 2);
+  ASSERT_EQ(health.report().missing_threads.count("~threads"), 1u);
+  EXPECT_EQ(health.report()
+                .missing_threads.at("~threads")
+                .rfind("the system could create only 2 of the 4 threads of ~threads; ", 0),
+            0u);
+  health.noteThreads("~threads", 4, 4);
+  EXPECT_TRUE(health.report().missing_threads.empty());
+}
+
 TEST(NodeHealth, CountsLateTicksInARow) {
   NodeHealth health;
   for (const bool late : {true, false, true, true}) health.noteLateness(late);

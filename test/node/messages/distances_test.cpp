@@ -40,6 +40,10 @@ class DistancesNode : public ::testing::Test {
          {"stale_after", 3600.0},
          {"lost_after", 3600.0},
          {"margin", 0.2},
+         {"min_size", 0.01},
+         {"max_size", 50.0},
+         {"allow_flat", true},
+         {"max_mesh_triangles", 4},
          {"distances", dict({{"max", 0.15}})},
          {"max_speed", list({dict({{"pattern", "obstacle/ball"}, {"speed", 0.5}})})},
          {"robots", list({dict({{"name", "none"}, {"description", "robot_description"}})})},
@@ -178,6 +182,69 @@ TEST_F(DistancesNode, QueryShapeTestsTheShapeAtItsPose) {
   EXPECT_EQ(call<msg::QueryShape>("query_shape", request).answer.code.name, "UNSUPPORTED");
   request.shape.kind = 200;
   EXPECT_EQ(call<msg::QueryShape>("query_shape", request).answer.code.name, "UNSUPPORTED");
+}
+
+/// Returns the request of a shape far from everything, so that the answer to a valid shape is CLEAR.
+msg::QueryShape::Request shapeRequest(int kind, const std::vector<double>& dimensions) {
+  msg::QueryShape::Request request;
+  request.shape.kind = static_cast<std::uint8_t>(kind);
+  request.shape.dimensions = dimensions;
+  request.shape.pose.position.x = 300.0;
+  return request;
+}
+
+/// Returns the request of a mesh that has this many triangles in a row.
+msg::QueryShape::Request meshRequest(std::size_t triangles) {
+  msg::QueryShape::Request request = shapeRequest(msg::ShapeKind::MESH, {});
+  for (std::size_t i = 0; i <= triangles + 1; ++i) {
+    request.shape.mesh.vertices.emplace_back();
+    request.shape.mesh.vertices.back().x = 0.1 * static_cast<double>(i);
+    request.shape.mesh.vertices.back().y = i % 2 == 0 ? 0.0 : 0.1;
+  }
+  request.shape.mesh.triangles.resize(triangles);
+  for (std::uint32_t i = 0; i < triangles; ++i) request.shape.mesh.triangles[i].vertex_indices = {i, i + 1, i + 2};
+  return request;
+}
+
+/// Claim: the shape of a query has the same limits as all other shapes: ~min_size, ~max_size, ~allow_flat and
+/// ~max_mesh_triangles.
+TEST_F(DistancesNode, QueryShapeKeepsTheLimitsOfAllShapes) {
+  const auto answer = [&](const msg::QueryShape::Request& request) {
+    return call<msg::QueryShape>("query_shape", request).answer;
+  };
+  const auto sphere = [&](double radius) { return answer(shapeRequest(msg::ShapeKind::SPHERE, {radius})); };
+  for (const double bad : {0.0, -1.0, std::nan(""), HUGE_VAL, 1e-320, 1e308, 0.009, 50.1}) {
+    EXPECT_EQ(sphere(bad).code.name, "BAD_GEOMETRY") << bad;
+    EXPECT_EQ(answer(shapeRequest(msg::ShapeKind::CYLINDER, {bad, 0.1})).code.name, "BAD_GEOMETRY") << bad;
+  }
+  EXPECT_TRUE(says(sphere(0.009).code.text, "radius is 0.009 m; it must be within 0.01 .. 50 m"));
+  for (const double good : {0.01, 50.0}) EXPECT_EQ(sphere(good).verdict, msg::Verdict::CLEAR) << good;
+  EXPECT_EQ(answer(shapeRequest(msg::ShapeKind::BOX, {1.0, 1.0, 0.0})).verdict, msg::Verdict::CLEAR) << "~allow_flat";
+  EXPECT_EQ(answer(shapeRequest(msg::ShapeKind::BOX, {1.0, 0.0, 0.0})).code.name, "BAD_GEOMETRY");
+  EXPECT_EQ(answer(meshRequest(4)).verdict, msg::Verdict::CLEAR);
+  const Answer refused = answer(meshRequest(5));
+  EXPECT_EQ(refused.code.name, "LIMIT");
+  EXPECT_TRUE(says(refused.code.text, "has 5 triangles and 7 vertices; at most 4 triangles (~max_mesh_triangles)"));
+  msg::QueryShape::Request far = meshRequest(1);
+  far.shape.mesh.vertices[0].z = 51.0;
+  EXPECT_EQ(answer(far).code.name, "OUT_OF_RANGE") << "a vertex beyond ~max_size";
+}
+
+/// Claim: a rotation of four zeros in a request means no rotation. Any other value that is no rotation is refused.
+TEST_F(DistancesNode, AShapeWithARotationOfFourZerosIsNotRotated) {
+  msg::QueryShape::Request request = shapeRequest(msg::ShapeKind::BOX, {2.0, 0.1, 0.1});
+  request.shape.pose.position.x = 2.6;  // reaches the post, which is at x = 3.6, only if it is not rotated
+  request.shape.pose.position.y = 0.6;
+  request.exact = true;
+  request.include = {"obstacle/post"};
+  EXPECT_EQ(call<msg::QueryShape>("query_shape", request).answer.verdict, msg::Verdict::HIT);
+  request.shape.pose.orientation.w = 1.0;
+  EXPECT_EQ(call<msg::QueryShape>("query_shape", request).answer.verdict, msg::Verdict::HIT);
+  request.shape.pose.orientation.w = request.shape.pose.orientation.z = std::sqrt(0.5);
+  EXPECT_EQ(call<msg::QueryShape>("query_shape", request).answer.verdict, msg::Verdict::CLEAR)
+      << "rotated by 90 degrees";
+  request.shape.pose.orientation.w = request.shape.pose.orientation.z = 1e-200;
+  EXPECT_EQ(call<msg::QueryShape>("query_shape", request).answer.code.name, "BAD_ROTATION");
 }
 
 TEST_F(DistancesNode, AllowedPairsAreLeftOutOfAQueryOnRequest) {

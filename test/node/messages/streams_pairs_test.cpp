@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include <hgrid_proximity/BodyState.h>
 #include <hgrid_proximity/Mobility.h>
+#include <hgrid_proximity/PairFlags.h>
 #include <hgrid_proximity/Verdict.h>
 
 #include "test/node/support/claims.h"
@@ -48,6 +49,32 @@ TEST(Pairs, AreThoseWithinTheMarginByNameWithGapMarginAndSince) {
   const auto later = node.heard().pairs.back();
   EXPECT_EQ(later->since, pairs->since) << "the pairs did not end meanwhile";
   EXPECT_GT(later->header.stamp, later->since[0]);
+}
+
+/// Claim: with ~horizon, a body that jumps on /tf farther than its speed allows misses no pair on its way, and these
+/// pairs have the flag TELEPORT.
+TEST(Pairs, OnTheWayOfABodyThatJumpsAreListedAndFlagged) {
+  TransformSource transforms;
+  transforms.stream("base", "a", at(0));
+  NodeSetup setup;
+  setup.params = dict({{"world_frame", "base"},
+                       {"horizon", 0.1},
+                       {"max_speed", list({dict({{"pattern", "robot/a"}, {"speed", 1.0}})})},
+                       {"obstacles", list({ball("between", 5, 0, 0, 0.1)})}});
+  setup.beside["robot_description"] = balls({"a"});
+  NodeUnderTest node(setup);
+  node.waitForComplete();
+  EXPECT_TRUE(node.heard().pairs.back()->first.empty());
+  transforms.stream("base", "a", at(10));
+  node.waitUntil("the pair of the body that jumped", [](const Heard& all) {
+    for (const auto& pairs : all.pairs) {
+      if (namesOf(*pairs) == Names({"obstacle/between|robot/a"}) && (pairs->flags[0] & msg::PairFlags::TELEPORT) != 0) {
+        return true;
+      }
+    }
+    return false;
+  });
+  node.waitForPairs("the end of the pair", [](const msg::Pairs& pairs) { return pairs.first.empty(); });
 }
 
 /// Three obstacles are near robot/base: obstacle/b touches it, obstacle/a is 0.02 m and obstacle/c 0.04 m away.

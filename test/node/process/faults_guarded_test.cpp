@@ -85,7 +85,7 @@ struct JobsOfTick {
   std::string done;
 
   void add(char name) {
-    jobs.add([this, name](World&) { done += name; });
+    jobs.add(std::string(1, name), [this, name](World&) { done += name; });
   }
   void tick() { jobs.doAll(world, ledger); }
 };
@@ -105,7 +105,7 @@ TEST(TickJobs, ThatThrowAreRetriedAndDoNotAffectOthers) {
   JobsOfTick t;
   int failures_left = 2;
   t.add('a');
-  t.jobs.add([&](World&) {
+  t.jobs.add("x", [&](World&) {
     if (failures_left-- > 0) throw std::runtime_error("a fault of a job");
     t.done += 'x';
   });
@@ -123,7 +123,7 @@ TEST(TickJobs, ThatThrowAreRetriedAndDoNotAffectOthers) {
 
 TEST(TickJobs, MayAddJobsForTheNextTick) {
   JobsOfTick t;
-  t.jobs.add([&](World&) { t.add('b'); });
+  t.jobs.add("a", [&](World&) { t.add('b'); });
   t.tick();
   EXPECT_EQ(t.done, "");
   t.tick();

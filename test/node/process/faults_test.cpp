@@ -28,12 +28,17 @@ class Faults : public ::testing::Test {
     node_.waitForComplete();
   }
   ~Faults() override { EXPECT_TRUE(node_.process().alive()); }
+
+ public:
   static NodeSetup setup() {
     NodeSetup setup;
     setup.command = {HGRID_FAULTS_NODE};
+    setup.params["watch_descriptions"] = false;
     setup.beside["robot_description"] = description({"a", "b"});
     return setup;
   }
+
+ protected:
   static std::string description(const std::vector<std::string>& names) {
     std::string content = link("base", sphereOf(0.1, "0 0 -5"));
     for (const std::string& name : names) content += link(name, sphereOf(0.1)) + joint("base", name);
@@ -91,7 +96,12 @@ TEST_F(Faults, InAnExplanationAreReportedToTheCaller) {
   EXPECT_EQ(response.code.value, msg::CodeNames::INTERNAL);
   breakDown("contacts");
   EXPECT_TRUE(node_.explain("robot/a", "robot/b").success) << "no contacts were asked for";
-  EXPECT_EQ(node_.explain("robot/a", "robot/b", 5).code.value, msg::CodeNames::INTERNAL);
+  const auto failed = node_.explain("robot/a", "robot/b", 5);
+  EXPECT_FALSE(failed.success) << "an empty list of contacts would mean that there are none";
+  EXPECT_EQ(failed.code.value, msg::CodeNames::INTERNAL);
+  EXPECT_TRUE(says(failed.code.text, "a fault in contacts"));
+  EXPECT_TRUE(failed.reported);
+  EXPECT_TRUE(says(failed.explanation, "robot/a and robot/b are reported"));
   breakDown("");
   EXPECT_TRUE(node_.explain("robot/a", "robot/b", 5).success);
 }
@@ -200,6 +210,40 @@ TEST_F(Faults, InTheFirstLoadAreTriedAgain) {
   node.waitForComplete();
 }
 
+/// Claim: if the system cannot create all threads of ~threads, the node works with those that it has, and says so.
+TEST(MissingThreads, OfATickAreReportedAndTheNodeWorksWithTheOthers) {
+  NodeSetup setup;
+  setup.command = {HGRID_FAULTS_NODE};
+  setup.environment["HGRID_MOST_THREADS"] = "12";
+  setup.environment["ROSCONSOLE_STDOUT_LINE_BUFFERED"] = "1";
+  setup.params = dict({{"world_frame", "world"},
+                       {"threads", 32},
+                       {"obstacles", list({ball("post", 0, 0, 0, 0.1)})},
+                       {"robots", list({dict({{"name", "none"}, {"description", "robot_description"}})})}});
+  NodeUnderTest node(setup);
+  node.waitUntil("the threads in the status 'ticks' of /diagnostics", [](const Heard& all) {
+    const auto found = all.diagnostics.find("ticks");
+    return found != all.diagnostics.end() && found->second.level == diagnostic_msgs::DiagnosticStatus::WARN &&
+           says(found->second.message, "of the 32 threads of ~threads");
+  });
+  EXPECT_GE(node.lines("of the 32 threads of ~threads"), 1u) << node.output();
+  EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Verdict::HIT);
+}
+
+/// Claim: without a thread for its callbacks, the node does not start: it ends with a sentence and exit code 1. It does
+/// not destroy what threads that were already started still use.
+TEST(MissingThreads, OfCallbacksEndTheNode) {
+  constexpr int kNeeded = 6;  // one for ~distances, one for timers, and four for callbacks
+  for (int most = 0; most < kNeeded; ++most) {
+    SCOPED_TRACE("only " + std::to_string(most) + " threads");
+    NodeSetup setup = Faults::setup();
+    setup.environment["HGRID_MOST_THREADS"] = std::to_string(most);
+    setup.params["rate"] = 1000.0;  // so that a tick begins at once
+    NodeUnderTest node(setup, false);
+    EXPECT_EQ(node.process().waitForEnd(20.0).value_or(-1), 1) << node.output();
+  }
+}
+
 TEST_F(Faults, InAReloadLeaveTheOldModel) {
   node_.setBeside("robot_description", description({"a"}));
   breakDown("solidOf");
@@ -209,7 +253,7 @@ TEST_F(Faults, InAReloadLeaveTheOldModel) {
   EXPECT_TRUE(says(refused.code.text, "a fault in solidOf"));
   node_.waitForTicks(2);
   EXPECT_EQ(node_.heard().status.back()->body_count, 3u);
-  EXPECT_TRUE(node_.heard().status.back()->world.complete);
+  EXPECT_TRUE(oneSays(node_.heard().status.back()->world.reasons, "REFUSED 'robot': its newest description"));
   breakDown("");
   ASSERT_TRUE(node_.reload("robot").success);
   node_.waitForTicks(2);

@@ -2,9 +2,16 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
 // The node with a narrow phase that throws exceptions for tests. The parameter ~fault names the function that throws;
-// ~fault_kind is the kind of the exception. While ~fault is "hang", measurements do not end.
+// ~fault_kind is the kind of the exception. While ~fault is "hang", measurements do not end. If the environment
+// variable HGRID_MOST_THREADS is set, the node can create only so many threads, not counting those of roscpp.
+#include <dlfcn.h>
+#include <pthread.h>
 #include <ros/ros.h>
 
+#include <atomic>
+#include <cerrno>
+#include <cstdlib>
+#include <limits>
 #include <new>
 #include <stdexcept>
 
@@ -56,9 +63,29 @@ class FaultyPhase final : public NarrowPhase {
 }  // namespace
 }  // namespace hgrid
 
+namespace {
+
+std::atomic<int> g_threads_left{std::numeric_limits<int>::max()};
+
+}  // namespace
+
+/// Replaces the function of the system, and fails when no thread is left.
+extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*function)(void*),
+                              void* argument) {
+  using Create = int (*)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*);
+  static const Create create = reinterpret_cast<Create>(dlsym(RTLD_NEXT, "pthread_create"));
+  return g_threads_left-- > 0 ? create(thread, attributes, function, argument) : EAGAIN;
+}
+
 int main(int argc, char** argv) {
   ros::init(argc, argv, "proximity");
   ros::NodeHandle node, private_node("~");
-  const hgrid::ProximityNode proximity(node, private_node, std::make_shared<hgrid::FaultyPhase>());
-  ros::waitForShutdown();
+  if (const char* most = std::getenv("HGRID_MOST_THREADS")) g_threads_left = std::atoi(most);
+  try {
+    const hgrid::ProximityNode proximity(node, private_node, std::make_shared<hgrid::FaultyPhase>());
+    ros::waitForShutdown();
+  } catch (const std::exception& error) {
+    ROS_FATAL("%s", error.what());
+    return 1;
+  }
 }

@@ -109,6 +109,40 @@ TEST_F(Clouds, MakePairsAndGoWithTheirLifetimeWhichLeavesTheWorldIncomplete) {
   sendUntilComplete(point);
 }
 
+/// Claim: a cloud without a stamp counts as stamped when it arrives. That is counted and logged, because its points are
+/// wrong if the sensor moved meanwhile.
+TEST_F(Clouds, WithoutAStampAreUsedAsOfTheirArrivalAndReported) {
+  start(60.0);
+  const std::string cloud = serialized(cloudOf("camera", ros::Time(), Points{{0.05f, 0.05f, 2.05f}}));
+  node_->waitUntil("a complete world", [&](const Heard& heard) {
+    if (heard.status.empty()) return false;
+    if (heard.status.back()->world.sequence % 5 == 0) send(cloud);
+    return heard.status.back()->world.complete != 0;
+  });
+  EXPECT_EQ(askedAt(0.05, 0.05, 3.05).verdict, msg::Verdict::HIT);
+  const auto status = node_->heard().status.back();
+  EXPECT_GE(counter(*status, "cloud/front.accepted"), 1u);
+  EXPECT_GE(counter(*status, "cloud/front.unstamped.CLOCK"), counter(*status, "cloud/front.accepted"));
+  EXPECT_TRUE(throttled(*node_, "cloud 'front' of points has no stamp; its time of arrival is used instead"));
+}
+
+TEST_F(Clouds, ThatAreAnnouncedAndNeverSentCostOnlyAddressSpace) {
+  start(60.0);
+  const Points point{{0.05f, 0.05f, 2.05f}};
+  sendUntilComplete(point);
+  const auto before = memoryOf(node_->process().pid());
+  ChildProcess silent({"/usr/bin/python3", HGRID_PROJECT_DIR "/test/node/support/silent_publisher.py",
+                       node_->space() + "/points", CloudKind::kType, CloudKind::kMd5},
+                      "/dev/null", {});
+  node_->waitUntil("the announcement", [&](const Heard&) {
+    return memoryOf(node_->process().pid()).second > before.second + 900000;  // kB
+  });
+  const std::uint64_t accepted = counter(*node_->heard().status.back(), "cloud/front.accepted");
+  sendUntil(point, "the clouds of another publisher",
+            [&](const msg::Status& status) { return counter(status, "cloud/front.accepted") > accepted; });
+  EXPECT_LT(memoryOf(node_->process().pid()).first, before.first + 4000) << "kB";
+}
+
 TEST_F(Clouds, WithoutFinitePointsDoNotKeepTheCloudFresh) {
   start(1.0);
   const float nan = std::nanf("");

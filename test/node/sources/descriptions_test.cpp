@@ -3,6 +3,7 @@
 #include "test/node/support/descriptions.h"
 
 #include <hgrid_proximity/Verdict.h>
+#include <ros/param.h>
 
 #include <algorithm>
 
@@ -95,6 +96,7 @@ TEST(Reload, TakesTheNewModelAndKeepsTheOldOneWhereThatFails) {
   TransformSource transforms;
   transforms.fix({stamped("base", "a", at(0)), stamped("base", "b", at(0.25))});
   NodeSetup setup = besidePost();
+  setup.params["watch_descriptions"] = false;
   setup.beside["robot_description"] = balls({"a"});
   NodeUnderTest node(setup);
   node.waitForComplete();
@@ -107,7 +109,18 @@ TEST(Reload, TakesTheNewModelAndKeepsTheOldOneWhereThatFails) {
   EXPECT_TRUE(says(answer.code.text, "robot 'robot': the URDF is not well-formed XML"));
   EXPECT_EQ(answer.world.bodies_revision, revision);
   EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Verdict::HIT) << "the old model is still used";
-  EXPECT_TRUE(node.heard().status.back()->world.complete);
+  const std::string reason =
+      "REFUSED 'robot': its newest description could not be used (PARSE robot 'robot': the URDF is not well-formed XML";
+  const auto status = node.waitForStatus("the refusal", [](const msg::Status& s) { return !s.world.complete; });
+  EXPECT_TRUE(oneSays(status->world.reasons, reason));
+  EXPECT_TRUE(oneSays(status->world.reasons, "so its model may be out of date"));
+  EXPECT_EQ(status->world.incomplete, std::vector<std::string>({"robot"}));
+  const auto source = std::find_if(status->sources.begin(), status->sources.end(),
+                                   [](const msg::SourceStatus& one) { return one.name == "robot"; });
+  ASSERT_NE(source, status->sources.end());
+  EXPECT_FALSE(source->complete);
+  EXPECT_TRUE(says(source->reason, reason));
+  EXPECT_EQ(node.sphere(9, 0, 0, 0.05).answer.verdict, msg::Verdict::UNKNOWN) << "the new model may be there";
   waitForDiagnostic(node, "robots", DiagnosticStatus::ERROR, "PARSE robot 'robot'");
 
   node.setBeside("robot_description", balls({"a", "b"}));
@@ -120,6 +133,47 @@ TEST(Reload, TakesTheNewModelAndKeepsTheOldOneWhereThatFails) {
   const auto pairs = node.waitForPairs("its pairs", [](const msg::Pairs& p) { return p.total > 0; });
   EXPECT_EQ(namesOf(*pairs), std::vector<std::string>({"robot/a|robot/b"}));
   waitForDiagnostic(node, "robots", DiagnosticStatus::OK, "all shapes were read");
+  node.waitForComplete();
+  node.setBeside("robot_description", balls({"a"}));
+  node.waitForTicks(100);  // without ~watch_descriptions, only a request reads the description again
+  EXPECT_EQ(node.heard().status.back()->body_count, 4u);
+}
+
+/// Claim: a changed description is noticed and read, without a request. While it cannot be used, the old model stays,
+/// and the robot is not complete. A description that is gone changes nothing.
+TEST(Watch, ReadsAChangedDescription) {
+  TransformSource transforms;
+  transforms.fix({stamped("base", "a", at(0)), stamped("base", "b", at(0.25))});
+  NodeSetup setup = besidePost();
+  setup.environment["ROSCONSOLE_STDOUT_LINE_BUFFERED"] = "1";
+  setup.beside["robot_description"] = balls({"a"});
+  NodeUnderTest node(setup);
+  node.waitForComplete();
+  const auto waitForBodyCount = [&](std::size_t count) {
+    node.waitForStatus(std::to_string(count) + " bodies",
+                       [&](const msg::Status& s) { return s.body_count == count && s.world.complete; });
+  };
+  node.setBeside("robot_description", balls({"a", "b"}));
+  waitForBodyCount(4);
+  EXPECT_EQ(node.lines("description of robot 'robot' has changed"), 1u) << node.output();
+
+  node.setBeside("robot_description", "<robot>");
+  node.waitForStatus("the refusal", [](const msg::Status& s) { return !s.world.complete && s.body_count == 4; });
+  EXPECT_TRUE(oneSays(node.heard().status.back()->world.reasons, "REFUSED 'robot': its newest description"));
+  EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Verdict::HIT) << "the old model is still used";
+  node.setBeside("robot_description", balls({"a"}));
+  waitForBodyCount(3);
+
+  ros::param::del(node.space() + "/robot_description");
+  node.setBeside("robot_description_semantic",
+                 std::string("<robot name=\"r\"><disable_collisions link1=\"b\" link2=\"a\"/></robot>"));
+  node.waitForTicks(100);
+  EXPECT_TRUE(node.heard().status.back()->world.complete);
+  EXPECT_EQ(node.heard().status.back()->body_count, 3u);
+  EXPECT_EQ(node.lines("Robot 'robot' is loaded"), 3u) << "without a URDF, nothing is loaded";
+  node.setBeside("robot_description", balls({"a", "b"}));
+  node.waitForStatus("the SRDF",
+                     [](const msg::Status& s) { return !s.self_pairs.empty() && s.self_pairs[0].srdf == 1; });
 }
 
 TEST(Reload, OfARobotThatNobodyNamedIsRefused) {
@@ -322,6 +376,7 @@ TEST(SelfPairs, ARobotWhosePairsAreAllOffIsAWarning) {
   transforms.fix({stamped("base", "a", at(0)), stamped("base", "b", at(9))});
   NodeSetup setup = besidePost();
   setup.environment["ROSCONSOLE_STDOUT_LINE_BUFFERED"] = "1";
+  setup.params["watch_descriptions"] = false;
   setup.beside["robot_description"] = balls({"a", "b"});
   setup.beside["robot_description_semantic"] =
       std::string("<robot name=\"r\"><disable_collisions link1=\"a\" link2=\"b\"/></robot>");
@@ -364,6 +419,44 @@ TEST(TwoRobots, WithTheSameLinkNamesAreKeptApart) {
   EXPECT_EQ(namesOf(*pairs), std::vector<std::string>({"left/a|right/a", "left/b|right/b", "left/base|right/base"}));
   for (const double gap : pairs->gap) EXPECT_NEAR(gap, 0.05, 1e-6);
   EXPECT_EQ(namesOf(node.sphere(0, 0, 0, 0.05).answer), std::vector<std::string>({"left/a"}));
+}
+
+/// Claim: an obstacle and a link of the same name are two bodies.
+TEST(Names, OfAnObstacleAndALinkMayBeEqual) {
+  TransformSource transforms;
+  transforms.fix({stamped("base", "a", at(0.25))});
+  NodeSetup setup;
+  setup.params = dict({{"world_frame", "base"}, {"obstacles", list({ball("a", 0, 0, 0, 0.1)})}});
+  setup.beside["robot_description"] = balls({"a"});
+  NodeUnderTest node(setup);
+  node.waitForComplete();
+  EXPECT_EQ(node.heard().status.back()->body_count, 3u);
+  EXPECT_EQ(namesOf(*node.heard().pairs.back()), std::vector<std::string>({"obstacle/a|robot/a"}));
+  EXPECT_EQ(namesOf(node.sphere(0, 0, 0, 0.05).answer), std::vector<std::string>({"obstacle/a"}));
+  EXPECT_EQ(namesOf(node.sphere(0.25, 0, 0, 0.05).answer), std::vector<std::string>({"robot/a"}));
+}
+
+/// Claim: an obstacle that follows a link stays at its last place when the link disappears, and nothing there is clear.
+TEST(Obstacles, WhoseLinkDisappearsStayAtTheirLastPlace) {
+  TransformSource transforms;
+  transforms.stream("base", "a", at(1));
+  NodeSetup setup;
+  setup.params = dict({{"world_frame", "base"},
+                       {"late_after", 0.1},
+                       {"stale_after", 0.2},
+                       {"lost_after", 0.5},
+                       {"obstacles", list({ball("tool", 0, 0, 1, 0.1, "a")})}});
+  setup.beside["robot_description"] = balls({"a"});
+  NodeUnderTest node(setup);
+  node.waitForComplete();
+  transforms.stop("a");
+  node.setBeside("robot_description", balls({}));
+  node.waitForStatus("the lost obstacle", [](const msg::Status& s) {
+    return s.body_count == 2 && s.world.incomplete == std::vector<std::string>({"obstacle"});
+  });
+  EXPECT_TRUE(oneSays(node.heard().status.back()->world.reasons, "LOST obstacle/tool"));
+  EXPECT_EQ(namesOf(node.sphere(1, 0, 1, 0.05).answer), std::vector<std::string>({"obstacle/tool"}));
+  EXPECT_EQ(node.sphere(1, 0, 0, 0.05).answer.verdict, msg::Verdict::UNKNOWN) << "the tool may have moved";
 }
 
 TEST(Reset, BeginsAnEpochWithTheObstaclesAsConfiguredAndCountersAtZero) {

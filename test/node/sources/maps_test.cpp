@@ -381,6 +381,7 @@ TEST_F(MapTopics, StayWhereTheyAreWhenTheirFrameIsLostOrTheNextOneIsUnknown) {
   transforms_.stream("base", "odom", at(1.0));
   send(messageOf("odom", nodesOfRow(1)));
   node_->waitForComplete();
+  EXPECT_EQ(counter(*node_->heard().status.back(), "maps.unstamped"), 1u) << "a map needs no stamp, but it is counted";
   send(messageOf("nowhere", nodesOfRow(5)));
   node_->waitForStatus("a refusal",
                        [](const msg::Status& status) { return counter(status, "maps.refused.UNKNOWN_FRAME") > 0; });

@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "test/support/refusals.h"
 
 namespace hgrid {
@@ -121,6 +125,64 @@ TEST(FrameTable, FindsFramesInAnyOrder) {
     }
   }
   EXPECT_EQ(table.size(), 21u);
+}
+
+/// Claim: of 200,000 frames, the first are stored up to the limit. The others leave nothing behind, and frames that
+/// bodies need have room nevertheless.
+TEST(FrameTable, KeepsItsLimitInAFloodOf200000Frames) {
+  constexpr std::size_t kLimit = 10000, kFrames = 200000;
+  FrameTable table(kLimit);
+  std::size_t refused = 0;
+  for (std::size_t i = 0; i < kFrames; ++i) {
+    if (refusalOf([&] { put(table, "base", "f" + std::to_string(i)); }) == Code::limit) ++refused;
+  }
+  EXPECT_EQ(refused, kFrames - kLimit);
+  EXPECT_EQ(table.placed(), kLimit);
+  EXPECT_EQ(table.size(), kLimit + 1) << "the frames and their parent";
+  EXPECT_NE(table.find("f9999"), kNone);
+  EXPECT_EQ(table.find("f10000"), kNone);
+  table.need({"f199999"});
+  EXPECT_NE(put(table, "base", "f199999"), kNone);
+}
+
+/// Returns 2^14 names that std::hash of libstdc++ for 64 bits maps to the same number. In each group of 16 bytes, both
+/// halves of the state of the hash (MurmurHash64A) may flip their highest bit, which cancels out.
+std::vector<std::string> collidingNames() {
+  constexpr int kGroups = 14;
+  constexpr std::uint64_t kFactor = 0xc6a4a7935bd1e995u, kHighest = std::uint64_t{1} << 63;
+  std::uint64_t inverse = kFactor;  // of kFactor modulo 2^64, by Newton's method
+  for (int i = 0; i < 6; ++i) inverse *= 2 - kFactor * inverse;
+  const auto mixed = [&](std::uint64_t k) {
+    k *= kFactor, k ^= k >> 47;
+    return k * kFactor;
+  };
+  const auto unmixed = [&](std::uint64_t k) {
+    k *= inverse, k ^= k >> 47;
+    return k * inverse;
+  };
+  std::vector<std::string> names;
+  for (std::uint32_t bits = 0; bits < 1u << kGroups; ++bits) {
+    std::string name;
+    for (int group = 0; group < kGroups; ++group) {
+      for (const std::uint64_t word : {0x6161616161616161u, 0x6262626262626262u}) {
+        const std::uint64_t other = unmixed(mixed(word) ^ kHighest), chosen = bits >> group & 1u ? other : word;
+        name.append(reinterpret_cast<const char*>(&chosen), sizeof chosen);
+      }
+    }
+    names.push_back(name);
+  }
+  return names;
+}
+
+/// Claim: names that collide in a hash table are frames like any others.
+TEST(FrameTable, KnowsFramesWhoseNamesCollideInAHash) {
+  const std::vector<std::string> names = collidingNames();
+  const std::hash<std::string> hash;
+  if (hash(names.front()) != hash(names.back())) GTEST_SKIP() << "the standard library has another hash";
+  FrameTable table(names.size());
+  for (const std::string& name : names) put(table, "base", name);
+  EXPECT_EQ(table.placed(), names.size());
+  for (const std::string& name : names) ASSERT_EQ(table.name(table.find(name)), name);
 }
 
 }  // namespace

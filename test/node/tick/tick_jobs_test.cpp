@@ -93,6 +93,43 @@ TEST(TickJobsRun, NeverDoesARefusedJobLater) {
   EXPECT_EQ(refused, 0);
 }
 
+/// Claim: while no tick comes, the queue stays bounded. A note replaces the note of the same key, and a job that is
+/// given up leaves the queue.
+TEST(TickJobs, DoNotPileUpWhileNoTickComes) {
+  TickJobs jobs([] { return false; }, std::chrono::milliseconds(1));
+  std::string done;
+  for (int i = 0; i < 1000; ++i) {
+    for (const char* key : {"a", "b"}) {
+      jobs.add(key, [&done, key, i](World&) { done += key + std::to_string(i) + " "; });
+    }
+    if (i % 100 != 0) continue;
+    EXPECT_EQ(refusalOf(jobs, [&](World&) { done += "refused "; }).code(), Code::busy);
+  }
+  EXPECT_EQ(jobs.waiting(), 2u);
+  Params params;
+  Ledger ledger;
+  World world(params, false, 1, ledger, makeFclNarrowPhase());
+  jobs.doAll(world, ledger);
+  EXPECT_EQ(done, "a999 b999 ");
+}
+
+/// Claim: a note that a tick could not take is not repeated once a newer note of the same key came.
+TEST(TickJobs, ThatFailAreReplacedByANewerOneOfTheSameKey) {
+  Params params;
+  Ledger ledger;
+  World world(params, false, 1, ledger, makeFclNarrowPhase());
+  TickJobs jobs;
+  std::string done;
+  jobs.add("a", [](World&) { throw std::runtime_error("a fault"); });
+  jobs.doAll(world, ledger);
+  jobs.add("b", [&](World&) { done += "b"; });
+  jobs.add("a", [&](World&) { done += "a"; });
+  jobs.doAll(world, ledger);
+  jobs.doAll(world, ledger);
+  EXPECT_EQ(done, "ba");
+  EXPECT_EQ(ledger.counters().at("job.failed.INTERNAL"), 1u);
+}
+
 TEST(TickJobsRun, WaitsForAJobThatHasStartedHoweverLongItTakes) {
   TickJobs jobs([] { return false; }, std::chrono::milliseconds(20));
   const Ticking ticking(jobs);

@@ -7,6 +7,7 @@
 #include <hgrid_proximity/LoadOctomap.h>
 #include <hgrid_proximity/QueryBox.h>
 #include <hgrid_proximity/QueryNearest.h>
+#include <hgrid_proximity/QueryShape.h>
 #include <hgrid_proximity/Verdict.h>
 
 #include <limits>
@@ -139,6 +140,7 @@ TEST_F(Lengths, OfRequestsThatTheirBytesDoNotHoldAreRefused) {
   expectChecked<msg::QuerySegment>("query_segment");
   expectChecked<msg::QueryBox>("query_box");
   expectChecked<msg::QueryNearest>("query_nearest");
+  expectChecked<msg::QueryShape>("query_shape");
   expectChecked<msg::ExplainPair>("explain_pair");
   expectChecked<msg::SetAllowed>("set_allowed");
   expectChecked<msg::GetAllowed>("get_allowed");
@@ -159,6 +161,41 @@ TEST_F(Lengths, OfMessagesThatExceedTheQueueAreRefusedByName) {
   moving_.publish(bytesWith({transform}));
   node_->waitForStatus("the short message is accepted",
                        [](const msg::Status& status) { return counter(status, "tf.accepted") == 2; });
+}
+
+/// Claim: messages with a million entries are refused as a whole, and the node stores none of the entries.
+TEST_F(Lengths, OfAMillionEntriesExceedTheLimits) {
+  start();
+  constexpr std::uint32_t kEntries = 1000000;
+  moving_.publish(TransformsBytes{bytesOf(kEntries) + std::string(kEntries * std::size_t{76}, '\0')});
+  waitForRefusals("LIMIT", 1);
+  const std::uint32_t before = node_->getAllowed().total;
+  msg::SetAllowed::Request rules;
+  rules.rules.resize(kEntries);
+  const auto refused = node_->setAllowed(rules);
+  EXPECT_FALSE(refused.success);
+  EXPECT_EQ(refused.code.name, "LIMIT") << refused.code.text;
+  EXPECT_EQ(node_->getAllowed().total, before);
+  EXPECT_NEAR(xOf(*node_, "robot/a"), 0.0, 1e-6);
+  EXPECT_TRUE(node_->heard().status.back()->world.complete);
+}
+
+/// Claim: a publisher of /tf that announces 999,999,999 bytes and sends none costs only address space. The transforms
+/// of other publishers are used.
+TEST_F(Lengths, OfTransformsThatAreAnnouncedAndNeverSentCostOnlyAddressSpace) {
+  start();
+  const auto before = memoryOf(node_->process().pid());
+  ChildProcess silent({"/usr/bin/python3", HGRID_PROJECT_DIR "/test/node/support/silent_publisher.py", "/tf",
+                       TransformsKind::kType, TransformsKind::kMd5},
+                      "/dev/null", {});
+  node_->waitUntil("the announcement", [&](const Heard&) {
+    return memoryOf(node_->process().pid()).second > before.second + 900000;  // kB
+  });
+  moving_.publish(bytesWith({stamped("base", "a", at(1), ros::Time::now())}));
+  node_->waitUntil("the transform of another publisher",
+                   [&](const Heard&) { return std::abs(xOf(*node_, "robot/a") - 1.0) < 1e-6; });
+  EXPECT_LT(memoryOf(node_->process().pid()).first, before.first + 4000) << "kB";
+  EXPECT_TRUE(node_->heard().status.back()->world.complete);
 }
 
 TEST_F(Lengths, OfLongMessagesDoNotStopTheTicks) {

@@ -17,6 +17,7 @@ HINTS = {  # fix by the first word of the reason
     "FROZEN": "Let the clock run on, or wait for the first data after the jump of the clock.",
     "INVALID": "See what the publisher of its frame sends: `rostopic echo /tf`.",
     "REQUIRED": "Add what ~required names, or do not require it.",
+    "REFUSED": "Correct the newest description, map or message; the node reads it again by itself.",
     "PARSE": "Correct the description, then `rosservice call {node}/reload_robot {source}`.",
 }
 OTHER_HINT = "Correct the cause; the status of the node says more: `rostopic echo -n 1 {node}/status`."
