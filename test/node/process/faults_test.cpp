@@ -11,6 +11,7 @@
 
 #include <algorithm>
 
+#include "test/node/support/built.h"
 #include "test/node/support/claims.h"
 #include "test/node/support/descriptions.h"
 #include "test/node/support/transform_source.h"
@@ -30,7 +31,7 @@ class Faults : public ::testing::Test {
   ~Faults() override { EXPECT_TRUE(node_.process().alive()); }
   static NodeSetup setup() {
     NodeSetup setup;
-    setup.command = {HGRID_FAULTS_NODE};
+    setup.command = {built(HGRID_FAULTS_NODE)};
     setup.beside["robot_description"] = description({"a", "b"});
     return setup;
   }
