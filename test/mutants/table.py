@@ -3,7 +3,7 @@
 """The mutants: (description of the fault, file in src/, text that is in the file exactly once, its replacement).
 
 Each mutant is a fault that some broad phase had, or that a reviewer could easily overlook. Faults that only cost time
-are not listed. Mutants of the same file follow each other, because the build then compiles fewer files.
+are not listed. Mutants of the same file follow each other, because the build of the core then compiles fewer files.
 """
 
 PAIRS_BODY = "broadphase/kernels/pairs_body.h"
@@ -26,8 +26,29 @@ LINE = "maps/static_grid_line.h"
 MAPS = "world/map_pairs.cpp"
 SPHERE = "queries/sphere_question.cpp"
 CLOUD = "maps/cloud_cells.cpp"
+CLAIMS = "node/tf/frame_claims.cpp"
+HISTORY = "node/tf/frame_history.cpp"
+POSES = "node/tf/frame_poses.cpp"
+RIVALS = "node/tf/frame_rivals.cpp"
+FRAMES = "node/tf/frame_table.cpp"
+INTAKE = "node/tf/tf_intake.cpp"
+QUEUE = "node/tf/tf_queue.cpp"
+TREE = "node/tf/tf_tree.cpp"
+CHECK = "node/tf/transform_check.cpp"
+LOOKUP = "node/tf/transform_lookup.cpp"
+STORE = "node/tf/transform_store.cpp"
+AGES = "node/time/age_clock.cpp"
+WATCH = "node/time/clock_watch.cpp"
+FRESHNESS = "node/time/freshness.cpp"
+KEPT = "node/time/kept_pose.cpp"
+TIME = "node/time/tick_time.cpp"
+JOBS = "node/tick/tick_jobs.cpp"
+STOPWATCH = "node/tick/stopwatch.cpp"
+MOVERS = "node/world/mover_poses.cpp"
+UNPLACED = "node/world/unplaced_robots.cpp"
+WORLD = "node/world/world.cpp"
 
-MUTANTS = [
+CORE = [
     ("the pair search ignores the reach of the level", PAIRS_BODY,
      "cellsOf(l, first, 0, l.reach[x], grid, x, x_low);", "cellsOf(l, first, 0, 0.0f, grid, x, x_low);"),
     ("the pair search of a box covers only the cell of its minimum corner", PAIRS_BODY,
@@ -192,3 +213,140 @@ MUTANTS = [
     ("the box around a rotated box is too small", "maps/map_gap.cpp",
      "map_from_world.linear().cwiseAbs()", "map_from_world.linear()"),
 ]
+
+NODE = [
+    ("a publisher that took a frame back long ago is reported as a rival", CLAIMS,
+     " && reading - entry.left_at <= kMemory", ""),
+    ("a frame is contested forever", CLAIMS,
+     "&& reading < *found->second.contested_until", ""),
+    ("poses are interpolated across an outage", HISTORY,
+     "return to.continues && from.parent == to.parent;", "return from.parent == to.parent;"),
+    ("poses are interpolated between two parents", HISTORY,
+     "return to.continues && from.parent == to.parent;", "return to.continues;"),
+    ("a sample that replaces the end of an outage hides the outage", HISTORY,
+     "continues = continues && samples_.back().continues;", ""),
+    ("a late sample is stored although an outage follows it", HISTORY,
+     "if (std::any_of(next, samples_.cend(), is_seam)) return false;", "static_cast<void>(is_seam);"),
+    ("a late sample that is older than the cache is stored", HISTORY,
+     "if (sample.stamp < kept_from_) return false;", ""),
+    ("the pose in a former parent is used in the new parent", HISTORY,
+     "if (!sample || sample->parent != newest().parent) return std::nullopt;", "if (!sample) return std::nullopt;"),
+    ("after a jump of the clock, samples keep their stamps", HISTORY,
+     "samples_.back().stamp = kept_from_ = Time(0);", ""),
+    ("a frame that lags goes back to an older pose", POSES,
+     " || state.newest < in_use.stamp()", ""),
+    ("a rival is compared with a pose of another time", RIVALS,
+     "if (rival.stamp <= holder.newest)", "if (true)"),
+    ("rivals that differ in orientation only agree", RIVALS,
+     " && angle <= kSameAngle", "&& angle >= 0.0"),
+    ("frames above a needed frame have no priority", FRAMES,
+     "number = entries_[number].parent) {", "number = kNone) {"),
+    ("a new parent of a needed frame has no priority", FRAMES,
+     "if (entries_[frame].needed) setNeeded(number);", ""),
+    ("a frame stays INVALID after a valid transform", INTAKE,
+     "  frame.refused.reset();", ""),
+    ("a stranger makes a static frame INVALID", INTAKE,
+     "is_static && frame.publisher == publisher", "is_static"),
+    ("one stamp far ahead blocks a frame", INTAKE,
+     "const bool was_ahead = isFarAhead(newest, arrival) && arrival.stamp <= arrival.now.ros;",
+     "const bool was_ahead = false;"),
+    ("an outage longer than the cache is no outage", INTAKE,
+     "(first || arrival.stamp <= newest + store_.cache())", "(first || true)"),
+    ("a change of the publisher counts as a period", INTAKE,
+     "step.is_period = !first && !other && !was_ahead;", "step.is_period = !first && !was_ahead;"),
+    ("a holder of a contested frame loses it at each gap", INTAKE,
+     "? kMostPatience\n", "? kLeastPatience\n"),
+    ("a late transform makes a frame fresh", INTAKE,
+     "if (arrival.stamp >= arrival.now.ros) frame.pace.noteReceived(arrival.reading);",
+     "frame.pace.noteReceived(arrival.reading);"),
+    ("one stray transform makes a static frame move", INTAKE,
+     "const bool again = frame.stray.count() > 0 && arrival.stamp > frame.stray &&", "const bool again ="),
+    ("a changed static transform moves no body", INTAKE,
+     "if (moved || !(pose == history(number).newest().parent_from_frame)) ++static_revision_;", ""),
+    ("a stamp that is sent twice with another parent is no conflict", INTAKE,
+     "rivals_.contradict(number, holderOf(number), arrival.claim(), arrival.reading);", ""),
+    ("a flood fills the queue of transforms for ever", QUEUE,
+     "lane.bytes -= chargeOf(oldest);", ""),
+    ("a flood of transforms drops the newest message as well", QUEUE,
+     " && lane.waiting.size() > 1", " && !lane.waiting.empty()"),
+    ("the time of a chain is that of its newest transform", TREE,
+     "std::min(state.newest, stamp)", "std::max(state.newest, stamp)"),
+    ("the age of a chain is that of its last frame", TREE,
+     "std::max(state.worst, freshnessOf(", "std::max(Freshness::fresh, freshnessOf("),
+    ("steps up to an ancestor are not inverted in a tick", TREE,
+     "from.world_from_frame * (step.upwards ? pose->inverse() : *pose)", "from.world_from_frame * *pose"),
+    ("steps up to an ancestor are not inverted for a frame that lags", TREE,
+     "return *from * (step.upwards ? pose->inverse() : *pose);", "return *from * *pose;"),
+    ("a contested frame does not count as contested", TREE,
+     "state.contested = number;", "state.contested = TfIntake::kNone;"),
+    ("after a jump of the clock, old transforms still connect", TREE,
+     "if (stamp.count() == 0) state.connected = false;", ""),
+    ("stamps in the future are accepted", CHECK, "if (ahead > max_future) {", "if (ahead > 1e9) {"),
+    ("transforms are accepted before there is a time", CHECK, "if (now.ros.count() == 0) {", "if (false) {"),
+    ("a pose of the future is used for a question", LOOKUP,
+     "std::abs(seconds(*newest->time - time)) > max_apart", "seconds(time - *newest->time) > max_apart"),
+    ("the newest time of a chain is that of its first frames", LOOKUP,
+     "settled = *time == before;", "settled = true;"),
+    ("one stamp ahead of the clock drops all older samples", STORE,
+     "std::min(sample.stamp, now + cache_ / 2) - cache_", "sample.stamp - cache_"),
+    ("a late sample exceeds ~max_samples", STORE,
+     "const bool filled = histories_[frame].fill(sample);\n  dropped_ += histories_[frame].trim(max_samples_);",
+     "const bool filled = histories_[frame].fill(sample);"),
+
+    ("a jump back of the clock makes poses younger", AGES,
+     "if (began && now.ros < last_.ros) reading_ +=", "if (false) reading_ +="),
+    ("a standing clock makes poses younger once it is noticed", AGES,
+     "if (frozen && !frozen_) reading_ +=", "if (false) reading_ +="),
+    ("a jump ahead hides a pending jump back", WATCH,
+     " && pending_ != Event::jumped_back", ""),
+    ("a wall clock that is adjusted by a little has jumped", WATCH,
+     "(simulated_ ? 0.0 : -kSmallStep)", "0.0"),
+    ("poses of slow publishers are LOST between two transforms", FRESHNESS,
+     "std::max(limits.lost_after, usual)", "limits.lost_after"),
+    ("a pose behind the time of the tick is FRESH", FRESHNESS,
+     "? std::max(by_age, Freshness::late) : by_age", "? by_age : by_age"),
+    ("a fast frame hides a slow frame of its chain that stopped", FRESHNESS,
+     "std::max(circumstances.chain, freshnessOf(", "std::max(Freshness::fresh, freshnessOf("),
+    ("a frozen clock is not noticed", FRESHNESS,
+     " || circumstances.clock_frozen", ""),
+    ("a slow camera is never LOST", FRESHNESS,
+     "age > limits.lost_after ? Freshness::lost : freshnessOf", "freshnessOf"),
+    ("a pose that is no longer static is as old as the clock", KEPT,
+     "renew(stamp, reading)", "renew(stamp, Time(0))"),
+    ("a pose whose transforms were dropped is not FROZEN", KEPT,
+     "frozen_ = frozen_ || lost;", ""),
+    ("a frame stamped ahead sets the time of the tick", TIME, "if (time <= latest) pace", "pace"),
+    ("each frame that lags delays the tick", TIME, "if (pace - time <= max_wait_) common", "common"),
+    ("the time of a tick runs back", TIME,
+     "return last_ = std::max(last_, common);", "return last_ = common;"),
+
+    ("a change that was answered BUSY is made later", JOBS,
+     "if (!request->leaveWaiting(State::started)) return;", "request->leaveWaiting(State::started);"),
+    ("a change that has begun is answered BUSY", JOBS,
+     "if (!request->leaveWaiting(State::withdrawn)) continue;", "request->leaveWaiting(State::withdrawn);"),
+    ("a change that failed is not tried again", JOBS,
+     "return !guarded(ledger, \"job.failed\", [&] { job(world); });",
+     "guarded(ledger, \"job.failed\", [&] { job(world); }); return true;"),
+    ("the durations of old ticks are never replaced", STOPWATCH,
+     "ring.values[ring.next] = value;", ""),
+
+    ("a body whose static pose was refused is not placed again", MOVERS,
+     "mover.settled = is_static && !mover.trouble;", "mover.settled = is_static;"),
+    ("a refused pose moves the bodies before it", MOVERS,
+     "scene_.checkPlace(member.body, placed_.back());", ""),
+    ("a frozen clock freezes static bodies", MOVERS,
+     "clock_frozen && !mover.settled;", "clock_frozen;"),
+    ("bodies with poses of different times are one cohort", MOVERS,
+     "static_cast<std::uint32_t>(cohorts_.size() + 1)", "1u"),
+    ("after a jump of the clock, bodies keep their old stamps", MOVERS,
+     "mover.pose.restamp(intake_.ages().read(now), now.ros, lost);\n    setStamp(mover);",
+     "mover.pose.restamp(intake_.ages().read(now), now.ros, lost);"),
+    ("a robot is blamed for a world frame that does not exist", UNPLACED,
+     "&& !blame_world", ""),
+    ("after a jump back, transforms of the earlier run stay", WORLD,
+     "transforms_.forgetMoving();", ""),
+    ("the frames of new bodies get no priority", WORLD,
+     "transforms_.need(frames, now);", ""),
+]
+
+MUTANTS = CORE + NODE

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 
+#include "test/node/support/built.h"
 #include "test/node/support/claims.h"
 #include "test/node/support/descriptions.h"
 #include "test/node/support/transform_source.h"
@@ -32,7 +33,7 @@ class Faults : public ::testing::Test {
  public:
   static NodeSetup setup() {
     NodeSetup setup;
-    setup.command = {HGRID_FAULTS_NODE};
+    setup.command = {built(HGRID_FAULTS_NODE)};
     setup.params["watch_descriptions"] = false;
     setup.beside["robot_description"] = description({"a", "b"});
     return setup;

@@ -14,6 +14,7 @@
 #include <fstream>
 #include <thread>
 
+#include "test/node/support/built.h"
 #include "test/node/support/claims.h"
 #include "test/node/support/descriptions.h"
 #include "test/node/support/own_master.h"
@@ -88,7 +89,7 @@ class HangingReader {
     if (mkdtemp(&folder[0]) == nullptr) throw std::runtime_error("no scratch folder");
     folder_ = folder;
     fs::create_directories(folder_ / "hgrid_proximity");
-    fs::copy_file(HGRID_NODE_LIBRARY, library());
+    fs::copy_file(built(HGRID_NODE_LIBRARY), library());
     const fs::path reader = folder_ / "hgrid_proximity" / "proximity_mesh_reader";
     std::ofstream(reader) << "#!/bin/sh\n: >'" << started().string() << "'\nexec sleep 3600\n";
     fs::permissions(reader, fs::perms::owner_all);
@@ -155,7 +156,7 @@ TEST(Shutdown, DuringAReloadOfASlowMeshUnregisters) {
 struct NodeOfMaster {
   static constexpr const char* kName = "/proximity";
   explicit NodeOfMaster(const std::string& uri)
-      : process({HGRID_NODE, "_world_frame:=world"}, "/dev/null", {{"ROS_MASTER_URI", uri}}) {}
+      : process({built(HGRID_NODE), "_world_frame:=world"}, "/dev/null", {{"ROS_MASTER_URI", uri}}) {}
   ChildProcess process;
 };
 
@@ -183,7 +184,7 @@ TEST(Shutdown, EndsANodeThatWaitsForTheMaster) {
   for (const int number : kEndSignals) {
     const std::string output = (fs::temp_directory_path() / "waits_for_master.log").string();
     fs::remove(output);
-    ChildProcess node({HGRID_NODE, "_world_frame:=world"}, output,
+    ChildProcess node({built(HGRID_NODE), "_world_frame:=world"}, output,
                       {{"ROS_MASTER_URI", "http://127.0.0.1:" + std::to_string(freePort())},
                        {"ROSCONSOLE_STDOUT_LINE_BUFFERED", "1"}});
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
@@ -211,7 +212,8 @@ bool ignores(pid_t process, int number) {
 
 TEST(Shutdown, KeepsIgnoringHangupsUnderNohup) {
   OwnMaster master;
-  ChildProcess node({"nohup", HGRID_NODE, "_world_frame:=world"}, "/dev/null", {{"ROS_MASTER_URI", master.uri()}});
+  ChildProcess node({"nohup", built(HGRID_NODE), "_world_frame:=world"}, "/dev/null",
+                    {{"ROS_MASTER_URI", master.uri()}});
   master.waitForRegistration("/proximity", "serves /proximity/reload_robot");
   EXPECT_TRUE(ignores(node.pid(), SIGHUP));
   EXPECT_FALSE(ignores(node.pid(), SIGTERM));
@@ -223,7 +225,7 @@ TEST(Shutdown, IsLoggedAndHasExitCode3IfAnotherNodeTakesTheName) {
   NodeUnderTest first(setupOfWorld());
   const std::string name = first.space() + "/proximity";
   first.waitForTicks(1);  // if the first node still registered topics, the master would end the second node
-  ChildProcess second({HGRID_NODE, "__ns:=" + first.space(), "__name:=proximity"}, "/dev/null", {});
+  ChildProcess second({built(HGRID_NODE), "__ns:=" + first.space(), "__name:=proximity"}, "/dev/null", {});
   EXPECT_EQ(first.process().waitForEnd(20.0).value_or(-1), 3);
   EXPECT_EQ(first.lines("Another node has registered under the name '" + name + "'"), 1u) << first.output();
   EXPECT_TRUE(second.alive());

@@ -6,6 +6,7 @@
 #include <ros/param.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include "test/node/support/built.h"
 #include "test/support/robots.h"
 
 namespace hgrid {
@@ -40,7 +41,7 @@ Cell::Cell() {
     puppets.push_back({robot.name, robot.witness.get()});
   }
   placeBases();
-  proximity = std::make_unique<Child>(std::vector<std::string>{HGRID_NODE});
+  proximity = std::make_unique<Child>(std::vector<std::string>{built(HGRID_NODE)});
   puppeteer = std::make_unique<Puppeteer>(node_, puppets, 7);
   pairs = std::make_unique<PairsListener>(node_);
 }

@@ -13,6 +13,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "test/node/support/built.h"
+
 namespace hgrid {
 namespace test {
 namespace {
@@ -30,7 +32,7 @@ std::string scratchFile(const std::string& space) {
 
 std::vector<std::string> commandOf(const NodeSetup& setup, const std::string& space) {
   std::vector<std::string> command = setup.command;
-  if (command.empty()) command = {HGRID_NODE};
+  if (command.empty()) command = {built(HGRID_NODE)};
   command.push_back("__ns:=" + space);
   command.push_back("__name:=proximity");
   return command;

@@ -93,6 +93,18 @@ TEST(FrameTable, HasRoomForTheFramesThatBodiesNeedAndForThoseAboveThem) {
   put(table, "arm", "finger");
 }
 
+TEST(FrameTable, NeedsTheFramesAboveAPlacedFrameAsSoonAsABodyNeedsIt) {
+  FrameTable table(10);
+  put(table, "base", "arm");
+  put(table, "arm", "hand");
+  for (const char* frame : {"base", "arm", "hand"}) EXPECT_FALSE(table.isNeeded(frame)) << frame;
+  table.need({"hand"});
+  for (const char* frame : {"base", "arm", "hand"}) EXPECT_TRUE(table.isNeeded(frame)) << frame;
+  table.need({"arm"});
+  EXPECT_FALSE(table.isNeeded("hand"));
+  EXPECT_TRUE(table.isNeeded("base"));
+}
+
 /// A flood of frames came first. A body that is added later gets its chain, whichever of its frames come first.
 TEST(FrameTable, LetsAChainGrowFromEitherEnd) {
   for (const bool downwards : {false, true}) {

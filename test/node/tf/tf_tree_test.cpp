@@ -129,6 +129,9 @@ class RandomTree {
     if (ours == nullptr && changes_) return;
     ASSERT_NE(ours, nullptr);
     expectTheSamePose(*ours, *witness);
+    const std::optional<FramePose> alone = tree.worldFrom(index, time);
+    ASSERT_TRUE(alone);
+    expectTheSamePose(*alone, *witness);
     EXPECT_LE((ours->pose().linear() * ours->pose().linear().transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-14);
   }
 
@@ -186,7 +189,7 @@ TEST(TfTree, PutsFramesWhereTf2SaysAtAnyTime) {
   EXPECT_GT(compared, 40000u);
 }
 
-/// The frame "base" arrives every 4 s, and the frame "arm" above it every 20 ms until it stops at 8 s.
+/// The frame "base" arrives every 4 s up to 8 s, and the frame "arm" in it every 20 ms. Arm stops at 8 s, or at 16 s.
 TEST(TfTree, JudgesEachFrameOfAChainByItsOwnPeriod) {
   Ledger ledger;
   TfIntake intake(1.0, 60.0, 100, false, ledger);
@@ -215,6 +218,8 @@ TEST(TfTree, JudgesEachFrameOfAChainByItsOwnPeriod) {
   EXPECT_EQ(worst(1, 10.5), Freshness::lost) << "the period of base must not hide that arm stopped";
   EXPECT_EQ(worst(0, 10.5), Freshness::fresh) << "base is not due before 12 s";
   EXPECT_EQ(worst(0, 14.5), Freshness::lost);
+  for (int i = 401; i <= 800; ++i) send("base", "arm", 0.02 * i);
+  EXPECT_EQ(worst(1, 16.0), Freshness::lost) << "arm must not hide that base stopped";
 }
 
 TEST(TfTree, NamesTheFrameThatWasNeverPublished) {

@@ -67,8 +67,15 @@ TEST(TransformCheck, RefusesStampsThatAreZeroOrTooFarAheadOnTf) {
   EXPECT_EQ(checked(unstamped, true), Code::ok) << "the stamp of a static transform is ignored";
   EXPECT_EQ(checked(good(), false, 99.5), Code::ok);
   EXPECT_EQ(checked(good(), false, 99.49), Code::clock);
-  EXPECT_EQ(checked(good(), false, 0.0), Code::clock) << "there is no ROS time yet";
   EXPECT_EQ(checked(good(), false, 1e5), Code::ok) << "an old transform is valid for its own time";
+}
+
+/// Claim: this holds for a stamp near 0, too, which is not too far ahead of a clock that shows 0.
+TEST(TransformCheck, RefusesTransformsOnTfBeforeThereIsATime) {
+  geometry_msgs::TransformStamped early = good();
+  early.header.stamp.fromSec(0.1);
+  EXPECT_EQ(checked(early, false, 0.0), Code::clock);
+  EXPECT_EQ(checked(early, true, 0.0), Code::ok);
 }
 
 }  // namespace

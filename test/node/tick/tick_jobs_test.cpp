@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Tests jobs for which another thread waits. (faults_guarded_test.cpp tests jobs for which no thread waits.)
+// Tests jobs for which another thread waits, and jobs that fail.
 #include "src/node/tick/tick_jobs.h"
 
 #include <gtest/gtest.h>
@@ -85,10 +85,13 @@ TEST(TickJobsRun, IsGivenUpIfNoTickComes) {
 
 TEST(TickJobsRun, NeverDoesARefusedJobLater) {
   TickJobs jobs([] { return false; }, std::chrono::milliseconds(20));
-  std::atomic<int> refused{0}, accepted{0};
+  int refused = 0, accepted = 0;
   EXPECT_EQ(refusalOf(jobs, [&](World&) { ++refused; }).code(), Code::busy);
-  const Ticking ticking(jobs);
-  jobs.run([&](World&) { ++accepted; });  // the queue keeps its order
+  jobs.add([&](World&) { ++accepted; });  // the queue keeps its order
+  const Params params;
+  Ledger ledger;
+  World world(params, false, 1, ledger, makeFclNarrowPhase());
+  jobs.doAll(world, ledger);
   EXPECT_EQ(accepted, 1);
   EXPECT_EQ(refused, 0);
 }
@@ -131,16 +134,32 @@ TEST(TickJobs, ThatFailAreReplacedByANewerOneOfTheSameKey) {
 }
 
 TEST(TickJobsRun, WaitsForAJobThatHasStartedHoweverLongItTakes) {
-  TickJobs jobs([] { return false; }, std::chrono::milliseconds(20));
+  TickJobs jobs([] { return false; }, std::chrono::milliseconds(200));  // enough for a busy machine to start the job
   const Ticking ticking(jobs);
   std::atomic<bool> done{false};
-  const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(100);
+  const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(500);
   const Refusal refusal = refusalOf(jobs, [&](World&) {
     while (std::chrono::steady_clock::now() < until) std::this_thread::yield();
     done = true;
   });
   EXPECT_EQ(refusal.code(), Code::ok) << refusal.what();
   EXPECT_TRUE(done) << "an answer BUSY would have been wrong";
+}
+
+TEST(TickJobs, AreDoneAgainUntilTheySucceed) {
+  const Params params;
+  Ledger ledger;
+  World world(params, false, 1, ledger, makeFclNarrowPhase());
+  TickJobs jobs;
+  int tries = 0, others = 0;
+  jobs.add([&](World&) {
+    if (++tries < 3) throw std::runtime_error("not yet");
+  });
+  jobs.add([&](World&) { ++others; });
+  for (int tick = 0; tick < 5; ++tick) jobs.doAll(world, ledger);
+  EXPECT_EQ(tries, 3);
+  EXPECT_EQ(others, 1);
+  EXPECT_EQ(ledger.counters().at("job.failed.INTERNAL"), 2u);
 }
 
 TEST(TickJobsRun, IsGivenUpIfTheNodeIsAboutToEnd) {

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: the hgrid_proximity authors
+"""Builds and tests mutants of the core, in a copy of the sources under build/mutants."""
+
+import pathlib
+import shutil
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+COPY = ROOT / "build" / "mutants"
+PROGRAMS = COPY / "programs"  # contains one folder for each mutant whose tests still run
+TESTS = ["geometry_test", "broadphase_test", "maps_test", "bodies_test", "pairs_test", "world_test", "queries_test",
+         "distances_test", "explain_test"]
+
+
+def prepare():
+    """Copies the files that the core's tests need, and configures the build of the copy."""
+    for folder in ["cmake", "include", "src", "msg", "test"]:
+        for source in (ROOT / folder).rglob("*"):
+            target = COPY / source.relative_to(ROOT)
+            if source.is_dir() or "mutants" in source.parts[len(ROOT.parts):]:
+                continue
+            # Unchanged files keep their times, and a second run builds little.
+            if not target.exists() or target.read_bytes() != source.read_bytes():
+                target.parent.mkdir(parents=True, exist_ok=True)
+                shutil.copyfile(source, target)
+    subprocess.run(["cmake", "-S", str(COPY / "test"), "-B", str(COPY / "build"), "-DCMAKE_BUILD_TYPE=None",
+                    "-DCMAKE_CXX_FLAGS=-O1", "-DHGRID_ADAPTERS=OFF"], check=True, stdout=subprocess.DEVNULL)
+
+
+def unmutated():
+    """Builds the tests without a mutant. Returns the same as build()."""
+    compile_tests()
+    return commands("unmutated", TESTS)
+
+
+def build(name, file, text):
+    """Builds the tests while a file in src/ contains this text.
+
+    @returns the commands that run the tests, and a folder to delete after them
+    """
+    path = COPY / "src" / file
+    original = path.read_text()
+    path.write_text(text)
+    try:
+        compile_tests()
+    finally:
+        path.write_text(original)
+    first = file.split("/")[0] + "_test"  # the tests of the room of the mutant run first
+    return commands(name, sorted(TESTS, key=lambda test: (test != first, TESTS.index(test))))
+
+
+def commands(name, tests):
+    """Copies the test programs, because the next mutant is built while they run."""
+    folder = PROGRAMS / name
+    folder.mkdir(parents=True, exist_ok=True)
+    for test in tests:
+        shutil.copy(COPY / "build" / test, folder)
+    return [["env", "HGRID_TEST_WORLDS=400", str(folder / test)] for test in tests], folder
+
+
+def compile_tests():
+    done = subprocess.run(["cmake", "--build", str(COPY / "build"), "-j2", "--target"] + TESTS,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
+    if done.returncode != 0:
+        sys.exit(done.stdout + "\nThe build failed. If it contains a mutant, correct its replacement in table.py.")

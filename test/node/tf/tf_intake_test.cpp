@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// Which transforms the node uses if those of a frame are late, early, invalid, or of several publishers.
+#include "src/node/tf/tf_intake.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "test/node/support/moments.h"
+
+namespace hgrid {
+namespace test {
+namespace {
+
+/// A transform at x [m] in the frame "base", unless a test changes it.
+struct Sent {
+  std::string publisher = "/robot", parent = "base";
+  double x = 0.0;
+  bool is_static = false;
+};
+
+/// Takes in transforms of one frame, "arm".
+class TfIntakeTest : public ::testing::Test {
+ protected:
+  /// Takes in a transform. @param stamp [s] its stamp. @param now [s] current time; negative: that of the stamp
+  void send(double stamp, const Sent& sent = {}, double now = -1.0) {
+    tf2_msgs::TFMessage message;
+    message.transforms.resize(1);
+    geometry_msgs::TransformStamped& transform = message.transforms.front();
+    transform.header.frame_id = sent.parent;
+    transform.header.stamp = ros::Time(100.0 + stamp);
+    transform.child_frame_id = "arm";
+    transform.transform.translation.x = sent.x;
+    transform.transform.rotation.w = 1.0;
+    const double time = now < 0.0 ? stamp : now;
+    intake_.take(message, sent.is_static, sent.publisher, moment(100.0 + time, time));
+  }
+  /// Publishes "arm" every 20 ms up to a time [s].
+  void stream(double end, const Sent& sent = {}) {
+    for (int i = 0; 0.02 * i < end + 0.01; ++i) send(0.02 * i, sent);
+  }
+  std::uint32_t number() const { return intake_.table().find("arm"); }
+  const TfIntake::Frame& frame() const { return intake_.frame(number()); }
+  const std::string& parent() const { return intake_.table().parentName(number()); }
+  bool isKnown(double time) const { return intake_.lookup().isKnown("base", "arm", s(100.0 + time)); }
+
+  static constexpr double kCache = 10.0;
+  Ledger ledger_;
+  TfIntake intake_{20.0, kCache, 100, false, ledger_};
+};
+
+TEST_F(TfIntakeTest, OnlyThePublisherOfAStaticFrameCanMakeItInvalid) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  send(1.0, {"/map", "base", 0.0, true});
+  send(1.1, {"/stranger", "base", nan, true});
+  send(1.2, {"/map", "base", nan, false});
+  EXPECT_FALSE(frame().refused);
+  send(1.3, {"/map", "base", nan, true});
+  EXPECT_TRUE(frame().refused);
+  send(1.4, {"/map", "base", 0.0, true});
+  EXPECT_FALSE(frame().refused);
+}
+
+TEST_F(TfIntakeTest, NoPoseIsKnownWithinAnOutageThatIsLongerThanTheCache) {
+  for (const double pause : {kCache, kCache + 0.1}) {
+    send(1.0);
+    send(1.0 + pause, {}, 2.0);  // stamped ahead of the clock, so that the cache still holds the sample before it
+    EXPECT_TRUE(isKnown(1.0));
+    EXPECT_EQ(isKnown(5.0), pause <= kCache);
+    intake_.forgetMoving();
+  }
+}
+
+TEST_F(TfIntakeTest, AnotherPublisherHasAPeriodOfItsOwn) {
+  stream(1.0);
+  EXPECT_NEAR(frame().pace.period(), 0.02, 1e-6);
+  send(6.0, {"/other"});
+  EXPECT_EQ(frame().publisher, "/other");
+  EXPECT_EQ(frame().pace.period(), 0.0) << "one transform has no period";
+  send(6.5, {"/other"});
+  send(7.0, {"/other"});
+  EXPECT_NEAR(frame().pace.period(), 0.5, 1e-6);
+}
+
+TEST_F(TfIntakeTest, TheHolderOfAContestedFrameKeepsItForThreeSeconds) {
+  for (const bool contested : {false, true}) {
+    stream(1.0);
+    if (contested) send(1.0, {"/rival", "island"});
+    EXPECT_EQ(intake_.isContested(number(), s(1.0)), contested);
+    send(2.0, {"/rival", "island"});
+    EXPECT_EQ(frame().publisher, contested ? "/robot" : "/rival");
+    intake_.forgetMoving();
+  }
+}
+
+TEST_F(TfIntakeTest, ALateTransformMakesNoFrameFresher) {
+  stream(1.0);
+  const Time received = frame().pace.received();
+  send(0.51, {}, 1.5);
+  EXPECT_EQ(frame().pace.received(), received);
+  send(1.52, {}, 1.6);
+  EXPECT_EQ(frame().pace.received(), s(1.6));
+}
+
+TEST_F(TfIntakeTest, AStaticFrameMovesOnlyAfterTwoSuccessiveTransforms) {
+  send(1.0, {"/robot", "base", 0.0, true});
+  send(1.1);
+  EXPECT_FALSE(intake_.history(number()).moves()) << "one stray transform";
+  send(6.0);
+  EXPECT_FALSE(intake_.history(number()).moves()) << "the stray transform before it was too long ago";
+  send(6.0, {}, 6.1);
+  EXPECT_FALSE(intake_.history(number()).moves()) << "the same stamp again";
+  send(6.2);
+  EXPECT_TRUE(intake_.history(number()).moves());
+}
+
+TEST_F(TfIntakeTest, AStampThatIsSentTwiceWithTwoParentsIsAConflict) {
+  stream(1.0);
+  send(1.0, {"/robot", "base", 0.5});
+  EXPECT_FALSE(intake_.isContested(number(), s(1.0))) << "the first pose is kept";
+  send(1.0, {"/robot", "island"});
+  EXPECT_EQ(parent(), "base");
+  EXPECT_TRUE(intake_.isContested(number(), s(1.0)));
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace hgrid
