@@ -26,6 +26,7 @@
 #include "adapters/mesh/mesh_stream.h"
 #include "hgrid_proximity/refusal.h"
 #include "tools/plain_obj.h"
+#include "tools/stl_check.h"
 
 namespace {
 
@@ -107,6 +108,7 @@ void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent
 }
 
 Mesh parse(const std::string& file, const std::string& kind, std::size_t max_triangles) {
+  if (kind == "stl") hgrid::checkStl(file);
   const std::string data = kind == "obj" ? hgrid::plainObj(file) : file;
   Assimp::Importer importer;
   // Apply the unit of a COLLADA file, but ignore its up axis. RViz does the same.

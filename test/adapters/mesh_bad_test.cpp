@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 
+#include "src/tools/stl_check.h"
 #include "test/adapters/mutation.h"
 #include "test/adapters/temporary_folder.h"
 #include "test/adapters/urdf_texts.h"
@@ -84,6 +85,19 @@ TEST_F(BadMesh, AnObjFileThatEndsWithinALineOrFaceIsRefused) {
   EXPECT_EQ(refusal("a.obj", obj.substr(0, face) + "f 1 2\n"), Code::parse) << sentence_;
   EXPECT_TRUE(says(sentence_, "'f 1 2' has fewer than 3 corners"));
   EXPECT_EQ(refusal("a.obj", obj.substr(0, face) + "f 1 2 \\\n 4\r\n"), Code::ok) << sentence_;
+}
+
+TEST_F(BadMesh, ATextStlFileThatEndsTooEarlyIsRefused) {
+  const std::string stl = fileText(ownData() + "/meshes/corner_ascii.stl");
+  const std::size_t end = stl.find("endsolid") + 8;
+  for (std::size_t size = 6; size < end; ++size) {
+    ASSERT_EQ(refusalOf([&] { checkStl(stl.substr(0, size)); }), Code::truncated) << size;
+  }
+  const std::size_t facet = stl.rfind("  facet");  // a parser would take the facets before it for the whole mesh
+  EXPECT_EQ(refusal("a.stl", stl.substr(0, facet)), Code::truncated) << sentence_;
+  EXPECT_EQ(refusal("a.stl", stl.substr(0, end)), Code::ok) << sentence_;
+  EXPECT_EQ(refusal("a.stl", stl.substr(0, facet) + "faect" + stl.substr(facet + 7)), Code::parse) << sentence_;
+  EXPECT_TRUE(says(sentence_, "it has 3 facets and 12 vertices"));
 }
 
 // The parser alone would leave out some of these faces, and read other vertices for the rest.
