@@ -27,6 +27,7 @@
 #include "adapters/mesh/mesh_stream.h"
 #include "hgrid_proximity/refusal.h"
 #include "tools/plain_obj.h"
+#include "tools/stl_check.h"
 
 namespace {
 
@@ -109,30 +110,8 @@ void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent
   }
 }
 
-constexpr char kBlanks[] = " \t\r";
-
-/// Whether an STL file has the size that its number of triangles requires if it is binary.
-bool isBinaryStl(const std::string& data) {
-  constexpr std::size_t kHeader = 80, kTriangle = 50;
-  std::uint32_t count = 0;
-  if (data.size() < kHeader + sizeof count) return false;
-  std::memcpy(&count, data.data() + kHeader, sizeof count);
-  return data.size() == kHeader + sizeof count + std::size_t{count} * kTriangle;
-}
-
-/// Refuses an STL text without its last line. The parser would accept it and leave out triangles.
-void checkStl(const std::string& data) {
-  if (isBinaryStl(data)) return;
-  const std::size_t last = data.find_last_not_of(" \t\r\n");
-  const std::size_t begin = data.find_last_of('\n', last) + 1;  // of the last line that is not blank
-  const std::string line = data.substr(std::min(data.find_first_not_of(kBlanks, begin), data.size()));
-  constexpr char kEnd[] = "endsolid";
-  if (strncasecmp(line.c_str(), kEnd, sizeof kEnd - 1) == 0) return;
-  throw Refusal(Code::truncated,
-                "it does not end with a line 'endsolid', so it may have been written only in part; write it again");
-}
-
 Mesh parse(const std::string& file, const std::string& kind, std::size_t max_triangles) {
+  if (kind == "stl") hgrid::checkStl(file);
   const std::string data = kind == "obj" ? hgrid::plainObj(file) : file;
   Assimp::Importer importer;
   // Apply the unit of a COLLADA file, but ignore its up axis. RViz does the same.
@@ -145,7 +124,6 @@ Mesh parse(const std::string& file, const std::string& kind, std::size_t max_tri
       throw std::bad_alloc();  // assimp has turned the exception into text
     throw Refusal(Code::parse, "it cannot be read: " + error);
   }
-  if (kind == "stl") checkStl(data);  // after the parser, which says more about a file that is no STL at all
   Mesh mesh;
   collect(*scene, *scene->mRootNode, aiMatrix4x4(), mesh, max_triangles);
   return mesh;

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 
+#include "src/tools/stl_check.h"
 #include "test/adapters/mutation.h"
 #include "test/adapters/temporary_folder.h"
 #include "test/adapters/urdf_texts.h"
@@ -99,13 +100,26 @@ TEST_F(BadMesh, AnStlTextThatEndsBeforeItsLastLineIsRefused) {
     EXPECT_EQ(mesh_->triangles.size(), 2u);
   }
   EXPECT_EQ(refusal("facets.stl", text), Code::truncated) << sentence_;
-  EXPECT_NE(sentence_.find("does not end with a line 'endsolid'"), std::string::npos) << sentence_;
+  EXPECT_NE(sentence_.find("does not end with 'endsolid'"), std::string::npos) << sentence_;
   const std::size_t last_line = whole.find("endsolid");
   for (std::size_t length = last_line + 8; length-- > 0;) {
     const bool between_lines = length == 0 || whole[length - 1] == '\n';
     if (!between_lines && length < last_line && length % 16 != 0) continue;  // each cut takes a process
     if (refusal("cut.stl", whole.substr(0, length)) == Code::ok) ADD_FAILURE() << length << " bytes were accepted";
   }
+}
+
+TEST_F(BadMesh, ATextStlFileThatEndsTooEarlyIsRefused) {
+  const std::string stl = fileText(ownData() + "/meshes/corner_ascii.stl");
+  const std::size_t end = stl.find("endsolid") + 8;
+  for (std::size_t size = 6; size < end; ++size) {
+    ASSERT_EQ(refusalOf([&] { checkStl(stl.substr(0, size)); }), Code::truncated) << size;
+  }
+  const std::size_t facet = stl.rfind("  facet");  // a parser would take the facets before it for the whole mesh
+  EXPECT_EQ(refusal("a.stl", stl.substr(0, facet)), Code::truncated) << sentence_;
+  EXPECT_EQ(refusal("a.stl", stl.substr(0, end)), Code::ok) << sentence_;
+  EXPECT_EQ(refusal("a.stl", stl.substr(0, facet) + "faect" + stl.substr(facet + 7)), Code::parse) << sentence_;
+  EXPECT_TRUE(says(sentence_, "it has 3 facets and 12 vertices"));
 }
 
 // The parser alone would leave out some of these faces, and read other vertices for the rest.

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 #include "hgrid_proximity/adapters/mesh.h"
 #include "test/adapters/temporary_folder.h"
@@ -43,16 +45,30 @@ std::string flawOfMesh(const TriangleMesh& mesh) {
   return {};
 }
 
-/// Returns what is wrong with the number of triangles of an OBJ file whose faces all have 3 corners. The parser must
-/// not leave out any of them.
-std::string flawOfCount(const TriangleMesh& mesh, std::string_view file) {
+/// Returns the number of faces of an OBJ file; 0 if some do not have 3 corners, which gives another number of
+/// triangles.
+std::size_t facesOfObj(std::string_view file) {
   std::size_t faces = 0;
   for (const std::vector<std::string>& words : wordsOfObj(file)) {
     if (words.empty() || words[0] != "f") continue;
-    if (words.size() != 4) return {};
+    if (words.size() != 4) return 0;
     ++faces;
   }
-  return mesh.triangles.size() >= faces ? "" : "triangles are missing";
+  return faces;
+}
+
+/// Returns the number of triangles that a binary STL file declares, or of the facets of a text STL file.
+std::size_t facetsOfStl(std::string_view file) {
+  std::uint32_t declared = 0;
+  if (file.size() >= 84) std::memcpy(&declared, file.data() + 80, 4);
+  if (file.size() == 84 + std::size_t{50} * declared) return declared;
+  std::istringstream lines{std::string(file)};
+  std::size_t facets = 0;
+  for (std::string line, word; std::getline(lines, line);) {
+    std::istringstream words(line);
+    facets += words >> word && word == "facet" ? 1 : 0;
+  }
+  return facets;
 }
 
 MeshPolicy policyFor(const TemporaryFolder& folder) {
@@ -79,7 +95,9 @@ FuzzResult fuzzMesh(std::string_view input) {
     MeshLoader loader(policyFor(folder));
     const auto mesh = loader.load("file://" + path, Eigen::Vector3d::Ones());
     result = {true, flawOfMesh(*mesh)};
-    if (input[0] == 'o' && result.flaw.empty()) result.flaw = flawOfCount(*mesh, input.substr(1));
+    const std::string_view file = input.substr(1);
+    const std::size_t least = input[0] == 's' ? facetsOfStl(file) : input[0] == 'o' ? facesOfObj(file) : 0;
+    if (mesh->triangles.size() < least) result.flaw = "triangles are missing";
   } catch (const Refusal& refusal) {
     result = {false, flawOfRefusal(refusal)};
   }

@@ -20,7 +20,8 @@ class Parser {
 
   XmlRpcValue value(int depth) {
     skip(" ,:\n");
-    if (left_.empty() || depth > kDeepest) return {};
+    if (depth > kDeepest) left_ = {};  // leaves out the rest of the text
+    if (left_.empty()) return {};
     const char first = left_[0];
     if (std::string_view("+-.0123456789ni").find(first) != std::string_view::npos) return number();
     left_.remove_prefix(1);

@@ -201,7 +201,7 @@ class Reader {
   static void checkTopic(const ParamValue& element, const std::string& topic) {
     std::string flaw = "it must not be empty";
     if (topic.empty() || !ros::names::validate(topic, flaw)) {
-      element.error("has the topic '" + printable(topic) + "': " + flaw);
+      element.error("has the topic '" + printable(topic) + "': " + printable(flaw, 300));
     }
   }
 
