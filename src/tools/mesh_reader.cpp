@@ -10,7 +10,6 @@
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
-#include <strings.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
