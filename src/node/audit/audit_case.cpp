@@ -3,6 +3,7 @@
 #include "node/audit/audit_case.h"
 
 #include <cstring>
+#include <map>
 #include <random>
 
 #include "hgrid_proximity/refusal.h"
@@ -47,29 +48,51 @@ std::string withoutFirstSlash(const std::string& frame) {
   return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
 }
 
-/// Appends the transforms of a message; none if the bytes are no such message, because the node refuses it then.
-void append(const ReceivedTransforms& message, std::vector<RecordedTransform>& all) {
-  Walk walk(message.message->bytes);
-  std::uint32_t count = 0;
-  if (!walk.read(count)) return;
-  const std::size_t before = all.size();
-  bool valid = true;
-  for (std::uint32_t i = 0; i < count && valid; ++i) {
-    RecordedTransform transform;
-    std::uint32_t sequence = 0, seconds = 0, nanoseconds = 0;
-    valid = walk.read(sequence) && walk.read(seconds) && walk.read(nanoseconds) && walk.read(transform.parent) &&
-            walk.read(transform.child) && walk.read(transform.numbers);
-    if (!valid) break;
-    transform.parent = withoutFirstSlash(transform.parent);
-    transform.child = withoutFirstSlash(transform.child);
-    transform.publisher = message.publisher;
-    transform.is_static = message.is_static;
-    transform.stamp = std::chrono::seconds(seconds) + Time(nanoseconds);
-    transform.received = message.received.ros;
-    all.push_back(std::move(transform));
+/// Lists the transforms of messages. There can be 100,000, so it lists each name once.
+class TransformList {
+ public:
+  explicit TransformList(AuditCase& result) : result_(result) {}
+
+  /// Appends the transforms of a message; none if the bytes are no such message, because the node refuses it then.
+  void append(const ReceivedTransforms& message) {
+    Walk walk(message.message->bytes);
+    const std::size_t before = result_.transforms.size();
+    std::uint32_t count = 0;
+    bool valid = walk.read(count);
+    const std::uint32_t publisher = numberOf(message.publisher);
+    for (std::uint32_t i = 0; i < count && valid; ++i) {
+      RecordedTransform transform;
+      valid = readOne(walk, transform);
+      transform.publisher = publisher;
+      transform.is_static = message.is_static;
+      transform.received = message.received.ros;
+      result_.transforms.push_back(transform);
+    }
+    if (!valid || !walk.done()) result_.transforms.resize(before);
   }
-  if (!valid || !walk.done()) all.resize(before);
-}
+
+ private:
+  bool readOne(Walk& walk, RecordedTransform& transform) {
+    std::uint32_t sequence = 0, seconds = 0, nanoseconds = 0;
+    if (!walk.read(sequence) || !walk.read(seconds) || !walk.read(nanoseconds) || !walk.read(parent_) ||
+        !walk.read(child_) || !walk.read(transform.numbers)) {
+      return false;
+    }
+    transform.parent = numberOf(withoutFirstSlash(parent_));
+    transform.child = numberOf(withoutFirstSlash(child_));
+    transform.stamp = std::chrono::seconds(seconds) + Time(nanoseconds);
+    return true;
+  }
+  std::uint32_t numberOf(const std::string& name) {
+    const auto [entry, is_new] = numbers_.emplace(name, static_cast<std::uint32_t>(result_.names.size()));
+    if (is_new) result_.names.push_back(name);
+    return entry->second;
+  }
+
+  AuditCase& result_;
+  std::map<std::string, std::uint32_t> numbers_;  // sorted, because names come from outside and could collide in a hash
+  std::string parent_, child_;
+};
 
 /// Lists the pairs of links of one robot that the model of the robot switches off.
 void listSwitchedOff(const std::vector<Body>& bodies, AuditCase& result) {
@@ -175,7 +198,8 @@ AuditCase caseOf(const Tick& tick, const TransformRecord::Content& record, const
   result.made = tick.made.ros;
   result.world_frame = tick.world_frame;
   result.rules = snapshot.structure().filter.rules();
-  for (const TransformRecord::Message& message : record.messages) append(*message, result.transforms);
+  TransformList transforms(result);
+  for (const TransformRecord::Message& message : record.messages) transforms.append(*message);
   result.record_begin = record.begin;
   result.bodies = snapshot.structure().bodies;
   listSwitchedOff(result.bodies, result);

@@ -19,10 +19,12 @@ namespace hgrid {
 
 /// One transform as it was received.
 struct RecordedTransform {
-  std::string parent, child, publisher;
+  std::uint32_t parent = 0, child = 0, publisher = 0;  // indices into AuditCase::names
   bool is_static = false;
   Time stamp{0}, received{0};          // ROS time
   std::array<double, 7> numbers = {};  // translation x, y, z [m], then the quaternion x, y, z, w
+};                                     // ROS time
+std::array<double, 7> numbers = {};    // translation x, y, z [m], then the quaternion x, y, z, w
 };
 
 /// The occupied cells of a map or a cloud.
@@ -63,6 +65,7 @@ struct AuditCase {
   std::vector<PairRule> rules;  // the rules in force
 
   // What the node received.
+  std::vector<std::string> names;             // of frames and publishers, each once
   std::vector<RecordedTransform> transforms;  // in the order in which they were read; those of /tf_static first
   Time record_begin{0};                       // [ROS time] see TransformRecord::Content
   std::vector<Body> bodies;                   // sorted by name; `links` and `solid` are not used

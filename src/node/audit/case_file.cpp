@@ -288,6 +288,10 @@ void passCase(File& file, AuditCase& audited) {
   file.value(audited.world_frame);
   file.value(audited.truncated);
   passSettings(file, audited);
+  passAll(file, "names", audited.names, {}, [&](std::string& name) {
+    file.line("name");
+    file.value(name);
+  });
   passAll(file, "transforms", audited.transforms, {}, [&](RecordedTransform& transform) { pass(file, transform); });
   passAll(file, "bodies", audited.bodies, {}, [&](Body& body) { pass(file, body); });
   passAll(file, "poses", audited.poses, {}, [&](BodyPose& pose) { pass(file, pose); });
@@ -302,17 +306,22 @@ void passCase(File& file, AuditCase& audited) {
   file.line("end");
 }
 
-/// Checks that all numbers of bodies are those of bodies of the case.
+/// Checks that all numbers of bodies and names are those of bodies and names of the case.
 void checkIndices(const AuditCase& audited) {
   const std::size_t bodies = audited.bodies.size();
   bool valid = audited.poses.size() == bodies;
+  const std::size_t names = audited.names.size();
+  for (const RecordedTransform& transform : audited.transforms) {
+    valid = valid && transform.parent < names && transform.child < names && transform.publisher < names;
+  }
   for (const NearPair& pair : audited.pairs) valid = valid && pair.first < pair.second && pair.second < bodies;
   for (const RecordedCells& cells : audited.cells) valid = valid && cells.body < bodies;
   for (const RecordedQuery& query : audited.queries) {
     valid = valid && query.kind <= RecordedQuery::Kind::nearest;
     for (const RecordedQuery::Hit& hit : query.hits) valid = valid && hit.body < bodies;
   }
-  if (!valid) throw Refusal(Code::parse, "the audit file is not valid: a number of a body is not one of its bodies");
+  if (!valid)
+    throw Refusal(Code::parse, "the audit file is not valid: the number of a body or name is beyond its list");
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kFarthest = 1e9;  // [m] the node refuses transforms beyond it
 
-/// Whether the node uses a transform like this one.
+/// Whether the node uses a transform with these numbers and stamps.
 bool isValid(const RecordedTransform& transform, double max_future) {
   double norm = 0.0;
   for (std::size_t i = 0; i < 7; ++i) {
@@ -18,7 +18,6 @@ bool isValid(const RecordedTransform& transform, double max_future) {
     if (!std::isfinite(number) || (i < 3 && std::abs(number) > kFarthest)) return false;
     if (i >= 3) norm += number * number;
   }
-  if (transform.parent.empty() || transform.child.empty() || transform.parent == transform.child) return false;
   if (!(std::abs(norm - 1.0) <= kQuaternionTolerance)) return false;
   return transform.is_static || (transform.stamp.count() > 0 && transform.received.count() > 0 &&
                                  seconds(transform.stamp - transform.received) <= max_future);
@@ -26,33 +25,36 @@ bool isValid(const RecordedTransform& transform, double max_future) {
 
 }  // namespace
 
-RecordedFrames::RecordedFrames(const AuditCase& audited) {
-  for (const RecordedTransform& transform : audited.transforms) add(transform, audited);
+RecordedFrames::RecordedFrames(const AuditCase& audited) : audited_(audited), frames_(audited.names.size()) {
+  for (std::size_t number = 0; number < audited.names.size(); ++number) numbers_.emplace(audited.names[number], number);
+  for (const RecordedTransform& transform : audited.transforms) add(transform);
   for (Frame& frame : frames_) finish(frame);
 }
 
-std::size_t RecordedFrames::numberOf(const std::string& name) {
-  const auto [entry, is_new] = numbers_.emplace(name, frames_.size());
-  if (is_new) frames_.emplace_back();
-  return entry->second;
+/// Returns the number of a frame; empty if no transform names it.
+std::optional<std::size_t> RecordedFrames::numberOf(const std::string& name) const {
+  const auto found = numbers_.find(name);
+  if (found == numbers_.end()) return std::nullopt;
+  return found->second;
 }
 
-void RecordedFrames::add(const RecordedTransform& transform, const AuditCase& audited) {
-  const std::size_t parent = numberOf(transform.parent);
-  Frame& frame = frames_[numberOf(transform.child)];
-  if (!isValid(transform, audited.max_future)) {
+void RecordedFrames::add(const RecordedTransform& transform) {
+  Frame& frame = frames_[transform.child];
+  if (transform.parent == transform.child || audited_.names[transform.parent].empty() ||
+      audited_.names[transform.child].empty() || !isValid(transform, audited_.max_future)) {
     frame.doubtful = true;
     return;
   }
   const auto& n = transform.numbers;
   Sample sample;
   sample.stamp = transform.stamp;
-  sample.parent = parent;
+  sample.parent = transform.parent;
   sample.rotation = Eigen::Quaterniond(n[6], n[3], n[4], n[5]).normalized();
   sample.translation = Eigen::Vector3d(n[0], n[1], n[2]);
   (transform.is_static ? frame.fixed : frame.moves) = true;
-  if (!frame.publisher.empty() && frame.publisher != transform.publisher) frame.doubtful = true;
+  if (frame.has_publisher && frame.publisher != transform.publisher) frame.doubtful = true;
   frame.publisher = transform.publisher;
+  frame.has_publisher = true;
   if (transform.is_static) frame.samples.clear();  // the newest one counts
   frame.samples.push_back(sample);
 }
@@ -81,10 +83,10 @@ std::vector<std::size_t> RecordedFrames::ancestors(std::size_t frame) const {
 std::optional<RecordedFrames::Chain> RecordedFrames::chain(const std::string& target, const std::string& frame) const {
   Chain chain;
   if (target == frame) return chain;
-  const auto from = numbers_.find(target), to = numbers_.find(frame);
-  if (from == numbers_.end() || to == numbers_.end()) return std::nullopt;
-  chain.up = ancestors(from->second);
-  chain.down = ancestors(to->second);
+  const auto from = numberOf(target), to = numberOf(frame);
+  if (!from || !to) return std::nullopt;
+  chain.up = ancestors(*from);
+  chain.down = ancestors(*to);
   if (chain.up.empty() || chain.down.empty() || chain.up.back() != chain.down.back()) return std::nullopt;
   while (!chain.up.empty() && !chain.down.empty() && chain.up.back() == chain.down.back()) {
     chain.up.pop_back();

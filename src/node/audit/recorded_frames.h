@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "node/audit/audit_case.h"
@@ -17,6 +17,7 @@ namespace hgrid {
 /// is not valid. Which of their transforms count is a decision of the node that the audit does not repeat.
 class RecordedFrames {
  public:
+  /// @param audited  must outlive this object
   explicit RecordedFrames(const AuditCase& audited);
 
   /// The transforms between two frames.
@@ -47,18 +48,20 @@ class RecordedFrames {
   };
   struct Frame {
     std::vector<Sample> samples;  // by stamp, each stamp once; a static frame has one sample
-    std::string publisher;
+    std::uint32_t publisher = 0;
+    bool has_publisher = false;
     bool moves = false, fixed = false, doubtful = false;
   };
 
-  std::size_t numberOf(const std::string& name);
-  void add(const RecordedTransform& transform, const AuditCase& audited);
+  std::optional<std::size_t> numberOf(const std::string& name) const;
+  void add(const RecordedTransform& transform);
   void finish(Frame& frame);
   std::vector<std::size_t> ancestors(std::size_t frame) const;
   std::optional<Pose> edgeAt(std::size_t frame, Time time) const;
 
-  std::unordered_map<std::string, std::size_t> numbers_;
-  std::vector<Frame> frames_;
+  const AuditCase& audited_;
+  std::map<std::string, std::size_t> numbers_;
+  std::vector<Frame> frames_;  // for each of AuditCase::names
 };
 
 }  // namespace hgrid
