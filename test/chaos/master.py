@@ -10,7 +10,7 @@ import xmlrpc.client
 sys.path.insert(0, str(pathlib.Path(__file__).with_name("support")))
 
 from cell import FREE, HAND, NAME, expect, robot  # noqa: E402  (the path comes first)
-from chaos import Deadline, calm_after, main  # noqa: E402
+from chaos import FLOW, Deadline, calm_after, main  # noqa: E402
 
 
 def check_service(cell, seconds, what):
@@ -23,7 +23,7 @@ def check_service(cell, seconds, what):
         answers += 2
         time.sleep(0.01)  # else the questions of this program would be the load
     ticks = (cell.status().world.sequence - first) / (time.monotonic() - begin)
-    expect("ticks per second while " + what, "at least 40 of 50", "%.1f" % ticks, ticks >= 40)
+    expect("ticks per second while " + what, "at least %g of 50" % (50 * FLOW), "%.1f" % ticks, ticks >= 50 * FLOW)
     print("while %s: %d answers, %.1f ticks per second" % (what, answers, ticks))
 
 

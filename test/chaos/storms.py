@@ -10,13 +10,12 @@ import time
 sys.path.insert(0, str(pathlib.Path(__file__).with_name("support")))
 
 from cell import AUDIT, expect  # noqa: E402  (the path comes first)
-from chaos import calm_after, main  # noqa: E402
+from chaos import FLOW, calm_after, main  # noqa: E402
 
 FLOOD = str(pathlib.Path(__file__).with_name("support") / "flood.py")
 RATE = 5000.0  # [Hz] messages of each kind
 KINDS = ("tf", "tf_static", "cloud", "map")
 GROWTH = 80.0 if AUDIT else 30.0  # [MB] the audit keeps up to ~tf_queue_bytes of each topic of tf
-TICKS = 0.8  # share of the ticks that must come, although the floods need the processors too
 DECIDED = ("tf.accepted", "tf.refused.", "tf.dropped.", "tf.ignored.", "tf.too_old", "tf.repeated", "tf.rival")
 INPUTS = {  # topic -> beginnings of the counters of its messages
     "/cloud": ("cloud/front.accepted", "cloud/front.refused."),
@@ -79,7 +78,7 @@ def storms(cell, rng, seconds):
         lasted = time.monotonic() - begin
         share = (cell.status().world.sequence - sequence) / (50.0 * lasted)
         print("sent in %.1f s: %s; %.0f %% of the ticks came" % (lasted, sent, 100 * share))
-        expect("share of the ticks during the storm", "at least %g" % TICKS, "%.3f" % share, share >= TICKS)
+        expect("share of the ticks during the storm", "at least %g" % FLOW, "%.3f" % share, share >= FLOW)
         check_tf(cell, sent["tf"] + sent["tf_static"], total(earlier, DECIDED))
         check_input(cell, "/cloud", sent["cloud"], total(earlier, INPUTS["/cloud"]))
         check_input(cell, "/octomap_binary", sent["map"], total(earlier, INPUTS["/octomap_binary"]))

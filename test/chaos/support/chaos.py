@@ -14,6 +14,7 @@ import traceback
 from cell import AUDIT, Cell, Failure, expect, resident
 
 PATIENCE = 180  # [s] a test that takes longer than its chaos by this hangs
+FLOW = 0.5  # share of the ticks that must come during the chaos; other programs may need the processors too
 GROWTH = 8.0  # [MB] the memory of the node may be larger by this after the chaos
 
 
