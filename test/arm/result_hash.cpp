@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
 // Prints hashes of the answers of the broad phase and of a map to random queries with fixed seeds, one line for each
-// kind of query. Every processor and every instruction set must print the same lines.
+// kind of query. Every processor, instruction set, compiler and level of optimization must print the same lines.
 #include <algorithm>
 #include <cstdio>
 #include <cstring>

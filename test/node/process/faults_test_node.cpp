@@ -3,7 +3,8 @@
 //
 // The node with a narrow phase that throws exceptions for tests. The parameter ~fault names the function that throws;
 // ~fault_kind is the kind of the exception. While ~fault is "hang", measurements do not end. If the environment
-// variable HGRID_MOST_THREADS is set, the node can create only so many threads, not counting those of roscpp.
+// variable HGRID_MOST_THREADS is set, the node can create only so many threads, not counting those of roscpp. The exit
+// code is 2 if the node destroys its parts while threads still use them.
 #include <dlfcn.h>
 #include <pthread.h>
 #include <ros/ros.h>
@@ -12,17 +13,59 @@
 #include <cerrno>
 #include <cstdlib>
 #include <limits>
+#include <memory>
 #include <new>
 #include <stdexcept>
 
 #include "hgrid_proximity/adapters/fcl.h"
 #include "src/node/proximity_node.h"
 
+namespace {
+
+std::atomic<int> g_threads_left{std::numeric_limits<int>::max()};  // number of threads that can still be created
+std::atomic<int> g_threads_alive{0};
+
+struct ThreadStart {
+  void* (*function)(void*);
+  void* argument;
+};
+
+void* countWhileAlive(void* start) {
+  const std::unique_ptr<ThreadStart> given(static_cast<ThreadStart*>(start));
+  void* const result = given->function(given->argument);
+  --g_threads_alive;
+  return result;
+}
+
+}  // namespace
+
+/// Replaces the function of the system. Counts the threads, and fails when no thread is left.
+extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*function)(void*),
+                              void* argument) {
+  using Create = int (*)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*);
+  static const Create create = reinterpret_cast<Create>(dlsym(RTLD_NEXT, "pthread_create"));
+  if (g_threads_left-- <= 0) return EAGAIN;
+  ++g_threads_alive;
+  auto start = std::make_unique<ThreadStart>(ThreadStart{function, argument});
+  const int error = create(thread, attributes, countWhileAlive, start.get());
+  if (error == 0) {
+    start.release();
+  } else {
+    --g_threads_alive;
+  }
+  return error;
+}
+
 namespace hgrid {
 namespace {
 
 class FaultyPhase final : public NarrowPhase {
  public:
+  /// The node destroys this object after the parts that its threads use. So none of these threads may be left. The
+  /// exception is the thread of roscpp for timers.
+  ~FaultyPhase() override {
+    if (g_threads_alive > alive_before_ + 1) std::_Exit(2);
+  }
   std::shared_ptr<const Solid> solidOf(const Shape& shape) override {
     throwIf("solidOf");
     return sound_->solidOf(shape);
@@ -57,25 +100,12 @@ class FaultyPhase final : public NarrowPhase {
     if (kind == "memory") throw std::bad_alloc();
     throw std::runtime_error("a fault in " + function);
   }
+  const int alive_before_ = g_threads_alive;
   std::shared_ptr<NarrowPhase> sound_ = makeFclNarrowPhase();
 };
 
 }  // namespace
 }  // namespace hgrid
-
-namespace {
-
-std::atomic<int> g_threads_left{std::numeric_limits<int>::max()};
-
-}  // namespace
-
-/// Replaces the function of the system, and fails when no thread is left.
-extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*function)(void*),
-                              void* argument) {
-  using Create = int (*)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*);
-  static const Create create = reinterpret_cast<Create>(dlsym(RTLD_NEXT, "pthread_create"));
-  return g_threads_left-- > 0 ? create(thread, attributes, function, argument) : EAGAIN;
-}
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "proximity");
