@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <cstddef>
 #include <cstdlib>
 #include <string>
 
@@ -16,6 +17,12 @@ namespace test {
 inline std::string built(const std::string& path) {
   const char* devel = std::getenv("HGRID_TEST_DEVEL");
   return devel == nullptr ? path : devel + path.substr(path.rfind("/lib/"));
+}
+
+/// Returns by how much the memory of the node may grow while it refuses bad input [kB]. A node that was built with a
+/// sanitizer needs several times as much memory.
+inline std::size_t mostGrowth(std::size_t kilobytes) {
+  return std::getenv("HGRID_TEST_DEVEL") == nullptr ? kilobytes : 20 * kilobytes;
 }
 
 }  // namespace test

@@ -13,6 +13,7 @@
 #include <limits>
 #include <optional>
 
+#include "test/node/support/built.h"
 #include "test/node/support/claims.h"
 #include "test/node/support/descriptions.h"
 #include "test/node/support/random_message.h"
@@ -22,8 +23,6 @@
 namespace hgrid {
 namespace test {
 namespace {
-
-constexpr std::size_t kMostGrowth = 8000;  // [kB] limit for the growth of the node's memory while it refuses messages
 
 /// Returns how many transforms or whole messages of tf the node has accepted, refused, dropped or ignored.
 std::uint64_t decided(const msg::Status& status) {
@@ -67,7 +66,7 @@ class Lengths : public ::testing::Test {
                          [&](const msg::Status& status) { return counter(status, "tf.refused." + code) == count; });
   }
   void expectUnharmed() {
-    EXPECT_LT(peakKilobytes(node_->process().pid()), memory_ + kMostGrowth) << "kB";
+    EXPECT_LT(peakKilobytes(node_->process().pid()), memory_ + mostGrowth(8000)) << "kB";
     EXPECT_NEAR(xOf(*node_, "robot/a"), 0.0, 1e-6);
     EXPECT_TRUE(node_->heard().status.back()->world.complete);
   }
