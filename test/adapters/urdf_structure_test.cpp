@@ -112,6 +112,15 @@ TEST(UrdfStructure, AFarJointIsRefusedOrFinite) {  // a model must not contain i
   EXPECT_TRUE(says(sentence, "j1"));
 }
 
+TEST(UrdfStructure, ANegativeVelocityLimitIsNotUsedAndIsNamed) {
+  const RobotModel model =
+      read(robot(link("a") + link("b") +
+                 joint("j", "a", "b", "revolute", "<limit lower=\"0\" upper=\"1\" velocity=\"-12\" effort=\"3\"/>")));
+  EXPECT_EQ(model.links[1].max_velocity, 0.0);
+  ASSERT_EQ(model.warnings.size(), 1u);
+  EXPECT_EQ(model.warnings[0], "joint 'j' has the velocity limit -12; it must not be negative and is not used");
+}
+
 }  // namespace
 }  // namespace test
 }  // namespace hgrid

@@ -6,6 +6,7 @@
 #include <urdf_model/model.h>
 #include <urdf_parser/urdf_parser.h>
 
+#include <algorithm>
 #include <map>
 #include <mutex>
 
@@ -220,7 +221,11 @@ RobotLink linkOf(const urdf::Link& source, int parent, const ShapeLimits& limits
     warnings.push_back(what + " has an axis of length " + text(axis.norm()) + "; its x axis is used instead");
   }
   if (joint.limits) {
-    link.max_velocity = joint.limits->velocity;
+    link.max_velocity = std::max(joint.limits->velocity, 0.0);
+    if (joint.limits->velocity < 0.0) {
+      warnings.push_back(what + " has the velocity limit " + text(joint.limits->velocity) +
+                         "; it must not be negative and is not used");
+    }
     link.lower = joint.limits->lower;
     link.upper = joint.limits->upper;
   }
