@@ -325,8 +325,8 @@ NODE = [
     ("a change that has begun is answered BUSY", JOBS,
      "if (!request->leaveWaiting(State::withdrawn)) continue;", "request->leaveWaiting(State::withdrawn);"),
     ("a change that failed is not tried again", JOBS,
-     "return !guarded(ledger, \"job.failed\", [&] { job(world); });",
-     "guarded(ledger, \"job.failed\", [&] { job(world); }); return true;"),
+     "return !guarded(ledger, \"job.failed\", [&] { one.job(world); });",
+     "guarded(ledger, \"job.failed\", [&] { one.job(world); }); return true;"),
     ("the durations of old ticks are never replaced", STOPWATCH,
      "ring.values[ring.next] = value;", ""),
 
