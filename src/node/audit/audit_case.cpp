@@ -2,11 +2,10 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/audit/audit_case.h"
 
-#include <cstring>
 #include <map>
 #include <random>
 
-#include "hgrid_proximity/refusal.h"
+#include "node/audit/visit_transforms.h"
 
 namespace hgrid {
 namespace {
@@ -14,75 +13,32 @@ namespace {
 constexpr std::size_t kMostMapCells = 1000000;  // cells of larger maps are left out
 constexpr int kQueries = 8;                     // number of queries of an audit; two of each kind
 
-/// Reads the values of a serialized tf2_msgs/TFMessage. It checks each length before it reads.
-class Walk {
- public:
-  explicit Walk(const std::string& bytes) : at_(bytes.data()), left_(bytes.size()) {}
-
-  template <class Value>
-  bool read(Value& value) {
-    if (left_ < sizeof value) return false;
-    std::memcpy(&value, at_, sizeof value);
-    skip(sizeof value);
-    return true;
-  }
-  bool read(std::string& text) {
-    std::uint32_t length = 0;
-    if (!read(length) || left_ < length) return false;
-    text.assign(at_, length);
-    skip(length);
-    return true;
-  }
-  bool done() const { return left_ == 0; }
-
- private:
-  void skip(std::size_t count) {
-    at_ += count;
-    left_ -= count;
-  }
-  const char* at_;
-  std::size_t left_;
-};
-
-std::string withoutFirstSlash(const std::string& frame) {
-  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
-}
-
-/// Lists the transforms of messages. There can be 100,000, so it lists each name once.
+/// Lists transforms. There can be 100,000, so it lists each name once.
 class TransformList {
  public:
   explicit TransformList(AuditCase& result) : result_(result) {}
 
-  /// Appends the transforms of a message; none if the bytes are no such message, because the node refuses it then.
+  /// Appends the transforms of a message on /tf; none if the bytes are no such message, because the node refuses it.
   void append(const ReceivedTransforms& message) {
-    Walk walk(message.message->bytes);
     const std::size_t before = result_.transforms.size();
-    std::uint32_t count = 0;
-    bool valid = walk.read(count);
-    const std::uint32_t publisher = numberOf(message.publisher);
-    for (std::uint32_t i = 0; i < count && valid; ++i) {
-      RecordedTransform transform;
-      valid = readOne(walk, transform);
-      transform.publisher = publisher;
-      transform.is_static = message.is_static;
-      transform.received = message.received.ros;
-      result_.transforms.push_back(transform);
-    }
-    if (!valid || !walk.done()) result_.transforms.resize(before);
+    const bool valid = visitTransforms(message.message->bytes, [&](const SerializedTransform& transform) {
+      append(transform, message.publisher, false, message.received.ros);
+    });
+    if (!valid) result_.transforms.resize(before);
+  }
+  void append(const SerializedTransform& transform, const std::string& publisher, bool is_static, Time received) {
+    RecordedTransform result;
+    result.parent = numberOf(transform.parent);
+    result.child = numberOf(transform.child);
+    result.publisher = numberOf(publisher);
+    result.is_static = is_static;
+    result.stamp = transform.stamp;
+    result.received = received;
+    result.numbers = transform.numbers;
+    result_.transforms.push_back(result);
   }
 
  private:
-  bool readOne(Walk& walk, RecordedTransform& transform) {
-    std::uint32_t sequence = 0, seconds = 0, nanoseconds = 0;
-    if (!walk.read(sequence) || !walk.read(seconds) || !walk.read(nanoseconds) || !walk.read(parent_) ||
-        !walk.read(child_) || !walk.read(transform.numbers)) {
-      return false;
-    }
-    transform.parent = numberOf(withoutFirstSlash(parent_));
-    transform.child = numberOf(withoutFirstSlash(child_));
-    transform.stamp = std::chrono::seconds(seconds) + Time(nanoseconds);
-    return true;
-  }
   std::uint32_t numberOf(const std::string& name) {
     const auto [entry, is_new] = numbers_.emplace(name, static_cast<std::uint32_t>(result_.names.size()));
     if (is_new) result_.names.push_back(name);
@@ -91,7 +47,6 @@ class TransformList {
 
   AuditCase& result_;
   std::map<std::string, std::uint32_t> numbers_;  // sorted, because names come from outside and could collide in a hash
-  std::string parent_, child_;
 };
 
 /// Lists the pairs of links of one robot that the model of the robot switches off.
@@ -185,9 +140,6 @@ void takeSettings(const Params& params, AuditCase& result) {
 
 AuditCase caseOf(const Tick& tick, const TransformRecord::Content& record, const Params& params,
                  std::uint64_t config_hash, std::uint64_t seed, const NarrowPhase& narrow_phase) {
-  if (record.overflown)
-    throw Refusal(Code::limit,
-                  "the messages on /tf_static have more bytes than ~tf_queue_bytes; no tick can be audited");
   const Snapshot& snapshot = *tick.snapshot;
   AuditCase result;
   takeSettings(params, result);
@@ -199,7 +151,9 @@ AuditCase caseOf(const Tick& tick, const TransformRecord::Content& record, const
   result.world_frame = tick.world_frame;
   result.rules = snapshot.structure().filter.rules();
   TransformList transforms(result);
-  for (const TransformRecord::Message& message : record.messages) transforms.append(*message);
+  for (const auto& [key, transform] : record.fixed) transforms.append(transform, key.second, true, Time(0));
+  for (const TransformRecord::Message& message : record.moving) transforms.append(*message);
+  result.all_static = record.all_static;
   result.record_begin = record.begin;
   result.bodies = snapshot.structure().bodies;
   listSwitchedOff(result.bodies, result);

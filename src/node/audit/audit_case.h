@@ -67,6 +67,7 @@ struct AuditCase {
   // What the node received.
   std::vector<std::string> names;             // of frames and publishers, each once
   std::vector<RecordedTransform> transforms;  // in the order in which they were read; those of /tf_static first
+  bool all_static = true;                     // see TransformRecord::Content
   Time record_begin{0};                       // [ROS time] see TransformRecord::Content
   std::vector<Body> bodies;                   // sorted by name; `links` and `solid` are not used
   std::vector<std::pair<std::uint32_t, std::uint32_t>> switched_off;  // pairs of links, by the robots' models; sorted
@@ -82,7 +83,6 @@ struct AuditCase {
 /// Collects the case of one tick, and asks it some random queries.
 /// @param tick  a tick with a snapshot
 /// @param seed  decides about the queries
-/// @throws Refusal limit if the record or the world is too large for an audit
 AuditCase caseOf(const Tick& tick, const TransformRecord::Content& record, const Params& params,
                  std::uint64_t config_hash, std::uint64_t seed, const NarrowPhase& narrow_phase);
 

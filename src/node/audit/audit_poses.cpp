@@ -116,7 +116,8 @@ void auditPoses(const AuditCase& audited, AuditFindings& findings) {
     const auto& chain = entry->second;
     const BodyPose& pose = audited.poses[i];
     bool compared = body.kind != BodyKind::cloud && chain && !chain->doubtful;
-    if (!chain && pose.state != Freshness::unplaced && body.kind != BodyKind::cloud && pose.stamp > explained_from) {
+    if (!chain && audited.all_static && pose.state != Freshness::unplaced && body.kind != BodyKind::cloud &&
+        pose.stamp > explained_from) {
       findings.add(unexplained(body, pose));
     }
     if (compared) {

@@ -34,7 +34,8 @@ Auditor::Auditor(Commons& commons)
       is_on_(commons.settings.params.audit_rate > 0.0),
       period_(is_on_ ? Time(std::llround(1e9 / commons.settings.params.audit_rate)) : Time(0)),
       record_(Time(std::llround(1e9 * (kWindow + commons.settings.params.max_sync_wait))),
-              static_cast<std::size_t>(commons.settings.params.tf_queue_bytes)) {
+              static_cast<std::size_t>(commons.settings.params.tf_queue_bytes),
+              static_cast<std::size_t>(commons.settings.params.max_frames)) {
   if (!is_on_) return;
   worker_ = std::make_unique<NewestOnly<Request>>([this](const Request& request) {
     if (guarded(commons_.ledger, "audit.failed", [&] { work(request); })) commons_.ledger.count("audit.skipped");

@@ -287,6 +287,7 @@ void passCase(File& file, AuditCase& audited) {
   pass(file, audited.record_begin);
   file.value(audited.world_frame);
   file.value(audited.truncated);
+  file.value(audited.all_static);
   passSettings(file, audited);
   passAll(file, "names", audited.names, {}, [&](std::string& name) {
     file.line("name");

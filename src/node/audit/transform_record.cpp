@@ -26,15 +26,21 @@ void TransformRecord::ends(bool complete) {
 }
 
 void TransformRecord::keepStatic(const ReceivedTransforms& message) {
-  const auto last = std::find_if(static_.rbegin(), static_.rend(),
-                                 [&](const Message& other) { return other->publisher == message.publisher; });
-  if (last != static_.rend() && (*last)->message->bytes == message.message->bytes) return;
-  if (static_bytes_ + bytesOf(message) > most_bytes_) {
-    overflown_ = true;
-    return;
+  StaticTransforms kept;
+  const bool valid = visitTransforms(message.message->bytes, [&](const SerializedTransform& transform) {
+    kept.insert_or_assign({transform.child, message.publisher}, transform);
+  });
+  if (!valid) return;  // the node refuses it
+  for (auto& [key, transform] : kept) {
+    const auto known = fixed_.find(key);
+    if (known != fixed_.end()) {
+      known->second = transform;
+    } else if (fixed_.size() < most_static_) {
+      fixed_.emplace(key, transform);
+    } else {
+      all_static_ = false;
+    }
   }
-  static_.push_back(std::make_shared<const ReceivedTransforms>(message));
-  static_bytes_ += bytesOf(message);
 }
 
 void TransformRecord::dropOldest() {
@@ -51,10 +57,10 @@ void TransformRecord::forgetMoving(Time now) {
 
 TransformRecord::Content TransformRecord::content() const {
   Content content;
-  content.messages.assign(static_.begin(), static_.end());
-  content.messages.insert(content.messages.end(), moving_.begin(), moving_.end());
+  content.fixed = fixed_;
+  content.moving.assign(moving_.begin(), moving_.end());
   content.begin = begin_;
-  content.overflown = overflown_;
+  content.all_static = all_static_;
   return content;
 }
 

@@ -4,9 +4,13 @@
 
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "node/audit/visit_transforms.h"
 #include "node/tf/tf_listener.h"
 
 namespace hgrid {
@@ -14,23 +18,26 @@ namespace hgrid {
 /// Stores the messages of /tf and /tf_static as they were received, for a short time, so that an audit can compute
 /// poses from them again. Only the tick thread may use it.
 ///
-/// It stores bytes and deserializes nothing. The messages of /tf_static are never dropped, because each transform is
-/// sent only once. A message of /tf_static that repeats the last one of its publisher is not stored again.
+/// The transforms of /tf_static are kept for ever, because each is sent only once: the newest for each publisher and
+/// child.
 class TransformRecord : public TfListener {
  public:
   using Message = std::shared_ptr<const ReceivedTransforms>;
+  using StaticTransforms = std::map<std::pair<std::string, std::string>, SerializedTransform>;  ///< by child, publisher
 
   /// What the record has at one moment.
   struct Content {
-    std::vector<Message> messages;  ///< of /tf_static, then of /tf; each in the order in which they were read
-    Time begin{0};                  ///< [ROS time] messages of /tf that were received until then may be missing
-    bool overflown = false;         ///< whether there were too many messages of /tf_static, so that some are missing
+    StaticTransforms fixed;
+    std::vector<Message> moving;  ///< messages of /tf in the order in which they were read
+    Time begin{0};                ///< [ROS time] messages of /tf that were received until then may be missing
+    bool all_static = true;       ///< whether there was room for all transforms of /tf_static
   };
 
-  /// @param window      how long a message of /tf is kept
-  /// @param most_bytes  largest number of bytes that the messages of each topic may have; then the oldest of /tf are
-  /// dropped
-  TransformRecord(Time window, std::size_t most_bytes) : window_(window), most_bytes_(most_bytes) {}
+  /// @param window       how long a message of /tf is kept
+  /// @param most_bytes   [bytes] how much the messages of /tf may have; then the oldest are dropped
+  /// @param most_static  how many transforms of /tf_static are kept
+  TransformRecord(Time window, std::size_t most_bytes, std::size_t most_static)
+      : window_(window), most_bytes_(most_bytes), most_static_(most_static) {}
 
   void begins(const ReceivedTransforms& message) override;
   void ends(bool complete) override;
@@ -46,11 +53,14 @@ class TransformRecord : public TfListener {
   void dropOldest();
 
   const Time window_;
-  const std::size_t most_bytes_;
-  std::deque<Message> moving_, static_;
-  std::size_t moving_bytes_ = 0, static_bytes_ = 0;
+  const std::size_t most_bytes_, most_static_;
+  std::deque<Message> moving_;
+  StaticTransforms fixed_;
+  std::size_t moving_bytes_ = 0;
   Time begin_{0};
-  bool overflown_ = false, reading_ = false;
+  bool all_static_ = true, reading_ = false;
+};
+bool overflown_ = false, reading_ = false;
 };
 
 }  // namespace hgrid

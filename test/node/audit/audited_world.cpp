@@ -81,7 +81,7 @@ Params AuditedWorld::defaults() {
 AuditedWorld::AuditedWorld(unsigned seed, const Params& params)
     : world_({"hub", "slow"}, SimulatedWorld::Clock::wall, params),
       random_(seed),
-      record_(std::chrono::seconds(2), 1 << 24) {
+      record_(std::chrono::seconds(2), 1 << 24, 1000) {
   send(randomTransform("f0", "tip", 0.0), true);
 }
 
