@@ -41,12 +41,16 @@ struct StlWords {
   bool ended = false;  ///< whether an `endsolid` follows the last `solid`
 };
 
-/// Refuses a text STL file that ends before `endsolid`, or whose facets do not all have 3 vertices. The parser would
-/// accept such a file and leave out triangles.
+/// Refuses a text STL file that ends before `endsolid`, has a zero byte, or has a facet without 3 vertices. The parser
+/// would accept such a file and leave out triangles.
 /// @throws Refusal truncated, parse
 inline void checkStl(const std::string& data) {
   const std::size_t first = std::min(data.find_first_not_of(StlWords::kBlanks), data.size());
   if (isBinaryStl(data) || data.compare(first, 5, "solid") != 0) return;
+  if (data.find('\0') != std::string::npos) {
+    throw Refusal(Code::parse, "it has a zero byte at byte " + std::to_string(data.find('\0')) +
+                                   "; a text STL file must not contain one");
+  }
   const StlWords words(data);
   if (!words.ended) {
     throw Refusal(Code::truncated,
