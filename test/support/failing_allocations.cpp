@@ -50,6 +50,14 @@ __attribute__((noinline)) void* operator new(std::size_t size, std::align_val_t 
 __attribute__((noinline)) void* operator new[](std::size_t size, std::align_val_t alignment) {
   return hgrid::test::allocated(size, static_cast<std::size_t>(alignment));
 }
+// As in the standard library. A sanitizer has a function of its own, whose memory must not be passed to free().
+__attribute__((noinline)) void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  try {
+    return operator new(size);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
 __attribute__((noinline)) void operator delete(void* memory) noexcept { std::free(memory); }
 __attribute__((noinline)) void operator delete[](void* memory) noexcept { std::free(memory); }
 __attribute__((noinline)) void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
