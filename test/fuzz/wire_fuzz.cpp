@@ -54,7 +54,7 @@ std::string flawOfUse(const msg::QueryBox::Request& request, const std::string&)
 }
 std::string flawOfUse(const msg::QueryShape::Request& request, const std::string&) {
   const Pose pose = fromPose(request.shape.pose, "the query's shape");
-  const Shape shape = fromShape(request.shape);
+  const Shape shape = fromShape(request.shape, ShapeLimits{}, 1000000);
   if (!pose.matrix().allFinite()) return "a pose is not finite";
   return isValid(boxOf(shape, Pose::Identity(), 0.0, Eigen::Vector3d::Zero())) ? "" : "a shape is not valid";
 }

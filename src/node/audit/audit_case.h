@@ -23,8 +23,6 @@ struct RecordedTransform {
   bool is_static = false;
   Time stamp{0}, received{0};          // ROS time
   std::array<double, 7> numbers = {};  // translation x, y, z [m], then the quaternion x, y, z, w
-};                                     // ROS time
-std::array<double, 7> numbers = {};    // translation x, y, z [m], then the quaternion x, y, z, w
 };
 
 /// The occupied cells of a map or a cloud.

@@ -60,7 +60,5 @@ class TransformRecord : public TfListener {
   Time begin_{0};
   bool all_static_ = true, reading_ = false;
 };
-bool overflown_ = false, reading_ = false;
-};
 
 }  // namespace hgrid

@@ -87,7 +87,7 @@ TEST(TickJobsRun, NeverDoesARefusedJobLater) {
   TickJobs jobs([] { return false; }, std::chrono::milliseconds(20));
   int refused = 0, accepted = 0;
   EXPECT_EQ(refusalOf(jobs, [&](World&) { ++refused; }).code(), Code::busy);
-  jobs.add([&](World&) { ++accepted; });  // the queue keeps its order
+  jobs.add("a", [&](World&) { ++accepted; });  // the queue keeps its order
   const Params params;
   Ledger ledger;
   World world(params, false, 1, ledger, makeFclNarrowPhase());
@@ -152,10 +152,10 @@ TEST(TickJobs, AreDoneAgainUntilTheySucceed) {
   World world(params, false, 1, ledger, makeFclNarrowPhase());
   TickJobs jobs;
   int tries = 0, others = 0;
-  jobs.add([&](World&) {
+  jobs.add("a", [&](World&) {
     if (++tries < 3) throw std::runtime_error("not yet");
   });
-  jobs.add([&](World&) { ++others; });
+  jobs.add("b", [&](World&) { ++others; });
   for (int tick = 0; tick < 5; ++tick) jobs.doAll(world, ledger);
   EXPECT_EQ(tries, 3);
   EXPECT_EQ(others, 1);
