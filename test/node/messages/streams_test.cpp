@@ -141,14 +141,14 @@ TEST(Streams, TwoNodesSayTheSameOfTheSameWorldByteForByte) {
   EXPECT_EQ(bytesOf(*one.heard().pairs.back()), bytesOf(*other.heard().pairs.back()));
 }
 
-TEST(Diagnostics, HasFourStatuses) {
+TEST(Diagnostics, HasFiveStatuses) {
   NodeSetup setup;
   setup.beside["robot_description"] = balls({"a", "b"});
   NodeUnderTest node(setup);
-  node.waitUntil("all statuses", [](const Heard& all) { return all.diagnostics.size() >= 4; });
+  node.waitUntil("all statuses", [](const Heard& all) { return all.diagnostics.size() >= 5; });
   const auto all = node.heard().diagnostics;
-  EXPECT_EQ(all.size(), 4u);
-  for (const char* name : {"world", "robots", "transforms", "ticks"}) EXPECT_EQ(all.count(name), 1u) << name;
+  EXPECT_EQ(all.size(), 5u);
+  for (const char* name : {"world", "robots", "transforms", "ticks", "audit"}) EXPECT_EQ(all.count(name), 1u) << name;
   node.waitUntil("the missing frame is reported", [](const Heard& heard) {
     const auto& world = heard.diagnostics.at("world");
     const auto& transforms = heard.diagnostics.at("transforms");
