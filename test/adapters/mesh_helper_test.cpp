@@ -16,6 +16,7 @@
 
 #include "src/adapters/mesh/mesh_stream.h"
 #include "test/adapters/temporary_folder.h"
+#include "test/support/few_files.h"
 #include "test/support/refusals.h"
 #include "test/support/robots.h"
 
@@ -103,6 +104,23 @@ TEST_F(MeshHelper, ACrashIsRefused) {
     EXPECT_EQ(refusalWith(behavior), Code::truncated) << behavior;
     EXPECT_TRUE(says(sentence_, "corner.stl"));
   }
+}
+
+/// Claim: however few further files the process may open, for the mesh or for the pipe to the helper, the refusal says
+/// that a limit is reached.
+TEST_F(MeshHelper, WithoutAPipeOrAFileIsALimit) {
+  ASSERT_EQ(refusalWith("crash"), Code::truncated) << "the fake helper is not there";
+  bool pipe = false;
+  for (int more = 0; more < 8; ++more) {
+    Code code = Code::ok;
+    {
+      const FewFiles few(more);
+      code = refusalWith("crash");
+    }
+    EXPECT_TRUE(code == Code::limit || code == Code::truncated) << more << " " << sentence_;
+    pipe = pipe || sentence_.find("cannot create a pipe") != std::string::npos;
+  }
+  EXPECT_TRUE(pipe) << "no refusal was about a pipe";
 }
 
 TEST_F(MeshHelper, AHangIsRefusedWhenItsTimeIsUp) {

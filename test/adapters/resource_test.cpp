@@ -8,13 +8,13 @@
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <poll.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
 
 #include "test/adapters/temporary_folder.h"
+#include "test/support/few_files.h"
 #include "test/support/refusals.h"
 #include "test/support/robots.h"
 
@@ -177,23 +177,6 @@ TEST_F(Resource, MissingFilesAreReported) {
   policy_.package_path = nullptr;
   EXPECT_EQ(refusal("package://p/meshes/a.stl"), Code::resource_missing) << "without package_path no package is known";
 }
-
-/// Lets this process open only `more` further files, until it is destroyed.
-class FewFiles {
- public:
-  explicit FewFiles(int more) {
-    getrlimit(RLIMIT_NOFILE, &before_);
-    const int lowest = open("/", O_PATH | O_CLOEXEC);
-    close(lowest);
-    rlimit limit = before_;
-    limit.rlim_cur = static_cast<rlim_t>(lowest + more);
-    setrlimit(RLIMIT_NOFILE, &limit);
-  }
-  ~FewFiles() { setrlimit(RLIMIT_NOFILE, &before_); }
-
- private:
-  rlimit before_{};
-};
 
 /// Claim: if the process may open no further file, the refusal says so. It does not say that the file is missing.
 TEST_F(Resource, TheLimitOfOpenFilesIsReportedAsALimit) {

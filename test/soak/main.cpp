@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-// node_soak loads a node for a long time, and prints a table with one line per tenth of that time. test/soak/run starts
+// node_soaktest loads a node for a long time, and prints a table with one line per tenth of that time. test/soak/run starts
 // it and judges the table.
 //
 // The load: 1,000 moving bodies at 100 Hz on /tf, a map of 200,000 leaves per second, and 200 queries per second.
@@ -170,7 +170,7 @@ void Soak::printRest() const {
 
 int main(int argc, char** argv) {
   using namespace hgrid::soak;
-  ros::init(argc, argv, "node_soak");
+  ros::init(argc, argv, "node_soaktest");
   const double duration = argc > 1 ? std::atof(argv[1]) : 1800.0;  // [s]
   try {
     ros::AsyncSpinner spinner(1);
@@ -180,7 +180,7 @@ int main(int argc, char** argv) {
     for (int number = 1; number <= kRows; ++number) soak.row(number, duration / kRows);
     soak.printRest();
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "node_soak: %s\n", error.what());
+    std::fprintf(stderr, "node_soaktest: %s\n", error.what());
     return 1;
   }
   return 0;
