@@ -215,8 +215,9 @@ RobotLink linkOf(const urdf::Link& source, int parent, const ShapeLimits& limits
   checkWithin(link.parent_from_joint.translation(), limits.max_size, what + ": origin");
   const Eigen::Vector3d axis = vectorOf(joint.axis);
   const bool has_axis = link.joint_kind != JointKind::fixed && link.joint_kind != JointKind::floating;
-  if (has_axis && axis.allFinite() && axis.norm() > 0.0) {
-    link.axis = axis.normalized();
+  const double largest = axis.cwiseAbs().maxCoeff();
+  if (has_axis && axis.allFinite() && largest > 0.0) {
+    link.axis = (axis / largest).normalized();  // the squared norm of `axis` itself may overflow
   } else if (has_axis) {
     warnings.push_back(what + " has an axis of length " + text(axis.norm()) + "; its x axis is used instead");
   }
