@@ -170,9 +170,10 @@ TEST_P(RobotsInAMap, HaveThePairsAndDistancesOfAScanOfAllLeaves) {
   const std::string folder = std::filesystem::canonical(sharedData()).string() + "/octomap";
   if (!std::filesystem::exists(folder + "/geb079.bt")) GTEST_SKIP() << "no geb079.bt in " << folder;
   RobotInBuilding trial(GetParam(), building(folder));
-  trial.drive(std::max(1, countFromEnvironment("HGRID_TEST_STATES", 1000) / 5));
+  const int states = std::max(1, countFromEnvironment("HGRID_TEST_STATES", 1000) / 5);
+  trial.drive(states);
   std::printf("  %s in geb079: %zu pairs with the map, %zu in contact\n", GetParam(), trial.near, trial.contacts);
-  EXPECT_GT(trial.near, 20u);
+  EXPECT_GE(trial.near, static_cast<std::size_t>(states)) << "the robot is rarely near the building";
 }
 
 }  // namespace

@@ -9,6 +9,15 @@
 namespace hgrid {
 namespace test {
 
+/// Whether FewFiles can be used. A sanitizer opens files of its own, and reports faults if it cannot.
+inline bool canLimitFiles() {
+#ifdef __SANITIZE_ADDRESS__
+  return false;
+#else
+  return true;
+#endif
+}
+
 /// Lets this process open only `more` further files, until it is destroyed.
 class FewFiles {
  public:

@@ -135,10 +135,11 @@ TEST(Streams, TwoNodesSayTheSameOfTheSameWorldByteForByte) {
   const ros::Time now = transforms.now();
   transforms.send({stamped("base", "a", at(0.1, 0.2, 0.3, 0.4), now), stamped("base", "b", at(0.2, 0.1, 0.0, 1.0), now),
                    stamped("base", "c", at(0.3, 0.3, 0.1, 2.0), now)});
-  one.waitForComplete();
-  other.waitForComplete();
-  EXPECT_GT(one.heard().pairs.back()->total, 30u);
-  EXPECT_EQ(bytesOf(*one.heard().pairs.back()), bytesOf(*other.heard().pairs.back()));
+  const auto complete = [](const msg::Pairs& pairs) { return pairs.world.complete; };
+  const auto of_one = one.waitForPairs("the world is complete", complete);
+  const auto of_other = other.waitForPairs("the world is complete", complete);
+  EXPECT_GT(of_one->total, 30u);
+  EXPECT_EQ(bytesOf(*of_one), bytesOf(*of_other));
 }
 
 TEST(Diagnostics, HasFiveStatuses) {
