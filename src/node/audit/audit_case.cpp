@@ -151,7 +151,7 @@ AuditCase caseOf(const Tick& tick, const TransformRecord::Content& record, const
   result.world_frame = tick.world_frame;
   result.rules = snapshot.structure().filter.rules();
   TransformList transforms(result);
-  for (const auto& [key, transform] : record.fixed) transforms.append(transform, key.second, true, Time(0));
+  for (const auto& [key, transform] : *record.fixed) transforms.append(transform, key.second, true, Time(0));
   for (const TransformRecord::Message& message : record.moving) transforms.append(*message);
   result.all_static = record.all_static;
   result.record_begin = record.begin;

@@ -45,6 +45,7 @@ class CellAudit {
 
 void auditCells(const AuditCase& audited, const std::vector<RealBoxes>& boxes, std::uint64_t seed,
                 AuditFindings& findings) {
+  if (audited.cells.empty()) return;
   CellAudit audit(audited, boxes, findings);
   std::uint64_t left = kMostCompared;
   for (const RecordedCells& cells : audited.cells) {

@@ -79,8 +79,8 @@ void Auditor::report(const AuditCase& audited, const AuditFindings& findings) {
                                " differences; the first: " + findings.differences.front();
   const std::string where = store(audited);
   commons_.health.noteAudit(sentence + "; " + where);
-  ROS_ERROR_STREAM_THROTTLE(1.0,
-                            sentence << "; " << where << ". Do not trust the pairs of this node, and report this file");
+  ROS_ERROR_STREAM_THROTTLE(
+      1.0, sentence << "; " << where << ". Do not trust the pairs of this node, and report the difference");
 }
 
 /// Writes the case to a file. @returns a clause that names the file, or says why there is none

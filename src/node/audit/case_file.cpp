@@ -16,7 +16,8 @@ namespace {
 
 constexpr const char* kTitle = "hgrid_proximity_audit_1";  // kind and version of the file
 
-/// Writes values, separated by spaces. Both this class and CaseReader pass the same values in the same order.
+/// Writes a case as lines of values that spaces separate. CaseReader reads them. The functions below name the values
+/// once, for both classes, so that writing and reading cannot differ.
 class CaseWriter {
  public:
   static constexpr bool kReads = false;

@@ -4,28 +4,25 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 namespace hgrid {
 namespace {
 
+/// Whether a glob matches the whole name. Unlike matches() in bodies/name.h, which the node uses, it goes through the
+/// glob once, and stores for each beginning of the name whether the glob up to here matches it.
 bool fits(const std::string& glob, const std::string& name) {
-  std::size_t g = 0, n = 0, star = std::string::npos, resume = 0;
-  while (n < name.size()) {
-    if (g < glob.size() && glob[g] == '*') {
-      star = g++;
-      resume = n;
-    } else if (g < glob.size() && (glob[g] == '?' || glob[g] == name[n])) {
-      ++g;
-      ++n;
-    } else if (star != std::string::npos) {
-      g = star + 1;
-      n = ++resume;
-    } else {
-      return false;
+  std::vector<bool> matched(name.size() + 1, false);
+  matched[0] = true;
+  for (const char c : glob) {
+    if (c == '*') {
+      for (std::size_t n = 1; n <= name.size(); ++n) matched[n] = matched[n] || matched[n - 1];
+      continue;
     }
+    for (std::size_t n = name.size(); n > 0; --n) matched[n] = matched[n - 1] && (c == '?' || c == name[n - 1]);
+    matched[0] = false;
   }
-  while (g < glob.size() && glob[g] == '*') ++g;
-  return g == glob.size();
+  return matched.back();
 }
 
 template <class Entry>

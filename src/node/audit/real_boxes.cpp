@@ -35,13 +35,11 @@ double reachAlong(const Shape& shape, const Eigen::Vector3d& direction) {
   return reach;
 }
 
-double distanceOf(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& point) { return box.exteriorDistance(point); }
-
 /// Returns the distance of a segment from a box. The distance of a point that moves along the segment is a convex
 /// function, so dividing the segment finds the minimum.
 double distanceOf(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   double low = 0.0, high = 1.0;
-  const auto at = [&](double part) { return distanceOf(box, from + part * (to - from)); };
+  const auto at = [&](double part) { return box.exteriorDistance(Eigen::Vector3d(from + part * (to - from))); };
   for (int step = 0; step < 100; ++step) {
     const double first = low + (high - low) / 3.0, second = high - (high - low) / 3.0;
     (at(first) <= at(second) ? high : low) = at(first) <= at(second) ? second : first;
@@ -78,7 +76,7 @@ double RealBoxes::gapTo(const RealBoxes& other) const {
 
 double RealBoxes::distanceTo(const Eigen::Vector3d& point) const {
   double least = std::numeric_limits<double>::infinity();
-  for (const Eigen::AlignedBox3d& box : shapes) least = std::min(least, distanceOf(box, point));
+  for (const Eigen::AlignedBox3d& box : shapes) least = std::min(least, box.exteriorDistance(point));
   return least;
 }
 

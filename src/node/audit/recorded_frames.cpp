@@ -51,10 +51,9 @@ void RecordedFrames::add(const RecordedTransform& transform) {
   sample.parent = transform.parent;
   sample.rotation = Eigen::Quaterniond(n[6], n[3], n[4], n[5]).normalized();
   sample.translation = Eigen::Vector3d(n[0], n[1], n[2]);
-  (transform.is_static ? frame.fixed : frame.moves) = true;
-  if (frame.has_publisher && frame.publisher != transform.publisher) frame.doubtful = true;
+  if (!frame.samples.empty() && frame.publisher != transform.publisher) frame.doubtful = true;
   frame.publisher = transform.publisher;
-  frame.has_publisher = true;
+  (transform.is_static ? frame.fixed : frame.moves) = true;
   if (transform.is_static) frame.samples.clear();  // the newest one counts
   frame.samples.push_back(sample);
 }

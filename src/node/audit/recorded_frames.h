@@ -14,7 +14,8 @@ namespace hgrid {
 /// Computes poses of frames from recorded transforms. Written apart from the folder tf, which the audit checks.
 ///
 /// Some frames are doubtful: several publishers or parents place them, they are on both topics, or a transform of them
-/// is not valid. Which of their transforms count is a decision of the node that the audit does not repeat.
+/// is not valid. Which of their transforms the node uses depends on what it received earlier, so the audit leaves them
+/// out.
 class RecordedFrames {
  public:
   /// @param audited  must outlive this object
@@ -39,17 +40,15 @@ class RecordedFrames {
   std::optional<Time> sampledUpTo(const Chain& chain, Time time) const;
 
  private:
-  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
   struct Sample {
     Time stamp{0};
-    std::size_t parent = kNone;
+    std::size_t parent = 0;
     Eigen::Quaterniond rotation;
     Eigen::Vector3d translation;
   };
   struct Frame {
     std::vector<Sample> samples;  // by stamp, each stamp once; a static frame has one sample
-    std::uint32_t publisher = 0;
-    bool has_publisher = false;
+    std::uint32_t publisher = 0;  // of the newest sample
     bool moves = false, fixed = false, doubtful = false;
   };
 

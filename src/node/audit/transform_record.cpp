@@ -31,6 +31,7 @@ void TransformRecord::keepStatic(const ReceivedTransforms& message) {
     kept.insert_or_assign({transform.child, message.publisher}, transform);
   });
   if (!valid) return;  // the node refuses it
+  shared_fixed_.reset();
   for (auto& [key, transform] : kept) {
     const auto known = fixed_.find(key);
     if (known != fixed_.end()) {
@@ -55,9 +56,10 @@ void TransformRecord::forgetMoving(Time now) {
   begin_ = now;
 }
 
-TransformRecord::Content TransformRecord::content() const {
+TransformRecord::Content TransformRecord::content() {
+  if (!shared_fixed_) shared_fixed_ = std::make_shared<const StaticTransforms>(fixed_);
   Content content;
-  content.fixed = fixed_;
+  content.fixed = shared_fixed_;
   content.moving.assign(moving_.begin(), moving_.end());
   content.begin = begin_;
   content.all_static = all_static_;

@@ -18,8 +18,8 @@ namespace hgrid {
 /// Stores the messages of /tf and /tf_static as they were received, for a short time, so that an audit can compute
 /// poses from them again. Only the tick thread may use it.
 ///
-/// The transforms of /tf_static are kept for ever, because each is sent only once: the newest for each publisher and
-/// child.
+/// The transforms of /tf_static are never dropped, because each is sent only once. If a publisher sends another one for
+/// the same child, only the newest is kept.
 class TransformRecord : public TfListener {
  public:
   using Message = std::shared_ptr<const ReceivedTransforms>;
@@ -27,7 +27,7 @@ class TransformRecord : public TfListener {
 
   /// What the record has at one moment.
   struct Content {
-    StaticTransforms fixed;
+    std::shared_ptr<const StaticTransforms> fixed = std::make_shared<StaticTransforms>();
     std::vector<Message> moving;  ///< messages of /tf in the order in which they were read
     Time begin{0};                ///< [ROS time] messages of /tf that were received until then may be missing
     bool all_static = true;       ///< whether there was room for all transforms of /tf_static
@@ -46,7 +46,7 @@ class TransformRecord : public TfListener {
 
   /// Whether the node has read a part of a message. Then the record does not fit the transforms that the node uses.
   bool isReading() const { return reading_; }
-  Content content() const;
+  Content content();
 
  private:
   void keepStatic(const ReceivedTransforms& message);
@@ -56,6 +56,7 @@ class TransformRecord : public TfListener {
   const std::size_t most_bytes_, most_static_;
   std::deque<Message> moving_;
   StaticTransforms fixed_;
+  std::shared_ptr<const StaticTransforms> shared_fixed_;  // a copy of fixed_ for content(); null: fixed_ has changed
   std::size_t moving_bytes_ = 0;
   Time begin_{0};
   bool all_static_ = true, reading_ = false;

@@ -54,18 +54,23 @@ void NodeHealth::noteLoaded(const std::string& robot) {
 }
 
 void NodeHealth::noteThreads(const std::string& parameter, int configured, int created) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (created >= configured) {
-    report_.missing_threads.erase(parameter);
-    return;
+  std::string sentence;
+  if (created < configured) {
+    sentence = "the system could create only " + std::to_string(created) + " of the " + std::to_string(configured) +
+               " threads of " + parameter +
+               "; results are the same but may come later: allow more threads or memory, or reduce " + parameter;
   }
-  const std::string sentence = "the system could create only " + std::to_string(created) + " of the " +
-                               std::to_string(configured) + " threads of " + parameter +
-                               "; results are the same but may come later: allow more threads or memory, or reduce " +
-                               parameter;
-  std::string& known = report_.missing_threads[parameter];
-  if (known != sentence) ROS_WARN("%s", sentence.c_str());
-  known = sentence;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (sentence.empty()) {
+      report_.missing_threads.erase(parameter);
+      return;
+    }
+    std::string& known = report_.missing_threads[parameter];
+    if (known == sentence) return;
+    known = sentence;
+  }
+  ROS_WARN("%s", sentence.c_str());  // without the mutex, because ticks need it
 }
 
 HealthReport NodeHealth::report() const {

@@ -150,7 +150,7 @@ const Tick& AuditedWorld::step() {
   return tick;
 }
 
-AuditCase AuditedWorld::audited() const {
+AuditCase AuditedWorld::audited() {
   static const std::shared_ptr<NarrowPhase> narrow_phase = makeFclNarrowPhase();
   return caseOf(world_.last(), record_.content(), world_.params(), 0, 7, *narrow_phase);
 }

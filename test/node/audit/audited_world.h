@@ -34,7 +34,7 @@ class AuditedWorld {
   /// Moves all frames, waits 10 ms and makes a tick.
   const Tick& step();
   /// Collects the case of the newest tick.
-  AuditCase audited() const;
+  AuditCase audited();
 
   Tamper tamper;
   std::function<bool(const std::string& frame)> is_silent;  ///< whether a frame is not published at all

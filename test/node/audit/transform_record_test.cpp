@@ -63,14 +63,14 @@ TEST(TransformRecord, KeepsTheNewestStaticTransformOfEachPublisherAndSaysWhenThe
   read(record, messageOf(10, 100.0));
   const auto content = record.content();
   EXPECT_TRUE(content.all_static);
-  ASSERT_EQ(content.fixed.size(), 10u);
-  EXPECT_EQ(content.fixed.at({"tool", "/calibration"}).numbers[0], 999.0);
-  EXPECT_EQ(content.fixed.at({"tool", "/calibration"}).parent, "base");
+  ASSERT_EQ(content.fixed->size(), 10u);
+  EXPECT_EQ(content.fixed->at({"tool", "/calibration"}).numbers[0], 999.0);
+  EXPECT_EQ(content.fixed->at({"tool", "/calibration"}).parent, "base");
   read(record, messageOf(100, 1.0, true));  // no message of transforms
   EXPECT_TRUE(record.content().all_static);
   read(record, staticMessage("tool", 0, "/rival"));
   EXPECT_FALSE(record.content().all_static);
-  EXPECT_EQ(record.content().fixed.size(), 10u);
+  EXPECT_EQ(record.content().fixed->size(), 10u);
 }
 
 TEST(TransformRecord, TellsWhetherAMessageIsHalfRead) {
