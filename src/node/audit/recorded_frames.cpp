@@ -3,22 +3,15 @@
 #include "node/audit/recorded_frames.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "node/audit/usable_numbers.h"
 
 namespace hgrid {
 namespace {
 
-constexpr double kFarthest = 1e9;  // [m] the node refuses transforms beyond it
-
 /// Whether the node uses a transform with these numbers and stamps.
 bool isValid(const RecordedTransform& transform, double max_future) {
-  double norm = 0.0;
-  for (std::size_t i = 0; i < 7; ++i) {
-    const double number = transform.numbers[i];
-    if (!std::isfinite(number) || (i < 3 && std::abs(number) > kFarthest)) return false;
-    if (i >= 3) norm += number * number;
-  }
-  if (!(std::abs(norm - 1.0) <= kQuaternionTolerance)) return false;
+  if (!usableNumbers(transform.numbers)) return false;
   return transform.is_static || (transform.stamp.count() > 0 && transform.received.count() > 0 &&
                                  seconds(transform.stamp - transform.received) <= max_future);
 }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "node/audit/usable_numbers.h"
+
 namespace hgrid {
 namespace {
 
@@ -28,7 +30,7 @@ void TransformRecord::ends(bool complete) {
 void TransformRecord::keepStatic(const ReceivedTransforms& message) {
   StaticTransforms kept;
   const bool valid = visitTransforms(message.message->bytes, [&](const SerializedTransform& transform) {
-    kept.insert_or_assign({transform.child, message.publisher}, transform);
+    if (usableNumbers(transform.numbers)) kept.insert_or_assign({transform.child, message.publisher}, transform);
   });
   if (!valid) return;  // the node refuses it
   shared_fixed_.reset();

@@ -19,7 +19,7 @@ namespace hgrid {
 /// poses from them again. Only the tick thread may use it.
 ///
 /// The transforms of /tf_static are never dropped, because each is sent only once. If a publisher sends another one for
-/// the same child, only the newest is kept.
+/// the same child, only the newest is kept. One that the node does not use replaces none, as in the node.
 class TransformRecord : public TfListener {
  public:
   using Message = std::shared_ptr<const ReceivedTransforms>;

@@ -51,6 +51,9 @@ def check_audit(cell):
         return
     cell.wait("an audit", lambda: "audit.checked" in cell.counters())
     counters = cell.counters()
+    for line in cell.output.read_text(errors="replace").splitlines():
+        if "the audit of tick" in line:
+            print(line)
     expect("audit.different", 0, counters.get("audit.different", 0))
     print("audit: %d ticks checked, %d skipped" % (counters["audit.checked"], counters.get("audit.skipped", 0)))
 

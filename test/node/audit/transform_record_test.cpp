@@ -7,6 +7,7 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <boost/make_shared.hpp>
+#include <cmath>
 
 namespace hgrid {
 namespace {
@@ -48,6 +49,7 @@ ReceivedTransforms staticMessage(const std::string& child, double x, const std::
   message.transforms[0].header.frame_id = "/base";
   message.transforms[0].child_frame_id = child;
   message.transforms[0].transform.translation.x = x;
+  message.transforms[0].transform.rotation.w = 1.0;
   const auto bytes = boost::make_shared<TransformBytes>();
   std::vector<std::uint8_t> buffer(ros::serialization::serializationLength(message));
   ros::serialization::OStream stream(buffer.data(), static_cast<std::uint32_t>(buffer.size()));
@@ -71,6 +73,15 @@ TEST(TransformRecord, KeepsTheNewestStaticTransformOfEachPublisherAndSaysWhenThe
   read(record, staticMessage("tool", 0, "/rival"));
   EXPECT_FALSE(record.content().all_static);
   EXPECT_EQ(record.content().fixed->size(), 10u);
+}
+
+TEST(TransformRecord, KeepsAStaticTransformWhenThePublisherSendsOneThatTheNodeRefuses) {
+  TransformRecord record(std::chrono::seconds(2), 10000, 10);
+  read(record, staticMessage("tool", 1.0, "/calibration"));
+  for (const double bad : {std::nan(""), 1e10}) read(record, staticMessage("tool", bad, "/calibration"));
+  const auto content = record.content();
+  ASSERT_EQ(content.fixed->size(), 1u);
+  EXPECT_EQ(content.fixed->at({"tool", "/calibration"}).numbers[0], 1.0);
 }
 
 TEST(TransformRecord, TellsWhetherAMessageIsHalfRead) {
