@@ -10,8 +10,20 @@
 
 namespace hgrid {
 
-NameIndex::NameIndex(const std::vector<Body>& bodies) : bodies_(bodies), order_(bodies.size()) {
-  std::iota(order_.begin(), order_.end(), 0u);
+namespace {
+
+std::vector<std::uint32_t> allOf(const BodyList& bodies) {
+  std::vector<std::uint32_t> indices(bodies.size());
+  std::iota(indices.begin(), indices.end(), 0u);
+  return indices;
+}
+
+}  // namespace
+
+NameIndex::NameIndex(const BodyList& bodies) : NameIndex(bodies, allOf(bodies)) {}
+
+NameIndex::NameIndex(const BodyList& bodies, std::vector<std::uint32_t> chosen)
+    : bodies_(bodies), order_(std::move(chosen)) {
   const auto before = [&](std::uint32_t a, std::uint32_t b) { return bodies_[a].name < bodies_[b].name; };
   if (!std::is_sorted(order_.begin(), order_.end(), before)) std::sort(order_.begin(), order_.end(), before);
 }

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "hgrid_proximity/bodies/body.h"
+#include "hgrid_proximity/bodies/body_list.h"
 
 namespace hgrid {
 
@@ -17,7 +17,10 @@ class NameIndex {
  public:
   static constexpr std::uint32_t kNone = 0xffffffff;
 
-  explicit NameIndex(const std::vector<Body>& bodies);
+  explicit NameIndex(const BodyList& bodies);
+  explicit NameIndex(BodyList&&) = delete;  // it would not outlive the index
+  /// Finds only some of the bodies. @param chosen  their indices
+  NameIndex(const BodyList& bodies, std::vector<std::uint32_t> chosen);
 
   /// Returns the index of the body with this name, or kNone.
   std::uint32_t find(const std::string& name) const;
@@ -33,7 +36,7 @@ class NameIndex {
   /// Returns the range of names that start with the text of the glob before its first `*` or `?`.
   std::pair<Iterator, Iterator> candidates(const std::string& glob) const;
 
-  const std::vector<Body>& bodies_;
+  const BodyList& bodies_;
   std::vector<std::uint32_t> order_;  // indices of the bodies, sorted by name
 };
 

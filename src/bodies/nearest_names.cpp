@@ -29,7 +29,7 @@ std::size_t editDistance(const std::string& a, const std::string& b, std::vector
 
 }  // namespace
 
-std::vector<std::string> nearestNames(const std::string& name, const std::vector<Body>& bodies) {
+std::vector<std::string> nearestNames(const std::string& name, const BodyList& bodies) {
   const std::size_t most = std::max<std::size_t>(1, name.size() / 3);
   if (name.empty() || name.size() > 64 || bodies.size() > kMostBodies) return {};
   std::vector<std::pair<std::size_t, const std::string*>> near;
@@ -55,7 +55,7 @@ std::vector<std::string> nearestNames(const std::string& name, const std::vector
   return names;
 }
 
-std::string similarNames(const std::string& name, const std::vector<Body>& bodies) {
+std::string similarNames(const std::string& name, const BodyList& bodies) {
   std::string listed;
   for (const std::string& near : nearestNames(name, bodies)) {
     listed += (listed.empty() ? "; similar names are '" : ", '") + near + "'";
@@ -63,7 +63,7 @@ std::string similarNames(const std::string& name, const std::vector<Body>& bodie
   return listed;
 }
 
-std::string noSuchBody(const std::string& name, const std::vector<Body>& bodies) {
+std::string noSuchBody(const std::string& name, const BodyList& bodies) {
   return "there is no body '" + printable(name) + "'" + similarNames(name, bodies);
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "hgrid_proximity/bodies/body.h"
+#include "hgrid_proximity/bodies/body_list.h"
 
 namespace hgrid {
 
@@ -13,12 +13,12 @@ namespace hgrid {
 ///
 /// A body is similar if few bytes of its whole name, or of the part after the source, must be replaced, removed or
 /// added to get `name`. The list is empty if no name is similar, or if there are too many bodies to compare all names.
-std::vector<std::string> nearestNames(const std::string& name, const std::vector<Body>& bodies);
+std::vector<std::string> nearestNames(const std::string& name, const BodyList& bodies);
 
 /// Returns the end of an error sentence: "; similar names are 'robot/gripper'". Empty if no name is similar.
-std::string similarNames(const std::string& name, const std::vector<Body>& bodies);
+std::string similarNames(const std::string& name, const BodyList& bodies);
 
 /// Returns the error sentence for a name that no body has. It lists similar names.
-std::string noSuchBody(const std::string& name, const std::vector<Body>& bodies);
+std::string noSuchBody(const std::string& name, const BodyList& bodies);
 
 }  // namespace hgrid

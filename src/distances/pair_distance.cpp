@@ -32,7 +32,7 @@ void collectShapePairs(const Snapshot& snapshot, std::uint32_t first, std::uint3
 /// Calls `ask` with the placed solids of a pair of shapes. Does nothing if one of the shapes has no solid.
 template <class Ask>
 void placed(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second, const ShapePair& shapes, Ask&& ask) {
-  const std::vector<Body>& bodies = snapshot.structure().bodies;
+  const BodyList& bodies = snapshot.structure().bodies;
   const BodyShape &a = bodies[first].shapes[shapes.first], &b = bodies[second].shapes[shapes.second];
   if (!a.solid || !b.solid) return;
   const Pose world_from_a = snapshot.poses()[first].world_from_body * a.body_from_shape;
@@ -52,7 +52,7 @@ NearestShapes nearestShapes(const NarrowPhase& narrow_phase, const Snapshot& sna
     nearest.cells = std::move(found.cells);
     return nearest;
   }
-  const std::vector<Body>& bodies = snapshot.structure().bodies;
+  const BodyList& bodies = snapshot.structure().bodies;
   if (bodies[first].shapes.empty() || bodies[second].shapes.empty()) return nearest;  // nothing to measure
   collectShapePairs(snapshot, first, second, up_to, shape_pairs);
   nearest.proximity.status = Measure::apart;

@@ -42,7 +42,7 @@ std::vector<std::string> changedNames(const std::vector<PairRule>& before, const
 }
 
 /// Returns the bodies that match at least one of the names or globs, sorted.
-Bodies matching(const std::vector<std::string>& names, const std::vector<Body>& bodies) {
+Bodies matching(const std::vector<std::string>& names, const BodyList& bodies) {
   const NameIndex index(bodies);
   std::vector<bool> is_in(bodies.size(), false);
   Bodies found;
@@ -70,7 +70,7 @@ struct Group {
   Bodies bodies;
 };
 
-std::vector<Group> groupsOf(const Bodies& chosen, const std::vector<Body>& bodies, const PairFilter& before,
+std::vector<Group> groupsOf(const Bodies& chosen, const BodyList& bodies, const PairFilter& before,
                             const PairFilter& after) {
   std::map<std::pair<std::string, std::vector<std::uint64_t>>, Bodies> by_key;
   for (const std::uint32_t body : chosen) {
@@ -106,7 +106,7 @@ std::uint64_t countBetween(const Group& first, const Group& second, bool same, c
 
 }  // namespace
 
-std::uint64_t changedPairs(const std::vector<Body>& bodies, const PairFilter& before, const PairFilter& after) {
+std::uint64_t changedPairs(const BodyList& bodies, const PairFilter& before, const PairFilter& after) {
   const std::vector<std::string> names = changedNames(before.rules(), after.rules());
   if (names.empty()) return 0;
   const std::vector<Group> groups = groupsOf(matching(names, bodies), bodies, before, after);

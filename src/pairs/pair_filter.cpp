@@ -43,7 +43,7 @@ std::uint64_t keyOf(std::uint32_t first, std::uint32_t second) {
 
 }  // namespace
 
-PairFilter::PairFilter(const std::vector<Body>& bodies, PairKinds kinds, std::vector<PairRule> rules)
+PairFilter::PairFilter(const BodyList& bodies, PairKinds kinds, std::vector<PairRule> rules)
     : rules_(std::move(rules)) {
   for (std::size_t a = 0; a < kTypes; ++a) {
     for (std::size_t b = 0; b < kTypes; ++b) {
@@ -51,7 +51,17 @@ PairFilter::PairFilter(const std::vector<Body>& bodies, PairKinds kinds, std::ve
         exists_[same_robot][a][b] = exists(kinds, typeOf(a), typeOf(b), same_robot);
     }
   }
+  listRules();
+  fillSubjects(bodies);
+  if (rules_.empty()) return;
+  const NameIndex names(bodies);
+  fillNamed(names);
+  matchGlobs(names);
+}
+
+void PairFilter::fillSubjects(const BodyList& bodies) {
   std::map<std::string, std::uint32_t> robots;
+  subjects_.reserve(bodies.size());
   for (const Body& body : bodies) {
     Subject subject;
     subject.type = numberOf({body.kind, body.mobility});
@@ -66,19 +76,24 @@ PairFilter::PairFilter(const std::vector<Body>& bodies, PairKinds kinds, std::ve
     }
     subjects_.push_back(subject);
   }
-  if (!rules_.empty()) resolve(bodies);
+  as_first_.resize(bodies.size() * words_);
+  as_second_.resize(bodies.size() * words_);
 }
 
-/// Finds the bodies that each rule matches.
-void PairFilter::resolve(const std::vector<Body>& bodies) {
-  const NameIndex names(bodies);
+/// Fills verdicts_ and glob_rules_.
+void PairFilter::listRules() {
+  for (std::uint32_t rule = 0; rule < rules_.size(); ++rule) {
+    verdicts_.push_back(rules_[rule].allowed ? rules_[rule].origin : Origin::none);
+    if (isGlob(rules_[rule].first) || isGlob(rules_[rule].second)) glob_rules_.push_back(rule);
+  }
+  words_ = (glob_rules_.size() + 63) / 64;
+}
+
+/// Finds the bodies of the rules for two names.
+void PairFilter::fillNamed(const NameIndex& names) {
   for (std::uint32_t rule = 0; rule < rules_.size(); ++rule) {
     const PairRule& r = rules_[rule];
-    verdicts_.push_back(r.allowed ? r.origin : Origin::none);
-    if (isGlob(r.first) || isGlob(r.second)) {
-      glob_rules_.push_back(rule);
-      continue;
-    }
+    if (isGlob(r.first) || isGlob(r.second)) continue;
     const std::uint32_t first = names.find(r.first), second = names.find(r.second);
     if (first == NameIndex::kNone || second == NameIndex::kNone) continue;  // the missing body may be added later
     subjects_[first].ruled |= kByName;
@@ -88,13 +103,10 @@ void PairFilter::resolve(const std::vector<Body>& bodies) {
   std::sort(named_.begin(), named_.end(), [](const NamedPair& a, const NamedPair& b) {
     return a.bodies != b.bodies ? a.bodies < b.bodies : a.rule > b.rule;
   });
-  if (!glob_rules_.empty()) fillSets(names, bodies.size());
 }
 
-void PairFilter::fillSets(const NameIndex& names, std::size_t bodies) {
-  words_ = (glob_rules_.size() + 63) / 64;
-  as_first_.resize(bodies * words_);
-  as_second_.resize(bodies * words_);
+/// Sets the bits of the bodies in `names` for the globs that match them.
+void PairFilter::matchGlobs(const NameIndex& names) {
   std::vector<std::uint32_t> found;
   const auto note = [&](const std::string& glob, std::size_t bit, std::vector<std::uint64_t>& sets) {
     names.matching(glob, found);
@@ -104,9 +116,40 @@ void PairFilter::fillSets(const NameIndex& names, std::size_t bodies) {
     }
   };
   for (std::size_t bit = 0; bit < glob_rules_.size(); ++bit) {
+    if (glob_rules_[bit] == kNoRule) continue;
     note(rules_[glob_rules_[bit]].first, bit, as_first_);
     note(rules_[glob_rules_[bit]].second, bit, as_second_);
   }
+}
+
+/// Copies the bit sets of the bodies that another filter knows. Both filters have the same glob_rules_.
+void PairFilter::copySets(const PairFilter& from, const std::vector<std::uint32_t>& known) {
+  for (std::size_t body = 0; body < known.size(); ++body) {
+    if (known[body] == kUnknown) continue;
+    std::copy_n(&from.as_first_[known[body] * words_], words_, &as_first_[body * words_]);
+    std::copy_n(&from.as_second_[known[body] * words_], words_, &as_second_[body * words_]);
+    subjects_[body].ruled |= from.subjects_[known[body]].ruled & kByGlob;
+  }
+}
+
+PairFilter PairFilter::forBodies(const BodyList& bodies, const std::vector<std::uint32_t>& known) const {
+  PairFilter next;
+  next.exists_ = exists_;
+  next.rules_ = rules_;
+  next.verdicts_ = verdicts_;
+  next.glob_rules_ = glob_rules_;
+  next.words_ = words_;
+  next.fillSubjects(bodies);
+  if (rules_.empty()) return next;
+  next.fillNamed(NameIndex(bodies));
+  if (words_ == 0) return next;
+  next.copySets(*this, known);
+  std::vector<std::uint32_t> others;
+  for (std::uint32_t body = 0; body < known.size(); ++body) {
+    if (known[body] == kUnknown) others.push_back(body);
+  }
+  next.matchGlobs(NameIndex(bodies, std::move(others)));
+  return next;
 }
 
 PairFilter PairFilter::without(const std::vector<bool>& gone) const {
@@ -242,7 +285,7 @@ bool PairFilter::reportsAny() const {
   return false;
 }
 
-bool silencesAll(const std::vector<Body>& bodies, const PairKinds& kinds, const PairFilter& filter) {
+bool silencesAll(const BodyList& bodies, const PairKinds& kinds, const PairFilter& filter) {
   return !filter.rules().empty() && !filter.reportsAny() && PairFilter(bodies, kinds, {}).reportsAny();
 }
 

@@ -8,7 +8,7 @@
 
 namespace hgrid {
 
-PairMargins::PairMargins(const std::vector<Body>& bodies, const std::vector<PairMargin>& margins)
+PairMargins::PairMargins(const BodyList& bodies, const std::vector<PairMargin>& margins)
     : largest_(bodies.size()), words_((margins.size() + 63) / 64) {
   as_first_.resize(bodies.size() * words_);
   as_second_.resize(bodies.size() * words_);

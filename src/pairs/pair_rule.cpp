@@ -51,7 +51,7 @@ void checkRule(const PairRule& rule) {
   }
 }
 
-void checkKnown(const std::vector<PairRule>& rules, const std::vector<Body>& bodies) {
+void checkKnown(const std::vector<PairRule>& rules, const BodyList& bodies) {
   const NameIndex names(bodies);
   for (const PairRule& rule : rules) {
     for (const std::string* name : {&rule.first, &rule.second}) {

@@ -50,25 +50,41 @@ bool isReported(const void* structure, ProxyId first, ProxyId second) {
 
 }  // namespace
 
+/// Returns the filter of the next structure. Uses an earlier filter with the same rules, if there is one.
+/// @param next   the bodies of the next structure
+/// @param known  for each of them: its index in the present structure, or Structure::kNone
+PairFilter Scene::State::filterFor(const BodyList& next, const std::vector<std::uint32_t>& known) const {
+  static_assert(PairFilter::kUnknown == Structure::kNone);
+  const PairFilter* earlier = nullptr;
+  if (!rules_changed) earlier = &structure->filter;
+  if (prepared && prepared->revision == structure->revision) earlier = &prepared->filter;
+  if (earlier == nullptr) return PairFilter(next, options.pair_kinds, options.allowed_pairs);
+  return bodies_changed ? earlier->forBodies(next, known) : *earlier;
+}
+
 void Scene::State::rebuildStructure() {
   auto next = std::make_shared<Structure>();
   next->revision = structure->revision + 1;
   next->least_margin = options.margin;
   const BodiesBefore before(*structure, slots.size());
   std::vector<Aabb> next_sizes;
-  std::vector<std::uint32_t> next_uncovered;
+  std::vector<std::uint32_t> next_uncovered, known_bodies;
   std::vector<ShapeInBody> next_shapes;
+  next->bodies.reserve(slot_of_name.size());
+  next_shapes.reserve(slot_of_name.size());
+  next_sizes.reserve(slot_of_name.size());
   for (const auto& named : slot_of_name) {
-    const Body& body = bodies[named.second];
+    const Body& body = *bodies[named.second];
     if (!body.covered && !body.waived) next_uncovered.push_back(static_cast<std::uint32_t>(next->bodies.size()));
     next->first_proxy.push_back(static_cast<std::uint32_t>(next->body_of_proxy.size()));
     next->body_of_proxy.insert(next->body_of_proxy.end(), body.shapes.size(),
                                static_cast<std::uint32_t>(next->bodies.size()));
     if (hasCells(body.kind)) next->maps.push_back(static_cast<std::uint32_t>(next->bodies.size()));
-    next->bodies.push_back(body);
+    next->bodies.push_back(bodies[named.second]);
     next->ids.push_back({named.second, slots[named.second].generation});
     next->margin.push_back(std::max(options.margin, body.margin));
     const std::uint32_t known = before.find(next->ids.back());
+    known_bodies.push_back(known);
     for (std::size_t i = 0; i < body.shapes.size(); ++i) {
       const BodyShape& shape = body.shapes[i];
       next_shapes.push_back({shape.shape, shape.body_from_shape, shape.padding});
@@ -78,8 +94,7 @@ void Scene::State::rebuildStructure() {
   }
   next->first_proxy.push_back(static_cast<std::uint32_t>(next->body_of_proxy.size()));
   next->pair_margins = PairMargins(next->bodies, options.pair_margins);
-  const bool is_prepared = prepared && !bodies_changed && prepared->revision == structure->revision;
-  next->filter = is_prepared ? prepared->filter : PairFilter(next->bodies, options.pair_kinds, options.allowed_pairs);
+  next->filter = filterFor(next->bodies, known_bodies);
   next->silenced = silencesAll(next->bodies, options.pair_kinds, next->filter);
   std::vector<ProxyId> next_fixed;
   for (ProxyId proxy = 0; proxy < next->body_of_proxy.size(); ++proxy) {
@@ -94,7 +109,7 @@ void Scene::State::rebuildStructure() {
   structure = std::move(next);
   scale = GridScale::fitting(sizes);
   if (options.finest_edge > 0.0) scale.finest_edge = options.finest_edge;
-  structure_changed = bodies_changed = false;
+  structure_changed = bodies_changed = rules_changed = false;
   prepared.reset();
 }
 
@@ -155,7 +170,7 @@ void Scene::State::fillBodies(Snapshot& snapshot) {
     }
     if (known == 0 || slot.changed > known) {
       snapshot.poses_[i] = slot.pose;
-      snapshot.poses_[i].reach = reachOf(slot.pose, bodies[structure->ids[i].slot], options.growth_after);
+      snapshot.poses_[i].reach = reachOf(slot.pose, structure->bodies[i], options.growth_after);
       snapshot.poses_[i].growth = std::min(snapshot.poses_[i].reach, options.growth_cap);
     }
     snapshot.worst_state_ = std::max(snapshot.worst_state_, slot.pose.state);

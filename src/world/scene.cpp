@@ -96,7 +96,7 @@ std::vector<std::uint32_t> Scene::State::checkedSlots(const std::vector<BodyId>&
   std::sort(leaving.begin(), leaving.end());
   const auto twice = std::adjacent_find(leaving.begin(), leaving.end());
   if (twice != leaving.end()) {
-    throw Refusal(Code::dup_id, "body '" + bodies[*twice].name + "' is to be removed twice; list it only once");
+    throw Refusal(Code::dup_id, "body '" + bodies[*twice]->name + "' is to be removed twice; list it only once");
   }
   return leaving;
 }
@@ -145,15 +145,15 @@ void Scene::State::reserveSlots(std::size_t count) {
 }
 
 void Scene::State::takeOut(std::uint32_t slot) {
-  slot_of_name.erase(bodies[slot].name);
-  bodies[slot] = Body{};
+  slot_of_name.erase(bodies[slot]->name);
+  bodies[slot].reset();
   cells[slot].reset();
   slots[slot].used = slots[slot].moved = false;
   ++slots[slot].generation;
   free_slots.push_back(slot);
 }
 
-void Scene::State::putIn(std::uint32_t slot, Body&& body) {
+void Scene::State::putIn(std::uint32_t slot, std::shared_ptr<const Body>&& body) {
   if (slot < slots.size()) {
     free_slots.pop_back();
   } else {
@@ -162,7 +162,7 @@ void Scene::State::putIn(std::uint32_t slot, Body&& body) {
     cells.emplace_back();
   }
   slots[slot].used = true;
-  slots[slot].fixed = body.mobility == Mobility::fixed;
+  slots[slot].fixed = body->mobility == Mobility::fixed;
   slots[slot].pose = BodyPose{};
   bodies[slot] = std::move(body);
 }
@@ -176,11 +176,13 @@ std::vector<BodyId> Scene::exchange(const std::vector<BodyId>& out, std::vector<
   std::vector<BodyId> ids(in.size());
   const std::size_t last = numbers.empty() ? 0 : *std::max_element(numbers.begin(), numbers.end()) + std::size_t{1};
   s.reserveSlots(std::max(s.slots.size(), last));
+  std::vector<std::shared_ptr<const Body>> shared;
+  for (Body& body : in) shared.push_back(std::make_shared<const Body>(std::move(body)));
   // The code below allocates no memory, so it cannot fail.
   for (const BodyId id : out) s.takeOut(id.slot);
   s.slot_of_name.merge(names);
   for (std::size_t i = 0; i < in.size(); ++i) {
-    s.putIn(numbers[i], std::move(in[i]));
+    s.putIn(numbers[i], std::move(shared[i]));
     ids[i] = {numbers[i], s.slots[numbers[i]].generation};
   }
   s.bodies_changed = s.bodies_changed || !out.empty() || !ids.empty();
@@ -205,7 +207,7 @@ bool Scene::find(const std::string& name, BodyId& id) const {
 
 const Body& Scene::body(BodyId id) const {
   state_->at(id);
-  return state_->bodies[id.slot];
+  return *state_->bodies[id.slot];
 }
 std::size_t Scene::size() const { return state_->slot_of_name.size(); }
 const BodyPose& Scene::poseOf(BodyId id) const { return state_->at(id).pose; }
@@ -213,13 +215,13 @@ const BodyPose& Scene::poseOf(BodyId id) const { return state_->at(id).pose; }
 void Scene::checkPlace(BodyId id, const Pose& world_from_body) const {
   state_->at(id);
   if (!world_from_body.matrix().allFinite()) {
-    throw Refusal(Code::nonfinite, "pose of body '" + state_->bodies[id.slot].name +
+    throw Refusal(Code::nonfinite, "pose of body '" + state_->bodies[id.slot]->name +
                                        "' is not finite; every number in it must be finite");
   }
   const double limit = state_->options.world_limit;
   // A quick check first, because it takes time to build the text below.
   if (!(world_from_body.translation().cwiseAbs().maxCoeff() <= limit)) {
-    checkWithin(world_from_body.translation(), limit, "pose of body '" + state_->bodies[id.slot].name + "'");
+    checkWithin(world_from_body.translation(), limit, "pose of body '" + state_->bodies[id.slot]->name + "'");
   }
 }
 
@@ -248,7 +250,7 @@ void Scene::setState(BodyId id, Freshness state, double age, std::uint32_t cohor
 void Scene::setCells(BodyId id, std::shared_ptr<const MapCells> cells) {
   State& s = *state_;
   s.at(id);
-  const Body& body = s.bodies[id.slot];
+  const Body& body = *s.bodies[id.slot];
   if (!hasCells(body.kind) || !body.shapes.empty() || !cells || !cells->grid) {
     throw Refusal(Code::bad_geometry,
                   "body '" + body.name + "' cannot have occupied cells; only a map or cloud without shapes can");
@@ -259,7 +261,7 @@ void Scene::setCells(BodyId id, std::shared_ptr<const MapCells> cells) {
 void Scene::setRules(std::vector<PairRule> rules) {
   state_->options.allowed_pairs = std::move(rules);
   state_->prepared.reset();
-  state_->structure_changed = true;
+  state_->structure_changed = state_->rules_changed = true;
 }
 
 void Scene::setPreparedRules(PreparedRules prepared) {

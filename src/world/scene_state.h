@@ -59,12 +59,13 @@ struct Scene::State {
   SceneOptions options;
   PairLimits limits;
   std::vector<Slot> slots;
-  std::vector<Body> bodies;                            // the body in each slot
+  std::vector<std::shared_ptr<const Body>> bodies;     // the body in each slot; null: the slot is not used
   std::vector<std::shared_ptr<const MapCells>> cells;  // the cells of the body in each slot; null: it has no cells
   std::vector<std::uint32_t> free_slots;               // indices of the unused slots; has capacity for all slots
   std::map<std::string, std::uint32_t> slot_of_name;   // sorted by name, like Structure::bodies
   bool structure_changed = true;                       // whether bodies or rules changed since the last commit
   bool bodies_changed = true;                          // whether bodies changed since the last commit
+  bool rules_changed = true;                           // whether rules changed since the last commit
   std::optional<PreparedRules> prepared;               // has the same rules as options.allowed_pairs
   std::uint64_t sequence = 0, epoch = 0, commits = 0;
 
@@ -73,13 +74,14 @@ struct Scene::State {
   std::vector<std::uint32_t> slotsFor(const std::vector<BodyId>& out, std::size_t count) const;
   void reserveSlots(std::size_t count);
   void takeOut(std::uint32_t slot);
-  void putIn(std::uint32_t slot, Body&& body);
+  void putIn(std::uint32_t slot, std::shared_ptr<const Body>&& body);
 
   // commit.cpp: Scene::commit() makes a snapshot. Its last step is accept(), which cannot fail. The steps before it do
   // not overwrite results of the last commit. They write to separate members, or they write what the next commit would
   // write as well. So a commit that throws has no effect on the next commit.
 
   void rebuildStructure();
+  PairFilter filterFor(const BodyList& next, const std::vector<std::uint32_t>& known) const;
   void accept(const std::shared_ptr<PooledSnapshot>& accepted);
   std::shared_ptr<PooledSnapshot> freshSnapshot() const;
   void makeBoxes(std::size_t body, const Pose& world_from_body, Snapshot& snapshot) const;

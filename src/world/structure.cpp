@@ -2,15 +2,19 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "hgrid_proximity/world/structure.h"
 
-#include <algorithm>
-
 namespace hgrid {
 
 std::uint32_t Structure::find(const std::string& name) const {
-  const auto found = std::lower_bound(bodies.begin(), bodies.end(), name,
-                                      [](const Body& body, const std::string& wanted) { return body.name < wanted; });
-  const bool here = found != bodies.end() && found->name == name;
-  return here ? static_cast<std::uint32_t>(found - bodies.begin()) : kNone;
+  std::uint32_t begin = 0, end = static_cast<std::uint32_t>(bodies.size());
+  while (begin < end) {
+    const std::uint32_t middle = begin + (end - begin) / 2;
+    if (bodies[middle].name < name) {
+      begin = middle + 1;
+    } else {
+      end = middle;
+    }
+  }
+  return begin < bodies.size() && bodies[begin].name == name ? begin : kNone;
 }
 
 }  // namespace hgrid

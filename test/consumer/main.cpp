@@ -54,7 +54,7 @@ void useScene() {
   put(scene, link, at(0.45, 0.0, 0.3));
 
   const std::shared_ptr<const Snapshot> snapshot = scene.commit(Time{1}, {});
-  const std::vector<Body>& bodies = snapshot->structure().bodies;
+  const BodyList& bodies = snapshot->structure().bodies;
   for (const NearPair& pair : snapshot->pairs()) {
     std::printf("%s and %s: gap %.3f m\n", bodies[pair.first].name.c_str(), bodies[pair.second].name.c_str(), pair.gap);
   }

@@ -202,6 +202,23 @@ TEST(PairRules, TheStrongestDecidesAndWhetherAnythingIsReportedIsKnownForAnyRule
   EXPECT_GT(loud, 500);
 }
 
+/// Expects that two filters for the same bodies decide alike. @returns how many pairs a rule decided
+std::size_t expectAlike(const PairFilter& filter, const PairFilter& fresh, std::uint32_t bodies) {
+  std::size_t decided_by_rule = 0;
+  EXPECT_EQ(filter.reportsAny(), fresh.reportsAny());
+  for (std::uint32_t i = 0; i < bodies; ++i) {
+    EXPECT_EQ(filter.isRuled(i), fresh.isRuled(i));
+    for (std::uint32_t j = 0; j < bodies; ++j) {
+      const PairDecision one = decided(filter, i, j), other = decided(fresh, i, j);
+      EXPECT_EQ(one.origin, other.origin);
+      EXPECT_EQ(one.rule, other.rule);
+      EXPECT_EQ(one.allowed, other.allowed);
+      decided_by_rule += one.rule != PairDecision::kNoRule;
+    }
+  }
+  return decided_by_rule;
+}
+
 /// Claim: a filter from which rules were removed, also in several steps, decides as a new filter with the other rules
 /// does.
 TEST(PairRules, WithoutSomeRulesTheOthersDecideAsInANewFilter) {
@@ -222,20 +239,51 @@ TEST(PairRules, WithoutSomeRulesTheOthersDecideAsInANewFilter) {
       filter = filter.without(gone);
       const PairFilter fresh(bodies, {}, staying);
       ASSERT_EQ(filter.rules().size(), staying.size());
-      ASSERT_EQ(filter.reportsAny(), fresh.reportsAny());
-      for (std::uint32_t i = 0; i < bodies.size(); ++i) {
-        ASSERT_EQ(filter.isRuled(i), fresh.isRuled(i));
-        for (std::uint32_t j = 0; j < bodies.size(); ++j) {
-          const PairDecision one = decided(filter, i, j), other = decided(fresh, i, j);
-          ASSERT_EQ(one.origin, other.origin);
-          ASSERT_EQ(one.rule, other.rule);
-          ASSERT_EQ(one.allowed, other.allowed);
-          decided_by_rule += one.rule != PairDecision::kNoRule;
-        }
-      }
+      decided_by_rule += expectAlike(filter, fresh, static_cast<std::uint32_t>(bodies.size()));
+      if (HasFailure()) return;
     }
   }
   EXPECT_GT(left_out, 1000u);
+  EXPECT_GT(decided_by_rule, 1000u);
+}
+
+/// Claim: a filter for other bodies, of which it knew some, decides as a new filter does. So does one without some of
+/// its rules.
+TEST(PairRules, ForOtherBodiesTheRulesDecideAsInANewFilter) {
+  std::size_t stayed = 0, joined = 0, decided_by_rule = 0;
+  for (unsigned seed = 1; seed <= 300; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    std::vector<Body> all = cell();
+    for (Body& body : test::armBodies("leg")) all.push_back(body);
+    std::vector<PairRule> rules = randomRules(random);
+    std::vector<std::uint32_t> present;  // indices in `all`
+    PairFilter filter({}, {}, rules);
+    for (int step = 0; step < 4; ++step) {
+      std::vector<std::uint32_t> next, known;
+      std::vector<Body> bodies;
+      for (std::uint32_t i = 0; i < all.size(); ++i) {
+        if (random.chance(0.3)) continue;
+        const auto before = std::find(present.begin(), present.end(), i);
+        known.push_back(before == present.end() ? PairFilter::kUnknown
+                                                : static_cast<std::uint32_t>(before - present.begin()));
+        (known.back() == PairFilter::kUnknown ? joined : stayed)++;
+        next.push_back(i);
+        bodies.push_back(all[i]);
+      }
+      filter = filter.forBodies(bodies, known);
+      present = next;
+      decided_by_rule += expectAlike(filter, PairFilter(bodies, {}, rules), static_cast<std::uint32_t>(bodies.size()));
+      if (HasFailure() || rules.empty()) break;
+      std::vector<bool> gone(rules.size());
+      gone[std::size_t(random.below(int(rules.size())))] = true;
+      filter = filter.without(gone);
+      rules = filter.rules();
+    }
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(stayed, 1000u);
+  EXPECT_GT(joined, 1000u);
   EXPECT_GT(decided_by_rule, 1000u);
 }
 

@@ -76,7 +76,7 @@ TEST(NameIndex, FindsWhatAScanOfAllNamesFinds) {
     for (int i = random.between(0, 40); i > 0; --i) names.push_back(word("ab/", 3, 6));
     if (random.chance(0.5)) std::sort(names.begin(), names.end());
     names.erase(std::unique(names.begin(), names.end()), names.end());
-    const std::vector<Body> bodies = named(names);
+    const BodyList bodies = named(names);
     const NameIndex index(bodies);
     for (int k = 0; k < 50; ++k) {
       const std::string glob = word("ab/*?", 5, 5);

@@ -20,7 +20,7 @@ inline const char* nameOf(EventCause cause) {
 /// Returns an event as text, for example "7 BEGIN MOVED obstacle/a obstacle/b".
 inline std::string told(const PairEvent& event, const Structure& structure) {
   return std::to_string(event.number) + " " + nameOf(event.kind) + " " + nameOf(event.cause) + " " +
-         structure.bodies.at(event.first).name + " " + structure.bodies.at(event.second).name;
+         structure.bodies[event.first].name + " " + structure.bodies[event.second].name;
 }
 
 inline std::vector<std::string> eventsOf(const Snapshot& snapshot) {

@@ -71,7 +71,7 @@ inline BodyId putRandom(Scene& scene, Random& random, const std::string& name, d
 
 /// Returns the index of the body `name` in a snapshot. Fails the test if there is none.
 inline std::uint32_t indexOf(const Snapshot& snapshot, const std::string& name) {
-  const std::vector<Body>& bodies = snapshot.structure().bodies;
+  const BodyList& bodies = snapshot.structure().bodies;
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
     if (bodies[i].name == name) return i;
   }
@@ -83,7 +83,7 @@ using NamePairs = std::set<std::pair<std::string, std::string>>;
 
 inline NamePairs namedPairs(const Snapshot& snapshot) {
   NamePairs pairs;
-  const std::vector<Body>& bodies = snapshot.structure().bodies;
+  const BodyList& bodies = snapshot.structure().bodies;
   for (const NearPair& pair : snapshot.pairs()) pairs.emplace(bodies[pair.first].name, bodies[pair.second].name);
   return pairs;
 }

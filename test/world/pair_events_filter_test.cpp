@@ -17,7 +17,7 @@ class PairEventsFilter : public ::testing::Test {
   void setRules(double margin, bool allowed) {
     auto next = std::make_shared<Structure>();
     next->revision = structure_ ? structure_->revision + 1 : 1;
-    next->bodies = {test::ball("a"), test::ball("b")};
+    next->bodies = std::vector<Body>{test::ball("a"), test::ball("b")};
     next->ids = {{0, 0}, {1, 0}};
     next->first_proxy = {0, 1, 2};
     next->body_of_proxy = {0, 1};

@@ -89,8 +89,8 @@ class Model {
     std::pair<std::string, std::string> before;
     for (const PairEvent& event : snapshot.events()) {
       const Structure& structure = snapshot.structureOf(event);
-      const Expected one{test::nameOf(event.kind), structure.bodies.at(event.first).name,
-                         structure.bodies.at(event.second).name, event.since, event.cause == EventCause::bodies};
+      const Expected one{test::nameOf(event.kind), structure.bodies[event.first].name,
+                         structure.bodies[event.second].name, event.since, event.cause == EventCause::bodies};
       SCOPED_TRACE(one.kind + " " + one.first + " " + one.second);
       ASSERT_EQ(event.number, ++last_) << "the events of an epoch are not numbered without gaps";
       ASSERT_LT(one.first, one.second);

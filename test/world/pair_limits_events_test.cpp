@@ -38,7 +38,7 @@ class PairLimitsEvents : public ::testing::Test {
   std::string listed() const {
     if (snapshot_->pairs().size() != 1) return std::to_string(snapshot_->pairs().size()) + " pairs";
     const NearPair& pair = snapshot_->pairs()[0];
-    const std::vector<Body>& bodies = snapshot_->structure().bodies;
+    const BodyList& bodies = snapshot_->structure().bodies;
     return bodies[pair.first].name + " " + bodies[pair.second].name + " since " + std::to_string(pair.since.count());
   }
 

@@ -125,7 +125,7 @@ std::map<std::pair<int, int>, std::pair<double, double>> numberedPairs(const Sna
   std::map<std::string, int> number;
   for (int i = 0; i < variation.count; ++i) number["obstacle/" + variation.name(i)] = i;
   std::map<std::pair<int, int>, std::pair<double, double>> pairs;
-  const std::vector<Body>& bodies = snapshot.structure().bodies;
+  const BodyList& bodies = snapshot.structure().bodies;
   for (const NearPair& pair : snapshot.pairs()) {
     const auto both = std::minmax(number.at(bodies[pair.first].name), number.at(bodies[pair.second].name));
     pairs[both] = {pair.gap, pair.margin};

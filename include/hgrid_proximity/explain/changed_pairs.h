@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "hgrid_proximity/bodies/body.h"
+#include "hgrid_proximity/bodies/body_list.h"
 #include "hgrid_proximity/pairs/pair_filter.h"
 
 namespace hgrid {
@@ -19,6 +19,6 @@ namespace hgrid {
 /// @param bodies  the bodies that both filters were created from
 /// @param before  the filter before the change
 /// @param after   the filter after the change
-std::uint64_t changedPairs(const std::vector<Body>& bodies, const PairFilter& before, const PairFilter& after);
+std::uint64_t changedPairs(const BodyList& bodies, const PairFilter& before, const PairFilter& after);
 
 }  // namespace hgrid

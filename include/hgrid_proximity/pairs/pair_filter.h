@@ -2,11 +2,12 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "hgrid_proximity/bodies/body.h"
+#include "hgrid_proximity/bodies/body_list.h"
 #include "hgrid_proximity/pairs/pair_rule.h"
 
 namespace hgrid {
@@ -39,16 +40,22 @@ struct PairDecision {
 class PairFilter {
  public:
   static constexpr std::uint32_t kNoRule = PairDecision::kNoRule;  ///< stands for "no rule"
+  static constexpr std::uint32_t kUnknown = 0xffffffff;  ///< stands for "a body that the filter does not know"
 
   PairFilter() = default;
   /// @param bodies  the bodies that the indices in the other functions refer to; not kept
   /// @param rules   if two equally exact rules match a pair, the later one decides (see PairRule)
-  PairFilter(const std::vector<Body>& bodies, PairKinds kinds, std::vector<PairRule> rules);
+  PairFilter(const BodyList& bodies, PairKinds kinds, std::vector<PairRule> rules);
 
   /// Returns the filter without some of its rules, for the same bodies. Takes much less time than a new filter, because
   /// it matches no globs.
   /// @param gone  for each rule: whether it is left out; as many values as there are rules
   PairFilter without(const std::vector<bool>& gone) const;
+  /// Returns a filter with the same kinds and rules for other bodies. Takes much less time than a new filter if this
+  /// filter knows most of the bodies, because it matches globs only with the names of the others.
+  /// @param bodies  the bodies that the indices in the other functions of the returned filter refer to; not kept
+  /// @param known   for each of them: its index in this filter, or kUnknown. The body must be the same in both.
+  PairFilter forBodies(const BodyList& bodies, const std::vector<std::uint32_t>& known) const;
 
   /// Returns whether the pair of the two bodies is switched off, which means that it is not reported. Symmetric.
   bool allowed(std::uint32_t first, std::uint32_t second) const {
@@ -109,13 +116,17 @@ class PairFilter {
     }
     return same_robot && a.allowed != nullptr;
   }
-  void resolve(const std::vector<Body>& bodies);
-  void fillSets(const NameIndex& names, std::size_t bodies);
+  void fillSubjects(const BodyList& bodies);
+  void listRules();
+  void fillNamed(const NameIndex& names);
+  void matchGlobs(const NameIndex& names);
+  void copySets(const PairFilter& from, const std::vector<std::uint32_t>& known);
   std::uint32_t ruleOf(std::uint32_t first, std::uint32_t second) const;
   std::vector<std::uint32_t> representatives() const;
 
-  bool exists_[2][kTypes][kTypes] = {};  // by (links of one robot or not, type, type): whether such pairs exist
-  std::vector<Subject> subjects_;        // one for each body
+  using ByType = std::array<std::array<bool, kTypes>, kTypes>;
+  std::array<ByType, 2> exists_ = {};  // by (links of one robot or not, type, type): whether such pairs exist
+  std::vector<Subject> subjects_;      // one for each body
   std::vector<std::shared_ptr<const LinkMatrix>> matrices_;  // keeps the matrices alive that subjects_ point into
   std::vector<PairRule> rules_;
   std::vector<Origin> verdicts_;  // for each rule: its origin, or none if the rule says "report this pair"
@@ -128,6 +139,6 @@ class PairFilter {
 };
 
 /// Returns whether the rules switch off every pair that would be reported without them.
-bool silencesAll(const std::vector<Body>& bodies, const PairKinds& kinds, const PairFilter& filter);
+bool silencesAll(const BodyList& bodies, const PairKinds& kinds, const PairFilter& filter);
 
 }  // namespace hgrid

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "hgrid_proximity/bodies/body.h"
+#include "hgrid_proximity/bodies/body_list.h"
 
 namespace hgrid {
 
@@ -23,7 +23,7 @@ class PairMargins {
  public:
   PairMargins() = default;
   /// @param bodies  the bodies that the indices in the other functions refer to; not kept
-  PairMargins(const std::vector<Body>& bodies, const std::vector<PairMargin>& margins);
+  PairMargins(const BodyList& bodies, const std::vector<PairMargin>& margins);
 
   /// Returns the margin [m] of the last entry that matches a pair; nullopt if no entry matches the pair.
   std::optional<double> of(std::uint32_t first, std::uint32_t second) const {

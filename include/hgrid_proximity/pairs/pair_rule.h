@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "hgrid_proximity/bodies/body.h"
+#include "hgrid_proximity/bodies/body_list.h"
 #include "hgrid_proximity/bodies/link_matrix.h"
 
 namespace hgrid {
@@ -42,6 +42,6 @@ void checkRule(const PairRule& rule);
 
 /// Checks that every name in the rules is the name of a body, and that every glob matches at least one body.
 /// @throws Refusal unknown_id if not; its sentence has the missing name and the most similar existing names
-void checkKnown(const std::vector<PairRule>& rules, const std::vector<Body>& bodies);
+void checkKnown(const std::vector<PairRule>& rules, const BodyList& bodies);
 
 }  // namespace hgrid

@@ -115,8 +115,8 @@ class Scene {
   /// Replaces all rules of the allowed collision matrix. The next commit is the first to use the new rules. If two
   /// equally exact rules match a pair, the later one decides.
   void setRules(std::vector<PairRule> rules);
-  /// As above, with the rules of the filter in `prepared`. The next commit uses this filter, unless bodies changed
-  /// since.
+  /// As above, with the rules of the filter in `prepared`. If bodies were added since, the next commit matches only
+  /// their names with the rules.
   void setPreparedRules(PreparedRules prepared);
   /// Removes rules, from the next commit on. @param gone  for each rule in rules(): whether it is removed
   void removeRules(const std::vector<bool>& gone);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "hgrid_proximity/bodies/body.h"
+#include "hgrid_proximity/bodies/body_list.h"
 #include "hgrid_proximity/pairs/pair_filter.h"
 #include "hgrid_proximity/pairs/pair_margins.h"
 
@@ -18,7 +18,7 @@ struct Structure {
   static constexpr std::uint32_t kNone = 0xffffffff;
 
   std::uint64_t revision = 0;                ///< increases whenever bodies or rules change
-  std::vector<Body> bodies;                  ///< sorted by name
+  BodyList bodies;                           ///< sorted by name
   std::vector<BodyId> ids;                   ///< handle of each body
   std::vector<std::uint32_t> first_proxy;    ///< body i has the proxies first_proxy[i] .. first_proxy[i + 1] - 1
   std::vector<std::uint32_t> body_of_proxy;  ///< for each proxy: index of its body

@@ -50,7 +50,7 @@ class TransformList {
 };
 
 /// Lists the pairs of links of one robot that the model of the robot switches off.
-void listSwitchedOff(const std::vector<Body>& bodies, AuditCase& result) {
+void listSwitchedOff(const BodyList& bodies, AuditCase& result) {
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
     if (!bodies[i].links) continue;
     for (std::uint32_t j = i + 1; j < bodies.size() && bodies[j].robot == bodies[i].robot; ++j) {
@@ -155,8 +155,9 @@ AuditCase caseOf(const Tick& tick, const TransformRecord::Content& record, const
   for (const TransformRecord::Message& message : record.moving) transforms.append(*message);
   result.all_static = record.all_static;
   result.record_begin = record.begin;
-  result.bodies = snapshot.structure().bodies;
-  listSwitchedOff(result.bodies, result);
+  const BodyList& bodies = snapshot.structure().bodies;
+  result.bodies.assign(bodies.begin(), bodies.end());
+  listSwitchedOff(bodies, result);
   listCells(snapshot, result);
   result.poses = snapshot.poses();
   result.pairs = snapshot.pairs();

@@ -33,7 +33,7 @@ bool hasLostABody(const PairEvent& event, const Snapshot& snapshot) {
 std::vector<std::string> namesOf(const Snapshot& snapshot, const PairEvent* first, const PairEvent* last) {
   std::vector<std::string> names;
   for (const PairEvent* event = first; event != last; ++event) {
-    const std::vector<Body>& bodies = snapshot.structureOf(*event).bodies;
+    const BodyList& bodies = snapshot.structureOf(*event).bodies;
     names.push_back(bodies[event->first].name);
     names.push_back(bodies[event->second].name);
   }

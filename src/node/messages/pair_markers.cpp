@@ -99,7 +99,7 @@ std::vector<DrawnPair> drawnPairs(const Snapshot& snapshot, const PairDistances*
 }
 
 std::string labelOf(const Snapshot& snapshot, const DrawnPair& pair) {
-  const std::vector<Body>& bodies = snapshot.structure().bodies;
+  const BodyList& bodies = snapshot.structure().bodies;
   const std::string millimeters = std::to_string(std::lround(1e3 * pair.distance)) + " mm";
   const std::string distance = !pair.measured ? "at least " + millimeters : pair.note.empty() ? millimeters : pair.note;
   return bodies[pair.first].name + " to " + bodies[pair.second].name + ": " + distance;

@@ -99,7 +99,7 @@ void ExplainService::fill(const Snapshot& snapshot, const msg::ExplainPair::Requ
   response.narrow_status = static_cast<std::uint8_t>(what.measured);
   response.state_first = static_cast<std::uint8_t>(what.state_first);
   response.state_second = static_cast<std::uint8_t>(what.state_second);
-  const std::vector<Body>& bodies = snapshot.structure().bodies;
+  const BodyList& bodies = snapshot.structure().bodies;
   response.age_first = ageNow(bodies[what.first], what.age_first, tick_age);
   response.age_second = ageNow(bodies[what.second], what.age_second, tick_age);
   if (response.reported) response.since = toRos(what.since);

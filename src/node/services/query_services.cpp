@@ -111,7 +111,7 @@ std::optional<std::chrono::steady_clock::time_point> deadlineOf(double max_time)
 /// @throws Refusal unknown_id if a pattern of include can match no body, or if exclude leaves no body. Otherwise a
 /// query with a misspelled name would answer CLEAR.
 std::size_t asked(const QueryScope& scope, const Snapshot& snapshot) {
-  const std::vector<Body>& bodies = snapshot.structure().bodies;
+  const BodyList& bodies = snapshot.structure().bodies;
   const std::vector<SourceGap>& gaps = snapshot.gaps();
   for (const std::string& pattern : scope.include) {
     const bool known =
