@@ -65,7 +65,7 @@ int main(int argc, char** argv) {
   put(scene, *narrow, table, hgrid::Pose(Eigen::Translation3d(0.0, 0.0, -0.1)));
 
   const std::shared_ptr<const hgrid::Snapshot> snapshot = scene.commit(hgrid::Time{1}, {});
-  const std::vector<hgrid::Body>& bodies = snapshot->structure().bodies;
+  const hgrid::BodyList& bodies = snapshot->structure().bodies;
   const std::shared_ptr<const hgrid::PairDistances> distances = hgrid::PairMeter(narrow, {}).measure(*snapshot);
   for (const hgrid::PairDistance& pair : distances->pairs) {
     std::printf("%s and %s: gap %.3f m, distance %.3f m\n", bodies[pair.first].name.c_str(),
