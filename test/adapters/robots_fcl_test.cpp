@@ -90,7 +90,7 @@ class Trial {
     std::vector<std::uint32_t> index;
     for (const auto& [link, id] : links_) {
       std::uint32_t at = 0;
-      while (structure.bodies.at(at).link != link) ++at;
+      while (structure.bodies[at].link != link) ++at;
       index.push_back(at);
     }
     return index;

@@ -65,7 +65,7 @@ TEST(Srdf, WhatTheAllowedMatrixPrintsReadsBackAsTheSameMatrix) {
   std::vector<std::string> warnings;
   const auto matrix =
       std::make_shared<const LinkMatrix>(model, readSrdf(fileText(ownData() + "/robots/traits.srdf")), warnings);
-  Structure structure;
+  std::vector<Body> bodies;
   for (std::uint32_t i = 0; i < model.links.size(); ++i) {
     if (!model.links[i].has_collision) continue;
     Body body;
@@ -74,10 +74,11 @@ TEST(Srdf, WhatTheAllowedMatrixPrintsReadsBackAsTheSameMatrix) {
     body.robot = "traits";
     body.link = i;
     body.links = matrix;
-    structure.bodies.push_back(body);
+    bodies.push_back(body);
   }
-  std::sort(structure.bodies.begin(), structure.bodies.end(),
-            [](const Body& a, const Body& b) { return a.name < b.name; });
+  std::sort(bodies.begin(), bodies.end(), [](const Body& a, const Body& b) { return a.name < b.name; });
+  Structure structure;
+  structure.bodies = std::move(bodies);
   structure.filter = PairFilter(structure.bodies, {}, {});
   const AllowedList list = decidedPairs(structure, {"", "", 1000000});
   std::vector<std::string> none;
