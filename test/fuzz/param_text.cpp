@@ -53,7 +53,7 @@ class Parser {
   void skip(const char* characters) {
     left_.remove_prefix(std::min(left_.find_first_not_of(characters), left_.size()));
   }
-  /// Returns the text before the first of these characters. Removes this text, and a quote after it.
+  /// Returns the text before the first character that is in `ends`. Removes this text, and a closing quote after it.
   std::string upTo(const char* ends) {
     const std::size_t size = std::min(left_.find_first_of(ends), left_.size());
     std::string text(left_.substr(0, size));

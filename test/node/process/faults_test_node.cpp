@@ -61,8 +61,8 @@ namespace {
 
 class FaultyPhase final : public NarrowPhase {
  public:
-  /// The node destroys this object after the parts that its threads use. So none of these threads may be left. The
-  /// exception is the thread of roscpp for timers.
+  /// The node destroys this object last, so the threads of the node must have ended. Only the thread of roscpp for
+  /// timers may still run.
   ~FaultyPhase() override {
     if (g_threads_alive > alive_before_ + 1) std::_Exit(2);
   }
