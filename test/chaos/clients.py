@@ -11,7 +11,7 @@ import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).with_name("support")))
 
-import rospy  # noqa: E402  (the path comes first)
+import rospy  # noqa: E402  (needs the path above)
 import tcpros  # noqa: E402
 from cell import HAND, NAME, Cell, expect, sphere  # noqa: E402
 from chaos import FLOW, Deadline, calm_after, main  # noqa: E402

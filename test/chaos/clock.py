@@ -9,7 +9,7 @@ import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).with_name("support")))
 
-import rospy  # noqa: E402  (the path comes first)
+import rospy  # noqa: E402  (needs the path above)
 from cell import FREE, HAND, POST, expect, robot  # noqa: E402
 from chaos import Deadline, calm_after, main  # noqa: E402
 from geometry_msgs.msg import TransformStamped  # noqa: E402

@@ -9,7 +9,7 @@ import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).with_name("support")))
 
-import tcpros  # noqa: E402  (the path comes first)
+import tcpros  # noqa: E402  (needs the path above)
 from cell import FREE, HAND, NAME, expect, robot, sphere  # noqa: E402
 from chaos import Deadline, calm_after, main  # noqa: E402
 

@@ -9,7 +9,7 @@ import xmlrpc.client
 
 sys.path.insert(0, str(pathlib.Path(__file__).with_name("support")))
 
-from cell import FREE, HAND, NAME, expect, robot  # noqa: E402  (the path comes first)
+from cell import FREE, HAND, NAME, expect, robot  # noqa: E402  (needs the path above)
 from chaos import FLOW, Deadline, calm_after, main  # noqa: E402
 
 

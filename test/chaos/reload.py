@@ -8,7 +8,7 @@ import threading
 
 sys.path.insert(0, str(pathlib.Path(__file__).with_name("support")))
 
-import rospy  # noqa: E402  (the path comes first)
+import rospy  # noqa: E402  (needs the path above)
 from cell import HAND, NAME, Cell, expect, robot, sphere  # noqa: E402
 from chaos import Deadline, calm_after, main  # noqa: E402
 from hgrid_proximity.srv import ReloadRobot  # noqa: E402

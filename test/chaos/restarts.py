@@ -16,7 +16,7 @@ import xmlrpc.client
 
 sys.path.insert(0, str(pathlib.Path(__file__).with_name("support")))
 
-from cell import AUDIT, NAME, POST, expect, robot  # noqa: E402  (the path comes first)
+from cell import AUDIT, NAME, POST, expect, robot  # noqa: E402  (needs the path above)
 from chaos import Deadline, check_audit, main  # noqa: E402
 
 RESTART = 2.0  # [s] a new process must exist within this time after the end of the old one

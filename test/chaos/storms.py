@@ -9,7 +9,7 @@ import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).with_name("support")))
 
-from cell import AUDIT, expect  # noqa: E402  (the path comes first)
+from cell import AUDIT, expect  # noqa: E402  (needs the path above)
 from chaos import FLOW, calm_after, main  # noqa: E402
 
 FLOOD = str(pathlib.Path(__file__).with_name("support") / "flood.py")

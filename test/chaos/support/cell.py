@@ -14,7 +14,7 @@ import rospy
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "test/tools/support"))
 
-from system import System, wait_for  # noqa: E402  (the path comes first)
+from system import System, wait_for  # noqa: E402  (needs the path above)
 from hgrid_proximity.msg import Status, Verdict  # noqa: E402
 from hgrid_proximity.srv import QuerySphere  # noqa: E402
 
