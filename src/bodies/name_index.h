@@ -12,14 +12,14 @@
 namespace hgrid {
 
 /// Finds bodies by name or by glob without visiting every body. A glob is compared only with the names that start with
-/// the text before its first `*` or `?`. The index refers to the bodies that it was created from: they must outlive it.
+/// the text before its first `*` or `?`. The list of bodies must outlive the index.
 class NameIndex {
  public:
   static constexpr std::uint32_t kNone = 0xffffffff;
 
   explicit NameIndex(const BodyList& bodies);
-  explicit NameIndex(BodyList&&) = delete;  // it would not outlive the index
-  /// Finds only some of the bodies. @param chosen  their indices
+  explicit NameIndex(BodyList&&) = delete;  // a temporary list would not outlive the index
+  /// Creates an index that finds only some of the bodies. @param chosen  indices of these bodies
   NameIndex(const BodyList& bodies, std::vector<std::uint32_t> chosen);
 
   /// Returns the index of the body with this name, or kNone.
@@ -31,9 +31,9 @@ class NameIndex {
 
  private:
   using Iterator = std::vector<std::uint32_t>::const_iterator;
-  /// Returns the position of the first name that is not less than `name`.
+  /// Returns the place in order_ of the first body whose name is not less than `name`.
   Iterator from(const std::string& name) const;
-  /// Returns the range of names that start with the text of the glob before its first `*` or `?`.
+  /// Returns the range in order_ of the bodies whose names start with the text of the glob before its first `*` or `?`.
   std::pair<Iterator, Iterator> candidates(const std::string& glob) const;
 
   const BodyList& bodies_;

@@ -89,7 +89,7 @@ void PairFilter::listRules() {
   words_ = (glob_rules_.size() + 63) / 64;
 }
 
-/// Finds the bodies of the rules for two names.
+/// Fills named_: finds the two bodies of each rule that has two names without globs.
 void PairFilter::fillNamed(const NameIndex& names) {
   for (std::uint32_t rule = 0; rule < rules_.size(); ++rule) {
     const PairRule& r = rules_[rule];
@@ -105,7 +105,7 @@ void PairFilter::fillNamed(const NameIndex& names) {
   });
 }
 
-/// Sets the bits of the bodies in `names` for the globs that match them.
+/// Sets the bits in as_first_ and as_second_ for the bodies in `names`: one bit for each glob that matches the body.
 void PairFilter::matchGlobs(const NameIndex& names) {
   std::vector<std::uint32_t> found;
   const auto note = [&](const std::string& glob, std::size_t bit, std::vector<std::uint64_t>& sets) {
@@ -122,7 +122,8 @@ void PairFilter::matchGlobs(const NameIndex& names) {
   }
 }
 
-/// Copies the bit sets of the bodies that another filter knows. Both filters have the same glob_rules_.
+/// Copies the bit sets of the bodies that another filter knows. Both filters must have the same glob_rules_.
+/// @param known  for each body: its index in the other filter, or kUnknown
 void PairFilter::copySets(const PairFilter& from, const std::vector<std::uint32_t>& known) {
   for (std::size_t body = 0; body < known.size(); ++body) {
     if (known[body] == kUnknown) continue;
@@ -156,7 +157,7 @@ PairFilter PairFilter::without(const std::vector<bool>& gone) const {
   PairFilter rest = *this;
   rest.rules_.clear();
   rest.verdicts_.clear();
-  std::vector<std::uint32_t> new_rule(rules_.size(), kNoRule);  // indexed by old rule
+  std::vector<std::uint32_t> new_rule(rules_.size(), kNoRule);  // for each old rule: its index in `rest`
   for (std::size_t rule = 0; rule < rules_.size(); ++rule) {
     if (gone[rule]) continue;
     new_rule[rule] = static_cast<std::uint32_t>(rest.rules_.size());
@@ -235,9 +236,9 @@ void PairFilter::appendKey(std::uint32_t body, std::vector<std::uint64_t>& key) 
   }
 }
 
-/// Returns representatives of the bodies: if any pair is reported that is not within one robot, then a pair of
-/// representatives is reported too. There are up to two representatives for each key (see appendKey()). The second one
-/// is outside the robot of the first one.
+/// Returns a selection of the bodies. If a pair of any bodies is reported, and if these are not two links of one robot,
+/// then a pair of selected bodies is reported too. For each key (see appendKey()), one or two bodies are selected. The
+/// second one is outside the robot of the first one.
 std::vector<std::uint32_t> PairFilter::representatives() const {
   struct Chosen {
     std::uint32_t robot;  // robot of the first chosen body

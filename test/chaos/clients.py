@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""64 persistent clients, clients that leave in the middle of a call, 900 idle connections, and wrong md5 sums."""
+"""64 clients call a service while others leave during a call and 900 connections are idle. Then md5 sums are wrong."""
 import io
 import pathlib
 import resource
@@ -11,7 +11,7 @@ import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).with_name("support")))
 
-import rospy  # noqa: E402  (the path comes first)
+import rospy  # noqa: E402  (needs the path above)
 import tcpros  # noqa: E402
 from cell import HAND, NAME, Cell, expect, sphere  # noqa: E402
 from chaos import FLOW, Deadline, calm_after, main  # noqa: E402
@@ -24,7 +24,7 @@ SERVICE = NAME + "/query_sphere"
 
 
 class Client(threading.Thread):
-    """Asks again and again. Keeps the duration of each call, and the first wrong answer."""
+    """Calls ~query_sphere until the deadline. Stores the duration of each call, and the first wrong answer."""
 
     def __init__(self, deadline):
         super().__init__(daemon=True)
@@ -45,19 +45,19 @@ class Client(threading.Thread):
 
 
 def leave(place, call, rng):
-    """Connects as a client and leaves at a random point of the call."""
+    """Connects as a client, and closes the connection at a random point of the call."""
     connection = tcpros.connect(place)
     with connection:
         if rng.random() < 0.5:
-            connection.sendall(call[:rng.randrange(len(call))])  # leaves within the header or within the request
+            connection.sendall(call[:rng.randrange(len(call))])  # closes it within the header or within the request
         else:
-            connection.sendall(call)  # leaves before the answer
+            connection.sendall(call)  # closes it before or during the answer
             if rng.random() < 0.5:
                 tcpros.answer(connection)
 
 
 def check_wrong_md5(cell, place, uri):
-    """A client, a subscriber and a publisher with another md5 sum are refused, and nothing else changes."""
+    """Checks that the node refuses a client, a subscriber and a publisher with a wrong md5 sum."""
     with tcpros.connect(place) as connection:
         connection.sendall(tcpros.header(service=SERVICE, md5sum="0" * 32, callerid="/wrong", persistent="1"))
         said = tcpros.answer(connection)
@@ -93,7 +93,7 @@ def clients(cell, rng, seconds):
         while deadline:
             leave(place, call, rng)
             left += 1
-            time.sleep(0.005)  # else this thread would take the processor from the clients of this program
+            time.sleep(0.005)  # without a pause, this thread would slow down the clients
         for asker in askers:
             asker.join()
         ticks = (cell.status().world.sequence - first) / (time.monotonic() - begin)

@@ -9,7 +9,7 @@ import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).with_name("support")))
 
-import rospy  # noqa: E402  (the path comes first)
+import rospy  # noqa: E402  (needs the path above)
 from cell import FREE, HAND, POST, expect, robot  # noqa: E402
 from chaos import Deadline, calm_after, main  # noqa: E402
 from geometry_msgs.msg import TransformStamped  # noqa: E402
@@ -45,7 +45,7 @@ class Simulator(threading.Thread):
 
 
 def jump(cell, simulator, to):
-    """Sets the clock. A new epoch must begin."""
+    """Sets the clock, and waits until a new epoch begins."""
     epoch = cell.status().world.epoch
     simulator.now = to
     cell.wait("another epoch than %d after the clock was set to %.3f s" % (epoch, to),
@@ -53,11 +53,11 @@ def jump(cell, simulator, to):
 
 
 def stand_still(cell, simulator, rng):
-    """Stops the clock until the node notices it. Nothing near the hand may be CLEAR then."""
+    """Stops the clock until the node notices that. Checks that no answer is CLEAR while the clock stands still."""
     simulator.stands = True
     cell.wait("an incomplete world while the clock stands still", lambda: not cell.status().world.complete)
     expect("verdict while the clock stands still", "UNKNOWN", cell.verdict(FREE))
-    time.sleep(rng.uniform(0.0, 0.5))  # the chaos: the clock goes on at any time
+    time.sleep(rng.uniform(0.0, 0.5))  # chaos: the clock continues at a random time
     simulator.stands = False
 
 
@@ -71,7 +71,7 @@ def disturb(cell, simulator, rng, kind):
 
 
 def check_clock(cell, simulator, rng, seconds):
-    """After each disturbance, the world is soon complete and the answers are right."""
+    """Checks after each disturbance that the world is soon complete and that the answers are right."""
     counts, slowest, deadline = {"back": 0, "ahead": 0, "stands still": 0}, 0.0, Deadline(seconds)
     while deadline or not all(counts.values()):
         kind = rng.choice(sorted(counts))

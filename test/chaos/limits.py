@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""A node runs out of file descriptors, and logs to a full disk. It goes on, and recovers."""
+"""A node has no free file descriptors. Another node logs to a full disk. Both continue to answer, and recover."""
 import pathlib
 import resource
 import sys
@@ -9,16 +9,16 @@ import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).with_name("support")))
 
-import tcpros  # noqa: E402  (the path comes first)
+import tcpros  # noqa: E402  (needs the path above)
 from cell import FREE, HAND, NAME, expect, robot, sphere  # noqa: E402
 from chaos import Deadline, calm_after, main  # noqa: E402
 
-DESCRIPTORS = 64  # limit of the node
+DESCRIPTORS = 64  # the node may have at most so many open files
 CONNECTIONS = 200
 
 
 def limit_descriptors():
-    """Runs in the process of the node before the node."""
+    """Limits the file descriptors of this process. The new process calls this before it becomes the node."""
     resource.setrlimit(resource.RLIMIT_NOFILE, (DESCRIPTORS, DESCRIPTORS))
 
 
@@ -33,7 +33,7 @@ def processor_time(pid):
 
 
 def check_descriptors(cell, rng, seconds):
-    """Without free descriptors, existing clients are served. When connections end, new clients are served again."""
+    """Checks that a node without free descriptors serves existing clients. Later, it must serve new clients again."""
     cell.node = cell.start_node(preexec_fn=limit_descriptors)
     cell.wait_until_right()
     place = tcpros.service_place(cell.master, NAME + "/query_sphere")
@@ -42,14 +42,14 @@ def check_descriptors(cell, rng, seconds):
         deadline = Deadline(seconds)
         while deadline or rounds == 0:
             connections = [tcpros.connect(place) for _ in range(CONNECTIONS)]
-            cell.wait("a node that can accept no more connections",  # one descriptor stays free; accept() needs two
+            cell.wait("a node that can accept no more connections",  # accept() needs two, so one stays free
                       lambda: open_descriptors(cell.node.pid) >= DESCRIPTORS - 1)
             used, begin = processor_time(cell.node.pid), time.monotonic()
             full = Deadline(rng.uniform(0.5, 1.5))
             while full:
-                expect("verdicts for a client from before", ("HIT", "CLEAR"), (cell.verdict(HAND), cell.verdict(FREE)))
+                expect("verdicts for an old client", ("HIT", "CLEAR"), (cell.verdict(HAND), cell.verdict(FREE)))
                 answers += 2
-                time.sleep(0.01)  # else the questions of this program would be the load
+                time.sleep(0.01)  # without a pause, the queries would load the processor
             share = (processor_time(cell.node.pid) - used) / (time.monotonic() - begin)
             for connection in connections:
                 connection.close()
@@ -58,12 +58,12 @@ def check_descriptors(cell, rng, seconds):
             expect("answer to a new client", True, proxy(sphere(FREE)).answer.success)
             proxy.close()
             rounds += 1
-    print("%d times without free descriptors; %d answers; last share of a processor %.0f %%" % (
+    print("%d times without free descriptors; %d answers; in the last round, the node used %.0f %% of a processor" % (
         rounds, answers, 100 * share))
 
 
 def check_full_disk(cell, seconds):
-    """The log goes to a file on a full disk, and the output as well. Only the log is lost."""
+    """Checks that a node whose log and output go to a full disk loses nothing except its log."""
     cell.node.terminate()
     cell.node.wait()
     with open("/dev/full", "wb") as full:
@@ -78,7 +78,7 @@ def check_full_disk(cell, seconds):
             cell.resume(cell.hand)
             cell.wait_until_right()
             lines += 1
-    print("%d times, the node logged to a full disk" % lines)
+    print("the node logged %d times to a full disk" % lines)
 
 
 def limits(cell, rng, seconds):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""The master is killed, started again, and stopped for a while. The node serves its connections all the time."""
+"""The ROS master is stopped for a while, killed, and started again. The node serves its connections all the time."""
 import pathlib
 import sys
 import time
@@ -9,19 +9,19 @@ import xmlrpc.client
 
 sys.path.insert(0, str(pathlib.Path(__file__).with_name("support")))
 
-from cell import FREE, HAND, NAME, expect, robot  # noqa: E402  (the path comes first)
+from cell import FREE, HAND, NAME, expect, robot  # noqa: E402  (needs the path above)
 from chaos import FLOW, Deadline, calm_after, main  # noqa: E402
 
 
 def check_service(cell, seconds, what):
-    """For some seconds, a client from before gets right answers, and the ticks go on."""
+    """Checks for some seconds that an existing client gets right answers, and that ticks continue."""
     first, begin, answers = cell.status().world.sequence, time.monotonic(), 0
     deadline = Deadline(seconds)
     while deadline:
         expect("verdicts while " + what, ("HIT", "CLEAR"), (cell.verdict(HAND), cell.verdict(FREE)))
         expect("complete while " + what, True, cell.status().world.complete)
         answers += 2
-        time.sleep(0.01)  # else the questions of this program would be the load
+        time.sleep(0.01)  # without a pause, the queries would load the processor
     ticks = (cell.status().world.sequence - first) / (time.monotonic() - begin)
     expect("ticks per second while " + what, "at least %g of 50" % (50 * FLOW), "%.1f" % ticks, ticks >= 50 * FLOW)
     print("while %s: %d answers, %.1f ticks per second" % (what, answers, ticks))
@@ -42,7 +42,7 @@ def master(cell, rng, seconds):
         check_service(cell, 0.2 * seconds, "the master does not answer")
         cell.resume(process)
     with calm_after(cell):
-        time.sleep(rng.uniform(0.0, 0.5))  # the chaos: the master ends at any time
+        time.sleep(rng.uniform(0.0, 0.5))  # chaos: the master ends at a random time
         process.kill()
         process.wait()
         check_service(cell, 0.3 * seconds, "there is no master")

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""200 reloads of the robot while four clients ask. Each answer is about one of the two models, not about a mixture."""
+"""The robot is reloaded 200 times while four clients send queries. Each answer is about one model, never a mixture."""
 import pathlib
 import sys
 import threading
 
 sys.path.insert(0, str(pathlib.Path(__file__).with_name("support")))
 
-import rospy  # noqa: E402  (the path comes first)
+import rospy  # noqa: E402  (needs the path above)
 from cell import HAND, NAME, Cell, expect, robot, sphere  # noqa: E402
 from chaos import Deadline, calm_after, main  # noqa: E402
 from hgrid_proximity.srv import ReloadRobot  # noqa: E402
@@ -19,7 +19,7 @@ MODELS = [{"robot/" + link for link in links} for links in (FIRST, SECOND)]
 
 
 class Asker(threading.Thread):
-    """Asks what is at the hand until it is stopped. Keeps the first answer that is about neither model."""
+    """A client that asks what is at the place of the hand. Stores the first answer that fits neither model."""
 
     def __init__(self):
         super().__init__(daemon=True)

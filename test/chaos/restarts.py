@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""The node is killed, asked to end, and crashed, at random times. Each time, proximity.launch starts it again."""
+"""The node is killed, shut down or crashed at random times. Each time, proximity.launch starts it again."""
 import collections
 import contextlib
 import http.client
@@ -16,11 +16,11 @@ import xmlrpc.client
 
 sys.path.insert(0, str(pathlib.Path(__file__).with_name("support")))
 
-from cell import AUDIT, NAME, POST, expect, robot  # noqa: E402  (the path comes first)
+from cell import AUDIT, NAME, POST, expect, robot  # noqa: E402  (needs the path above)
 from chaos import Deadline, check_audit, main  # noqa: E402
 
 RESTART = 2.0  # [s] a new process must exist within this time after the end of the old one
-DEPTH = 200000  # of the nested arrays
+DEPTH = 200000  # number of nested arrays in the request of crash()
 
 
 def node_uri(cell):
@@ -36,15 +36,15 @@ def is_running(pid):
 
 
 def children_of(thread):
-    """Returns the processes that a thread has started, a folder below /proc. The thread may have ended."""
+    """Returns the ids of the processes that a thread has started. `thread` is its folder below /proc."""
     try:
         return [int(pid) for pid in (thread / "children").read_text().split()]
-    except (FileNotFoundError, ProcessLookupError):
+    except (FileNotFoundError, ProcessLookupError):  # the thread has ended
         return []
 
 
 def node_of(launch):
-    """Returns the process of the node that roslaunch has started; None if there is none."""
+    """Returns the process id of the node that roslaunch has started; None if there is none."""
     threads = list(pathlib.Path("/proc/%d/task" % launch.pid).iterdir())
     running = [pid for thread in threads for pid in children_of(thread) if is_running(pid)]
     expect("nodes of one launch file", "at most 1", running, len(running) <= 1)
@@ -60,7 +60,7 @@ def end_by_rosnode(cell, _):
 
 
 def crash(cell, _):
-    """Sends a request of nested arrays. Its reader in roscpp calls itself for each of them."""
+    """Sends a request with nested arrays. roscpp reads each of them by a recursive call, until the stack overflows."""
     body = "<methodCall><methodName>getPid</methodName><params><param>%s%s</param></params></methodCall>" % (
         "<value><array><data>" * DEPTH, "</data></array></value>" * DEPTH)
     host, port = node_uri(cell).rstrip("/").rpartition("//")[2].split(":")
@@ -78,7 +78,7 @@ WAYS = {"kill -9": kill, "rosnode kill": end_by_rosnode, "deep XML-RPC": crash}
 
 
 def restart(cell, launch, way):
-    """Ends the node in this way. Returns how long it took until there was another process [s]."""
+    """Ends the node by one of WAYS. Returns how long it took until roslaunch had started it again [s]."""
     old = cell.wait("a node", lambda: node_of(launch))
     WAYS[way](cell, old)
     cell.wait("the end of the node by " + way, lambda: not is_running(old))
@@ -95,9 +95,9 @@ def restart(cell, launch, way):
 
 @contextlib.contextmanager
 def launched(cell):
-    """Runs proximity.launch. At the end, roslaunch ends in order, because it must end its node too."""
+    """Runs proximity.launch within this context. Then sends SIGINT to roslaunch, which must also end its node."""
     params = pathlib.Path(cell.folder) / "cell.yaml"
-    params.write_text(json.dumps(dict({"world_frame": "world", "obstacles": [POST]}, **AUDIT)))  # JSON is YAML
+    params.write_text(json.dumps(dict({"world_frame": "world", "obstacles": [POST]}, **AUDIT)))  # JSON is also YAML
     with open(cell.output, "ab") as output:
         launch = cell.start("roslaunch", "-p", cell.uri.rpartition(":")[2], "hgrid_proximity", "proximity.launch",
                             "params:=%s" % params, stdout=output, stderr=subprocess.STDOUT)
@@ -118,7 +118,7 @@ def restarts(cell, rng, seconds):
         cell.wait_until_right()
         deadline = Deadline(seconds)
         while deadline or len(counts) < len(WAYS):
-            time.sleep(rng.uniform(0.0, 0.5))  # the chaos: the node ends at any time
+            time.sleep(rng.uniform(0.0, 0.5))  # chaos: the node ends at a random time
             way = rng.choice([way for way in WAYS if way not in counts] or sorted(WAYS))
             slowest = max(slowest, restart(cell, launch, way))
             counts[way] += 1

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Subscribers that read nothing, publishers that are stopped and killed, and the node itself stopped for 10 s."""
+"""Subscribers read nothing, publishers are stopped and killed, and the node itself is stopped for 10 s."""
 import pathlib
 import sys
 import threading
@@ -9,7 +9,7 @@ import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).with_name("support")))
 
-import rospy  # noqa: E402  (the path comes first)
+import rospy  # noqa: E402  (needs the path above)
 import tcpros  # noqa: E402
 from cell import FREE, HAND, NAME, POST, Cell, expect, resident, sphere  # noqa: E402
 from chaos import FLOW, GROWTH, Deadline, calm_after, main  # noqa: E402
@@ -18,15 +18,15 @@ from hgrid_proximity.msg import BodyState, Events, Pairs, Verdict  # noqa: E402
 from tf2_msgs.msg import TFMessage  # noqa: E402
 
 STALLED = 8  # subscribers that read nothing
-PILE = 1000  # obstacles at one place, so that ~pairs has megabytes per second
-ENOUGH = 5 * GROWTH  # [MB] of a topic; if the node kept them for a stalled subscriber, its growth would show
+PILE = 1000  # number of obstacles at one place; ~pairs then has megabytes per second
+ENOUGH = 5 * GROWTH  # [MB] data that a topic must send; the test would notice if the node stored so much
 EVENT_QUEUE = 10  # ~event_queue
 FAR = (-10.0, 0.0, 0.0)  # [m] a place far from the pile
 STOPPED = 10.0  # [s] how long the node is stopped
 
 
 def pile():
-    """Returns obstacles around the hand. Each makes a pair with it and with nothing else."""
+    """Returns the post, and obstacles around the hand. Each of these makes a pair with the hand only."""
     shape = [{"type": "sphere", "radius": 0.1}]
     return [POST] + [{"name": "pile_%04d" % i, "pose": {"xyz": [1, 0, 0]}, "shapes": shape} for i in range(PILE)]
 
@@ -40,7 +40,7 @@ def stall(uri, topic, kind):
 
 
 class Listener:
-    """A subscriber that reads everything. Counts what it gets."""
+    """A subscriber that reads all messages. Counts them and their bytes."""
 
     def __init__(self, topic):
         self.messages, self.megabytes, self.largest = 0, 0.0, 0.0
@@ -57,7 +57,7 @@ class Listener:
 
 
 class Jumper:
-    """Places the hand in each tick: in the pile, then far from it. So each tick begins or ends all pairs of the hand."""
+    """Moves the hand in each tick, into the pile or far from it. So each tick begins or ends all pairs of the hand."""
 
     def __init__(self, rate):
         self._publisher = rospy.Publisher("/tf", TFMessage, queue_size=1)
@@ -76,7 +76,7 @@ class Jumper:
         self._publisher.publish(TFMessage([message]))
 
     def close(self, cell):
-        """Ends with the hand far from the pile."""
+        """Stops the motion, and leaves the hand far from the pile."""
         self._timer.shutdown()
         self._timer.join()
         self._place(FAR)
@@ -85,12 +85,14 @@ class Jumper:
 
 
 def check_stalled_subscribers(cell, topic, kind, queue, seconds):
-    """Subscribers that read nothing cost the memory of a queue at most. Ticks and another subscriber go on."""
+    """Checks that subscribers that read nothing cost at most the memory of one queue.
+
+    Meanwhile, ticks must continue, and another subscriber must receive messages. `queue` is a number of messages."""
     uri = cell.master.lookupNode("/test", NAME)[2]
     before, first, begin = resident(cell.node.pid), cell.status().world.sequence, time.monotonic()
     connections = [stall(uri, topic, kind) for _ in range(STALLED)]
     listener = Listener(topic)
-    time.sleep(seconds)  # the chaos: meanwhile, the node publishes far more than the buffers of the system hold
+    time.sleep(seconds)  # chaos: meanwhile, the node publishes far more than the buffers of the system hold
     cell.wait("%g MB of %s" % (ENOUGH, topic), lambda: listener.megabytes >= ENOUGH)
     grown = resident(cell.node.pid) - before
     ticks = cell.status().world.sequence - first
@@ -109,7 +111,7 @@ def check_stalled_subscribers(cell, topic, kind, queue, seconds):
 
 
 def check_stalled_events(cell, seconds):
-    """As above, for ~events, while each tick begins or ends a thousand pairs."""
+    """Runs check_stalled_subscribers() for ~events, while each tick begins or ends a thousand pairs."""
     cell.hand.kill()
     cell.hand.wait()
     jumper = Jumper(100)
@@ -120,7 +122,10 @@ def check_stalled_events(cell, seconds):
 
 
 def check_publishers(cell, rng, seconds):
-    """While a publisher is stopped or killed, the hand is lost and nothing near it is CLEAR. Then all is as before."""
+    """Stops or kills the publisher of the hand again and again.
+
+    Checks that the hand is then LOST and that no query near it is CLEAR. When the publisher runs again, all answers
+    must be right."""
     deadline = Deadline(seconds)
     rounds = 0
     while deadline or rounds == 0:
@@ -144,7 +149,7 @@ def check_publishers(cell, rng, seconds):
 
 
 def check_stopped_node(cell):
-    """The answer to a question that waited while the node was stopped is CLEAR only from a tick after that."""
+    """Checks a query that waits while the node is stopped: its answer may be CLEAR only from a tick after the stop."""
     answers = []
     proxy = Cell.client()
     expect("verdict before the stop", Verdict.CLEAR, proxy(sphere(FREE)).answer.verdict)

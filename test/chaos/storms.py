@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""5,000 messages per second on each of /tf, /tf_static, a cloud and a map. Counters account for every message."""
+"""5,000 messages per second arrive on each of /tf, /tf_static, a cloud and a map. Counters account for all of them."""
 import pathlib
 import subprocess
 import sys
@@ -9,15 +9,16 @@ import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).with_name("support")))
 
-from cell import AUDIT, expect  # noqa: E402  (the path comes first)
+from cell import AUDIT, expect  # noqa: E402  (needs the path above)
 from chaos import FLOW, calm_after, main  # noqa: E402
 
 FLOOD = str(pathlib.Path(__file__).with_name("support") / "flood.py")
 RATE = 5000.0  # [Hz] messages of each kind
 KINDS = ("tf", "tf_static", "cloud", "map")
-GROWTH = 80.0 if AUDIT else 30.0  # [MB] the audit keeps up to ~tf_queue_bytes of each topic of tf
+GROWTH = 80.0 if AUDIT else 30.0  # [MB] the audit also stores messages of /tf (~tf_queue_bytes)
+# Beginnings of the counters of transforms. The node counts each transform in one of them.
 DECIDED = ("tf.accepted", "tf.refused.", "tf.dropped.", "tf.ignored.", "tf.too_old", "tf.repeated", "tf.rival")
-INPUTS = {  # topic -> beginnings of the counters of its messages
+INPUTS = {  # topic -> beginnings of the names of the counters of its messages
     "/cloud": ("cloud/front.accepted", "cloud/front.refused."),
     "/octomap_binary": ("maps.accepted", "maps.refused."),
 }
@@ -28,7 +29,7 @@ def total(counters, beginnings):
 
 
 def check_tf(cell, sent, earlier):
-    """Each message has one transform, so counts of transforms are counts of messages."""
+    """Waits until the node has counted all transforms. Each message contains one transform."""
     def counted():
         return total(cell.counters(), DECIDED) - earlier
 
@@ -36,7 +37,7 @@ def check_tf(cell, sent, earlier):
 
 
 def check_input(cell, topic, sent, earlier):
-    """The node counts each message that it reads. roscpp counts those that newer ones replaced before."""
+    """Checks that the node counts each message that it reads. roscpp counts messages that newer ones have replaced."""
     received, dropped = cell.received(topic)
     expect("messages that arrived on " + topic, sent, received)
 
@@ -62,12 +63,12 @@ def storms(cell, rng, seconds):
     cell.start_all(maps=[{"name": "room", "topic": "octomap_binary"}],
                    clouds=[{"name": "front", "topic": "cloud", "lifetime": 3600}])
     cell.wait("the first tick", cell.status)
-    first = [flood(cell, kind, 10, 1, 1) for kind in ("tf_static", "cloud", "map")]  # complete the world
+    first = [flood(cell, kind, 10, 1, 1) for kind in ("tf_static", "cloud", "map")]  # these messages complete the world
     for process in first:
         sent_by(process)
     cell.wait_until_right()
     for process in first:
-        process.communicate()  # ends it
+        process.communicate()  # closes the input of the process, which ends it
     cell.hand.kill()  # now the flood places the hand
     cell.hand.wait()
     earlier = cell.counters()

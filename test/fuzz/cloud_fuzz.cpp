@@ -19,7 +19,7 @@ std::string fieldFrom(ByteSource& bytes) {
   return stringOf(name) + bytesOf(offset) + datatype + bytesOf(std::uint32_t{bytes.below(3)});
 }
 
-/// Returns a message with the layout that the bytes describe. In most messages all sizes fit.
+/// Returns a message with the layout that the bytes describe. In most of these messages, all sizes are consistent.
 std::string describedBy(ByteSource bytes) {
   const std::uint32_t height = bytes.below(4), width = bytes.below(7), count = bytes.below(6);
   std::string fields = bytesOf(count);
@@ -36,7 +36,7 @@ std::string describedBy(ByteSource bytes) {
          number(point_step) + number(row_step) + stringOf(data) + '\1';
 }
 
-/// Compares the cloud that was read with the reference. @returns how they differ; empty if they are equal
+/// Compares the cloud that the product read with the reference. @returns how they differ; empty if they are equal
 std::string differenceOf(const PointCloud& cloud, const PointCloud& reference) {
   if (cloud.not_finite != reference.not_finite) return "the number of points that are not finite is wrong";
   return cloud.points == reference.points ? "" : "the points are wrong";

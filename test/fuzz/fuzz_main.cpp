@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// The entry of each libFuzzer program. HGRID_FUZZED is the name of the target's function. test/fuzz/run builds it.
+// The entry point of each libFuzzer program. HGRID_FUZZED is the name of the function that reads one input (targets.h).
+// test/fuzz/run builds the programs.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>

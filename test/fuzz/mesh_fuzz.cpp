@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostTriangles = 200;
 
-/// Returns the ids of the child processes. The fuzzer itself may have one, which prints names of functions.
+/// Returns the ids of all child processes of the calling thread. libFuzzer may have a child of its own, which finds the
+/// names of functions for its messages.
 std::string children() {
   std::ifstream file("/proc/thread-self/children");
   std::string ids;
@@ -45,8 +46,8 @@ std::string flawOfMesh(const TriangleMesh& mesh) {
   return {};
 }
 
-/// Returns the number of faces of an OBJ file; 0 if some do not have 3 corners, which gives another number of
-/// triangles.
+/// Returns the number of faces of an OBJ file. Returns 0 if a face does not have 3 corners, because the number of
+/// triangles is then not the number of faces.
 std::size_t facesOfObj(std::string_view file) {
   std::size_t faces = 0;
   for (const std::vector<std::string>& words : wordsOfObj(file)) {

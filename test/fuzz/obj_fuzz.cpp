@@ -9,9 +9,9 @@ namespace hgrid {
 namespace test {
 namespace {
 
-/// Returns what is wrong with the plain text of an OBJ file; empty if nothing is wrong.
+/// Returns what is wrong with the text that plainObj() made of an OBJ file; empty if nothing is wrong.
 std::string flawOfPlain(const std::string& plain, std::string_view file) {
-  if (plain.compare(0, 3, "\xef\xbb\xbf") == 0) return {};  // a second mark of UTF-8 would be removed as well
+  if (plain.compare(0, 3, "\xef\xbb\xbf") == 0) return {};  // a second call would remove a second mark of UTF-8
   if (plainObj(plain) != plain) return "the text is not plain";
   if (plain.find_first_of(std::string("\r\0", 2)) != std::string::npos) return "a character does not belong there";
   for (std::size_t at = 0; at < plain.size(); at = plain.find('\n', at) + 1) {

@@ -20,7 +20,7 @@ class Parser {
 
   XmlRpcValue value(int depth) {
     skip(" ,:\n");
-    if (depth > kDeepest) left_ = {};  // leaves out the rest of the text
+    if (depth > kDeepest) left_ = {};  // ignores the rest of the text
     if (left_.empty()) return {};
     const char first = left_[0];
     if (std::string_view("+-.0123456789ni").find(first) != std::string_view::npos) return number();

@@ -14,8 +14,8 @@
 namespace hgrid {
 namespace test {
 
-/// Reads all seeds of a fuzz target. They are its first inputs, and inputs that once failed. None may show a flaw.
-/// Some must be accepted and some refused, because the fuzzer needs both kinds.
+/// Reads all seeds of a fuzz target. Seeds are the inputs with which the fuzzer starts, and inputs that once failed. No
+/// seed may show a flaw. At least two seeds must be accepted and two refused, because the fuzzer needs both kinds.
 inline void expectNoFlawInSeeds(const std::string& target, FuzzResult (*read)(std::string_view)) {
   int accepted = 0, refused = 0;
   for (const auto& entry : std::filesystem::directory_iterator(HGRID_PROJECT_DIR "/test/fuzz/" + target)) {

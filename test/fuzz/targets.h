@@ -27,10 +27,11 @@ FuzzResult fuzzSrdf(std::string_view input);
 FuzzResult fuzzMesh(std::string_view input);
 /// Checks the lines of an OBJ file, without the helper process.
 FuzzResult fuzzObj(std::string_view input);
-/// Reads a PointCloud2 message. The first byte selects whether the other bytes are the message or describe it.
+/// Reads a PointCloud2 message. The first byte selects whether the other bytes are the message, or only describe its
+/// layout.
 FuzzResult fuzzCloud(std::string_view input);
-/// Reads a request or a message. The first byte selects its type and whether the other bytes are the message or fill
-/// it.
+/// Reads a request or a message. The first byte selects the type. It also selects whether the other bytes are the
+/// message, or the values of the fields of a valid message.
 FuzzResult fuzzWire(std::string_view input);
 /// Reads the parameters of the node. The bytes describe the tree of parameters.
 FuzzResult fuzzParams(std::string_view input);

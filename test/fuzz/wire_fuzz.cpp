@@ -91,7 +91,8 @@ FuzzResult readBytes(const std::string& bytes) {
   }
 }
 
-/// Reads a message that is filled from the input. It is valid, so its lengths must be accepted.
+/// Fills the fields of a message from the input, serializes it and reads it. The lengths in such a message are correct,
+/// so the reader must accept them.
 template <class Message>
 FuzzResult readFilled(std::string_view input) {
   const std::string bytes = serialized(FilledMessage<ByteSource>(ByteSource(input)).make<Message>());

@@ -9,7 +9,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 COPY = ROOT / "build" / "mutants"
-PROGRAMS = COPY / "programs"  # contains one folder for each mutant whose tests still run
+PROGRAMS = COPY / "programs"  # one folder with test programs for each mutant that is being tested
 TESTS = ["geometry_test", "broadphase_test", "maps_test", "bodies_test", "pairs_test", "world_test", "queries_test",
          "distances_test", "explain_test"]
 
@@ -30,13 +30,13 @@ def prepare():
 
 
 def unmutated():
-    """Builds the tests without a mutant. Returns the same as build()."""
+    """Builds the tests without a mutant. Returns the same kind of values as build()."""
     compile_tests()
     return commands("unmutated", TESTS)
 
 
 def build(name, file, text):
-    """Builds the tests while a file in src/ contains this text.
+    """Builds the tests while a file in src/ has the content `text`.
 
     @returns the commands that run the tests, and a folder to delete after them
     """
@@ -47,12 +47,12 @@ def build(name, file, text):
         compile_tests()
     finally:
         path.write_text(original)
-    first = file.split("/")[0] + "_test"  # the tests of the room of the mutant run first
+    first = file.split("/")[0] + "_test"  # the tests of the folder that contains the mutant run first
     return commands(name, sorted(TESTS, key=lambda test: (test != first, TESTS.index(test))))
 
 
 def commands(name, tests):
-    """Copies the test programs, because the next mutant is built while they run."""
+    """Copies the test programs, because the next mutant is built while they run. Returns the same as build()."""
     folder = PROGRAMS / name
     folder.mkdir(parents=True, exist_ok=True)
     for test in tests:

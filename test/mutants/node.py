@@ -2,8 +2,9 @@
 # SPDX-FileCopyrightText: the hgrid_proximity authors
 """Builds and tests mutants of the node.
 
-Compiles only the changed file, into a library that is loaded before the library of the node (LD_PRELOAD). Its functions
-then replace those of the node. So the tests that scripts/test has built also test the mutants.
+Compiles only the changed file, into a library of its own. A test loads this library before the library of the node
+(LD_PRELOAD). Then the functions of the changed file replace those of the node. The tests are those that scripts/test
+has built; they are not built again.
 """
 
 import pathlib
@@ -27,12 +28,12 @@ def prepare():
 
 
 def unmutated():
-    """Returns the same as build(), without a mutant."""
+    """Returns the same kind of values as build(), for the tests without a mutant."""
     return commands([]), COPY
 
 
 def build(name, file, text):
-    """Compiles a file of src/ with this text.
+    """Compiles the content `text` in place of a file of src/.
 
     @returns the commands that run the tests, and a folder to delete after them
     """

@@ -13,7 +13,7 @@ LOADER.exec_module(judge)
 
 
 def table(**changes):
-    """Returns a table without drift. `changes` replaces columns: a value for all tenths, or one for each tenth."""
+    """Returns a table without drift. `changes` replaces columns: by one value for all tenths, or by a list of ten."""
     columns = {
         "tenth": list(range(1, 11)),
         "ticks": 18000,

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-// node_soaktest loads a node for a long time, and prints a table with one line per tenth of that time. test/soak/run starts
-// it and judges the table.
+// node_soaktest puts a constant load on a node for a long time. It prints a table with one line for each tenth of this
+// time. test/soak/run starts it and judges the table.
 //
-// The load: 1,000 moving bodies at 100 Hz on /tf, a map of 200,000 leaves per second, and 200 queries per second.
+// The load is 1,000 moving bodies at 100 Hz on /tf, one map of 200,000 leaves per second, and 200 queries per second.
 
 #include <ros/init.h>
 #include <ros/spinner.h>
@@ -37,7 +37,7 @@ using Clock = std::chrono::steady_clock;
 constexpr char kTopic[] = "/soak_map";
 constexpr std::size_t kBodies = 1000;
 constexpr std::size_t kLeaves = 200000;
-constexpr double kRate = 100.0;  // [Hz] cycles of /tf, and ticks
+constexpr double kRate = 100.0;  // [Hz] rate of messages on /tf, and of ticks
 constexpr int kRows = 10;
 
 /// Returns the memory of a process that is in RAM [byte].
@@ -49,7 +49,7 @@ double residentBytes(pid_t process) {
   throw std::runtime_error("the node has ended");
 }
 
-/// Returns how much the node has refused or lost, and how often publishers contradicted each other.
+/// Returns how many things the node has refused or lost, plus how often two publishers placed a frame differently.
 std::uint64_t troubles(const Heard& heard) {
   std::uint64_t sum = 0;
   for (const auto& counter : heard.counters) {
@@ -60,12 +60,13 @@ std::uint64_t troubles(const Heard& heard) {
   return sum;
 }
 
+/// Returns a counter of the audit as text; "-" if the node does not have this counter.
 std::string audited(const std::map<std::string, std::uint64_t>& counters, const char* name) {
   const auto found = counters.find(name);
   return found == counters.end() ? "-" : std::to_string(found->second);
 }
 
-/// A node under the load.
+/// A node and the programs that put the load on it.
 class Soak {
  public:
   explicit Soak(double duration)

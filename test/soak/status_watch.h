@@ -21,7 +21,7 @@ struct Heard {
   std::string reason;                             ///< why the world was incomplete the last time; empty: it never was
   std::vector<double> ticks;                      ///< [s] duration of each tick
   std::uint64_t sequence = 0;                     ///< number of the newest tick
-  std::map<std::string, std::uint64_t> counters;  ///< counters of the newest tick
+  std::map<std::string, std::uint64_t> counters;  ///< name -> value, for the newest tick
 };
 
 /// Subscribes to ~status of a node.

@@ -18,26 +18,26 @@ class BodyList {
   /// Visits the bodies of a list in their order.
   class Iterator {
    public:
-    using iterator_category = std::forward_iterator_tag;  ///< may visit the list more than once
-    using value_type = Body;                              ///< what it visits
-    using difference_type = std::ptrdiff_t;               ///< number of steps
-    using pointer = const Body*;                          ///< the result of ->
-    using reference = const Body&;                        ///< the result of *
+    using iterator_category = std::forward_iterator_tag;  ///< a copy can visit the bodies again
+    using value_type = Body;                              ///< type of the visited elements
+    using difference_type = std::ptrdiff_t;               ///< type of a number of steps
+    using pointer = const Body*;                          ///< type of the result of ->
+    using reference = const Body&;                        ///< type of the result of *
 
     Iterator() = default;
-    /// @param at  the pointer to the body that it visits first
+    /// @param at  the element of the list that the iterator points to at first
     explicit Iterator(const std::shared_ptr<const Body>* at) : at_(at) {}
-    /// Returns the present body.
+    /// Returns the body that the iterator points to.
     reference operator*() const { return **at_; }
-    /// Returns the present body.
+    /// Returns a pointer to the body that the iterator points to.
     pointer operator->() const { return at_->get(); }
     /// Goes to the next body.
     Iterator& operator++() { return ++at_, *this; }
-    /// Goes to the next body. @returns an iterator at the present one
+    /// Goes to the next body. @returns an iterator to the previous body
     Iterator operator++(int) { return Iterator(at_++); }
-    /// Whether both are at the same place of one list.
+    /// Whether both iterators point to the same place. They must belong to the same list.
     bool operator==(const Iterator& other) const { return at_ == other.at_; }
-    /// Whether they are at different places of one list.
+    /// Whether the iterators point to different places. They must belong to the same list.
     bool operator!=(const Iterator& other) const { return at_ != other.at_; }
 
    private:
@@ -45,7 +45,7 @@ class BodyList {
   };
 
   BodyList() = default;
-  /// Makes a list of new bodies. Not explicit, so that a function that takes a list accepts a vector as well.
+  /// Creates a list from a vector of bodies. Not explicit: a vector can be passed to a function that takes a list.
   BodyList(std::vector<Body> bodies) {
     reserve(bodies.size());
     for (Body& body : bodies) push_back(std::make_shared<const Body>(std::move(body)));
@@ -55,9 +55,9 @@ class BodyList {
   std::size_t size() const { return bodies_.size(); }
   /// Returns a body by its index, which must be less than size().
   const Body& operator[](std::size_t index) const { return *bodies_[index]; }
-  /// Returns an iterator at the first body.
+  /// Returns an iterator to the first body.
   Iterator begin() const { return Iterator(bodies_.data()); }
-  /// Returns an iterator behind the last body.
+  /// Returns an iterator to the place behind the last body.
   Iterator end() const { return Iterator(bodies_.data() + bodies_.size()); }
   /// Allocates memory for a number of bodies.
   void reserve(std::size_t count) { bodies_.reserve(count); }

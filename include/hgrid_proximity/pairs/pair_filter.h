@@ -81,9 +81,9 @@ class PairFilter {
   bool isRuled(std::uint32_t body) const { return subjects_[body].ruled != 0; }
   /// Appends numbers to `key` that describe how the filter treats this body in pairs with bodies outside its robot.
   ///
-  /// Bodies with equal numbers are treated alike. The filter gives the same result for the pair of any of them with a
-  /// third body outside their robots. It also gives the same result for each pair of two of them, except for two links
-  /// of one robot.
+  /// The filter treats bodies with equal numbers alike. Let A and B be two such bodies, and C a third body outside the
+  /// robots of A and B. Then the filter gives the same result for the pairs (A, C) and (B, C). It also gives the same
+  /// result for all pairs of bodies with these numbers, except for pairs of links of one robot.
   void appendKey(std::uint32_t body, std::vector<std::uint64_t>& key) const;
   /// Returns whether at least one pair is reported when its bodies are near.
   bool reportsAny() const;
@@ -95,14 +95,14 @@ class PairFilter {
   struct Subject {
     const std::uint64_t* allowed = nullptr;  // bit set of LinkMatrix::allowedWith() for this link; null: no model
     std::uint32_t robot = kNoRobot;          // equal for links of one robot
-    std::uint32_t link = 0;
-    std::uint32_t matrix = 0;  // index of its model's matrix in matrices_
-    std::uint8_t type = 0;
+    std::uint32_t link = 0;                  // Body::link
+    std::uint32_t matrix = 0;                // index in matrices_ of the matrix of its robot model
+    std::uint8_t type = 0;                   // kind and mobility of the body, as one number less than kTypes
     std::uint8_t ruled = 0;  // bits kByName and kByGlob: which kinds of rule have a name or glob for this body
   };
   struct NamedPair {
     std::uint64_t bodies;  // the two indices, the smaller one in the upper 32 bits
-    std::uint32_t rule;
+    std::uint32_t rule;    // index in rules_
   };
   /// Returns whether the matrix of the robot model decides about the pair. If not, sets `origin` to the result.
   bool asksMatrix(std::uint32_t first, std::uint32_t second, Origin& origin) const {
@@ -126,7 +126,7 @@ class PairFilter {
 
   using ByType = std::array<std::array<bool, kTypes>, kTypes>;
   std::array<ByType, 2> exists_ = {};  // by (links of one robot or not, type, type): whether such pairs exist
-  std::vector<Subject> subjects_;      // one for each body
+  std::vector<Subject> subjects_;      // one for each body, by index of the body
   std::vector<std::shared_ptr<const LinkMatrix>> matrices_;  // keeps the matrices alive that subjects_ point into
   std::vector<PairRule> rules_;
   std::vector<Origin> verdicts_;  // for each rule: its origin, or none if the rule says "report this pair"
@@ -134,8 +134,8 @@ class PairFilter {
   std::vector<std::uint32_t> glob_rules_;  // rules that contain a glob; bit k of the bit sets stands for
                                            // glob_rules_[k], kNoRule if without() left the rule out
   std::size_t words_ = 0;                  // number of 64-bit words per body in the bit sets
-  std::vector<std::uint64_t> as_first_;    // bit sets, one per body: bit k: the body matches the first glob of rule k
-  std::vector<std::uint64_t> as_second_;   // bit sets, one per body: bit k: the body matches the second glob of rule k
+  std::vector<std::uint64_t> as_first_;    // one bit set per body; bit k: `first` of the rule matches the body
+  std::vector<std::uint64_t> as_second_;   // one bit set per body; bit k: `second` of the rule matches the body
 };
 
 /// Returns whether the rules switch off every pair that would be reported without them.

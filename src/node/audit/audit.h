@@ -9,9 +9,10 @@
 
 namespace hgrid {
 
-/// Compares what the node made of one tick with what follows from the recorded transforms and the shapes. Uses no code
-/// of the folders tf, geometry, broadphase, maps, pairs and queries, apart from their types.
-/// @param seed  decides what is compared in a world that is too large to compare everything
+/// Computes one tick again, from the recorded transforms and the shapes of the bodies. Compares the result with the
+/// result of the node. Uses the types of the folders tf, geometry, broadphase, maps, pairs and queries, but none of
+/// their algorithms.
+/// @param seed  selects the bodies that are compared if the world is too large to compare all of them
 AuditFindings audit(const AuditCase& audited, std::uint64_t seed);
 
 }  // namespace hgrid

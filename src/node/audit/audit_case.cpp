@@ -10,15 +10,16 @@
 namespace hgrid {
 namespace {
 
-constexpr std::size_t kMostMapCells = 1000000;  // cells of larger maps are left out
-constexpr int kQueries = 8;                     // number of queries of an audit; two of each kind
+constexpr std::size_t kMostMapCells = 1000000;  // an audit leaves out maps with more cells
+constexpr int kQueries = 8;                     // number of queries in an audit: two of each kind
 
-/// Lists transforms. There can be 100,000, so it lists each name once.
+/// Adds transforms to a case. There can be 100,000, so it stores each name only once, and then its index.
 class TransformList {
  public:
   explicit TransformList(AuditCase& result) : result_(result) {}
 
-  /// Appends the transforms of a message on /tf; none if the bytes are no such message, because the node refuses it.
+  /// Appends the transforms of a message on /tf. Appends nothing if the bytes are not a valid message, because the node
+  /// refuses such a message.
   void append(const ReceivedTransforms& message) {
     const std::size_t before = result_.transforms.size();
     const bool valid = visitTransforms(message.message->bytes, [&](const SerializedTransform& transform) {
@@ -46,7 +47,7 @@ class TransformList {
   }
 
   AuditCase& result_;
-  std::map<std::string, std::uint32_t> numbers_;  // sorted, because names come from outside and could collide in a hash
+  std::map<std::string, std::uint32_t> numbers_;  // name -> index; no hash table, because chosen names could collide
 };
 
 /// Lists the pairs of links of one robot that the model of the robot switches off.

@@ -7,7 +7,7 @@
 namespace hgrid {
 namespace {
 
-constexpr std::uint64_t kMostCompared = 20000000;  // cells that one audit compares; they take about 0.1 s
+constexpr std::uint64_t kMostCompared = 20000000;  // most cells that one audit visits; they take about 0.1 s
 
 class CellAudit {
  public:

@@ -13,8 +13,8 @@ struct AuditFindings {
   static constexpr std::size_t kMostSentences = 100;
 
   std::uint64_t poses = 0;               ///< number of poses that were computed again and compared
-  std::uint64_t poses_skipped = 0;       ///< number of poses that the record cannot tell
-  std::uint64_t pairs = 0;               ///< number of pairs of bodies whose boxes were compared
+  std::uint64_t poses_skipped = 0;       ///< number of poses that could not be computed again from the record
+  std::uint64_t pairs = 0;               ///< number of pairs of bodies that were compared
   std::uint64_t queries = 0;             ///< number of queries that were answered again
   std::uint64_t total = 0;               ///< number of differences
   std::vector<std::string> differences;  ///< one sentence for each of the first kMostSentences differences

@@ -11,7 +11,7 @@
 namespace hgrid {
 namespace {
 
-constexpr std::uint64_t kMostComparisons = 20000000;  // of one audit; they take about 0.1 s
+constexpr std::uint64_t kMostComparisons = 20000000;  // most comparisons of one audit; they take about 0.1 s
 
 class PairAudit {
  public:
@@ -59,7 +59,7 @@ class PairAudit {
   AuditFindings& findings_;
   const ExpectedFilter filter_;
   const ListedPairs listed_;
-  double most_ = 0.0;  // [m] no margin of a body exceeds it
+  double most_ = 0.0;  // [m] the largest mostOf() of all bodies; no margin of a pair is larger than twice this
 };
 
 }  // namespace

@@ -11,15 +11,18 @@
 
 namespace hgrid {
 
-/// Compares all bodies with all others, and then compares the near pairs with those that the node published. Uses the
-/// poses of the node, which auditPoses() checks, but neither its grid nor its filter.
-/// @param boxes  the boxes of the bodies, in the order of the bodies; empty for bodies without a pose
-/// @param seed   in a world with too many pairs, decides which bodies are compared with all others
+/// Compares each body with each other body to find the near pairs. Compares these with the pairs that the tick lists.
+/// Uses the poses of the node, because auditPoses() checks them. Uses neither the grid nor the pair filter of the node.
+/// @param boxes  for each body: its boxes; none if the body has no pose
+/// @param seed   if the world has too many pairs, selects the bodies that are compared with all others
 void auditPairs(const AuditCase& audited, const std::vector<RealBoxes>& boxes, std::uint64_t seed,
                 AuditFindings& findings);
 
-/// Compares bodies with all cells of all maps and clouds. A body with the center of a box within the margin of a cell
-/// must be a pair with the map. No body may be a pair with a map if all cells are farther away than the margin.
+/// Compares bodies with all cells of all maps and clouds. A body and a map must be a pair if a cell is at most the
+/// margin away from the center of the body's first box. They must not be a pair if all cells are farther away from the
+/// body than the margin.
+/// @param boxes  for each body: its boxes; none if the body has no pose
+/// @param seed   if there are too many cells, selects the bodies that are compared with them
 void auditCells(const AuditCase& audited, const std::vector<RealBoxes>& boxes, std::uint64_t seed,
                 AuditFindings& findings);
 

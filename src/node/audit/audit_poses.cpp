@@ -14,9 +14,10 @@
 namespace hgrid {
 namespace {
 
-constexpr double kPosition = 1e-6;  // [m] largest difference of two equal positions, plus kRelative of the distance
+// Two positions count as equal if their distance is at most kPosition [m] plus kRelative times the largest coordinate.
+constexpr double kPosition = 1e-6;
 constexpr double kRelative = 1e-10;
-constexpr double kRotation = 1e-7;  // largest difference of the entries of two equal rotation matrices
+constexpr double kRotation = 1e-7;  // entries of two rotation matrices count as equal if they differ by at most this
 
 /// Returns a small number with three digits.
 std::string shortText(double number) {
@@ -41,8 +42,8 @@ class PoseAudit {
             std::size_t body)
       : audited_(audited), frames_(frames), chain_(chain), body_(audited.bodies[body]), pose_(audited.poses[body]) {}
 
-  /// Returns a sentence about the difference; empty if there is none. Sets `compared` to false if the record cannot
-  /// tell.
+  /// Returns a sentence about the difference; empty if there is none. Sets `compared` to false if the record has too
+  /// few transforms to compare the pose.
   std::string difference(bool& compared) const {
     if (pose_.state == Freshness::unplaced) return unplaced(compared);
     if (const std::string lag = lagging(); !lag.empty()) return lag;
@@ -61,7 +62,7 @@ class PoseAudit {
     return compared ? subject() + " has no pose, but the transforms place it at the time of the tick" : "";
   }
 
-  /// Whether the node must use newer transforms than it did.
+  /// Returns a sentence if the node has read newer transforms than those that it used; otherwise an empty text.
   std::string lagging() const {
     if (!chain_.moves || pose_.state >= Freshness::frozen) return "";
     const Time known = std::min(audited_.stamp, frames_.newestTime(chain_));
@@ -71,7 +72,8 @@ class PoseAudit {
            " had been read";
   }
 
-  /// Says that no transforms explain the pose, unless transforms that the record has dropped may explain it.
+  /// Returns a sentence that no transforms explain the pose. If transforms that the record has dropped may explain it,
+  /// returns an empty text and sets `compared` to false.
   std::string withoutTransforms(bool& compared) const {
     compared = frames_.newestTime(chain_) < pose_.stamp || audited_.record_begin.count() == 0;
     return compared ? unexplained(body_, pose_) : "";
@@ -93,7 +95,8 @@ class PoseAudit {
   const BodyPose& pose_;
 };
 
-/// Checks that the tick did not wait longer for slow frames than ~max_sync_wait says.
+/// Checks that the time of the tick is at most ~max_sync_wait older than the newest transforms.
+/// @param newest  the newest time for which all transforms of a body were known; Time::min() if there is none
 void auditTime(const AuditCase& audited, Time newest, AuditFindings& findings) {
   if (newest == Time::min() || audited.stamp >= newest - nanosecondsOf(audited.max_sync_wait)) return;
   findings.add("the time of the tick is " + secondsOf(audited.stamp) + ", but transforms of " + secondsOf(newest) +
@@ -106,7 +109,8 @@ void auditPoses(const AuditCase& audited, AuditFindings& findings) {
   const RecordedFrames frames(audited);
   std::map<std::string, std::optional<RecordedFrames::Chain>> chains;
   Time newest = Time::min();
-  // A transform with a later stamp than this was received after the oldest one of the record.
+  // The record contains each transform with a later stamp than this: a stamp is at most ~max_future later than the time
+  // at which the transform was received.
   const Time explained_from = audited.record_begin + nanosecondsOf(audited.max_future);
   const Time latest = audited.made + nanosecondsOf(audited.max_sync_wait);
   for (std::size_t i = 0; i < audited.bodies.size(); ++i) {

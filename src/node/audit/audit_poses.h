@@ -9,9 +9,9 @@ namespace hgrid {
 
 /// Computes the poses of the bodies from the recorded transforms, and compares them with the poses that the node used.
 ///
-/// A pose must be what the transforms say at its own stamp, and no newer transforms may exist that the node left out.
-/// A pose is skipped if the record does not reach back to its stamp, or if RecordedFrames calls its chain doubtful.
-/// The bodies of clouds are skipped, too.
+/// A pose must be equal to the pose that follows from the transforms at the stamp of the pose. The node must also have
+/// used the newest transforms that it had read. A pose is not compared if the record begins after its stamp, if a frame
+/// of its chain is doubtful (see RecordedFrames), or if the body is a cloud.
 void auditPoses(const AuditCase& audited, AuditFindings& findings);
 
 }  // namespace hgrid

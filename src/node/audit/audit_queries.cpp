@@ -15,7 +15,7 @@ using Kind = RecordedQuery::Kind;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A range that the distance of a body from a query must be in [m].
+/// The least and the largest value [m] that the distance between a body and a query may have.
 struct Range {
   double low = kInfinity, high = kInfinity;
 };
@@ -30,7 +30,8 @@ std::array<Eigen::Vector3d, 9> pointsOf(const OrientedBox& box) {
   return points;
 }
 
-/// Returns bounds for the distance of an oriented box: from its points, and from the sphere around it.
+/// Returns bounds for the distance between an oriented box and the boxes of a body. The upper bound is the distance of
+/// the corners and the center of the oriented box. The lower bound is the distance of the sphere around it.
 Range rangeOf(const OrientedBox& box, const RealBoxes& boxes) {
   Range range;
   for (const Eigen::Vector3d& point : pointsOf(box)) range.high = std::min(range.high, boxes.distanceTo(point));
@@ -98,7 +99,8 @@ class QueryAudit {
     if (isInside(body)) add("'" + nameOfBody(body) + "' is no hit, but the query touches its box");
   }
 
-  /// Whether the query reaches into a box by more than the poses may differ.
+  /// Whether the query also touches the body if its boxes are made smaller by kPoseSlack on each side. If not, an
+  /// accepted error of the pose explains why the body is no hit.
   bool isInside(std::uint32_t body) const {
     RealBoxes smaller = boxes_[body];
     for (Eigen::AlignedBox3d& box : smaller.shapes) {

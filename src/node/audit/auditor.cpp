@@ -20,11 +20,12 @@ namespace hgrid {
 namespace {
 
 constexpr double kWindow = 2.0;           // [s] how long transforms are kept, in addition to ~max_sync_wait
-constexpr std::uint64_t kMostFiles = 10;  // files that one run of the node writes
+constexpr std::uint64_t kMostFiles = 10;  // one run of the node writes at most so many files
 
 /// Gives the calling thread the lowest priority.
 void runInTheBackground() {
-  setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), 19);  // best effort: an audit works without it
+  // A failure does no harm, because an audit works with any priority.
+  setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), 19);
 }
 
 }  // namespace
@@ -83,7 +84,7 @@ void Auditor::report(const AuditCase& audited, const AuditFindings& findings) {
       1.0, sentence << "; " << where << ". Do not trust the pairs of this node, and report the difference");
 }
 
-/// Writes the case to a file. @returns a clause that names the file, or says why there is none
+/// Writes the case to a file. @returns a clause for a message: the path of the file, or why no file was written
 std::string Auditor::store(const AuditCase& audited) {
   namespace fs = std::filesystem;
   if (files_ >= kMostFiles) return "no file was written, because this run has written " + std::to_string(files_);

@@ -14,18 +14,19 @@
 
 namespace hgrid {
 
-/// Audits one tick out of many while the node runs: ~audit_rate ticks per second, on a thread of its own with the
-/// lowest priority. A tick never waits for an audit.
+/// Audits ticks while the node runs: ~audit_rate ticks per second. The audits run on a separate thread with the lowest
+/// priority. A tick never waits for an audit.
 ///
-/// If an audit finds a difference, it logs an error, sets the status "audit" of /diagnostics to ERROR, counts it as
-/// "audit.different", and writes the case to a file in ~audit_folder.
+/// If an audit finds a difference, the auditor logs an error and sets the status "audit" of /diagnostics to ERROR. It
+/// also increases the counter "audit.different", and writes the case to a file in ~audit_folder.
 class Auditor {
  public:
   /// @param commons  must outlive this object
   explicit Auditor(Commons& commons);
   ~Auditor();
 
-  /// The record that gets the messages of /tf; null if ~audit_rate is 0. Only the tick thread may use it.
+  /// Returns the record that stores the messages of /tf and /tf_static; null if ~audit_rate is 0. Only the tick thread
+  /// may use the record.
   TfListener* listener() { return is_on_ ? &record_ : nullptr; }
   /// Starts an audit of this tick if one is due. Only the tick thread may call this.
   void see(const std::shared_ptr<const Tick>& tick);
@@ -45,7 +46,7 @@ class Auditor {
   TransformRecord record_;
   std::uint64_t epoch_ = 0;                       // tick thread only: epoch of the last tick that see() got
   std::chrono::steady_clock::time_point next_{};  // tick thread only: when the next audit is due
-  std::uint64_t audits_ = 0, files_ = 0;          // audit thread only
+  std::uint64_t audits_ = 0, files_ = 0;          // audit thread only: how many audits and files were made
   std::unique_ptr<NewestOnly<Request>> worker_;   // declared last, because its thread uses the members above
 };
 

@@ -16,8 +16,8 @@ namespace {
 
 constexpr const char* kTitle = "hgrid_proximity_audit_1";  // kind and version of the file
 
-/// Writes a case as lines of values that spaces separate. CaseReader reads them. The functions below name the values
-/// once, for both classes, so that writing and reading cannot differ.
+/// Writes the values of a case as text. A line is a word and values, with spaces between them. CaseReader reads this
+/// text. The functions below list the values of a case once, for both classes. Thus writing and reading cannot differ.
 class CaseWriter {
  public:
   static constexpr bool kReads = false;
@@ -101,7 +101,8 @@ class CaseReader {
   std::size_t line_ = 0;
 };
 
-// The functions below pass a value to a CaseWriter, or fill it from a CaseReader.
+// Each pass() function takes a file and a value. If the file is a CaseWriter, the function writes the value. If the
+// file is a CaseReader, the function reads the value and stores it.
 
 template <class File>
 void pass(File& file, Time& time) {
@@ -122,7 +123,9 @@ void pass(File& file, Pose& pose) {
   }
 }
 
-/// Passes the elements of a list, each with `each`, after a line with their number.
+/// Writes or reads a list: first a line with `word` and the number of elements, then the elements.
+/// @param blank  the value of an element before it is read
+/// @param each   writes or reads one element
 template <class File, class Element, class Each>
 void passAll(File& file, const char* word, std::vector<Element>& elements, const Element& blank, const Each& each) {
   std::size_t count = elements.size();
@@ -130,7 +133,7 @@ void passAll(File& file, const char* word, std::vector<Element>& elements, const
   file.value(count);
   if (File::kReads) elements.clear();
   for (std::size_t i = 0; i < count; ++i) {
-    if (File::kReads) elements.push_back(blank);  // one by one, so that a wrong number allocates nothing
+    if (File::kReads) elements.push_back(blank);  // no reserve(): a wrong count must not allocate much
     each(elements[i]);
   }
 }
@@ -308,7 +311,7 @@ void passCase(File& file, AuditCase& audited) {
   file.line("end");
 }
 
-/// Checks that all numbers of bodies and names are those of bodies and names of the case.
+/// Checks that each index of a body or name is less than the number of bodies or names in the case.
 void checkIndices(const AuditCase& audited) {
   const std::size_t bodies = audited.bodies.size();
   bool valid = audited.poses.size() == bodies;
@@ -329,7 +332,7 @@ void checkIndices(const AuditCase& audited) {
 }  // namespace
 
 void writeCase(const AuditCase& audited, std::ostream& out) {
-  AuditCase copy = audited;  // the functions above can fill what they pass
+  AuditCase copy = audited;  // passCase() needs a value that it could also change
   CaseWriter writer(out);
   passCase(writer, copy);
   out << '\n';

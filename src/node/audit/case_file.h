@@ -8,12 +8,12 @@
 
 namespace hgrid {
 
-/// Writes a case as text: one line for each setting, transform, body, shape, pose, pair and query. Each line begins
-/// with a word that says what it is. Strings are written with %xx for spaces and special bytes; an empty string is "%".
+/// Writes a case as text. Each line begins with a word that says what the line contains, for example a transform, a
+/// body, a pose or a pair. Each string begins with %. In strings, %xx stands for a space or a special byte.
 void writeCase(const AuditCase& audited, std::ostream& out);
 
-/// Reads what writeCase() wrote. The audit of the result finds the same differences.
-/// @throws Refusal parse that names the line
+/// Reads a case that writeCase() wrote. An audit of the result finds the same differences as an audit of the original.
+/// @throws Refusal parse if the text is not valid
 AuditCase readCase(std::istream& in);
 
 }  // namespace hgrid

@@ -9,8 +9,9 @@
 namespace hgrid {
 namespace {
 
-/// Whether a glob matches the whole name. Unlike matches() in bodies/name.h, which the node uses, it goes through the
-/// glob once, and stores for each beginning of the name whether the glob up to here matches it.
+/// Whether a glob matches the whole name. Visits each character of the glob once. After a visit, `matched[n]` says
+/// whether the visited part of the glob matches the first n characters of the name. The node uses another algorithm,
+/// which is matches() in bodies/name.h.
 bool fits(const std::string& glob, const std::string& name) {
   std::vector<bool> matched(name.size() + 1, false);
   matched[0] = true;
@@ -54,7 +55,7 @@ bool ExpectedFilter::exists(std::uint32_t first, std::uint32_t second) const {
 bool ExpectedFilter::reports(std::uint32_t first, std::uint32_t second) const {
   if (!exists(first, second)) return false;
   const std::string &a = audited_.bodies[first].name, &b = audited_.bodies[second].name;
-  for (const bool wildcard : {false, true}) {  // a rule without a wildcard is more exact
+  for (const bool wildcard : {false, true}) {  // rules without a wildcard take precedence
     for (auto rule = audited_.rules.rbegin(); rule != audited_.rules.rend(); ++rule) {
       if (hasWildcard(*rule) == wildcard && names(*rule, a, b)) return !rule->allowed;
     }
@@ -63,7 +64,7 @@ bool ExpectedFilter::reports(std::uint32_t first, std::uint32_t second) const {
   return !std::binary_search(audited_.switched_off.begin(), audited_.switched_off.end(), pair);
 }
 
-/// Returns how much the margins of a body grow because its pose is old.
+/// Returns how much [m] the margins of a body grow because its pose is old.
 double ExpectedFilter::growthOf(std::uint32_t body) const {
   const BodyPose& pose = audited_.poses[body];
   const bool old = pose.state >= Freshness::stale || pose.age > audited_.growth_after;
@@ -73,7 +74,7 @@ double ExpectedFilter::growthOf(std::uint32_t body) const {
 
 double ExpectedFilter::marginOf(std::uint32_t first, std::uint32_t second) const {
   const Body &a = audited_.bodies[first], &b = audited_.bodies[second];
-  const bool together = a.kind == BodyKind::link && a.robot == b.robot;  // their growth depends on their ages
+  const bool together = a.kind == BodyKind::link && a.robot == b.robot;  // their growth is 0 or more, so 0 is the least
   const double growth = together ? 0.0 : growthOf(first) + growthOf(second);
   for (auto entry = audited_.pair_margins.rbegin(); entry != audited_.pair_margins.rend(); ++entry) {
     if (names(*entry, a.name, b.name)) return std::max(audited_.margin, entry->margin) + growth;

@@ -8,17 +8,19 @@
 
 namespace hgrid {
 
-/// Decides which pairs of bodies are reported and at which margin, directly from the rules. Written apart from the
-/// folder pairs, which the audit checks. It looks at each rule for each pair, so ask it only about near pairs.
+/// Computes from the rules and margins of a case which pairs of bodies are reported, and with which margin. Uses no
+/// code of the folder pairs, which the audit checks. It compares a pair with every rule, which is slow. So use it only
+/// for near pairs.
 class ExpectedFilter {
  public:
   explicit ExpectedFilter(const AuditCase& audited) : audited_(audited) {}
 
   /// Whether the pair is reported if the two bodies are near.
   bool reports(std::uint32_t first, std::uint32_t second) const;
-  /// Returns the margin [m] of the pair, including its growth for stale bodies.
+  /// Returns the margin [m] that the pair must have at least, including its growth for stale bodies.
   double marginOf(std::uint32_t first, std::uint32_t second) const;
-  /// Returns a length [m] that no margin of the body exceeds.
+  /// Returns a bound [m] for the margins of a body. The margin of a pair is at most the sum of the bounds of its
+  /// bodies.
   double mostOf(std::uint32_t body) const;
 
  private:

@@ -11,19 +11,19 @@
 
 namespace hgrid {
 
-/// Finds the pairs that the node listed.
+/// Finds pairs by their bodies in the list of pairs of a tick.
 class ListedPairs {
  public:
   explicit ListedPairs(const AuditCase& audited) : audited_(audited) {
     for (const NearPair& pair : audited.pairs) pairs_.emplace(keyOf(pair.first, pair.second), &pair);
   }
 
-  /// Returns the pair; null if the node did not list it.
+  /// Returns the pair of two bodies; null if the tick does not list it.
   const NearPair* find(std::uint32_t first, std::uint32_t second) const {
     const auto found = pairs_.find(keyOf(first, second));
     return found == pairs_.end() ? nullptr : found->second;
   }
-  /// Returns the names of a pair for a sentence.
+  /// Returns a pair as words for a sentence: `the pair 'a', 'b'`.
   std::string nameOf(std::uint32_t first, std::uint32_t second) const {
     return "the pair '" + printable(audited_.bodies[first].name) + "', '" + printable(audited_.bodies[second].name) +
            "'";

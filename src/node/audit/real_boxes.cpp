@@ -9,12 +9,13 @@
 namespace hgrid {
 namespace {
 
-constexpr double kSinglePrecision = 1e-6;  // bound of the relative rounding of boxes, with a reserve
+constexpr double kSinglePrecision = 1e-6;  // more than the relative rounding error of a box in single precision
 
-/// Returns how far [m] the shape reaches along a unit vector of its own frame (its support function).
+/// Returns the support function of a shape [m]: the largest component of a point of the shape along a unit vector, in
+/// the frame of the shape.
 double reachAlong(const Shape& shape, const Eigen::Vector3d& direction) {
   const std::vector<double> d = shape.dimensions();
-  const double across = std::hypot(direction.x(), direction.y());  // share of the direction perpendicular to the axis
+  const double across = std::hypot(direction.x(), direction.y());  // part of it that is perpendicular to the axis
   switch (shape.kind()) {
     case ShapeKind::sphere:
       return d[0];
@@ -35,8 +36,8 @@ double reachAlong(const Shape& shape, const Eigen::Vector3d& direction) {
   return reach;
 }
 
-/// Returns the distance of a segment from a box. The distance of a point that moves along the segment is a convex
-/// function, so dividing the segment finds the minimum.
+/// Returns the distance of a segment from a box, by ternary search along the segment. The search finds the minimum,
+/// because the distance from a point of the segment to the box is a convex function of the place of the point.
 double distanceOf(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   double low = 0.0, high = 1.0;
   const auto at = [&](double part) { return box.exteriorDistance(Eigen::Vector3d(from + part * (to - from))); };

@@ -8,30 +8,32 @@
 
 namespace hgrid {
 
-/// The boxes of one body, computed in double precision and apart from the folder geometry, which the audit checks.
+/// The boxes of one body in double precision. They are computed without code of the folder geometry, which the audit
+/// checks.
 struct RealBoxes {
-  std::vector<Eigen::AlignedBox3d> shapes;  // [m, world] tight box of each shape with its padding
-  Eigen::AlignedBox3d all;                  // box around all of them; empty if there is none
+  std::vector<Eigen::AlignedBox3d> shapes;  // [m, world frame] for each shape: its AABB, padding included
+  Eigen::AlignedBox3d all;                  // box around all boxes in `shapes`; empty if there are none
 
-  /// Returns the least distance [m] of the boxes of two bodies; infinite if one has none.
+  /// Returns the least distance [m] of the boxes of two bodies; infinite if one body has no boxes.
   double gapTo(const RealBoxes& other) const;
-  /// Returns the least distance [m] from a point; infinite if there is no box.
+  /// Returns the least distance [m] of the boxes from a point; infinite if there are no boxes.
   double distanceTo(const Eigen::Vector3d& point) const;
-  /// Returns the least distance [m] from a line segment.
+  /// Returns the least distance [m] of the boxes from a line segment; infinite if there are no boxes.
   double distanceTo(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
 };
 
 /// Computes the boxes of a body at a pose.
 RealBoxes realBoxesOf(const Body& body, const Pose& world_from_body);
 
-/// Returns the least distance [m] from a point [m, frame of the map] to the cells; infinite if there are none.
+/// Returns the least distance [m] of the cells from a point; infinite if there are no cells.
+/// @param point  [m, frame of the map or cloud]
 double distanceTo(const RecordedCells& cells, const Eigen::Vector3d& point);
 
-/// [m] Twice the largest difference of two positions that an audit takes for equal.
+/// [m] Twice the largest error of a position that an audit accepts. Distances of two bodies may differ by this.
 inline constexpr double kPoseSlack = 2e-6;
 
-/// Returns how much [m] the distances of these boxes may differ from those that the node computed. It covers
-/// kPoseSlack, and the rounding of the node's boxes to single precision.
+/// Returns the largest error [m] that an audit accepts in a distance that the node computed for these boxes. It
+/// includes kPoseSlack, and the rounding of the node's boxes to single precision.
 double roundingOf(const AuditCase& audited, const RealBoxes& boxes);
 
 }  // namespace hgrid

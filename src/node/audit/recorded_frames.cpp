@@ -24,7 +24,7 @@ RecordedFrames::RecordedFrames(const AuditCase& audited) : audited_(audited), fr
   for (Frame& frame : frames_) finish(frame);
 }
 
-/// Returns the number of a frame; empty if no transform names it.
+/// Returns the index of a frame in frames_; empty if no transform contains this name.
 std::optional<std::size_t> RecordedFrames::numberOf(const std::string& name) const {
   const auto found = numbers_.find(name);
   if (found == numbers_.end()) return std::nullopt;
@@ -47,7 +47,7 @@ void RecordedFrames::add(const RecordedTransform& transform) {
   if (!frame.samples.empty() && frame.publisher != transform.publisher) frame.doubtful = true;
   frame.publisher = transform.publisher;
   (transform.is_static ? frame.fixed : frame.moves) = true;
-  if (transform.is_static) frame.samples.clear();  // the newest one counts
+  if (transform.is_static) frame.samples.clear();  // only the newest static transform counts
   frame.samples.push_back(sample);
 }
 
@@ -62,7 +62,7 @@ void RecordedFrames::finish(Frame& frame) {
     frame.doubtful = frame.doubtful || sample.parent != frame.samples[0].parent;
 }
 
-/// Returns a frame and its ancestors, the frame first. If they form a loop, returns nothing.
+/// Returns a frame, its parent, the parent of this parent, and so on. Returns an empty list if they form a loop.
 std::vector<std::size_t> RecordedFrames::ancestors(std::size_t frame) const {
   std::vector<std::size_t> result{frame};
   while (!frames_[result.back()].samples.empty()) {
@@ -93,7 +93,7 @@ std::optional<RecordedFrames::Chain> RecordedFrames::chain(const std::string& ta
   return chain;
 }
 
-/// Returns the pose of a frame in its parent.
+/// Returns the pose of a frame in its parent at a time. Empty: the pose is not known at this time.
 std::optional<Pose> RecordedFrames::edgeAt(std::size_t number, Time time) const {
   const Frame& frame = frames_[number];
   const auto poseOf = [](const Eigen::Quaterniond& rotation, const Eigen::Vector3d& translation) {

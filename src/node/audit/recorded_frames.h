@@ -11,32 +11,35 @@
 
 namespace hgrid {
 
-/// Computes poses of frames from recorded transforms. Written apart from the folder tf, which the audit checks.
+/// Computes poses of frames from recorded transforms. Uses no code of the folder tf, which the audit checks.
 ///
-/// Some frames are doubtful: several publishers or parents place them, they are on both topics, or a transform of them
-/// is not valid. Which of their transforms the node uses depends on what it received earlier, so the audit leaves them
-/// out.
+/// A frame is doubtful if several publishers or parents place it, if it is on both /tf and /tf_static, or if one of its
+/// transforms is not valid. Which of its transforms the node uses depends on earlier messages, which the record may not
+/// contain. So the audit skips doubtful frames.
 class RecordedFrames {
  public:
   /// @param audited  must outlive this object
   explicit RecordedFrames(const AuditCase& audited);
 
-  /// The transforms between two frames.
+  /// The frames whose transforms connect a target frame with another frame.
   struct Chain {
     std::vector<std::size_t> up;    // frames from the target to the common ancestor, without that ancestor
     std::vector<std::size_t> down;  // frames from the other frame to the common ancestor, without that ancestor
     bool doubtful = false;          // whether a frame of the chain is doubtful
-    bool moves = false;             // whether a frame of the chain is on /tf
+    bool moves = false;             // whether a frame of the chain is published on /tf
   };
-  /// Returns the chain between two frames by their newest parents. Empty: they are not connected.
+  /// Returns the chain between two frames. Each frame is below its newest parent. Empty: the frames are not connected.
   std::optional<Chain> chain(const std::string& target, const std::string& frame) const;
 
-  /// Returns the pose of the chain's frame in its target at a time. Empty: a transform is not known at that time.
+  /// Returns the pose of the chain's other frame in its target frame at `time`. Empty: a transform is not known at this
+  /// time.
   std::optional<Pose> poseAt(const Chain& chain, Time time) const;
-  /// Returns the newest time at which all transforms of a chain that moves are known.
+  /// Returns the newest time at which all transforms of a chain are known; Time::max() if no frame of the chain moves.
   Time newestTime(const Chain& chain) const;
-  /// Returns a time for which the node must have a pose of the chain, or for a later one: for each frame of the chain
-  /// that moves, takes the newest sample up to `time`; returns the least of their stamps. Empty: a frame has none.
+  /// Returns a stamp: the pose that the node uses for the chain at `time` must not be older than this stamp.
+  ///
+  /// For each moving frame of the chain, there is a newest sample that is not later than `time`. The result is the
+  /// oldest stamp of these samples. Empty: a frame has no such sample.
   std::optional<Time> sampledUpTo(const Chain& chain, Time time) const;
 
  private:
@@ -47,8 +50,8 @@ class RecordedFrames {
     Eigen::Vector3d translation;
   };
   struct Frame {
-    std::vector<Sample> samples;  // by stamp, each stamp once; a static frame has one sample
-    std::uint32_t publisher = 0;  // of the newest sample
+    std::vector<Sample> samples;  // sorted by stamp, one for each stamp; a static frame has one sample
+    std::uint32_t publisher = 0;  // of the last recorded transform; index in AuditCase::names
     bool moves = false, fixed = false, doubtful = false;
   };
 
@@ -59,8 +62,8 @@ class RecordedFrames {
   std::optional<Pose> edgeAt(std::size_t frame, Time time) const;
 
   const AuditCase& audited_;
-  std::map<std::string, std::size_t> numbers_;
-  std::vector<Frame> frames_;  // for each of AuditCase::names
+  std::map<std::string, std::size_t> numbers_;  // name -> index in AuditCase::names and in frames_
+  std::vector<Frame> frames_;                   // one for each of AuditCase::names
 };
 
 }  // namespace hgrid

@@ -32,7 +32,7 @@ void TransformRecord::keepStatic(const ReceivedTransforms& message) {
   const bool valid = visitTransforms(message.message->bytes, [&](const SerializedTransform& transform) {
     if (usableNumbers(transform.numbers)) kept.insert_or_assign({transform.child, message.publisher}, transform);
   });
-  if (!valid) return;  // the node refuses it
+  if (!valid) return;  // the node refuses such a message
   shared_fixed_.reset();
   for (auto& [key, transform] : kept) {
     const auto known = fixed_.find(key);

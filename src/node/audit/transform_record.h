@@ -15,27 +15,28 @@
 
 namespace hgrid {
 
-/// Stores the messages of /tf and /tf_static as they were received, for a short time, so that an audit can compute
-/// poses from them again. Only the tick thread may use it.
+/// Stores the newest messages of /tf and all transforms of /tf_static as they were received. An audit uses them to
+/// compute poses again. Only the tick thread may use this object.
 ///
-/// The transforms of /tf_static are never dropped, because each is sent only once. If a publisher sends another one for
-/// the same child, only the newest is kept. One that the node does not use replaces none, as in the node.
+/// Transforms of /tf_static are never dropped, because each is sent only once. If a publisher sends several transforms
+/// for one child, only the newest is kept. A transform that is not valid replaces no other transform, as in the node.
 class TransformRecord : public TfListener {
  public:
   using Message = std::shared_ptr<const ReceivedTransforms>;
-  using StaticTransforms = std::map<std::pair<std::string, std::string>, SerializedTransform>;  ///< by child, publisher
+  /// Transforms by (child, publisher).
+  using StaticTransforms = std::map<std::pair<std::string, std::string>, SerializedTransform>;
 
-  /// What the record has at one moment.
+  /// A copy of the recorded transforms.
   struct Content {
     std::shared_ptr<const StaticTransforms> fixed = std::make_shared<StaticTransforms>();
     std::vector<Message> moving;  ///< messages of /tf in the order in which they were read
-    Time begin{0};                ///< [ROS time] messages of /tf that were received until then may be missing
-    bool all_static = true;       ///< whether there was room for all transforms of /tf_static
+    Time begin{0};                ///< [ROS time] messages of /tf from this time or earlier may be missing
+    bool all_static = true;       ///< false: transforms of /tf_static are missing, because there were too many
   };
 
   /// @param window       how long a message of /tf is kept
-  /// @param most_bytes   [bytes] how much the messages of /tf may have; then the oldest are dropped
-  /// @param most_static  how many transforms of /tf_static are kept
+  /// @param most_bytes   [bytes] largest memory of all messages of /tf; if they need more, the oldest are dropped
+  /// @param most_static  largest number of transforms of /tf_static; if there are more, the later ones are not kept
   TransformRecord(Time window, std::size_t most_bytes, std::size_t most_static)
       : window_(window), most_bytes_(most_bytes), most_static_(most_static) {}
 
@@ -44,7 +45,8 @@ class TransformRecord : public TfListener {
   /// Drops the messages of /tf. Call this when ROS time jumped. @param now  ROS time
   void forgetMoving(Time now);
 
-  /// Whether the node has read a part of a message. Then the record does not fit the transforms that the node uses.
+  /// Whether the node has read only a part of a message. Then the record contains transforms that the node does not use
+  /// yet.
   bool isReading() const { return reading_; }
   Content content();
 
@@ -56,7 +58,7 @@ class TransformRecord : public TfListener {
   const std::size_t most_bytes_, most_static_;
   std::deque<Message> moving_;
   StaticTransforms fixed_;
-  std::shared_ptr<const StaticTransforms> shared_fixed_;  // a copy of fixed_ for content(); null: fixed_ has changed
+  std::shared_ptr<const StaticTransforms> shared_fixed_;  // copy of fixed_; null: fixed_ changed after the copy
   std::size_t moving_bytes_ = 0;
   Time begin_{0};
   bool all_static_ = true, reading_ = false;

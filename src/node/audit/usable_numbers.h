@@ -10,7 +10,8 @@
 
 namespace hgrid {
 
-/// Whether the node uses a transform with these numbers. Written apart from the folder tf, which the audit checks.
+/// Whether a transform with these numbers is valid. The node refuses other transforms. Uses no code of the folder tf,
+/// which the audit checks.
 /// @param numbers  translation x, y, z [m], then the quaternion x, y, z, w
 inline bool usableNumbers(const std::array<double, 7>& numbers) {
   constexpr double kFarthest = 1e9;  // [m]

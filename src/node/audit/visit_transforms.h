@@ -14,12 +14,12 @@ namespace hgrid {
 
 /// One transform of a serialized tf2_msgs/TFMessage.
 struct SerializedTransform {
-  std::string parent, child;           // without the slash that tf1 put before them
+  std::string parent, child;           // names of frames, without the slash with which names of tf1 begin
   Time stamp{0};                       // ROS time
   std::array<double, 7> numbers = {};  // translation x, y, z [m], then the quaternion x, y, z, w
 };
 
-/// Reads values from serialized bytes. It checks each length before it reads.
+/// Reads values from serialized bytes, one after the other. A function returns false if too few bytes are left.
 class ByteWalk {
  public:
   explicit ByteWalk(const std::string& bytes) : at_(bytes.data()), left_(bytes.size()) {}
@@ -50,9 +50,9 @@ class ByteWalk {
   std::size_t left_;
 };
 
-/// Calls `visit` with each transform of a serialized tf2_msgs/TFMessage. Written apart from the folder wire, which the
+/// Calls `visit` with each transform of a serialized tf2_msgs/TFMessage. Uses no code of the folder wire, which the
 /// audit checks.
-/// @returns false if the bytes are no such message; `visit` may have been called before that shows
+/// @returns false if the bytes are not a valid message; `visit` may have been called for the first transforms even then
 template <class Visit>
 bool visitTransforms(const std::string& bytes, const Visit& visit) {
   ByteWalk walk(bytes);

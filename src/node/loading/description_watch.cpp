@@ -66,7 +66,7 @@ void DescriptionWatch::run() {
   }
 }
 
-/// Stores the hash of the newest description of a robot, unless a description was read meanwhile.
+/// Reads the description of a robot and stores its hash. Stores nothing if noteRead() was called during the reading.
 void DescriptionWatch::look(const RobotParams& robot) {
   std::uint64_t reads_before = 0;
   {

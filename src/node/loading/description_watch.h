@@ -18,20 +18,21 @@ namespace hgrid {
 
 /// Notices that the description of a robot on the parameter server has changed.
 ///
-/// It looks about once per second on a thread of its own, because the ROS master may take long to answer. The thread
-/// spends at most 1/50 of its time on that. A description that is absent is not a change, because that is also so after
-/// a restart of the master.
+/// A separate thread reads the descriptions about once per second, because the ROS master may take long to answer. The
+/// thread spends at most 1/50 of its time on reading. A missing description does not count as a change, because all
+/// descriptions are missing after a restart of the master.
 class DescriptionWatch {
  public:
-  /// Starts to look, unless ~watch_descriptions is false. All parameters must outlive this object.
+  /// Starts the thread, unless ~watch_descriptions is false. All parameters must outlive this object.
   DescriptionWatch(const RobotSource& source, const Params& params);
   ~DescriptionWatch();
   DescriptionWatch(const DescriptionWatch&) = delete;
   DescriptionWatch& operator=(const DescriptionWatch&) = delete;
 
-  /// Notes that this description of a robot was read. From now on, another description is a change.
+  /// Call this before a robot is loaded from a description. From then on, a different description is a change.
   void noteRead(const RobotParams& robot, const RobotDescription& description);
-  /// Returns the robots whose newest description is not the one that was read last. Never waits for the ROS master.
+  /// Returns the robots whose newest description differs from that of the last noteRead(). Never waits for the ROS
+  /// master.
   std::vector<const RobotParams*> changed() const;
 
  private:
@@ -42,7 +43,8 @@ class DescriptionWatch {
   const Params& params_;
   mutable std::mutex mutex_;
   std::condition_variable wake_;
-  // The members below are guarded by mutex_. The maps hold a hash of each description, by robot.
+  // mutex_ guards the members from here to ends_. The two maps contain for each robot (by name) a hash of a
+  // description: read_ of that of the last noteRead(), seen_ of the newest one that the thread has read.
   std::map<std::string, std::size_t> read_, seen_;
   std::uint64_t reads_ = 0;  // number of calls of noteRead()
   bool ends_ = false;

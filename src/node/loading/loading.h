@@ -18,15 +18,15 @@
 
 namespace hgrid {
 
-/// Owns the objects that load robots, maps and clouds, and retries failed loads. Only one thread may use it, and not
-/// the tick thread. (Each cloud is read on a separate thread.)
+/// Owns the objects that load robots, maps and clouds, and retries failed loads. Only one thread may use this object.
+/// The tick thread must not use it. Each cloud is read on a separate thread.
 class Loading {
  public:
   using NewestTick = SelfShapes::NewestTick;
 
   /// @param node          its callback queue must be that of the thread that uses this object
   /// @param private_node  robot descriptions are searched from its namespace upwards
-  /// @param is_ending     returns whether the node is shutting down, so that loads are canceled. Any thread calls it.
+  /// @param is_ending     returns whether the node is shutting down; loads are then canceled. Any thread may call it.
   Loading(ros::NodeHandle node, const ros::NodeHandle& private_node, Commons& commons,
           const TransformLookup& transforms, NewestTick newest, TickJobs& jobs, std::function<bool()> is_ending);
 

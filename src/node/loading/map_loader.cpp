@@ -29,10 +29,10 @@ void MapLoader::subscribe(ros::NodeHandle& node, const MapParams& map) {
   subscribers_.push_back(node.subscribe<OctomapMessage>(map.topic, 1, callback));
 }
 
-/// Puts the map of a message into the world. If that is not possible yet, the message waits for a retry, and replaces
-/// an older waiting message.
+/// Puts the map of a message into the world. If this fails although the message could be read, stores the map for a
+/// retry. It replaces an older stored map.
 void MapLoader::onMessage(const MapParams& map, const OctomapMessage& message) {
-  if (message.stamp.isZero()) ledger_.count("maps.unstamped");  // its age counts from its arrival
+  if (message.stamp.isZero()) ledger_.count("maps.unstamped");  // the map then ages from its arrival
   std::optional<ReadMap> read;
   const bool done = put(map, [&] {
     read = source_.read(map, message);
@@ -58,7 +58,7 @@ void MapLoader::forget(const std::string& map) {
   }
 }
 
-/// Puts the map that `load` returns into the world. Reports a failure. @returns whether this succeeded
+/// Puts the map that `load` returns into the world. If this fails, reports the failure. @returns whether it succeeded
 bool MapLoader::put(const MapParams& map, const std::function<LoadedMap()>& load) {
   try {
     const LoadedMap loaded = load();
@@ -74,7 +74,7 @@ bool MapLoader::put(const MapParams& map, const std::function<LoadedMap()>& load
   }
 }
 
-/// Does the same as put(). Catches all exceptions, so that the other maps are still loaded.
+/// Calls put() and catches all exceptions, because the other maps must still be loaded.
 bool MapLoader::putGuarded(const MapParams& map, const std::function<LoadedMap()>& load) {
   bool done = false;
   guarded(ledger_, "maps.failed", [&] { done = put(map, load); });

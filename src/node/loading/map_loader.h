@@ -19,14 +19,15 @@ namespace hgrid {
 
 /// Puts the configured maps into the world: maps from files at the start, maps from topics when a message arrives.
 ///
-/// Stores which files are still to be read. Many maps are published only once, so it also stores the messages that
-/// could not be put into the world yet. Only one thread may use it, and not the tick thread.
+/// Stores which files must still be read. Many maps are published only once. So it also stores the received maps that
+/// could not be put into the world yet. Only one thread may use this object. The tick thread must not use it.
 class MapLoader {
  public:
   /// All parameters except `node` must outlive this object.
   /// @param node  its callback queue must be that of the thread that uses this object
   MapLoader(ros::NodeHandle& node, const Params& params, const MapSource& source, TickJobs& jobs, Ledger& ledger);
 
+  /// Whether loadMissing() has something to do.
   bool hasMissing() const { return !files_.empty() || !arrived_.empty(); }
   /// Tries to put every missing map into the world. Each failure is counted and reported on ~status.
   void loadMissing();

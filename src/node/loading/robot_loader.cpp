@@ -54,7 +54,7 @@ void RobotLoader::loadChanged() {
   }
 }
 
-/// Loads a robot. If that fails and the node follows the description, loadMissing() tries again.
+/// Loads a robot. If this fails and ~watch_descriptions is true, the next loadMissing() tries again.
 Refusal RobotLoader::loadAgain(const RobotParams& robot) {
   const Refusal result = load(robot);
   if (result.code() == Code::ok) {

@@ -14,8 +14,8 @@
 
 namespace hgrid {
 
-/// Puts the configured robots into the world, and stores which of them are still missing. Only one thread may use it,
-/// and not the tick thread.
+/// Puts the configured robots into the world, and stores which of them are still missing. Only one thread may use this
+/// object. The tick thread must not use it.
 class RobotLoader {
  public:
   /// At first, all robots are missing. All parameters must outlive this object.
@@ -29,8 +29,8 @@ class RobotLoader {
   /// @returns ok; unknown_id if there is no such robot; otherwise the reason of the last failure
   Refusal reload(const std::string& name);
 
-  /// Loads each robot again whose description has changed. If that fails, the old model stays, and loadMissing() tries
-  /// again.
+  /// Loads each robot whose description has changed. If a load fails, the old model of this robot stays, and the next
+  /// loadMissing() tries again.
   void loadChanged();
 
  private:

@@ -30,14 +30,14 @@ class Stopwatch {
 
  private:
   struct Ring {
-    std::vector<double> values;
-    std::size_t next = 0;
+    std::vector<double> values;  // [s] durations of one part in the last ticks
+    std::size_t next = 0;        // index in `values` of the next duration
   };
   std::map<std::string, Ring> parts_;
   std::map<std::string, Summary> summaries_;
-  std::string last_part_;       // name of the part that was summarized last
-  std::vector<double> sorted_;  // buffer of summarize()
-  std::chrono::steady_clock::time_point summarized_{};
+  std::string last_part_;                               // name of the part that was summarized last
+  std::vector<double> sorted_;                          // buffer of summarize()
+  std::chrono::steady_clock::time_point summarized_{};  // when last_part_ was summarized
 };
 
 }  // namespace hgrid

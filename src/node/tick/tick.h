@@ -20,7 +20,7 @@ namespace hgrid {
 struct Tick {
   std::shared_ptr<const Snapshot> snapshot;  ///< null: there is no world yet, and not_ready says why
   std::string world_frame;                   ///< empty: not known yet
-  Moment made;                               ///< when the tick was made
+  Moment made;                               ///< when the node computed the tick
   std::uint64_t epoch = 0;
   std::vector<std::string> not_ready;  ///< one sentence for each thing that is missing
   /// The subject of the first sentence of not_ready: the name of a source, "clock" or "world frame".

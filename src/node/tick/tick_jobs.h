@@ -29,12 +29,12 @@ class TickJobs {
       std::function<bool()> is_ending = [] { return false; },
       std::chrono::milliseconds patience = std::chrono::seconds(10));
 
-  /// Adds a job and returns at once. Any thread may call this. Removes a job of the same key that no tick has done yet.
-  /// So the number of waiting jobs is limited by the number of keys, however long no tick comes.
+  /// Adds a job and returns at once. Any thread may call this. If a job with the same key still waits, removes it. So
+  /// add() never causes more waiting jobs than there are keys, even if no tick comes for a long time.
   void add(const std::string& key, Job job);
   /// Adds a job and waits until a tick has done it. Any thread except the tick thread may call this.
   /// @throws whatever the job throws; Refusal busy if no tick starts the job in time, or if the node is shutting down.
-  /// After a Refusal busy, no tick does the job, and it leaves the queue.
+  /// If run() throws Refusal busy, it has removed the job from the queue, and no tick will do the job.
   void run(const Job& job);
 
   /// Does all waiting jobs. Only the tick thread may call this.
@@ -61,7 +61,7 @@ class TickJobs {
   mutable std::mutex mutex_;
   std::vector<Waiting> added_;     // guarded by mutex_
   std::uint64_t last_number_ = 0;  // guarded by mutex_
-  std::vector<Waiting> pending_;   // only the tick thread uses it
+  std::vector<Waiting> pending_;   // jobs that doAll() must still do; only the tick thread uses it
 };
 
 }  // namespace hgrid

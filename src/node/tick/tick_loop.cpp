@@ -9,7 +9,8 @@
 namespace hgrid {
 namespace {
 
-// Share of the tick period that may be spent on transforms, so that a flood of them does not stop the ticks.
+// Share of the tick period that may be spent on transforms. It is limited, because a flood of transforms must not stop
+// the ticks.
 constexpr double kShareForTransforms = 0.5;
 
 }  // namespace
@@ -38,8 +39,8 @@ void TickLoop::start(std::vector<Step> steps) {
 
 std::shared_ptr<const Tick> TickLoop::tickAfter(const TickJobs::Job& job) {
   jobs_.run(job);
-  // A job runs before its tick is complete. The second job runs in a later tick. Then the tick of the first job has
-  // been published.
+  // `job` runs at the beginning of a tick, before newest() returns this tick. The second job runs at the beginning of a
+  // later tick. At this time, the tick of `job` has been published.
   const auto tick = std::make_shared<std::shared_ptr<const Tick>>();  // shared: run() may end before the job is done
   jobs_.run([this, tick](World&) { *tick = newest(); });
   return *tick;

@@ -46,7 +46,7 @@ class TickLoop {
   /// Returns the newest tick, or null before the first tick. Any thread may call this.
   std::shared_ptr<const Tick> newest() const { return std::atomic_load(&newest_); }
   /// Does a job at the beginning of a tick, waits until that tick is published, and returns that tick. Any thread
-  /// except the tick thread may call this. @throws as TickJobs::run()
+  /// except the tick thread may call this. @throws the same as TickJobs::run()
   std::shared_ptr<const Tick> tickAfter(const TickJobs::Job& job);
 
  private:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""A master, a node and its small world, for one chaos test: a robot with one moving link, and a post."""
+"""A master and a node for one chaos test. The world of the node is a robot with one moving link, and a post."""
 import os
 import pathlib
 import signal
@@ -14,39 +14,39 @@ import rospy
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "test/tools/support"))
 
-from system import System, wait_for  # noqa: E402  (the path comes first)
+from system import System, wait_for  # noqa: E402  (needs the path above)
 from hgrid_proximity.msg import Status, Verdict  # noqa: E402
 from hgrid_proximity.srv import QuerySphere  # noqa: E402
 
 NODE = str(ROOT / "devel/lib/hgrid_proximity/proximity_node")
 NAME = "/proximity"
 SPHERE = '<collision><origin xyz="%s"/><geometry><sphere radius="0.1"/></geometry></collision>'
-# The node under test audits itself as often as it can. Nodes without this parameter have no audit.
+# The node audits 10 ticks per second. Older nodes do not have the parameter and no audit.
 AUDIT = {"audit_rate": 10.0} if "audit_rate" in (ROOT / "src/node/params/params.h").read_text() else {}
 POST = {"name": "post", "pose": {"xyz": [2, 0, 0]}, "shapes": [{"type": "sphere", "radius": 0.1}]}
-HAND, POST_PLACE, FREE = (1.0, 0.0, 0.0), (2.0, 0.0, 0.0), (0.0, 3.0, 0.0)  # [m] places for queries
+HAND, POST_PLACE, FREE = (1.0, 0.0, 0.0), (2.0, 0.0, 0.0), (0.0, 3.0, 0.0)  # [m] places of queries; FREE is empty
 VERDICTS = {Verdict.UNKNOWN: "UNKNOWN", Verdict.CLEAR: "CLEAR", Verdict.HIT: "HIT"}
 
 
 class Failure(AssertionError):
-    """Says what a test expected and what it saw."""
+    """A failed check. Its text says what the test expected and what it saw."""
 
 
 def expect(what, expected, seen, holds=None):
-    """Fails unless `holds` is true; without it, unless the seen value is the expected one."""
+    """Raises Failure if `holds` is false. If `holds` is None: raises Failure if `seen` differs from `expected`."""
     if not (seen == expected if holds is None else holds):
         raise Failure("%s: expected %s, saw %s" % (what, expected, seen))
 
 
 def sphere(place):
-    """Returns a request to ~query_sphere about a sphere of 0.05 m at a place."""
+    """Returns a request to ~query_sphere for a sphere with a radius of 0.05 m at a place."""
     request = QuerySphere._request_class(radius=0.05)
     request.center.x, request.center.y, request.center.z = place
     return request
 
 
 def robot(*links):
-    """Returns the URDF of a robot whose links float about the root link "world"."""
+    """Returns the URDF of a robot. Floating joints connect its links to the root link "world"."""
     text = '<link name="world">%s</link>' % (SPHERE % "0 0 -5")
     for link in links:
         text += '<link name="%s">%s</link>' % (link, SPHERE % "0 0 0")
@@ -63,7 +63,7 @@ def resident(pid):
 
 
 class Cell(System):
-    """A system with the node. The world is complete while the process "puppet" runs."""
+    """A System with the node. The world is complete while the process "puppet" publishes the frame of the hand."""
 
     def __init__(self, simulated=False):
         super().__init__()
@@ -88,7 +88,7 @@ class Cell(System):
         super().__exit__(*details)
 
     def begin(self, **options):
-        """Starts the node and its world. Waits until the world is complete. `options` are parameters of the node."""
+        """Starts the node and the puppet. Waits until the world is complete. `options` are parameters of the node."""
         self.start_all(**options)
         self.wait_until_right()
 
@@ -116,13 +116,13 @@ class Cell(System):
             self._heard.append((time.monotonic(), status))
 
     def take(self):
-        """Returns what was heard since the last call: pairs of a time [s, monotonic] and a message of ~status."""
+        """Returns the messages of ~status since the last call, as pairs: time of receipt [s, monotonic], message."""
         with self._lock:
             taken, self._heard = self._heard, self._heard[-1:]
         return taken
 
     def status(self):
-        """Returns the newest ~status; None if there was none."""
+        """Returns the newest message of ~status; None if none was received."""
         with self._lock:
             return self._heard[-1][1] if self._heard else None
 
@@ -140,7 +140,7 @@ class Cell(System):
             raise Failure("%s; %s" % (late, self.gist())) from late
 
     def gist(self):
-        """Returns what is worth knowing about the node after a failure."""
+        """Returns a text for the message of a failure: newest status, last answers, end of the output of the node."""
         status, log = self.status(), ""
         if self.output.exists():
             log = "\n".join(self.output.read_text(errors="replace").splitlines()[-15:])
@@ -189,7 +189,7 @@ class Cell(System):
     def received(self, topic):
         """Returns how many messages of a topic roscpp received in the node, and how many of them it dropped.
 
-        roscpp reports one connection of a topic only."""
+        roscpp reports only one connection of each topic."""
         subscriptions = ServerProxy(self.master.lookupNode("/test", NAME)[2]).getBusStats("/test")[1]
         links = [link for name, stats in subscriptions if name == topic for link in stats]
         return sum(link[2] for link in links), sum(link[3] for link in links)  # link: id, bytes, messages, dropped, ...

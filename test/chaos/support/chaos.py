@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Runs one chaos test as a program, and checks after the chaos that the node is as it was before."""
+"""Runs one chaos test as a program. Checks after the faults that the node works as before."""
 import argparse
 import contextlib
 import inspect
@@ -13,13 +13,13 @@ import traceback
 
 from cell import AUDIT, Cell, Failure, expect, resident
 
-PATIENCE = 180  # [s] a test that takes longer than its chaos by this hangs
-FLOW = 0.5  # share of the ticks that must come during the chaos; other programs may need the processors too
-GROWTH = 8.0  # [MB] the memory of the node may be larger by this after the chaos
+PATIENCE = 180  # [s] a test has failed if it takes this much longer than its faults
+FLOW = 0.5  # least share of the ticks during the faults; below 1, because other programs use the processors too
+GROWTH = 8.0  # [MB] the memory of the node may grow by at most this during the faults
 
 
 class Deadline:
-    """Ends the chaos after some seconds."""
+    """Is true until some seconds have passed."""
 
     def __init__(self, seconds):
         self._end = time.monotonic() + seconds
@@ -30,7 +30,9 @@ class Deadline:
 
 @contextlib.contextmanager
 def calm_after(cell, growth=GROWTH):
-    """Runs the chaos within this context. Then the node must be right again, and as large as before."""
+    """A context in which a test causes faults.
+
+    At its end, the node must give right answers, and its memory may be at most `growth` [MB] larger than before."""
     before, pid = resident(cell.node.pid), cell.node.pid
     cell.take()
     yield
@@ -59,29 +61,29 @@ def check_audit(cell):
 
 
 def print_ticks(heard):
-    """Prints how long the ticks of the chaos took."""
+    """Prints how long the ticks in messages of ~status took."""
     times = sorted(timing.last for _, status in heard for timing in status.timings if timing.name == "tick")
     if times:
-        print("ticks of the chaos: %d heard, median %.2f ms, p99 %.2f ms" % (
+        print("ticks during the faults: %d, median %.2f ms, p99 %.2f ms" % (
             len(times), 1e3 * times[len(times) // 2], 1e3 * times[len(times) * 99 // 100]))
 
 
 class Hang(BaseException):
-    """No Exception, because rospy catches those."""
+    """A test takes too long. Not derived from Exception, because rospy catches each Exception."""
 
 
 def on_alarm(*_):
-    raise Hang("the test hangs: expected an end within %d s after the chaos" % PATIENCE)
+    raise Hang("the test hangs: it should have ended at most %d s after the faults" % PATIENCE)
 
 
 def main(test, simulated=False):
     """Runs test(cell, rng, seconds) with the arguments of the command line. Exits with 1 if it fails."""
     program = pathlib.Path(inspect.getfile(test)).resolve()
     parser = argparse.ArgumentParser(description=inspect.getmodule(test).__doc__)
-    parser.add_argument("--seconds", type=float, default=20.0, help="length of the chaos")
+    parser.add_argument("--seconds", type=float, default=20.0, help="how long the test causes faults")
     parser.add_argument("--seed", type=int, default=1, help="seed of all random choices")
     args = parser.parse_args()
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # stops the processes of the test
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # leaves the Cell, which then stops its processes
     signal.signal(signal.SIGALRM, on_alarm)
     signal.alarm(int(args.seconds) + PATIENCE)
     again = "test/chaos/run --seconds %g --seed %d %s" % (args.seconds, args.seed, program.stem)
@@ -89,10 +91,10 @@ def main(test, simulated=False):
         with Cell(simulated) as cell:
             test(cell, random.Random(args.seed), args.seconds)
     except (Failure, Hang) as failure:
-        print("FAILED: %s\nagain: %s" % (failure, again))
+        print("FAILED: %s\nrun it again: %s" % (failure, again))
         sys.exit(1)
     except Exception:
         traceback.print_exc(file=sys.stdout)
-        print("FAILED: the test itself broke down\nagain: " + again)
+        print("FAILED: the test program has an error\nrun it again: " + again)
         sys.exit(1)
     print("passed: " + again)

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Floods one input of the node with messages, some of them invalid. Prints how many it has sent.
+"""Floods one input of the node with messages. Some of them are invalid. Prints how many messages it has sent.
 
 usage: flood.py KIND RATE SECONDS SEED, where KIND is tf, tf_static, cloud or map
 
-The last message is valid. Ends only when its input ends, so that roscpp keeps the counters of the connection.
+The last message is valid. The program ends when its standard input is closed. Until then, roscpp keeps the counters of
+the connection.
 """
 import pathlib
 import random
@@ -31,7 +32,7 @@ def header(stamp, frame):
 
 
 def transform(rng, stamp, child):
-    """One transform: valid, not finite, too old, from the future, or a message that ends too early."""
+    """Returns a message with one transform: valid, not finite, too old, from the future, or with missing bytes."""
     kind = rng.choice(("valid",) * 6 + ("nan", "old", "future", "short"))
     stamp += {"old": -100.0, "future": 100.0}.get(kind, 0.0)
     x = float("nan") if kind == "nan" else 1.0
@@ -40,7 +41,7 @@ def transform(rng, stamp, child):
 
 
 def cloud(rng, stamp):
-    """A cloud of 20 points, far away, or one that declares more bytes than it has."""
+    """Returns a cloud of 20 points far from all bodies. One in every five declares more bytes than it has."""
     points = struct.pack("<60f", *[300.0 + rng.random() for _ in range(60)])
     fields = b"".join(text(name) + struct.pack("<IBI", 4 * i, 7, 1) for i, name in enumerate("xyz"))
     declared = len(points) + (1000 if rng.random() < 0.2 else 0)
@@ -49,13 +50,13 @@ def cloud(rng, stamp):
 
 
 def octomap(rng, stamp, nodes):
-    """A map of the demo room, far away, or one that ends too early."""
+    """Returns a map of the demo room. In one of every five, the last bytes are missing."""
     data = nodes[:-7] if rng.random() < 0.2 else nodes
     return header(stamp, "room") + b"\1" + text("OcTree") + struct.pack("<dI", 0.05, len(data)) + data
 
 
 class Sound:
-    """Takes the place of random numbers in the last message, which is valid."""
+    """Replaces the random numbers for the last message, which is then valid."""
 
     @staticmethod
     def random():
@@ -80,7 +81,7 @@ def kinds():
 
 
 def publisher(topic, type_name, md5sum):
-    """Returns the first connection of a publisher of bytes, as soon as there is one."""
+    """Creates a publisher of raw bytes, and waits for its first subscriber. Returns both: publisher, connection."""
     raw = type("Raw", (rospy.AnyMsg,), {"_type": type_name, "_md5sum": md5sum, "_full_text": ""})
     found = rospy.Publisher(topic, raw, queue_size=None)
     while not found.impl.connections:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Connections to a node at the level of TCPROS, which can do what no client library does."""
+"""Connections to a node by TCPROS, without a client library. A test can send any bytes over them."""
 import socket
 import struct
 from urllib.parse import urlparse
@@ -19,7 +19,7 @@ def header(**fields):
 
 
 def received(connection, count):
-    """Returns exactly this many bytes. Raises ConnectionError if the connection ends before."""
+    """Waits for exactly `count` bytes and returns them. Raises ConnectionError if the connection ends earlier."""
     data = b""
     while len(data) < count:
         part = connection.recv(count - len(data))
@@ -30,7 +30,7 @@ def received(connection, count):
 
 
 def answer(connection):
-    """Returns the next block of bytes that begins with its length, such as the header of the other side."""
+    """Waits for a block: its length and its bytes. Returns the bytes. A connection header is such a block."""
     return received(connection, struct.unpack("<I", received(connection, 4))[0])
 
 

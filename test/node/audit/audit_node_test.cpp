@@ -33,7 +33,8 @@ struct Folder {
   fs::path path;
 };
 
-/// A node with a robot of three links; a fixed joint, 0.3 m long, carries the third.
+/// Returns the setup of a node with a robot of three links. A fixed joint connects the third link to the second link,
+/// 0.3 m away from its origin.
 NodeSetup robotWithATool(const Folder& folder) {
   NodeSetup setup;
   const std::string origin = "<origin xyz=\"0.3 0 0\"/>";
@@ -82,7 +83,7 @@ TEST(AuditedNode, IsCleanWhileItMoves) {
 TEST(AuditedNode, ReportsADifferenceAndWritesAFileThatShowsItAgain) {
   const Folder folder;
   TransformSource transforms;
-  transforms.fix({stamped("arm", "tool", at(0.31))});  // 0.01 m off the description, which the node uses
+  transforms.fix({stamped("arm", "tool", at(0.31))});  // the node uses 0.3 m, from the description
   transforms.stream("base", "arm", at(0.2, 0.1, 0.0, 0.5));
   NodeUnderTest node(robotWithATool(folder));
   const std::string difference = "'robot/tool' is 0.01 m away from where the transforms";

@@ -22,8 +22,9 @@ std::string sentences(const AuditFindings& findings) {
   return result;
 }
 
-/// Audits every third tick up to ten times, and returns the sentences of the first audit that finds a difference.
-/// `plant` may change a case before its audit.
+/// Audits every third tick, at most ten times. Returns the sentences of the first audit that finds a difference; empty
+/// if no audit finds one.
+/// @param plant  may put a fault into a case before its audit
 std::string foundWithinTen(AuditedWorld& world, const std::function<void(AuditCase&)>& plant = {}) {
   for (int i = 0; i < 10; ++i) {
     for (int tick = 0; tick < 3; ++tick) world.step();
@@ -170,39 +171,39 @@ TEST(Audit, FindsAPairWithAMapThatTheNodeMissed) {
   expectTells(found, "'map/z' is missing: a cell is");
 }
 
-/// One of the things that happen to transforms in a real system.
+/// Does at random one of the things that happen to transforms in a real system.
 void disturb(AuditedWorld& world) {
   test::Random& random = world.random();
   const std::string frame = "f" + std::to_string(random.below(10));
   switch (random.below(10)) {
-    case 0:  // a frame stops or starts
+    case 0:  // one frame is no longer published; all others are
       world.is_silent = [frame](const std::string& other) { return other == frame; };
       break;
-    case 1:
+    case 1:  // all frames are published again
       world.is_silent = nullptr;
       break;
-    case 2: {  // not a number
+    case 2: {  // a coordinate is not a number
       auto transform = world.randomTransform("hub", frame, 0.0);
       transform.transform.translation.x = std::numeric_limits<double>::quiet_NaN();
       world.send(transform);
       break;
     }
-    case 3:  // out of order
+    case 3:  // a stamp is older than that of an earlier transform
       world.send(world.randomTransform("hub", frame, random.uniform(0.0, 0.3)));
       break;
-    case 4:  // another publisher
+    case 4:  // a second publisher sends the frame
       world.send(world.randomTransform("hub", frame, 0.0), false, "/rival");
       break;
-    case 5:  // another parent
+    case 5:  // a transform has another parent
       world.send(world.randomTransform("base", frame, 0.0));
       break;
-    case 6:  // stamped ahead
+    case 6:  // a stamp is in the future
       world.send(world.randomTransform("hub", frame, random.uniform(-0.6, 0.0)));
       break;
     case 7:  // the wall clock is set
       if (random.chance(0.2)) world.world().setRosClock(world.world().now() + random.uniform(-30.0, 30.0));
       break;
-    case 8:  // a new static transform above everything
+    case 8:  // a static transform gives the root frame a parent
       world.send(world.randomTransform("map", "base", 0.0), true);
       break;
     default:  // nothing is received for a while
@@ -218,7 +219,7 @@ TEST(Audit, FindsNoDifferenceWhateverTheTransformsDo) {
     world.addRobot(0.0);
     for (int i = 0; i < 200; ++i) {
       if (world.random().chance(0.1)) disturb(world);
-      if (i % 70 == 0) world.send(world.randomTransform("f1", "slow", 0.0));  // less than one per second
+      if (i % 70 == 0) world.send(world.randomTransform("f1", "slow", 0.0));  // about one per second
       if (!world.step().snapshot) continue;
       const AuditFindings findings = audit(world.audited(), 1);
       ASSERT_EQ(sentences(findings), "") << "seed " << seed << ", tick " << i;

@@ -12,11 +12,12 @@
 namespace hgrid {
 namespace test {
 
-/// A SimulatedWorld of ten moving bodies with different shapes, three fixed bodies and a robot, whose transforms are
-/// recorded for audits. Frame "f0" .. "f9" move in frame "hub", which moves in the world frame.
+/// A SimulatedWorld whose transforms are recorded for audits. It has ten moving bodies with different shapes and three
+/// fixed bodies. addRobot() adds a robot. The frames "f0" to "f9" move in frame "hub", which moves in the world frame.
 class AuditedWorld {
  public:
-  /// Changes a transform between the record and the node. Returns false if the node does not get it at all.
+  /// Changes a transform that was recorded before the node receives it. Returns false if the node must not receive the
+  /// transform.
   using Tamper = std::function<bool(geometry_msgs::TransformStamped& transform)>;
 
   explicit AuditedWorld(unsigned seed, const Params& params = defaults());
@@ -24,10 +25,11 @@ class AuditedWorld {
 
   SimulatedWorld& world() { return world_; }
   Random& random() { return random_; }
-  /// Adds a robot with two links of one group. @param off  [m] how wrong the node places the second link
+  /// Adds a robot with two links of one rigid group.
+  /// @param off  [m] the node places the second link this far from the place that the transforms give
   void addRobot(double off);
 
-  /// Sends one transform: to the record as it is, and to the node as `tamper` makes it.
+  /// Records one transform without a change. Then changes it by `tamper` and sends it to the node.
   void send(geometry_msgs::TransformStamped transform, bool is_static = false, const std::string& publisher = "/state");
   /// Returns a random small pose of `child` in `parent`, stamped `delay` [s] before now.
   geometry_msgs::TransformStamped randomTransform(const std::string& parent, const std::string& child, double delay);
@@ -36,8 +38,8 @@ class AuditedWorld {
   /// Collects the case of the newest tick.
   AuditCase audited();
 
-  Tamper tamper;
-  std::function<bool(const std::string& frame)> is_silent;  ///< whether a frame is not published at all
+  Tamper tamper;                                            ///< empty: no transform is changed
+  std::function<bool(const std::string& frame)> is_silent;  ///< whether step() leaves out a frame; empty: no
 
  private:
   SimulatedWorld world_;

@@ -68,7 +68,7 @@ TEST(TransformRecord, KeepsTheNewestStaticTransformOfEachPublisherAndSaysWhenThe
   ASSERT_EQ(content.fixed->size(), 10u);
   EXPECT_EQ(content.fixed->at({"tool", "/calibration"}).numbers[0], 999.0);
   EXPECT_EQ(content.fixed->at({"tool", "/calibration"}).parent, "base");
-  read(record, messageOf(100, 1.0, true));  // no message of transforms
+  read(record, messageOf(100, 1.0, true));  // the bytes are not a valid message
   EXPECT_TRUE(record.content().all_static);
   read(record, staticMessage("tool", 0, "/rival"));
   EXPECT_FALSE(record.content().all_static);
@@ -91,7 +91,7 @@ TEST(TransformRecord, TellsWhetherAMessageIsHalfRead) {
   record.ends(true);
   EXPECT_FALSE(record.isReading());
   record.begins(messageOf(10, 1.5));
-  record.ends(false);  // the node does not have all of it, so the record can explain nothing before
+  record.ends(false);  // the node lost a part of the message, so the record begins after it
   EXPECT_TRUE(record.content().moving.empty());
   EXPECT_EQ(record.content().begin, Time(std::chrono::milliseconds(1500)));
 }
