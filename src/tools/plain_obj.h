@@ -20,6 +20,24 @@ inline std::string nextObjWord(const std::string& line, std::size_t& at) {
   return line.substr(begin, at - begin);
 }
 
+/// Whether a word is a corner of a face: v, v/vt, v//vn or v/vt/vn, with or without slashes at its end. Each number may
+/// have a minus sign.
+inline bool isObjCorner(const std::string& word) {
+  std::size_t at = 0;
+  const auto readNumber = [&] {
+    if (at < word.size() && word[at] == '-') ++at;
+    const std::size_t begin = at;
+    at = std::min(word.find_first_not_of("0123456789", begin), word.size());
+    return at > begin;
+  };
+  if (!readNumber()) return false;
+  for (int part = 0; part < 2 && at < word.size(); ++part) {
+    if (word[at++] != '/') return false;
+    if (at < word.size() && word[at] != '/' && !readNumber()) return false;
+  }
+  return at == word.size();
+}
+
 /// Checks the corners of a face. The parser would leave out a face with fewer than 3 corners. It would misread other
 /// corners than v, v/vt, v//vn and v/vt/vn.
 /// @throws Refusal parse
@@ -28,9 +46,9 @@ inline void checkObjFace(const std::string& line) {
   if (nextObjWord(line, at) != "f") return;
   int corners = 0;
   for (std::string corner = nextObjWord(line, at); !corner.empty(); corner = nextObjWord(line, at), ++corners) {
-    if (corner.find_first_not_of("0123456789/-") == std::string::npos) continue;
-    throw Refusal(Code::parse,
-                  "its face '" + line + "' has the corner '" + corner + "'; a corner must consist of numbers");
+    if (isObjCorner(corner)) continue;
+    throw Refusal(Code::parse, "its face '" + line + "' has the corner '" + corner +
+                                   "'; a corner must be v, v/vt, v//vn or v/vt/vn with whole numbers");
   }
   if (corners < 3) throw Refusal(Code::parse, "its face '" + line + "' has fewer than 3 corners");
 }

@@ -141,6 +141,19 @@ TEST_F(BadMesh, EveryFaceOfAnObjFileIsReadHoweverItsLinesAreWritten) {
   }
 }
 
+// The parser alone would leave out a face with one of the refused corners, or read other corners.
+TEST_F(BadMesh, AFaceWithACornerThatIsNoneIsRefused) {
+  const std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvn 0 0 1\nf 1 2 4\nf 1 2 ";
+  for (const char* corner : {"/3", "//1", "/1/1", "1-3", "-", "3-", "3/-", "3/1/1/1", "3///1", "--3", "3/1-1"}) {
+    EXPECT_EQ(refusal("a.obj", text + corner + "\n"), Code::parse) << corner;
+    EXPECT_TRUE(says(sentence_, std::string("has the corner '") + corner + "'")) << sentence_;
+  }
+  for (const char* corner : {"3", "-2", "3/1", "3//1", "3/1/1", "-2/-1/-1", "3/", "3//", "3/1/"}) {
+    EXPECT_EQ(refusal("a.obj", text + corner + "\n"), Code::ok) << corner << sentence_;
+    EXPECT_EQ(mesh_->triangles.size(), 2u) << corner;
+  }
+}
+
 TEST_F(BadMesh, IndicesOutOfRangeAreRefused) {
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   for (const char* face : {"f 1 2 4\n", "f 1 2 99999999\n", "f -1 -2 -9\n", "f 0 1 2\n", "f 1 2 4294967297\n"}) {
