@@ -15,8 +15,15 @@ namespace {
 
 /// The rows of the table: the name of the row, and the name of the timing in the ~status of the node.
 const std::vector<std::pair<const char*, const char*>> kParts = {
-    {"tick", "tick"},        {"poses", "tick.poses"},     {"boxes", "tick.boxes"},         {"broad phase", "tick.grid"},
-    {"pairs", "tick.pairs"}, {"publish", "tick.publish"}, {"distances", "distances"}, {"tf", "tf"},
+    {"tick", "tick"},
+    {"poses", "tick.poses"},
+    {"boxes", "tick.boxes"},
+    {"broad phase", "tick.grid"},
+    {"pairs", "tick.pairs"},
+    {"publish", "tick.publish"},
+    {"distances", "distances"},
+    {"tf", "tf"},
+    {"after data", "after data"},
     {"latency", "latency"},
 };
 

@@ -29,7 +29,7 @@ struct Measurement {
   double rate = 0.0;                 ///< [Hz] rate of the messages on /tf, and of the ticks
   bool distances = false;            ///< whether the node measured distances
   std::optional<double> maps_per_s;  ///< [1/s] how often the map was replaced; empty if the world has no map
-  std::vector<Part> parts;           ///< parts of the ticks, then "latency"
+  std::vector<Part> parts;           ///< parts of the ticks, then "after data", then "latency"
   double cpu_percent = 0.0;          ///< processor time of the node, in percent of one processor
   double bench_percent = 0.0;        ///< processor time of this process, which moves the world and sends queries
   double others_percent = 0.0;       ///< processor time of all other processes, which disturb the measurement
@@ -46,10 +46,10 @@ Measurement measurementOf(const Workload& workload, const Sightings& seen);
 /// Starts a node, lets it run in the workload, and measures it for `duration` [s].
 ///
 /// The parts of the tick are the node's own timings of each tick (`last` of its ~status). "tf" is the time that the
-/// node spent on received transforms between two ticks. "latency" begins at the stamp of a cycle of /tf, which is taken
+/// node spent on received transforms between two ticks. "after data" is its timing "latency": from the arrival of the last
+/// transform that a tick needed until ~pairs was published. "latency" begins at the stamp of a cycle of /tf, which is taken
 /// just before the cycle is sent. It ends when this process receives the first ~pairs with this stamp, so it includes
-/// the wait for the next tick. A cycle is slightly longer than a tick. Thus the offset between the two takes each value
-/// once during a run.
+/// both ways through ROS.
 ///
 /// @throws std::runtime_error if the node does not know the whole world within a minute
 Measurement measure(const Workload& workload, double duration);

@@ -6,8 +6,14 @@
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
 
+#include <atomic>
+#include <boost/make_shared.hpp>
+#include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <thread>
+#include <utility>
 
 namespace hgrid {
 
@@ -19,6 +25,7 @@ class CallbackThreads {
     node_.setCallbackQueue(&queue_);
     private_node_.setCallbackQueue(&queue_);
   }
+  ~CallbackThreads() { stop(); }
 
   const ros::NodeHandle& node() const { return node_; }
   const ros::NodeHandle& privateNode() const { return private_node_; }
@@ -27,15 +34,48 @@ class CallbackThreads {
     spinner_ = std::make_unique<ros::AsyncSpinner>(threads, &queue_);
     spinner_->start();
   }
+  /// Starts one thread that runs the callbacks, and calls `work` after each round of them.
+  /// @param begin  the thread calls it first; it must not throw
+  /// @param work   returns how long the thread may wait for the next callback; it must not throw
+  void startLoop(std::function<void()> begin, std::function<std::chrono::nanoseconds()> work) {
+    loop_ = std::thread([this, begin = std::move(begin), work = std::move(work)] {
+      begin();
+      std::chrono::nanoseconds wait{0};
+      while (!stopping_ && node_.ok()) {
+        queue_.callAvailable(ros::WallDuration(std::chrono::duration<double>(wait).count()));
+        wait = work();
+      }
+    });
+  }
+  /// Ends the wait of the thread of startLoop(). Any thread may call this.
+  void wake() {
+    if (!woken_.exchange(true)) queue_.addCallback(boost::make_shared<Wake>(woken_));
+  }
   /// Starts no further callbacks, and waits for those that are running.
   void stop() {
     if (spinner_) spinner_->stop();
+    if (!loop_.joinable()) return;
+    stopping_ = true;
+    wake();
+    loop_.join();
   }
 
  private:
+  /// A callback that only ends a wait.
+  struct Wake : ros::CallbackInterface {
+    explicit Wake(std::atomic<bool>& flag) : woken(flag) {}
+    CallResult call() override {
+      woken = false;
+      return Success;
+    }
+    std::atomic<bool>& woken;
+  };
+
+  std::atomic<bool> stopping_{false}, woken_{false};
   ros::CallbackQueue queue_;
   ros::NodeHandle node_, private_node_;
   std::unique_ptr<ros::AsyncSpinner> spinner_;
+  std::thread loop_;
 };
 
 }  // namespace hgrid

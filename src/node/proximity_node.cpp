@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "hgrid_proximity/adapters/fcl.h"
+#include "node/services/guarded.h"
+#include "node/tick/realtime.h"
 
 namespace hgrid {
 namespace {
@@ -34,7 +36,7 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
       admin_thread_(node, private_node),
       commons_{readSettings(private_node), std::move(narrow_phase), {}, {}},
       world_(commons_.settings.params, ros::Time::isSimTime(), newEpoch(), commons_.ledger, commons_.narrow_phase),
-      jobs_([this] { return isEnding(); }),
+      jobs_([this] { return isEnding(); }, std::chrono::seconds(10), [this] { tick_thread_.wake(); }),
       auditor_(commons_),
       tick_loop_(tick_thread_.node(), commons_.settings.params, world_, jobs_, stopwatch_, commons_.health,
                  auditor_.listener(), commons_.ledger),
@@ -52,9 +54,9 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
           [this] { return tick_loop_.newest(); }, commons_.health),
       housekeeping_(admin_thread_.node(), std::min(kHousekeepingPeriod, 1.0 / commons_.settings.params.marker_rate),
                     ChoreList(chores(), commons_.ledger)) {
-  tick_loop_.start(tickSteps());
+  tick_loop_.setSteps(tickSteps());
   housekeeping_.start();
-  tick_thread_.start(1);
+  tick_thread_.startLoop([this] { beginTicks(); }, [this] { return tick_loop_.work(); });
   query_threads_.start(static_cast<std::uint32_t>(commons_.settings.params.query_threads));
   admin_thread_.start(1);
   loading_.startClouds();
@@ -63,7 +65,6 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
 /// Stops all threads that use the parts of the node.
 void ProximityNode::stop() {
   stopping_ = true;
-  tick_loop_.stop();
   housekeeping_.stop();
   loading_.stopClouds();
   tick_thread_.stop();
@@ -71,12 +72,20 @@ void ProximityNode::stop() {
   admin_thread_.stop();
 }
 
+/// Prepares the tick thread, which calls this before the first tick.
+void ProximityNode::beginTicks() {
+  const int priority = commons_.settings.params.realtime;
+  guarded(commons_.ledger, "realtime.failed", [&] {
+    if (priority > 0) makeRealtime(priority);
+  });
+}
+
 bool ProximityNode::isEnding() const { return stopping_ || ros::isShuttingDown(); }
 
 /// Returns what the tick thread does with every tick, in this order.
 std::vector<TickLoop::Step> ProximityNode::tickSteps() {
   using TickPtr = std::shared_ptr<const Tick>;
-  return {{"tick.publish", [this](const TickPtr& tick) { publishers_.publishTick(*tick); }},
+  return {{"tick.publish", [this](const TickPtr& tick) { publishers_.publishTick(*tick); }, true},
           {"",
            [this](const TickPtr& tick) {
              if (const auto time = publishers_.publishDistances(tick)) stopwatch_.add("distances", *time);

@@ -40,6 +40,7 @@ class ProximityNode {
   void stop();
   /// Returns whether the node or its process is about to end. Long work must then stop. Any thread may call this.
   bool isEnding() const;
+  void beginTicks();
   std::vector<TickLoop::Step> tickSteps();
   std::vector<Chore> chores();
 

@@ -171,7 +171,7 @@ def check_stopped_node(cell):
 
 
 def stopped(cell, rng, seconds):
-    cell.begin(obstacles=pile(), rate=100, event_queue=EVENT_QUEUE)
+    cell.begin(obstacles=pile(), rate=100, follow_data=False, event_queue=EVENT_QUEUE)
     with calm_after(cell):
         check_stalled_subscribers(cell, NAME + "/pairs", Pairs, 1, 0.3 * seconds)
     with calm_after(cell, growth=2 * GROWTH):

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -90,6 +91,8 @@ std::string flawOfSettings(Params params) {
   if (!check.flaw.empty()) return check.flaw;
   if (params.late_after > params.stale_after || params.stale_after > params.lost_after) return "a wrong order of ages";
   if (params.valid_for * params.rate < 1.0) return "~valid_for is too short";
+  if (params.follow_data && params.valid_for * std::min(params.rate, params.heartbeat) < 1.0)
+    return "~valid_for is too short";
   if (params.distances_max > params.margin) return "~distances/max is larger than ~margin";
   if ((params.map_crop_min.array() > params.map_crop_max.array()).any()) return "~map/crop is an empty box";
   if (params.robots.empty()) return "there is no robot";

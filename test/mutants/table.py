@@ -33,6 +33,9 @@ RIVALS = "node/tf/frame_rivals.cpp"
 FRAMES = "node/tf/frame_table.cpp"
 INTAKE = "node/tf/tf_intake.cpp"
 QUEUE = "node/tf/tf_queue.cpp"
+NEWS = "node/tf/tf_news.cpp"
+CLOCKS = "node/tf/publisher_clocks.cpp"
+PACE = "node/tick/tick_pace.cpp"
 TREE = "node/tf/tf_tree.cpp"
 CHECK = "node/tf/transform_check.cpp"
 LOOKUP = "node/tf/transform_lookup.cpp"
@@ -315,8 +318,17 @@ NODE = [
      "renew(stamp, reading)", "renew(stamp, Time(0))"),
     ("a pose whose transforms were dropped is not FROZEN", KEPT,
      "frozen_ = frozen_ || lost;", ""),
-    ("a frame stamped ahead sets the time of the tick", TIME, "if (time <= latest) pace", "pace"),
-    ("each frame that lags delays the tick", TIME, "if (pace - time <= max_wait_) common", "common"),
+    ("a frame stamped ahead sets the time of the tick", TIME, "if (time <= latest) found", "found"),
+    ("each frame that lags delays the tick", TIME, "if (time >= keeps_up_from_) common", "common"),
+    ("frames that have stopped stop the time of the ticks", TIME, "now - pace > max_wait_", "pace.count() < 0"),
+    ("a transform that is not newer than the tick is news", NEWS, "Wait::has_news || stamp <= tick_", "Wait::has_news"),
+    ("a frame without news is not counted", NEWS, "if (!has_news) ++missing_;", ""),
+    ("a frame stamped ahead makes all others slow", NEWS, "if (stamp <= now) newest_", "newest_"),
+    ("a frame that was awaited before is still awaited", NEWS, "waits_[frame] = Wait::none;", ""),
+    ("there are more ticks than ~rate", PACE, "std::max(earliest_ + period_, now + period_ / 2)", "now + period_ / 2"),
+    ("data with jitter waits for a whole period", PACE, "now + period_ / 2", "now + period_"),
+    ("the first reason for a tick is forgotten", PACE, "if (!reason_) reason_", "reason_"),
+    ("a stamp that is early once counts", CLOCKS, "window.least >= kAhead", "window.largest >= kAhead"),
     ("the time of a tick runs back", TIME,
      "return last_ = std::max(last_, common);", "return last_ = common;"),
 

@@ -6,6 +6,7 @@ import json
 import pathlib
 import sys
 import unittest
+from types import SimpleNamespace
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "support"))
 
@@ -431,6 +432,14 @@ class DoctorChecks(unittest.TestCase):
     def test_a_contest_that_only_the_node_has_seen(self):
         self.facts.status.contested_frames = ["frame 'x' comes from /a with parent 'b' and from /c with parent 'd'"]
         self.expect("contested_frame")
+
+    def test_clocks_that_only_the_node_has_seen_differ(self):
+        self.facts.status.clock_offsets = [
+            SimpleNamespace(publisher="/arm", offset=-1.25),
+            SimpleNamespace(publisher="/base", offset=0.3),
+        ]
+        finding = self.expect("clock_offset", code=EXIT_WARN)
+        self.assertIn("/arm 1.25 s behind the clock, /base 0.30 s ahead of the clock", finding.what)
 
     def test_stamps(self):
         cases = (

@@ -35,6 +35,17 @@ void addLists(const Tick& tick, std::size_t most, msg::Status& message) {
   message.model_warnings = shortened(tick.models->warnings, most);
 }
 
+/// Adds the publishers whose stamps are constantly early or late, at most `most`.
+void addClockOffsets(const Tick& tick, std::size_t most, msg::Status& message) {
+  for (const ClockOffset& offset : tick.clock_offsets) {
+    if (message.clock_offsets.size() >= most) break;
+    msg::ClockOffset entry;
+    entry.publisher = offset.publisher;
+    entry.offset = offset.offset;
+    message.clock_offsets.push_back(entry);
+  }
+}
+
 }  // namespace
 
 msg::Status statusMessage(const Tick& tick, const msg::WorldState& world, const Params& params, const Ledger& ledger,
@@ -61,6 +72,7 @@ msg::Status statusMessage(const Tick& tick, const msg::WorldState& world, const 
     message.bodies.push_back(body);
   }
   addLists(tick, static_cast<std::size_t>(params.max_listed), message);
+  addClockOffsets(tick, static_cast<std::size_t>(params.max_listed), message);
   for (const auto& robot : tick.models->self_pairs) message.self_pairs.push_back(toMsg(robot.first, robot.second));
   message.robots = static_cast<std::uint32_t>(tick.models->robots);
   if (tick.snapshot) {

@@ -174,7 +174,7 @@ std::string paramsAsMarkdown() {
          "- A glob is a pattern for names in which `*` stands for any characters: `robot/*`.\n\n"
          "Some rules are about several parameters:\n\n"
          "- `~late_after` <= `~stale_after` <= `~lost_after`\n"
-         "- `~valid_for` is at least one period of `~rate`.\n"
+         "- `~valid_for` is at least one period of `~rate`, and of `~heartbeat` if `~follow_data` is true.\n"
          "- `~distances/max` <= `~margin`\n"
          "- `~map/crop_min` <= `~map/crop_max` on each axis\n"
          "- `~min_size` < `~max_size`\n"

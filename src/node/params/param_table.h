@@ -21,7 +21,18 @@ void visitParams(Visitor& v, Params& p) {
   v.vector("origin", p.origin, "m", 1e6,
            "point of the world frame that boxes are stored relative to, as float32; choose a point near the robot if "
            "coordinates are large");
-  v.number("rate", p.rate, "Hz", 1.0, 1000.0, "ticks per second");
+  v.number("rate", p.rate, "Hz", 1.0, 1000.0,
+           "largest number of ticks per second, in real time also if ROS time is simulated; if follow_data is false, "
+           "the number of ticks per second");
+  v.number("heartbeat", p.heartbeat, "Hz", 0.1, 1000.0,
+           "smallest number of ticks per second, in real time, while no data arrives; at most ~rate counts");
+  v.flag("follow_data", p.follow_data,
+         "whether a tick begins as soon as all frames that keep up have newer transforms, or a map, cloud or request "
+         "waits; false: ticks begin at regular times");
+  v.integer(
+      "realtime", p.realtime, 0, 99,
+      "real-time priority (SCHED_FIFO) of the thread that makes the ticks; the memory of the process is then locked in "
+      "RAM. 0: usual priority");
   v.number("margin", p.margin, "m", 0.0, 1000.0, "bodies whose boxes are at most this far apart are pairs");
   v.number("finest_edge", p.finest_edge, "m", 0.0, 1000.0,
            "longest side of the boxes on the finest level of the grid, at least 0.001; 0: chosen from the bodies");

@@ -248,9 +248,11 @@ Params readParams(XmlRpc::XmlRpcValue values) {
   require(params.late_after <= params.stale_after && params.stale_after <= params.lost_after,
           "~late_after is " + text(params.late_after) + " s, ~stale_after is " + text(params.stale_after) +
               " s and ~lost_after is " + text(params.lost_after) + " s; none may be smaller than the one before it");
-  require(params.valid_for * params.rate >= 1.0, "~valid_for is " + text(params.valid_for) +
-                                                     " s; it must be at least one period of ~rate, " +
-                                                     text(1.0 / params.rate) + " s");
+  const bool beats = params.follow_data && params.heartbeat < params.rate;  // ticks may be a period of it apart
+  const double slowest = beats ? params.heartbeat : params.rate;
+  require(params.valid_for * slowest >= 1.0, "~valid_for is " + text(params.valid_for) +
+                                                 " s; it must be at least one period of " +
+                                                 (beats ? "~heartbeat, " : "~rate, ") + text(1.0 / slowest) + " s");
   require(params.distances_max <= params.margin, "~distances/max is " + text(params.distances_max) +
                                                      " m; it must be at most ~margin, " + text(params.margin) + " m");
   for (int axis = 0; axis < 3; ++axis) {

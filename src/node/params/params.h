@@ -73,7 +73,9 @@ struct Waiver {
 struct Params {
   std::string world_frame;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-  double rate = 50.0;
+  double rate = 50.0, heartbeat = 20.0;
+  bool follow_data = true;
+  int realtime = 0;
   double margin = 0.10;
   double finest_edge = 0.0;
 

@@ -20,6 +20,7 @@ void FramePoses::look(const Moment& now) {
     if (state.connected && state.moves) newest_.push_back(state.newest);
   }
   tick_time_ = time_.choose(newest_, now.ros);
+  tree_.listMoving(time_.keepsUpFrom(), awaited_);
   tree_.place(tick_time_);
 }
 

@@ -37,6 +37,8 @@ class FramePoses {
   void look(const Moment& now);
   void beginEpoch() { time_.beginEpoch(); }
 
+  /// Returns the frames that hold back the time of the next tick: those of chains that keep up.
+  const std::vector<FrameStamp>& awaited() const { return awaited_; }
   /// Returns the time of this tick; tickTimeBefore() returns the time of the previous tick. Both are in ROS time.
   Time tickTime() const { return tick_time_; }
   Time tickTimeBefore() const { return tick_time_before_; }
@@ -65,6 +67,7 @@ class FramePoses {
   std::string world_frame_;
   std::vector<std::string> frames_;
   std::vector<Time> newest_;  // buffer of look(): the newest time of each chain that moves
+  std::vector<FrameStamp> awaited_;
   Time tick_time_{0}, tick_time_before_{0}, reading_{0}, reading_before_{0};
 };
 

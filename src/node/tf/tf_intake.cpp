@@ -26,18 +26,20 @@ geometry_msgs::TransformStamped withoutSlashes(geometry_msgs::TransformStamped t
 }  // namespace
 
 TfIntake::TfIntake(double max_future, double cache, std::size_t max_frames, bool simulated, Ledger& ledger,
-                   std::size_t max_samples)
+                   std::size_t max_samples, double max_wait)
     : max_future_(max_future),
       most_late_(max_frames),
       ledger_(ledger),
       ages_(simulated),
       store_(Time(std::llround(1e9 * cache)), max_frames, max_samples),
-      rivals_(ledger) {}
+      rivals_(ledger),
+      news_(max_wait) {}
 
 void TfIntake::take(const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher,
                     const Moment& now) {
   accepted_ = 0;
-  const std::uint64_t before = table().revision();
+  newest_stamp_ = Time(0);
+  const std::uint64_t before = table().revision(), static_before = static_revision_;
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {
     try {
       if (hasSlash(transform.header.frame_id) || hasSlash(transform.child_frame_id)) {
@@ -51,7 +53,9 @@ void TfIntake::take(const tf2_msgs::TFMessage& message, bool is_static, const st
     }
   }
   if (table().revision() != before) takeLate(now);  // another frame may be above one that bodies need
+  if (table().revision() != before || static_revision_ != static_before) news_.noteStructure();
   if (accepted_ > 0) ledger_.count("tf.accepted", accepted_);
+  if (newest_stamp_.count() > 0) publisher_clocks_.note(publisher, newest_stamp_ - now.ros, ages_.read(now));
   if (const std::size_t dropped = store_.takeDropped()) ledger_.count("tf.samples.LIMIT", dropped);
 }
 
@@ -238,6 +242,8 @@ void TfIntake::takeNewest(std::uint32_t number, const Arrival& arrival, const St
     frame.pace.forgetPeriod();
   }
   frame.pace.noteReceived(arrival.reading, arrival.now.ros);
+  news_.note(number, arrival.stamp, arrival.now.ros);
+  newest_stamp_ = std::max(newest_stamp_, arrival.stamp);
   if (frame.publisher != arrival.publisher) frame.publisher = arrival.publisher;
   accept(frame);
   if (!frame.claimed) return;
@@ -285,6 +291,7 @@ void TfIntake::changeClaim(std::uint32_t number, const Arrival& arrival) {
 void TfIntake::forgetStamps() {
   store_.forgetStamps();
   rivals_.forgetTransforms();
+  publisher_clocks_.forget();
   for (Frame& frame : frames_) frame.stray = Time(0);
 }
 

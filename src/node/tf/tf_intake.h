@@ -13,6 +13,8 @@
 #include "node/diagnostics/ledger.h"
 #include "node/tf/frame_pace.h"
 #include "node/tf/frame_rivals.h"
+#include "node/tf/publisher_clocks.h"
+#include "node/tf/tf_news.h"
 #include "node/tf/transform_lookup.h"
 #include "node/tf/transform_store.h"
 #include "node/time/age_clock.h"
@@ -49,8 +51,9 @@ class TfIntake {
   /// @param max_frames   limits the number of frames, as in FrameTable
   /// @param simulated    whether /clock drives ROS time
   /// @param max_samples  how many transforms of one frame are kept
+  /// @param max_wait     [s] how long a tick may wait for slower frames, as in TickTime
   TfIntake(double max_future, double cache, std::size_t max_frames, bool simulated, Ledger& ledger,
-           std::size_t max_samples = TransformStore::kMaxSamples);
+           std::size_t max_samples = TransformStore::kMaxSamples, double max_wait = 0.1);
 
   /// Handles the transforms of one message. Counts and logs each refused transform, and uses the others.
   void take(const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher, const Moment& now);
@@ -62,6 +65,11 @@ class TfIntake {
   /// Drops the stamps of all transforms of /tf, but not their arrival times. Call this after the wall clock was set.
   void restamp();
 
+  /// Returns what has arrived since the last tick.
+  TfNews& news() { return news_; }
+  const TfNews& news() const { return news_; }
+  /// Returns which publishers of /tf send stamps that are constantly early or late.
+  const PublisherClocks& publisherClocks() const { return publisher_clocks_; }
   /// Returns the object that looks up poses of frames. Any thread may use it.
   const TransformLookup& lookup() const { return lookup_; }
   /// Returns the clock that measures the age of poses. Each tick calls its look().
@@ -142,10 +150,13 @@ class TfIntake {
   TransformLookup lookup_{store_};
   std::vector<Frame> frames_;  // indexed by frame number
   FrameRivals rivals_;
+  TfNews news_;
+  PublisherClocks publisher_clocks_;
   std::vector<std::string> conflicts_;
   std::map<std::string, Late> late_;  // by child; they are sent only once, and somebody may need them later
   std::uint64_t static_revision_ = 0;
   std::uint64_t accepted_ = 0;  // number of accepted transforms of the current message
+  Time newest_stamp_{0};        // newest stamp of the accepted transforms of the current message on /tf; 0: none
 };
 
 }  // namespace hgrid

@@ -121,6 +121,22 @@ void TfTree::place(Time time) {
   }
 }
 
+void TfTree::listMoving(Time since, std::vector<FrameStamp>& frames) {
+  frames.clear();
+  for (Step& step : steps_) step.listed = false;
+  for (const Chain& chain : chains_) {
+    const ChainState& state = steps_[chain.step].state;
+    if (state.connected && state.moves && state.newest >= since) steps_[chain.step].listed = true;
+  }
+  for (std::size_t i = steps_.size() - 1; i > kWorld; --i) {  // each step comes after its `from`
+    const Step& step = steps_[i];
+    if (!step.listed) continue;
+    steps_[step.from].listed = true;
+    const FrameHistory& history = intake_.history(step.moved);
+    if (history.moves()) frames.push_back({step.moved, history.newest().stamp});
+  }
+}
+
 std::optional<FramePose> TfTree::along(std::size_t number, Time time) const {
   if (number == kWorld) return FramePose{};
   const Step& step = steps_[number];

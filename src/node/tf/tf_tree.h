@@ -56,6 +56,9 @@ class TfTree {
   /// Computes the pose of every frame at `time`. Interpolates as tf2 does, but never across a seam.
   void place(Time time);
 
+  /// Replaces `frames` with the moving frames of all chains that move and are known until `since` or later.
+  void listMoving(Time since, std::vector<FrameStamp>& frames);
+
   const ChainState& state(std::size_t frame) const { return steps_[chains_[frame].step].state; }
   /// Returns the frame's number in the TfIntake, or kNone if it was never published.
   std::uint32_t numberOf(std::size_t frame) const { return chains_[frame].number; }
@@ -77,6 +80,7 @@ class TfTree {
     std::uint32_t moved = TfIntake::kNone;  // number of the frame whose transform this step uses
     bool upwards = false;                   // whether the step goes from `moved` to its parent
     bool placed = false;                    // whether world_from_frame is known
+    bool listed = false;                    // buffer of listMoving(): whether a listed chain contains this step
     FramePose world_from_frame;
     ChainState state;
   };

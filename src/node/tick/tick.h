@@ -10,6 +10,7 @@
 
 #include "hgrid_proximity/distances/pair_meter.h"
 #include "hgrid_proximity/world/scene.h"
+#include "node/tf/publisher_clocks.h"
 #include "node/time/clock_watch.h"
 #include "node/world/body_trouble.h"
 #include "node/world/model_report.h"
@@ -30,6 +31,7 @@ struct Tick {
   std::vector<std::string> unplaced;
   std::vector<std::string> missing_frames;    ///< names of frames that were never published, sorted
   std::vector<std::string> contested_frames;  ///< one sentence for each contested frame
+  std::vector<ClockOffset> clock_offsets;     ///< publishers whose stamps are constantly early or late
   std::shared_ptr<const ModelReport> models;
   TickTimes times;
   int threads = 0;                         ///< number of threads that made the snapshot

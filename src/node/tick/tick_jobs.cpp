@@ -23,20 +23,25 @@ std::string secondsOf(std::chrono::milliseconds duration) {
 
 }  // namespace
 
-TickJobs::TickJobs(std::function<bool()> is_ending, std::chrono::milliseconds patience)
-    : is_ending_(std::move(is_ending)), patience_(patience) {}
+TickJobs::TickJobs(std::function<bool()> is_ending, std::chrono::milliseconds patience, std::function<void()> wake)
+    : is_ending_(std::move(is_ending)), patience_(patience), wake_(std::move(wake)) {}
 
 void TickJobs::add(const std::string& key, Job job) { put(key, std::move(job)); }
 
 /// Adds a job. Removes the waiting job of the same key, unless the key is empty. @returns the number of the job
 std::uint64_t TickJobs::put(const std::string& key, Job job) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  added_.reserve(added_.size() + 1);
-  const auto same = [&](const Waiting& waiting) { return !key.empty() && waiting.key == key; };
-  Waiting added{key, ++last_number_, std::move(job)};
-  added_.erase(std::remove_if(added_.begin(), added_.end(), same), added_.end());
-  added_.push_back(std::move(added));
-  return last_number_;
+  std::uint64_t number = 0;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    added_.reserve(added_.size() + 1);
+    const auto same = [&](const Waiting& waiting) { return !key.empty() && waiting.key == key; };
+    Waiting added{key, ++last_number_, std::move(job)};
+    number = added.number;
+    added_.erase(std::remove_if(added_.begin(), added_.end(), same), added_.end());
+    added_.push_back(std::move(added));
+  }
+  wake_();
+  return number;
 }
 
 /// Removes a job that no tick has begun to do.

@@ -25,9 +25,10 @@ class TickJobs {
   /// @param is_ending  returns whether the node is shutting down; threads that wait in run() call it
   /// @param patience   how long run() waits for a tick to start the job; ticks take milliseconds, so a timeout means
   /// that the tick thread hangs
+  /// @param wake       called after a job was added, by the thread that added it, so that a tick begins soon
   explicit TickJobs(
       std::function<bool()> is_ending = [] { return false; },
-      std::chrono::milliseconds patience = std::chrono::seconds(10));
+      std::chrono::milliseconds patience = std::chrono::seconds(10), std::function<void()> wake = [] {});
 
   /// Adds a job and returns at once. Any thread may call this. If a job with the same key still waits, removes it. So
   /// add() never causes more waiting jobs than there are keys, even if no tick comes for a long time.
@@ -58,6 +59,7 @@ class TickJobs {
 
   const std::function<bool()> is_ending_;
   const std::chrono::milliseconds patience_;
+  const std::function<void()> wake_;
   mutable std::mutex mutex_;
   std::vector<Waiting> added_;     // guarded by mutex_
   std::uint64_t last_number_ = 0;  // guarded by mutex_

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/tick/tick_loop.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "node/services/guarded.h"
@@ -18,7 +19,7 @@ constexpr double kShareForTransforms = 0.5;
 TickLoop::TickLoop(ros::NodeHandle node, const Params& params, World& world, TickJobs& jobs, Stopwatch& stopwatch,
                    NodeHealth& health, TfListener* listener, Ledger& ledger)
     : node_(std::move(node)),
-      period_(1.0 / params.rate),
+      pace_(params.rate, params.heartbeat, params.follow_data, std::chrono::steady_clock::now()),
       world_(world),
       jobs_(jobs),
       stopwatch_(stopwatch),
@@ -32,9 +33,16 @@ TickLoop::TickLoop(ros::NodeHandle node, const Params& params, World& world, Tic
           },
           listener, ledger_) {}
 
-void TickLoop::start(std::vector<Step> steps) {
-  steps_ = std::move(steps);
-  timer_ = node_.createSteadyTimer(period_, &TickLoop::onTimer, this);
+std::chrono::nanoseconds TickLoop::work() {
+  const TickPace::Time now = std::chrono::steady_clock::now();
+  if (world_.transforms().news().complete() || jobs_.waiting() > 0) pace_.noteReason(now);
+  if (pace_.due() <= now) {
+    noteLateness(now);
+    pace_.noteTick(now);
+    health_.noteTick(guarded(ledger_, "tick.failed", [&] { makeTick(); }));
+  }
+  return std::max(std::chrono::nanoseconds(0),
+                  std::chrono::nanoseconds(pace_.due() - std::chrono::steady_clock::now()));
 }
 
 std::shared_ptr<const Tick> TickLoop::tickAfter(const TickJobs::Job& job) {
@@ -50,21 +58,18 @@ void TickLoop::takeTransforms(const tf2_msgs::TFMessage& message, bool is_static
                               const Moment& received) {
   const auto begin = std::chrono::steady_clock::now();
   world_.transforms().take(message, is_static, publisher, received);
+  if (!complete_ && world_.transforms().news().complete()) complete_ = received.steady;
   transform_time_ += std::chrono::steady_clock::now() - begin;
 }
 
-void TickLoop::onTimer(const ros::SteadyTimerEvent& event) {
-  health_.noteTick(guarded(ledger_, "tick.failed", [&] { makeTick(event); }));
-}
-
-void TickLoop::makeTick(const ros::SteadyTimerEvent& event) {
-  transforms_.readFor(std::chrono::duration<double>(kShareForTransforms * period_.toSec()));
+void TickLoop::makeTick() {
+  transforms_.readFor(kShareForTransforms * std::chrono::duration<double>(pace_.period()));
   const auto begin = std::chrono::steady_clock::now();
-  noteLateness(event);
   jobs_.doAll(world_, ledger_);
   const std::shared_ptr<const Tick> tick = world_.tick(thisMoment());
   std::atomic_store(&newest_, tick);
   act(tick);
+  complete_.reset();
   health_.noteConflicts(world_.transforms().conflicts());
   const auto end = std::chrono::steady_clock::now();
   stopwatch_.add("tick", end - begin);
@@ -76,8 +81,8 @@ void TickLoop::makeTick(const ros::SteadyTimerEvent& event) {
   stopwatch_.summarize(end);
 }
 
-void TickLoop::noteLateness(const ros::SteadyTimerEvent& event) {
-  const bool late = event.current_real - event.current_expected > period_;
+void TickLoop::noteLateness(TickPace::Time now) {
+  const bool late = now - pace_.due() > pace_.period();
   health_.noteLateness(late);
   if (late) ledger_.count("tick.late");
 }
@@ -86,7 +91,9 @@ void TickLoop::act(const std::shared_ptr<const Tick>& tick) {
   for (const Step& step : steps_) {
     const auto begin = std::chrono::steady_clock::now();
     step.act(tick);
-    if (!step.timing.empty()) stopwatch_.add(step.timing, std::chrono::steady_clock::now() - begin);
+    const auto end = std::chrono::steady_clock::now();
+    if (!step.timing.empty()) stopwatch_.add(step.timing, end - begin);
+    if (step.publishes && complete_) stopwatch_.add("latency", end - *complete_);
   }
 }
 

@@ -3,12 +3,13 @@
 #pragma once
 
 #include <ros/node_handle.h>
-#include <ros/steady_timer.h>
 
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "node/diagnostics/ledger.h"
@@ -17,12 +18,14 @@
 #include "node/tf/tf_reader.h"
 #include "node/tick/stopwatch.h"
 #include "node/tick/tick_jobs.h"
+#include "node/tick/tick_pace.h"
 #include "node/world/world.h"
 
 namespace hgrid {
 
-/// Makes ~rate ticks per second. Each tick reads the waiting transforms, does the waiting jobs, lets the World make a
-/// Tick, and passes that Tick to the steps that publish it.
+/// Makes ticks when the TickPace says so: as soon as the transforms for a newer time are there, or a job waits. Each
+/// tick reads the waiting transforms, does the waiting jobs, lets the World make a Tick, and passes that Tick to the
+/// steps that publish it.
 ///
 /// If a tick fails, the previous one remains the newest one.
 class TickLoop {
@@ -31,6 +34,7 @@ class TickLoop {
   struct Step {
     std::string timing;  ///< name of its duration in the stopwatch; empty: not measured
     std::function<void(const std::shared_ptr<const Tick>&)> act;
+    bool publishes = false;  ///< whether the timing "latency" ends after this step
   };
 
   /// All parameters except `node` must outlive this object. Only the tick thread may use `world` and `stopwatch`.
@@ -39,9 +43,11 @@ class TickLoop {
   TickLoop(ros::NodeHandle node, const Params& params, World& world, TickJobs& jobs, Stopwatch& stopwatch,
            NodeHealth& health, TfListener* listener, Ledger& ledger);
 
-  /// Starts the ticks. Call this once. @param steps  called with every tick, in this order
-  void start(std::vector<Step> steps);
-  void stop() { timer_.stop(); }
+  /// Sets what is called with every tick, in this order. Call this once, before the first work().
+  void setSteps(std::vector<Step> steps) { steps_ = std::move(steps); }
+  /// Makes a tick if one is due. The tick thread calls this after each round of callbacks.
+  /// @returns how long the thread may wait for the next callback until it must call this again
+  std::chrono::nanoseconds work();
 
   /// Returns the newest tick, or null before the first tick. Any thread may call this.
   std::shared_ptr<const Tick> newest() const { return std::atomic_load(&newest_); }
@@ -52,13 +58,12 @@ class TickLoop {
  private:
   void takeTransforms(const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher,
                       const Moment& received);
-  void onTimer(const ros::SteadyTimerEvent& event);
-  void makeTick(const ros::SteadyTimerEvent& event);
-  void noteLateness(const ros::SteadyTimerEvent& event);
+  void makeTick();
+  void noteLateness(TickPace::Time now);
   void act(const std::shared_ptr<const Tick>& tick);
 
   ros::NodeHandle node_;
-  const ros::WallDuration period_;
+  TickPace pace_;
   World& world_;
   TickJobs& jobs_;
   Stopwatch& stopwatch_;
@@ -66,9 +71,9 @@ class TickLoop {
   Ledger& ledger_;
   std::shared_ptr<const Tick> newest_;          // use only atomic access
   std::chrono::nanoseconds transform_time_{0};  // time spent on transforms since the last tick
+  std::optional<TickPace::Time> complete_;      // arrival of the transform that completed the data of the next tick
   std::vector<Step> steps_;
   TfReader transforms_;
-  ros::SteadyTimer timer_;
 };
 
 }  // namespace hgrid

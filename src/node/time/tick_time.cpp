@@ -11,15 +11,21 @@ TickTime::TickTime(double max_wait) : max_wait_(std::llround(1e9 * max_wait)) {}
 
 Time TickTime::choose(const std::vector<Time>& newest, Time now) {
   if (newest.empty()) return last_ = std::max(last_, now);
+  const auto newestNotAfter = [&](Time latest) {
+    Time found{-1};
+    for (const Time time : newest) {
+      if (time <= latest) found = std::max(found, time);
+    }
+    return found;
+  };
   const Time latest = now + max_wait_;
-  Time pace{-1};
-  for (const Time time : newest) {
-    if (time <= latest) pace = std::max(pace, time);
-  }
+  Time pace = newestNotAfter(now);
+  if (now - pace > max_wait_) pace = newestNotAfter(latest);
   if (pace.count() < 0) pace = latest;  // every frame is stamped too far ahead
+  keeps_up_from_ = pace - max_wait_;
   Time common = pace;
   for (const Time time : newest) {
-    if (pace - time <= max_wait_) common = std::min(common, time);
+    if (time >= keeps_up_from_) common = std::min(common, time);
   }
   return last_ = std::max(last_, common);
 }

@@ -32,6 +32,8 @@ class MoverPoses {
   /// @param lost  whether the transforms were dropped, because they belong to an earlier run of a simulation
   void restamp(const Moment& now, bool lost);
   void beginEpoch() { frames_.beginEpoch(); }
+  /// Returns the frames that hold back the time of the next tick.
+  const std::vector<FrameStamp>& awaited() const { return frames_.awaited(); }
   /// Returns the reading of the age clock in the newest update().
   Time reading() const { return frames_.reading(); }
 

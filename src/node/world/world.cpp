@@ -70,7 +70,7 @@ World::World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& 
       ledger_(ledger),
       scene_(optionsOf(params)),
       transforms_(params.max_future, params.tf_cache, static_cast<std::size_t>(params.max_frames), simulated, ledger,
-                  static_cast<std::size_t>(params.max_samples)),
+                  static_cast<std::size_t>(params.max_samples), params.max_sync_wait),
       clock_(simulated, params.clock_jump, params.stale_after),
       movers_(scene_),
       poses_(params, transforms_, scene_, movers_, ledger),
@@ -262,7 +262,9 @@ std::shared_ptr<const Tick> World::tick(const Moment& now) {
 
   const auto begin = std::chrono::steady_clock::now();
   const Time time = poses_.update(now, clock_.frozen(), *tick);
+  transforms_.news().await(poses_.awaited(), time, now.ros);
   tick->contested_frames = transforms_.claims().sentences(poses_.reading());
+  tick->clock_offsets = transforms_.publisherClocks().offsets(poses_.reading());
   clouds_.update(time, now, clock_.frozen(), *tick, gaps);
   sortWorstFirst(tick->troubles);
   if (!tick->troubles.empty() && tick->troubles.front().state == Freshness::unplaced) {

@@ -9,6 +9,7 @@
 #include <hgrid_proximity/Body.h>
 #include <hgrid_proximity/BodyStatus.h>
 #include <hgrid_proximity/ClearMap.h>
+#include <hgrid_proximity/ClockOffset.h>
 #include <hgrid_proximity/Code.h>
 #include <hgrid_proximity/Counter.h>
 #include <hgrid_proximity/Distances.h>
@@ -49,7 +50,7 @@ namespace {
 
 namespace msg = ::hgrid_proximity;
 
-constexpr std::uint32_t kPinnedVersion = 2;  // interface version of the MD5 sums below
+constexpr std::uint32_t kPinnedVersion = 3;  // interface version of the MD5 sums below
 
 /// A message or service file, its MD5 sum, and the MD5 sum that it must have in this interface version.
 struct Pin {
@@ -72,6 +73,7 @@ const std::vector<Pin>& pins() {
       message<msg::Bodies>("Bodies", "458d873717eb35b0ae8756fdaae4f151"),
       message<msg::Body>("Body", "d6c40cb1c4173b0c8016fbda0d22a3ea"),
       message<msg::BodyStatus>("BodyStatus", "bd9a63f6ebcd25ae08ba8cfb73a999f9"),
+      message<msg::ClockOffset>("ClockOffset", "6b175ebc36db775a914a87e14972cd62"),
       message<msg::Code>("Code", "fbde2bf6467e5dfdc09bc3548840c269"),
       message<msg::Counter>("Counter", "a8105c30af3c5e6c9a9f5ea2544709f5"),
       message<msg::Distances>("Distances", "80f4986367b9445b4f4505a8a46da144"),
@@ -84,7 +86,7 @@ const std::vector<Pin>& pins() {
       message<msg::SelfPairs>("SelfPairs", "5eb242595ef409da6cb975008f1ff334"),
       message<msg::Shape>("Shape", "61b71820d028a78f9c0114ba95225d3a"),
       message<msg::SourceStatus>("SourceStatus", "5d4419b44e109dac842346aa9930398a"),
-      message<msg::Status>("Status", "2f7216f812f479f36183b4b99576880b"),
+      message<msg::Status>("Status", "41f51c48148bba2d1fb628ca278e5861"),
       message<msg::Timing>("Timing", "ffa7e14ed99c15133b8734e32bdf8366"),
       message<msg::WorldState>("WorldState", "6e7f0e7ad23b6a55d3f532ba2a769931"),
       service<msg::ClearMap>("ClearMap", "aa94ec5cc4241768d88da962bc4cdb11"),

@@ -90,6 +90,8 @@ TEST(ParamErrors, ANumberOutOfRangeIsNamedWithTheRange) {
   EXPECT_EQ(refusalOf(dict({{"rate", 1}, {"valid_for", 1}, {"margin", 1000}, {"query_threads", 64}})), "")
       << "both ends are allowed";
   expectRefused(dict({{"rate", 5}}), "~valid_for is 0.1 s; it must be at least one period of ~rate, 0.2 s");
+  expectRefused(dict({{"heartbeat", 5}}), "~valid_for is 0.1 s; it must be at least one period of ~heartbeat, 0.2 s");
+  EXPECT_EQ(refusalOf(dict({{"heartbeat", 5}, {"follow_data", false}})), "");
 }
 
 TEST(ParamErrors, AnUnknownNameIsRefusedWhereverItStands) {

@@ -7,8 +7,9 @@
 namespace hgrid {
 namespace test {
 
-SimulatedClock::SimulatedClock(double begin)
-    : time_(begin),
+SimulatedClock::SimulatedClock(double begin, double speed)
+    : speed_(speed),
+      time_(begin),
       last_(ros::SteadyTime::now()),
       publisher_(node_.advertise<rosgraph_msgs::Clock>("/clock", 10)),
       ticker_(std::chrono::milliseconds(10), [this] { publish(); }) {}
@@ -32,7 +33,7 @@ void SimulatedClock::publish() {
   const std::lock_guard<std::mutex> lock(mutex_);
   const ros::SteadyTime now = ros::SteadyTime::now();
   if (running_) {
-    time_ += ros::Duration((now - last_).toSec());
+    time_ += ros::Duration(speed_ * (now - last_).toSec());
     rosgraph_msgs::Clock message;
     message.clock = time_;
     publisher_.publish(message);

@@ -15,7 +15,8 @@ namespace test {
 class SimulatedClock {
  public:
   /// @param begin  [s] time at which the clock starts
-  explicit SimulatedClock(double begin);
+  /// @param speed  simulated seconds per real second
+  explicit SimulatedClock(double begin, double speed = 1.0);
 
   ros::Time now() const;
   /// Starts or stops the clock. A stopped clock publishes nothing, like the clock of a paused simulation.
@@ -26,6 +27,7 @@ class SimulatedClock {
  private:
   void publish();
 
+  const double speed_;
   mutable std::mutex mutex_;
   ros::Time time_;
   ros::SteadyTime last_;

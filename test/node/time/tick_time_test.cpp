@@ -28,6 +28,17 @@ TEST(TickTime, IsNotSetByFramesThatAreStampedAhead) {
   EXPECT_EQ(time.choose({s(6.2)}, s(6.2)), s(6.2)) << "then the time goes on with the clock";
 }
 
+TEST(TickTime, IsThatOfCurrentFramesAlthoughALocalizationStampsItsFrameAhead) {
+  TickTime time(0.1);
+  EXPECT_EQ(time.choose({s(4.98), s(4.99), s(5.09)}, s(5)), s(4.98));
+  EXPECT_EQ(time.keepsUpFrom(), s(4.89));
+}
+
+TEST(TickTime, FollowsFramesThatAreAheadIfTheOthersHaveStopped) {
+  TickTime time(0.1);
+  EXPECT_EQ(time.choose({s(1), s(5.02), s(5.03)}, s(5)), s(5.02));
+}
+
 }  // namespace
 }  // namespace test
 }  // namespace hgrid

@@ -57,6 +57,7 @@ def status(sequence=100, made=1000.0, **changes):
         "bodies": [],
         "bodies_total": 0,
         "contested_frames": [],
+        "clock_offsets": [],
         "uncovered": [],
         "model_warnings": [],
         "self_pairs": [SimpleNamespace(robot="robot", pairs=3, rigid=0, adjacent=1, srdf=1)],

@@ -28,6 +28,7 @@ def check(facts: Facts, findings: Findings):
         return
     check_sources(facts, findings)
     check_contests(facts, findings)
+    check_clocks(facts, findings)
     check_pairs(facts, findings)
     check_models(facts, findings)
     check_counters(facts, findings)
@@ -61,6 +62,25 @@ def check_contests(facts: Facts, findings: Findings):
             facts.status.contested_frames[0] + (f" (and {more} more)." if more else "."),
             "Stop one of them with `rosnode kill`, or give its frames other names.",
         )
+
+
+def check_clocks(facts: Facts, findings: Findings):
+    """Names the publishers of /tf whose stamps are constantly early or late."""
+    offsets = facts.status.clock_offsets
+    if not offsets or findings.has("stamps_early", "stamps_late", "stamps_zero", "stamps_of_other_clock"):
+        return
+    texts = [
+        f"{each.publisher} {abs(each.offset):.2f} s {'ahead of' if each.offset > 0 else 'behind'} the clock"
+        for each in offsets
+    ]
+    findings.add(
+        "clock_offset",
+        WARN,
+        f"All stamps of a publisher of /tf are early or late: {', '.join(texts[:3])}"
+        + (f", and {counted(len(texts) - 3, 'publisher')} more." if len(texts) > 3 else "."),
+        "Compare the clocks of the computers (`chronyc tracking`, `ntpq -p`). A localization node may stamp ahead on "
+        "purpose; a slow source may need a larger ~late_after.",
+    )
 
 
 def check_pairs(facts: Facts, findings: Findings):
