@@ -32,9 +32,13 @@ void moveBody(double t, double phase, const geometry_msgs::Vector3& home, geomet
 
 }  // namespace
 
-Workload freeBodies(std::size_t count, double rate) {
+Workload freeBodies(std::size_t count, double rate) { return freeBodies(count, count, rate); }
+
+Workload freeBodies(std::size_t count, std::size_t moving, double rate) {
   Workload workload;
-  workload.title = std::to_string(count) + " free-flying bodies";
+  workload.title =
+      std::to_string(count) + (moving < count ? " bodies, of which " + std::to_string(moving) + " fly freely"
+                                              : std::string(" free-flying bodies"));
   workload.bodies = count;
   workload.rate = rate;
   workload.params["rate"] = rate;
@@ -55,12 +59,21 @@ Workload freeBodies(std::size_t count, double rate) {
     homes[i].y = place(random);
     homes[i].z = place(random);
     phases[i] = any(random);
+    if (i >= moving) {  // an obstacle that is fixed in the world
+      XmlRpc::XmlRpcValue& fixed = workload.params["obstacles"][static_cast<int>(i)];
+      fixed["frame"] = "";
+      fixed["pose"]["xyz"][0] = homes[i].x;
+      fixed["pose"]["xyz"][1] = homes[i].y;
+      fixed["pose"]["xyz"][2] = homes[i].z;
+      continue;
+    }
     message.transforms.emplace_back();
     message.transforms.back().header.frame_id = "world";
     message.transforms.back().child_frame_id = name;
   }
   workload.move = [message, homes, phases](double t) mutable {
-    for (std::size_t i = 0; i < homes.size(); ++i) moveBody(t, phases[i], homes[i], message.transforms[i].transform);
+    for (std::size_t i = 0; i < message.transforms.size(); ++i)
+      moveBody(t, phases[i], homes[i], message.transforms[i].transform);
     return std::vector<tf2_msgs::TFMessage>{message};
   };
   return workload;

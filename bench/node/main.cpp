@@ -7,9 +7,11 @@
 
 #include <cstdio>
 #include <exception>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "control_measurement.h"
 #include "map_measurement.h"
 #include "measurement.h"
 #include "report.h"
@@ -20,11 +22,11 @@ namespace {
 
 std::vector<Workload> movingWorlds() {
   std::vector<Workload> worlds{robots(32, 31, 100.0), freeBodies(1000, 100.0), freeBodies(10000, 10.0),
-                               robots(32, 31, 100.0)};
+                               freeBodies(10000, 100, 100.0), robots(32, 31, 100.0)};
   worlds.back().title += ", distances measured";
   worlds.back().distances = true;
   for (Workload& world : realRobots(100.0)) worlds.push_back(std::move(world));
-  if (worlds.size() == 4) std::printf("without real robots: their descriptions were not found\n");
+  if (worlds.size() == 5) std::printf("without real robots: their descriptions were not found\n");
   return worlds;
 }
 
@@ -53,11 +55,16 @@ int main(int argc, char** argv) {
       measurements.push_back(measure(world, duration));
       print(measurements.back());
     }
+    std::optional<ControlMeasurement> controls;
+    if (!only_maps) {
+      controls = measureControls(robots(32, 31, 100.0), duration);
+      print(*controls);
+    }
     const MapMeasurement maps = measureMaps(duration);
     print(maps);
     measurements.push_back(maps.resting);
     measurements.push_back(maps.replaced);
-    if (!json.empty()) writeJson(json, commit, measurements);
+    if (!json.empty()) writeJson(json, commit, measurements, controls);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "node_testbench: %s\n", error.what());
     return 1;

@@ -46,10 +46,10 @@ Measurement measurementOf(const Workload& workload, const Sightings& seen);
 /// Starts a node, lets it run in the workload, and measures it for `duration` [s].
 ///
 /// The parts of the tick are the node's own timings of each tick (`last` of its ~status). "tf" is the time that the
-/// node spent on received transforms between two ticks. "after data" is its timing "latency": from the arrival of the last
-/// transform that a tick needed until ~pairs was published. "latency" begins at the stamp of a cycle of /tf, which is taken
-/// just before the cycle is sent. It ends when this process receives the first ~pairs with this stamp, so it includes
-/// both ways through ROS.
+/// node spent on received transforms between two ticks. "after data" is its timing "latency": from the arrival of the
+/// last transform that a tick needed until ~pairs was published. "latency" begins at the stamp of a cycle of /tf, which
+/// is taken just before the cycle is sent. It ends when this process receives the first ~pairs with this stamp, so it
+/// includes both ways through ROS.
 ///
 /// @throws std::runtime_error if the node does not know the whole world within a minute
 Measurement measure(const Workload& workload, double duration);

@@ -81,7 +81,20 @@ void print(const MapMeasurement& m) {
   std::fflush(stdout);
 }
 
-void writeJson(const std::string& file, const std::string& commit, const std::vector<Measurement>& measurements) {
+void print(const ControlMeasurement& m) {
+  std::printf("\n%s at 100 Hz (%zu transforms per cycle), beside controls that only use ROS\n", m.title.c_str(),
+              m.transforms);
+  std::printf("  %-46s %10s %10s\n", "", "median ms", "p99 ms");
+  std::printf("  %-46s %10.3f %10.3f\n", "stamp to arrival, relayed by a control", m.relay.median, m.relay.p99);
+  std::printf("  %-46s %10.3f %10.3f\n", "round trip of an empty service", m.empty_service.median, m.empty_service.p99);
+  std::printf("  %-46s %10.3f %10.3f\n", "round trip of ~query_sphere", m.sphere.median, m.sphere.p99);
+  std::printf("  /tf without ticks takes %.1f %% of one processor; an empty callback %.1f %%, ratio %.2f\n",
+              m.receive_percent, m.ignore_percent, m.receive_percent / m.ignore_percent);
+  std::fflush(stdout);
+}
+
+void writeJson(const std::string& file, const std::string& commit, const std::vector<Measurement>& measurements,
+               const std::optional<ControlMeasurement>& controls) {
   std::ofstream out(file);
   out << "[\n  {\"kind\": \"run\", \"cpu\": " << quoted(processor()) << ", \"compiler\": " << quoted("gcc " __VERSION__)
       << ", \"commit\": " << quoted(commit) << "}";
@@ -98,6 +111,19 @@ void writeJson(const std::string& file, const std::string& commit, const std::ve
       out << ",\n  " << beginOf(m) << ", \"part\": \"cpu of others\", \"percent\": " << number(m.others_percent) << "}";
     }
     out << ",\n  " << beginOf(m) << ", \"part\": \"near pairs\", \"count\": " << number(m.pairs) << "}";
+  }
+  if (controls) {
+    const auto spread = [&](const char* part, const Spread& milliseconds) {
+      out << ",\n  {\"kind\": \"node control\", \"world\": " << quoted(controls->title)
+          << ", \"part\": " << quoted(part) << ", \"median_ms\": " << number(milliseconds.median)
+          << ", \"p99_ms\": " << number(milliseconds.p99) << "}";
+    };
+    spread("relay", controls->relay);
+    spread("empty service", controls->empty_service);
+    spread("query_sphere", controls->sphere);
+    out << ",\n  {\"kind\": \"node control\", \"world\": " << quoted(controls->title)
+        << ", \"part\": \"receiving\", \"percent\": " << number(controls->receive_percent)
+        << ", \"empty_callback_percent\": " << number(controls->ignore_percent) << "}";
   }
   out << "\n]\n";
   if (!out.flush()) throw std::runtime_error(file + " cannot be written");

@@ -2,9 +2,11 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "control_measurement.h"
 #include "map_measurement.h"
 #include "measurement.h"
 
@@ -14,11 +16,13 @@ namespace bench {
 /// Prints a measurement as a table to the standard output.
 void print(const Measurement& measurement);
 void print(const MapMeasurement& measurement);
+void print(const ControlMeasurement& measurement);
 
 /// Writes all measurements as one JSON array of flat records, one record per part of a measurement. The first record
 /// names the machine and the commit.
 /// @throws std::runtime_error if the file cannot be written
-void writeJson(const std::string& file, const std::string& commit, const std::vector<Measurement>& measurements);
+void writeJson(const std::string& file, const std::string& commit, const std::vector<Measurement>& measurements,
+               const std::optional<ControlMeasurement>& controls);
 
 }  // namespace bench
 }  // namespace hgrid

@@ -8,44 +8,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <thread>
+
+#include "processor_time.h"
 
 namespace hgrid {
 namespace bench {
 namespace {
 
 constexpr double kWarmUp = 11.0;  // [s] the cache of the node's transforms (10 s) is full after this time
-
-/// Returns the processor time [s] that a process has used.
-double processorTime(pid_t process) {
-  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
-  std::string text;
-  std::getline(file, text);
-  std::istringstream fields(text.substr(text.rfind(')') + 1));  // the program's name before ')' may contain spaces
-  std::string skipped;
-  for (int field = 3; field < 14; ++field) fields >> skipped;
-  double user = 0.0, system = 0.0;
-  fields >> user >> system;
-  return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
-}
-
-/// Returns the processor time [s] that all programs have used on all processors. It includes the time that the host of
-/// a virtual machine gave to others.
-double processorTimeOfAll() {
-  std::ifstream file("/proc/stat");
-  std::string skipped;
-  file >> skipped;
-  double sum = 0.0;
-  for (const bool busy : {true, true, true, false, false, true, true, true}) {  // skips idle time and waits for disks
-    double ticks = 0.0;
-    file >> ticks;
-    if (busy) sum += ticks;
-  }
-  return sum / static_cast<double>(sysconf(_SC_CLK_TCK));
-}
 
 void sleepFor(double duration) { std::this_thread::sleep_for(std::chrono::duration<double>(duration)); }
 

@@ -41,6 +41,8 @@ Workload inBuilding(Workload workload, const std::string& topic);
 /// Returns boxes that fly around and turn. Each box is an obstacle with its own frame and has about one near neighbor.
 /// One message contains all frames, like the message of a motion capture system.
 Workload freeBodies(std::size_t count, double rate);
+/// The same, but only the first `moving` bodies move. The others are obstacles that are fixed in the world.
+Workload freeBodies(std::size_t count, std::size_t moving, double rate);
 
 /// Returns one workload: UR5, Panda and PR2 beside each other. All their joints swing. Returns no workload if the robot
 /// descriptions are not found in the folder HGRID_TEST_DATA. If that variable is not set, the folder is ../shared/data
