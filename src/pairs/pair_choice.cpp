@@ -6,10 +6,25 @@
 #include <numeric>
 
 namespace hgrid {
+namespace {
 
-/// Sorts the collected pairs by (first, second, gap). First a counting sort by `first`, then a sort of the few pairs
-/// that have the same `first`.
+/// Orders pairs with the same first body.
+bool isBefore(const NearPair& a, const NearPair& b) {
+  return a.second != b.second ? a.second < b.second : a.gap < b.gap;
+}
+
+}  // namespace
+
+/// Sorts the collected pairs by (first, second, gap). If they are few, sorts them directly. Otherwise first a counting
+/// sort by `first`, then a sort of the few pairs that have the same `first`.
 void PairChoice::sort(std::size_t bodies, std::vector<NearPair>& sorted) {
+  if (collected_.size() < bodies / 32) {  // a counting sort visits all bodies
+    sorted = collected_;
+    std::sort(sorted.begin(), sorted.end(), [](const NearPair& a, const NearPair& b) {
+      return a.first != b.first ? a.first < b.first : isBefore(a, b);
+    });
+    return;
+  }
   next_of_first_.assign(bodies + 1, 0);
   for (const NearPair& pair : collected_) ++next_of_first_[pair.first + 1];
   for (std::size_t i = 1; i < next_of_first_.size(); ++i) next_of_first_[i] += next_of_first_[i - 1];
@@ -19,9 +34,7 @@ void PairChoice::sort(std::size_t bodies, std::vector<NearPair>& sorted) {
   for (std::size_t body = 0; body < bodies; ++body) {
     const std::size_t end = next_of_first_[body];
     std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(begin), sorted.begin() + static_cast<std::ptrdiff_t>(end),
-              [](const NearPair& a, const NearPair& b) {
-                return a.second != b.second ? a.second < b.second : a.gap < b.gap;
-              });
+              isBefore);
     begin = end;
   }
 }

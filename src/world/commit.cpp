@@ -70,6 +70,7 @@ void Scene::State::rebuildStructure() {
   std::vector<Aabb> next_sizes;
   std::vector<std::uint32_t> next_uncovered, known_bodies;
   std::vector<ShapeInBody> next_shapes;
+  std::vector<std::uint32_t> next_body_of_slot(slots.size(), Structure::kNone);
   next->bodies.reserve(slot_of_name.size());
   next_shapes.reserve(slot_of_name.size());
   next_sizes.reserve(slot_of_name.size());
@@ -80,6 +81,7 @@ void Scene::State::rebuildStructure() {
     next->body_of_proxy.insert(next->body_of_proxy.end(), body.shapes.size(),
                                static_cast<std::uint32_t>(next->bodies.size()));
     if (hasCells(body.kind)) next->maps.push_back(static_cast<std::uint32_t>(next->bodies.size()));
+    next_body_of_slot[named.second] = static_cast<std::uint32_t>(next->bodies.size());
     next->bodies.push_back(bodies[named.second]);
     next->ids.push_back({named.second, slots[named.second].generation});
     next->margin.push_back(std::max(options.margin, body.margin));
@@ -101,11 +103,15 @@ void Scene::State::rebuildStructure() {
     if (next->bodies[next->body_of_proxy[proxy]].mobility == Mobility::fixed) next_fixed.push_back(proxy);
   }
   fillSources(*next);
+  std::vector<bool> next_is_watched(next->bodies.size());
   // The code below allocates no memory, so it cannot fail.
   uncovered.swap(next_uncovered);
   shapes.swap(next_shapes);
   sizes.swap(next_sizes);
   fixed_proxies.swap(next_fixed);
+  body_of_slot.swap(next_body_of_slot);
+  watched.clear();
+  is_watched.swap(next_is_watched);
   structure = std::move(next);
   scale = GridScale::fitting(sizes);
   if (options.finest_edge > 0.0) scale.finest_edge = options.finest_edge;
@@ -144,12 +150,25 @@ void Scene::State::keepBoxes(Snapshot& snapshot) const {
   }
 }
 
-/// Fills poses and boxes. If a body did not move since the last commit, copies its boxes from the last snapshot. If
-/// this snapshot object was used before, writes only the poses that changed since its last use.
-void Scene::State::fillBodies(Snapshot& snapshot) {
-  const std::uint64_t known = snapshot.structure_ == structure ? snapshot.commit_ : 0;
-  snapshot.structure_ = structure;
-  snapshot.commit_ = commits + 1;
+/// Fills the pose of a body.
+void Scene::State::fillPose(std::uint32_t body, Snapshot& snapshot) const {
+  BodyPose& pose = snapshot.poses_[body];
+  pose = slots[structure->ids[body].slot].pose;
+  pose.reach = reachOf(pose, structure->bodies[body], options.growth_after);
+  pose.growth = std::min(pose.reach, options.growth_cap);
+}
+
+/// Computes the boxes of a body if it has moved since the last commit. @returns whether it has
+bool Scene::State::fillBoxes(std::uint32_t body, Snapshot& snapshot) {
+  const Slot& slot = slots[structure->ids[body].slot];
+  if (!slot.moved || slot.pose.state == Freshness::unplaced) return false;
+  makeBoxes(body, slot.pose.world_from_body, snapshot);
+  boxed.push_back(structure->ids[body].slot);
+  return true;
+}
+
+/// Fills all poses and boxes. If a body did not move since the last commit, copies its boxes from the last snapshot.
+void Scene::State::fillAllBodies(Snapshot& snapshot) {
   snapshot.poses_.resize(structure->ids.size());
   if (last && last->structure_ == structure) {
     snapshot.boxes_ = last->boxes_;
@@ -157,27 +176,79 @@ void Scene::State::fillBodies(Snapshot& snapshot) {
     snapshot.boxes_.assign(structure->body_of_proxy.size(), Aabb{});
     if (last) keepBoxes(snapshot);
   }
-  boxed.clear();
-  boxed.reserve(structure->ids.size());
+  for (std::uint32_t body = 0; body < structure->ids.size(); ++body) {
+    fillBoxes(body, snapshot);
+    fillPose(body, snapshot);
+  }
+}
+
+/// Fills the poses and boxes that changed since this snapshot object was used. The others are still right.
+void Scene::State::fillChangedBodies(Snapshot& snapshot) {
+  const auto fill = [&](std::uint32_t slot) {
+    const std::uint32_t body = body_of_slot[slot];
+    fillPose(body, snapshot);
+    const auto first = static_cast<std::ptrdiff_t>(structure->first_proxy[body]);
+    const auto end = static_cast<std::ptrdiff_t>(structure->first_proxy[body + 1]);
+    std::copy(last->boxes_.begin() + first, last->boxes_.begin() + end, snapshot.boxes_.begin() + first);
+  };
+  changes.visitSince(since, fill);
+  for (const std::uint32_t slot : changes.now()) {
+    const std::uint32_t body = body_of_slot[slot];
+    if (fillBoxes(body, snapshot)) {
+      fillPose(body, snapshot);
+    } else {
+      fill(slot);
+    }
+  }
+}
+
+/// Computes the values of the snapshot that depend on the states and ages of all bodies. A fresh body whose pose has no
+/// age has no influence on them.
+void Scene::State::summarizePoses(Snapshot& snapshot) {
   snapshot.worst_state_ = Freshness::fresh;
   snapshot.max_age_ = snapshot.max_growth_ = snapshot.max_reach_ = 0.0;
-  for (std::size_t i = 0; i < structure->ids.size(); ++i) {
-    const Slot& slot = slots[structure->ids[i].slot];
-    const bool placed = slot.pose.state != Freshness::unplaced;
-    if (slot.moved && placed) {
-      makeBoxes(i, slot.pose.world_from_body, snapshot);
-      boxed.push_back(structure->ids[i].slot);
+  next_watched.clear();
+  unplaced = 0;
+  const auto add = [&](std::uint32_t body) {
+    const BodyPose& pose = snapshot.poses_[body];
+    if (pose.state == Freshness::fresh && pose.age == 0.0 && pose.reach == 0.0) return;
+    next_watched.push_back(body);
+    snapshot.worst_state_ = std::max(snapshot.worst_state_, pose.state);
+    snapshot.max_growth_ = std::max(snapshot.max_growth_, pose.growth);
+    snapshot.max_reach_ = std::max(snapshot.max_reach_, pose.reach);
+    if (pose.state == Freshness::unplaced) {
+      ++unplaced;
+    } else {
+      snapshot.max_age_ = std::max(snapshot.max_age_, pose.age);
     }
-    if (known == 0 || slot.changed > known) {
-      snapshot.poses_[i] = slot.pose;
-      snapshot.poses_[i].reach = reachOf(slot.pose, structure->bodies[i], options.growth_after);
-      snapshot.poses_[i].growth = std::min(snapshot.poses_[i].reach, options.growth_cap);
-    }
-    snapshot.worst_state_ = std::max(snapshot.worst_state_, slot.pose.state);
-    snapshot.max_growth_ = std::max(snapshot.max_growth_, snapshot.poses_[i].growth);
-    snapshot.max_reach_ = std::max(snapshot.max_reach_, snapshot.poses_[i].reach);
-    if (placed) snapshot.max_age_ = std::max(snapshot.max_age_, slot.pose.age);
+  };
+  if (since == 0) {
+    for (std::uint32_t body = 0; body < snapshot.poses_.size(); ++body) add(body);
+    return;
   }
+  for (const std::uint32_t body : watched) add(body);
+  for (const std::uint32_t slot : changes.now()) {
+    if (!is_watched[body_of_slot[slot]]) add(body_of_slot[slot]);
+  }
+}
+
+/// Fills poses and boxes. If this snapshot object was used a few commits ago and few bodies changed since, writes only
+/// those.
+void Scene::State::fillBodies(Snapshot& snapshot) {
+  const bool known = snapshot.structure_ == structure && last && last->structure_ == structure;
+  const bool few =
+      known && changes.covers(snapshot.commit_) && changes.countSince(snapshot.commit_) <= structure->ids.size() / 2;
+  since = few ? snapshot.commit_ : 0;
+  snapshot.structure_ = structure;
+  snapshot.commit_ = commits + 1;
+  boxed.clear();
+  boxed.reserve(structure->ids.size());
+  if (since == 0) {
+    fillAllBodies(snapshot);
+  } else {
+    fillChangedBodies(snapshot);
+  }
+  summarizePoses(snapshot);
   snapshot.cells_.clear();
   for (const std::uint32_t map : structure->maps) {
     snapshot.cells_.push_back(cells[structure->ids[map].slot]);
@@ -185,34 +256,78 @@ void Scene::State::fillBodies(Snapshot& snapshot) {
   horizon.step(structure, snapshot.poses_, snapshot.boxes_, snapshot.stamp_);
 }
 
+/// Grows the box of a proxy of a placed body by its share of the margins. Keeps the grown box of an earlier commit if
+/// it was computed from the same box and the same length.
+void Scene::State::growBox(const Snapshot& snapshot, ProxyId proxy, std::size_t position) {
+  const std::uint32_t body = structure->body_of_proxy[proxy];
+  const double own = std::max(structure->margin[body], structure->pair_margins.largestOf(body));
+  const double can_go = horizon.reachOf(body);
+  const double by = 0.5 * options.margin + (own - options.margin) + snapshot.poses_[body].growth + can_go;
+  const Aabb& box = horizon.on() ? horizon.swept(proxy) : snapshot.boxes_[proxy];
+  GrownFrom& from = grown_from[position];
+  if (from.by == by && from.box == box) return;
+  from = {box, by};
+  grown_boxes[position] = grown(box, by);
+  grown_in[position] = commits + 1;
+}
+
 /// Grows the boxes of placed bodies by their shares of the margins. Then two boxes overlap if their gap is at most the
 /// margin of their pair plus the growth of both bodies. The share of a body is half of the global margin. If the margin
 /// of the body or of one of its pairs is larger than the global margin, the whole difference is added.
-///
-/// Keeps a grown box of the last commit if it was computed from the same box and the same length.
 void Scene::State::growBoxes(const Snapshot& snapshot) {
-  ids.resize(snapshot.boxes_.size());
-  grown_from.resize(snapshot.boxes_.size());
-  grown_boxes.resize(snapshot.boxes_.size());
-  std::size_t count = 0;
-  for (ProxyId proxy = 0; proxy < snapshot.boxes_.size(); ++proxy) {
-    const std::uint32_t body = structure->body_of_proxy[proxy];
-    const BodyPose& pose = snapshot.poses_[body];
-    if (pose.state == Freshness::unplaced) continue;
-    const double own = std::max(structure->margin[body], structure->pair_margins.largestOf(body));
-    const double can_go = horizon.reachOf(body);
-    const double by = 0.5 * options.margin + (own - options.margin) + pose.growth + can_go;
-    const Aabb& box = horizon.on() ? horizon.swept(proxy) : snapshot.boxes_[proxy];
-    GrownFrom& known = grown_from[count];
-    if (known.by != by || known.box != box) {
-      known = {box, by};
-      grown_boxes[count] = grown(box, by);
+  if (grown_revision == structure->revision && grown_unplaced == unplaced && !horizon.on()) {
+    for (const std::uint32_t slot : changes.now()) {
+      const std::uint32_t body = body_of_slot[slot];
+      if (snapshot.poses_[body].state == Freshness::unplaced) continue;
+      for (ProxyId proxy = structure->first_proxy[body]; proxy < structure->first_proxy[body + 1]; ++proxy) {
+        growBox(snapshot, proxy, position_of[proxy]);
+      }
     }
+    return;
+  }
+  grown_revision = 0;
+  const std::size_t most = snapshot.boxes_.size();
+  ids.resize(most);
+  grown_from.resize(most);
+  grown_boxes.resize(most);
+  grown_in.resize(most);
+  position_of.resize(most);
+  std::size_t count = 0;
+  for (ProxyId proxy = 0; proxy < most; ++proxy) {
+    if (snapshot.poses_[structure->body_of_proxy[proxy]].state == Freshness::unplaced) continue;
+    position_of[proxy] = static_cast<std::uint32_t>(count);
+    growBox(snapshot, proxy, count);
     ids[count++] = proxy;
   }
   ids.resize(count);
   grown_from.resize(count);
   grown_boxes.resize(count);
+  grown_in.resize(count);
+  grown_revision = structure->revision;
+  grown_unplaced = unplaced;
+}
+
+/// Moves only the boxes in the grid that changed since the grid was used. @returns false if that is not possible, or if
+/// most boxes changed; then the grid is as it was
+bool Scene::State::moveInGrid(HGrid& grid) {
+  if (since == 0 || horizon.on() || grid.size() != ids.size()) return false;
+  regrown.clear();
+  const auto add = [&](std::uint32_t slot) {
+    const std::uint32_t body = body_of_slot[slot];
+    if (slots[slot].pose.state == Freshness::unplaced) return;
+    for (ProxyId proxy = structure->first_proxy[body]; proxy < structure->first_proxy[body + 1]; ++proxy) {
+      if (grown_in[position_of[proxy]] > since) regrown.push_back(proxy);
+    }
+  };
+  changes.visitSince(since, add);
+  for (const std::uint32_t slot : changes.now()) add(slot);
+  if (regrown.size() > ids.size() / 4) return false;
+  std::sort(regrown.begin(), regrown.end());
+  regrown.erase(std::unique(regrown.begin(), regrown.end()), regrown.end());
+  regrown_boxes.clear();
+  for (const ProxyId proxy : regrown) regrown_boxes.push_back(grown_boxes[position_of[proxy]]);
+  grid.move(regrown, regrown_boxes);
+  return true;
 }
 
 /// Stores the grown boxes in the grid. Finds the overlapping pairs that the filter keeps, up to the limit.
@@ -227,7 +342,7 @@ void Scene::State::fillGrid(PooledSnapshot& pooled) {
     pooled.grid_revision = structure->revision;
   }
   threads = grid.threads();
-  grid.update(ids, grown_boxes);
+  if (!moveInGrid(grid)) grid.update(ids, grown_boxes);
   pooled.snapshot.search_cut_ = !grid.boundedPairs(proxy_pairs);
 }
 
@@ -295,6 +410,10 @@ void Scene::State::accept(const std::shared_ptr<PooledSnapshot>& accepted) {
   tracker.accept();
   pair_events.accept();
   for (const std::uint32_t slot : boxed) slots[slot].moved = false;
+  changes.accept();
+  for (const std::uint32_t body : watched) is_watched[body] = false;
+  watched.swap(next_watched);
+  for (const std::uint32_t body : watched) is_watched[body] = true;
   commits = pooled.snapshot.commit_;
   sequence = pooled.snapshot.sequence_;
   pooled.finished = true;

@@ -85,6 +85,13 @@ Scene::Scene(const SceneOptions& options) : state_(std::make_unique<State>(optio
 Scene::~Scene() = default;
 Scene::Scene(Scene&&) noexcept = default;
 
+/// Notes that the pose or the state of a body changes before the next commit. Allocates no memory.
+void Scene::State::noteChange(std::uint32_t slot) {
+  if (slots[slot].changed == commits + 1) return;  // noted already
+  changes.note(slot);
+  slots[slot].changed = commits + 1;
+}
+
 /// Returns the slots of the bodies to be removed, ascending.
 /// @throws Refusal unknown_id; dup_id if a body occurs twice
 std::vector<std::uint32_t> Scene::State::checkedSlots(const std::vector<BodyId>& out) {
@@ -142,6 +149,7 @@ void Scene::State::reserveSlots(std::size_t count) {
   reserve(bodies);
   reserve(cells);
   reserve(free_slots);
+  changes.reserve(count);
 }
 
 void Scene::State::takeOut(std::uint32_t slot) {
@@ -229,7 +237,7 @@ void Scene::place(BodyId id, const Pose& world_from_body, Time stamp) {
   checkPlace(id, world_from_body);
   State::Slot& slot = state_->at(id);
   const bool first = slot.pose.state == Freshness::unplaced;
-  slot.changed = state_->commits + 1;
+  state_->noteChange(id.slot);
   slot.pose.stamp = stamp;
   if (!first && slot.pose.world_from_body.matrix() == world_from_body.matrix()) return;  // no tolerance
   slot.pose.world_from_body = world_from_body;
@@ -241,7 +249,7 @@ void Scene::setState(BodyId id, Freshness state, double age, std::uint32_t cohor
   State::Slot& slot = state_->at(id);
   BodyPose& pose = slot.pose;
   if (pose.state == Freshness::unplaced) return;
-  slot.changed = state_->commits + 1;
+  state_->noteChange(id.slot);
   pose.state = state == Freshness::unplaced ? Freshness::invalid : state;  // a placed body stays placed
   pose.age = slot.fixed ? 0.0 : age;
   pose.cohort = cohort;

@@ -16,6 +16,7 @@
 #include "world/horizon.h"
 #include "world/map_pairs.h"
 #include "world/pair_events.h"
+#include "world/recent_changes.h"
 #include "world/snapshot_pool.h"
 
 namespace hgrid {
@@ -55,6 +56,7 @@ struct Scene::State {
 
   /// Returns the slot of a body. @throws Refusal unknown_id if the handle is not valid
   Slot& at(BodyId id);
+  void noteChange(std::uint32_t slot);
 
   SceneOptions options;
   PairLimits limits;
@@ -87,8 +89,15 @@ struct Scene::State {
   void makeBoxes(std::size_t body, const Pose& world_from_body, Snapshot& snapshot) const;
   void keepBoxes(Snapshot& snapshot) const;
   void fillBodies(Snapshot& snapshot);
+  void fillAllBodies(Snapshot& snapshot);
+  void fillChangedBodies(Snapshot& snapshot);
+  void fillPose(std::uint32_t body, Snapshot& snapshot) const;
+  bool fillBoxes(std::uint32_t body, Snapshot& snapshot);
+  void summarizePoses(Snapshot& snapshot);
   void growBoxes(const Snapshot& snapshot);
+  void growBox(const Snapshot& snapshot, ProxyId proxy, std::size_t position);
   void fillGrid(PooledSnapshot& pooled);
+  bool moveInGrid(HGrid& grid);
   void fillPairs(Snapshot& snapshot);
   void addPair(std::uint32_t first, std::uint32_t second, double gap, double margin, bool near);
   bool isCandidate(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second);
@@ -100,25 +109,41 @@ struct Scene::State {
   void fillDoubtful(Snapshot& snapshot) const;
 
   std::shared_ptr<const Structure> structure = std::make_shared<Structure>();
-  std::vector<std::uint32_t> uncovered;  // bodies of the structure that are neither covered nor waived, ascending
-  std::vector<ShapeInBody> shapes;       // indexed by the proxies of the structure
-  std::vector<Aabb> sizes;               // [m] the same; boxes of the shapes in their own frames, see sizeOf()
-  std::shared_ptr<const Snapshot> last;  // snapshot of the last commit; null before the first one
+  std::vector<std::uint32_t> uncovered;     // bodies of the structure that are neither covered nor waived, ascending
+  std::vector<ShapeInBody> shapes;          // indexed by the proxies of the structure
+  std::vector<std::uint32_t> body_of_slot;  // index of the body in the structure; kNone: the slot is not used
+  std::vector<Aabb> sizes;                  // [m] the same; boxes of the shapes in their own frames, see sizeOf()
+  std::shared_ptr<const Snapshot> last;     // snapshot of the last commit; null before the first one
   GridScale scale;
   std::vector<ProxyId> fixed_proxies;
   Horizon horizon;
   MapPairs map_pairs;
   PairTracker tracker;
   PairEvents pair_events;
+  RecentChanges changes;
+  std::vector<std::uint32_t> watched;  // bodies whose state or age differs from that of a fixed fresh body
+  std::vector<bool> is_watched;        // for each body: whether it is in `watched`
   TickTimes times;
   int threads = 1;
   std::shared_ptr<SnapshotPool> pool = std::make_shared<SnapshotPool>();
 
   // Buffers of a commit. They are members so that the next commit need not allocate them again.
-  std::vector<std::uint32_t> boxed;   // slots whose boxes were computed in this commit
-  std::vector<ProxyId> ids;           // proxies of placed bodies; the next two arrays are in the same order
-  std::vector<Aabb> grown_boxes;      // the boxes that the grid stores
-  std::vector<GrownFrom> grown_from;  // for each grown box: what it was computed from
+  std::vector<std::uint32_t> boxed;         // slots whose boxes were computed in this commit
+  std::uint64_t since = 0;                  // the commit that the snapshot object held before; 0: all bodies are filled
+  std::vector<std::uint32_t> next_watched;  // `watched` of this commit
+  std::size_t unplaced = 0;                 // number of bodies without a pose
+  // The grown boxes of an earlier commit stay valid for bodies that did not change since, if the structure is that of
+  // `grown_revision` and the number of unplaced bodies is `grown_unplaced`.
+  std::vector<ProxyId> ids;                // proxies of placed bodies; the next three arrays are in the same order
+  std::vector<Aabb> grown_boxes;           // the boxes that the grid stores
+  std::vector<GrownFrom> grown_from;       // for each grown box: what it was computed from
+  std::vector<std::uint64_t> grown_in;     // for each grown box: the commit that computed it
+  std::vector<std::uint32_t> position_of;  // for each proxy of a placed body: its position in these arrays
+  std::uint64_t grown_revision = 0;
+  std::size_t grown_unplaced = 0;
+  std::vector<ProxyId>
+      regrown;  // proxies whose grown boxes differ from those in the grid; the next is in the same order
+  std::vector<Aabb> regrown_boxes;
   std::vector<ProxyPair> proxy_pairs;
   PairChoice choice;
 };

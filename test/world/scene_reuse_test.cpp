@@ -28,7 +28,11 @@ void expectAsFromANewScene(const Snapshot& snapshot, const std::map<std::string,
   EXPECT_EQ(snapshot.worstState(), expected->worstState());
   EXPECT_EQ(snapshot.maxAge(), expected->maxAge());
   EXPECT_EQ(snapshot.reasons(), expected->reasons());
-  EXPECT_EQ(snapshot.pairs().size(), expected->pairs().size());
+  ASSERT_EQ(snapshot.pairs().size(), expected->pairs().size());
+  for (std::size_t i = 0; i < snapshot.pairs().size(); ++i) {
+    const NearPair &a = snapshot.pairs()[i], &b = expected->pairs()[i];
+    EXPECT_TRUE(a.first == b.first && a.second == b.second && a.gap == b.gap && a.margin == b.margin) << i;
+  }
   ASSERT_EQ(snapshot.poses().size(), expected->poses().size());
   for (std::size_t i = 0; i < snapshot.poses().size(); ++i) {
     const BodyPose &a = snapshot.poses()[i], &b = expected->poses()[i];
@@ -41,42 +45,58 @@ void expectAsFromANewScene(const Snapshot& snapshot, const std::map<std::string,
   }
 }
 
+/// Changes a few random bodies in each tick, and holds snapshots for a random time. So a commit fills new snapshot
+/// objects as well as objects that were used recently or long ago.
+/// @param bodies  number of different names
+/// @param leave   whether bodies are also removed, which changes the structure
+void expectReuse(std::uint64_t seed, int bodies, bool leave) {
+  Random random(seed);
+  Scene scene{SceneOptions{}};
+  std::map<std::string, BodyPose> told;
+  std::vector<std::shared_ptr<const Snapshot>> held;
+  for (int body = 0; !leave && body < bodies; ++body) {
+    scene.add(test::ball(std::to_string(body)));
+    told[std::to_string(body)] = BodyPose{};
+  }
+  int most_held = 5;
+  for (int tick = 1; tick <= 120; ++tick) {
+    const int changes = random.below(4);  // so few that most bodies rest for many ticks
+    for (int change = 0; change < changes; ++change) {
+      const std::string name = std::to_string(random.below(bodies));
+      BodyId id;
+      if (!scene.find("obstacle/" + name, id)) {
+        scene.add(test::ball(name));
+        told[name] = BodyPose{};
+      } else if (leave && random.below(10) == 0) {
+        scene.remove(id);
+        told.erase(name);
+      } else {
+        BodyPose& pose = told[name];
+        if (random.below(4) > 0) pose.world_from_body = test::at(random.uniform(-5.0, 5.0));
+        pose.stamp = Time{tick};
+        pose.state = random.below(2) == 0 ? Freshness::fresh : static_cast<Freshness>(random.below(4));
+        pose.age = random.below(2) == 0 ? 0.0 : random.uniform(0.0, 2.0);
+        pose.cohort = static_cast<std::uint32_t>(random.below(3));
+        scene.place(id, pose.world_from_body, pose.stamp);
+        scene.setState(id, pose.state, pose.age, pose.cohort);
+      }
+    }
+    held.push_back(scene.commit(Time{tick}, {}));
+    expectAsFromANewScene(*held.back(), told);
+    // Releases snapshots in random order. Now and then, all are held for more ticks than the scene remembers.
+    if (tick % 20 == 0) most_held = random.below(2) == 0 ? 14 : 5;
+    while (static_cast<int>(held.size()) > random.below(most_held)) {
+      held.erase(held.begin() + random.below(static_cast<int>(held.size())));
+    }
+  }
+}
+
 TEST(SceneReuse, ASnapshotThatWasUsedBeforeSaysWhatANewOneWould) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    Random random(seed);
-    Scene scene{SceneOptions{}};
-    std::map<std::string, BodyPose> told;
-    std::vector<std::shared_ptr<const Snapshot>> held;
-    for (int tick = 1; tick <= 60; ++tick) {
-      const int changes = random.below(4);  // so few that most bodies rest for many ticks
-      for (int change = 0; change < changes; ++change) {
-        const std::string name = std::to_string(random.below(12));
-        BodyId id;
-        if (!scene.find("obstacle/" + name, id)) {
-          scene.add(test::ball(name));
-          told[name] = BodyPose{};
-        } else if (random.below(10) == 0) {
-          scene.remove(id);
-          told.erase(name);
-        } else {
-          BodyPose& pose = told[name];
-          pose.world_from_body = test::at(random.uniform(-5.0, 5.0));
-          pose.stamp = Time{tick};
-          pose.state = static_cast<Freshness>(random.below(4));
-          pose.age = random.uniform(0.0, 2.0);
-          pose.cohort = static_cast<std::uint32_t>(random.below(3));
-          scene.place(id, pose.world_from_body, pose.stamp);
-          scene.setState(id, pose.state, pose.age, pose.cohort);
-        }
-      }
-      held.push_back(scene.commit(Time{tick}, {}));
-      expectAsFromANewScene(*held.back(), told);
-      // Releases snapshots in random order. Then the scene also reuses old ones.
-      while (static_cast<int>(held.size()) > random.below(5)) {
-        held.erase(held.begin() + random.below(static_cast<int>(held.size())));
-      }
-    }
+    expectReuse(seed, 12, true);
+    expectReuse(seed, 40, false);
+    if (seed <= 5) expectReuse(seed, 200, false);  // so many that a tick visits only the changed ones
     if (::testing::Test::HasFailure()) return;
   }
 }
