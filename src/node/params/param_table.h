@@ -225,7 +225,7 @@ void visitParams(Visitor& v, Params& p) {
       "read");
 
   v.section("The node");
-  v.integer("query_threads", p.query_threads, 1, 64, "number of threads that answer queries");
+  v.integer("query_threads", p.query_threads, 1, 64, "number of threads that answer queries; a query waits only while all of them are busy");
   v.number("audit_rate", p.audit_rate, "Hz", 0.0, 10.0,
            "how many ticks per second are audited: a thread of low priority computes the poses, the pairs and some "
            "queries of the tick again, by brute force from the transforms as they were received; 0: none");

@@ -2,14 +2,21 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
 // After an internal fault of the node, the caller receives the code INTERNAL. Nothing changes, and the node goes on.
+#include <hgrid_proximity/Answer.h>
 #include <hgrid_proximity/CodeNames.h>
 #include <hgrid_proximity/Distances.h>
+#include <hgrid_proximity/QuerySphere.h>
 #include <hgrid_proximity/UnknownReason.h>
 #include <hgrid_proximity/Verdict.h>
 #include <ros/param.h>
+#include <ros/service.h>
 #include <ros/topic.h>
 
 #include <algorithm>
+#include <chrono>
+#include <future>
+#include <thread>
+#include <vector>
 
 #include "test/node/support/built.h"
 #include "test/node/support/claims.h"
@@ -159,6 +166,30 @@ TEST_F(Faults, AMeasurementThatHangsDelaysNoTick) {
   EXPECT_TRUE(ros::topic::waitForMessage<msg::Distances>(node_.named("distances"), ros::Duration(20.0)));
 }
 
+/// Claim: a query does not wait for the queries of other clients, not even if these never end, as long as there are fewer
+/// of them than ~query_threads (8 by default).
+TEST_F(Faults, AQueryDoesNotWaitForQueriesThatHang) {
+  breakDown("hang");
+  std::vector<std::future<msg::Answer>> others;
+  for (int client = 0; client < 7; ++client) {
+    others.push_back(std::async(std::launch::async, [this] {
+      msg::QuerySphere query;
+      query.request.radius = 0.05;
+      query.request.exact = true;
+      ros::service::call(node_.named("query_sphere"), query);
+      return query.response.answer;
+    }));
+  }
+  const auto ended = [](std::future<msg::Answer>& other) {
+    return other.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  };
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // until these queries are in progress
+  EXPECT_EQ(node_.sphere(0, 0, 0, 0.05).answer.verdict, msg::Verdict::HIT);
+  EXPECT_TRUE(std::none_of(others.begin(), others.end(), ended)) << "they hang until the fault is repaired";
+  breakDown("");
+  for (auto& other : others) EXPECT_EQ(other.get().verdict, msg::Verdict::HIT);
+}
+
 TEST_F(Faults, InAMeasurementAreOnDiagnosticsUntilOneSucceeds) {
   waitForTicksStatus(diagnostic_msgs::DiagnosticStatus::OK, "");
   const boost::function<void(const msg::Distances::ConstPtr&)> ignore = [](const msg::Distances::ConstPtr&) {};
@@ -219,6 +250,7 @@ TEST(MissingThreads, OfATickAreReportedAndTheNodeWorksWithTheOthers) {
   setup.environment["ROSCONSOLE_STDOUT_LINE_BUFFERED"] = "1";
   setup.params = dict({{"world_frame", "world"},
                        {"threads", 32},
+                       {"query_threads", 2},
                        {"obstacles", list({ball("post", 0, 0, 0, 0.1)})},
                        {"robots", list({dict({{"name", "none"}, {"description", "robot_description"}})})}});
   NodeUnderTest node(setup);
@@ -240,6 +272,7 @@ TEST(MissingThreads, OfCallbacksEndTheNode) {
     NodeSetup setup = Faults::setup();
     setup.environment["HGRID_MOST_THREADS"] = std::to_string(most);
     setup.params["rate"] = 1000.0;  // so that a tick begins at once
+    setup.params["query_threads"] = 2;
     NodeUnderTest node(setup, false);
     EXPECT_EQ(node.process().waitForEnd(20.0).value_or(-1), 1) << node.output();
   }
