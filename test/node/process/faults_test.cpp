@@ -166,8 +166,8 @@ TEST_F(Faults, AMeasurementThatHangsDelaysNoTick) {
   EXPECT_TRUE(ros::topic::waitForMessage<msg::Distances>(node_.named("distances"), ros::Duration(20.0)));
 }
 
-/// Claim: a query does not wait for the queries of other clients, not even if these never end, as long as there are fewer
-/// of them than ~query_threads (8 by default).
+/// Claim: a query does not wait for the queries of other clients, not even if these never end, as long as there are
+/// fewer of them than ~query_threads (8 by default).
 TEST_F(Faults, AQueryDoesNotWaitForQueriesThatHang) {
   breakDown("hang");
   std::vector<std::future<msg::Answer>> others;

@@ -131,6 +131,7 @@ def nodes_that_matter(facts: Facts) -> Iterable[str]:
 
 
 def listen_to_topics(facts: Facts, listen: float, timeout: float):
+    status = status_class(facts) if facts.host else None  # importing takes time, so it comes before listening
     listener = Listener(facts, listen, timeout)
     listener.clock()
     listener.transforms("/tf", static=False)
@@ -140,15 +141,22 @@ def listen_to_topics(facts: Facts, listen: float, timeout: float):
     for topic in input_topics(facts):
         listener.frame_of(topic)
     begin = time.monotonic()
-    if facts.host:
-        try:
-            listener.status(facts.node + "/status", facts.host)
-        except ImportError as error:
-            facts.status_error = f"this shell has no messages of hgrid_proximity ({error})"
+    if status:
+        listener.status(facts.node + "/status", facts.host, status)
     listener.finish()
     facts.listened = time.monotonic() - begin
     if facts.status is None and not facts.status_error:
         facts.status_error = facts.topic(facts.node + "/status").errors.get(facts.host, "")
+
+
+def status_class(facts: Facts):
+    """Returns the message class of ~status; None if this shell has none, which is noted as the error of ~status."""
+    try:
+        from hgrid_proximity.msg import Status
+    except ImportError as error:
+        facts.status_error = f"this shell has no messages of hgrid_proximity ({error})"
+        return None
+    return Status
 
 
 def read_files(facts: Facts, timeout: float):

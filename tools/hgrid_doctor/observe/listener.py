@@ -7,6 +7,10 @@ import threading
 import time
 from typing import Callable, Dict, List, Tuple
 
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import JointState
+from tf2_msgs.msg import TFMessage
+
 from hgrid_doctor.facts import Facts, TfStream, TopicFacts
 from hgrid_doctor.observe.bounded import sentence_of
 from hgrid_doctor.observe.connection import Connection, header_frame
@@ -19,6 +23,10 @@ class Listener:
     """Listens with one thread for each publisher of each topic. After finish(), nothing is written to the facts."""
 
     def __init__(self, facts: Facts, listen: float, timeout: float):
+        """
+        @param listen  [s] how long to listen
+        @param timeout  [s] time limit for connecting; also how much longer to wait for the first ~status
+        """
         self._facts, self._timeout = facts, timeout
         self._deadline = time.monotonic() + listen
         self._lock = threading.Lock()
@@ -26,27 +34,23 @@ class Listener:
         self._threads: List[threading.Thread] = []
         self._streams: Dict[Tuple[str, str, str, bool], TfStream] = {}
         self._newest_clock = None  # [s] newest time on /clock
+        self._status_threads: List[threading.Thread] = []
 
     def clock(self, topic: str = "/clock"):
-        from rosgraph_msgs.msg import Clock
-
         self._start(topic, Clock, self._take_clock)
 
     def transforms(self, topic: str, static: bool):
-        from tf2_msgs.msg import TFMessage
-
         self._start(topic, TFMessage, lambda publisher, message: self._take_transforms(publisher, message, static))
 
     def joint_states(self, topic: str):
-        from sensor_msgs.msg import JointState
-
         names = self._facts.joints.setdefault(topic, set())
         self._start(topic, JointState, lambda _, message: names.update(message.name))
 
-    def status(self, topic: str, host: str):
-        from hgrid_proximity.msg import Status
-
-        self._start(topic, Status, lambda _, message: self._take_status(message), only=host)
+    def status(self, topic: str, host: str, kind):
+        """@param kind  the message class of ~status"""
+        before = len(self._threads)
+        self._start(topic, kind, lambda _, message: self._take_status(message), host, self._timeout)
+        self._status_threads = self._threads[before:]
 
     def frame_of(self, topic: str):
         """Reads only the begin of one message of the topic, because maps and clouds are large."""
@@ -56,25 +60,33 @@ class Listener:
         """Waits until listening is over."""
         for thread in self._threads:
             thread.join(max(0.0, self._deadline + 0.2 - time.monotonic()))
+        # On a busy machine the node may need longer than usual for its first message.
+        while self._facts.status is None and any(thread.is_alive() for thread in self._status_threads):
+            time.sleep(0.05)
         with self._lock:
             self._finished = True
         self._facts.streams = list(self._streams.values())
         self._facts.wall = time.time()
 
-    def _start(self, topic: str, kind, take: Callable, only: str = ""):
+    def _start(self, topic: str, kind, take: Callable, only: str = "", longer: float = 0.0):
+        """Starts a thread for each publisher of the topic.
+
+        @param only  listens only to this publisher; empty: to all
+        @param longer  [s] how much longer than the others to listen
+        """
         self._facts.topics[topic] = TopicFacts()
         for publisher in self._facts.alive_publishers(topic):
             node = self._facts.nodes.get(publisher)
             if node is None or not node.uri or (only and publisher != only):
                 continue
-            thread = threading.Thread(target=self._read, args=(topic, node, kind, take), daemon=True)
+            thread = threading.Thread(target=self._read, args=(topic, node, kind, take, self._deadline + longer), daemon=True)
             thread.start()
             self._threads.append(thread)
 
-    def _read(self, topic, node, kind, take):
+    def _read(self, topic, node, kind, take, deadline):
         facts = self._facts.topics[topic]
         try:
-            connection = Connection(topic, node.uri, self._deadline, self._timeout)
+            connection = Connection(topic, node.uri, deadline, self._timeout)
             try:
                 facts.types[node.name] = connection.header.get("type", "")
                 if kind is None:
