@@ -7,38 +7,23 @@ Start it beside any launch file of this package: rosrun hgrid_proximity ask.py
 """
 
 import rospy
-from geometry_msgs.msg import Point
-from hgrid_proximity.msg import Pairs, Verdict
-from hgrid_proximity.srv import QuerySegment, QuerySegmentRequest, QuerySphere, QuerySphereRequest
+from hgrid_proximity.client import Proximity
+from hgrid_proximity.errors import ProximityError
+from hgrid_proximity.streams import PairArrays
 
 NODE = "/proximity"  # name of the proximity node
 
 
-class Question:
-    """A service with a connection that stays open. It connects again after a restart of the node."""
-
-    def __init__(self, name, kind):
-        self._name, self._kind, self._proxy = name, kind, None
-
-    def ask(self, request):
-        """Sends the query and prints the answer. Only CLEAR means that nothing is there."""
-        if self._proxy is None:
-            self._proxy = rospy.ServiceProxy(self._name, self._kind, persistent=True)
-        try:
-            answer = self._proxy(request).answer
-        except (rospy.ServiceException, rospy.ROSException, OSError) as error:
-            print(f"{self._name} does not answer; that is not CLEAR: {error}")
-            self._proxy.close()
-            self._proxy = None
-            return
-        if not answer.success:
-            print(f"refused with {answer.code.name}: {answer.code.text}")
-        elif answer.verdict == Verdict.UNKNOWN:
-            print(f"{answer.summary}; treat it as occupied")
-        else:
-            print(answer.summary)
-        for hit in answer.hits:
-            print(f"  {hit.name}, {hit.distance:.3f} m")
+def show(ask):
+    """Sends a query and prints the answer. Only CLEAR means that nothing is there."""
+    try:
+        answer = ask()
+    except ProximityError as error:
+        print(f"no answer; that is not CLEAR: {error}")
+        return
+    print(f"{answer.summary}; treat it as occupied" if answer.unknown else answer.summary)
+    for hit in answer.hits:
+        print(f"  {hit.name}, {hit.distance:.3f} m")
 
 
 def on_pairs(pairs):
@@ -53,14 +38,12 @@ def on_pairs(pairs):
 
 def main():
     rospy.init_node("ask", anonymous=True)
-    rospy.Subscriber(NODE + "/pairs", Pairs, on_pairs, queue_size=1)
-    sphere = Question(NODE + "/query_sphere", QuerySphere)
-    segment = Question(NODE + "/query_segment", QuerySegment)
-    rospy.wait_for_service(NODE + "/query_sphere")
+    rospy.Subscriber(NODE + "/pairs", PairArrays, on_pairs, queue_size=1)
+    proximity = Proximity(NODE)
     rate = rospy.Rate(2.0)  # [Hz]
     while not rospy.is_shutdown():
-        sphere.ask(QuerySphereRequest(center=Point(0.0, 0.0, 0.9), radius=0.4))
-        segment.ask(QuerySegmentRequest(start=Point(0.4, -2.0, 0.5), end=Point(0.4, 2.0, 0.5), exact=True))
+        show(lambda: proximity.query_sphere((0.0, 0.0, 0.9), radius=0.4))
+        show(lambda: proximity.query_segment((0.4, -2.0, 0.5), (0.4, 2.0, 0.5), exact=True))
         rate.sleep()
 
 

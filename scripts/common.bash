@@ -13,9 +13,10 @@ build_packages=(
   libassimp-dev libconsole-bridge-dev libdiagnostic-updater-dev libeigen3-dev libfcl-dev libgtest-dev
   libnodelet-dev
   libnodeletlib-dev libtf2-msgs-dev libtinyxml2-dev liburdfdom-dev liburdfdom-headers-dev pluginlib-dev
+  python3-setuptools
 )
 demo_packages=(
-  python3-diagnostic-msgs python3-geometry-msgs python3-roslaunch python3-rospy python3-rosservice python3-rostopic
+  python3-diagnostic-msgs python3-geometry-msgs python3-numpy python3-roslaunch python3-rospy python3-rosservice python3-rostopic
   python3-sensor-msgs python3-shape-msgs python3-std-srvs python3-tf2-msgs python3-visualization-msgs
   ros-robot-state-publisher
 )

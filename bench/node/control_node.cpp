@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
   } else if (mode == "service") {
     service = own.advertiseService("query_sphere", answer);
   } else {
-    ROS_FATAL("usage: node_bench_control relay|ignore|service");
+    ROS_FATAL("usage: node_testcontrol relay|ignore|service");
     return 1;
   }
   ros::spin();

@@ -1,0 +1,215 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: the hgrid_proximity authors
+"""Asks the proximity node, and listens to it.
+
+    import rospy
+    from hgrid_proximity.client import Proximity
+
+    rospy.init_node("my_program")
+    proximity = Proximity()
+    answer = proximity.query_sphere((0.6, 0.2, 0.3), radius=0.1, exclude="robot/*")
+    if answer.clear:
+        ...
+
+Coordinates are in meters. Points and sizes are three numbers, or messages with the fields x, y and z.
+"""
+from __future__ import annotations
+
+from typing import Iterable, Optional, Union
+
+import rospy
+from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
+
+from hgrid_proximity import srv
+from hgrid_proximity.errors import NoAnswer, Refused
+from hgrid_proximity.events import Events
+from hgrid_proximity.msg import Shape, Verdict
+from hgrid_proximity.service import Service
+from hgrid_proximity.streams import DistanceArrays, PairArrays
+
+
+class Answer:
+    """The answer to a query: exactly one of `clear`, `hit` and `unknown` is True.
+
+    clear: nothing is there. hit: `hits` lists the bodies (hgrid_proximity/Hit). unknown: nothing was hit, but something
+    may be there unseen; treat the place as occupied, `summary` says why. `response` is the whole response of the
+    service.
+    """
+
+    def __init__(self, response):
+        answer = response.answer
+        if not answer.success:
+            raise Refused(answer.code.name, answer.code.text)
+        self.response = response
+        self.clear = answer.verdict == Verdict.CLEAR
+        self.hit = answer.verdict == Verdict.HIT
+        self.unknown = not self.clear and not self.hit
+        self.hits, self.summary = answer.hits, answer.summary
+
+    @property
+    def names(self):
+        """Names of the bodies that were hit, as a list."""
+        return [hit.name for hit in self.hits]
+
+    def __bool__(self):
+        raise TypeError("an answer is neither true nor false; read .clear, .hit or .unknown")
+
+    def __repr__(self):
+        return f"<{self.summary}>"
+
+
+class Proximity:
+    """A running proximity node. Call rospy.init_node() first. Several threads may share an object.
+
+    Queries throw Refused if the node refuses the request, and NoAnswer if the node does not answer. All queries have
+    these options:
+
+    frame: frame of the coordinates; empty: the world frame
+    stamp: time that the query is about [rospy.Time]; None: now
+    exact: True: measure the shapes of bodies; False: measure only the boxes of the shapes
+    include, exclude: globs over body names, one or several: only bodies that match `include` and do not match `exclude`
+        can be hit
+    limit: largest number of hits; 0: what the service describes
+    max_time: [s] time limit of the node for the query; 0: none
+    as_body: name of a body: leaves out this body and what it may touch
+    """
+
+    def __init__(self, node: str = "/proximity", timeout: float = 5.0):
+        """@param node  name of the node
+        @param timeout  [s] how long to wait for an answer or for the first message
+        """
+        self._node, self._timeout = rospy.resolve_name(node).rstrip("/"), timeout
+        self._services = {
+            kind: Service(f"{self._node}/{name}", kind, timeout)
+            for name, kind in (
+                ("query_sphere", srv.QuerySphere),
+                ("query_segment", srv.QuerySegment),
+                ("query_box", srv.QueryBox),
+                ("query_shape", srv.QueryShape),
+                ("query_nearest", srv.QueryNearest),
+                ("explain_pair", srv.ExplainPair),
+            )
+        }
+
+    def close(self):
+        """Closes all connections. The next call connects again."""
+        for service in self._services.values():
+            service.close()
+
+    def query_sphere(self, center, radius: float = 0.0, **options) -> Answer:
+        """Which bodies does this sphere touch? With radius 0 it is a point."""
+        return self._query(srv.QuerySphere, srv.QuerySphereRequest(center=_point("center", center), radius=radius), options)
+
+    def query_segment(self, start, end, radius: float = 0.0, **options) -> Answer:
+        """Which bodies does this segment, or the capsule of this radius around it, touch, in order along it?"""
+        request = srv.QuerySegmentRequest(start=_point("start", start), end=_point("end", end), radius=radius)
+        return self._query(srv.QuerySegment, request, options)
+
+    def query_box(self, center, size, orientation=(0.0, 0.0, 0.0, 1.0), **options) -> Answer:
+        """Which bodies does this box touch?
+
+        @param size  full lengths of the sides
+        @param orientation  quaternion x, y, z, w
+        """
+        pose = Pose(position=_point("center", center), orientation=Quaternion(*_numbers("orientation", orientation, "xyzw")))
+        request = srv.QueryBoxRequest(pose=pose, size=Vector3(*_numbers("size", size, "xyz")))
+        return self._query(srv.QueryBox, request, options)
+
+    def query_shape(self, shape: Shape, **options) -> Answer:
+        """Which bodies does this shape (hgrid_proximity/Shape) touch?"""
+        return self._query(srv.QueryShape, srv.QueryShapeRequest(shape=shape), options)
+
+    def query_nearest(self, point=None, body: str = "", max_distance: float = 0.0, **options) -> Answer:
+        """Which bodies are nearest to a point or to a body? One by default; `limit` asks for more.
+
+        @param max_distance  [m] bodies that are farther away cannot be hit; 0: no limit
+        """
+        if (point is None) == (not body):
+            raise ValueError("query_nearest needs either a point or a body")
+        request = srv.QueryNearestRequest(body=body, max_distance=max_distance)
+        if point is not None:
+            request.point = _point("point", point)
+        return self._query(srv.QueryNearest, request, options)
+
+    def explain_pair(self, first: str, second: str, contacts: int = 0, stamp: Optional[rospy.Time] = None):
+        """Why is the pair reported or not? Returns the response of ~explain_pair; `explanation` is its sentence.
+
+        @param contacts  largest number of contacts to list
+        """
+        request = srv.ExplainPairRequest(first=first, second=second, contacts=contacts)
+        if stamp is not None:
+            request.header.stamp = stamp
+        response = self._services[srv.ExplainPair](request)
+        if not response.success:
+            raise Refused(response.code.name, response.code.text)
+        return response
+
+    def pairs(self) -> PairArrays:
+        """Waits for the next message of ~pairs and returns it."""
+        return self._next("pairs", PairArrays)
+
+    def distances(self) -> DistanceArrays:
+        """Waits for the next message of ~distances and returns it. To read many messages, subscribe instead."""
+        return self._next("distances", DistanceArrays)
+
+    def events(self) -> Events:
+        """Listens to ~events from now on. Begin to listen before you do what causes the event:
+
+            with proximity.events() as events:
+                move()
+                event = events.wait("robot/*", "obstacle/*", timeout=5.0)
+        """
+        return Events(self._node, self._timeout)
+
+    def _next(self, stream: str, kind):
+        topic = f"{self._node}/{stream}"
+        try:
+            return rospy.wait_for_message(topic, kind, self._timeout)
+        except rospy.ROSException as error:
+            text = f"{topic}: no message within {self._timeout:g} s. `rosnode list` shows whether the node runs."
+            raise NoAnswer(text) from error
+
+    def _query(self, kind, request, options) -> Answer:
+        _apply(request, **options)
+        return Answer(self._services[kind](request, extra=request.max_time))
+
+
+def _apply(
+    request,
+    frame: str = "",
+    stamp: Optional[rospy.Time] = None,
+    exact: bool = False,
+    include: Union[str, Iterable[str]] = (),
+    exclude: Union[str, Iterable[str]] = (),
+    limit: int = 0,
+    max_time: float = 0.0,
+    as_body: str = "",
+):
+    """Writes the options of a query into its request."""
+    request.header.frame_id = frame
+    if stamp is not None:
+        request.header.stamp = stamp
+    request.exact, request.limit, request.max_time = exact, limit, max_time
+    request.include, request.exclude = _globs(include), _globs(exclude)
+    request.as_body, request.respect_allowed = as_body, bool(as_body)
+
+
+def _globs(globs):
+    return [globs] if isinstance(globs, str) else list(globs)
+
+
+def _point(name: str, value) -> Point:
+    return Point(*_numbers(name, value, "xyz"))
+
+
+def _numbers(name: str, value, fields: str):
+    """Returns the fields of a message, or the elements of a sequence of as many numbers."""
+    if all(hasattr(value, field) for field in fields):
+        return [getattr(value, field) for field in fields]
+    try:
+        numbers = [float(number) for number in value]
+    except (TypeError, ValueError):
+        numbers = []
+    if len(numbers) != len(fields):
+        raise ValueError(f"{name} is {value!r}; it must be {len(fields)} numbers: {', '.join(fields)}")
+    return numbers

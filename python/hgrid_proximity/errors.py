@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: the hgrid_proximity authors
+"""What can go wrong between a client and the node."""
+
+
+class ProximityError(Exception):
+    """Base class of the errors below. Each of them means: treat the place as occupied."""
+
+
+class NoAnswer(ProximityError):
+    """The node does not run, does not answer in time, or the connection broke. The next call connects again."""
+
+
+class Refused(ProximityError):
+    """The node refused the request, or it failed.
+
+    code: the reason as a word, such as "UNKNOWN_FRAME"; text: the reason as a sentence for people.
+    """
+
+    def __init__(self, code: str, text: str):
+        super().__init__(f"{code}: {text}")
+        self.code, self.text = code, text
+
+
+class EventsMissed(ProximityError):
+    """Events were lost on the way, for example because this program was too slow. `~pairs` has the present state."""
