@@ -171,7 +171,8 @@ class Proximity:
 
     def _query(self, kind, request, options) -> Answer:
         _apply(request, **options)
-        return Answer(self._services[kind](request, extra=request.max_time))
+        extra = min(request.max_time, 1e6) if request.max_time > 0.0 else 0.0  # [s] max_time may be infinite
+        return Answer(self._services[kind](request, extra))
 
 
 def _apply(

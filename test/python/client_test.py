@@ -94,6 +94,9 @@ class Client(unittest.TestCase):
             self.proximity.query_sphere((0, 0, 0), frame="nowhere")
         self.assertEqual(refused.exception.code, "UNKNOWN_FRAME")
         self.assertIn("nowhere", refused.exception.text)
+        for max_time in (float("nan"), -1.0):
+            with self.assertRaises(Refused):
+                self.proximity.query_sphere((0, 0, 0), max_time=max_time)
         with self.assertRaises(Refused) as refused:
             self.proximity.explain_pair("robot/ball", "obstacle/none")
         self.assertEqual(refused.exception.code, "UNKNOWN_ID")

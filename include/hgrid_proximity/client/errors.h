@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <hgrid_proximity/Code.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace hgrid_proximity {
+
+/// Base class of the errors of a client. Each of them means: treat the place as occupied.
+class ProximityError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The node does not run, does not answer in time, or the connection broke. The next call connects again.
+class NoAnswer : public ProximityError {
+ public:
+  using ProximityError::ProximityError;
+};
+
+/// The node refused the request, or it failed.
+class Refused : public ProximityError {
+ public:
+  explicit Refused(const Code& reason) : ProximityError(reason.name + ": " + reason.text), code(reason) {}
+  Code code;  ///< the reason, as a number, as a word and as a sentence for people
+};
+
+}  // namespace hgrid_proximity
