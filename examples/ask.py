@@ -11,7 +11,7 @@ from hgrid_proximity.client import Proximity
 from hgrid_proximity.errors import ProximityError
 from hgrid_proximity.streams import PairArrays
 
-NODE = "/proximity"  # name of the proximity node
+NODE = "proximity"  # name of the proximity node
 
 
 def show(ask):

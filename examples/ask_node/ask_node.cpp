@@ -14,11 +14,11 @@ namespace {
 
 using hgrid_proximity::Client;
 
-/// Sends the question and prints the answer. Only CLEAR means that nothing is there.
+/// Sends the request and prints the answer. Only CLEAR means that nothing is there.
 template <class Request>
-void ask(Client& proximity, const Request& question) {
+void ask(Client& proximity, const Request& request) {
   try {
-    const hgrid_proximity::Answer answer = proximity.ask(question).answer;
+    const hgrid_proximity::Answer answer = proximity.ask(request).answer;
     const bool known = isClear(answer) || isHit(answer);
     ROS_INFO("%s%s", answer.summary.c_str(), known ? "" : "; treat it as occupied");
     for (const hgrid_proximity::Hit& hit : answer.hits) ROS_INFO("  %s, %.3f m", hit.name.c_str(), hit.distance);
@@ -27,7 +27,7 @@ void ask(Client& proximity, const Request& question) {
   }
 }
 
-/// Returns the question: which three bodies are nearest to this body?
+/// Returns the request: which three bodies are nearest to this body?
 hgrid_proximity::QueryNearestRequest nearestTo(const std::string& body) {
   hgrid_proximity::QueryNearestRequest nearest;
   nearest.body = body;

@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: the hgrid_proximity authors
 """Reads ROS messages into numpy arrays.
 
-The arrays of numbers of a message become read-only views of the received bytes, which no loop copies. This makes a
-message with thousands of pairs cheap to read.
+Arrays of numbers become read-only numpy views of the received bytes. The numbers are not copied, so a message with
+thousands of pairs is cheap to read. Such a message cannot be published.
 
     type of the field                    value
     numbers, such as float64[]           array of n numbers

@@ -11,7 +11,8 @@
     if answer.clear:
         ...
 
-Coordinates are in meters. Points and sizes are three numbers, or messages with the fields x, y and z.
+Coordinates are in meters. Points and sizes are three numbers, or messages with the fields x, y and z. The modules
+`hgrid_proximity.errors`, `.events` and `.streams` describe what can go wrong, how to wait for events, and the arrays.
 """
 from __future__ import annotations
 
@@ -24,16 +25,18 @@ from hgrid_proximity import srv
 from hgrid_proximity.errors import NoAnswer, Refused
 from hgrid_proximity.events import Events
 from hgrid_proximity.msg import Shape, Verdict
-from hgrid_proximity.service import Service
-from hgrid_proximity.streams import DistanceArrays, PairArrays
+from hgrid_proximity.service import LONGEST, Service
+from hgrid_proximity.streams import DistanceArrays, PairArrays, as_arrays
 
 
 class Answer:
     """The answer to a query: exactly one of `clear`, `hit` and `unknown` is True.
 
-    clear: nothing is there. hit: `hits` lists the bodies (hgrid_proximity/Hit). unknown: nothing was hit, but something
-    may be there unseen; treat the place as occupied, `summary` says why. `response` is the whole response of the
-    service.
+    clear: nothing is there; for query_nearest: nothing is within max_distance
+    hit: `hits` lists the bodies (`rosmsg show -r hgrid_proximity/Hit`); their points are in the frame that
+        `response.header` names; response.answer.truncated tells whether `limit` left out some of them
+    unknown: nothing was hit, but something may be there unseen; treat the place as occupied; `summary` says why
+    response: the whole response of the service
     """
 
     def __init__(self, response):
@@ -61,22 +64,28 @@ class Answer:
 class Proximity:
     """A running proximity node. Call rospy.init_node() first. Several threads may share an object.
 
-    Queries throw Refused if the node refuses the request, and NoAnswer if the node does not answer. All queries have
-    these options:
+    Each kind of query has a connection, which stays open until close(). All queries have these options:
 
     frame: frame of the coordinates; empty: the world frame
-    stamp: time that the query is about [rospy.Time]; None: now
+    stamp: time that the query is about [rospy.Time], not before `response.world.history_begin`; None: now
     exact: True: measure the shapes of bodies; False: measure only the boxes of the shapes
-    include, exclude: globs over body names, one or several: only bodies that match `include` and do not match `exclude`
-        can be hit
-    limit: largest number of hits; 0: what the service describes
-    max_time: [s] time limit of the node for the query; 0: none
-    as_body: name of a body: leaves out this body and what it may touch
+    include, exclude: a glob over body names, or several of them: only bodies that match `include` and do not match
+        `exclude` can be hit. A glob of `include` that matches no body is refused.
+    limit: largest number of hits; 0: ~max_hits, but 1 for query_nearest
+    max_time: [s] time limit of the node for the query; 0: none. The client waits for `timeout + max_time`.
+    as_body: name of a body. The query ignores this body and all bodies that it is allowed to touch.
+
+    All queries throw:
+
+    Refused: the node refuses the request
+    NoAnswer: the node does not answer in time
+    TypeError, ValueError: an argument has a wrong type, or not as many numbers as it must have
+    rospy.ROSInterruptException: this program is shutting down
     """
 
-    def __init__(self, node: str = "/proximity", timeout: float = 5.0):
-        """@param node  name of the node
-        @param timeout  [s] how long to wait for an answer or for the first message
+    def __init__(self, node: str = "proximity", timeout: float = 5.0):
+        """@param node  name of the node, in the namespace of this program unless it begins with a slash
+        @param timeout  [s, wall time] how long to wait for an answer, for a message, or for a node that does not run yet
         """
         self._node, self._timeout = rospy.resolve_name(node).rstrip("/"), timeout
         self._services = {
@@ -90,6 +99,12 @@ class Proximity:
                 ("explain_pair", srv.ExplainPair),
             )
         }
+
+    def __enter__(self) -> Proximity:
+        return self
+
+    def __exit__(self, *_):
+        self.close()
 
     def close(self):
         """Closes all connections. The next call connects again."""
@@ -122,6 +137,9 @@ class Proximity:
     def query_nearest(self, point=None, body: str = "", max_distance: float = 0.0, **options) -> Answer:
         """Which bodies are nearest to a point or to a body? One by default; `limit` asks for more.
 
+        A hit need not be a contact: `hits[0].distance` says how far away the nearest body is. Give the name of the body
+        as `as_body` too, to leave out what it may touch, such as its neighbors at a joint.
+
         @param max_distance  [m] bodies that are farther away cannot be hit; 0: no limit
         """
         if (point is None) == (not body):
@@ -145,7 +163,7 @@ class Proximity:
         return response
 
     def pairs(self) -> PairArrays:
-        """Waits for the next message of ~pairs and returns it."""
+        """Waits for the next message of ~pairs and returns it. Do not call this in a callback of ~pairs."""
         return self._next("pairs", PairArrays)
 
     def distances(self) -> DistanceArrays:
@@ -164,14 +182,16 @@ class Proximity:
     def _next(self, stream: str, kind):
         topic = f"{self._node}/{stream}"
         try:
-            return rospy.wait_for_message(topic, kind, self._timeout)
+            return as_arrays(kind, rospy.wait_for_message(topic, kind, self._timeout))
+        except rospy.ROSInterruptException:
+            raise
         except rospy.ROSException as error:
-            text = f"{topic}: no message within {self._timeout:g} s. `rosnode list` shows whether the node runs."
+            text = f"{topic}: no message within {self._timeout:g} s. Check the node: `rosnode ping {self._node}`"
             raise NoAnswer(text) from error
 
     def _query(self, kind, request, options) -> Answer:
         _apply(request, **options)
-        extra = min(request.max_time, 1e6) if request.max_time > 0.0 else 0.0  # [s] max_time may be infinite
+        extra = min(request.max_time, LONGEST) if request.max_time > 0.0 else 0.0  # [s] max_time may be infinite
         return Answer(self._services[kind](request, extra))
 
 

@@ -23,4 +23,5 @@ class Refused(ProximityError):
 
 
 class EventsMissed(ProximityError):
-    """Events were lost on the way, for example because this program was too slow. `~pairs` has the present state."""
+    """Events were lost on the way, for example because this program was too slow. Read ~pairs for the pairs that are near
+    now."""

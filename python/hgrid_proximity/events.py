@@ -6,18 +6,20 @@ from __future__ import annotations
 import queue
 import time
 from typing import NamedTuple, Optional
+from xmlrpc.client import ServerProxy
 
+import rosgraph
 import rospy
 
 from hgrid_proximity.errors import EventsMissed, NoAnswer
 from hgrid_proximity.msg import EventKind
-from hgrid_proximity.streams import EventArrays
+from hgrid_proximity.streams import EventArrays, as_arrays
 
-MOST_MESSAGES = 1000  # messages that wait to be read; more than that are lost, which EventsMissed reports
+MOST_MESSAGES = 1000  # messages that wait to be read; when there are so many, further ones are dropped
 
 
 class Event(NamedTuple):
-    """A pair began or ended. `hgrid_proximity/Events` explains the values."""
+    """A pair began or ended. `rosmsg show -r hgrid_proximity/Events` explains the values."""
 
     number: int
     began: bool  # False: it ended
@@ -29,21 +31,32 @@ class Event(NamedTuple):
 
 
 class Events:
-    """All events from the creation of this object on, in their order. One thread may wait at a time."""
+    """The events of the node from now on, in their order. One thread may wait at a time.
+
+    A pair that is near already causes no event; `Proximity.pairs()` has it. In a new epoch (restart of the node,
+    ~reset, jump of the clock) all pairs that are near begin again, and pairs of the old epoch do not end.
+    """
 
     def __init__(self, node: str, timeout: float):
-        """Subscribes to ~events. Throws NoAnswer if the node does not connect within `timeout` [s]."""
+        """Subscribes to ~events of the node, and waits until the node has accepted that.
+
+        @param timeout  [s, wall time]
+        @throws NoAnswer  the node does not accept it in time
+        """
         self._messages: queue.Queue = queue.Queue(MOST_MESSAGES)
         self._message, self._next = None, 0
         self._last = None  # (epoch, number) of the newest event that was read
+        self._dropped = False
         self._topic = node + "/events"
         self._subscriber = rospy.Subscriber(self._topic, EventArrays, self._take, queue_size=MOST_MESSAGES)
         deadline = time.monotonic() + timeout
-        while self._subscriber.get_num_connections() == 0:
-            if time.monotonic() > deadline or rospy.is_shutdown():
+        while not self._accepted():
+            if rospy.is_shutdown():
+                raise rospy.ROSInterruptException("rospy is shutting down")
+            if time.monotonic() > deadline:
                 self.close()
-                raise NoAnswer(f"{self._topic}: no publisher within {timeout:g} s. `rosnode list` shows whether it runs.")
-            time.sleep(0.01)
+                raise NoAnswer(f"{self._topic}: no publisher within {timeout:g} s. Check the node: `rosnode ping {node}`")
+            time.sleep(0.02)
 
     def __enter__(self) -> Events:
         return self
@@ -60,9 +73,11 @@ class Events:
         Events before it are skipped.
 
         @param began  True: the pair began; False: it ended; None: either
-        @param timeout  [s]
+        @param timeout  [s, wall time]
         @returns None if there was no such event within the timeout
-        @throws EventsMissed  events were lost before this one; the next call goes on after the gap
+        @throws EventsMissed  events were lost before the next one; the next call goes on after them
+        @throws NoAnswer  the connection to the node was lost
+        @throws rospy.ROSInterruptException  this program is shutting down
         """
         deadline = time.monotonic() + timeout
         while True:
@@ -76,25 +91,54 @@ class Events:
                     return _event(message, index)
             self._message = None
 
+    def _accepted(self) -> bool:
+        """Whether a publisher of the topic lists this program among its subscribers."""
+        me, topic = rospy.get_name(), self._subscriber.resolved_name
+        try:
+            master = rosgraph.Master(me)
+            for published, publishers in master.getSystemState()[0]:
+                for publisher in publishers if published == topic else []:
+                    links = ServerProxy(master.lookupNode(publisher)).getBusInfo(me)[2]
+                    if any(link[1] == me and link[4] == topic for link in links):
+                        return True
+        except (OSError, rosgraph.MasterException):
+            pass  # a node or the master does not answer at present
+        return False
+
     def _take(self, message):
         try:
-            self._messages.put_nowait(message)
+            self._messages.put_nowait(as_arrays(EventArrays, message))
         except queue.Full:
-            pass  # the numbers of the events show it
+            self._dropped = True
 
     def _receive(self, deadline: float) -> bool:
         """Takes the next message. Returns False after the deadline."""
-        try:
-            message = self._messages.get(timeout=max(0.0, deadline - time.monotonic()))
-        except queue.Empty:
+        message = self._next_message(deadline)
+        if message is None:
             return False
         last, epoch, first = self._last, message.world.epoch, int(message.number[0])
         self._message, self._next = message, 0
         self._last = (epoch, int(message.number[-1]))
         expected = None if last is None else last[1] + 1 if last[0] == epoch else 1
         if expected is not None and first > expected:
-            raise EventsMissed(f"{self._topic}: the events {expected} to {first - 1} were lost; ~pairs has what is near now")
+            raise EventsMissed(f"{self._topic}: the events {expected} to {first - 1} were lost. Read ~pairs instead")
         return True
+
+    def _next_message(self, deadline: float):
+        """Returns the next message; None after the deadline."""
+        while True:
+            if rospy.is_shutdown():
+                raise rospy.ROSInterruptException("rospy is shutting down")
+            try:  # waits for a short time, so that Ctrl-C ends the wait
+                return self._messages.get(timeout=min(0.1, max(0.0, deadline - time.monotonic())))
+            except queue.Empty:
+                if self._dropped:
+                    self._dropped = False
+                    raise EventsMissed(f"{self._topic}: more than {MOST_MESSAGES} messages waited. Read ~pairs instead")
+                if self._subscriber.get_num_connections() == 0:
+                    raise NoAnswer(f"{self._topic}: the connection to the node was lost")
+                if time.monotonic() >= deadline:
+                    return None
 
 
 def _event(message: EventArrays, index: int) -> Event:

@@ -2,12 +2,14 @@
 # SPDX-FileCopyrightText: the hgrid_proximity authors
 """The streams of the node as numpy arrays.
 
-Each class has the fields of its message (see `rosmsg show`), with arrays as `arrays` describes: `gap` is an array of n
-numbers, `point_on_first` has n rows, `since` is in nanoseconds. Subscribe to the stream with the class:
-`rospy.Subscriber("/proximity/pairs", PairArrays, callback, queue_size=1)`.
+Each class has the fields of its message, with arrays as `hgrid_proximity.arrays` describes. `rosmsg show -r
+hgrid_proximity/Pairs` explains the fields. Points are in the world frame. Subscribe to the stream with the class:
+`rospy.Subscriber("/proximity/pairs", PairArrays, callback, queue_size=1)`. All subscribers to a topic in one program must
+use the same class, because rospy reads each message only once.
 """
 from __future__ import annotations
 
+import io
 import re
 
 import numpy
@@ -17,15 +19,19 @@ from hgrid_proximity.arrays import with_arrays
 from hgrid_proximity.msg import Distances, Events, Pairs
 
 
+def as_arrays(kind, message):
+    """Returns the message as an object of one of the classes below, even if it was read with another class."""
+    if isinstance(message, kind):
+        return message
+    buffer = io.BytesIO()
+    message.serialize(buffer)
+    return kind().deserialize(buffer.getvalue())
+
+
 class _AboutPairs:
     """What the streams have in common: element i of each array is about names[first[i]] and names[second[i]]."""
 
     __slots__ = ()
-
-    @property
-    def usable(self) -> bool:
-        """Whether the message is complete and still valid. Only then is a pair that it does not list not near."""
-        return self.world.complete and rospy.Time.now() <= self.world.valid_until
 
     @property
     def first_names(self) -> numpy.ndarray:
@@ -49,13 +55,28 @@ class _AboutPairs:
         return numpy.fromiter((pattern.fullmatch(name) is not None for name in self.names), bool, len(self.names))
 
 
-class PairArrays(_AboutPairs, with_arrays(Pairs)):
+class _State(_AboutPairs):
+    """What ~pairs and ~distances have in common: they list all pairs that are near."""
+
+    __slots__ = ()
+
+    @property
+    def usable(self) -> bool:
+        """Whether the message is complete and still valid.
+
+        True: every pair that ~pairs does not list is farther apart than its margin. False: it may be near.
+        """
+        now = rospy.Time.now()
+        return self.world.complete and not now.is_zero() and now <= self.world.valid_until
+
+
+class PairArrays(_State, with_arrays(Pairs)):
     """A message of ~pairs."""
 
     __slots__ = Pairs.__slots__
 
 
-class DistanceArrays(_AboutPairs, with_arrays(Distances)):
+class DistanceArrays(_State, with_arrays(Distances)):
     """A message of ~distances."""
 
     __slots__ = Distances.__slots__

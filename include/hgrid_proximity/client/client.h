@@ -13,7 +13,6 @@
 #include <hgrid_proximity/WorldState.h>
 #include <hgrid_proximity/client/errors.h>
 #include <hgrid_proximity/client/service.h>
-#include <ros/node_handle.h>
 #include <ros/time.h>
 
 #include <algorithm>
@@ -22,13 +21,17 @@
 
 namespace hgrid_proximity {
 
-/// Whether nothing is there. If neither isClear() nor isHit(), something may be there unseen: treat it as occupied.
+/// Returns whether the verdict is CLEAR: nothing is there; for query_nearest: nothing is within max_distance. If
+/// isClear() and isHit() are both false, something may be there unseen: treat the place as occupied.
 inline bool isClear(const Answer& answer) { return answer.success && answer.verdict == Verdict::CLEAR; }
-/// Whether a body was hit; `hits` lists the bodies.
+/// Returns whether the verdict is HIT; `hits` lists the bodies.
 inline bool isHit(const Answer& answer) { return answer.success && answer.verdict == Verdict::HIT; }
-/// Whether a message with this WorldState is complete and still valid. Only then is a pair that ~pairs does not list
-/// not near.
-inline bool isUsable(const WorldState& world) { return world.complete && ros::Time::now() <= world.valid_until; }
+/// Returns whether a message with this WorldState is complete and still valid. True: every pair that ~pairs does not
+/// list is farther apart than its margin. False: it may be near.
+inline bool isUsable(const WorldState& world) {
+  const ros::Time now = ros::Time::now();
+  return world.complete && !now.isZero() && now <= world.valid_until;
+}
 
 /// Asks a running proximity node. Header-only; needs roscpp and the messages of this package, but not its libraries.
 ///
@@ -40,39 +43,40 @@ inline bool isUsable(const WorldState& world) { return world.complete && ros::Ti
 /// if (isClear(proximity.ask(sphere).answer)) ...
 /// ```
 ///
-/// Each kind of question has its own connection, which stays open. Several threads may share an object; their questions
-/// of the same kind run one after the other. The services describe the fields of the requests: `rossrv show -r`.
+/// Call ros::init() first. Answers need no spinner. Each kind of request has its own connection, which stays open, and
+/// its own thread. Several threads may share an object; their requests of the same kind are answered one after the
+/// other. `rossrv show -r hgrid_proximity/QuerySphere` explains the fields of a request.
 class Client {
  public:
   /// @param node     name of the proximity node, resolved as usual
-  /// @param timeout  longest time for connecting, and for an answer; max_time of a query is added to it
+  /// @param timeout  how long to wait for an answer, or for a node that does not run yet; max_time of a query is added
   explicit Client(const std::string& node = "proximity",
                   std::chrono::duration<double> timeout = std::chrono::seconds(5))
-      : sphere_(ros::NodeHandle(), node + "/query_sphere", timeout),
-        segment_(ros::NodeHandle(), node + "/query_segment", timeout),
-        box_(ros::NodeHandle(), node + "/query_box", timeout),
-        shape_(ros::NodeHandle(), node + "/query_shape", timeout),
-        nearest_(ros::NodeHandle(), node + "/query_nearest", timeout),
-        explain_(ros::NodeHandle(), node + "/explain_pair", timeout) {}
+      : sphere_(node + "/query_sphere", timeout),
+        segment_(node + "/query_segment", timeout),
+        box_(node + "/query_box", timeout),
+        shape_(node + "/query_shape", timeout),
+        nearest_(node + "/query_nearest", timeout),
+        explain_(node + "/explain_pair", timeout) {}
 
-  /// Asks. A response that is returned has `success = true`.
-  /// @throws Refused if the node refuses the question or fails to answer it; NoAnswer if no answer comes
-  QuerySphereResponse ask(const QuerySphereRequest& question) { return answered(sphere_, question); }
-  QuerySegmentResponse ask(const QuerySegmentRequest& question) { return answered(segment_, question); }
-  QueryBoxResponse ask(const QueryBoxRequest& question) { return answered(box_, question); }
-  QueryShapeResponse ask(const QueryShapeRequest& question) { return answered(shape_, question); }
-  QueryNearestResponse ask(const QueryNearestRequest& question) { return answered(nearest_, question); }
-  ExplainPairResponse ask(const ExplainPairRequest& question) {
-    ExplainPairResponse response = explain_.call(question);
+  /// Sends the request and waits for the response, which has `success = true`.
+  /// @throws Refused if the node refuses the request or fails to answer it; NoAnswer if no answer comes in time
+  QuerySphereResponse ask(const QuerySphereRequest& request) { return answered(sphere_, request); }
+  QuerySegmentResponse ask(const QuerySegmentRequest& request) { return answered(segment_, request); }
+  QueryBoxResponse ask(const QueryBoxRequest& request) { return answered(box_, request); }
+  QueryShapeResponse ask(const QueryShapeRequest& request) { return answered(shape_, request); }
+  QueryNearestResponse ask(const QueryNearestRequest& request) { return answered(nearest_, request); }
+  ExplainPairResponse ask(const ExplainPairRequest& request) {
+    ExplainPairResponse response = explain_.call(request);
     if (!response.success) throw Refused(response.code);
     return response;
   }
 
  private:
   template <class Kind>
-  static typename Kind::Response answered(Service<Kind>& service, const typename Kind::Request& question) {
-    const double extra = question.max_time > 0.0 ? std::min(question.max_time, 1e6) : 0.0;  // [s] it may be infinite
-    typename Kind::Response response = service.call(question, std::chrono::duration<double>(extra));
+  static typename Kind::Response answered(Service<Kind>& service, const typename Kind::Request& request) {
+    const double extra = request.max_time > 0.0 ? std::min(request.max_time, 1e6) : 0.0;  // [s] it may be infinite
+    typename Kind::Response response = service.call(request, std::chrono::duration<double>(extra));
     if (!response.answer.success) throw Refused(response.answer.code);
     return response;
   }

