@@ -10,6 +10,7 @@
 #include <boost/make_shared.hpp>
 #include <chrono>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <thread>
@@ -47,9 +48,15 @@ class CallbackThreads {
       }
     });
   }
-  /// Ends the wait of the thread of startLoop(). Any thread may call this.
-  void wake() {
-    if (!woken_.exchange(true)) queue_.addCallback(boost::make_shared<Wake>(woken_));
+  /// Ends the wait of the thread of startLoop(). Any thread may call this. Does nothing if there is no memory for it; then
+  /// the wait ends by itself.
+  void wake() noexcept {
+    if (woken_.exchange(true)) return;
+    try {
+      queue_.addCallback(boost::make_shared<Wake>(woken_));
+    } catch (const std::exception&) {
+      woken_ = false;
+    }
   }
   /// Starts no further callbacks, and waits for those that are running.
   void stop() {

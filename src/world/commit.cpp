@@ -278,6 +278,7 @@ void Scene::State::growBoxes(const Snapshot& snapshot) {
   if (grown_revision == structure->revision && grown_unplaced == unplaced && !horizon.on()) {
     for (const std::uint32_t slot : changes.now()) {
       const std::uint32_t body = body_of_slot[slot];
+      if (body == Structure::kNone) continue;  // it was removed, and then a commit failed
       if (snapshot.poses_[body].state == Freshness::unplaced) continue;
       for (ProxyId proxy = structure->first_proxy[body]; proxy < structure->first_proxy[body + 1]; ++proxy) {
         growBox(snapshot, proxy, position_of[proxy]);

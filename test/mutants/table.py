@@ -328,7 +328,7 @@ NODE = [
     ("frames that have stopped stop the time of the ticks", TIME, "now - pace > max_wait_", "pace.count() < 0"),
     ("a transform that is not newer than the tick is news", NEWS, "Wait::has_news || stamp <= tick_", "Wait::has_news"),
     ("a frame without news is not counted", NEWS, "if (!has_news) ++missing_;", ""),
-    ("a frame stamped ahead makes all others slow", NEWS, "if (stamp <= now) newest_", "newest_"),
+    ("a frame stamped ahead makes all others slow", NEWS, "std::min(stamp, now)", "stamp"),
     ("a frame that was awaited before is still awaited", NEWS, "waits_[frame] = Wait::none;", ""),
     ("there are more ticks than ~rate", PACE, "std::max(earliest_ + period_, now + period_ / 2)", "now + period_ / 2"),
     ("data with jitter waits for a whole period", PACE, "now + period_ / 2", "now + period_"),

@@ -267,6 +267,27 @@ TEST(SceneFailedAllocation, LeavesNoTraceInLaterSnapshots) {
   EXPECT_GT(failures, 2000u) << "too few allocations failed for a meaningful test";
 }
 
+/// Claim: a body may move and leave the scene before a commit that fails. The next commit does not visit it.
+TEST(SceneFailedAllocation, AfterABodyMovedAndLeftIsHarmless) {
+  const auto moved = [](const std::string& name, double x) {
+    return placing({{name, test::at(x), Freshness::fresh, 0.0}}, Time{2});
+  };
+  Script script;
+  for (const char* name : {"a", "b", "c"}) {
+    script.steps.push_back(adding(test::ball(name)));
+    script.steps.push_back(moved(std::string("obstacle/") + name, 0.1));
+  }
+  script.steps.push_back(committing(Time{1}, {}));
+  script.steps.push_back(moved("obstacle/a", 0.2));
+  script.steps.push_back(removing("obstacle/a"));
+  script.steps.push_back(moved("obstacle/b", 0.3));
+  script.steps.push_back(committing(Time{2}, {}));
+  script.steps.push_back(committing(Time{3}, {}));
+  std::size_t failures = 0;
+  tryAll(script, failures);
+  EXPECT_GT(failures, 20u);
+}
+
 /// Uses a new thread for each query, because the buffers of a new thread are empty.
 TEST(SceneFailedAllocation, OfAQueryChangesNoLaterAnswer) {
   Script script = Writer(11).written(2);

@@ -50,6 +50,7 @@ class Client {
  public:
   /// @param node     name of the proximity node, resolved as usual
   /// @param timeout  how long to wait for an answer, or for a node that does not run yet; max_time of a query is added
+  /// @throws std::invalid_argument unless the timeout is greater than 0 and at most 10^6 s
   explicit Client(const std::string& node = "proximity",
                   std::chrono::duration<double> timeout = std::chrono::seconds(5))
       : sphere_(node + "/query_sphere", timeout),

@@ -11,6 +11,7 @@
 #include <condition_variable>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
@@ -27,9 +28,14 @@ template <class Kind>
 class Service {
  public:
   /// @param name     name of the service, resolved as usual
-  /// @param timeout  longest time from a call to its answer, connecting included; at most 10^6 s
+  /// @param timeout  longest time from a call to its answer, connecting included
+  /// @throws std::invalid_argument unless the timeout is greater than 0 and at most 10^6 s
   Service(const std::string& name, std::chrono::duration<double> timeout)
-      : name_(node_.resolveName(name)), timeout_(timeout) {}
+      : name_(node_.resolveName(name)), timeout_(timeout) {
+    if (timeout.count() > 0.0 && timeout.count() <= 1e6) return;
+    throw std::invalid_argument("the timeout is " + std::to_string(timeout.count()) +
+                                " s; it must be greater than 0 and at most 1000000");
+  }
   Service(const Service&) = delete;
   Service& operator=(const Service&) = delete;
   ~Service() { drop(); }

@@ -177,6 +177,7 @@ void TfIntake::takeMoving(std::uint32_t number, const Arrival& arrival) {
   step.is_period = !first && !other && !was_ahead;
   step.continues = !other && (first || arrival.stamp <= newest + store_.cache());
   takeNewest(number, arrival, step);
+  if (first) news_.noteStructure();  // no tick waits for this frame yet
 }
 
 /// Whether a static frame has now received two successive transforms on /tf, not just a stray one.

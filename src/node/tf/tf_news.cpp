@@ -13,7 +13,7 @@ void TfNews::await(const std::vector<FrameStamp>& frames, Time tick, Time now) {
   for (const std::uint32_t frame : awaited_) waits_[frame] = Wait::none;
   awaited_.clear();
   missing_ = 0;
-  structure_ = false;
+  structure_ = heard_ = false;
   tick_ = newest_ = tick;
   for (const FrameStamp& frame : frames) {
     if (frame.frame >= waits_.size()) waits_.resize(2 * std::size_t{frame.frame} + 8, Wait::none);
@@ -21,20 +21,17 @@ void TfNews::await(const std::vector<FrameStamp>& frames, Time tick, Time now) {
     const bool has_news = frame.newest > tick;
     waits_[frame.frame] = has_news ? Wait::has_news : Wait::missing;
     if (!has_news) ++missing_;
-    noteStamp(frame.newest, now);
+    if (frame.newest <= now) newest_ = std::max(newest_, frame.newest);
   }
 }
 
 void TfNews::note(std::uint32_t frame, Time stamp, Time now) {
   if (frame >= waits_.size() || waits_[frame] == Wait::none) return;
-  noteStamp(stamp, now);
+  heard_ = true;
+  newest_ = std::max(newest_, std::min(stamp, now));
   if (waits_[frame] == Wait::has_news || stamp <= tick_) return;
   waits_[frame] = Wait::has_news;
   --missing_;
-}
-
-void TfNews::noteStamp(Time stamp, Time now) {
-  if (stamp <= now) newest_ = std::max(newest_, stamp);
 }
 
 }  // namespace hgrid

@@ -35,22 +35,25 @@ class TfNews {
   /// Notes that frames were added, got another parent, or got another static transform.
   void noteStructure() { structure_ = true; }
 
-  /// Whether the next tick can be made. It can if every awaited frame has news, if those without news no longer keep
-  /// up, or if the structure of the frames has changed. False if no frame is awaited and nothing has changed.
-  bool complete() const { return structure_ || (!awaited_.empty() && (missing_ == 0 || newest_ - tick_ > max_wait_)); }
+  /// Whether the next tick can be made. It can if every awaited frame has news, or if the structure of the frames has
+  /// changed. It can also if a transform arrived since await(), and the frames without news no longer keep up. False if
+  /// no frame is awaited and nothing has changed.
+  bool complete() const {
+    const bool others_left_behind = heard_ && newest_ - tick_ > max_wait_;
+    return structure_ || (!awaited_.empty() && (missing_ == 0 || others_left_behind));
+  }
 
  private:
   enum class Wait : std::uint8_t { none, missing, has_news };
 
-  void noteStamp(Time stamp, Time now);
-
   const Time max_wait_;
   Time tick_{0};
-  Time newest_{0};  // newest stamp of the awaited frames; a stamp that is ahead of ROS time does not count
+  Time newest_{0};  // newest stamp of the awaited frames; a stamp ahead of ROS time counts as the time of its arrival
   std::vector<std::uint32_t> awaited_;
   std::vector<Wait> waits_;  // by frame number
   std::size_t missing_ = 0;  // number of awaited frames without news
   bool structure_ = false;
+  bool heard_ = false;  // whether an awaited frame received a transform since await()
 };
 
 }  // namespace hgrid

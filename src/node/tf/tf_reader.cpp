@@ -65,7 +65,13 @@ void TfReader::onMessage(const ros::MessageEvent<const TransformBytes>& event, b
 }
 
 void TfReader::wakeTickThread() {
-  if (!woken_.exchange(true)) tick_queue_.addCallback(read_next_, reinterpret_cast<std::uint64_t>(this));
+  if (woken_.exchange(true)) return;
+  try {
+    tick_queue_.addCallback(read_next_, reinterpret_cast<std::uint64_t>(this));
+  } catch (...) {
+    woken_ = false;  // the next transforms try again
+    throw;
+  }
 }
 
 /// Reads one slice per callback, so that a tick that is due waits for one slice at most.

@@ -35,11 +35,17 @@ TickLoop::TickLoop(ros::NodeHandle node, const Params& params, World& world, Tic
 
 std::chrono::nanoseconds TickLoop::work() {
   const TickPace::Time now = std::chrono::steady_clock::now();
-  if (world_.transforms().news().complete() || jobs_.waiting() > 0) pace_.noteReason(now);
+  if (world_.transforms().news().complete()) pace_.noteReason(complete_.value_or(now));
+  if (jobs_.waiting() > 0) pace_.noteReason(now);
   if (pace_.due() <= now) {
-    noteLateness(now);
+    const bool late = newest() != nullptr && now - pace_.due() > pace_.period();
     pace_.noteTick(now);
-    health_.noteTick(guarded(ledger_, "tick.failed", [&] { makeTick(); }));
+    const std::optional<Refusal> failure = guarded(ledger_, "tick.failed", [&] {
+      noteLateness(late);
+      makeTick();
+    });
+    if (failure) pace_.noteReason(now);  // the next tick must not wait for more data
+    health_.noteTick(failure);
   }
   return std::max(std::chrono::nanoseconds(0),
                   std::chrono::nanoseconds(pace_.due() - std::chrono::steady_clock::now()));
@@ -81,8 +87,7 @@ void TickLoop::makeTick() {
   stopwatch_.summarize(end);
 }
 
-void TickLoop::noteLateness(TickPace::Time now) {
-  const bool late = now - pace_.due() > pace_.period();
+void TickLoop::noteLateness(bool late) {
   health_.noteLateness(late);
   if (late) ledger_.count("tick.late");
 }

@@ -59,7 +59,7 @@ class TickLoop {
   void takeTransforms(const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher,
                       const Moment& received);
   void makeTick();
-  void noteLateness(TickPace::Time now);
+  void noteLateness(bool late);
   void act(const std::shared_ptr<const Tick>& tick);
 
   ros::NodeHandle node_;

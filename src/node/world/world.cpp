@@ -258,7 +258,10 @@ std::shared_ptr<const Tick> World::tick(const Moment& now) {
   tick->models = robots_.report();
   tick->frames = transforms_.table().placed();
   std::vector<SourceGap> gaps = listMissing(now, *tick);
-  if (!can_begin) return tick;
+  if (!can_begin) {
+    transforms_.news().await({}, Time(0), now.ros);  // transforms alone are no reason for the next tick
+    return tick;
+  }
 
   const auto begin = std::chrono::steady_clock::now();
   const Time time = poses_.update(now, clock_.frozen(), *tick);

@@ -12,6 +12,7 @@
 #include <chrono>
 #include <future>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -126,6 +127,9 @@ TEST_F(TheClient, ThrowsTheReasonOfARefusal) {
 }
 
 TEST_F(TheClient, ThrowsIfThereIsNoNode) {
+  for (const double wrong : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), 1e7}) {
+    EXPECT_THROW(Client("any", std::chrono::duration<double>(wrong)), std::invalid_argument) << wrong;
+  }
   Client absent(node_.space() + "/absent", std::chrono::milliseconds(200));
   try {
     absent.ask(sphere(0));
