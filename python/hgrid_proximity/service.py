@@ -14,6 +14,7 @@ import rospy
 from hgrid_proximity.errors import NoAnswer
 
 LONGEST = 1e6  # [s] longest time limit
+UNREACHABLE = "it cannot be reached"
 
 
 class Service:
@@ -99,7 +100,7 @@ class _Line:
                 raise rospy.ROSInterruptException("rospy is shutting down")
             left = deadline - time.monotonic()
             if left <= 0.0:
-                return None, "it did not answer in time" if self._found else "it does not exist"
+                return None, "it did not answer in time" if self._found else UNREACHABLE
             try:
                 return self._outcomes.get(timeout=min(left, 0.1))  # short, so that Ctrl-C ends the wait
             except queue.Empty:
@@ -124,6 +125,10 @@ class _Line:
 
     def _find(self, deadline: float):
         """Waits until the service exists."""
-        if not self._found:
+        if self._found:
+            return
+        try:
             rospy.wait_for_service(self._name, max(0.01, deadline - time.monotonic()))
-            self._found = True
+        except rospy.ROSException as error:
+            raise rospy.ROSException(UNREACHABLE) from error
+        self._found = True
