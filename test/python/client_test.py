@@ -3,6 +3,7 @@
 # SPDX-FileCopyrightText: the hgrid_proximity authors
 """The client for Python beside a running node: a robot with one moving sphere, and two obstacles."""
 import os
+import pathlib
 import signal
 import threading
 import time
@@ -188,6 +189,9 @@ class Client(unittest.TestCase):
         process = ServerProxy(rosgraph.Master("/client_test").lookupNode(NODE)).getPid("/client_test")[2]
         os.kill(process, signal.SIGSTOP)
         try:
+            while not all(stat.read_text().rpartition(")")[2].split()[0] == "T"
+                          for stat in pathlib.Path("/proc/%d/task" % process).glob("*/stat")):
+                time.sleep(0.01)
             begin = time.monotonic()
             for _ in range(2):  # with the open connection, then with a new one
                 with self.assertRaisesRegex(NoAnswer, "did not answer in time|cannot be reached"):
