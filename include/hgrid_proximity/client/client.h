@@ -60,6 +60,7 @@ class Client {
         nearest_(node + "/query_nearest", timeout),
         explain_(node + "/explain_pair", timeout) {}
 
+  ///@{
   /// Sends the request and waits for the response, which has `success = true`.
   /// @throws Refused if the node refuses the request or fails to answer it; NoAnswer if no answer comes in time
   QuerySphereResponse ask(const QuerySphereRequest& request) { return answered(sphere_, request); }
@@ -72,6 +73,7 @@ class Client {
     if (!response.success) throw Refused(response.code);
     return response;
   }
+  ///@}
 
  private:
   template <class Kind>

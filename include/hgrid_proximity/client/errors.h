@@ -24,6 +24,7 @@ class NoAnswer : public ProximityError {
 /// The node refused the request, or it failed.
 class Refused : public ProximityError {
  public:
+  /// Creates an error. @param reason  the code of the response
   explicit Refused(const Code& reason) : ProximityError(reason.name + ": " + reason.text), code(reason) {}
   Code code;  ///< the reason, as a number, as a word and as a sentence for people
 };
