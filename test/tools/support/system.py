@@ -18,7 +18,7 @@ sys.path.insert(0, str(ROOT / "tools"))
 
 from hgrid_doctor.observe.connection import Connection  # noqa: E402  (the path comes first)
 
-PATIENCE = 20.0  # [s] timeout for everything that a test waits for
+PATIENCE = 100.0  # [s] timeout for everything that a test waits for
 ARM = (ROOT / "demo/six_axis_arm.urdf").read_text()
 ARM_SRDF = (ROOT / "demo/six_axis_arm.srdf").read_text()
 ARM_JOINTS = ["joint_%d" % number for number in range(1, 7)]
