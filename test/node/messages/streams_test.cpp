@@ -139,6 +139,11 @@ TEST(Streams, TwoNodesSayTheSameOfTheSameWorldByteForByte) {
   const auto of_one = one.waitForPairs("the world is complete", complete);
   const auto of_other = other.waitForPairs("the world is complete", complete);
   EXPECT_GT(of_one->total, 30u);
+  EXPECT_EQ(of_one->total, of_other->total);
+  EXPECT_EQ(of_one->names, of_other->names);
+  EXPECT_EQ(of_one->margin, of_other->margin);
+  EXPECT_EQ(of_one->gap, of_other->gap);
+  EXPECT_EQ(of_one->state, of_other->state);
   EXPECT_EQ(bytesOf(*of_one), bytesOf(*of_other));
 }
 
