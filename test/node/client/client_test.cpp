@@ -160,8 +160,8 @@ TEST_F(TheClient, ThrowsInTimeIfTheNodeHangs) {
   };
   EXPECT_TRUE(hitsSoon());
   ASSERT_EQ(kill(node_.process().pid(), SIGSTOP), 0);
-  siginfo_t stopped;
-  ASSERT_EQ(waitid(P_PID, static_cast<id_t>(node_.process().pid()), &stopped, WSTOPPED), 0);  // until all threads have
+  siginfo_t stopped;  // waitid() returns when all threads of the node have stopped
+  ASSERT_EQ(waitid(P_PID, static_cast<id_t>(node_.process().pid()), &stopped, WSTOPPED), 0);
   const auto begin = Clock::now();
   for (int i = 0; i < 3; ++i) EXPECT_THROW(hasty.ask(sphere(0)), NoAnswer);
   EXPECT_LT(Clock::now() - begin, std::chrono::seconds(20));
