@@ -49,6 +49,20 @@ void checkBody(const Body& body) {
   }
 }
 
+/// Returns whether a new obstacle is the old one at another place, so that its pairs continue. It must be fixed: the pose
+/// of another obstacle may be unknown until its frame is found, so it becomes a new body.
+bool isSameElsewhere(const Body& before, const Body& after) {
+  const auto isObstacle = [](const Body& body) {
+    return body.kind == BodyKind::obstacle && body.mobility == Mobility::fixed;
+  };
+  const auto isSameShape = [](const BodyShape& a, const BodyShape& b) {
+    return a.solid && a.solid == b.solid && a.padding == b.padding &&
+           a.body_from_shape.matrix() == b.body_from_shape.matrix();
+  };
+  return isObstacle(before) && isObstacle(after) && before.frame == after.frame && before.margin == after.margin &&
+         std::equal(before.shapes.begin(), before.shapes.end(), after.shapes.begin(), after.shapes.end(), isSameShape);
+}
+
 }  // namespace
 
 const char* name(Freshness state) {
@@ -129,9 +143,9 @@ void Scene::State::checkIn(const std::vector<std::uint32_t>& leaving, const std:
 
 /// Returns slots for the bodies to be added: first the slots of the bodies to be removed, then free slots, then new
 /// slots.
-std::vector<std::uint32_t> Scene::State::slotsFor(const std::vector<BodyId>& out, std::size_t count) const {
+std::vector<std::uint32_t> Scene::State::slotsFor(const std::vector<std::uint32_t>& leaving, std::size_t count) const {
   std::vector<std::uint32_t> numbers;
-  for (auto id = out.rbegin(); id != out.rend() && numbers.size() < count; ++id) numbers.push_back(id->slot);
+  for (auto slot = leaving.rbegin(); slot != leaving.rend() && numbers.size() < count; ++slot) numbers.push_back(*slot);
   for (auto number = free_slots.rbegin(); number != free_slots.rend() && numbers.size() < count; ++number) {
     numbers.push_back(*number);
   }
@@ -177,21 +191,39 @@ void Scene::State::putIn(std::uint32_t slot, std::shared_ptr<const Body>&& body)
 
 std::vector<BodyId> Scene::exchange(const std::vector<BodyId>& out, std::vector<Body> in) {
   State& s = *state_;
-  s.checkIn(s.checkedSlots(out), in);
-  const std::vector<std::uint32_t> numbers = s.slotsFor(out, in.size());
-  std::map<std::string, std::uint32_t> names;
-  for (std::size_t i = 0; i < in.size(); ++i) names.emplace(in[i].name, numbers[i]);
+  std::vector<std::uint32_t> leaving = s.checkedSlots(out);
+  s.checkIn(leaving, in);
   std::vector<BodyId> ids(in.size());
+  std::vector<std::size_t> entering;   // the bodies of `in` that need a slot; the others keep the one they have
+  std::vector<std::uint32_t> staying;  // the slots of the others
+  for (std::size_t i = 0; i < in.size(); ++i) {
+    const auto known = s.slot_of_name.find(in[i].name);
+    if (known == s.slot_of_name.end() || !isSameElsewhere(*s.bodies[known->second], in[i])) {
+      entering.push_back(i);
+      continue;
+    }
+    ids[i] = {known->second, s.slots[known->second].generation};
+    staying.push_back(known->second);
+  }
+  std::sort(staying.begin(), staying.end());
+  const auto stays = [&](std::uint32_t slot) { return std::binary_search(staying.begin(), staying.end(), slot); };
+  leaving.erase(std::remove_if(leaving.begin(), leaving.end(), stays), leaving.end());
+  const std::vector<std::uint32_t> numbers = s.slotsFor(leaving, entering.size());
+  std::map<std::string, std::uint32_t> names;
+  for (std::size_t i = 0; i < entering.size(); ++i) names.emplace(in[entering[i]].name, numbers[i]);
   const std::size_t last = numbers.empty() ? 0 : *std::max_element(numbers.begin(), numbers.end()) + std::size_t{1};
   s.reserveSlots(std::max(s.slots.size(), last));
   std::vector<std::shared_ptr<const Body>> shared;
   for (Body& body : in) shared.push_back(std::make_shared<const Body>(std::move(body)));
   // The code below allocates no memory, so it cannot fail.
-  for (const BodyId id : out) s.takeOut(id.slot);
+  for (const std::uint32_t slot : leaving) s.takeOut(slot);
   s.slot_of_name.merge(names);
-  for (std::size_t i = 0; i < in.size(); ++i) {
-    s.putIn(numbers[i], std::move(shared[i]));
-    ids[i] = {numbers[i], s.slots[numbers[i]].generation};
+  for (std::size_t i = 0; i < entering.size(); ++i) {
+    s.putIn(numbers[i], std::move(shared[entering[i]]));
+    ids[entering[i]] = {numbers[i], s.slots[numbers[i]].generation};
+  }
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (shared[i]) s.bodies[ids[i].slot] = std::move(shared[i]);  // it stays
   }
   s.bodies_changed = s.bodies_changed || !out.empty() || !ids.empty();
   s.structure_changed = s.structure_changed || s.bodies_changed;

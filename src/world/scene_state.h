@@ -73,7 +73,7 @@ struct Scene::State {
 
   std::vector<std::uint32_t> checkedSlots(const std::vector<BodyId>& out);
   void checkIn(const std::vector<std::uint32_t>& leaving, const std::vector<Body>& in) const;
-  std::vector<std::uint32_t> slotsFor(const std::vector<BodyId>& out, std::size_t count) const;
+  std::vector<std::uint32_t> slotsFor(const std::vector<std::uint32_t>& leaving, std::size_t count) const;
   void reserveSlots(std::size_t count);
   void takeOut(std::uint32_t slot);
   void putIn(std::uint32_t slot, std::shared_ptr<const Body>&& body);

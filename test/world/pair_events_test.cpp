@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include <gtest/gtest.h>
 
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "test/support/events.h"
 #include "test/support/models.h"
 #include "test/support/scenes.h"
@@ -256,6 +257,58 @@ TEST_F(PairEvents, OfASnapshotStayWhatTheyWere) {
   }
   EXPECT_EQ(eventsOf(*first), Events({"1 BEGIN BODIES obstacle/a obstacle/b"}));
   EXPECT_EQ(eventsOf(*second), Events({"2 END BODIES obstacle/a obstacle/b"}));
+}
+
+TEST_F(PairEvents, OfAFixedObstacleGoOnIfItIsExchangedForItselfAtAnotherPlace) {
+  Body table = test::ball("table", 0.5, Mobility::fixed);
+  table.shapes[0].solid = makeCoreNarrowPhase()->solidOf(table.shapes[0].shape);
+  BodyId id = test::put(scene_, table, at(1.05));
+  put("a", 0);
+  EXPECT_EQ(next(), Events({"1 BEGIN MOVED obstacle/a obstacle/table"}));
+  table.frame_from_body = at(-1.05);
+  ASSERT_EQ(scene_.exchange({id}, {table}), std::vector<BodyId>{id});
+  place(id, -1.05);
+  EXPECT_EQ(next(), Events()) << "it went to the other side within one tick";
+  EXPECT_EQ(snapshot_->structure().bodies[1].frame_from_body.translation().x(), -1.05);
+  ASSERT_EQ(snapshot_->pairs().size(), 1u);
+
+  Body other = table;
+  other.shapes[0].solid = makeCoreNarrowPhase()->solidOf(other.shapes[0].shape);
+  const BodyId replaced = scene_.exchange({id}, {other}).front();
+  EXPECT_NE(replaced, id) << "another solid may be another shape";
+  place(replaced, -1.05);
+  EXPECT_EQ(next().size(), 2u) << "END and BEGIN";
+  const BodyId moving = scene_
+                            .exchange({replaced}, {[&] {
+                                        other.mobility = Mobility::moving;
+                                        return other;
+                                      }()})
+                            .front();
+  EXPECT_NE(moving, replaced) << "the pose of a body that can move may not be known";
+}
+
+/// Claim: bodies that keep their slots and bodies that get other slots can be in one exchange.
+TEST_F(PairEvents, OfManyFixedObstaclesGoOnIfOnlySomeAreReplaced) {
+  const auto phase = makeCoreNarrowPhase();
+  std::vector<Body> tables;
+  std::vector<BodyId> ids;
+  for (int i = 0; i < 6; ++i) {
+    tables.push_back(test::ball("t" + std::to_string(i), 0.25, Mobility::fixed));
+    tables.back().shapes[0].solid = phase->solidOf(tables.back().shapes[0].shape);
+    ids.push_back(test::put(scene_, tables.back(), at(i)));
+  }
+  put("a", 2.5);
+  EXPECT_EQ(next().size(), 2u);  // it is near t2 and t3
+  std::vector<Body> in{tables[5], test::ball("new", 0.25, Mobility::fixed), tables[2], tables[1]};
+  const std::vector<BodyId> now = scene_.exchange({ids[1], ids[2], ids[3], ids[5]}, in);
+  EXPECT_EQ(now[0], ids[5]);
+  EXPECT_EQ(now[2], ids[2]);
+  EXPECT_EQ(now[3], ids[1]);
+  EXPECT_EQ(scene_.size(), 6u);
+  for (std::size_t i = 0; i < in.size(); ++i) EXPECT_EQ(scene_.body(now[i]).name, in[i].name);
+  place(now[1], 3);
+  EXPECT_EQ(next(), Events({"3 END BODIES obstacle/a obstacle/t3", "4 BEGIN MOVED obstacle/a obstacle/new"}));
+  EXPECT_EQ(snapshot_->pairs().size(), 2u);
 }
 
 }  // namespace

@@ -80,8 +80,8 @@ class Scene {
   BodyId add(Body body);
   /// Removes a body. @throws Refusal unknown_id if the handle is not valid (any more)
   void remove(BodyId id);
-  /// Removes the bodies `out` and adds the bodies `in`. Does all of this or, if it throws, nothing. An added body may
-  /// have the name of a removed one.
+  /// Removes the bodies `out` and adds the bodies `in`, or throws and does nothing. An added body may have the name of a
+  /// removed one. Two fixed obstacles that differ only in their poses are the same body, so its handle stays valid.
   /// @returns the handles of the added bodies, in the order of `in`
   /// @throws Refusal unknown_id for a handle, dup_id if a handle occurs twice, or any Refusal of add()
   std::vector<BodyId> exchange(const std::vector<BodyId>& out, std::vector<Body> in);
