@@ -106,6 +106,8 @@ class Words {
         return "the links are adjacent: " + what_.rule.reason;
       case Origin::srdf:
         return "the SRDF disables the pair" + because();
+      case Origin::attached:
+        return what_.rule.first + " may touch '" + printable(what_.rule.second) + "' because " + what_.rule.reason;
       default:
         return theRule("rule") + " allows them to touch" + because();
     }

@@ -40,8 +40,10 @@ void RuleBook::add(const std::vector<PairRule>& rules) {
     }
     kept.push_back(std::move(*rule));
   }
-  if (kept.size() > most_) {
-    throw Refusal(Code::limit, "there would be " + std::to_string(kept.size()) +
+  const auto is_counted = [](const PairRule& rule) { return rule.origin != Origin::attached; };
+  const auto count = std::count_if(kept.begin(), kept.end(), is_counted);
+  if (static_cast<std::size_t>(count) > most_) {
+    throw Refusal(Code::limit, "there would be " + std::to_string(count) +
                                    " rules, including the configured ones; at most " + std::to_string(most_) +
                                    " are allowed (max_rules)");
   }
@@ -57,12 +59,14 @@ void RuleBook::remove(const std::vector<PairRule>& rules) {
   for (const PairRule& rule : rules) {
     wanted.insert(namesOf(rule));
     if (given.count(namesOf(rule)) != 0) continue;
-    const bool configured = std::any_of(rules_.begin(), rules_.end(),
-                                        [&](const PairRule& other) { return namesOf(other) == namesOf(rule); });
+    const auto other = std::find_if(rules_.begin(), rules_.end(),
+                                    [&](const PairRule& known) { return namesOf(known) == namesOf(rule); });
+    if (other == rules_.end()) {
+      throw Refusal(Code::unknown_id, "there is no rule " + shown(rule) + "; only an existing rule can be removed");
+    }
+    const char* why = other->origin == Origin::attached ? "belongs to an attached obstacle" : "was configured";
     throw Refusal(Code::unknown_id,
-                  configured ? "rule " + shown(rule) +
-                                   " was configured and cannot be removed; add the same rule with allowed = false"
-                             : "there is no rule " + shown(rule) + "; only an existing rule can be removed");
+                  "rule " + shown(rule) + " " + why + " and cannot be removed; add the same rule with allowed = false");
   }
   const auto unwanted = [&](const PairRule& rule) {
     return rule.origin == Origin::service && wanted.count(namesOf(rule)) != 0;

@@ -109,5 +109,18 @@ TEST(RuleBook, RefusesWhatIsNoRuleAndKeepsTheOthersOut) {
   EXPECT_TRUE(book.rules().empty());
 }
 
+TEST(RuleBook, LeavesTheRulesOfAttachedObstaclesAlone) {
+  PairRule held = allow("part", "hand");
+  held.origin = Origin::attached;
+  RuleBook book({held}, 1);
+  book.add({allow("a", "b")});  // the rule of the attached obstacle does not count
+  EXPECT_EQ(book.rules().size(), 2u);
+  EXPECT_EQ(refusalOf([&] { book.add({allow("c", "d")}); }), Code::limit);
+  EXPECT_EQ(refusalOf([&] { book.remove({held}); }), Code::unknown_id);
+  book.remove({allow("a", "b")});
+  ASSERT_EQ(book.rules().size(), 1u);
+  EXPECT_EQ(book.rules()[0].origin, Origin::attached);
+}
+
 }  // namespace
 }  // namespace hgrid
