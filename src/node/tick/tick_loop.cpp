@@ -13,6 +13,7 @@ namespace {
 // Share of the tick period that may be spent on transforms. It is limited, because a flood of transforms must not stop
 // the ticks.
 constexpr double kShareForTransforms = 0.5;
+constexpr std::chrono::seconds kPatience{10};  // how long a change waits for the tick that shows it
 
 }  // namespace
 
@@ -52,12 +53,27 @@ std::chrono::nanoseconds TickLoop::work() {
 }
 
 std::shared_ptr<const Tick> TickLoop::tickAfter(const TickJobs::Job& job) {
-  jobs_.run(job);
-  // `job` runs at the beginning of a tick, before newest() returns this tick. The second job runs at the beginning of a
-  // later tick. At this time, the tick of `job` has been published.
-  const auto tick = std::make_shared<std::shared_ptr<const Tick>>();  // shared: run() may end before the job is done
-  jobs_.run([this, tick](World&) { *tick = newest(); });
-  return *tick;
+  struct Ticks {
+    std::shared_ptr<const Tick> before, after;
+  };
+  const auto ticks = std::make_shared<Ticks>();  // shared: run() may end before the job is done
+  jobs_.run([this, job, ticks](World& world) {
+    ticks->before = newest();
+    job(world);
+  });
+  // `job` runs at the beginning of a tick, before newest() returns this tick. The job below runs at the beginning of a
+  // later tick. At this time, the tick of `job` has been published, unless it failed. Then the next tick is asked.
+  const auto deadline = std::chrono::steady_clock::now() + kPatience;
+  try {
+    while (std::chrono::steady_clock::now() < deadline) {
+      jobs_.run([this, ticks](World&) { ticks->after = newest(); });
+      if (ticks->after != ticks->before) return ticks->after;
+    }
+  } catch (const Refusal& refusal) {
+    if (refusal.code() != Code::busy) throw;
+  }
+  throw Refusal(Code::busy,
+                "the change was made, but no tick has shown it in time; look at the world before you repeat it");
 }
 
 void TickLoop::takeTransforms(const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher,

@@ -52,7 +52,8 @@ class TickLoop {
   /// Returns the newest tick, or null before the first tick. Any thread may call this.
   std::shared_ptr<const Tick> newest() const { return std::atomic_load(&newest_); }
   /// Does a job at the beginning of a tick, waits until that tick is published, and returns that tick. Any thread
-  /// except the tick thread may call this. @throws the same as TickJobs::run()
+  /// except the tick thread may call this. @throws the same as TickJobs::run(); Refusal busy if the job was done, but
+  /// no tick was published in time, and its sentence says so
   std::shared_ptr<const Tick> tickAfter(const TickJobs::Job& job);
 
  private:
