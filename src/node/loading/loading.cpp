@@ -15,8 +15,9 @@ Loading::Loading(ros::NodeHandle node, const ros::NodeHandle& private_node, Comm
       transforms_(transforms),
       newest_(std::move(newest)),
       jobs_(jobs),
+      is_ending_(std::move(is_ending)),
       self_shapes_(commons.settings.params, transforms, newest_),
-      robot_source_(private_node, commons.settings.params, commons.narrow_phase, std::move(is_ending)),
+      robot_source_(private_node, commons.settings.params, commons.narrow_phase, is_ending_),
       map_source_(commons.settings.params, self_shapes_, commons.narrow_phase, commons.ledger),
       robots_(robot_source_, commons.settings.params, jobs, commons.health),
       maps_(node_, commons.settings.params, map_source_, jobs, commons.ledger) {}

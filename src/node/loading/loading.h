@@ -39,6 +39,8 @@ class Loading {
   RobotLoader& robots() { return robots_; }
   MapLoader& maps() { return maps_; }
   const MapSource& mapSource() const { return map_source_; }
+  /// Returns the function `is_ending` of the constructor.
+  const std::function<bool()>& isEnding() const { return is_ending_; }
 
  private:
   void startCloud(const CloudParams& cloud);
@@ -48,6 +50,7 @@ class Loading {
   const TransformLookup& transforms_;
   NewestTick newest_;
   TickJobs& jobs_;
+  const std::function<bool()> is_ending_;
   SelfShapes self_shapes_;
   RobotSource robot_source_;
   MapSource map_source_;

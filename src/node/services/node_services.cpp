@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "node/sources/mesh_policy.h"
+
 namespace hgrid {
 
 NodeServices::NodeServices(const ros::NodeHandle& query_node, const ros::NodeHandle& admin_node, Commons& commons,
@@ -17,6 +19,8 @@ NodeServices::NodeServices(const ros::NodeHandle& query_node, const ros::NodeHan
       allowed_(changes_, commons.settings.params, change_world),
       maps_(changes_, loading.mapSource(), change_world,
             [&loading](const std::string& map) { loading.maps().forget(map); }),
+      obstacles_(changes_, commons.settings.params, commons.narrow_phase,
+                 meshPolicy(commons.settings.params, loading.isEnding()), change_world),
       reset_(changes_, change_world, stopwatch),
       reload_(
           changes_, [&loading](const std::string& robot) { return loading.robots().reload(robot); }, change_world) {}

@@ -9,6 +9,7 @@
 #include "node/services/allowed_services.h"
 #include "node/services/explain_service.h"
 #include "node/services/map_services.h"
+#include "node/services/obstacle_service.h"
 #include "node/services/query_services.h"
 #include "node/services/reload_service.h"
 #include "node/services/reset_service.h"
@@ -33,6 +34,7 @@ class NodeServices {
   ExplainService explain_;
   AllowedServices allowed_;
   MapServices maps_;
+  ObstacleService obstacles_;
   ResetService reset_;
   ReloadService reload_;
 };

@@ -21,6 +21,13 @@ namespace {
 
 constexpr std::size_t kMostPatterns = 256, kLongestPattern = 512;  // patterns in a request; bytes in a pattern
 
+/// Whether a body is an obstacle that is attached to a link.
+bool isCarried(const Structure& structure, const std::string& body) {
+  const std::vector<PairRule>& rules = structure.filter.rules();
+  return std::any_of(rules.begin(), rules.end(),
+                     [&](const PairRule& rule) { return rule.origin == Origin::attached && rule.first == body; });
+}
+
 msg::Hit toMsg(const QueryHit& source, const Snapshot& snapshot, const Pose& frame_from_world, double age_since) {
   msg::Hit hit;
   hit.name = snapshot.structure().bodies[source.body].name;
@@ -39,6 +46,7 @@ msg::Hit toMsg(const QueryHit& source, const Snapshot& snapshot, const Pose& fra
   hit.state = static_cast<std::uint8_t>(pose.state);
   const bool fixed = snapshot.structure().bodies[source.body].mobility == Mobility::fixed;
   hit.age = fixed ? 0.0 : pose.age + age_since;
+  hit.carried = isCarried(snapshot.structure(), hit.name);
   return hit;
 }
 

@@ -2,64 +2,20 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/sources/robot_source.h"
 
-#include <dlfcn.h>
-#include <ros/package.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <set>
-#include <sstream>
 
 #include "hgrid_proximity/adapters/mesh.h"
 #include "hgrid_proximity/adapters/srdf.h"
 #include "hgrid_proximity/adapters/urdf.h"
 #include "hgrid_proximity/bodies/name.h"
 #include "node/sources/body_params.h"
+#include "node/sources/mesh_policy.h"
 #include "node/tf/frame_names.h"
 
 namespace hgrid {
 namespace {
-
-/// Returns the path of the helper executable that reads meshes. It is in the folder hgrid_proximity/, which is next to
-/// this library.
-std::string meshReader() {
-  Dl_info info{};
-  const auto here = reinterpret_cast<void*>(&meshReader);
-  std::string library = dladdr(here, &info) != 0 && info.dli_fname != nullptr ? info.dli_fname : "";
-  if (char* resolved = realpath(library.c_str(), nullptr)) {
-    library = resolved;
-    std::free(resolved);
-  }
-  return library.substr(0, library.find_last_of('/')) + "/hgrid_proximity/proximity_mesh_reader";
-}
-
-/// Returns the folders in which file:// may read files: the folders of ROS_PACKAGE_PATH and ~mesh_roots.
-std::vector<std::string> fileRoots(const Params& params) {
-  std::vector<std::string> roots = params.mesh_roots;
-  const char* path = std::getenv("ROS_PACKAGE_PATH");
-  std::istringstream folders(path == nullptr ? "" : path);
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    if (!folder.empty()) roots.push_back(folder);
-  }
-  return roots;
-}
-
-constexpr int kMeshTimeouts = 4;  // all mesh files of a robot together have this many times the timeout of one file
-
-MeshPolicy meshPolicy(const Params& params, const std::function<bool()>& cancelled) {
-  MeshPolicy policy;
-  policy.cancelled = cancelled;
-  policy.reader = meshReader();
-  policy.resources.package_path = [](const std::string& package) { return ros::package::getPath(package); };
-  policy.resources.file_roots = fileRoots(params);
-  policy.resources.max_bytes = static_cast<std::size_t>(params.max_mesh_bytes);
-  policy.max_triangles = static_cast<std::size_t>(params.max_mesh_triangles);
-  policy.timeout = std::chrono::milliseconds(std::llround(1e3 * params.mesh_timeout));
-  policy.total = kMeshTimeouts * policy.timeout;
-  policy.max_memory = static_cast<std::size_t>(params.mesh_memory);
-  return policy;
-}
 
 std::string noteOf(const RobotLink& link) {
   std::string note;
@@ -180,6 +136,7 @@ LoadedRobot RobotSource::load(const RobotParams& params, const RobotDescription&
     const RobotLink& link = model.links[i];
     if (cancelled_())
       throw Refusal(Code::busy, "robot '" + params.name + "' was not loaded, because the node is shutting down");
+    robot.links[joined(robot.name, link.name)] = {link.rigid_group, link.group_from_link};
     if (!link.hasGeometry()) {
       robot.without_collision.push_back(joined(robot.name, link.name));
       continue;

@@ -5,6 +5,7 @@
 #include <ros/node_handle.h>
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -25,10 +26,17 @@ struct LoadedRobot {
     std::vector<std::pair<std::size_t, Pose>> members;  // index into `bodies`, and pose of that body in the frame
   };
 
+  /// The place of a link in its group.
+  struct Seat {
+    std::size_t group = 0;  // index into `groups`
+    Pose frame_from_link = Pose::Identity();
+  };
+
   std::string name;
   std::string root_frame;
   std::vector<Body> bodies;  // one body for each link that has geometry
   std::vector<Group> groups;
+  std::map<std::string, Seat> links;           // all links, by the name that their body has or would have
   std::vector<std::string> without_collision;  // names of the other links
   std::vector<std::string> uses_visual;        // names of the bodies whose shapes are the link's visual geometry
   std::string gap;                             // why the robot as a whole is incomplete; empty: it is complete

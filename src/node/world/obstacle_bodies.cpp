@@ -2,31 +2,56 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/world/obstacle_bodies.h"
 
+#include <algorithm>
+#include <optional>
+#include <set>
 #include <utility>
+#include <vector>
 
+#include "hgrid_proximity/bodies/name.h"
 #include "node/sources/body_params.h"
 
 namespace hgrid {
+namespace {
+
+/// Returns when a lifetime ends that begins now. Time::max(): never
+Time endOf(const RequestedObstacle& obstacle, Time now) {
+  if (obstacle.lifetime == std::chrono::nanoseconds(0)) return Time::max();
+  return obstacle.lifetime > Time::max() - now ? Time::max() : now + obstacle.lifetime;
+}
+
+}  // namespace
 
 ObstacleBodies::ObstacleBodies(const Params& params, std::shared_ptr<NarrowPhase> narrow_phase, Ledger& ledger)
     : params_(params), narrow_phase_(std::move(narrow_phase)), ledger_(ledger) {}
 
-Body ObstacleBodies::bodyOf(const ObstacleParams& configured, const std::string& world_frame) const {
-  Body body = configured.body;
-  if (body.frame.empty()) body.frame = world_frame;
-  body.mobility = body.frame == world_frame ? Mobility::fixed : Mobility::moving;
-  applyMaxSpeed(params_, body);
-  applyPatterns(params_, body);
-  makeSolids(*narrow_phase_, body);
-  return body;
+void ObstacleBodies::startAgain() noexcept {
+  done_ = 0;
+  present_.clear();
+  touch_.rules.clear();
+  ++touch_.revision;
+  first_end_ = Time::max();
 }
 
 void ObstacleBodies::addAll(const std::string& world_frame, Movers& movers, MissingSources& missing) {
   while (done_ < params_.obstacles.size()) {
-    const ObstacleParams& configured = params_.obstacles[done_];
-    const SourceId source = SourceId::ofObstacle(configured.body.name);
+    const Body& configured = params_.obstacles[done_].body;
+    const SourceId source = SourceId::ofObstacle(configured.name);
     try {
-      movers.add(source, bodyOf(configured, world_frame));
+      auto what = std::make_shared<RequestedObstacle>();
+      what->body = configured;
+      applyMaxSpeed(params_, what->body);
+      applyPatterns(params_, what->body);
+      makeSolids(*narrow_phase_, what->body);
+      what->place = {configured.frame, configured.frame_from_body, std::nullopt};
+      Obstacles added;
+      PlacedObstacle& obstacle = added[configured.name];
+      obstacle.what = what;
+      obstacle.asked = what->place;
+      obstacle.frame = configured.frame.empty() ? world_frame : configured.frame;
+      obstacle.frame_from_body = configured.frame_from_body;
+      movers.add(source, bodyOf(obstacle, world_frame));
+      present_.merge(added);  // does not throw
       ++done_;
     } catch (const Refusal& refusal) {
       missing.set(source, std::string(name(refusal.code())) + " " + refusal.what());
@@ -34,6 +59,191 @@ void ObstacleBodies::addAll(const std::string& world_frame, Movers& movers, Miss
       ledger_.refuse("obstacles.refused", refusal);
     }
   }
+}
+
+const PlacedObstacle* ObstacleBodies::find(const Edits& edits, const std::string& name) const {
+  if (edits.removed.count(name) != 0) return nullptr;
+  const auto edit = edits.set.find(name);
+  if (edit != edits.set.end()) return &edit->second;
+  const auto found = present_.find(name);
+  return found == present_.end() ? nullptr : &found->second;
+}
+
+const PlacedObstacle& ObstacleBodies::known(const std::string& name, const Edits& edits) const {
+  const PlacedObstacle* found = find(edits, name);
+  if (found == nullptr) throw Refusal(Code::unknown_id, "there is no body '" + printable(name) + "'");
+  return *found;
+}
+
+/// Returns the obstacle that a change adds, or the present one if it is equal.
+PlacedObstacle ObstacleBodies::added(const ObstacleChange& change, const Edits& edits,
+                                     const Surroundings& around) const {
+  PlacedObstacle next;
+  next.what = change.added;
+  next.owner = change.added->owner;
+  const PlacedObstacle* old = find(edits, change.name);
+  const bool is_same = old != nullptr && !old->attachment && isSame(*old->what, *next.what);
+  // The transform for an old stamp may be forgotten, so a repeated request is not placed again.
+  const bool is_repeated = is_same && isSame(old->asked, change.added->place);
+  if (!is_repeated) put(next, change.added->place, around);
+  if (old == nullptr) return next;
+  if (is_repeated || (is_same && isAtSamePlace(*old, next))) {
+    next = *old;
+    next.owner = change.added->owner;
+  } else if (!change.replace) {
+    throw Refusal(Code::dup_id, "there is another body '" + printable(change.name) +
+                                    "' already; remove it first, or set replace = true");
+  }
+  return next;
+}
+
+/// Returns the obstacle after a change. @throws Refusal
+PlacedObstacle ObstacleBodies::changed(const ObstacleChange& change, const Edits& edits,
+                                       const Surroundings& around) const {
+  using Kind = ObstacleChange::Kind;
+  PlacedObstacle next = change.kind == Kind::add ? added(change, edits, around) : known(change.name, edits);
+  if (change.kind == Kind::attach) attach(next, *change.attachment, around);
+  if (change.kind == Kind::detach) detach(next, around);
+  if (change.kind == Kind::move) {
+    if (next.attachment) {
+      throw Refusal(Code::conflict, "'" + printable(change.name) + "' is attached to '" +
+                                        printable(next.attachment->link) +
+                                        "'; detach it before you move it, or attach it again at another attach_pose");
+    }
+    put(next, change.place, around);
+  }
+  next.ends = endOf(*next.what, around.now);
+  return next;
+}
+
+/// Returns the rules for what may touch the attached obstacles after the edits. @throws Refusal limit
+std::vector<PairRule> ObstacleBodies::touchRulesAfter(const Edits& edits) const {
+  const auto visit = [&](const auto& act) {
+    for (const auto& [name, obstacle] : present_) {
+      if (edits.removed.count(name) == 0 && edits.set.count(name) == 0) act(name, obstacle);
+    }
+    for (const auto& [name, obstacle] : edits.set) act(name, obstacle);
+  };
+  // Links that never move relative to an obstacle do not count, so a new model of a robot cannot exceed the limit.
+  std::size_t count = 0;
+  visit([&](const std::string&, const PlacedObstacle& obstacle) {
+    count += obstacle.attachment ? obstacle.attachment->touch.size() + 1 : 0;
+  });
+  const auto most = static_cast<std::size_t>(params_.max_rules);
+  if (count > most) {
+    throw Refusal(Code::limit, "the attached obstacles would need " + std::to_string(count) +
+                                   " rules for their links and the globs in touch; at most " + std::to_string(most) +
+                                   " are allowed (~max_rules)");
+  }
+  std::vector<PairRule> rules;
+  visit([&](const std::string& name, const PlacedObstacle& obstacle) {
+    for (const std::string& other : obstacle.touch) {
+      PairRule rule{name, other, "it is attached to " + obstacle.attachment->link};
+      rule.origin = Origin::attached;
+      rules.push_back(std::move(rule));
+    }
+  });
+  return rules;
+}
+
+void ObstacleBodies::apply(const ObstacleChanges& changes, const Surroundings& around, Movers& movers) {
+  Edits edits;
+  std::set<std::string> complete_set;
+  for (std::size_t i = 0; i < changes.changes.size(); ++i) {
+    const ObstacleChange& change = changes.changes[i];
+    try {
+      if (change.kind == ObstacleChange::Kind::remove) {
+        known(change.name, edits);
+        edits.removed.insert(change.name);
+        edits.set.erase(change.name);
+        continue;
+      }
+      edits.set.insert_or_assign(change.name, changed(change, edits, around));
+      edits.removed.erase(change.name);
+      if (change.kind == ObstacleChange::Kind::add) complete_set.insert(change.name);
+    } catch (const Refusal& refusal) {
+      throw ChangeRefusal(i, refusal);
+    }
+  }
+  if (changes.complete_set_of) {
+    for (const auto& [name, obstacle] : present_) {
+      if (obstacle.owner != *changes.complete_set_of || complete_set.count(name) != 0) continue;
+      edits.removed.insert(name);
+      edits.set.erase(name);
+    }
+  }
+  carryOut(std::move(edits), around.world_frame, movers);
+}
+
+void ObstacleBodies::followRobots(const RobotModels& robots, const std::string& world_frame, Movers& movers) {
+  if (robots_revision_ == robots.revision()) return;
+  Edits edits;
+  for (const auto& [name, obstacle] : present_) {
+    if (!obstacle.attachment) continue;
+    follow(edits.set.emplace(name, obstacle).first->second, robots, params_);
+  }
+  carryOut(std::move(edits), world_frame, movers);
+  robots_revision_ = robots.revision();
+}
+
+void ObstacleBodies::expire(Time now, Movers& movers) {
+  if (now < first_end_) return;
+  Edits edits;
+  Time first_end = Time::max();
+  for (const auto& [name, obstacle] : present_) {
+    if (obstacle.ends <= now) {
+      edits.removed.insert(name);
+    } else {
+      first_end = std::min(first_end, obstacle.ends);
+    }
+  }
+  carryOut(std::move(edits), "", movers);
+  first_end_ = first_end;
+}
+
+void ObstacleBodies::restamp(Time now) noexcept {
+  for (auto& [name, obstacle] : present_) obstacle.ends = endOf(*obstacle.what, now);
+  first_end_ = now;  // the next expire() finds the right time
+}
+
+/// Changes obstacles in this object and in the movers. If only the pose of a fixed obstacle changes, the scene keeps
+/// the body and its pairs.
+void ObstacleBodies::carryOut(Edits edits, const std::string& world_frame, Movers& movers) {
+  std::set<std::string> leaving;
+  std::vector<Body> entering;
+  Time first_end = first_end_;
+  for (const std::string& name : edits.removed) {
+    if (present_.count(name) != 0) leaving.insert(name);
+  }
+  for (const auto& [name, next] : edits.set) {
+    first_end = std::min(first_end, next.ends);
+    const auto old = present_.find(name);
+    if (old != present_.end()) {
+      const bool renewed = old->second.what == next.what && old->second.frame == next.frame &&
+                           old->second.carrier_speed == next.carrier_speed &&
+                           !old->second.attachment == !next.attachment &&
+                           old->second.frame_from_body.matrix() == next.frame_from_body.matrix();
+      if (renewed) continue;
+      leaving.insert(name);
+    }
+    entering.push_back(bodyOf(next, world_frame));
+  }
+  std::vector<PairRule> touch = touchRulesAfter(edits);
+  if (!leaving.empty() || !entering.empty()) {
+    Movers::Change change = movers.changeWithout(
+        [&](const SourceId& source) { return source.kind == SourceKind::obstacle && leaving.count(source.name) != 0; });
+    for (const Body& body : entering) {
+      change.add(body.frame, SourceId::ofObstacle(body.name), body, body.frame_from_body);
+    }
+    movers.exchange(std::move(change));
+  }
+  // The code below does not allocate, so it cannot fail.
+  for (const std::string& name : edits.removed) present_.erase(name);
+  for (const auto& edit : edits.set) present_.erase(edit.first);
+  present_.merge(edits.set);
+  if (!touch.empty() || !touch_.rules.empty()) ++touch_.revision;
+  touch_.rules.swap(touch);
+  first_end_ = first_end;
 }
 
 }  // namespace hgrid

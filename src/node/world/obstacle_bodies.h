@@ -2,35 +2,76 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <map>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "hgrid_proximity/narrow/narrow_phase.h"
 #include "node/diagnostics/ledger.h"
 #include "node/params/params.h"
+#include "node/sources/obstacle_change.h"
 #include "node/world/missing_sources.h"
 #include "node/world/movers.h"
+#include "node/world/placed_obstacle.h"
+#include "node/world/robot_models.h"
+#include "node/world/rules_in_force.h"
 
 namespace hgrid {
 
-/// Adds the configured obstacles to the world, as soon as there is a world frame.
+/// The obstacles of the world: those of the parameters, and those of ~apply_obstacles.
+///
+/// A call that throws, even because memory ran out, changes nothing.
 class ObstacleBodies {
  public:
   ObstacleBodies(const Params& params, std::shared_ptr<NarrowPhase> narrow_phase, Ledger& ledger);
 
-  /// Adds the obstacles that were not added yet. A refused obstacle becomes a missing source. If this throws, the next
-  /// call continues with the obstacle that failed.
+  /// Adds the configured obstacles that were not added yet. A refused obstacle becomes a missing source. If this
+  /// throws, the next call continues with the obstacle that failed.
   void addAll(const std::string& world_frame, Movers& movers, MissingSources& missing);
-  /// Makes the next addAll() begin with the first obstacle again.
-  void startAgain() noexcept { done_ = 0; }
+  /// Forgets all obstacles, and makes the next addAll() begin with the first configured one. The bodies must have been
+  /// removed from the movers.
+  void startAgain() noexcept;
+
+  /// Applies changes, all of them or none.
+  /// @throws ChangeRefusal dup_id, unknown_id, conflict, or for a frame that is not known at the requested time
+  /// @throws Refusal limit (~max_rules), or as Scene::exchange()
+  void apply(const ObstacleChanges& changes, const Surroundings& around, Movers& movers);
+  /// Finds the places of attached obstacles again if the model of a robot was replaced since the last call.
+  void followRobots(const RobotModels& robots, const std::string& world_frame, Movers& movers);
+  /// Removes the obstacles whose lifetime has ended.
+  void expire(Time now, Movers& movers);
+  /// Lets all lifetimes begin again, after ROS time jumped.
+  void restamp(Time now) noexcept;
+  /// Returns the rules for what may touch the attached obstacles.
+  const TouchRules& touchRules() const { return touch_; }
 
  private:
-  Body bodyOf(const ObstacleParams& configured, const std::string& world_frame) const;
+  using Obstacles = std::map<std::string, PlacedObstacle>;  // by full name
+
+  /// What changes: the obstacles that are added, replaced or moved, and the names of those that are removed.
+  struct Edits {
+    Obstacles set;
+    std::set<std::string> removed;
+  };
+
+  const PlacedObstacle* find(const Edits& edits, const std::string& name) const;
+  const PlacedObstacle& known(const std::string& name, const Edits& edits) const;
+  PlacedObstacle added(const ObstacleChange& change, const Edits& edits, const Surroundings& around) const;
+  PlacedObstacle changed(const ObstacleChange& change, const Edits& edits, const Surroundings& around) const;
+  std::vector<PairRule> touchRulesAfter(const Edits& edits) const;
+  void carryOut(Edits edits, const std::string& world_frame, Movers& movers);
 
   const Params& params_;
   std::shared_ptr<NarrowPhase> narrow_phase_;
   Ledger& ledger_;
-  std::size_t done_ = 0;  // number of obstacles that were added or refused
+  Obstacles present_;
+  TouchRules touch_;
+  std::size_t done_ = 0;               // number of configured obstacles that were added or refused
+  std::uint64_t robots_revision_ = 0;  // RobotModels::revision() in the last followRobots()
+  Time first_end_ = Time::max();       // no lifetime ends before this time
 };
 
 }  // namespace hgrid

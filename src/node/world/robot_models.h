@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -22,23 +23,34 @@ class RobotModels {
     const std::string name = robot->name;
     robots_.insert_or_assign(name, std::move(robot));
     report_ = makeModelReport(robots_, params_);
+    ++revision_;
   }
   /// Returns the model of a robot, or null if the robot is not in the world.
   const LoadedRobot* find(const std::string& name) const {
     const auto known = robots_.find(name);
     return known == robots_.end() ? nullptr : known->second.get();
   }
+  /// Returns the model of the robot that has a link of this name, "robot/link"; null if no robot in the world has it.
+  const LoadedRobot* findLink(const std::string& link) const {
+    const LoadedRobot* robot = find(link.substr(0, link.find('/')));
+    return robot != nullptr && robot->links.count(link) != 0 ? robot : nullptr;
+  }
   /// Returns the report on what is missing in the models.
   const std::shared_ptr<const ModelReport>& report() const { return report_; }
+
+  /// Returns a number that increases with each change.
+  std::uint64_t revision() const { return revision_; }
 
   void swap(RobotModels& other) noexcept {
     robots_.swap(other.robots_);
     report_.swap(other.report_);
+    std::swap(revision_, other.revision_);
   }
 
  private:
   const Params& params_;
   RobotsByName robots_;
+  std::uint64_t revision_ = 0;
   std::shared_ptr<const ModelReport> report_ = std::make_shared<ModelReport>();
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -12,14 +13,27 @@
 
 namespace hgrid {
 
-/// Keeps the scene's rules for allowed pairs up to date: passes on new rules and removes expired ones.
+/// Rules for what may touch attached obstacles (Origin::attached).
+struct TouchRules {
+  std::vector<PairRule> rules;
+  std::uint64_t revision = 0;  ///< grows with each change of the rules
+};
+
+/// Keeps the scene's rules for allowed pairs up to date: passes on new rules and removes expired ones. The rules of
+/// attached obstacles come after the configured rules and before those of ~set_allowed.
 class RulesInForce {
  public:
-  /// Replaces all rules. The next apply() passes them to the scene.
+  /// Replaces all rules, apart from those of attached obstacles. The next apply() passes them to the scene.
   void set(PreparedRules rules) { next_ = std::move(rules); }
   /// Passes new rules to the scene, and removes the scene's expired rules. If this throws, the next call tries again.
-  void apply(const Moment& now, Scene& scene) {
-    if (next_) scene.setPreparedRules(*next_);
+  void apply(const Moment& now, const TouchRules& touch, Scene& scene) {
+    const std::vector<PairRule>& given = next_ ? next_->filter.rules() : scene.rules();
+    if ((next_ || touch_revision_ != touch.revision) && !has(given, touch.rules)) {
+      scene.setRules(merged(given, touch.rules));
+    } else if (next_) {
+      scene.setPreparedRules(*next_);
+    }
+    touch_revision_ = touch.revision;
     next_.reset();
     const auto has_ended = [&](const PairRule& rule) { return rule.ends <= now.steady; };
     const std::vector<PairRule>& rules = scene.rules();
@@ -30,7 +44,25 @@ class RulesInForce {
   }
 
  private:
+  static bool isTouch(const PairRule& rule) { return rule.origin == Origin::attached; }
+  /// Whether the rules of attached obstacles among `rules` are these rules.
+  static bool has(const std::vector<PairRule>& rules, const std::vector<PairRule>& touch) {
+    const auto first = std::find_if(rules.begin(), rules.end(), isTouch);
+    const auto last = std::find_if_not(first, rules.end(), isTouch);
+    return std::equal(first, last, touch.begin(), touch.end(), [](const PairRule& a, const PairRule& b) {
+      return a.first == b.first && a.second == b.second && a.reason == b.reason;
+    });
+  }
+  /// Returns `rules` with other rules of attached obstacles.
+  static std::vector<PairRule> merged(std::vector<PairRule> rules, const std::vector<PairRule>& touch) {
+    rules.erase(std::remove_if(rules.begin(), rules.end(), isTouch), rules.end());
+    const auto isAdded = [](const PairRule& rule) { return rule.origin == Origin::service; };
+    rules.insert(std::find_if(rules.begin(), rules.end(), isAdded), touch.begin(), touch.end());
+    return rules;
+  }
+
   std::optional<PreparedRules> next_;
+  std::uint64_t touch_revision_ = 0;
 };
 
 }  // namespace hgrid

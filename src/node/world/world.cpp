@@ -3,6 +3,7 @@
 #include "node/world/world.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "hgrid_proximity/refusal.h"
@@ -185,6 +186,22 @@ void World::setMissing(const SourceId& source, const std::string& sentence) {
                              : sentence);
 }
 
+void World::applyObstacles(const ObstacleChanges& changes, Time now) {
+  if (!findWorldFrame() || !clock_.running()) {
+    throw Refusal(Code::not_ready,
+                  "obstacles cannot be placed yet: " +
+                      std::string(clock_.running() ? "the world frame is not known; load the first robot or set "
+                                                     "~world_frame"
+                                                   : "there is no time yet, because nothing is published on /clock"));
+  }
+  std::set<SourceId> named;
+  for (const ObstacleChange& change : changes.changes) named.insert(SourceId::ofObstacle(change.name));
+  obstacles_.addAll(world_frame_, movers_, missing_);  // so that a change can be about a configured obstacle
+  obstacles_.apply(changes, {params_, world_frame_, transforms_.lookup(), robots_, now}, movers_);
+  // The code below does not throw. A configured obstacle that was refused is no longer missing if it was changed.
+  missing_.eraseIf([&](const SourceId& source) { return named.count(source) != 0; });
+}
+
 void World::setRules(PreparedRules rules) { rules_.set(std::move(rules)); }
 
 void World::reset() {
@@ -221,6 +238,7 @@ void World::handleClock(const Moment& now) {
     transforms_.forgetMoving();
     poses_.restamp(now, true);
   }
+  obstacles_.restamp(now.ros);
   beginEpoch();
   clock_.noteHandled();
   ledger_.refuse("clock", refusal);
@@ -247,12 +265,14 @@ std::vector<SourceGap> World::listMissing(const Moment& now, Tick& tick) const {
 std::shared_ptr<const Tick> World::tick(const Moment& now) {
   auto tick = std::make_shared<Tick>();
   handleClock(now);
-  rules_.apply(now, scene_);
   tick->made = now;
   tick->epoch = epoch_;
   const bool can_begin = findWorldFrame() && clock_.running();
   // This comes before listMissing(), because obstacles that are refused become missing sources.
   if (can_begin) obstacles_.addAll(world_frame_, movers_, missing_);
+  if (can_begin) obstacles_.followRobots(robots_, world_frame_, movers_);
+  if (can_begin) obstacles_.expire(now.ros, movers_);
+  rules_.apply(now, obstacles_.touchRules(), scene_);
   needFrames(now);
   tick->world_frame = world_frame_;
   tick->models = robots_.report();

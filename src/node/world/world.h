@@ -68,6 +68,10 @@ class World {
   void setMissing(const SourceId& source, const std::string& sentence);
   /// Replaces all rules for allowed pairs, from the next tick on. Expired rules are removed automatically.
   void setRules(PreparedRules rules);
+  /// Applies changes of obstacles, all of them or none.
+  /// @param now  current ROS time
+  /// @throws Refusal not_ready (no world frame yet), or as ObstacleBodies::apply()
+  void applyObstacles(const ObstacleChanges& changes, Time now);
   /// Restores the configured obstacles, sets all counters to 0 and begins a new epoch. Rules stay.
   void reset();
 

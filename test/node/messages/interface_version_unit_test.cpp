@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <hgrid_proximity/AllowedPair.h>
 #include <hgrid_proximity/Answer.h>
+#include <hgrid_proximity/ApplyObstacles.h>
 #include <hgrid_proximity/Bodies.h>
 #include <hgrid_proximity/Body.h>
 #include <hgrid_proximity/BodyStatus.h>
@@ -89,6 +90,7 @@ const std::vector<Pin>& pins() {
       message<msg::Status>("Status", "41f51c48148bba2d1fb628ca278e5861"),
       message<msg::Timing>("Timing", "ffa7e14ed99c15133b8734e32bdf8366"),
       message<msg::WorldState>("WorldState", "6e7f0e7ad23b6a55d3f532ba2a769931"),
+      service<msg::ApplyObstacles>("ApplyObstacles", "866281fcb5f4d153a9af06a3aa891c60"),
       service<msg::ClearMap>("ClearMap", "aa94ec5cc4241768d88da962bc4cdb11"),
       service<msg::ExplainPair>("ExplainPair", "7f877c8d05130f963b17495385f7f1f0"),
       service<msg::GetAllowed>("GetAllowed", "a7c3ddc68c8114168a385cee5844a3f2"),

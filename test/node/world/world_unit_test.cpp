@@ -50,6 +50,7 @@ LoadedRobot armOf(const std::string& name, double margin) {
     } else {
       robot.groups.push_back({name + "_" + robot.bodies[i].frame, {{i, Pose::Identity()}}});
     }
+    robot.links[robot.bodies[i].name] = {robot.groups.size() - 1, robot.groups.back().members.back().second};
   }
   robot.warnings = {"of margin " + std::to_string(margin)};
   return robot;
@@ -96,6 +97,39 @@ Step settingCloud(double time, unsigned seed) {
 }
 Step settingRules(const std::vector<PairRule>& rules) {
   return {"setRules", [=](World& world, Ticks&) { world.setRules({PairFilter({}, {}, rules), 0}); }};
+}
+ObstacleChange adding(const std::string& name, double x, double lifetime = 0.0) {
+  auto added = std::make_shared<RequestedObstacle>();
+  added->body = test::ball(name, 0.1);
+  added->place.frame_from_body = test::at(x);
+  added->owner = "a program with a long name";
+  added->lifetime = std::chrono::nanoseconds(std::int64_t(1e9 * lifetime));
+  return {ObstacleChange::Kind::add, added->body.name, added, false, {}, nullptr};
+}
+ObstacleChange moving(const std::string& name, double x) {
+  ObstacleChange change{ObstacleChange::Kind::move, "obstacle/" + name, nullptr, false, {}, nullptr};
+  change.place.frame_from_body = test::at(x);
+  return change;
+}
+ObstacleChange attaching(const std::string& name, const std::string& link) {
+  auto attachment = std::make_shared<Attachment>();
+  attachment->link = link;
+  attachment->link_from_body = test::at(0.1);
+  attachment->touch = {"arm/*", "obstacle/a name that needs memory of its own"};
+  return {ObstacleChange::Kind::attach, "obstacle/" + name, nullptr, false, {}, attachment};
+}
+ObstacleChange without(ObstacleChange::Kind kind, const std::string& name) {
+  return {kind, "obstacle/" + name, nullptr, false, {}, nullptr};
+}
+Step applying(const std::vector<ObstacleChange>& changes, const Moment& now, bool complete_set = false) {
+  ObstacleChanges all{changes, std::nullopt};
+  if (complete_set) all.complete_set_of = "a program with a long name";
+  return {"applyObstacles", [=](World& world, Ticks&) {
+            try {
+              world.applyObstacles(all, now.ros);
+            } catch (const Refusal&) {  // a step with an earlier change was left out
+            }
+          }};
 }
 Step settingMissing(const SourceId& source) {
   const std::string sentence = "NOT_READY " + source.name + ": a sentence of some length";
@@ -166,6 +200,20 @@ std::vector<Step> script() {
   steps.push_back(settingCloud(time, 2));
   tick(2.0);
   tick(-2.0);  // the rule has expired
+  const auto now = [&] { return momentAt(time, jump); };
+  using Kind = ObstacleChange::Kind;
+  steps.push_back(applying({adding("part with a name of some length", 0.6), adding("lid", 0.7, 0.03),
+                            adding("case", 0.8), moving("post", 0.2), without(Kind::remove, "gripped")},
+                           now()));
+  tick(0.1);
+  steps.push_back(
+      applying({attaching("part with a name of some length", "arm/hand"), attaching("case", "arm/base")}, now()));
+  tick(0.2);  // the lifetime of the lid has ended
+  steps.push_back(settingRobot("arm", 0.3));
+  tick(0.3);
+  steps.push_back(applying({without(Kind::detach, "case"), adding("plate", 0.5)}, now()));
+  tick(0.2);
+  steps.push_back(applying({adding("plate", 0.5)}, now(), true));
   steps.push_back(settingMap("room", -0.5, 3));
   steps.push_back(settingMap("shelf", 1.0, 4));
   steps.push_back(settingCloud(time, 5));

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/world/placed_obstacle.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "hgrid_proximity/pairs/pair_rule.h"
+#include "hgrid_proximity/refusal.h"
+
+namespace hgrid {
+namespace {
+
+bool isSamePose(const Pose& a, const Pose& b) { return a.matrix() == b.matrix(); }
+
+bool isSameMesh(const std::shared_ptr<const TriangleMesh>& a, const std::shared_ptr<const TriangleMesh>& b) {
+  if (!a || !b) return a == b;
+  return a->vertices == b->vertices && a->triangles == b->triangles;
+}
+
+bool isSameShape(const BodyShape& a, const BodyShape& b) {
+  return a.shape.kind() == b.shape.kind() && a.shape.dimensions() == b.shape.dimensions() && a.padding == b.padding &&
+         a.resource == b.resource && a.scale == b.scale && isSamePose(a.body_from_shape, b.body_from_shape) &&
+         isSameMesh(a.shape.mesh(), b.shape.mesh());
+}
+
+/// Returns where `frame` is in `target`. @throws Refusal unknown_frame; extrapolation if its newest pose is old
+Pose presentPose(const std::string& target, const std::string& frame, const std::string& what,
+                 const Surroundings& around) {
+  return around.lookup.atOrNewest(target, frame, around.now, around.params.stale_after, what);
+}
+
+/// Returns where `frame` was in the world. @throws Refusal unknown_frame, extrapolation
+Pose poseAt(Time time, const std::string& frame, const std::string& what, const Surroundings& around) {
+  std::string why_not;
+  const std::optional<FramePose> pose = around.lookup.at(around.world_frame, frame, time, &why_not);
+  if (pose) return checkedPose(pose->translation, pose->rotation.coeffs(), what);
+  const bool is_known = around.lookup.newest(around.world_frame, frame).has_value();
+  throw Refusal(is_known ? Code::extrapolation : Code::unknown_frame,
+                what + " has no pose at " + text(seconds(time)) + " s: " + printable(why_not, 300) +
+                    "; send another stamp, or 0 for its present pose");
+}
+
+std::string frameOf(const PlacedObstacle& obstacle) {
+  return "the frame '" + printable(obstacle.frame) + "' of '" + printable(obstacle.what->body.name) + "'";
+}
+
+void checkPlace(const PlacedObstacle& obstacle, const Surroundings& around) {
+  checkWithin(obstacle.frame_from_body.translation(), around.params.world_limit,
+              "the pose of '" + printable(obstacle.what->body.name) + "'");
+}
+
+void checkNoGlob(const std::string& name) {
+  if (!isGlob(name)) return;
+  throw Refusal(Code::bad_id, "'" + printable(name) +
+                                  "' contains * or ?; an obstacle can only be attached if neither "
+                                  "its name nor the name of the link does");
+}
+
+}  // namespace
+
+Body bodyOf(const PlacedObstacle& obstacle, const std::string& world_frame) {
+  Body body = obstacle.what->body;
+  body.frame = obstacle.frame;
+  body.frame_from_body = obstacle.frame_from_body;
+  const bool fixed = obstacle.frame == world_frame && !obstacle.what->moving;
+  body.mobility = fixed ? Mobility::fixed : Mobility::moving;
+  if (obstacle.attachment) {
+    body.max_speed = std::max(body.max_speed, obstacle.carrier_speed);
+    body.speed_bound = std::numeric_limits<double>::infinity();  // its points may be faster than those of the link
+  }
+  return body;
+}
+
+bool isSame(const RequestedObstacle& a, const RequestedObstacle& b) {
+  return a.moving == b.moving && a.lifetime == b.lifetime && a.body.margin == b.body.margin &&
+         a.body.max_speed == b.body.max_speed &&
+         std::equal(a.body.shapes.begin(), a.body.shapes.end(), b.body.shapes.begin(), b.body.shapes.end(),
+                    isSameShape);
+}
+
+bool isSame(const ObstaclePlace& first, const ObstaclePlace& second) {
+  const bool is_present = second.at && second.at->count() == 0;  // the frame may have moved since
+  return !is_present && first.at == second.at && first.frame == second.frame &&
+         isSamePose(first.frame_from_body, second.frame_from_body);
+}
+
+bool isAtSamePlace(const PlacedObstacle& a, const PlacedObstacle& b) {
+  return a.frame == b.frame && isSamePose(a.frame_from_body, b.frame_from_body);
+}
+
+void put(PlacedObstacle& obstacle, const ObstaclePlace& place, const Surroundings& around) {
+  obstacle.asked = place;
+  obstacle.frame = place.frame.empty() ? around.world_frame : place.frame;
+  obstacle.frame_from_body = place.frame_from_body;
+  if (place.at && obstacle.frame != around.world_frame) {
+    const std::string what = frameOf(obstacle);
+    const Pose world_from_frame = place.at->count() == 0 ? presentPose(around.world_frame, obstacle.frame, what, around)
+                                                         : poseAt(*place.at, obstacle.frame, what, around);
+    obstacle.frame_from_body = world_from_frame * place.frame_from_body;
+    obstacle.frame = around.world_frame;
+  }
+  checkPlace(obstacle, around);
+}
+
+void attach(PlacedObstacle& obstacle, const Attachment& attachment, const Surroundings& around) {
+  checkNoGlob(obstacle.what->body.name);
+  checkNoGlob(attachment.link);
+  const std::string what =
+      "'" + printable(obstacle.what->body.name) + "' cannot be attached to '" + printable(attachment.link) + "'";
+  const LoadedRobot* robot = around.robots.findLink(attachment.link);
+  if (robot == nullptr) {
+    throw Refusal(Code::unknown_id, what +
+                                        ": no robot in the world has this link; give the name of the robot and of "
+                                        "its link, as in robot/tool0");
+  }
+  auto resolved = std::make_shared<Attachment>(attachment);
+  if (!resolved->link_from_body) {
+    const LoadedRobot::Seat& seat = robot->links.at(attachment.link);
+    const std::string& frame = robot->groups[seat.group].frame;
+    Pose frame_from_body = obstacle.frame_from_body;
+    if (obstacle.frame != frame) {
+      frame_from_body =
+          presentPose(frame, obstacle.frame, what + " at its present pose: its frame", around) * frame_from_body;
+    }
+    resolved->link_from_body = seat.frame_from_link.inverse() * frame_from_body;
+  }
+  obstacle.attachment = std::move(resolved);
+  follow(obstacle, around.robots, around.params);
+  checkPlace(obstacle, around);
+}
+
+void detach(PlacedObstacle& obstacle, const Surroundings& around) {
+  if (!obstacle.attachment) {
+    throw Refusal(Code::conflict,
+                  "'" + printable(obstacle.what->body.name) + "' is not attached to a link, so it cannot be detached");
+  }
+  ObstaclePlace place{"", obstacle.frame_from_body, std::nullopt};
+  if (obstacle.frame != around.world_frame) {
+    place.frame_from_body =
+        presentPose(around.world_frame, obstacle.frame, frameOf(obstacle), around) * obstacle.frame_from_body;
+  }
+  obstacle.attachment.reset();
+  obstacle.touch.clear();
+  put(obstacle, place, around);
+}
+
+void follow(PlacedObstacle& obstacle, const RobotModels& robots, const Params& params) {
+  const Attachment& attachment = *obstacle.attachment;
+  const LoadedRobot* robot = robots.findLink(attachment.link);
+  if (robot == nullptr) return;
+  const LoadedRobot::Seat& seat = robot->links.at(attachment.link);
+  const LoadedRobot::Group& group = robot->groups[seat.group];
+  obstacle.frame = group.frame;
+  obstacle.frame_from_body = seat.frame_from_link * *attachment.link_from_body;
+  obstacle.asked = {obstacle.frame, obstacle.frame_from_body, std::nullopt};
+  obstacle.touch = attachment.touch;
+  obstacle.touch.push_back(attachment.link);
+  obstacle.carrier_speed = group.members.empty() ? params.default_max_speed : 0.0;
+  for (const auto& member : group.members) {
+    const Body& rigid = robot->bodies[member.first];  // it never moves relative to the obstacle
+    obstacle.carrier_speed = std::max(obstacle.carrier_speed, rigid.max_speed);
+    if (rigid.name != attachment.link && !isGlob(rigid.name)) obstacle.touch.push_back(rigid.name);
+  }
+}
+
+}  // namespace hgrid

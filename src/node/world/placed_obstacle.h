@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "node/sources/obstacle_change.h"
+#include "node/tf/transform_lookup.h"
+#include "node/world/robot_models.h"
+
+namespace hgrid {
+
+/// What the places of obstacles refer to.
+struct Surroundings {
+  const Params& params;
+  const std::string& world_frame;
+  const TransformLookup& lookup;
+  const RobotModels& robots;
+  Time now;  ///< ROS time
+};
+
+/// An obstacle of the world, and where it is.
+struct PlacedObstacle {
+  std::shared_ptr<const RequestedObstacle> what;
+  std::string owner;
+  ObstaclePlace asked;                           ///< its place as requested
+  std::string frame;                             ///< the frame that it follows
+  Pose frame_from_body = Pose::Identity();       ///< its pose in that frame
+  Time ends = Time::max();                       ///< end of its lifetime [ROS time]; max: never
+  std::shared_ptr<const Attachment> attachment;  ///< the link that carries it, and its pose there; null: none
+  std::vector<std::string> touch;  ///< while it is carried: names and globs of the bodies that may touch it
+  double carrier_speed = 0.0;      ///< [m/s] while it is carried: expected largest speed of the link
+};
+
+/// Returns the obstacle as a body of the scene.
+Body bodyOf(const PlacedObstacle& obstacle, const std::string& world_frame);
+
+///@{
+/// Returns whether two obstacles are the same, apart from their places and owners.
+bool isSame(const RequestedObstacle& a, const RequestedObstacle& b);
+/// Returns whether the second request must lead to the place of the first one.
+bool isSame(const ObstaclePlace& first, const ObstaclePlace& second);
+/// Returns whether two obstacles are at the same place of the same frame.
+bool isAtSamePlace(const PlacedObstacle& a, const PlacedObstacle& b);
+///@}
+
+///@{
+/// Changes the place of an obstacle.
+/// @throws Refusal out_of_range (~world_limit); unknown_frame or extrapolation if the pose of a frame is not known at
+/// the time for which it is needed, or older than ~stale_after
+void put(PlacedObstacle& obstacle, const ObstaclePlace& place, const Surroundings& around);
+/// @throws also bad_id, and unknown_id if no robot has the link
+void attach(PlacedObstacle& obstacle, const Attachment& attachment, const Surroundings& around);
+/// @throws also conflict if the obstacle is not attached
+void detach(PlacedObstacle& obstacle, const Surroundings& around);
+///@}
+
+/// Finds the place and the neighbors of a carried obstacle again, after the model of its robot was replaced. If the
+/// link does not exist any more, the obstacle stays as it is.
+void follow(PlacedObstacle& obstacle, const RobotModels& robots, const Params& params);
+
+}  // namespace hgrid
