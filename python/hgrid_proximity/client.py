@@ -12,21 +12,23 @@
         ...
 
 Coordinates are in meters. Points and sizes are three numbers, or messages with the fields x, y and z. The modules
-`hgrid_proximity.errors`, `.events` and `.streams` describe what can go wrong, how to wait for events, and the arrays.
+`hgrid_proximity.errors`, `.events` and `.streams` describe what can go wrong, how to wait for events, and the arrays;
+`.obstacles` makes the changes for apply_obstacles().
 """
 from __future__ import annotations
 
 from typing import Iterable, Optional, Union
 
 import rospy
-from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
+from geometry_msgs.msg import Vector3
 
 from hgrid_proximity import srv
 from hgrid_proximity.errors import NoAnswer, Refused
 from hgrid_proximity.events import Events
-from hgrid_proximity.msg import Shape, Verdict
+from hgrid_proximity.msg import Obstacle, Shape, Verdict
 from hgrid_proximity.service import LONGEST, Service
 from hgrid_proximity.streams import DistanceArrays, PairArrays, as_arrays
+from hgrid_proximity.values import UPRIGHT, as_point, as_pose, globs, numbers
 
 
 class Answer:
@@ -99,6 +101,7 @@ class Proximity:
                 ("explain_pair", srv.ExplainPair),
             )
         }
+        self._apply_obstacles = Service(f"{self._node}/apply_obstacles", srv.ApplyObstacles, timeout, repeat=False)
 
     def __enter__(self) -> Proximity:
         return self
@@ -113,21 +116,21 @@ class Proximity:
 
     def query_sphere(self, center, radius: float = 0.0, **options) -> Answer:
         """Which bodies does this sphere touch? With radius 0 it is a point."""
-        return self._query(srv.QuerySphere, srv.QuerySphereRequest(center=_point("center", center), radius=radius), options)
+        return self._query(srv.QuerySphere, srv.QuerySphereRequest(center=as_point("center", center), radius=radius), options)
 
     def query_segment(self, start, end, radius: float = 0.0, **options) -> Answer:
         """Which bodies does this segment, or the capsule of this radius around it, touch, in order along it?"""
-        request = srv.QuerySegmentRequest(start=_point("start", start), end=_point("end", end), radius=radius)
+        request = srv.QuerySegmentRequest(start=as_point("start", start), end=as_point("end", end), radius=radius)
         return self._query(srv.QuerySegment, request, options)
 
-    def query_box(self, center, size, orientation=(0.0, 0.0, 0.0, 1.0), **options) -> Answer:
+    def query_box(self, center, size, orientation=UPRIGHT, **options) -> Answer:
         """Which bodies does this box touch?
 
         @param size  full lengths of the sides
         @param orientation  quaternion x, y, z, w
         """
-        pose = Pose(position=_point("center", center), orientation=Quaternion(*_numbers("orientation", orientation, "xyzw")))
-        request = srv.QueryBoxRequest(pose=pose, size=Vector3(*_numbers("size", size, "xyz")))
+        place = as_pose(as_point("center", center), orientation)
+        request = srv.QueryBoxRequest(pose=place, size=Vector3(*numbers("size", size, "xyz")))
         return self._query(srv.QueryBox, request, options)
 
     def query_shape(self, shape: Shape, **options) -> Answer:
@@ -146,7 +149,7 @@ class Proximity:
             raise ValueError("query_nearest needs either a point or a body")
         request = srv.QueryNearestRequest(body=body, max_distance=max_distance)
         if point is not None:
-            request.point = _point("point", point)
+            request.point = as_point("point", point)
         return self._query(srv.QueryNearest, request, options)
 
     def explain_pair(self, first: str, second: str, contacts: int = 0, stamp: Optional[rospy.Time] = None):
@@ -160,6 +163,25 @@ class Proximity:
         response = self._services[srv.ExplainPair](request)
         if not response.success:
             raise Refused(response.code.name, response.code.text)
+        return response
+
+    def apply_obstacles(self, *changes: Obstacle, complete_set: bool = False, owner: str = "", max_time: float = 0.0):
+        """Makes all changes in their order, or none of them. `hgrid_proximity.obstacles` has functions that make changes.
+
+        After NoAnswer, nobody knows whether the changes were made. Adding the same obstacle and moving it to the same pose
+        can be repeated. Other changes are refused if they were made already: see which bodies ~bodies lists.
+
+        @param complete_set  True: all other obstacles of the owner are removed
+        @param owner  name of the owner that complete_set is about; empty: this program
+        @param max_time  [s] how much longer than `timeout` to wait, for example for many large meshes
+        @returns the response; `response.world` is the state of the world in the first tick with the changes
+        @throws Refused  nothing was changed, unless the code is BUSY and the text says that the change was made;
+            failed_index is the index of the change that was refused, 0 if the whole request was
+        """
+        request = srv.ApplyObstaclesRequest(changes=list(changes), complete_set=complete_set, owner=owner)
+        response = self._apply_obstacles(request, min(max_time, LONGEST))
+        if not response.success:
+            raise Refused(response.code.name, response.code.text, response.failed_index)
         return response
 
     def pairs(self) -> PairArrays:
@@ -211,26 +233,5 @@ def _apply(
     if stamp is not None:
         request.header.stamp = stamp
     request.exact, request.limit, request.max_time = exact, limit, max_time
-    request.include, request.exclude = _globs(include), _globs(exclude)
+    request.include, request.exclude = globs(include), globs(exclude)
     request.as_body, request.respect_allowed = as_body, bool(as_body)
-
-
-def _globs(globs):
-    return [globs] if isinstance(globs, str) else list(globs)
-
-
-def _point(name: str, value) -> Point:
-    return Point(*_numbers(name, value, "xyz"))
-
-
-def _numbers(name: str, value, fields: str):
-    """Returns the fields of a message, or the elements of a sequence of as many numbers."""
-    if all(hasattr(value, field) for field in fields):
-        return [getattr(value, field) for field in fields]
-    try:
-        numbers = [float(number) for number in value]
-    except (TypeError, ValueError):
-        numbers = []
-    if len(numbers) != len(fields):
-        raise ValueError(f"{name} is {value!r}; it must be {len(fields)} numbers: {', '.join(fields)}")
-    return numbers

@@ -4,7 +4,7 @@
 
 
 class ProximityError(Exception):
-    """Base class of the errors below. Each of them means: treat the place as occupied."""
+    """Base class of the errors below. After a query, each of them means: treat the place as occupied."""
 
 
 class NoAnswer(ProximityError):
@@ -14,12 +14,13 @@ class NoAnswer(ProximityError):
 class Refused(ProximityError):
     """The node refused the request, or it failed.
 
-    code: the reason as a word, such as "UNKNOWN_FRAME"; text: the reason as a sentence for people.
+    code: the reason as a word, such as "UNKNOWN_FRAME"; text: the reason as a sentence for people; failed_index: which of
+    several changes was refused, None for other requests.
     """
 
-    def __init__(self, code: str, text: str):
+    def __init__(self, code: str, text: str, failed_index=None):
         super().__init__(f"{code}: {text}")
-        self.code, self.text = code, text
+        self.code, self.text, self.failed_index = code, text, failed_index
 
 
 class EventsMissed(ProximityError):

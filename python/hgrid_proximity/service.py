@@ -18,18 +18,19 @@ UNREACHABLE = "it cannot be reached"
 
 
 class Service:
-    """Calls one service that only answers questions, so that a call can be repeated.
+    """Calls one service.
 
-    The connection stays open between calls. Several threads may share an object. Their calls run one after the other,
+    The connection stays open between calls, unless a call must not be repeated. Several threads may share an object. Their calls run one after the other,
     and the time limit of a call begins when the call before it has ended.
     """
 
-    def __init__(self, name: str, kind, timeout: float):
+    def __init__(self, name: str, kind, timeout: float, repeat: bool = True):
         """@param timeout  [s, wall time] longest time from a call to its answer, connecting included; 0 < timeout <= 1e6
+        @param repeat  whether a call that fails because the connection has broken is made again: True only for services that change nothing
         """
         if not 0.0 < timeout <= LONGEST:
             raise ValueError(f"timeout is {timeout!r} s; it must be greater than 0 and at most {LONGEST:g}")
-        self._name, self._kind, self._timeout = name, kind, timeout
+        self._name, self._kind, self._timeout, self._repeat = name, kind, timeout, repeat
         self._lock = threading.Lock()
         self._line = None
 
@@ -51,6 +52,8 @@ class Service:
             response, error = self._ask(request, deadline)
             if error and used and time.monotonic() < deadline:  # the node may have been restarted since the last call
                 response, error = self._ask(request, deadline)
+            if not self._repeat:
+                self._close()
         if error:
             raise NoAnswer(f"{self._name}: {error}. Check the node: `rosnode ping {self._name.rpartition('/')[0]}`")
         return response

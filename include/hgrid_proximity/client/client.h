@@ -3,6 +3,7 @@
 #pragma once
 
 #include <hgrid_proximity/Answer.h>
+#include <hgrid_proximity/ApplyObstacles.h>
 #include <hgrid_proximity/ExplainPair.h>
 #include <hgrid_proximity/QueryBox.h>
 #include <hgrid_proximity/QueryNearest.h>
@@ -58,7 +59,8 @@ class Client {
         box_(node + "/query_box", timeout),
         shape_(node + "/query_shape", timeout),
         nearest_(node + "/query_nearest", timeout),
-        explain_(node + "/explain_pair", timeout) {}
+        explain_(node + "/explain_pair", timeout),
+        obstacles_(node + "/apply_obstacles", timeout, false) {}
 
   ///@{
   /// Sends the request and waits for the response, which has `success = true`.
@@ -75,6 +77,18 @@ class Client {
   }
   ///@}
 
+  /// Makes all changes of obstacles, in their order, or none of them. The response has the state of the world in the
+  /// first tick with the changes.
+  /// @param extra  how much longer than usual to wait, for example for many large meshes; at most 10^6 s
+  /// @throws Refused if nothing was changed, or if the code is BUSY and the text says that the change was made
+  /// @throws NoAnswer; then nobody knows whether the changes were made. Adding the same obstacle and moving it to the
+  /// same pose can be repeated. Other changes are refused if they were made already.
+  ApplyObstaclesResponse apply(const ApplyObstaclesRequest& request, std::chrono::duration<double> extra = {}) {
+    ApplyObstaclesResponse response = obstacles_.call(request, extra);
+    if (!response.success) throw Refused(response.code, response.failed_index);
+    return response;
+  }
+
  private:
   template <class Kind>
   static typename Kind::Response answered(Service<Kind>& service, const typename Kind::Request& request) {
@@ -90,6 +104,7 @@ class Client {
   Service<QueryShape> shape_;
   Service<QueryNearest> nearest_;
   Service<ExplainPair> explain_;
+  Service<ApplyObstacles> obstacles_;
 };
 
 }  // namespace hgrid_proximity

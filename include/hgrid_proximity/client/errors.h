@@ -4,12 +4,13 @@
 
 #include <hgrid_proximity/Code.h>
 
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 
 namespace hgrid_proximity {
 
-/// Base class of the errors of a client. Each of them means: treat the place as occupied.
+/// Base class of the errors of a client. After a query, each of them means: treat the place as occupied.
 class ProximityError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -25,8 +26,10 @@ class NoAnswer : public ProximityError {
 class Refused : public ProximityError {
  public:
   /// Creates an error. @param reason  the code of the response
-  explicit Refused(const Code& reason) : ProximityError(reason.name + ": " + reason.text), code(reason) {}
-  Code code;  ///< the reason, as a number, as a word and as a sentence for people
+  explicit Refused(const Code& reason, std::uint32_t index = 0)
+      : ProximityError(reason.name + ": " + reason.text), code(reason), failed_index(index) {}
+  Code code;                   ///< the reason, as a number, as a word and as a sentence for people
+  std::uint32_t failed_index;  ///< Client::apply(): which change was refused; 0 for other requests
 };
 
 }  // namespace hgrid_proximity

@@ -17,7 +17,7 @@
 
 namespace hgrid_proximity {
 
-/// Calls one service that only answers questions, over a persistent connection and with a time limit.
+/// Calls one service with a time limit. The connection stays open between calls, unless a call must not be repeated.
 ///
 /// roscpp cannot limit the time of a call. Therefore a thread of its own makes the calls; the first call starts it.
 /// Several threads may share an object. Their calls run one after the other, and the time limit of a call begins when
@@ -29,9 +29,11 @@ class Service {
  public:
   /// @param name     name of the service, resolved as usual
   /// @param timeout  longest time from a call to its answer, connecting included
+  /// @param repeat   whether a call that fails because the connection has broken is made again: true only for services
+  /// that change nothing
   /// @throws std::invalid_argument unless the timeout is greater than 0 and at most 10^6 s
-  Service(const std::string& name, std::chrono::duration<double> timeout)
-      : name_(node_.resolveName(name)), timeout_(timeout) {
+  Service(const std::string& name, std::chrono::duration<double> timeout, bool repeat = true)
+      : name_(node_.resolveName(name)), timeout_(timeout), repeat_(repeat) {
     if (timeout.count() > 0.0 && timeout.count() <= 1e6) return;
     throw std::invalid_argument("the timeout is " + std::to_string(timeout.count()) +
                                 " s; it must be greater than 0 and at most 1000000");
@@ -51,7 +53,11 @@ class Service {
     if (error != nullptr && used && std::chrono::steady_clock::now() < deadline) {
       error = ask(request, deadline);  // the node may have been restarted since the last call
     }
-    if (error == nullptr) return line_->call.response;
+    if (error == nullptr) {
+      typename Kind::Response response = line_->call.response;
+      if (!repeat_) drop();
+      return response;
+    }
     throw NoAnswer(name_ + error + ". Check the node: `rosnode ping " + name_.substr(0, name_.rfind('/')) + "`");
   }
 
@@ -126,6 +132,7 @@ class Service {
   ros::NodeHandle node_;  // destroying the last node handle of a program ends roscpp
   const std::string name_;
   const std::chrono::duration<double> timeout_;
+  const bool repeat_;
   std::mutex mutex_;
   std::shared_ptr<Line> line_;
 };

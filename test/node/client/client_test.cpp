@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 #include <hgrid_proximity/CodeNames.h>
+#include <hgrid_proximity/ObstacleOperation.h>
 #include <hgrid_proximity/ShapeKind.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -90,6 +91,25 @@ TEST_F(TheClient, AnswersEachKindOfQuestion) {
   explain.first = "obstacle/low";
   explain.second = "obstacle/high";
   EXPECT_FALSE(client_.ask(explain).explanation.empty());
+}
+
+TEST_F(TheClient, ChangesObstacles) {
+  msg::ApplyObstaclesRequest request;
+  request.changes.resize(1);
+  msg::Obstacle& change = request.changes[0];
+  change.operation = msg::ObstacleOperation::MOVE;
+  change.name = "high";
+  change.pose.position.z = 1.0;
+  EXPECT_EQ(client_.apply(request).code.value, msg::CodeNames::OK);
+  EXPECT_EQ(names(client_.ask(sphere(1))), std::vector<std::string>{"obstacle/high"});
+  EXPECT_TRUE(isClear(client_.ask(sphere(2)).answer));
+  change.name = "absent";
+  try {
+    client_.apply(request);
+    ADD_FAILURE() << "the change must be refused";
+  } catch (const Refused& refused) {
+    EXPECT_EQ(refused.code.value, msg::CodeNames::UNKNOWN_ID);
+  }
 }
 
 TEST_F(TheClient, NeitherHitNorClearIsUnknown) {

@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: the hgrid_proximity authors
+"""Changes of obstacles, for Proximity.apply_obstacles().
+
+    from hgrid_proximity import obstacles
+
+    proximity.apply_obstacles(
+        obstacles.add("table", obstacles.box((1.2, 0.8, 0.04)), position=(0.6, 0.0, 0.7)),
+        obstacles.add("part", obstacles.cylinder(height=0.1, radius=0.03), position=(0.5, 0.1, 0.77), lifetime=60.0),
+    )
+    proximity.apply_obstacles(obstacles.move("part", position=(0.5, 0.3, 0.77)), obstacles.remove("table"))
+
+Lengths are in meters. An obstacle with the name "table" is the body "obstacle/table". Positions are three numbers, or a
+message with the fields x, y and z. An orientation is a quaternion x, y, z, w. The functions that make shapes return a
+hgrid_proximity/Shape; their position and orientation are those of the shape in its obstacle, and the shape is grown by
+`padding` on all sides.
+"""
+from __future__ import annotations
+
+from typing import Iterable, Optional, Union
+
+import rospy
+from geometry_msgs.msg import Point, Vector3
+from shape_msgs.msg import Mesh, MeshTriangle
+
+from hgrid_proximity.msg import Obstacle, ObstacleOperation, Shape, ShapeKind
+from hgrid_proximity.values import UPRIGHT, as_pose, globs, numbers
+
+Shapes = Union[Shape, Iterable[Shape]]
+
+
+def add(
+    name: str,
+    shapes: Shapes,
+    position=(0.0, 0.0, 0.0),
+    orientation=UPRIGHT,
+    frame: str = "",
+    stamp: Optional[rospy.Time] = None,
+    replace: bool = False,
+    moving: bool = False,
+    margin: float = 0.0,
+    max_speed: float = 0.0,
+    lifetime: float = 0.0,
+    owner: str = "",
+) -> Obstacle:
+    """Adds an obstacle.
+
+    @param shapes  a shape, or several
+    @param frame  tf frame of the pose, which the obstacle follows; empty: the world frame
+    @param stamp  the obstacle is placed where the frame was at this time, and stays there; rospy.Time(0): where the frame
+        was last known to be; None: the obstacle follows the frame
+    @param replace  what happens to another obstacle of this name. True: it is replaced. False: the request is refused.
+        Adding the same obstacle again is never refused.
+    @param moving  True: it makes pairs with fixed bodies, too, as obstacles of other frames than the world frame do
+    @param margin  [m] distance at which a body is near it; 0: ~margin
+    @param max_speed  [m/s] upper bound of its speed, used while its data is old; 0: ~default_max_speed
+    @param lifetime  [s, ROS time] it is removed after this time unless it is added or changed again; 0: it stays
+    @param owner  name of its owner (see Proximity.apply_obstacles); empty: this program
+    """
+    change = _placed(ObstacleOperation.ADD, name, position, orientation, frame, stamp)
+    change.shapes = [shapes] if isinstance(shapes, Shape) else list(shapes)
+    change.replace, change.moving, change.owner = replace, moving, owner
+    change.margin, change.max_speed, change.lifetime = margin, max_speed, rospy.Duration.from_sec(lifetime)
+    return change
+
+
+def move(
+    name: str, position, orientation=UPRIGHT, frame: str = "", stamp: Optional[rospy.Time] = None
+) -> Obstacle:
+    """Gives an obstacle another pose. Its lifetime begins again. `frame` and `stamp` are as in add(). An obstacle that is
+    attached must be detached first."""
+    return _placed(ObstacleOperation.MOVE, name, position, orientation, frame, stamp)
+
+
+def remove(name: str) -> Obstacle:
+    """Removes an obstacle."""
+    return Obstacle(operation=ObstacleOperation.REMOVE, name=name)
+
+
+def attach(
+    name: str, link: str, position=None, orientation=UPRIGHT, touch: Union[str, Iterable[str]] = ()
+) -> Obstacle:
+    """Attaches an obstacle to a link of a robot, such as "robot/gripper". It follows the link from now on.
+
+    @param position  position in the frame of the link; None: the obstacle keeps its present pose relative to the link
+    @param touch  a glob over the names of bodies that may touch it while it is attached, or several of them. The link, and the links that never
+        move relative to it, may always touch it.
+    """
+    change = Obstacle(operation=ObstacleOperation.ATTACH, name=name, link=link, touch=globs(touch))
+    if position is not None:
+        change.at_attach_pose, change.attach_pose = True, as_pose(position, orientation)
+    return change
+
+
+def detach(name: str) -> Obstacle:
+    """Leaves an attached obstacle where it is in the world."""
+    return Obstacle(operation=ObstacleOperation.DETACH, name=name)
+
+
+def sphere(radius: float, **place) -> Shape:
+    """@param place  position, orientation and padding of the shape"""
+    return _shape(ShapeKind.SPHERE, [radius], **place)
+
+
+def box(size, **place) -> Shape:
+    """@param size  full lengths of the sides @param place  as in sphere()"""
+    return _shape(ShapeKind.BOX, numbers("size", size, "xyz"), **place)
+
+
+def cylinder(height: float, radius: float, **place) -> Shape:
+    """A cylinder around the z axis, its center at the position. @param place  as in sphere()"""
+    return _shape(ShapeKind.CYLINDER, [height, radius], **place)
+
+
+def cone(height: float, radius: float, **place) -> Shape:
+    """A cone around the z axis, its tip at +z, the middle of its height at the position. @param place  as in sphere()"""
+    return _shape(ShapeKind.CONE, [height, radius], **place)
+
+
+def capsule(height: float, radius: float, **place) -> Shape:
+    """A cylinder with two round ends, which `height` does not include. @param place  as in sphere()"""
+    return _shape(ShapeKind.CAPSULE, [height, radius], **place)
+
+
+def hull(vertices, **place) -> Shape:
+    """The convex hull of points. @param vertices  rows x, y, z @param place  as in sphere()"""
+    return _shape(ShapeKind.HULL, [], Mesh(vertices=_points(vertices)), **place)
+
+
+def mesh(vertices, triangles, **place) -> Shape:
+    """A mesh. If it is closed, it is solid.
+
+    @param vertices  rows x, y, z
+    @param triangles  rows of three indices into vertices
+    @param place  as in sphere()
+    """
+    faces = [MeshTriangle(vertex_indices=[int(index) for index in triangle]) for triangle in triangles]
+    return _shape(ShapeKind.MESH, [], Mesh(vertices=_points(vertices), triangles=faces), **place)
+
+
+def file(resource: str, scale=(1.0, 1.0, 1.0), convex: bool = False, **place) -> Shape:
+    """A mesh that the node reads from a file.
+
+    @param resource  URI, such as "package://my_robot/meshes/part.stl"
+    @param convex  True: the convex hull of the mesh
+    @param place  as in sphere()
+    """
+    shape = _shape(ShapeKind.HULL if convex else ShapeKind.MESH, [], **place)
+    shape.resource, shape.scale = resource, Vector3(*numbers("scale", scale, "xyz"))
+    return shape
+
+
+def _points(rows):
+    return [Point(*numbers("a vertex", row, "xyz")) for row in rows]
+
+
+def _shape(kind, dimensions, surface=None, position=(0.0, 0.0, 0.0), orientation=UPRIGHT, padding: float = 0.0) -> Shape:
+    shape = Shape(kind=kind, dimensions=dimensions, pose=as_pose(position, orientation), padding=padding)
+    if surface is not None:
+        shape.mesh = surface
+    return shape
+
+
+def _placed(operation, name, position, orientation, frame, stamp) -> Obstacle:
+    change = Obstacle(operation=operation, name=name, pose=as_pose(position, orientation), at_stamp=stamp is not None)
+    change.header.frame_id = frame
+    if stamp is not None:
+        change.header.stamp = stamp
+    return change
