@@ -168,15 +168,17 @@ class Proximity:
     def apply_obstacles(self, *changes: Obstacle, complete_set: bool = False, owner: str = "", max_time: float = 0.0):
         """Makes all changes in their order, or none of them. `hgrid_proximity.obstacles` has functions that make changes.
 
-        After NoAnswer, nobody knows whether the changes were made. Adding the same obstacle and moving it to the same pose
-        can be repeated. Other changes are refused if they were made already: see which bodies ~bodies lists.
+        After NoAnswer, the changes may or may not have been made. move() and attach() can be repeated. remove() and
+        detach() are refused if they were made already, and add() if the obstacle was moved or attached since. Compare with
+        ~bodies.
 
-        @param complete_set  True: all other obstacles of the owner are removed
-        @param owner  name of the owner that complete_set is about; empty: this program
+        @param complete_set  True: every obstacle of `owner` that this request does not add is removed, even if the request
+            moves or attaches it. Give the same owner to each add().
+        @param owner  owner whose obstacles complete_set removes; empty: the name of this node
         @param max_time  [s] how much longer than `timeout` to wait, for example for many large meshes
         @returns the response; `response.world` is the state of the world in the first tick with the changes
         @throws Refused  nothing was changed, unless the code is BUSY and the text says that the change was made;
-            failed_index is the index of the change that was refused, 0 if the whole request was
+            failed_index is the index of the refused change, also 0 if the whole request was
         """
         request = srv.ApplyObstaclesRequest(changes=list(changes), complete_set=complete_set, owner=owner)
         response = self._apply_obstacles(request, min(max_time, LONGEST))

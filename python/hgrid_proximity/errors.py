@@ -14,8 +14,8 @@ class NoAnswer(ProximityError):
 class Refused(ProximityError):
     """The node refused the request, or it failed.
 
-    code: the reason as a word, such as "UNKNOWN_FRAME"; text: the reason as a sentence for people; failed_index: which of
-    several changes was refused, None for other requests.
+    code: the reason as a word, such as "UNKNOWN_FRAME"; text: the reason as a sentence for people; failed_index:
+    index of the refused change, from 0; also 0 if the whole request was refused; None for other requests.
     """
 
     def __init__(self, code: str, text: str, failed_index=None):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Changes of obstacles, for Proximity.apply_obstacles().
+"""Functions that make changes of obstacles, and shapes. Only Proximity.apply_obstacles() sends the changes to the node.
 
     from hgrid_proximity import obstacles
 
@@ -10,10 +10,10 @@
     )
     proximity.apply_obstacles(obstacles.move("part", position=(0.5, 0.3, 0.77)), obstacles.remove("table"))
 
-Lengths are in meters. An obstacle with the name "table" is the body "obstacle/table". Positions are three numbers, or a
-message with the fields x, y and z. An orientation is a quaternion x, y, z, w. The functions that make shapes return a
-hgrid_proximity/Shape; their position and orientation are those of the shape in its obstacle, and the shape is grown by
-`padding` on all sides.
+Lengths are in meters. The name of an obstacle is given without its source: "table" is the body "obstacle/table". `link` and
+`touch` are full names. Positions are three numbers, or a message with the fields x, y and z. An orientation is a quaternion
+x, y, z, w. The functions that make shapes return a hgrid_proximity/Shape. Their arguments position and orientation give the
+pose of the shape in the frame of the obstacle; `padding` grows the shape on all sides.
 """
 from __future__ import annotations
 
@@ -43,19 +43,21 @@ def add(
     lifetime: float = 0.0,
     owner: str = "",
 ) -> Obstacle:
-    """Adds an obstacle.
+    """Returns a change that adds an obstacle.
 
     @param shapes  a shape, or several
-    @param frame  tf frame of the pose, which the obstacle follows; empty: the world frame
-    @param stamp  the obstacle is placed where the frame was at this time, and stays there; rospy.Time(0): where the frame
-        was last known to be; None: the obstacle follows the frame
-    @param replace  what happens to another obstacle of this name. True: it is replaced. False: the request is refused.
-        Adding the same obstacle again is never refused.
-    @param moving  True: it makes pairs with fixed bodies, too, as obstacles of other frames than the world frame do
-    @param margin  [m] distance at which a body is near it; 0: ~margin
-    @param max_speed  [m/s] upper bound of its speed, used while its data is old; 0: ~default_max_speed
-    @param lifetime  [s, ROS time] it is removed after this time unless it is added or changed again; 0: it stays
-    @param owner  name of its owner (see Proximity.apply_obstacles); empty: this program
+    @param frame  tf frame of the pose, which the obstacle follows; empty: the world frame. If tf does not know the frame,
+        the obstacle is UNPLACED, and the world is not complete.
+    @param stamp  the obstacle is placed where the frame was at this time, and stays there; rospy.Time(0): at the newest
+        pose of the frame, refused if it is older than ~stale_after; None: the obstacle follows the frame
+    @param replace  what happens to another obstacle of this name. True: it is replaced, and detached. False: the request is
+        refused. An equal obstacle at the same place is accepted, unless it is attached.
+    @param moving  True: it makes pairs with fixed bodies, too. An obstacle that follows another frame always does.
+    @param margin  [m] distance at which other bodies are near, at least ~margin; 0: as ~margins and ~margin say
+    @param max_speed  [m/s] upper bound of its speed, used while its data is old; 0: as the parameters say
+    @param lifetime  [s, ROS time] it is removed after this time without a change, even while it is attached; 0: it stays
+    @param owner  name of its owner (see Proximity.apply_obstacles); empty: the name of this node. An anonymous node has a
+        new name in each run, so give an owner.
     """
     change = _placed(ObstacleOperation.ADD, name, position, orientation, frame, stamp)
     change.shapes = [shapes] if isinstance(shapes, Shape) else list(shapes)
@@ -67,24 +69,26 @@ def add(
 def move(
     name: str, position, orientation=UPRIGHT, frame: str = "", stamp: Optional[rospy.Time] = None
 ) -> Obstacle:
-    """Gives an obstacle another pose. Its lifetime begins again. `frame` and `stamp` are as in add(). An obstacle that is
-    attached must be detached first."""
+    """Returns a change that gives an obstacle another pose. Its lifetime begins again. `frame` and `stamp` are as in add().
+    Refused while the obstacle is attached."""
     return _placed(ObstacleOperation.MOVE, name, position, orientation, frame, stamp)
 
 
 def remove(name: str) -> Obstacle:
-    """Removes an obstacle."""
+    """Returns a change that removes an obstacle."""
     return Obstacle(operation=ObstacleOperation.REMOVE, name=name)
 
 
 def attach(
     name: str, link: str, position=None, orientation=UPRIGHT, touch: Union[str, Iterable[str]] = ()
 ) -> Obstacle:
-    """Attaches an obstacle to a link of a robot, such as "robot/gripper". It follows the link from now on.
+    """Returns a change that attaches an obstacle to a link of a robot, such as "robot/gripper". It then follows the link.
 
-    @param position  position in the frame of the link; None: the obstacle keeps its present pose relative to the link
-    @param touch  a glob over the names of bodies that may touch it while it is attached, or several of them. The link, and the links that never
-        move relative to it, may always touch it.
+    @param position  position in the frame of the link; None: the obstacle keeps its present pose relative to the link,
+        refused if this pose is not known or older than ~stale_after
+    @param orientation  orientation in the frame of the link; used only with a position
+    @param touch  a glob over the full names of bodies that may touch it while it is attached, or several of them. The link
+        and its rigid group may touch it, too. Fingers that move relative to the link do not belong to this group.
     """
     change = Obstacle(operation=ObstacleOperation.ATTACH, name=name, link=link, touch=globs(touch))
     if position is not None:
@@ -93,7 +97,8 @@ def attach(
 
 
 def detach(name: str) -> Obstacle:
-    """Leaves an attached obstacle where it is in the world."""
+    """Returns a change that detaches an obstacle. It stays at its present pose in the world, and may no longer touch the
+    link. Refused if the pose of the link is older than ~stale_after."""
     return Obstacle(operation=ObstacleOperation.DETACH, name=name)
 
 
@@ -139,9 +144,9 @@ def mesh(vertices, triangles, **place) -> Shape:
 
 
 def file(resource: str, scale=(1.0, 1.0, 1.0), convex: bool = False, **place) -> Shape:
-    """A mesh that the node reads from a file.
+    """A mesh in a file (STL, DAE or OBJ) on the computer of the node.
 
-    @param resource  URI, such as "package://my_robot/meshes/part.stl"
+    @param resource  URI, such as "package://my_robot/meshes/part.stl"; file:// only below ROS_PACKAGE_PATH and ~mesh_roots
     @param convex  True: the convex hull of the mesh
     @param place  as in sphere()
     """

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""A service with a persistent connection and a time limit."""
+"""A service with a time limit."""
 from __future__ import annotations
 
 import io
@@ -20,13 +20,13 @@ UNREACHABLE = "it cannot be reached"
 class Service:
     """Calls one service.
 
-    The connection stays open between calls, unless a call must not be repeated. Several threads may share an object. Their calls run one after the other,
-    and the time limit of a call begins when the call before it has ended.
+    With `repeat`, the connection stays open between calls. Otherwise each call opens its own. Several threads may share an
+    object. Their calls run one after the other, and the time limit of a call begins when the call before it has ended.
     """
 
     def __init__(self, name: str, kind, timeout: float, repeat: bool = True):
         """@param timeout  [s, wall time] longest time from a call to its answer, connecting included; 0 < timeout <= 1e6
-        @param repeat  whether a call that fails because the connection has broken is made again: True only for services that change nothing
+        @param repeat  True: a call that fails on an open connection is made again; only for services that change nothing
         """
         if not 0.0 < timeout <= LONGEST:
             raise ValueError(f"timeout is {timeout!r} s; it must be greater than 0 and at most {LONGEST:g}")

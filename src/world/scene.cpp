@@ -49,8 +49,8 @@ void checkBody(const Body& body) {
   }
 }
 
-/// Returns whether a new obstacle is the old one at another place, so that its pairs continue. It must be fixed: the pose
-/// of another obstacle may be unknown until its frame is found, so it becomes a new body.
+/// Returns whether a new obstacle is the old one at another place, so that its pairs continue. It must be fixed: the
+/// pose of a moving obstacle may be unknown until its frame is found, so it becomes a new body.
 bool isSameElsewhere(const Body& before, const Body& after) {
   const auto isObstacle = [](const Body& body) {
     return body.kind == BodyKind::obstacle && body.mobility == Mobility::fixed;
@@ -223,7 +223,7 @@ std::vector<BodyId> Scene::exchange(const std::vector<BodyId>& out, std::vector<
     ids[entering[i]] = {numbers[i], s.slots[numbers[i]].generation};
   }
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (shared[i]) s.bodies[ids[i].slot] = std::move(shared[i]);  // it stays
+    if (shared[i]) s.bodies[ids[i].slot] = std::move(shared[i]);  // this body keeps its slot
   }
   s.bodies_changed = s.bodies_changed || !out.empty() || !ids.empty();
   s.structure_changed = s.structure_changed || s.bodies_changed;

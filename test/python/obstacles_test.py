@@ -194,7 +194,7 @@ class Obstacles(unittest.TestCase):
         self.apply(obstacles.attach("part", "robot/ball", touch=["obstacle/lid"]))
         self.assertNotIn(("obstacle/part", "robot/ball"), self.near())
         explained = self.proximity.explain_pair("robot/ball", "obstacle/part").explanation
-        self.assertIn("obstacle/part may touch 'robot/ball' because it is attached to robot/ball", explained)
+        self.assertIn("obstacle/part may touch 'robot/ball' because obstacle/part is attached to robot/ball", explained)
         self.assertTrue(self.proximity.query_sphere((5.1, 0, 0), 0.01, include="obstacle/*").hits[0].carried)
         self.ball.x = 6.0
         try:

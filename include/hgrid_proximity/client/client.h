@@ -44,7 +44,7 @@ inline bool isUsable(const WorldState& world) {
 /// if (isClear(proximity.ask(sphere).answer)) ...
 /// ```
 ///
-/// Call ros::init() first. Answers need no spinner. Each kind of request has its own connection, which stays open, and
+/// Call ros::init() first. Answers need no spinner. Each kind of query has its own connection, which stays open, and
 /// its own thread. Several threads may share an object; their requests of the same kind are answered one after the
 /// other. `rossrv show -r hgrid_proximity/QuerySphere` explains the fields of a request.
 class Client {
@@ -81,8 +81,8 @@ class Client {
   /// first tick with the changes.
   /// @param extra  how much longer than usual to wait, for example for many large meshes; at most 10^6 s
   /// @throws Refused if nothing was changed, or if the code is BUSY and the text says that the change was made
-  /// @throws NoAnswer; then nobody knows whether the changes were made. Adding the same obstacle and moving it to the
-  /// same pose can be repeated. Other changes are refused if they were made already.
+  /// @throws NoAnswer; then the changes may or may not have been made. MOVE and ATTACH can be repeated. REMOVE and
+  /// DETACH are refused if they were made already, and ADD if the obstacle was moved or attached since.
   ApplyObstaclesResponse apply(const ApplyObstaclesRequest& request, std::chrono::duration<double> extra = {}) {
     ApplyObstaclesResponse response = obstacles_.call(request, extra);
     if (!response.success) throw Refused(response.code, response.failed_index);

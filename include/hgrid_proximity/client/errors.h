@@ -29,7 +29,7 @@ class Refused : public ProximityError {
   explicit Refused(const Code& reason, std::uint32_t index = 0)
       : ProximityError(reason.name + ": " + reason.text), code(reason), failed_index(index) {}
   Code code;                   ///< the reason, as a number, as a word and as a sentence for people
-  std::uint32_t failed_index;  ///< Client::apply(): which change was refused; 0 for other requests
+  std::uint32_t failed_index;  ///< Client::apply(): index of the refused change; 0 if there is none
 };
 
 }  // namespace hgrid_proximity

@@ -17,7 +17,8 @@
 
 namespace hgrid_proximity {
 
-/// Calls one service with a time limit. The connection stays open between calls, unless a call must not be repeated.
+/// Calls one service with a time limit. With `repeat`, the connection stays open between calls. Otherwise each call
+/// opens its own.
 ///
 /// roscpp cannot limit the time of a call. Therefore a thread of its own makes the calls; the first call starts it.
 /// Several threads may share an object. Their calls run one after the other, and the time limit of a call begins when
@@ -29,8 +30,7 @@ class Service {
  public:
   /// @param name     name of the service, resolved as usual
   /// @param timeout  longest time from a call to its answer, connecting included
-  /// @param repeat   whether a call that fails because the connection has broken is made again: true only for services
-  /// that change nothing
+  /// @param repeat   true: a call that fails on an open connection is made again; only for services that change nothing
   /// @throws std::invalid_argument unless the timeout is greater than 0 and at most 10^6 s
   Service(const std::string& name, std::chrono::duration<double> timeout, bool repeat = true)
       : name_(node_.resolveName(name)), timeout_(timeout), repeat_(repeat) {

@@ -27,7 +27,7 @@ constexpr std::size_t kLongestText = 512;  // [byte] length of the name of a fra
 /// Returns a name for error sentences.
 std::string whatOf(const msg::Obstacle& change) { return "obstacle '" + printable(change.name) + "'"; }
 
-/// @throws Refusal out_of_range unless the value is 0 or positive and at most `most`
+/// @throws Refusal out_of_range unless 0 <= value <= most
 void checkAmount(const msg::Obstacle& change, const char* field, double value, double most, const char* unit) {
   if (value >= 0.0 && value <= most) return;
   throw Refusal(Code::out_of_range, whatOf(change) + ": its " + field + " is " + text(value) + " " + unit +
@@ -198,7 +198,7 @@ ObstacleChanges obstacleChangesOf(const msg::ApplyObstacles::Request& request, c
   if (request.complete_set) {
     changes.complete_set_of = request.owner.empty() ? caller : request.owner;
     if (changes.complete_set_of->empty())
-      throw Refusal(Code::bad_id, "the complete set has no owner; give its name, because the caller has none");
+      throw Refusal(Code::bad_id, "complete_set needs an owner; owner is empty and the caller has no name: set owner");
   }
   for (std::size_t i = 0; i < request.changes.size(); ++i) {
     try {

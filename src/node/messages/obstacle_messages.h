@@ -14,7 +14,8 @@
 namespace hgrid {
 
 /// Reads a request of ~apply_obstacles. It prepares the shapes for exact distances, which may take long.
-/// @param caller  name of the node that sent the request; it owns what names no owner
+/// @param caller  name of the node that sent the request; owner of the added obstacles and of the complete set that
+/// name none
 /// @param meshes  reads the mesh files that the shapes name
 /// @throws ChangeRefusal if a change is not valid; Refusal if the request is not. Nothing is compared with the world.
 ObstacleChanges obstacleChangesOf(const ::hgrid_proximity::ApplyObstacles::Request& request, const std::string& caller,

@@ -41,7 +41,8 @@ void checkTouch(const ObstacleChanges& changes, const AnswerTick& tick, const Pa
     try {
       checkKnown(unknown, tick.snapshot().structure().bodies);
     } catch (const Refusal& refusal) {
-      throw ChangeRefusal(i, refusal);
+      throw ChangeRefusal(
+          i, Refusal(refusal.code(), "touch of '" + printable(changes.changes[i].name) + "': " + refusal.what()));
     }
   }
 }

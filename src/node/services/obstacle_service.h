@@ -14,7 +14,8 @@
 
 namespace hgrid {
 
-/// Serves ~apply_obstacles. The thread that serves a request prepares the obstacles; a tick only puts them in.
+/// Serves ~apply_obstacles. The thread that serves a request prepares the obstacles; a tick only adds them to the
+/// world.
 class ObstacleService {
  public:
   /// `envelope` and `params` must outlive this object.

@@ -38,7 +38,7 @@ struct Attachment {
   std::vector<std::string> touch;      ///< globs over the names of bodies that may touch the obstacle
 };
 
-/// One change of one obstacle. Each change is made by the thread that received the request, and applied in a tick.
+/// One change of one obstacle. Each change is created by the thread that received the request, and applied in a tick.
 struct ObstacleChange {
   enum class Kind { add, move, remove, attach, detach };
   Kind kind;
@@ -51,8 +51,9 @@ struct ObstacleChange {
 
 /// Changes that are applied together or not at all.
 struct ObstacleChanges {
-  std::vector<ObstacleChange> changes;         ///< in the order in which they are applied
-  std::optional<std::string> complete_set_of;  ///< all other obstacles of this owner are removed; nullopt: none are
+  std::vector<ObstacleChange> changes;  ///< in the order in which they are applied
+  std::optional<std::string>
+      complete_set_of;  ///< the obstacles of this owner that no change adds are removed; nullopt: none
 };
 
 /// A refusal of one of several changes.

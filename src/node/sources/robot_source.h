@@ -36,7 +36,7 @@ struct LoadedRobot {
   std::string root_frame;
   std::vector<Body> bodies;  // one body for each link that has geometry
   std::vector<Group> groups;
-  std::map<std::string, Seat> links;           // all links, by the name that their body has or would have
+  std::map<std::string, Seat> links;           // all links, by full name (robot/link)
   std::vector<std::string> without_collision;  // names of the other links
   std::vector<std::string> uses_visual;        // names of the bodies whose shapes are the link's visual geometry
   std::string gap;                             // why the robot as a whole is incomplete; empty: it is complete

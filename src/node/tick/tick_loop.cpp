@@ -13,7 +13,7 @@ namespace {
 // Share of the tick period that may be spent on transforms. It is limited, because a flood of transforms must not stop
 // the ticks.
 constexpr double kShareForTransforms = 0.5;
-constexpr std::chrono::seconds kPatience{10};  // how long a change waits for the tick that shows it
+constexpr std::chrono::seconds kPatience{10};  // how long to wait for the tick that contains a change
 
 }  // namespace
 
@@ -62,7 +62,8 @@ std::shared_ptr<const Tick> TickLoop::tickAfter(const TickJobs::Job& job) {
     job(world);
   });
   // `job` runs at the beginning of a tick, before newest() returns this tick. The job below runs at the beginning of a
-  // later tick. At this time, the tick of `job` has been published, unless it failed. Then the next tick is asked.
+  // later tick. At this time, the tick of `job` has been published, unless it failed. Then the loop waits for
+  // the next tick.
   const auto deadline = std::chrono::steady_clock::now() + kPatience;
   try {
     while (std::chrono::steady_clock::now() < deadline) {
@@ -72,8 +73,9 @@ std::shared_ptr<const Tick> TickLoop::tickAfter(const TickJobs::Job& job) {
   } catch (const Refusal& refusal) {
     if (refusal.code() != Code::busy) throw;
   }
-  throw Refusal(Code::busy,
-                "the change was made, but no tick has shown it in time; look at the world before you repeat it");
+  throw Refusal(
+      Code::busy,
+      "the change was made, but no tick was published in time; check ~bodies and ~rules before you repeat it");
 }
 
 void TickLoop::takeTransforms(const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher,

@@ -14,7 +14,7 @@
 namespace hgrid {
 namespace {
 
-/// Returns when a lifetime ends that begins now. Time::max(): never
+/// Returns the end of a lifetime that begins at `now`; Time::max(): never.
 Time endOf(const RequestedObstacle& obstacle, Time now) {
   if (obstacle.lifetime == std::chrono::nanoseconds(0)) return Time::max();
   return obstacle.lifetime > Time::max() - now ? Time::max() : now + obstacle.lifetime;
@@ -71,7 +71,9 @@ const PlacedObstacle* ObstacleBodies::find(const Edits& edits, const std::string
 
 const PlacedObstacle& ObstacleBodies::known(const std::string& name, const Edits& edits) const {
   const PlacedObstacle* found = find(edits, name);
-  if (found == nullptr) throw Refusal(Code::unknown_id, "there is no body '" + printable(name) + "'");
+  if (found == nullptr)
+    throw Refusal(Code::unknown_id,
+                  "there is no '" + printable(name) + "'; only an existing obstacle can be changed (see ~bodies)");
   return *found;
 }
 
@@ -91,8 +93,9 @@ PlacedObstacle ObstacleBodies::added(const ObstacleChange& change, const Edits& 
     next = *old;
     next.owner = change.added->owner;
   } else if (!change.replace) {
-    throw Refusal(Code::dup_id, "there is another body '" + printable(change.name) +
-                                    "' already; remove it first, or set replace = true");
+    throw Refusal(Code::dup_id, "'" + printable(change.name) +
+                                    "' exists already, and is different, elsewhere or attached; remove it first, "
+                                    "or set replace = true");
   }
   return next;
 }
@@ -138,7 +141,7 @@ std::vector<PairRule> ObstacleBodies::touchRulesAfter(const Edits& edits) const 
   std::vector<PairRule> rules;
   visit([&](const std::string& name, const PlacedObstacle& obstacle) {
     for (const std::string& other : obstacle.touch) {
-      PairRule rule{name, other, "it is attached to " + obstacle.attachment->link};
+      PairRule rule{name, other, name + " is attached to " + obstacle.attachment->link};
       rule.origin = Origin::attached;
       rules.push_back(std::move(rule));
     }

@@ -54,8 +54,8 @@ void checkPlace(const PlacedObstacle& obstacle, const Surroundings& around) {
 void checkNoGlob(const std::string& name) {
   if (!isGlob(name)) return;
   throw Refusal(Code::bad_id, "'" + printable(name) +
-                                  "' contains * or ?; an obstacle can only be attached if neither "
-                                  "its name nor the name of the link does");
+                                  "' contains * or ?; the names of attached obstacles and of "
+                                  "their links must not");
 }
 
 }  // namespace
@@ -121,8 +121,11 @@ void attach(PlacedObstacle& obstacle, const Attachment& attachment, const Surrou
     const std::string& frame = robot->groups[seat.group].frame;
     Pose frame_from_body = obstacle.frame_from_body;
     if (obstacle.frame != frame) {
-      frame_from_body =
-          presentPose(frame, obstacle.frame, what + " at its present pose: its frame", around) * frame_from_body;
+      frame_from_body = presentPose(frame, obstacle.frame,
+                                    what + " at its present pose: frame '" + printable(obstacle.frame) +
+                                        "', relative to '" + printable(frame) + "',",
+                                    around) *
+                        frame_from_body;
     }
     resolved->link_from_body = seat.frame_from_link.inverse() * frame_from_body;
   }

@@ -12,7 +12,7 @@
 
 namespace hgrid {
 
-/// What the places of obstacles refer to.
+/// What is needed to place an obstacle.
 struct Surroundings {
   const Params& params;
   const std::string& world_frame;
@@ -29,9 +29,9 @@ struct PlacedObstacle {
   std::string frame;                             ///< the frame that it follows
   Pose frame_from_body = Pose::Identity();       ///< its pose in that frame
   Time ends = Time::max();                       ///< end of its lifetime [ROS time]; max: never
-  std::shared_ptr<const Attachment> attachment;  ///< the link that carries it, and its pose there; null: none
-  std::vector<std::string> touch;  ///< while it is carried: names and globs of the bodies that may touch it
-  double carrier_speed = 0.0;      ///< [m/s] while it is carried: expected largest speed of the link
+  std::shared_ptr<const Attachment> attachment;  ///< the link that it is attached to, and its pose there; null: none
+  std::vector<std::string> touch;  ///< while it is attached: names and globs of the bodies that may touch it
+  double carrier_speed = 0.0;      ///< [m/s] while it is attached: expected largest speed of the link
 };
 
 /// Returns the obstacle as a body of the scene.
@@ -40,7 +40,7 @@ Body bodyOf(const PlacedObstacle& obstacle, const std::string& world_frame);
 ///@{
 /// Returns whether two obstacles are the same, apart from their places and owners.
 bool isSame(const RequestedObstacle& a, const RequestedObstacle& b);
-/// Returns whether the second request must lead to the place of the first one.
+/// Returns whether both requests give the same place; false if the second has the stamp 0.
 bool isSame(const ObstaclePlace& first, const ObstaclePlace& second);
 /// Returns whether two obstacles are at the same place of the same frame.
 bool isAtSamePlace(const PlacedObstacle& a, const PlacedObstacle& b);
@@ -57,8 +57,8 @@ void attach(PlacedObstacle& obstacle, const Attachment& attachment, const Surrou
 void detach(PlacedObstacle& obstacle, const Surroundings& around);
 ///@}
 
-/// Finds the place and the neighbors of a carried obstacle again, after the model of its robot was replaced. If the
-/// link does not exist any more, the obstacle stays as it is.
+/// Computes the place and the touch list of an attached obstacle again, after the model of its robot was replaced. If
+/// the link does not exist any more, the obstacle stays as it is.
 void follow(PlacedObstacle& obstacle, const RobotModels& robots, const Params& params);
 
 }  // namespace hgrid

@@ -45,7 +45,7 @@ class RulesInForce {
 
  private:
   static bool isTouch(const PairRule& rule) { return rule.origin == Origin::attached; }
-  /// Whether the rules of attached obstacles among `rules` are these rules.
+  /// Returns whether the rules of attached obstacles in `rules` equal `touch`.
   static bool has(const std::vector<PairRule>& rules, const std::vector<PairRule>& touch) {
     const auto first = std::find_if(rules.begin(), rules.end(), isTouch);
     const auto last = std::find_if_not(first, rules.end(), isTouch);
@@ -53,7 +53,7 @@ class RulesInForce {
       return a.first == b.first && a.second == b.second && a.reason == b.reason;
     });
   }
-  /// Returns `rules` with other rules of attached obstacles.
+  /// Returns `rules` with its rules of attached obstacles replaced by `touch`.
   static std::vector<PairRule> merged(std::vector<PairRule> rules, const std::vector<PairRule>& touch) {
     rules.erase(std::remove_if(rules.begin(), rules.end(), isTouch), rules.end());
     const auto isAdded = [](const PairRule& rule) { return rule.origin == Origin::service; };

@@ -88,7 +88,7 @@ TEST_F(Obstacles, WhoseNamesAreGlobsCannotBeAttached) {
   EXPECT_EQ(refused({attaching("q?", "arm/hand")}), Refused(Code::bad_id, 0));
 }
 
-TEST_F(Obstacles, RefuseWhatDoesNotFitToTheirAttachment) {
+TEST_F(Obstacles, RefuseInvalidAttachments) {
   apply({adding("part", 1), adding("lid", 2), attaching("part", "arm/hand")});
   tick();
   msg::Obstacle long_glob = attaching("lid", "arm/hand"), many = long_glob;

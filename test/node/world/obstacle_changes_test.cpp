@@ -125,7 +125,7 @@ TEST_F(Obstacles, AreReadFromFiles) {
   EXPECT_EQ(refused({two}), Refused(Code::bad_geometry, 0));
 }
 
-TEST_F(Obstacles, ThatAreEqualAreNeverRefused) {
+TEST_F(Obstacles, ThatAreEqualAndAtTheSamePlaceAreAccepted) {
   apply({adding("part", 1)});
   EXPECT_EQ(refused({adding("part", 1)}), std::nullopt);
   EXPECT_EQ(refused({adding("part", 1, 0.2)}), Refused(Code::dup_id, 0));
@@ -148,7 +148,7 @@ TEST_F(Obstacles, OfACompleteSetReplaceTheOthersOfTheirOwner) {
   EXPECT_EQ(placesIn(tick()), (Places{{"callers", 5}, {"post", 3}}));
 }
 
-TEST_F(Obstacles, EndWithTheirLifetimeUnlessTheyAreTouched) {
+TEST_F(Obstacles, EndWithTheirLifetimeUnlessTheyAreChanged) {
   msg::Obstacle brief = adding("brief", 1), renewed = adding("renewed", 2);
   brief.lifetime = renewed.lifetime = ros::Duration(0.3);
   apply({brief, renewed});

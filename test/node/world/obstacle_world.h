@@ -95,8 +95,8 @@ inline Body linkOf(const std::string& name, const std::string& frame) {
   return link;
 }
 
-/// Returns an arm whose link "base" is fixed. Its links "hand" and "tool" are in the frame "cart"; the tool is 0.25 m
-/// before the hand and has no geometry.
+/// Returns an arm whose link "base" is fixed. Its links "hand" and "tool" are in the frame "cart"; the tool is at x =
+/// 0.25 m of the hand and has no geometry.
 inline LoadedRobot arm() {
   LoadedRobot robot;
   robot.name = "arm";
