@@ -25,7 +25,7 @@ class NoAnswer : public ProximityError {
 /// The node refused the request, or it failed.
 class Refused : public ProximityError {
  public:
-  /// Creates an error. @param reason  the code of the response
+  /// Creates an error. @param reason  the code of the response @param index  see failed_index
   explicit Refused(const Code& reason, std::uint32_t index = 0)
       : ProximityError(reason.name + ": " + reason.text), code(reason), failed_index(index) {}
   Code code;                   ///< the reason, as a number, as a word and as a sentence for people

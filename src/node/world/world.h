@@ -70,7 +70,7 @@ class World {
   void setRules(PreparedRules rules);
   /// Applies changes of obstacles, all of them or none.
   /// @param now  current ROS time
-  /// @throws Refusal not_ready (no world frame yet), or as ObstacleBodies::apply()
+  /// @throws Refusal not_ready (no world frame or no time yet), or as ObstacleBodies::apply()
   void applyObstacles(const ObstacleChanges& changes, Time now);
   /// Restores the configured obstacles, sets all counters to 0 and begins a new epoch. Rules stay.
   void reset();
