@@ -23,7 +23,7 @@ import rospy
 from geometry_msgs.msg import Point, Vector3
 from shape_msgs.msg import Mesh, MeshTriangle
 
-from hgrid_proximity.msg import Obstacle, ObstacleOperation, Shape, ShapeKind
+from hgrid_proximity.msg import LifetimeEnd, Obstacle, ObstacleOperation, Shape, ShapeKind
 from hgrid_proximity.values import UPRIGHT, as_pose, globs, numbers
 
 Shapes = Union[Shape, Iterable[Shape]]
@@ -41,6 +41,7 @@ def add(
     margin: float = 0.0,
     max_speed: float = 0.0,
     lifetime: float = 0.0,
+    lost_at_end: bool = False,
     owner: str = "",
 ) -> Obstacle:
     """Returns a change that adds an obstacle.
@@ -55,13 +56,16 @@ def add(
     @param moving  True: it makes pairs with fixed bodies, too. An obstacle that follows another frame always does.
     @param margin  [m] distance at which other bodies are near, at least ~margin; 0: as ~margins and ~margin say
     @param max_speed  [m/s] upper bound of its speed, used while its data is old; 0: as the parameters say
-    @param lifetime  [s, ROS time] it is removed after this time without a change, even while it is attached; 0: it stays
+    @param lifetime  [s, ROS time] it ends after this time without a change, even while it is attached; 0: it never ends
+    @param lost_at_end  what the end of the lifetime means. True: the obstacle stays and becomes LOST, because its place is no
+        longer known, until it is added or changed again. False: it is removed.
     @param owner  name of its owner (see Proximity.apply_obstacles); empty: the name of this node. An anonymous node has a
         new name in each run, so give an owner.
     """
     change = _placed(ObstacleOperation.ADD, name, position, orientation, frame, stamp)
     change.shapes = [shapes] if isinstance(shapes, Shape) else list(shapes)
     change.replace, change.moving, change.owner = replace, moving, owner
+    change.lifetime_end = LifetimeEnd.LOST if lost_at_end else LifetimeEnd.REMOVE
     change.margin, change.max_speed, change.lifetime = margin, max_speed, rospy.Duration.from_sec(lifetime)
     return change
 

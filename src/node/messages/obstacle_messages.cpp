@@ -70,7 +70,7 @@ void checkOffered(const msg::Obstacle& change) {
     throw Refusal(Code::unsupported, whatOf(change) + ": " + what + " in this version of the node");
   };
   if (!change.group.empty()) refuse("group must be empty");
-  if (change.lifetime_end != msg::LifetimeEnd::REMOVE) refuse("lifetime_end must be REMOVE");
+  if (change.lifetime_end > msg::LifetimeEnd::LOST) refuse("lifetime_end must be REMOVE (0) or LOST (1)");
 }
 
 /// Reads the mesh file of a shape.
@@ -133,6 +133,7 @@ std::shared_ptr<const RequestedObstacle> addedBy(const msg::Obstacle& change, co
   makeSolids(narrow_phase, body);
   added->place = placeOf(change);
   added->moving = change.moving;
+  added->lost_at_end = change.lifetime_end == msg::LifetimeEnd::LOST;
   added->owner = change.owner.empty() ? caller : change.owner;
   added->lifetime = std::chrono::nanoseconds(change.lifetime.toNSec());
   return added;

@@ -26,8 +26,9 @@ struct ObstaclePlace {
 struct RequestedObstacle {
   Body body;  ///< complete, apart from frame, pose and mobility
   ObstaclePlace place;
-  bool moving = false;  ///< whether it makes pairs with fixed bodies even if it follows the world frame
-  std::string owner;    ///< who added it
+  bool moving = false;       ///< whether it makes pairs with fixed bodies even if it follows the world frame
+  bool lost_at_end = false;  ///< at the end of its lifetime, it becomes LOST; otherwise it is removed
+  std::string owner;         ///< who added it
   std::chrono::nanoseconds lifetime{0};  ///< of ROS time, from its last change; 0: unlimited
 };
 

@@ -42,6 +42,10 @@ void MoverPoses::updateOne(std::size_t index, bool clock_frozen, Tick& tick) {
   const ChainState& chain = frames_.chain(index);
   const bool is_static =
       chain.connected && !chain.moves && chain.refused == nullptr && chain.contested == TfIntake::kNone;
+  if (mover.given_up) {
+    updateGivenUp(mover, tick);
+    return;
+  }
   if (mover.settled && is_static) return;
   mover.trouble = frames_.troubleOf(index);
   mover.conflict = chain.conflict;
@@ -55,6 +59,17 @@ void MoverPoses::updateOne(std::size_t index, bool clock_frozen, Tick& tick) {
   }
   mover.settled = is_static && !mover.trouble;
   setState(mover, judge(mover, chain, clock_frozen));
+  appendTroubles(mover, tick);
+}
+
+/// Lets the pose of the mover grow old where it is.
+void MoverPoses::updateGivenUp(Mover& mover, Tick& tick) {
+  mover.settled = false;
+  if (mover.pose.settled()) {
+    mover.pose.unsettle(frames_.tickTimeBefore(), frames_.readingBefore());
+    setStamp(mover);
+  }
+  setState(mover, Freshness::lost);
   appendTroubles(mover, tick);
 }
 

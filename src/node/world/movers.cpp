@@ -48,6 +48,12 @@ void Movers::add(const SourceId& source, Body body) {
   ++revision_;
 }
 
+void Movers::giveUp(const std::set<std::string>& names) noexcept {
+  for (Mover& mover : movers_) {
+    if (mover.source.kind == SourceKind::obstacle && names.count(mover.source.name) != 0) mover.given_up = true;
+  }
+}
+
 Movers::Change Movers::changeWithout(const std::function<bool(const SourceId&)>& chosen) const {
   Change change;
   for (const Mover& mover : movers_) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct Mover {
   std::size_t first = 0, last = 0;  ///< indices of its members in Movers::members(): first .. last - 1
   KeptPose pose{};
   bool settled = false;              ///< whether nothing is wrong with it and only new static transforms can move it
+  bool given_up = false;             ///< whether it keeps its pose and is LOST, whatever its frame does
   bool conflict = false;             ///< whether a frame of its chain is published on both /tf and /tf_static
   std::optional<Refusal> trouble{};  ///< what is wrong with its frame
 };
@@ -51,6 +53,9 @@ class Movers {
   /// Applies a change to this object and to the scene.
   /// @throws Refusal as Scene::exchange()
   void exchange(Change change);
+
+  /// Lets obstacles keep their poses and be LOST from the next tick on. @param names  full names
+  void giveUp(const std::set<std::string>& names) noexcept;
 
   std::size_t size() const { return movers_.size(); }
   Mover& operator[](std::size_t index) { return movers_[index]; }

@@ -116,6 +116,7 @@ PlacedObstacle ObstacleBodies::changed(const ObstacleChange& change, const Edits
     put(next, change.place, around);
   }
   next.ends = endOf(*next.what, around.now);
+  next.lost = false;
   return next;
 }
 
@@ -182,7 +183,7 @@ void ObstacleBodies::followRobots(const RobotModels& robots, const std::string& 
   if (robots_revision_ == robots.revision()) return;
   Edits edits;
   for (const auto& [name, obstacle] : present_) {
-    if (!obstacle.attachment) continue;
+    if (!obstacle.attachment || obstacle.lost) continue;
     follow(edits.set.emplace(name, obstacle).first->second, robots, params_);
   }
   carryOut(std::move(edits), world_frame, movers);
@@ -192,20 +193,27 @@ void ObstacleBodies::followRobots(const RobotModels& robots, const std::string& 
 void ObstacleBodies::expire(Time now, Movers& movers) {
   if (now < first_end_) return;
   Edits edits;
+  std::set<std::string> lost;
   Time first_end = Time::max();
   for (const auto& [name, obstacle] : present_) {
-    if (obstacle.ends <= now) {
-      edits.removed.insert(name);
-    } else {
+    if (obstacle.lost) continue;
+    if (obstacle.ends > now) {
       first_end = std::min(first_end, obstacle.ends);
+    } else {
+      (obstacle.what->lost_at_end ? lost : edits.removed).insert(name);
     }
   }
   carryOut(std::move(edits), "", movers);
+  // The code below does not throw.
+  movers.giveUp(lost);
+  for (const std::string& name : lost) present_.find(name)->second.lost = true;
   first_end_ = first_end;
 }
 
 void ObstacleBodies::restamp(Time now) noexcept {
-  for (auto& [name, obstacle] : present_) obstacle.ends = endOf(*obstacle.what, now);
+  for (auto& [name, obstacle] : present_) {
+    if (!obstacle.lost) obstacle.ends = endOf(*obstacle.what, now);
+  }
   first_end_ = now;  // the next expire() finds the right time
 }
 
@@ -222,7 +230,7 @@ void ObstacleBodies::carryOut(Edits edits, const std::string& world_frame, Mover
     first_end = std::min(first_end, next.ends);
     const auto old = present_.find(name);
     if (old != present_.end()) {
-      const bool renewed = old->second.what == next.what && old->second.frame == next.frame &&
+      const bool renewed = !old->second.lost && old->second.what == next.what && old->second.frame == next.frame &&
                            old->second.carrier_speed == next.carrier_speed &&
                            !old->second.attachment == !next.attachment &&
                            old->second.frame_from_body.matrix() == next.frame_from_body.matrix();

@@ -64,7 +64,8 @@ Body bodyOf(const PlacedObstacle& obstacle, const std::string& world_frame) {
   Body body = obstacle.what->body;
   body.frame = obstacle.frame;
   body.frame_from_body = obstacle.frame_from_body;
-  const bool fixed = obstacle.frame == world_frame && !obstacle.what->moving;
+  // A lost obstacle may have moved, so it must never have been fixed.
+  const bool fixed = obstacle.frame == world_frame && !obstacle.what->moving && !obstacle.what->lost_at_end;
   body.mobility = fixed ? Mobility::fixed : Mobility::moving;
   if (obstacle.attachment) {
     body.max_speed = std::max(body.max_speed, obstacle.carrier_speed);
@@ -74,8 +75,8 @@ Body bodyOf(const PlacedObstacle& obstacle, const std::string& world_frame) {
 }
 
 bool isSame(const RequestedObstacle& a, const RequestedObstacle& b) {
-  return a.moving == b.moving && a.lifetime == b.lifetime && a.body.margin == b.body.margin &&
-         a.body.max_speed == b.body.max_speed &&
+  return a.moving == b.moving && a.lifetime == b.lifetime && a.lost_at_end == b.lost_at_end &&
+         a.body.margin == b.body.margin && a.body.max_speed == b.body.max_speed &&
          std::equal(a.body.shapes.begin(), a.body.shapes.end(), b.body.shapes.begin(), b.body.shapes.end(),
                     isSameShape);
 }

@@ -65,7 +65,7 @@ TEST_F(Obstacles, AreRefusedAsAWholeWithTheIndexOfTheChange) {
   msg::Obstacle unknown = late, fast = adding("x", 0);
   unknown.header.frame_id = "never_seen";
   fast.velocity.linear.x = 1.0;
-  lost.lifetime_end = msg::LifetimeEnd::LOST;
+  lost.lifetime_end = 2;
   group.group = "g";
   none.shapes.clear();
   thick.shapes[0].padding = -1.0;
@@ -157,6 +157,33 @@ TEST_F(Obstacles, EndWithTheirLifetimeUnlessTheyAreChanged) {
   tick();
   EXPECT_EQ(placesIn(tick()), (Places{{"post", 3}, {"renewed", 2}}));
   EXPECT_EQ(placesIn(tick()), (Places{{"post", 3}}));
+}
+
+TEST_F(Obstacles, BecomeLostAtTheEndOfTheirLifetimeIfThatWasRequested) {
+  msg::Obstacle seen = adding("seen", 1), held = adding("held", 0.5, 0.1, "cart");
+  seen.lifetime = held.lifetime = ros::Duration(0.3);
+  seen.lifetime_end = held.lifetime_end = msg::LifetimeEnd::LOST;
+  apply({seen, held});
+  const auto stateOf = [&](const std::string& name) {
+    return tick_->snapshot->poses()[indexOf(*tick_->snapshot, name)].state;
+  };
+  tick();
+  tick();
+  const double last = placesIn(*tick_->snapshot).at("held");
+  EXPECT_EQ(stateOf("obstacle/seen"), Freshness::fresh);
+  EXPECT_EQ(bodyOf(*tick_->snapshot, "obstacle/seen").mobility, Mobility::moving);
+  EXPECT_TRUE(tick_->snapshot->complete());
+  for (int i = 0; i < 8; ++i) tick();
+  for (const char* name : {"obstacle/seen", "obstacle/held"}) EXPECT_EQ(stateOf(name), Freshness::lost);
+  EXPECT_EQ(placesIn(*tick_->snapshot), (Places{{"held", last}, {"post", 3}, {"seen", 1}})) << "nobody moves them";
+  EXPECT_FALSE(tick_->snapshot->complete());
+  const std::uint32_t index = indexOf(*tick_->snapshot, "obstacle/seen");
+  EXPECT_NEAR(tick_->snapshot->poses()[index].age, 7 * 0.125, 0.13);
+  apply({seen, moving("held", 0.25, "cart")});  // seen again
+  tick();
+  for (const char* name : {"obstacle/seen", "obstacle/held"}) EXPECT_EQ(stateOf(name), Freshness::fresh);
+  EXPECT_TRUE(tick_->snapshot->complete());
+  EXPECT_EQ(placesIn(*tick_->snapshot).at("held"), cart(time_) + 0.25);
 }
 
 TEST_F(Obstacles, BeyondMaxBodiesAreRefused) {
