@@ -26,6 +26,8 @@ from shape_msgs.msg import Mesh, MeshTriangle
 from hgrid_proximity.msg import LifetimeEnd, Obstacle, ObstacleOperation, Shape, ShapeKind
 from hgrid_proximity.values import UPRIGHT, as_pose, globs, numbers
 
+POSES = "~poses"  # frame of the obstacles that messages on ~poses move; see poses.PosesPublisher
+
 Shapes = Union[Shape, Iterable[Shape]]
 
 

@@ -38,7 +38,7 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
       world_(commons_.settings.params, ros::Time::isSimTime(), newEpoch(), commons_.ledger, commons_.narrow_phase),
       jobs_([this] { return isEnding(); }, std::chrono::seconds(10), [this] { tick_thread_.wake(); }),
       auditor_(commons_),
-      tick_loop_(tick_thread_.node(), commons_.settings.params, world_, jobs_, stopwatch_, commons_.health,
+      tick_loop_(tick_thread_.node(), tick_thread_.privateNode(), commons_.settings.params, world_, jobs_, stopwatch_, commons_.health,
                  auditor_.listener(), commons_.ledger),
       publishers_(tick_thread_.privateNode(), admin_thread_.privateNode(), commons_, stopwatch_, sketch_),
       completeness_log_(std::chrono::steady_clock::now()),

@@ -3,43 +3,26 @@
 # SPDX-FileCopyrightText: the hgrid_proximity authors
 """Changes of obstacles with the client for Python, beside a running node: a robot with one moving sphere, and two obstacles
 from the parameters."""
+import io
 import math
 import random
 import threading
 import time
 import unittest
 
+import numpy as np
 import rospy
 import rosunit
-from geometry_msgs.msg import TransformStamped
+from geometry_msgs.msg import Point, Quaternion
 from hgrid_proximity import obstacles
 from hgrid_proximity.client import Proximity
 from hgrid_proximity.errors import Refused
-from hgrid_proximity.msg import Bodies, Shape, ShapeKind, Status
-from tf2_msgs.msg import TFMessage
+from hgrid_proximity.msg import Bodies, Poses, Shape, ShapeKind, Status
+from hgrid_proximity.poses import PosesPublisher, _Bytes
+from moving_ball import Ball
 
 MARGIN = 0.1  # [m] ~margin
 CONFIGURED = {"obstacle/crate", "obstacle/lamp"}
-
-
-class Ball:
-    """Publishes the pose of the robot's sphere in the world."""
-
-    def __init__(self):
-        self.x = 5.0
-        self._publisher = rospy.Publisher("/tf", TFMessage, queue_size=1)
-        threading.Thread(target=self._run, daemon=True).start()
-
-    def _run(self):
-        while not rospy.is_shutdown():
-            pose = TransformStamped(child_frame_id="ball")
-            pose.header.frame_id, pose.header.stamp = "world", rospy.Time.now()
-            pose.transform.translation.x, pose.transform.rotation.w = self.x, 1.0
-            try:
-                self._publisher.publish(TFMessage([pose]))
-            except rospy.ROSException:
-                break  # the test ends
-            time.sleep(0.02)
 
 
 class Obstacles(unittest.TestCase):
@@ -221,6 +204,49 @@ class Obstacles(unittest.TestCase):
         self.apply(brief, long)
         self.wait_for(lambda: not self.at(1, 0, 0))
         self.assertEqual(self.at(2, 0, 0), ["obstacle/long"])
+
+    def test_poses_move_many_obstacles(self):
+        """Claim: obstacles of the frame ~poses are where the messages of ~poses say. Without a pose, they are UNPLACED; if
+        the messages stop, they become LOST, and a move ends that."""
+        names = ["n%d" % i for i in range(200)]
+        self.apply(*(obstacles.add(name, obstacles.sphere(0.01), (0, 0, 0.5), frame=obstacles.POSES) for name in names))
+        self.assertFalse(self.proximity.query_sphere((50, 0, 0), 0.01).clear)
+        self.assertIn("UNPLACED", self.proximity.query_sphere((50, 0, 0), 0.01).summary)
+        publisher = PosesPublisher(names, "world")
+        publisher.wait_for_node(60.0)
+        positions = np.random.default_rng(1).uniform(20.0, 30.0, (200, 3))
+        turned = np.tile((1.0, 0.0, 0.0, 0.0), (200, 1))  # half a turn about x: the offset in z is negative then
+        for orientations, offset in ((None, 0.5), (turned, -0.5)):
+            positions += 1.0
+
+            def is_there():
+                publisher.publish(positions, orientations)
+                pairs = self.proximity.query_box((30, 30, 30), (40, 40, 40), include="obstacle/n*")
+                return pairs.response.answer.total == 200 and self.is_at(positions + (0, 0, offset))
+
+            self.wait_for(is_there)
+        self.assertTrue(self.proximity.query_sphere((50, 0, 0), 0.01).clear)
+        self.wait_for(lambda: "LOST" in self.proximity.query_sphere((50, 0, 0), 0.01).summary)
+        self.apply(*(obstacles.move(name, (20, 20, 20)) for name in names))
+        self.assertTrue(self.proximity.query_sphere((50, 0, 0), 0.01).clear)
+        publisher.close()
+
+    def is_at(self, positions):
+        """Returns whether sample obstacles are at these positions."""
+        return all(self.at(*positions[i]) == ["obstacle/n%d" % i] for i in (0, 77, 199))
+
+    def test_bytes_of_poses_are_those_of_the_message(self):
+        """Claim: PosesPublisher writes the bytes that genpy writes for the same message."""
+        array = _Bytes(names_version=3, names=["a", "b"])
+        array.header.frame_id, array.header.stamp = "world", rospy.Time(1, 2)
+        plain = Poses(names_version=3, names=["a", "b"], header=array.header)
+        array.position, array.orientation = np.arange(6.0).reshape(2, 3), np.arange(8.0).reshape(2, 4)
+        plain.position = [Point(*row) for row in array.position]
+        plain.orientation = [Quaternion(*row) for row in array.orientation]
+        written = [io.BytesIO(), io.BytesIO()]
+        array.serialize(written[0])
+        plain.serialize(written[1])
+        self.assertEqual(written[0].getvalue(), written[1].getvalue())
 
     def test_a_complete_set_removes_the_others_of_its_owner(self):
         mine, other = (obstacles.add(name, obstacles.sphere(0.1), owner=owner) for name, owner in

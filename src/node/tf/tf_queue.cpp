@@ -15,11 +15,15 @@ std::size_t chargeOf(const ReceivedTransforms& transforms) {
 }  // namespace
 
 std::string ReceivedTransforms::name() const {
-  return std::string("the message on ") + (is_static ? "/tf_static" : "/tf") + " from '" + printable(publisher) + "'";
+  return std::string("the message on ") +
+         (is_static    ? "/tf_static"
+          : from_poses ? "~poses"
+                       : "/tf") +
+         " from '" + printable(publisher) + "'";
 }
 
 void TfQueue::push(ReceivedTransforms transforms) {
-  const TransformBytes& message = *transforms.message;
+  const MessageBytes& message = *transforms.message;
   const std::size_t most_bytes = std::min(most_bytes_, message.most_bytes);
   if (message.size > most_bytes) {
     const std::string rule = " bytes; at most " + std::to_string(most_bytes) + " are accepted (~tf_queue_bytes)";
@@ -38,7 +42,7 @@ void TfQueue::push(ReceivedTransforms transforms) {
 std::vector<ReceivedTransforms> TfQueue::store(ReceivedTransforms transforms) {
   std::vector<ReceivedTransforms> dropped;
   const std::lock_guard<std::mutex> lock(mutex_);
-  Lane& lane = transforms.is_static ? static_ : moving_;
+  Lane& lane = laneOf(transforms);
   lane.waiting.push_back(std::move(transforms));
   lane.bytes += chargeOf(lane.waiting.back());
   while (lane.bytes > most_bytes_ && lane.waiting.size() > 1) dropped.push_back(takeOldest(lane));
@@ -54,16 +58,18 @@ ReceivedTransforms TfQueue::takeOldest(Lane& lane) {
 
 std::optional<ReceivedTransforms> TfQueue::pop() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const bool has_moving = !moving_.waiting.empty(), has_static = !static_.waiting.empty();
-  if (!has_moving && !has_static) return std::nullopt;
-  const bool static_is_first =
-      has_static && (!has_moving || static_.waiting.front().received.steady <= moving_.waiting.front().received.steady);
-  return takeOldest(static_is_first ? static_ : moving_);
+  Lane* first = nullptr;
+  for (Lane* lane : {&static_, &moving_, &poses_}) {
+    if (lane->waiting.empty()) continue;
+    if (first == nullptr || lane->waiting.front().received.steady < first->waiting.front().received.steady)
+      first = lane;
+  }
+  return first == nullptr ? std::nullopt : std::optional<ReceivedTransforms>(takeOldest(*first));
 }
 
 bool TfQueue::empty() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return moving_.waiting.empty() && static_.waiting.empty();
+  return moving_.waiting.empty() && static_.waiting.empty() && poses_.waiting.empty();
 }
 
 }  // namespace hgrid

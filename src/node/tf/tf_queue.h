@@ -12,25 +12,27 @@
 
 #include "node/diagnostics/ledger.h"
 #include "node/time/clock_watch.h"
-#include "node/wire/transform_bytes.h"
+#include "node/wire/message_bytes.h"
 
 namespace hgrid {
 
-/// A message of /tf or /tf_static that has been received but not deserialized yet.
+/// A message of /tf, /tf_static or ~poses that has been received but not deserialized yet.
 struct ReceivedTransforms {
-  boost::shared_ptr<const TransformBytes> message;
+  boost::shared_ptr<const MessageBytes> message;  ///< a tf2_msgs/TFMessage; a message of ~poses is converted into one
   bool is_static = false;
   std::string publisher;
   Moment received;
+  bool from_poses = false;  ///< whether it came on ~poses
 
   /// Returns a description of the message for error sentences, for example "the message on /tf from '/robot'".
   std::string name() const;
 };
 
-/// A queue that passes messages of /tf and /tf_static from the thread that receives them to the tick thread. The number
-/// of bytes in it is bounded.
+/// A queue that passes messages of /tf, /tf_static and ~poses from the thread that receives them to the tick thread.
+/// The number of bytes in it is bounded.
 ///
-/// The bound applies to each topic separately. So a flood on /tf removes no static transform, which is sent only once.
+/// The bound applies to each topic separately. So a flood on one topic removes no message of another, such as a static
+/// transform, which is sent only once.
 /// When the messages of a topic exceed the bound, the oldest of them are dropped. Any thread may call any function.
 class TfQueue {
  public:
@@ -53,11 +55,14 @@ class TfQueue {
   };
   std::vector<ReceivedTransforms> store(ReceivedTransforms transforms);
   static ReceivedTransforms takeOldest(Lane& lane);
+  Lane& laneOf(const ReceivedTransforms& transforms) {
+    return transforms.is_static ? static_ : transforms.from_poses ? poses_ : moving_;
+  }
 
   std::size_t most_bytes_;
   Ledger& ledger_;
   mutable std::mutex mutex_;
-  Lane moving_, static_;
+  Lane moving_, static_, poses_;
 };
 
 }  // namespace hgrid

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/tf/tf_reader.h"
 
+#include <hgrid_proximity/Poses.h>
+
 #include <boost/make_shared.hpp>
 #include <optional>
 #include <utility>
@@ -19,19 +21,25 @@ struct TfReader::ReadNext : ros::CallbackInterface {
   TfReader& reader;
 };
 
-TfReader::TfReader(ros::NodeHandle node, std::size_t most_bytes, Now now, Sink sink, TfListener* listener,
-                   Ledger& ledger)
+TfReader::TfReader(ros::NodeHandle node, ros::NodeHandle private_node, std::size_t most_names, std::size_t most_bytes,
+                   Now now, Sink sink, TfListener* listener, Ledger& ledger)
     : most_bytes_(most_bytes),
       now_(std::move(now)),
       sink_(std::move(sink)),
       listener_(listener),
       ledger_(ledger),
       queue_(most_bytes, ledger),
+      poses_(most_names, most_bytes),
       tick_queue_(*node.getCallbackQueue()),
       read_next_(boost::make_shared<ReadNext>(*this)) {
   node.setCallbackQueue(&immediately_);
-  subscribe(node, "/tf", false);
-  subscribe(node, "/tf_static", true);
+  private_node.setCallbackQueue(&immediately_);
+  const char* const tf_type = ros::message_traits::datatype<tf2_msgs::TFMessage>();
+  const char* const tf_md5 = ros::message_traits::md5sum<tf2_msgs::TFMessage>();
+  subscribe(node, "/tf", tf_type, tf_md5, &TfReader::onTransforms);
+  subscribe(node, "/tf_static", tf_type, tf_md5, &TfReader::onStatic);
+  subscribe(private_node, "poses", ros::message_traits::datatype<::hgrid_proximity::Poses>(),
+            ros::message_traits::md5sum<::hgrid_proximity::Poses>(), &TfReader::onPoses);
 }
 
 TfReader::~TfReader() {
@@ -39,23 +47,49 @@ TfReader::~TfReader() {
   tick_queue_.removeByID(reinterpret_cast<std::uint64_t>(this));
 }
 
-void TfReader::subscribe(const ros::NodeHandle& node, const std::string& topic, bool is_static) {
-  using Event = ros::MessageEvent<const TransformBytes>;
-  const boost::function<void(const Event&)> on_message = [this, is_static](const Event& event) {
-    onMessage(event, is_static);
+void TfReader::subscribe(ros::NodeHandle& node, const std::string& topic, const char* type, const char* md5,
+                         void (TfReader::*on_message)(const Event&)) {
+  const boost::function<void(const Event&)> callback = [this, on_message](const Event& event) {
+    (this->*on_message)(event);
   };
   const auto new_message = [most_bytes = most_bytes_] {
-    const auto message = boost::make_shared<TransformBytes>();
+    const auto message = boost::make_shared<MessageBytes>();
     message->most_bytes = most_bytes;
     return message;
   };
   ros::SubscribeOptions options;
-  options.initByFullCallbackType<const Event&>(topic, 1, on_message, new_message);
+  options.initByFullCallbackType<const Event&>(topic, 1, callback, new_message);
+  options.datatype = type;
+  options.md5sum = md5;
   options.transport_hints = ros::TransportHints().tcpNoDelay();
-  subscribers_.push_back(ros::NodeHandle(node).subscribe(options));
+  subscribers_.push_back(node.subscribe(options));
 }
 
-void TfReader::onMessage(const ros::MessageEvent<const TransformBytes>& event, bool is_static) {
+/// Converts a message of ~poses into transforms, which the tick thread reads like those of /tf.
+void TfReader::onPoses(const Event& event) {
+  ReceivedTransforms poses{event.getConstMessage(), false, {}, now_(), true};
+  try {
+    poses.publisher = event.getPublisherName();
+    if (poses.message->size <= most_bytes_) {  // otherwise the queue refuses it
+      const auto transforms = boost::make_shared<MessageBytes>();
+      transforms->most_bytes = most_bytes_;
+      {
+        const std::lock_guard<std::mutex> lock(poses_mutex_);
+        transforms->bytes = poses_.toTransforms(poses.message->bytes, poses.publisher);
+      }
+      transforms->size = transforms->bytes.size();
+      poses.message = transforms;
+    }
+    queue_.push(std::move(poses));
+    wakeTickThread();
+  } catch (const Refusal& refusal) {
+    ledger_.refuse("poses.refused", Refusal(refusal.code(), poses.name() + " cannot be used: " + refusal.what()));
+  } catch (...) {  // out of memory; the receiving thread must continue
+    ledger_.fault("tf.failed");
+  }
+}
+
+void TfReader::onMessage(const Event& event, bool is_static) {
   try {
     queue_.push({event.getConstMessage(), is_static, event.getPublisherName(), now_()});
     wakeTickThread();

@@ -17,8 +17,8 @@ constexpr std::chrono::seconds kPatience{10};  // how long to wait for the tick 
 
 }  // namespace
 
-TickLoop::TickLoop(ros::NodeHandle node, const Params& params, World& world, TickJobs& jobs, Stopwatch& stopwatch,
-                   NodeHealth& health, TfListener* listener, Ledger& ledger)
+TickLoop::TickLoop(ros::NodeHandle node, const ros::NodeHandle& private_node, const Params& params, World& world,
+                   TickJobs& jobs, Stopwatch& stopwatch, NodeHealth& health, TfListener* listener, Ledger& ledger)
     : node_(std::move(node)),
       pace_(params.rate, params.heartbeat, params.follow_data, std::chrono::steady_clock::now()),
       world_(world),
@@ -27,7 +27,8 @@ TickLoop::TickLoop(ros::NodeHandle node, const Params& params, World& world, Tic
       health_(health),
       ledger_(ledger),
       transforms_(
-          node_, static_cast<std::size_t>(params.tf_queue_bytes), thisMoment,
+          node_, private_node, static_cast<std::size_t>(params.max_bodies),
+          static_cast<std::size_t>(params.tf_queue_bytes), thisMoment,
           [this](const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher,
                  const Moment& received) {
             guarded(ledger_, "tf.failed", [&] { takeTransforms(message, is_static, publisher, received); });

@@ -39,9 +39,10 @@ class TickLoop {
 
   /// All parameters except `node` must outlive this object. Only the tick thread may use `world` and `stopwatch`.
   /// @param node      its callback queue must be that of the tick thread
-  /// @param listener  learns which messages of /tf were read; may be null
-  TickLoop(ros::NodeHandle node, const Params& params, World& world, TickJobs& jobs, Stopwatch& stopwatch,
-           NodeHealth& health, TfListener* listener, Ledger& ledger);
+  /// @param private_node  node handle whose namespace contains the topic "poses"
+  /// @param listener  learns which messages of /tf and ~poses were read; may be null
+  TickLoop(ros::NodeHandle node, const ros::NodeHandle& private_node, const Params& params, World& world,
+           TickJobs& jobs, Stopwatch& stopwatch, NodeHealth& health, TfListener* listener, Ledger& ledger);
 
   /// Sets what is called with every tick, in this order. Call this once, before the first work().
   void setSteps(std::vector<Step> steps) { steps_ = std::move(steps); }

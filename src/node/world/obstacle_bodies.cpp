@@ -48,7 +48,7 @@ void ObstacleBodies::addAll(const std::string& world_frame, Movers& movers, Miss
       PlacedObstacle& obstacle = added[configured.name];
       obstacle.what = what;
       obstacle.asked = what->place;
-      obstacle.frame = configured.frame.empty() ? world_frame : configured.frame;
+      obstacle.frame = followedFrame(configured.frame, configured.name, world_frame);
       obstacle.frame_from_body = configured.frame_from_body;
       movers.add(source, bodyOf(obstacle, world_frame));
       present_.merge(added);  // does not throw

@@ -8,6 +8,7 @@
 
 #include "hgrid_proximity/pairs/pair_rule.h"
 #include "hgrid_proximity/refusal.h"
+#include "node/wire/poses_message.h"
 
 namespace hgrid {
 namespace {
@@ -60,6 +61,11 @@ void checkNoGlob(const std::string& name) {
 
 }  // namespace
 
+std::string followedFrame(const std::string& frame, const std::string& obstacle, const std::string& world_frame) {
+  if (frame.empty()) return world_frame;
+  return frame == kPosesFrame ? posesFrameOf(obstacle) : frame;
+}
+
 Body bodyOf(const PlacedObstacle& obstacle, const std::string& world_frame) {
   Body body = obstacle.what->body;
   body.frame = obstacle.frame;
@@ -93,7 +99,7 @@ bool isAtSamePlace(const PlacedObstacle& a, const PlacedObstacle& b) {
 
 void put(PlacedObstacle& obstacle, const ObstaclePlace& place, const Surroundings& around) {
   obstacle.asked = place;
-  obstacle.frame = place.frame.empty() ? around.world_frame : place.frame;
+  obstacle.frame = followedFrame(place.frame, obstacle.what->body.name, around.world_frame);
   obstacle.frame_from_body = place.frame_from_body;
   if (place.at && obstacle.frame != around.world_frame) {
     const std::string what = frameOf(obstacle);

@@ -35,6 +35,9 @@ struct PlacedObstacle {
   double carrier_speed = 0.0;      ///< [m/s] while it is attached: expected largest speed of the link
 };
 
+/// Returns the tf frame that an obstacle follows. @param frame  as requested; empty: the world frame; see kPosesFrame
+std::string followedFrame(const std::string& frame, const std::string& obstacle, const std::string& world_frame);
+
 /// Returns the obstacle as a body of the scene.
 Body bodyOf(const PlacedObstacle& obstacle, const std::string& world_frame);
 

@@ -49,7 +49,7 @@ TransformRecord::Message serialized(const geometry_msgs::TransformStamped& trans
                                     const std::string& publisher, const Moment& now) {
   tf2_msgs::TFMessage message;
   message.transforms.push_back(transform);
-  const auto bytes = boost::make_shared<TransformBytes>();
+  const auto bytes = boost::make_shared<MessageBytes>();
   bytes->size = ros::serialization::serializationLength(message);
   std::vector<std::uint8_t> buffer(bytes->size);
   ros::serialization::OStream stream(buffer.data(), static_cast<std::uint32_t>(buffer.size()));

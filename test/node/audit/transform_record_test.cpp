@@ -14,7 +14,7 @@ namespace {
 
 ReceivedTransforms messageOf(std::size_t bytes, double received, bool is_static = false,
                              const std::string& publisher = "/state") {
-  const auto message = boost::make_shared<TransformBytes>();
+  const auto message = boost::make_shared<MessageBytes>();
   message->bytes.assign(bytes, 'x');
   Moment moment;
   moment.ros = Time(std::int64_t(1e9 * received));
@@ -50,7 +50,7 @@ ReceivedTransforms staticMessage(const std::string& child, double x, const std::
   message.transforms[0].child_frame_id = child;
   message.transforms[0].transform.translation.x = x;
   message.transforms[0].transform.rotation.w = 1.0;
-  const auto bytes = boost::make_shared<TransformBytes>();
+  const auto bytes = boost::make_shared<MessageBytes>();
   std::vector<std::uint8_t> buffer(ros::serialization::serializationLength(message));
   ros::serialization::OStream stream(buffer.data(), static_cast<std::uint32_t>(buffer.size()));
   ros::serialization::serialize(stream, message);

@@ -22,6 +22,7 @@
 #include <hgrid_proximity/LoadOctomap.h>
 #include <hgrid_proximity/Obstacle.h>
 #include <hgrid_proximity/Pairs.h>
+#include <hgrid_proximity/Poses.h>
 #include <hgrid_proximity/QueryBox.h>
 #include <hgrid_proximity/QueryNearest.h>
 #include <hgrid_proximity/QuerySegment.h>
@@ -83,6 +84,7 @@ const std::vector<Pin>& pins() {
       message<msg::Hit>("Hit", "b27873b5bc9c5faff607ee93c2082a9f"),
       message<msg::Obstacle>("Obstacle", "e7f81a36c4d365e475d687aee989a892"),
       message<msg::Pairs>("Pairs", "59a5c05dcc80fa7bab33a476f547a113"),
+      message<msg::Poses>("Poses", "3b5d47fb4ea85b737dd5eb0fc134064d"),
       message<msg::Rules>("Rules", "79058cafa5b4aab9f804a71d629c5134"),
       message<msg::SelfPairs>("SelfPairs", "5eb242595ef409da6cb975008f1ff334"),
       message<msg::Shape>("Shape", "61b71820d028a78f9c0114ba95225d3a"),

@@ -17,7 +17,7 @@ constexpr std::size_t kBound = 10000;  // [bytes]
 
 /// Returns a message of `size` bytes that arrived at the time `at` [ms].
 ReceivedTransforms message(std::size_t size, int at, bool is_static = false) {
-  const auto bytes = boost::make_shared<TransformBytes>();
+  const auto bytes = boost::make_shared<MessageBytes>();
   bytes->most_bytes = kBound;
   bytes->read(reinterpret_cast<const std::uint8_t*>(std::string(size, 'x').data()), size);
   ReceivedTransforms transforms{bytes, is_static, "/robot", {}};

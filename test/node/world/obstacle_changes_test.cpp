@@ -47,6 +47,19 @@ TEST_F(Obstacles, FollowTheirFrameOrStayWhereItWas) {
   EXPECT_EQ(placesIn(*tick_->snapshot), (Places{{"load", 1}, {"post", 3}, {"then", cart(time_) + 0.25}}));
 }
 
+TEST_F(Obstacles, OfTheFrameOfPosesFollowAFrameOfTheirOwn) {
+  const auto follows = [&](const std::string& name) { return bodyOf(*tick_->snapshot, "obstacle/" + name).frame; };
+  apply({adding("a", 0.5, 0.1, "~poses"), adding("b", 1)});
+  tick();
+  EXPECT_EQ(follows("a"), "~poses/a");
+  EXPECT_EQ(bodyOf(*tick_->snapshot, "obstacle/a").mobility, Mobility::moving);
+  EXPECT_FALSE(tick_->snapshot->complete()) << "it has no pose yet";
+  apply({moving("b", 0, "~poses"), moving("a", 2)});
+  tick();
+  EXPECT_EQ(follows("a"), "world");
+  EXPECT_EQ(follows("b"), "~poses/b");
+}
+
 TEST_F(Obstacles, StayAtTheNewestPlaceOfAFrameIfTheStampIsZero) {
   msg::Obstacle now = adding("now", 0.5, 0.1, "cart");
   now.at_stamp = true;

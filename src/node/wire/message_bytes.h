@@ -4,15 +4,15 @@
 
 #include <ros/message_traits.h>
 #include <ros/serialization.h>
-#include <tf2_msgs/TFMessage.h>
 
 #include <cstdint>
 #include <string>
 
 namespace hgrid {
 
-/// The serialized bytes of a tf2_msgs/TFMessage. A subscriber of roscpp can use this type instead of TFMessage.
-struct TransformBytes {
+/// The serialized bytes of a message. A subscriber of roscpp can use this type for messages of any type; it then sets the
+/// type name and the MD5 in its SubscribeOptions. The MD5 "*" accepts all publishers.
+struct MessageBytes {
   std::size_t most_bytes = 0;  ///< the bytes of longer messages are not stored
   std::size_t size = 0;        ///< number of bytes of the message
   std::string bytes;           ///< bytes of the message; empty if there are more than most_bytes
@@ -29,14 +29,14 @@ namespace ros {
 namespace message_traits {
 
 template <>
-struct MD5Sum<hgrid::TransformBytes> : MD5Sum<tf2_msgs::TFMessage> {
-  using MD5Sum<tf2_msgs::TFMessage>::value;
-  static const char* value(const hgrid::TransformBytes&) { return value(); }
+struct MD5Sum<hgrid::MessageBytes> {
+  static const char* value() { return "*"; }
+  static const char* value(const hgrid::MessageBytes&) { return value(); }
 };
 template <>
-struct DataType<hgrid::TransformBytes> : DataType<tf2_msgs::TFMessage> {
-  using DataType<tf2_msgs::TFMessage>::value;
-  static const char* value(const hgrid::TransformBytes&) { return value(); }
+struct DataType<hgrid::MessageBytes> {
+  static const char* value() { return "*"; }
+  static const char* value(const hgrid::MessageBytes&) { return value(); }
 };
 
 }  // namespace message_traits
@@ -44,9 +44,9 @@ struct DataType<hgrid::TransformBytes> : DataType<tf2_msgs::TFMessage> {
 namespace serialization {
 
 template <>
-struct Serializer<hgrid::TransformBytes> {
+struct Serializer<hgrid::MessageBytes> {
   template <typename Stream>
-  static void read(Stream& stream, hgrid::TransformBytes& message) {
+  static void read(Stream& stream, hgrid::MessageBytes& message) {
     message.read(stream.getData(), stream.getLength());
     stream.advance(stream.getLength());
   }
