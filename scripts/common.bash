@@ -23,7 +23,7 @@ demo_packages=(
 # shellcheck disable=SC2034  # read by scripts/test
 test_packages=(
   "${demo_packages[@]}" catkin-lint libfaketime libnodeletlib-tools liboctomap-dev libtf2-dev locales
-  python3-rosbag python3-rosnode python3-rosparam python3-rostest rosbash rospack-tools
+  python3-rosbag python3-rosnode python3-rosparam python3-rostest ros-trajectory-msgs rosbash rospack-tools
 )
 # shellcheck disable=SC2034  # read by scripts/docs and scripts/test
 docs_packages=(doxygen)

@@ -38,8 +38,8 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
       world_(commons_.settings.params, ros::Time::isSimTime(), newEpoch(), commons_.ledger, commons_.narrow_phase),
       jobs_([this] { return isEnding(); }, std::chrono::seconds(10), [this] { tick_thread_.wake(); }),
       auditor_(commons_),
-      tick_loop_(tick_thread_.node(), tick_thread_.privateNode(), commons_.settings.params, world_, jobs_, stopwatch_, commons_.health,
-                 auditor_.listener(), commons_.ledger),
+      tick_loop_(tick_thread_.node(), tick_thread_.privateNode(), commons_.settings.params, world_, jobs_, stopwatch_,
+                 commons_.health, auditor_.listener(), commons_.ledger),
       publishers_(tick_thread_.privateNode(), admin_thread_.privateNode(), commons_, stopwatch_, sketch_),
       completeness_log_(std::chrono::steady_clock::now()),
       loading_(
@@ -49,6 +49,10 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
           query_threads_.privateNode(), admin_thread_.privateNode(), commons_, [this] { return tick_loop_.newest(); },
           [this](const TickJobs::Job& job) { return tick_loop_.tickAfter(job); }, world_.transforms().lookup(),
           loading_, stopwatch_, sketch_),
+      moveit_(
+          admin_thread_.node(), commons_, loading_.mapSource(), jobs_,
+          [this](const TickJobs::Job& job) { return tick_loop_.tickAfter(job); },
+          [this] { return isEnding(); }),
       diagnostics_(
           admin_thread_.node(), admin_thread_.privateNode(), private_node.getNamespace(),
           [this] { return tick_loop_.newest(); }, commons_.health),
@@ -60,6 +64,7 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
   query_threads_.start(static_cast<std::uint32_t>(commons_.settings.params.query_threads));
   admin_thread_.start(1);
   loading_.startClouds();
+  moveit_.startTopics();
 }
 
 /// Stops all threads that use the parts of the node.
@@ -67,6 +72,7 @@ void ProximityNode::stop() {
   stopping_ = true;
   housekeeping_.stop();
   loading_.stopClouds();
+  moveit_.stopTopics();
   tick_thread_.stop();
   query_threads_.stop();
   admin_thread_.stop();

@@ -16,6 +16,7 @@
 #include "node/diagnostics/node_diagnostics.h"
 #include "node/housekeeping.h"
 #include "node/loading/loading.h"
+#include "node/moveit/moveit_interface.h"
 #include "node/publishers/publishers.h"
 #include "node/services/node_services.h"
 #include "node/tick/tick_loop.h"
@@ -59,6 +60,7 @@ class ProximityNode {
   ModelLog model_log_;
   Loading loading_;
   NodeServices services_;
+  MoveItInterface moveit_;
   NodeDiagnostics diagnostics_;
   Housekeeping housekeeping_;
   /// Stops all threads before any part is destroyed, also if the constructor throws after some threads were started.

@@ -48,6 +48,11 @@ TIME = "node/time/tick_time.cpp"
 JOBS = "node/tick/tick_jobs.cpp"
 STOPWATCH = "node/tick/stopwatch.cpp"
 MOVERS = "node/world/mover_poses.cpp"
+OBSTACLES = "node/world/obstacle_bodies.cpp"
+POSES_MESSAGE = "node/wire/poses_message.cpp"
+SCENE_CHANGES = "node/moveit/scene_changes.cpp"
+SCENE_GAPS = "node/moveit/scene_gaps.cpp"
+SCENE_MESSAGE = "node/moveit/scene_message.cpp"
 UNPLACED = "node/world/unplaced_robots.cpp"
 WORLD = "node/world/world.cpp"
 
@@ -364,6 +369,25 @@ NODE = [
      "transforms_.forgetMoving();", ""),
     ("the frames of new bodies get no priority", WORLD,
      "transforms_.need(frames, now);", ""),
+
+    ("MoveIt removes an object that a robot carries", OBSTACLES,
+     "if (change.free_only && old != nullptr && old->attachment) {", "if (false) {"),
+    ("a complete scene drops what a robot carries", OBSTACLES,
+     "if (changes.spare_attached && next != nullptr && next->attachment) continue;", ""),
+    ("an attached object that is sent again ends its pairs", OBSTACLES,
+     "(old->second.what == next.what || isSame(*old->second.what, *next.what))", "old->second.what == next.what"),
+    ("a complete scene appends to shapes of an older scene", SCENE_CHANGES,
+     "if (!scene.is_diff && begins &&", "if (false && begins &&"),
+    ("the pose of the only shape is not that of the object", SCENE_CHANGES,
+     "if (change.shapes.size() == 1 && isUnset(object.pose)) {", "if (false) {"),
+    ("an object that moves ends the gap of its missing shapes", SCENE_GAPS,
+     "if (known != lacks_.end() && known->second == Lack::place) lacks_.erase(known);", "lacks_.erase(change.name);"),
+    ("an object that could not be detached leaves no gap", SCENE_MESSAGE,
+     "if (!is_detached) gaps.noteRefused(detached_, refused_->what());", ""),
+    ("poses beyond the list of names are read", POSES_MESSAGE,
+     "if (nameOf(poses, pose) < names) continue;", "continue;"),
+    ("poses use names of another version", POSES_MESSAGE,
+     "const Key key(publisher, poses.names_version);", "const Key key(publisher, 0);"),
 ]
 
 MUTANTS = CORE + NODE

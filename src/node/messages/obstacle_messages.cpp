@@ -21,7 +21,6 @@ namespace {
 namespace msg = ::hgrid_proximity;
 
 constexpr std::size_t kMostGlobs = 100;    // globs of one obstacle over the bodies that may touch it
-constexpr std::size_t kMostShapes = 1000;  // shapes of one obstacle
 constexpr std::size_t kLongestText = 512;  // [byte] length of the name of a frame or an owner
 
 /// Returns a name for error sentences.
@@ -139,7 +138,7 @@ std::shared_ptr<const RequestedObstacle> addedBy(const msg::Obstacle& change, co
   return added;
 }
 
-std::shared_ptr<const Attachment> attachmentOf(const msg::Obstacle& change) {
+std::shared_ptr<const Attachment> attachmentOf(const msg::Obstacle& change, const std::string& caller) {
   if (change.touch.size() > kMostGlobs) {
     throw Refusal(Code::limit, whatOf(change) + ": touch has " + std::to_string(change.touch.size()) +
                                    " globs; at most " + std::to_string(kMostGlobs) + " are allowed");
@@ -147,6 +146,7 @@ std::shared_ptr<const Attachment> attachmentOf(const msg::Obstacle& change) {
   auto attachment = std::make_shared<Attachment>();
   attachment->link = change.link;
   attachment->touch = change.touch;
+  attachment->owner = caller;
   for (const std::string& glob : change.touch) checkRule(PairRule{joined("obstacle", change.name), glob, ""});
   if (change.at_attach_pose) {
     attachment->link_from_body = fromPose(change.attach_pose, "the attach_pose of " + whatOf(change));
@@ -155,10 +155,13 @@ std::shared_ptr<const Attachment> attachmentOf(const msg::Obstacle& change) {
   return attachment;
 }
 
-ObstacleChange changeOf(const msg::Obstacle& source, const std::string& caller, const Params& params,
-                        NarrowPhase& narrow_phase, const MeshSource& meshes) {
+}  // namespace
+
+ObstacleChange obstacleChangeOf(const msg::Obstacle& source, const std::string& caller, const Params& params,
+                                NarrowPhase& narrow_phase, const MeshSource& meshes) {
   checkLocal(source.name, "the name of an obstacle");
-  ObstacleChange change{ObstacleChange::Kind::add, joined("obstacle", source.name), nullptr, false, {}, nullptr};
+  ObstacleChange change;
+  change.name = joined("obstacle", source.name);
   switch (source.operation) {
     case msg::ObstacleOperation::ADD:
       change.added = addedBy(source, change.name, caller, params, narrow_phase, meshes);
@@ -173,7 +176,7 @@ ObstacleChange changeOf(const msg::Obstacle& source, const std::string& caller, 
       break;
     case msg::ObstacleOperation::ATTACH:
       change.kind = ObstacleChange::Kind::attach;
-      change.attachment = attachmentOf(source);
+      change.attachment = attachmentOf(source, caller);
       break;
     case msg::ObstacleOperation::DETACH:
       change.kind = ObstacleChange::Kind::detach;
@@ -184,8 +187,6 @@ ObstacleChange changeOf(const msg::Obstacle& source, const std::string& caller, 
   }
   return change;
 }
-
-}  // namespace
 
 ObstacleChanges obstacleChangesOf(const msg::ApplyObstacles::Request& request, const std::string& caller,
                                   const Params& params, NarrowPhase& narrow_phase, const MeshSource& meshes) {
@@ -203,7 +204,7 @@ ObstacleChanges obstacleChangesOf(const msg::ApplyObstacles::Request& request, c
   }
   for (std::size_t i = 0; i < request.changes.size(); ++i) {
     try {
-      changes.changes.push_back(changeOf(request.changes[i], caller, params, narrow_phase, meshes));
+      changes.changes.push_back(obstacleChangeOf(request.changes[i], caller, params, narrow_phase, meshes));
     } catch (const Refusal& refusal) {
       throw ChangeRefusal(i, refusal);
     }

@@ -13,6 +13,11 @@
 
 namespace hgrid {
 
+/// Reads one change of a request of ~apply_obstacles.
+/// @throws Refusal if the change is not valid; see also obstacleChangesOf()
+ObstacleChange obstacleChangeOf(const ::hgrid_proximity::Obstacle& change, const std::string& caller,
+                                const Params& params, NarrowPhase& narrow_phase, const MeshSource& meshes);
+
 /// Reads a request of ~apply_obstacles. It prepares the shapes for exact distances, which may take long.
 /// @param caller  name of the node that sent the request; owner of the added obstacles and of the complete set that
 /// name none

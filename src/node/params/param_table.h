@@ -57,10 +57,23 @@ void visitParams(Visitor& v, Params& p) {
             "URIs are always allowed");
 
   v.section("Obstacles");
-  v.obstacles("obstacles", p.obstacles,
-              "list of {name, frame, pose: {xyz: [m], rpy: [rad]}, shapes: [{type, pose, ...}]}. Types and their sizes "
-              "in m: box (size: [x, y, z]), sphere (radius), cylinder, cone, capsule (height, radius). frame: tf frame "
-              "that the obstacle follows; empty: it is fixed in the world frame");
+  v.obstacles(
+      "obstacles", p.obstacles,
+      "list of {name, frame, pose: {xyz: [m], rpy: [rad]}, shapes: [{type, pose, ...}]}. Types and their sizes "
+      "in m: box (size: [x, y, z]), sphere (radius), cylinder, cone, capsule (height, radius). frame: tf frame "
+      "that the obstacle follows; empty: it is fixed in the world frame; ~poses: messages of the topic ~poses move "
+      "it");
+  v.flag(
+      "moveit/topics", p.moveit_topics,
+      "whether to read MoveIt's topics collision_object, attached_collision_object and planning_scene; their objects "
+      "are obstacles of the owner 'moveit'. See doc/moveit.md");
+  v.flag("moveit/services", p.moveit_services,
+         "whether to offer MoveIt's services get_planning_scene and apply_planning_scene. Set this only where no "
+         "move_group offers them in the same namespace");
+  v.integer("moveit/queue_bytes", p.moveit_queue_bytes, 1000, 1 << 30,
+            "largest total size, in bytes, of the messages of moveit/topics that wait to be read. A message counts as "
+            "its own size plus 512 bytes. A message that exceeds the limit is dropped (counter moveit.dropped.LIMIT in "
+            "~status), and the world is not complete");
 
   v.section("Maps");
   v.maps("maps", p.maps,
@@ -189,7 +202,8 @@ void visitParams(Visitor& v, Params& p) {
             "dropped (counter tf.samples.LIMIT in ~status)");
   v.integer("tf_queue_bytes", p.tf_queue_bytes, 1000, 1 << 30,
             "largest total size, in bytes, of the messages of /tf that wait for the tick thread, and again as much for "
-            "/tf_static. A message counts as its own size plus 256 bytes plus the length of its publisher's name. When "
+            "each of /tf_static and ~poses. A message counts as its own size plus 256 bytes plus the length of its "
+            "publisher's name. When "
             "the limit is exceeded, the oldest messages are dropped (counter tf.dropped.LIMIT in ~status). A single "
             "message that is longer is refused");
   v.integer("max_pairs", p.max_pairs, 1, 10000000,
@@ -225,7 +239,8 @@ void visitParams(Visitor& v, Params& p) {
       "read");
 
   v.section("The node");
-  v.integer("query_threads", p.query_threads, 1, 64, "number of threads that answer queries; a query waits only while all of them are busy");
+  v.integer("query_threads", p.query_threads, 1, 64,
+            "number of threads that answer queries; a query waits only while all of them are busy");
   v.number("audit_rate", p.audit_rate, "Hz", 0.0, 10.0,
            "how many ticks per second are audited: a thread of low priority computes the poses, the pairs and some "
            "queries of the tick again, by brute force from the transforms as they were received; 0: none");

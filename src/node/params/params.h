@@ -82,6 +82,8 @@ struct Params {
   std::vector<RobotParams> robots;
   bool watch_descriptions = true;
   std::vector<ObstacleParams> obstacles;
+  bool moveit_topics = false, moveit_services = false;
+  int moveit_queue_bytes = 64 << 20;
   std::vector<MapParams> maps;
   std::vector<CloudParams> clouds;
   std::string map_folder;

@@ -2,7 +2,9 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -13,6 +15,9 @@
 #include "hgrid_proximity/refusal.h"
 
 namespace hgrid {
+
+/// Largest number of shapes of one obstacle.
+inline constexpr std::size_t kMostShapes = 1000;
 
 /// Where an obstacle is: in a frame, which it follows, or where this frame was at a time.
 struct ObstaclePlace {
@@ -32,29 +37,52 @@ struct RequestedObstacle {
   std::chrono::nanoseconds lifetime{0};  ///< of ROS time, from its last change; 0: unlimited
 };
 
+/// Returns whether `name`, with or without the robot, is the name of the link "robot/link".
+inline bool isNameOfLink(const std::string& name, const std::string& link) {
+  return name == link || name == link.substr(std::min(link.size(), link.find('/') + 1));
+}
+
 /// How an obstacle is attached to a link of a robot.
 struct Attachment {
-  std::string link;                    ///< full name of the link, which may have no geometry: "robot/tool0"
-  std::optional<Pose> link_from_body;  ///< nullopt: the obstacle keeps its present pose relative to the link
-  std::vector<std::string> touch;      ///< globs over the names of bodies that may touch the obstacle
+  std::string link;                      ///< full name of the link, which may have no geometry: "robot/tool0"
+  bool without_robot = false;            ///< whether `link` may also be a name without robot: "tool0"
+  std::optional<Pose> link_from_body;    ///< nullopt: the obstacle keeps its present pose relative to the link
+  std::vector<std::string> touch;        ///< globs over the names of bodies that may touch the obstacle
+  std::vector<std::string> touch_links;  ///< names, without robot, of links of the same robot that may touch it
+  std::string owner;                     ///< who attached it
 };
 
-/// One change of one obstacle. Each change is created by the thread that received the request, and applied in a tick.
+/// One change of one obstacle, or of all obstacles of an owner. Each change is created by the thread that received the
+/// request, and applied in a tick.
 struct ObstacleChange {
-  enum class Kind { add, move, remove, attach, detach };
-  Kind kind;
+  enum class Kind {
+    add,
+    append,  ///< adds the shapes of `added` to the obstacle, or adds the obstacle if there is none
+    move,
+    remove,
+    remove_all_free,  ///< removes the obstacles of `owner` that are not attached
+    attach,
+    detach,
+    detach_all,  ///< detaches what `owner` attached to `link`; empty: to any link
+  };
+  Kind kind = Kind::add;
   std::string name;                                ///< full name of the body: "obstacle/table"
-  std::shared_ptr<const RequestedObstacle> added;  ///< for add
+  std::shared_ptr<const RequestedObstacle> added;  ///< for add and append
   bool replace = false;                            ///< for add: whether another obstacle of this name is replaced
-  ObstaclePlace place;                             ///< for move
-  std::shared_ptr<const Attachment> attachment;    ///< for attach
+  bool free_only = false;  ///< for add, append and remove: whether the change is refused if the obstacle is attached
+  ObstaclePlace place;     ///< for move
+  std::vector<Pose> shape_poses;  ///< for move: new poses of all shapes in the frame of the body; empty: unchanged
+  std::shared_ptr<const Attachment> attachment;  ///< for attach
+  bool in_set = false;                           ///< for attach: whether the obstacle belongs to a complete set
+  std::string owner, link;                       ///< for remove_all_free and detach_all
 };
 
 /// Changes that are applied together or not at all.
 struct ObstacleChanges {
   std::vector<ObstacleChange> changes;  ///< in the order in which they are applied
-  std::optional<std::string>
-      complete_set_of;  ///< the obstacles of this owner that no change adds are removed; nullopt: none
+  /// The obstacles of this owner that no change adds are removed; nullopt: none. See also in_set.
+  std::optional<std::string> complete_set_of;
+  bool spare_attached = false;  ///< whether the complete set keeps attached obstacles
 };
 
 /// A refusal of one of several changes.

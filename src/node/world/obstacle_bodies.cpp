@@ -20,6 +20,12 @@ Time endOf(const RequestedObstacle& obstacle, Time now) {
   return obstacle.lifetime > Time::max() - now ? Time::max() : now + obstacle.lifetime;
 }
 
+/// Returns whether the obstacle of a change belongs to the complete set of the request.
+bool belongsToSet(const ObstacleChange& change) {
+  using Kind = ObstacleChange::Kind;
+  return change.kind == Kind::add || change.kind == Kind::append || (change.kind == Kind::attach && change.in_set);
+}
+
 }  // namespace
 
 ObstacleBodies::ObstacleBodies(const Params& params, std::shared_ptr<NarrowPhase> narrow_phase, Ledger& ledger)
@@ -104,7 +110,9 @@ PlacedObstacle ObstacleBodies::added(const ObstacleChange& change, const Edits& 
 PlacedObstacle ObstacleBodies::changed(const ObstacleChange& change, const Edits& edits,
                                        const Surroundings& around) const {
   using Kind = ObstacleChange::Kind;
-  PlacedObstacle next = change.kind == Kind::add ? added(change, edits, around) : known(change.name, edits);
+  const bool is_new = change.kind == Kind::add || (change.kind == Kind::append && find(edits, change.name) == nullptr);
+  PlacedObstacle next = is_new ? added(change, edits, around) : known(change.name, edits);
+  if (change.kind == Kind::append && !is_new) append(next, *change.added, around);
   if (change.kind == Kind::attach) attach(next, *change.attachment, around);
   if (change.kind == Kind::detach) detach(next, around);
   if (change.kind == Kind::move) {
@@ -113,6 +121,7 @@ PlacedObstacle ObstacleBodies::changed(const ObstacleChange& change, const Edits
                                         printable(next.attachment->link) +
                                         "'; detach it before you move it, or attach it again at another attach_pose");
     }
+    if (!change.shape_poses.empty()) placeShapes(next, change.shape_poses);
     put(next, change.place, around);
   }
   next.ends = endOf(*next.what, around.now);
@@ -131,7 +140,8 @@ std::vector<PairRule> ObstacleBodies::touchRulesAfter(const Edits& edits) const 
   // Links that never move relative to an obstacle do not count, so a new model of a robot cannot exceed the limit.
   std::size_t count = 0;
   visit([&](const std::string&, const PlacedObstacle& obstacle) {
-    count += obstacle.attachment ? obstacle.attachment->touch.size() + 1 : 0;
+    if (!obstacle.attachment) return;
+    count += obstacle.attachment->touch.size() + obstacle.attachment->touch_links.size() + 1;
   });
   const auto most = static_cast<std::size_t>(params_.max_rules);
   if (count > most) {
@@ -150,21 +160,72 @@ std::vector<PairRule> ObstacleBodies::touchRulesAfter(const Edits& edits) const 
   return rules;
 }
 
+/// Carries out one change on the edits. @throws Refusal
+void ObstacleBodies::edit(const ObstacleChange& change, const Surroundings& around, Edits& edits) const {
+  using Kind = ObstacleChange::Kind;
+  const auto remove = [&](const std::string& name) {
+    edits.removed.insert(name);
+    edits.set.erase(name);
+  };
+  const PlacedObstacle* old = find(edits, change.name);
+  if (change.free_only && old != nullptr && old->attachment) {
+    throw Refusal(Code::conflict, "'" + printable(change.name) + "' is attached to '" +
+                                      printable(old->attachment->link) + "'; detach it first");
+  }
+  switch (change.kind) {
+    case Kind::remove:
+      known(change.name, edits);
+      return remove(change.name);
+    case Kind::remove_all_free:
+      for (const std::string& name : chosen(edits, [&](const PlacedObstacle& obstacle) {
+             return !obstacle.attachment && obstacle.owner == change.owner;
+           })) {
+        remove(name);
+      }
+      return;
+    case Kind::detach_all:
+      for (const std::string& name : chosen(edits, [&](const PlacedObstacle& obstacle) {
+             return obstacle.attachment && obstacle.attachment->owner == change.owner &&
+                    (change.link.empty() || isNameOfLink(change.link, obstacle.attachment->link));
+           })) {
+        ObstacleChange one;
+        one.kind = Kind::detach;
+        one.name = name;
+        edit(one, around, edits);
+      }
+      return;
+    case Kind::add:
+    case Kind::append:
+    case Kind::move:
+    case Kind::attach:
+    case Kind::detach:
+      break;
+  }
+  edits.set.insert_or_assign(change.name, changed(change, edits, around));
+  edits.removed.erase(change.name);
+}
+
+/// Returns the names of the obstacles, after the edits, for which `is_chosen` returns true.
+std::vector<std::string> ObstacleBodies::chosen(const Edits& edits,
+                                                const std::function<bool(const PlacedObstacle&)>& is_chosen) const {
+  std::vector<std::string> names;
+  for (const auto& [name, obstacle] : present_) {
+    if (edits.removed.count(name) == 0 && edits.set.count(name) == 0 && is_chosen(obstacle)) names.push_back(name);
+  }
+  for (const auto& [name, obstacle] : edits.set) {
+    if (is_chosen(obstacle)) names.push_back(name);
+  }
+  return names;
+}
+
 void ObstacleBodies::apply(const ObstacleChanges& changes, const Surroundings& around, Movers& movers) {
   Edits edits;
   std::set<std::string> complete_set;
   for (std::size_t i = 0; i < changes.changes.size(); ++i) {
     const ObstacleChange& change = changes.changes[i];
     try {
-      if (change.kind == ObstacleChange::Kind::remove) {
-        known(change.name, edits);
-        edits.removed.insert(change.name);
-        edits.set.erase(change.name);
-        continue;
-      }
-      edits.set.insert_or_assign(change.name, changed(change, edits, around));
-      edits.removed.erase(change.name);
-      if (change.kind == ObstacleChange::Kind::add) complete_set.insert(change.name);
+      edit(change, around, edits);
+      if (belongsToSet(change)) complete_set.insert(change.name);
     } catch (const Refusal& refusal) {
       throw ChangeRefusal(i, refusal);
     }
@@ -172,6 +233,8 @@ void ObstacleBodies::apply(const ObstacleChanges& changes, const Surroundings& a
   if (changes.complete_set_of) {
     for (const auto& [name, obstacle] : present_) {
       if (obstacle.owner != *changes.complete_set_of || complete_set.count(name) != 0) continue;
+      const PlacedObstacle* next = find(edits, name);
+      if (changes.spare_attached && next != nullptr && next->attachment) continue;
       edits.removed.insert(name);
       edits.set.erase(name);
     }
@@ -230,10 +293,9 @@ void ObstacleBodies::carryOut(Edits edits, const std::string& world_frame, Mover
     first_end = std::min(first_end, next.ends);
     const auto old = present_.find(name);
     if (old != present_.end()) {
-      const bool renewed = !old->second.lost && old->second.what == next.what && old->second.frame == next.frame &&
-                           old->second.carrier_speed == next.carrier_speed &&
-                           !old->second.attachment == !next.attachment &&
-                           old->second.frame_from_body.matrix() == next.frame_from_body.matrix();
+      const bool renewed = !old->second.lost && old->second.carrier_speed == next.carrier_speed &&
+                           !old->second.attachment == !next.attachment && isAtSamePlace(old->second, next) &&
+                           (old->second.what == next.what || isSame(*old->second.what, *next.what));
       if (renewed) continue;
       leaving.insert(name);
     }

@@ -4,10 +4,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "hgrid_proximity/narrow/narrow_phase.h"
 #include "node/diagnostics/ledger.h"
@@ -47,6 +49,8 @@ class ObstacleBodies {
   void restamp(Time now) noexcept;
   /// Returns the rules for what may touch the attached obstacles.
   const TouchRules& touchRules() const { return touch_; }
+  /// Returns the obstacles, by full name.
+  const std::map<std::string, PlacedObstacle>& all() const { return present_; }
 
  private:
   using Obstacles = std::map<std::string, PlacedObstacle>;  // by full name
@@ -61,6 +65,9 @@ class ObstacleBodies {
   const PlacedObstacle& known(const std::string& name, const Edits& edits) const;
   PlacedObstacle added(const ObstacleChange& change, const Edits& edits, const Surroundings& around) const;
   PlacedObstacle changed(const ObstacleChange& change, const Edits& edits, const Surroundings& around) const;
+  void edit(const ObstacleChange& change, const Surroundings& around, Edits& edits) const;
+  std::vector<std::string> chosen(const Edits& edits,
+                                  const std::function<bool(const PlacedObstacle&)>& is_chosen) const;
   std::vector<PairRule> touchRulesAfter(const Edits& edits) const;
   void carryOut(Edits edits, const std::string& world_frame, Movers& movers);
 

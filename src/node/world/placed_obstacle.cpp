@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "hgrid_proximity/bodies/name.h"
 #include "hgrid_proximity/pairs/pair_rule.h"
 #include "hgrid_proximity/refusal.h"
 #include "node/wire/poses_message.h"
@@ -50,6 +51,22 @@ std::string frameOf(const PlacedObstacle& obstacle) {
 void checkPlace(const PlacedObstacle& obstacle, const Surroundings& around) {
   checkWithin(obstacle.frame_from_body.translation(), around.params.world_limit,
               "the pose of '" + printable(obstacle.what->body.name) + "'");
+}
+
+/// Returns the full name of the link that an obstacle is attached to. @throws Refusal unknown_id, conflict
+std::string linkOf(const Attachment& attachment, const std::string& what, const RobotModels& robots) {
+  if (robots.findLink(attachment.link) != nullptr) return attachment.link;
+  std::vector<std::string> links;
+  if (attachment.without_robot) links = robots.linksNamed(attachment.link);
+  if (links.size() == 1) return links.front();
+  if (links.empty()) {
+    throw Refusal(Code::unknown_id, what +
+                                        ": no robot in the world has this link; give the name of the robot and of "
+                                        "its link, as in robot/tool0");
+  }
+  throw Refusal(Code::conflict, what + ": " + std::to_string(links.size()) +
+                                    " robots have a link of this name, as in '" + printable(links[0]) + "' and '" +
+                                    printable(links[1]) + "'; give the name of the robot, too");
 }
 
 void checkNoGlob(const std::string& name) {
@@ -116,15 +133,11 @@ void attach(PlacedObstacle& obstacle, const Attachment& attachment, const Surrou
   checkNoGlob(attachment.link);
   const std::string what =
       "'" + printable(obstacle.what->body.name) + "' cannot be attached to '" + printable(attachment.link) + "'";
-  const LoadedRobot* robot = around.robots.findLink(attachment.link);
-  if (robot == nullptr) {
-    throw Refusal(Code::unknown_id, what +
-                                        ": no robot in the world has this link; give the name of the robot and of "
-                                        "its link, as in robot/tool0");
-  }
   auto resolved = std::make_shared<Attachment>(attachment);
+  resolved->link = linkOf(attachment, what, around.robots);
+  const LoadedRobot* robot = around.robots.findLink(resolved->link);
   if (!resolved->link_from_body) {
-    const LoadedRobot::Seat& seat = robot->links.at(attachment.link);
+    const LoadedRobot::Seat& seat = robot->links.at(resolved->link);
     const std::string& frame = robot->groups[seat.group].frame;
     Pose frame_from_body = obstacle.frame_from_body;
     if (obstacle.frame != frame) {
@@ -139,6 +152,39 @@ void attach(PlacedObstacle& obstacle, const Attachment& attachment, const Surrou
   obstacle.attachment = std::move(resolved);
   follow(obstacle, around.robots, around.params);
   checkPlace(obstacle, around);
+}
+
+void append(PlacedObstacle& obstacle, const RequestedObstacle& added, const Surroundings& around) {
+  PlacedObstacle apart = obstacle;
+  put(apart, added.place, around);
+  Pose frame_from_added = apart.frame_from_body;
+  if (apart.frame != obstacle.frame) {
+    frame_from_added = presentPose(obstacle.frame, apart.frame, frameOf(apart), around) * frame_from_added;
+  }
+  const Pose body_from_added = obstacle.frame_from_body.inverse() * frame_from_added;
+  const std::size_t count = obstacle.what->body.shapes.size() + added.body.shapes.size();
+  if (count > kMostShapes) {
+    throw Refusal(Code::limit, "'" + printable(added.body.name) + "' would have " + std::to_string(count) +
+                                   " shapes; at most " + std::to_string(kMostShapes) + " are allowed");
+  }
+  auto what = std::make_shared<RequestedObstacle>(*obstacle.what);
+  for (BodyShape shape : added.body.shapes) {
+    shape.body_from_shape = body_from_added * shape.body_from_shape;
+    what->body.shapes.push_back(std::move(shape));
+  }
+  obstacle.what = std::move(what);
+}
+
+void placeShapes(PlacedObstacle& obstacle, const std::vector<Pose>& poses) {
+  const std::vector<BodyShape>& shapes = obstacle.what->body.shapes;
+  if (poses.size() != shapes.size()) {
+    throw Refusal(Code::bad_geometry, "'" + printable(obstacle.what->body.name) + "' has " +
+                                          std::to_string(shapes.size()) + " shapes, but " +
+                                          std::to_string(poses.size()) + " poses of shapes are given");
+  }
+  auto what = std::make_shared<RequestedObstacle>(*obstacle.what);
+  for (std::size_t i = 0; i < poses.size(); ++i) what->body.shapes[i].body_from_shape = poses[i];
+  obstacle.what = std::move(what);
 }
 
 void detach(PlacedObstacle& obstacle, const Surroundings& around) {
@@ -167,6 +213,9 @@ void follow(PlacedObstacle& obstacle, const RobotModels& robots, const Params& p
   obstacle.asked = {obstacle.frame, obstacle.frame_from_body, std::nullopt};
   obstacle.touch = attachment.touch;
   obstacle.touch.push_back(attachment.link);
+  for (const std::string& link : attachment.touch_links) {
+    if (!isGlob(link)) obstacle.touch.push_back(joined(robot->name, link));
+  }
   obstacle.carrier_speed = group.members.empty() ? params.default_max_speed : 0.0;
   for (const auto& member : group.members) {
     const Body& rigid = robot->bodies[member.first];  // it never moves relative to the obstacle

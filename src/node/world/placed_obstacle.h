@@ -55,11 +55,16 @@ bool isAtSamePlace(const PlacedObstacle& a, const PlacedObstacle& b);
 /// @throws Refusal out_of_range (~world_limit); unknown_frame or extrapolation if the pose of a frame is not known at
 /// the time for which it is needed, or older than ~stale_after
 void put(PlacedObstacle& obstacle, const ObstaclePlace& place, const Surroundings& around);
-/// @throws also bad_id, and unknown_id if no robot has the link
+/// @throws also bad_id, unknown_id if no robot has the link, and conflict if several robots have a link of this name
 void attach(PlacedObstacle& obstacle, const Attachment& attachment, const Surroundings& around);
+/// Adds the shapes of another obstacle, at its place. Later, both move as one body.
+void append(PlacedObstacle& obstacle, const RequestedObstacle& added, const Surroundings& around);
 /// @throws also conflict if the obstacle is not attached
 void detach(PlacedObstacle& obstacle, const Surroundings& around);
 ///@}
+
+/// Gives all shapes other poses in the frame of the body. @throws Refusal bad_geometry if there are more or fewer poses
+void placeShapes(PlacedObstacle& obstacle, const std::vector<Pose>& poses);
 
 /// Computes the place and the touch list of an attached obstacle again, after the model of its robot was replaced. If
 /// the link does not exist any more, the obstacle stays as it is.

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "node/world/model_report.h"
 
@@ -34,6 +35,14 @@ class RobotModels {
   const LoadedRobot* findLink(const std::string& link) const {
     const LoadedRobot* robot = find(link.substr(0, link.find('/')));
     return robot != nullptr && robot->links.count(link) != 0 ? robot : nullptr;
+  }
+  /// Returns the full names, "robot/link", of the links of all robots that have this name without the robot.
+  std::vector<std::string> linksNamed(const std::string& name) const {
+    std::vector<std::string> links;
+    for (const auto& robot : robots_) {
+      if (robot.second->links.count(robot.first + "/" + name) != 0) links.push_back(robot.first + "/" + name);
+    }
+    return links;
   }
   /// Returns the report on what is missing in the models.
   const std::shared_ptr<const ModelReport>& report() const { return report_; }

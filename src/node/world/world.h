@@ -66,12 +66,16 @@ class World {
   void setCloudFrame(const std::string& cloud, const std::string& frame);
   /// Stores why a source is not in the world yet, or why its newest data could not be used. Bodies in the world stay.
   void setMissing(const SourceId& source, const std::string& sentence);
+  /// Ends what setMissing() began, because the source needs no newer data any more.
+  void clearMissing(const SourceId& source) noexcept { missing_.erase(source); }
   /// Replaces all rules for allowed pairs, from the next tick on. Expired rules are removed automatically.
   void setRules(PreparedRules rules);
   /// Applies changes of obstacles, all of them or none.
   /// @param now  current ROS time
   /// @throws Refusal not_ready (no world frame or no time yet), or as ObstacleBodies::apply()
   void applyObstacles(const ObstacleChanges& changes, Time now);
+  /// Returns the obstacles in the world.
+  const ObstacleBodies& obstacles() const { return obstacles_; }
   /// Restores the configured obstacles, sets all counters to 0 and begins a new epoch. Rules stay.
   void reset();
 

@@ -104,10 +104,20 @@ ObstacleChange adding(const std::string& name, double x, double lifetime = 0.0) 
   added->place.frame_from_body = test::at(x);
   added->owner = "a program with a long name";
   added->lifetime = std::chrono::nanoseconds(std::int64_t(1e9 * lifetime));
-  return {ObstacleChange::Kind::add, added->body.name, added, false, {}, nullptr};
+  ObstacleChange change;
+  change.name = added->body.name;
+  change.added = added;
+  return change;
+}
+/// Returns a change without a value.
+ObstacleChange without(ObstacleChange::Kind kind, const std::string& name) {
+  ObstacleChange change;
+  change.kind = kind;
+  change.name = "obstacle/" + name;
+  return change;
 }
 ObstacleChange moving(const std::string& name, double x) {
-  ObstacleChange change{ObstacleChange::Kind::move, "obstacle/" + name, nullptr, false, {}, nullptr};
+  ObstacleChange change = without(ObstacleChange::Kind::move, name);
   change.place.frame_from_body = test::at(x);
   return change;
 }
@@ -116,10 +126,9 @@ ObstacleChange attaching(const std::string& name, const std::string& link) {
   attachment->link = link;
   attachment->link_from_body = test::at(0.1);
   attachment->touch = {"arm/*", "obstacle/a name that needs memory of its own"};
-  return {ObstacleChange::Kind::attach, "obstacle/" + name, nullptr, false, {}, attachment};
-}
-ObstacleChange without(ObstacleChange::Kind kind, const std::string& name) {
-  return {kind, "obstacle/" + name, nullptr, false, {}, nullptr};
+  ObstacleChange change = without(ObstacleChange::Kind::attach, name);
+  change.attachment = attachment;
+  return change;
 }
 Step applying(const std::vector<ObstacleChange>& changes, const Moment& now, bool complete_set = false) {
   ObstacleChanges all{changes, std::nullopt};

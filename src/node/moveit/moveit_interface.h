@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <functional>
+#include <optional>
+#include <utility>
+
+#include "node/commons.h"
+#include "node/moveit/scene_services.h"
+#include "node/moveit/scene_topics.h"
+
+namespace hgrid {
+
+/// Owns the topics and services that are those of MoveIt's move_group, as far as ~moveit/topics and ~moveit/services
+/// ask for them.
+class MoveItInterface {
+ public:
+  /// @param node       its thread serves the services
+  /// @param is_ending  returns whether the node is shutting down
+  /// All other parameters must outlive this object.
+  MoveItInterface(ros::NodeHandle node, Commons& commons, const MapSource& maps, TickJobs& jobs,
+                  const ChangeWorld& change_world, std::function<bool()> is_ending)
+      : node_(std::move(node)),
+        commons_(commons),
+        octomap_(maps, jobs, commons.ledger),
+        jobs_(jobs),
+        is_ending_(std::move(is_ending)) {
+    if (commons.settings.params.moveit_services) services_.emplace(node_, commons, octomap_, gaps_, change_world);
+  }
+
+  void startTopics() {
+    if (commons_.settings.params.moveit_topics) topics_.emplace(node_, commons_, octomap_, gaps_, jobs_, is_ending_);
+  }
+  void stopTopics() { topics_.reset(); }
+
+ private:
+  ros::NodeHandle node_;
+  Commons& commons_;
+  SceneOctomap octomap_;
+  SceneGaps gaps_;  // only jobs use it
+  TickJobs& jobs_;
+  std::function<bool()> is_ending_;
+  std::optional<SceneTopics> topics_;
+  std::optional<SceneServices> services_;
+};
+
+}  // namespace hgrid

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/moveit/scene_message.h"
+
+#include "hgrid_proximity/bodies/name.h"
+#include "node/diagnostics/ledger.h"
+#include "node/moveit/scene_octomap.h"
+#include "node/wire/checked.h"
+#include "node/world/world.h"
+
+namespace hgrid {
+namespace {
+
+using moveit::CollisionObjectFields;
+using moveit::Release;
+using Lack = SceneGaps::Lack;
+
+template <class Message>
+Message deserialized(const ReceivedScene& scene) {
+  Checked<Message> message;
+  message.read(reinterpret_cast<const std::uint8_t*>(scene.message->bytes.data()), scene.message->bytes.size());
+  return message.value();
+}
+
+/// Returns the exception that is being handled, which is final: the message is not read again.
+Refusal finalRefusal() {
+  const Refusal why = caughtRefusal();
+  return why.code() == Code::not_ready ? Refusal(Code::internal, why.what()) : why;
+}
+
+}  // namespace
+
+ReadScene::ReadScene(const ReceivedScene& scene, const SceneReader& reader) : what_(scene.name()) {
+  try {
+    switch (scene.topic) {
+      case SceneTopic::collision_object:
+        readAs<moveit::CollisionObject<Release::noetic>, moveit::CollisionObject<Release::melodic>>(scene, reader);
+        break;
+      case SceneTopic::attached_collision_object:
+        readAs<moveit::AttachedCollisionObject<Release::noetic>, moveit::AttachedCollisionObject<Release::melodic>>(
+            scene, reader);
+        break;
+      case SceneTopic::planning_scene:
+        readAs<moveit::PlanningScene<Release::noetic>, moveit::PlanningScene<Release::melodic>>(scene, reader);
+        break;
+    }
+  } catch (...) {
+    refused_ = finalRefusal();
+    const bool is_read = !placed_.empty() || !detached_.empty() || !removed_.empty();
+    if (!is_read) placed_ = {{"", Lack::shapes}};
+  }
+}
+
+ReadScene::ReadScene(const moveit::PlanningScene<Release::noetic>& scene, const SceneReader& reader)
+    : what_("the request of apply_planning_scene") {
+  try {
+    note(scene);
+    changes_ = reader.changesOf(scene);
+  } catch (...) {
+    refused_ = finalRefusal();
+  }
+}
+
+ReadScene::ReadScene(const Refusal& dropped) : placed_{{"", Lack::shapes}}, refused_(dropped) {}
+
+/// Reads a message of one of the two releases. @throws Refusal version, truncated, or as SceneReader
+template <class Noetic, class Melodic>
+void ReadScene::readAs(const ReceivedScene& scene, const SceneReader& reader) {
+  const auto take = [&](const auto& message) {
+    note(message);
+    changes_ = reader.changesOf(message);
+  };
+  if (scene.md5 == moveit::kMd5<Noetic>) return take(deserialized<Noetic>(scene));
+  if (scene.md5 == moveit::kMd5<Melodic>) return take(deserialized<Melodic>(scene));
+  throw Refusal(Code::version, "its type has the MD5 " + printable(scene.md5) + "; it must be " + moveit::kMd5<Noetic> +
+                                   " (Noetic) or " + moveit::kMd5<Melodic> + " (Melodic)");
+}
+
+void ReadScene::noteObject(const CollisionObjectFields& object) {
+  const std::string name = joined("obstacle", object.id);
+  if (object.operation == CollisionObjectFields::REMOVE) {
+    removed_.push_back(name);
+  } else {
+    placed_.push_back({name, object.operation == CollisionObjectFields::MOVE ? Lack::place : Lack::shapes});
+  }
+}
+
+void ReadScene::noteAttached(const CollisionObjectFields& object) {
+  const std::string name = joined("obstacle", object.id);
+  if (object.operation == CollisionObjectFields::REMOVE) {
+    detached_.push_back({object.id.empty() ? "" : name, Lack::place});
+  } else {
+    const bool has_shapes = !object.primitives.empty() || !object.meshes.empty() || !object.planes.empty();
+    placed_.push_back({name, has_shapes ? Lack::shapes : Lack::place});
+  }
+}
+
+template <Release release>
+void ReadScene::note(const moveit::PlanningScene<release>& scene) {
+  for (const auto& attached : scene.robot_state.attached_collision_objects) noteAttached(attached.object);
+  for (const auto& object : scene.collision_objects) noteObject(object);
+  unused_ = unusedPartsOf(scene);
+  if (SceneOctomap::isIn(scene)) octomap_ = std::make_shared<const moveit::OctomapWithPose>(scene.octomap);
+}
+
+void ReadScene::applyTo(World& world, Time now) {
+  if (isDone()) return;
+  try {
+    world.applyObstacles(changes_, now);
+    applied_ = true;
+  } catch (...) {
+    refused_ = caughtRefusal();
+  }
+}
+
+void ReadScene::noteIn(SceneGaps& gaps) const {
+  if (applied_) return gaps.noteApplied(changes_);
+  gaps.noteRefused(placed_, refused_->what());
+  // An object that does not exist or is not attached does not need to be detached.
+  const bool is_detached = refused_->code() == Code::unknown_id || refused_->code() == Code::conflict;
+  if (!is_detached) gaps.noteRefused(detached_, refused_->what());
+  const bool removes_one = placed_.empty() && detached_.empty() && removed_.size() == 1;
+  if (removes_one && refused_->code() == Code::unknown_id) gaps.noteRemoved(removed_.front());
+}
+
+}  // namespace hgrid

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "node/moveit/scene_changes.h"
+#include "node/moveit/scene_gaps.h"
+#include "node/moveit/scene_queue.h"
+#include "node/moveit/scene_types.h"
+
+namespace hgrid {
+
+class World;
+
+/// A message of MoveIt that was read, and what became of it.
+class ReadScene {
+ public:
+  /// Reads a message. If it is not valid, refused() says why.
+  ReadScene(const ReceivedScene& scene, const SceneReader& reader);
+  /// Reads the request of a service.
+  ReadScene(const moveit::PlanningScene<moveit::Release::noetic>& scene, const SceneReader& reader);
+  /// Stands for messages that were dropped. @param dropped  why; its code is limit
+  explicit ReadScene(const Refusal& dropped);
+
+  /// Applies the message to the world. If this fails, refused() says why. Only the tick thread may call this.
+  void applyTo(World& world, Time now);
+  /// Notes what the world lacks after applyTo(). Only the tick thread may call this.
+  void noteIn(SceneGaps& gaps) const;
+
+  /// Whether the message was applied, or will never be.
+  bool isDone() const { return applied_ || (refused_ && refused_->code() != Code::not_ready); }
+  /// Whether the world shows the changes.
+  bool applied() const { return applied_; }
+  /// Returns why the message could not be read or applied.
+  const std::optional<Refusal>& refused() const { return refused_; }
+  /// Whether the object stands for dropped messages.
+  bool standsForDropped() const { return what_.empty(); }
+  /// Returns a description of the message for error sentences.
+  const std::string& what() const { return what_; }
+  /// Returns the octomap of the message. Null: the message says nothing about it.
+  const std::shared_ptr<const moveit::OctomapWithPose>& octomap() const { return octomap_; }
+  /// Returns the same as unusedPartsOf().
+  const std::vector<const char*>& unused() const { return unused_; }
+  const ObstacleChanges& changes() const { return changes_; }
+
+ private:
+  template <class Noetic, class Melodic>
+  void readAs(const ReceivedScene& scene, const SceneReader& reader);
+  void noteObject(const moveit::CollisionObjectFields& object);
+  void noteAttached(const moveit::CollisionObjectFields& object);
+  void note(const moveit::CollisionObjectFields& object) { noteObject(object); }
+  template <moveit::Release release>
+  void note(const moveit::AttachedCollisionObject<release>& attached) {
+    noteAttached(attached.object);
+  }
+  template <moveit::Release release>
+  void note(const moveit::PlanningScene<release>& scene);
+
+  std::string what_;
+  std::vector<SceneGaps::Object> placed_;    // objects that the message adds, moves or attaches
+  std::vector<SceneGaps::Object> detached_;  // objects that it detaches
+  std::vector<std::string> removed_;         // full names of the objects that it removes
+  ObstacleChanges changes_;
+  std::vector<const char*> unused_;
+  std::shared_ptr<const moveit::OctomapWithPose> octomap_;
+  bool applied_ = false;
+  std::optional<Refusal> refused_;
+};
+
+}  // namespace hgrid

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/moveit/scene_topics.h"
+
+#include <ros/time.h>
+
+#include <boost/make_shared.hpp>
+#include <chrono>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "node/services/guarded.h"
+#include "node/world/world.h"
+
+namespace hgrid {
+namespace {
+
+constexpr std::chrono::milliseconds kTickShare{5};                  // time of one tick for messages of MoveIt
+constexpr std::size_t kBatchMessages = 256, kBatchBytes = 1 << 20;  // read before a tick applies them
+constexpr std::chrono::milliseconds kRetryPause{100};  // before a message is applied again to a world that is not ready
+
+}  // namespace
+
+SceneTopics::SceneTopics(ros::NodeHandle node, Commons& commons, SceneOctomap& octomap, SceneGaps& gaps, TickJobs& jobs,
+                         std::function<bool()> is_ending)
+    : commons_(commons),
+      jobs_(jobs),
+      is_ending_(std::move(is_ending)),
+      reader_(commons.settings.params, *commons.narrow_phase),
+      octomap_(octomap),
+      gaps_(gaps),
+      queue_(static_cast<std::size_t>(commons.settings.params.moveit_queue_bytes)) {
+  node.setCallbackQueue(&immediately_);
+  for (const SceneTopic topic :
+       {SceneTopic::collision_object, SceneTopic::attached_collision_object, SceneTopic::planning_scene}) {
+    subscribe(node, topic);
+  }
+  thread_ = std::thread([this] { run(); });
+}
+
+SceneTopics::~SceneTopics() {
+  subscribers_.clear();
+  queue_.end();
+  thread_.join();
+}
+
+void SceneTopics::subscribe(ros::NodeHandle& node, SceneTopic topic) {
+  using Event = ros::MessageEvent<const MessageBytes>;
+  const boost::function<void(const Event&)> on_message = [this, topic](const Event& event) { onMessage(event, topic); };
+  const auto new_message = [most = static_cast<std::size_t>(commons_.settings.params.moveit_queue_bytes)] {
+    const auto message = boost::make_shared<MessageBytes>();
+    message->most_bytes = most;
+    return message;
+  };
+  ros::SubscribeOptions options;
+  options.initByFullCallbackType<const Event&>(name(topic), 1, on_message, new_message);
+  options.datatype = topic == SceneTopic::collision_object            ? "moveit_msgs/CollisionObject"
+                     : topic == SceneTopic::attached_collision_object ? "moveit_msgs/AttachedCollisionObject"
+                                                                      : "moveit_msgs/PlanningScene";
+  subscribers_.push_back(node.subscribe(options));
+}
+
+/// The threads that receive messages call this.
+void SceneTopics::onMessage(const ros::MessageEvent<const MessageBytes>& event, SceneTopic topic) {
+  const auto failed = guarded(commons_.ledger, "moveit.failed", [&] {
+    commons_.ledger.count("moveit.received");
+    const ros::M_string& connection = event.getConnectionHeader();
+    const auto md5 = connection.find("md5sum");
+    ReceivedScene scene{topic, md5 == connection.end() ? "" : md5->second, event.getPublisherName(),
+                        event.getConstMessage()};
+    const std::string what = scene.name();
+    if (queue_.push(std::move(scene))) return;
+    queue_.noteDropped();
+    commons_.ledger.refuse("moveit.dropped", Refusal(Code::limit, what + " is dropped: " + whyDropped()));
+  });
+  if (!failed) return;
+  queue_.noteDropped();
+  guarded(commons_.ledger, "moveit.failed", [&] { commons_.ledger.count("moveit.dropped.INTERNAL"); });
+}
+
+std::string SceneTopics::whyDropped() const {
+  return "it is too long, or messages arrive faster than they are applied; at most " +
+         std::to_string(commons_.settings.params.moveit_queue_bytes) + " bytes may wait (~moveit/queue_bytes)";
+}
+
+void SceneTopics::run() {
+  bool ended = false;
+  while (!ended) {
+    guarded(commons_.ledger, "moveit.failed", [&] {
+      SceneQueue::Popped popped = queue_.popAll();
+      ended = popped.ended;
+      if (!ended) takeAll(popped);
+    });
+  }
+}
+
+/// Reads and applies messages, a few at a time, so that few prepared shapes wait for a tick.
+void SceneTopics::takeAll(SceneQueue::Popped& popped) {
+  std::size_t taken = 0;
+  try {
+    std::vector<ReceivedScene>& messages = popped.messages;
+    SceneBatch batch;
+    std::size_t bytes = 0;
+    for (std::size_t i = 0; i <= messages.size() && !is_ending_(); ++i) {
+      if (popped.dropped_at == i) batch.push_back(std::make_shared<ReadScene>(Refusal(Code::limit, whyDropped())));
+      if (i < messages.size()) {
+        bytes += messages[i].message->size;
+        batch.push_back(std::make_shared<ReadScene>(messages[i], reader_));
+        messages[i].message.reset();
+      }
+      if (batch.size() < kBatchMessages && bytes < kBatchBytes && i < messages.size()) continue;
+      apply(batch);
+      batch.clear();
+      bytes = 0;
+      taken = i + 1;
+    }
+  } catch (...) {
+    if (taken < popped.messages.size()) {
+      queue_.noteDropped();
+      commons_.ledger.count("moveit.dropped.INTERNAL", popped.messages.size() - taken);
+    }
+    throw;
+  }
+}
+
+/// Applies messages in their order, in as many ticks as are necessary.
+void SceneTopics::apply(const SceneBatch& batch) {
+  const auto shared = std::make_shared<const SceneBatch>(batch);
+  std::size_t settled = 0;
+  while (settled < batch.size() && !is_ending_()) {
+    const auto done = std::make_shared<std::size_t>(settled);  // shared: run() may end before the job does
+    try {
+      jobs_.run([shared, done, &gaps = gaps_](World& world) { applySome(*shared, *done, gaps, world); });
+    } catch (const Refusal& refusal) {
+      if (refusal.code() != Code::busy) throw;  // busy: no tick began in time, so nothing was applied
+    }
+    const bool advanced = *done > settled;
+    while (settled < *done) settle(*batch[settled++]);
+    if (!advanced) std::this_thread::sleep_for(kRetryPause);
+  }
+}
+
+/// Applies messages for a few milliseconds, and tells the world what it lacks. The tick thread calls this.
+/// @param done  number of messages that were applied or refused
+void SceneTopics::applySome(const SceneBatch& batch, std::size_t& done, SceneGaps& gaps, World& world) {
+  const auto begin = std::chrono::steady_clock::now();
+  const Time now(static_cast<std::int64_t>(ros::Time::now().toNSec()));
+  while (done < batch.size() && std::chrono::steady_clock::now() - begin < kTickShare) {
+    ReadScene& read = *batch[done];
+    read.applyTo(world, now);
+    if (!read.isDone()) break;  // the world is not ready, so this message and the later ones wait
+    read.noteIn(gaps);
+    ++done;
+  }
+  showGaps(gaps, world);
+}
+
+/// Counts a message that was applied or refused, and takes its octomap.
+void SceneTopics::settle(const ReadScene& read) {
+  if (read.standsForDropped()) return;
+  if (!read.applied()) {
+    const Refusal why(read.refused()->code(), read.what() + ": " + read.refused()->what());
+    commons_.ledger.refuse("moveit.refused", why);
+    if (read.octomap()) octomap_.refuse(why);
+    return;
+  }
+  commons_.ledger.count("moveit.applied");
+  for (const char* part : read.unused()) commons_.ledger.count(std::string("moveit.unused.") + part);
+  if (read.octomap()) octomap_.take(*read.octomap());
+}
+
+}  // namespace hgrid
