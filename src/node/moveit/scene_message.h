@@ -23,7 +23,8 @@ class ReadScene {
   ReadScene(const ReceivedScene& scene, const SceneReader& reader);
   /// Reads the request of a service.
   ReadScene(const moveit::PlanningScene<moveit::Release::noetic>& scene, const SceneReader& reader);
-  /// Stands for messages that were dropped. @param dropped  why; its code is limit
+  /// Takes the place of messages that were dropped, so that noteIn() notes a gap in the order of the messages.
+  /// @param dropped  why they were dropped; its code is limit
   explicit ReadScene(const Refusal& dropped);
 
   /// Applies the message to the world. If this fails, refused() says why. Only the tick thread may call this.
@@ -37,7 +38,7 @@ class ReadScene {
   bool applied() const { return applied_; }
   /// Returns why the message could not be read or applied.
   const std::optional<Refusal>& refused() const { return refused_; }
-  /// Whether the object stands for dropped messages.
+  /// Whether this takes the place of dropped messages, so there is nothing to apply or to count.
   bool standsForDropped() const { return what_.empty(); }
   /// Returns a description of the message for error sentences.
   const std::string& what() const { return what_; }

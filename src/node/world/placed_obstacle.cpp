@@ -87,7 +87,7 @@ Body bodyOf(const PlacedObstacle& obstacle, const std::string& world_frame) {
   Body body = obstacle.what->body;
   body.frame = obstacle.frame;
   body.frame_from_body = obstacle.frame_from_body;
-  // A lost obstacle may have moved, so it must never have been fixed.
+  // Nobody knows where an obstacle is after it was lost. It must then have pairs with fixed bodies, so it is not fixed.
   const bool fixed = obstacle.frame == world_frame && !obstacle.what->moving && !obstacle.what->lost_at_end;
   body.mobility = fixed ? Mobility::fixed : Mobility::moving;
   if (obstacle.attachment) {
