@@ -120,7 +120,9 @@ void auditPoses(const AuditCase& audited, AuditFindings& findings) {
     const auto& chain = entry->second;
     const BodyPose& pose = audited.poses[i];
     bool compared = body.kind != BodyKind::cloud && chain && !chain->doubtful;
-    if (!chain && audited.all_static && pose.state != Freshness::unplaced && body.kind != BodyKind::cloud &&
+    // A link can have a pose without transforms of its own frame: fixed joints connect it with another link.
+    const bool needs_chain = body.kind != BodyKind::cloud && body.kind != BodyKind::link;
+    if (!chain && audited.all_static && pose.state != Freshness::unplaced && needs_chain &&
         pose.stamp > explained_from) {
       findings.add(unexplained(body, pose));
     }

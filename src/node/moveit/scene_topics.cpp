@@ -162,7 +162,7 @@ void SceneTopics::settle(const ReadScene& read) {
   if (!read.applied()) {
     const Refusal why(read.refused()->code(), read.what() + ": " + read.refused()->what());
     commons_.ledger.refuse("moveit.refused", why);
-    if (read.octomap()) octomap_.refuse(why);
+    if (read.octomap() && !read.octomap()->data.empty()) octomap_.refuse(why);
     return;
   }
   commons_.ledger.count("moveit.applied");

@@ -87,6 +87,16 @@ TEST(Audit, FindsALinkThatIsPlacedWrongInItsRobot) {
   expectTells(foundWithinTen(world), "'arm/arm_tool' is 0.001 m away");
 }
 
+TEST(Audit, AllowsALinkThatOnlyAFixedJointPlaces) {
+  AuditedWorld world(9);
+  world.addRobot(0.0, false);
+  EXPECT_EQ(foundWithinTen(world), "");
+  const AuditFindings findings = audit(world.audited(), 1);
+  EXPECT_EQ(findings.poses_skipped, 2u) << "frame 'slow' and frame 'arm_tool' have no transforms";
+  const Snapshot& snapshot = world.world().snapshot();
+  EXPECT_NE(snapshot.poses()[snapshot.structure().find("arm/arm_tool")].state, Freshness::unplaced);
+}
+
 TEST(Audit, FindsAPairThatTheGridMissed) {
   AuditedWorld world(6);
   begin(world);

@@ -85,7 +85,7 @@ AuditedWorld::AuditedWorld(unsigned seed, const Params& params)
   send(randomTransform("f0", "tip", 0.0), true);
 }
 
-void AuditedWorld::addRobot(double off) {
+void AuditedWorld::addRobot(double off, bool published) {
   LoadedRobot robot;
   robot.name = "arm";
   robot.root_frame = "arm_base";
@@ -103,6 +103,7 @@ void AuditedWorld::addRobot(double off) {
   base_from_tool.translation().x() = 0.5 + off;
   robot.groups = {{"arm_base", {{0, Pose::Identity()}, {1, base_from_tool}}}};
   world_.world().setRobot(robot);
+  if (!published) return;
   geometry_msgs::TransformStamped fixed = randomTransform("arm_base", "arm_tool", 0.0);
   fixed.transform = geometry_msgs::Transform();
   fixed.transform.translation.x = 0.5;

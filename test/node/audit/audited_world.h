@@ -27,7 +27,8 @@ class AuditedWorld {
   Random& random() { return random_; }
   /// Adds a robot with two links of one rigid group.
   /// @param off  [m] the node places the second link this far from the place that the transforms give
-  void addRobot(double off);
+  /// @param published  whether /tf_static has the frame of the second link
+  void addRobot(double off, bool published = true);
 
   /// Records one transform without a change. Then changes it by `tamper` and sends it to the node.
   void send(geometry_msgs::TransformStamped transform, bool is_static = false, const std::string& publisher = "/state");

@@ -24,7 +24,8 @@ TEST_F(RobotsRate, EachTickIsPublishedAtMostOnceAndInOrderWhileAllMove) {
   const auto ticks = static_cast<double>(messages.back()->world.sequence - messages.front()->world.sequence);
   const double period = (messages.back()->world.stamp - messages.front()->world.stamp).toSec() / ticks;
   EXPECT_GE(period, 0.9 * kPeriod) << "[s] by the stamps: the ticks come faster than ~rate";
-  EXPECT_LE(period, 1.5 * kPeriod) << "[s] by the stamps: the ticks come slower than ~rate";
+  // A busy machine makes ticks slower. Ticks that wait for ~heartbeat are slower by more than this.
+  EXPECT_LE(period, 5.0 * kPeriod) << "[s] by the stamps: the ticks come slower than ~rate";
   EXPECT_TRUE(cell_->proximity->running());
 }
 

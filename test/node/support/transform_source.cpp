@@ -86,6 +86,7 @@ void TransformSource::publishStreams() {
     message.transforms.back().header.stamp = now - ros::Duration(named.second.delay);
   }
   moving_.publish(message);
+  newest_ = now;
 }
 
 }  // namespace test

@@ -43,6 +43,8 @@ class TransformSource {
               double delay = 0.0);
   /// Stops the stream of the transform of `child`.
   void stop(const std::string& child);
+  /// Returns the stamp of the newest streamed transforms without a delay. Only while the streams pause.
+  ros::Time newestStamp() const { return newest_; }
   /// Runs the function. All streams pause while it runs.
   void pauseFor(const std::function<void()>& function);
   /// Waits until /tf and /tf_static have at least `count` subscribers each. @throws std::runtime_error after 20 s
@@ -59,6 +61,7 @@ class TransformSource {
 
   std::function<ros::Time()> now_;
   std::uint64_t sent_ = 0;
+  ros::Time newest_;
   std::mutex mutex_;
   std::map<std::string, Streamed> streams_;
   tf2_msgs::TFMessage fixed_;
