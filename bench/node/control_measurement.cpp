@@ -24,6 +24,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr int kTurns = 10;  // of the two services whose round trips are compared
+
 void sleepFor(double duration) { std::this_thread::sleep_for(std::chrono::duration<double>(duration)); }
 
 /// Runs a control in its own process.
@@ -106,15 +108,14 @@ double receivePercent(Workload workload, double duration) {
   return 100.0 * seen.node_time / seen.duration;
 }
 
-/// Measures the round trips of a service, 200 per second, over a persistent connection.
-Spread roundTrips(const std::string& service, double duration) {
+/// Measures the round trips [s] of a service, 200 per second, over a persistent connection.
+void appendRoundTrips(const std::string& service, double duration, std::vector<double>& seconds) {
   ros::NodeHandle node;
   ros::ServiceClient client = node.serviceClient<msg::QuerySphere>(service, true);
   if (!client.waitForExistence(ros::Duration(20.0))) throw std::runtime_error(service + " is not offered");
   client = node.serviceClient<msg::QuerySphere>(service, true);
   msg::QuerySphere question;
   question.request.radius = 0.5;
-  std::vector<double> seconds;
   auto due = Clock::now();
   const auto end = due + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(duration));
   for (; due < end; due += std::chrono::milliseconds(5)) {
@@ -123,7 +124,6 @@ Spread roundTrips(const std::string& service, double duration) {
     if (!client.call(question)) throw std::runtime_error(service + " did not answer");
     seconds.push_back(std::chrono::duration<double>(Clock::now() - begin).count());
   }
-  return spreadOf(seconds);
 }
 
 }  // namespace
@@ -137,12 +137,16 @@ ControlMeasurement measureControls(const Workload& workload, double duration) {
   result.relay = relayLatency(workload, duration, cycle.size());
   result.ignore_percent = ignorePercent(workload, duration);
   result.receive_percent = receivePercent(workload, duration);
-  {
-    const Control control("service");
-    result.empty_service = roundTrips(control.name() + "/query_sphere", duration);
-  }
+  // Both services answer in turns while the node makes its ticks, so the rest of the machine is equally busy.
+  const Control control("service");
   const RunningNode node(workload, duration);
-  result.sphere = roundTrips(node.name() + "/query_sphere", duration);
+  std::vector<double> empty, sphere;
+  for (int turn = 0; turn < kTurns; ++turn) {
+    appendRoundTrips(control.name() + "/query_sphere", duration / kTurns, empty);
+    appendRoundTrips(node.name() + "/query_sphere", duration / kTurns, sphere);
+  }
+  result.empty_service = spreadOf(empty);
+  result.sphere = spreadOf(sphere);
   return result;
 }
 

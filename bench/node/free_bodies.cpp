@@ -42,6 +42,7 @@ Workload freeBodies(std::size_t count, std::size_t moving, double rate) {
   workload.bodies = count;
   workload.rate = rate;
   workload.params["rate"] = rate;
+  workload.params["heartbeat"] = 0.5 * rate;  // if both are equal, ticks do not wait for the data
   workload.params["max_frames"] = static_cast<int>(count + 10);
   workload.params["accept_uncovered"][0]["pattern"] = "robot/*";  // the robot has no shapes
   workload.params["accept_uncovered"][0]["reason"] = "it has no geometry";

@@ -35,7 +35,9 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
       query_threads_(node, private_node),
       admin_thread_(node, private_node),
       commons_{readSettings(private_node), std::move(narrow_phase), {}, {}},
-      world_(commons_.settings.params, ros::Time::isSimTime(), newEpoch(), commons_.ledger, commons_.narrow_phase),
+      state_(commons_),
+      world_(commons_.settings.params, ros::Time::isSimTime(), newEpoch(), commons_.ledger, commons_.narrow_phase,
+             state_.restored()),
       jobs_([this] { return isEnding(); }, std::chrono::seconds(10), [this] { tick_thread_.wake(); }),
       auditor_(commons_),
       tick_loop_(tick_thread_.node(), tick_thread_.privateNode(), commons_.settings.params, world_, jobs_, stopwatch_,
@@ -44,11 +46,11 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
       completeness_log_(std::chrono::steady_clock::now()),
       loading_(
           admin_thread_.node(), private_node, commons_, world_.transforms().lookup(),
-          [this] { return tick_loop_.newest(); }, jobs_, [this] { return isEnding(); }),
+          [this] { return tick_loop_.newest(); }, jobs_, state_.restored().maps, [this] { return isEnding(); }),
       services_(
           query_threads_.privateNode(), admin_thread_.privateNode(), commons_, [this] { return tick_loop_.newest(); },
           [this](const TickJobs::Job& job) { return tick_loop_.tickAfter(job); }, world_.transforms().lookup(),
-          loading_, stopwatch_, sketch_),
+          loading_, state_, stopwatch_, sketch_),
       moveit_(
           admin_thread_.node(), commons_, loading_.mapSource(), jobs_,
           [this](const TickJobs::Job& job) { return tick_loop_.tickAfter(job); },
@@ -103,6 +105,7 @@ std::vector<TickLoop::Step> ProximityNode::tickSteps() {
            }},
           {"", [this](const TickPtr& tick) { completeness_log_.log(*tick); }},
           {"", [this](const TickPtr& tick) { model_log_.log(tick->models); }},
+          {"", [this](const TickPtr& tick) { state_.see(world_, *tick); }},
           {"audit", [this](const TickPtr& tick) { auditor_.see(tick); }}};
 }
 

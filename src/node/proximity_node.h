@@ -19,6 +19,7 @@
 #include "node/moveit/moveit_interface.h"
 #include "node/publishers/publishers.h"
 #include "node/services/node_services.h"
+#include "node/state/state_keeper.h"
 #include "node/tick/tick_loop.h"
 
 namespace hgrid {
@@ -50,6 +51,7 @@ class ProximityNode {
   CallbackThreads tick_thread_, query_threads_, admin_thread_;
   Commons commons_;
   QuerySketch sketch_;
+  StateKeeper state_;
   World world_;  // only the tick thread uses it; all threads may use its transforms
   TickJobs jobs_;
   Stopwatch stopwatch_;  // only the tick thread uses it

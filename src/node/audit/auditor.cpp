@@ -2,10 +2,10 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/audit/auditor.h"
 
+#include <pthread.h>
 #include <ros/console.h>
 #include <ros/file_log.h>
-#include <sys/resource.h>
-#include <sys/syscall.h>
+#include <sched.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -22,10 +22,12 @@ namespace {
 constexpr double kWindow = 2.0;           // [s] how long transforms are kept, in addition to ~max_sync_wait
 constexpr std::uint64_t kMostFiles = 10;  // one run of the node writes at most so many files
 
-/// Gives the calling thread the lowest priority.
+/// Lets the calling thread run only while no other thread needs its processor.
 void runInTheBackground() {
-  // A failure does no harm, because an audit works with any priority.
-  setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), 19);
+  // A failure does no harm, because an audit works with any priority. A nice value of 19 would not be enough: other
+  // threads that become ready, such as those of queries, would still wait some milliseconds.
+  const sched_param none{};
+  pthread_setschedparam(pthread_self(), SCHED_IDLE, &none);
 }
 
 }  // namespace

@@ -2,193 +2,18 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/audit/case_file.h"
 
-#include <cstdlib>
-#include <iomanip>
 #include <istream>
 #include <ostream>
-#include <sstream>
-#include <type_traits>
 
 #include "hgrid_proximity/refusal.h"
+#include "node/text/body_text.h"
 
 namespace hgrid {
 namespace {
 
-constexpr const char* kTitle = "hgrid_proximity_audit_1";  // kind and version of the file
+constexpr const char* kTitle = "hgrid_proximity_audit_2";  // kind and version of the file
 
-/// Writes the values of a case as text. A line is a word and values, with spaces between them. CaseReader reads this
-/// text. The functions below list the values of a case once, for both classes. Thus writing and reading cannot differ.
-class CaseWriter {
- public:
-  static constexpr bool kReads = false;
-  explicit CaseWriter(std::ostream& out) : out_(out) { out_ << std::setprecision(17); }
-
-  void line(const char* word) { out_ << (std::exchange(first_, false) ? "" : "\n") << word; }
-  void value(const double& number) { out_ << ' ' << number; }
-  void value(const std::string& text) {
-    out_ << " %";
-    for (const char c : text) {
-      const auto byte = static_cast<unsigned char>(c);
-      if (byte > ' ' && byte < 0x7f && c != '%') {
-        out_ << c;
-      } else {
-        out_ << '%' << "0123456789abcdef"[byte >> 4] << "0123456789abcdef"[byte & 15];
-      }
-    }
-  }
-  template <class Number, std::enable_if_t<std::is_integral<Number>::value || std::is_enum<Number>::value, int> = 0>
-  void value(const Number& number) {
-    out_ << ' ' << static_cast<std::int64_t>(number);
-  }
-
- private:
-  std::ostream& out_;
-  bool first_ = true;
-};
-
-/// Reads values that CaseWriter wrote.
-class CaseReader {
- public:
-  static constexpr bool kReads = true;
-  explicit CaseReader(std::istream& in) : in_(in) {}
-
-  void line(const char* word) {
-    ++line_;
-    std::string text;
-    if (!std::getline(in_, text)) fail("the file ends; there should be '" + std::string(word) + "'");
-    values_.clear();
-    values_.str(text);
-    if (next() != word) fail("it should begin with '" + std::string(word) + "'");
-  }
-  void value(double& number) {
-    const std::string text = next();
-    char* end = nullptr;
-    number = std::strtod(text.c_str(), &end);
-    if (text.empty() || *end != '\0') fail("'" + printable(text) + "' should be a number");
-  }
-  void value(std::string& result) {
-    const std::string text = next();
-    if (text.empty() || text[0] != '%') fail("'" + printable(text) + "' should be a text, which begins with %");
-    result.clear();
-    for (std::size_t i = 1; i < text.size(); ++i) {
-      if (text[i] == '%' && i + 2 < text.size()) {
-        result += static_cast<char>(std::strtol(text.substr(i + 1, 2).c_str(), nullptr, 16));
-        i += 2;
-      } else {
-        result += text[i];
-      }
-    }
-  }
-  template <class Number, std::enable_if_t<std::is_integral<Number>::value || std::is_enum<Number>::value, int> = 0>
-  void value(Number& number) {
-    const std::string text = next();
-    char* end = nullptr;
-    number = static_cast<Number>(std::strtoll(text.c_str(), &end, 10));
-    if (text.empty() || *end != '\0') fail("'" + printable(text) + "' should be a whole number");
-  }
-  [[noreturn]] void fail(const std::string& why) const {
-    throw Refusal(Code::parse, "line " + std::to_string(line_) + " of the audit file is not valid: " + why);
-  }
-
- private:
-  std::string next() {
-    std::string word;
-    values_ >> word;
-    return word;
-  }
-  std::istream& in_;
-  std::istringstream values_;
-  std::size_t line_ = 0;
-};
-
-// Each pass() function takes a file and a value. If the file is a CaseWriter, the function writes the value. If the
-// file is a CaseReader, the function reads the value and stores it.
-
-template <class File>
-void pass(File& file, Time& time) {
-  auto count = static_cast<std::int64_t>(time.count());
-  file.value(count);
-  time = Time(count);
-}
-
-template <class File>
-void pass(File& file, Eigen::Vector3d& vector) {
-  for (int axis = 0; axis < 3; ++axis) file.value(vector[axis]);
-}
-
-template <class File>
-void pass(File& file, Pose& pose) {
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 4; ++column) file.value(pose.matrix()(row, column));
-  }
-}
-
-/// Writes or reads a list: first a line with `word` and the number of elements, then the elements.
-/// @param blank  the value of an element before it is read
-/// @param each   writes or reads one element
-template <class File, class Element, class Each>
-void passAll(File& file, const char* word, std::vector<Element>& elements, const Element& blank, const Each& each) {
-  std::size_t count = elements.size();
-  file.line(word);
-  file.value(count);
-  if (File::kReads) elements.clear();
-  for (std::size_t i = 0; i < count; ++i) {
-    if (File::kReads) elements.push_back(blank);  // no reserve(): a wrong count must not allocate much
-    each(elements[i]);
-  }
-}
-
-template <class File>
-void pass(File& file, TriangleMesh& mesh) {
-  passAll(file, "vertices", mesh.vertices, Eigen::Vector3d(Eigen::Vector3d::Zero()), [&](Eigen::Vector3d& vertex) {
-    file.line("vertex");
-    pass(file, vertex);
-  });
-  passAll(file, "triangles", mesh.triangles, {}, [&](std::array<std::uint32_t, 3>& triangle) {
-    file.line("triangle");
-    for (std::uint32_t& corner : triangle) file.value(corner);
-  });
-}
-
-Shape shapeOf(ShapeKind kind, const std::vector<double>& dimensions, const TriangleMesh& mesh) {
-  const ShapeLimits limits{0.0, 1e9, true};
-  const auto shared = std::make_shared<const TriangleMesh>(mesh);
-  if (kind == ShapeKind::hull) return Shape::hull(shared, limits);
-  if (kind == ShapeKind::mesh) return Shape::mesh(shared, limits);
-  return Shape::primitive(static_cast<int>(kind), dimensions, limits);
-}
-
-template <class File>
-void pass(File& file, BodyShape& shape) {
-  ShapeKind kind = shape.shape.kind();
-  std::vector<double> dimensions = shape.shape.dimensions();
-  TriangleMesh mesh = shape.shape.mesh() ? *shape.shape.mesh() : TriangleMesh{};
-  file.line("shape");
-  file.value(kind);
-  file.value(shape.padding);
-  pass(file, shape.body_from_shape);
-  passAll(file, "dimensions", dimensions, 0.0, [&](double& length) {
-    file.line("dimension");
-    file.value(length);
-  });
-  if (kind == ShapeKind::hull || kind == ShapeKind::mesh) pass(file, mesh);
-  if (File::kReads) shape.shape = shapeOf(kind, dimensions, mesh);
-}
-
-template <class File>
-void pass(File& file, Body& body) {
-  file.line("body");
-  file.value(body.name);
-  file.value(body.frame);
-  file.value(body.robot);
-  file.value(body.kind);
-  file.value(body.mobility);
-  file.value(body.margin);
-  file.value(body.max_speed);
-  pass(file, body.frame_from_body);
-  const BodyShape blank{Shape::sphere(1.0), Pose::Identity(), 0.0, {}, Eigen::Vector3d::Ones()};
-  passAll(file, "shapes", body.shapes, blank, [&](BodyShape& shape) { pass(file, shape); });
-}
+// Each pass() function writes a value if the file is a TextWriter. If the file is a TextReader, it reads the value.
 
 template <class File>
 void pass(File& file, BodyPose& pose) {
@@ -333,14 +158,14 @@ void checkIndices(const AuditCase& audited) {
 
 void writeCase(const AuditCase& audited, std::ostream& out) {
   AuditCase copy = audited;  // passCase() needs a value that it could also change
-  CaseWriter writer(out);
+  TextWriter writer(out);
   passCase(writer, copy);
   out << '\n';
 }
 
 AuditCase readCase(std::istream& in) {
   AuditCase audited;
-  CaseReader reader(in);
+  TextReader reader(in, "the audit file");
   passCase(reader, audited);
   checkIndices(audited);
   return audited;

@@ -38,6 +38,7 @@ NodeDiagnostics::NodeDiagnostics(ros::NodeHandle node, ros::NodeHandle private_n
   updater_.add("transforms", this, &NodeDiagnostics::transforms);
   updater_.add("ticks", this, &NodeDiagnostics::ticks);
   updater_.add("audit", this, &NodeDiagnostics::audit);
+  updater_.add("state", this, &NodeDiagnostics::state);
 }
 
 void NodeDiagnostics::world(DiagnosticStatusWrapper& status) {
@@ -154,6 +155,21 @@ void NodeDiagnostics::audit(DiagnosticStatusWrapper& status) {
   }
   status.add("audited ticks", health.audits);
   status.add("audits with a difference", health.different_audits);
+}
+
+void NodeDiagnostics::state(DiagnosticStatusWrapper& status) {
+  const StateReport state = health_.report().state;
+  if (!state.failure.empty()) {
+    status.summary(DiagnosticStatus::ERROR, "changes are not stored: " + state.failure);
+  } else if (!state.unreadable.empty()) {
+    status.summary(DiagnosticStatus::ERROR, "not restored: " + state.unreadable.front());
+  } else {
+    status.summary(DiagnosticStatus::OK, state.folder.empty() ? "changes are not stored; see ~state_folder"
+                                                              : "changes are stored in " + state.folder);
+  }
+  status.add("restored obstacles", state.obstacles);
+  status.add("restored rules", state.rules);
+  addAll(status, "not restored", state.unreadable);
 }
 
 }  // namespace hgrid

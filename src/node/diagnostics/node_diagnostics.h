@@ -13,9 +13,9 @@
 
 namespace hgrid {
 
-/// Publishes five statuses on /diagnostics (REP-107): world, robots, transforms, ticks and audit. They are for people
-/// and dashboards. A program that stops a robot must use ~pairs and ~status instead. Only one thread at a time may use
-/// it.
+/// Publishes six statuses on /diagnostics (REP-107): world, robots, transforms, ticks, audit and state. They are for
+/// people and dashboards. A program that stops a robot must use ~pairs and ~status instead. Only one thread at a time
+/// may use it.
 class NodeDiagnostics {
  public:
   using NewestTick = std::function<std::shared_ptr<const Tick>()>;
@@ -31,6 +31,7 @@ class NodeDiagnostics {
   void transforms(diagnostic_updater::DiagnosticStatusWrapper& status);
   void ticks(diagnostic_updater::DiagnosticStatusWrapper& status);
   void audit(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void state(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   NewestTick newest_;
   const NodeHealth& health_;

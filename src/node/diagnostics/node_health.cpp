@@ -40,6 +40,11 @@ void NodeHealth::noteAudit(const std::string& difference) {
   report_.audit_difference = difference;
 }
 
+void NodeHealth::noteState(const StateReport& state) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  report_.state = state;
+}
+
 bool NodeHealth::noteFailedLoad(const std::string& robot, const std::string& sentence) {
   const std::lock_guard<std::mutex> lock(mutex_);
   std::string& known = report_.failed_loads[robot];

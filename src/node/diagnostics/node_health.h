@@ -13,6 +13,15 @@
 
 namespace hgrid {
 
+/// What /diagnostics reports of ~state_folder.
+struct StateReport {
+  std::string folder;                   ///< empty: nothing is stored
+  std::string failure;                  ///< why changes are not stored; empty: they are
+  std::size_t obstacles = 0;            ///< number of obstacles that this run of the node restored
+  std::size_t rules = 0;                ///< number of rules that it restored
+  std::vector<std::string> unreadable;  ///< what could not be restored
+};
+
 /// Data that /diagnostics reports in addition to the newest tick.
 struct HealthReport {
   std::map<std::string, std::string> failed_loads;  ///< by robot: why its description could not be loaded
@@ -26,6 +35,7 @@ struct HealthReport {
   std::uint64_t audits = 0;                            ///< number of audited ticks since the start of the node
   std::uint64_t different_audits = 0;                  ///< number of audits that found a difference
   std::string audit_difference;                        ///< what the newest of these found; empty: nothing
+  StateReport state;
 };
 
 /// Collects data for /diagnostics from all parts of the node. Any thread may use it.
@@ -43,6 +53,7 @@ class NodeHealth {
   void noteConflicts(const std::vector<std::string>& frames);
   /// Call this after each audit. @param difference  what it found; empty: nothing
   void noteAudit(const std::string& difference);
+  void noteState(const StateReport& state);
   /// Notes why a robot could not be loaded. @returns whether the sentence differs from the last one for this robot
   bool noteFailedLoad(const std::string& robot, const std::string& sentence);
   void noteLoaded(const std::string& robot);

@@ -12,12 +12,15 @@
 
 namespace hgrid {
 
-MapLoader::MapLoader(ros::NodeHandle& node, const Params& params, const MapSource& source, TickJobs& jobs,
-                     Ledger& ledger)
+MapLoader::MapLoader(ros::NodeHandle& node, const Params& params, const MapSource& source, const StoredMaps& stored,
+                     TickJobs& jobs, Ledger& ledger)
     : source_(source), jobs_(jobs), ledger_(ledger) {
   for (const MapParams& map : params.maps) {
-    if (!map.file.empty()) files_.put(map.name, map);
+    if (!map.file.empty() && stored.count(map.name) == 0) files_.put(map.name, map);
     if (!map.topic.empty()) subscribe(node, map);
+  }
+  for (const auto& [name, map] : stored) {
+    if (map) files_.put(name, *map);
   }
 }
 

@@ -6,6 +6,8 @@
 #include <ros/subscriber.h>
 
 #include <functional>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,9 @@
 
 namespace hgrid {
 
+/// Maps that services loaded from a file or removed, by name. nullopt: removed.
+using StoredMaps = std::map<std::string, std::optional<MapParams>>;
+
 /// Puts the configured maps into the world: maps from files at the start, maps from topics when a message arrives.
 ///
 /// Stores which files must still be read. Many maps are published only once. So it also stores the received maps that
@@ -24,8 +29,10 @@ namespace hgrid {
 class MapLoader {
  public:
   /// All parameters except `node` must outlive this object.
-  /// @param node  its callback queue must be that of the thread that uses this object
-  MapLoader(ros::NodeHandle& node, const Params& params, const MapSource& source, TickJobs& jobs, Ledger& ledger);
+  /// @param node    its callback queue must be that of the thread that uses this object
+  /// @param stored  these maps take precedence over the files of the parameters
+  MapLoader(ros::NodeHandle& node, const Params& params, const MapSource& source, const StoredMaps& stored,
+            TickJobs& jobs, Ledger& ledger);
 
   /// Whether loadMissing() has something to do.
   bool hasMissing() const { return !files_.empty() || !arrived_.empty(); }

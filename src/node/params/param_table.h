@@ -37,6 +37,10 @@ void visitParams(Visitor& v, Params& p) {
   v.number("finest_edge", p.finest_edge, "m", 0.0, 1000.0,
            "longest side of the boxes on the finest level of the grid, at least 0.001; 0: chosen from the bodies");
 
+  v.string("state_folder", p.state_folder,
+           "folder in which obstacles, rules and maps that services changed are stored, so that a restart keeps them; the "
+           "node creates it if its parent exists, and each node needs its own. Empty: nothing is stored");
+
   v.section("Robots");
   v.robots("robots", p.robots,
            "list of {name, description, semantic, tf_prefix}. name: name of the robot, required. description: name of "

@@ -120,6 +120,7 @@ struct Params {
   double marker_rate = 5.0;
   double audit_rate = 0.2;
   std::string audit_folder;
+  std::string state_folder;
 
   double distances_max = 0.0, distances_budget = 0.005;
   int distances_threads = 1;

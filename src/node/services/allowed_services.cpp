@@ -24,8 +24,9 @@ void checkGlob(const std::string& glob) {
 
 }  // namespace
 
-AllowedServices::AllowedServices(ServiceEnvelope& envelope, const Params& params, ChangeWorld change_world)
-    : params_(params), change_world_(std::move(change_world)) {
+AllowedServices::AllowedServices(ServiceEnvelope& envelope, const Params& params, ChangeWorld change_world,
+                                 WaitUntilStored wait_until_stored)
+    : params_(params), change_world_(std::move(change_world)), wait_until_stored_(std::move(wait_until_stored)) {
   servers_.push_back(
       envelope.serve<msg::SetAllowed>("set_allowed", [this](ServiceCall<msg::SetAllowed>& call) { set(call); }));
   servers_.push_back(
@@ -70,6 +71,7 @@ void AllowedServices::set(ServiceCall<msg::SetAllowed>& call) const {
   // The filter is passed on, because making it of many rules and bodies would delay the tick.
   const PreparedRules rules{filter, structure.revision};
   call.tick = AnswerTick(change_world_([rules](World& world) { world.setRules(rules); }));
+  wait_until_stored_();
   call.response.pairs_changed = static_cast<std::uint32_t>(std::min<std::uint64_t>(changed, 0xffffffffu));
 }
 

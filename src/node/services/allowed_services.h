@@ -21,7 +21,8 @@ namespace hgrid {
 class AllowedServices {
  public:
   /// `envelope` and `params` must outlive this object.
-  AllowedServices(ServiceEnvelope& envelope, const Params& params, ChangeWorld change_world);
+  AllowedServices(ServiceEnvelope& envelope, const Params& params, ChangeWorld change_world,
+                  WaitUntilStored wait_until_stored);
 
  private:
   void set(ServiceCall<msg::SetAllowed>& call) const;
@@ -31,6 +32,7 @@ class AllowedServices {
 
   const Params& params_;
   ChangeWorld change_world_;
+  WaitUntilStored wait_until_stored_;
   std::vector<ros::ServiceServer> servers_;
 };
 

@@ -36,9 +36,10 @@ MapServices::MapServices(ServiceEnvelope& envelope, const MapSource& source, Cha
 
 void MapServices::load(ServiceCall<msg::LoadOctomap>& call) const {
   const auto begin = std::chrono::steady_clock::now();
-  const LoadedMap loaded = source_.finished(source_.read(paramsOf(call.request)));
+  const MapParams map = paramsOf(call.request);
+  const LoadedMap loaded = source_.finished(source_.read(map));
   call.tick = AnswerTick(change_world_([loaded](World& world) { world.setMap(loaded); }));
-  decided_(call.request.map);
+  decided_(map.name, map);
   call.response.occupied_leaves = loaded.cells->grid->size();
   call.response.resolution = loaded.cells->grid->finestEdge();
   call.response.duration = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -47,7 +48,7 @@ void MapServices::load(ServiceCall<msg::LoadOctomap>& call) const {
 void MapServices::clear(ServiceCall<msg::ClearMap>& call) const {
   const std::string map = call.request.map;
   call.tick = AnswerTick(change_world_([map](World& world) { world.clearMap(map); }));
-  decided_(map);
+  decided_(map, std::nullopt);
 }
 
 }  // namespace hgrid

@@ -6,6 +6,7 @@
 #include <hgrid_proximity/LoadOctomap.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,8 @@ class MapServices {
  public:
   /// Called after a map was loaded or removed; an empty name means all maps. The callee must drop older loads of this
   /// map that are still pending.
-  using Decided = std::function<void(const std::string& map)>;
+  /// @param loaded  nullopt: the map was removed
+  using Decided = std::function<void(const std::string& map, const std::optional<MapParams>& loaded)>;
 
   /// `envelope` and `source` must outlive this object.
   MapServices(ServiceEnvelope& envelope, const MapSource& source, ChangeWorld change_world, Decided decided);

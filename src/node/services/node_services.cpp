@@ -10,17 +10,22 @@ namespace hgrid {
 
 NodeServices::NodeServices(const ros::NodeHandle& query_node, const ros::NodeHandle& admin_node, Commons& commons,
                            ServiceEnvelope::NewestTick newest, ChangeWorld change_world,
-                           const TransformLookup& transforms, Loading& loading, Stopwatch& stopwatch,
-                           QuerySketch& sketch)
+                           const TransformLookup& transforms, Loading& loading, StateKeeper& state,
+                           Stopwatch& stopwatch, QuerySketch& sketch)
     : questions_(query_node, commons.settings, newest, commons.ledger),
       changes_(admin_node, commons.settings, newest, commons.ledger),
       query_(questions_, commons.settings.params, transforms, commons.narrow_phase, sketch),
       explain_(questions_, commons.settings.params, commons.narrow_phase),
-      allowed_(changes_, commons.settings.params, change_world),
+      allowed_(changes_, commons.settings.params, change_world, [&state] { return state.waitUntilStored(); }),
       maps_(changes_, loading.mapSource(), change_world,
-            [&loading](const std::string& map) { loading.maps().forget(map); }),
+            [&loading, &state](const std::string& map, const std::optional<MapParams>& loaded) {
+              loading.maps().forget(map);
+              state.noteMap(map, loaded);
+              state.waitUntilStored();
+            }),
       obstacles_(changes_, commons.settings.params, commons.narrow_phase,
-                 meshPolicy(commons.settings.params, loading.isEnding()), change_world),
+                 meshPolicy(commons.settings.params, loading.isEnding()), change_world,
+                 [&state] { return state.waitUntilStored(); }),
       reset_(changes_, change_world, stopwatch),
       reload_(
           changes_, [&loading](const std::string& robot) { return loading.robots().reload(robot); }, change_world) {}

@@ -13,6 +13,7 @@
 #include "node/services/query_services.h"
 #include "node/services/reload_service.h"
 #include "node/services/reset_service.h"
+#include "node/state/state_keeper.h"
 #include "node/tf/transform_lookup.h"
 
 namespace hgrid {
@@ -26,7 +27,7 @@ class NodeServices {
   /// All other parameters must outlive this object.
   NodeServices(const ros::NodeHandle& query_node, const ros::NodeHandle& admin_node, Commons& commons,
                ServiceEnvelope::NewestTick newest, ChangeWorld change_world, const TransformLookup& transforms,
-               Loading& loading, Stopwatch& stopwatch, QuerySketch& sketch);
+               Loading& loading, StateKeeper& state, Stopwatch& stopwatch, QuerySketch& sketch);
 
  private:
   ServiceEnvelope questions_, changes_;

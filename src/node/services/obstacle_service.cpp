@@ -50,11 +50,13 @@ void checkTouch(const ObstacleChanges& changes, const AnswerTick& tick, const Pa
 }  // namespace
 
 ObstacleService::ObstacleService(ServiceEnvelope& envelope, const Params& params,
-                                 std::shared_ptr<NarrowPhase> narrow_phase, MeshPolicy meshes, ChangeWorld change_world)
+                                 std::shared_ptr<NarrowPhase> narrow_phase, MeshPolicy meshes, ChangeWorld change_world,
+                                 WaitUntilStored wait_until_stored)
     : params_(params),
       narrow_phase_(std::move(narrow_phase)),
       meshes_(std::move(meshes)),
-      change_world_(std::move(change_world)) {
+      change_world_(std::move(change_world)),
+      wait_until_stored_(std::move(wait_until_stored)) {
   server_ = envelope.serve<msg::ApplyObstacles>("apply_obstacles",
                                                 [this](ServiceCall<msg::ApplyObstacles>& call) { apply(call); });
 }
@@ -69,6 +71,7 @@ void ObstacleService::apply(ServiceCall<msg::ApplyObstacles>& call) const {
     call.tick = AnswerTick(change_world_([changes](World& world) {
       world.applyObstacles(*changes, Time(static_cast<std::int64_t>(ros::Time::now().toNSec())));
     }));
+    call.response.durable = wait_until_stored_();
   } catch (const ChangeRefusal& refusal) {
     call.response.failed_index = static_cast<std::uint32_t>(refusal.index());
     throw;

@@ -14,4 +14,7 @@ struct Tick;
 /// @throws whatever the change throws; Refusal busy if no tick makes the change in time
 using ChangeWorld = std::function<std::shared_ptr<const Tick>(const std::function<void(World&)>& change)>;
 
+/// Waits until the changes of the world are on disk, if ~state_folder is set. @returns whether they are
+using WaitUntilStored = std::function<bool()>;
+
 }  // namespace hgrid

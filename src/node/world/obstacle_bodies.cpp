@@ -28,43 +28,86 @@ bool belongsToSet(const ObstacleChange& change) {
 
 }  // namespace
 
-ObstacleBodies::ObstacleBodies(const Params& params, std::shared_ptr<NarrowPhase> narrow_phase, Ledger& ledger)
-    : params_(params), narrow_phase_(std::move(narrow_phase)), ledger_(ledger) {}
+ObstacleBodies::ObstacleBodies(const Params& params, std::shared_ptr<NarrowPhase> narrow_phase, StoredWorld stored,
+                               Ledger& ledger)
+    : params_(params), narrow_phase_(std::move(narrow_phase)), ledger_(ledger), removed_(std::move(stored.removed)) {
+  for (PlacedObstacle& obstacle : stored.obstacles) {
+    const std::string name = obstacle.what->body.name;
+    stored_.insert_or_assign(name, std::move(obstacle));
+  }
+}
 
 void ObstacleBodies::startAgain() noexcept {
   done_ = 0;
   present_.clear();
+  stored_.clear();
+  removed_.clear();
+  unsaved_.all_removed = true;
+  unsaved_.names.clear();
   touch_.rules.clear();
   ++touch_.revision;
   first_end_ = Time::max();
 }
 
-void ObstacleBodies::addAll(const std::string& world_frame, Movers& movers, MissingSources& missing) {
+void ObstacleBodies::addAll(const std::string& world_frame, Time now, Movers& movers, MissingSources& missing) {
   while (done_ < params_.obstacles.size()) {
     const Body& configured = params_.obstacles[done_].body;
-    const SourceId source = SourceId::ofObstacle(configured.name);
     try {
-      auto what = std::make_shared<RequestedObstacle>();
-      what->body = configured;
-      applyMaxSpeed(params_, what->body);
-      applyPatterns(params_, what->body);
-      makeSolids(*narrow_phase_, what->body);
-      what->place = {configured.frame, configured.frame_from_body, std::nullopt};
-      Obstacles added;
-      PlacedObstacle& obstacle = added[configured.name];
-      obstacle.what = what;
-      obstacle.asked = what->place;
-      obstacle.frame = followedFrame(configured.frame, configured.name, world_frame);
-      obstacle.frame_from_body = configured.frame_from_body;
-      movers.add(source, bodyOf(obstacle, world_frame));
-      present_.merge(added);  // does not throw
+      // What an earlier run made of an obstacle takes precedence over the parameters.
+      const bool was_changed = stored_.count(configured.name) != 0 || removed_.count(configured.name) != 0;
+      if (!was_changed) addConfigured(configured, world_frame, movers);
       ++done_;
     } catch (const Refusal& refusal) {
-      missing.set(source, std::string(name(refusal.code())) + " " + refusal.what());
+      missing.set(SourceId::ofObstacle(configured.name), std::string(name(refusal.code())) + " " + refusal.what());
       ++done_;
       ledger_.refuse("obstacles.refused", refusal);
     }
   }
+  if (!stored_.empty()) addStored(world_frame, now, movers, missing);
+}
+
+void ObstacleBodies::addConfigured(const Body& configured, const std::string& world_frame, Movers& movers) {
+  auto what = std::make_shared<RequestedObstacle>();
+  what->body = configured;
+  applyMaxSpeed(params_, what->body);
+  applyPatterns(params_, what->body);
+  makeSolids(*narrow_phase_, what->body);
+  what->place = {configured.frame, configured.frame_from_body, std::nullopt};
+  Obstacles added;
+  PlacedObstacle& obstacle = added[configured.name];
+  obstacle.what = what;
+  obstacle.asked = what->place;
+  obstacle.frame = followedFrame(configured.frame, configured.name, world_frame);
+  obstacle.frame_from_body = configured.frame_from_body;
+  movers.add(SourceId::ofObstacle(configured.name), bodyOf(obstacle, world_frame));
+  present_.merge(added);  // does not throw
+}
+
+/// Adds the stored obstacles: all together, which is fast, or one by one if one of them is refused.
+void ObstacleBodies::addStored(const std::string& world_frame, Time now, Movers& movers, MissingSources& missing) {
+  for (auto& [name, obstacle] : stored_) obstacle.ends = endOf(*obstacle.what, now);
+  try {
+    carryOut({stored_, {}}, world_frame, movers);
+    stored_.clear();
+    return;
+  } catch (const Refusal&) {  // the loop below finds out which
+  }
+  while (!stored_.empty()) {
+    const auto& [name, obstacle] = *stored_.begin();
+    try {
+      carryOut({{{name, obstacle}}, {}}, world_frame, movers);
+    } catch (const Refusal& refusal) {
+      missing.set(SourceId::ofObstacle(name), std::string(hgrid::name(refusal.code())) + " the stored '" +
+                                                  printable(name) + "' was not restored: " + refusal.what());
+      ledger_.refuse("obstacles.refused", refusal);
+    }
+    stored_.erase(stored_.begin());
+  }
+}
+
+void ObstacleBodies::forgetUnsaved() noexcept {
+  unsaved_.all_removed = false;
+  unsaved_.names.clear();
 }
 
 const PlacedObstacle* ObstacleBodies::find(const Edits& edits, const std::string& name) const {
@@ -126,6 +169,7 @@ PlacedObstacle ObstacleBodies::changed(const ObstacleChange& change, const Edits
   }
   next.ends = endOf(*next.what, around.now);
   next.lost = false;
+  next.restored = false;
   return next;
 }
 
@@ -293,13 +337,19 @@ void ObstacleBodies::carryOut(Edits edits, const std::string& world_frame, Mover
     first_end = std::min(first_end, next.ends);
     const auto old = present_.find(name);
     if (old != present_.end()) {
-      const bool renewed = !old->second.lost && old->second.carrier_speed == next.carrier_speed &&
+      const bool renewed = !old->second.lost && old->second.restored == next.restored &&
+                           old->second.carrier_speed == next.carrier_speed &&
                            !old->second.attachment == !next.attachment && isAtSamePlace(old->second, next) &&
                            (old->second.what == next.what || isSame(*old->second.what, *next.what));
       if (renewed) continue;
       leaving.insert(name);
     }
     entering.push_back(bodyOf(next, world_frame));
+  }
+  std::set<std::string> unsaved;
+  if (!params_.state_folder.empty()) {
+    unsaved = edits.removed;
+    for (const auto& edit : edits.set) unsaved.insert(edit.first);
   }
   std::vector<PairRule> touch = touchRulesAfter(edits);
   if (!leaving.empty() || !entering.empty()) {
@@ -317,6 +367,7 @@ void ObstacleBodies::carryOut(Edits edits, const std::string& world_frame, Mover
   if (!touch.empty() || !touch_.rules.empty()) ++touch_.revision;
   touch_.rules.swap(touch);
   first_end_ = first_end;
+  unsaved_.names.merge(unsaved);
 }
 
 }  // namespace hgrid

@@ -20,6 +20,7 @@
 #include "node/world/placed_obstacle.h"
 #include "node/world/robot_models.h"
 #include "node/world/rules_in_force.h"
+#include "node/world/stored_world.h"
 
 namespace hgrid {
 
@@ -28,13 +29,14 @@ namespace hgrid {
 /// A call that throws, even because memory ran out, changes nothing.
 class ObstacleBodies {
  public:
-  ObstacleBodies(const Params& params, std::shared_ptr<NarrowPhase> narrow_phase, Ledger& ledger);
+  /// @param stored  what an earlier run of the node stored
+  ObstacleBodies(const Params& params, std::shared_ptr<NarrowPhase> narrow_phase, StoredWorld stored, Ledger& ledger);
 
-  /// Adds the configured obstacles that were not added yet. A refused obstacle becomes a missing source. If this
-  /// throws, the next call continues with the obstacle that failed.
-  void addAll(const std::string& world_frame, Movers& movers, MissingSources& missing);
-  /// Forgets all obstacles, and makes the next addAll() begin with the first configured one. The bodies must have been
-  /// removed from the movers.
+  /// Adds the configured and the stored obstacles that were not added yet. A refused obstacle becomes a missing source.
+  /// If this throws, the next call continues with the obstacle that failed. Lifetimes begin at `now`.
+  void addAll(const std::string& world_frame, Time now, Movers& movers, MissingSources& missing);
+  /// Forgets all obstacles, also the stored ones, and makes the next addAll() begin with the first configured one. The
+  /// bodies must have been removed from the movers.
   void startAgain() noexcept;
 
   /// Applies changes, all of them or none.
@@ -51,6 +53,14 @@ class ObstacleBodies {
   const TouchRules& touchRules() const { return touch_; }
   /// Returns the obstacles, by full name.
   const std::map<std::string, PlacedObstacle>& all() const { return present_; }
+
+  /// What changed since the last forgetUnsaved(), if ~state_folder is set.
+  struct Unsaved {
+    bool all_removed = false;     ///< whether startAgain() removed all obstacles, before the other changes
+    std::set<std::string> names;  ///< obstacles that were added, changed or removed
+  };
+  const Unsaved& unsaved() const { return unsaved_; }
+  void forgetUnsaved() noexcept;
 
  private:
   using Obstacles = std::map<std::string, PlacedObstacle>;  // by full name
@@ -69,6 +79,8 @@ class ObstacleBodies {
   std::vector<std::string> chosen(const Edits& edits,
                                   const std::function<bool(const PlacedObstacle&)>& is_chosen) const;
   std::vector<PairRule> touchRulesAfter(const Edits& edits) const;
+  void addConfigured(const Body& configured, const std::string& world_frame, Movers& movers);
+  void addStored(const std::string& world_frame, Time now, Movers& movers, MissingSources& missing);
   void carryOut(Edits edits, const std::string& world_frame, Movers& movers);
 
   const Params& params_;
@@ -77,6 +89,9 @@ class ObstacleBodies {
   Obstacles present_;
   TouchRules touch_;
   std::size_t done_ = 0;               // number of configured obstacles that were added or refused
+  Obstacles stored_;                   // by an earlier run, and not added yet
+  std::set<std::string> removed_;      // configured obstacles that an earlier run removed
+  Unsaved unsaved_;
   std::uint64_t robots_revision_ = 0;  // RobotModels::revision() in the last followRobots()
   Time first_end_ = Time::max();       // no lifetime ends before this time
 };

@@ -90,6 +90,9 @@ Body bodyOf(const PlacedObstacle& obstacle, const std::string& world_frame) {
   // Nobody knows where an obstacle is after it was lost. It must then have pairs with fixed bodies, so it is not fixed.
   const bool fixed = obstacle.frame == world_frame && !obstacle.what->moving && !obstacle.what->lost_at_end;
   body.mobility = fixed ? Mobility::fixed : Mobility::moving;
+  if (obstacle.restored) {
+    body.note = "RESTORED: stored by an earlier run of the node; add it again unchanged, or change it, to confirm it";
+  }
   if (obstacle.attachment) {
     body.max_speed = std::max(body.max_speed, obstacle.carrier_speed);
     body.speed_bound = std::numeric_limits<double>::infinity();  // its points may be faster than those of the link

@@ -30,6 +30,7 @@ struct PlacedObstacle {
   Pose frame_from_body = Pose::Identity();       ///< its pose in that frame
   Time ends = Time::max();                       ///< end of its lifetime [ROS time]; max: never
   bool lost = false;                             ///< whether its lifetime has ended, but it stays in the world
+  bool restored = false;  ///< whether an earlier run of the node stored it, and nothing has confirmed it since
   std::shared_ptr<const Attachment> attachment;  ///< the link that it is attached to, and its pose there; null: none
   std::vector<std::string> touch;  ///< while it is attached: names and globs of the bodies that may touch it
   double carrier_speed = 0.0;      ///< [m/s] while it is attached: expected largest speed of the link

@@ -12,7 +12,7 @@
 namespace hgrid {
 namespace {
 
-SceneOptions optionsOf(const Params& params) {
+SceneOptions optionsOf(const Params& params, const std::vector<PairRule>& stored_rules) {
   SceneOptions options;
   options.origin = params.origin;
   options.margin = params.margin;
@@ -28,6 +28,7 @@ SceneOptions optionsOf(const Params& params) {
   options.required = params.required;
   options.pair_kinds = params.pair_kinds;
   options.allowed_pairs = params.allowed_pairs;
+  options.allowed_pairs.insert(options.allowed_pairs.end(), stored_rules.begin(), stored_rules.end());
   options.pair_margins = params.pair_margins;
   options.horizon = params.horizon;
   options.report_unmapped = params.map_unknown == UnknownSpace::report;
@@ -58,6 +59,8 @@ void addMovers(const LoadedRobot& robot, Movers::Change& change) {
   }
 }
 
+constexpr const char* kStoredObstacles = "obstacle/*";  // missing if some stored obstacles cannot be restored
+
 void sortUnique(std::vector<std::string>& names) {
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
@@ -66,23 +69,28 @@ void sortUnique(std::vector<std::string>& names) {
 }  // namespace
 
 World::World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& ledger,
-             std::shared_ptr<NarrowPhase> narrow_phase)
+             std::shared_ptr<NarrowPhase> narrow_phase, const StoredWorld& stored)
     : params_(params),
       ledger_(ledger),
-      scene_(optionsOf(params)),
+      scene_(optionsOf(params, stored.rules)),
       transforms_(params.max_future, params.tf_cache, static_cast<std::size_t>(params.max_frames), simulated, ledger,
                   static_cast<std::size_t>(params.max_samples), params.max_sync_wait),
       clock_(simulated, params.clock_jump, params.stale_after),
       movers_(scene_),
       poses_(params, transforms_, scene_, movers_, ledger),
       robots_(params),
-      obstacles_(params, std::move(narrow_phase), ledger),
+      obstacles_(params, std::move(narrow_phase), stored, ledger),
       maps_(simulated),
       clouds_(params, simulated, scene_, ledger),
       missing_(params),
       world_frame_(params.world_frame),
       epoch_(epoch) {
   scene_.beginEpoch(epoch_);
+  if (!stored.troubles.empty()) {
+    missing_.set(SourceId::ofObstacle(kStoredObstacles),
+                 "NOT_READY " + stored.troubles.front() +
+                     "; compare ~bodies with your obstacles, then call ~reset or restart the node");
+  }
 }
 
 void World::beginEpoch() {
@@ -196,7 +204,7 @@ void World::applyObstacles(const ObstacleChanges& changes, Time now) {
   }
   std::set<SourceId> named;
   for (const ObstacleChange& change : changes.changes) named.insert(SourceId::ofObstacle(change.name));
-  obstacles_.addAll(world_frame_, movers_, missing_);  // so that a change can be about a configured obstacle
+  obstacles_.addAll(world_frame_, now, movers_, missing_);  // so that a change can be about a configured obstacle
   obstacles_.apply(changes, {params_, world_frame_, transforms_.lookup(), robots_, now}, movers_);
   // The code below does not throw. A configured obstacle that was refused is no longer missing if it was changed.
   missing_.eraseIf([&](const SourceId& source) { return named.count(source) != 0; });
@@ -269,7 +277,7 @@ std::shared_ptr<const Tick> World::tick(const Moment& now) {
   tick->epoch = epoch_;
   const bool can_begin = findWorldFrame() && clock_.running();
   // This comes before listMissing(), because obstacles that are refused become missing sources.
-  if (can_begin) obstacles_.addAll(world_frame_, movers_, missing_);
+  if (can_begin) obstacles_.addAll(world_frame_, now.ros, movers_, missing_);
   if (can_begin) obstacles_.followRobots(robots_, world_frame_, movers_);
   if (can_begin) obstacles_.expire(now.ros, movers_);
   rules_.apply(now, obstacles_.touchRules(), scene_);

@@ -41,8 +41,9 @@ class World {
  public:
   /// @param simulated  whether /clock drives ROS time
   /// @param epoch      number of the first epoch
+  /// @param stored     what an earlier run of the node stored
   World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& ledger,
-        std::shared_ptr<NarrowPhase> narrow_phase);
+        std::shared_ptr<NarrowPhase> narrow_phase, const StoredWorld& stored = {});
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
@@ -76,6 +77,8 @@ class World {
   void applyObstacles(const ObstacleChanges& changes, Time now);
   /// Returns the obstacles in the world.
   const ObstacleBodies& obstacles() const { return obstacles_; }
+  /// Ends what ObstacleBodies::unsaved() lists.
+  void forgetUnsaved() noexcept { obstacles_.forgetUnsaved(); }
   /// Restores the configured obstacles, sets all counters to 0 and begins a new epoch. Rules stay.
   void reset();
 

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/state/state_keeper.h"
+
+#include <ros/console.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "node/services/guarded.h"
+#include "node/state/stored_items.h"
+#include "node/world/world.h"
+
+namespace hgrid {
+namespace {
+
+constexpr std::chrono::milliseconds kOpenPatience{3000};  // for an earlier process of this node that is about to end
+constexpr std::chrono::seconds kPatience{5};              // for the disk, before a change is reported as not stored
+constexpr std::chrono::seconds kRetryPause{1};
+constexpr std::size_t kRoom = 1 << 20;  // [byte] the file is written anew when it is this much longer than twice its
+                                        // first record
+
+bool isService(const PairRule& rule) { return rule.origin == Origin::service; }
+
+bool isSameRule(const PairRule& a, const PairRule& b) {
+  return a.first == b.first && a.second == b.second && a.reason == b.reason && a.allowed == b.allowed &&
+         a.ends == b.ends && a.set_by == b.set_by && a.since == b.since;
+}
+
+std::vector<PairRule> serviceRules(const std::vector<PairRule>& all) {
+  std::vector<PairRule> rules;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(rules), isService);
+  return rules;
+}
+
+}  // namespace
+
+StateKeeper::StateKeeper(Commons& commons) : commons_(commons) {
+  const std::string& path = commons.settings.params.state_folder;
+  if (path.empty()) return;
+  for (const ObstacleParams& obstacle : commons.settings.params.obstacles) configured_.insert(obstacle.body.name);
+  std::string unusable;
+  try {
+    open();
+  } catch (...) {
+    folder_.reset();
+    unusable = caughtRefusal().what();
+    restored_ = StoredWorld();
+    restored_.troubles.push_back("the stored world cannot be used, and changes are not stored: " + unusable);
+    ROS_ERROR("%s", restored_.troubles.back().c_str());
+  }
+  tell(unusable);
+  if (folder_) thread_ = std::thread([this] { run(); });
+}
+
+/// Reads the folder, and begins a new file.
+void StateKeeper::open() {
+  folder_ = std::make_unique<StateFolder>(commons_.settings.params.state_folder, kOpenPatience);
+  StateFolder::Found found = folder_->read();
+  items_ = std::move(found.items);
+  restored_ = storedWorldOf(items_, *commons_.narrow_phase, RuleClocks::now());
+  if (!found.damage.empty()) restored_.troubles.insert(restored_.troubles.begin(), found.damage);
+  if (!restored_.troubles.empty()) folder_->keepDamaged();
+  for (const std::string& trouble : restored_.troubles) ROS_ERROR("%s", trouble.c_str());
+  seen_rules_ = restored_.rules;
+  folder_->replace(items_);
+}
+
+StateKeeper::~StateKeeper() {
+  if (!thread_.joinable()) return;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ending_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void StateKeeper::see(World& world, const Tick& tick) {
+  if (!folder_) return;
+  const auto failure = guarded(commons_.ledger, "state.failed", [&] {
+    std::vector<Change> changes = changesOf(world.obstacles());
+    std::vector<PairRule> rules;
+    const bool new_structure = tick.snapshot && tick.snapshot->structure().revision != seen_structure_;
+    if (new_structure) {
+      rules = serviceRules(tick.snapshot->structure().filter.rules());
+      if (!std::equal(rules.begin(), rules.end(), seen_rules_.begin(), seen_rules_.end(), isSameRule))
+        changes.emplace_back([rules, clocks = RuleClocks::now()] { return editOf(rules, clocks); });
+    }
+    if (!changes.empty()) add(std::move(changes));
+    // The code below does not throw.
+    if (new_structure) {
+      seen_rules_.swap(rules);
+      seen_structure_ = tick.snapshot->structure().revision;
+    }
+    world.forgetUnsaved();
+  });
+  const std::lock_guard<std::mutex> lock(mutex_);
+  behind_ = failure.has_value();
+}
+
+std::vector<StateKeeper::Change> StateKeeper::changesOf(const ObstacleBodies& obstacles) const {
+  const ObstacleBodies::Unsaved& unsaved = obstacles.unsaved();
+  std::vector<Change> changes;
+  if (unsaved.all_removed)
+    changes.emplace_back([] { return StateEdit{StateEdit::Kind::erase_kind, kObstacleKeys, ""}; });
+  for (const std::string& name : unsaved.names) {
+    const auto found = obstacles.all().find(name);
+    if (found != obstacles.all().end()) {
+      changes.emplace_back([obstacle = found->second] { return editOf(obstacle); });
+    } else {
+      changes.emplace_back(
+          [name, is_configured = configured_.count(name) != 0] { return removalOf(name, is_configured); });
+    }
+  }
+  return changes;
+}
+
+void StateKeeper::noteMap(const std::string& name, const std::optional<MapParams>& map) {
+  if (!folder_) return;
+  std::vector<Change> changes;
+  if (name.empty()) {
+    changes.emplace_back([] { return StateEdit{StateEdit::Kind::erase_kind, kMapKeys, ""}; });
+    for (const MapParams& configured : commons_.settings.params.maps)
+      changes.emplace_back([name = configured.name] { return editOf(name, std::nullopt); });
+  } else {
+    changes.emplace_back([name, map] { return editOf(name, map); });
+  }
+  add(std::move(changes));
+}
+
+void StateKeeper::add(std::vector<Change> changes) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    waiting_.insert(waiting_.end(), std::make_move_iterator(changes.begin()), std::make_move_iterator(changes.end()));
+    ++added_;
+  }
+  changed_.notify_all();
+}
+
+bool StateKeeper::waitUntilStored() {
+  if (!folder_) return false;
+  std::unique_lock<std::mutex> lock(mutex_);
+  const std::uint64_t target = added_, failures = failures_;
+  changed_.wait_for(lock, kPatience, [&] { return stored_ >= target || failures_ > failures || ending_; });
+  return stored_ >= target && !behind_;
+}
+
+/// The thread that writes to the disk runs this.
+void StateKeeper::run() {
+  std::vector<Change> changes;
+  std::uint64_t target = 0;
+  bool failed = false;
+  while (true) {
+    {
+      std::unique_lock<std::mutex> lock(mutex_);
+      if (failed) changed_.wait_for(lock, kRetryPause, [this] { return ending_; });
+      if (!failed) changed_.wait(lock, [this] { return ending_ || !waiting_.empty(); });
+      if (ending_ && (failed || waiting_.empty())) return;
+      std::move(waiting_.begin(), waiting_.end(), std::back_inserter(changes));
+      waiting_.clear();
+      target = added_;
+    }
+    const auto failure = guarded(commons_.ledger, "state.failed", [&] {
+      const Edits edits = newEdits(changes);
+      applyEdits(edits, items_);
+      if (failed) {
+        folder_->replace(items_);  // the failed attempt may have written a part of a record
+      } else if (!edits.empty()) {
+        store(edits);
+      }
+      changes.clear();
+    });
+    failed = failure.has_value();
+    tell(failed ? failure->what() : std::string());
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      failed ? ++failures_ : stored_ = target;
+    }
+    changed_.notify_all();
+  }
+}
+
+/// Returns the edits that change items_. A change that only renews a lifetime changes nothing.
+StateKeeper::Edits StateKeeper::newEdits(const std::vector<Change>& changes) const {
+  Edits edits;
+  std::set<std::string> edited;  // their items may differ from those of items_
+  bool all_edited = false;
+  for (const Change& change : changes) {
+    StateEdit edit = change();
+    const auto known = items_.find(edit.key);
+    const bool is_known = edit.kind == StateEdit::Kind::set && known != items_.end() && known->second == edit.text;
+    if (is_known && !all_edited && edited.count(edit.key) == 0) continue;
+    edited.insert(edit.key);
+    all_edited = all_edited || edit.kind == StateEdit::Kind::erase_kind;
+    edits.push_back(std::move(edit));
+  }
+  return edits;
+}
+
+/// Writes edits, which items_ already contains.
+void StateKeeper::store(const Edits& edits) {
+  folder_->append(edits);
+  commons_.ledger.count("state.stored");
+  if (folder_->size() > 2 * folder_->sizeAtFirst() + kRoom) folder_->replace(items_);
+}
+
+/// Tells /diagnostics whether changes are stored. @param failure  why not; empty: they are
+void StateKeeper::tell(const std::string& failure) {
+  commons_.health.noteState({commons_.settings.params.state_folder, failure, restored_.obstacles.size(),
+                             restored_.rules.size(), restored_.troubles});
+}
+
+}  // namespace hgrid

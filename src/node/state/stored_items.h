@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hgrid_proximity/narrow/narrow_phase.h"
+#include "node/state/state_edit.h"
+#include "node/world/stored_world.h"
+
+namespace hgrid {
+
+/// The present time of the two clocks that the end of a rule needs: rules end by the steady clock, which begins again
+/// when the computer is started. So their ends are stored by the wall clock.
+struct RuleClocks {
+  PairRule::Clock::time_point steady;
+  std::chrono::system_clock::time_point wall;
+  static RuleClocks now() { return {PairRule::Clock::now(), std::chrono::system_clock::now()}; }
+};
+
+/// The keys of all obstacles, and those of all maps, begin with these.
+inline constexpr const char* kObstacleKeys = "obstacle ";
+inline constexpr const char* kMapKeys = "map ";
+
+///@{
+/// Returns the edit that stores the value.
+StateEdit editOf(const PlacedObstacle& obstacle);
+/// @param is_configured  whether ~obstacles has an obstacle of this name, so that its removal must be stored
+StateEdit removalOf(const std::string& obstacle, bool is_configured);
+StateEdit editOf(const std::vector<PairRule>& rules, const RuleClocks& clocks);
+/// @param map  nullopt: the map was removed
+StateEdit editOf(const std::string& name, const std::optional<MapParams>& map);
+///@}
+
+/// Reads all items. An item that cannot be read becomes a trouble.
+StoredWorld storedWorldOf(const StateItems& items, NarrowPhase& narrow_phase, const RuleClocks& clocks);
+
+}  // namespace hgrid

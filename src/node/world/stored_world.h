@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "hgrid_proximity/pairs/pair_rule.h"
+#include "node/loading/map_loader.h"
+#include "node/world/placed_obstacle.h"
+
+namespace hgrid {
+
+/// What an earlier run of the node stored: everything that services and messages changed.
+struct StoredWorld {
+  std::vector<PlacedObstacle> obstacles;  ///< those that were added or changed
+  std::set<std::string> removed;          ///< full names of the obstacles of ~obstacles that were removed
+  std::vector<PairRule> rules;            ///< those of ~set_allowed
+  StoredMaps maps;                        ///< those that services loaded or removed
+  std::vector<std::string> troubles;      ///< what could not be read, one sentence each
+};
+
+}  // namespace hgrid
