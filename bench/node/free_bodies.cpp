@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -42,7 +43,8 @@ Workload freeBodies(std::size_t count, std::size_t moving, double rate) {
   workload.bodies = count;
   workload.rate = rate;
   workload.params["rate"] = rate;
-  workload.params["heartbeat"] = 0.5 * rate;  // if both are equal, ticks do not wait for the data
+  workload.params["heartbeat"] = std::min(20.0, 0.5 * rate);  // at ~rate, ticks would not wait for the data
+  workload.params["valid_for"] = 1.0;                         // longer than the pauses between heartbeats
   workload.params["max_frames"] = static_cast<int>(count + 10);
   workload.params["accept_uncovered"][0]["pattern"] = "robot/*";  // the robot has no shapes
   workload.params["accept_uncovered"][0]["reason"] = "it has no geometry";

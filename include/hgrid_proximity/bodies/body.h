@@ -85,7 +85,7 @@ struct Body {
   double speed_bound = std::numeric_limits<double>::infinity();
   bool covered = true;  ///< whether every shape in the description of the body could be read
   bool waived = false;  ///< whether the body is not covered, but the user accepts this
-  std::string note;     ///< why the body is not covered, or why the user accepts this
+  std::string note;     ///< why the body is not covered, why the user accepts this, or RESTORED
 
   std::string robot;                        ///< name of the robot, only for links
   std::uint32_t link = 0;                   ///< index in the robot's model, only for links

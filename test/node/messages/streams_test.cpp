@@ -154,7 +154,7 @@ TEST(Diagnostics, HasFiveStatuses) {
   node.waitUntil("all statuses", [](const Heard& all) { return all.diagnostics.size() >= 5; });
   const auto all = node.heard().diagnostics;
   EXPECT_EQ(all.size(), 5u);
-  for (const char* name : {"world", "robots", "transforms", "ticks", "audit"}) EXPECT_EQ(all.count(name), 1u) << name;
+  for (const char* name : {"world", "robots", "transforms", "ticks", "audit", "state"}) EXPECT_EQ(all.count(name), 1u) << name;
   node.waitUntil("the missing frame is reported", [](const Heard& heard) {
     const auto& world = heard.diagnostics.at("world");
     const auto& transforms = heard.diagnostics.at("transforms");

@@ -1,0 +1,191 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: the hgrid_proximity authors
+"""What survives a restart of the node with ~state_folder, also after kill -9 while changes are written."""
+import os
+import pathlib
+import random
+import shutil
+import signal
+import subprocess
+import tempfile
+import threading
+import time
+import unittest
+
+import rospy
+import rosunit
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from hgrid_proximity import obstacles
+from hgrid_proximity.client import Proximity
+from hgrid_proximity.errors import ProximityError
+from hgrid_proximity.msg import AllowedPair, Bodies, Rules
+from hgrid_proximity.srv import SetAllowed
+from moving_ball import Ball
+
+PATIENCE = 120.0  # [s] for a machine that is busy with other tests
+KILLS = 20
+
+
+class State(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("state_test")
+        cls.ball = Ball()
+
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="state_test_"))
+        rospy.set_param("/proximity/state_folder", str(self.folder / "own"))
+        self.node = None
+        self.start()
+
+    def tearDown(self):
+        self.kill()
+        shutil.rmtree(self.folder)
+
+    def start(self):
+        """Starts the node. Returns the time [s] until it answered a query."""
+        begin = time.monotonic()
+        self.node = subprocess.Popen(["rosrun", "hgrid_proximity", "proximity_node", "__name:=proximity"])
+        self.proximity = Proximity(timeout=PATIENCE)
+        while not self.proximity.query_sphere((50, 0, 0), 0.1).clear:
+            self.assertLess(time.monotonic(), begin + PATIENCE, "the node does not answer CLEAR")
+            self.assertIsNone(self.node.poll(), "the node has ended")
+        return time.monotonic() - begin
+
+    def kill(self, how=signal.SIGKILL):
+        self.proximity.close()
+        self.node.send_signal(how)
+        self.node.wait()
+
+    def restart(self, how=signal.SIGKILL):
+        self.kill(how)
+        return self.start()
+
+    def apply(self, *changes, **options):
+        response = self.proximity.apply_obstacles(*changes, **options)
+        self.assertTrue(response.durable)
+
+    def bodies(self):
+        """The obstacles by name without "obstacle/"."""
+        message = rospy.wait_for_message("/proximity/bodies", Bodies, PATIENCE)
+        return {body.name[9:]: body for body in message.bodies if body.name.startswith("obstacle/")}
+
+    def at(self, x, y, z):
+        return self.proximity.query_sphere((x, y, z), 0.01, include="obstacle/*").names
+
+    def diagnostic(self):
+        """The status "state" of /diagnostics."""
+        deadline = time.monotonic() + PATIENCE
+        while time.monotonic() < deadline:
+            for status in rospy.wait_for_message("/diagnostics", DiagnosticArray, PATIENCE).status:
+                if status.name.endswith("state"):
+                    return status
+        raise AssertionError("/diagnostics has no status state")
+
+    def test_obstacles_are_there_again(self):
+        wedge = obstacles.hull([(0, 0, 0), (0.1, 0, 0), (0, 0.1, 0), (0, 0, 0.1)])
+        self.apply(
+            obstacles.add("part", wedge, (3, 0, 0), owner="me"),
+            obstacles.add("held", obstacles.box((0.1, 0.2, 0.3))),
+            obstacles.attach("held", "robot/ball", (0.5, 0, 0)),
+            obstacles.move("lamp", (0, 0, 3)),
+            obstacles.remove("crate"),
+        )
+        for how in (signal.SIGKILL, signal.SIGTERM):
+            self.restart(how)
+            bodies = self.bodies()
+            self.assertEqual(set(bodies), {"part", "held", "lamp"})
+            for body in bodies.values():
+                self.assertTrue(body.note.startswith("RESTORED"), body.note)
+            self.assertEqual(self.at(3.01, 0.01, 0.01), ["obstacle/part"])
+            self.assertEqual(self.at(0, 0, 3), ["obstacle/lamp"])
+            self.assertEqual(self.at(self.ball.x + 0.5, 0, 0), ["obstacle/held"])
+        status = self.diagnostic()
+        self.assertEqual(status.level, DiagnosticStatus.OK)
+        self.assertEqual(status.message, "changes are stored in %s" % (self.folder / "own"))
+        self.apply(obstacles.detach("held"), obstacles.move("lamp", (0, 0, 3)), complete_set=True, owner="me")
+        self.restart()
+        notes = {name: body.note[:8] for name, body in self.bodies().items()}
+        self.assertEqual(notes, {"held": "RESTORED", "lamp": "RESTORED"})
+
+    def test_a_reset_is_there_again(self):
+        self.apply(obstacles.add("part", obstacles.sphere(0.1), (3, 0, 0)), obstacles.remove("crate"))
+        subprocess.check_call(["rosservice", "call", "/proximity/reset"], stdout=subprocess.DEVNULL)
+        self.apply(obstacles.add("late", obstacles.sphere(0.1), (4, 0, 0)))
+        self.restart()
+        self.assertEqual(set(self.bodies()), {"crate", "lamp", "late"})
+
+    def test_rules_are_there_again(self):
+        allow = rospy.ServiceProxy("/proximity/set_allowed", SetAllowed)
+        rule = AllowedPair(first="robot/ball", second="obstacle/lamp", allowed=True, reason="for the test")
+        self.assertTrue(allow(rules=[rule]).success)
+        self.restart()
+        rules = rospy.wait_for_message("/proximity/rules", Rules, PATIENCE).rules
+        stored = [(kept.first, kept.second, kept.reason, kept.set_by) for kept in rules]
+        self.assertEqual(stored, [("robot/ball", "obstacle/lamp", "for the test", rospy.get_name())])
+        allow = rospy.ServiceProxy("/proximity/set_allowed", SetAllowed)
+        self.assertTrue(allow(rules=[rule], remove=True).success)
+        self.restart()
+        self.assertEqual(rospy.wait_for_message("/proximity/rules", Rules, PATIENCE).rules, [])
+
+    def test_a_damaged_file_is_kept_and_reported(self):
+        self.apply(obstacles.add("first", obstacles.sphere(0.1), (3, 0, 0)))
+        self.apply(obstacles.add("second", obstacles.sphere(0.1), (4, 0, 0)))
+        self.kill()
+        path = self.folder / "own" / "state"
+        content = bytearray(path.read_bytes())
+        content[-20] ^= 1
+        path.write_bytes(content)
+        self.node = subprocess.Popen(["rosrun", "hgrid_proximity", "proximity_node", "__name:=proximity"])
+        self.proximity = Proximity(timeout=PATIENCE)
+        deadline = time.monotonic() + PATIENCE
+        while set(self.bodies()) != {"crate", "lamp", "first"}:
+            self.assertLess(time.monotonic(), deadline)
+        self.assertFalse(self.proximity.query_sphere((50, 0, 0), 0.1).clear)
+        status = self.diagnostic()
+        self.assertEqual(status.level, DiagnosticStatus.ERROR)
+        self.assertIn("own/state' is damaged: the record at byte", status.message)
+        self.assertEqual((self.folder / "own" / "state.damaged").read_bytes(), bytes(content))
+        self.restart()
+        self.assertEqual(set(self.bodies()), {"crate", "lamp", "first"})
+
+    def test_no_durable_change_is_lost_by_kill_9(self):
+        """Each round changes obstacles until the node is killed, and compares what the next run has: the changes that were
+        confirmed, and perhaps the one that was not answered."""
+        seed = 1
+        chance = random.Random(seed)
+        known = {}  # x of the obstacles, as confirmed
+        slowest = 0.0
+        for round_ in range(KILLS):
+            pending = dict(known)
+            killer = threading.Timer(chance.uniform(0.05, 0.6), lambda: self.node.send_signal(signal.SIGKILL))
+            killer.start()
+            impatient = Proximity(timeout=5.0)
+            try:
+                while True:
+                    name = "thing%d" % chance.randrange(8)
+                    pending = dict(known)
+                    if name in known and chance.random() < 0.4:
+                        pending.pop(name)
+                        change = obstacles.remove(name)
+                    else:
+                        pending[name] = 10.0 + chance.randrange(1000)
+                        change = obstacles.add(name, obstacles.sphere(0.1), (pending[name], 0, 0), replace=True)
+                    if impatient.apply_obstacles(change).durable:
+                        known = pending
+            except ProximityError:
+                pass  # the node was killed
+            killer.join()
+            impatient.close()
+            self.kill()
+            slowest = max(slowest, self.start())
+            things = [(name, body) for name, body in self.bodies().items() if name.startswith("thing")]
+            found = {name: round(body.pose.position.x, 6) for name, body in things}
+            self.assertIn(found, (known, pending), "round %d, seed %d" % (round_, seed))
+            known = found
+        print("slowest restart: %.2f s" % slowest)
+
+
+if __name__ == "__main__":
+    rosunit.unitrun("hgrid_proximity", "state", State)
