@@ -60,9 +60,9 @@ std::string flawOfUse(const msg::QueryShape::Request& request, const std::string
 }
 std::string flawOfUse(const tf2_msgs::TFMessage& message, const std::string& bytes) {
   TransformSlices slices(bytes);
-  tf2_msgs::TFMessage whole;
+  tf2_msgs::TFMessage whole, slice;
   while (slices.left()) {
-    const tf2_msgs::TFMessage slice = slices.next();
+    slices.next(slice);
     whole.transforms.insert(whole.transforms.end(), slice.transforms.begin(), slice.transforms.end());
   }
   if (serialized(whole) != serialized(message)) return "the slices are not the message";

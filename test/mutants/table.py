@@ -47,6 +47,9 @@ KEPT = "node/time/kept_pose.cpp"
 TIME = "node/time/tick_time.cpp"
 JOBS = "node/tick/tick_jobs.cpp"
 STOPWATCH = "node/tick/stopwatch.cpp"
+STATE_FOLDER = "node/state/state_folder.cpp"
+STATE_LOG = "node/state/state_log.cpp"
+STORED_ITEMS = "node/state/stored_items.cpp"
 MOVERS = "node/world/mover_poses.cpp"
 OBSTACLES = "node/world/obstacle_bodies.cpp"
 POSES_MESSAGE = "node/wire/poses_message.cpp"
@@ -338,6 +341,22 @@ NODE = [
     ("there are more ticks than ~rate", PACE, "std::max(earliest_ + period_, now + period_ / 2)", "now + period_ / 2"),
     ("data with jitter waits for a whole period", PACE, "now + period_ / 2", "now + period_"),
     ("the first reason for a tick is forgotten", PACE, "if (!reason_) reason_", "reason_"),
+    ("a change begins a tick of its own", PACE, "earliest_ + period_ / 2, *change_", "earliest_, *change_"),
+    ("a record is not compared with its checksum", STATE_LOG,
+     "if (checksumOf(content.data(), content.size()) != *checksum) return record;", ""),
+    ("the first line of a record is not compared with its checksum", STATE_LOG,
+     "own_checksum != checksumOf(header.data(), kOwnChecksum)", "false"),
+    ("a file that was not read completely is not reported", STATE_FOLDER,
+     'if (!content.damage.empty()) found.damage =', 'if (false) found.damage ='),
+    ("a part of a record stays in the file", STATE_FOLDER, "writeAll(next.get(), bytes, pathOf(kNew));",
+     "writeAll(next.get(), bytes.substr(1), pathOf(kNew));"),
+    ("removed obstacles of the parameters come back", STORED_ITEMS,
+     "if (is_configured) return {StateEdit::Kind::set, key, kRemoved};", ""),
+    ("the lifetime of a rule begins again", STORED_ITEMS,
+     "const auto left = std::chrono::nanoseconds(wall_end) - clocks.wall.time_since_epoch();",
+     "const auto left = std::chrono::seconds(30);"),
+    ("a change does not confirm a restored obstacle", OBSTACLES, "  next.restored = false;", ""),
+    ("changes of obstacles are not stored", OBSTACLES, "  unsaved_.names.merge(unsaved);", ""),
     ("a stamp that is early once counts", CLOCKS, "window.least >= kAhead", "window.largest >= kAhead"),
     ("the time of a tick runs back", TIME,
      "return last_ = std::max(last_, common);", "return last_ = common;"),

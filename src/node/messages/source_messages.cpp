@@ -48,7 +48,8 @@ void addBodies(const Snapshot& snapshot, Sources& sources) {
     const BodyPose& pose = snapshot.poses()[body];
     ++source.bodies;
     source.state = std::max(source.state, static_cast<std::uint8_t>(pose.state));
-    if (pose.state != Freshness::unplaced) source.age = std::fmax(source.age, pose.age);
+    if (pose.state == Freshness::unplaced) continue;
+    if (pose.age > source.age || std::isnan(source.age)) source.age = pose.age;
   }
 }
 

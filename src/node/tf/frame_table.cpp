@@ -42,17 +42,27 @@ void FrameTable::checkRoom(const std::string& parent, std::uint32_t number, cons
   }
 }
 
+std::uint32_t FrameTable::again(const std::string& parent, const std::string& child) {
+  const std::uint32_t number = guess(child);
+  return number == kNone || !isInParent(number, parent) ? kNone : noteLast(number);
+}
+
 std::uint32_t FrameTable::admit(const std::string& parent, const std::string& child) {
-  std::uint32_t number = guess(child);
-  if (number == kNone || !isInParent(number, parent)) {
-    checkRoom(parent, number, child);
-    if (number == kNone) number = add(child);
-    if (!entries_[number].placed) {
-      entries_[number].placed = true;
-      placed_.add(entries_[number].needed);
-      ++revision_;
-    }
+  std::uint32_t number = again(parent, child);
+  if (number != kNone) return number;
+  number = find(child);
+  checkRoom(parent, number, child);
+  if (number == kNone) number = add(child);
+  if (!entries_[number].placed) {
+    entries_[number].placed = true;
+    placed_.add(entries_[number].needed);
+    ++revision_;
   }
+  return noteLast(number);
+}
+
+/// Notes which frame was the last one, for guess().
+std::uint32_t FrameTable::noteLast(std::uint32_t number) {
   if (last_ != kNone) entries_[last_].next = number;
   return last_ = number;
 }

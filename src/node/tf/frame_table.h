@@ -29,6 +29,9 @@ class FrameTable {
   /// Returns the number of the frame `child`, which a transform places in `parent`. A new child gets a number.
   /// @throws Refusal limit if there is no room for another child or parent
   std::uint32_t admit(const std::string& parent, const std::string& child);
+  /// Returns the number of the frame `child` if it is known and its parent is `parent`; otherwise kNone. The names,
+  /// numbers and parents of the frames do not change.
+  std::uint32_t again(const std::string& parent, const std::string& child);
   /// Returns the number of the frame `name`. A new frame gets a number.
   std::uint32_t numberOf(const std::string& name);
   /// Sets the parent of a frame. A new parent gets a number. Does not throw if the parent has a number.
@@ -79,6 +82,7 @@ class FrameTable {
   std::uint32_t guess(const std::string& child) const;
   bool isNeeded(std::uint32_t number, const std::string& name) const;
   void setNeeded(std::uint32_t number);
+  std::uint32_t noteLast(std::uint32_t number);
   void checkRoom(const std::string& parent, std::uint32_t number, const std::string& child) const;
 
   std::size_t max_frames_;

@@ -125,7 +125,8 @@ bool TfReader::readSlice() {
   bool complete = true;
   try {
     if (!slices_.left() && !open()) return false;
-    sink_(slices_.next(), current_.is_static, current_.publisher, current_.received);
+    slices_.next(slice_);
+    sink_(slice_, current_.is_static, current_.publisher, current_.received);
   } catch (const Refusal& refusal) {
     ledger_.refuse("tf.refused", Refusal(refusal.code(), current_.name() + " cannot be read: " + refusal.what()));
   } catch (...) {  // out of memory; drop the rest of the message and continue

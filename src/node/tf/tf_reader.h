@@ -75,6 +75,7 @@ class TfReader {
   PosesConverter poses_;        ///< guarded by poses_mutex_
   ReceivedTransforms current_;  ///< tick thread only: the message that is being read
   TransformSlices slices_;      ///< tick thread only: the unread slices; refers to the bytes of current_
+  tf2_msgs::TFMessage slice_;   ///< tick thread only: the slice that was read last
   ros::CallbackQueueInterface& tick_queue_;
   ros::CallbackInterfacePtr read_next_;
   std::atomic<bool> woken_{false};  ///< whether read_next_ is in tick_queue_

@@ -20,6 +20,9 @@ std::uint32_t TransformStore::numberOfParent(std::uint32_t frame, const std::str
 }
 
 std::uint32_t TransformStore::admit(const std::string& parent, const std::string& child) {
+  // Most transforms are of known frames. They change nothing that a Reading can see, so they need no lock.
+  const std::uint32_t known = table_.again(parent, child);
+  if (known != FrameTable::kNone) return known;
   const std::lock_guard<std::mutex> lock(mutex_);
   makeRoom();
   return table_.admit(parent, child);

@@ -38,7 +38,7 @@ TickLoop::TickLoop(ros::NodeHandle node, const ros::NodeHandle& private_node, co
 std::chrono::nanoseconds TickLoop::work() {
   const TickPace::Time now = std::chrono::steady_clock::now();
   if (world_.transforms().news().complete()) pace_.noteReason(complete_.value_or(now));
-  if (jobs_.waiting() > 0) pace_.noteReason(now);
+  if (jobs_.waiting() > 0) pace_.noteChange(now);
   if (pace_.due() <= now) {
     const bool late = newest() != nullptr && now - pace_.due() > pace_.period();
     pace_.noteTick(now);

@@ -24,8 +24,16 @@ void TickPace::noteReason(Time since) {
   if (!reason_) reason_ = since;
 }
 
+void TickPace::noteChange(Time since) {
+  if (!change_) change_ = since;
+}
+
 TickPace::Time TickPace::due() const {
-  return follows_data_ && reason_ ? std::min(latest_, std::max(earliest_, *reason_)) : latest_;
+  if (!follows_data_) return latest_;
+  Time due = latest_;
+  if (reason_) due = std::min(due, std::max(earliest_, *reason_));
+  if (change_) due = std::min(due, std::max(earliest_ + period_ / 2, *change_));
+  return due;
 }
 
 void TickPace::noteTick(Time now) {
@@ -40,6 +48,7 @@ void TickPace::noteTick(Time now) {
     latest_ = earliest_;
   }
   reason_.reset();
+  change_.reset();
 }
 
 }  // namespace hgrid

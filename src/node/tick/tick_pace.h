@@ -28,6 +28,10 @@ class TickPace {
 
   /// Notes that there is a reason for a tick, and since when. Later calls before the next tick change nothing.
   void noteReason(Time since);
+  /// Notes that a change of the world waits, and since when. While ticks follow each other at the rate, the change waits
+  /// for the tick that the next data begins. A tick of its own would delay the ticks after it, because each of them may
+  /// begin only one period after the one before.
+  void noteChange(Time since);
   /// Returns when the next tick begins, by what is known now.
   Time due() const;
   /// Notes that a tick begins now, and plans the next one.
@@ -39,7 +43,7 @@ class TickPace {
   Duration period_, heartbeat_;
   bool follows_data_;
   Time earliest_, latest_;  // the next tick begins between them; the same time if ticks do not follow the data
-  std::optional<Time> reason_;
+  std::optional<Time> reason_, change_;
 };
 
 }  // namespace hgrid

@@ -28,15 +28,13 @@ TransformSlices::TransformSlices(const std::string& bytes)
   size_ -= sizeof(left_);
 }
 
-tf2_msgs::TFMessage TransformSlices::next() {
-  tf2_msgs::TFMessage slice;
+void TransformSlices::next(tf2_msgs::TFMessage& slice) {
   slice.transforms.resize(std::min<std::size_t>(left_, kSlice));
   ros::serialization::IStream stream = streamOf(bytes_, size_);
   for (geometry_msgs::TransformStamped& transform : slice.transforms) stream.next(transform);
   bytes_ = stream.getData();
   size_ = stream.getLength();
   left_ -= static_cast<std::uint32_t>(slice.transforms.size());
-  return slice;
 }
 
 }  // namespace hgrid

@@ -22,8 +22,9 @@ class TransformSlices {
 
   /// Whether transforms are left.
   bool left() const { return left_ > 0; }
-  /// Deserializes the next slice. Returns an empty message if no transforms are left.
-  tf2_msgs::TFMessage next();
+  /// Deserializes the next slice into a message that is used again, so that its memory is not allocated anew. The
+  /// message becomes empty if no transforms are left.
+  void next(tf2_msgs::TFMessage& slice);
 
  private:
   const std::uint8_t* bytes_ = nullptr;  ///< bytes of the next transform

@@ -52,6 +52,35 @@ TEST(TickPace, ATickBeginsAtItsReasonButNotSoonerThanAPeriodAfterTheLastOne) {
   EXPECT_NEAR(secondsOf(pace.due()), 1.08, 1e-6) << "a period after a tick that came as early as it could";
 }
 
+TEST(TickPace, AChangeWaitsForTheTickOfTheNextDataOrForHalfAPeriodLonger) {
+  TickPace pace(50.0, 10.0, true, at(1.0));
+  pace.noteTick(at(1.0));
+  pace.noteChange(at(1.005));
+  EXPECT_NEAR(secondsOf(pace.due()), 1.03, 1e-6);
+  pace.noteReason(at(1.021));
+  EXPECT_NEAR(secondsOf(pace.due()), 1.021, 1e-6) << "the data comes first";
+  pace.noteTick(at(1.021));
+  EXPECT_NEAR(secondsOf(pace.due()), 1.121, 1e-6) << "the tick contains the change";
+  pace.noteChange(at(1.09));
+  EXPECT_NEAR(secondsOf(pace.due()), 1.09, 1e-6) << "no tick has begun for a while";
+}
+
+TEST(TickPace, ChangesDoNotDelayTheTicksOfDataOfTheSameRate) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    TickPace pace(100.0, 20.0, true, at(0.99));
+    pace.noteTick(at(0.99));
+    for (int i = 0; i < 500; ++i) {
+      const double arrival = 1.0 + 0.01 * i;
+      if (random.chance(0.2)) pace.noteChange(at(arrival - random.uniform(0.0, 0.009)));
+      pace.noteReason(at(arrival));
+      EXPECT_NEAR(secondsOf(pace.due()), arrival, 1e-6);
+      pace.noteTick(pace.due());
+    }
+  }
+}
+
 TEST(TickPace, TicksThatDoNotFollowTheDataComeAtRegularTimes) {
   TickPace pace(50.0, 10.0, false, at(1.0));
   for (int tick = 0; tick < 5; ++tick) {

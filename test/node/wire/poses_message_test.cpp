@@ -45,8 +45,10 @@ class Poses : public ::testing::Test {
     const std::string bytes = converter_.toTransforms(bytesOf(message), publisher);
     TransformSlices slices(bytes);
     Frames frames;
+    tf2_msgs::TFMessage slice;
     while (slices.left()) {
-      for (const geometry_msgs::TransformStamped& transform : slices.next().transforms) {
+      slices.next(slice);
+      for (const geometry_msgs::TransformStamped& transform : slice.transforms) {
         EXPECT_EQ(transform.header.frame_id, "map");
         EXPECT_EQ(transform.header.stamp, ros::Time(7, 8));
         EXPECT_EQ(transform.transform.rotation.w, 1.0);

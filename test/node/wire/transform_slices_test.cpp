@@ -30,14 +30,16 @@ TEST(TransformSlices, AreTogetherTheMessage) {
     const std::string bytes = serialized(messageOf(count));
     tf2_msgs::TFMessage whole;
     TransformSlices slices(bytes);
+    tf2_msgs::TFMessage slice;
     while (slices.left()) {
-      const tf2_msgs::TFMessage slice = slices.next();
+      slices.next(slice);
       ASSERT_FALSE(slice.transforms.empty());
       ASSERT_LE(slice.transforms.size(), kSlice);
       whole.transforms.insert(whole.transforms.end(), slice.transforms.begin(), slice.transforms.end());
     }
     EXPECT_EQ(serialized(whole), bytes);
-    EXPECT_TRUE(slices.next().transforms.empty());
+    slices.next(slice);
+    EXPECT_TRUE(slice.transforms.empty());
   }
 }
 
