@@ -11,7 +11,7 @@ namespace {
 
 using WatchClock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kWatchPause{1000};  // shortest pause between two looks at all descriptions
+constexpr std::chrono::milliseconds kWatchPause{1000};  // shortest pause between two looks at the same description
 constexpr int kWatchShare = 50;  // the pause after a look is at least this many times as long as the look
 
 /// Returns a hash of a description. Two descriptions that differ have the same hash with a probability of 2^-64.
@@ -54,15 +54,19 @@ std::vector<const RobotParams*> DescriptionWatch::changed() const {
 }
 
 void DescriptionWatch::run() {
-  WatchClock::duration pause = kWatchPause;
-  for (;;) {
+  // One robot after the other, with pauses in between: the ROS master would need milliseconds for many descriptions at
+  // once, and other threads may need its processor.
+  const std::vector<RobotParams>& robots = params_.robots;
+  const WatchClock::duration least_pause = kWatchPause / static_cast<int>(std::max<std::size_t>(1, robots.size()));
+  WatchClock::duration pause = least_pause;
+  for (std::size_t next = 0;; ++next) {
     {
       std::unique_lock<std::mutex> lock(mutex_);
       if (wake_.wait_for(lock, pause, [this] { return ends_; })) return;
     }
     const auto begin = WatchClock::now();
-    for (const RobotParams& robot : params_.robots) look(robot);
-    pause = std::max<WatchClock::duration>(kWatchPause, kWatchShare * (WatchClock::now() - begin));
+    if (!robots.empty()) look(robots[next % robots.size()]);
+    pause = std::max<WatchClock::duration>(least_pause, kWatchShare * (WatchClock::now() - begin));
   }
 }
 
