@@ -62,9 +62,10 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
                     ChoreList(chores(), commons_.ledger)) {
   tick_loop_.setSteps(tickSteps());
   housekeeping_.start();
-  tick_thread_.startLoop([this] { beginTicks(); }, [this] { return tick_loop_.work(); });
   query_threads_.start(static_cast<std::uint32_t>(commons_.settings.params.query_threads));
   admin_thread_.start(1);
+  // Later than the threads above: if threads are few, the first tick must not take all of them for ~threads.
+  tick_thread_.startLoop([this] { beginTicks(); }, [this] { return tick_loop_.work(); });
   loading_.startClouds();
   moveit_.startTopics();
 }

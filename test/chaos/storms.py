@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""5,000 messages per second arrive on each of /tf, /tf_static, a cloud and a map. Counters account for all of them."""
+"""5,000 messages per second arrive on each of /tf, /tf_static, ~poses, a cloud, a map and collision_object of MoveIt. Counters
+account for all of them."""
 import pathlib
 import subprocess
 import sys
@@ -9,15 +10,17 @@ import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).with_name("support")))
 
-from cell import AUDIT, expect  # noqa: E402  (needs the path above)
+from cell import AUDIT, POST, expect  # noqa: E402  (needs the path above)
 from chaos import FLOW, calm_after, main  # noqa: E402
 
 FLOOD = str(pathlib.Path(__file__).with_name("support") / "flood.py")
 RATE = 5000.0  # [Hz] messages of each kind
-KINDS = ("tf", "tf_static", "cloud", "map")
+KINDS = ("tf", "tf_static", "poses", "cloud", "map", "collision_object")
+# An obstacle that messages on ~poses move.
+CART = {"name": "cart", "frame": "~poses", "shapes": [{"type": "sphere", "radius": 0.1}]}
 GROWTH = 80.0 if AUDIT else 30.0  # [MB] the audit also stores messages of /tf (~tf_queue_bytes)
-# Beginnings of the counters of transforms. The node counts each transform in one of them.
-DECIDED = ("tf.accepted", "tf.refused.", "tf.dropped.", "tf.ignored.", "tf.too_old", "tf.repeated", "tf.rival")
+# Beginnings of the counters of transforms. The node counts each transform in one of them, also those of ~poses.
+DECIDED = ("poses.refused.", "tf.accepted", "tf.refused.", "tf.dropped.", "tf.ignored.", "tf.too_old", "tf.repeated", "tf.rival")
 INPUTS = {  # topic -> beginnings of the names of the counters of its messages
     "/cloud": ("cloud/front.accepted", "cloud/front.refused."),
     "/octomap_binary": ("maps.accepted", "maps.refused."),
@@ -49,6 +52,20 @@ def check_input(cell, topic, sent, earlier):
     print("%s: of %d messages, %d were replaced before they were read" % (topic, received, dropped))
 
 
+def check_objects(cell, sent):
+    """Checks that the node has applied, refused or dropped each message of MoveIt."""
+    def counted():
+        return total(cell.counters(), ("moveit.applied", "moveit.refused.", "moveit.dropped."))
+
+    cell.wait("%d messages of collision_object to be counted; counted are %d" % (sent, counted()), lambda: counted() == sent)
+    expect("received messages of MoveIt", sent, cell.counters()["moveit.received"])
+
+
+def start_cart(cell):
+    """Starts a process that moves the cart 50 times per second."""
+    return flood(cell, "poses", 50, 1e6, -1)
+
+
 def flood(cell, kind, rate, seconds, seed):
     command = (sys.executable, FLOOD, kind, str(rate), str(seconds), str(seed))
     return cell.start(*command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
@@ -60,17 +77,19 @@ def sent_by(process):
 
 
 def storms(cell, rng, seconds):
-    cell.start_all(maps=[{"name": "room", "topic": "octomap_binary"}],
+    cell.start_all(moveit={"topics": True}, obstacles=[POST, CART], maps=[{"name": "room", "topic": "octomap_binary"}],
                    clouds=[{"name": "front", "topic": "cloud", "lifetime": 3600}])
     cell.wait("the first tick", cell.status)
+    cart = start_cart(cell)
     first = [flood(cell, kind, 10, 1, 1) for kind in ("tf_static", "cloud", "map")]  # these messages complete the world
     for process in first:
         sent_by(process)
     cell.wait_until_right()
     for process in first:
         process.communicate()  # closes the input of the process, which ends it
-    cell.hand.kill()  # now the flood places the hand
-    cell.hand.wait()
+    for process in (cell.hand, cart):  # now the flood places the hand and the cart
+        process.kill()
+        process.wait()
     earlier = cell.counters()
     with calm_after(cell, growth=GROWTH):
         begin, sequence = time.monotonic(), cell.status().world.sequence
@@ -80,10 +99,12 @@ def storms(cell, rng, seconds):
         share = (cell.status().world.sequence - sequence) / (50.0 * lasted)
         print("sent in %.1f s: %s; %.0f %% of the ticks came" % (lasted, sent, 100 * share))
         expect("share of the ticks during the storm", "at least %g" % FLOW, "%.3f" % share, share >= FLOW)
-        check_tf(cell, sent["tf"] + sent["tf_static"], total(earlier, DECIDED))
+        check_tf(cell, sent["tf"] + sent["tf_static"] + sent["poses"], total(earlier, DECIDED))
+        check_objects(cell, sent["collision_object"])
         check_input(cell, "/cloud", sent["cloud"], total(earlier, INPUTS["/cloud"]))
         check_input(cell, "/octomap_binary", sent["map"], total(earlier, INPUTS["/octomap_binary"]))
         cell.hand = cell.start_puppet()
+        start_cart(cell)
 
 
 if __name__ == "__main__":

@@ -99,7 +99,7 @@ class Cell(System):
         self.node = self.start_node()
 
     def params(self, **options):
-        self.set(NAME, dict({"world_frame": "world", "obstacles": [POST]}, **AUDIT, **options))
+        self.set(NAME, {"world_frame": "world", "obstacles": [POST], **AUDIT, **options})
 
     def start_node(self, *arguments, **options):
         with open(self.output, "ab") as output:

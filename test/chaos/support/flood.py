@@ -3,7 +3,9 @@
 # SPDX-FileCopyrightText: the hgrid_proximity authors
 """Floods one input of the node with messages. Some of them are invalid. Prints how many messages it has sent.
 
-usage: flood.py KIND RATE SECONDS SEED, where KIND is tf, tf_static, cloud or map
+usage: flood.py KIND RATE SECONDS SEED, where KIND is tf, tf_static, poses, cloud, map or collision_object
+
+If SEED is negative, all messages are valid.
 
 The last message is valid. The program ends when its standard input is closed. Until then, roscpp keeps the counters of
 the connection.
@@ -15,10 +17,12 @@ import sys
 import time
 
 import rospy
+from hgrid_proximity.msg import Poses
 from sensor_msgs.msg import PointCloud2
 from tf2_msgs.msg import TFMessage
 
 ROOM = pathlib.Path(__file__).resolve().parents[3] / "demo/room.bt"
+COLLISION_OBJECT = "dbba710596087da521c07564160dfccb"  # MD5 sum of moveit_msgs/CollisionObject in Noetic
 BATCH = 0.01  # [s] pause between two groups of messages
 
 
@@ -38,6 +42,26 @@ def transform(rng, stamp, child):
     x = float("nan") if kind == "nan" else 1.0
     data = struct.pack("<I", 1) + header(stamp, "world") + text(child) + struct.pack("<7d", x, 0, 0, 0, 0, 0, 1)
     return data[:-8] if kind == "short" else data
+
+
+def poses(rng, stamp):
+    """Returns a message of ~poses that places the obstacle "cart". Some are not valid, as those of transform()."""
+    kind = rng.choice(("valid",) * 6 + ("nan", "old", "future", "short"))
+    stamp += {"old": -100.0, "future": 100.0}.get(kind, 0.0)
+    x = float("nan") if kind == "nan" else 200.0
+    names = struct.pack("<II", 1, 1) + text("cart")
+    place = struct.pack("<II3d", 0, 1, x, 0, 0) + struct.pack("<I4d", 1, 0, 0, 0, 1)
+    data = header(stamp, "world") + names + place + struct.pack("<III", 0, 0, 0)
+    return data[:-20] if kind == "short" else data
+
+
+def collision_object(rng, stamp):
+    """Returns a message of MoveIt that adds one of three spheres. One in every five has no valid radius."""
+    radius = -1.0 if rng.random() < 0.2 else 0.1
+    place = struct.pack("<7d", 250.0 + 10.0 * rng.random(), 0, 0, 0, 0, 0, 1)
+    primitive = struct.pack("<IBIdI", 1, 2, 1, radius, 1) + struct.pack("<7d", 0, 0, 0, 0, 0, 0, 1)
+    name = text("part%d" % rng.choice(range(3)))
+    return header(stamp, "world") + place + name + text("") + text("") + primitive + struct.pack("<6Ib", *[0] * 7)
 
 
 def cloud(rng, stamp):
@@ -74,6 +98,8 @@ def kinds():
     return {
         "tf": ("/tf",) + tf + (lambda rng, stamp: transform(rng, stamp, "hand"),),
         "tf_static": ("/tf_static",) + tf + (lambda rng, stamp: transform(rng, stamp, "room"),),
+        "poses": ("/proximity/poses", Poses._type, Poses._md5sum, poses),
+        "collision_object": ("/collision_object", "moveit_msgs/CollisionObject", COLLISION_OBJECT, collision_object),
         "cloud": ("/cloud", PointCloud2._type, PointCloud2._md5sum, cloud),
         "map": ("/octomap_binary", "octomap_msgs/Octomap", "9a45536b45c5e409cd49f04bb2d9999f",
                 lambda rng, stamp: octomap(rng, stamp, nodes)),
@@ -93,7 +119,7 @@ def main():
     kind, rate, seconds, seed = sys.argv[1], float(sys.argv[2]), float(sys.argv[3]), int(sys.argv[4])
     rospy.init_node("flood_" + kind, disable_signals=True, disable_rosout=True)
     topic, type_name, md5sum, make = kinds()[kind]
-    rng = random.Random(seed)
+    rng = random.Random(seed) if seed >= 0 else Sound
     kept, connection = publisher(topic, type_name, md5sum)
     begin, sent, last = time.monotonic(), 0, False
     while not last:

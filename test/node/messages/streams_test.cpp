@@ -147,14 +147,15 @@ TEST(Streams, TwoNodesSayTheSameOfTheSameWorldByteForByte) {
   EXPECT_EQ(bytesOf(*of_one), bytesOf(*of_other));
 }
 
-TEST(Diagnostics, HasFiveStatuses) {
+TEST(Diagnostics, HasSixStatuses) {
   NodeSetup setup;
   setup.beside["robot_description"] = balls({"a", "b"});
   NodeUnderTest node(setup);
-  node.waitUntil("all statuses", [](const Heard& all) { return all.diagnostics.size() >= 5; });
+  node.waitUntil("all statuses", [](const Heard& all) { return all.diagnostics.size() >= 6; });
   const auto all = node.heard().diagnostics;
-  EXPECT_EQ(all.size(), 5u);
-  for (const char* name : {"world", "robots", "transforms", "ticks", "audit", "state"}) EXPECT_EQ(all.count(name), 1u) << name;
+  EXPECT_EQ(all.size(), 6u);
+  for (const char* name : {"world", "robots", "transforms", "ticks", "audit", "state"})
+    EXPECT_EQ(all.count(name), 1u) << name;
   node.waitUntil("the missing frame is reported", [](const Heard& heard) {
     const auto& world = heard.diagnostics.at("world");
     const auto& transforms = heard.diagnostics.at("transforms");
