@@ -53,8 +53,7 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
           loading_, state_, stopwatch_, sketch_),
       moveit_(
           admin_thread_.node(), commons_, loading_.mapSource(), jobs_,
-          [this](const TickJobs::Job& job) { return tick_loop_.tickAfter(job); },
-          [this] { return isEnding(); }),
+          [this](const TickJobs::Job& job) { return tick_loop_.tickAfter(job); }, [this] { return isEnding(); }),
       diagnostics_(
           admin_thread_.node(), admin_thread_.privateNode(), private_node.getNamespace(),
           [this] { return tick_loop_.newest(); }, commons_.health),
@@ -94,7 +93,9 @@ bool ProximityNode::isEnding() const { return stopping_ || ros::isShuttingDown()
 /// Returns what the tick thread does with every tick, in this order.
 std::vector<TickLoop::Step> ProximityNode::tickSteps() {
   using TickPtr = std::shared_ptr<const Tick>;
-  return {{"tick.publish", [this](const TickPtr& tick) { publishers_.publishTick(*tick); }, true},
+  // First of all, so that nothing can fail before: a request is answered only after its changes were collected.
+  return {{"", [this](const TickPtr& tick) { state_.see(world_, *tick); }},
+          {"tick.publish", [this](const TickPtr& tick) { publishers_.publishTick(*tick); }, true},
           {"",
            [this](const TickPtr& tick) {
              if (const auto time = publishers_.publishDistances(tick)) stopwatch_.add("distances", *time);
@@ -106,7 +107,6 @@ std::vector<TickLoop::Step> ProximityNode::tickSteps() {
            }},
           {"", [this](const TickPtr& tick) { completeness_log_.log(*tick); }},
           {"", [this](const TickPtr& tick) { model_log_.log(tick->models); }},
-          {"", [this](const TickPtr& tick) { state_.see(world_, *tick); }},
           {"audit", [this](const TickPtr& tick) { auditor_.see(tick); }}};
 }
 

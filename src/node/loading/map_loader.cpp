@@ -42,6 +42,7 @@ void MapLoader::onMessage(const MapParams& map, const OctomapMessage& message) {
     return source_.finished(*read);
   });
   arrived_.remove(map.name);
+  if (done) files_.remove(map.name);  // the message is newer
   if (read && !done) arrived_.put(map.name, std::move(*read));
 }
 

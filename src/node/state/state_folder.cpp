@@ -57,10 +57,10 @@ std::optional<std::string> bytesOf(int folder, const char* name, const std::stri
 void checkOwner(int folder, const std::string& path) {
   struct stat about {};
   if (::fstat(folder, &about) != 0) fail("read", path);
-  if (about.st_uid == ::geteuid() && (about.st_mode & S_IWOTH) == 0) return;
+  if (about.st_uid == ::geteuid() && (about.st_mode & (S_IWGRP | S_IWOTH)) == 0) return;
   throw Refusal(Code::resource_denied, "the folder '" + printable(path, 300) +
-                                           "' belongs to another user, or all users may write into it; give it to the "
-                                           "user of the node with chown, and use chmod o-w");
+                                           "' belongs to another user, or other users may write into it; give it to "
+                                           "the user of the node with chown, and use chmod go-w");
 }
 
 }  // namespace
@@ -78,6 +78,9 @@ Descriptor::~Descriptor() {
 
 StateFolder::StateFolder(const std::string& path, std::chrono::milliseconds patience) : path_(path) {
   if (::mkdir(path.c_str(), 0700) != 0 && errno != EEXIST) fail("create the folder", path);
+  // The name of a new folder must be on disk, too. An earlier process may have ended before it was.
+  const Descriptor parent(::open((path + "/..").c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (parent.get() < 0 || ::fsync(parent.get()) != 0) fail("write the folder above", path);
   folder_ = Descriptor(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (folder_.get() < 0) fail("open the folder", path);
   checkOwner(folder_.get(), path);
@@ -122,20 +125,23 @@ void StateFolder::replace(const StateItems& items) {
   if (next.get() < 0) fail("create", pathOf(kNew));
   writeAll(next.get(), bytes, pathOf(kNew));
   if (::fsync(next.get()) != 0) fail("write", pathOf(kNew));
-  // A hard link first, so that the file "state" never disappears.
-  ::unlinkat(folder_.get(), kPrevious, 0);
-  if (::linkat(folder_.get(), kNewest, folder_.get(), kPrevious, 0) != 0 && errno != ENOENT)
-    fail("create", pathOf(kPrevious));
+  keepAs(kPrevious);
   if (::renameat(folder_.get(), kNew, folder_.get(), kNewest) != 0) fail("replace", pathOf(kNewest));
   synchronize();
   file_ = std::move(next);
   size_ = size_at_first_ = bytes.size();
 }
 
-void StateFolder::keepDamaged() {
-  ::unlinkat(folder_.get(), kDamaged, 0);
-  if (::linkat(folder_.get(), kNewest, folder_.get(), kDamaged, 0) != 0 && errno != ENOENT)
-    fail("create", pathOf(kDamaged));
+void StateFolder::keepDamaged() { keepAs(kDamaged); }
+
+/// Gives the newest file a second name, so that it never disappears. Without hard links, there is no second name. That
+/// is no failure, because it only helps if the newest file gets damaged.
+void StateFolder::keepAs(const char* name) const {
+  const std::string next = std::string(name) + ".new";
+  ::unlinkat(folder_.get(), next.c_str(), 0);
+  if (::linkat(folder_.get(), kNewest, folder_.get(), next.c_str(), 0) != 0) return;
+  ::renameat(folder_.get(), next.c_str(), folder_.get(), name);
+  ::unlinkat(folder_.get(), next.c_str(), 0);  // rename() does nothing if both names are of the same file
 }
 
 void StateFolder::append(const std::vector<StateEdit>& edits) {

@@ -58,6 +58,7 @@ class StateFolder {
 
  private:
   std::string pathOf(const std::string& file) const { return path_ + "/" + file; }
+  void keepAs(const char* name) const;
   void synchronize() const;
 
   const std::string path_;

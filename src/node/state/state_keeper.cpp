@@ -15,8 +15,8 @@ namespace hgrid {
 namespace {
 
 constexpr std::chrono::milliseconds kOpenPatience{3000};  // for an earlier process of this node that is about to end
-constexpr std::chrono::seconds kPatience{5};              // for the disk, before a change is reported as not stored
-constexpr std::chrono::seconds kRetryPause{1};
+constexpr std::chrono::seconds kDiskPatience{5};          // for the disk, before a change is reported as not stored
+constexpr std::chrono::seconds kDiskRetry{1};
 constexpr std::size_t kRoom = 1 << 20;  // [byte] the file is written anew when it is this much longer than twice its
                                         // first record
 
@@ -42,6 +42,7 @@ StateKeeper::StateKeeper(Commons& commons) : commons_(commons) {
   std::string unusable;
   try {
     open();
+    thread_ = std::thread([this] { run(); });
   } catch (...) {
     folder_.reset();
     unusable = caughtRefusal().what();
@@ -49,11 +50,10 @@ StateKeeper::StateKeeper(Commons& commons) : commons_(commons) {
     restored_.troubles.push_back("the stored world cannot be used, and changes are not stored: " + unusable);
     ROS_ERROR("%s", restored_.troubles.back().c_str());
   }
-  tell(unusable);
-  if (folder_) thread_ = std::thread([this] { run(); });
+  if (!folder_) tell(unusable);
 }
 
-/// Reads the folder, and begins a new file.
+/// Reads the folder.
 void StateKeeper::open() {
   folder_ = std::make_unique<StateFolder>(commons_.settings.params.state_folder, kOpenPatience);
   StateFolder::Found found = folder_->read();
@@ -62,8 +62,8 @@ void StateKeeper::open() {
   if (!found.damage.empty()) restored_.troubles.insert(restored_.troubles.begin(), found.damage);
   if (!restored_.troubles.empty()) folder_->keepDamaged();
   for (const std::string& trouble : restored_.troubles) ROS_ERROR("%s", trouble.c_str());
+  for (const std::string& key : restored_.unreadable) items_.erase(key);
   seen_rules_ = restored_.rules;
-  folder_->replace(items_);
 }
 
 StateKeeper::~StateKeeper() {
@@ -77,7 +77,10 @@ StateKeeper::~StateKeeper() {
 }
 
 void StateKeeper::see(World& world, const Tick& tick) {
-  if (!folder_) return;
+  if (!folder_) {
+    world.forgetUnsaved();
+    return;
+  }
   const auto failure = guarded(commons_.ledger, "state.failed", [&] {
     std::vector<Change> changes = changesOf(world.obstacles());
     std::vector<PairRule> rules;
@@ -118,13 +121,19 @@ std::vector<StateKeeper::Change> StateKeeper::changesOf(const ObstacleBodies& ob
 
 void StateKeeper::noteMap(const std::string& name, const std::optional<MapParams>& map) {
   if (!folder_) return;
+  const auto is_configured = [this](const std::string& local) {
+    const std::vector<MapParams>& maps = commons_.settings.params.maps;
+    return std::any_of(maps.begin(), maps.end(), [&](const MapParams& one) { return one.name == local; });
+  };
   std::vector<Change> changes;
   if (name.empty()) {
     changes.emplace_back([] { return StateEdit{StateEdit::Kind::erase_kind, kMapKeys, ""}; });
     for (const MapParams& configured : commons_.settings.params.maps)
       changes.emplace_back([name = configured.name] { return editOf(name, std::nullopt); });
-  } else {
+  } else if (map || is_configured(name)) {
     changes.emplace_back([name, map] { return editOf(name, map); });
+  } else {
+    changes.emplace_back([name] { return StateEdit{StateEdit::Kind::erase, kMapKeys + name, ""}; });
   }
   add(std::move(changes));
 }
@@ -142,7 +151,7 @@ bool StateKeeper::waitUntilStored() {
   if (!folder_) return false;
   std::unique_lock<std::mutex> lock(mutex_);
   const std::uint64_t target = added_, failures = failures_;
-  changed_.wait_for(lock, kPatience, [&] { return stored_ >= target || failures_ > failures || ending_; });
+  changed_.wait_for(lock, kDiskPatience, [&] { return stored_ >= target || failures_ > failures || ending_; });
   return stored_ >= target && !behind_;
 }
 
@@ -151,34 +160,42 @@ void StateKeeper::run() {
   std::vector<Change> changes;
   std::uint64_t target = 0;
   bool failed = false;
+  bool anew = true;  // write a new file: at the start, and after a failure, which may have written a part of a record
   while (true) {
     {
       std::unique_lock<std::mutex> lock(mutex_);
-      if (failed) changed_.wait_for(lock, kRetryPause, [this] { return ending_; });
-      if (!failed) changed_.wait(lock, [this] { return ending_ || !waiting_.empty(); });
-      if (ending_ && (failed || waiting_.empty())) return;
-      std::move(waiting_.begin(), waiting_.end(), std::back_inserter(changes));
-      waiting_.clear();
-      target = added_;
-    }
-    const auto failure = guarded(commons_.ledger, "state.failed", [&] {
-      const Edits edits = newEdits(changes);
-      applyEdits(edits, items_);
-      if (failed) {
-        folder_->replace(items_);  // the failed attempt may have written a part of a record
-      } else if (!edits.empty()) {
-        store(edits);
+      if (failed) changed_.wait_for(lock, kDiskRetry, [this] { return ending_; });
+      if (!anew) changed_.wait(lock, [this] { return ending_ || !waiting_.empty(); });
+      if (ending_ && (failed || (waiting_.empty() && !anew))) return;
+      if (changes.empty()) {  // else the last attempt ended before it had applied them
+        changes.swap(waiting_);
+        target = added_;
       }
-      changes.clear();
-    });
-    failed = failure.has_value();
-    tell(failed ? failure->what() : std::string());
+    }
+    const auto failure = guarded(commons_.ledger, "state.failed", [&] { write(changes, anew); });
+    anew = failed = failure.has_value();
+    guarded(commons_.ledger, "state.failed", [&] { tell(failed ? failure->what() : ""); });
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       failed ? ++failures_ : stored_ = target;
     }
     changed_.notify_all();
   }
+}
+
+/// Applies changes to items_ and writes them. Empties `changes` as soon as items_ contains them.
+/// @param anew  whether to write a new file with all items
+void StateKeeper::write(std::vector<Change>& changes, bool anew) {
+  const Edits edits = newEdits(changes);
+  applyEdits(edits, items_);
+  changes.clear();
+  if (anew) {
+    folder_->replace(items_);
+  } else if (!edits.empty()) {
+    folder_->append(edits);
+    if (folder_->size() > 2 * folder_->sizeAtFirst() + kRoom) folder_->replace(items_);
+  }
+  commons_.ledger.count("state.stored");
 }
 
 /// Returns the edits that change items_. A change that only renews a lifetime changes nothing.
@@ -196,13 +213,6 @@ StateKeeper::Edits StateKeeper::newEdits(const std::vector<Change>& changes) con
     edits.push_back(std::move(edit));
   }
   return edits;
-}
-
-/// Writes edits, which items_ already contains.
-void StateKeeper::store(const Edits& edits) {
-  folder_->append(edits);
-  commons_.ledger.count("state.stored");
-  if (folder_->size() > 2 * folder_->sizeAtFirst() + kRoom) folder_->replace(items_);
 }
 
 /// Tells /diagnostics whether changes are stored. @param failure  why not; empty: they are

@@ -58,7 +58,7 @@ class StateKeeper {
   void add(std::vector<Change> changes);
   void run();
   Edits newEdits(const std::vector<Change>& changes) const;
-  void store(const Edits& edits);
+  void write(std::vector<Change>& changes, bool anew);
   void tell(const std::string& failure);
 
   Commons& commons_;

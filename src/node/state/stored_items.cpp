@@ -94,9 +94,11 @@ template <class File>
 void pass(File& file, PairRule& rule, const RuleClocks& clocks) {
   using Steady = PairRule::Clock;
   bool ends = rule.ends != Steady::time_point::max();
-  std::int64_t wall_end = 0;  // [ns] by the wall clock
+  std::int64_t remaining = 0;  // [ns]
+  std::int64_t wall_end = 0;   // [ns] by the wall clock
   if (ends && !File::kReads) {
-    wall_end = std::chrono::nanoseconds(rule.ends - clocks.steady + clocks.wall.time_since_epoch()).count();
+    remaining = std::chrono::nanoseconds(rule.ends - clocks.steady).count();
+    wall_end = remaining + std::chrono::nanoseconds(clocks.wall.time_since_epoch()).count();
   }
   file.line("rule");
   file.value(rule.first);
@@ -106,11 +108,14 @@ void pass(File& file, PairRule& rule, const RuleClocks& clocks) {
   file.value(rule.set_by);
   pass(file, rule.since);
   file.value(ends);
+  file.value(remaining);
   file.value(wall_end);
   if (!File::kReads) return;
   rule.origin = Origin::service;
   if (!ends) return;
-  const auto left = std::chrono::nanoseconds(wall_end) - clocks.wall.time_since_epoch();
+  // A wall clock that was set back must not prolong the rule.
+  const std::chrono::nanoseconds by_wall = std::chrono::nanoseconds(wall_end) - clocks.wall.time_since_epoch();
+  const std::chrono::nanoseconds left = std::min(std::chrono::nanoseconds(remaining), by_wall);
   rule.ends = clocks.steady + std::chrono::duration_cast<Steady::duration>(left);
 }
 
@@ -198,6 +203,7 @@ StoredWorld storedWorldOf(const StateItems& items, NarrowPhase& narrow_phase, co
       readItem(key, text, narrow_phase, clocks, stored);
     } catch (const Refusal& refusal) {
       stored.troubles.push_back(refusal.what());
+      stored.unreadable.push_back(key);
     }
   }
   return stored;

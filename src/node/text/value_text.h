@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <iomanip>
 #include <istream>
+#include <locale>
 #include <ostream>
 #include <sstream>
 #include <string>
@@ -24,7 +25,10 @@ namespace hgrid {
 class TextWriter {
  public:
   static constexpr bool kReads = false;
-  explicit TextWriter(std::ostream& out) : out_(out) { out_ << std::setprecision(17); }
+  explicit TextWriter(std::ostream& out) : out_(out) {
+    out_.imbue(std::locale::classic());
+    out_ << std::setprecision(17);
+  }
 
   /// Begins a line with a word.
   void line(const char* word) { out_ << (std::exchange(first_, false) ? "" : "\n") << word; }

@@ -19,6 +19,7 @@ struct StoredWorld {
   std::vector<PairRule> rules;            ///< those of ~set_allowed
   StoredMaps maps;                        ///< those that services loaded or removed
   std::vector<std::string> troubles;      ///< what could not be read, one sentence each
+  std::vector<std::string> unreadable;    ///< keys of the items that could not be read
 };
 
 }  // namespace hgrid

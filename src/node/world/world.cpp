@@ -86,6 +86,13 @@ World::World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& 
       world_frame_(params.world_frame),
       epoch_(epoch) {
   scene_.beginEpoch(epoch_);
+  for (const auto& [name, map] : stored.maps) {
+    if (map) missing_.set(SourceId::ofMap(name), "NOT_READY map '" + name + "': its file has not been read yet");
+  }
+  for (const MapParams& map : params.maps) {
+    const auto known = stored.maps.find(map.name);
+    if (known != stored.maps.end() && !known->second && map.topic.empty()) missing_.erase(SourceId::ofMap(map.name));
+  }
   if (!stored.troubles.empty()) {
     missing_.set(SourceId::ofObstacle(kStoredObstacles),
                  "NOT_READY " + stored.troubles.front() +

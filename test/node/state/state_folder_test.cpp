@@ -91,7 +91,7 @@ TEST_F(StateFolderTest, BelongsToOneProcess) {
 TEST_F(StateFolderTest, MustBelongToTheUserAlone) {
   open();
   ASSERT_EQ(chmod(path_.c_str(), 0777), 0);
-  expectRefused(Code::resource_denied, "chmod o-w");
+  expectRefused(Code::resource_denied, "chmod go-w");
 }
 
 TEST_F(StateFolderTest, MustBeAFolderInAnExistingOne) {

@@ -135,6 +135,9 @@ TEST(StoredItems, TheLifetimeOfARuleGoesOnWhileTheNodeDoesNotRun) {
   EXPECT_FALSE(soon[1].allowed);
   EXPECT_EQ(soon[1].ends, PairRule::Clock::time_point(std::chrono::seconds(17)));
   EXPECT_EQ(after(std::chrono::seconds(31)).size(), 1u);
+  const std::vector<PairRule> set_back = after(std::chrono::seconds(-1000));
+  ASSERT_EQ(set_back.size(), 2u);
+  EXPECT_EQ(set_back[1].ends, PairRule::Clock::time_point(std::chrono::seconds(37))) << "not longer than its lifetime";
   EXPECT_EQ(editOf(std::vector<PairRule>(), kClocks).kind, StateEdit::Kind::erase);
 }
 
@@ -154,6 +157,24 @@ TEST(StoredItems, AMapIsReadAsItWasWritten) {
   EXPECT_EQ(maps.at("hall")->frame, "shelf");
   EXPECT_EQ(maps.at("hall")->frame_from_map.matrix(), map.frame_from_map.matrix());
   EXPECT_EQ(maps.at("old"), std::nullopt);
+}
+
+TEST_F(Obstacles, AMapThatAnEarlierRunLoadedIsMissedUntilItIsReadAgainAndARemovedOneIsNot) {
+  Params params = Obstacles::params();
+  for (const char* name : {"hall", "yard"}) {
+    params.maps.emplace_back();
+    params.maps.back().name = name;
+    params.maps.back().file = "room.bt";
+  }
+  StoredWorld stored;
+  stored.maps["hall"] = std::nullopt;
+  stored.maps["late"] = params.maps[0];
+  World second(params, false, 2, ledger_, phase_, stored);
+  second.setRobot(arm());
+  const auto tick = second.tick(momentAt(time_));
+  EXPECT_EQ(tick->snapshot->reasonOf("map/hall"), "");
+  EXPECT_NE(tick->snapshot->reasonOf("map/yard"), "");
+  EXPECT_NE(tick->snapshot->reasonOf("map/late"), "");
 }
 
 TEST(StoredItems, AnItemThatCannotBeReadIsATrouble) {
