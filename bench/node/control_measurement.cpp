@@ -137,7 +137,7 @@ ControlMeasurement measureControls(const Workload& workload, double duration) {
   result.relay = relayLatency(workload, duration, cycle.size());
   result.ignore_percent = ignorePercent(workload, duration);
   result.receive_percent = receivePercent(workload, duration);
-  // Both services answer in turns while the node makes its ticks, so the rest of the machine is equally busy.
+  // Both services are measured in turns while the node makes ticks. So other programs delay both equally.
   const Control control("service");
   const RunningNode node(workload, duration);
   std::vector<double> empty, sphere;

@@ -348,7 +348,7 @@ NODE = [
      "own_checksum != checksumOf(header.data(), kOwnChecksum)", "false"),
     ("a file that was not read completely is not reported", STATE_FOLDER,
      'if (!content.damage.empty()) found.damage =', 'if (false) found.damage ='),
-    ("a part of a record stays in the file", STATE_FOLDER, "writeAll(next.get(), bytes, pathOf(kNew));",
+    ("a new file lacks its first byte", STATE_FOLDER, "writeAll(next.get(), bytes, pathOf(kNew));",
      "writeAll(next.get(), bytes.substr(1), pathOf(kNew));"),
     ("removed obstacles of the parameters come back", STORED_ITEMS,
      "if (is_configured) return {StateEdit::Kind::set, key, kRemoved};", ""),

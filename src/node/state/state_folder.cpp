@@ -134,8 +134,9 @@ void StateFolder::replace(const StateItems& items) {
 
 void StateFolder::keepDamaged() { keepAs(kDamaged); }
 
-/// Gives the newest file a second name, so that it never disappears. Without hard links, there is no second name. That
-/// is no failure, because it only helps if the newest file gets damaged.
+/// Gives the newest file a second name, under which it stays when replace() gives its first name to a new file. Some
+/// file systems do not allow second names. This is not an error: the second name is needed only if the new file gets
+/// damaged.
 void StateFolder::keepAs(const char* name) const {
   const std::string next = std::string(name) + ".new";
   ::unlinkat(folder_.get(), next.c_str(), 0);

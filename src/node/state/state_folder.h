@@ -44,7 +44,8 @@ class StateFolder {
   /// Reads the newest state; if it cannot be used at all, its predecessor.
   /// @throws also Refusal unsupported if the file is of another version
   Found read() const;
-  /// Replaces the file by a new one. If the system crashes at any time, one of both is there and complete.
+  /// Replaces the file by a new one. If the system crashes, the old file or the new one is there,
+  /// and it is complete.
   void replace(const StateItems& items);
   /// Keeps the newest file as "state.damaged". Call this before replace() if read() found damage.
   void keepDamaged();
@@ -53,8 +54,6 @@ class StateFolder {
   /// Number of bytes in the file, and number of bytes that replace() wrote.
   std::size_t size() const { return size_; }
   std::size_t sizeAtFirst() const { return size_at_first_; }
-
-  const std::string& path() const { return path_; }
 
  private:
   std::string pathOf(const std::string& file) const { return path_ + "/" + file; }

@@ -15,8 +15,8 @@ namespace {
 
 const std::string kName = "hgrid_proximity_state ";
 const std::string kTitle = kName + "1\n";
-// A record begins with a line of this word and three hexadecimal numbers: the number of bytes and the checksum of the
-// edits, and the checksum of the line up to here.
+// A record begins with a line: this word and three hexadecimal numbers. The first is the number of bytes of the edits,
+// the second is the checksum of the edits, and the third is the checksum of the line before the third number.
 const std::string kRecord = "record ";
 constexpr std::size_t kSize = 7, kChecksum = kSize + 17, kOwnChecksum = kChecksum + 9, kHeader = kOwnChecksum + 9;
 

@@ -10,9 +10,9 @@
 
 namespace hgrid {
 
-// The content of a file of ~state_folder: a title, and then records. Each record has a line with its length and its
-// checksum (CRC-32), and edits, which are applied together or not at all. The first record holds everything that was
-// stored when the file was begun; later records are appended to it.
+// A file of ~state_folder consists of a title and records. A record consists of a line, which contains the length and
+// the checksum (CRC-32) of the record, and of edits. All edits of a record are applied, or none of them. The first
+// record holds everything that was stored when the file was begun; later records are appended to it.
 
 /// Returns the title of the file with a first record.
 std::string beginningOf(const StateItems& items);

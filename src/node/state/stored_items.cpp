@@ -119,11 +119,11 @@ void pass(File& file, PairRule& rule, const RuleClocks& clocks) {
   rule.ends = clocks.steady + std::chrono::duration_cast<Steady::duration>(left);
 }
 
-template <class Value, class... More>
-std::string textOf(Value value, const More&... more) {
+template <class Value>
+std::string textOf(Value value) {
   std::ostringstream out;
   TextWriter writer(out);
-  pass(writer, value, more...);
+  pass(writer, value);
   return out.str() + "\n";
 }
 
