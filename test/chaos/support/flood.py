@@ -56,11 +56,15 @@ def poses(rng, stamp):
 
 
 def collision_object(rng, stamp):
-    """Returns a message of MoveIt that adds one of three spheres. One in every five has no valid radius."""
-    radius = -1.0 if rng.random() < 0.2 else 0.1
+    """Returns a message of MoveIt that adds one of three spheres. One in every five has no valid radius.
+
+    All of those name "part0", as the last message does. A refused message is missed until a valid one about the same object arrives.
+    """
+    refused = rng.random() < 0.2
+    radius = -1.0 if refused else 0.1
     place = struct.pack("<7d", 250.0 + 10.0 * rng.random(), 0, 0, 0, 0, 0, 1)
     primitive = struct.pack("<IBIdI", 1, 2, 1, radius, 1) + struct.pack("<7d", 0, 0, 0, 0, 0, 0, 1)
-    name = text("part%d" % rng.choice(range(3)))
+    name = text("part%d" % (0 if refused else rng.choice(range(3))))
     return header(stamp, "world") + place + name + text("") + text("") + primitive + struct.pack("<6Ib", *[0] * 7)
 
 
