@@ -120,16 +120,7 @@ std::shared_ptr<const RequestedObstacle> addedBy(const msg::Obstacle& change, co
   Body& body = added->body;
   body.name = name;
   for (const msg::Shape& shape : change.shapes) body.shapes.push_back(shapeOf(shape, change, params, meshes));
-  std::vector<double> paddings;
-  for (const BodyShape& shape : body.shapes) paddings.push_back(shape.padding);
-  applyMaxSpeed(params, body);
-  applyPatterns(params, body);  // also sets the padding that the parameters ask for
-  for (std::size_t i = 0; i < paddings.size(); ++i) {
-    body.shapes[i].padding = std::max(body.shapes[i].padding, paddings[i]);
-  }
-  if (change.margin > 0.0) body.margin = change.margin;
-  if (change.max_speed > 0.0) body.max_speed = change.max_speed;
-  makeSolids(narrow_phase, body);
+  completeObstacle(params, change.margin, change.max_speed, narrow_phase, body);
   added->place = placeOf(change);
   added->moving = change.moving;
   added->lost_at_end = change.lifetime_end == msg::LifetimeEnd::LOST;

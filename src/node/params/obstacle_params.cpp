@@ -2,7 +2,9 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/params/obstacle_params.h"
 
+#include <array>
 #include <cmath>
+#include <memory>
 
 #include "hgrid_proximity/bodies/name.h"
 #include "hgrid_proximity/refusal.h"
@@ -11,14 +13,51 @@
 namespace hgrid {
 namespace {
 
-constexpr double kFarthest = 1e6;  // largest coordinate [m] and angle [rad] of a pose
+constexpr double kFarthest = 1e6;           // largest coordinate [m] and angle [rad] of a pose
+constexpr std::size_t kLongestOwner = 512;  // [byte]
 
 void readLength(ParamValue& shape, const char* key, double& length) {
   // Accept any number here. Shape checks the value and explains what is wrong with it.
   if (auto value = shape.require(key)) value->number(length, -HUGE_VAL, HUGE_VAL, "m");
 }
 
-Shape readPrimitive(ParamValue& value, const std::string& type, const ShapeLimits& limits) {
+/// Reads the vertices of a hull, or the vertices and triangles of a mesh.
+std::shared_ptr<const TriangleMesh> readMesh(ParamValue& shape, bool has_triangles, const Params& params) {
+  auto mesh = std::make_shared<TriangleMesh>();
+  if (auto vertices = shape.require("vertices")) {
+    for (ParamValue& vertex : vertices->elements()) {
+      mesh->vertices.emplace_back(Eigen::Vector3d::Zero());
+      vertex.vector(mesh->vertices.back(), HUGE_VAL);
+    }
+  }
+  if (!has_triangles) return mesh;
+  const auto triangles = shape.require("triangles");
+  if (!triangles) return mesh;
+  const auto most = static_cast<std::size_t>(params.max_mesh_triangles);
+  std::vector<ParamValue> list = ParamValue(*triangles).elements();
+  if (list.size() > most) {
+    throw Refusal(Code::limit, "the mesh has " + std::to_string(list.size()) + " triangles; at most " +
+                                   std::to_string(most) + " are allowed (~max_mesh_triangles)");
+  }
+  for (ParamValue& triangle : list) {
+    std::vector<ParamValue> corners = triangle.elements();
+    if (corners.size() != 3) {
+      triangle.error("must be a list of 3 indices of vertices");
+      continue;
+    }
+    std::array<std::uint32_t, 3> indices{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      int index = 0;
+      corners[i].integer(index, 0, static_cast<int>(mesh->vertices.size()) - 1);
+      indices[i] = static_cast<std::uint32_t>(index);
+    }
+    mesh->triangles.push_back(indices);
+  }
+  return mesh;
+}
+
+Shape makeShape(ParamValue& value, const std::string& type, const Params& params) {
+  const ShapeLimits limits = params.shapeLimits();
   double height = 1.0, radius = 1.0;
   if (type == "box") {
     Eigen::Vector3d size = Eigen::Vector3d::Ones();
@@ -29,9 +68,11 @@ Shape readPrimitive(ParamValue& value, const std::string& type, const ShapeLimit
     readLength(value, "radius", radius);
     return Shape::sphere(radius, limits);
   }
+  if (type == "hull") return Shape::hull(readMesh(value, false, params), limits);
+  if (type == "mesh") return Shape::mesh(readMesh(value, true, params), limits);
   if (type != "cylinder" && type != "cone" && type != "capsule") {
-    throw Refusal(Code::unsupported,
-                  "has type '" + printable(type, 48) + "'; it must be box, sphere, cylinder, cone or capsule");
+    throw Refusal(Code::unsupported, "has type '" + printable(type, 48) +
+                                         "'; it must be box, sphere, cylinder, cone, capsule, hull or mesh");
   }
   readLength(value, "height", height);
   readLength(value, "radius", radius);
@@ -39,18 +80,63 @@ Shape readPrimitive(ParamValue& value, const std::string& type, const ShapeLimit
   return type == "cone" ? Shape::cone(height, radius, limits) : Shape::capsule(height, radius, limits);
 }
 
-void readShape(ParamValue value, const ShapeLimits& limits, std::vector<BodyShape>& shapes) {
+void readShape(ParamValue value, const Params& params, std::vector<BodyShape>& shapes) {
   if (!value.requireStruct()) return;
   std::string type;
   if (auto named = value.require("type")) named->string(type);
   Pose pose = Pose::Identity();
   if (auto given = value.get("pose")) pose = readPose(*given);
+  double padding = 0.0;
+  if (auto given = value.get("padding")) given->number(padding, 0.0, 1e3, "m");
   try {
-    shapes.push_back({readPrimitive(value, type, limits), pose, 0.0, {}, Eigen::Vector3d::Ones()});
+    shapes.push_back({makeShape(value, type, params), pose, padding, {}, Eigen::Vector3d::Ones()});
   } catch (const Refusal& refusal) {
     value.error(std::string(refusal.code() == Code::unsupported ? "" : "is not a valid shape: ") + refusal.what());
   }
   value.finish("field of a shape");
+}
+
+/// Reads the four numbers of a quaternion, x first.
+Eigen::Quaterniond readQuaternion(ParamValue value) {
+  Eigen::Vector4d xyzw(0.0, 0.0, 0.0, 1.0);
+  std::vector<ParamValue> numbers = value.elements();
+  if (numbers.size() != 4) {
+    value.error("has " + std::to_string(numbers.size()) + " elements; it must have 4: x, y, z, w");
+    return Eigen::Quaterniond::Identity();
+  }
+  for (int i = 0; i < 4; ++i) numbers[static_cast<std::size_t>(i)].number(xyzw[i], -2.0, 2.0, "");
+  try {
+    return Eigen::Quaterniond(checkedPose(Eigen::Vector3d::Zero(), xyzw, "its rotation").linear());
+  } catch (const Refusal& refusal) {
+    value.error(std::string("is not a rotation: ") + refusal.what());
+    return Eigen::Quaterniond::Identity();
+  }
+}
+
+void readObstacle(ParamValue& element, const Params& params, ObstacleParams& obstacle) {
+  if (auto frame = element.get("frame")) frame->string(obstacle.body.frame);
+  obstacle.body.frame = withoutSlash(obstacle.body.frame);
+  if (auto pose = element.get("pose")) obstacle.body.frame_from_body = readPose(*pose);
+  if (auto shapes = element.require("shapes")) {
+    const std::vector<ParamValue> list = shapes->elements();
+    if (list.empty()) shapes->error("has no shape; it must have at least one");
+    for (const ParamValue& shape : list) readShape(shape, params, obstacle.body.shapes);
+  }
+  if (auto given = element.get("moving")) given->flag(obstacle.moving);
+  if (auto given = element.get("margin")) given->number(obstacle.margin, 0.0, 1e3, "m");
+  if (auto given = element.get("max_speed")) given->number(obstacle.max_speed, 0.0, 1e6, "m/s");
+  if (auto given = element.get("lifetime")) given->number(obstacle.lifetime, 0.0, 1e9, "s");
+  if (auto given = element.get("lost_at_end")) given->flag(obstacle.lost_at_end);
+  if (auto given = element.get("owner")) {
+    given->string(obstacle.owner);
+    if (obstacle.owner.size() > kLongestOwner || printable(obstacle.owner, kLongestOwner) != obstacle.owner) {
+      given->error("is '" + printable(obstacle.owner, 48) +
+                   "'; it must be UTF-8 without control characters, of at most " + std::to_string(kLongestOwner) +
+                   " bytes");
+    }
+  }
+  element.finish(
+      "field of an obstacle (name, frame, pose, shapes, moving, margin, max_speed, lifetime, lost_at_end, owner)");
 }
 
 }  // namespace
@@ -60,9 +146,17 @@ Pose readPose(ParamValue value) {
   if (!value.requireStruct()) return pose;
   Eigen::Vector3d xyz = Eigen::Vector3d::Zero(), rpy = Eigen::Vector3d::Zero();
   if (auto given = value.get("xyz")) given->vector(xyz, kFarthest);
-  if (auto given = value.get("rpy")) given->vector(rpy, kFarthest);
-  value.finish("field of a pose (xyz, rpy)");
+  const auto quaternion = value.get("quaternion");
+  if (auto given = value.get("rpy")) {
+    given->vector(rpy, kFarthest);
+    if (quaternion) value.error("has rpy and quaternion; it must have only one of them");
+  }
+  value.finish("field of a pose (xyz, rpy, quaternion)");
   pose.translation() = xyz;
+  if (quaternion) {
+    pose.linear() = readQuaternion(*quaternion).toRotationMatrix();
+    return pose;
+  }
   pose.linear() =
       (Eigen::AngleAxisd(rpy[2], Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(rpy[1], Eigen::Vector3d::UnitY()) *
        Eigen::AngleAxisd(rpy[0], Eigen::Vector3d::UnitX()))
@@ -83,7 +177,7 @@ void readLocalName(ParamValue& element, std::string& name, std::set<std::string>
     given->error("is '" + printable(name) + "', which is already used; names must differ");
 }
 
-std::vector<ObstacleParams> readObstacles(ParamValue value, const ShapeLimits& limits) {
+std::vector<ObstacleParams> readObstacles(ParamValue value, const Params& params) {
   std::vector<ObstacleParams> obstacles;
   std::set<std::string> names;
   for (ParamValue& element : value.elements()) {
@@ -92,15 +186,7 @@ std::vector<ObstacleParams> readObstacles(ParamValue value, const ShapeLimits& l
     std::string name;
     readLocalName(element, name, names);
     obstacle.body.name = joined("obstacle", name);
-    if (auto frame = element.get("frame")) frame->string(obstacle.body.frame);
-    obstacle.body.frame = withoutSlash(obstacle.body.frame);
-    if (auto pose = element.get("pose")) obstacle.body.frame_from_body = readPose(*pose);
-    if (auto shapes = element.require("shapes")) {
-      const std::vector<ParamValue> list = shapes->elements();
-      if (list.empty()) shapes->error("has no shape; it must have at least one");
-      for (const ParamValue& shape : list) readShape(shape, limits, obstacle.body.shapes);
-    }
-    element.finish("field of an obstacle (name, frame, pose, shapes)");
+    readObstacle(element, params, obstacle);
     obstacles.push_back(std::move(obstacle));
   }
   return obstacles;

@@ -11,12 +11,13 @@
 
 namespace hgrid {
 
-/// Reads a pose {xyz: [m], rpy: [rad]}. If xyz or rpy is left out, it is zero.
+/// Reads a pose {xyz: [m], rpy: [rad]} or {xyz: [m], quaternion: [x, y, z, w]}. If one of them is left out, it is zero.
 Pose readPose(ParamValue value);
 
-/// Reads ~obstacles: a list of {name, frame, pose, shapes: [{type, ..., pose}]}. If an entry has no frame, the frame of
-/// the obstacle is empty, which means the world frame.
-std::vector<ObstacleParams> readObstacles(ParamValue value, const ShapeLimits& limits);
+/// Reads ~obstacles, a list of obstacles. If an entry has no frame, the frame of the obstacle is empty, which means the
+/// world frame.
+/// @param params  limits for the sizes of shapes and the number of triangles
+std::vector<ObstacleParams> readObstacles(ParamValue value, const Params& params);
 
 /// Reads the required name of an element of a list. It is the name without its source.
 /// @param names  the names of the earlier elements. The new name must differ from all of them and is added to them.

@@ -37,9 +37,10 @@ void visitParams(Visitor& v, Params& p) {
   v.number("finest_edge", p.finest_edge, "m", 0.0, 1000.0,
            "longest side of the boxes on the finest level of the grid, at least 0.001; 0: chosen from the bodies");
 
-  v.string("state_folder", p.state_folder,
-           "folder in which obstacles, rules and maps that services changed are stored, so that a restart keeps them; the "
-           "node creates it if its parent exists, and each node needs its own. Empty: nothing is stored");
+  v.string(
+      "state_folder", p.state_folder,
+      "folder in which obstacles, rules and maps that services changed are stored, so that a restart keeps them; the "
+      "node creates it if its parent exists, and each node needs its own. Empty: nothing is stored");
 
   v.section("Robots");
   v.robots("robots", p.robots,
@@ -63,10 +64,14 @@ void visitParams(Visitor& v, Params& p) {
   v.section("Obstacles");
   v.obstacles(
       "obstacles", p.obstacles,
-      "list of {name, frame, pose: {xyz: [m], rpy: [rad]}, shapes: [{type, pose, ...}]}. Types and their sizes "
-      "in m: box (size: [x, y, z]), sphere (radius), cylinder, cone, capsule (height, radius). frame: tf frame "
-      "that the obstacle follows; empty: it is fixed in the world frame; ~poses: messages of the topic ~poses move "
-      "it");
+      "list of {name, frame, pose: {xyz: [m], rpy: [rad]}, shapes: [{type, pose, padding, ...}]}. Types and their "
+      "sizes "
+      "in m: box (size: [x, y, z]), sphere (radius), cylinder, cone, capsule (height, radius), hull (vertices: "
+      "[[x, y, z], ...]), mesh (vertices, triangles: lists of 3 indices of vertices). A pose may have quaternion: "
+      "[x, y, z, w] instead of rpy. frame: tf frame that the obstacle follows; empty: it is fixed in the world frame; "
+      "~poses: messages of the topic ~poses move it. An obstacle may also have moving, margin, max_speed, lifetime "
+      "[s], "
+      "lost_at_end and owner, as in Obstacle.msg");
   v.flag(
       "moveit/topics", p.moveit_topics,
       "whether to read MoveIt's topics collision_object, attached_collision_object and planning_scene; their objects "

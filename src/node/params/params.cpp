@@ -164,7 +164,7 @@ class Reader {
             });
   }
   void finish() {
-    if (obstacles_) *obstacles_target_ = readObstacles(*obstacles_, params_.shapeLimits());
+    if (obstacles_) *obstacles_target_ = readObstacles(*obstacles_, params_);
     for (auto& group : groups_) {
       if (group.second) group.second->finish("parameter of this node");
     }

@@ -22,9 +22,15 @@ struct RobotParams {
   std::string tf_prefix;                                ///< its tf frames are "tf_prefix/link"; empty: "link"
 };
 
-/// An obstacle from ~obstacles. If its frame is empty, it is fixed in the world frame.
+/// An obstacle from ~obstacles.
 struct ObstacleParams {
-  Body body;
+  Body body;               ///< its name, frame (empty: the world frame), pose in that frame, and shapes with paddings
+  bool moving = false;     ///< whether it makes pairs with fixed bodies even if it follows the world frame
+  double margin = 0.0;     ///< [m] 0: as ~margins and ~margin say
+  double max_speed = 0.0;  ///< [m/s] 0: as ~max_speed and ~default_max_speed say
+  double lifetime = 0.0;   ///< [s] of ROS time, from its last change; 0: unlimited
+  bool lost_at_end = false;  ///< at the end of its lifetime, it becomes LOST; otherwise it is removed
+  std::string owner;         ///< who is responsible for it; empty: nobody
 };
 
 /// A map from ~maps. Its cells come from a file or from a topic.

@@ -2,7 +2,10 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/sources/body_params.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <limits>
+#include <vector>
 
 #include "hgrid_proximity/bodies/name.h"
 
@@ -28,6 +31,20 @@ void applyMaxSpeed(const Params& params, Body& body) {
 
 void makeSolids(NarrowPhase& narrow_phase, Body& body) {
   for (BodyShape& shape : body.shapes) shape.solid = narrow_phase.solidOf(shape.shape);
+}
+
+void completeObstacle(const Params& params, double margin, double max_speed, NarrowPhase& narrow_phase,
+                      Body& obstacle) {
+  std::vector<double> paddings;
+  for (const BodyShape& shape : obstacle.shapes) paddings.push_back(shape.padding);
+  applyMaxSpeed(params, obstacle);
+  applyPatterns(params, obstacle);  // replaces the paddings
+  for (std::size_t i = 0; i < paddings.size(); ++i) {
+    obstacle.shapes[i].padding = std::max(obstacle.shapes[i].padding, paddings[i]);
+  }
+  if (margin > 0.0) obstacle.margin = margin;
+  if (max_speed > 0.0) obstacle.max_speed = max_speed;
+  makeSolids(narrow_phase, obstacle);
 }
 
 }  // namespace hgrid

@@ -20,6 +20,19 @@ Time endOf(const RequestedObstacle& obstacle, Time now) {
   return obstacle.lifetime > Time::max() - now ? Time::max() : now + obstacle.lifetime;
 }
 
+/// Returns a configured obstacle in the form of a request.
+RequestedObstacle requestedOf(const ObstacleParams& configured, const Params& params, NarrowPhase& narrow_phase) {
+  RequestedObstacle what;
+  what.body = configured.body;
+  completeObstacle(params, configured.margin, configured.max_speed, narrow_phase, what.body);
+  what.place = {configured.body.frame, configured.body.frame_from_body, std::nullopt};
+  what.moving = configured.moving;
+  what.lost_at_end = configured.lost_at_end;
+  what.owner = configured.owner;
+  what.lifetime = std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * configured.lifetime));
+  return what;
+}
+
 /// Returns whether the obstacle of a change belongs to the complete set of the request.
 bool belongsToSet(const ObstacleChange& change) {
   using Kind = ObstacleChange::Kind;
@@ -51,14 +64,15 @@ void ObstacleBodies::startAgain() noexcept {
 
 void ObstacleBodies::addAll(const std::string& world_frame, Time now, Movers& movers, MissingSources& missing) {
   while (done_ < params_.obstacles.size()) {
-    const Body& configured = params_.obstacles[done_].body;
+    const ObstacleParams& configured = params_.obstacles[done_];
+    const std::string& local = configured.body.name;
     try {
       // What an earlier run made of an obstacle takes precedence over the parameters.
-      const bool was_changed = stored_.count(configured.name) != 0 || removed_.count(configured.name) != 0;
-      if (!was_changed) addConfigured(configured, world_frame, movers);
+      const bool was_changed = stored_.count(local) != 0 || removed_.count(local) != 0;
+      if (!was_changed) addConfigured(configured, world_frame, now, movers);
       ++done_;
     } catch (const Refusal& refusal) {
-      missing.set(SourceId::ofObstacle(configured.name), std::string(name(refusal.code())) + " " + refusal.what());
+      missing.set(SourceId::ofObstacle(local), std::string(name(refusal.code())) + " " + refusal.what());
       ++done_;
       ledger_.refuse("obstacles.refused", refusal);
     }
@@ -66,21 +80,22 @@ void ObstacleBodies::addAll(const std::string& world_frame, Time now, Movers& mo
   if (!stored_.empty()) addStored(world_frame, now, movers, missing);
 }
 
-void ObstacleBodies::addConfigured(const Body& configured, const std::string& world_frame, Movers& movers) {
-  auto what = std::make_shared<RequestedObstacle>();
-  what->body = configured;
-  applyMaxSpeed(params_, what->body);
-  applyPatterns(params_, what->body);
-  makeSolids(*narrow_phase_, what->body);
-  what->place = {configured.frame, configured.frame_from_body, std::nullopt};
+void ObstacleBodies::addConfigured(const ObstacleParams& configured, const std::string& world_frame, Time now,
+                                   Movers& movers) {
+  const auto what = std::make_shared<const RequestedObstacle>(requestedOf(configured, params_, *narrow_phase_));
+  const Body& body = what->body;
   Obstacles added;
-  PlacedObstacle& obstacle = added[configured.name];
+  PlacedObstacle& obstacle = added[body.name];
   obstacle.what = what;
+  obstacle.owner = what->owner;
   obstacle.asked = what->place;
-  obstacle.frame = followedFrame(configured.frame, configured.name, world_frame);
-  obstacle.frame_from_body = configured.frame_from_body;
-  movers.add(SourceId::ofObstacle(configured.name), bodyOf(obstacle, world_frame));
+  obstacle.frame = followedFrame(what->place.frame, body.name, world_frame);
+  obstacle.frame_from_body = what->place.frame_from_body;
+  obstacle.ends = endOf(*what, now);
+  const Time first_end = std::min(first_end_, obstacle.ends);
+  movers.add(SourceId::ofObstacle(body.name), bodyOf(obstacle, world_frame));
   present_.merge(added);  // does not throw
+  first_end_ = first_end;
 }
 
 /// Adds the stored obstacles: all together, which is fast, or one by one if one of them is refused.

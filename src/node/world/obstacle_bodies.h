@@ -79,7 +79,7 @@ class ObstacleBodies {
   std::vector<std::string> chosen(const Edits& edits,
                                   const std::function<bool(const PlacedObstacle&)>& is_chosen) const;
   std::vector<PairRule> touchRulesAfter(const Edits& edits) const;
-  void addConfigured(const Body& configured, const std::string& world_frame, Movers& movers);
+  void addConfigured(const ObstacleParams& configured, const std::string& world_frame, Time now, Movers& movers);
   void addStored(const std::string& world_frame, Time now, Movers& movers, MissingSources& missing);
   void carryOut(Edits edits, const std::string& world_frame, Movers& movers);
 
