@@ -12,7 +12,8 @@ build_packages=(
   catkin cmake g++ make ros-core-dev
   libassimp-dev libconsole-bridge-dev libdiagnostic-updater-dev libeigen3-dev libfcl-dev libgtest-dev
   libnodelet-dev
-  libnodeletlib-dev libtf2-msgs-dev libtinyxml2-dev liburdfdom-dev liburdfdom-headers-dev pluginlib-dev
+  libnodeletlib-dev libtf2-msgs-dev libtinyxml2-dev liburdfdom-dev liburdfdom-headers-dev libyaml-cpp-dev
+  pluginlib-dev
   python3-setuptools
 )
 demo_packages=(

@@ -15,12 +15,13 @@ import unittest
 
 import rospy
 import rosunit
+import yaml
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from hgrid_proximity import obstacles
 from hgrid_proximity.client import Proximity
 from hgrid_proximity.errors import ProximityError
 from hgrid_proximity.msg import AllowedPair, Bodies, Rules
-from hgrid_proximity.srv import SetAllowed
+from hgrid_proximity.srv import LoadScene, SaveScene, SetAllowed
 from moving_ball import Ball
 
 PATIENCE = 120.0  # [s] for a machine that is busy with other tests
@@ -130,6 +131,73 @@ class State(unittest.TestCase):
         self.assertTrue(allow(rules=[rule], remove=True).success)
         self.restart()
         self.assertEqual(rospy.wait_for_message("/proximity/rules", Rules, PATIENCE).rules, [])
+
+    def test_a_saved_scene_can_be_loaded_again(self):
+        save = rospy.ServiceProxy("/proximity/save_scene", SaveScene)
+        load = rospy.ServiceProxy("/proximity/load_scene", LoadScene)
+        allow = rospy.ServiceProxy("/proximity/set_allowed", SetAllowed)
+        rule = AllowedPair(first="robot/ball", second="obstacle/part", allowed=True, reason="for the test")
+        wedge = obstacles.hull([(0, 0, 0), (0.1, 0, 0), (0, 0.1, 0), (0, 0, 1e-5)])
+        self.apply(
+            obstacles.add("part", wedge, (3, 0, 0), owner="me"),
+            obstacles.add("held", obstacles.box((0.1, 0.2, 0.3))),
+            obstacles.attach("held", "robot/ball", (0.5, 0, 0)),
+            obstacles.remove("crate"),
+        )
+        self.assertTrue(allow(rules=[rule]).success)
+        saved = save(name="night")
+        self.assertTrue(saved.success, saved.code)
+        self.assertEqual(saved.path, str(self.folder / "own" / "scenes" / "night.yaml"))
+        again = save(name="night")
+        self.assertFalse(again.success)
+        self.assertIn("exists already", again.code.text)
+        self.assertTrue(save(name="night", replace=True).success)
+
+        # rosparam reads the file as the node does, and it is valid as parameters.
+        content = yaml.safe_load(pathlib.Path(saved.path).read_text())
+        self.assertEqual([entry["name"] for entry in content["obstacles"]], ["held", "lamp", "part"])
+        self.assertEqual(content["obstacles"][2]["shapes"][0]["vertices"][3], [0.0, 0.0, 1e-5])
+        self.assertEqual(content["obstacles"][0]["attached"]["link"], "robot/ball")
+        self.assertEqual(content["allowed_pairs"][0]["reason"], "for the test")
+
+        self.apply(obstacles.remove("part"), obstacles.remove("held"), obstacles.add("other", obstacles.sphere(0.1), (4, 0, 0)))
+        kept = load(name="night")
+        self.assertTrue(kept.success and kept.durable, kept)
+        self.assertEqual(set(self.bodies()), {"held", "lamp", "part", "other"})
+        self.assertTrue(load(name="night", replace=True).success)
+        self.assertEqual(set(self.bodies()), {"held", "lamp", "part"})
+        self.assertEqual(self.at(3.01, 0.01, 0.0), ["obstacle/part"])
+        self.assertEqual(self.at(self.ball.x + 0.5, 0, 0), ["obstacle/held"])
+        rules = rospy.wait_for_message("/proximity/rules", Rules, PATIENCE).rules
+        self.assertIn(("robot/ball", "obstacle/part"), [(each.first, each.second) for each in rules])
+        missing = load(name="day")
+        self.assertFalse(missing.success)
+        self.assertIn("there is no scene", missing.code.text)
+        pathlib.Path(saved.path).write_text("obstacles:\n- name: part\n  colour: red\n")
+        wrong = load(name="night", replace=True)
+        self.assertFalse(wrong.success)
+        self.assertIn("night.yaml/obstacles[0]/colour is not a field of an obstacle", wrong.code.text)
+        self.assertEqual(set(self.bodies()), {"held", "lamp", "part"})
+
+    def test_a_scene_is_valid_as_parameters(self):
+        self.apply(
+            obstacles.add("held", obstacles.box((0.1, 0.2, 0.3))),
+            obstacles.attach("held", "robot/ball", (0.5, 0, 0), touch=["obstacle/lamp"]),
+        )
+        path = rospy.ServiceProxy("/proximity/save_scene", SaveScene)(name="night").path
+        content = yaml.safe_load(pathlib.Path(path).read_text())
+        self.kill()
+        configured = rospy.get_param("/proximity/obstacles")
+        shutil.rmtree(str(self.folder / "own"))
+        try:
+            rospy.set_param("/proximity/obstacles", content["obstacles"])
+            self.start()
+            self.assertEqual(set(self.bodies()), {"crate", "held", "lamp"})
+            self.assertEqual(self.bodies()["held"].note, "")
+            self.assertEqual(self.at(self.ball.x + 0.5, 0, 0), ["obstacle/held"])
+            self.apply(obstacles.detach("held"))
+        finally:
+            rospy.set_param("/proximity/obstacles", configured)
 
     def test_a_damaged_file_is_kept_and_reported(self):
         self.apply(obstacles.add("first", obstacles.sphere(0.1), (3, 0, 0)))

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "hgrid_proximity/bodies/name.h"
+#include "hgrid_proximity/pairs/pair_rule.h"
 #include "hgrid_proximity/refusal.h"
 #include "node/tf/frame_names.h"
 
@@ -113,6 +114,32 @@ Eigen::Quaterniond readQuaternion(ParamValue value) {
   }
 }
 
+/// Reads {link, pose, touch}.
+void readAttached(ParamValue value, ParamValue& element, ObstacleParams& obstacle) {
+  if (!value.requireStruct()) return;
+  if (element.get("frame") || element.get("pose"))
+    element.error("has attached, and frame or pose; the pose of an attached obstacle is in attached/pose");
+  AttachedParams attached;
+  if (auto link = value.require("link")) {
+    link->string(attached.link);
+    if (attached.link.find('/') == std::string::npos || isGlob(attached.link))
+      link->error("is '" + printable(attached.link) + "'; it must be the name robot/link of a link");
+  }
+  if (auto pose = value.get("pose")) attached.link_from_body = readPose(*pose);
+  if (auto touch = value.get("touch")) {
+    touch->strings(attached.touch);
+    for (const std::string& glob : attached.touch) {
+      try {
+        checkRule(PairRule{obstacle.body.name, glob, ""});
+      } catch (const Refusal& refusal) {
+        touch->error(refusal.what());
+      }
+    }
+  }
+  value.finish("field of attached (link, pose, touch)");
+  obstacle.attached = std::move(attached);
+}
+
 void readObstacle(ParamValue& element, const Params& params, ObstacleParams& obstacle) {
   if (auto frame = element.get("frame")) frame->string(obstacle.body.frame);
   obstacle.body.frame = withoutSlash(obstacle.body.frame);
@@ -135,8 +162,10 @@ void readObstacle(ParamValue& element, const Params& params, ObstacleParams& obs
                    " bytes");
     }
   }
+  if (auto given = element.get("attached")) readAttached(*given, element, obstacle);
   element.finish(
-      "field of an obstacle (name, frame, pose, shapes, moving, margin, max_speed, lifetime, lost_at_end, owner)");
+      "field of an obstacle (name, frame, pose, shapes, moving, margin, max_speed, lifetime, lost_at_end, owner, "
+      "attached)");
 }
 
 }  // namespace
@@ -190,6 +219,21 @@ std::vector<ObstacleParams> readObstacles(ParamValue value, const Params& params
     obstacles.push_back(std::move(obstacle));
   }
   return obstacles;
+}
+
+std::vector<PairRule> readRules(ParamValue value) {
+  std::vector<PairRule> rules;
+  for (ParamValue& element : value.elements()) {
+    if (!element.requireStruct()) continue;
+    PairRule rule;
+    if (auto given = element.require("first")) given->string(rule.first);
+    if (auto given = element.require("second")) given->string(rule.second);
+    if (auto given = element.get("reason")) given->string(rule.reason);
+    if (auto given = element.get("allowed")) given->flag(rule.allowed);
+    element.finish("field of an allowed pair (first, second, reason, allowed)");
+    rules.push_back(std::move(rule));
+  }
+  return rules;
 }
 
 }  // namespace hgrid

@@ -19,6 +19,9 @@ Pose readPose(ParamValue value);
 /// @param params  limits for the sizes of shapes and the number of triangles
 std::vector<ObstacleParams> readObstacles(ParamValue value, const Params& params);
 
+/// Reads ~allowed_pairs: a list of {first, second, reason, allowed}. Does not check the names.
+std::vector<PairRule> readRules(ParamValue value);
+
 /// Reads the required name of an element of a list. It is the name without its source.
 /// @param names  the names of the earlier elements. The new name must differ from all of them and is added to them.
 void readLocalName(ParamValue& element, std::string& name, std::set<std::string>& names);

@@ -71,7 +71,9 @@ void visitParams(Visitor& v, Params& p) {
       "[x, y, z, w] instead of rpy. frame: tf frame that the obstacle follows; empty: it is fixed in the world frame; "
       "~poses: messages of the topic ~poses move it. An obstacle may also have moving, margin, max_speed, lifetime "
       "[s], "
-      "lost_at_end and owner, as in Obstacle.msg");
+      "lost_at_end and owner, as in Obstacle.msg, and attached: {link: robot/link, pose, touch: [globs]} instead of "
+      "frame "
+      "and pose");
   v.flag(
       "moveit/topics", p.moveit_topics,
       "whether to read MoveIt's topics collision_object, attached_collision_object and planning_scene; their objects "
@@ -140,7 +142,8 @@ void visitParams(Visitor& v, Params& p) {
   v.kinds("pair_kinds", p.pair_kinds,
           "kinds of pairs that are reported: any of self, robot_robot, robot_obstacle, robot_map, moving_obstacle");
   v.allowed("allowed_pairs", p.allowed_pairs,
-            "list of {first, second, reason}: globs over body names; pairs that match may touch and are not reported");
+            "list of {first, second, reason, allowed}: globs over body names; pairs that match may touch and are not "
+            "reported; allowed: false: they are reported, even if a robot allows them");
   v.values("margins", p.margins, "margin", "m", 0.0, 1000.0,
            "list of {pattern, margin}: margin of the bodies that match the glob. A pair has the larger margin of its "
            "two bodies. If several globs match, the last one counts");

@@ -80,12 +80,7 @@ class Reader {
     });
   }
   void allowed(const char* name, std::vector<PairRule>& value, const char*) {
-    forEach(name, "field of an allowed pair (first, second, reason)", [&](ParamValue& element) {
-      value.emplace_back();
-      readString(element, "first", value.back().first, true);
-      readString(element, "second", value.back().second, true);
-      readString(element, "reason", value.back().reason, false);
-    });
+    if (auto given = get(name)) value = readRules(*given);
   }
   void pairMargins(const char* name, std::vector<PairMargin>& value, double low, double high, const char*) {
     forEach(name, "field of this entry", [&](ParamValue& element) {

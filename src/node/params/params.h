@@ -4,6 +4,7 @@
 
 #include <XmlRpcValue.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,15 +23,23 @@ struct RobotParams {
   std::string tf_prefix;                                ///< its tf frames are "tf_prefix/link"; empty: "link"
 };
 
+/// The link that an obstacle of ~obstacles is attached to.
+struct AttachedParams {
+  std::string link;                        ///< full name: "robot/tool0"
+  Pose link_from_body = Pose::Identity();  ///< pose of the obstacle in the frame of the link
+  std::vector<std::string> touch;          ///< globs over the names of bodies that may touch the obstacle
+};
+
 /// An obstacle from ~obstacles.
 struct ObstacleParams {
-  Body body;               ///< its name, frame (empty: the world frame), pose in that frame, and shapes with paddings
-  bool moving = false;     ///< whether it makes pairs with fixed bodies even if it follows the world frame
-  double margin = 0.0;     ///< [m] 0: as ~margins and ~margin say
-  double max_speed = 0.0;  ///< [m/s] 0: as ~max_speed and ~default_max_speed say
-  double lifetime = 0.0;   ///< [s] of ROS time, from its last change; 0: unlimited
+  Body body;                 ///< its name, frame (empty: the world frame), pose in that frame, and shapes with paddings
+  bool moving = false;       ///< whether it makes pairs with fixed bodies even if it follows the world frame
+  double margin = 0.0;       ///< [m] 0: as ~margins and ~margin say
+  double max_speed = 0.0;    ///< [m/s] 0: as ~max_speed and ~default_max_speed say
+  double lifetime = 0.0;     ///< [s] of ROS time, from its last change; 0: unlimited
   bool lost_at_end = false;  ///< at the end of its lifetime, it becomes LOST; otherwise it is removed
   std::string owner;         ///< who is responsible for it; empty: nobody
+  std::optional<AttachedParams> attached = {};  ///< the link that it follows instead of its frame; nullopt: none
 };
 
 /// A map from ~maps. Its cells come from a file or from a topic.

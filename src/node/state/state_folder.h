@@ -7,22 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "node/state/state_files.h"
 #include "node/state/state_log.h"
 
 namespace hgrid {
-
-/// A file descriptor that is closed when this object is destroyed.
-class Descriptor {
- public:
-  explicit Descriptor(int number = -1) : number_(number) {}
-  Descriptor(Descriptor&& other) noexcept;
-  Descriptor& operator=(Descriptor&& other) noexcept;
-  ~Descriptor();
-  int get() const { return number_; }
-
- private:
-  int number_;
-};
 
 /// The files of ~state_folder. "state" holds the newest state. "state.previous" is its predecessor. "state.damaged" is
 /// the newest file that could not be read completely. "lock" keeps other processes out.

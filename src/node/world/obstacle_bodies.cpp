@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "hgrid_proximity/bodies/name.h"
-#include "node/sources/body_params.h"
+#include "node/sources/configured_obstacle.h"
 
 namespace hgrid {
 namespace {
@@ -18,19 +18,6 @@ namespace {
 Time endOf(const RequestedObstacle& obstacle, Time now) {
   if (obstacle.lifetime == std::chrono::nanoseconds(0)) return Time::max();
   return obstacle.lifetime > Time::max() - now ? Time::max() : now + obstacle.lifetime;
-}
-
-/// Returns a configured obstacle in the form of a request.
-RequestedObstacle requestedOf(const ObstacleParams& configured, const Params& params, NarrowPhase& narrow_phase) {
-  RequestedObstacle what;
-  what.body = configured.body;
-  completeObstacle(params, configured.margin, configured.max_speed, narrow_phase, what.body);
-  what.place = {configured.body.frame, configured.body.frame_from_body, std::nullopt};
-  what.moving = configured.moving;
-  what.lost_at_end = configured.lost_at_end;
-  what.owner = configured.owner;
-  what.lifetime = std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * configured.lifetime));
-  return what;
 }
 
 /// Returns whether the obstacle of a change belongs to the complete set of the request.
@@ -82,18 +69,25 @@ void ObstacleBodies::addAll(const std::string& world_frame, Time now, Movers& mo
 
 void ObstacleBodies::addConfigured(const ObstacleParams& configured, const std::string& world_frame, Time now,
                                    Movers& movers) {
-  const auto what = std::make_shared<const RequestedObstacle>(requestedOf(configured, params_, *narrow_phase_));
-  const Body& body = what->body;
   Obstacles added;
-  PlacedObstacle& obstacle = added[body.name];
-  obstacle.what = what;
-  obstacle.owner = what->owner;
-  obstacle.asked = what->place;
-  obstacle.frame = followedFrame(what->place.frame, body.name, world_frame);
-  obstacle.frame_from_body = what->place.frame_from_body;
-  obstacle.ends = endOf(*what, now);
+  PlacedObstacle& obstacle = added[configured.body.name];
+  obstacle.what = requestedOf(configured, params_, *narrow_phase_);
+  obstacle.owner = obstacle.what->owner;
+  obstacle.asked = obstacle.what->place;
+  obstacle.frame = followedFrame(obstacle.asked.frame, configured.body.name, world_frame);
+  obstacle.frame_from_body = obstacle.asked.frame_from_body;
+  obstacle.ends = endOf(*obstacle.what, now);
+  obstacle.attachment = attachmentOf(configured);
+  if (obstacle.attachment) {  // followRobots() finds the right place when the robot is there
+    obstacle.frame = obstacle.attachment->link;
+    obstacle.frame_from_body = *obstacle.attachment->link_from_body;
+    obstacle.touch = obstacle.attachment->touch;
+    carryOut({std::move(added), {}}, world_frame, movers);
+    robots_revision_ = kNoRevision;
+    return;
+  }
   const Time first_end = std::min(first_end_, obstacle.ends);
-  movers.add(SourceId::ofObstacle(body.name), bodyOf(obstacle, world_frame));
+  movers.add(SourceId::ofObstacle(configured.body.name), bodyOf(obstacle, world_frame));
   present_.merge(added);  // does not throw
   first_end_ = first_end;
 }
@@ -298,7 +292,9 @@ void ObstacleBodies::apply(const ObstacleChanges& changes, const Surroundings& a
       edits.set.erase(name);
     }
   }
+  std::set<std::string> unsaved = unsavedAfter(edits);
   carryOut(std::move(edits), around.world_frame, movers);
+  unsaved_.names.merge(unsaved);  // does not throw
 }
 
 void ObstacleBodies::followRobots(const RobotModels& robots, const std::string& world_frame, Movers& movers) {
@@ -325,8 +321,10 @@ void ObstacleBodies::expire(Time now, Movers& movers) {
       (obstacle.what->lost_at_end ? lost : edits.removed).insert(name);
     }
   }
+  std::set<std::string> unsaved = unsavedAfter(edits);
   carryOut(std::move(edits), "", movers);
   // The code below does not throw.
+  unsaved_.names.merge(unsaved);
   movers.giveUp(lost);
   for (const std::string& name : lost) present_.find(name)->second.lost = true;
   first_end_ = first_end;
@@ -361,11 +359,6 @@ void ObstacleBodies::carryOut(Edits edits, const std::string& world_frame, Mover
     }
     entering.push_back(bodyOf(next, world_frame));
   }
-  std::set<std::string> unsaved;
-  if (!params_.state_folder.empty()) {
-    unsaved = edits.removed;
-    for (const auto& edit : edits.set) unsaved.insert(edit.first);
-  }
   std::vector<PairRule> touch = touchRulesAfter(edits);
   if (!leaving.empty() || !entering.empty()) {
     Movers::Change change = movers.changeWithout(
@@ -382,7 +375,15 @@ void ObstacleBodies::carryOut(Edits edits, const std::string& world_frame, Mover
   if (!touch.empty() || !touch_.rules.empty()) ++touch_.revision;
   touch_.rules.swap(touch);
   first_end_ = first_end;
-  unsaved_.names.merge(unsaved);
+}
+
+/// Returns the names of the obstacles that the edits change, if changes are stored.
+std::set<std::string> ObstacleBodies::unsavedAfter(const Edits& edits) const {
+  std::set<std::string> names;
+  if (params_.state_folder.empty()) return names;
+  names = edits.removed;
+  for (const auto& edit : edits.set) names.insert(edit.first);
+  return names;
 }
 
 }  // namespace hgrid

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <set>
@@ -81,6 +82,7 @@ class ObstacleBodies {
   std::vector<PairRule> touchRulesAfter(const Edits& edits) const;
   void addConfigured(const ObstacleParams& configured, const std::string& world_frame, Time now, Movers& movers);
   void addStored(const std::string& world_frame, Time now, Movers& movers, MissingSources& missing);
+  std::set<std::string> unsavedAfter(const Edits& edits) const;
   void carryOut(Edits edits, const std::string& world_frame, Movers& movers);
 
   const Params& params_;
@@ -88,11 +90,12 @@ class ObstacleBodies {
   Ledger& ledger_;
   Obstacles present_;
   TouchRules touch_;
-  std::size_t done_ = 0;               // number of configured obstacles that were added or refused
-  Obstacles stored_;                   // by an earlier run, and not added yet
-  std::set<std::string> removed_;      // configured obstacles that an earlier run removed
+  std::size_t done_ = 0;           // number of configured obstacles that were added or refused
+  Obstacles stored_;               // by an earlier run, and not added yet
+  std::set<std::string> removed_;  // configured obstacles that an earlier run removed
   Unsaved unsaved_;
-  std::uint64_t robots_revision_ = 0;  // RobotModels::revision() in the last followRobots()
+  static constexpr std::uint64_t kNoRevision = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t robots_revision_ = 0;  // RobotModels::revision() in the last followRobots(), or kNoRevision
   Time first_end_ = Time::max();       // no lifetime ends before this time
 };
 

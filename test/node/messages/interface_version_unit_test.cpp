@@ -20,6 +20,7 @@
 #include <hgrid_proximity/GetAllowed.h>
 #include <hgrid_proximity/Hit.h>
 #include <hgrid_proximity/LoadOctomap.h>
+#include <hgrid_proximity/LoadScene.h>
 #include <hgrid_proximity/Obstacle.h>
 #include <hgrid_proximity/Pairs.h>
 #include <hgrid_proximity/Poses.h>
@@ -30,6 +31,7 @@
 #include <hgrid_proximity/QuerySphere.h>
 #include <hgrid_proximity/ReloadRobot.h>
 #include <hgrid_proximity/Rules.h>
+#include <hgrid_proximity/SaveScene.h>
 #include <hgrid_proximity/SelfPairs.h>
 #include <hgrid_proximity/SetAllowed.h>
 #include <hgrid_proximity/Shape.h>
@@ -102,7 +104,9 @@ const std::vector<Pin>& pins() {
       service<msg::QuerySegment>("QuerySegment", "83354b4bfa81d8e0a19b2fb48ee25859"),
       service<msg::QueryShape>("QueryShape", "76efaeb6fe39032be58a9723037afe87"),
       service<msg::QuerySphere>("QuerySphere", "8d1bde871426c698cbcc9a957b9511ad"),
+      service<msg::LoadScene>("LoadScene", "0f60ed149b20c1e7f0f9d60b39f74b52"),
       service<msg::ReloadRobot>("ReloadRobot", "c148d85435550cf328927baad9e10cd7"),
+      service<msg::SaveScene>("SaveScene", "c79d6e24b5e6e429b7bf1564478b72e1"),
       service<msg::SetAllowed>("SetAllowed", "0be1f0a89280398f26117a1d50a7b05f"),
   };
   return all;

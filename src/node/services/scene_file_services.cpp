@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/services/scene_file_services.h"
+
+#include <ros/time.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "hgrid_proximity/bodies/name.h"
+#include "hgrid_proximity/pairs/rule_book.h"
+#include "node/sources/configured_obstacle.h"
+#include "node/state/scene_file.h"
+#include "node/world/world.h"
+
+namespace hgrid {
+namespace {
+
+/// A scene that is ready for a tick.
+struct PreparedScene {
+  std::vector<ObstacleChange> changes;
+  std::set<std::string> names;  ///< full names of its obstacles
+  PreparedRules rules;
+};
+
+/// Checks that each name or glob is that of a body of the world or of an obstacle of the scene. @throws Refusal
+void checkNames(const std::vector<PairRule>& rules, const std::set<std::string>& obstacles, const BodyList& bodies) {
+  for (const PairRule& rule : rules) {
+    for (const std::string& glob : {rule.first, rule.second}) {
+      const auto is_meant = [&](const std::string& name) { return matches(glob, name); };
+      if (std::none_of(obstacles.begin(), obstacles.end(), is_meant)) checkKnown({PairRule{glob, glob, ""}}, bodies);
+    }
+  }
+}
+
+bool isService(const PairRule& rule) { return rule.origin == Origin::service; }
+
+/// Returns the rules that are in force after the scene was loaded.
+std::vector<PairRule> rulesAfter(std::vector<PairRule> present, const std::vector<PairRule>& loaded, bool replace,
+                                 const std::string& caller, const Params& params) {
+  if (replace) present.erase(std::remove_if(present.begin(), present.end(), isService), present.end());
+  RuleBook book(std::move(present), static_cast<std::size_t>(params.max_rules));
+  std::vector<PairRule> added = loaded;
+  for (PairRule& rule : added) {
+    rule.origin = Origin::service;
+    rule.set_by = caller;
+    rule.since = Time(static_cast<std::int64_t>(ros::Time::now().toNSec()));
+  }
+  book.add(added);
+  return book.rules();
+}
+
+}  // namespace
+
+SceneFileServices::SceneFileServices(ServiceEnvelope& envelope, const Params& params,
+                                     std::shared_ptr<NarrowPhase> narrow_phase, ChangeWorld change_world,
+                                     WaitUntilStored wait_until_stored)
+    : params_(params),
+      narrow_phase_(std::move(narrow_phase)),
+      change_world_(std::move(change_world)),
+      wait_until_stored_(std::move(wait_until_stored)) {
+  servers_.push_back(
+      envelope.serve<msg::SaveScene>("save_scene", [this](ServiceCall<msg::SaveScene>& call) { save(call); }));
+  servers_.push_back(
+      envelope.serve<msg::LoadScene>("load_scene", [this](ServiceCall<msg::LoadScene>& call) { load(call); }));
+}
+
+void SceneFileServices::save(ServiceCall<msg::SaveScene>& call) const {
+  const SceneFolder file(params_.state_folder, call.request.name);
+  const auto obstacles = std::make_shared<std::map<std::string, PlacedObstacle>>();
+  call.tick = AnswerTick(change_world_([obstacles](World& world) { *obstacles = world.obstacles().all(); }));
+  const std::vector<PairRule>& rules = call.tick.snapshot().structure().filter.rules();
+  file.write(sceneText(*obstacles, rules, params_), call.request.replace);
+  call.response.path = file.path();
+}
+
+void SceneFileServices::load(ServiceCall<msg::LoadScene>& call) const {
+  const SceneFolder file(params_.state_folder, call.request.name);
+  const SavedScene scene = readScene(file.read(), call.request.name + ".yaml", params_);
+  const Structure& structure = call.tick.snapshot().structure();
+  std::vector<ObstacleChange> changes;
+  std::set<std::string> names;
+  for (const ObstacleParams& obstacle : scene.obstacles) {
+    ObstacleChange change;
+    change.name = obstacle.body.name;
+    change.added = requestedOf(obstacle, params_, *narrow_phase_);
+    change.replace = true;
+    changes.push_back(change);
+    names.insert(change.name);
+    if (!obstacle.attached) continue;
+    change.kind = ObstacleChange::Kind::attach;
+    change.attachment = attachmentOf(obstacle);
+    changes.push_back(std::move(change));
+  }
+  checkNames(scene.rules, names, structure.bodies);
+  const std::vector<PairRule> rules =
+      rulesAfter(structure.filter.rules(), scene.rules, call.request.replace, call.caller, params_);
+  const auto prepared = std::make_shared<const PreparedScene>(
+      PreparedScene{std::move(changes),
+                    std::move(names),
+                    {PairFilter(structure.bodies, params_.pair_kinds, rules), structure.revision}});
+  call.tick = AnswerTick(change_world_([prepared, replace = call.request.replace](World& world) {
+    ObstacleChanges all;
+    if (replace) {
+      for (const auto& present : world.obstacles().all()) {
+        if (prepared->names.count(present.first) != 0) continue;
+        ObstacleChange change;
+        change.kind = ObstacleChange::Kind::remove;
+        change.name = present.first;
+        all.changes.push_back(std::move(change));
+      }
+    }
+    all.changes.insert(all.changes.end(), prepared->changes.begin(), prepared->changes.end());
+    PreparedRules next = prepared->rules;  // copied first, because nothing may fail after the obstacles were changed
+    world.applyObstacles(all, Time(static_cast<std::int64_t>(ros::Time::now().toNSec())));
+    world.setRules(std::move(next));
+  }));
+  call.response.durable = wait_until_stored_();
+}
+
+}  // namespace hgrid
