@@ -101,7 +101,14 @@ class Proximity:
                 ("explain_pair", srv.ExplainPair),
             )
         }
-        self._apply_obstacles = Service(f"{self._node}/apply_obstacles", srv.ApplyObstacles, timeout, repeat=False)
+        self._changes = {
+            name: Service(f"{self._node}/{name}", service, timeout, repeat=False)
+            for name, service in (
+                ("apply_obstacles", srv.ApplyObstacles),
+                ("save_scene", srv.SaveScene),
+                ("load_scene", srv.LoadScene),
+            )
+        }
 
     def __enter__(self) -> Proximity:
         return self
@@ -111,7 +118,7 @@ class Proximity:
 
     def close(self):
         """Closes all connections. The next call connects again."""
-        for service in self._services.values():
+        for service in (*self._services.values(), *self._changes.values()):
             service.close()
 
     def query_sphere(self, center, radius: float = 0.0, **options) -> Answer:
@@ -181,9 +188,37 @@ class Proximity:
             failed_index is the index of the refused change, also 0 if the whole request was
         """
         request = srv.ApplyObstaclesRequest(changes=list(changes), complete_set=complete_set, owner=owner)
-        response = self._apply_obstacles(request, min(max_time, LONGEST))
+        response = self._changes["apply_obstacles"](request, min(max_time, LONGEST))
         if not response.success:
             raise Refused(response.code.name, response.code.text, response.failed_index)
+        return response
+
+    def save_scene(self, name: str, replace: bool = False, max_time: float = 0.0):
+        """Saves all obstacles, attachments and lasting rules as `scenes/NAME.yaml` in ~state_folder.
+
+        @param replace  True: replace a scene of this name; False: refuse the name if there is such a scene
+        @param max_time  [s] how much longer than `timeout` to wait, for example for many large meshes
+        @returns the response; `response.path` is the path of the file
+        @throws Refused  nothing was written
+        """
+        return self._scene("save_scene", srv.SaveSceneRequest(name=name, replace=replace), max_time)
+
+    def load_scene(self, name: str, replace: bool = False, max_time: float = 0.0):
+        """Loads a saved scene, all of it or nothing. Obstacles of the scene replace those of the same names.
+
+        After NoAnswer, the scene may or may not be loaded; load it again.
+
+        @param replace  True: remove all other obstacles and all other rules of ~set_allowed; False: keep them
+        @param max_time  [s] how much longer than `timeout` to wait, for example for many large meshes
+        @returns the response; `response.world` is the state of the world in the first tick with the changes
+        @throws Refused  nothing was changed
+        """
+        return self._scene("load_scene", srv.LoadSceneRequest(name=name, replace=replace), max_time)
+
+    def _scene(self, service: str, request, max_time: float):
+        response = self._changes[service](request, min(max_time, LONGEST))
+        if not response.success:
+            raise Refused(response.code.name, response.code.text)
         return response
 
     def pairs(self) -> PairArrays:

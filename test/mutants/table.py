@@ -49,6 +49,8 @@ JOBS = "node/tick/tick_jobs.cpp"
 STOPWATCH = "node/tick/stopwatch.cpp"
 STATE_FOLDER = "node/state/state_folder.cpp"
 STATE_LOG = "node/state/state_log.cpp"
+SCENE_FILE = "node/state/scene_file.cpp"
+YAML_VALUE = "node/params/yaml_value.cpp"
 STORED_ITEMS = "node/state/stored_items.cpp"
 MOVERS = "node/world/mover_poses.cpp"
 OBSTACLES = "node/world/obstacle_bodies.cpp"
@@ -357,7 +359,14 @@ NODE = [
     ("a wall clock that was set back prolongs a rule", STORED_ITEMS,
      "std::min(std::chrono::nanoseconds(remaining), by_wall)", "by_wall"),
     ("a change does not confirm a restored obstacle", OBSTACLES, "  next.restored = false;", ""),
-    ("changes of obstacles are not stored", OBSTACLES, "  unsaved_.names.merge(unsaved);", ""),
+    ("changes of obstacles are not stored", OBSTACLES, "  unsaved_.names.merge(unsaved);  // does not throw", ""),
+    ("an obstacle that ended is there again after a restart", OBSTACLES,
+     "  unsaved_.names.merge(unsaved);\n  movers.giveUp(lost);", "  movers.giveUp(lost);"),
+    ("a scene has no padding", SCENE_FILE, 'if (shape.padding != usual_padding) entry("padding", shape.padding);', ""),
+    ("an obstacle of a scene follows the frame at which it was placed", SCENE_FILE,
+     'obstacle.asked.at ? "" : obstacle.asked.frame', "obstacle.asked.frame"),
+    ("a scene keeps rules that end", SCENE_FILE, " && rule.ends == PairRule::Clock::time_point::max()", ""),
+    ("a repeated key of a scene is accepted", YAML_VALUE, "levels_.back().value.hasMember(value)", "false"),
     ("a stamp that is early once counts", CLOCKS, "window.least >= kAhead", "window.largest >= kAhead"),
     ("the time of a tick runs back", TIME,
      "return last_ = std::max(last_, common);", "return last_ = common;"),

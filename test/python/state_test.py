@@ -21,7 +21,7 @@ from hgrid_proximity import obstacles
 from hgrid_proximity.client import Proximity
 from hgrid_proximity.errors import ProximityError
 from hgrid_proximity.msg import AllowedPair, Bodies, Rules
-from hgrid_proximity.srv import LoadScene, SaveScene, SetAllowed
+from hgrid_proximity.srv import SetAllowed
 from moving_ball import Ball
 
 PATIENCE = 120.0  # [s] for a machine that is busy with other tests
@@ -133,8 +133,6 @@ class State(unittest.TestCase):
         self.assertEqual(rospy.wait_for_message("/proximity/rules", Rules, PATIENCE).rules, [])
 
     def test_a_saved_scene_can_be_loaded_again(self):
-        save = rospy.ServiceProxy("/proximity/save_scene", SaveScene)
-        load = rospy.ServiceProxy("/proximity/load_scene", LoadScene)
         allow = rospy.ServiceProxy("/proximity/set_allowed", SetAllowed)
         rule = AllowedPair(first="robot/ball", second="obstacle/part", allowed=True, reason="for the test")
         wedge = obstacles.hull([(0, 0, 0), (0.1, 0, 0), (0, 0.1, 0), (0, 0, 1e-5)])
@@ -145,13 +143,11 @@ class State(unittest.TestCase):
             obstacles.remove("crate"),
         )
         self.assertTrue(allow(rules=[rule]).success)
-        saved = save(name="night")
-        self.assertTrue(saved.success, saved.code)
+        saved = self.proximity.save_scene("night")
         self.assertEqual(saved.path, str(self.folder / "own" / "scenes" / "night.yaml"))
-        again = save(name="night")
-        self.assertFalse(again.success)
-        self.assertIn("exists already", again.code.text)
-        self.assertTrue(save(name="night", replace=True).success)
+        with self.assertRaisesRegex(ProximityError, "exists already"):
+            self.proximity.save_scene("night")
+        self.proximity.save_scene("night", replace=True)
 
         # rosparam reads the file as the node does, and it is valid as parameters.
         content = yaml.safe_load(pathlib.Path(saved.path).read_text())
@@ -161,22 +157,19 @@ class State(unittest.TestCase):
         self.assertEqual(content["allowed_pairs"][0]["reason"], "for the test")
 
         self.apply(obstacles.remove("part"), obstacles.remove("held"), obstacles.add("other", obstacles.sphere(0.1), (4, 0, 0)))
-        kept = load(name="night")
-        self.assertTrue(kept.success and kept.durable, kept)
+        self.assertTrue(self.proximity.load_scene("night").durable)
         self.assertEqual(set(self.bodies()), {"held", "lamp", "part", "other"})
-        self.assertTrue(load(name="night", replace=True).success)
+        self.proximity.load_scene("night", replace=True)
         self.assertEqual(set(self.bodies()), {"held", "lamp", "part"})
         self.assertEqual(self.at(3.01, 0.01, 0.0), ["obstacle/part"])
         self.assertEqual(self.at(self.ball.x + 0.5, 0, 0), ["obstacle/held"])
         rules = rospy.wait_for_message("/proximity/rules", Rules, PATIENCE).rules
         self.assertIn(("robot/ball", "obstacle/part"), [(each.first, each.second) for each in rules])
-        missing = load(name="day")
-        self.assertFalse(missing.success)
-        self.assertIn("there is no scene", missing.code.text)
+        with self.assertRaisesRegex(ProximityError, "there is no scene"):
+            self.proximity.load_scene("day")
         pathlib.Path(saved.path).write_text("obstacles:\n- name: part\n  colour: red\n")
-        wrong = load(name="night", replace=True)
-        self.assertFalse(wrong.success)
-        self.assertIn("night.yaml/obstacles[0]/colour is not a field of an obstacle", wrong.code.text)
+        with self.assertRaisesRegex(ProximityError, r"night.yaml/obstacles\[0\]/colour is not a field of an obstacle"):
+            self.proximity.load_scene("night", replace=True)
         self.assertEqual(set(self.bodies()), {"held", "lamp", "part"})
 
     def test_a_scene_is_valid_as_parameters(self):
@@ -184,7 +177,7 @@ class State(unittest.TestCase):
             obstacles.add("held", obstacles.box((0.1, 0.2, 0.3))),
             obstacles.attach("held", "robot/ball", (0.5, 0, 0), touch=["obstacle/lamp"]),
         )
-        path = rospy.ServiceProxy("/proximity/save_scene", SaveScene)(name="night").path
+        path = self.proximity.save_scene("night").path
         content = yaml.safe_load(pathlib.Path(path).read_text())
         self.kill()
         configured = rospy.get_param("/proximity/obstacles")

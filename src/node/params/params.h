@@ -38,7 +38,7 @@ struct ObstacleParams {
   double max_speed = 0.0;    ///< [m/s] 0: as ~max_speed and ~default_max_speed say
   double lifetime = 0.0;     ///< [s] of ROS time, from its last change; 0: unlimited
   bool lost_at_end = false;  ///< at the end of its lifetime, it becomes LOST; otherwise it is removed
-  std::string owner;         ///< who is responsible for it; empty: nobody
+  std::string owner = {};    ///< who is responsible for it; empty: nobody
   std::optional<AttachedParams> attached = {};  ///< the link that it follows instead of its frame; nullopt: none
 };
 
