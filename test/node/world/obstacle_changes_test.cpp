@@ -169,7 +169,9 @@ TEST_F(Obstacles, EndWithTheirLifetimeUnlessTheyAreChanged) {
   apply({renewed});
   tick();
   EXPECT_EQ(placesIn(tick()), (Places{{"post", 3}, {"renewed", 2}}));
+  world_.forgetUnsaved();
   EXPECT_EQ(placesIn(tick()), (Places{{"post", 3}}));
+  EXPECT_EQ(world_.obstacles().unsaved().names, std::set<std::string>{"obstacle/renewed"}) << "the end is stored, too";
 }
 
 TEST_F(Obstacles, BecomeLostAtTheEndOfTheirLifetimeIfThatWasRequested) {
