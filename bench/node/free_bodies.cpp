@@ -35,6 +35,14 @@ void moveBody(double t, double phase, const geometry_msgs::Vector3& home, geomet
 
 Workload freeBodies(std::size_t count, double rate) { return freeBodies(count, count, rate); }
 
+Workload freeBodiesByPoses(std::size_t count, double rate) {
+  Workload workload = freeBodies(count, rate);
+  workload.title = std::to_string(count) + " obstacles moved by ~poses";
+  workload.by_poses = true;
+  for (int i = 0; i < static_cast<int>(count); ++i) workload.params["obstacles"][i]["frame"] = "~poses";
+  return workload;
+}
+
 Workload freeBodies(std::size_t count, std::size_t moving, double rate) {
   Workload workload;
   workload.title =

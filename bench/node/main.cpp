@@ -21,12 +21,12 @@ namespace bench {
 namespace {
 
 std::vector<Workload> movingWorlds() {
-  std::vector<Workload> worlds{robots(32, 31, 100.0), freeBodies(1000, 100.0), freeBodies(10000, 10.0),
-                               freeBodies(10000, 100, 100.0), robots(32, 31, 100.0)};
+  std::vector<Workload> worlds{robots(32, 31, 100.0),         freeBodies(1000, 100.0),        freeBodies(10000, 10.0),
+                               freeBodies(10000, 100, 100.0), freeBodiesByPoses(10000, 50.0), robots(32, 31, 100.0)};
   worlds.back().title += ", distances measured";
   worlds.back().distances = true;
   for (Workload& world : realRobots(100.0)) worlds.push_back(std::move(world));
-  if (worlds.size() == 5) std::printf("without real robots: their descriptions were not found\n");
+  if (worlds.size() == 6) std::printf("without real robots: their descriptions were not found\n");
   return worlds;
 }
 

@@ -32,7 +32,7 @@ RunningNode::RunningNode(const Workload& workload, double watched) : workload_(w
 
   const double tick = 1.0 / workload.rate;
   listener_ = std::make_unique<Listener>(name_, workload.distances);
-  publisher_ = std::make_unique<TfPublisher>(workload_, tick * (1.0 + tick / watched));
+  publisher_ = std::make_unique<TfPublisher>(workload_, tick * (1.0 + tick / watched), name_);
   const char* folder = std::getenv("ROS_LOG_DIR");
   const std::string log = std::string(folder == nullptr ? "/tmp" : folder) + space + ".log";
   process_ =

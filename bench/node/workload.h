@@ -20,9 +20,11 @@ struct Workload {
   std::size_t bodies = 0;
   double rate = 100.0;                              ///< [Hz] rate of /tf and of the node's ticks
   bool distances = false;                           ///< whether to subscribe to ~distances
+  bool by_poses = false;                            ///< whether ~poses moves the bodies, which are obstacles; else /tf
   XmlRpc::XmlRpcValue params;                       ///< the node's private parameters
   std::map<std::string, std::string> descriptions;  ///< robot descriptions: parameters in the node's namespace
-  /// Returns the messages of one cycle of /tf at time `t` [s], without stamps.
+  /// Returns the messages of one cycle of /tf at time `t` [s], without stamps. With `by_poses`, it returns one message,
+  /// whose child frames are the names of the obstacles.
   std::function<std::vector<tf2_msgs::TFMessage>(double t)> move;
 };
 
@@ -41,6 +43,8 @@ Workload inBuilding(Workload workload, const std::string& topic);
 /// Returns boxes that fly around and turn. Each box is an obstacle with its own frame and has about one near neighbor.
 /// One message contains all frames, like the message of a motion capture system.
 Workload freeBodies(std::size_t count, double rate);
+/// The same, but messages of ~poses move the obstacles.
+Workload freeBodiesByPoses(std::size_t count, double rate);
 /// The same, but only the first `moving` bodies move. The others are obstacles that are fixed in the world.
 Workload freeBodies(std::size_t count, std::size_t moving, double rate);
 
