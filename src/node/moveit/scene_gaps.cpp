@@ -68,7 +68,7 @@ std::optional<std::string> SceneGaps::sentence() const {
 }
 
 void showGaps(const SceneGaps& gaps, World& world) {
-  static const SourceId source = SourceId::ofObstacle("obstacle/*");
+  static const SourceId source = SourceId::ofObstacles("moveit");
   if (const auto sentence = gaps.sentence()) {
     world.setMissing(source, *sentence);
   } else {
