@@ -28,6 +28,7 @@ class SceneGaps {
   struct Object {
     std::string name;  ///< full name of the obstacle; empty: not known, so only a complete scene ends this
     Lack lack;
+    bool attached = false;  ///< whether MoveIt has attached it, so that a message about a free object does not end this
   };
 
   /// @param objects  what a message is about that could not be used
@@ -36,18 +37,27 @@ class SceneGaps {
   /// Notes that a message was applied.
   void noteApplied(const ObstacleChanges& changes);
   /// Notes that there is no object of this name any more, for MoveIt as well.
-  void noteRemoved(const std::string& name) { lacks_.erase(name); }
+  void noteRemoved(const std::string& name) { eraseFree(lacks_.find(name)); }
+  /// Notes that MoveIt has detached an object that is not attached in the world, or whose detachment was refused.
+  void noteDetached(const std::string& name);
 
   /// Returns what is wrong; nullopt if nothing is.
   std::optional<std::string> sentence() const;
 
  private:
-  void note(const ObstacleChange& change);
-  void eraseAll(Lack lack);
+  struct Gap {
+    Lack lack;
+    bool attached;
+  };
+  using Gaps = std::map<std::string, Gap>;  // by full name
 
-  std::map<std::string, Lack> lacks_;  // by full name
-  bool others_ = false;                // whether other objects may be missing, too
-  std::string why_;                    // of the newest message that was refused
+  void note(const ObstacleChange& change);
+  void eraseFree(Gaps::iterator gap);
+  void eraseFreeShapes();
+
+  Gaps lacks_;
+  bool others_ = false;  // whether other objects may be missing, too
+  std::string why_;      // of the newest message that was refused
 };
 
 /// Lets the source "obstacle" be incomplete while there are gaps. Only the tick thread may call this.

@@ -30,7 +30,8 @@ Refusal finalRefusal() {
 
 }  // namespace
 
-ReadScene::ReadScene(const ReceivedScene& scene, const SceneReader& reader) : what_(scene.name()) {
+ReadScene::ReadScene(const ReceivedScene& scene, const SceneReader& reader)
+    : what_(scene.name()), hides_octomap_(scene.topic == SceneTopic::planning_scene) {
   try {
     switch (scene.topic) {
       case SceneTopic::collision_object:
@@ -61,7 +62,8 @@ ReadScene::ReadScene(const moveit::PlanningScene<Release::noetic>& scene, const 
   }
 }
 
-ReadScene::ReadScene(const Refusal& dropped) : placed_{{"", Lack::shapes}}, refused_(dropped) {}
+ReadScene::ReadScene(const Refusal& dropped, bool is_scene)
+    : placed_{{"", Lack::shapes}}, hides_octomap_(is_scene), refused_(dropped) {}
 
 /// Reads a message of one of the two releases. @throws Refusal version, truncated, or as SceneReader
 template <class Noetic, class Melodic>
@@ -91,7 +93,7 @@ void ReadScene::noteAttached(const CollisionObjectFields& object) {
     detached_.push_back({object.id.empty() ? "" : name, Lack::place});
   } else {
     const bool has_shapes = !object.primitives.empty() || !object.meshes.empty() || !object.planes.empty();
-    placed_.push_back({name, has_shapes ? Lack::shapes : Lack::place});
+    placed_.push_back({name, has_shapes ? Lack::shapes : Lack::place, true});
   }
 }
 
@@ -101,6 +103,7 @@ void ReadScene::note(const moveit::PlanningScene<release>& scene) {
   for (const auto& object : scene.collision_objects) noteObject(object);
   unused_ = unusedPartsOf(scene);
   if (SceneOctomap::isIn(scene)) octomap_ = std::make_shared<const moveit::OctomapWithPose>(scene.octomap);
+  hides_octomap_ = false;
 }
 
 void ReadScene::applyTo(World& world, Time now) {
@@ -116,9 +119,12 @@ void ReadScene::applyTo(World& world, Time now) {
 void ReadScene::noteIn(SceneGaps& gaps) const {
   if (applied_) return gaps.noteApplied(changes_);
   gaps.noteRefused(placed_, refused_->what());
-  // An object that does not exist or is not attached does not need to be detached.
+  // An object that does not exist or is not attached does not need to be detached. If the message has other parts, the
+  // code may be about one of them.
+  const bool detaches_one = placed_.empty() && removed_.empty() && detached_.size() == 1;
   const bool is_detached = refused_->code() == Code::unknown_id || refused_->code() == Code::conflict;
-  if (!is_detached) gaps.noteRefused(detached_, refused_->what());
+  if (!detaches_one || !is_detached) gaps.noteRefused(detached_, refused_->what());
+  for (const SceneGaps::Object& object : detached_) gaps.noteDetached(object.name);
   const bool removes_one = placed_.empty() && detached_.empty() && removed_.size() == 1;
   if (removes_one && refused_->code() == Code::unknown_id) gaps.noteRemoved(removed_.front());
 }

@@ -24,8 +24,9 @@ class ReadScene {
   /// Reads the request of a service.
   ReadScene(const moveit::PlanningScene<moveit::Release::noetic>& scene, const SceneReader& reader);
   /// Takes the place of messages that were dropped, so that noteIn() notes a gap in the order of the messages.
-  /// @param dropped  why they were dropped; its code is limit
-  explicit ReadScene(const Refusal& dropped);
+  /// @param dropped   why they were dropped; its code is limit
+  /// @param is_scene  whether one of them may have been a planning scene
+  ReadScene(const Refusal& dropped, bool is_scene);
 
   /// Applies the message to the world. If this fails, refused() says why. Only the tick thread may call this.
   void applyTo(World& world, Time now);
@@ -44,6 +45,8 @@ class ReadScene {
   const std::string& what() const { return what_; }
   /// Returns the octomap of the message. Null: the message says nothing about it.
   const std::shared_ptr<const moveit::OctomapWithPose>& octomap() const { return octomap_; }
+  /// Whether nobody knows if the message has an octomap, because it could not be read.
+  bool hidesOctomap() const { return hides_octomap_; }
   /// Returns the same as unusedPartsOf().
   const std::vector<const char*>& unused() const { return unused_; }
   const ObstacleChanges& changes() const { return changes_; }
@@ -68,6 +71,7 @@ class ReadScene {
   ObstacleChanges changes_;
   std::vector<const char*> unused_;
   std::shared_ptr<const moveit::OctomapWithPose> octomap_;
+  bool hides_octomap_ = false;
   bool applied_ = false;
   std::optional<Refusal> refused_;
 };

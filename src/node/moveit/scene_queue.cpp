@@ -36,10 +36,11 @@ bool SceneQueue::push(ReceivedScene scene) {
   return true;
 }
 
-void SceneQueue::noteDropped() noexcept {
+void SceneQueue::noteDropped(bool is_scene) noexcept {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     waiting_.dropped_at = waiting_.messages.size();
+    waiting_.dropped_scene = waiting_.dropped_scene || is_scene;
   }
   changed_.notify_one();
 }

@@ -44,15 +44,17 @@ class SceneQueue {
   struct Popped {
     std::vector<ReceivedScene> messages;  ///< in the order in which they were received
     std::optional<std::size_t>
-        dropped_at;      ///< number of messages that came before the newest dropped one; nullopt: none
-    bool ended = false;  ///< whether end() was called
+        dropped_at;              ///< number of messages that came before the newest dropped one; nullopt: none
+    bool dropped_scene = false;  ///< whether a dropped message may have been a planning scene
+    bool ended = false;          ///< whether end() was called
   };
 
   /// Appends a message, unless the queue would then exceed its bound. A message that is longer than the bound, whose
   /// bytes were not stored, is never appended. @returns whether the message was appended; false: see noteDropped()
   bool push(ReceivedScene scene);
   /// Notes that the message that was received last was dropped.
-  void noteDropped() noexcept;
+  /// @param is_scene  whether it may have been a planning scene, which can have an octomap
+  void noteDropped(bool is_scene) noexcept;
   /// Waits for a message, or for a dropped one. Then removes and returns all of them.
   Popped popAll();
   /// Ends the wait in popAll().

@@ -71,11 +71,11 @@ void SceneTopics::onMessage(const ros::MessageEvent<const MessageBytes>& event, 
                         event.getConstMessage()};
     const std::string what = scene.name();
     if (queue_.push(std::move(scene))) return;
-    queue_.noteDropped();
+    queue_.noteDropped(topic == SceneTopic::planning_scene);
     commons_.ledger.refuse("moveit.dropped", Refusal(Code::limit, what + " is dropped: " + whyDropped()));
   });
   if (!failed) return;
-  queue_.noteDropped();
+  queue_.noteDropped(topic == SceneTopic::planning_scene);
   guarded(commons_.ledger, "moveit.failed", [&] { commons_.ledger.count("moveit.dropped.INTERNAL"); });
 }
 
@@ -103,7 +103,9 @@ void SceneTopics::takeAll(SceneQueue::Popped& popped) {
     SceneBatch batch;
     std::size_t bytes = 0;
     for (std::size_t i = 0; i <= messages.size() && !is_ending_(); ++i) {
-      if (popped.dropped_at == i) batch.push_back(std::make_shared<ReadScene>(Refusal(Code::limit, whyDropped())));
+      if (popped.dropped_at == i) {
+        batch.push_back(std::make_shared<ReadScene>(Refusal(Code::limit, whyDropped()), popped.dropped_scene));
+      }
       if (i < messages.size()) {
         bytes += messages[i].message->size;
         batch.push_back(std::make_shared<ReadScene>(messages[i], reader_));
@@ -116,8 +118,8 @@ void SceneTopics::takeAll(SceneQueue::Popped& popped) {
       taken = i + 1;
     }
   } catch (...) {
-    if (taken < popped.messages.size()) {
-      queue_.noteDropped();
+    if (taken <= popped.messages.size()) {  // equal: only the note about dropped messages was not taken
+      queue_.noteDropped(true);
       commons_.ledger.count("moveit.dropped.INTERNAL", popped.messages.size() - taken);
     }
     throw;
@@ -158,11 +160,11 @@ void SceneTopics::applySome(const SceneBatch& batch, std::size_t& done, SceneGap
 
 /// Counts a message that was applied or refused, and takes its octomap.
 void SceneTopics::settle(const ReadScene& read) {
-  if (read.standsForDropped()) return;
   if (!read.applied()) {
-    const Refusal why(read.refused()->code(), read.what() + ": " + read.refused()->what());
-    commons_.ledger.refuse("moveit.refused", why);
-    if (read.octomap() && !read.octomap()->data.empty()) octomap_.refuse(why);
+    const std::string what = read.standsForDropped() ? "a dropped message" : read.what();
+    const Refusal why(read.refused()->code(), what + ": " + read.refused()->what());
+    if (!read.standsForDropped()) commons_.ledger.refuse("moveit.refused", why);
+    if (read.hidesOctomap() || (read.octomap() && !read.octomap()->data.empty())) octomap_.refuse(why);
     return;
   }
   commons_.ledger.count("moveit.applied");

@@ -119,6 +119,11 @@ void readAttached(ParamValue value, ParamValue& element, ObstacleParams& obstacl
   if (!value.requireStruct()) return;
   if (element.get("frame") || element.get("pose"))
     element.error("has attached, and frame or pose; the pose of an attached obstacle is in attached/pose");
+  const std::string local = obstacle.body.name.substr(obstacle.body.name.find('/') + 1);
+  if (isGlob(local)) {  // a rule with this name would also be about other obstacles
+    element.error("is attached, but its name '" + printable(local) +
+                  "' contains * or ?; the names of attached obstacles must not");
+  }
   AttachedParams attached;
   if (auto link = value.require("link")) {
     link->string(attached.link);

@@ -121,6 +121,7 @@ XmlRpcValue valueOfYaml(const std::string& text, const std::string& what) {
     std::istringstream in(text);
     YAML::Parser parser(in);
     if (!parser.HandleNextDocument(builder)) throw Refusal(Code::parse, what + " is empty");
+    if (parser) throw Refusal(Code::parse, what + " has more than one document; remove what follows '---' or '...'");
   } catch (const YAML::Exception& flaw) {
     throw Refusal(Code::parse, what + ", line " + std::to_string(flaw.mark.line + 1) +
                                    " is not valid YAML: " + printable(flaw.msg, 200));

@@ -95,9 +95,9 @@ void SceneFileServices::load(ServiceCall<msg::LoadScene>& call) const {
     change.attachment = attachmentOf(obstacle);
     changes.push_back(std::move(change));
   }
-  checkNames(scene.rules, names, structure.bodies);
   const std::vector<PairRule> rules =
       rulesAfter(structure.filter.rules(), scene.rules, call.request.replace, call.caller, params_);
+  checkNames(scene.rules, names, structure.bodies);  // takes long for many rules, so their number was checked before
   const auto prepared = std::make_shared<const PreparedScene>(
       PreparedScene{std::move(changes),
                     std::move(names),

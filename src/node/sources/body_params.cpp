@@ -18,9 +18,13 @@ double lastMatch(const std::vector<PatternValue>& values, const std::string& nam
   return otherwise;
 }
 
+void applySpeedBound(const Params& params, Body& body) {
+  body.speed_bound = lastMatch(params.max_speed, body.name, std::numeric_limits<double>::infinity());
+}
+
 void applyPatterns(const Params& params, Body& body) {
   body.margin = lastMatch(params.margins, body.name, 0.0);
-  body.speed_bound = lastMatch(params.max_speed, body.name, std::numeric_limits<double>::infinity());
+  applySpeedBound(params, body);
   const double padding = lastMatch(params.padding, body.name, 0.0);
   for (BodyShape& shape : body.shapes) shape.padding = padding;
 }

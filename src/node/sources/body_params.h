@@ -14,6 +14,9 @@ namespace hgrid {
 /// Returns the last value whose pattern matches the name, or `otherwise` if no pattern matches.
 double lastMatch(const std::vector<PatternValue>& values, const std::string& name, double otherwise);
 
+/// Sets the guaranteed largest speed [m/s] of a body from the parameters that match its name.
+void applySpeedBound(const Params& params, Body& body);
+
 /// Sets the margin, the padding and the speed bound of a body from the parameters that match its name.
 void applyPatterns(const Params& params, Body& body);
 

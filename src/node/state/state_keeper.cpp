@@ -27,6 +27,11 @@ bool isSameRule(const PairRule& a, const PairRule& b) {
          a.ends == b.ends && a.set_by == b.set_by && a.since == b.since;
 }
 
+/// Returns a change that removes all items whose keys begin with `kind`.
+WaitingChange erasureOf(const char* kind) {
+  return {kind, [kind] { return StateEdit{StateEdit::Kind::erase_kind, kind, ""}; }, true};
+}
+
 std::vector<PairRule> serviceRules(const std::vector<PairRule>& all) {
   std::vector<PairRule> rules;
   std::copy_if(all.begin(), all.end(), std::back_inserter(rules), isService);
@@ -82,13 +87,13 @@ void StateKeeper::see(World& world, const Tick& tick) {
     return;
   }
   const auto failure = guarded(commons_.ledger, "state.failed", [&] {
-    std::vector<Change> changes = changesOf(world.obstacles());
+    Changes changes = changesOf(world.obstacles());
     std::vector<PairRule> rules;
     const bool new_structure = tick.snapshot && tick.snapshot->structure().revision != seen_structure_;
     if (new_structure) {
       rules = serviceRules(tick.snapshot->structure().filter.rules());
       if (!std::equal(rules.begin(), rules.end(), seen_rules_.begin(), seen_rules_.end(), isSameRule))
-        changes.emplace_back([rules, clocks = RuleClocks::now()] { return editOf(rules, clocks); });
+        changes.push_back({kRulesKey, [rules, clocks = RuleClocks::now()] { return editOf(rules, clocks); }});
     }
     if (!changes.empty()) add(std::move(changes));
     // The code below does not throw.
@@ -102,18 +107,18 @@ void StateKeeper::see(World& world, const Tick& tick) {
   behind_ = failure.has_value();
 }
 
-std::vector<StateKeeper::Change> StateKeeper::changesOf(const ObstacleBodies& obstacles) const {
+StateKeeper::Changes StateKeeper::changesOf(const ObstacleBodies& obstacles) const {
   const ObstacleBodies::Unsaved& unsaved = obstacles.unsaved();
-  std::vector<Change> changes;
-  if (unsaved.all_removed)
-    changes.emplace_back([] { return StateEdit{StateEdit::Kind::erase_kind, kObstacleKeys, ""}; });
+  Changes changes;
+  if (unsaved.all_removed) changes.push_back(erasureOf(kObstacleKeys));
   for (const std::string& name : unsaved.names) {
+    const std::string key = kObstacleKeys + name;
     const auto found = obstacles.all().find(name);
     if (found != obstacles.all().end()) {
-      changes.emplace_back([obstacle = found->second] { return editOf(obstacle); });
+      changes.push_back({key, [obstacle = found->second] { return editOf(obstacle); }});
     } else {
-      changes.emplace_back(
-          [name, is_configured = configured_.count(name) != 0] { return removalOf(name, is_configured); });
+      changes.push_back(
+          {key, [name, is_configured = configured_.count(name) != 0] { return removalOf(name, is_configured); }});
     }
   }
   return changes;
@@ -125,23 +130,25 @@ void StateKeeper::noteMap(const std::string& name, const std::optional<MapParams
     const std::vector<MapParams>& maps = commons_.settings.params.maps;
     return std::any_of(maps.begin(), maps.end(), [&](const MapParams& one) { return one.name == local; });
   };
-  std::vector<Change> changes;
+  Changes changes;
   if (name.empty()) {
-    changes.emplace_back([] { return StateEdit{StateEdit::Kind::erase_kind, kMapKeys, ""}; });
+    changes.push_back(erasureOf(kMapKeys));
     for (const MapParams& configured : commons_.settings.params.maps)
-      changes.emplace_back([name = configured.name] { return editOf(name, std::nullopt); });
+      changes.push_back({kMapKeys + configured.name, [name = configured.name] { return editOf(name, std::nullopt); }});
   } else if (map || is_configured(name)) {
-    changes.emplace_back([name, map] { return editOf(name, map); });
+    changes.push_back({kMapKeys + name, [name, map] { return editOf(name, map); }});
   } else {
-    changes.emplace_back([name] { return StateEdit{StateEdit::Kind::erase, kMapKeys + name, ""}; });
+    const std::string key = kMapKeys + name;
+    changes.push_back({key, [key] { return StateEdit{StateEdit::Kind::erase, key, ""}; }});
   }
   add(std::move(changes));
 }
 
-void StateKeeper::add(std::vector<Change> changes) {
+/// Adds changes. If this throws, some of them may have been added; adding them again does no harm.
+void StateKeeper::add(Changes changes) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    waiting_.insert(waiting_.end(), std::make_move_iterator(changes.begin()), std::make_move_iterator(changes.end()));
+    for (WaitingChange& change : changes) waiting_.add(std::move(change));
     ++added_;
   }
   changed_.notify_all();
@@ -157,7 +164,7 @@ bool StateKeeper::waitUntilStored() {
 
 /// The thread that writes to the disk runs this.
 void StateKeeper::run() {
-  std::vector<Change> changes;
+  WaitingChanges changes;
   std::uint64_t target = 0;
   bool failed = false;
   bool anew = true;  // write a new file: at the start, and after a failure, which may have written a part of a record
@@ -185,7 +192,7 @@ void StateKeeper::run() {
 
 /// Applies changes to items_ and writes them. Empties `changes` as soon as items_ contains them.
 /// @param anew  whether to write a new file with all items
-void StateKeeper::write(std::vector<Change>& changes, bool anew) {
+void StateKeeper::write(WaitingChanges& changes, bool anew) {
   const Edits edits = newEdits(changes);
   applyEdits(edits, items_);
   changes.clear();
@@ -199,19 +206,16 @@ void StateKeeper::write(std::vector<Change>& changes, bool anew) {
 }
 
 /// Returns the edits that change items_. A change that only renews a lifetime changes nothing.
-StateKeeper::Edits StateKeeper::newEdits(const std::vector<Change>& changes) const {
+StateKeeper::Edits StateKeeper::newEdits(const WaitingChanges& changes) const {
   Edits edits;
-  std::set<std::string> edited;  // their items may differ from those of items_
-  bool all_edited = false;
-  for (const Change& change : changes) {
-    StateEdit edit = change();
+  bool all_edited = false;  // whether items may differ from those of items_
+  changes.forEach([&](StateEdit edit) {
     const auto known = items_.find(edit.key);
     const bool is_known = edit.kind == StateEdit::Kind::set && known != items_.end() && known->second == edit.text;
-    if (is_known && !all_edited && edited.count(edit.key) == 0) continue;
-    edited.insert(edit.key);
+    if (is_known && !all_edited) return;
     all_edited = all_edited || edit.kind == StateEdit::Kind::erase_kind;
     edits.push_back(std::move(edit));
-  }
+  });
   return edits;
 }
 

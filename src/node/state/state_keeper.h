@@ -5,7 +5,6 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -17,6 +16,7 @@
 #include "node/commons.h"
 #include "node/state/state_edit.h"
 #include "node/state/state_folder.h"
+#include "node/state/waiting_changes.h"
 #include "node/world/stored_world.h"
 
 namespace hgrid {
@@ -51,14 +51,14 @@ class StateKeeper {
 
  private:
   using Edits = std::vector<StateEdit>;
-  using Change = std::function<StateEdit()>;  // makes the text, which may take long
+  using Changes = std::vector<WaitingChange>;
 
   void open();
-  std::vector<Change> changesOf(const ObstacleBodies& obstacles) const;
-  void add(std::vector<Change> changes);
+  Changes changesOf(const ObstacleBodies& obstacles) const;
+  void add(Changes changes);
   void run();
-  Edits newEdits(const std::vector<Change>& changes) const;
-  void write(std::vector<Change>& changes, bool anew);
+  Edits newEdits(const WaitingChanges& changes) const;
+  void write(WaitingChanges& changes, bool anew);
   void tell(const std::string& failure);
 
   Commons& commons_;
@@ -73,12 +73,12 @@ class StateKeeper {
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::vector<Change> waiting_;  // guarded by mutex_
-  std::uint64_t added_ = 0;      // guarded by mutex_: number of calls of add()
-  std::uint64_t stored_ = 0;     // guarded by mutex_: how many of them are on disk
-  std::uint64_t failures_ = 0;   // guarded by mutex_: number of failed attempts to write
-  bool behind_ = false;          // guarded by mutex_: whether the last see() failed
-  bool ending_ = false;          // guarded by mutex_
+  WaitingChanges waiting_;      // guarded by mutex_
+  std::uint64_t added_ = 0;     // guarded by mutex_: number of calls of add()
+  std::uint64_t stored_ = 0;    // guarded by mutex_: how many of them are on disk
+  std::uint64_t failures_ = 0;  // guarded by mutex_: number of failed attempts to write
+  bool behind_ = false;         // guarded by mutex_: whether the last see() failed
+  bool ending_ = false;         // guarded by mutex_
   std::thread thread_;
 };
 

@@ -13,7 +13,6 @@
 namespace hgrid {
 namespace {
 
-constexpr const char* kRulesKey = "rules";
 constexpr const char* kRemoved = "removed\n";  // the text of a removed obstacle or map
 
 template <class File>
@@ -66,6 +65,7 @@ void pass(File& file, PlacedObstacle& obstacle) {
   passOptional(file, obstacle.asked.at, Time(0));
   pass(file, obstacle.asked.frame_from_body);
   file.line("pose");
+  file.value(obstacle.lost);
   file.value(obstacle.frame);
   pass(file, obstacle.frame_from_body);
   bool is_attached = obstacle.attachment != nullptr;
@@ -165,9 +165,11 @@ void readItem(const std::string& key, const std::string& text, NarrowPhase& narr
   } else if (key == kRulesKey) {
     std::istringstream in(text);
     TextReader reader(in, "the stored " + key);
-    passAll(reader, "rules", stored.rules, {}, [&](PairRule& rule) { pass(reader, rule, clocks); });
+    std::vector<PairRule> rules;  // separate, so that an exception leaves no rule
+    passAll(reader, "rules", rules, {}, [&](PairRule& rule) { pass(reader, rule, clocks); });
     const auto has_ended = [&](const PairRule& rule) { return rule.ends <= clocks.steady; };
-    stored.rules.erase(std::remove_if(stored.rules.begin(), stored.rules.end(), has_ended), stored.rules.end());
+    rules.erase(std::remove_if(rules.begin(), rules.end(), has_ended), rules.end());
+    stored.rules = std::move(rules);
   }
 }
 

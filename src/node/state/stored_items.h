@@ -21,9 +21,10 @@ struct RuleClocks {
   static RuleClocks now() { return {PairRule::Clock::now(), std::chrono::system_clock::now()}; }
 };
 
-/// The keys of all obstacles, and those of all maps, begin with these.
+/// The keys of all obstacles, and those of all maps, begin with these. All rules together have one key.
 inline constexpr const char* kObstacleKeys = "obstacle ";
 inline constexpr const char* kMapKeys = "map ";
+inline constexpr const char* kRulesKey = "rules";
 
 ///@{
 /// Returns the edit that stores the value.

@@ -2,6 +2,9 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <locale.h>
+#include <stdlib.h>
+
 #include <cstdint>
 #include <cstdlib>
 #include <iomanip>
@@ -71,9 +74,11 @@ class TextReader {
     if (next() != word) fail("it should begin with '" + std::string(word) + "'");
   }
   void value(double& number) {
+    // A program with a nodelet may have set a locale with a decimal comma, which std::strtod() would use.
+    static const locale_t classic = ::newlocale(LC_ALL_MASK, "C", locale_t{});
     const std::string text = next();
     char* end = nullptr;
-    number = std::strtod(text.c_str(), &end);
+    number = ::strtod_l(text.c_str(), &end, classic);
     if (text.empty() || *end != '\0') fail("'" + printable(text) + "' should be a number");
   }
   void value(std::string& result) {

@@ -42,7 +42,8 @@ void MoverPoses::updateOne(std::size_t index, bool clock_frozen, Tick& tick) {
   const ChainState& chain = frames_.chain(index);
   const bool is_static =
       chain.connected && !chain.moves && chain.refused == nullptr && chain.contested == TfIntake::kNone;
-  if (mover.given_up) {
+  if (mover.begins_lost && !mover.given_up) placeOnce(index);
+  if (mover.given_up || mover.begins_lost) {
     updateGivenUp(mover, tick);
     return;
   }
@@ -60,6 +61,17 @@ void MoverPoses::updateOne(std::size_t index, bool clock_frozen, Tick& tick) {
   mover.settled = is_static && !mover.trouble;
   setState(mover, judge(mover, chain, clock_frozen));
   appendTroubles(mover, tick);
+}
+
+/// Places a mover that is then given up. Does nothing while its frame has no pose.
+void MoverPoses::placeOnce(std::size_t index) {
+  Mover& mover = movers_[index];
+  mover.trouble = frames_.troubleOf(index);
+  const auto found = frames_.find(index, mover.pose);
+  if (!found) return;
+  place(mover, *found, frames_.chain(index).moves);
+  mover.pose.unsettle(found->stamp, frames_.reading());
+  mover.given_up = mover.pose.exists();
 }
 
 /// Lets the pose of the mover grow old where it is.

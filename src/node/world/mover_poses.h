@@ -40,6 +40,7 @@ class MoverPoses {
  private:
   void planChains(const std::string& world_frame);
   void updateOne(std::size_t index, bool clock_frozen, Tick& tick);
+  void placeOnce(std::size_t index);
   void updateGivenUp(Mover& mover, Tick& tick);
   void place(Mover& mover, const FramePoses::Found& found, bool moves);
   void setState(const Mover& mover, Freshness state);

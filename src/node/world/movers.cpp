@@ -54,6 +54,12 @@ void Movers::giveUp(const std::set<std::string>& names) noexcept {
   }
 }
 
+void Movers::beginLost(const std::set<std::string>& names) noexcept {
+  for (Mover& mover : movers_) {
+    if (mover.source.kind == SourceKind::obstacle && names.count(mover.source.name) != 0) mover.begins_lost = true;
+  }
+}
+
 Movers::Change Movers::changeWithout(const std::function<bool(const SourceId&)>& chosen) const {
   Change change;
   for (const Mover& mover : movers_) {

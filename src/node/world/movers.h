@@ -31,6 +31,7 @@ struct Mover {
   KeptPose pose{};
   bool settled = false;              ///< whether nothing is wrong with it and only new static transforms can move it
   bool given_up = false;             ///< whether it keeps its pose and is LOST, whatever its frame does
+  bool begins_lost = false;          ///< whether it is LOST at its first pose already, and then given up
   bool conflict = false;             ///< whether a frame of its chain is published on both /tf and /tf_static
   std::optional<Refusal> trouble{};  ///< what is wrong with its frame
 };
@@ -56,6 +57,8 @@ class Movers {
 
   /// Lets obstacles keep their poses and be LOST from the next tick on. @param names  full names
   void giveUp(const std::set<std::string>& names) noexcept;
+  /// Lets obstacles that have no pose yet be LOST at their first pose, which they keep. @param names  full names
+  void beginLost(const std::set<std::string>& names) noexcept;
 
   std::size_t size() const { return movers_.size(); }
   Mover& operator[](std::size_t index) { return movers_[index]; }

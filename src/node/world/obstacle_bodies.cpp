@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hgrid_proximity/bodies/name.h"
+#include "node/sources/body_params.h"
 #include "node/sources/configured_obstacle.h"
 
 namespace hgrid {
@@ -18,6 +19,18 @@ namespace {
 Time endOf(const RequestedObstacle& obstacle, Time now) {
   if (obstacle.lifetime == std::chrono::nanoseconds(0)) return Time::max();
   return obstacle.lifetime > Time::max() - now ? Time::max() : now + obstacle.lifetime;
+}
+
+/// Completes what was stored of an obstacle, for this run of the node.
+void complete(PlacedObstacle& obstacle, const Params& params, const std::string& world_frame, Time now) {
+  auto what = std::make_shared<RequestedObstacle>(*obstacle.what);
+  applySpeedBound(params, what->body);
+  obstacle.ends = endOf(*what, now);
+  // If the world frame is another one now, a repeated request is for another place than before.
+  const std::string asked_frame = obstacle.asked.at ? std::string() : obstacle.asked.frame;
+  if (followedFrame(asked_frame, what->body.name, world_frame) != obstacle.frame)
+    obstacle.asked = {obstacle.frame, obstacle.frame_from_body, std::nullopt};
+  obstacle.what = std::move(what);
 }
 
 /// Returns whether the obstacle of a change belongs to the complete set of the request.
@@ -94,9 +107,14 @@ void ObstacleBodies::addConfigured(const ObstacleParams& configured, const std::
 
 /// Adds the stored obstacles: all together, which is fast, or one by one if one of them is refused.
 void ObstacleBodies::addStored(const std::string& world_frame, Time now, Movers& movers, MissingSources& missing) {
-  for (auto& [name, obstacle] : stored_) obstacle.ends = endOf(*obstacle.what, now);
+  std::set<std::string> lost;
+  for (auto& [name, obstacle] : stored_) {
+    complete(obstacle, params_, world_frame, now);
+    if (obstacle.lost) lost.insert(name);
+  }
   try {
     carryOut({stored_, {}}, world_frame, movers);
+    movers.beginLost(lost);
     stored_.clear();
     return;
   } catch (const Refusal&) {  // the loop below finds out which
@@ -105,6 +123,7 @@ void ObstacleBodies::addStored(const std::string& world_frame, Time now, Movers&
     const auto& [name, obstacle] = *stored_.begin();
     try {
       carryOut({{{name, obstacle}}, {}}, world_frame, movers);
+      movers.beginLost(lost);  // those that were not added yet are not there, so nothing happens to them
     } catch (const Refusal& refusal) {
       missing.set(SourceId::ofObstacle(name), std::string(hgrid::name(refusal.code())) + " the stored '" +
                                                   printable(name) + "' was not restored: " + refusal.what());
@@ -322,6 +341,7 @@ void ObstacleBodies::expire(Time now, Movers& movers) {
     }
   }
   std::set<std::string> unsaved = unsavedAfter(edits);
+  if (!params_.state_folder.empty()) unsaved.insert(lost.begin(), lost.end());
   carryOut(std::move(edits), "", movers);
   // The code below does not throw.
   unsaved_.names.merge(unsaved);

@@ -59,8 +59,6 @@ void addMovers(const LoadedRobot& robot, Movers::Change& change) {
   }
 }
 
-constexpr const char* kStoredObstacles = "obstacle/*";  // missing if some stored obstacles cannot be restored
-
 void sortUnique(std::vector<std::string>& names) {
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
@@ -94,7 +92,7 @@ World::World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& 
     if (known != stored.maps.end() && !known->second && map.topic.empty()) missing_.erase(SourceId::ofMap(map.name));
   }
   if (!stored.troubles.empty()) {
-    missing_.set(SourceId::ofObstacle(kStoredObstacles),
+    missing_.set(SourceId::ofObstacles("stored"),
                  "NOT_READY " + stored.troubles.front() +
                      "; compare ~bodies with your obstacles, then call ~reset or restart the node");
   }

@@ -45,6 +45,18 @@ TEST(SceneGapsTest, EndWhenEachObjectWasAddedOrRemoved) {
   EXPECT_FALSE(gaps.sentence());
 }
 
+TEST(SceneGapsTest, DoNotStoreNamesThatNoObstacleCanHave) {
+  SceneGaps gaps;
+  const std::string name = "obstacle/" + std::string(1000000, 'x');
+  gaps.noteRefused({{name, Lack::shapes}}, "its name is too long");
+  EXPECT_TRUE(says(gaps, "its name is too long"));
+  EXPECT_FALSE(says(gaps, "xxx"));
+  gaps.noteRemoved(name);
+  EXPECT_TRUE(gaps.sentence()) << "nobody can remove it by its name";
+  gaps.noteApplied(completeScene());
+  EXPECT_FALSE(gaps.sentence());
+}
+
 TEST(SceneGapsTest, OfShapesDoNotEndWhenTheObjectMoves) {
   for (const Kind kind : {Kind::append, Kind::move, Kind::attach, Kind::detach}) {
     SceneGaps gaps;
@@ -73,6 +85,8 @@ TEST(SceneGapsTest, OfUnknownObjectsEndWithACompleteScene) {
   gaps.noteApplied(changes(Kind::add, {"obstacle/a"}));
   gaps.noteApplied(changes(Kind::remove_all_free, {""}));
   EXPECT_TRUE(gaps.sentence());
+  gaps.noteApplied(completeScene(true));
+  EXPECT_TRUE(gaps.sentence()) << "it may be an attached object, and the scene says nothing about them";
   gaps.noteApplied(completeScene());
   EXPECT_FALSE(gaps.sentence());
 }
@@ -84,6 +98,30 @@ TEST(SceneGapsTest, OfAttachedObjectsStayIfACompleteSceneSparesThem) {
   EXPECT_TRUE(says(gaps, "REFUSED 1 objects"));
   gaps.noteApplied(completeScene());
   EXPECT_FALSE(gaps.sentence());
+}
+
+// Claim: what a message does to a free object says nothing about an object of the same name that MoveIt has attached.
+TEST(SceneGapsTest, OfAttachedObjectsDoNotEndWithFreeObjects) {
+  for (const Lack lack : {Lack::shapes, Lack::place}) {
+    SceneGaps gaps;
+    gaps.noteRefused({{"obstacle/held", lack, true}}, "why");
+    ObstacleChanges free_one = changes(Kind::add, {"obstacle/held"});
+    free_one.changes[0].free_only = true;
+    gaps.noteApplied(free_one);
+    for (const Kind kind : {Kind::remove, Kind::move, Kind::remove_all_free})
+      gaps.noteApplied(changes(kind, {"obstacle/held"}));
+    gaps.noteApplied(completeScene(true));
+    gaps.noteRemoved("obstacle/held");
+    EXPECT_TRUE(gaps.sentence());
+    SceneGaps detached = gaps;
+    gaps.noteApplied(changes(Kind::add, {"obstacle/held"}));
+    gaps.noteApplied(changes(Kind::attach, {"obstacle/held"}));
+    EXPECT_FALSE(gaps.sentence());
+    detached.noteDetached("obstacle/held");
+    EXPECT_TRUE(detached.sentence()) << "now it is a free object of MoveIt";
+    detached.noteRemoved("obstacle/held");
+    EXPECT_FALSE(detached.sentence());
+  }
 }
 
 TEST(SceneGapsTest, BeyondTheLimitStayUntilACompleteScene) {

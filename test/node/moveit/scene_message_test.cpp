@@ -101,6 +101,38 @@ TEST_F(SceneWorld, ARefusedDetachLeavesAGapUntilTheObjectIsDetached) {
   EXPECT_FALSE(gaps.sentence());
 }
 
+// Claim: the reason why a scene is refused says nothing about the objects that its other parts would have detached.
+TEST_F(SceneWorld, ARefusedSceneLeavesAGapOfEachObjectThatItWouldHaveDetached) {
+  take(attachedTo("hand", sceneSphere(CollisionObjectFields::ADD, "held", 0.5, "hand")));
+  tick();
+  NoeticScene scene;
+  scene.is_diff = true;
+  scene.robot_state.attached_collision_objects = {
+      attachedTo("hand", sceneObject(CollisionObjectFields::REMOVE, "held"))};
+  scene.collision_objects = {sceneObject(CollisionObjectFields::REMOVE, "never_added")};
+  ReadScene read(scene, reader_);
+  read.applyTo(world_, momentAt(time_).ros);
+  ASSERT_EQ(read.refused()->code(), Code::unknown_id);
+  SceneGaps gaps;
+  read.noteIn(gaps);
+  EXPECT_NE(gaps.sentence().value_or("").find("obstacle/held"), std::string::npos) << "it is still attached";
+}
+
+TEST_F(SceneMessage, ThatCannotBeReadMayHaveAnOctomap) {
+  const auto hidden = [&](SceneTopic topic, const std::string& md5, const std::string& data) {
+    return ReadScene(received(topic, md5, data), reader_).hidesOctomap();
+  };
+  EXPECT_TRUE(hidden(SceneTopic::planning_scene, moveit::kMd5<NoeticScene>, "x"));
+  EXPECT_TRUE(hidden(SceneTopic::planning_scene, "other", bytesOf(scene_)));
+  EXPECT_FALSE(hidden(SceneTopic::planning_scene, moveit::kMd5<NoeticScene>, bytesOf(scene_)));
+  EXPECT_FALSE(hidden(SceneTopic::collision_object, moveit::kMd5<NoeticObject>, "x"));
+  scene_.collision_objects[0].primitives[0].dimensions = {-1.0};
+  EXPECT_FALSE(hidden(SceneTopic::planning_scene, moveit::kMd5<NoeticScene>, bytesOf(scene_)))
+      << "it is refused, but it could be read, and has none";
+  EXPECT_TRUE(ReadScene(Refusal(Code::limit, "too long"), true).hidesOctomap());
+  EXPECT_FALSE(ReadScene(Refusal(Code::limit, "too long"), false).hidesOctomap());
+}
+
 TEST_F(SceneMessage, OfAnotherTypeIsRefused) {
   const std::string object = bytesOf(scene_.collision_objects[0]);
   for (const std::string& md5 :

@@ -40,16 +40,19 @@ TEST(SceneQueueTest, RefusesMessagesThatExceedItsBound) {
 
 TEST(SceneQueueTest, SaysAfterWhichMessagesTheNewestWasDropped) {
   SceneQueue queue(1 << 20);
-  queue.noteDropped();
+  queue.noteDropped(true);
   queue.push(sceneOf(1));
   queue.push(sceneOf(1));
-  queue.noteDropped();
+  queue.noteDropped(false);
   queue.push(sceneOf(1));
   const SceneQueue::Popped popped = queue.popAll();
   EXPECT_EQ(popped.messages.size(), 3u);
   EXPECT_EQ(popped.dropped_at, std::optional<std::size_t>(2));
-  queue.noteDropped();
-  EXPECT_EQ(queue.popAll().dropped_at, std::optional<std::size_t>(0)) << "even if no message waits";
+  EXPECT_TRUE(popped.dropped_scene) << "the older one was a planning scene";
+  queue.noteDropped(false);
+  const SceneQueue::Popped next = queue.popAll();
+  EXPECT_EQ(next.dropped_at, std::optional<std::size_t>(0)) << "even if no message waits";
+  EXPECT_FALSE(next.dropped_scene);
   queue.push(sceneOf(1));
   EXPECT_FALSE(queue.popAll().dropped_at);
 }

@@ -198,6 +198,11 @@ TEST(ObstacleParams, WhatIsWrongIsNamed) {
   };
   for (const auto& [message, sentence] : cases) EXPECT_TRUE(says(message, sentence));
   EXPECT_EQ(refusalOf(rich()), "");
+  // As a rule for what may touch it, this name would be a glob over other obstacles.
+  const Value attached = dict({{"link", "arm/hand"}});
+  const Value held = dict({{"name", "o*"}, {"shapes", list({dict({{"type", "sphere"}, {"radius", 1.0}})})}});
+  EXPECT_TRUE(says(refusalOf(with(held, {{"attached", attached}})),
+                   "~obstacles[0] is attached, but its name 'o*' contains * or ?"));
 }
 
 }  // namespace

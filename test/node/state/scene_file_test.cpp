@@ -178,6 +178,17 @@ TEST_F(SceneFile, KeepsRulesThatNeverEnd) {
   EXPECT_FALSE(read.rules[1].allowed);
 }
 
+TEST_F(SceneFile, DoesNotMakeGlobsOfNamesOfLinks) {
+  apply({adding("part", 1), attaching("part", "arm/tool", 0.0)});
+  std::map<std::string, PlacedObstacle> obstacles = world_.obstacles().all();
+  PlacedObstacle& part = obstacles.at("obstacle/part");
+  Attachment attachment = *part.attachment;
+  attachment.touch_links = {"base", "h*"};  // as in a message of MoveIt; no link is called "h*", so it has no effect
+  part.attachment = std::make_shared<const Attachment>(attachment);
+  const SavedScene read = readScene(sceneText(obstacles, {}, params()), "scene", params());
+  EXPECT_EQ(read.obstacles[0].attached->touch, std::vector<std::string>({"arm/base"}));
+}
+
 TEST_F(SceneFile, IsAListOfObstaclesForTheParameters) {
   Numbers random(7);
   apply({obstacle(random)});
@@ -228,6 +239,8 @@ TEST(YamlValues, WhatIsWrongIsNamedWithItsLine) {
   for (const char bracket : {'[', '{'})
     EXPECT_TRUE(says(said(std::string(100000, bracket)), "PARSE night.yaml, line 1"));
   EXPECT_TRUE(says(said(""), "night.yaml is empty"));
+  EXPECT_TRUE(says(said("a: 1\n---\nb: 2\n"), "PARSE night.yaml has more than one document"));
+  EXPECT_EQ(said("---\na: 1\n...\n"), "");
 }
 
 TEST(SceneFolders, TakeOnlyPlainNames) {

@@ -4,6 +4,7 @@
 // What the world holds is stored, read by a new world, and compared. The tests need no ROS master.
 #include "src/node/state/stored_items.h"
 
+#include "src/node/moveit/scene_gaps.h"
 #include "src/node/state/state_log.h"
 #include "test/node/world/obstacle_world.h"
 #include "test/support/random.h"
@@ -185,6 +186,15 @@ TEST(StoredItems, AnItemThatCannotBeReadIsATrouble) {
                                                        "should begin with 'obstacle'"}));
 }
 
+TEST(StoredItems, RulesAreReadTogetherOrNotAtAll) {
+  const auto phase = makeFclNarrowPhase();
+  StateEdit edit = editOf({{"obstacle/a", "robot/*", "grip"}, {"obstacle/b", "robot/*", "held"}}, kClocks);
+  edit.text.resize(edit.text.rfind("rule"));
+  const StoredWorld stored = storedWorldOf({{edit.key, edit.text}}, *phase, kClocks);
+  EXPECT_EQ(stored.rules.size(), 0u) << "a rule can be an exception from the rule before it";
+  EXPECT_EQ(stored.troubles.size(), 1u);
+}
+
 /// Tests with a world that changes, and a second world that begins with what was stored of the first.
 class StoredObstacles : public Obstacles {
  protected:
@@ -199,8 +209,9 @@ class StoredObstacles : public Obstacles {
     }
     world_.forgetUnsaved();
   }
-  std::unique_ptr<World> restarted() {
-    auto world = std::make_unique<World>(params(), false, 2, ledger_, phase_, storedWorldOf(items_, *phase_, kClocks));
+  std::unique_ptr<World> restarted() { return restarted(params()); }
+  std::unique_ptr<World> restarted(const Params& params) {
+    auto world = std::make_unique<World>(params, false, 2, ledger_, phase_, storedWorldOf(items_, *phase_, kClocks));
     world->setRobot(arm());
     world->tick(momentAt(time_));
     return world;
@@ -280,6 +291,80 @@ TEST_F(StoredObstacles, ThatCannotBeRestoredMakeTheWorldIncomplete) {
   EXPECT_EQ(second->obstacles().all().count("obstacle/a"), 1u);
   second->reset();
   EXPECT_EQ(second->tick(momentAt(time_))->snapshot->reasonOf("obstacle"), "");
+}
+
+TEST_F(StoredObstacles, ThatCannotBeRestoredStayMissingWhateverMoveItAndTheObstacleNamedStarSay) {
+  items_["obstacle obstacle/b"] = "nonsense\n";
+  const auto second = restarted();
+  const auto reason = [&] { return second->tick(momentAt(time_))->snapshot->reasonOf("obstacle"); };
+  SceneGaps gaps;
+  showGaps(gaps, *second);
+  EXPECT_NE(reason(), "") << "MoveIt lacks nothing, but the stored obstacle is still not there";
+  msg::ApplyObstacles::Request request;
+  request.changes = {adding("*", 1.0)};
+  second->applyObstacles(obstacleChangesOf(request, "/caller", params(), *phase_, &readFile), momentAt(time_).ros);
+  EXPECT_NE(reason(), "") << "'*' is the name of an obstacle, too";
+  gaps.noteRefused({{"obstacle/c", SceneGaps::Lack::shapes}}, "why");
+  showGaps(gaps, *second);
+  second->reset();
+  EXPECT_EQ(reason(), "");
+}
+
+TEST_F(StoredObstacles, AreWhereTheyWereIfTheWorldFrameIsAnother) {
+  apply({adding("a", 1.0)});
+  tick();
+  store();
+  Params params = Obstacles::params();
+  params.world_frame = "cart";
+  const auto second = restarted(params);
+  const auto ask = [&](bool replace) {
+    msg::ApplyObstacles::Request request;
+    request.changes = {adding("a", 1.0)};
+    request.changes[0].replace = replace;
+    second->applyObstacles(obstacleChangesOf(request, "/caller", params, *phase_, &readFile), momentAt(time_).ros);
+  };
+  EXPECT_EQ(second->obstacles().all().at("obstacle/a").frame, "world");
+  EXPECT_THROW(ask(false), Refusal) << "the same numbers are another place now";
+  EXPECT_EQ(second->obstacles().all().at("obstacle/a").asked.frame, "world") << "~save_scene writes it";
+  ask(true);
+  EXPECT_EQ(second->obstacles().all().at("obstacle/a").frame, "cart");
+}
+
+TEST_F(StoredObstacles, ThatWereLostAreLostAgain) {
+  msg::Obstacle seen = adding("seen", 1.0), unseen = adding("unseen", 1.0, 0.1, "never_there");
+  seen.lifetime = unseen.lifetime = ros::Duration(0.1);
+  seen.lifetime_end = unseen.lifetime_end = msg::LifetimeEnd::LOST;
+  apply({seen, unseen});
+  tick();
+  store();
+  tick();
+  ASSERT_TRUE(world_.obstacles().all().at("obstacle/seen").lost);
+  store();
+  auto world = std::make_unique<World>(params(), false, 2, ledger_, phase_, storedWorldOf(items_, *phase_, kClocks));
+  world->setRobot(arm());
+  const auto pose = [&](const std::string& name, double later) {
+    const auto tick = world->tick(momentAt(time_ + later));
+    return tick->snapshot->poses()[indexOf(*tick->snapshot, "obstacle/" + name)];
+  };
+  EXPECT_EQ(pose("seen", 0.0).state, Freshness::lost) << "from the first tick on";
+  EXPECT_EQ(pose("seen", 0.0).world_from_body.translation().x(), 1.0);
+  EXPECT_EQ(pose("unseen", 0.0).state, Freshness::unplaced);
+  EXPECT_DOUBLE_EQ(pose("seen", 4.0).age, 4.0);
+  msg::ApplyObstacles::Request request;
+  request.changes = {adding("seen", 1.0)};
+  request.changes[0].replace = true;
+  world->applyObstacles(obstacleChangesOf(request, "/caller", params(), *phase_, &readFile), momentAt(time_ + 4.0).ros);
+  EXPECT_EQ(pose("seen", 4.0).state, Freshness::fresh);
+}
+
+TEST_F(StoredObstacles, HaveTheSpeedBoundsOfTheParameters) {
+  apply({adding("a", 1.0)});
+  tick();
+  store();
+  Params params = Obstacles::params();
+  params.max_speed = {{"obstacle/*", 2.0}};
+  const auto second = restarted(params);
+  EXPECT_EQ(bodyOf(*second->tick(momentAt(time_))->snapshot, "obstacle/a").speed_bound, 2.0);
 }
 
 TEST_F(StoredObstacles, BeginTheirLifetimeAgain) {
