@@ -264,7 +264,7 @@ NODE = [
     ("a frame stays INVALID after a valid transform", INTAKE,
      "  frame.refused.reset();", ""),
     ("another publisher makes a static frame INVALID", INTAKE,
-     "is_static && frame.publisher == publisher", "is_static"),
+     "is_static && frame.publisher == message.publisher", "is_static"),
     ("one stamp far ahead blocks a frame", INTAKE,
      "const bool was_ahead = isFarAhead(newest, arrival) && arrival.stamp <= arrival.now.ros;",
      "const bool was_ahead = false;"),
