@@ -180,14 +180,15 @@ void TfIntake::takeStatic(std::uint32_t number, const Arrival& arrival) {
 
 void TfIntake::takeMoving(std::uint32_t number, const Arrival& arrival) {
   Frame& frame = frames_[number];
-  const bool moves = history(number).moves();
+  const FrameHistory& history = this->history(number);
+  const bool moves = history.moves();
   if (frame.from_static && !moves && !isStream(frame, arrival)) {
     ledger_.count("tf.ignored.CONFLICT");
     return;
   }
-  if (moves && isRepeated(number, arrival)) return takeRepeated(number, arrival);
-  if (isHeld(number, arrival)) return takeRival(number, arrival);
-  const Time newest = history(number).newest().stamp;
+  const Time newest = history.newest().stamp;
+  if (moves && arrival.stamp == newest) return takeRepeated(number, arrival);
+  if (!arrival.same_publisher && isHeld(number, arrival)) return takeRival(number, arrival);
   // A stamp far ahead of the clock counts as the newest only until a transform arrives whose stamp is not ahead.
   const bool was_ahead = isFarAhead(newest, arrival) && arrival.stamp <= arrival.now.ros;
   const bool first = !moves || newest.count() == 0;
@@ -210,12 +211,11 @@ bool TfIntake::isStream(Frame& frame, const Arrival& arrival) const {
   return again;
 }
 
-/// Whether another publisher holds the frame. A holder keeps the frame if it is silent for up to two periods. While the
+/// Whether the publisher of the newest transform still holds the frame. Call this only for another publisher. A holder keeps the frame if it is silent for up to two periods. While the
 /// frame is contested, it may be silent for longer, so that the holder does not change at each gap in its stream.
 bool TfIntake::isHeld(std::uint32_t number, const Arrival& arrival) const {
   const Frame& frame = frames_[number];
   if (!history(number).moves() || history(number).newest().stamp.count() == 0) return false;
-  if (arrival.same_publisher) return false;
   const Time two_periods(static_cast<std::int64_t>(2e9 * frame.pace.period()));
   const Time patience = isContested(number, arrival.reading)
                             ? kMostPatience

@@ -169,8 +169,8 @@ Step hearing(const Moment& now, double x) {
   }
   return {"transforms",
           [=](World& world, Ticks&) {
-            world.transforms().take(viewsOf(standing), true, "/publisher", now);
-            world.transforms().take(viewsOf(moving), false, "/publisher", now);
+            world.transforms().take(test::viewsOf(standing), true, "/publisher", now);
+            world.transforms().take(test::viewsOf(moving), false, "/publisher", now);
           },
           false};
 }
