@@ -129,6 +129,18 @@ TEST(FrameHistory, DropsSamplesThatWereAheadOfANewerOne) {
   EXPECT_EQ(xAt(history, 13.0), std::nullopt) << "one of the dropped samples ended a seam";
 }
 
+TEST(FrameHistory, DoesNotInheritASeamFromSamplesThatAreTooOld) {
+  FrameHistory history;
+  for (int time = 1; time <= 5; ++time) {
+    PoseSample next = sample(time, 0.0);
+    next.continues = time != 2;
+    history.advance(next, kKeepAll);
+  }
+  history.advance(sample(10, 0.0), s(9));
+  history.advance(sample(1.5, 0.0), kKeepAll);  // replaces all newer samples
+  EXPECT_TRUE(history.fill(sample(1.2, 0.0)));
+}
+
 TEST(FrameHistory, KeepsTheNewestPoseWhenStampsAreForgotten) {
   FrameHistory history;
   history.advance(sample(10, 1.0), kKeepAll);
