@@ -82,8 +82,8 @@ class Snapshot {
   /// Indices of the bodies that are stale or worse, that may have moved since their pose, or that are not covered;
   /// ascending.
   const std::vector<std::uint32_t>& doubtful() const { return doubtful_; }
-  /// Indices of the bodies that are not like a fixed body: the state is not fresh, or the pose has an age or a reach. All
-  /// others are fresh, with age 0.
+  /// Indices of the bodies that are not like a fixed body: the state is not fresh, or the pose has an age or a reach.
+  /// All others are fresh, with age 0.
   const std::vector<std::uint32_t>& watched() const { return watched_; }
   /// Whether a query may answer CLEAR only for space that a map knows to be free (SceneOptions::report_unmapped).
   bool reportsUnmapped() const { return report_unmapped_; }

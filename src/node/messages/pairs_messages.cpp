@@ -54,7 +54,8 @@ void PairsMessages::fillNames(const Snapshot& snapshot, Pooled& pooled) {
   number_.resize(structure.bodies.size());
   in_pair_.assign(structure.bodies.size() / kBits + 1, 0);
   for (const NearPair& pair : snapshot.pairs()) {
-    for (const std::uint32_t body : {pair.first, pair.second}) in_pair_[body / kBits] |= std::uint64_t{1} << body % kBits;
+    for (const std::uint32_t body : {pair.first, pair.second})
+      in_pair_[body / kBits] |= std::uint64_t{1} << body % kBits;
   }
   if (pooled.revision != structure.revision) pooled.named.clear();
   pooled.revision = structure.revision;

@@ -211,8 +211,9 @@ bool TfIntake::isStream(Frame& frame, const Arrival& arrival) const {
   return again;
 }
 
-/// Whether the publisher of the newest transform still holds the frame. Call this only for another publisher. A holder keeps the frame if it is silent for up to two periods. While the
-/// frame is contested, it may be silent for longer, so that the holder does not change at each gap in its stream.
+/// Whether the publisher of the newest transform still holds the frame. Call this only for another publisher. A holder
+/// keeps the frame if it is silent for up to two periods. While the frame is contested, it may be silent for longer, so
+/// that the holder does not change at each gap in its stream.
 bool TfIntake::isHeld(std::uint32_t number, const Arrival& arrival) const {
   const Frame& frame = frames_[number];
   if (!history(number).moves() || history(number).newest().stamp.count() == 0) return false;

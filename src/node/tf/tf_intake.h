@@ -21,8 +21,8 @@
 
 namespace hgrid {
 
-/// Receives the transforms of /tf and /tf_static, and decides for each one whether it is used. Only the tick thread may
-/// use this class, except that any thread may use lookup().
+/// Receives the transforms of /tf and /tf_static, and decides for each one whether it is used. Only one thread
+/// at a time may use this class (see TfReader::Hold), except that any thread may use lookup().
 ///
 /// - checkTransform() checks whether a transform is valid.
 /// - FrameRivals compares the transforms of several publishers of one frame.
@@ -55,9 +55,10 @@ class TfIntake {
   TfIntake(double max_future, double cache, std::size_t max_frames, bool simulated, Ledger& ledger,
            std::size_t max_samples = TransformStore::kMaxSamples, double max_wait = 0.1);
 
-  /// Handles transforms of one message. Counts and logs each refused transform, and uses the others. Another thread that
-  /// uses lookup() sees either none of the transforms that are used, or all of them up to the first unusual one.
-  void take(const std::vector<TransformView>& transforms, bool is_static, const std::string& publisher, const Moment& now);
+  /// Handles transforms of one message. Counts and logs each refused transform, and uses the others. Another thread
+  /// that uses lookup() waits meanwhile, except while a line is written to the log.
+  void take(const std::vector<TransformView>& transforms, bool is_static, const std::string& publisher,
+            const Moment& now);
   /// Sets which frames bodies need. There is room for them even if there are too many other frames.
   void need(const std::vector<std::string>& names, const Moment& now);
   /// Drops the stamps and periods of all frames of /tf. Call this after a simulated clock jumped back. Static
@@ -125,9 +126,6 @@ class TfIntake {
   void takeNewest(std::uint32_t number, const Arrival& arrival, const Step& step);
   void takeOlder(std::uint32_t number, const Arrival& arrival);
   void takeRival(std::uint32_t number, const Arrival& arrival);
-  bool isRepeated(std::uint32_t number, const Arrival& arrival) const {
-    return arrival.stamp == history(number).newest().stamp;
-  }
   void takeRepeated(std::uint32_t number, const Arrival& arrival);
   void noteRefusal(const Refusal& refusal, std::string_view child, const Message& message);
   void noteTopic(std::uint32_t number, bool is_static);
@@ -160,7 +158,8 @@ class TfIntake {
   TfNews news_;
   PublisherClocks publisher_clocks_;
   std::vector<std::string> conflicts_;
-  std::map<std::string, Late, std::less<>> late_;  // by child; they are sent only once, and somebody may need them later
+  std::map<std::string, Late, std::less<>>
+      late_;  // by child; they are sent only once, and somebody may need them later
   std::uint64_t static_revision_ = 0;
   std::uint64_t accepted_ = 0;  // number of accepted transforms of the current message
   Time newest_stamp_{0};        // newest stamp of the accepted transforms of the current message on /tf; 0: none

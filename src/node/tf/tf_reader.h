@@ -98,7 +98,7 @@ class TfReader {
   Ledger& ledger_;
   TfQueue queue_;
   std::mutex poses_mutex_;
-  PosesConverter poses_;        ///< guarded by poses_mutex_
+  PosesConverter poses_;  ///< guarded by poses_mutex_
   const bool receiver_reads_;
   std::mutex mutex_;                  ///< locked by a Hold
   std::atomic<int> waiting_{0};       ///< number of threads that are about to lock mutex_

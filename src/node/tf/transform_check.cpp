@@ -22,8 +22,8 @@ void checkNames(const TransformView& transform) {
   for (const std::string_view frame : {parent, child}) {
     if (!frame.empty() && frame.size() <= kLongestFrame) continue;
     throw Refusal(Code::bad_id, whatOf(transform) + " in '" + printable(std::string(parent)) +
-                                    "': a frame's name has " + std::to_string(frame.size()) + " bytes; it must have 1 .. " +
-                                    std::to_string(kLongestFrame));
+                                    "': a frame's name has " + std::to_string(frame.size()) +
+                                    " bytes; it must have 1 .. " + std::to_string(kLongestFrame));
   }
   if (parent == child) {
     throw Refusal(Code::bad_id, whatOf(transform) + " has itself as its parent; frame and parent must differ");
@@ -33,8 +33,8 @@ void checkNames(const TransformView& transform) {
 /// A quick check that most transforms pass. It builds no error sentence, which would cost time.
 bool isSound(const TransformView& transform) {
   const auto& [x, y, z] = transform.translation;
-  return std::abs(squaredLength(transform.rotation) - 1.0) <= 0.5 * kQuaternionTolerance &&
-         std::abs(x) <= kFarthest && std::abs(y) <= kFarthest && std::abs(z) <= kFarthest;
+  return std::abs(squaredLength(transform.rotation) - 1.0) <= 0.5 * kQuaternionTolerance && std::abs(x) <= kFarthest &&
+         std::abs(y) <= kFarthest && std::abs(z) <= kFarthest;
 }
 
 void checkNumbers(const TransformView& transform) {

@@ -16,8 +16,8 @@ namespace hgrid {
 
 /// Stores the checked transforms of all frames.
 ///
-/// Only the tick thread writes; it also reads, without a lock. Any other thread must read through a Reading.
-/// A call that throws changes nothing.
+/// Only one thread at a time writes (see TfReader::Hold); it also reads, without a lock. Any other thread must read
+/// through a Reading. A call that throws changes nothing.
 class TransformStore {
  public:
   /// @param cache        [ns] how long transforms are kept

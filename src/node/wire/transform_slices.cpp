@@ -62,7 +62,8 @@ TransformSlices::TransformSlices(const std::string& bytes) {
   const bool has_count = bytes.size() >= sizeof(std::uint32_t);
   const auto count = has_count ? take<std::uint32_t>(at) : 0;
   if (!has_count || !fill(count, at, end)) {
-    const std::string flaw = flawOf<tf2_msgs::TFMessage>(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+    const std::string flaw =
+        flawOf<tf2_msgs::TFMessage>(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
     throw Refusal(Code::truncated, flaw);
   }
   at_ = at;

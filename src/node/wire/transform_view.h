@@ -12,8 +12,8 @@ namespace hgrid {
 /// One transform of a received tf2_msgs/TFMessage, as it was sent. The names refer to the bytes of the message, which
 /// must outlive this object. Nothing but the lengths has been checked.
 struct TransformView {
-  std::string_view parent, child;         ///< names of frames
-  Time stamp{0};                          ///< ROS time
+  std::string_view parent, child;          ///< names of frames
+  Time stamp{0};                           ///< ROS time
   std::array<double, 3> translation = {};  ///< x, y, z [m]
   std::array<double, 4> rotation = {};     ///< quaternion x, y, z, w
 };

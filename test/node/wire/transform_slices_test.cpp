@@ -43,7 +43,8 @@ TEST(TransformSlices, AreTogetherTheMessage) {
         EXPECT_EQ(transform.parent, expected.parent);
         EXPECT_EQ(transform.child, expected.child);
         EXPECT_EQ(transform.stamp, expected.stamp);
-        EXPECT_EQ(bytesOf(transform.translation), bytesOf(expected.translation));  // not a number is not equal to itself
+        EXPECT_EQ(bytesOf(transform.translation),
+                  bytesOf(expected.translation));  // not a number is not equal to itself
         EXPECT_EQ(bytesOf(transform.rotation), bytesOf(expected.rotation));
       }
     }
