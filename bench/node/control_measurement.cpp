@@ -5,12 +5,17 @@
 #include <hgrid_proximity/QuerySphere.h>
 #include <ros/ros.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <functional>
 #include <memory>
 #include <mutex>
+#include <random>
 #include <stdexcept>
 #include <thread>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "processor_time.h"
@@ -24,7 +29,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kTurns = 10;  // of the two services whose round trips are compared
+constexpr int kTurns = 10;       // spans of time into which a comparison is divided
+constexpr double kLonger = 3.0;  // a 99th percentile needs many round trips
+
+double medianOf(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
 
 void sleepFor(double duration) { std::this_thread::sleep_for(std::chrono::duration<double>(duration)); }
 
@@ -83,47 +94,101 @@ Spread relayLatency(const Workload& workload, double duration, std::size_t messa
   return spreadOf(seconds);
 }
 
-/// Returns the processor time of a control that ignores /tf [percent of one processor].
-double ignorePercent(const Workload& workload, double duration) {
-  const Control control("ignore");
-  const TfPublisher publisher(workload, 1.0 / workload.rate);
-  waitForSubscriber(publisher);
-  const auto begin = Clock::now();
-  const double before = control.processorTime();
-  sleepFor(duration);
-  return 100.0 * (control.processorTime() - before) / std::chrono::duration<double>(Clock::now() - begin).count();
-}
+/// Returns the processor time per second of wall time since `before` [percent of one processor].
+class Share {
+ public:
+  explicit Share(std::function<double()> processor_time)
+      : processor_time_(std::move(processor_time)), before_(processor_time_()), begin_(Clock::now()) {}
+  double percent() const {
+    return 100.0 * (processor_time_() - before_) / std::chrono::duration<double>(Clock::now() - begin_).count();
+  }
 
-/// Returns the processor time of the node while it makes as few ticks as it can [percent of one processor].
-double receivePercent(Workload workload, double duration) {
+ private:
+  std::function<double()> processor_time_;
+  double before_;
+  Clock::time_point begin_;
+};
+
+/// Returns a workload in which the node makes as few ticks as it can.
+Workload withFewTicks(Workload workload) {
   workload.params["rate"] = 1.0;
   workload.params["heartbeat"] = 1.0;
-  workload.params["valid_for"] = 1.0;
+  workload.params["valid_for"] = 3.0;
   workload.params["audit_rate"] = 0.0;
-  RunningNode node(workload, duration);
-  Sightings seen;
-  node.watch(seen);
-  sleepFor(duration);
-  node.rest();
-  return 100.0 * seen.node_time / seen.duration;
+  // Otherwise the margins of old poses grow, and a tick finds many more pairs.
+  for (const char* limit : {"late_after", "stale_after", "lost_after"}) workload.params[limit] = 3600.0;
+  return workload;
 }
 
-/// Measures the round trips [s] of a service, 200 per second, over a persistent connection.
-void appendRoundTrips(const std::string& service, double duration, std::vector<double>& seconds) {
-  ros::NodeHandle node;
-  ros::ServiceClient client = node.serviceClient<msg::QuerySphere>(service, true);
-  if (!client.waitForExistence(ros::Duration(20.0))) throw std::runtime_error(service + " is not offered");
-  client = node.serviceClient<msg::QuerySphere>(service, true);
-  msg::QuerySphere question;
-  question.request.radius = 0.5;
-  auto due = Clock::now();
-  const auto end = due + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(duration));
-  for (; due < end; due += std::chrono::milliseconds(5)) {
-    std::this_thread::sleep_until(due);
+/// Measures the processor times of the node and of a control that ignores /tf. Both receive the same messages at the
+/// same time.
+Receiving receiving(const Workload& workload, double duration) {
+  const Control control("ignore");
+  const Workload calm = withFewTicks(workload);
+  const RunningNode node(calm, duration);  // it also waits until the control has started
+  std::vector<double> node_percent, control_percent;
+  for (int turn = 0; turn < kTurns; ++turn) {
+    const Share of_node([&] { return node.processorTime(); }), of_control([&] { return control.processorTime(); });
+    sleepFor(duration / kTurns);
+    node_percent.push_back(of_node.percent());
+    control_percent.push_back(of_control.percent());
+  }
+  if (control.processorTime() == 0.0) throw std::runtime_error("a control does not run");
+  return {medianOf(node_percent), medianOf(control_percent)};
+}
+
+/// A persistent connection to a service that answers QuerySphere.
+class Caller {
+ public:
+  explicit Caller(const std::string& service) : service_(service) {
+    ros::NodeHandle node;
+    client_ = node.serviceClient<msg::QuerySphere>(service, true);
+    if (!client_.waitForExistence(ros::Duration(20.0))) throw std::runtime_error(service + " is not offered");
+    client_ = node.serviceClient<msg::QuerySphere>(service, true);
+    question_.request.radius = 0.5;
+  }
+  /// Calls the service, and appends the time that it took [s].
+  void call(std::vector<double>& seconds) {
     const auto begin = Clock::now();
-    if (!client.call(question)) throw std::runtime_error(service + " did not answer");
+    if (!client_.call(question_)) throw std::runtime_error(service_ + " did not answer");
     seconds.push_back(std::chrono::duration<double>(Clock::now() - begin).count());
   }
+
+ private:
+  std::string service_;
+  ros::ServiceClient client_;
+  msg::QuerySphere question_;
+};
+
+/// Measures the round trips of two services, 200 per second of each. A random one of them is called first each time, so
+/// that /tf, which has nearly the same rate, and other programs delay both alike.
+std::pair<ServiceTimes, ServiceTimes> compareRoundTrips(const std::string& first, const std::string& second,
+                                                        double duration) {
+  Caller callers[] = {Caller(first), Caller(second)};
+  ServiceTimes trips[2];
+  std::vector<double> all[2];
+  std::mt19937 random(1);
+  auto due = Clock::now();
+  for (int turn = 0; turn < kTurns; ++turn) {
+    std::vector<double> seconds[2];
+    const auto end =
+        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(duration)) / kTurns;
+    for (int which = 0; Clock::now() < end; which = 1 - which) {
+      if (seconds[0].size() == seconds[1].size()) which = static_cast<int>(random() % 2);
+      due = std::max(due + std::chrono::microseconds(2500), Clock::now());
+      std::this_thread::sleep_until(due);
+      callers[which].call(seconds[which]);
+    }
+    for (int which : {0, 1}) {
+      trips[which].p99_of_turns.push_back(spreadOf(seconds[which]).p99);
+      all[which].insert(all[which].end(), seconds[which].begin(), seconds[which].end());
+    }
+  }
+  for (int which : {0, 1}) {
+    trips[which].all = spreadOf(all[which]);
+    std::sort(trips[which].p99_of_turns.begin(), trips[which].p99_of_turns.end());
+  }
+  return {trips[0], trips[1]};
 }
 
 }  // namespace
@@ -135,18 +200,15 @@ ControlMeasurement measureControls(const Workload& workload, double duration) {
   const std::vector<tf2_msgs::TFMessage> cycle = moving.move(0.0);
   for (const tf2_msgs::TFMessage& message : cycle) result.transforms += message.transforms.size();
   result.relay = relayLatency(workload, duration, cycle.size());
-  result.ignore_percent = ignorePercent(workload, duration);
-  result.receive_percent = receivePercent(workload, duration);
-  // Both services are measured in turns while the node makes ticks. So other programs delay both equally.
+  result.receiving = receiving(workload, duration);
+  Workload nearly_idle = workload;
+  nearly_idle.rate = 1.0;
+  result.idle = receiving(nearly_idle, duration);
+  // Both services are measured while the node makes ticks.
   const Control control("service");
-  const RunningNode node(workload, duration);
-  std::vector<double> empty, sphere;
-  for (int turn = 0; turn < kTurns; ++turn) {
-    appendRoundTrips(control.name() + "/query_sphere", duration / kTurns, empty);
-    appendRoundTrips(node.name() + "/query_sphere", duration / kTurns, sphere);
-  }
-  result.empty_service = spreadOf(empty);
-  result.sphere = spreadOf(sphere);
+  const RunningNode node(workload, kLonger * duration);
+  std::tie(result.empty_service, result.sphere) =
+      compareRoundTrips(control.name() + "/query_sphere", node.name() + "/query_sphere", kLonger * duration);
   return result;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "measurement.h"
 #include "workload.h"
@@ -10,14 +11,26 @@
 namespace hgrid {
 namespace bench {
 
+/// Processor times of two programs that receive the same messages of /tf at the same time, in percent of one processor.
+struct Receiving {
+  double node = 0.0;     ///< the node while it makes one tick per second
+  double control = 0.0;  ///< a control with an empty callback
+};
+
+/// How long calls of a service take.
+struct ServiceTimes {
+  Spread all;
+  std::vector<double> p99_of_turns;  ///< [ms] 99th percentile of each of several spans of time, sorted
+};
+
 /// Figures of the node beside those of controls, which only use ROS. Each pair is measured with the same messages.
 struct ControlMeasurement {
   std::string title;
-  std::size_t transforms = 0;    ///< number of transforms of one cycle of /tf
-  Spread relay;                  ///< from the stamp of a cycle to the arrival of its last message, relayed by a control
-  double ignore_percent = 0.0;   ///< processor time of a control that ignores /tf, in percent of one processor
-  double receive_percent = 0.0;  ///< the same of the node while it makes one tick per second
-  Spread empty_service, sphere;  ///< round trips over a persistent connection: a control's empty service, ~query_sphere
+  std::size_t transforms = 0;  ///< number of transforms of one cycle of /tf
+  Spread relay;                ///< from the stamp of a cycle to the arrival of its last message, relayed by a control
+  Receiving receiving;         ///< with the /tf of the workload
+  Receiving idle;              ///< with one cycle of /tf per second
+  ServiceTimes empty_service, sphere;  ///< over a persistent connection: a control's empty service, ~query_sphere
 };
 
 /// Measures each of the figures for `duration` [s].

@@ -39,11 +39,15 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "node_testbench");
   std::string json, commit = "unknown";
   double duration = 10.0;  // [s] measured time per world
-  bool only_maps = false;
+  std::string only;        // "" (everything), "worlds", "controls" or "maps"
+  std::string title;       // part of the titles of the worlds that are measured
   for (int i = 1; i < argc; ++i) {
     const std::string option = argv[i];
     if (option == "--quick") duration = 4.0;
-    if (option == "--maps") only_maps = true;
+    for (const char* part : {"worlds", "controls", "maps"}) {
+      if (option == std::string("--") + part) only = part;
+    }
+    if (option == "--world" && i + 1 < argc) only = "worlds", title = argv[++i];
     if (option == "--json" && i + 1 < argc) json = argv[++i];
     if (option == "--commit" && i + 1 < argc) commit = argv[++i];
   }
@@ -51,19 +55,24 @@ int main(int argc, char** argv) {
     ros::AsyncSpinner spinner(1);
     spinner.start();
     std::vector<Measurement> measurements;
-    for (const Workload& world : only_maps ? std::vector<Workload>() : movingWorlds()) {
-      measurements.push_back(measure(world, duration));
-      print(measurements.back());
+    if (only.empty() || only == "worlds") {
+      for (const Workload& world : movingWorlds()) {
+        if (world.title.find(title) == std::string::npos) continue;
+        measurements.push_back(measure(world, duration));
+        print(measurements.back());
+      }
     }
     std::optional<ControlMeasurement> controls;
-    if (!only_maps) {
+    if (only.empty() || only == "controls") {
       controls = measureControls(robots(32, 31, 100.0), duration);
       print(*controls);
     }
-    const MapMeasurement maps = measureMaps(duration);
-    print(maps);
-    measurements.push_back(maps.resting);
-    measurements.push_back(maps.replaced);
+    if (only.empty() || only == "maps") {
+      const MapMeasurement maps = measureMaps(duration);
+      print(maps);
+      measurements.push_back(maps.resting);
+      measurements.push_back(maps.replaced);
+    }
     if (!json.empty()) writeJson(json, commit, measurements, controls);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "node_testbench: %s\n", error.what());

@@ -46,6 +46,12 @@ void printLateCycles(const Measurement& m) {
   if (m.late_cycles > 0) std::printf("  %zu cycles of /tf were late: the machine is too busy\n", m.late_cycles);
 }
 
+void print(const char* what, const ServiceTimes& trips) {
+  const std::vector<double>& p99 = trips.p99_of_turns;
+  std::printf("  %-46s %10.3f %10.3f   of single spans: %.3f .. %.3f .. %.3f\n", what, trips.all.median, trips.all.p99,
+              p99.front(), p99[p99.size() / 2], p99.back());
+}
+
 }  // namespace
 
 void print(const Measurement& m) {
@@ -86,10 +92,12 @@ void print(const ControlMeasurement& m) {
               m.transforms);
   std::printf("  %-46s %10s %10s\n", "", "median ms", "p99 ms");
   std::printf("  %-46s %10.3f %10.3f\n", "stamp to arrival, relayed by a control", m.relay.median, m.relay.p99);
-  std::printf("  %-46s %10.3f %10.3f\n", "round trip of an empty service", m.empty_service.median, m.empty_service.p99);
-  std::printf("  %-46s %10.3f %10.3f\n", "round trip of ~query_sphere", m.sphere.median, m.sphere.p99);
-  std::printf("  /tf without ticks takes %.1f %% of one processor; an empty callback %.1f %%, ratio %.2f\n",
-              m.receive_percent, m.ignore_percent, m.receive_percent / m.ignore_percent);
+  print("round trip of an empty service", m.empty_service);
+  print("round trip of ~query_sphere", m.sphere);
+  std::printf(
+      "  receiving /tf, percent of one processor: the node %.2f, a control with an empty callback %.2f, ratio %.2f\n",
+      m.receiving.node, m.receiving.control, m.receiving.node / m.receiving.control);
+  std::printf("  with one cycle of /tf per second: the node %.2f, the control %.2f\n", m.idle.node, m.idle.control);
   std::fflush(stdout);
 }
 
@@ -119,11 +127,13 @@ void writeJson(const std::string& file, const std::string& commit, const std::ve
           << ", \"p99_ms\": " << number(milliseconds.p99) << "}";
     };
     spread("relay", controls->relay);
-    spread("empty service", controls->empty_service);
-    spread("query_sphere", controls->sphere);
+    spread("empty service", controls->empty_service.all);
+    spread("query_sphere", controls->sphere.all);
     out << ",\n  {\"kind\": \"node control\", \"world\": " << quoted(controls->title)
-        << ", \"part\": \"receiving\", \"percent\": " << number(controls->receive_percent)
-        << ", \"empty_callback_percent\": " << number(controls->ignore_percent) << "}";
+        << ", \"part\": \"receiving\", \"percent\": " << number(controls->receiving.node)
+        << ", \"empty_callback_percent\": " << number(controls->receiving.control)
+        << ", \"idle_percent\": " << number(controls->idle.node)
+        << ", \"idle_empty_callback_percent\": " << number(controls->idle.control) << "}";
   }
   out << "\n]\n";
   if (!out.flush()) throw std::runtime_error(file + " cannot be written");

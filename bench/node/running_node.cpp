@@ -64,11 +64,13 @@ void RunningNode::rest() {
   sightings_->late_cycles += ended.late_cycles - began_.late_cycles;
 }
 
+double RunningNode::processorTime() const { return bench::processorTime(process_->pid()); }
+
 RunningNode::Clocks RunningNode::clocks() const {
   Clocks clocks;
   clocks.now = std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-  clocks.node = processorTime(process_->pid());
-  clocks.bench = processorTime(getpid());
+  clocks.node = processorTime();
+  clocks.bench = bench::processorTime(getpid());
   clocks.all = processorTimeOfAll();
   clocks.late_cycles = publisher_->lateCycles();
   return clocks;

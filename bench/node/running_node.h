@@ -24,6 +24,8 @@ class RunningNode {
 
   const std::string& name() const { return name_; }
   test::ChildProcess& process() const { return *process_; }
+  /// Returns the processor time that the node has used since it started [s].
+  double processorTime() const;
   /// Adds all measured data to `sightings` from now on, until rest() is called.
   void watch(Sightings& sightings);
   /// Ends what watch() began: adds no more data.

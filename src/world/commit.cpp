@@ -224,12 +224,13 @@ void Scene::State::summarizePoses(Snapshot& snapshot) {
   };
   if (since == 0) {
     for (std::uint32_t body = 0; body < snapshot.poses_.size(); ++body) add(body);
-    return;
+  } else {
+    for (const std::uint32_t body : watched) add(body);
+    for (const std::uint32_t slot : changes.now()) {
+      if (!is_watched[body_of_slot[slot]]) add(body_of_slot[slot]);
+    }
   }
-  for (const std::uint32_t body : watched) add(body);
-  for (const std::uint32_t slot : changes.now()) {
-    if (!is_watched[body_of_slot[slot]]) add(body_of_slot[slot]);
-  }
+  snapshot.watched_ = next_watched;
 }
 
 /// Fills poses and boxes. If this snapshot object was used a few commits ago and few bodies changed since, writes only

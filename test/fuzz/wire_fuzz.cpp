@@ -22,6 +22,8 @@
 #include <std_srvs/Trigger.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <cstring>
+
 #include "src/node/messages/from_messages.h"
 #include "src/node/tf/transform_check.h"
 #include "src/node/wire/checked.h"
@@ -31,6 +33,7 @@
 #include "test/fuzz/targets.h"
 #include "test/node/support/random_message.h"
 #include "test/node/support/raw_message.h"
+#include "test/node/support/transform_views.h"
 #include "test/support/counted_allocations.h"
 #include "test/support/sentences.h"
 
@@ -58,16 +61,25 @@ std::string flawOfUse(const msg::QueryShape::Request& request, const std::string
   if (!pose.matrix().allFinite()) return "a pose is not finite";
   return isValid(boxOf(shape, Pose::Identity(), 0.0, Eigen::Vector3d::Zero())) ? "" : "a shape is not valid";
 }
+bool isSame(const TransformView& a, const TransformView& b) {
+  return a.parent == b.parent && a.child == b.child && a.stamp == b.stamp &&
+         std::memcmp(a.translation.data(), b.translation.data(), sizeof a.translation) == 0 &&
+         std::memcmp(a.rotation.data(), b.rotation.data(), sizeof a.rotation) == 0;
+}
 std::string flawOfUse(const tf2_msgs::TFMessage& message, const std::string& bytes) {
   TransformSlices slices(bytes);
-  tf2_msgs::TFMessage whole, slice;
+  std::vector<TransformView> slice;
+  std::size_t read = 0;
   while (slices.left()) {
     slices.next(slice);
-    whole.transforms.insert(whole.transforms.end(), slice.transforms.begin(), slice.transforms.end());
+    for (const TransformView& transform : slice) {
+      if (read >= message.transforms.size() || !isSame(transform, test::viewOf(message.transforms[read++])))
+        return "the slices are not the message";
+    }
   }
-  if (serialized(whole) != serialized(message)) return "the slices are not the message";
+  if (read != message.transforms.size()) return "the slices are not the whole message";
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {
-    checkTransform(transform, false, Moment{std::chrono::seconds(1000), {}}, 0.5);
+    checkTransform(test::viewOf(transform), false, Moment{std::chrono::seconds(1000), {}}, 0.5);
     const geometry_msgs::Vector3& at = transform.transform.translation;
     const geometry_msgs::Quaternion& q = transform.transform.rotation;
     if (!Eigen::Vector3d(at.x, at.y, at.z).allFinite()) return "a translation is not finite";

@@ -82,6 +82,9 @@ class Snapshot {
   /// Indices of the bodies that are stale or worse, that may have moved since their pose, or that are not covered;
   /// ascending.
   const std::vector<std::uint32_t>& doubtful() const { return doubtful_; }
+  /// Indices of the bodies that are not like a fixed body: the state is not fresh, or the pose has an age or a reach.
+  /// All others are fresh, with age 0.
+  const std::vector<std::uint32_t>& watched() const { return watched_; }
   /// Whether a query may answer CLEAR only for space that a map knows to be free (SceneOptions::report_unmapped).
   bool reportsUnmapped() const { return report_unmapped_; }
   /// Why the world is not complete: first the gaps(), then single bodies, the worst state first. At most
@@ -120,6 +123,7 @@ class Snapshot {
   PairEventList events_;
   std::vector<SourceGap> gaps_;
   std::vector<std::uint32_t> doubtful_;  // see doubtful()
+  std::vector<std::uint32_t> watched_;   // see watched()
   std::vector<std::string> incomplete_;
   std::vector<std::string> reasons_;
   std::uint32_t reasons_total_ = 0;

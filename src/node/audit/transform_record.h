@@ -16,7 +16,7 @@
 namespace hgrid {
 
 /// Stores the newest messages of /tf and all transforms of /tf_static as they were received. An audit uses them to
-/// compute poses again. Only the tick thread may use this object.
+/// compute poses again. Only one thread at a time may use this object (see TfReader::Hold).
 ///
 /// Transforms of /tf_static are never dropped, because each is sent only once. If a publisher sends several transforms
 /// for one child, only the newest is kept. A transform that is not valid replaces no other transform, as in the node.

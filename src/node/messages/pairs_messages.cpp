@@ -50,14 +50,18 @@ PairsMessages::Pooled& PairsMessages::unused() {
 /// number_. The names are sorted, because Structure::bodies is sorted by name.
 void PairsMessages::fillNames(const Snapshot& snapshot, Pooled& pooled) {
   const Structure& structure = snapshot.structure();
-  number_.assign(structure.bodies.size(), 0);
-  for (const NearPair& pair : snapshot.pairs()) number_[pair.first] = number_[pair.second] = 1;
+  constexpr std::uint32_t kBits = 64;
+  number_.resize(structure.bodies.size());
+  in_pair_.assign(structure.bodies.size() / kBits + 1, 0);
+  for (const NearPair& pair : snapshot.pairs()) {
+    for (const std::uint32_t body : {pair.first, pair.second})
+      in_pair_[body / kBits] |= std::uint64_t{1} << body % kBits;
+  }
   if (pooled.revision != structure.revision) pooled.named.clear();
   pooled.revision = structure.revision;
   std::vector<std::string>& names = pooled.message->names;
   std::uint32_t next = 0;
-  for (std::uint32_t body = 0; body < number_.size(); ++body) {
-    if (number_[body] == 0) continue;
+  const auto add = [&](std::uint32_t body) {
     if (next == names.size()) names.emplace_back();
     if (next == pooled.named.size()) {
       pooled.named.push_back(body);
@@ -67,6 +71,11 @@ void PairsMessages::fillNames(const Snapshot& snapshot, Pooled& pooled) {
       names[next] = structure.bodies[body].name;
     }
     number_[body] = next++;
+  };
+  for (std::uint32_t word = 0; word < in_pair_.size(); ++word) {
+    for (std::uint64_t bits = in_pair_[word]; bits != 0; bits &= bits - 1) {  // removes the lowest bit
+      add(word * kBits + static_cast<std::uint32_t>(__builtin_ctzll(bits)));
+    }
   }
   names.resize(next);
   pooled.named.resize(next);

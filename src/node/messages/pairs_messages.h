@@ -31,8 +31,9 @@ class PairsMessages {
 
   static constexpr std::size_t kMostKept = 4;
   std::vector<Pooled> pool_;
-  Pooled extra_;                       // used while slow subscribers still hold every message of the pool
-  std::vector<std::uint32_t> number_;  // for each body: its index in the names of the message
+  Pooled extra_;                        // used while slow subscribers still hold every message of the pool
+  std::vector<std::uint64_t> in_pair_;  // one bit for each body: whether it is in a pair
+  std::vector<std::uint32_t> number_;   // for each body in a pair: its index in the names of the message
 };
 
 }  // namespace hgrid

@@ -43,13 +43,23 @@ void addBodies(const Snapshot& snapshot, Sources& sources) {
     entries.push_back(&entryOf(sources, source));
     entries.back()->state = msg::BodyState::FRESH;
   }
-  for (std::size_t body = 0; body < structure.bodies.size(); ++body) {
+  std::vector<std::uint32_t> bodies(entries.size(), 0), placed;
+  for (const std::uint32_t source : structure.source_of) ++bodies[source];
+  placed = bodies;
+  // Reading the poses of all bodies would take longer than the rest of a tick in which few of them move.
+  for (const std::uint32_t body : snapshot.watched()) {
     msg::SourceStatus& source = *entries[structure.source_of[body]];
     const BodyPose& pose = snapshot.poses()[body];
-    ++source.bodies;
     source.state = std::max(source.state, static_cast<std::uint8_t>(pose.state));
-    if (pose.state == Freshness::unplaced) continue;
-    if (pose.age > source.age || std::isnan(source.age)) source.age = pose.age;
+    if (pose.state == Freshness::unplaced) {
+      --placed[structure.source_of[body]];
+    } else if (pose.age > source.age || std::isnan(source.age)) {
+      source.age = pose.age;
+    }
+  }
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    entries[i]->bodies = bodies[i];
+    if (placed[i] > 0 && std::isnan(entries[i]->age)) entries[i]->age = 0.0;
   }
 }
 

@@ -32,6 +32,24 @@ void FrameHistory::fix(const PoseSample& sample) {
   moves_ = false;
 }
 
+/// Returns the first sample that is valid: the first one that is not before kept_from_. The newest one is always valid.
+FrameHistory::Samples::const_iterator FrameHistory::first() const {
+  if (samples_.empty() || samples_.front().stamp >= kept_from_) return samples_.begin();
+  return std::lower_bound(samples_.begin(), samples_.end() - 1, kept_from_,
+                          [](const PoseSample& left, Time right) { return left.stamp < right; });
+}
+
+/// Drops samples that are no longer valid, but leaves up to kDropped of them.
+void FrameHistory::dropSome() {
+  pushed_ = 0;
+  while (samples_.size() > kDropped && samples_[kDropped - 1].stamp < kept_from_) {
+    samples_.erase(samples_.begin(), samples_.begin() + kDropped);
+  }
+}
+
+/// Drops all samples that are no longer valid.
+void FrameHistory::dropAll() { samples_.erase(samples_.cbegin(), first()); }
+
 /// If memory runs out, nothing is changed, because the only allocation comes before all changes.
 void FrameHistory::advance(const PoseSample& sample, Time keep_from) {
   if (!samples_.empty() && (!moves_ || newest().stamp.count() == 0)) {  // the only sample has no stamp
@@ -42,12 +60,14 @@ void FrameHistory::advance(const PoseSample& sample, Time keep_from) {
     samples_.push_back(sample);
   }
   moves_ = true;
+  if (keep_from < kept_from_) dropAll();  // samples that were no longer valid must not become valid again
   kept_from_ = keep_from;
-  while (samples_.size() > 1 && samples_.front().stamp < keep_from) samples_.pop_front();
+  if (++pushed_ >= kDropped) dropSome();
 }
 
 /// Replaces all samples that are not older than `sample` by it. If a replaced sample ended a seam, `sample` ends one.
 void FrameHistory::replaceFrom(const PoseSample& sample) {
+  dropAll();
   bool continues = sample.continues && samples_.back().continues;
   while (samples_.size() > 1 && samples_[samples_.size() - 2].stamp >= sample.stamp) {
     samples_.pop_back();
@@ -67,10 +87,13 @@ bool FrameHistory::fill(const PoseSample& sample) {
 }
 
 std::size_t FrameHistory::trim(std::size_t most) {
-  const std::size_t before = samples_.size();
-  while (samples_.size() > most) samples_.pop_front();
-  if (samples_.size() < before) kept_from_ = std::max(kept_from_, samples_.front().stamp);
-  return before - samples_.size();
+  if (samples_.size() <= most) return 0;
+  dropAll();
+  if (samples_.size() <= most) return 0;
+  const std::size_t dropped = samples_.size() - most;
+  samples_.erase(samples_.begin(), samples_.begin() + static_cast<std::ptrdiff_t>(dropped));
+  kept_from_ = std::max(kept_from_, samples_.front().stamp);
+  return dropped;
 }
 
 void FrameHistory::forgetStamps() {
@@ -93,6 +116,7 @@ std::optional<PoseSample> FrameHistory::sampleAt(Time time) const {
   const auto to = after(time);
   if (to == samples_.begin()) return std::nullopt;
   const auto from = std::prev(to);
+  if (from->stamp < kept_from_ && from < first()) return std::nullopt;
   if (from->stamp == time) return *from;
   if (to == samples_.end() || !joined(*from, *to)) return std::nullopt;
   return interpolated(*from, *to, time);
@@ -106,12 +130,12 @@ std::optional<FramePose> FrameHistory::at(Time time) const {
 }
 
 std::optional<Time> FrameHistory::newestKnownTime(Time time) const {
-  const auto next = after(time);
-  if (next == samples_.begin() || newest().stamp.count() == 0) return std::nullopt;
+  const auto next = after(time), oldest = first();
+  if (next <= oldest || newest().stamp.count() == 0) return std::nullopt;
   auto known = std::prev(next);
   if (next != samples_.end() && joined(*known, *next) && next->parent == newest().parent) return time;
   while (known->parent != newest().parent) {
-    if (known == samples_.begin()) return std::nullopt;
+    if (known == oldest) return std::nullopt;
     --known;
   }
   return known->stamp;
@@ -120,9 +144,9 @@ std::optional<Time> FrameHistory::newestKnownTime(Time time) const {
 std::string FrameHistory::knownTimes(Time time) const {
   const auto stampOf = [](const PoseSample& sample) { return text(seconds(sample.stamp)); };
   if (newest().stamp.count() == 0) return "has received no transform since the clock jumped";
-  const auto next = after(time);
-  if (next == samples_.begin() || next == samples_.end()) {
-    return "is known from " + stampOf(samples_.front()) + " s to " + stampOf(newest()) + " s";
+  const auto next = after(time), oldest = first();
+  if (next <= oldest || next == samples_.end()) {
+    return "is known from " + stampOf(*oldest) + " s to " + stampOf(newest()) + " s";
   }
   return "is not known between " + stampOf(*std::prev(next)) + " s and " + stampOf(*next) +
          " s, because its publisher or parent changed or its transforms paused";

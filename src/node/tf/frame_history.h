@@ -62,13 +62,21 @@ class FrameHistory {
   using Samples = std::deque<PoseSample>;  // adding a sample at an end does not copy the others
   static const PoseSample kNoSample;
 
+  /// Number of samples that are dropped together. The oldest sample has left the processor's cache, so looking at it
+  /// for each new sample would take longer than everything else that advance() does.
+  static constexpr std::size_t kDropped = 16;
+
+  Samples::const_iterator first() const;
   /// Returns the first sample whose stamp is after `time`.
   Samples::const_iterator after(Time time) const;
   void replaceFrom(const PoseSample& sample);
+  void dropSome();
+  void dropAll();
 
   bool moves_ = false;
-  Samples samples_;    // sorted by stamp, each stamp once
-  Time kept_from_{0};  // fill() refuses samples before this time
+  std::uint8_t pushed_ = 0;  // number of samples that were added since dropSome()
+  Samples samples_;          // sorted by stamp, each stamp once; those before first() are no longer valid
+  Time kept_from_{0};        // fill() refuses samples before this time
 };
 
 }  // namespace hgrid

@@ -3,13 +3,15 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace hgrid {
 
 /// Returns the name of a tf frame without the leading slash that tf1 used and that tf2 does not allow.
-inline std::string withoutSlash(const std::string& frame) {
+inline std::string_view viewWithoutSlash(std::string_view frame) {
   return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
 }
+inline std::string withoutSlash(const std::string& frame) { return std::string(viewWithoutSlash(frame)); }
 
 /// Returns the name of the tf frame of a robot's link: the tf prefix, a slash and the link's name.
 inline std::string prefixed(const std::string& prefix, const std::string& link) {

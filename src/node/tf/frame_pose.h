@@ -5,6 +5,7 @@
 #include <geometry_msgs/Transform.h>
 
 #include "hgrid_proximity/geometry/pose.h"
+#include "node/wire/transform_view.h"
 
 namespace hgrid {
 
@@ -50,6 +51,14 @@ inline FramePose toFramePose(const geometry_msgs::Transform& transform) {
   FramePose result;
   result.rotation = Eigen::Quaternion<double, Eigen::DontAlign>(q.w, q.x, q.y, q.z).normalized();
   result.translation = {t.x, t.y, t.z};
+  return result;
+}
+
+/// Converts a transform, which must be checked as above.
+inline FramePose toFramePose(const TransformView& transform) {
+  FramePose result;
+  result.rotation = Eigen::Quaternion<double, Eigen::DontAlign>(transform.rotation.data()).normalized();
+  result.translation = Eigen::Vector3d(transform.translation.data());
   return result;
 }
 

@@ -7,6 +7,10 @@ void FramePoses::plan(const std::string& world_frame, const std::vector<std::str
   world_frame_ = world_frame;
   frames_ = frames;
   tree_.plan(world_frame, frames);
+  others_.clear();
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    if (!isWorld(i)) others_.push_back(i);
+  }
 }
 
 void FramePoses::look(const Moment& now) {
@@ -15,7 +19,7 @@ void FramePoses::look(const Moment& now) {
   reading_ = intake_.ages().read(now);
   tree_.look(reading_);
   newest_.clear();
-  for (std::size_t i = 0; i < frames_.size(); ++i) {
+  for (const std::size_t i : others_) {
     const ChainState& state = chain(i);
     if (state.connected && state.moves) newest_.push_back(state.newest);
   }

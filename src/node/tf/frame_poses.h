@@ -46,6 +46,8 @@ class FramePoses {
   Time reading() const { return reading_; }
   Time readingBefore() const { return reading_before_; }
   const ChainState& chain(std::size_t frame) const { return tree_.state(frame); }
+  /// Whether the frame is the world frame itself, so that no transform can move it.
+  bool isWorld(std::size_t frame) const { return tree_.isWorld(frame); }
   /// Returns the pose of a frame at the time of the tick. For a frame that lags behind, returns its pose at the newest
   /// time at which its chain is known. Empty: no pose can be computed, so the pose in use stays.
   /// @param in_use  the pose in use. A pose with an older stamp replaces it only if it is the pose at the time of the
@@ -66,7 +68,8 @@ class FramePoses {
   TickTime time_;
   std::string world_frame_;
   std::vector<std::string> frames_;
-  std::vector<Time> newest_;  // buffer of look(): the newest time of each chain that moves
+  std::vector<std::size_t> others_;  // frames that are not the world frame
+  std::vector<Time> newest_;         // buffer of look(): the newest time of each chain that moves
   std::vector<FrameStamp> awaited_;
   Time tick_time_{0}, tick_time_before_{0}, reading_{0}, reading_before_{0};
 };

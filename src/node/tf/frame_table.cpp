@@ -6,48 +6,48 @@
 
 namespace hgrid {
 
-std::uint32_t FrameTable::find(const std::string& name) const {
+std::uint32_t FrameTable::find(std::string_view name) const {
   const auto found = numbers_.find(name);
   return found == numbers_.end() ? kNone : found->second;
 }
 
 /// Returns the same as find(), but usually faster. Messages repeat the same frames in the same order. So this function
 /// first tries the frame that came next the last time.
-std::uint32_t FrameTable::guess(const std::string& child) const {
+std::uint32_t FrameTable::guess(std::string_view child) const {
   const std::uint32_t next = last_ == kNone ? kNone : entries_[last_].next;
   return next != kNone && entries_[next].name == child ? next : find(child);
 }
 
-std::uint32_t FrameTable::add(const std::string& name) {
+std::uint32_t FrameTable::add(std::string_view name) {
   const auto number = static_cast<std::uint32_t>(entries_.size());
   Entry entry;
   entry.name = name;
   entry.needed = needed_.count(name) != 0;
   if (entries_.size() == entries_.capacity()) entries_.reserve(2 * entries_.size() + 8);
-  numbers_.emplace(name, number);
+  numbers_.emplace(entry.name, number);
   entries_.push_back(std::move(entry));  // does not throw, because the capacity was reserved above
   ++revision_;
   return number;
 }
 
-void FrameTable::checkRoom(const std::string& parent, std::uint32_t number, const std::string& child) const {
+void FrameTable::checkRoom(std::string_view parent, std::uint32_t number, std::string_view child) const {
   const std::uint32_t known_parent = find(parent);
   const bool new_child = number == kNone || !entries_[number].placed;
   const bool new_parent = known_parent == kNone || !entries_[known_parent].is_parent;
   const bool needed = isNeeded(number, child), parent_needed = needed || isNeeded(known_parent, parent);
   if ((new_child && placed_.isFull(needed, max_frames_)) ||
       (new_parent && parents_.isFull(parent_needed, max_frames_))) {
-    throw Refusal(Code::limit, "transform of frame '" + printable(child) +
+    throw Refusal(Code::limit, "transform of frame '" + printable(std::string(child)) +
                                    "' would add one frame too many; ~max_frames is " + std::to_string(max_frames_));
   }
 }
 
-std::uint32_t FrameTable::again(const std::string& parent, const std::string& child) {
+std::uint32_t FrameTable::again(std::string_view parent, std::string_view child) {
   const std::uint32_t number = guess(child);
   return number == kNone || !isInParent(number, parent) ? kNone : noteLast(number);
 }
 
-std::uint32_t FrameTable::admit(const std::string& parent, const std::string& child) {
+std::uint32_t FrameTable::admit(std::string_view parent, std::string_view child) {
   std::uint32_t number = again(parent, child);
   if (number != kNone) return number;
   number = find(child);
@@ -67,12 +67,12 @@ std::uint32_t FrameTable::noteLast(std::uint32_t number) {
   return last_ = number;
 }
 
-std::uint32_t FrameTable::numberOf(const std::string& name) {
+std::uint32_t FrameTable::numberOf(std::string_view name) {
   const std::uint32_t number = find(name);
   return number == kNone ? add(name) : number;
 }
 
-void FrameTable::setParent(std::uint32_t frame, const std::string& parent) {
+void FrameTable::setParent(std::uint32_t frame, std::string_view parent) {
   if (isInParent(frame, parent)) return;
   const std::uint32_t number = numberOf(parent);
   if (!entries_[number].is_parent) {
@@ -85,7 +85,7 @@ void FrameTable::setParent(std::uint32_t frame, const std::string& parent) {
 }
 
 /// Whether bodies need a frame that may not have a number yet.
-bool FrameTable::isNeeded(std::uint32_t number, const std::string& name) const {
+bool FrameTable::isNeeded(std::uint32_t number, std::string_view name) const {
   return number == kNone ? needed_.count(name) != 0 : entries_[number].needed;
 }
 
@@ -100,7 +100,7 @@ void FrameTable::setNeeded(std::uint32_t number) {
 }
 
 void FrameTable::need(const std::vector<std::string>& names) {
-  std::set<std::string> needed(names.begin(), names.end());
+  std::set<std::string, std::less<>> needed(names.begin(), names.end());
   // The code below does not throw.
   needed_.swap(needed);
   placed_.needed = parents_.needed = 0;
@@ -114,7 +114,7 @@ const std::string& FrameTable::parentName(std::uint32_t frame) const {
   return parent == kNone ? none : entries_[parent].name;
 }
 
-bool FrameTable::isInParent(std::uint32_t frame, const std::string& parent) const {
+bool FrameTable::isInParent(std::uint32_t frame, std::string_view parent) const {
   const std::uint32_t number = entries_[frame].parent;
   return number != kNone && entries_[number].name == parent;
 }

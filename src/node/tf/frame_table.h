@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hgrid {
@@ -28,23 +30,23 @@ class FrameTable {
 
   /// Returns the number of the frame `child`, which a transform places in `parent`. A new child gets a number.
   /// @throws Refusal limit if there is no room for another child or parent
-  std::uint32_t admit(const std::string& parent, const std::string& child);
+  std::uint32_t admit(std::string_view parent, std::string_view child);
   /// Returns the number of the frame `child` if it is known and its parent is `parent`; otherwise kNone. The names,
   /// numbers and parents of the frames do not change.
-  std::uint32_t again(const std::string& parent, const std::string& child);
+  std::uint32_t again(std::string_view parent, std::string_view child);
   /// Returns the number of the frame `name`. A new frame gets a number.
-  std::uint32_t numberOf(const std::string& name);
+  std::uint32_t numberOf(std::string_view name);
   /// Sets the parent of a frame. A new parent gets a number. Does not throw if the parent has a number.
-  void setParent(std::uint32_t frame, const std::string& parent);
+  void setParent(std::uint32_t frame, std::string_view parent);
 
   /// Sets which frames bodies need. The parents of a needed frame are needed too, also those that it gets later. Call
   /// this when bodies were added or removed.
   void need(const std::vector<std::string>& names);
   /// Whether bodies need a frame, or a frame below it.
-  bool isNeeded(const std::string& name) const { return isNeeded(find(name), name); }
+  bool isNeeded(std::string_view name) const { return isNeeded(find(name), name); }
 
   /// Returns the number of the frame `name`, or kNone if this name has not occurred.
-  std::uint32_t find(const std::string& name) const;
+  std::uint32_t find(std::string_view name) const;
   /// Returns how many frames have a number.
   std::size_t size() const { return entries_.size(); }
   /// Returns how many frames a transform has placed in a parent.
@@ -55,7 +57,7 @@ class FrameTable {
   std::uint32_t parent(std::uint32_t frame) const { return entries_[frame].parent; }
   /// Returns the name of the frame's newest parent. Empty: the frame has no parent.
   const std::string& parentName(std::uint32_t frame) const;
-  bool isInParent(std::uint32_t frame, const std::string& parent) const;
+  bool isInParent(std::uint32_t frame, std::string_view parent) const;
   /// Returns a number that increases whenever a frame is added or gets another parent.
   std::uint64_t revision() const { return revision_; }
 
@@ -78,19 +80,19 @@ class FrameTable {
     }
   };
 
-  std::uint32_t add(const std::string& name);
-  std::uint32_t guess(const std::string& child) const;
-  bool isNeeded(std::uint32_t number, const std::string& name) const;
+  std::uint32_t add(std::string_view name);
+  std::uint32_t guess(std::string_view child) const;
+  bool isNeeded(std::uint32_t number, std::string_view name) const;
   void setNeeded(std::uint32_t number);
   std::uint32_t noteLast(std::uint32_t number);
-  void checkRoom(const std::string& parent, std::uint32_t number, const std::string& child) const;
+  void checkRoom(std::string_view parent, std::uint32_t number, std::string_view child) const;
 
   std::size_t max_frames_;
   std::vector<Entry> entries_;
   // Sorted, not hashed, because senders choose the names and could choose names that collide.
-  std::map<std::string, std::uint32_t> numbers_;
+  std::map<std::string, std::uint32_t, std::less<>> numbers_;
   Count placed_, parents_;
-  std::set<std::string> needed_;  // names that need() received; some of them may have no number yet
+  std::set<std::string, std::less<>> needed_;  // names that need() received; some of them may have no number yet
   std::uint64_t revision_ = 0;
   std::uint32_t last_ = kNone;  // the frame of the last call of admit()
 };

@@ -15,12 +15,11 @@ constexpr Time kLeastPatience{50000000};   // [ns] a holder may always be silent
 constexpr Time kMostPatience{3000000000};  // [ns] no holder may be silent for longer
 constexpr double kUnitTolerance = 1e-6;    // a quaternion whose length differs by more is counted
 
-bool hasSlash(const std::string& frame) { return !frame.empty() && frame.front() == '/'; }
-
-geometry_msgs::TransformStamped withoutSlashes(geometry_msgs::TransformStamped transform) {
-  transform.header.frame_id = withoutSlash(transform.header.frame_id);
-  transform.child_frame_id = withoutSlash(transform.child_frame_id);
-  return transform;
+/// Whether the length of a quaternion differs from 1 by more than kUnitTolerance.
+bool needsNormalization(const std::array<double, 4>& rotation) {
+  const double squared = squaredLength(rotation);
+  if (std::abs(squared - 1.0) <= kUnitTolerance) return false;  // the square differs from 1 by more than the length
+  return std::abs(std::sqrt(squared) - 1.0) > kUnitTolerance;
 }
 
 }  // namespace
@@ -35,27 +34,27 @@ TfIntake::TfIntake(double max_future, double cache, std::size_t max_frames, bool
       rivals_(ledger),
       news_(max_wait) {}
 
-void TfIntake::take(const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher,
+void TfIntake::take(const std::vector<TransformView>& transforms, bool is_static, const std::string& publisher,
                     const Moment& now) {
   accepted_ = 0;
   newest_stamp_ = Time(0);
   const std::uint64_t before = table().revision(), static_before = static_revision_;
-  for (const geometry_msgs::TransformStamped& transform : message.transforms) {
-    try {
-      if (hasSlash(transform.header.frame_id) || hasSlash(transform.child_frame_id)) {
-        takeOne(withoutSlashes(transform), is_static, publisher, now);
-      } else {
-        takeOne(transform, is_static, publisher, now);
+  const Message message{is_static, publisher, now, ages_.read(now)};
+  {
+    const TransformStore::Writing writing(store_);
+    for (const TransformView& transform : transforms) {
+      try {
+        takeOne(transform, message);
+      } catch (const Refusal& refusal) {
+        noteRefusal(refusal, viewWithoutSlash(transform.child), message);
+        if (is_static && refusal.code() == Code::limit) keepLate(transform, publisher);
       }
-    } catch (const Refusal& refusal) {
-      noteRefusal(refusal, withoutSlash(transform.child_frame_id), is_static, publisher);
-      if (is_static && refusal.code() == Code::limit) keepLate(transform, publisher);
     }
   }
   if (table().revision() != before) takeLate(now);  // another frame may be above one that bodies need
   if (table().revision() != before || static_revision_ != static_before) news_.noteStructure();
   if (accepted_ > 0) ledger_.count("tf.accepted", accepted_);
-  if (newest_stamp_.count() > 0) publisher_clocks_.note(publisher, newest_stamp_ - now.ros, ages_.read(now));
+  if (newest_stamp_.count() > 0) publisher_clocks_.note(publisher, newest_stamp_ - now.ros, message.reading);
   if (const std::size_t dropped = store_.takeDropped()) ledger_.count("tf.samples.LIMIT", dropped);
 }
 
@@ -65,9 +64,11 @@ void TfIntake::need(const std::vector<std::string>& names, const Moment& now) {
 }
 
 /// Keeps a static transform that found no room. It is sent only once, but a body may need it later.
-void TfIntake::keepLate(const geometry_msgs::TransformStamped& transform, const std::string& publisher) {
-  const std::string child = withoutSlash(transform.child_frame_id);
-  if (late_.size() < most_late_ || late_.count(child) != 0) late_.insert_or_assign(child, Late{transform, publisher});
+void TfIntake::keepLate(const TransformView& transform, const std::string& publisher) {
+  const std::string child(viewWithoutSlash(transform.child)), parent(viewWithoutSlash(transform.parent));
+  if (late_.size() < most_late_ || late_.count(child) != 0) {
+    late_.insert_or_assign(child, Late{parent, publisher, transform});
+  }
 }
 
 /// Takes in the kept static transforms of frames that bodies need by now. One of them can make another one needed.
@@ -77,10 +78,13 @@ void TfIntake::takeLate(const Moment& now) {
       ++next;
       continue;
     }
-    const Late late = std::move(next->second);
+    const std::string child = next->first;
+    Late late = std::move(next->second);
     late_.erase(next);
+    late.transform.parent = late.parent;
+    late.transform.child = child;
     try {
-      takeOne(withoutSlashes(late.transform), true, late.publisher, now);
+      takeOne(late.transform, {true, late.publisher, now, ages_.read(now)});
       next = late_.begin();
     } catch (const Refusal& refusal) {
       ledger_.refuse("tf.refused", refusal);
@@ -89,14 +93,15 @@ void TfIntake::takeLate(const Moment& now) {
   }
 }
 
-void TfIntake::takeOne(const geometry_msgs::TransformStamped& transform, bool is_static, const std::string& publisher,
-                       const Moment& now) {
-  checkTransform(transform, is_static, now, max_future_);
-  const Arrival arrival{transform, publisher, now, ages_.read(now), stampOf(transform)};
-  const std::uint32_t number = admit(arrival);
-  noteTopic(number, is_static);
-  if (std::abs(arrival.rotationLength() - 1.0) > kUnitTolerance) ledger_.count("tf.renormalised");
-  if (is_static) {
+void TfIntake::takeOne(const TransformView& transform, const Message& message) {
+  Arrival arrival{transform, message.publisher, message.now, message.reading, transform.stamp};
+  arrival.transform.parent = viewWithoutSlash(transform.parent);
+  arrival.transform.child = viewWithoutSlash(transform.child);
+  const std::uint32_t number = admit(arrival, message.is_static);
+  noteTopic(number, message.is_static);
+  arrival.same_publisher = frames_[number].publisher == arrival.publisher;
+  if (needsNormalization(transform.rotation)) ledger_.count("tf.renormalised");
+  if (message.is_static) {
     takeStatic(number, arrival);
   } else {
     takeMoving(number, arrival);
@@ -105,20 +110,36 @@ void TfIntake::takeOne(const geometry_msgs::TransformStamped& transform, bool is
 
 /// A refused transform makes a frame INVALID until a valid one arrives. A static transform is sent only once, so only
 /// the publisher that placed a static frame can make it INVALID, and only on /tf_static.
-void TfIntake::noteRefusal(const Refusal& refusal, const std::string& child, bool is_static,
-                           const std::string& publisher) {
-  ledger_.refuse("tf.refused", refusal);
+void TfIntake::noteRefusal(const Refusal& refusal, std::string_view child, const Message& message) {
+  report("tf.refused", refusal);
   const std::uint32_t number = table().find(child);
   if (number == kNone || !table().isPlaced(number)) return;
   Frame& frame = frames_[number];
-  if (history(number).moves() ? !is_static : is_static && frame.publisher == publisher) frame.refused = refusal;
+  const bool is_static = message.is_static;
+  if (history(number).moves() ? !is_static : is_static && frame.publisher == message.publisher) frame.refused = refusal;
 }
 
-/// Allocates the entries of the child and the parent first. So each numbered frame has an entry, even if memory runs
-/// out.
-std::uint32_t TfIntake::admit(const Arrival& arrival) {
+/// Counts and logs what is wrong. Writing to the log can take long, so other threads may read meanwhile.
+void TfIntake::report(const char* where, const Refusal& refusal) {
+  const TransformStore::Pause pause(store_);
+  ledger_.refuse(where, refusal);
+}
+
+/// Checks a transform, and returns the number of its frame. Allocates the entries of the child and the parent first. So
+/// each numbered frame has an entry, even if memory runs out.
+std::uint32_t TfIntake::admit(Arrival& arrival, bool is_static) {
+  const TransformView& transform = arrival.transform;
+  const std::uint32_t known = store_.again(transform.parent, transform.child);
+  if (known != kNone) {  // the names were checked when the frame got its parent
+    checkValues(transform, is_static, arrival.now, max_future_);
+    arrival.same_parent = true;
+    return known;
+  }
+  checkTransform(transform, is_static, arrival.now, max_future_);
   if (frames_.size() < table().size() + 2) frames_.resize(2 * table().size() + 8);
-  return store_.admit(arrival.parent(), arrival.transform.child_frame_id);
+  const std::uint32_t number = store_.admit(transform.parent, transform.child);
+  arrival.same_parent = table().isInParent(number, transform.parent);
+  return number;
 }
 
 void TfIntake::noteTopic(std::uint32_t number, bool is_static) {
@@ -128,9 +149,9 @@ void TfIntake::noteTopic(std::uint32_t number, bool is_static) {
   if (had_conflict || !frame.hasConflict()) return;
   const std::string& name = table().name(number);
   conflicts_.insert(std::lower_bound(conflicts_.begin(), conflicts_.end(), name), name);
-  ledger_.refuse("tf.conflict", Refusal(Code::conflict, "frame '" + printable(name) +
-                                                            "' is published on both /tf and /tf_static; it must be "
-                                                            "published on only one of them"));
+  report("tf.conflict", Refusal(Code::conflict, "frame '" + printable(name) +
+                                                    "' is published on both /tf and /tf_static; it must be published "
+                                                    "on only one of them"));
 }
 
 void TfIntake::accept(Frame& frame) {
@@ -149,29 +170,30 @@ void TfIntake::takeStatic(std::uint32_t number, const Arrival& arrival) {
   }
   const FramePose pose = arrival.pose();
   if (moved || !(pose == history(number).newest().parent_from_frame)) ++static_revision_;
-  store_.fix(number, arrival.parent(), pose);
-  if (!late_.empty()) late_.erase(arrival.transform.child_frame_id);  // an older transform of the frame
+  store_.fix(number, arrival.transform.parent, pose);
+  if (!late_.empty()) late_.erase(table().name(number));  // an older transform of the frame
   frame.pace.forgetPeriod();
-  frame.publisher = arrival.publisher;
+  if (!arrival.same_publisher) frame.publisher = arrival.publisher;
   frame.stray = Time(0);
   accept(frame);
 }
 
 void TfIntake::takeMoving(std::uint32_t number, const Arrival& arrival) {
   Frame& frame = frames_[number];
-  const bool moves = history(number).moves();
+  const FrameHistory& history = this->history(number);
+  const bool moves = history.moves();
   if (frame.from_static && !moves && !isStream(frame, arrival)) {
     ledger_.count("tf.ignored.CONFLICT");
     return;
   }
-  if (moves && takeRepeated(number, arrival)) return;
-  if (isHeld(number, arrival)) return takeRival(number, arrival);
-  const Time newest = history(number).newest().stamp;
+  const Time newest = history.newest().stamp;
+  if (moves && arrival.stamp == newest) return takeRepeated(number, arrival);
+  if (!arrival.same_publisher && isHeld(number, arrival)) return takeRival(number, arrival);
   // A stamp far ahead of the clock counts as the newest only until a transform arrives whose stamp is not ahead.
   const bool was_ahead = isFarAhead(newest, arrival) && arrival.stamp <= arrival.now.ros;
   const bool first = !moves || newest.count() == 0;
   if (!first && arrival.stamp < newest && !was_ahead) return takeOlder(number, arrival);
-  const bool other = !first && (frame.publisher != arrival.publisher || !table().isInParent(number, arrival.parent()));
+  const bool other = !first && (!arrival.same_publisher || !arrival.same_parent);
   if (other) changeClaim(number, arrival);
   Step step;
   step.is_period = !first && !other && !was_ahead;
@@ -189,12 +211,12 @@ bool TfIntake::isStream(Frame& frame, const Arrival& arrival) const {
   return again;
 }
 
-/// Whether another publisher holds the frame. A holder keeps the frame if it is silent for up to two periods. While the
-/// frame is contested, it may be silent for longer, so that the holder does not change at each gap in its stream.
+/// Whether the publisher of the newest transform still holds the frame. Call this only for another publisher. A holder
+/// keeps the frame if it is silent for up to two periods. While the frame is contested, it may be silent for longer, so
+/// that the holder does not change at each gap in its stream.
 bool TfIntake::isHeld(std::uint32_t number, const Arrival& arrival) const {
   const Frame& frame = frames_[number];
   if (!history(number).moves() || history(number).newest().stamp.count() == 0) return false;
-  if (frame.publisher == arrival.publisher) return false;
   const Time two_periods(static_cast<std::int64_t>(2e9 * frame.pace.period()));
   const Time patience = isContested(number, arrival.reading)
                             ? kMostPatience
@@ -207,48 +229,47 @@ bool TfIntake::isFarAhead(Time stamp, const Arrival& arrival) const {
 }
 
 /// Handles a transform with the same stamp as the frame's newest one. If its pose or parent differs, reports that.
-/// @returns false if the stamp differs; then nothing was done
-bool TfIntake::takeRepeated(std::uint32_t number, const Arrival& arrival) {
+void TfIntake::takeRepeated(std::uint32_t number, const Arrival& arrival) {
   Frame& frame = frames_[number];
-  if (arrival.stamp != history(number).newest().stamp) return false;
-  const bool same_parent = table().isInParent(number, arrival.parent());
-  if (same_parent && arrival.pose() == history(number).newest().parent_from_frame) {
+  if (arrival.same_parent && arrival.pose() == history(number).newest().parent_from_frame) {
     ledger_.count("tf.repeated");
-    return true;
+    return;
   }
-  if (frame.publisher != arrival.publisher) {
-    takeRival(number, arrival);
-    return true;
-  }
-  ledger_.refuse("tf.ignored",
-                 Refusal(Code::dup_id, "frame '" + printable(table().name(number)) + "' was sent twice with stamp " +
-                                           text(seconds(arrival.stamp)) + " s, but with a different " +
-                                           (same_parent ? "pose" : "parent") + " (by " + printable(arrival.publisher) +
-                                           "); the first one is kept"));
-  if (!same_parent) {
+  if (!arrival.same_publisher) return takeRival(number, arrival);
+  report("tf.ignored",
+         Refusal(Code::dup_id, "frame '" + printable(table().name(number)) + "' was sent twice with stamp " +
+                                   text(seconds(arrival.stamp)) + " s, but with a different " +
+                                   (arrival.same_parent ? "pose" : "parent") + " (by " + printable(arrival.publisher) +
+                                   "); the first one is kept"));
+  if (!arrival.same_parent) {
     frame.claimed = true;
+    const TransformStore::Pause pause(store_);  // a contradiction is logged
     rivals_.contradict(number, holderOf(number), arrival.claim(), arrival.reading);
   }
-  return true;
 }
 
 void TfIntake::takeNewest(std::uint32_t number, const Arrival& arrival, const Step& step) {
   Frame& frame = frames_[number];
-  const bool same_parent = table().isInParent(number, arrival.parent());
   const Time stamp_before = history(number).newest().stamp;
-  store_.advance(number, arrival.parent(), {arrival.stamp, kNone, step.continues, arrival.pose()}, arrival.now.ros);
+  const PoseSample sample{arrival.stamp, kNone, step.continues, arrival.pose()};
+  if (arrival.same_parent) {
+    store_.advance(number, sample, arrival.now.ros);
+  } else {
+    store_.advance(number, arrival.transform.parent, sample, arrival.now.ros);
+  }
   if (step.is_period) {
     frame.pace.noteStep(seconds(arrival.stamp - stamp_before));
-  } else if (frame.publisher != arrival.publisher || !same_parent) {
+  } else if (!arrival.same_publisher || !arrival.same_parent) {
     frame.pace.forgetPeriod();
   }
   frame.pace.noteReceived(arrival.reading, arrival.now.ros);
   news_.note(number, arrival.stamp, arrival.now.ros);
   newest_stamp_ = std::max(newest_stamp_, arrival.stamp);
-  if (frame.publisher != arrival.publisher) frame.publisher = arrival.publisher;
+  if (!arrival.same_publisher) frame.publisher = arrival.publisher;
   accept(frame);
   if (!frame.claimed) return;
   if (const auto rival = rivals_.takeWaiting(number, arrival.stamp)) {
+    const TransformStore::Pause pause(store_);  // a contradiction is logged
     rivals_.compare(number, holderOf(number), *rival, arrival.reading);
   }
 }
@@ -256,9 +277,7 @@ void TfIntake::takeNewest(std::uint32_t number, const Arrival& arrival, const St
 /// Stores a transform that is older than the newest one. It makes no pose fresher, but it adds a pose at its stamp.
 void TfIntake::takeOlder(std::uint32_t number, const Arrival& arrival) {
   Frame& frame = frames_[number];
-  if (frame.publisher != arrival.publisher || !table().isInParent(number, arrival.parent())) {
-    return takeRival(number, arrival);
-  }
+  if (!arrival.same_publisher || !arrival.same_parent) return takeRival(number, arrival);
   ledger_.count("tf.out_of_order");
   if (!store_.fill(number, {arrival.stamp, kNone, true, arrival.pose()})) {
     ledger_.count("tf.too_old");
@@ -272,6 +291,7 @@ void TfIntake::takeOlder(std::uint32_t number, const Arrival& arrival) {
 /// Handles a transform of a publisher that does not hold the frame. It is compared with the holder's, but not used.
 void TfIntake::takeRival(std::uint32_t number, const Arrival& arrival) {
   frames_[number].claimed = true;
+  const TransformStore::Pause pause(store_);  // a contradiction is logged
   rivals_.take(number, holderOf(number), {arrival.claim(), arrival.stamp, arrival.pose()}, arrival.reading);
 }
 
@@ -286,6 +306,7 @@ FrameRivals::Holder TfIntake::holderOf(std::uint32_t number) const {
 /// Notes that, from this transform on, another publisher places the frame, or the same one in another parent.
 void TfIntake::changeClaim(std::uint32_t number, const Arrival& arrival) {
   frames_[number].claimed = true;
+  const TransformStore::Pause pause(store_);  // a contradiction is logged
   rivals_.change(number, holderOf(number), arrival.claim(), arrival.reading);
 }
 

@@ -2,12 +2,11 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
-#include <tf2_msgs/TFMessage.h>
-
-#include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "node/diagnostics/ledger.h"
@@ -18,11 +17,12 @@
 #include "node/tf/transform_lookup.h"
 #include "node/tf/transform_store.h"
 #include "node/time/age_clock.h"
+#include "node/wire/transform_view.h"
 
 namespace hgrid {
 
-/// Receives the transforms of /tf and /tf_static, and decides for each one whether it is used. Only the tick thread may
-/// use this class, except that any thread may use lookup().
+/// Receives the transforms of /tf and /tf_static, and decides for each one whether it is used. Only one thread
+/// at a time may use this class (see TfReader::Hold), except that any thread may use lookup().
 ///
 /// - checkTransform() checks whether a transform is valid.
 /// - FrameRivals compares the transforms of several publishers of one frame.
@@ -55,8 +55,10 @@ class TfIntake {
   TfIntake(double max_future, double cache, std::size_t max_frames, bool simulated, Ledger& ledger,
            std::size_t max_samples = TransformStore::kMaxSamples, double max_wait = 0.1);
 
-  /// Handles the transforms of one message. Counts and logs each refused transform, and uses the others.
-  void take(const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher, const Moment& now);
+  /// Handles transforms of one message. Counts and logs each refused transform, and uses the others. Another thread
+  /// that uses lookup() waits meanwhile, except while a line is written to the log.
+  void take(const std::vector<TransformView>& transforms, bool is_static, const std::string& publisher,
+            const Moment& now);
   /// Sets which frames bodies need. There is room for them even if there are too many other frames.
   void need(const std::vector<std::string>& names, const Moment& now);
   /// Drops the stamps and periods of all frames of /tf. Call this after a simulated clock jumped back. Static
@@ -92,21 +94,24 @@ class TfIntake {
   const std::vector<std::string>& conflicts() const { return conflicts_; }
 
  private:
+  /// The message of one call of take().
+  struct Message {
+    bool is_static;
+    const std::string& publisher;
+    const Moment& now;
+    Time reading;
+  };
   /// One transform of the message that take() is handling.
   struct Arrival {
-    const geometry_msgs::TransformStamped& transform;
+    TransformView transform;  // its names begin with no slash
     const std::string& publisher;
     const Moment& now;
     Time reading, stamp;
+    bool same_publisher = false;  // whether the newest transform of the frame has the same publisher
+    bool same_parent = false;     // whether the newest transform of the frame has the same parent
 
-    const std::string& parent() const { return transform.header.frame_id; }
-    /// Returns the length of the rotation's quaternion as it was received.
-    double rotationLength() const {
-      const auto& q = transform.transform.rotation;
-      return std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
-    }
-    FramePose pose() const { return toFramePose(transform.transform); }
-    FrameClaim claim() const { return {publisher, parent()}; }
+    FramePose pose() const { return toFramePose(transform); }
+    FrameClaim claim() const { return {publisher, std::string(transform.parent)}; }
   };
 
   /// How the newest transform of a frame relates to the previous one.
@@ -115,31 +120,31 @@ class TfIntake {
     bool continues = false;  // as in PoseSample
   };
 
-  void takeOne(const geometry_msgs::TransformStamped& transform, bool is_static, const std::string& publisher,
-               const Moment& now);
+  void takeOne(const TransformView& transform, const Message& message);
   void takeStatic(std::uint32_t number, const Arrival& arrival);
   void takeMoving(std::uint32_t number, const Arrival& arrival);
   void takeNewest(std::uint32_t number, const Arrival& arrival, const Step& step);
   void takeOlder(std::uint32_t number, const Arrival& arrival);
   void takeRival(std::uint32_t number, const Arrival& arrival);
-  bool takeRepeated(std::uint32_t number, const Arrival& arrival);
-  void noteRefusal(const Refusal& refusal, const std::string& child, bool is_static, const std::string& publisher);
+  void takeRepeated(std::uint32_t number, const Arrival& arrival);
+  void noteRefusal(const Refusal& refusal, std::string_view child, const Message& message);
   void noteTopic(std::uint32_t number, bool is_static);
+  void report(const char* where, const Refusal& refusal);
   bool isStream(Frame& frame, const Arrival& arrival) const;
   bool isHeld(std::uint32_t number, const Arrival& arrival) const;
   bool isFarAhead(Time stamp, const Arrival& arrival) const;
   void changeClaim(std::uint32_t number, const Arrival& arrival);
   FrameRivals::Holder holderOf(std::uint32_t number) const;
-  std::uint32_t admit(const Arrival& arrival);
+  std::uint32_t admit(Arrival& arrival, bool is_static);
   void accept(Frame& frame);
   void forgetStamps();
-  void keepLate(const geometry_msgs::TransformStamped& transform, const std::string& publisher);
+  void keepLate(const TransformView& transform, const std::string& publisher);
   void takeLate(const Moment& now);
 
   /// A static transform that found no room, and its publisher.
   struct Late {
-    geometry_msgs::TransformStamped transform;
-    std::string publisher;
+    std::string parent, publisher;
+    TransformView transform;  // its names are not valid
   };
 
   double max_future_;
@@ -153,7 +158,8 @@ class TfIntake {
   TfNews news_;
   PublisherClocks publisher_clocks_;
   std::vector<std::string> conflicts_;
-  std::map<std::string, Late> late_;  // by child; they are sent only once, and somebody may need them later
+  std::map<std::string, Late, std::less<>>
+      late_;  // by child; they are sent only once, and somebody may need them later
   std::uint64_t static_revision_ = 0;
   std::uint64_t accepted_ = 0;  // number of accepted transforms of the current message
   Time newest_stamp_{0};        // newest stamp of the accepted transforms of the current message on /tf; 0: none

@@ -3,6 +3,7 @@
 #include "node/tf/tf_reader.h"
 
 #include <hgrid_proximity/Poses.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <boost/make_shared.hpp>
 #include <optional>
@@ -22,7 +23,7 @@ struct TfReader::ReadNext : ros::CallbackInterface {
 };
 
 TfReader::TfReader(ros::NodeHandle node, ros::NodeHandle private_node, std::size_t most_names, std::size_t most_bytes,
-                   Now now, Sink sink, TfListener* listener, Ledger& ledger)
+                   Now now, Sink sink, TfListener* listener, bool receiver_reads, Ledger& ledger)
     : most_bytes_(most_bytes),
       now_(std::move(now)),
       sink_(std::move(sink)),
@@ -30,6 +31,7 @@ TfReader::TfReader(ros::NodeHandle node, ros::NodeHandle private_node, std::size
       ledger_(ledger),
       queue_(most_bytes, ledger),
       poses_(most_names, most_bytes),
+      receiver_reads_(receiver_reads),
       tick_queue_(*node.getCallbackQueue()),
       read_next_(boost::make_shared<ReadNext>(*this)) {
   node.setCallbackQueue(&immediately_);
@@ -65,7 +67,7 @@ void TfReader::subscribe(ros::NodeHandle& node, const std::string& topic, const 
   subscribers_.push_back(node.subscribe(options));
 }
 
-/// Converts a message of ~poses into transforms, which the tick thread reads like those of /tf.
+/// Converts a message of ~poses into transforms, which are then read like those of /tf.
 void TfReader::onPoses(const Event& event) {
   ReceivedTransforms poses{event.getConstMessage(), false, {}, now_(), true};
   try {
@@ -81,7 +83,7 @@ void TfReader::onPoses(const Event& event) {
       poses.message = transforms;
     }
     queue_.push(std::move(poses));
-    wakeTickThread();
+    read();
   } catch (const Refusal& refusal) {
     ledger_.refuse("poses.refused", Refusal(refusal.code(), poses.name() + " cannot be used: " + refusal.what()));
   } catch (...) {  // out of memory; the receiving thread must continue
@@ -92,10 +94,23 @@ void TfReader::onPoses(const Event& event) {
 void TfReader::onMessage(const Event& event, bool is_static) {
   try {
     queue_.push({event.getConstMessage(), is_static, event.getPublisherName(), now_()});
-    wakeTickThread();
+    read();
   } catch (...) {  // out of memory; the receiving thread must continue
     ledger_.fault("tf.failed");
   }
+}
+
+/// Reads the message that has just arrived, or lets the tick thread read it. The receiving thread calls this.
+void TfReader::read() {
+  if (!readHere()) wakeTickThread();
+}
+
+/// Reads waiting messages in the receiving thread, but at most one slice, so that other messages do not wait for long.
+/// @returns false if the tick thread must read what is left, or must look at what has arrived
+bool TfReader::readHere() {
+  if (!receiver_reads_ || waiting_ > 0) return false;
+  const std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
+  return lock && !readSlice() && !noteworthy_;
 }
 
 void TfReader::wakeTickThread() {
@@ -111,6 +126,7 @@ void TfReader::wakeTickThread() {
 /// Reads one slice per callback, so that a tick that is due waits for one slice at most.
 void TfReader::readNext() {
   woken_ = false;
+  const Hold hold(*this);
   if (readSlice()) wakeTickThread();
 }
 
@@ -123,10 +139,11 @@ void TfReader::readFor(std::chrono::duration<double> most_time) {
 /// @returns whether there may be more to read
 bool TfReader::readSlice() {
   bool complete = true;
+  noteworthy_ = false;
   try {
     if (!slices_.left() && !open()) return false;
     slices_.next(slice_);
-    sink_(slice_, current_.is_static, current_.publisher, current_.received);
+    noteworthy_ = sink_(slice_, current_.is_static, current_.publisher, current_.received);
   } catch (const Refusal& refusal) {
     ledger_.refuse("tf.refused", Refusal(refusal.code(), current_.name() + " cannot be read: " + refusal.what()));
   } catch (...) {  // out of memory; drop the rest of the message and continue

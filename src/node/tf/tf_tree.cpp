@@ -86,6 +86,7 @@ void TfTree::plan(const std::string& world_frame, const std::vector<std::string>
   if (world != TfIntake::kNone) step_to_[world] = kWorld;
 
   chains_.clear();
+  ends_.clear();
   for (const std::string& frame : frames) {
     const std::uint32_t number = intake_.table().find(frame);
     Chain chain;
@@ -97,6 +98,7 @@ void TfTree::plan(const std::string& world_frame, const std::vector<std::string>
     }
     if (chain.step == kNowhere && world == TfIntake::kNone) chain.unknown = world_frame;
     if (chain.step == kNowhere && number == TfIntake::kNone) chain.unknown = frame;
+    if (chain.step > kWorld) ends_.push_back(chain.step);
     chains_.push_back(std::move(chain));
   }
 }
@@ -124,9 +126,9 @@ void TfTree::place(Time time) {
 void TfTree::listMoving(Time since, std::vector<FrameStamp>& frames) {
   frames.clear();
   for (Step& step : steps_) step.listed = false;
-  for (const Chain& chain : chains_) {
-    const ChainState& state = steps_[chain.step].state;
-    if (state.connected && state.moves && state.newest >= since) steps_[chain.step].listed = true;
+  for (const std::size_t end : ends_) {
+    const ChainState& state = steps_[end].state;
+    if (state.connected && state.moves && state.newest >= since) steps_[end].listed = true;
   }
   for (std::size_t i = steps_.size() - 1; i > kWorld; --i) {  // each step comes after its `from`
     const Step& step = steps_[i];

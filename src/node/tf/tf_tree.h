@@ -59,6 +59,8 @@ class TfTree {
   /// Replaces `frames` with the moving frames of all chains that move and are known until `since` or later.
   void listMoving(Time since, std::vector<FrameStamp>& frames);
 
+  /// Whether the frame is the world frame itself, so that no transform can move it.
+  bool isWorld(std::size_t frame) const { return chains_[frame].step == kWorld; }
   const ChainState& state(std::size_t frame) const { return steps_[chains_[frame].step].state; }
   /// Returns the frame's number in the TfIntake, or kNone if it was never published.
   std::uint32_t numberOf(std::size_t frame) const { return chains_[frame].number; }
@@ -101,6 +103,7 @@ class TfTree {
   std::uint64_t revision_ = ~std::uint64_t{0};
   std::vector<Step> steps_ = std::vector<Step>(2);  // each step comes after its `from`
   std::vector<Chain> chains_;
+  std::vector<std::size_t> ends_;     // last steps of the chains that are not the world frame; some occur repeatedly
   std::vector<std::uint32_t> above_;  // the world frame and its ancestors
   std::size_t ancestors_ = 0;         // number of ancestors in above_ that have a step
   std::vector<std::size_t> step_to_;  // step that leads to a frame, by frame number; kNowhere: none yet

@@ -13,17 +13,17 @@ namespace {
 constexpr double kFarthest = 1e9;           // [m] largest accepted coordinate of a frame in its parent
 constexpr std::size_t kLongestFrame = 256;  // longest accepted frame name [bytes]
 
-std::string whatOf(const geometry_msgs::TransformStamped& transform) {
-  return "transform of frame '" + printable(transform.child_frame_id) + "'";
+std::string whatOf(const TransformView& transform) {
+  return "transform of frame '" + printable(std::string(transform.child)) + "'";
 }
 
-void checkNames(const geometry_msgs::TransformStamped& transform) {
-  const std::string &parent = transform.header.frame_id, &child = transform.child_frame_id;
-  for (const std::string* frame : {&parent, &child}) {
-    if (!frame->empty() && frame->size() <= kLongestFrame) continue;
-    throw Refusal(Code::bad_id, whatOf(transform) + " in '" + printable(parent) + "': a frame's name has " +
-                                    std::to_string(frame->size()) + " bytes; it must have 1 .. " +
-                                    std::to_string(kLongestFrame));
+void checkNames(const TransformView& transform) {
+  const std::string_view parent = transform.parent, child = transform.child;
+  for (const std::string_view frame : {parent, child}) {
+    if (!frame.empty() && frame.size() <= kLongestFrame) continue;
+    throw Refusal(Code::bad_id, whatOf(transform) + " in '" + printable(std::string(parent)) +
+                                    "': a frame's name has " + std::to_string(frame.size()) +
+                                    " bytes; it must have 1 .. " + std::to_string(kLongestFrame));
   }
   if (parent == child) {
     throw Refusal(Code::bad_id, whatOf(transform) + " has itself as its parent; frame and parent must differ");
@@ -31,31 +31,29 @@ void checkNames(const geometry_msgs::TransformStamped& transform) {
 }
 
 /// A quick check that most transforms pass. It builds no error sentence, which would cost time.
-bool isSound(const geometry_msgs::Transform& transform) {
-  const geometry_msgs::Vector3& t = transform.translation;
-  const geometry_msgs::Quaternion& q = transform.rotation;
-  const double norm = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
-  return std::abs(norm - 1.0) <= 0.5 * kQuaternionTolerance && std::abs(t.x) <= kFarthest &&
-         std::abs(t.y) <= kFarthest && std::abs(t.z) <= kFarthest;
+bool isSound(const TransformView& transform) {
+  const auto& [x, y, z] = transform.translation;
+  return std::abs(squaredLength(transform.rotation) - 1.0) <= 0.5 * kQuaternionTolerance && std::abs(x) <= kFarthest &&
+         std::abs(y) <= kFarthest && std::abs(z) <= kFarthest;
 }
 
-void checkNumbers(const geometry_msgs::TransformStamped& transform) {
-  if (isSound(transform.transform)) return;
-  const geometry_msgs::Vector3& t = transform.transform.translation;
-  const geometry_msgs::Quaternion& q = transform.transform.rotation;
+void checkNumbers(const TransformView& transform) {
+  if (isSound(transform)) return;
+  const Eigen::Vector3d translation(transform.translation.data());
+  const Eigen::Vector4d xyzw(transform.rotation.data());
   const std::string what = whatOf(transform);
-  checkWithin(checkedPose({t.x, t.y, t.z}, {q.x, q.y, q.z, q.w}, what).translation(), kFarthest, what);
+  checkWithin(checkedPose(translation, xyzw, what).translation(), kFarthest, what);
 }
 
-void checkStamp(const geometry_msgs::TransformStamped& transform, const Moment& now, double max_future) {
+void checkStamp(const TransformView& transform, const Moment& now, double max_future) {
   if (now.ros.count() == 0) {
     throw Refusal(Code::clock, whatOf(transform) + " arrived while there was no ROS time yet (no message on /clock)");
   }
-  if (transform.header.stamp.isZero()) {
+  if (transform.stamp.count() == 0) {
     throw Refusal(Code::clock,
                   whatOf(transform) + " has stamp 0; a transform on /tf must be stamped with the time of its data");
   }
-  const double ahead = seconds(stampOf(transform) - now.ros);
+  const double ahead = seconds(transform.stamp - now.ros);
   if (ahead > max_future) {
     throw Refusal(Code::clock, whatOf(transform) + " is stamped " + secondsText(ahead) + " in the future; at most " +
                                    text(max_future) + " s are allowed (~max_future)");
@@ -64,9 +62,12 @@ void checkStamp(const geometry_msgs::TransformStamped& transform, const Moment& 
 
 }  // namespace
 
-void checkTransform(const geometry_msgs::TransformStamped& transform, bool is_static, const Moment& now,
-                    double max_future) {
+void checkTransform(const TransformView& transform, bool is_static, const Moment& now, double max_future) {
   checkNames(transform);
+  checkValues(transform, is_static, now, max_future);
+}
+
+void checkValues(const TransformView& transform, bool is_static, const Moment& now, double max_future) {
   checkNumbers(transform);
   if (!is_static) checkStamp(transform, now, max_future);
 }

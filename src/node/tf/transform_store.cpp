@@ -13,42 +13,53 @@ void TransformStore::makeRoom() {
 }
 
 /// Returns the number of the parent. If the parent has not changed, this needs no search.
-std::uint32_t TransformStore::numberOfParent(std::uint32_t frame, const std::string& parent) {
+std::uint32_t TransformStore::numberOfParent(std::uint32_t frame, std::string_view parent) {
   if (table_.isInParent(frame, parent)) return table_.parent(frame);
   makeRoom();
   return table_.numberOf(parent);
 }
 
-std::uint32_t TransformStore::admit(const std::string& parent, const std::string& child) {
+std::uint32_t TransformStore::admit(std::string_view parent, std::string_view child) {
   // Most transforms are of known frames. They change nothing that a Reading can see, so they need no lock.
   const std::uint32_t known = table_.again(parent, child);
   if (known != FrameTable::kNone) return known;
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const Writing writing(*this);
   makeRoom();
   return table_.admit(parent, child);
 }
 
 void TransformStore::need(const std::vector<std::string>& names) {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const Writing writing(*this);
   table_.need(names);
 }
 
-void TransformStore::fix(std::uint32_t frame, const std::string& parent, const FramePose& parent_from_frame) {
-  const std::lock_guard<std::mutex> lock(mutex_);
+void TransformStore::fix(std::uint32_t frame, std::string_view parent, const FramePose& parent_from_frame) {
+  const Writing writing(*this);
   histories_[frame].fix({Time(0), numberOfParent(frame, parent), true, parent_from_frame});
   table_.setParent(frame, parent);
 }
 
-void TransformStore::advance(std::uint32_t frame, const std::string& parent, PoseSample sample, Time now) {
-  const std::lock_guard<std::mutex> lock(mutex_);
+void TransformStore::advance(std::uint32_t frame, std::string_view parent, PoseSample sample, Time now) {
+  const Writing writing(*this);
   sample.parent = numberOfParent(frame, parent);
-  histories_[frame].advance(sample, std::min(sample.stamp, now + cache_ / 2) - cache_);
-  dropped_ += histories_[frame].trim(max_samples_);
+  append(frame, sample, now);
   table_.setParent(frame, parent);
 }
 
+void TransformStore::advance(std::uint32_t frame, PoseSample sample, Time now) {
+  const Writing writing(*this);
+  sample.parent = table_.parent(frame);
+  append(frame, sample, now);
+}
+
+void TransformStore::append(std::uint32_t frame, const PoseSample& sample, Time now) {
+  FrameHistory& history = histories_[frame];
+  history.advance(sample, std::min(sample.stamp, now + cache_ / 2) - cache_);
+  dropped_ += history.trim(max_samples_);
+}
+
 bool TransformStore::fill(std::uint32_t frame, PoseSample sample) {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const Writing writing(*this);
   sample.parent = table_.parent(frame);
   const bool filled = histories_[frame].fill(sample);
   dropped_ += histories_[frame].trim(max_samples_);
@@ -56,7 +67,7 @@ bool TransformStore::fill(std::uint32_t frame, PoseSample sample) {
 }
 
 void TransformStore::forgetStamps() {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const Writing writing(*this);
   for (FrameHistory& history : histories_) history.forgetStamps();
 }
 

@@ -6,6 +6,7 @@
 #include <deque>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "node/tf/frame_history.h"
@@ -15,8 +16,8 @@ namespace hgrid {
 
 /// Stores the checked transforms of all frames.
 ///
-/// Only the tick thread writes; it also reads, without a lock. Any other thread must read through a Reading.
-/// A call that throws changes nothing.
+/// Only one thread at a time writes (see TfReader::Hold); it also reads, without a lock. Any other thread must read
+/// through a Reading. A call that throws changes nothing.
 class TransformStore {
  public:
   /// @param cache        [ns] how long transforms are kept
@@ -39,19 +40,57 @@ class TransformStore {
   const FrameTable& table() const { return table_; }
   const FrameHistory& history(std::uint32_t frame) const { return histories_[frame]; }
   /// Does the same as FrameTable::admit().
-  std::uint32_t admit(const std::string& parent, const std::string& child);
+  std::uint32_t admit(std::string_view parent, std::string_view child);
+  /// Does the same as FrameTable::again().
+  std::uint32_t again(std::string_view parent, std::string_view child) { return table_.again(parent, child); }
   /// Does the same as FrameTable::need().
   void need(const std::vector<std::string>& names);
   /// Makes the frame static at this pose in its parent.
-  void fix(std::uint32_t frame, const std::string& parent, const FramePose& parent_from_frame);
+  void fix(std::uint32_t frame, std::string_view parent, const FramePose& parent_from_frame);
   /// Stores the newest sample of a frame that moves.
   /// @param sample  this function sets its `parent`
   /// @param now     current ROS time; a sample whose stamp is far ahead of it does not drop older samples
-  void advance(std::uint32_t frame, const std::string& parent, PoseSample sample, Time now);
+  void advance(std::uint32_t frame, std::string_view parent, PoseSample sample, Time now);
+  /// Does the same for a frame whose parent has not changed.
+  void advance(std::uint32_t frame, PoseSample sample, Time now);
   /// Does the same as FrameHistory::fill(), with the frame's newest parent as the parent of the sample.
   bool fill(std::uint32_t frame, PoseSample sample);
   /// Drops the stamps of all samples. Static poses stay.
   void forgetStamps();
+
+  /// Makes several changes cheaper: other threads wait until the end of this object, instead of until the end of each
+  /// change. Destroy it within microseconds. Only the writing thread may create one. There may be one inside another.
+  class Writing {
+   public:
+    explicit Writing(TransformStore& store) : store_(store), is_outer_(!store.writing_) {
+      if (is_outer_) store_.beginWriting();
+    }
+    ~Writing() {
+      if (is_outer_) store_.endWriting();
+    }
+    Writing(const Writing&) = delete;
+    Writing& operator=(const Writing&) = delete;
+
+   private:
+    TransformStore& store_;
+    const bool is_outer_;
+  };
+  /// Lets other threads read while the writing thread does something that may take long, such as writing to the log.
+  class Pause {
+   public:
+    explicit Pause(TransformStore& store) : store_(store), was_writing_(store.writing_) {
+      if (was_writing_) store_.endWriting();
+    }
+    ~Pause() {
+      if (was_writing_) store_.beginWriting();
+    }
+    Pause(const Pause&) = delete;
+    Pause& operator=(const Pause&) = delete;
+
+   private:
+    TransformStore& store_;
+    const bool was_writing_;
+  };
 
   /// Gives any thread read access. The writing thread waits while a Reading exists, so destroy it within microseconds.
   class Reading {
@@ -66,12 +105,22 @@ class TransformStore {
   };
 
  private:
+  void beginWriting() {
+    mutex_.lock();
+    writing_ = true;
+  }
+  void endWriting() {
+    writing_ = false;
+    mutex_.unlock();
+  }
   void makeRoom();
-  std::uint32_t numberOfParent(std::uint32_t frame, const std::string& parent);
+  std::uint32_t numberOfParent(std::uint32_t frame, std::string_view parent);
+  void append(std::uint32_t frame, const PoseSample& sample, Time now);
 
   const Time cache_;
   const std::size_t max_samples_;
   std::size_t dropped_ = 0;
+  bool writing_ = false;      // writing thread only: whether it holds mutex_
   mutable std::mutex mutex_;  // the writing thread holds it while it changes the members below
   FrameTable table_;
   std::deque<FrameHistory> histories_;  // indexed by frame number; may have more entries than the table

@@ -29,13 +29,18 @@ TickLoop::TickLoop(ros::NodeHandle node, const ros::NodeHandle& private_node, co
       transforms_(
           node_, private_node, static_cast<std::size_t>(params.max_bodies),
           static_cast<std::size_t>(params.tf_queue_bytes), thisMoment,
-          [this](const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher,
+          [this](const std::vector<TransformView>& transforms, bool is_static, const std::string& publisher,
                  const Moment& received) {
-            guarded(ledger_, "tf.failed", [&] { takeTransforms(message, is_static, publisher, received); });
+            bool complete = true;
+            guarded(ledger_, "tf.failed",
+                    [&] { complete = takeTransforms(transforms, is_static, publisher, received); });
+            return complete;
           },
-          listener, ledger_) {}
+          // A thread of ordinary priority must not delay a tick thread that runs in real time.
+          listener, params.realtime == 0, ledger_) {}
 
 std::chrono::nanoseconds TickLoop::work() {
+  const TfReader::Hold hold(transforms_);
   const TickPace::Time now = std::chrono::steady_clock::now();
   if (world_.transforms().news().complete()) pace_.noteReason(complete_.value_or(now));
   if (jobs_.waiting() > 0) pace_.noteChange(now);
@@ -79,12 +84,15 @@ std::shared_ptr<const Tick> TickLoop::tickAfter(const TickJobs::Job& job) {
       "the change was made, but no tick was published in time; check ~bodies and ~rules before you repeat it");
 }
 
-void TickLoop::takeTransforms(const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher,
-                              const Moment& received) {
+/// @returns whether the data of the next tick is complete with these transforms
+bool TickLoop::takeTransforms(const std::vector<TransformView>& transforms, bool is_static,
+                              const std::string& publisher, const Moment& received) {
   const auto begin = std::chrono::steady_clock::now();
-  world_.transforms().take(message, is_static, publisher, received);
-  if (!complete_ && world_.transforms().news().complete()) complete_ = received.steady;
+  world_.transforms().take(transforms, is_static, publisher, received);
+  const bool completes = !complete_ && world_.transforms().news().complete();
+  if (completes) complete_ = received.steady;
   transform_time_ += std::chrono::steady_clock::now() - begin;
+  return completes;
 }
 
 void TickLoop::makeTick() {

@@ -38,6 +38,7 @@ class TickLoop {
   };
 
   /// All parameters except `node` must outlive this object. Only the tick thread may use `world` and `stopwatch`.
+  /// Between ticks, the thread that receives transforms uses the transforms of `world`, too (see TfReader).
   /// @param node      its callback queue must be that of the tick thread
   /// @param private_node  node handle whose namespace contains the topic "poses"
   /// @param listener  learns which messages of /tf and ~poses were read; may be null
@@ -58,7 +59,7 @@ class TickLoop {
   std::shared_ptr<const Tick> tickAfter(const TickJobs::Job& job);
 
  private:
-  void takeTransforms(const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher,
+  bool takeTransforms(const std::vector<TransformView>& transforms, bool is_static, const std::string& publisher,
                       const Moment& received);
   void makeTick();
   void noteLateness(bool late);
@@ -71,7 +72,8 @@ class TickLoop {
   Stopwatch& stopwatch_;
   NodeHealth& health_;
   Ledger& ledger_;
-  std::shared_ptr<const Tick> newest_;          // use only atomic access
+  std::shared_ptr<const Tick> newest_;  // use only atomic access
+  // The next two members are used under a TfReader::Hold.
   std::chrono::nanoseconds transform_time_{0};  // time spent on transforms since the last tick
   std::optional<TickPace::Time> complete_;      // arrival of the transform that completed the data of the next tick
   std::vector<Step> steps_;

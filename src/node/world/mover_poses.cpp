@@ -2,6 +2,9 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/world/mover_poses.h"
 
+#include <algorithm>
+#include <numeric>
+
 namespace hgrid {
 
 MoverPoses::MoverPoses(const Params& params, const TfIntake& intake, Scene& scene, Movers& movers, Ledger& ledger)
@@ -16,7 +19,9 @@ Time MoverPoses::update(const Moment& now, bool clock_frozen, Tick& tick) {
   planChains(tick.world_frame);
   frames_.look(now);
   cohorts_.clear();
-  for (std::size_t i = 0; i < movers_.size(); ++i) updateOne(i, clock_frozen, tick);
+  for (const std::size_t i : active_) updateOne(i, clock_frozen, tick);
+  active_.erase(std::remove_if(active_.begin(), active_.end(), [this](std::size_t i) { return isAtRest(i); }),
+                active_.end());
   return frames_.tickTime();
 }
 
@@ -33,6 +38,8 @@ void MoverPoses::planChains(const std::string& world_frame) {
 
 /// Lets all settled movers be computed again, because a new chain or a new static transform can move them.
 void MoverPoses::unsettleAll() {
+  active_.resize(movers_.size());  // may throw, so it comes first
+  std::iota(active_.begin(), active_.end(), std::size_t{0});
   for (Mover& mover : movers_.all()) mover.settled = false;
   settled_revision_ = intake_.staticRevision();
 }

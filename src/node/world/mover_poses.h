@@ -46,6 +46,11 @@ class MoverPoses {
   void setState(const Mover& mover, Freshness state);
   void setStamp(const Mover& mover);
   void unsettleAll();
+  /// Whether nothing but a new plan can change the mover: it stands at the world frame, and nothing is wrong with it.
+  bool isAtRest(std::size_t index) const {
+    const Mover& mover = movers_[index];
+    return mover.settled && !mover.given_up && frames_.isWorld(index);
+  }
   Freshness judge(const Mover& mover, const ChainState& chain, bool clock_frozen) const;
   void appendTroubles(const Mover& mover, Tick& tick) const;
 
@@ -57,6 +62,7 @@ class MoverPoses {
   FramePoses frames_;                        // poses of the frames of the movers, in the order of the movers
   std::uint64_t planned_revision_ = kNever;  // revision of the movers at the newest complete plan
   std::uint64_t settled_revision_ = 0;       // revision of /tf_static at the last unsettleAll()
+  std::vector<std::size_t> active_;          // movers that are not at rest, ascending; all of them after unsettleAll()
   std::map<Time, std::uint32_t> cohorts_;    // this tick only: bodies with the same stamp share a cohort number
   std::vector<Pose> placed_;                 // buffer of place()
 

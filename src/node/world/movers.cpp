@@ -52,6 +52,7 @@ void Movers::giveUp(const std::set<std::string>& names) noexcept {
   for (Mover& mover : movers_) {
     if (mover.source.kind == SourceKind::obstacle && names.count(mover.source.name) != 0) mover.given_up = true;
   }
+  ++revision_;
 }
 
 void Movers::beginLost(const std::set<std::string>& names) noexcept {

@@ -4,7 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "hgrid_proximity/bodies/source.h"
 #include "src/node/messages/world_state_message.h"
+#include "test/support/random.h"
 #include "test/support/scenes.h"
 
 namespace hgrid {
@@ -56,6 +61,56 @@ TEST(StatusMessage, HasTheReasonsThatExplainManyBodiesFirst) {
             std::vector<std::string>({tick.unplaced[0], "UNPLACED obstacle/a: it never had a pose (frame 'world')"}));
   EXPECT_EQ(status.world.reasons_total, 3u);
   EXPECT_EQ(status.not_ready, tick.unplaced);
+}
+
+/// Returns the text of a source's entry, computed from all bodies one by one.
+std::string expectedEntry(const Snapshot& snapshot, const std::string& source) {
+  std::uint32_t bodies = 0;
+  std::uint8_t state = 0;
+  double age = std::nan("");
+  for (std::uint32_t body = 0; body < snapshot.poses().size(); ++body) {
+    if (sourceOf(snapshot.structure().bodies[body]) != source) continue;
+    const BodyPose& pose = snapshot.poses()[body];
+    ++bodies;
+    state = std::max(state, static_cast<std::uint8_t>(pose.state));
+    if (pose.state != Freshness::unplaced) age = std::isnan(age) ? pose.age : std::max(age, pose.age);
+  }
+  return source + " " + std::to_string(bodies) + " " + std::to_string(state) + " " + std::to_string(age);
+}
+
+TEST(StatusMessage, SaysOfEachSourceWhatItsBodiesAreOneByOne) {
+  const Params params;
+  const std::vector<std::string> sources = {"arm", "cart", "obstacle"};
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    test::Random random(seed);
+    Scene scene{SceneOptions{}};
+    std::vector<BodyId> ids;
+    for (std::uint64_t i = 0; i < 12; ++i) {
+      Body body = test::ball(std::to_string(i));
+      body.name = sources[static_cast<std::size_t>(random.below(3))] + "/" + std::to_string(i);
+      if (body.name[0] != 'o') body.kind = BodyKind::link;
+      ids.push_back(scene.add(body));
+      if (random.below(3) > 0) scene.setState(ids.back(), Freshness::unplaced, 0.0);
+    }
+    for (int step = 1; step <= 30; ++step) {
+      const BodyId id = ids[static_cast<std::size_t>(random.below(12))];
+      const bool settled = random.below(3) == 0;
+      scene.place(id, test::at(random.uniform(-9, 9)), Time{step});
+      scene.setState(id, settled ? Freshness::fresh : static_cast<Freshness>(random.below(4)),
+                     settled ? 0.0 : random.uniform(0, 2));
+      Tick tick;
+      tick.models = std::make_shared<ModelReport>();
+      tick.snapshot = scene.commit(Time{step}, {});
+      const msg::Status status = statusOf(tick, params);
+      for (const msg::SourceStatus& source : status.sources) {
+        if (source.bodies == 0) continue;
+        EXPECT_EQ(source.name + " " + std::to_string(source.bodies) + " " + std::to_string(source.state) + " " +
+                      std::to_string(source.age),
+                  expectedEntry(*tick.snapshot, source.name));
+      }
+    }
+  }
 }
 
 }  // namespace

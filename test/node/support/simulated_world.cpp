@@ -8,6 +8,7 @@
 
 #include "hgrid_proximity/adapters/fcl.h"
 #include "hgrid_proximity/queries/query.h"
+#include "test/node/support/transform_views.h"
 #include "test/support/bodies.h"
 
 namespace hgrid {
@@ -72,7 +73,7 @@ void SimulatedWorld::take(const geometry_msgs::TransformStamped& transform, bool
                           const std::string& publisher) {
   tf2_msgs::TFMessage message;
   message.transforms.push_back(transform);
-  world_->transforms().take(message, is_static, publisher, moment());
+  world_->transforms().take(viewsOf(message), is_static, publisher, moment());
 }
 
 void SimulatedWorld::send(const std::string& publisher, const std::string& parent, const std::string& child, double x,

@@ -129,6 +129,18 @@ TEST(FrameHistory, DropsSamplesThatWereAheadOfANewerOne) {
   EXPECT_EQ(xAt(history, 13.0), std::nullopt) << "one of the dropped samples ended a seam";
 }
 
+TEST(FrameHistory, DoesNotInheritASeamFromSamplesThatAreTooOld) {
+  FrameHistory history;
+  for (int time = 1; time <= 5; ++time) {
+    PoseSample next = sample(time, 0.0);
+    next.continues = time != 2;
+    history.advance(next, kKeepAll);
+  }
+  history.advance(sample(10, 0.0), s(9));
+  history.advance(sample(1.5, 0.0), kKeepAll);  // replaces all newer samples
+  EXPECT_TRUE(history.fill(sample(1.2, 0.0)));
+}
+
 TEST(FrameHistory, KeepsTheNewestPoseWhenStampsAreForgotten) {
   FrameHistory history;
   history.advance(sample(10, 1.0), kKeepAll);
@@ -225,7 +237,8 @@ TEST(FrameHistory, AnswersAsTheOracleDoesAfterRandomSamples) {
       } else if (i == 0 || next.stamp > history.newest().stamp || random.below(10) == 0) {
         if (random.below(8) == 0) next.parent = 7 + random.below(2);
         if (i > 0) next.continues = random.below(8) > 0;
-        const Time keep_from = random.below(4) == 0 ? next.stamp - s(3) : kKeepAll;
+        const bool usual = seed % 2 == 0;  // as in the node: nearly always the same duration before the newest sample
+        const Time keep_from = (random.below(usual ? 50 : 4) != 0) == usual ? next.stamp - s(3) : kKeepAll;
         history.advance(next, keep_from);
         oracle.advance(next, keep_from);
       }

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "src/node/tf/tf_intake.h"
+#include "test/node/support/transform_views.h"
 #include "test/support/failing_allocations.h"
 
 namespace hgrid {
@@ -58,9 +59,10 @@ TEST(TfIntakeFailedAllocation, HasNoEffectOnceTheSameMessageArrivesAgain) {
     transform.transform.translation.x = i;
     message.transforms.push_back(transform);
   }
+  const std::vector<TransformView> views = viewsOf(message);
   Ledger ledger;
   TfIntake all_well(1.0, 10.0, 1000, false, ledger);
-  all_well.take(message, false, "/publisher", now);
+  all_well.take(views, false, "/publisher", now);
   const auto byName = [&](const TfIntake& intake) {
     std::map<std::string, double> result;
     const std::vector<double> x = positions(intake);
@@ -71,9 +73,9 @@ TEST(TfIntakeFailedAllocation, HasNoEffectOnceTheSameMessageArrivesAgain) {
   for (bool failed = true; failed; ++k) {
     SCOPED_TRACE("allocation " + std::to_string(k));
     TfIntake intake(1.0, 10.0, 1000, false, ledger);
-    failed = failsAt(k, Failing::one, [&] { intake.take(message, false, "/publisher", now); });
+    failed = failsAt(k, Failing::one, [&] { intake.take(views, false, "/publisher", now); });
     positions(intake);  // a tick between the two calls must not read beyond the end of a table
-    intake.take(message, false, "/publisher", now);
+    intake.take(views, false, "/publisher", now);
     ASSERT_EQ(byName(intake), byName(all_well));
   }
   EXPECT_GT(k, 50u);

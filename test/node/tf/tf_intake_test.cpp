@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "test/node/support/moments.h"
+#include "test/node/support/transform_views.h"
 
 namespace hgrid {
 namespace test {
@@ -35,7 +36,7 @@ class TfIntakeTest : public ::testing::Test {
     transform.transform.translation.x = sent.x;
     transform.transform.rotation.w = 1.0;
     const double time = now < 0.0 ? stamp : now;
-    intake_.take(message, sent.is_static, sent.publisher, moment(100.0 + time, time));
+    intake_.take(viewsOf(message), sent.is_static, sent.publisher, moment(100.0 + time, time));
   }
   /// Publishes "arm" every 20 ms up to a time [s].
   void stream(double end, const Sent& sent = {}) {

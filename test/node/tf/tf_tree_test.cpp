@@ -11,6 +11,7 @@
 #include <map>
 
 #include "test/node/support/moments.h"
+#include "test/node/support/transform_views.h"
 #include "test/support/random.h"
 
 namespace hgrid {
@@ -95,7 +96,7 @@ class RandomTree {
       message.transforms.push_back(transform);
       if (!is_static) newest_[frame] = stamp;
     }
-    intake_.take(message, is_static, "test", Moment{Time(stamp), {}});
+    intake_.take(viewsOf(message), is_static, "test", Moment{Time(stamp), {}});
     for (const auto& transform : message.transforms) witness_.setTransform(transform, "test", is_static);
   }
 
@@ -200,7 +201,7 @@ TEST(TfTree, JudgesEachFrameOfAChainByItsOwnPeriod) {
     message.transforms[0].header.stamp = ros::Time(100.0 + time);
     message.transforms[0].child_frame_id = child;
     message.transforms[0].transform.rotation.w = 1.0;
-    intake.take(message, false, "test", test::moment(100.0 + time, time));
+    intake.take(viewsOf(message), false, "test", test::moment(100.0 + time, time));
   };
   for (int i = 0; i <= 400; ++i) {
     if (i % 200 == 0) send("world", "base", 0.02 * i);
@@ -237,7 +238,7 @@ TEST(TfTree, NamesTheFrameThatWasNeverPublished) {
   message.transforms[0].header.frame_id = "/base";
   message.transforms[0].child_frame_id = "arm";
   message.transforms[0].transform.rotation.w = 1.0;
-  intake.take(message, true, "test", Moment{Time(1), {}});
+  intake.take(viewsOf(message), true, "test", Moment{Time(1), {}});
   EXPECT_TRUE(tree.stale());
   tree.plan("world", {"world", "arm", "base", "hand"});
   EXPECT_EQ(tree.unknownFrame(1), "world");
@@ -245,7 +246,7 @@ TEST(TfTree, NamesTheFrameThatWasNeverPublished) {
   tree.plan("base", {"arm"});
   tree.look(Time(0));
   EXPECT_TRUE(tree.state(0).connected);
-  intake.take(message, true, "test", Moment{Time(2), {}});
+  intake.take(viewsOf(message), true, "test", Moment{Time(2), {}});
   EXPECT_FALSE(tree.stale()) << "there is no new frame or parent";
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "test/node/support/moments.h"
+#include "test/node/support/transform_views.h"
 #include "test/support/refusals.h"
 
 namespace hgrid {
@@ -26,7 +27,7 @@ geometry_msgs::TransformStamped good() {
 }
 
 Code checked(const geometry_msgs::TransformStamped& transform, bool is_static = false, double now = 100.0) {
-  return refusalOf([&] { checkTransform(transform, is_static, moment(now, 1.0), kMaxFuture); });
+  return refusalOf([&] { checkTransform(viewOf(transform), is_static, moment(now, 1.0), kMaxFuture); });
 }
 
 TEST(TransformCheck, AcceptsAGoodTransform) {

@@ -99,6 +99,49 @@ TEST(TransformStore, IsReadByOtherThreadsWhileItIsWritten) {
   EXPECT_EQ(largest, 0.0);
 }
 
+// A thread changes two frames during one Writing. They always have opposite x. Another thread must never see only one
+// of the two changes.
+TEST(TransformStore, ShowsTheChangesOfOneWritingTogether) {
+  TransformStore store(s(1), 1000);
+  const std::uint32_t arm = store.admit("base", "arm"), tool = store.admit("arm", "tool");
+  std::atomic<bool> stop{false};
+  std::atomic<int> looks{0};
+  std::atomic<double> largest{0.0};
+  std::thread reader([&] {
+    while (!stop) {
+      const TransformStore::Reading reading(store);
+      const double sum = reading.history(arm).newest().parent_from_frame.translation.x() +
+                         reading.history(tool).newest().parent_from_frame.translation.x();
+      largest = std::max(largest.load(), std::abs(sum));
+      ++looks;
+    }
+  });
+  for (int written = 0; written < 2000 || (looks < 1000 && written < 20000000); ++written) {
+    const double time = 1.0 + 0.01 * written, x = written % 7;
+    const TransformStore::Writing writing(store);
+    store.advance(arm, "base", stored(time, x), s(time));
+    store.advance(tool, "arm", stored(time, -x), s(time));
+  }
+  stop = true;
+  reader.join();
+  EXPECT_GE(looks, 1000);
+  EXPECT_EQ(largest, 0.0);
+}
+
+TEST(TransformStore, IsReadByOtherThreadsDuringAPause) {
+  TransformStore store(s(1), 1000);
+  const TransformStore::Writing writing(store);
+  store.admit("base", "arm");
+  std::size_t frames = 0;
+  {
+    const TransformStore::Pause pause(store);
+    std::thread([&] { frames = TransformStore::Reading(store).table().size(); }).join();  // would wait forever
+    store.admit("base", "tool");  // a change during a pause locks and unlocks by itself
+    std::thread([&] { frames += TransformStore::Reading(store).table().size(); }).join();
+  }
+  EXPECT_EQ(frames, 1u + 2u);
+}
+
 }  // namespace
 }  // namespace test
 }  // namespace hgrid

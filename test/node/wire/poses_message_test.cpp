@@ -45,14 +45,14 @@ class Poses : public ::testing::Test {
     const std::string bytes = converter_.toTransforms(bytesOf(message), publisher);
     TransformSlices slices(bytes);
     Frames frames;
-    tf2_msgs::TFMessage slice;
+    std::vector<TransformView> slice;
     while (slices.left()) {
       slices.next(slice);
-      for (const geometry_msgs::TransformStamped& transform : slice.transforms) {
-        EXPECT_EQ(transform.header.frame_id, "map");
-        EXPECT_EQ(transform.header.stamp, ros::Time(7, 8));
-        EXPECT_EQ(transform.transform.rotation.w, 1.0);
-        frames.emplace_back(transform.child_frame_id, transform.transform.translation.x);
+      for (const TransformView& transform : slice) {
+        EXPECT_EQ(transform.parent, "map");
+        EXPECT_EQ(transform.stamp, Time(7000000008));
+        EXPECT_EQ(transform.rotation[3], 1.0);
+        frames.emplace_back(transform.child, transform.translation[0]);
       }
     }
     return frames;

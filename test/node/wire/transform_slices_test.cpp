@@ -9,6 +9,7 @@
 #include "hgrid_proximity/refusal.h"
 #include "test/node/support/random_message.h"
 #include "test/node/support/raw_message.h"
+#include "test/node/support/transform_views.h"
 
 namespace hgrid {
 namespace test {
@@ -27,19 +28,29 @@ TEST(TransformSlices, AreTogetherTheMessage) {
   constexpr std::size_t kSlice = TransformSlices::kSlice;
   for (const std::size_t count : {std::size_t{0}, std::size_t{1}, kSlice - 1, kSlice, kSlice + 1, 5 * kSlice}) {
     SCOPED_TRACE(count);
-    const std::string bytes = serialized(messageOf(count));
-    tf2_msgs::TFMessage whole;
+    const tf2_msgs::TFMessage message = messageOf(count);
+    const std::string bytes = serialized(message);
     TransformSlices slices(bytes);
-    tf2_msgs::TFMessage slice;
+    std::vector<TransformView> slice;
+    std::size_t read = 0;
     while (slices.left()) {
       slices.next(slice);
-      ASSERT_FALSE(slice.transforms.empty());
-      ASSERT_LE(slice.transforms.size(), kSlice);
-      whole.transforms.insert(whole.transforms.end(), slice.transforms.begin(), slice.transforms.end());
+      ASSERT_FALSE(slice.empty());
+      ASSERT_LE(slice.size(), kSlice);
+      for (const TransformView& transform : slice) {
+        ASSERT_LT(read, count);
+        const TransformView expected = viewOf(message.transforms[read++]);
+        EXPECT_EQ(transform.parent, expected.parent);
+        EXPECT_EQ(transform.child, expected.child);
+        EXPECT_EQ(transform.stamp, expected.stamp);
+        EXPECT_EQ(bytesOf(transform.translation),
+                  bytesOf(expected.translation));  // not a number is not equal to itself
+        EXPECT_EQ(bytesOf(transform.rotation), bytesOf(expected.rotation));
+      }
     }
-    EXPECT_EQ(serialized(whole), bytes);
+    EXPECT_EQ(read, count);
     slices.next(slice);
-    EXPECT_TRUE(slice.transforms.empty());
+    EXPECT_TRUE(slice.empty());
   }
 }
 

@@ -19,6 +19,7 @@
 #include "hgrid_proximity/adapters/fcl.h"
 #include "src/node/messages/obstacle_messages.h"
 #include "src/node/world/world.h"
+#include "test/node/support/transform_views.h"
 
 namespace hgrid {
 namespace test {
@@ -146,7 +147,7 @@ class Obstacles : public ::testing::Test {
     message.transforms[0].child_frame_id = "cart";
     message.transforms[0].transform.rotation.w = 1.0;
     message.transforms[0].transform.translation.x = cart(time_);
-    world_.transforms().take(message, false, "/driver", momentAt(time_));
+    world_.transforms().take(viewsOf(message), false, "/driver", momentAt(time_));
     tick_ = world_.tick(momentAt(time_));
     return *tick_->snapshot;
   }

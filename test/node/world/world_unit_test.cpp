@@ -12,6 +12,7 @@
 
 #include "hgrid_proximity/adapters/fcl.h"
 #include "src/node/world/world.h"
+#include "test/node/support/transform_views.h"
 #include "test/support/failing_allocations.h"
 #include "test/support/maps.h"
 #include "test/support/refusals.h"
@@ -168,8 +169,8 @@ Step hearing(const Moment& now, double x) {
   }
   return {"transforms",
           [=](World& world, Ticks&) {
-            world.transforms().take(standing, true, "/publisher", now);
-            world.transforms().take(moving, false, "/publisher", now);
+            world.transforms().take(test::viewsOf(standing), true, "/publisher", now);
+            world.transforms().take(test::viewsOf(moving), false, "/publisher", now);
           },
           false};
 }
