@@ -60,8 +60,12 @@ SCENE_GAPS = "node/moveit/scene_gaps.cpp"
 SCENE_MESSAGE = "node/moveit/scene_message.cpp"
 UNPLACED = "node/world/unplaced_robots.cpp"
 WORLD = "node/world/world.cpp"
+SETTINGS = "node/params/settings.cpp"
 
 CORE = [
+    ("a margin that changes at run time is not used", SCENE, "  s.options.margin = tuning.margin;\n", ""),
+    ("a change at run time uses what the last commit computed", SCENE,
+     "  s.structure_changed = true;\n  s.sizes_changed =", "  s.sizes_changed ="),
     ("the pair search ignores the reach of the level", PAIRS_BODY,
      "cellsOf(l, first, 0, l.reach[x], grid, x, x_low);", "cellsOf(l, first, 0, 0.0f, grid, x, x_low);"),
     ("the pair search of a box covers only the cell of its minimum corner", PAIRS_BODY,
@@ -399,6 +403,7 @@ NODE = [
     ("the frames of new bodies get no priority", WORLD,
      "transforms_.need(frames, now);", ""),
 
+    ("values that change at run time are not checked", SETTINGS, "  if (!errors.empty()) {", "  if (false) {"),
     ("MoveIt removes an object that a robot carries", OBSTACLES,
      "if (change.free_only && old != nullptr && old->attachment) {", "if (false) {"),
     ("a complete scene drops what a robot carries", OBSTACLES,

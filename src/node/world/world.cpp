@@ -68,28 +68,30 @@ void sortUnique(std::vector<std::string>& names) {
 
 }  // namespace
 
-World::World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& ledger,
+World::World(std::shared_ptr<const Settings> settings, bool simulated, std::uint64_t epoch, Ledger& ledger,
              std::shared_ptr<NarrowPhase> narrow_phase, const StoredWorld& stored)
-    : params_(params),
+    : first_settings_(std::move(settings)),
+      params_(first_settings_->params),
+      settings_(first_settings_),
       ledger_(ledger),
-      scene_(optionsOf(params, stored.rules)),
-      transforms_(params.max_future, params.tf_cache, static_cast<std::size_t>(params.max_frames), simulated, ledger,
-                  static_cast<std::size_t>(params.max_samples), params.max_sync_wait),
-      clock_(simulated, params.clock_jump, params.stale_after),
+      scene_(optionsOf(params_, stored.rules)),
+      transforms_(params_.max_future, params_.tf_cache, static_cast<std::size_t>(params_.max_frames), simulated, ledger,
+                  static_cast<std::size_t>(params_.max_samples), params_.max_sync_wait),
+      clock_(simulated, params_.clock_jump, params_.stale_after),
       movers_(scene_),
-      poses_(params, transforms_, scene_, movers_, ledger),
-      robots_(params),
-      obstacles_(params, std::move(narrow_phase), stored, ledger),
+      poses_(params_, transforms_, scene_, movers_, ledger),
+      robots_(params_),
+      obstacles_(params_, std::move(narrow_phase), stored, ledger),
       maps_(simulated),
-      clouds_(params, simulated, scene_, ledger),
-      missing_(params),
-      world_frame_(params.world_frame),
+      clouds_(params_, simulated, scene_, ledger),
+      missing_(params_),
+      world_frame_(params_.world_frame),
       epoch_(epoch) {
   scene_.beginEpoch(epoch_);
   for (const auto& [name, map] : stored.maps) {
     if (map) missing_.set(SourceId::ofMap(name), "NOT_READY map '" + name + "': its file has not been read yet");
   }
-  for (const MapParams& map : params.maps) {
+  for (const MapParams& map : params_.maps) {
     const auto known = stored.maps.find(map.name);
     if (known != stored.maps.end() && !known->second && map.topic.empty()) missing_.erase(SourceId::ofMap(map.name));
   }
@@ -219,6 +221,12 @@ void World::applyObstacles(const ObstacleChanges& changes, Time now) {
 
 void World::setRules(PreparedRules rules) { rules_.set(std::move(rules)); }
 
+void World::setSettings(std::shared_ptr<const Settings> settings) {
+  const Params& params = settings->params;
+  scene_.tune({params.margin, params.event_hysteresis, params.growth_cap, params.horizon});
+  settings_ = std::move(settings);
+}
+
 void World::reset() {
   const auto is_obstacle = [](const SourceId& source) { return source.kind == SourceKind::obstacle; };
   movers_.exchange(movers_.changeWithout(is_obstacle));
@@ -280,6 +288,7 @@ std::vector<SourceGap> World::listMissing(const Moment& now, Tick& tick) const {
 std::shared_ptr<const Tick> World::tick(const Moment& now) {
   auto tick = std::make_shared<Tick>();
   handleClock(now);
+  tick->settings = settings_;
   tick->made = now;
   tick->epoch = epoch_;
   const bool can_begin = findWorldFrame() && clock_.running();

@@ -12,7 +12,7 @@
 #include "hgrid_proximity/pairs/rule_book.h"
 #include "hgrid_proximity/world/scene.h"
 #include "node/diagnostics/ledger.h"
-#include "node/params/params.h"
+#include "node/params/settings.h"
 #include "node/sources/loaded_map.h"
 #include "node/sources/robot_source.h"
 #include "node/sources/source_id.h"
@@ -39,10 +39,11 @@ namespace hgrid {
 /// runs out; the next tick completes it.
 class World {
  public:
+  /// @param settings   never null; most of the parameters cannot change later, see setSettings()
   /// @param simulated  whether /clock drives ROS time
   /// @param epoch      number of the first epoch
   /// @param stored     what an earlier run of the node stored
-  World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& ledger,
+  World(std::shared_ptr<const Settings> settings, bool simulated, std::uint64_t epoch, Ledger& ledger,
         std::shared_ptr<NarrowPhase> narrow_phase, const StoredWorld& stored = {});
   World(const World&) = delete;
   World& operator=(const World&) = delete;
@@ -71,6 +72,9 @@ class World {
   void clearMissing(const SourceId& source) noexcept { missing_.erase(source); }
   /// Replaces all rules for allowed pairs, from the next tick on. Expired rules are removed automatically.
   void setRules(PreparedRules rules);
+  /// Replaces the parameters that may change while the node runs. The next tick is the first with all of them.
+  /// @param settings  changedSettings() made it from the settings in force; never null
+  void setSettings(std::shared_ptr<const Settings> settings);
   /// Applies changes of obstacles, all of them or none.
   /// @param now  current ROS time
   /// @throws Refusal not_ready (no world frame or no time yet), or as ObstacleBodies::apply()
@@ -92,7 +96,9 @@ class World {
   void needFrames(const Moment& now);
   std::vector<SourceGap> listMissing(const Moment& now, Tick& tick) const;
 
-  const Params& params_;
+  const std::shared_ptr<const Settings> first_settings_;  // those of the start
+  const Params& params_;                                  // of first_settings_; some of them may have changed since
+  std::shared_ptr<const Settings> settings_;              // those in force
   Ledger& ledger_;
   Scene scene_;
   TfIntake transforms_;

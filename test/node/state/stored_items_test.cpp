@@ -5,6 +5,7 @@
 #include "src/node/state/stored_items.h"
 
 #include "src/node/state/state_log.h"
+#include "test/node/support/settings.h"
 #include "test/node/world/obstacle_world.h"
 #include "test/support/random.h"
 
@@ -169,7 +170,7 @@ TEST_F(Obstacles, AMapThatAnEarlierRunLoadedIsMissedUntilItIsReadAgainAndARemove
   StoredWorld stored;
   stored.maps["hall"] = std::nullopt;
   stored.maps["late"] = params.maps[0];
-  World second(params, false, 2, ledger_, phase_, stored);
+  World second(settingsOf(params), false, 2, ledger_, phase_, stored);
   second.setRobot(arm());
   const auto tick = second.tick(momentAt(time_));
   EXPECT_EQ(tick->snapshot->reasonOf("map/hall"), "");
@@ -200,7 +201,8 @@ class StoredObstacles : public Obstacles {
     world_.forgetUnsaved();
   }
   std::unique_ptr<World> restarted() {
-    auto world = std::make_unique<World>(params(), false, 2, ledger_, phase_, storedWorldOf(items_, *phase_, kClocks));
+    auto world = std::make_unique<World>(settingsOf(params()), false, 2, ledger_, phase_,
+                                         storedWorldOf(items_, *phase_, kClocks));
     world->setRobot(arm());
     world->tick(momentAt(time_));
     return world;

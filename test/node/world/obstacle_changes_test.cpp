@@ -4,6 +4,7 @@
 // Requests of ~apply_obstacles, from the message to the snapshot of the next tick. The tests need no ROS master.
 #include <fstream>
 
+#include "test/node/support/settings.h"
 #include "test/node/world/obstacle_world.h"
 
 namespace hgrid {
@@ -249,7 +250,7 @@ TEST(ObstacleChanges, WaitForTheClock) {
   Params params;
   params.world_frame = "world";
   Ledger ledger;
-  World world(params, true, 1, ledger, makeFclNarrowPhase());
+  World world(settingsOf(params), true, 1, ledger, makeFclNarrowPhase());
   Moment before_clock;
   before_clock.steady = momentAt(0).steady;
   world.tick(before_clock);
@@ -264,7 +265,7 @@ TEST(ObstacleChanges, LeaveNothingBehind) {
   params.world_frame = "world";
   Ledger ledger;
   const auto phase = makeFclNarrowPhase();
-  World world(params, false, 1, ledger, phase);
+  World world(settingsOf(params), false, 1, ledger, phase);
   world.tick(momentAt(0));
   const auto resident = [] {
     std::ifstream file("/proc/self/statm");
