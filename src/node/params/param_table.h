@@ -82,6 +82,10 @@ void visitParams(Visitor& v, Params& p) {
   v.flag("moveit/services", p.moveit_services,
          "whether to offer MoveIt's services get_planning_scene and apply_planning_scene. Set this only where no "
          "move_group offers them in the same namespace");
+  v.flag("moveit/allowed_collision_matrix", p.moveit_matrix,
+         "whether the allowed collision matrix of a planning scene switches off pairs: its names of links and objects "
+         "that may touch become rules, at most ~max_rules. The parameter ~allowed_pairs and the service ~set_allowed "
+         "take precedence over equally exact rules of the matrix");
   v.integer("moveit/queue_bytes", p.moveit_queue_bytes, 1000, 1 << 30,
             "largest total size, in bytes, of the messages of moveit/topics that wait to be read. A message counts as "
             "its own size plus 512 bytes. A message that exceeds the limit is dropped (counter moveit.dropped.LIMIT in "

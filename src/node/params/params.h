@@ -97,7 +97,7 @@ struct Params {
   std::vector<RobotParams> robots;
   bool watch_descriptions = true;
   std::vector<ObstacleParams> obstacles;
-  bool moveit_topics = false, moveit_services = false;
+  bool moveit_topics = false, moveit_services = false, moveit_matrix = false;
   int moveit_queue_bytes = 64 << 20;
   std::vector<MapParams> maps;
   std::vector<CloudParams> clouds;

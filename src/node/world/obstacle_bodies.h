@@ -51,7 +51,7 @@ class ObstacleBodies {
   /// Lets all lifetimes begin again, after ROS time jumped.
   void restamp(Time now) noexcept;
   /// Returns the rules for what may touch the attached obstacles.
-  const TouchRules& touchRules() const { return touch_; }
+  const DerivedRules& touchRules() const { return touch_; }
   /// Returns the obstacles, by full name.
   const std::map<std::string, PlacedObstacle>& all() const { return present_; }
 
@@ -89,7 +89,7 @@ class ObstacleBodies {
   std::shared_ptr<NarrowPhase> narrow_phase_;
   Ledger& ledger_;
   Obstacles present_;
-  TouchRules touch_;
+  DerivedRules touch_;
   std::size_t done_ = 0;           // number of configured obstacles that were added or refused
   Obstacles stored_;               // by an earlier run, and not added yet
   std::set<std::string> removed_;  // configured obstacles that an earlier run removed

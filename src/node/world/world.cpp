@@ -45,15 +45,15 @@ void checkRoom(const LoadedRobot& robot, std::size_t others, const Params& param
 }
 
 /// Adds a mover for each group of links that move together.
-void addMovers(const LoadedRobot& robot, Movers::Change& change) {
+void addMovers(const LoadedRobot& robot, const LinkPaddings& paddings, Movers::Change& change) {
   const SourceId source = SourceId::ofRobot(robot.name);
   for (const LoadedRobot::Group& group : robot.groups) {
     bool first = true;
     for (const auto& [body, frame_from_body] : group.members) {
       if (std::exchange(first, false)) {
-        change.add(group.frame, source, robot.bodies[body], frame_from_body);
+        change.add(group.frame, source, padded(robot.bodies[body], paddings), frame_from_body);
       } else {
-        change.join(robot.bodies[body], frame_from_body);
+        change.join(padded(robot.bodies[body], paddings), frame_from_body);
       }
     }
   }
@@ -113,7 +113,7 @@ void World::setRobot(LoadedRobot loaded) {
   const LoadedRobot* known = robots_.find(robot->name);
   checkRoom(*robot, scene_.size() - (known == nullptr ? 0 : known->bodies.size()), params_);
   Movers::Change change = movers_.changeWithout([&](const SourceId& other) { return other == source; });
-  addMovers(*robot, change);
+  addMovers(*robot, paddings_, change);
   RobotModels robots = robots_;
   robots.set(robot);
   MissingSources missing = missing_;
@@ -221,6 +221,36 @@ void World::applyObstacles(const ObstacleChanges& changes, Time now) {
 
 void World::setRules(PreparedRules rules) { rules_.set(std::move(rules)); }
 
+void World::setLinkPaddings(LinkPaddings paddings) noexcept {
+  paddings_changed_ = paddings_changed_ || paddings != paddings_;
+  paddings_.swap(paddings);
+}
+
+/// Replaces the robots of which a link has another padding now.
+void World::padLinks() {
+  const auto differs = [&](const Body& link) {
+    BodyId id;
+    if (!scene_.find(link.name, id)) return false;
+    const std::vector<BodyShape>& now = scene_.body(id).shapes;
+    const std::vector<BodyShape> next = padded(link, paddings_).shapes;
+    return !std::equal(now.begin(), now.end(), next.begin(), next.end(),
+                       [](const BodyShape& a, const BodyShape& b) { return a.padding == b.padding; });
+  };
+  std::vector<const LoadedRobot*> others;
+  for (const auto& [name, robot] : robots_.all()) {
+    if (std::any_of(robot->bodies.begin(), robot->bodies.end(), differs)) others.push_back(robot.get());
+  }
+  if (!others.empty()) {
+    Movers::Change change = movers_.changeWithout([&](const SourceId& source) {
+      return std::any_of(others.begin(), others.end(),
+                         [&](const LoadedRobot* robot) { return source == SourceId::ofRobot(robot->name); });
+    });
+    for (const LoadedRobot* robot : others) addMovers(*robot, paddings_, change);
+    movers_.exchange(std::move(change));
+  }
+  paddings_changed_ = false;
+}
+
 void World::setSettings(std::shared_ptr<const Settings> settings) {
   const Params& params = settings->params;
   scene_.tune({params.margin, params.event_hysteresis, params.growth_cap, params.horizon});
@@ -231,6 +261,8 @@ void World::reset() {
   const auto is_obstacle = [](const SourceId& source) { return source.kind == SourceKind::obstacle; };
   movers_.exchange(movers_.changeWithout(is_obstacle));
   obstacles_.startAgain();
+  setLinkPaddings({});
+  setMatrix({});
   missing_.eraseIf(is_obstacle);
   ledger_.clear();
   beginEpoch();
@@ -296,7 +328,8 @@ std::shared_ptr<const Tick> World::tick(const Moment& now) {
   if (can_begin) obstacles_.addAll(world_frame_, now.ros, movers_, missing_);
   if (can_begin) obstacles_.followRobots(robots_, world_frame_, movers_);
   if (can_begin) obstacles_.expire(now.ros, movers_);
-  rules_.apply(now, obstacles_.touchRules(), scene_);
+  if (paddings_changed_) padLinks();
+  rules_.apply(now, obstacles_.touchRules(), matrix_.rules(robots_), scene_);
   needFrames(now);
   tick->world_frame = world_frame_;
   tick->models = robots_.report();

@@ -20,7 +20,9 @@
 #include "node/tick/tick.h"
 #include "node/time/clock_watch.h"
 #include "node/world/cloud_bodies.h"
+#include "node/world/link_paddings.h"
 #include "node/world/map_bodies.h"
+#include "node/world/matrix_rules.h"
 #include "node/world/missing_sources.h"
 #include "node/world/mover_poses.h"
 #include "node/world/movers.h"
@@ -79,11 +81,19 @@ class World {
   /// @param now  current ROS time
   /// @throws Refusal not_ready (no world frame or no time yet), or as ObstacleBodies::apply()
   void applyObstacles(const ObstacleChanges& changes, Time now);
+  /// Replaces the paddings of links that were set at run time, from the next tick on. They hold for robots that are
+  /// loaded later, too. The larger one of this padding and that of ~padding counts.
+  void setLinkPaddings(LinkPaddings paddings) noexcept;
+  const LinkPaddings& linkPaddings() const { return paddings_; }
+  /// Replaces the allowed collision matrix of MoveIt, from the next tick on. No rules: there is none.
+  void setMatrix(std::vector<MatrixRule> matrix) noexcept { matrix_.set(std::move(matrix)); }
+  const std::vector<MatrixRule>& matrix() const { return matrix_.matrix(); }
   /// Returns the obstacles in the world.
   const ObstacleBodies& obstacles() const { return obstacles_; }
   /// Ends what ObstacleBodies::unsaved() lists.
   void forgetUnsaved() noexcept { obstacles_.forgetUnsaved(); }
-  /// Restores the configured obstacles, sets all counters to 0 and begins a new epoch. Rules stay.
+  /// Restores the configured obstacles, sets all counters to 0 and begins a new epoch. Forgets what MoveIt set. Rules
+  /// and settings stay.
   void reset();
 
   /// Makes the next tick. @param now  current time of both clocks
@@ -93,6 +103,7 @@ class World {
   void handleClock(const Moment& now);
   void beginEpoch();
   bool findWorldFrame();
+  void padLinks();
   void needFrames(const Moment& now);
   std::vector<SourceGap> listMissing(const Moment& now, Tick& tick) const;
 
@@ -111,6 +122,9 @@ class World {
   CloudBodies clouds_;
   MissingSources missing_;
   RulesInForce rules_;
+  MatrixRules matrix_;
+  LinkPaddings paddings_;
+  bool paddings_changed_ = false;                    // whether a tick must still apply them
   std::map<std::string, std::string> cloud_frames_;  // by cloud
   std::optional<std::uint64_t> needed_revision_;     // of the movers whose frames are needed; nullopt: not up to date
   std::string world_frame_;
