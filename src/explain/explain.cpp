@@ -106,6 +106,8 @@ class Words {
         return "the links are adjacent: " + what_.rule.reason;
       case Origin::srdf:
         return "the SRDF disables the pair" + because();
+      case Origin::group:
+        return "both belong to the group '" + printable(a_.group) + "', and obstacles of one group make no pairs";
       case Origin::attached:
         return what_.rule.first + " may touch '" + printable(what_.rule.second) + "' because " + what_.rule.reason;
       default:
@@ -114,7 +116,9 @@ class Words {
   }
 
   std::string because() const {
-    return what_.rule.reason.empty() || what_.rule.origin == Origin::moveit ? "" : " (" + printable(what_.rule.reason, kLongestRuleText) + ")";
+    return what_.rule.reason.empty() || what_.rule.origin == Origin::moveit
+               ? ""
+               : " (" + printable(what_.rule.reason, kLongestRuleText) + ")";
   }
 
   std::string kind() const {

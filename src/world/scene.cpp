@@ -69,6 +69,7 @@ bool isSameElsewhere(const Body& before, const Body& after) {
            a.body_from_shape.matrix() == b.body_from_shape.matrix();
   };
   return isObstacle(before) && isObstacle(after) && before.frame == after.frame && before.margin == after.margin &&
+         before.group == after.group &&
          std::equal(before.shapes.begin(), before.shapes.end(), after.shapes.begin(), after.shapes.end(), isSameShape);
 }
 

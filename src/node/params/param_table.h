@@ -72,7 +72,8 @@ void visitParams(Visitor& v, Params& p) {
       "[x, y, z, w] instead of rpy. frame: tf frame that the obstacle follows; empty: it is fixed in the world frame; "
       "~poses: messages of the topic ~poses move it. An obstacle may also have moving, margin, max_speed, lifetime "
       "[s], "
-      "lost_at_end and owner, as in Obstacle.msg, and attached: {link: robot/link, pose, touch: [globs]} instead of "
+      "lost_at_end, owner and group, as in Obstacle.msg, and attached: {link: robot/link, pose, touch: [globs]} "
+      "instead of "
       "frame "
       "and pose");
   v.flag(

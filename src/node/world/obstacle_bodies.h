@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -66,10 +67,15 @@ class ObstacleBodies {
  private:
   using Obstacles = std::map<std::string, PlacedObstacle>;  // by full name
 
+  using Groups = std::map<std::string, std::set<std::string>>;  // full names of the obstacles of each group
+
   /// What changes: the obstacles that are added, replaced or moved, and the names of those that are removed.
   struct Edits {
     Obstacles set;
     std::set<std::string> removed;
+    std::optional<Groups> groups = {};  // all groups after the edits; nullopt: no change needed them yet
+    bool without_groups = false;        // ObstacleChanges::without_groups
+    std::size_t carried = 0;            // number of obstacles that moved with another one of their group
   };
 
   const PlacedObstacle* find(const Edits& edits, const std::string& name) const;
@@ -77,6 +83,11 @@ class ObstacleBodies {
   PlacedObstacle added(const ObstacleChange& change, const Edits& edits, const Surroundings& around) const;
   PlacedObstacle changed(const ObstacleChange& change, const Edits& edits, const Surroundings& around) const;
   void edit(const ObstacleChange& change, const Surroundings& around, Edits& edits) const;
+  const std::set<std::string>& groupOf(const PlacedObstacle& obstacle, Edits& edits) const;
+  void checkGroup(const PlacedObstacle& added, Edits& edits) const;
+  void carryGroup(const PlacedObstacle& before, const PlacedObstacle& after, const Surroundings& around,
+                  Edits& edits) const;
+  static void regroup(const PlacedObstacle* before, const PlacedObstacle* after, Edits& edits);
   std::vector<std::string> chosen(const Edits& edits,
                                   const std::function<bool(const PlacedObstacle&)>& is_chosen) const;
   std::vector<PairRule> touchRulesAfter(const Edits& edits) const;

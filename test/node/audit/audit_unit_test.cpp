@@ -86,6 +86,23 @@ TEST(Audit, FollowsParametersThatChange) {
   }
 }
 
+/// Claim: an audit knows that obstacles of one group make no pairs with each other, and misses them otherwise.
+TEST(Audit, KnowsTheGroupsOfObstacles) {
+  Params params = AuditedWorld::defaults();
+  for (int i = 0; i < 4; ++i) {
+    ObstacleParams added = params.obstacles.front();  // all four follow the frame of this one
+    added.body.name = "obstacle/more" + std::to_string(i);
+    added.body.group = i < 2 ? "pile" : "";
+    params.obstacles.push_back(added);
+  }
+  AuditedWorld world(15, params);
+  for (int i = 0; i < 3; ++i) world.step();
+  AuditCase audited = world.audited();
+  EXPECT_EQ(sentences(audit(audited, 1)), "");
+  for (Body& body : audited.bodies) body.group.clear();
+  expectTells(sentences(audit(audited, 1)), "the pair 'obstacle/more0', 'obstacle/more1' is missing");
+}
+
 TEST(Audit, FindsAPoseThatDoesNotFitItsTransforms) {
   AuditedWorld world(2);
   begin(world);

@@ -51,7 +51,8 @@ Value rich() {
                {"max_speed", 1.5},
                {"lifetime", 2.5},
                {"lost_at_end", true},
-               {"owner", "/planner"}});
+               {"owner", "/planner"},
+               {"group", "set"}});
 }
 
 /// Returns the same obstacle as a request of ~apply_obstacles.
@@ -88,6 +89,7 @@ msg::Obstacle richRequest() {
   request.lifetime = ros::Duration(2.5);
   request.lifetime_end = msg::LifetimeEnd::LOST;
   request.owner = "/planner";
+  request.group = "set";
   return request;
 }
 
@@ -136,6 +138,7 @@ TEST(ObstacleParams, GiveTheSameObstacleAsARequest) {
   EXPECT_EQ(a.what->body.shapes[0].padding, 0.01);
   EXPECT_EQ(a.what->body.shapes[1].padding, 0.005);
   EXPECT_EQ(a.owner, "/planner");
+  EXPECT_EQ(a.what->body.group, "set");
   EXPECT_EQ(a.ends, kNow + std::chrono::milliseconds(2500));
   EXPECT_EQ(a.ends, b.ends);
   EXPECT_TRUE(a.what->lost_at_end);

@@ -66,6 +66,7 @@ PlacedObstacle randomObstacle(Random& random, int number) {
   what->lost_at_end = random.between(0, 1) != 0;
   what->lifetime = std::chrono::nanoseconds(std::int64_t{random.between(0, 1)} * 123456789012345);
   what->owner = "/caller";
+  what->body.group = random.between(0, 1) == 0 ? "" : "a group";
   PlacedObstacle obstacle;
   obstacle.what = what;
   obstacle.owner = "an owner";

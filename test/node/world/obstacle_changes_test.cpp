@@ -76,11 +76,10 @@ TEST_F(Obstacles, AreRefusedAsAWholeWithTheIndexOfTheChange) {
   late.at_stamp = true;
   late.header.stamp.fromNSec(std::uint64_t(momentAt(-5.0).ros.count()));  // when the cart was not known
   msg::Obstacle lost = adding("x", 0), group = adding("x", 0), none = adding("x", 0), thick = adding("x", 0);
-  msg::Obstacle unknown = late, fast = adding("x", 0);
+  msg::Obstacle unknown = late;
   unknown.header.frame_id = "never_seen";
-  fast.velocity.linear.x = 1.0;
   lost.lifetime_end = 2;
-  group.group = "g";
+  group.group = "a\nb";
   none.shapes.clear();
   thick.shapes[0].padding = -1.0;
   msg::Obstacle odd = removing("part");
@@ -95,9 +94,8 @@ TEST_F(Obstacles, AreRefusedAsAWholeWithTheIndexOfTheChange) {
       {adding("x", 1, -0.1), Code::bad_geometry},
       {late, Code::extrapolation},
       {unknown, Code::unknown_frame},
-      {fast, Code::unsupported},
       {lost, Code::unsupported},
-      {group, Code::unsupported},
+      {group, Code::bad_id},
       {none, Code::bad_geometry},
       {thick, Code::out_of_range},
       {odd, Code::unsupported},

@@ -90,6 +90,7 @@ TEST(RulesInForce, RulesOfMoveItComeFirstAndAreReplacedAsAWhole) {
   const Moment now{Time{0}, PairRule::Clock::time_point{std::chrono::hours(1)}};
   SceneOptions options;
   options.allowed_pairs = {allow("configured", "*")};
+  options.allowed_pairs[0].origin = Origin::parameter;
   Scene scene{options};
   RulesInForce rules;
   PairRule one = allow("hand", "part"), other = allow("hand", "lid");
