@@ -45,6 +45,7 @@ def add(
     lifetime: float = 0.0,
     lost_at_end: bool = False,
     owner: str = "",
+    group: str = "",
 ) -> Obstacle:
     """Returns a change that adds an obstacle.
 
@@ -63,10 +64,12 @@ def add(
         longer known, until it is added or changed again. False: it is removed.
     @param owner  name of its owner (see Proximity.apply_obstacles); empty: the name of this node. An anonymous node has a
         new name in each run, so give an owner.
+    @param group  name of a group of obstacles that move as one and make no pairs with each other; empty: no group. They must
+        follow the same frame or be attached to the same link.
     """
     change = _placed(ObstacleOperation.ADD, name, position, orientation, frame, stamp)
     change.shapes = [shapes] if isinstance(shapes, Shape) else list(shapes)
-    change.replace, change.moving, change.owner = replace, moving, owner
+    change.replace, change.moving, change.owner, change.group = replace, moving, owner, group
     change.lifetime_end = LifetimeEnd.LOST if lost_at_end else LifetimeEnd.REMOVE
     change.margin, change.max_speed, change.lifetime = margin, max_speed, rospy.Duration.from_sec(lifetime)
     return change
@@ -76,7 +79,7 @@ def move(
     name: str, position, orientation=UPRIGHT, frame: str = "", stamp: Optional[rospy.Time] = None
 ) -> Obstacle:
     """Returns a change that gives an obstacle another pose. Its lifetime begins again. `frame` and `stamp` are as in add().
-    Refused while the obstacle is attached."""
+    The obstacles of its group move as one with it. Refused while the obstacle is attached."""
     return _placed(ObstacleOperation.MOVE, name, position, orientation, frame, stamp)
 
 

@@ -258,6 +258,11 @@ std::shared_ptr<const PairDistances> PairMeter::State::result(const Snapshot& sn
   return result;
 }
 
+void PairMeter::tune(double report_distance, double budget) {
+  state_->options.report_distance = report_distance;
+  state_->options.budget = budget;
+}
+
 int PairMeter::threads() const { return state_->workers.threads(); }
 
 std::shared_ptr<const PairDistances> PairMeter::measure(const Snapshot& snapshot) {

@@ -106,6 +106,8 @@ class Words {
         return "the links are adjacent: " + what_.rule.reason;
       case Origin::srdf:
         return "the SRDF disables the pair" + because();
+      case Origin::group:
+        return "both belong to the group '" + printable(a_.group) + "', and obstacles of one group make no pairs";
       case Origin::attached:
         return what_.rule.first + " may touch '" + printable(what_.rule.second) + "' because " + what_.rule.reason;
       default:
@@ -114,7 +116,9 @@ class Words {
   }
 
   std::string because() const {
-    return what_.rule.reason.empty() ? "" : " (" + printable(what_.rule.reason, kLongestRuleText) + ")";
+    return what_.rule.reason.empty() || what_.rule.origin == Origin::moveit
+               ? ""
+               : " (" + printable(what_.rule.reason, kLongestRuleText) + ")";
   }
 
   std::string kind() const {
@@ -140,7 +144,9 @@ class Words {
   std::string theRule(const std::string& begin) const {
     const PairRule& rule = what_.rule;
     std::string words = begin + " '" + printable(rule.first) + "', '" + printable(rule.second) + "' of ";
-    words += rule.origin == Origin::service ? options_.added_rules : options_.allowed_pairs;
+    words += rule.origin == Origin::service  ? options_.added_rules
+             : rule.origin == Origin::moveit ? "MoveIt's allowed collision matrix"
+                                             : options_.allowed_pairs;
     if (rule.ends != PairRule::Clock::time_point::max()) {
       const double left = std::chrono::duration<double>(rule.ends - PairRule::Clock::now()).count();
       words += ", which ends in " + secondsText(std::max(0.0, left)) + ",";

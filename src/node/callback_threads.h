@@ -13,6 +13,7 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <thread>
 #include <utility>
 
@@ -32,8 +33,21 @@ class CallbackThreads {
   const ros::NodeHandle& privateNode() const { return private_node_; }
 
   void start(std::uint32_t threads) {
+    const std::lock_guard<std::mutex> lock(spinner_mutex_);
     spinner_ = std::make_unique<ros::AsyncSpinner>(threads, &queue_);
     spinner_->start();
+    threads_ = threads;
+  }
+  /// Replaces the threads of start() by new ones. Waits until the callbacks that the old threads run are done.
+  /// Meanwhile the new threads run the other callbacks. Any thread except those of this object may call this.
+  /// @throws std::exception if the system cannot create the threads; the old ones then stay
+  void resize(std::uint32_t threads) {
+    const std::lock_guard<std::mutex> lock(spinner_mutex_);
+    if (!spinner_ || stopping_ || threads == threads_) return;
+    auto spinner = std::make_unique<ros::AsyncSpinner>(threads, &queue_);
+    spinner->start();
+    spinner_.swap(spinner);
+    threads_ = threads;
   }
   /// Starts one thread that runs the callbacks, and calls `work` after each round of them.
   /// @param begin  the thread calls it first; it must not throw
@@ -48,8 +62,8 @@ class CallbackThreads {
       }
     });
   }
-  /// Ends the wait of the thread of startLoop(). Any thread may call this. Does nothing if there is no memory for it; then
-  /// the wait ends by itself.
+  /// Ends the wait of the thread of startLoop(). Any thread may call this. Does nothing if there is no memory for it;
+  /// then the wait ends by itself.
   void wake() noexcept {
     if (woken_.exchange(true)) return;
     try {
@@ -60,9 +74,12 @@ class CallbackThreads {
   }
   /// Starts no further callbacks, and waits for those that are running.
   void stop() {
-    if (spinner_) spinner_->stop();
-    if (!loop_.joinable()) return;
     stopping_ = true;
+    {
+      const std::lock_guard<std::mutex> lock(spinner_mutex_);
+      if (spinner_) spinner_->stop();
+    }
+    if (!loop_.joinable()) return;
     wake();
     loop_.join();
   }
@@ -81,7 +98,9 @@ class CallbackThreads {
   std::atomic<bool> stopping_{false}, woken_{false};
   ros::CallbackQueue queue_;
   ros::NodeHandle node_, private_node_;
-  std::unique_ptr<ros::AsyncSpinner> spinner_;
+  std::mutex spinner_mutex_;
+  std::unique_ptr<ros::AsyncSpinner> spinner_;  // guarded by spinner_mutex_
+  std::uint32_t threads_ = 0;                   // guarded by spinner_mutex_
   std::thread loop_;
 };
 

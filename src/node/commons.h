@@ -13,7 +13,7 @@ namespace hgrid {
 
 /// Objects that nearly every part of the node uses. Any thread may use them.
 struct Commons {
-  Settings settings;
+  Settings settings;  ///< those of the start of the node; Tick::settings has those that changed since then
   std::shared_ptr<NarrowPhase> narrow_phase;
   Ledger ledger;
   NodeHealth health;

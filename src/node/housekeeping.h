@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "node/diagnostics/ledger.h"
@@ -39,6 +40,27 @@ class ChoreList {
   Ledger& ledger_;
 };
 
+/// Decides when a chore is due that must run at a given rate. Only one thread may use it.
+class ChorePace {
+ public:
+  using Time = Chore::Time;
+
+  /// @param rate  [Hz] > 0
+  explicit ChorePace(double rate) { setRate(rate); }
+  void setRate(double rate);
+
+  /// Returns the time [s] that must pass between two calls of takeDue(): at most 0.25 s, and a fraction of the time
+  /// between two runs of the chore.
+  double period() const { return period_; }
+  /// Returns whether the chore is due. If it is, plans its next run.
+  bool takeDue(Time now);
+
+ private:
+  double period_ = 0.0;             // [s]
+  std::chrono::nanoseconds pause_;  // half a period shorter than the time between two runs, as timers are not exact
+  std::optional<Time> last_;
+};
+
 /// Runs chores regularly, on the thread that serves a node handle.
 class Housekeeping {
  public:
@@ -46,11 +68,13 @@ class Housekeeping {
   Housekeeping(const ros::NodeHandle& node, double period, ChoreList chores);
 
   void start();
+  /// Sets the time between two checks [s]. Call this on the thread of the chores, or before start().
+  void setPeriod(double period);
   void stop() { timer_.stop(); }
 
  private:
   ros::NodeHandle node_;
-  const double period_;
+  double period_;
   ChoreList chores_;
   ros::SteadyTimer timer_;
 };

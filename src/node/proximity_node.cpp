@@ -5,7 +5,6 @@
 #include <ros/init.h>
 #include <ros/time.h>
 
-#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -16,7 +15,6 @@
 namespace hgrid {
 namespace {
 
-constexpr double kHousekeepingPeriod = 0.25;  // [s] longest time between two checks for due chores
 constexpr std::chrono::milliseconds kDiagnosticsPause{1000};
 
 /// Returns a number that no earlier run of the node used: the time of the wall clock [ns].
@@ -36,8 +34,8 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
       admin_thread_(node, private_node),
       commons_{readSettings(private_node), std::move(narrow_phase), {}, {}},
       state_(commons_),
-      world_(commons_.settings.params, ros::Time::isSimTime(), newEpoch(), commons_.ledger, commons_.narrow_phase,
-             state_.restored()),
+      world_(std::make_shared<const Settings>(commons_.settings), ros::Time::isSimTime(), newEpoch(), commons_.ledger,
+             commons_.narrow_phase, state_.restored()),
       jobs_([this] { return isEnding(); }, std::chrono::seconds(10), [this] { tick_thread_.wake(); }),
       auditor_(commons_),
       tick_loop_(tick_thread_.node(), tick_thread_.privateNode(), commons_.settings.params, world_, jobs_, stopwatch_,
@@ -57,8 +55,12 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
       diagnostics_(
           admin_thread_.node(), admin_thread_.privateNode(), private_node.getNamespace(),
           [this] { return tick_loop_.newest(); }, commons_.health),
-      housekeeping_(admin_thread_.node(), std::min(kHousekeepingPeriod, 1.0 / commons_.settings.params.marker_rate),
-                    ChoreList(chores(), commons_.ledger)) {
+      marker_pace_(commons_.settings.params.marker_rate),
+      housekeeping_(admin_thread_.node(), marker_pace_.period(), ChoreList(chores(), commons_.ledger)),
+      reconfigure_(
+          admin_thread_.privateNode(), commons_.settings,
+          [this](const TickJobs::Job& job) { return tick_loop_.tickAfter(job); },
+          [this](const Params& params) { takeOver(params); }, commons_.ledger) {
   tick_loop_.setSteps(tickSteps());
   housekeeping_.start();
   query_threads_.start(static_cast<std::uint32_t>(commons_.settings.params.query_threads));
@@ -78,6 +80,13 @@ void ProximityNode::stop() {
   tick_thread_.stop();
   query_threads_.stop();
   admin_thread_.stop();
+}
+
+/// Takes over those parameters that may change while the node runs and that no tick uses. The admin thread calls this.
+void ProximityNode::takeOver(const Params& params) {
+  query_threads_.resize(static_cast<std::uint32_t>(params.query_threads));
+  marker_pace_.setRate(params.marker_rate);
+  housekeeping_.setPeriod(marker_pace_.period());
 }
 
 /// Prepares the tick thread, which calls this before the first tick.
@@ -116,7 +125,10 @@ std::vector<Chore> ProximityNode::chores() {
   constexpr std::chrono::milliseconds kAlways{0};
   return {{"loading.failed", kAlways, [this](Time now) { loading_.retry(now); }},
           {"loading.failed", kAlways, [this](Time) { loading_.robots().loadChanged(); }},
-          {"markers.failed", kAlways, [this](Time) { publishers_.publishMarkers(tick_loop_.newest()); }},
+          {"markers.failed", kAlways,
+           [this](Time now) {
+             if (marker_pace_.takeDue(now)) publishers_.publishMarkers(tick_loop_.newest());
+           }},
           {"diagnostics.failed", kDiagnosticsPause, [this](Time) { diagnostics_.update(); }}};
 }
 

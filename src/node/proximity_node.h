@@ -18,6 +18,7 @@
 #include "node/loading/loading.h"
 #include "node/moveit/moveit_interface.h"
 #include "node/publishers/publishers.h"
+#include "node/reconfigure/reconfigure_service.h"
 #include "node/services/node_services.h"
 #include "node/state/state_keeper.h"
 #include "node/tick/tick_loop.h"
@@ -45,6 +46,7 @@ class ProximityNode {
   void beginTicks();
   std::vector<TickLoop::Step> tickSteps();
   std::vector<Chore> chores();
+  void takeOver(const Params& params);
 
   // Each part uses only the parts that are declared above it.
   std::atomic<bool> stopping_{false};
@@ -64,7 +66,9 @@ class ProximityNode {
   NodeServices services_;
   MoveItInterface moveit_;
   NodeDiagnostics diagnostics_;
+  ChorePace marker_pace_;  // only the admin thread uses it
   Housekeeping housekeeping_;
+  ReconfigureService reconfigure_;
   /// Stops all threads before any part is destroyed, also if the constructor throws after some threads were started.
   struct StopsThreads {
     ProximityNode& node;

@@ -69,6 +69,10 @@ void PairFilter::fillSubjects(const BodyList& bodies) {
     if (body.kind == BodyKind::link) {
       subject.robot = robots.emplace(body.robot, static_cast<std::uint32_t>(robots.size())).first->second;
     }
+    if (body.kind == BodyKind::obstacle && !body.group.empty()) {  // no name of a robot contains a slash
+      const auto next = static_cast<std::uint32_t>(robots.size());
+      subject.robot = robots.emplace("obstacle/" + body.group, next).first->second;
+    }
     if (body.links) {
       if (matrices_.empty() || matrices_.back() != body.links) matrices_.push_back(body.links);
       subject.matrix = static_cast<std::uint32_t>(matrices_.size() - 1);
@@ -211,6 +215,7 @@ PairDecision PairFilter::decision(std::uint32_t first, std::uint32_t second) con
     result.reason = rules_[result.rule].reason;
     return result;
   }
+  if (result.origin == Origin::group) result.reason = "obstacles of one group move together";
   const Subject &a = subjects_[first], &b = subjects_[second];
   if (a.robot != b.robot || a.allowed == nullptr) return result;
   if (const LinkMatrix::Tag* tag = matrices_[a.matrix]->tag(a.link, b.link)) {
@@ -229,6 +234,7 @@ PairDecision PairFilter::decision(std::uint32_t first, std::uint32_t second) con
 void PairFilter::appendKey(std::uint32_t body, std::vector<std::uint64_t>& key) const {
   const Subject& subject = subjects_[body];
   key.push_back(subject.type);
+  key.push_back(isObstacle(subject.type) ? subject.robot : kNoRobot);  // the group
   key.push_back((subject.ruled & kByName) != 0 ? body : kNoRule);  // a body that a rule names needs a key of its own
   for (const auto* sets : {&as_first_, &as_second_}) {
     const auto begin = sets->begin() + static_cast<std::ptrdiff_t>(body * words_);
@@ -274,7 +280,7 @@ bool PairFilter::reportsAny() const {
   // Within a robot, the model's matrix can decide differently for each pair of links.
   std::map<std::uint32_t, std::vector<std::uint32_t>> robots;
   for (std::uint32_t i = 0; i < count; ++i) {
-    if (subjects_[i].robot != kNoRobot) robots[subjects_[i].robot].push_back(i);
+    if (subjects_[i].robot != kNoRobot && !isObstacle(subjects_[i].type)) robots[subjects_[i].robot].push_back(i);
   }
   for (const auto& robot : robots) {
     for (const std::uint32_t i : robot.second) {

@@ -40,7 +40,9 @@ void RuleBook::add(const std::vector<PairRule>& rules) {
     }
     kept.push_back(std::move(*rule));
   }
-  const auto is_counted = [](const PairRule& rule) { return rule.origin != Origin::attached; };
+  const auto is_counted = [](const PairRule& rule) {
+    return rule.origin != Origin::attached && rule.origin != Origin::moveit;  // they have limits of their own
+  };
   const auto count = std::count_if(kept.begin(), kept.end(), is_counted);
   if (static_cast<std::size_t>(count) > most_) {
     throw Refusal(Code::limit, "there would be " + std::to_string(count) +
@@ -64,7 +66,9 @@ void RuleBook::remove(const std::vector<PairRule>& rules) {
     if (other == rules_.end()) {
       throw Refusal(Code::unknown_id, "there is no rule " + shown(rule) + "; only an existing rule can be removed");
     }
-    const char* why = other->origin == Origin::attached ? "belongs to an attached obstacle" : "was configured";
+    const char* why = other->origin == Origin::attached ? "belongs to an attached obstacle"
+                      : other->origin == Origin::moveit ? "came from MoveIt"
+                                                        : "was configured";
     throw Refusal(Code::unknown_id,
                   "rule " + shown(rule) + " " + why + " and cannot be removed; add the same rule with allowed = false");
   }

@@ -90,8 +90,8 @@ void Scene::State::rebuildStructure() {
     for (std::size_t i = 0; i < body.shapes.size(); ++i) {
       const BodyShape& shape = body.shapes[i];
       next_shapes.push_back({shape.shape, shape.body_from_shape, shape.padding});
-      next_sizes.push_back(known != Structure::kNone ? sizes[structure->first_proxy[known] + i]
-                                                     : sizeOf(shape, options.margin));
+      const bool has_size = known != Structure::kNone && !sizes_changed;
+      next_sizes.push_back(has_size ? sizes[structure->first_proxy[known] + i] : sizeOf(shape, options.margin));
     }
   }
   next->first_proxy.push_back(static_cast<std::uint32_t>(next->body_of_proxy.size()));
@@ -115,7 +115,7 @@ void Scene::State::rebuildStructure() {
   structure = std::move(next);
   scale = GridScale::fitting(sizes);
   if (options.finest_edge > 0.0) scale.finest_edge = options.finest_edge;
-  structure_changed = bodies_changed = rules_changed = false;
+  structure_changed = bodies_changed = rules_changed = sizes_changed = false;
   prepared.reset();
 }
 

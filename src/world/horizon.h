@@ -19,6 +19,12 @@ class Horizon {
   Horizon(double seconds, double cap) : seconds_(seconds), cap_(cap) {}
 
   bool on() const { return seconds_ > 0.0; }
+  /// Sets the values of the constructor. If the horizon was off, the next tick has no last tick to compare with.
+  void set(double seconds, double cap) {
+    if (!on()) last_ = {};
+    seconds_ = seconds;
+    cap_ = cap;
+  }
   /// Sets the poses and boxes of a new tick and compares them with the last accepted tick. If a body had no pose in the
   /// last accepted tick, or if it was added since, the swept box is the present box.
   /// @param stamp  time of the new tick; a pose with an older stamp lags behind it

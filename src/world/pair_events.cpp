@@ -105,8 +105,10 @@ EventCause PairEvents::causeOfEnd(const On& on, double margin, double gap, const
   if (now.filter.allowed(on.first, on.second)) return EventCause::filter;
   const std::uint32_t first = numberBefore(on.first), second = numberBefore(on.second);
   const double margin_before = marginBefore(first, second);
-  if (margin >= margin_before || gap > margin_before + hysteresis_) return EventCause::moved;
-  const bool is_narrower = configuredMargin(now, on.first, on.second) < configuredMargin(*structure_, first, second);
+  const double kept_before = margin_before + hysteresis_before_;  // [m] up to this gap, the previous tick kept the pair
+  if (margin + hysteresis_ >= kept_before || gap > kept_before) return EventCause::moved;
+  const bool is_narrower = configuredMargin(now, on.first, on.second) + hysteresis_ <
+                           configuredMargin(*structure_, first, second) + hysteresis_before_;
   return is_narrower ? EventCause::filter : EventCause::staleness;
 }
 
@@ -179,6 +181,7 @@ void PairEvents::accept() {
   last_ = next_last_;
   on_.swap(next_);
   structure_ = next_structure_;
+  hysteresis_before_ = hysteresis_;
   known_.swap(next_known_);
   epoch_began_ = false;
 }

@@ -39,8 +39,10 @@ class PairEvents {
   /// @param hysteresis  [m] how far the gap must exceed the margin before a pair ends, >= 0
   /// @param most        maximum number of pairs that are on at a time
   explicit PairEvents(double hysteresis, std::size_t most = std::numeric_limits<std::size_t>::max())
-      : hysteresis_(hysteresis), most_(most) {}
+      : hysteresis_(hysteresis), hysteresis_before_(hysteresis), most_(most) {}
 
+  /// Sets the hysteresis of the next update().
+  void setHysteresis(double hysteresis) { hysteresis_ = hysteresis; }
   /// Replaces `list` by the events of this tick, that is, by the changes since the last accepted tick.
   void update(const PairsNow& now, PairEventList& list);
   /// Accepts the tick of the last update(): the next update() compares with it. Allocates no memory.
@@ -69,7 +71,7 @@ class PairEvents {
   std::uint32_t numberBefore(std::uint32_t body) const { return renumbered_ ? before_[body] : body; }
   double marginBefore(std::uint32_t first, std::uint32_t second) const;
 
-  double hysteresis_;
+  double hysteresis_, hysteresis_before_;  // [m] of the next update(), and of the last accepted one
   std::size_t most_;
   std::uint64_t last_ = 0;
   bool epoch_began_ = false;

@@ -49,6 +49,15 @@ void checkBody(const Body& body) {
   }
 }
 
+void checkTuning(const SceneTuning& tuning) {
+  checkLength(tuning.margin, kLargestMargin, "margin");
+  checkLength(tuning.event_hysteresis, kLargestMargin, "event_hysteresis");
+  checkLength(tuning.growth_cap, kLargestMargin, "growth_cap");
+  if (!(tuning.horizon >= 0.0 && tuning.horizon <= 60.0)) {
+    throw Refusal(Code::out_of_range, "horizon is " + text(tuning.horizon) + " s; it must be within 0 .. 60 s");
+  }
+}
+
 /// Returns whether a new obstacle is the old one at another place, so that its pairs continue. It must be fixed: the
 /// pose of a moving obstacle may be unknown until its frame is found, so it becomes a new body.
 bool isSameElsewhere(const Body& before, const Body& after) {
@@ -60,6 +69,7 @@ bool isSameElsewhere(const Body& before, const Body& after) {
            a.body_from_shape.matrix() == b.body_from_shape.matrix();
   };
   return isObstacle(before) && isObstacle(after) && before.frame == after.frame && before.margin == after.margin &&
+         before.group == after.group &&
          std::equal(before.shapes.begin(), before.shapes.end(), after.shapes.begin(), after.shapes.end(), isSameShape);
 }
 
@@ -79,16 +89,11 @@ Scene::State::Slot& Scene::State::at(BodyId id) {
 }
 
 Scene::Scene(const SceneOptions& options) : state_(std::make_unique<State>(options)) {
-  checkLength(options.margin, kLargestMargin, "margin");
-  checkLength(options.event_hysteresis, kLargestMargin, "event_hysteresis");
+  checkTuning({options.margin, options.event_hysteresis, options.growth_cap, options.horizon});
   for (const PairMargin& pair : options.pair_margins) {
     checkLength(pair.margin, kLargestMargin,
                 "margin of the pair '" + printable(pair.first) + "', '" + printable(pair.second) + "'");
   }
-  if (!(options.horizon >= 0.0 && options.horizon <= 60.0)) {
-    throw Refusal(Code::out_of_range, "horizon is " + text(options.horizon) + " s; it must be within 0 .. 60 s");
-  }
-  checkLength(options.growth_cap, kLargestMargin, "growth_cap");
   checkLength(options.world_limit, kFarthestShape, "world_limit");
   checkLength(options.finest_edge, kLargestMargin, "finest_edge");
   if (options.finest_edge > 0.0 && options.finest_edge < 1e-6) {
@@ -325,6 +330,24 @@ void Scene::removeRules(const std::vector<bool>& gone) {
 }
 
 const std::vector<PairRule>& Scene::rules() const { return state_->options.allowed_pairs; }
+
+void Scene::tune(const SceneTuning& tuning) {
+  checkTuning(tuning);
+  State& s = *state_;
+  s.pair_events.setHysteresis(tuning.event_hysteresis);
+  s.options.event_hysteresis = tuning.event_hysteresis;
+  if (s.options.margin == tuning.margin && s.options.growth_cap == tuning.growth_cap &&
+      s.options.horizon == tuning.horizon) {
+    return;
+  }
+  // A new structure makes the next commit compute everything that it otherwise keeps from the last one.
+  s.structure_changed = true;
+  s.sizes_changed = s.sizes_changed || s.options.margin != tuning.margin;
+  s.options.margin = tuning.margin;
+  s.options.growth_cap = tuning.growth_cap;
+  s.options.horizon = tuning.horizon;
+  s.horizon.set(tuning.horizon, tuning.growth_cap);
+}
 
 void Scene::beginEpoch(std::uint64_t epoch) {
   state_->epoch = epoch;

@@ -68,6 +68,7 @@ struct Scene::State {
   bool structure_changed = true;                       // whether bodies or rules changed since the last commit
   bool bodies_changed = true;                          // whether bodies changed since the last commit
   bool rules_changed = true;                           // whether rules changed since the last commit
+  bool sizes_changed = false;                          // whether `sizes` are those of another margin
   std::optional<PreparedRules> prepared;               // has the same rules as options.allowed_pairs
   std::uint64_t sequence = 0, epoch = 0, commits = 0;
 

@@ -160,6 +160,31 @@ TEST_F(PairMeterTest, NeverLosesAPairThatCreepsUp) {
   }
 }
 
+/// Claim: after tune(), a meter reports what a new meter with these options reports.
+TEST_F(PairMeterTest, AfterATuneReportsWhatANewMeterReports) {
+  const BodyId a = add("a", 0.0), b = add("b", 1.1), c = add("c", 2.4);
+  add("d", 3.6);
+  PairMeter meter = meterOf(0.5);
+  test::Random random(3);
+  for (int step = 1; step <= 200; ++step) {
+    const double report = test::sixtyFourths(random, 0.0, 1.0);
+    if (random.chance(0.5)) scene_.place(a, at(random.uniform(-0.5, 0.3)), std::chrono::milliseconds(step));
+    meter.tune(report, 0.0);
+    const auto found = measure(meter, step);
+    PairMeter forgetful = meterOf(report);
+    const auto expected = forgetful.measure(*snapshot_);
+    ASSERT_EQ(found->pairs.size(), expected->pairs.size()) << "step " << step;
+    for (std::size_t i = 0; i < found->pairs.size(); ++i) {
+      ASSERT_EQ(found->pairs[i].proximity.distance, expected->pairs[i].proximity.distance) << "step " << step;
+    }
+  }
+  phase_->takes = std::chrono::milliseconds(5);
+  scene_.place(b, at(1.11), std::chrono::milliseconds(201));
+  scene_.place(c, at(2.41), std::chrono::milliseconds(201));  // now three pairs are due
+  meter.tune(1.0, 0.001);
+  EXPECT_GT(measure(meter, 201)->left_out, 0u) << "the budget is in force";
+}
+
 TEST_F(PairMeterTest, WhatDoesNotFitIntoTheBudgetStaysACandidateNearestFirst) {
   phase_->takes = std::chrono::milliseconds(5);
   for (int i = 0; i < 8; ++i) add(std::string(1, static_cast<char>('a' + i)), (1.0 + 0.02 * i) * i);

@@ -18,6 +18,7 @@ namespace {
 class RangeCheck {
  public:
   void section(const char*) {}
+  void changeable() {}
   void string(const char*, const std::string&, const char*) {}
   void strings(const char*, const std::vector<std::string>&, const char*) {}
   void flag(const char*, bool, const char*) {}

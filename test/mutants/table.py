@@ -60,8 +60,15 @@ SCENE_GAPS = "node/moveit/scene_gaps.cpp"
 SCENE_MESSAGE = "node/moveit/scene_message.cpp"
 UNPLACED = "node/world/unplaced_robots.cpp"
 WORLD = "node/world/world.cpp"
+SETTINGS = "node/params/settings.cpp"
+SCENE_MATRIX = "node/moveit/scene_matrix.cpp"
+PADDINGS = "node/world/link_paddings.h"
+PLACED = "node/world/placed_obstacle.cpp"
 
 CORE = [
+    ("a margin that changes at run time is not used", SCENE, "  s.options.margin = tuning.margin;\n", ""),
+    ("a change at run time uses what the last commit computed", SCENE,
+     "  s.structure_changed = true;\n  s.sizes_changed =", "  s.sizes_changed ="),
     ("the pair search ignores the reach of the level", PAIRS_BODY,
      "cellsOf(l, first, 0, l.reach[x], grid, x, x_low);", "cellsOf(l, first, 0, 0.0f, grid, x, x_low);"),
     ("the pair search of a box covers only the cell of its minimum corner", PAIRS_BODY,
@@ -362,7 +369,7 @@ NODE = [
      "std::min(std::chrono::nanoseconds(remaining), by_wall)", "std::chrono::nanoseconds(remaining)"),
     ("a wall clock that was set back prolongs a rule", STORED_ITEMS,
      "std::min(std::chrono::nanoseconds(remaining), by_wall)", "by_wall"),
-    ("a change does not confirm a restored obstacle", OBSTACLES, "  next.restored = false;", ""),
+    ("a change does not confirm a restored obstacle", OBSTACLES, "  obstacle.restored = false;", ""),
     ("changes of obstacles are not stored", OBSTACLES, "  unsaved_.names.merge(unsaved);  // does not throw", ""),
     ("an obstacle that ended is there again after a restart", OBSTACLES,
      "  unsaved_.names.merge(unsaved);\n  movers.giveUp(lost);", "  movers.giveUp(lost);"),
@@ -403,6 +410,17 @@ NODE = [
     ("the frames of new bodies get no priority", WORLD,
      "transforms_.need(frames, now);", ""),
 
+    ("values that change at run time are not checked", SETTINGS, "  if (!errors.empty()) {", "  if (false) {"),
+    ("one of two entries is enough to allow a pair", SCENE_MATRIX,
+     "enabled(first.second, second.second) && enabled(second.second, first.second)",
+     "enabled(first.second, second.second)"),
+    ("a padding of MoveIt replaces a larger one", PADDINGS,
+     "if (shape.padding < padding) shape.padding = padding;", "if (padding > 0.0) shape.padding = padding;"),
+    ("an obstacle of a group does not turn with the group", PLACED,
+     "  obstacle.frame_from_body = after.frame_from_body * other_from_body;",
+     "  obstacle.frame_from_body.translation() += after.frame_from_body.translation() - before.frame_from_body.translation();"),
+    ("obstacles of one group may follow different frames", OBSTACLES,
+     "      checkGroup(next, edits);\n    } else {", "    } else {"),
     ("MoveIt removes an object that a robot carries", OBSTACLES,
      "if (change.free_only && old != nullptr && old->attachment) {", "if (false) {"),
     ("a complete scene drops what a robot carries", OBSTACLES,

@@ -15,7 +15,7 @@ import rospy
 import rosunit
 from geometry_msgs.msg import Pose
 from hgrid_proximity.client import Proximity
-from hgrid_proximity.msg import Status
+from hgrid_proximity.msg import Pairs, Status
 from moveit_types import Types
 from moving_ball import Ball
 from shape_msgs.msg import SolidPrimitive
@@ -31,7 +31,7 @@ SERVICE_MD5S = {
     "GetPlanningScene": "65cf69d3e7a0342e16374024d4eeef65",
     "ApplyPlanningScene": "d4d1599e0b6f71a6a8a10cb34780619c",
 }
-NAMES, GEOMETRY, ATTACHED = 8, 16, 4
+NAMES, GEOMETRY, ATTACHED, MATRIX, PADDING = 8, 16, 4, 128, 256
 ROOM = pathlib.Path(__file__).resolve().parents[2] / "demo" / "room.bt"
 
 
@@ -205,6 +205,34 @@ class MoveIt(unittest.TestCase):
         self.assertEqual([(each.link_name, each.object.id, each.touch_links) for each in held], [("ball", "part", ["ball"])])
         self.assertTrue(self.apply(scene=self.noetic.scene(held=[attached("ball", remove("part"))])).success)
         self.assertEqual(self.names(), ["crate", "part"])
+
+    # Claim: paddings and the allowed collision matrix of a scene are in force until the next complete scene.
+    def test_paddings_and_the_matrix_of_a_scene_are_in_force(self):
+        scene = self.noetic.scene([sphere("part", self.ball.x + 0.3, 0.1)])
+        scene.link_padding = [NOETIC["LinkPadding"](link_name="ball", padding=0.15)]
+        self.assertTrue(self.apply(scene=scene).success)
+        self.assertEqual(self.noetic.proximity.query_sphere((self.ball.x - 0.2, 0, 0), 0.01).names, ["robot/ball"])
+        padding = self.scene(PADDING).link_padding
+        self.assertEqual([(each.link_name, each.padding) for each in padding], [("ball", 0.15)])
+        self.assertIn("obstacle/part", self.near_pairs())
+        matrix = self.noetic.scene()
+        matrix.allowed_collision_matrix.entry_names = ["part", "ball"]
+        entry = NOETIC["AllowedCollisionEntry"]
+        matrix.allowed_collision_matrix.entry_values = [entry(enabled=[False, True]), entry(enabled=[True, False])]
+        self.assertTrue(self.apply(scene=matrix).success)
+        self.assertNotIn("obstacle/part", self.near_pairs())
+        known = self.scene(MATRIX).allowed_collision_matrix
+        self.assertEqual((known.entry_names, known.entry_values[0].enabled), (["ball", "part"], [False, True]))
+        matrix.allowed_collision_matrix.entry_values.pop()
+        self.assertFalse(self.apply(scene=matrix).success)
+        self.noetic.planning_scene([sphere("part", self.ball.x + 0.3, 0.1)], is_diff=False)
+        wait(lambda: "obstacle/part" in self.near_pairs(), "the end of the matrix")
+        self.assertEqual([each.padding for each in self.scene(PADDING).link_padding], [0.0])
+
+    def near_pairs(self):
+        """Names of all bodies that a new ~pairs lists."""
+        pairs = rospy.wait_for_message("/proximity/pairs", Pairs, 60.0)
+        return [pairs.names[i] for i in list(pairs.first) + list(pairs.second)]
 
     # Claim: the octomap of a scene is a map of the world until a complete scene comes without one. While the octomap of a
     # message is refused, the map that was there goes on to answer, and the world is not complete.

@@ -19,6 +19,7 @@ from hgrid_proximity.client import Proximity
 from hgrid_proximity.errors import Refused
 from hgrid_proximity.msg import Bodies, Poses, Shape, ShapeKind, Status
 from hgrid_proximity.poses import PosesPublisher, _Bytes
+from hgrid_proximity.srv import ExplainPair
 from moving_ball import Ball
 
 MARGIN = 0.1  # [m] ~margin
@@ -248,6 +249,17 @@ class Obstacles(unittest.TestCase):
         array.serialize(written[0])
         plain.serialize(written[1])
         self.assertEqual(written[0].getvalue(), written[1].getvalue())
+
+    def test_obstacles_of_one_group_move_as_one(self):
+        near = dict(moving=True, group="rack")
+        self.apply(obstacles.add("left", obstacles.sphere(0.1), (30, 0, 0), **near),
+                   obstacles.add("right", obstacles.sphere(0.1), (30.25, 0, 0), **near))
+        self.apply(obstacles.move("left", (40, 0, 0)))
+        self.assertEqual(self.proximity.query_sphere((40.25, 0, 0), 0.05).names, ["obstacle/right"])
+        explained = rospy.ServiceProxy("/proximity/explain_pair", ExplainPair)(first="obstacle/left", second="obstacle/right")
+        self.assertIn("both belong to the group 'rack'", explained.explanation)
+        with self.assertRaises(Refused):
+            self.apply(obstacles.add("far", obstacles.sphere(0.1), frame="ball", group="rack"))
 
     def test_a_complete_set_removes_the_others_of_its_owner(self):
         mine, other = (obstacles.add(name, obstacles.sphere(0.1), owner=owner) for name, owner in

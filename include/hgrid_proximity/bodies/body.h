@@ -87,6 +87,9 @@ struct Body {
   bool waived = false;  ///< whether the body is not covered, but the user accepts this
   std::string note;     ///< why the body is not covered, why the user accepts this, or RESTORED
 
+  /// Name of the group, only for obstacles: obstacles of one group make no pairs with each other. Empty: no group.
+  std::string group = {};
+
   std::string robot;                        ///< name of the robot, only for links
   std::uint32_t link = 0;                   ///< index in the robot's model, only for links
   std::uint32_t rigid_group = 0;            ///< index of the rigid group in the robot's model, only for links

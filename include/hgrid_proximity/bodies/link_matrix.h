@@ -23,6 +23,8 @@ enum class Origin : std::uint8_t {
   kind = 6,
   attached = 7,
   self = 8,
+  moveit = 9,
+  group = 10,
 };
 
 /// The rules of an SRDF for pairs of links. Links are given by name.

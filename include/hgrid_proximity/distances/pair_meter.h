@@ -45,6 +45,11 @@ class PairMeter {
   PairMeter(std::shared_ptr<const NarrowPhase> narrow_phase, const MeterOptions& options);
   ~PairMeter();
 
+  /// Sets two of the options, from the next call of measure() on. Results of earlier calls stay of use.
+  /// @param report_distance  [m] MeterOptions::report_distance
+  /// @param budget           [s] MeterOptions::budget
+  void tune(double report_distance, double budget);
+
   /// Measures the pairs of a snapshot. An exception on any thread reaches the caller after all threads have stopped.
   /// The meter is then in the same state as before the call and can be used again.
   std::shared_ptr<const PairDistances> measure(const Snapshot& snapshot);

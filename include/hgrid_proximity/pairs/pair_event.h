@@ -20,7 +20,7 @@ enum class EventKind : std::uint8_t { begin = 0, end = 1 };
 enum class EventCause : std::uint8_t {
   moved = 0,      ///< the bodies moved toward each other or apart
   bodies = 1,     ///< a body is new, got its first pose, was replaced or was removed
-  filter = 2,     ///< the pair filter or a configured margin changed
+  filter = 2,     ///< the pair filter, a configured margin or the hysteresis changed
   staleness = 3,  ///< the margin changed because the data of a body became older or was updated again
   epoch = 4,      ///< the pair existed already when a new epoch began
 };

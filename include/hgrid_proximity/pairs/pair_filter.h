@@ -65,7 +65,7 @@ class PairFilter {
   }
   /// Returns why the pair is switched off; Origin::none if it is reported. The first of these that applies decides: the
   /// two bodies are the same body, their kind of pair does not exist, the rule that takes precedence, the matrix of the
-  /// robot model.
+  /// robot model, the group of two obstacles.
   Origin origin(std::uint32_t first, std::uint32_t second) const {
     Origin origin = Origin::none;
     if (!asksMatrix(first, second, origin)) return origin;
@@ -94,7 +94,7 @@ class PairFilter {
   static constexpr std::uint8_t kByName = 1, kByGlob = 2;  // bits of Subject::ruled
   struct Subject {
     const std::uint64_t* allowed = nullptr;  // bit set of LinkMatrix::allowedWith() for this link; null: no model
-    std::uint32_t robot = kNoRobot;          // equal for links of one robot
+    std::uint32_t robot = kNoRobot;          // equal for links of one robot, and for obstacles of one group
     std::uint32_t link = 0;                  // Body::link
     std::uint32_t matrix = 0;                // index in matrices_ of the matrix of its robot model
     std::uint8_t type = 0;                   // kind and mobility of the body, as one number less than kTypes
@@ -104,6 +104,7 @@ class PairFilter {
     std::uint64_t bodies;  // the two indices, the smaller one in the upper 32 bits
     std::uint32_t rule;    // index in rules_
   };
+  static bool isObstacle(std::uint8_t type) { return type / 2 == static_cast<int>(BodyKind::obstacle); }
   /// Returns whether the matrix of the robot model decides about the pair. If not, sets `origin` to the result.
   bool asksMatrix(std::uint32_t first, std::uint32_t second, Origin& origin) const {
     if (first == second) return origin = Origin::self, false;
@@ -114,6 +115,7 @@ class PairFilter {
       const std::uint32_t rule = ruleOf(first, second);
       if (rule != kNoRule) return origin = verdicts_[rule], false;
     }
+    if (same_robot && isObstacle(a.type)) return origin = Origin::group, false;
     return same_robot && a.allowed != nullptr;
   }
   void fillSubjects(const BodyList& bodies);

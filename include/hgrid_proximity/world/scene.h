@@ -41,6 +41,14 @@ struct SceneOptions {
   std::vector<PairRule> allowed_pairs;  ///< rules at the start; setRules() replaces them
 };
 
+/// The settings of a Scene that may change between two commits. SceneOptions says what they mean.
+struct SceneTuning {
+  double margin = SceneOptions{}.margin;                      ///< [m] SceneOptions::margin
+  double event_hysteresis = SceneOptions{}.event_hysteresis;  ///< [m] SceneOptions::event_hysteresis
+  double growth_cap = SceneOptions{}.growth_cap;              ///< [m] SceneOptions::growth_cap
+  double horizon = SceneOptions{}.horizon;                    ///< [s] SceneOptions::horizon
+};
+
 /// Rules, and the pair filter that they make for the bodies of a structure. It takes long to make a filter of many
 /// rules and bodies, so this can be done before a commit and on another thread.
 struct PreparedRules {
@@ -80,8 +88,8 @@ class Scene {
   BodyId add(Body body);
   /// Removes a body. @throws Refusal unknown_id if the handle is not valid (any more)
   void remove(BodyId id);
-  /// Removes the bodies `out` and adds the bodies `in`, or throws and does nothing. An added body may have the name of a
-  /// removed one. Two fixed obstacles that differ only in their poses are the same body, so its handle stays valid.
+  /// Removes the bodies `out` and adds the bodies `in`, or throws and does nothing. An added body may have the name of
+  /// a removed one. Two fixed obstacles that differ only in their poses are the same body, so its handle stays valid.
   /// @returns the handles of the added bodies, in the order of `in`
   /// @throws Refusal unknown_id for a handle, dup_id if a handle occurs twice, or any Refusal of add()
   std::vector<BodyId> exchange(const std::vector<BodyId>& out, std::vector<Body> in);
@@ -122,6 +130,11 @@ class Scene {
   void removeRules(const std::vector<bool>& gone);
   /// Returns the rules that the next commit uses, in the order in which they were set.
   const std::vector<PairRule>& rules() const;
+
+  /// Replaces settings, all of them or none. The next commit is the first to use them. It lists the pairs that a new
+  /// scene with these settings and the same bodies would list. Pairs that stay listed are not interrupted.
+  /// @throws Refusal out_of_range if a setting is out of range; its sentence names the setting
+  void tune(const SceneTuning& tuning);
 
   /// Makes a snapshot of the present state of the scene.
   /// @param stamp  time of the tick

@@ -139,12 +139,12 @@ void takeSettings(const Params& params, AuditCase& result) {
 
 }  // namespace
 
-AuditCase caseOf(const Tick& tick, const TransformRecord::Content& record, const Params& params,
-                 std::uint64_t config_hash, std::uint64_t seed, const NarrowPhase& narrow_phase) {
+AuditCase caseOf(const Tick& tick, const TransformRecord::Content& record, std::uint64_t seed,
+                 const NarrowPhase& narrow_phase) {
   const Snapshot& snapshot = *tick.snapshot;
   AuditCase result;
-  takeSettings(params, result);
-  result.config_hash = std::to_string(config_hash);
+  takeSettings(tick.settings->params, result);
+  result.config_hash = std::to_string(tick.settings->config_hash);
   result.epoch = tick.epoch;
   result.sequence = snapshot.sequence();
   result.stamp = snapshot.stamp();

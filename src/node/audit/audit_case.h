@@ -83,7 +83,7 @@ struct AuditCase {
 /// Collects the data for the audit of one tick. Also makes some random queries about the tick and stores the answers.
 /// @param tick  a tick with a snapshot
 /// @param seed  selects the random queries
-AuditCase caseOf(const Tick& tick, const TransformRecord::Content& record, const Params& params,
-                 std::uint64_t config_hash, std::uint64_t seed, const NarrowPhase& narrow_phase);
+AuditCase caseOf(const Tick& tick, const TransformRecord::Content& record, std::uint64_t seed,
+                 const NarrowPhase& narrow_phase);
 
 }  // namespace hgrid

@@ -58,10 +58,8 @@ void Auditor::see(const std::shared_ptr<const Tick>& tick) {
 
 void Auditor::work(const Request& request) {
   if (audits_ == 0) runInTheBackground();
-  const Settings& settings = commons_.settings;
   const std::uint64_t seed = ++audits_ * 2654435761u;
-  const AuditCase audited =
-      caseOf(*request.tick, request.record, settings.params, settings.config_hash, seed, *commons_.narrow_phase);
+  const AuditCase audited = caseOf(*request.tick, request.record, seed, *commons_.narrow_phase);
   const AuditFindings findings = audit(audited, seed);
   commons_.ledger.count("audit.checked");
   commons_.ledger.count("audit.poses", findings.poses);

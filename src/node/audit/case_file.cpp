@@ -11,7 +11,7 @@
 namespace hgrid {
 namespace {
 
-constexpr const char* kTitle = "hgrid_proximity_audit_2";  // kind and version of the file
+constexpr const char* kTitle = "hgrid_proximity_audit_3";  // kind and version of the file
 
 // Each pass() function writes a value if the file is a TextWriter. If the file is a TextReader, it reads the value.
 

@@ -60,6 +60,8 @@ bool ExpectedFilter::reports(std::uint32_t first, std::uint32_t second) const {
       if (hasWildcard(*rule) == wildcard && names(*rule, a, b)) return !rule->allowed;
     }
   }
+  if (audited_.bodies[first].group == audited_.bodies[second].group && !audited_.bodies[first].group.empty())
+    return false;
   const std::pair<std::uint32_t, std::uint32_t> pair(std::min(first, second), std::max(first, second));
   return !std::binary_search(audited_.switched_off.begin(), audited_.switched_off.end(), pair);
 }

@@ -33,17 +33,6 @@ void checkAmount(const msg::Obstacle& change, const char* field, double value, d
                                         "; it must be within 0 .. " + text(most));
 }
 
-/// @throws Refusal unsupported if the change has a velocity
-void checkVelocity(const msg::Obstacle& change) {
-  const geometry_msgs::Vector3 &linear = change.velocity.linear, &angular = change.velocity.angular;
-  for (const double value : {linear.x, linear.y, linear.z, angular.x, angular.y, angular.z}) {
-    if (value == 0.0) continue;
-    throw Refusal(Code::unsupported, whatOf(change) + ": its velocity contains " + text(value) +
-                                         "; it must be zero, because this version of the node computes velocities from "
-                                         "poses");
-  }
-}
-
 /// @throws Refusal bad_id unless the text is short, printable UTF-8
 void checkText(const std::string& text, const std::string& what) {
   if (text.size() <= kLongestText && printable(text, kLongestText) == text) return;
@@ -54,7 +43,6 @@ void checkText(const std::string& text, const std::string& what) {
 
 ObstaclePlace placeOf(const msg::Obstacle& change) {
   ObstaclePlace place;
-  checkVelocity(change);
   checkText(change.header.frame_id, "the frame of " + whatOf(change));
   place.frame = withoutSlash(change.header.frame_id);
   place.frame_from_body = fromPose(change.pose, "the pose of " + whatOf(change));
@@ -65,11 +53,9 @@ ObstaclePlace placeOf(const msg::Obstacle& change) {
 
 /// @throws Refusal unsupported if the change uses what this version does not offer
 void checkOffered(const msg::Obstacle& change) {
-  const auto refuse = [&](const std::string& what) {
-    throw Refusal(Code::unsupported, whatOf(change) + ": " + what + " in this version of the node");
-  };
-  if (!change.group.empty()) refuse("group must be empty");
-  if (change.lifetime_end > msg::LifetimeEnd::LOST) refuse("lifetime_end must be REMOVE (0) or LOST (1)");
+  if (change.lifetime_end <= msg::LifetimeEnd::LOST) return;
+  throw Refusal(Code::unsupported,
+                whatOf(change) + ": lifetime_end must be REMOVE (0) or LOST (1) in this version of the node");
 }
 
 /// Reads the mesh file of a shape.
@@ -113,12 +99,14 @@ std::shared_ptr<const RequestedObstacle> addedBy(const msg::Obstacle& change, co
                                    std::to_string(kMostShapes) + " are allowed");
   }
   checkText(change.owner, "the owner of " + whatOf(change));
+  if (!change.group.empty()) checkLocal(change.group, "the group of " + whatOf(change));
   checkAmount(change, "margin", change.margin, 1e3, "m");
   checkAmount(change, "max_speed", change.max_speed, 1e6, "m/s");
   checkAmount(change, "lifetime", change.lifetime.toSec(), 1e9, "s");
   auto added = std::make_shared<RequestedObstacle>();
   Body& body = added->body;
   body.name = name;
+  body.group = change.group;
   for (const msg::Shape& shape : change.shapes) body.shapes.push_back(shapeOf(shape, change, params, meshes));
   completeObstacle(params, change.margin, change.max_speed, narrow_phase, body);
   added->place = placeOf(change);

@@ -34,10 +34,11 @@ void addWorldReasons(const Tick& tick, std::size_t most, msg::WorldState& world)
 
 }  // namespace
 
-msg::WorldState worldState(const Tick& tick, const Params& params, std::uint64_t config_hash, double age_since) {
+msg::WorldState worldState(const Tick& tick, double age_since) {
+  const Params& params = tick.settings->params;
   msg::WorldState world;
   world.epoch = tick.epoch;
-  world.config_hash = config_hash;
+  world.config_hash = tick.settings->config_hash;
   world.valid_until = toRos(tick.made.ros + std::chrono::nanoseconds(std::llround(1e9 * params.valid_for)));
   world.unknown_space = static_cast<std::uint8_t>(params.map_unknown);
   if (!tick.snapshot) {

@@ -13,7 +13,7 @@ namespace hgrid {
 
 /// Returns how current and how complete the data of a tick is.
 /// @param age_since  [s] time since the tick was computed
-msg::WorldState worldState(const Tick& tick, const Params& params, std::uint64_t config_hash, double age_since);
+msg::WorldState worldState(const Tick& tick, double age_since);
 /// Returns a sentence that says why pairs are missing from the list of a snapshot; empty if the list is not truncated.
 std::string truncationOf(const Snapshot& snapshot);
 

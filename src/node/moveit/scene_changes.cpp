@@ -14,6 +14,7 @@
 #include "hgrid_proximity/bodies/name.h"
 #include "node/messages/from_messages.h"
 #include "node/messages/obstacle_messages.h"
+#include "node/moveit/scene_matrix.h"
 #include "node/tf/frame_names.h"
 
 namespace hgrid {
@@ -25,6 +26,7 @@ using moveit::Release;
 
 constexpr std::size_t kMostTouchLinks = 1000;  // of one attached object
 constexpr std::size_t kMostRemovals = 100;     // of all objects, in one planning scene
+constexpr double kLargestPadding = 1e3;        // [m]
 
 std::string whatOf(const CollisionObjectFields& object) { return "object '" + printable(object.id) + "'"; }
 
@@ -310,11 +312,51 @@ ObstacleChanges SceneReader::changesOf(const moveit::PlanningScene<release>& sce
   return changes;
 }
 
+template <moveit::Release release>
+SceneExtras SceneReader::extrasOf(const moveit::PlanningScene<release>& scene) const {
+  SceneExtras extras;
+  extras.complete = !scene.is_diff;
+  for (const moveit::LinkNumber& padding : scene.link_padding) {
+    checkLocal(padding.link_name, "a name in link_padding");
+    const std::string what = "the padding of link '" + printable(padding.link_name) + "'";
+    if (!(padding.value >= 0.0 && padding.value <= kLargestPadding)) {
+      throw Refusal(Code::out_of_range,
+                    what + " is " + text(padding.value) + " m; it must be within 0 .. " + text(kLargestPadding) + " m");
+    }
+    if (!extras.paddings.emplace(padding.link_name, padding.value).second) {
+      throw Refusal(Code::dup_id, what + " is given twice; give each link one padding");
+    }
+  }
+  const moveit::AllowedCollisionMatrix& matrix = scene.allowed_collision_matrix;
+  const bool has_matrix = !scene.is_diff || !matrix.entry_names.empty() || !matrix.default_entry_names.empty();
+  if (params_.moveit_matrix && has_matrix) {
+    extras.matrix = matrixRulesOf(matrix, static_cast<std::size_t>(params_.max_rules));
+  }
+  return extras;
+}
+
+LinkPaddings paddingsAfter(const SceneExtras& extras, const LinkPaddings& before, std::size_t most) {
+  LinkPaddings after;
+  if (!extras.complete) after = before;
+  for (const auto& [link, padding] : extras.paddings) {
+    if (padding == 0.0) {
+      after.erase(link);
+    } else {
+      after[link] = padding;
+    }
+  }
+  if (after.size() <= most) return after;
+  throw Refusal(Code::limit, "there would be paddings of " + std::to_string(after.size()) + " links; at most " +
+                                 std::to_string(most) + " are allowed (~max_links)");
+}
+
 template ObstacleChanges SceneReader::changesOf(
     const moveit::AttachedCollisionObject<moveit::Release::noetic>& attached) const;
 template ObstacleChanges SceneReader::changesOf(
     const moveit::AttachedCollisionObject<moveit::Release::melodic>& attached) const;
 template ObstacleChanges SceneReader::changesOf(const moveit::PlanningScene<moveit::Release::noetic>& scene) const;
 template ObstacleChanges SceneReader::changesOf(const moveit::PlanningScene<moveit::Release::melodic>& scene) const;
+template SceneExtras SceneReader::extrasOf(const moveit::PlanningScene<moveit::Release::noetic>& scene) const;
+template SceneExtras SceneReader::extrasOf(const moveit::PlanningScene<moveit::Release::melodic>& scene) const;
 
 }  // namespace hgrid

@@ -3,12 +3,15 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "hgrid_proximity/narrow/narrow_phase.h"
 #include "node/moveit/scene_types.h"
 #include "node/params/params.h"
 #include "node/sources/obstacle_change.h"
+#include "node/world/link_paddings.h"
+#include "node/world/matrix_rules.h"
 
 namespace hgrid {
 
@@ -17,16 +20,26 @@ inline constexpr const char* kSceneOwner = "moveit";
 
 /// Returns the names of the parts of a planning scene that have an effect in MoveIt, but not in this node.
 template <moveit::Release release>
-std::vector<const char*> unusedPartsOf(const moveit::PlanningScene<release>& scene) {
+std::vector<const char*> unusedPartsOf(const moveit::PlanningScene<release>& scene, const Params& params) {
   std::vector<const char*> parts;
-  const auto differs = [](const std::vector<moveit::LinkNumber>& numbers, double usual) {
-    return std::any_of(numbers.begin(), numbers.end(), [usual](const auto& number) { return number.value != usual; });
-  };
-  if (differs(scene.link_padding, 0.0)) parts.push_back("link_padding");
-  if (differs(scene.link_scale, 1.0)) parts.push_back("link_scale");
-  if (!scene.allowed_collision_matrix.entry_names.empty()) parts.push_back("allowed_collision_matrix");
+  const auto is_scaled = [](const moveit::LinkNumber& scale) { return scale.value != 1.0; };
+  if (std::any_of(scene.link_scale.begin(), scene.link_scale.end(), is_scaled)) parts.push_back("link_scale");
+  const moveit::AllowedCollisionMatrix& matrix = scene.allowed_collision_matrix;
+  const bool has_matrix = !matrix.entry_names.empty() || !matrix.default_entry_names.empty();
+  if (has_matrix && !params.moveit_matrix) parts.push_back("allowed_collision_matrix");
   return parts;
 }
+
+/// What a planning scene says about robots and allowed pairs.
+struct SceneExtras {
+  bool complete = false;                          ///< whether `paddings` replaces all earlier paddings
+  LinkPaddings paddings;                          ///< paddings of links; 0: the link has none any more
+  std::optional<std::vector<MatrixRule>> matrix;  ///< the allowed collision matrix; nullopt: the earlier one stays
+};
+
+/// Returns the paddings after those of a planning scene.
+/// @throws Refusal limit if there would be more than `most`
+LinkPaddings paddingsAfter(const SceneExtras& extras, const LinkPaddings& before, std::size_t most);
 
 /// Converts messages of MoveIt into changes of obstacles, as MoveIt's planning scene understands them. An object is
 /// placed where its frame is at present, and stays there in the world. doc/moveit.md lists what is different.
@@ -43,6 +56,11 @@ class SceneReader {
   ObstacleChanges changesOf(const moveit::AttachedCollisionObject<release>& attached) const;
   template <moveit::Release release>
   ObstacleChanges changesOf(const moveit::PlanningScene<release>& scene) const;
+  /// Returns what a planning scene says about robots and allowed pairs.
+  /// @throws Refusal for a name, a padding or a matrix that is not valid, see also matrixRulesOf()
+  template <moveit::Release release>
+  SceneExtras extrasOf(const moveit::PlanningScene<release>& scene) const;
+  const Params& params() const { return params_; }
 
  private:
   ObstacleChange added(const moveit::CollisionObjectFields& object, bool placed_now) const;

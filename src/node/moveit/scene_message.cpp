@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/moveit/scene_message.h"
 
+#include <utility>
+
 #include "hgrid_proximity/bodies/name.h"
 #include "node/diagnostics/ledger.h"
 #include "node/moveit/scene_octomap.h"
@@ -55,7 +57,7 @@ ReadScene::ReadScene(const ReceivedScene& scene, const SceneReader& reader)
 ReadScene::ReadScene(const moveit::PlanningScene<Release::noetic>& scene, const SceneReader& reader)
     : what_("the request of apply_planning_scene") {
   try {
-    note(scene);
+    note(scene, reader);
     changes_ = reader.changesOf(scene);
   } catch (...) {
     refused_ = finalRefusal();
@@ -69,7 +71,7 @@ ReadScene::ReadScene(const Refusal& dropped, bool is_scene)
 template <class Noetic, class Melodic>
 void ReadScene::readAs(const ReceivedScene& scene, const SceneReader& reader) {
   const auto take = [&](const auto& message) {
-    note(message);
+    note(message, reader);
     changes_ = reader.changesOf(message);
   };
   if (scene.md5 == moveit::kMd5<Noetic>) return take(deserialized<Noetic>(scene));
@@ -98,19 +100,30 @@ void ReadScene::noteAttached(const CollisionObjectFields& object) {
 }
 
 template <Release release>
-void ReadScene::note(const moveit::PlanningScene<release>& scene) {
+void ReadScene::note(const moveit::PlanningScene<release>& scene, const SceneReader& reader) {
   for (const auto& attached : scene.robot_state.attached_collision_objects) noteAttached(attached.object);
   for (const auto& object : scene.collision_objects) noteObject(object);
-  unused_ = unusedPartsOf(scene);
+  unused_ = unusedPartsOf(scene, reader.params());
   if (SceneOctomap::isIn(scene)) octomap_ = std::make_shared<const moveit::OctomapWithPose>(scene.octomap);
   hides_octomap_ = false;
+  most_paddings_ = static_cast<std::size_t>(reader.params().max_links);
+  extras_ = reader.extrasOf(scene);
 }
 
 void ReadScene::applyTo(World& world, Time now) {
   if (isDone()) return;
   try {
+    LinkPaddings paddings;
+    std::optional<std::vector<MatrixRule>> matrix;
+    if (extras_) {
+      paddings = paddingsAfter(*extras_, world.linkPaddings(), most_paddings_);
+      matrix = extras_->matrix;
+    }
     world.applyObstacles(changes_, now);
+    // The code below does not throw.
     applied_ = true;
+    if (extras_) world.setLinkPaddings(std::move(paddings));
+    if (matrix) world.setMatrix(std::move(*matrix));
   } catch (...) {
     refused_ = caughtRefusal();
   }

@@ -56,13 +56,13 @@ class ReadScene {
   void readAs(const ReceivedScene& scene, const SceneReader& reader);
   void noteObject(const moveit::CollisionObjectFields& object);
   void noteAttached(const moveit::CollisionObjectFields& object);
-  void note(const moveit::CollisionObjectFields& object) { noteObject(object); }
+  void note(const moveit::CollisionObjectFields& object, const SceneReader&) { noteObject(object); }
   template <moveit::Release release>
-  void note(const moveit::AttachedCollisionObject<release>& attached) {
+  void note(const moveit::AttachedCollisionObject<release>& attached, const SceneReader&) {
     noteAttached(attached.object);
   }
   template <moveit::Release release>
-  void note(const moveit::PlanningScene<release>& scene);
+  void note(const moveit::PlanningScene<release>& scene, const SceneReader& reader);
 
   std::string what_;
   std::vector<SceneGaps::Object> placed_;    // objects that the message adds, moves or attaches
@@ -70,6 +70,8 @@ class ReadScene {
   std::vector<std::string> removed_;         // full names of the objects that it removes
   ObstacleChanges changes_;
   std::vector<const char*> unused_;
+  std::optional<SceneExtras> extras_;  // nullopt: the message is no planning scene
+  std::size_t most_paddings_ = 0;
   std::shared_ptr<const moveit::OctomapWithPose> octomap_;
   bool hides_octomap_ = false;
   bool applied_ = false;

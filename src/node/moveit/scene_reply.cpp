@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "node/messages/to_messages.h"
+#include "node/moveit/scene_matrix.h"
 
 namespace hgrid {
 namespace {
@@ -96,14 +97,35 @@ moveit::AttachedCollisionObject<moveit::Release::noetic> attachedOf(const std::s
   return attached;
 }
 
+void appendPaddings(const BodyList& bodies, moveit::PlanningScene<moveit::Release::noetic>& scene) {
+  std::map<std::string, int> robots;  // by the name of a link: how many robots have it
+  for (const Body& body : bodies) {
+    if (body.kind == BodyKind::link) ++robots[localOf(body.name)];
+  }
+  for (const Body& body : bodies) {
+    if (body.kind != BodyKind::link) continue;
+    const std::string local = localOf(body.name);
+    const std::string& name = robots[local] > 1 ? body.name : local;
+    double padding = 0.0;
+    for (const BodyShape& shape : body.shapes) padding = std::max(padding, shape.padding);
+    scene.link_padding.push_back({name, padding});
+    scene.link_scale.push_back({name, 1.0});
+  }
+}
+
 }  // namespace
 
 moveit::PlanningScene<moveit::Release::noetic> planningScene(std::uint32_t components, const Tick& tick,
-                                                             const std::map<std::string, PlacedObstacle>& obstacles) {
+                                                             const std::map<std::string, PlacedObstacle>& obstacles,
+                                                             const std::vector<MatrixRule>& matrix) {
   moveit::PlanningScene<moveit::Release::noetic> scene;
   scene.name = "hgrid_proximity";
   scene.robot_state.is_diff = true;  // it contains no joint positions
+  if ((components & GetPlanningScene::allowed_collision_matrix) != 0) {
+    scene.allowed_collision_matrix = matrixMessage(matrix);
+  }
   if (!tick.snapshot) return scene;
+  if ((components & GetPlanningScene::padding_and_scale) != 0) appendPaddings(tick.snapshot->structure().bodies, scene);
   const bool with_geometry = (components & GetPlanningScene::object_geometry) != 0;
   const bool with_objects = with_geometry || (components & GetPlanningScene::object_names) != 0;
   const bool with_attached = (components & GetPlanningScene::attached_objects) != 0;

@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "node/moveit/scene_message.h"
 #include "node/moveit/scene_reply.h"
@@ -42,9 +43,16 @@ void SceneServices::serve(ros::NodeHandle& node, const char* name, const char* f
 
 void SceneServices::get(const moveit::GetPlanningScene::Request& request,
                         moveit::GetPlanningScene::Response& response) {
-  const auto obstacles = std::make_shared<std::map<std::string, PlacedObstacle>>();
-  const auto tick = change_world_([obstacles](World& world) { *obstacles = world.obstacles().all(); });
-  response.scene = planningScene(request.components, *tick, *obstacles);
+  struct Present {
+    std::map<std::string, PlacedObstacle> obstacles;
+    std::vector<MatrixRule> matrix;
+  };
+  const auto present = std::make_shared<Present>();
+  const auto tick = change_world_([present](World& world) {
+    present->obstacles = world.obstacles().all();
+    present->matrix = world.matrix();
+  });
+  response.scene = planningScene(request.components, *tick, present->obstacles, present->matrix);
 }
 
 void SceneServices::apply(const moveit::ApplyPlanningScene::Request& request,

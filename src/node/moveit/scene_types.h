@@ -146,7 +146,13 @@ struct PlanningScene {
 /// The service moveit_msgs/GetPlanningScene of Noetic.
 struct GetPlanningScene {
   /// Bits of Request::components.
-  enum Component : std::uint32_t { attached_objects = 4, object_names = 8, object_geometry = 16 };
+  enum Component : std::uint32_t {
+    attached_objects = 4,
+    object_names = 8,
+    object_geometry = 16,
+    allowed_collision_matrix = 128,
+    padding_and_scale = 256
+  };
 
   struct Request {
     std::uint32_t components = 0;

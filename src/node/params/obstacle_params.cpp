@@ -167,10 +167,18 @@ void readObstacle(ParamValue& element, const Params& params, ObstacleParams& obs
                    " bytes");
     }
   }
+  if (auto given = element.get("group")) {
+    given->string(obstacle.body.group);
+    try {
+      if (!obstacle.body.group.empty()) checkLocal(obstacle.body.group, "it");
+    } catch (const Refusal& refusal) {
+      given->error(std::string("is not a valid name: ") + refusal.what());
+    }
+  }
   if (auto given = element.get("attached")) readAttached(*given, element, obstacle);
   element.finish(
       "field of an obstacle (name, frame, pose, shapes, moving, margin, max_speed, lifetime, lost_at_end, owner, "
-      "attached)");
+      "group, attached)");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include <sstream>
+#include <utility>
 
 #include "hgrid_proximity/refusal.h"
 #include "node/params/param_table.h"
@@ -17,13 +18,17 @@ struct ParamRow {
   std::string value;   ///< default value, in YAML
   std::string range;   ///< allowed values; empty: `meaning` names them
   bool range_is_text;  ///< true: config/params.yaml appends the range to the meaning
+  bool changeable;     ///< whether it may change while the node runs
   std::string meaning;
 };
+
+constexpr const char* kChangeable = "; may change at run time";
 
 /// A visitor that collects all parameters in their order.
 class RowCollector {
  public:
   void section(const char* title) { section_ = title; }
+  void changeable() { changeable_ = true; }
   void string(const char* name, const std::string& value, const char* meaning) {
     add(name, "string", "", "\"" + value + "\"", "", meaning);
   }
@@ -69,11 +74,11 @@ class RowCollector {
   void list(const char* name, const char* meaning) { add(name, "list", "", "[]", "", meaning); }
   void add(const char* name, const char* type, const char* unit, const std::string& value, const std::string& range,
            const char* meaning) {
-    rows_.push_back({section_, name, type, unit, value, range, true, meaning});
+    rows_.push_back({section_, name, type, unit, value, range, true, std::exchange(changeable_, false), meaning});
   }
   void addChoice(const char* name, const char* type, const std::string& value, const std::string& choices,
                  const char* meaning) {
-    rows_.push_back({section_, name, type, "", value, choices, false, meaning});
+    rows_.push_back({section_, name, type, "", value, choices, false, std::exchange(changeable_, false), meaning});
   }
 
   static std::string range(double low, double high) { return text(low) + " .. " + text(high); }
@@ -93,6 +98,7 @@ class RowCollector {
   }
 
   std::string section_;
+  bool changeable_ = false;
   std::vector<ParamRow> rows_;
 };
 
@@ -151,7 +157,8 @@ std::string paramsAsYaml() {
     const std::string indent = group.empty() ? "" : "  ";
     const bool with_range = row.range_is_text && !row.range.empty();
     writeComment(out, indent,
-                 (row.unit.empty() ? "" : "[" + row.unit + "] ") + row.meaning + (with_range ? "; " + row.range : ""));
+                 (row.unit.empty() ? "" : "[" + row.unit + "] ") + row.meaning + (with_range ? "; " + row.range : "") +
+                     (row.changeable ? kChangeable : ""));
     out << indent << (group.empty() ? row.name : row.name.substr(slash + 1)) << ": " << row.value << "\n";
   }
   return out.str();
@@ -171,6 +178,8 @@ std::string paramsAsMarkdown() {
          "- The node reads its parameters once, when it starts. It does not start if a name is unknown or a value is "
          "not allowed.\n"
          "  One message then lists every such parameter.\n"
+         "- Parameters that \"may change at run time\" are also those of `dynamic_reconfigure`; "
+         "[tuning.md](tuning.md) says how to change them.\n"
          "- A glob is a pattern for names in which `*` stands for any characters: `robot/*`.\n\n"
          "Some rules are about several parameters:\n\n"
          "- `~late_after` <= `~stale_after` <= `~lost_after`\n"
@@ -190,7 +199,7 @@ std::string paramsAsMarkdown() {
     }
     section = row.section;
     out << "| `" << row.name << "` | " << row.type << " | " << row.unit << " | `" << row.value << "` | " << row.range
-        << " | " << cell(row.meaning) << " |\n";
+        << " | " << cell(row.meaning) << (row.changeable ? kChangeable : "") << " |\n";
   }
   return out.str();
 }

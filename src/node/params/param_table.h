@@ -11,7 +11,7 @@ inline constexpr const char* kEmptyCloud[] = {"unknown", "clear"};
 inline constexpr const char* kKinds[] = {"self", "robot_robot", "robot_obstacle", "robot_map", "moving_obstacle"};
 
 /// Calls the visitor for every parameter with its name, value, unit, range and meaning. There is no other table of
-/// them.
+/// them. Calls v.changeable() before each parameter that may change while the node runs.
 template <class Visitor>
 void visitParams(Visitor& v, Params& p) {
   v.section("The world");
@@ -33,6 +33,7 @@ void visitParams(Visitor& v, Params& p) {
       "realtime", p.realtime, 0, 99,
       "real-time priority (SCHED_FIFO) of the thread that makes the ticks; the memory of the process is then locked in "
       "RAM. 0: usual priority");
+  v.changeable();
   v.number("margin", p.margin, "m", 0.0, 1000.0, "bodies whose boxes are at most this far apart are pairs");
   v.number("finest_edge", p.finest_edge, "m", 0.0, 1000.0,
            "longest side of the boxes on the finest level of the grid, at least 0.001; 0: chosen from the bodies");
@@ -71,7 +72,8 @@ void visitParams(Visitor& v, Params& p) {
       "[x, y, z, w] instead of rpy. frame: tf frame that the obstacle follows; empty: it is fixed in the world frame; "
       "~poses: messages of the topic ~poses move it. An obstacle may also have moving, margin, max_speed, lifetime "
       "[s], "
-      "lost_at_end and owner, as in Obstacle.msg, and attached: {link: robot/link, pose, touch: [globs]} instead of "
+      "lost_at_end, owner and group, as in Obstacle.msg, and attached: {link: robot/link, pose, touch: [globs]} "
+      "instead of "
       "frame "
       "and pose");
   v.flag(
@@ -81,6 +83,10 @@ void visitParams(Visitor& v, Params& p) {
   v.flag("moveit/services", p.moveit_services,
          "whether to offer MoveIt's services get_planning_scene and apply_planning_scene. Set this only where no "
          "move_group offers them in the same namespace");
+  v.flag("moveit/allowed_collision_matrix", p.moveit_matrix,
+         "whether the allowed collision matrix of a planning scene switches off pairs: its names of links and objects "
+         "that may touch become rules, at most ~max_rules. The parameter ~allowed_pairs and the service ~set_allowed "
+         "take precedence over equally exact rules of the matrix");
   v.integer("moveit/queue_bytes", p.moveit_queue_bytes, 1000, 1 << 30,
             "largest total size, in bytes, of the messages of moveit/topics that wait to be read. A message counts as "
             "its own size plus 512 bytes. A message that exceeds the limit is dropped (counter moveit.dropped.LIMIT in "
@@ -153,6 +159,7 @@ void visitParams(Visitor& v, Params& p) {
   v.values("padding", p.padding, "padding", "m", 0.0, 1000.0,
            "list of {pattern, padding}: the shapes of bodies that match the glob are grown by this on all sides. If "
            "several globs match, the last one counts. Cells of maps and clouds are not grown");
+  v.changeable();
   v.number("event_hysteresis", p.event_hysteresis, "m", 0.0, 1000.0,
            "~events reports the end of a pair when its gap exceeds its margin by more than this");
 
@@ -173,10 +180,13 @@ void visitParams(Visitor& v, Params& p) {
   v.number("default_max_speed", p.default_max_speed, "m/s", 0.0, 1e6,
            "upper bound of the speed of bodies for which neither max_speed nor the joint velocity limits of the robot "
            "give one");
+  v.changeable();
   v.number("horizon", p.horizon, "s", 0.0, 60.0,
            "bodies that can meet within this time, by their speed bounds, are pairs too, with the flag HORIZON. So are "
            "bodies that passed each other between two ticks. 0: off");
+  v.changeable();
   v.number("growth_cap", p.growth_cap, "m", 0.0, 1000.0, "largest length by which the margins of a stale body widen");
+  v.changeable();
   v.number("valid_for", p.valid_for, "s", 0.001, 3600.0,
            "the data of a tick is valid for this long after the tick was computed (valid_until in messages)");
   v.number("max_future", p.max_future, "s", 0.0, 3600.0,
@@ -186,9 +196,11 @@ void visitParams(Visitor& v, Params& p) {
            "ROS time counts as having jumped if it advances by more than real time plus this within one tick");
 
   v.section("Exact distances");
+  v.changeable();
   v.number("distances/max", p.distances_max, "m", 0.0, 1000.0,
            "~distances lists pairs whose shapes are at most this far apart; it must be at most ~margin, even if pairs "
            "have larger margins; 0: the value of ~margin");
+  v.changeable();
   v.number("distances/budget", p.distances_budget, "s", 0.0, 10.0,
            "time for measuring the distances of one tick. If it is too short for all pairs, half of it goes to the "
            "nearest pairs, and half to the pairs that have waited longest. ~events may use up to a fifth of this in "
@@ -251,6 +263,7 @@ void visitParams(Visitor& v, Params& p) {
       "read");
 
   v.section("The node");
+  v.changeable();
   v.integer("query_threads", p.query_threads, 1, 64,
             "number of threads that answer queries; a query waits only while all of them are busy");
   v.number("audit_rate", p.audit_rate, "Hz", 0.0, 10.0,
@@ -258,6 +271,7 @@ void visitParams(Visitor& v, Params& p) {
            "queries of the tick again, by brute force from the transforms as they were received; 0: none");
   v.string("audit_folder", p.audit_folder,
            "folder for a file with all data of an audit that found a difference; empty: the folder of ROS's logs");
+  v.changeable();
   v.number("marker_rate", p.marker_rate, "Hz", 0.1, 100.0, "how often ~markers is published while it has subscribers");
 }
 

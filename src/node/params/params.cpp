@@ -27,6 +27,7 @@ class Reader {
   explicit Reader(ParamValue& root, const Params& params) : root_(root), params_(params) {}
 
   void section(const char*) {}
+  void changeable() {}
   void string(const char* name, std::string& value, const char*) {
     if (auto given = get(name)) given->string(value);
   }
@@ -222,8 +223,7 @@ class Reader {
 
 }  // namespace
 
-Params readParams(XmlRpc::XmlRpcValue values) {
-  std::vector<std::string> errors;
+Params readParams(XmlRpc::XmlRpcValue values, std::vector<std::string>& errors) {
   Params params;
   ParamValue root(std::move(values), "~", errors);
   root.get("diagnostic_period");  // a parameter of diagnostic_updater
@@ -270,10 +270,15 @@ Params readParams(XmlRpc::XmlRpcValue values) {
             "~padding has the pattern '" + printable(padding.pattern) +
                 "'; cells of maps and clouds cannot be grown, use ~margins or ~map/self_filter");
   }
-  if (params.distances_max == 0.0) params.distances_max = params.margin;
   params.world_frame = withoutSlash(params.world_frame);
   require(params.robots.size() < 2 || !params.world_frame.empty(),
           "~world_frame is empty; with several robots it must name a frame that tf connects to all of them");
+  return params;
+}
+
+Params readParams(XmlRpc::XmlRpcValue values) {
+  std::vector<std::string> errors;
+  Params params = readParams(std::move(values), errors);
   if (errors.empty()) return params;
   std::string message =
       std::to_string(errors.size()) + (errors.size() == 1 ? " parameter is" : " parameters are") + " wrong:";

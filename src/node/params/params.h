@@ -97,7 +97,7 @@ struct Params {
   std::vector<RobotParams> robots;
   bool watch_descriptions = true;
   std::vector<ObstacleParams> obstacles;
-  bool moveit_topics = false, moveit_services = false;
+  bool moveit_topics = false, moveit_services = false, moveit_matrix = false;
   int moveit_queue_bytes = 64 << 20;
   std::vector<MapParams> maps;
   std::vector<CloudParams> clouds;
@@ -140,6 +140,8 @@ struct Params {
   double distances_max = 0.0, distances_budget = 0.005;
   int distances_threads = 1;
 
+  /// Returns the largest distance [m] of the pairs in ~distances.
+  double reportDistance() const { return distances_max == 0.0 ? margin : distances_max; }
   ShapeLimits shapeLimits() const { return {min_size, max_size, allow_flat}; }
 };
 
@@ -147,6 +149,9 @@ struct Params {
 /// @param values  the private namespace of the node, as one struct
 /// @throws std::invalid_argument with one message that lists every wrong, out-of-range and unknown parameter.
 Params readParams(XmlRpc::XmlRpcValue values);
+/// As above, but adds a sentence to `errors` for every such parameter instead of throwing.
+/// @returns the parameters; they are of use only if nothing was added
+Params readParams(XmlRpc::XmlRpcValue values, std::vector<std::string>& errors);
 
 /// Returns the text of config/params.yaml: every parameter with its unit, default, range and meaning.
 std::string paramsAsYaml();

@@ -15,7 +15,7 @@ namespace {
 
 PairMeter meterOf(const Commons& commons) {
   const Params& params = commons.settings.params;
-  return {commons.narrow_phase, {params.distances_max, params.distances_budget, params.distances_threads}};
+  return {commons.narrow_phase, {params.reportDistance(), params.distances_budget, params.distances_threads}};
 }
 
 }  // namespace
@@ -45,15 +45,16 @@ void DistancesPublisher::measure(const Request& request) {
   const auto begin = std::chrono::steady_clock::now();
   auto measured = std::make_shared<MeasuredTick>();
   measured->tick = request.tick;
+  const Params& params = request.tick->settings->params;
+  meter_.tune(params.reportDistance(), params.distances_budget);
   if (request.tick->snapshot) measured->distances = meter_.measure(*request.tick->snapshot);
   commons_.health.noteThreads("~distances/threads", commons_.settings.params.distances_threads, meter_.threads());
   measured->time = std::chrono::steady_clock::now() - begin;
   std::atomic_store(&measured_, std::shared_ptr<const MeasuredTick>(measured));
   const PairDistances* distances = measured->distances.get();
   if (request.published) {
-    const Settings& settings = commons_.settings;
-    const msg::WorldState world = worldState(*request.tick, settings.params, settings.config_hash, 0.0);
-    publisher_.publish(distancesMessage(*request.tick, world, distances, settings.params));
+    const msg::WorldState world = worldState(*request.tick, 0.0);
+    publisher_.publish(distancesMessage(*request.tick, world, distances, params));
   }
   commons_.health.noteLongestWait(distances ? distances->longest_wait : 0);
   if (!distances) return;

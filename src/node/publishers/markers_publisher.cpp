@@ -14,10 +14,8 @@
 
 namespace hgrid {
 
-MarkersPublisher::MarkersPublisher(ros::NodeHandle& private_node, const Params& params, const QuerySketch& sketch)
-    : params_(params),
-      sketch_(sketch),
-      publisher_(private_node.advertise<visualization_msgs::MarkerArray>("markers", 1)) {}
+MarkersPublisher::MarkersPublisher(ros::NodeHandle& private_node, const QuerySketch& sketch)
+    : sketch_(sketch), publisher_(private_node.advertise<visualization_msgs::MarkerArray>("markers", 1)) {}
 
 void MarkersPublisher::publish(const Tick& newest, const std::shared_ptr<const MeasuredTick>& measured) {
   const std::size_t viewers = publisher_.getNumSubscribers();
@@ -35,7 +33,7 @@ void MarkersPublisher::publish(const Tick& newest, const std::shared_ptr<const M
   add(stateMarkers(shown));
   add(pairMarkers(shown, has_distances ? measured->distances.get() : nullptr));
   add(queryMarkers(shown, sketch_));
-  add(mapMarkers(shown, params_));
+  add(mapMarkers(shown, shown.settings->params));
   publisher_.publish(array);
 }
 

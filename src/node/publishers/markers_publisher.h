@@ -10,7 +10,6 @@
 #include <memory>
 
 #include "node/messages/query_markers.h"
-#include "node/params/params.h"
 #include "node/tick/tick.h"
 
 namespace hgrid {
@@ -19,7 +18,7 @@ namespace hgrid {
 /// subscribed().
 class MarkersPublisher {
  public:
-  MarkersPublisher(ros::NodeHandle& private_node, const Params& params, const QuerySketch& sketch);
+  MarkersPublisher(ros::NodeHandle& private_node, const QuerySketch& sketch);
 
   bool subscribed() const { return publisher_.getNumSubscribers() > 0; }
   /// @param measured  null: pairs are drawn by their boxes
@@ -28,7 +27,6 @@ class MarkersPublisher {
  private:
   bool haveOthers(const Tick& tick);
 
-  const Params& params_;
   const QuerySketch& sketch_;
   ros::Publisher publisher_;
   // Values at the last call of publish(): number of subscribers, revision of the structure, epoch.

@@ -10,7 +10,7 @@ Publishers::Publishers(ros::NodeHandle tick_node, ros::NodeHandle admin_node, Co
       bodies_(tick_node),
       rules_(tick_node, commons.settings.params),
       distances_(tick_node, commons),
-      markers_(admin_node, commons.settings.params, sketch) {}
+      markers_(admin_node, sketch) {}
 
 void Publishers::publishTick(const Tick& tick) {
   streams_.publish(tick);

@@ -18,8 +18,8 @@ StreamsPublisher::StreamsPublisher(ros::NodeHandle& private_node, const Commons&
       status_(private_node.advertise<msg::Status>("status", 1)) {}
 
 void StreamsPublisher::publish(const Tick& tick) {
-  const Params& params = commons_.settings.params;
-  const msg::WorldState world = worldState(tick, params, commons_.settings.config_hash, 0.0);
+  const Params& params = tick.settings->params;
+  const msg::WorldState world = worldState(tick, 0.0);
   if (events_.getNumSubscribers() > 0) {
     for (const auto& message : eventsMessages(tick, world, params, *commons_.narrow_phase)) events_.publish(message);
   }

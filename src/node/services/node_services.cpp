@@ -12,8 +12,8 @@ NodeServices::NodeServices(const ros::NodeHandle& query_node, const ros::NodeHan
                            ServiceEnvelope::NewestTick newest, ChangeWorld change_world,
                            const TransformLookup& transforms, Loading& loading, StateKeeper& state,
                            Stopwatch& stopwatch, QuerySketch& sketch)
-    : questions_(query_node, commons.settings, newest, commons.ledger),
-      changes_(admin_node, commons.settings, newest, commons.ledger),
+    : questions_(query_node, newest, commons.ledger),
+      changes_(admin_node, newest, commons.ledger),
       query_(questions_, commons.settings.params, transforms, commons.narrow_phase, sketch),
       explain_(questions_, commons.settings.params, commons.narrow_phase),
       allowed_(changes_, commons.settings.params, change_world, [&state] { return state.waitUntilStored(); }),

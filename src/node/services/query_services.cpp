@@ -188,7 +188,7 @@ void QueryServices::answer(ServiceCall<Service>& call, const Ask& ask) const {
   const Question question{snapshot, world_from_frame, scopeOf(request, snapshot)};
 
   QueryAnswer found = ask(request, question);
-  outdate(found, call.tick.age());
+  outdate(found, call.tick);
   if (!frame.empty()) call.response.header.frame_id = frame;
   msg::Answer& result = call.response.answer;
   const Pose frame_from_world = world_from_frame.inverse();
@@ -230,12 +230,13 @@ Pose QueryServices::worldFromFrame(const Tick& tick, const std::string& frame) c
 }
 
 /// Turns CLEAR into UNKNOWN if the tick is too old.
-void QueryServices::outdate(QueryAnswer& found, double age) const {
-  if (found.verdict != Verdict::clear || age <= params_.valid_for) return;
+void QueryServices::outdate(QueryAnswer& found, const AnswerTick& tick) {
+  const double age = tick.age(), valid_for = tick.get()->settings->params.valid_for;
+  if (found.verdict != Verdict::clear || age <= valid_for) return;
   found.verdict = Verdict::unknown;
   found.because = Unknown::outdated;
-  found.reason = "the newest tick is " + secondsText(age) + " old; ticks are valid for " + text(params_.valid_for) +
-                 " s (~valid_for)";
+  found.reason =
+      "the newest tick is " + secondsText(age) + " old; ticks are valid for " + text(valid_for) + " s (~valid_for)";
 }
 
 QueryAnswer QueryServices::askBox(const msg::QueryBox::Request& request, const Question& question) const {

@@ -47,7 +47,7 @@ class QueryServices {
   template <class Request>
   QueryScope scopeOf(const Request& request, const Snapshot& snapshot) const;
   Pose worldFromFrame(const Tick& tick, const std::string& frame) const;
-  void outdate(QueryAnswer& found, double age) const;
+  static void outdate(QueryAnswer& found, const AnswerTick& tick);
 
   QueryAnswer askBox(const msg::QueryBox::Request& request, const Question& question) const;
   QueryAnswer askShape(const msg::QueryShape::Request& request, const Question& question) const;

@@ -104,6 +104,7 @@ void SceneFileServices::load(ServiceCall<msg::LoadScene>& call) const {
                     {PairFilter(structure.bodies, params_.pair_kinds, rules), structure.revision}});
   call.tick = AnswerTick(change_world_([prepared, replace = call.request.replace](World& world) {
     ObstacleChanges all;
+    all.without_groups = true;  // the file says where each obstacle of a group is
     if (replace) {
       for (const auto& present : world.obstacles().all()) {
         if (prepared->names.count(present.first) != 0) continue;

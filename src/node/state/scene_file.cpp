@@ -180,6 +180,7 @@ class SceneWriter {
     if (what.lifetime.count() != 0) entry("lifetime", seconds(what.lifetime));
     if (what.lost_at_end) entry("lost_at_end", true);
     if (!obstacle.owner.empty()) entry("owner", obstacle.owner);
+    if (!what.body.group.empty()) entry("group", what.body.group);
     if (obstacle.attachment) write(*obstacle.attachment);
     out_ << YAML::EndMap;
   }

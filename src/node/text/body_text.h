@@ -79,6 +79,7 @@ void pass(File& file, Body& body) {
   file.value(body.name);
   file.value(body.frame);
   file.value(body.robot);
+  file.value(body.group);
   file.value(body.kind);
   file.value(body.mobility);
   file.value(body.margin);

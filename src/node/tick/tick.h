@@ -10,6 +10,7 @@
 
 #include "hgrid_proximity/distances/pair_meter.h"
 #include "hgrid_proximity/world/scene.h"
+#include "node/params/settings.h"
 #include "node/tf/publisher_clocks.h"
 #include "node/time/clock_watch.h"
 #include "node/world/body_trouble.h"
@@ -19,6 +20,7 @@ namespace hgrid {
 
 /// The result of one tick. All messages and answers are built from it. It never changes after it was made.
 struct Tick {
+  std::shared_ptr<const Settings> settings;  ///< the parameters that this tick was made with; never null in a World's
   std::shared_ptr<const Snapshot> snapshot;  ///< null: there is no world yet, and not_ready says why
   std::string world_frame;                   ///< empty: not known yet
   Moment made;                               ///< when the node computed the tick

@@ -33,6 +33,24 @@ void complete(PlacedObstacle& obstacle, const Params& params, const std::string&
   obstacle.what = std::move(what);
 }
 
+/// Notes that an obstacle has changed: its lifetime begins again, and it is neither lost nor only restored.
+void renew(PlacedObstacle& obstacle, Time now) {
+  obstacle.ends = endOf(*obstacle.what, now);
+  obstacle.lost = false;
+  obstacle.restored = false;
+}
+
+/// @throws Refusal conflict if two obstacles of one group would not move together
+void checkMoveTogether(const PlacedObstacle& added, const PlacedObstacle& other) {
+  if (moveTogether(added, other)) return;
+  const std::string where = other.attachment ? "is attached to '" + printable(other.attachment->link) + "'"
+                                             : "follows the frame '" + printable(other.frame) + "'";
+  throw Refusal(Code::conflict, "'" + printable(added.what->body.name) + "' cannot be in the group '" +
+                                    printable(added.what->body.group) + "', because '" +
+                                    printable(other.what->body.name) + "' " + where +
+                                    "; obstacles of one group must follow the same frame or link");
+}
+
 /// Returns whether the obstacle of a change belongs to the complete set of the request.
 bool belongsToSet(const ObstacleChange& change) {
   using Kind = ObstacleChange::Kind;
@@ -91,11 +109,18 @@ void ObstacleBodies::addConfigured(const ObstacleParams& configured, const std::
   obstacle.frame_from_body = obstacle.asked.frame_from_body;
   obstacle.ends = endOf(*obstacle.what, now);
   obstacle.attachment = attachmentOf(configured);
+  for (const auto& [name, other] : present_) {
+    if (configured.body.group.empty() || other.what->body.group != configured.body.group) continue;
+    checkMoveTogether(obstacle, other);  // the others of the group move together with this one
+    break;
+  }
   if (obstacle.attachment) {  // followRobots() finds the right place when the robot is there
     obstacle.frame = obstacle.attachment->link;
     obstacle.frame_from_body = *obstacle.attachment->link_from_body;
     obstacle.touch = obstacle.attachment->touch;
-    carryOut({std::move(added), {}}, world_frame, movers);
+    Edits edits;
+    edits.set = std::move(added);
+    carryOut(std::move(edits), world_frame, movers);
     robots_revision_ = kNoRevision;
     return;
   }
@@ -113,7 +138,9 @@ void ObstacleBodies::addStored(const std::string& world_frame, Time now, Movers&
     if (obstacle.lost) lost.insert(name);
   }
   try {
-    carryOut({stored_, {}}, world_frame, movers);
+    Edits edits;
+    edits.set = stored_;
+    carryOut(std::move(edits), world_frame, movers);
     movers.beginLost(lost);
     stored_.clear();
     return;
@@ -122,7 +149,9 @@ void ObstacleBodies::addStored(const std::string& world_frame, Time now, Movers&
   while (!stored_.empty()) {
     const auto& [name, obstacle] = *stored_.begin();
     try {
-      carryOut({{{name, obstacle}}, {}}, world_frame, movers);
+      Edits edits;
+      edits.set.emplace(name, obstacle);
+      carryOut(std::move(edits), world_frame, movers);
       movers.beginLost(lost);  // those that were not added yet are not there, so nothing happens to them
     } catch (const Refusal& refusal) {
       missing.set(SourceId::ofObstacle(name), std::string(hgrid::name(refusal.code())) + " the stored '" +
@@ -195,9 +224,7 @@ PlacedObstacle ObstacleBodies::changed(const ObstacleChange& change, const Edits
     if (!change.shape_poses.empty()) placeShapes(next, change.shape_poses);
     put(next, change.place, around);
   }
-  next.ends = endOf(*next.what, around.now);
-  next.lost = false;
-  next.restored = false;
+  renew(next, around.now);
   return next;
 }
 
@@ -236,6 +263,7 @@ std::vector<PairRule> ObstacleBodies::touchRulesAfter(const Edits& edits) const 
 void ObstacleBodies::edit(const ObstacleChange& change, const Surroundings& around, Edits& edits) const {
   using Kind = ObstacleChange::Kind;
   const auto remove = [&](const std::string& name) {
+    regroup(find(edits, name), nullptr, edits);
     edits.removed.insert(name);
     edits.set.erase(name);
   };
@@ -260,6 +288,7 @@ void ObstacleBodies::edit(const ObstacleChange& change, const Surroundings& arou
              return obstacle.attachment && obstacle.attachment->owner == change.owner &&
                     (change.link.empty() || isNameOfLink(change.link, obstacle.attachment->link));
            })) {
+        if (!find(edits, name)->attachment) continue;  // it was detached with another one of its group
         ObstacleChange one;
         one.kind = Kind::detach;
         one.name = name;
@@ -273,8 +302,63 @@ void ObstacleBodies::edit(const ObstacleChange& change, const Surroundings& arou
     case Kind::detach:
       break;
   }
-  edits.set.insert_or_assign(change.name, changed(change, edits, around));
+  PlacedObstacle next = changed(change, edits, around);
+  const bool is_placed_alone = change.kind == Kind::add || change.kind == Kind::append;
+  if (!next.what->body.group.empty() && !edits.without_groups) {
+    if (is_placed_alone) {
+      checkGroup(next, edits);
+    } else {
+      carryGroup(*old, next, around, edits);
+    }
+  }
+  regroup(find(edits, change.name), &next, edits);
+  edits.set.insert_or_assign(change.name, std::move(next));
   edits.removed.erase(change.name);
+}
+
+/// Returns the names of the obstacles in the group of an obstacle, after the edits.
+const std::set<std::string>& ObstacleBodies::groupOf(const PlacedObstacle& obstacle, Edits& edits) const {
+  if (!edits.groups) {
+    edits.groups.emplace();
+    for (const std::string& name :
+         chosen(edits, [](const PlacedObstacle& one) { return !one.what->body.group.empty(); })) {
+      (*edits.groups)[find(edits, name)->what->body.group].insert(name);
+    }
+  }
+  return (*edits.groups)[obstacle.what->body.group];
+}
+
+/// Keeps Edits::groups up to date when an obstacle is about to change. Null: there is no such obstacle.
+void ObstacleBodies::regroup(const PlacedObstacle* before, const PlacedObstacle* after, Edits& edits) {
+  if (!edits.groups) return;
+  if (before != nullptr) (*edits.groups)[before->what->body.group].erase(before->what->body.name);
+  if (after != nullptr) (*edits.groups)[after->what->body.group].insert(after->what->body.name);
+}
+
+/// @throws Refusal conflict if the obstacle would not move together with the others of its group
+void ObstacleBodies::checkGroup(const PlacedObstacle& added, Edits& edits) const {
+  for (const std::string& name : groupOf(added, edits)) {
+    if (name == added.what->body.name) continue;
+    return checkMoveTogether(added, *find(edits, name));  // the others move together with this one
+  }
+}
+
+/// Lets the other obstacles of a group move with one of them.
+/// @throws Refusal limit if the changes of a request move too many obstacles in this way, or as carry()
+void ObstacleBodies::carryGroup(const PlacedObstacle& before, const PlacedObstacle& after, const Surroundings& around,
+                                Edits& edits) const {
+  const std::size_t most = 4 * static_cast<std::size_t>(params_.max_bodies);
+  for (const std::string& name : groupOf(after, edits)) {
+    if (name == after.what->body.name) continue;
+    if (++edits.carried > most) {
+      throw Refusal(Code::limit, "the changes would move more than " + std::to_string(most) +
+                                     " obstacles with their groups (4 * ~max_bodies); move each group only once");
+    }
+    PlacedObstacle next = *find(edits, name);
+    carry(next, before, after, around);
+    renew(next, around.now);
+    edits.set.insert_or_assign(name, std::move(next));
+  }
 }
 
 /// Returns the names of the obstacles, after the edits, for which `is_chosen` returns true.
@@ -292,6 +376,7 @@ std::vector<std::string> ObstacleBodies::chosen(const Edits& edits,
 
 void ObstacleBodies::apply(const ObstacleChanges& changes, const Surroundings& around, Movers& movers) {
   Edits edits;
+  edits.without_groups = changes.without_groups;
   std::set<std::string> complete_set;
   for (std::size_t i = 0; i < changes.changes.size(); ++i) {
     const ObstacleChange& change = changes.changes[i];
@@ -309,6 +394,11 @@ void ObstacleBodies::apply(const ObstacleChanges& changes, const Surroundings& a
       if (changes.spare_attached && next != nullptr && next->attachment) continue;
       edits.removed.insert(name);
       edits.set.erase(name);
+    }
+  }
+  if (edits.without_groups) {
+    for (const auto& [name, obstacle] : edits.set) {
+      if (!obstacle.what->body.group.empty()) checkGroup(obstacle, edits);
     }
   }
   std::set<std::string> unsaved = unsavedAfter(edits);

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -51,7 +52,7 @@ class ObstacleBodies {
   /// Lets all lifetimes begin again, after ROS time jumped.
   void restamp(Time now) noexcept;
   /// Returns the rules for what may touch the attached obstacles.
-  const TouchRules& touchRules() const { return touch_; }
+  const DerivedRules& touchRules() const { return touch_; }
   /// Returns the obstacles, by full name.
   const std::map<std::string, PlacedObstacle>& all() const { return present_; }
 
@@ -66,10 +67,15 @@ class ObstacleBodies {
  private:
   using Obstacles = std::map<std::string, PlacedObstacle>;  // by full name
 
+  using Groups = std::map<std::string, std::set<std::string>>;  // full names of the obstacles of each group
+
   /// What changes: the obstacles that are added, replaced or moved, and the names of those that are removed.
   struct Edits {
     Obstacles set;
     std::set<std::string> removed;
+    std::optional<Groups> groups = {};  // all groups after the edits; nullopt: no change needed them yet
+    bool without_groups = false;        // ObstacleChanges::without_groups
+    std::size_t carried = 0;            // number of obstacles that moved with another one of their group
   };
 
   const PlacedObstacle* find(const Edits& edits, const std::string& name) const;
@@ -77,6 +83,11 @@ class ObstacleBodies {
   PlacedObstacle added(const ObstacleChange& change, const Edits& edits, const Surroundings& around) const;
   PlacedObstacle changed(const ObstacleChange& change, const Edits& edits, const Surroundings& around) const;
   void edit(const ObstacleChange& change, const Surroundings& around, Edits& edits) const;
+  const std::set<std::string>& groupOf(const PlacedObstacle& obstacle, Edits& edits) const;
+  void checkGroup(const PlacedObstacle& added, Edits& edits) const;
+  void carryGroup(const PlacedObstacle& before, const PlacedObstacle& after, const Surroundings& around,
+                  Edits& edits) const;
+  static void regroup(const PlacedObstacle* before, const PlacedObstacle* after, Edits& edits);
   std::vector<std::string> chosen(const Edits& edits,
                                   const std::function<bool(const PlacedObstacle&)>& is_chosen) const;
   std::vector<PairRule> touchRulesAfter(const Edits& edits) const;
@@ -89,7 +100,7 @@ class ObstacleBodies {
   std::shared_ptr<NarrowPhase> narrow_phase_;
   Ledger& ledger_;
   Obstacles present_;
-  TouchRules touch_;
+  DerivedRules touch_;
   std::size_t done_ = 0;           // number of configured obstacles that were added or refused
   Obstacles stored_;               // by an earlier run, and not added yet
   std::set<std::string> removed_;  // configured obstacles that an earlier run removed

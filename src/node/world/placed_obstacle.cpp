@@ -101,8 +101,8 @@ Body bodyOf(const PlacedObstacle& obstacle, const std::string& world_frame) {
 }
 
 bool isSame(const RequestedObstacle& a, const RequestedObstacle& b) {
-  return a.moving == b.moving && a.lifetime == b.lifetime && a.lost_at_end == b.lost_at_end &&
-         a.body.margin == b.body.margin && a.body.max_speed == b.body.max_speed &&
+  return a.moving == b.moving && a.body.group == b.body.group && a.lifetime == b.lifetime &&
+         a.lost_at_end == b.lost_at_end && a.body.margin == b.body.margin && a.body.max_speed == b.body.max_speed &&
          std::equal(a.body.shapes.begin(), a.body.shapes.end(), b.body.shapes.begin(), b.body.shapes.end(),
                     isSameShape);
 }
@@ -203,6 +203,29 @@ void detach(PlacedObstacle& obstacle, const Surroundings& around) {
   obstacle.attachment.reset();
   obstacle.touch.clear();
   put(obstacle, place, around);
+}
+
+bool moveTogether(const PlacedObstacle& a, const PlacedObstacle& b) {
+  if (!a.attachment != !b.attachment) return false;
+  return a.attachment ? a.attachment->link == b.attachment->link : a.frame == b.frame;
+}
+
+void carry(PlacedObstacle& obstacle, const PlacedObstacle& before, const PlacedObstacle& after,
+           const Surroundings& around) {
+  const Pose other_from_body = before.frame_from_body.inverse() * obstacle.frame_from_body;
+  obstacle.frame = after.frame;
+  obstacle.frame_from_body = after.frame_from_body * other_from_body;
+  obstacle.asked = {after.frame == around.world_frame ? "" : after.frame, obstacle.frame_from_body, std::nullopt};
+  obstacle.attachment.reset();
+  if (after.attachment) {
+    checkNoGlob(obstacle.what->body.name);
+    auto attachment = std::make_shared<Attachment>(*after.attachment);
+    attachment->link_from_body = *after.attachment->link_from_body * other_from_body;
+    obstacle.attachment = std::move(attachment);
+  }
+  obstacle.touch = after.touch;
+  obstacle.carrier_speed = after.carrier_speed;
+  checkPlace(obstacle, around);
 }
 
 void follow(PlacedObstacle& obstacle, const RobotModels& robots, const Params& params) {

@@ -25,11 +25,11 @@ struct Surroundings {
 struct PlacedObstacle {
   std::shared_ptr<const RequestedObstacle> what;
   std::string owner;
-  ObstaclePlace asked;                           ///< its place as requested
-  std::string frame;                             ///< the frame that it follows
-  Pose frame_from_body = Pose::Identity();       ///< its pose in that frame
-  Time ends = Time::max();                       ///< end of its lifetime [ROS time]; max: never
-  bool lost = false;                             ///< whether its lifetime has ended, but it stays in the world
+  ObstaclePlace asked;                      ///< its place as requested
+  std::string frame;                        ///< the frame that it follows
+  Pose frame_from_body = Pose::Identity();  ///< its pose in that frame
+  Time ends = Time::max();                  ///< end of its lifetime [ROS time]; max: never
+  bool lost = false;                        ///< whether its lifetime has ended, but it stays in the world
   bool restored = false;  ///< whether an earlier run of the node stored it, and nothing has confirmed it since
   std::shared_ptr<const Attachment> attachment;  ///< the link that it is attached to, and its pose there; null: none
   std::vector<std::string> touch;  ///< while it is attached: names and globs of the bodies that may touch it
@@ -63,6 +63,16 @@ void append(PlacedObstacle& obstacle, const RequestedObstacle& added, const Surr
 /// @throws also conflict if the obstacle is not attached
 void detach(PlacedObstacle& obstacle, const Surroundings& around);
 ///@}
+
+/// Returns whether two obstacles follow the same frame, or are attached to the same link, so that both move together.
+bool moveTogether(const PlacedObstacle& a, const PlacedObstacle& b);
+
+/// Moves an obstacle as one rigid body with another one of its group: to another place, or to or from a link.
+/// @param before  the other obstacle before its change; it moves together with `obstacle`
+/// @param after   the other obstacle after its change
+/// @throws Refusal out_of_range (~world_limit), bad_id if a name that is a glob would be attached
+void carry(PlacedObstacle& obstacle, const PlacedObstacle& before, const PlacedObstacle& after,
+           const Surroundings& around);
 
 /// Gives all shapes other poses in the frame of the body. @throws Refusal bad_geometry if there are more or fewer poses
 void placeShapes(PlacedObstacle& obstacle, const std::vector<Pose>& poses);

@@ -44,6 +44,8 @@ class RobotModels {
     }
     return links;
   }
+  /// Returns all models, by the name of the robot.
+  const RobotsByName& all() const { return robots_; }
   /// Returns the report on what is missing in the models.
   const std::shared_ptr<const ModelReport>& report() const { return report_; }
 

@@ -45,15 +45,15 @@ void checkRoom(const LoadedRobot& robot, std::size_t others, const Params& param
 }
 
 /// Adds a mover for each group of links that move together.
-void addMovers(const LoadedRobot& robot, Movers::Change& change) {
+void addMovers(const LoadedRobot& robot, const LinkPaddings& paddings, Movers::Change& change) {
   const SourceId source = SourceId::ofRobot(robot.name);
   for (const LoadedRobot::Group& group : robot.groups) {
     bool first = true;
     for (const auto& [body, frame_from_body] : group.members) {
       if (std::exchange(first, false)) {
-        change.add(group.frame, source, robot.bodies[body], frame_from_body);
+        change.add(group.frame, source, padded(robot.bodies[body], paddings), frame_from_body);
       } else {
-        change.join(robot.bodies[body], frame_from_body);
+        change.join(padded(robot.bodies[body], paddings), frame_from_body);
       }
     }
   }
@@ -66,28 +66,30 @@ void sortUnique(std::vector<std::string>& names) {
 
 }  // namespace
 
-World::World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& ledger,
+World::World(std::shared_ptr<const Settings> settings, bool simulated, std::uint64_t epoch, Ledger& ledger,
              std::shared_ptr<NarrowPhase> narrow_phase, const StoredWorld& stored)
-    : params_(params),
+    : first_settings_(std::move(settings)),
+      params_(first_settings_->params),
+      settings_(first_settings_),
       ledger_(ledger),
-      scene_(optionsOf(params, stored.rules)),
-      transforms_(params.max_future, params.tf_cache, static_cast<std::size_t>(params.max_frames), simulated, ledger,
-                  static_cast<std::size_t>(params.max_samples), params.max_sync_wait),
-      clock_(simulated, params.clock_jump, params.stale_after),
+      scene_(optionsOf(params_, stored.rules)),
+      transforms_(params_.max_future, params_.tf_cache, static_cast<std::size_t>(params_.max_frames), simulated, ledger,
+                  static_cast<std::size_t>(params_.max_samples), params_.max_sync_wait),
+      clock_(simulated, params_.clock_jump, params_.stale_after),
       movers_(scene_),
-      poses_(params, transforms_, scene_, movers_, ledger),
-      robots_(params),
-      obstacles_(params, std::move(narrow_phase), stored, ledger),
+      poses_(params_, transforms_, scene_, movers_, ledger),
+      robots_(params_),
+      obstacles_(params_, std::move(narrow_phase), stored, ledger),
       maps_(simulated),
-      clouds_(params, simulated, scene_, ledger),
-      missing_(params),
-      world_frame_(params.world_frame),
+      clouds_(params_, simulated, scene_, ledger),
+      missing_(params_),
+      world_frame_(params_.world_frame),
       epoch_(epoch) {
   scene_.beginEpoch(epoch_);
   for (const auto& [name, map] : stored.maps) {
     if (map) missing_.set(SourceId::ofMap(name), "NOT_READY map '" + name + "': its file has not been read yet");
   }
-  for (const MapParams& map : params.maps) {
+  for (const MapParams& map : params_.maps) {
     const auto known = stored.maps.find(map.name);
     if (known != stored.maps.end() && !known->second && map.topic.empty()) missing_.erase(SourceId::ofMap(map.name));
   }
@@ -109,7 +111,7 @@ void World::setRobot(LoadedRobot loaded) {
   const LoadedRobot* known = robots_.find(robot->name);
   checkRoom(*robot, scene_.size() - (known == nullptr ? 0 : known->bodies.size()), params_);
   Movers::Change change = movers_.changeWithout([&](const SourceId& other) { return other == source; });
-  addMovers(*robot, change);
+  addMovers(*robot, paddings_, change);
   RobotModels robots = robots_;
   robots.set(robot);
   MissingSources missing = missing_;
@@ -217,10 +219,48 @@ void World::applyObstacles(const ObstacleChanges& changes, Time now) {
 
 void World::setRules(PreparedRules rules) { rules_.set(std::move(rules)); }
 
+void World::setLinkPaddings(LinkPaddings paddings) noexcept {
+  paddings_changed_ = paddings_changed_ || paddings != paddings_;
+  paddings_.swap(paddings);
+}
+
+/// Replaces the robots of which a link has another padding now.
+void World::padLinks() {
+  const auto differs = [&](const Body& link) {
+    BodyId id;
+    if (!scene_.find(link.name, id)) return false;
+    const std::vector<BodyShape>& now = scene_.body(id).shapes;
+    const std::vector<BodyShape> next = padded(link, paddings_).shapes;
+    return !std::equal(now.begin(), now.end(), next.begin(), next.end(),
+                       [](const BodyShape& a, const BodyShape& b) { return a.padding == b.padding; });
+  };
+  std::vector<const LoadedRobot*> others;
+  for (const auto& [name, robot] : robots_.all()) {
+    if (std::any_of(robot->bodies.begin(), robot->bodies.end(), differs)) others.push_back(robot.get());
+  }
+  if (!others.empty()) {
+    Movers::Change change = movers_.changeWithout([&](const SourceId& source) {
+      return std::any_of(others.begin(), others.end(),
+                         [&](const LoadedRobot* robot) { return source == SourceId::ofRobot(robot->name); });
+    });
+    for (const LoadedRobot* robot : others) addMovers(*robot, paddings_, change);
+    movers_.exchange(std::move(change));
+  }
+  paddings_changed_ = false;
+}
+
+void World::setSettings(std::shared_ptr<const Settings> settings) {
+  const Params& params = settings->params;
+  scene_.tune({params.margin, params.event_hysteresis, params.growth_cap, params.horizon});
+  settings_ = std::move(settings);
+}
+
 void World::reset() {
   const auto is_obstacle = [](const SourceId& source) { return source.kind == SourceKind::obstacle; };
   movers_.exchange(movers_.changeWithout(is_obstacle));
   obstacles_.startAgain();
+  setLinkPaddings({});
+  setMatrix({});
   missing_.eraseIf(is_obstacle);
   ledger_.clear();
   beginEpoch();
@@ -278,6 +318,7 @@ std::vector<SourceGap> World::listMissing(const Moment& now, Tick& tick) const {
 std::shared_ptr<const Tick> World::tick(const Moment& now) {
   auto tick = std::make_shared<Tick>();
   handleClock(now);
+  tick->settings = settings_;
   tick->made = now;
   tick->epoch = epoch_;
   const bool can_begin = findWorldFrame() && clock_.running();
@@ -285,7 +326,8 @@ std::shared_ptr<const Tick> World::tick(const Moment& now) {
   if (can_begin) obstacles_.addAll(world_frame_, now.ros, movers_, missing_);
   if (can_begin) obstacles_.followRobots(robots_, world_frame_, movers_);
   if (can_begin) obstacles_.expire(now.ros, movers_);
-  rules_.apply(now, obstacles_.touchRules(), scene_);
+  if (paddings_changed_) padLinks();
+  rules_.apply(now, obstacles_.touchRules(), matrix_.rules(robots_), scene_);
   needFrames(now);
   tick->world_frame = world_frame_;
   tick->models = robots_.report();

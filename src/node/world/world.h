@@ -12,7 +12,7 @@
 #include "hgrid_proximity/pairs/rule_book.h"
 #include "hgrid_proximity/world/scene.h"
 #include "node/diagnostics/ledger.h"
-#include "node/params/params.h"
+#include "node/params/settings.h"
 #include "node/sources/loaded_map.h"
 #include "node/sources/robot_source.h"
 #include "node/sources/source_id.h"
@@ -20,7 +20,9 @@
 #include "node/tick/tick.h"
 #include "node/time/clock_watch.h"
 #include "node/world/cloud_bodies.h"
+#include "node/world/link_paddings.h"
 #include "node/world/map_bodies.h"
+#include "node/world/matrix_rules.h"
 #include "node/world/missing_sources.h"
 #include "node/world/mover_poses.h"
 #include "node/world/movers.h"
@@ -39,10 +41,11 @@ namespace hgrid {
 /// runs out; the next tick completes it.
 class World {
  public:
+  /// @param settings   never null; most of the parameters cannot change later, see setSettings()
   /// @param simulated  whether /clock drives ROS time
   /// @param epoch      number of the first epoch
   /// @param stored     what an earlier run of the node stored
-  World(const Params& params, bool simulated, std::uint64_t epoch, Ledger& ledger,
+  World(std::shared_ptr<const Settings> settings, bool simulated, std::uint64_t epoch, Ledger& ledger,
         std::shared_ptr<NarrowPhase> narrow_phase, const StoredWorld& stored = {});
   World(const World&) = delete;
   World& operator=(const World&) = delete;
@@ -71,15 +74,26 @@ class World {
   void clearMissing(const SourceId& source) noexcept { missing_.erase(source); }
   /// Replaces all rules for allowed pairs, from the next tick on. Expired rules are removed automatically.
   void setRules(PreparedRules rules);
+  /// Replaces the parameters that may change while the node runs. The next tick is the first with all of them.
+  /// @param settings  changedSettings() made it from the settings in force; never null
+  void setSettings(std::shared_ptr<const Settings> settings);
   /// Applies changes of obstacles, all of them or none.
   /// @param now  current ROS time
   /// @throws Refusal not_ready (no world frame or no time yet), or as ObstacleBodies::apply()
   void applyObstacles(const ObstacleChanges& changes, Time now);
+  /// Replaces the paddings of links that were set at run time, from the next tick on. They hold for robots that are
+  /// loaded later, too. The larger one of this padding and that of ~padding counts.
+  void setLinkPaddings(LinkPaddings paddings) noexcept;
+  const LinkPaddings& linkPaddings() const { return paddings_; }
+  /// Replaces the allowed collision matrix of MoveIt, from the next tick on. No rules: there is none.
+  void setMatrix(std::vector<MatrixRule> matrix) noexcept { matrix_.set(std::move(matrix)); }
+  const std::vector<MatrixRule>& matrix() const { return matrix_.matrix(); }
   /// Returns the obstacles in the world.
   const ObstacleBodies& obstacles() const { return obstacles_; }
   /// Ends what ObstacleBodies::unsaved() lists.
   void forgetUnsaved() noexcept { obstacles_.forgetUnsaved(); }
-  /// Restores the configured obstacles, sets all counters to 0 and begins a new epoch. Rules stay.
+  /// Restores the configured obstacles, sets all counters to 0 and begins a new epoch. Forgets what MoveIt set. Rules
+  /// and settings stay.
   void reset();
 
   /// Makes the next tick. @param now  current time of both clocks
@@ -89,10 +103,13 @@ class World {
   void handleClock(const Moment& now);
   void beginEpoch();
   bool findWorldFrame();
+  void padLinks();
   void needFrames(const Moment& now);
   std::vector<SourceGap> listMissing(const Moment& now, Tick& tick) const;
 
-  const Params& params_;
+  const std::shared_ptr<const Settings> first_settings_;  // those of the start
+  const Params& params_;                                  // of first_settings_; some of them may have changed since
+  std::shared_ptr<const Settings> settings_;              // those in force
   Ledger& ledger_;
   Scene scene_;
   TfIntake transforms_;
@@ -105,6 +122,9 @@ class World {
   CloudBodies clouds_;
   MissingSources missing_;
   RulesInForce rules_;
+  MatrixRules matrix_;
+  LinkPaddings paddings_;
+  bool paddings_changed_ = false;                    // whether a tick must still apply them
   std::map<std::string, std::string> cloud_frames_;  // by cloud
   std::optional<std::uint64_t> needed_revision_;     // of the movers whose frames are needed; nullopt: not up to date
   std::string world_frame_;

@@ -10,6 +10,7 @@
 #include "hgrid_proximity/refusal.h"
 #include "src/node/audit/audit.h"
 #include "src/node/audit/case_file.h"
+#include "test/node/support/settings.h"
 
 namespace hgrid {
 namespace {
@@ -56,6 +57,50 @@ TEST(Audit, ComparesAllPosesPairsAndQueriesOfASmallWorld) {
   EXPECT_EQ(findings.pairs, 17u * 16 / 2);
   EXPECT_EQ(findings.queries, 8u);
   EXPECT_GT(world.world().snapshot().pairs().size(), 5u) << "the world has too few pairs for this test";
+}
+
+/// Claim: an audit uses the parameters of the tick that it audits, also if they have changed since then.
+TEST(Audit, FollowsParametersThatChange) {
+  AuditedWorld world(14);
+  world.addRobot(0.0);
+  begin(world);
+  test::Random random(14);
+  std::shared_ptr<const Settings> settings = test::settingsOf(world.world().params());
+  for (int change = 0; change < 20; ++change) {
+    const ParamChange values{{"margin", random.uniform(0.0, 1.0)},
+                             {"growth_cap", random.uniform(0.0, 1.0)},
+                             {"horizon", random.chance(0.5) ? 0.0 : random.uniform(0.0, 0.5)}};
+    world.step();
+    const AuditCase before = world.audited();
+    settings = std::make_shared<const Settings>(changedSettings(*settings, values));
+    world.world().world().setSettings(settings);
+    EXPECT_EQ(sentences(audit(before, 1)), "");
+    EXPECT_EQ(before.margin != settings->params.margin, true);
+    for (int i = 0; i < 3; ++i) {
+      world.step();
+      const AuditCase after = world.audited();
+      EXPECT_EQ(after.margin, settings->params.margin);
+      EXPECT_EQ(after.config_hash, std::to_string(settings->config_hash));
+      EXPECT_EQ(sentences(audit(after, 1)), "");
+    }
+  }
+}
+
+/// Claim: an audit knows that obstacles of one group make no pairs with each other, and misses them otherwise.
+TEST(Audit, KnowsTheGroupsOfObstacles) {
+  Params params = AuditedWorld::defaults();
+  for (int i = 0; i < 4; ++i) {
+    ObstacleParams added = params.obstacles.front();  // all four follow the frame of this one
+    added.body.name = "obstacle/more" + std::to_string(i);
+    added.body.group = i < 2 ? "pile" : "";
+    params.obstacles.push_back(added);
+  }
+  AuditedWorld world(15, params);
+  for (int i = 0; i < 3; ++i) world.step();
+  AuditCase audited = world.audited();
+  EXPECT_EQ(sentences(audit(audited, 1)), "");
+  for (Body& body : audited.bodies) body.group.clear();
+  expectTells(sentences(audit(audited, 1)), "the pair 'obstacle/more0', 'obstacle/more1' is missing");
 }
 
 TEST(Audit, FindsAPoseThatDoesNotFitItsTransforms) {

@@ -153,7 +153,7 @@ const Tick& AuditedWorld::step() {
 
 AuditCase AuditedWorld::audited() {
   static const std::shared_ptr<NarrowPhase> narrow_phase = makeFclNarrowPhase();
-  return caseOf(world_.last(), record_.content(), world_.params(), 0, 7, *narrow_phase);
+  return caseOf(world_.last(), record_.content(), 7, *narrow_phase);
 }
 
 }  // namespace test

@@ -54,7 +54,7 @@ namespace {
 
 namespace msg = ::hgrid_proximity;
 
-constexpr std::uint32_t kPinnedVersion = 3;  // interface version of the MD5 sums below
+constexpr std::uint32_t kPinnedVersion = 4;  // interface version of the MD5 sums below
 
 /// A message or service file, its MD5 sum, and the MD5 sum that it must have in this interface version.
 struct Pin {
@@ -84,7 +84,7 @@ const std::vector<Pin>& pins() {
       message<msg::Events>("Events", "2d3c7209582b0e49fec6219c5906fe1a"),
       message<msg::Gauge>("Gauge", "d8512f27253c0f65f928a67c329cd658"),
       message<msg::Hit>("Hit", "b27873b5bc9c5faff607ee93c2082a9f"),
-      message<msg::Obstacle>("Obstacle", "e7f81a36c4d365e475d687aee989a892"),
+      message<msg::Obstacle>("Obstacle", "5608eedc0bae1cab90887c5e86e8f978"),
       message<msg::Pairs>("Pairs", "59a5c05dcc80fa7bab33a476f547a113"),
       message<msg::Poses>("Poses", "3b5d47fb4ea85b737dd5eb0fc134064d"),
       message<msg::Rules>("Rules", "79058cafa5b4aab9f804a71d629c5134"),
@@ -94,7 +94,7 @@ const std::vector<Pin>& pins() {
       message<msg::Status>("Status", "41f51c48148bba2d1fb628ca278e5861"),
       message<msg::Timing>("Timing", "ffa7e14ed99c15133b8734e32bdf8366"),
       message<msg::WorldState>("WorldState", "6e7f0e7ad23b6a55d3f532ba2a769931"),
-      service<msg::ApplyObstacles>("ApplyObstacles", "866281fcb5f4d153a9af06a3aa891c60"),
+      service<msg::ApplyObstacles>("ApplyObstacles", "f52ed5b3192f3c3a90fdc43ee3f2801d"),
       service<msg::ClearMap>("ClearMap", "aa94ec5cc4241768d88da962bc4cdb11"),
       service<msg::ExplainPair>("ExplainPair", "7f877c8d05130f963b17495385f7f1f0"),
       service<msg::GetAllowed>("GetAllowed", "a7c3ddc68c8114168a385cee5844a3f2"),

@@ -9,6 +9,7 @@
 
 #include "hgrid_proximity/bodies/source.h"
 #include "src/node/messages/world_state_message.h"
+#include "test/node/support/settings.h"
 #include "test/support/random.h"
 #include "test/support/scenes.h"
 
@@ -21,8 +22,9 @@ std::vector<std::string> sentencesUpTo(int count) {
   return sentences;
 }
 
-msg::Status statusOf(const Tick& tick, const Params& params) {
-  return statusMessage(tick, worldState(tick, params, 0, 0.0), params, Ledger(), Stopwatch());
+msg::Status statusOf(Tick tick, const Params& params) {
+  tick.settings = test::settingsOf(params);
+  return statusMessage(tick, worldState(tick, 0.0), params, Ledger(), Stopwatch());
 }
 
 TEST(StatusMessage, BoundsEveryListAndSaysHowManyEntriesAreLeftOut) {

@@ -14,7 +14,7 @@ constexpr std::uint32_t kAll = Component::attached_objects | Component::object_n
 class SceneReply : public SceneWorld {
  protected:
   NoeticScene sceneOf(std::uint32_t components) const {
-    return planningScene(components, *tick_, world_.obstacles().all());
+    return planningScene(components, *tick_, world_.obstacles().all(), {});
   }
 };
 

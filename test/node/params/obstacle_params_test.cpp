@@ -9,6 +9,7 @@
 #include "src/node/params/params.h"
 #include "src/node/world/world.h"
 #include "test/node/support/claims.h"
+#include "test/node/support/settings.h"
 #include "test/node/support/values.h"
 
 namespace hgrid {
@@ -50,7 +51,8 @@ Value rich() {
                {"max_speed", 1.5},
                {"lifetime", 2.5},
                {"lost_at_end", true},
-               {"owner", "/planner"}});
+               {"owner", "/planner"},
+               {"group", "set"}});
 }
 
 /// Returns the same obstacle as a request of ~apply_obstacles.
@@ -87,6 +89,7 @@ msg::Obstacle richRequest() {
   request.lifetime = ros::Duration(2.5);
   request.lifetime_end = msg::LifetimeEnd::LOST;
   request.owner = "/planner";
+  request.group = "set";
   return request;
 }
 
@@ -115,7 +118,8 @@ TEST(ObstacleParams, GiveTheSameObstacleAsARequest) {
   const std::shared_ptr<NarrowPhase> phase = makeFclNarrowPhase();
   Ledger ledger;
   const Params with_obstacle = paramsWith(list({rich()})), without = paramsWith(list());
-  World configured(with_obstacle, false, 1, ledger, phase), requested(without, false, 1, ledger, phase);
+  World configured(settingsOf(with_obstacle), false, 1, ledger, phase),
+      requested(settingsOf(without), false, 1, ledger, phase);
   msg::ApplyObstacles::Request request;
   request.changes = {richRequest()};
   const auto no_files = [](const std::string&, const Eigen::Vector3d&) -> std::shared_ptr<const TriangleMesh> {
@@ -134,6 +138,7 @@ TEST(ObstacleParams, GiveTheSameObstacleAsARequest) {
   EXPECT_EQ(a.what->body.shapes[0].padding, 0.01);
   EXPECT_EQ(a.what->body.shapes[1].padding, 0.005);
   EXPECT_EQ(a.owner, "/planner");
+  EXPECT_EQ(a.what->body.group, "set");
   EXPECT_EQ(a.ends, kNow + std::chrono::milliseconds(2500));
   EXPECT_EQ(a.ends, b.ends);
   EXPECT_TRUE(a.what->lost_at_end);
@@ -147,7 +152,7 @@ TEST(ObstacleParams, ConfiguredObstaclesEnd) {
   const Params params = paramsWith(
       list({with(ball("brief", 0, 0, 0, 1), {{"lifetime", 0.5}}),
             with(ball("seen", 5, 0, 0, 1), {{"lifetime", 0.5}, {"lost_at_end", true}}), ball("post", 9, 0, 0, 1)}));
-  World world(params, false, 1, ledger, phase);
+  World world(settingsOf(params), false, 1, ledger, phase);
   Moment now = moment();
   world.tick(now);
   EXPECT_EQ(world.obstacles().all().size(), 3u);

@@ -14,6 +14,7 @@
 #include "src/node/services/guarded.h"
 #include "src/node/tick/tick_jobs.h"
 #include "src/node/world/world.h"
+#include "test/node/support/settings.h"
 
 namespace {
 
@@ -80,7 +81,7 @@ TEST(Guarded, StillCountsWhereThereIsNoMemoryForAReport) {
 struct JobsOfTick {
   Params params;
   Ledger ledger;
-  World world{params, false, 1, ledger, makeFclNarrowPhase()};
+  World world{settingsOf(params), false, 1, ledger, makeFclNarrowPhase()};
   TickJobs jobs;
   std::string done;
 

@@ -9,6 +9,7 @@
 #include <hgrid_proximity/QueryBox.h>
 #include <hgrid_proximity/SetAllowed.h>
 
+#include "test/node/support/settings.h"
 #include "test/support/scenes.h"
 
 namespace hgrid {
@@ -19,6 +20,7 @@ const Refusal kRefusal(Code::bad_id, "no name");
 
 std::shared_ptr<Tick> tickOf(std::shared_ptr<const Snapshot> snapshot) {
   auto tick = std::make_shared<Tick>();
+  tick->settings = settingsOf(Params{});
   tick->world_frame = "world";
   tick->epoch = 7;
   tick->not_ready = {"NOT_READY: no frame"};
@@ -77,7 +79,7 @@ TEST(Reply, SaysWhichTickItIsMadeFromAndHowOldItIs) {
   scene.setState(body, Freshness::fresh, 0.5);
   const AnswerTick tick(tickOf(scene.commit(Time{5}, {})));
   msg::QueryBox::Response response;
-  writeTick(tick, Settings{}, response);
+  writeTick(tick, response);
   EXPECT_EQ(response.header.frame_id, "world");
   EXPECT_EQ(response.header.stamp.toNSec(), 5u);
   EXPECT_EQ(response.world.epoch, 7u);
@@ -88,10 +90,10 @@ TEST(Reply, SaysWhichTickItIsMadeFromAndHowOldItIs) {
 
 TEST(Reply, BeforeTheFirstTickAndBeforeAWorldSaysThatNothingIsPlaced) {
   msg::QueryBox::Response response;
-  writeTick(AnswerTick(nullptr), Settings{}, response);
+  writeTick(AnswerTick(nullptr), response);
   EXPECT_EQ(response.world.worst_state, msg::BodyState::UNPLACED);
   EXPECT_EQ(response.header.frame_id, "");
-  writeTick(AnswerTick(tickOf(nullptr)), Settings{}, response);
+  writeTick(AnswerTick(tickOf(nullptr)), response);
   EXPECT_EQ(response.world.worst_state, msg::BodyState::UNPLACED);
   EXPECT_EQ(response.header.frame_id, "world");
 }

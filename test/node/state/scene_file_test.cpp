@@ -92,6 +92,7 @@ class SceneFile : public Obstacles {
   void load(const SavedScene& scene) {
     ObstacleChanges changes;
     for (const auto& present : world_.obstacles().all()) {
+      changes.without_groups = true;
       changes.changes.emplace_back();
       changes.changes.back().kind = ObstacleChange::Kind::remove;
       changes.changes.back().name = present.first;
@@ -108,6 +109,31 @@ class SceneFile : public Obstacles {
     world_.applyObstacles(changes, momentAt(time_).ros);
   }
 };
+
+TEST_F(SceneFile, GivesTheSameGroupsAgain) {
+  msg::Obstacle free = adding("free", 1), too = adding("too", 2), held = adding("held", 3), tip = adding("tip", 4);
+  free.group = too.group = "rack";
+  held.group = tip.group = "tool: 1";
+  apply({free, too, held, tip, attaching("held", "arm/tool", 0.5)});
+  const std::map<std::string, PlacedObstacle> before = world_.obstacles().all();
+  const SavedScene scene = readScene(text(), "scene", params());
+  load(scene);
+  const std::map<std::string, PlacedObstacle> after = world_.obstacles().all();
+  ASSERT_EQ(before.size(), after.size());
+  for (const auto& [name, old] : before) {
+    SCOPED_TRACE(name);
+    const PlacedObstacle& now = after.at(name);
+    EXPECT_EQ(now.what->body.group, old.what->body.group);
+    EXPECT_TRUE(now.frame_from_body.isApprox(old.frame_from_body, 1e-12));
+    EXPECT_EQ(now.touch, old.touch);
+  }
+  SavedScene split = scene;  // by hand
+  for (ObstacleParams& obstacle : split.obstacles) {
+    if (obstacle.body.name == "obstacle/tip") obstacle.attached.reset();
+  }
+  EXPECT_THROW(load(split), Refusal);
+  EXPECT_EQ(world_.obstacles().all().size(), before.size());
+}
 
 TEST_F(SceneFile, GivesTheSameObstaclesAgain) {
   for (unsigned seed = 1; seed <= 100; ++seed) {
@@ -137,6 +163,7 @@ TEST_F(SceneFile, GivesTheSameObstaclesAgain) {
       EXPECT_EQ(now.what->moving, old.what->moving);
       EXPECT_EQ(now.what->lost_at_end, old.what->lost_at_end);
       EXPECT_EQ(now.owner, old.owner);
+      EXPECT_EQ(now.what->body.group, old.what->body.group);
       EXPECT_EQ(now.frame, old.frame);
       EXPECT_TRUE(now.frame_from_body.isApprox(old.frame_from_body, 1e-12));
       EXPECT_EQ(now.touch, old.touch);

@@ -6,6 +6,7 @@
 
 #include "src/node/moveit/scene_gaps.h"
 #include "src/node/state/state_log.h"
+#include "test/node/support/settings.h"
 #include "test/node/world/obstacle_world.h"
 #include "test/support/random.h"
 
@@ -66,6 +67,7 @@ PlacedObstacle randomObstacle(Random& random, int number) {
   what->lost_at_end = random.between(0, 1) != 0;
   what->lifetime = std::chrono::nanoseconds(std::int64_t{random.between(0, 1)} * 123456789012345);
   what->owner = "/caller";
+  what->body.group = random.between(0, 1) == 0 ? "" : "a group";
   PlacedObstacle obstacle;
   obstacle.what = what;
   obstacle.owner = "an owner";
@@ -170,7 +172,7 @@ TEST_F(Obstacles, AMapThatAnEarlierRunLoadedIsMissedUntilItIsReadAgainAndARemove
   StoredWorld stored;
   stored.maps["hall"] = std::nullopt;
   stored.maps["late"] = params.maps[0];
-  World second(params, false, 2, ledger_, phase_, stored);
+  World second(settingsOf(params), false, 2, ledger_, phase_, stored);
   second.setRobot(arm());
   const auto tick = second.tick(momentAt(time_));
   EXPECT_EQ(tick->snapshot->reasonOf("map/hall"), "");
@@ -211,7 +213,8 @@ class StoredObstacles : public Obstacles {
   }
   std::unique_ptr<World> restarted() { return restarted(params()); }
   std::unique_ptr<World> restarted(const Params& params) {
-    auto world = std::make_unique<World>(params, false, 2, ledger_, phase_, storedWorldOf(items_, *phase_, kClocks));
+    auto world =
+        std::make_unique<World>(settingsOf(params), false, 2, ledger_, phase_, storedWorldOf(items_, *phase_, kClocks));
     world->setRobot(arm());
     world->tick(momentAt(time_));
     return world;
@@ -340,7 +343,8 @@ TEST_F(StoredObstacles, ThatWereLostAreLostAgain) {
   tick();
   ASSERT_TRUE(world_.obstacles().all().at("obstacle/seen").lost);
   store();
-  auto world = std::make_unique<World>(params(), false, 2, ledger_, phase_, storedWorldOf(items_, *phase_, kClocks));
+  auto world =
+      std::make_unique<World>(settingsOf(params()), false, 2, ledger_, phase_, storedWorldOf(items_, *phase_, kClocks));
   world->setRobot(arm());
   const auto pose = [&](const std::string& name, double later) {
     const auto tick = world->tick(momentAt(time_ + later));

@@ -8,6 +8,7 @@
 
 #include "hgrid_proximity/adapters/fcl.h"
 #include "hgrid_proximity/queries/query.h"
+#include "test/node/support/settings.h"
 #include "test/node/support/transform_views.h"
 #include "test/support/bodies.h"
 
@@ -42,7 +43,7 @@ SimulatedWorld::SimulatedWorld(const std::vector<std::string>& frames, Clock clo
 SimulatedWorld::SimulatedWorld(const std::vector<std::string>& frames, Clock clock, Params params, Ledger& ledger)
     : params_(withFrames(std::move(params), frames)),
       ledger_(ledger),
-      world_(std::make_unique<World>(params_, clock == Clock::simulated, 1, ledger_, narrowPhase())) {}
+      world_(std::make_unique<World>(settingsOf(params_), clock == Clock::simulated, 1, ledger_, narrowPhase())) {}
 
 void SimulatedWorld::wait(double duration) {
   now_ += duration;

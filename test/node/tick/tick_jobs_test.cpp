@@ -13,6 +13,7 @@
 
 #include "hgrid_proximity/adapters/fcl.h"
 #include "src/node/world/world.h"
+#include "test/node/support/settings.h"
 
 namespace hgrid {
 namespace test {
@@ -35,7 +36,7 @@ class Ticking {
  private:
   Params params_;
   Ledger ledger_;
-  World world_{params_, false, 1, ledger_, makeFclNarrowPhase()};
+  World world_{settingsOf(params_), false, 1, ledger_, makeFclNarrowPhase()};
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };
@@ -90,7 +91,7 @@ TEST(TickJobsRun, NeverDoesARefusedJobLater) {
   jobs.add("a", [&](World&) { ++accepted; });  // the queue keeps its order
   const Params params;
   Ledger ledger;
-  World world(params, false, 1, ledger, makeFclNarrowPhase());
+  World world(settingsOf(params), false, 1, ledger, makeFclNarrowPhase());
   jobs.doAll(world, ledger);
   EXPECT_EQ(accepted, 1);
   EXPECT_EQ(refused, 0);
@@ -111,7 +112,7 @@ TEST(TickJobs, DoNotPileUpWhileNoTickComes) {
   EXPECT_EQ(jobs.waiting(), 2u);
   Params params;
   Ledger ledger;
-  World world(params, false, 1, ledger, makeFclNarrowPhase());
+  World world(settingsOf(params), false, 1, ledger, makeFclNarrowPhase());
   jobs.doAll(world, ledger);
   EXPECT_EQ(done, "a999 b999 ");
 }
@@ -120,7 +121,7 @@ TEST(TickJobs, DoNotPileUpWhileNoTickComes) {
 TEST(TickJobs, ThatFailAreReplacedByANewerOneOfTheSameKey) {
   Params params;
   Ledger ledger;
-  World world(params, false, 1, ledger, makeFclNarrowPhase());
+  World world(settingsOf(params), false, 1, ledger, makeFclNarrowPhase());
   TickJobs jobs;
   std::string done;
   jobs.add("a", [](World&) { throw std::runtime_error("a fault"); });
@@ -149,7 +150,7 @@ TEST(TickJobsRun, WaitsForAJobThatHasStartedHoweverLongItTakes) {
 TEST(TickJobs, AreDoneAgainUntilTheySucceed) {
   const Params params;
   Ledger ledger;
-  World world(params, false, 1, ledger, makeFclNarrowPhase());
+  World world(settingsOf(params), false, 1, ledger, makeFclNarrowPhase());
   TickJobs jobs;
   int tries = 0, others = 0;
   jobs.add("a", [&](World&) {

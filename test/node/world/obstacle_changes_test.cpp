@@ -4,6 +4,7 @@
 // Requests of ~apply_obstacles, from the message to the snapshot of the next tick. The tests need no ROS master.
 #include <fstream>
 
+#include "test/node/support/settings.h"
 #include "test/node/world/obstacle_world.h"
 
 namespace hgrid {
@@ -75,11 +76,10 @@ TEST_F(Obstacles, AreRefusedAsAWholeWithTheIndexOfTheChange) {
   late.at_stamp = true;
   late.header.stamp.fromNSec(std::uint64_t(momentAt(-5.0).ros.count()));  // when the cart was not known
   msg::Obstacle lost = adding("x", 0), group = adding("x", 0), none = adding("x", 0), thick = adding("x", 0);
-  msg::Obstacle unknown = late, fast = adding("x", 0);
+  msg::Obstacle unknown = late;
   unknown.header.frame_id = "never_seen";
-  fast.velocity.linear.x = 1.0;
   lost.lifetime_end = 2;
-  group.group = "g";
+  group.group = "a\nb";
   none.shapes.clear();
   thick.shapes[0].padding = -1.0;
   msg::Obstacle odd = removing("part");
@@ -94,9 +94,8 @@ TEST_F(Obstacles, AreRefusedAsAWholeWithTheIndexOfTheChange) {
       {adding("x", 1, -0.1), Code::bad_geometry},
       {late, Code::extrapolation},
       {unknown, Code::unknown_frame},
-      {fast, Code::unsupported},
       {lost, Code::unsupported},
-      {group, Code::unsupported},
+      {group, Code::bad_id},
       {none, Code::bad_geometry},
       {thick, Code::out_of_range},
       {odd, Code::unsupported},
@@ -249,7 +248,7 @@ TEST(ObstacleChanges, WaitForTheClock) {
   Params params;
   params.world_frame = "world";
   Ledger ledger;
-  World world(params, true, 1, ledger, makeFclNarrowPhase());
+  World world(settingsOf(params), true, 1, ledger, makeFclNarrowPhase());
   Moment before_clock;
   before_clock.steady = momentAt(0).steady;
   world.tick(before_clock);
@@ -264,7 +263,7 @@ TEST(ObstacleChanges, LeaveNothingBehind) {
   params.world_frame = "world";
   Ledger ledger;
   const auto phase = makeFclNarrowPhase();
-  World world(params, false, 1, ledger, phase);
+  World world(settingsOf(params), false, 1, ledger, phase);
   world.tick(momentAt(0));
   const auto resident = [] {
     std::ifstream file("/proc/self/statm");

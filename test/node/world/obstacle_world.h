@@ -19,6 +19,7 @@
 #include "hgrid_proximity/adapters/fcl.h"
 #include "src/node/messages/obstacle_messages.h"
 #include "src/node/world/world.h"
+#include "test/node/support/settings.h"
 #include "test/node/support/transform_views.h"
 
 namespace hgrid {
@@ -115,7 +116,7 @@ inline LoadedRobot arm() {
 /// A world with the frame "cart", which moves along x, the configured obstacle "post" at x = 3, and an arm.
 class Obstacles : public ::testing::Test {
  protected:
-  Obstacles() : phase_(makeFclNarrowPhase()), world_(params(), false, 1, ledger_, phase_) {
+  Obstacles() : phase_(makeFclNarrowPhase()), world_(settingsOf(params()), false, 1, ledger_, phase_) {
     world_.setRobot(arm());
     tick();
   }

@@ -31,14 +31,14 @@ TEST(RulesInForce, EachRuleEndsAtItsTime) {
                         {allow("configured", "*"), until(allow("a", "b"), begin + std::chrono::seconds(3)),
                          until(enable("c", "d"), begin + std::chrono::seconds(1)), allow("e", "f")}),
              0});
-  rules.apply(after(0), {}, scene);
+  rules.apply(after(0), {}, {}, scene);
   EXPECT_EQ(rulesOf(scene), Lines({"configured *", "a b", "c d", "e f"}));
-  rules.apply(after(1), {}, scene);
+  rules.apply(after(1), {}, {}, scene);
   EXPECT_EQ(rulesOf(scene), Lines({"configured *", "a b", "e f"}));
   scene.commit(Time{1}, {});
-  rules.apply(after(2), {}, scene);
+  rules.apply(after(2), {}, {}, scene);
   EXPECT_EQ(rulesOf(scene), Lines({"configured *", "a b", "e f"}));
-  rules.apply(after(9), {}, scene);
+  rules.apply(after(9), {}, {}, scene);
   EXPECT_EQ(rulesOf(scene), Lines({"configured *", "e f"}));
   EXPECT_EQ(scene.commit(Time{2}, {})->structure().filter.rules().size(), 2u);
 }
@@ -48,7 +48,7 @@ TEST(RulesInForce, ARuleThatEndedBeforeItWasPassedOnNeverDecides) {
   Scene scene{SceneOptions{}};
   RulesInForce rules;
   rules.set({PairFilter({}, {}, {until(allow("a", "b"), begin)}), 0});
-  rules.apply(Moment{Time{0}, begin + std::chrono::seconds(1)}, {}, scene);
+  rules.apply(Moment{Time{0}, begin + std::chrono::seconds(1)}, {}, {}, scene);
   EXPECT_TRUE(scene.rules().empty());
 }
 
@@ -67,21 +67,44 @@ TEST(RulesInForce, RulesOfAttachedObstaclesComeBetweenTheConfiguredAndTheAddedOn
   options.allowed_pairs[0].origin = Origin::parameter;
   Scene scene{options};
   RulesInForce rules;
-  rules.apply(now, {{touching("part", "hand")}, 1}, scene);
+  rules.apply(now, {{touching("part", "hand")}, 1}, {}, scene);
   EXPECT_EQ(rulesOf(scene), Lines({"configured *", "part hand"}));
   const PairFilter added({}, {}, {options.allowed_pairs[0], touching("part", "hand"), allow("a", "b")});
   rules.set({added, 0});
-  rules.apply(now, {{touching("part", "hand")}, 1}, scene);
+  rules.apply(now, {{touching("part", "hand")}, 1}, {}, scene);
   EXPECT_EQ(rulesOf(scene), Lines({"configured *", "part hand", "a b"}));
-  rules.apply(now, {{touching("lid", "hand"), touching("part", "hand")}, 2}, scene);
+  rules.apply(now, {{touching("lid", "hand"), touching("part", "hand")}, 2}, {}, scene);
   EXPECT_EQ(rulesOf(scene), Lines({"configured *", "lid hand", "part hand", "a b"}));
   rules.set({added, 0});  // it was prepared before "lid" was attached
-  rules.apply(now, {{touching("lid", "hand"), touching("part", "hand")}, 2}, scene);
+  rules.apply(now, {{touching("lid", "hand"), touching("part", "hand")}, 2}, {}, scene);
   EXPECT_EQ(rulesOf(scene), Lines({"configured *", "lid hand", "part hand", "a b"}));
-  rules.apply(now, {{}, 3}, scene);
+  rules.apply(now, {{}, 3}, {}, scene);
   EXPECT_EQ(rulesOf(scene), Lines({"configured *", "a b"}));
   rules.set({added, 0});  // it was prepared before "part" was detached
-  rules.apply(now, {{}, 3}, scene);
+  rules.apply(now, {{}, 3}, {}, scene);
+  EXPECT_EQ(rulesOf(scene), Lines({"configured *", "a b"}));
+}
+
+TEST(RulesInForce, RulesOfMoveItComeFirstAndAreReplacedAsAWhole) {
+  using Lines = std::vector<std::string>;
+  const Moment now{Time{0}, PairRule::Clock::time_point{std::chrono::hours(1)}};
+  SceneOptions options;
+  options.allowed_pairs = {allow("configured", "*")};
+  options.allowed_pairs[0].origin = Origin::parameter;
+  Scene scene{options};
+  RulesInForce rules;
+  PairRule one = allow("hand", "part"), other = allow("hand", "lid");
+  one.origin = other.origin = Origin::moveit;
+  rules.apply(now, {{touching("part", "hand")}, 1}, {{one, other}, 1}, scene);
+  EXPECT_EQ(rulesOf(scene), Lines({"hand part", "hand lid", "configured *", "part hand"}));
+  rules.set({PairFilter({}, {}, {options.allowed_pairs[0], allow("a", "b")}), 0});  // prepared before the matrix came
+  rules.apply(now, {{touching("part", "hand")}, 1}, {{one, other}, 1}, scene);
+  EXPECT_EQ(rulesOf(scene), Lines({"hand part", "hand lid", "configured *", "part hand", "a b"}));
+  one.allowed = false;
+  rules.apply(now, {{touching("part", "hand")}, 1}, {{one}, 2}, scene);
+  EXPECT_EQ(rulesOf(scene), Lines({"hand part", "configured *", "part hand", "a b"}));
+  EXPECT_FALSE(scene.rules().front().allowed);
+  rules.apply(now, {{}, 2}, {{}, 3}, scene);
   EXPECT_EQ(rulesOf(scene), Lines({"configured *", "a b"}));
 }
 

@@ -12,6 +12,7 @@
 
 #include "hgrid_proximity/adapters/fcl.h"
 #include "src/node/world/world.h"
+#include "test/node/support/settings.h"
 #include "test/node/support/transform_views.h"
 #include "test/support/failing_allocations.h"
 #include "test/support/maps.h"
@@ -292,7 +293,7 @@ class WorldFailedAllocation : public ::testing::TestWithParam<bool> {
   Played play(std::size_t from, const Fault& fault, std::size_t left_out = kNone) const {
     Played played;
     Ledger ledger;
-    World world(params_, GetParam(), 5, ledger, narrow_phase_);
+    World world(test::settingsOf(params_), GetParam(), 5, ledger, narrow_phase_);
     Ticks ticks;
     ticks.reserve(steps_.size());
     for (std::size_t i = 0; i < steps_.size(); ++i) {
@@ -371,7 +372,7 @@ TEST(WorldMaps, AreAtMostMaxMaps) {
   params.world_frame = "world";
   params.max_maps = 2;
   Ledger ledger;
-  World world(params, false, 1, ledger, makeFclNarrowPhase());
+  World world(test::settingsOf(params), false, 1, ledger, makeFclNarrowPhase());
   world.setMap(mapOf("hall", 0.0, 1));
   world.setMap(mapOf("shelf", 1.0, 2));
   std::string sentence;

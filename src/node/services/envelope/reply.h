@@ -13,7 +13,6 @@
 #include "hgrid_proximity/refusal.h"
 #include "node/messages/to_messages.h"
 #include "node/messages/world_state_message.h"
-#include "node/params/settings.h"
 #include "node/services/envelope/answer_tick.h"
 
 namespace hgrid {
@@ -46,13 +45,13 @@ struct HasHeader<Response, std::void_t<decltype(std::declval<Response&>().header
 
 /// Writes into `header` and `world` which tick the response is made from.
 template <class Response>
-void writeTick(const AnswerTick& tick, const Settings& settings, Response& response) {
+void writeTick(const AnswerTick& tick, Response& response) {
   if constexpr (HasHeader<Response>::value) {
     if (tick.get()) response.header = headerOf(*tick.get());
   }
   if constexpr (HasWorld<Response>::value) {
     if (tick.get()) {
-      response.world = worldState(*tick.get(), settings.params, settings.config_hash, tick.age());
+      response.world = worldState(*tick.get(), tick.age());
     } else {
       response.world.worst_state = msg::BodyState::UNPLACED;
     }

@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "node/diagnostics/ledger.h"
-#include "node/params/settings.h"
 #include "node/services/envelope/answer_tick.h"
 #include "node/services/envelope/reply.h"
 #include "node/services/guarded.h"
@@ -47,8 +46,8 @@ class ServiceEnvelope {
 
   /// @param private_node  node handle whose namespace contains the services
   /// All other parameters must outlive the servers.
-  ServiceEnvelope(const ros::NodeHandle& private_node, const Settings& settings, NewestTick newest, Ledger& ledger)
-      : node_(private_node), settings_(settings), newest_(std::move(newest)), ledger_(ledger) {}
+  ServiceEnvelope(const ros::NodeHandle& private_node, NewestTick newest, Ledger& ledger)
+      : node_(private_node), newest_(std::move(newest)), ledger_(ledger) {}
   ServiceEnvelope(const ServiceEnvelope&) = delete;
   ServiceEnvelope& operator=(const ServiceEnvelope&) = delete;
 
@@ -88,7 +87,7 @@ class ServiceEnvelope {
     ledger_.count(counters.asked);
     AnswerTick tick(newest_());
     const std::shared_ptr<const Tick> newest = tick.get();
-    writeTick(tick, settings_, response);
+    writeTick(tick, response);
     try {
       ServiceCall<Service> call{event.getRequest().value(), response, printable(event.getCallerName()), tick};
       writeSuccess(response);
@@ -99,11 +98,10 @@ class ServiceEnvelope {
     } catch (...) {
       writeRefusal(ledger_.fault(counters.failed.c_str()), true, response);
     }
-    if (tick.get() != newest) writeTick(tick, settings_, response);
+    if (tick.get() != newest) writeTick(tick, response);
   }
 
   ros::NodeHandle node_;
-  const Settings& settings_;
   NewestTick newest_;
   Ledger& ledger_;
 };
