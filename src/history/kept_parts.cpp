@@ -7,7 +7,8 @@ namespace {
 
 // [bytes] A mesh as a solid has about two nodes of a tree per triangle. FCL's nodes are the largest.
 constexpr std::size_t kPerVertex = 100, kPerTriangle = 800;
-constexpr std::size_t kPerPart = 64;  // [bytes] overhead of a shared object
+constexpr std::size_t kPerPart = 64;                        // [bytes] overhead of a shared object
+constexpr std::size_t kCubes = (Voxel::kLevels + 1) * 256;  // [bytes] MapCells::cubes
 
 std::size_t bytesOf(const TriangleMesh& mesh) {
   return mesh.vertices.size() * kPerVertex + mesh.triangles.size() * kPerTriangle;
@@ -66,7 +67,7 @@ template <class Change>
 void KeptParts::editCells(const Cells& cells, const Change& change) {
   for (const auto& one : cells) {
     if (!one) continue;
-    if (one->grid) edit(one->grid.get(), sizeof(MapCells) + kPerPart + one->grid->bytes(), change);
+    if (one->grid) edit(one->grid.get(), sizeof(MapCells) + kCubes + kPerPart + one->grid->bytes(), change);
     if (one->unmapped) edit(one->unmapped.get(), kPerPart + one->unmapped->cells.bytes(), change);
   }
 }

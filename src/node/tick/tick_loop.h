@@ -17,6 +17,7 @@
 #include "node/params/params.h"
 #include "node/tf/tf_reader.h"
 #include "node/tick/stopwatch.h"
+#include "node/tick/tick_history.h"
 #include "node/tick/tick_jobs.h"
 #include "node/tick/tick_pace.h"
 #include "node/world/world.h"
@@ -40,9 +41,11 @@ class TickLoop {
   /// All parameters except `node` must outlive this object. Only the tick thread may use `world` and `stopwatch`.
   /// @param node      its callback queue must be that of the tick thread
   /// @param private_node  node handle whose namespace contains the topic "poses"
+  /// @param history   each tick says what it keeps
   /// @param listener  learns which messages of /tf and ~poses were read; may be null
   TickLoop(ros::NodeHandle node, const ros::NodeHandle& private_node, const Params& params, World& world,
-           TickJobs& jobs, Stopwatch& stopwatch, NodeHealth& health, TfListener* listener, Ledger& ledger);
+           TickJobs& jobs, const TickHistory& history, Stopwatch& stopwatch, NodeHealth& health, TfListener* listener,
+           Ledger& ledger);
 
   /// Sets what is called with every tick, in this order. Call this once, before the first work().
   void setSteps(std::vector<Step> steps) { steps_ = std::move(steps); }
@@ -68,6 +71,7 @@ class TickLoop {
   TickPace pace_;
   World& world_;
   TickJobs& jobs_;
+  const TickHistory& history_;
   Stopwatch& stopwatch_;
   NodeHealth& health_;
   Ledger& ledger_;

@@ -82,8 +82,8 @@ class World {
   /// Restores the configured obstacles, sets all counters to 0 and begins a new epoch. Rules stay.
   void reset();
 
-  /// Makes the next tick. @param now  current time of both clocks
-  std::shared_ptr<const Tick> tick(const Moment& now);
+  /// Makes the next tick, without Tick::history. @param now  current time of both clocks
+  std::shared_ptr<Tick> tick(const Moment& now);
 
  private:
   void handleClock(const Moment& now);
