@@ -43,6 +43,7 @@ int run(const Options& options) {
   if (options.part("queries")) runQueries(options, records);
   if (options.part("maps") && !(options.quick && options.parts.empty())) runMaps(options, records);
   if (options.part("meshes")) runMeshes(options, records);
+  if (options.part("history")) runHistory(options, records);
   if (!options.json.empty()) writeRecords(options.json, records);
   return 0;
 }

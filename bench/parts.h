@@ -32,5 +32,8 @@ void runMaps(const Options& options, std::vector<Record>& records);
 /// Measures distances of two meshes beside FCL, and winding numbers.
 void runMeshes(const Options& options, std::vector<Record>& records);
 
+/// Measures the memory of a history of past ticks, what it adds to a tick, and queries about the past.
+void runHistory(const Options& options, std::vector<Record>& records);
+
 }  // namespace bench
 }  // namespace hgrid

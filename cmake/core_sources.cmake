@@ -33,6 +33,9 @@ set(HGRID_CORE_SOURCES
   src/geometry/pose.cpp
   src/geometry/segment.cpp
   src/geometry/shape.cpp
+  src/history/history.cpp
+  src/history/kept_parts.cpp
+  src/history/snapshot_record.cpp
   src/maps/cloud_cells.cpp
   src/maps/map_gap.cpp
   src/maps/self_filter.cpp

@@ -14,8 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kRoot = HGRID_PROJECT_DIR;
-const std::vector<std::string> kRooms = {"geometry", "broadphase", "narrow",  "bodies",    "maps",
-                                         "pairs",    "world",      "queries", "distances", "explain"};
+const std::vector<std::string> kRooms = {"geometry", "broadphase", "narrow",  "bodies",    "maps",   "pairs",
+                                         "world",    "history",    "queries", "distances", "explain"};
 
 /// Returns the header that a line includes; empty if it includes none.
 std::string includedIn(const std::string& line) {

@@ -69,7 +69,8 @@ class Proximity:
     Each kind of query has a connection, which stays open until close(). All queries have these options:
 
     frame: frame of the coordinates; empty: the world frame
-    stamp: time that the query is about [rospy.Time], not before `response.world.history_begin`; None: now
+    stamp: time that the query is about [rospy.Time], from `response.world.history_begin` to the newest tick; None: now. The
+        answer is about the last tick that is not later, and says so in `response.header.stamp` and `summary`.
     exact: True: measure the shapes of bodies; False: measure only the boxes of the shapes
     include, exclude: a glob over body names, or several of them: only bodies that match `include` and do not match
         `exclude` can be hit. A glob of `include` that matches no body is refused.
@@ -163,6 +164,7 @@ class Proximity:
         """Why is the pair reported or not? Returns the response of ~explain_pair; `explanation` is its sentence.
 
         @param contacts  largest number of contacts to list
+        @param stamp  time that the question is about, as for a query; None: now
         """
         request = srv.ExplainPairRequest(first=first, second=second, contacts=contacts)
         if stamp is not None:

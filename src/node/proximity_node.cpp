@@ -38,8 +38,9 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
              commons_.narrow_phase, state_.restored()),
       jobs_([this] { return isEnding(); }, std::chrono::seconds(10), [this] { tick_thread_.wake(); }),
       auditor_(commons_),
-      tick_loop_(tick_thread_.node(), tick_thread_.privateNode(), commons_.settings.params, world_, jobs_, stopwatch_,
-                 commons_.health, auditor_.listener(), commons_.ledger),
+      history_(commons_.settings.params, commons_.ledger),
+      tick_loop_(tick_thread_.node(), tick_thread_.privateNode(), commons_.settings.params, world_, jobs_, history_,
+                 stopwatch_, commons_.health, auditor_.listener(), commons_.ledger),
       publishers_(tick_thread_.privateNode(), admin_thread_.privateNode(), commons_, stopwatch_, sketch_),
       completeness_log_(std::chrono::steady_clock::now()),
       loading_(
@@ -48,7 +49,7 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
       services_(
           query_threads_.privateNode(), admin_thread_.privateNode(), commons_, [this] { return tick_loop_.newest(); },
           [this](const TickJobs::Job& job) { return tick_loop_.tickAfter(job); }, world_.transforms().lookup(),
-          loading_, state_, stopwatch_, sketch_),
+          history_, loading_, state_, stopwatch_, sketch_),
       moveit_(
           admin_thread_.node(), commons_, loading_.mapSource(), jobs_,
           [this](const TickJobs::Job& job) { return tick_loop_.tickAfter(job); }, [this] { return isEnding(); }),
@@ -105,6 +106,7 @@ std::vector<TickLoop::Step> ProximityNode::tickSteps() {
   // First of all, so that nothing can fail before: a request is answered only after its changes were collected.
   return {{"", [this](const TickPtr& tick) { state_.see(world_, *tick); }},
           {"tick.publish", [this](const TickPtr& tick) { publishers_.publishTick(*tick); }, true},
+          {"history", [this](const TickPtr& tick) { history_.see(*tick); }},
           {"",
            [this](const TickPtr& tick) {
              if (const auto time = publishers_.publishDistances(tick)) stopwatch_.add("distances", *time);

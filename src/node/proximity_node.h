@@ -21,6 +21,7 @@
 #include "node/reconfigure/reconfigure_service.h"
 #include "node/services/node_services.h"
 #include "node/state/state_keeper.h"
+#include "node/tick/tick_history.h"
 #include "node/tick/tick_loop.h"
 
 namespace hgrid {
@@ -58,6 +59,7 @@ class ProximityNode {
   TickJobs jobs_;
   Stopwatch stopwatch_;  // only the tick thread uses it
   Auditor auditor_;
+  TickHistory history_;
   TickLoop tick_loop_;
   Publishers publishers_;
   CompletenessLog completeness_log_;

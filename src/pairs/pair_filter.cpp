@@ -292,6 +292,18 @@ bool PairFilter::reportsAny() const {
   return false;
 }
 
+std::size_t PairFilter::bytes() const {
+  std::size_t bytes = sizeof(*this) + subjects_.capacity() * sizeof(Subject) +
+                      matrices_.capacity() * sizeof(std::shared_ptr<const LinkMatrix>) +
+                      verdicts_.capacity() * sizeof(Origin) + named_.capacity() * sizeof(NamedPair) +
+                      glob_rules_.capacity() * sizeof(std::uint32_t) +
+                      (as_first_.capacity() + as_second_.capacity()) * sizeof(std::uint64_t);
+  for (const PairRule& rule : rules_) {
+    bytes += sizeof(PairRule) + rule.first.capacity() + rule.second.capacity() + rule.reason.capacity();
+  }
+  return bytes;
+}
+
 bool silencesAll(const BodyList& bodies, const PairKinds& kinds, const PairFilter& filter) {
   return !filter.rules().empty() && !filter.reportsAny() && PairFilter(bodies, kinds, {}).reportsAny();
 }

@@ -26,6 +26,9 @@ LINE = "maps/static_grid_line.h"
 MAPS = "world/map_pairs.cpp"
 SPHERE = "queries/sphere_question.cpp"
 CLOUD = "maps/cloud_cells.cpp"
+PAST = "history/history.cpp"
+PAST_PARTS = "history/kept_parts.cpp"
+PAST_RECORD = "history/snapshot_record.cpp"
 CLAIMS = "node/tf/frame_claims.cpp"
 HISTORY = "node/tf/frame_history.cpp"
 POSES = "node/tf/frame_poses.cpp"
@@ -36,6 +39,7 @@ QUEUE = "node/tf/tf_queue.cpp"
 NEWS = "node/tf/tf_news.cpp"
 CLOCKS = "node/tf/publisher_clocks.cpp"
 PACE = "node/tick/tick_pace.cpp"
+TICK_HISTORY = "node/tick/tick_history.cpp"
 TREE = "node/tf/tf_tree.cpp"
 CHECK = "node/tf/transform_check.cpp"
 LOOKUP = "node/tf/transform_lookup.cpp"
@@ -237,6 +241,27 @@ CORE = [
      "whole - (cells < static_cast<double>(whole) ? 1 : 0)", "whole"),
     ("the box around a rotated box is too small", "maps/map_gap.cpp",
      "map_from_world.linear().cwiseAbs()", "map_from_world.linear()"),
+
+    ("a tick that was skipped is answered from an older one", PAST,
+     "entry->sequence + 1 == next ? PastTick::Outcome::found : PastTick::Outcome::skipped", "PastTick::Outcome::found"),
+    ("the history mixes two epochs", PAST,
+     "if (snapshot->epoch() != s.epoch) s.dropAll();", ""),
+    ("the history has no limit of bytes", PAST,
+     "if (!too_old && (!too_large || compacted == 0)) return;", "if (!too_old) return;"),
+    ("the history keeps all ticks of a time that stands still", PAST,
+     "entries[compacted - 1]->stamp == next->stamp", "false"),
+    ("the history keeps snapshots with their broad phases", PAST,
+     "next->live.reset();", ""),
+    ("a map that the newest tick uses counts as history", PAST_PARTS,
+     "part.uses > 0 && !part.newest ?", "part.uses > 0 ?"),
+    ("the bodies of the past are counted for ever", PAST_PARTS,
+     "if (--known->second > 0) return;", "return;"),
+    ("a past snapshot lacks its source gaps", PAST_RECORD,
+     "snapshot.gaps_ = lacks_->gaps;", ""),
+    ("past boxes are not padded", PAST_RECORD,
+     "shape.padding, origin_)", "0.0, origin_)"),
+    ("a pair that began again shares the old begin", PAST_RECORD,
+     "a.since == b.since && a.flags == b.flags", "true"),
 ]
 
 NODE = [
@@ -439,6 +464,13 @@ NODE = [
      "if (nameOf(poses, pose) < names) continue;", "continue;"),
     ("poses use names of another version", POSES_MESSAGE,
      "const Key key(publisher, poses.names_version);", "const Key key(publisher, 0);"),
+
+    ("the past of another epoch stays", TICK_HISTORY,
+     "    history_.clear();\n", ""),
+    ("a future time is answered from the newest tick", TICK_HISTORY,
+     "if (asked == now) return newest;", "if (asked >= now) return newest;"),
+    ("a past answer does not know when its tick was made", TICK_HISTORY,
+     "note->made = tick.made;", ""),
 ]
 
 MUTANTS = CORE + NODE

@@ -87,6 +87,8 @@ class PairFilter {
   void appendKey(std::uint32_t body, std::vector<std::uint64_t>& key) const;
   /// Returns whether at least one pair is reported when its bodies are near.
   bool reportsAny() const;
+  /// Returns the memory [bytes] that the filter uses, without the matrices of the robot models.
+  std::size_t bytes() const;
 
  private:
   static constexpr std::uint32_t kNoRobot = 0xffffffff;    // stands for "no robot"

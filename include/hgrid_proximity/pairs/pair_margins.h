@@ -32,6 +32,11 @@ class PairMargins {
   }
   /// Returns the largest margin [m] of all entries with a glob that matches this body; 0 if there is no such entry.
   double largestOf(std::uint32_t body) const { return words_ == 0 ? 0.0 : largest_[body]; }
+  /// Returns the memory [bytes] that the margins use.
+  std::size_t bytes() const {
+    return sizeof(*this) +
+           8 * (margins_.capacity() + largest_.capacity() + as_first_.capacity() + as_second_.capacity());
+  }
 
  private:
   std::optional<double> look(std::uint32_t first, std::uint32_t second) const;

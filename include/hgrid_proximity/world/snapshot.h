@@ -107,6 +107,7 @@ class Snapshot {
  private:
   friend class Scene;
   friend struct PooledSnapshot;
+  friend class SnapshotRecord;  // History makes past snapshots again
   Snapshot() = default;
 
   std::shared_ptr<const Structure> structure_;

@@ -102,6 +102,8 @@ msg::Status statusMessage(const Tick& tick, const msg::WorldState& world, const 
       gauge("cells." + structure.bodies[map].name, cells ? static_cast<double>(cells->grid->size()) : 0.0);
     }
   }
+  gauge("history.bytes", static_cast<double>(tick.history.bytes));
+  gauge("history.ticks", static_cast<double>(tick.history.ticks));
   gauge("tf.frames", static_cast<double>(tick.frames));
   for (const auto& part : stopwatch.summaries()) {
     msg::Timing timing;

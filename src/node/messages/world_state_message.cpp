@@ -4,6 +4,7 @@
 
 #include <hgrid_proximity/BodyState.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "node/messages/source_messages.h"
@@ -52,6 +53,9 @@ msg::WorldState worldState(const Tick& tick, double age_since) {
   }
   const Snapshot& snapshot = *tick.snapshot;
   world.stamp = world.history_begin = toRos(snapshot.stamp());
+  if (tick.history.ticks > 0 && tick.history.epoch == tick.epoch) {
+    world.history_begin = toRos(std::min(tick.history.begin, snapshot.stamp()));
+  }
   world.sequence = snapshot.sequence();
   world.bodies_revision = snapshot.structure().revision;
   world.complete = snapshot.complete() && !snapshot.truncated();

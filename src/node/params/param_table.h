@@ -189,6 +189,10 @@ void visitParams(Visitor& v, Params& p) {
   v.changeable();
   v.number("valid_for", p.valid_for, "s", 0.001, 3600.0,
            "the data of a tick is valid for this long after the tick was computed (valid_until in messages)");
+  v.number(
+      "history", p.history, "s", 0.0, 60.0,
+      "queries and ~explain_pair can ask about the ticks of this last time: they are answered from the last tick that "
+      "is not later than their stamp. Queries in other frames than the world frame also need tf_cache. 0: off");
   v.number("max_future", p.max_future, "s", 0.0, 3600.0,
            "a transform whose stamp is farther in the future than this is refused");
   v.number("tf_cache", p.tf_cache, "s", 1.0, 3600.0, "how long transforms are kept");
@@ -230,6 +234,11 @@ void visitParams(Visitor& v, Params& p) {
             "publisher's name. When "
             "the limit is exceeded, the oldest messages are dropped (counter tf.dropped.LIMIT in ~status). A single "
             "message that is longer is refused");
+  v.integer(
+      "history_bytes", p.history_bytes, 1000, 2147483647,
+      "largest memory of the past ticks that history keeps, in bytes. Bodies and maps that the newest tick uses as "
+      "well do not count. When the limit is reached, the history is shorter (history_begin in messages, counter "
+      "history.dropped.LIMIT in ~status)");
   v.integer("max_pairs", p.max_pairs, 1, 10000000,
             "largest number of pairs that a tick lists; if there are more, the list is truncated and the world is not "
             "complete");

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "node/messages/rule_messages.h"
-#include "node/messages/snapshot_stamp.h"
 
 namespace hgrid {
 namespace {
@@ -52,9 +51,9 @@ msg::ExplainPair::Response blank() {
 
 }  // namespace
 
-ExplainService::ExplainService(ServiceEnvelope& envelope, const Params& params,
+ExplainService::ExplainService(ServiceEnvelope& envelope, const Params& params, const TickHistory& history,
                                std::shared_ptr<const NarrowPhase> narrow_phase)
-    : params_(params), narrow_phase_(std::move(narrow_phase)) {
+    : params_(params), history_(history), narrow_phase_(std::move(narrow_phase)) {
   server_ = envelope.serve<msg::ExplainPair>(
       "explain_pair", "explain_pair", [this](ServiceCall<msg::ExplainPair>& call) { explainPair(call); }, blank());
 }
@@ -108,11 +107,15 @@ void ExplainService::fill(const Snapshot& snapshot, const msg::ExplainPair::Requ
 
 void ExplainService::explainPair(ServiceCall<msg::ExplainPair>& call) const {
   const msg::ExplainPair::Request& request = call.request;
+  call.tick.snapshot();  // throws while there is no world
+  const std::shared_ptr<const Tick> newest = call.tick.get();
+  call.answerFrom(history_.at(request.header.stamp, newest));
   const Snapshot& snapshot = call.tick.snapshot();
   checkHasCollision(*call.tick.get()->models, request.first);
   checkHasCollision(*call.tick.get()->models, request.second);
-  checkStamp(request.header.stamp, snapshot);
   fill(snapshot, request, call.tick.age(), call.response);
+  const std::string ago = agoText(snapshot, *newest->snapshot);
+  if (!ago.empty()) call.response.explanation += " This was so " + ago + ".";
 }
 
 }  // namespace hgrid

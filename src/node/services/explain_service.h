@@ -8,15 +8,17 @@
 
 #include "hgrid_proximity/explain/explain.h"
 #include "node/services/envelope/service_envelope.h"
+#include "node/tick/tick_history.h"
 
 namespace hgrid {
 
-/// Serves ~explain_pair from the newest tick. Any number of threads may serve requests at the same time. No
-/// request waits for a tick.
+/// Serves ~explain_pair from the newest tick, or from the tick of the request's stamp. Any number of threads may serve
+/// requests at the same time. No request waits for a tick.
 class ExplainService {
  public:
-  /// `envelope` and `params` must outlive this object.
-  ExplainService(ServiceEnvelope& envelope, const Params& params, std::shared_ptr<const NarrowPhase> narrow_phase);
+  /// `envelope`, `params` and `history` must outlive this object.
+  ExplainService(ServiceEnvelope& envelope, const Params& params, const TickHistory& history,
+                 std::shared_ptr<const NarrowPhase> narrow_phase);
 
  private:
   void explainPair(ServiceCall<msg::ExplainPair>& call) const;
@@ -26,6 +28,7 @@ class ExplainService {
                     msg::ExplainPair::Response& response) const;
 
   const Params& params_;
+  const TickHistory& history_;
   std::shared_ptr<const NarrowPhase> narrow_phase_;
   ros::ServiceServer server_;
 };

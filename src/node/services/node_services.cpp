@@ -10,12 +10,12 @@ namespace hgrid {
 
 NodeServices::NodeServices(const ros::NodeHandle& query_node, const ros::NodeHandle& admin_node, Commons& commons,
                            ServiceEnvelope::NewestTick newest, ChangeWorld change_world,
-                           const TransformLookup& transforms, Loading& loading, StateKeeper& state,
-                           Stopwatch& stopwatch, QuerySketch& sketch)
+                           const TransformLookup& transforms, const TickHistory& history, Loading& loading,
+                           StateKeeper& state, Stopwatch& stopwatch, QuerySketch& sketch)
     : questions_(query_node, newest, commons.ledger),
       changes_(admin_node, newest, commons.ledger),
-      query_(questions_, commons.settings.params, transforms, commons.narrow_phase, sketch),
-      explain_(questions_, commons.settings.params, commons.narrow_phase),
+      query_(questions_, commons.settings.params, transforms, history, commons.narrow_phase, sketch),
+      explain_(questions_, commons.settings.params, history, commons.narrow_phase),
       allowed_(changes_, commons.settings.params, change_world, [&state] { return state.waitUntilStored(); }),
       maps_(changes_, loading.mapSource(), change_world,
             [&loading, &state](const std::string& map, const std::optional<MapParams>& loaded) {

@@ -16,6 +16,7 @@
 #include "node/services/scene_file_services.h"
 #include "node/state/state_keeper.h"
 #include "node/tf/transform_lookup.h"
+#include "node/tick/tick_history.h"
 
 namespace hgrid {
 
@@ -28,7 +29,8 @@ class NodeServices {
   /// All other parameters must outlive this object.
   NodeServices(const ros::NodeHandle& query_node, const ros::NodeHandle& admin_node, Commons& commons,
                ServiceEnvelope::NewestTick newest, ChangeWorld change_world, const TransformLookup& transforms,
-               Loading& loading, StateKeeper& state, Stopwatch& stopwatch, QuerySketch& sketch);
+               const TickHistory& history, Loading& loading, StateKeeper& state, Stopwatch& stopwatch,
+               QuerySketch& sketch);
 
  private:
   ServiceEnvelope questions_, changes_;

@@ -13,7 +13,6 @@
 #include "hgrid_proximity/pairs/pair_rule.h"
 #include "hgrid_proximity/queries/query.h"
 #include "node/messages/from_messages.h"
-#include "node/messages/snapshot_stamp.h"
 #include "node/tf/frame_names.h"
 
 namespace hgrid {
@@ -142,8 +141,8 @@ std::size_t asked(const QueryScope& scope, const Snapshot& snapshot) {
 }  // namespace
 
 QueryServices::QueryServices(ServiceEnvelope& envelope, const Params& params, const TransformLookup& transforms,
-                             std::shared_ptr<NarrowPhase> narrow_phase, QuerySketch& sketch)
-    : params_(params), transforms_(transforms), narrow_phase_(std::move(narrow_phase)) {
+                             const TickHistory& history, std::shared_ptr<NarrowPhase> narrow_phase, QuerySketch& sketch)
+    : params_(params), transforms_(transforms), history_(history), narrow_phase_(std::move(narrow_phase)) {
   serve<msg::QuerySphere>(envelope, "query_sphere", [&sketch](const auto& request, const Question& question) {
     const Sphere sphere{question.world_from_frame * fromPoint(request.center), request.radius};
     QueryAnswer found = query(question.snapshot, sphere, question.scope);
@@ -175,9 +174,11 @@ void QueryServices::serve(ServiceEnvelope& envelope, const char* name, Ask ask) 
 template <class Service, class Ask>
 void QueryServices::answer(ServiceCall<Service>& call, const Ask& ask) const {
   const auto& request = call.request;
+  call.tick.snapshot();  // throws while there is no world
+  const std::shared_ptr<const Tick> newest = call.tick.get();
+  call.answerFrom(history_.at(request.header.stamp, newest));
   const Snapshot& snapshot = call.tick.snapshot();
   const std::string frame = withoutSlash(request.header.frame_id);
-  checkStamp(request.header.stamp, snapshot);
   const Pose world_from_frame = worldFromFrame(*call.tick.get(), frame);
   std::optional<std::size_t> count;
   checkPatterns(request.include);
@@ -188,7 +189,7 @@ void QueryServices::answer(ServiceCall<Service>& call, const Ask& ask) const {
   const Question question{snapshot, world_from_frame, scopeOf(request, snapshot)};
 
   QueryAnswer found = ask(request, question);
-  outdate(found, call.tick);
+  if (!namesItsTime(request.header.stamp)) outdate(found, call.tick);
   if (!frame.empty()) call.response.header.frame_id = frame;
   msg::Answer& result = call.response.answer;
   const Pose frame_from_world = world_from_frame.inverse();
@@ -199,6 +200,8 @@ void QueryServices::answer(ServiceCall<Service>& call, const Ask& ask) const {
   result.verdict = static_cast<std::uint8_t>(found.verdict);
   result.unknown_because = static_cast<std::uint8_t>(found.because);
   result.summary = summaryOf(found, snapshot, count);
+  const std::string ago = agoText(snapshot, *newest->snapshot);
+  if (!ago.empty()) result.summary += " (" + ago + ")";
   result.total = static_cast<std::uint32_t>(found.total);
   result.truncated = found.total > found.hits.size();
 }

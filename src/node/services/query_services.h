@@ -16,18 +16,19 @@
 #include "node/messages/query_markers.h"
 #include "node/services/envelope/service_envelope.h"
 #include "node/tf/transform_lookup.h"
+#include "node/tick/tick_history.h"
 
 namespace hgrid {
 
-/// Serves ~query_sphere, ~query_segment, ~query_box, ~query_shape and ~query_nearest from the newest tick. Any number
-/// of threads may serve requests at the same time. No request waits for a tick.
+/// Serves ~query_sphere, ~query_segment, ~query_box, ~query_shape and ~query_nearest from the newest tick, or from the
+/// tick of the request's stamp. Any number of threads may serve requests at the same time. No request waits for a tick.
 class QueryServices {
  public:
   /// All objects that are passed by reference must outlive this object.
   /// @param transforms  used to look up the frames of the queries
   /// @param sketch      receives the newest sphere and segment, so that ~markers can show them
   QueryServices(ServiceEnvelope& envelope, const Params& params, const TransformLookup& transforms,
-                std::shared_ptr<NarrowPhase> narrow_phase, QuerySketch& sketch);
+                const TickHistory& history, std::shared_ptr<NarrowPhase> narrow_phase, QuerySketch& sketch);
 
  private:
   /// What all kinds of query have: the snapshot that answers it, the frame of its geometry, and the bodies that it asks
@@ -55,6 +56,7 @@ class QueryServices {
 
   const Params& params_;
   const TransformLookup& transforms_;
+  const TickHistory& history_;
   std::shared_ptr<NarrowPhase> narrow_phase_;
   std::vector<ros::ServiceServer> servers_;
 };

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hgrid_proximity/distances/pair_meter.h"
+#include "hgrid_proximity/history/history.h"
 #include "hgrid_proximity/world/scene.h"
 #include "node/params/settings.h"
 #include "node/tf/publisher_clocks.h"
@@ -35,6 +36,7 @@ struct Tick {
   std::vector<std::string> contested_frames;  ///< one sentence for each contested frame
   std::vector<ClockOffset> clock_offsets;     ///< publishers whose stamps are constantly early or late
   std::shared_ptr<const ModelReport> models;
+  HistoryExtent history;  ///< the past ticks that queries could ask for when this tick was made
   TickTimes times;
   int threads = 0;                         ///< number of threads that made the snapshot
   std::size_t frames = 0;                  ///< number of frames that a transform has placed

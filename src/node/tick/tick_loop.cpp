@@ -18,11 +18,13 @@ constexpr std::chrono::seconds kPatience{10};  // how long to wait for the tick 
 }  // namespace
 
 TickLoop::TickLoop(ros::NodeHandle node, const ros::NodeHandle& private_node, const Params& params, World& world,
-                   TickJobs& jobs, Stopwatch& stopwatch, NodeHealth& health, TfListener* listener, Ledger& ledger)
+                   TickJobs& jobs, const TickHistory& history, Stopwatch& stopwatch, NodeHealth& health,
+                   TfListener* listener, Ledger& ledger)
     : node_(std::move(node)),
       pace_(params.rate, params.heartbeat, params.follow_data, std::chrono::steady_clock::now()),
       world_(world),
       jobs_(jobs),
+      history_(history),
       stopwatch_(stopwatch),
       health_(health),
       ledger_(ledger),
@@ -99,7 +101,9 @@ void TickLoop::makeTick() {
   transforms_.readFor(kShareForTransforms * std::chrono::duration<double>(pace_.period()));
   const auto begin = std::chrono::steady_clock::now();
   jobs_.doAll(world_, ledger_);
-  const std::shared_ptr<const Tick> tick = world_.tick(thisMoment());
+  const std::shared_ptr<Tick> made = world_.tick(thisMoment());
+  made->history = history_.extent();
+  const std::shared_ptr<const Tick> tick = made;
   std::atomic_store(&newest_, tick);
   act(tick);
   complete_.reset();

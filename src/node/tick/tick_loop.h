@@ -17,6 +17,7 @@
 #include "node/params/params.h"
 #include "node/tf/tf_reader.h"
 #include "node/tick/stopwatch.h"
+#include "node/tick/tick_history.h"
 #include "node/tick/tick_jobs.h"
 #include "node/tick/tick_pace.h"
 #include "node/world/world.h"
@@ -41,9 +42,11 @@ class TickLoop {
   /// Between ticks, the thread that receives transforms uses the transforms of `world`, too (see TfReader).
   /// @param node      its callback queue must be that of the tick thread
   /// @param private_node  node handle whose namespace contains the topic "poses"
+  /// @param history   each tick says what it keeps
   /// @param listener  learns which messages of /tf and ~poses were read; may be null
   TickLoop(ros::NodeHandle node, const ros::NodeHandle& private_node, const Params& params, World& world,
-           TickJobs& jobs, Stopwatch& stopwatch, NodeHealth& health, TfListener* listener, Ledger& ledger);
+           TickJobs& jobs, const TickHistory& history, Stopwatch& stopwatch, NodeHealth& health, TfListener* listener,
+           Ledger& ledger);
 
   /// Sets what is called with every tick, in this order. Call this once, before the first work().
   void setSteps(std::vector<Step> steps) { steps_ = std::move(steps); }
@@ -69,6 +72,7 @@ class TickLoop {
   TickPace pace_;
   World& world_;
   TickJobs& jobs_;
+  const TickHistory& history_;
   Stopwatch& stopwatch_;
   NodeHealth& health_;
   Ledger& ledger_;

@@ -315,7 +315,7 @@ std::vector<SourceGap> World::listMissing(const Moment& now, Tick& tick) const {
   return gaps;
 }
 
-std::shared_ptr<const Tick> World::tick(const Moment& now) {
+std::shared_ptr<Tick> World::tick(const Moment& now) {
   auto tick = std::make_shared<Tick>();
   handleClock(now);
   tick->settings = settings_;

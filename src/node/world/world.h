@@ -96,8 +96,8 @@ class World {
   /// and settings stay.
   void reset();
 
-  /// Makes the next tick. @param now  current time of both clocks
-  std::shared_ptr<const Tick> tick(const Moment& now);
+  /// Makes the next tick, without Tick::history. @param now  current time of both clocks
+  std::shared_ptr<Tick> tick(const Moment& now);
 
  private:
   void handleClock(const Moment& now);

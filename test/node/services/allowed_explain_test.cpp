@@ -202,7 +202,7 @@ TEST(ExplainPairLimits, APairThatTruncationRemovedIsNotReportedAndTheAnswerSaysW
   EXPECT_TRUE(says(cut.explanation, "there are more pairs than ~max_pairs allows"));
 }
 
-TEST(ExplainPairLimits, PastTimesAreRefused) {
+TEST(ExplainPairLimits, TimesBeyondTheHistoryAreRefused) {
   NodeSetup setup;
   setup.beside["robot_description"] = balls({});
   NodeUnderTest node(setup);

@@ -105,18 +105,19 @@ TEST_F(QueryDoor, AFrameThatNobodyKnowsIsRefused) {
   expectRefused(node_->sphere(0, 0, 0, 1, "a\n\x1b[31m"), "UNKNOWN_FRAME", "a\\x0a\\x1b[31m");
 }
 
-TEST_F(QueryDoor, AStampOtherThanThatOfTheTickIsRefused) {
+TEST_F(QueryDoor, AStampBeyondTheHistoryOrInTheFutureIsRefused) {
   const ros::Time stamp = node_->heard().status.back()->header.stamp;  // stays the same, because no transform arrives
   msg::QuerySphere::Request request;
   request.center.x = 2;
   request.header.stamp = stamp;
   EXPECT_TRUE(node_->ask(request).answer.success);
   EXPECT_EQ(node_->ask(request).header.stamp, stamp);
-  for (const double shift : {-3600.0, -0.001, 0.001, 3600.0}) {
+  for (const double shift : {-3600.0, 0.001, 3600.0}) {
     SCOPED_TRACE(shift);
     request.header.stamp = stamp + ros::Duration(shift);
-    const std::string range = std::to_string(stamp.sec) + ".";
-    expectRefused(node_->ask(request), "EXTRAPOLATION", "the node stores only the tick of " + range);
+    const std::string words =
+        shift < 0.0 ? " s before the newest tick; the node " : " s after the newest tick; the node ";
+    expectRefused(node_->ask(request), "EXTRAPOLATION", words);
   }
 }
 

@@ -45,10 +45,13 @@ std::string rowOf(int count) {
 class Maps : public ::testing::Test {
  protected:
   Maps() { folder_.write("row.bt", rowOf(1)); }
-  void start(const Value& maps, double rate = 50.0) {
+  void start(const Value& maps, double rate = 50.0, double history = 2.0) {
     NodeSetup setup;
-    setup.params =
-        dict({{"map", dict({{"folder", folder_.path()}})}, {"maps", maps}, {"margin", 0.15}, {"rate", rate}});
+    setup.params = dict({{"map", dict({{"folder", folder_.path()}})},
+                         {"maps", maps},
+                         {"margin", 0.15},
+                         {"rate", rate},
+                         {"history", history}});
     setup.beside["robot_description"] = balls({"a"});
     transforms_.stream("base", "a", at(0.05, 0.05, 0.3));
     node_ = std::make_unique<NodeUnderTest>(setup);
@@ -294,7 +297,7 @@ TEST_F(Maps, ThatDoNotFitIntoMemoryAreRefused) {
 }
 
 TEST_F(Maps, OneThousandReplacementsLeaveNothingBehind) {
-  start(list({mapOf("room", "row.bt")}), 500.0);
+  start(list({mapOf("room", "row.bt")}), 500.0, 0.05);  // a longer history would keep hundreds of maps
   node_->waitForComplete();
   std::vector<Voxel> voxels;
   for (std::uint16_t x = 0; x < 30; ++x) {

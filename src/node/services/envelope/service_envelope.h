@@ -26,6 +26,14 @@ struct ServiceCall {
   typename Service::Response& response;
   std::string caller;  ///< name of the node that sent the request, made safe for logs and messages
   AnswerTick& tick;    ///< the newest tick. Work that changes the world sets it to the first tick with the change.
+  std::shared_ptr<const Tick>& written;  ///< the tick that the response says it is made from
+
+  /// Makes the response from this tick, and writes that into the response.
+  void answerFrom(std::shared_ptr<const Tick> chosen) {
+    tick = AnswerTick(std::move(chosen));
+    written = tick.get();
+    writeTick(tick, response);
+  }
 };
 
 /// Answers the requests of all services in one way.
@@ -86,10 +94,10 @@ class ServiceEnvelope {
     typename Service::Response& response = event.getResponse();
     ledger_.count(counters.asked);
     AnswerTick tick(newest_());
-    const std::shared_ptr<const Tick> newest = tick.get();
+    std::shared_ptr<const Tick> written = tick.get();
     writeTick(tick, response);
     try {
-      ServiceCall<Service> call{event.getRequest().value(), response, printable(event.getCallerName()), tick};
+      ServiceCall<Service> call{event.getRequest().value(), response, printable(event.getCallerName()), tick, written};
       writeSuccess(response);
       work(call);
     } catch (const Refusal& refusal) {
@@ -98,7 +106,7 @@ class ServiceEnvelope {
     } catch (...) {
       writeRefusal(ledger_.fault(counters.failed.c_str()), true, response);
     }
-    if (tick.get() != newest) writeTick(tick, response);
+    if (tick.get() != written) writeTick(tick, response);
   }
 
   ros::NodeHandle node_;
