@@ -20,6 +20,7 @@ const Refusal kRefusal(Code::bad_id, "no name");
 std::shared_ptr<Tick> tickOf(std::shared_ptr<const Snapshot> snapshot) {
   auto tick = std::make_shared<Tick>();
   tick->world_frame = "world";
+  tick->models = std::make_shared<ModelReport>();
   tick->epoch = 7;
   tick->not_ready = {"NOT_READY: no frame"};
   tick->snapshot = std::move(snapshot);

@@ -9,7 +9,7 @@
 namespace hgrid {
 namespace {
 
-using std::chrono::seconds;
+using Seconds = std::chrono::seconds;
 using test::allow;
 using test::enable;
 using test::until;
@@ -24,13 +24,13 @@ std::vector<std::string> rulesOf(const Scene& scene) {
 TEST(RulesInForce, EachRuleEndsAtItsTime) {
   using Lines = std::vector<std::string>;
   const PairRule::Clock::time_point begin{std::chrono::hours(1)};
-  const auto after = [&](int time) { return Moment{Time{0}, begin + seconds(time)}; };
+  const auto after = [&](int time) { return Moment{Time{0}, begin + Seconds(time)}; };
   Scene scene{SceneOptions{}};
   RulesInForce rules;
   scene.setRules({allow("configured", "*")});
   rules.set({PairFilter({}, {},
-                        {allow("configured", "*"), until(allow("a", "b"), begin + seconds(3)),
-                         until(enable("c", "d"), begin + seconds(1)), allow("e", "f")}),
+                        {allow("configured", "*"), until(allow("a", "b"), begin + Seconds(3)),
+                         until(enable("c", "d"), begin + Seconds(1)), allow("e", "f")}),
              0});
   rules.apply(after(0), {}, scene);
   EXPECT_EQ(rulesOf(scene), Lines({"configured *", "a b", "c d", "e f"}));
@@ -49,7 +49,7 @@ TEST(RulesInForce, ARuleThatEndedBeforeItWasPassedOnNeverDecides) {
   Scene scene{SceneOptions{}};
   RulesInForce rules;
   rules.set({PairFilter({}, {}, {until(allow("a", "b"), begin)}), 0});
-  rules.apply(Moment{Time{0}, begin + seconds(1)}, {}, scene);
+  rules.apply(Moment{Time{0}, begin + Seconds(1)}, {}, scene);
   EXPECT_TRUE(scene.rules().empty());
 }
 
