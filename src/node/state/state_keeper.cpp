@@ -33,6 +33,17 @@ std::vector<PairRule> serviceRules(const std::vector<PairRule>& all) {
   return rules;
 }
 
+using Descriptions = std::set<std::shared_ptr<const RobotDescription>>;
+
+/// Returns the descriptions that came with requests.
+Descriptions textsOf(const RobotEntries& robots) {
+  Descriptions texts;
+  for (const auto& robot : robots) {
+    if (robot.second.spec->text) texts.insert(robot.second.spec->text);
+  }
+  return texts;
+}
+
 }  // namespace
 
 StateKeeper::StateKeeper(Commons& commons) : commons_(commons) {
@@ -50,6 +61,7 @@ StateKeeper::StateKeeper(Commons& commons) : commons_(commons) {
     restored_.troubles.push_back("the stored world cannot be used, and changes are not stored: " + unusable);
     ROS_ERROR("%s", restored_.troubles.back().c_str());
   }
+  seen_robots_.emplace(commons.settings.params, restored_.robots);
   if (!folder_) tell(unusable);
 }
 
@@ -83,6 +95,8 @@ void StateKeeper::see(World& world, const Tick& tick) {
   }
   const auto failure = guarded(commons_.ledger, "state.failed", [&] {
     std::vector<Change> changes = changesOf(world.obstacles());
+    RobotModels robots = world.robots();
+    if (robots.revision() != seen_robots_->revision()) collectRobots(robots, changes);
     std::vector<PairRule> rules;
     const bool new_structure = tick.snapshot && tick.snapshot->structure().revision != seen_structure_;
     if (new_structure) {
@@ -92,6 +106,7 @@ void StateKeeper::see(World& world, const Tick& tick) {
     }
     if (!changes.empty()) add(std::move(changes));
     // The code below does not throw.
+    seen_robots_->swap(robots);
     if (new_structure) {
       seen_rules_.swap(rules);
       seen_structure_ = tick.snapshot->structure().revision;
@@ -117,6 +132,41 @@ std::vector<StateKeeper::Change> StateKeeper::changesOf(const ObstacleBodies& ob
     }
   }
   return changes;
+}
+
+/// Collects how the robots differ from those that were collected last.
+void StateKeeper::collectRobots(const RobotModels& robots, std::vector<Change>& changes) const {
+  const RobotEntries configured = RobotModels(commons_.settings.params).all();
+  const RobotEntries &before = seen_robots_->all(), &after = robots.all();
+  Descriptions old = textsOf(before), present = textsOf(after);
+  for (const auto& text : old) {
+    if (present.count(text) == 0) changes.emplace_back([text] { return removalOf(*text); });
+  }
+  if (old !=
+      present) {  // another text that was removed may be equal to one that is still in use, so all are stored again
+    for (const auto& text : present) changes.emplace_back([text] { return editOf(*text); });
+  }
+  for (const auto& [name, robot] : after) {
+    const auto known = before.find(name);
+    if (known != before.end() && known->second.spec == robot.spec && known->second.absent == robot.absent) continue;
+    const auto usual = configured.find(name);
+    if (usual != configured.end() && !robot.absent && isSame(*usual->second.spec, *robot.spec)) {
+      changes.emplace_back([name = name] { return removalOfRobot(name); });
+    } else {
+      changes.emplace_back([name = name, spec = robot.spec, absent = robot.absent] {
+        return editOfRobot(name, StoredRobot{*spec, absent});
+      });
+    }
+  }
+  for (const auto& robot : before) {
+    const std::string& name = robot.first;
+    if (after.count(name) != 0) continue;
+    if (configured.count(name) != 0) {
+      changes.emplace_back([name] { return editOfRobot(name, std::nullopt); });
+    } else {
+      changes.emplace_back([name] { return removalOfRobot(name); });
+    }
+  }
 }
 
 void StateKeeper::noteMap(const std::string& name, const std::optional<MapParams>& map) {
