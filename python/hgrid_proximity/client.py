@@ -13,7 +13,7 @@
 
 Coordinates are in meters. Points and sizes are three numbers, or messages with the fields x, y and z. The modules
 `hgrid_proximity.errors`, `.events` and `.streams` describe what can go wrong, how to wait for events, and the arrays;
-`.obstacles` makes the changes for apply_obstacles().
+`.obstacles` and `.robots` make the changes for apply_obstacles() and apply_robots().
 """
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from geometry_msgs.msg import Vector3
 from hgrid_proximity import srv
 from hgrid_proximity.errors import NoAnswer, Refused
 from hgrid_proximity.events import Events
-from hgrid_proximity.msg import Obstacle, Shape, Verdict
+from hgrid_proximity.msg import Obstacle, RobotChange, Shape, Verdict
 from hgrid_proximity.service import LONGEST, Service
 from hgrid_proximity.streams import DistanceArrays, PairArrays, as_arrays
 from hgrid_proximity.values import UPRIGHT, as_point, as_pose, globs, numbers
@@ -106,6 +106,7 @@ class Proximity:
             name: Service(f"{self._node}/{name}", service, timeout, repeat=False)
             for name, service in (
                 ("apply_obstacles", srv.ApplyObstacles),
+                ("apply_robots", srv.ApplyRobots),
                 ("save_scene", srv.SaveScene),
                 ("load_scene", srv.LoadScene),
             )
@@ -191,6 +192,23 @@ class Proximity:
         """
         request = srv.ApplyObstaclesRequest(changes=list(changes), complete_set=complete_set, owner=owner)
         response = self._changes["apply_obstacles"](request, min(max_time, LONGEST))
+        if not response.success:
+            raise Refused(response.code.name, response.code.text, response.failed_index)
+        return response
+
+    def apply_robots(self, *changes: RobotChange, max_time: float = 0.0):
+        """Makes all changes in their order, or none of them. `hgrid_proximity.robots` has functions that make changes.
+
+        After NoAnswer, the changes may or may not have been made. All of them can be repeated except remove(), which is
+        refused if it was made already.
+
+        @param max_time  [s] how much longer than `timeout` to wait, for example for descriptions with many meshes
+        @returns the response; `response.world` is the state of the world in the first tick with the changes,
+            `response.uncovered` and `response.warnings` say what to look at
+        @throws Refused  nothing was changed, unless the code is BUSY and the text says that the change was made;
+            failed_index is the index of the refused change, also 0 if the whole request was
+        """
+        response = self._changes["apply_robots"](srv.ApplyRobotsRequest(changes=list(changes)), min(max_time, LONGEST))
         if not response.success:
             raise Refused(response.code.name, response.code.text, response.failed_index)
         return response

@@ -45,7 +45,8 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
       completeness_log_(std::chrono::steady_clock::now()),
       loading_(
           admin_thread_.node(), private_node, commons_, world_.transforms().lookup(),
-          [this] { return tick_loop_.newest(); }, jobs_, state_.restored().maps, [this] { return isEnding(); }),
+          [this] { return tick_loop_.newest(); }, jobs_, world_.robots(), state_.restored().maps,
+          [this] { return isEnding(); }),
       services_(
           query_threads_.privateNode(), admin_thread_.privateNode(), commons_, [this] { return tick_loop_.newest(); },
           [this](const TickJobs::Job& job) { return tick_loop_.tickAfter(job); }, world_.transforms().lookup(),

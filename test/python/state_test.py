@@ -17,10 +17,10 @@ import rospy
 import rosunit
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from hgrid_proximity import obstacles
+from hgrid_proximity import obstacles, robots
 from hgrid_proximity.client import Proximity
 from hgrid_proximity.errors import ProximityError, Refused
-from hgrid_proximity.msg import AllowedPair, Bodies, Rules
+from hgrid_proximity.msg import AllowedPair, Bodies, Rules, Status
 from hgrid_proximity.srv import SetAllowed
 from moving_ball import Ball
 
@@ -49,17 +49,18 @@ class State(unittest.TestCase):
         begin = time.monotonic()
         self.node = subprocess.Popen(["rosrun", "hgrid_proximity", "proximity_node", "__name:=proximity"])
         self.proximity = Proximity(timeout=PATIENCE)
-        while not self.is_clear():
+        while not self.serves():
             self.assertLess(time.monotonic(), begin + PATIENCE)
             self.assertIsNone(self.node.poll(), "the node has ended")
         return time.monotonic() - begin
 
-    def is_clear(self):
+    def serves(self):
         try:
             return self.proximity.query_sphere((0, 9, 0), 0.1).clear
-        except Refused as refused:  # the node answers before its first tick
-            self.assertEqual(refused.code, "NOT_READY")
-            return False
+        except Refused as refused:
+            if refused.code == "NOT_READY":  # the node has not made its first tick
+                return False
+            raise
 
     def kill(self, how=signal.SIGKILL):
         self.proximity.close()
@@ -116,6 +117,33 @@ class State(unittest.TestCase):
         self.restart()
         notes = {name: body.note[:8] for name, body in self.bodies().items()}
         self.assertEqual(notes, {"held": "RESTORED", "lamp": "RESTORED"})
+
+    def test_robots_are_there_again(self):
+        # Its root is the world frame, so that it needs no transforms.
+        text = "<robot name='r'><link name='world'><collision><geometry><sphere radius='0.1'/></geometry></collision></link>" \
+            "</robot>"
+
+        def sources():
+            message = rospy.wait_for_message("/proximity/status", Status, PATIENCE)
+            return {source.name for source in message.sources}, message.absent_robots
+
+        response = self.proximity.apply_robots(
+            robots.add("twin1", urdf=text, tf_prefix="/"),
+            robots.add("twin2", like="twin1", tf_prefix="/"),
+            robots.absent("twin1"),
+        )
+        self.assertTrue(response.durable)
+        self.restart()
+        names, absent = sources()
+        self.assertEqual((names & {"robot", "twin1", "twin2"}, absent), ({"robot", "twin2"}, ["twin1"]))
+        self.proximity.apply_robots(
+            robots.remove("twin2"), robots.present("twin1"), robots.add("twin3", like="twin1", tf_prefix="/")
+        )
+        self.proximity.apply_robots(robots.absent("robot"))
+        self.restart()
+        names, absent = sources()
+        self.assertEqual((names & {"robot", "twin1", "twin2", "twin3"}, absent), ({"twin1", "twin3"}, ["robot"]))
+        self.assertEqual(self.diagnostic().level, DiagnosticStatus.OK)
 
     def test_a_reset_is_there_again(self):
         self.apply(obstacles.add("part", obstacles.sphere(0.1), (3, 0, 0)), obstacles.remove("crate"))

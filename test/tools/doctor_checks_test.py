@@ -161,6 +161,18 @@ class DoctorChecks(unittest.TestCase):
 
     # Descriptions
 
+    def test_a_robot_that_was_declared_absent_needs_nothing(self):
+        other = RobotFacts(RobotSettings("other", "/other_description", "", "other"))
+        self.facts.robots.append(other)
+        self.facts.status.absent_robots = ["other"]
+        self.facts.status.sources_total = 2  # sources may be cut off, so it is not known whether the robot is one
+        self.facts.forget_robots_that_left()
+        self.expect("no_description")
+        self.facts.status.sources_total = 1
+        self.facts.forget_robots_that_left()
+        self.expect()
+        self.assertIn("declared absent with ~apply_robots: 'other'", report.as_text(self.facts, [], False, False))
+
     def test_no_description(self):
         self.facts.robots[0].key, self.facts.robots[0].description = "", None
         self.expect()  # the node has loaded the description under another name

@@ -152,6 +152,12 @@ class Facts:
         sources = self.status.sources if self.status is not None else []
         return next((source for source in sources if source.name == name), None)
 
+    def forget_robots_that_left(self):
+        """Drops the robots of ~robots that ~apply_robots removed or declared absent: nothing need be there for them."""
+        if self.status is None or self.status.sources_total > len(self.status.sources):
+            return
+        self.robots = [robot for robot in self.robots if self.source(robot.settings.name) is not None]
+
     def is_loaded(self, robot: str) -> bool:
         source = self.source(robot)
         return source is not None and source.bodies > 0

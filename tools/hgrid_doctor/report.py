@@ -81,6 +81,8 @@ def looked_at(facts: Facts) -> Iterator[str]:
     for source in facts.status.sources if facts.status is not None else []:
         if source.name not in robots:
             yield source_line(facts, source)
+    if facts.status is not None and facts.status.absent_robots:
+        yield f"declared absent with ~apply_robots: {listing(facts.status.absent_robots)}"
     if facts.status is not None:
         yield pairs_line(facts)
         yield refusals_line(facts)

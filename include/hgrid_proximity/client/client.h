@@ -4,6 +4,7 @@
 
 #include <hgrid_proximity/Answer.h>
 #include <hgrid_proximity/ApplyObstacles.h>
+#include <hgrid_proximity/ApplyRobots.h>
 #include <hgrid_proximity/ExplainPair.h>
 #include <hgrid_proximity/QueryBox.h>
 #include <hgrid_proximity/QueryNearest.h>
@@ -61,7 +62,8 @@ class Client {
         shape_(node + "/query_shape", timeout),
         nearest_(node + "/query_nearest", timeout),
         explain_(node + "/explain_pair", timeout),
-        obstacles_(node + "/apply_obstacles", timeout, false) {}
+        obstacles_(node + "/apply_obstacles", timeout, false),
+        robots_(node + "/apply_robots", timeout, false) {}
 
   ///@{
   /// Sends the request and waits for the response, which has `success = true`.
@@ -89,6 +91,13 @@ class Client {
     if (!response.success) throw Refused(response.code, response.failed_index);
     return response;
   }
+  /// Makes all changes of robots, in their order, or none of them. The rest is as above, except that after NoAnswer all
+  /// changes but REMOVE can be repeated.
+  ApplyRobotsResponse apply(const ApplyRobotsRequest& request, std::chrono::duration<double> extra = {}) {
+    ApplyRobotsResponse response = robots_.call(request, extra);
+    if (!response.success) throw Refused(response.code, response.failed_index);
+    return response;
+  }
 
  private:
   template <class Kind>
@@ -106,6 +115,7 @@ class Client {
   Service<QueryNearest> nearest_;
   Service<ExplainPair> explain_;
   Service<ApplyObstacles> obstacles_;
+  Service<ApplyRobots> robots_;
 };
 
 }  // namespace hgrid_proximity

@@ -16,6 +16,12 @@ template <class Load>
 class PendingLoads {
  public:
   bool empty() const { return loads_.empty(); }
+  /// Returns the load of this name, or null.
+  const Load* find(const std::string& name) const {
+    const auto has_name = [&](const Named& named) { return named.name == name; };
+    const auto found = std::find_if(loads_.begin(), loads_.end(), has_name);
+    return found == loads_.end() ? nullptr : &found->load;
+  }
 
   /// Adds a load. Removes an earlier load of the same name.
   void put(const std::string& name, Load load) {

@@ -2,26 +2,38 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <string>
+#include <utility>
 
 #include "hgrid_proximity/refusal.h"
 #include "node/diagnostics/node_health.h"
 #include "node/loading/description_watch.h"
 #include "node/loading/pending_loads.h"
+#include "node/loading/robot_changes.h"
 #include "node/params/params.h"
 #include "node/sources/robot_source.h"
+#include "node/tick/change_world.h"
 #include "node/tick/tick_jobs.h"
+#include "node/world/robot_models.h"
 
 namespace hgrid {
 
-/// Puts the configured robots into the world, and stores which of them are still missing. Only one thread may use this
-/// object. The tick thread must not use it.
+/// Puts robots into the world, and knows which of them are still to be loaded. Only one thread may use this object. The
+/// tick thread must not use it.
 class RobotLoader {
  public:
-  /// At first, all robots are missing. All parameters must outlive this object.
-  RobotLoader(const RobotSource& source, const Params& params, TickJobs& jobs, NodeHealth& health);
+  /// All parameters except `robots` must outlive this object. @param robots  the robots of the world
+  RobotLoader(const RobotSource& source, const Params& params, const RobotModels& robots, TickJobs& jobs,
+              NodeHealth& health);
+
+  /// Returns the robots of the world after the last change that this object made.
+  const RobotModels& robots() const { return robots_; }
 
   bool hasMissing() const { return !missing_.empty(); }
+  /// Returns whether robots have become missing since the last call, so that they should be loaded at once.
+  bool takeNewlyMissing() { return std::exchange(newly_missing_, false); }
   /// Tries to load every missing robot. Each failure is reported in the log, on ~status and on /diagnostics.
   void loadMissing();
 
@@ -33,16 +45,29 @@ class RobotLoader {
   /// loadMissing() tries again.
   void loadChanged();
 
+  /// Prepares changes of robots. This is slow. @throws as hgrid::prepare()
+  PreparedRobots prepare(const std::vector<RobotRequest>& requests) const;
+  /// Makes a change of the world that may change robots. Loads of robots that are gone or absent are canceled.
+  /// @param prepared  what was read for the change; null: nothing
+  /// @throws whatever `change_world` throws
+  std::shared_ptr<const Tick> change(const ChangeWorld& change_world, const std::function<void(World&)>& act,
+                                     const PreparedRobots* prepared);
+
  private:
-  Refusal loadAgain(const RobotParams& robot);
-  Refusal load(const RobotParams& robot);
-  void noteFailed(const RobotParams& robot, const Refusal& why);
+  using Robot = std::shared_ptr<const RobotSpec>;
+
+  Refusal loadAgain(const Robot& robot, SharedReader& reader);
+  Refusal load(const Robot& robot, SharedReader& reader);
+  void noteFailed(const RobotSpec& robot, const Refusal& why);
+  void adopt(const RobotModels& robots);
 
   const RobotSource& source_;
   const Params& params_;
   TickJobs& jobs_;
   NodeHealth& health_;
-  PendingLoads<const RobotParams*> missing_;
+  RobotModels robots_;  // as after the last change that this object made
+  PendingLoads<Robot> missing_;
+  bool newly_missing_ = false;
   DescriptionWatch watch_;
 };
 

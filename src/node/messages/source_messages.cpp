@@ -29,8 +29,8 @@ msg::SourceStatus& entryOf(Sources& sources, const std::string& name) {
   return source;
 }
 
-void addConfigured(const Params& params, Sources& sources) {
-  for (const RobotParams& robot : params.robots) entryOf(sources, robot.name);
+void addExpected(const Tick& tick, const Params& params, Sources& sources) {
+  for (const std::string& robot : tick.models->expected) entryOf(sources, robot);
   if (!params.obstacles.empty()) entryOf(sources, "obstacle");
   for (const MapParams& map : params.maps) entryOf(sources, joined("map", map.name));
   for (const CloudParams& cloud : params.clouds) entryOf(sources, joined("cloud", cloud.name));
@@ -76,7 +76,7 @@ void addReasons(const Snapshot& snapshot, Sources& sources) {
 
 std::vector<msg::SourceStatus> sourcesOf(const Tick& tick, const Params& params) {
   Sources sources;
-  addConfigured(params, sources);
+  addExpected(tick, params, sources);
   if (tick.snapshot) {
     addBodies(*tick.snapshot, sources);
     addReasons(*tick.snapshot, sources);

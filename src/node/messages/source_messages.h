@@ -13,7 +13,7 @@ namespace hgrid {
 
 namespace msg = ::hgrid_proximity;
 
-/// Returns an entry of ~status for every source that is configured or has bodies, sorted by name.
+/// Returns an entry of ~status for every source that is expected or has bodies, sorted by name.
 std::vector<msg::SourceStatus> sourcesOf(const Tick& tick, const Params& params);
 
 }  // namespace hgrid

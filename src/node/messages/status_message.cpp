@@ -28,6 +28,7 @@ void addLists(const Tick& tick, std::size_t most, msg::Status& message) {
   message.not_ready = shortened(not_ready, most);
   message.missing_frames = shortened(tick.missing_frames, most);
   message.contested_frames = shortened(tick.contested_frames, most);
+  message.absent_robots = shortened(tick.models->absent, most);
   message.uncovered = shortened(tick.models->uncovered, most);
   message.waived = shortened(tick.models->waived, most);
   message.without_collision = shortened(tick.models->without_collision, most);

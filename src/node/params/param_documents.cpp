@@ -188,6 +188,7 @@ std::string paramsAsMarkdown() {
          "- `~map/crop_min` <= `~map/crop_max` on each axis\n"
          "- `~min_size` < `~max_size`\n"
          "- `~allowed_pairs` has at most `~max_rules` entries.\n"
+         "- `~robots` has at most `~max_robots` entries.\n"
          "- `~maps` has at most `~max_maps` entries.\n"
          "- `~world_frame` is required with several `~robots`.\n"
          "- Globs of `~padding` do not begin with `map/` or `cloud/`, because cells cannot be grown.\n";

@@ -15,9 +15,10 @@ inline constexpr const char* kKinds[] = {"self", "robot_robot", "robot_obstacle"
 template <class Visitor>
 void visitParams(Visitor& v, Params& p) {
   v.section("The world");
-  v.string(
-      "world_frame", p.world_frame,
-      "tf frame of all boxes and answers; empty: the root link of the robot; required if there are several robots");
+  v.string("world_frame", p.world_frame,
+           "tf frame of all boxes and answers; empty: the root link of the robot; required if there are several "
+           "robots, also "
+           "if they are added with ~apply_robots");
   v.vector("origin", p.origin, "m", 1e6,
            "point of the world frame that boxes are stored relative to, as float32; choose a point near the robot if "
            "coordinates are large");
@@ -38,10 +39,10 @@ void visitParams(Visitor& v, Params& p) {
   v.number("finest_edge", p.finest_edge, "m", 0.0, 1000.0,
            "longest side of the boxes on the finest level of the grid, at least 0.001; 0: chosen from the bodies");
 
-  v.string(
-      "state_folder", p.state_folder,
-      "folder in which obstacles, rules and maps that services changed are stored, so that a restart keeps them; the "
-      "node creates it if its parent exists, and each node needs its own. Empty: nothing is stored");
+  v.string("state_folder", p.state_folder,
+           "folder in which obstacles, robots, rules and maps that services changed are stored, so that a restart "
+           "keeps them; the "
+           "node creates it if its parent exists, and each node needs its own. Empty: nothing is stored");
 
   v.section("Robots");
   v.robots("robots", p.robots,
@@ -220,6 +221,8 @@ void visitParams(Visitor& v, Params& p) {
             "number of threads that the broad phase of a tick may use; more than 1 helps from some tens of thousands "
             "of shapes on");
   v.integer("max_bodies", p.max_bodies, 1, 1000000, "largest number of bodies");
+  v.integer("max_robots", p.max_robots, 1, 10000,
+            "largest number of robots, configured and added with ~apply_robots, present or absent");
   v.integer("max_maps", p.max_maps, 1, 10000, "largest number of maps, configured and loaded with ~load_octomap");
   v.integer(
       "max_frames", p.max_frames, 1, 1000000,

@@ -64,7 +64,7 @@ class Reader {
         } catch (const Refusal& refusal) {
           given->error(std::string("is not a valid name: ") + refusal.what());
         }
-        if (std::find(std::begin(kReserved), std::end(kReserved), robot.name) != std::end(kReserved)) {
+        if (isReservedName(robot.name)) {
           given->error("is '" + robot.name + "'; obstacle, map, cloud and track are reserved");
         }
         if (!names.insert(robot.name).second)
@@ -223,6 +223,10 @@ class Reader {
 
 }  // namespace
 
+bool isReservedName(const std::string& robot) {
+  return std::find(std::begin(kReserved), std::end(kReserved), robot) != std::end(kReserved);
+}
+
 Params readParams(XmlRpc::XmlRpcValue values, std::vector<std::string>& errors) {
   Params params;
   ParamValue root(std::move(values), "~", errors);
@@ -262,6 +266,9 @@ Params readParams(XmlRpc::XmlRpcValue values, std::vector<std::string>& errors) 
   require(params.allowed_pairs.size() <= static_cast<std::size_t>(params.max_rules),
           "~allowed_pairs has " + std::to_string(params.allowed_pairs.size()) + " rules; at most ~max_rules, " +
               std::to_string(params.max_rules) + ", are allowed");
+  require(params.robots.size() <= static_cast<std::size_t>(params.max_robots),
+          "~robots has " + std::to_string(params.robots.size()) + " robots; at most ~max_robots, " +
+              std::to_string(params.max_robots) + ", are allowed");
   require(params.maps.size() <= static_cast<std::size_t>(params.max_maps),
           "~maps has " + std::to_string(params.maps.size()) + " maps; at most ~max_maps, " +
               std::to_string(params.max_maps) + ", are allowed");

@@ -125,7 +125,8 @@ struct Params {
   double world_limit = 1e6, min_size = 1e-4, max_size = 1e5;
   bool allow_flat = false;
   int threads = 1;
-  int max_bodies = 100000, max_maps = 100, max_frames = 10000, max_samples = 10000, tf_queue_bytes = 16 << 20;
+  int max_bodies = 100000, max_robots = 1000, max_maps = 100, max_frames = 10000, max_samples = 10000,
+      tf_queue_bytes = 16 << 20;
   int history_bytes = 64 << 20;
   int max_pairs = 100000, max_events = 10000, event_queue = 100;
   int max_hits = 10000, max_listed = 100, max_reasons = 8, max_rules = 1000;
@@ -146,6 +147,9 @@ struct Params {
   double reportDistance() const { return distances_max == 0.0 ? margin : distances_max; }
   ShapeLimits shapeLimits() const { return {min_size, max_size, allow_flat}; }
 };
+
+/// Returns whether a robot cannot have this name, because another kind of source has it: obstacle, map, cloud or track.
+bool isReservedName(const std::string& robot);
 
 /// Reads all parameters of the node.
 /// @param values  the private namespace of the node, as one struct

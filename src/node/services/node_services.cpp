@@ -26,9 +26,16 @@ NodeServices::NodeServices(const ros::NodeHandle& query_node, const ros::NodeHan
       obstacles_(changes_, commons.settings.params, commons.narrow_phase,
                  meshPolicy(commons.settings.params, loading.isEnding()), change_world,
                  [&state] { return state.waitUntilStored(); }),
+      robots_(changes_, commons.settings.params, loading.robots(), change_world,
+              [&state] { return state.waitUntilStored(); }),
       scenes_(changes_, commons.settings.params, commons.narrow_phase, change_world,
               [&state] { return state.waitUntilStored(); }),
-      reset_(changes_, change_world, stopwatch),
+      reset_(
+          changes_,
+          [&loading, change_world](const std::function<void(World&)>& change) {
+            return loading.robots().change(change_world, change, nullptr);
+          },
+          stopwatch),
       reload_(
           changes_, [&loading](const std::string& robot) { return loading.robots().reload(robot); }, change_world) {}
 

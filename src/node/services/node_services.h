@@ -13,6 +13,7 @@
 #include "node/services/query_services.h"
 #include "node/services/reload_service.h"
 #include "node/services/reset_service.h"
+#include "node/services/robot_service.h"
 #include "node/services/scene_file_services.h"
 #include "node/state/state_keeper.h"
 #include "node/tf/transform_lookup.h"
@@ -39,6 +40,7 @@ class NodeServices {
   AllowedServices allowed_;
   MapServices maps_;
   ObstacleService obstacles_;
+  RobotService robots_;
   SceneFileServices scenes_;
   ResetService reset_;
   ReloadService reload_;

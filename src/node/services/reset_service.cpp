@@ -11,14 +11,14 @@
 namespace hgrid {
 
 ResetService::ResetService(ServiceEnvelope& envelope, ChangeWorld change_world, Stopwatch& stopwatch) {
-  server_ = envelope.serve<std_srvs::Trigger>(
-      "reset", [change = std::move(change_world), &stopwatch](ServiceCall<std_srvs::Trigger>& call) {
-        call.tick = AnswerTick(change([&stopwatch](World& world) {
-          world.reset();
-          stopwatch = Stopwatch();
-        }));
-        call.response.message = "the obstacles are as configured, all counters are 0, and a new epoch has begun";
-      });
+  server_ = envelope.serve<std_srvs::Trigger>("reset", [change = std::move(change_world),
+                                                        &stopwatch](ServiceCall<std_srvs::Trigger>& call) {
+    call.tick = AnswerTick(change([&stopwatch](World& world) {
+      world.reset();
+      stopwatch = Stopwatch();
+    }));
+    call.response.message = "the robots and obstacles are as configured, all counters are 0, and a new epoch has begun";
+  });
 }
 
 }  // namespace hgrid

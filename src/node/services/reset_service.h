@@ -8,11 +8,12 @@
 
 namespace hgrid {
 
-/// Serves ~reset (std_srvs/Trigger): restores the configured obstacles, clears counters and timings, and
+/// Serves ~reset (std_srvs/Trigger): restores the configured robots and obstacles, clears counters and timings, and
 /// begins a new epoch.
 class ResetService {
  public:
   /// @param envelope   must outlive this object
+  /// @param change_world  also notices that robots must be loaded again
   /// @param stopwatch  the stopwatch of the tick thread; must outlive this object
   ResetService(ServiceEnvelope& envelope, ChangeWorld change_world, Stopwatch& stopwatch);
 

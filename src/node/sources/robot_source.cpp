@@ -98,44 +98,68 @@ std::string RobotSource::parameter(const std::string& name) const {
   return value;
 }
 
-RobotDescription RobotSource::describe(const RobotParams& robot) const {
-  RobotDescription description{parameter(robot.description), std::nullopt};
+RobotDescription RobotSource::describe(const RobotSpec& robot) const {
+  if (robot.text) return *robot.text;
+  RobotDescription description{parameter(robot.params.description), std::nullopt};
+  const std::string& semantic = robot.params.semantic;
   std::string key;
-  if (!robot.semantic.empty() && node_.searchParam(robot.semantic, key)) description.srdf = parameter(robot.semantic);
+  if (!semantic.empty() && node_.searchParam(semantic, key)) description.srdf = parameter(semantic);
   return description;
 }
 
-LoadedRobot RobotSource::load(const RobotParams& params, const RobotDescription& description) const {
+std::shared_ptr<const ReadDescription> RobotSource::read(const RobotSpec& robot,
+                                                         const RobotDescription& description) const {
+  const std::string& name = robot.params.name;
+  const std::string& semantic = robot.params.semantic;
   const DescriptionLimits limits{static_cast<std::size_t>(params_.max_description_bytes),
                                  static_cast<std::size_t>(params_.max_description_depth),
                                  static_cast<std::size_t>(params_.max_links)};
   MeshLoader meshes(meshPolicy(params_, cancelled_));
-  RobotModel model = readUrdf(
+  const auto read = std::make_shared<ReadDescription>();
+  read->model = readUrdf(
       description.urdf, [&](const std::string& uri, const Eigen::Vector3d& scale) { return meshes.load(uri, scale); },
       limits, params_.shapeLimits(),
-      [&](const std::string& link) { return matchesAny(params_.use_visual, joined(params.name, link)); });
+      [&](const std::string& link) { return matchesAny(params_.use_visual, joined(name, link)); });
+  read->warnings = read->model.warnings;
   LinkRules rules;
   if (description.srdf) {
     rules = readSrdf(*description.srdf, limits);
-  } else if (!params.semantic.empty() && params.semantic != RobotParams{}.semantic) {
-    model.warnings.push_back("parameter '" + printable(params.semantic) +
-                             "' is not set; it should hold the robot's SRDF");
+  } else if (!robot.text && !semantic.empty() && semantic != RobotParams{}.semantic) {
+    read->warnings.push_back("parameter '" + printable(semantic) + "' is not set; it should hold the robot's SRDF");
   }
+  read->links = std::make_shared<const LinkMatrix>(read->model, rules, read->warnings);
+  read->self_pairs = countSelfPairs(read->model, *read->links);
+  for (RobotLink& link : read->model.links) {
+    if (cancelled_())
+      throw Refusal(Code::busy, "robot '" + name + "' was not loaded, because the node is shutting down");
+    read->use_visual.push_back(matchesAny(params_.use_visual, joined(name, link.name)));
+    for (BodyShape& shape : link.shapes) shape.solid = narrow_phase_->solidOf(shape.shape);
+  }
+  return read;
+}
 
+bool RobotSource::fits(const ReadDescription& read, const std::string& robot) const {
+  for (std::size_t i = 0; i < read.model.links.size(); ++i) {
+    if (matchesAny(params_.use_visual, joined(robot, read.model.links[i].name)) != read.use_visual[i]) return false;
+  }
+  return true;
+}
+
+LoadedRobot RobotSource::make(const RobotSpec& spec, const std::shared_ptr<const ReadDescription>& read) const {
+  const RobotModel& model = read->model;
+  const std::string& tf_prefix = spec.params.tf_prefix;
   LoadedRobot robot;
-  robot.name = params.name;
-  robot.root_frame = prefixed(params.tf_prefix, model.links.front().name);
-  robot.warnings = model.warnings;
-  const auto links = std::make_shared<const LinkMatrix>(model, rules, robot.warnings);
-  robot.self_pairs = countSelfPairs(model, *links);
+  robot.name = spec.params.name;
+  robot.root_frame = prefixed(tf_prefix, model.links.front().name);
+  robot.warnings = read->warnings;
+  robot.self_pairs = read->self_pairs;
+  robot.read = read;
   robot.groups.resize(model.group_roots.size());
   for (std::size_t group = 0; group < robot.groups.size(); ++group) {
-    robot.groups[group].frame = prefixed(params.tf_prefix, model.links[model.group_roots[group]].name);
+    robot.groups[group].frame = prefixed(tf_prefix, model.links[model.group_roots[group]].name);
   }
   for (std::uint32_t i = 0; i < model.links.size(); ++i) {
     const RobotLink& link = model.links[i];
-    if (cancelled_())
-      throw Refusal(Code::busy, "robot '" + params.name + "' was not loaded, because the node is shutting down");
     robot.links[joined(robot.name, link.name)] = {link.rigid_group, link.group_from_link};
     if (!link.hasGeometry()) {
       robot.without_collision.push_back(joined(robot.name, link.name));
@@ -143,9 +167,8 @@ LoadedRobot RobotSource::load(const RobotParams& params, const RobotDescription&
     }
     robot.groups[link.rigid_group].members.emplace_back(robot.bodies.size(), link.group_from_link);
     robot.bodies.push_back(bodyOf(robot, model, i, params_));
-    makeSolids(*narrow_phase_, robot.bodies.back());
-    robot.bodies.back().links = links;
-    robot.bodies.back().frame = prefixed(params.tf_prefix, link.name);
+    robot.bodies.back().links = read->links;
+    robot.bodies.back().frame = prefixed(tf_prefix, link.name);
     if (link.uses_visual) robot.uses_visual.push_back(robot.bodies.back().name);
   }
   findGap(robot, params_);

@@ -6,7 +6,7 @@
 
 #include <functional>
 #include <map>
-#include <optional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,8 +15,11 @@
 #include "hgrid_proximity/bodies/self_pairs.h"
 #include "hgrid_proximity/narrow/narrow_phase.h"
 #include "node/params/params.h"
+#include "node/sources/robot_spec.h"
 
 namespace hgrid {
+
+struct ReadDescription;
 
 /// A robot that was read and can be put into the world.
 struct LoadedRobot {
@@ -44,12 +47,16 @@ struct LoadedRobot {
                            // waivers; empty: nothing is waived
   SelfPairs self_pairs;    // how many pairs of the robot's own links the model switches off
   std::vector<std::string> warnings;
+  std::shared_ptr<const ReadDescription> read;  // the description that it was made from
 };
 
-/// The description of a robot, as text.
-struct RobotDescription {
-  std::string urdf;
-  std::optional<std::string> srdf;  ///< nullopt: the robot has none
+/// A description that was read. Robots that are equal share it.
+struct ReadDescription {
+  RobotModel model;  // its shapes are prepared for exact distances
+  std::shared_ptr<const LinkMatrix> links;
+  SelfPairs self_pairs;
+  std::vector<std::string> warnings;
+  std::vector<bool> use_visual;  // for each link: whether ~use_visual names it
 };
 
 /// Reads robots: their descriptions (URDF and SRDF) from the parameter server, and their meshes.
@@ -60,12 +67,16 @@ class RobotSource {
   RobotSource(ros::NodeHandle node, const Params& params, std::shared_ptr<NarrowPhase> narrow_phase,
               std::function<bool()> cancelled);
 
-  /// Reads the description of a robot from the parameter server. Asks the ROS master.
+  /// Returns the description of a robot. Asks the ROS master, unless a request contained the description.
   /// @throws Refusal not_ready while there is no description
-  RobotDescription describe(const RobotParams& robot) const;
-  /// Makes a robot from its description. This is slow, because it reads files. Only one thread at a time may call this.
+  RobotDescription describe(const RobotSpec& robot) const;
+  /// Reads a description. This is slow, because it reads files. Only one thread at a time may call this.
   /// @throws Refusal busy if the load was canceled, or as readUrdf() and readSrdf()
-  LoadedRobot load(const RobotParams& robot, const RobotDescription& description) const;
+  std::shared_ptr<const ReadDescription> read(const RobotSpec& robot, const RobotDescription& description) const;
+  /// Returns whether read() would return the same for a robot of this name, as far as parameters decide it.
+  bool fits(const ReadDescription& read, const std::string& robot) const;
+  /// Makes a robot from its description.
+  LoadedRobot make(const RobotSpec& robot, const std::shared_ptr<const ReadDescription>& read) const;
 
  private:
   std::string parameter(const std::string& name) const;

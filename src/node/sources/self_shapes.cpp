@@ -25,7 +25,7 @@ void SelfShapes::forEach(const Look& look) const {
 
 void SelfShapes::require() const {
   const std::shared_ptr<const Tick> tick = newest_();
-  if (!tick || !tick->snapshot || tick->models->robots < params_.robots.size()) {
+  if (!tick || !tick->snapshot || tick->models->robots < tick->models->expected.size()) {
     throw Refusal(Code::not_ready,
                   "not all robots are loaded yet, so their cells cannot be left out as ~map/self_filter requires");
   }

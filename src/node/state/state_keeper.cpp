@@ -38,6 +38,17 @@ std::vector<PairRule> serviceRules(const std::vector<PairRule>& all) {
   return rules;
 }
 
+using Descriptions = std::set<std::shared_ptr<const RobotDescription>>;
+
+/// Returns the descriptions that came with requests.
+Descriptions textsOf(const RobotEntries& robots) {
+  Descriptions texts;
+  for (const auto& robot : robots) {
+    if (robot.second.spec->text) texts.insert(robot.second.spec->text);
+  }
+  return texts;
+}
+
 }  // namespace
 
 StateKeeper::StateKeeper(Commons& commons) : commons_(commons) {
@@ -55,6 +66,7 @@ StateKeeper::StateKeeper(Commons& commons) : commons_(commons) {
     restored_.troubles.push_back("the stored world cannot be used, and changes are not stored: " + unusable);
     ROS_ERROR("%s", restored_.troubles.back().c_str());
   }
+  seen_robots_.emplace(commons.settings.params, restored_.robots);
   if (!folder_) tell(unusable);
 }
 
@@ -88,6 +100,8 @@ void StateKeeper::see(World& world, const Tick& tick) {
   }
   const auto failure = guarded(commons_.ledger, "state.failed", [&] {
     Changes changes = changesOf(world.obstacles());
+    RobotModels robots = world.robots();
+    if (robots.revision() != seen_robots_->revision()) collectRobots(robots, changes);
     std::vector<PairRule> rules;
     const bool new_structure = tick.snapshot && tick.snapshot->structure().revision != seen_structure_;
     if (new_structure) {
@@ -97,6 +111,7 @@ void StateKeeper::see(World& world, const Tick& tick) {
     }
     if (!changes.empty()) add(std::move(changes));
     // The code below does not throw.
+    seen_robots_->swap(robots);
     if (new_structure) {
       seen_rules_.swap(rules);
       seen_structure_ = tick.snapshot->structure().revision;
@@ -122,6 +137,41 @@ StateKeeper::Changes StateKeeper::changesOf(const ObstacleBodies& obstacles) con
     }
   }
   return changes;
+}
+
+/// Collects how the robots differ from those that were collected last.
+void StateKeeper::collectRobots(const RobotModels& robots, Changes& changes) const {
+  const RobotEntries configured = RobotModels(commons_.settings.params).all();
+  const RobotEntries &before = seen_robots_->all(), &after = robots.all();
+  Descriptions old = textsOf(before), present = textsOf(after);
+  for (const auto& text : old) {
+    if (present.count(text) == 0) changes.push_back({keyOf(*text), [text] { return removalOf(*text); }});
+  }
+  // A text that was removed may be equal to one that is still in use, so all texts are stored again.
+  if (old != present) {
+    for (const auto& text : present) changes.push_back({keyOf(*text), [text] { return editOf(*text); }});
+  }
+  for (const auto& [name, robot] : after) {
+    const auto known = before.find(name);
+    if (known != before.end() && known->second.spec == robot.spec && known->second.absent == robot.absent) continue;
+    const auto usual = configured.find(name);
+    if (usual != configured.end() && !robot.absent && isSame(*usual->second.spec, *robot.spec)) {
+      changes.push_back({kRobotKeys + name, [name = name] { return removalOfRobot(name); }});
+    } else {
+      changes.push_back({kRobotKeys + name, [name = name, spec = robot.spec, absent = robot.absent] {
+                           return editOfRobot(name, StoredRobot{*spec, absent});
+                         }});
+    }
+  }
+  for (const auto& robot : before) {
+    const std::string& name = robot.first;
+    if (after.count(name) != 0) continue;
+    if (configured.count(name) != 0) {
+      changes.push_back({kRobotKeys + name, [name] { return editOfRobot(name, std::nullopt); }});
+    } else {
+      changes.push_back({kRobotKeys + name, [name] { return removalOfRobot(name); }});
+    }
+  }
 }
 
 void StateKeeper::noteMap(const std::string& name, const std::optional<MapParams>& map) {

@@ -17,6 +17,7 @@
 #include "node/state/state_edit.h"
 #include "node/state/state_folder.h"
 #include "node/state/waiting_changes.h"
+#include "node/world/robot_models.h"
 #include "node/world/stored_world.h"
 
 namespace hgrid {
@@ -55,6 +56,7 @@ class StateKeeper {
 
   void open();
   Changes changesOf(const ObstacleBodies& obstacles) const;
+  void collectRobots(const RobotModels& robots, Changes& changes) const;
   void add(Changes changes);
   void run();
   Edits newEdits(const WaitingChanges& changes) const;
@@ -68,8 +70,9 @@ class StateKeeper {
   StateItems items_;                     // what the newest file holds, or must hold; only run() uses it
 
   // Only the tick thread uses these.
-  std::uint64_t seen_structure_ = 0;  // revision of the structure whose rules were compared
-  std::vector<PairRule> seen_rules_;  // the rules of ~set_allowed that were collected last
+  std::uint64_t seen_structure_ = 0;        // revision of the structure whose rules were compared
+  std::vector<PairRule> seen_rules_;        // the rules of ~set_allowed that were collected last
+  std::optional<RobotModels> seen_robots_;  // the robots that were collected last
 
   std::mutex mutex_;
   std::condition_variable changed_;

@@ -3,6 +3,7 @@
 #include "node/state/stored_items.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <sstream>
 #include <utility>
@@ -30,6 +31,14 @@ void passOptional(File& file, std::optional<Value>& value, const Value& blank) {
   file.value(exists);
   if (File::kReads) value = exists ? std::optional<Value>(blank) : std::nullopt;
   if (value) pass(file, *value);
+}
+
+template <class File>
+void passOptionalText(File& file, std::optional<std::string>& text) {
+  bool exists = text.has_value();
+  file.value(exists);
+  if (File::kReads) text = exists ? std::optional<std::string>("") : std::nullopt;
+  if (text) file.value(*text);
 }
 
 template <class File>
@@ -91,6 +100,38 @@ void pass(File& file, MapParams& map) {
 }
 
 template <class File>
+void pass(File& file, RobotDescription& text) {
+  file.line("urdf");
+  file.value(text.urdf);
+  file.line("srdf");
+  passOptionalText(file, text.srdf);
+}
+
+/// Returns the key of a description: a hash of its text, because equal texts are stored once.
+std::string keyOf(const RobotDescription& text) {
+  std::uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a
+  const auto add = [&](const std::string& bytes) {
+    for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  };
+  add(text.urdf);
+  if (text.srdf) add("\n" + *text.srdf);
+  std::ostringstream key;
+  key << kDescriptionKeys << std::hex << hash;
+  return key.str();
+}
+
+/// @param text_key  key of the description of the robot; empty: parameters hold it
+template <class File>
+void pass(File& file, StoredRobot& robot, std::string& text_key) {
+  file.line("robot");
+  file.value(robot.absent);
+  file.value(robot.spec.params.description);
+  file.value(robot.spec.params.semantic);
+  file.value(robot.spec.params.tf_prefix);
+  file.value(text_key);
+}
+
+template <class File>
 void pass(File& file, PairRule& rule, const RuleClocks& clocks) {
   using Steady = PairRule::Clock;
   bool ends = rule.ends != Steady::time_point::max();
@@ -140,6 +181,27 @@ bool begins(const std::string& text, const std::string& beginning) {
   return text.compare(0, beginning.size(), beginning) == 0;
 }
 
+void readRobot(const std::string& key, const std::string& text, StoredWorld& stored) {
+  const std::string name = key.substr(std::string(kRobotKeys).size());
+  std::optional<StoredRobot>& robot = stored.robots[name];
+  if (text == kRemoved) return;
+  std::istringstream in(text);
+  TextReader reader(in, "the stored " + key);
+  StoredRobot read;
+  std::string text_key;
+  pass(reader, read, text_key);
+  read.spec.params.name = name;
+  if (!text_key.empty()) {
+    const auto known = stored.descriptions.find(text_key);
+    if (known == stored.descriptions.end()) {
+      stored.robots.erase(name);
+      throw Refusal(Code::parse, "the stored " + key + " cannot be used, because its description is not stored");
+    }
+    read.spec.text = known->second;
+  }
+  robot = std::move(read);
+}
+
 void readItem(const std::string& key, const std::string& text, NarrowPhase& narrow_phase, const RuleClocks& clocks,
               StoredWorld& stored) {
   if (begins(key, kObstacleKeys)) {
@@ -162,6 +224,10 @@ void readItem(const std::string& key, const std::string& text, NarrowPhase& narr
       map->name = name;
     }
     stored.maps[name] = map;
+  } else if (begins(key, kDescriptionKeys)) {  // these come before the robots, because items are sorted
+    stored.descriptions[key] = std::make_shared<const RobotDescription>(read<RobotDescription>(key, text));
+  } else if (begins(key, kRobotKeys)) {
+    readRobot(key, text, stored);
   } else if (key == kRulesKey) {
     std::istringstream in(text);
     TextReader reader(in, "the stored " + key);
@@ -197,6 +263,22 @@ StateEdit editOf(const std::vector<PairRule>& rules, const RuleClocks& clocks) {
 StateEdit editOf(const std::string& name, const std::optional<MapParams>& map) {
   return {StateEdit::Kind::set, kMapKeys + name, map ? textOf(*map) : kRemoved};
 }
+
+StateEdit editOfRobot(const std::string& name, const std::optional<StoredRobot>& robot) {
+  if (!robot) return {StateEdit::Kind::set, kRobotKeys + name, kRemoved};
+  std::ostringstream out;
+  TextWriter writer(out);
+  StoredRobot copy = *robot;
+  std::string text_key = copy.spec.text ? keyOf(*copy.spec.text) : "";
+  pass(writer, copy, text_key);
+  return {StateEdit::Kind::set, kRobotKeys + name, out.str() + "\n"};
+}
+
+StateEdit editOf(const RobotDescription& text) { return {StateEdit::Kind::set, keyOf(text), textOf(text)}; }
+
+StateEdit removalOf(const RobotDescription& text) { return {StateEdit::Kind::erase, keyOf(text), ""}; }
+
+StateEdit removalOfRobot(const std::string& name) { return {StateEdit::Kind::erase, kRobotKeys + name, ""}; }
 
 StoredWorld storedWorldOf(const StateItems& items, NarrowPhase& narrow_phase, const RuleClocks& clocks) {
   StoredWorld stored;

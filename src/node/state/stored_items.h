@@ -21,10 +21,16 @@ struct RuleClocks {
   static RuleClocks now() { return {PairRule::Clock::now(), std::chrono::system_clock::now()}; }
 };
 
-/// The keys of all obstacles, and those of all maps, begin with these. All rules together have one key.
+/// The keys of all obstacles begin with the first of these, those of all maps with the second, and so on. All rules
+/// together have one key.
 inline constexpr const char* kObstacleKeys = "obstacle ";
 inline constexpr const char* kMapKeys = "map ";
+inline constexpr const char* kRobotKeys = "robot ";
+inline constexpr const char* kDescriptionKeys = "description ";
 inline constexpr const char* kRulesKey = "rules";
+
+/// Returns the key of a description: a hash of its text, because equal texts are stored once.
+std::string keyOf(const RobotDescription& text);
 
 ///@{
 /// Returns the edit that stores the value.
@@ -34,7 +40,15 @@ StateEdit removalOf(const std::string& obstacle, bool is_configured);
 StateEdit editOf(const std::vector<PairRule>& rules, const RuleClocks& clocks);
 /// @param map  nullopt: the map was removed
 StateEdit editOf(const std::string& name, const std::optional<MapParams>& map);
+/// The text of the description is an item of its own, because equal robots share it.
+/// @param robot  nullopt: the robot was removed
+StateEdit editOfRobot(const std::string& name, const std::optional<StoredRobot>& robot);
+StateEdit editOf(const RobotDescription& text);
 ///@}
+/// Returns the edit that removes what editOf(text) stored.
+StateEdit removalOf(const RobotDescription& text);
+/// Returns the edit that stores nothing about a robot, because it is as ~robots says.
+StateEdit removalOfRobot(const std::string& name);
 
 /// Reads all items. An item that cannot be read becomes a trouble.
 StoredWorld storedWorldOf(const StateItems& items, NarrowPhase& narrow_phase, const RuleClocks& clocks);

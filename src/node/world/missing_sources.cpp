@@ -5,9 +5,6 @@
 namespace hgrid {
 
 MissingSources::MissingSources(const Params& params) {
-  for (const RobotParams& robot : params.robots) {
-    set(SourceId::ofRobot(robot.name), "NOT_READY robot '" + robot.name + "': its description has not been read yet");
-  }
   for (const MapParams& map : params.maps) {
     set(SourceId::ofMap(map.name),
         "NOT_READY map '" + map.name + "': " +

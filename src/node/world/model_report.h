@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
-#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -10,23 +9,25 @@
 
 #include "hgrid_proximity/bodies/self_pairs.h"
 #include "node/params/params.h"
-#include "node/sources/robot_source.h"
+#include "node/world/robot_entry.h"
 
 namespace hgrid {
 
-/// What is missing in the robots' descriptions, and which pairs their models switch off. Changes only when a robot is
-/// loaded.
+/// Which robots the world should have, what is missing in their descriptions, and which pairs their models switch off.
+/// Changes only when a robot is loaded, joins or leaves.
 struct ModelReport {
   std::vector<std::string> uncovered, waived, without_collision, uses_visual, warnings;
   std::vector<std::pair<std::string, SelfPairs>> self_pairs;  ///< name of each robot, and the pairs of its own links
-  std::size_t robots = 0;
+  std::vector<std::string> expected;  ///< names of the robots that the world should have, loaded or not, sorted
+  std::vector<std::string> absent;    ///< names of the robots that were declared absent, sorted
+  std::size_t robots = 0;             ///< number of robots that are in the world
 };
 
-/// The robots in the world, by name. The pointers are shared, so that copying this container is cheap.
-using RobotsByName = std::map<std::string, std::shared_ptr<const LoadedRobot>>;
+/// Adds what the descriptions of a robot lack.
+void addToReport(const LoadedRobot& robot, ModelReport& report);
 
-/// Returns the report on these robots. Once all configured robots are loaded, it also warns about patterns that match
-/// no name.
-std::shared_ptr<const ModelReport> makeModelReport(const RobotsByName& robots, const Params& params);
+/// Returns the report on these robots. Once all expected robots are loaded, it also warns about patterns that match no
+/// name.
+std::shared_ptr<const ModelReport> makeModelReport(const RobotEntries& robots, const Params& params);
 
 }  // namespace hgrid

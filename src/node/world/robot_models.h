@@ -3,66 +3,67 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "node/params/params.h"
+#include "node/sources/robot_source.h"
+#include "node/sources/robot_spec.h"
 #include "node/world/model_report.h"
+#include "node/world/robot_entry.h"
 
 namespace hgrid {
 
-/// Stores the models of the robots in the world.
+/// Stores which robots the world should have, and their models.
 ///
-/// Copies are cheap. To make a change, modify a copy and then swap() it with the original.
+/// A copy is cheap and does not throw, and any thread may read it. To make a change, modify a copy and then swap() it
+/// with the original.
 class RobotModels {
  public:
-  explicit RobotModels(const Params& params) : params_(params) {}
+  /// At first, no robot is loaded.
+  /// @param params  must outlive this object and its copies
+  /// @param stored  what an earlier run of the node changed
+  explicit RobotModels(const Params& params, const StoredRobots& stored = {});
 
-  /// Replaces the model of the robot of the same name, if there is one.
-  void set(std::shared_ptr<const LoadedRobot> robot) {
-    const std::string name = robot->name;
-    robots_.insert_or_assign(name, std::move(robot));
-    report_ = makeModelReport(robots_, params_);
-    ++revision_;
-  }
+  /// Replaces all robots.
+  void set(RobotEntries robots);
+  /// Returns all robots, by name, also those that are absent or not loaded.
+  const RobotEntries& all() const { return content_->robots; }
+  /// Returns the robots as ~robots lists them. Models that are known stay.
+  RobotEntries configured() const;
+
+  /// Returns the entry of a robot; null if there is no such robot.
+  const RobotEntry* entry(const std::string& name) const;
+  /// Returns whether the world should have a robot of this name.
+  bool expects(const std::string& name) const;
   /// Returns the model of a robot, or null if the robot is not in the world.
-  const LoadedRobot* find(const std::string& name) const {
-    const auto known = robots_.find(name);
-    return known == robots_.end() ? nullptr : known->second.get();
-  }
+  const LoadedRobot* find(const std::string& name) const;
   /// Returns the model of the robot that has a link of this name, "robot/link"; null if no robot in the world has it.
-  const LoadedRobot* findLink(const std::string& link) const {
-    const LoadedRobot* robot = find(link.substr(0, link.find('/')));
-    return robot != nullptr && robot->links.count(link) != 0 ? robot : nullptr;
-  }
-  /// Returns the full names, "robot/link", of the links of all robots that have this name without the robot.
-  std::vector<std::string> linksNamed(const std::string& name) const {
-    std::vector<std::string> links;
-    for (const auto& robot : robots_) {
-      if (robot.second->links.count(robot.first + "/" + name) != 0) links.push_back(robot.first + "/" + name);
-    }
-    return links;
-  }
-  /// Returns all models, by the name of the robot.
-  const RobotsByName& all() const { return robots_; }
+  const LoadedRobot* findLink(const std::string& link) const;
+  /// Returns the full names, "robot/link", of the links of all robots in the world that have this name without the
+  /// robot.
+  std::vector<std::string> linksNamed(const std::string& name) const;
+  /// Returns the root frame of the first robot of ~robots; empty: it is not loaded.
+  std::string firstRoot() const;
   /// Returns the report on what is missing in the models.
-  const std::shared_ptr<const ModelReport>& report() const { return report_; }
+  const std::shared_ptr<const ModelReport>& report() const { return content_->report; }
 
   /// Returns a number that increases with each change.
-  std::uint64_t revision() const { return revision_; }
+  std::uint64_t revision() const { return content_->revision; }
 
-  void swap(RobotModels& other) noexcept {
-    robots_.swap(other.robots_);
-    report_.swap(other.report_);
-    std::swap(revision_, other.revision_);
-  }
+  void swap(RobotModels& other) noexcept { content_.swap(other.content_); }
 
  private:
-  const Params& params_;
-  RobotsByName robots_;
-  std::uint64_t revision_ = 0;
-  std::shared_ptr<const ModelReport> report_ = std::make_shared<ModelReport>();
+  struct Content {
+    RobotEntries robots;
+    std::shared_ptr<const ModelReport> report = std::make_shared<ModelReport>();
+    std::uint64_t revision = 0;
+  };
+
+  const Params* params_;
+  std::shared_ptr<const Content> content_;
 };
 
 }  // namespace hgrid

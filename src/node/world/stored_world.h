@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -9,6 +11,7 @@
 #include "hgrid_proximity/pairs/pair_rule.h"
 #include "node/loading/map_loader.h"
 #include "node/world/placed_obstacle.h"
+#include "node/world/robot_entry.h"
 
 namespace hgrid {
 
@@ -17,9 +20,12 @@ struct StoredWorld {
   std::vector<PlacedObstacle> obstacles;  ///< those that were added or changed
   std::set<std::string> removed;          ///< full names of the obstacles of ~obstacles that were removed
   std::vector<PairRule> rules;            ///< those of ~set_allowed
-  StoredMaps maps;                        ///< those that services loaded or removed
-  std::vector<std::string> troubles;      ///< what could not be read, one sentence each
-  std::vector<std::string> unreadable;    ///< keys of the items that could not be read
+  StoredRobots robots;                    ///< those that were added, removed or declared absent
+  /// Descriptions that came with requests, by the key of their item.
+  std::map<std::string, std::shared_ptr<const RobotDescription>> descriptions;
+  StoredMaps maps;                      ///< those that services loaded or removed
+  std::vector<std::string> troubles;    ///< what could not be read, one sentence each
+  std::vector<std::string> unreadable;  ///< keys of the items that could not be read
 };
 
 }  // namespace hgrid

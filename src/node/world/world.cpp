@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hgrid_proximity/refusal.h"
+#include "node/world/robot_edits.h"
 #include "node/world/unplaced_robots.h"
 
 namespace hgrid {
@@ -35,13 +36,67 @@ SceneOptions optionsOf(const Params& params, const std::vector<PairRule>& stored
   return options;
 }
 
-/// Checks that the bodies of a robot fit into ~max_bodies.
-/// @param others  number of bodies in the world that do not belong to this robot
-void checkRoom(const LoadedRobot& robot, std::size_t others, const Params& params) {
-  if (others + robot.bodies.size() <= static_cast<std::size_t>(params.max_bodies)) return;
-  throw Refusal(Code::limit, "robot '" + robot.name + "' has " + std::to_string(robot.bodies.size()) +
-                                 " bodies; with them, the world would have more than ~max_bodies, " +
-                                 std::to_string(params.max_bodies));
+/// Returns the robots of `next` that must enter the scene, because it does not have them or has another model of them.
+std::vector<std::shared_ptr<const LoadedRobot>> entering(const RobotEntries& present, const RobotEntries& next) {
+  std::vector<std::shared_ptr<const LoadedRobot>> robots;
+  for (const auto& [name, robot] : next) {
+    const auto old = present.find(name);
+    const bool stays = old != present.end() && old->second.inWorld() && old->second.model == robot.model;
+    if (robot.inWorld() && !stays) robots.push_back(robot.model);
+  }
+  return robots;
+}
+
+/// Returns how many bodies of `present` leave the scene if the robots become `next`.
+std::size_t leavingBodies(const RobotEntries& present, const RobotEntries& next) {
+  std::size_t bodies = 0;
+  for (const std::shared_ptr<const LoadedRobot>& robot : entering(next, present)) bodies += robot->bodies.size();
+  return bodies;
+}
+
+/// Returns the first robot whose bodies do not fit into ~max_bodies; null: all fit.
+/// @param others  number of bodies in the world that belong to no robot of `robots`
+const LoadedRobot* findTooLarge(const std::vector<std::shared_ptr<const LoadedRobot>>& robots, std::size_t others,
+                                const Params& params) {
+  for (const std::shared_ptr<const LoadedRobot>& robot : robots) {
+    others += robot->bodies.size();
+    if (others > static_cast<std::size_t>(params.max_bodies)) return robot.get();
+  }
+  return nullptr;
+}
+
+Refusal tooLarge(const LoadedRobot& robot, const Params& params) {
+  return {Code::limit, "robot '" + robot.name + "' has " + std::to_string(robot.bodies.size()) +
+                           " bodies; with them, the world would have more than ~max_bodies, " +
+                           std::to_string(params.max_bodies)};
+}
+
+/// Returns what a robot lacks; empty: nothing, or it is not expected to be in the world.
+std::string lackOf(const std::string& name, const RobotEntry& robot) {
+  if (robot.absent) return {};
+  if (!robot.model) return "NOT_READY robot '" + name + "': its description has not been read yet";
+  if (!robot.refused.empty()) {
+    return "REFUSED '" + name + "': its newest description could not be used (" + robot.refused +
+           "), so its model may be out of date";
+  }
+  return robot.model->gap.empty() ? "" : "UNCOVERED " + robot.model->gap;
+}
+
+bool isSameEntry(const RobotEntry& a, const RobotEntry& b) {
+  return a.spec == b.spec && a.model == b.model && a.absent == b.absent && a.refused == b.refused;
+}
+
+/// Updates what the robots lack. What is known of a robot that does not change stays.
+void updateMissing(const RobotEntries& present, const RobotEntries& next, MissingSources& missing) {
+  for (const auto& robot : present) {
+    if (next.count(robot.first) == 0) missing.erase(SourceId::ofRobot(robot.first));
+  }
+  for (const auto& [name, robot] : next) {
+    const auto old = present.find(name);
+    if (old != present.end() && isSameEntry(old->second, robot)) continue;
+    const std::string lack = lackOf(name, robot);
+    lack.empty() ? missing.erase(SourceId::ofRobot(name)) : missing.set(SourceId::ofRobot(name), lack);
+  }
 }
 
 /// Adds a mover for each group of links that move together.
@@ -78,7 +133,7 @@ World::World(std::shared_ptr<const Settings> settings, bool simulated, std::uint
       clock_(simulated, params_.clock_jump, params_.stale_after),
       movers_(scene_),
       poses_(params_, transforms_, scene_, movers_, ledger),
-      robots_(params_),
+      robots_(params_, stored.robots),
       obstacles_(params_, std::move(narrow_phase), stored, ledger),
       maps_(simulated),
       clouds_(params_, simulated, scene_, ledger),
@@ -86,6 +141,7 @@ World::World(std::shared_ptr<const Settings> settings, bool simulated, std::uint
       world_frame_(params_.world_frame),
       epoch_(epoch) {
   scene_.beginEpoch(epoch_);
+  updateMissing({}, robots_.all(), missing_);
   for (const auto& [name, map] : stored.maps) {
     if (map) missing_.set(SourceId::ofMap(name), "NOT_READY map '" + name + "': its file has not been read yet");
   }
@@ -107,17 +163,62 @@ void World::beginEpoch() {
 
 void World::setRobot(LoadedRobot loaded) {
   const auto robot = std::make_shared<const LoadedRobot>(std::move(loaded));
-  const SourceId source = SourceId::ofRobot(robot->name);
-  const LoadedRobot* known = robots_.find(robot->name);
-  checkRoom(*robot, scene_.size() - (known == nullptr ? 0 : known->bodies.size()), params_);
-  Movers::Change change = movers_.changeWithout([&](const SourceId& other) { return other == source; });
-  addMovers(*robot, paddings_, change);
-  RobotModels robots = robots_;
-  robots.set(robot);
+  RobotEntries next = robots_.all();
+  RobotEntry& entry = next[robot->name];
+  if (!entry.spec) {
+    RobotSpec spec;
+    spec.params.name = robot->name;
+    entry.spec = std::make_shared<const RobotSpec>(std::move(spec));
+  }
+  entry.model = robot;
+  entry.refused.clear();
+  exchangeRobots(std::move(next), nullptr);
+}
+
+void World::applyRobots(const RobotChanges& changes) {
+  RobotEntries next = robots_.all();
+  std::map<std::string, std::size_t> bringing;  // index of the last change that brings a robot into the world, by name
+  findWorldFrame();
+  for (const RobotChange& change : changes) {
+    try {
+      edit(change, params_, next);
+      if (change.operation == RobotOperation::add && params_.world_frame.empty())
+        checkSharesRoot(*change.model, world_frame_);
+    } catch (const Refusal& refusal) {
+      throw ChangeRefusal(change.index, refusal);
+    }
+    if (next.count(change.name) != 0) bringing[change.name] = change.index;
+  }
+  const std::size_t others = scene_.size() - leavingBodies(robots_.all(), next);
+  if (const LoadedRobot* robot = findTooLarge(entering(robots_.all(), next), others, params_))
+    throw ChangeRefusal(bringing[robot->name], tooLarge(*robot, params_));
+  exchangeRobots(std::move(next), nullptr);
+}
+
+/// Replaces the robots, all of them or none. @param leaves_too  which other sources leave the world; may be empty
+void World::exchangeRobots(RobotEntries next, const std::function<bool(const SourceId&)>& leaves_too) {
+  const RobotEntries& present = robots_.all();
+  std::set<std::string> leaving;
+  for (const std::shared_ptr<const LoadedRobot>& robot : entering(next, present)) leaving.insert(robot->name);
+  const std::vector<std::shared_ptr<const LoadedRobot>> coming = entering(present, next);
+  if (!leaves_too) {
+    const std::size_t others = scene_.size() - leavingBodies(present, next);
+    if (const LoadedRobot* robot = findTooLarge(coming, others, params_)) throw tooLarge(*robot, params_);
+  }
   MissingSources missing = missing_;
-  missing.erase(source);
-  if (!robot->gap.empty()) missing.set(source, "UNCOVERED " + robot->gap);
-  movers_.exchange(std::move(change));
+  updateMissing(present, next, missing);
+  const bool changes_bodies = leaves_too || !leaving.empty() || !coming.empty();
+  std::optional<Movers::Change> change;
+  if (changes_bodies) {
+    change = movers_.changeWithout([&](const SourceId& source) {
+      return (source.kind == SourceKind::robot && leaving.count(source.name) != 0) ||
+             (leaves_too && leaves_too(source));
+    });
+    for (const std::shared_ptr<const LoadedRobot>& robot : coming) addMovers(*robot, paddings_, *change);
+  }
+  RobotModels robots = robots_;
+  robots.set(std::move(next));
+  if (change) movers_.exchange(std::move(*change));
   // The code below does not throw.
   robots_.swap(robots);
   missing_.swap(missing);
@@ -195,10 +296,15 @@ void World::needFrames(const Moment& now) {
 
 void World::setMissing(const SourceId& source, const std::string& sentence) {
   if (clouds_.noteRefused(source, sentence) || maps_.noteRefused(source, sentence)) return;
-  const bool known = robots_.find(source.name) != nullptr;
-  missing_.set(source, known ? "REFUSED '" + source.name + "': its newest description could not be used (" + sentence +
-                                   "), so its model may be out of date"
-                             : sentence);
+  const RobotEntry* known = source.kind == SourceKind::robot ? robots_.entry(source.name) : nullptr;
+  if (source.kind == SourceKind::robot && known == nullptr) return;  // it was removed
+  if (known == nullptr || (!known->model && !known->absent)) {
+    missing_.set(source, sentence);
+  } else if (known->model && known->refused != sentence) {
+    RobotEntries next = robots_.all();
+    next.at(source.name).refused = sentence;
+    exchangeRobots(std::move(next), nullptr);
+  }
 }
 
 void World::applyObstacles(const ObstacleChanges& changes, Time now) {
@@ -235,8 +341,9 @@ void World::padLinks() {
                        [](const BodyShape& a, const BodyShape& b) { return a.padding == b.padding; });
   };
   std::vector<const LoadedRobot*> others;
-  for (const auto& [name, robot] : robots_.all()) {
-    if (std::any_of(robot->bodies.begin(), robot->bodies.end(), differs)) others.push_back(robot.get());
+  for (const auto& entry : robots_.all()) {
+    const LoadedRobot* robot = robots_.find(entry.first);
+    if (robot != nullptr && std::any_of(robot->bodies.begin(), robot->bodies.end(), differs)) others.push_back(robot);
   }
   if (!others.empty()) {
     Movers::Change change = movers_.changeWithout([&](const SourceId& source) {
@@ -257,7 +364,8 @@ void World::setSettings(std::shared_ptr<const Settings> settings) {
 
 void World::reset() {
   const auto is_obstacle = [](const SourceId& source) { return source.kind == SourceKind::obstacle; };
-  movers_.exchange(movers_.changeWithout(is_obstacle));
+  exchangeRobots(robots_.configured(), is_obstacle);
+  // The code below does not throw.
   obstacles_.startAgain();
   setLinkPaddings({});
   setMatrix({});
@@ -270,8 +378,7 @@ void World::reset() {
 /// @returns whether the world frame is known
 bool World::findWorldFrame() {
   if (world_frame_.empty()) {
-    const LoadedRobot* first = robots_.find(params_.robots.front().name);
-    if (first != nullptr) world_frame_ = first->root_frame;
+    world_frame_ = robots_.firstRoot();
     needed_revision_.reset();
   }
   return !world_frame_.empty();
@@ -310,7 +417,9 @@ std::vector<SourceGap> World::listMissing(const Moment& now, Tick& tick) const {
   if (!clock_.running())
     add("clock", "NOT_READY: there is no time yet; /use_sim_time is set, but nothing is published on /clock");
   if (world_frame_.empty()) {
-    add("world frame", "NOT_READY: the world frame is the root of a robot that is not loaded yet");
+    add("world frame",
+        "NOT_READY: the world frame is the root of a robot that is not loaded yet; set ~world_frame if this robot "
+        "does not come");
   }
   return gaps;
 }

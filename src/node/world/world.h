@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "node/diagnostics/ledger.h"
 #include "node/params/settings.h"
 #include "node/sources/loaded_map.h"
+#include "node/sources/robot_change.h"
 #include "node/sources/robot_source.h"
 #include "node/sources/source_id.h"
 #include "node/tf/tf_intake.h"
@@ -53,9 +55,14 @@ class World {
   TfIntake& transforms() { return transforms_; }
   const TfIntake& transforms() const { return transforms_; }
 
-  /// Replaces the robot of the same name, if there is one.
+  /// Replaces the model of the robot of the same name, or adds a robot. An absent robot stays absent.
   /// @throws Refusal limit (~max_bodies), or as Scene::exchange()
   void setRobot(LoadedRobot robot);
+  /// Applies changes of robots, all of them or none.
+  /// @throws ChangeRefusal as edit() and checkSharesRoot(), or limit (~max_bodies); Refusal as Scene::exchange()
+  void applyRobots(const RobotChanges& changes);
+  /// Returns the robots, also those that are absent or not loaded.
+  const RobotModels& robots() const { return robots_; }
   /// Replaces the map of the same name, if there is one.
   /// @throws Refusal not_ready (no world frame yet), limit, bad_geometry (no cells), or unknown_frame (the map would
   /// move to a frame that is not connected to the world frame)
@@ -92,8 +99,8 @@ class World {
   const ObstacleBodies& obstacles() const { return obstacles_; }
   /// Ends what ObstacleBodies::unsaved() lists.
   void forgetUnsaved() noexcept { obstacles_.forgetUnsaved(); }
-  /// Restores the configured obstacles, sets all counters to 0 and begins a new epoch. Forgets what MoveIt set. Rules
-  /// and settings stay.
+  /// Restores the configured robots and obstacles, sets all counters to 0 and begins a new epoch. Forgets what MoveIt
+  /// set. Rules and settings stay. Robots that were removed must be loaded again.
   void reset();
 
   /// Makes the next tick, without Tick::history. @param now  current time of both clocks
@@ -104,6 +111,7 @@ class World {
   void beginEpoch();
   bool findWorldFrame();
   void padLinks();
+  void exchangeRobots(RobotEntries next, const std::function<bool(const SourceId&)>& leaves_too);
   void needFrames(const Moment& now);
   std::vector<SourceGap> listMissing(const Moment& now, Tick& tick) const;
 

@@ -142,6 +142,21 @@ TEST(Audit, AllowsALinkThatOnlyAFixedJointPlaces) {
   EXPECT_NE(snapshot.poses()[snapshot.structure().find("arm/arm_tool")].state, Freshness::unplaced);
 }
 
+TEST(Audit, FindsNothingWrongWhileARobotLeavesAndReturns) {
+  AuditedWorld world(12);
+  world.addRobot(0.0);
+  begin(world);
+  for (int round = 0; round < 20; ++round) {
+    world.declareRobot(round % 2 == 1);
+    for (int tick = 0; tick < 3; ++tick) {
+      world.step();
+      ASSERT_EQ(sentences(audit(world.audited(), 1)), "") << "round " << round << ", tick " << tick;
+    }
+    const bool is_there = world.world().snapshot().structure().find("arm/arm_tool") != Structure::kNone;
+    ASSERT_EQ(is_there, round % 2 == 1);
+  }
+}
+
 TEST(Audit, FindsAPairThatTheGridMissed) {
   AuditedWorld world(6);
   begin(world);

@@ -111,6 +111,13 @@ void AuditedWorld::addRobot(double off, bool published) {
   send(fixed, true);
 }
 
+void AuditedWorld::declareRobot(bool present) {
+  RobotChange change;
+  change.operation = present ? RobotOperation::declare_present : RobotOperation::declare_absent;
+  change.name = "arm";
+  world_.world().applyRobots({change});
+}
+
 void AuditedWorld::send(geometry_msgs::TransformStamped transform, bool is_static, const std::string& publisher) {
   record_.begins(*serialized(transform, is_static, publisher, world_.moment()));
   if (!tamper || tamper(transform)) world_.take(transform, is_static, publisher);

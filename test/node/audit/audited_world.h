@@ -30,6 +30,9 @@ class AuditedWorld {
   /// @param published  whether /tf_static has the frame of the second link
   void addRobot(double off, bool published = true);
 
+  /// Declares the robot absent or present.
+  void declareRobot(bool present);
+
   /// Records one transform without a change. Then changes it by `tamper` and sends it to the node.
   void send(geometry_msgs::TransformStamped transform, bool is_static = false, const std::string& publisher = "/state");
   /// Returns a random small pose of `child` in `parent`, stamped `delay` [s] before now.

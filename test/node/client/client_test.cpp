@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <hgrid_proximity/CodeNames.h>
 #include <hgrid_proximity/ObstacleOperation.h>
+#include <hgrid_proximity/RobotOperation.h>
 #include <hgrid_proximity/ShapeKind.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -110,6 +111,18 @@ TEST_F(TheClient, ChangesObstacles) {
   } catch (const Refused& refused) {
     EXPECT_EQ(refused.code.value, msg::CodeNames::UNKNOWN_ID);
   }
+}
+
+TEST_F(TheClient, ChangesRobots) {
+  msg::ApplyRobotsRequest request;
+  request.changes.resize(1);
+  request.changes[0].operation = msg::RobotOperation::ABSENT;
+  request.changes[0].names = {"none"};
+  EXPECT_TRUE(client_.apply(request).world.complete) << "the robot that is not loaded is not waited for any more";
+  request.changes[0].operation = msg::RobotOperation::PRESENT;
+  EXPECT_FALSE(client_.apply(request).world.complete);
+  request.changes[0].names = {"nobody"};
+  EXPECT_THROW(client_.apply(request), Refused);
 }
 
 TEST_F(TheClient, NeitherHitNorClearIsUnknown) {

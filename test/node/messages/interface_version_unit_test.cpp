@@ -6,6 +6,7 @@
 #include <hgrid_proximity/AllowedPair.h>
 #include <hgrid_proximity/Answer.h>
 #include <hgrid_proximity/ApplyObstacles.h>
+#include <hgrid_proximity/ApplyRobots.h>
 #include <hgrid_proximity/Bodies.h>
 #include <hgrid_proximity/Body.h>
 #include <hgrid_proximity/BodyStatus.h>
@@ -30,6 +31,7 @@
 #include <hgrid_proximity/QueryShape.h>
 #include <hgrid_proximity/QuerySphere.h>
 #include <hgrid_proximity/ReloadRobot.h>
+#include <hgrid_proximity/RobotChange.h>
 #include <hgrid_proximity/Rules.h>
 #include <hgrid_proximity/SaveScene.h>
 #include <hgrid_proximity/SelfPairs.h>
@@ -87,14 +89,16 @@ const std::vector<Pin>& pins() {
       message<msg::Obstacle>("Obstacle", "5608eedc0bae1cab90887c5e86e8f978"),
       message<msg::Pairs>("Pairs", "59a5c05dcc80fa7bab33a476f547a113"),
       message<msg::Poses>("Poses", "3b5d47fb4ea85b737dd5eb0fc134064d"),
+      message<msg::RobotChange>("RobotChange", "27a18441450869f732ed28206eff65a6"),
       message<msg::Rules>("Rules", "79058cafa5b4aab9f804a71d629c5134"),
       message<msg::SelfPairs>("SelfPairs", "5eb242595ef409da6cb975008f1ff334"),
       message<msg::Shape>("Shape", "61b71820d028a78f9c0114ba95225d3a"),
       message<msg::SourceStatus>("SourceStatus", "5d4419b44e109dac842346aa9930398a"),
-      message<msg::Status>("Status", "41f51c48148bba2d1fb628ca278e5861"),
+      message<msg::Status>("Status", "51359a8c0fc26c3cdf24786276194ced"),
       message<msg::Timing>("Timing", "ffa7e14ed99c15133b8734e32bdf8366"),
       message<msg::WorldState>("WorldState", "6e7f0e7ad23b6a55d3f532ba2a769931"),
       service<msg::ApplyObstacles>("ApplyObstacles", "f52ed5b3192f3c3a90fdc43ee3f2801d"),
+      service<msg::ApplyRobots>("ApplyRobots", "7c47cace6728675cd273ddc573cd5ece"),
       service<msg::ClearMap>("ClearMap", "aa94ec5cc4241768d88da962bc4cdb11"),
       service<msg::ExplainPair>("ExplainPair", "7f877c8d05130f963b17495385f7f1f0"),
       service<msg::GetAllowed>("GetAllowed", "a7c3ddc68c8114168a385cee5844a3f2"),

@@ -22,6 +22,7 @@ std::shared_ptr<Tick> tickOf(std::shared_ptr<const Snapshot> snapshot) {
   auto tick = std::make_shared<Tick>();
   tick->settings = settingsOf(Params{});
   tick->world_frame = "world";
+  tick->models = std::make_shared<ModelReport>();
   tick->epoch = 7;
   tick->not_ready = {"NOT_READY: no frame"};
   tick->snapshot = std::move(snapshot);

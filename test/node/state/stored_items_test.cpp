@@ -162,6 +162,38 @@ TEST(StoredItems, AMapIsReadAsItWasWritten) {
   EXPECT_EQ(maps.at("old"), std::nullopt);
 }
 
+TEST(StoredItems, RobotsKeepTheirDescriptionsFramesAndAbsence) {
+  const auto phase = makeFclNarrowPhase();
+  const auto text = std::make_shared<const RobotDescription>(RobotDescription{"<robot %\n\"ä\"/>", "<robot/>"});
+  StoredRobot told, like, named;
+  told.spec.params = {"told", "", "", ""};
+  told.spec.text = like.spec.text = text;
+  told.absent = true;
+  like.spec.params = {"like", "", "", "like"};
+  named.spec.params = {"named", "/cell/description", "/cell/semantic", "a prefix"};
+  StateItems items;
+  applyEdits({editOfRobot("told", told), editOfRobot("like", like), editOfRobot("named", named),
+              editOfRobot("gone", std::nullopt), editOf(*text)},
+             items);
+  EXPECT_EQ(items.size(), 5u) << "the text is stored once";
+  const StoredWorld stored = storedWorldOf(items, *phase, kClocks);
+  EXPECT_TRUE(stored.troubles.empty());
+  ASSERT_EQ(stored.robots.size(), 4u);
+  EXPECT_FALSE(stored.robots.at("gone").has_value());
+  for (const auto& [name, robot] : {std::pair("told", &told), std::pair("like", &like), std::pair("named", &named)}) {
+    const std::optional<StoredRobot>& read = stored.robots.at(name);
+    ASSERT_TRUE(read.has_value()) << name;
+    EXPECT_EQ(read->spec.params.name, name);
+    EXPECT_EQ(read->absent, robot->absent) << name;
+    EXPECT_TRUE(isSame(read->spec, robot->spec)) << name;
+  }
+  EXPECT_EQ(stored.robots.at("told")->spec.text, stored.robots.at("like")->spec.text) << "they share the text again";
+  applyEdits({removalOf(*text)}, items);
+  const StoredWorld torn = storedWorldOf(items, *phase, kClocks);
+  EXPECT_EQ(torn.troubles.size(), 2u);
+  EXPECT_EQ(torn.robots.size(), 2u);
+}
+
 TEST_F(Obstacles, AMapThatAnEarlierRunLoadedIsMissedUntilItIsReadAgainAndARemovedOneIsNot) {
   Params params = Obstacles::params();
   for (const char* name : {"hall", "yard"}) {

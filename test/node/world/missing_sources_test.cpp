@@ -17,15 +17,16 @@ std::vector<std::string> namesOf(const MissingSources& missing) {
 
 Params cell() {
   Params params;
-  params.robots.push_back({"arm", "", "", ""});
   params.maps.emplace_back();
   params.maps.back().name = "hall";
   params.clouds.push_back({"eye"});
   return params;
 }
 
-TEST(MissingSources, AreAtFirstAllThatAreConfigured) {
-  const MissingSources missing(cell());
+TEST(MissingSources, AreAtFirstAllConfiguredMapsAndClouds) {
+  MissingSources missing(cell());
+  EXPECT_EQ(namesOf(missing), (std::vector<std::string>{"cloud/eye", "map/hall"}));
+  missing.set(SourceId::ofRobot("arm"), "NOT_READY");
   EXPECT_EQ(namesOf(missing), (std::vector<std::string>{"arm", "cloud/eye", "map/hall"}));
   EXPECT_TRUE(missing.has(SourceId::ofRobot("arm")));
   EXPECT_FALSE(missing.has(SourceId::ofRobot("hall")));
@@ -42,7 +43,7 @@ TEST(MissingSources, HaveTheNewestSentence) {
 
 TEST(MissingSources, AreErasedOneByOneOrByKind) {
   MissingSources missing(cell());
-  missing.set(SourceId::ofMap("yard"), "NOT_READY");
+  for (const SourceId& source : {SourceId::ofMap("yard"), SourceId::ofRobot("arm")}) missing.set(source, "NOT_READY");
   missing.erase(SourceId::ofRobot("arm"));
   missing.erase(SourceId::ofRobot("nobody"));
   EXPECT_EQ(namesOf(missing), (std::vector<std::string>{"cloud/eye", "map/hall", "map/yard"}));

@@ -125,6 +125,7 @@ class Obstacles : public ::testing::Test {
     static const Params params = [] {
       Params value;
       value.world_frame = "world";
+      value.robots.push_back({"arm", "", "", ""});
       value.state_folder = "/not/used";  // so that the world lists its changes
       ObstacleParams post;
       post.body.name = "obstacle/post";

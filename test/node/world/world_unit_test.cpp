@@ -142,6 +142,27 @@ Step applying(const std::vector<ObstacleChange>& changes, const Moment& now, boo
             }
           }};
 }
+Step applyingRobots(const std::vector<std::pair<RobotOperation, std::string>>& requested) {
+  RobotChanges changes;
+  for (const auto& [operation, name] : requested) {
+    RobotChange change;
+    change.operation = operation;
+    change.name = name;
+    if (operation == RobotOperation::add) {
+      RobotSpec spec;
+      spec.params = {name, "a description with a long name", "", name};
+      change.spec = std::make_shared<const RobotSpec>(spec);
+      change.model = std::make_shared<const LoadedRobot>(armOf(name, 0.2));
+    }
+    changes.push_back(change);
+  }
+  return {"applyRobots", [=](World& world, Ticks&) {
+            try {
+              world.applyRobots(changes);
+            } catch (const Refusal&) {  // a step with an earlier change was left out
+            }
+          }};
+}
 Step settingMissing(const SourceId& source) {
   const std::string sentence = "NOT_READY " + source.name + ": a sentence of some length";
   return {"setMissing " + source.name, [=](World& world, Ticks&) { world.setMissing(source, sentence); }};
@@ -225,6 +246,12 @@ std::vector<Step> script() {
   steps.push_back(applying({without(Kind::detach, "case"), adding("plate", 0.5)}, now()));
   tick(0.2);
   steps.push_back(applying({adding("plate", 0.5)}, now(), true));
+  steps.push_back(applyingRobots({{RobotOperation::declare_absent, "other"}, {RobotOperation::add, "third robot"}}));
+  tick(0.25);
+  steps.push_back(applyingRobots({{RobotOperation::declare_present, "other"},
+                                  {RobotOperation::declare_absent, "arm"},
+                                  {RobotOperation::remove, "third robot"}}));
+  tick(0.3);
   steps.push_back(settingMap("room", -0.5, 3));
   steps.push_back(settingMap("shelf", 1.0, 4));
   steps.push_back(settingCloud(time, 5));

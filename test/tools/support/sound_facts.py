@@ -54,6 +54,8 @@ def status(sequence=100, made=1000.0, **changes):
         "node_version": "0.1.0",
         "not_ready": [],
         "sources": [source("robot")],
+        "sources_total": 1,
+        "absent_robots": [],
         "bodies": [],
         "bodies_total": 0,
         "contested_frames": [],

@@ -39,6 +39,7 @@ def gather(node: str, timeout: float, listen: float) -> Facts:
     find_descriptions_of_nodes(facts, master, timeout)
     facts.nodes = ask_nodes(uri, sorted(nodes_that_matter(facts)), timeout)
     listen_to_topics(facts, listen, timeout)
+    facts.forget_robots_that_left()
     if facts.host:
         facts.pid_after = ask_nodes(uri, [facts.host], timeout)[facts.host].pid
     read_files(facts, timeout)

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "node/sources/robot_source.h"
+#include "node/sources/robot_spec.h"
+
+namespace hgrid {
+
+/// A robot that is in the world, should be, or was declared absent.
+struct RobotEntry {
+  std::shared_ptr<const RobotSpec> spec;
+  std::shared_ptr<const LoadedRobot> model;  ///< null: it is not loaded
+  bool absent = false;                       ///< whether it was declared absent: it is no source, and has no bodies
+  std::string refused;  ///< why its newest description could not be used, so that `model` is old; empty: it is not old
+
+  bool inWorld() const { return model != nullptr && !absent; }
+};
+
+using RobotEntries = std::map<std::string, RobotEntry>;
+
+/// A robot that an earlier run of the node added or declared absent.
+struct StoredRobot {
+  RobotSpec spec;
+  bool absent = false;
+};
+
+/// What an earlier run of the node changed, by name of the robot; nullopt: the robot was removed.
+using StoredRobots = std::map<std::string, std::optional<StoredRobot>>;
+
+}  // namespace hgrid
