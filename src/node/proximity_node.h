@@ -21,6 +21,7 @@
 #include "node/services/node_services.h"
 #include "node/state/state_keeper.h"
 #include "node/tick/tick_loop.h"
+#include "node/tracks/trackers.h"
 
 namespace hgrid {
 
@@ -63,6 +64,7 @@ class ProximityNode {
   Loading loading_;
   NodeServices services_;
   MoveItInterface moveit_;
+  Trackers trackers_;
   NodeDiagnostics diagnostics_;
   Housekeeping housekeeping_;
   /// Stops all threads before any part is destroyed, also if the constructor throws after some threads were started.

@@ -10,12 +10,12 @@
 namespace hgrid {
 
 /// The kinds of sources, which bring bodies into the world.
-enum class SourceKind { robot, obstacle, map, cloud };
+enum class SourceKind { robot, obstacle, map, cloud, tracker };
 
-/// Identifies a robot, an obstacle, a map or a cloud.
+/// Identifies a robot, an obstacle, a map, a cloud or a tracker.
 struct SourceId {
   SourceKind kind;
-  std::string name;  ///< name of the robot, or full name of the one body of any other source
+  std::string name;  ///< name of the robot, "track/name" for a tracker, or full name of the one body of another source
 
   static SourceId ofRobot(const std::string& name) { return {SourceKind::robot, name}; }
   /// @param body  full name of the body, for example "obstacle/post"
@@ -24,9 +24,11 @@ struct SourceId {
   static SourceId ofMap(const std::string& local) { return {SourceKind::map, joined("map", local)}; }
   /// @param local  configured name of the cloud, as in CloudParams::name
   static SourceId ofCloud(const std::string& local) { return {SourceKind::cloud, joined("cloud", local)}; }
+  /// @param local  configured name of the tracker, as in TrackerParams::name
+  static SourceId ofTracker(const std::string& local) { return {SourceKind::tracker, joined("track", local)}; }
 };
 
-/// Compares by name. No two sources have the same name, because a robot cannot be called "obstacle", "map" or "cloud".
+/// Compares by name. No two sources have the same name, because no robot has one of the reserved names, such as "map".
 inline bool operator<(const SourceId& a, const SourceId& b) { return a.name < b.name; }
 inline bool operator==(const SourceId& a, const SourceId& b) { return a.kind == b.kind && a.name == b.name; }
 
@@ -35,6 +37,7 @@ inline bool operator==(const SourceId& a, const SourceId& b) { return a.kind == 
 inline SourceGap gapOf(const SourceId& source, const std::string& sentence) {
   switch (source.kind) {
     case SourceKind::robot:
+    case SourceKind::tracker:
       return {source.name, joined(source.name, "*"), sentence};
     case SourceKind::obstacle:
       return {"obstacle", source.name, sentence};
