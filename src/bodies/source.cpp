@@ -15,8 +15,15 @@ std::string sourceOf(const Body& body) {
     case BodyKind::map:
     case BodyKind::cloud:
       return body.name;
+    case BodyKind::track:
+      return trackerOf(body.name);
   }
   return body.name;
+}
+
+std::string trackerOf(const std::string& name) {
+  const std::size_t first = name.find('/');
+  return first == std::string::npos ? name : name.substr(0, name.find('/', first + 1));
 }
 
 }  // namespace hgrid

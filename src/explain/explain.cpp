@@ -129,7 +129,7 @@ class Words {
     const bool link = a_.kind == BodyKind::link || b_.kind == BodyKind::link;
     const bool map = hasCells(a_.kind) || hasCells(b_.kind);
     const auto moving_obstacle = [](const Body& body) {
-      return body.kind == BodyKind::obstacle && body.mobility == Mobility::moving;
+      return countsAsObstacle(body.kind) && body.mobility == Mobility::moving;
     };
     if (!link && !moving_obstacle(a_) && !moving_obstacle(b_)) {
       return "a pair needs a link of a robot or an obstacle that moves, and neither body is one";

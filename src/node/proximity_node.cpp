@@ -54,6 +54,8 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
       moveit_(
           admin_thread_.node(), commons_, loading_.mapSource(), jobs_,
           [this](const TickJobs::Job& job) { return tick_loop_.tickAfter(job); }, [this] { return isEnding(); }),
+      trackers_(
+          admin_thread_.node(), commons_, world_.transforms().lookup(), [this] { return tick_loop_.newest(); }, jobs_),
       diagnostics_(
           admin_thread_.node(), admin_thread_.privateNode(), private_node.getNamespace(),
           [this] { return tick_loop_.newest(); }, commons_.health),
@@ -71,6 +73,7 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
   tick_thread_.startLoop([this] { beginTicks(); }, [this] { return tick_loop_.work(); });
   loading_.startClouds();
   moveit_.startTopics();
+  trackers_.start();
 }
 
 /// Stops all threads that use the parts of the node.
@@ -79,6 +82,7 @@ void ProximityNode::stop() {
   housekeeping_.stop();
   loading_.stopClouds();
   moveit_.stopTopics();
+  trackers_.stop();
   tick_thread_.stop();
   query_threads_.stop();
   admin_thread_.stop();

@@ -23,6 +23,7 @@
 #include "node/state/state_keeper.h"
 #include "node/tick/tick_history.h"
 #include "node/tick/tick_loop.h"
+#include "node/tracks/trackers.h"
 
 namespace hgrid {
 
@@ -67,6 +68,7 @@ class ProximityNode {
   Loading loading_;
   NodeServices services_;
   MoveItInterface moveit_;
+  Trackers trackers_;
   NodeDiagnostics diagnostics_;
   ChorePace marker_pace_;  // only the admin thread uses it
   Housekeeping housekeeping_;

@@ -31,7 +31,7 @@ bool exists(const PairKinds& kinds, const Type& a, const Type& b, bool same_robo
     return hasCells(other) ? kinds.robot_map : kinds.robot_obstacle;
   }
   const auto moving_obstacle = [](const Type& type) {
-    return type.kind == BodyKind::obstacle && type.mobility == Mobility::moving;
+    return countsAsObstacle(type.kind) && type.mobility == Mobility::moving;
   };
   // A moving map and a fixed obstacle make no pair, because the cells of the map contain the fixed obstacles too.
   return kinds.moving_obstacle && (moving_obstacle(a) || moving_obstacle(b));

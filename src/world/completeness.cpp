@@ -16,7 +16,10 @@ namespace {
 SourceGap gapOfAbsent(const std::string& pattern) {
   const std::string source = pattern.substr(0, pattern.find('/'));
   const bool one_of_many = source == "map" || source == "cloud";  // each map or cloud is a source of its own
-  return {one_of_many ? pattern : source, pattern,
+  return {source == "track" ? trackerOf(pattern)
+          : one_of_many     ? pattern
+                            : source,
+          pattern,
           "REQUIRED '" + printable(pattern) + "': no body matches this pattern; add such a body, or do not require it"};
 }
 

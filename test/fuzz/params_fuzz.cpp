@@ -62,6 +62,17 @@ class RangeCheck {
       within(name, cloud.min_points, 1, 1e8);
     }
   }
+  void trackers(const char* name, const std::vector<TrackerParams>& trackers, const char*) {
+    for (const TrackerParams& tracker : trackers) {
+      named(name, tracker.name);
+      within(name, tracker.max_speed, 0.0, 1e6);
+      within(name, tracker.margin, 0.0, 1e3);
+      within(name, tracker.noise, 0.0, 100.0);
+      within(name, tracker.forget, 0.1, 86400.0);
+      within(name, tracker.max_tracks, 1, 1000);
+      if (tracker.shapes.empty()) flaw = "a tracker has no shape";
+    }
+  }
   void obstacles(const char* name, const std::vector<ObstacleParams>& obstacles, const char*) {
     for (const ObstacleParams& obstacle : obstacles) {
       named(name, obstacle.body.name);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <geometry_msgs/PoseArray.h>
 #include <hgrid_proximity/ApplyObstacles.h>
 #include <hgrid_proximity/CheckEdges.h>
 #include <hgrid_proximity/CheckStates.h>
@@ -21,11 +22,13 @@
 #include <hgrid_proximity/SetAllowed.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_msgs/TFMessage.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <cstring>
 
 #include "src/node/messages/from_messages.h"
 #include "src/node/tf/transform_check.h"
+#include "src/node/tracks/track_report.h"
 #include "src/node/wire/checked.h"
 #include "src/node/wire/octomap_message.h"
 #include "src/node/wire/transform_slices.h"
@@ -89,6 +92,25 @@ std::string flawOfUse(const tf2_msgs::TFMessage& message, const std::string& byt
   return {};
 }
 
+std::string flawOfReport(const std::string& bytes, TrackerType type) {
+  TrackerParams tracker;
+  tracker.name = "people";
+  tracker.type = type;
+  const TrackReport report = readTrackReport(bytes, tracker, Moment{std::chrono::seconds(1000), {}}, 0.5);
+  if (report.poses.size() > static_cast<std::size_t>(tracker.max_tracks)) return "there are too many tracks";
+  for (const TrackReport::Reported& pose : report.poses) {
+    if (!pose.frame_from_track.matrix().allFinite()) return "a pose is not finite";
+    if (pose.id.empty() != (type == TrackerType::poses)) return "an id is wrong";
+  }
+  return {};
+}
+std::string flawOfUse(const visualization_msgs::MarkerArray&, const std::string& bytes) {
+  return flawOfReport(bytes, TrackerType::markers);
+}
+std::string flawOfUse(const geometry_msgs::PoseArray&, const std::string& bytes) {
+  return flawOfReport(bytes, TrackerType::poses);
+}
+
 template <class Message>
 FuzzResult readBytes(const std::string& bytes) {
   Checked<Message> message;
@@ -136,17 +158,30 @@ FuzzResult readOctomap(std::string_view input, bool) {
 using Read = FuzzResult (*)(std::string_view input, bool filled);
 
 constexpr Read kKinds[] = {
-    readAs<tf2_msgs::TFMessage>,          readOctomap,
-    readAs<msg::ApplyObstacles::Request>, readAs<msg::CheckEdges::Request>,
-    readAs<msg::CheckStates::Request>,    readAs<msg::ClearMap::Request>,
-    readAs<msg::DistanceField::Request>,  readAs<msg::ExplainPair::Request>,
-    readAs<msg::GetAllowed::Request>,     readAs<msg::Guard::Request>,
-    readAs<msg::LoadOctomap::Request>,    readAs<msg::LoadScene::Request>,
-    readAs<msg::QueryBatch::Request>,     readAs<msg::QueryBox::Request>,
-    readAs<msg::QueryNearest::Request>,   readAs<msg::QuerySegment::Request>,
-    readAs<msg::QueryShape::Request>,     readAs<msg::QuerySphere::Request>,
-    readAs<msg::ReloadRobot::Request>,    readAs<msg::SaveScene::Request>,
-    readAs<msg::SetAllowed::Request>,     readAs<std_srvs::Trigger::Request>,
+    readAs<tf2_msgs::TFMessage>,
+    readOctomap,
+    readAs<msg::ApplyObstacles::Request>,
+    readAs<msg::CheckEdges::Request>,
+    readAs<msg::CheckStates::Request>,
+    readAs<msg::ClearMap::Request>,
+    readAs<msg::DistanceField::Request>,
+    readAs<msg::ExplainPair::Request>,
+    readAs<msg::GetAllowed::Request>,
+    readAs<msg::Guard::Request>,
+    readAs<msg::LoadOctomap::Request>,
+    readAs<msg::LoadScene::Request>,
+    readAs<msg::QueryBatch::Request>,
+    readAs<msg::QueryBox::Request>,
+    readAs<msg::QueryNearest::Request>,
+    readAs<msg::QuerySegment::Request>,
+    readAs<msg::QueryShape::Request>,
+    readAs<msg::QuerySphere::Request>,
+    readAs<msg::ReloadRobot::Request>,
+    readAs<msg::SaveScene::Request>,
+    readAs<msg::SetAllowed::Request>,
+    readAs<std_srvs::Trigger::Request>,
+    readAs<visualization_msgs::MarkerArray>,
+    readAs<geometry_msgs::PoseArray>,
 };
 
 }  // namespace

@@ -27,7 +27,7 @@ std::shared_ptr<const LinkMatrix> armMatrix() {
   return std::make_shared<const LinkMatrix>(test::matrixOf(model));
 }
 
-enum Index : std::uint32_t { base, arm, hand, other_base, other_hand, box, crate, shelf, room, raft, cloud };
+enum Index : std::uint32_t { base, arm, hand, other_base, other_hand, box, crate, shelf, room, raft, cloud, person };
 
 /// Returns the bodies of two equal robots, of moving and fixed obstacles, of a fixed and a moving map, and of a cloud.
 std::vector<Body> cell() {
@@ -48,6 +48,7 @@ std::vector<Body> cell() {
   bodies.push_back(bodyOf("map/room", BodyKind::map, Mobility::fixed));
   bodies.push_back(bodyOf("map/raft", BodyKind::map));
   bodies.push_back(bodyOf("cloud/front", BodyKind::cloud));
+  bodies.push_back(bodyOf("track/people/1", BodyKind::track));
   return bodies;
 }
 
@@ -67,8 +68,10 @@ TEST(PairFilter, ByDefaultEveryKindOfPairIsReportedButFixedWithFixed) {
       << "the matrix of a robot was applied to links of two robots";
   EXPECT_EQ(originOf(filter, arm, other_base), Origin::none)
       << "links 1 and 0 of two different robots are not adjacent";
-  for (const std::uint32_t other : {box, crate, shelf, room, raft, cloud})
+  for (const std::uint32_t other : {box, crate, shelf, room, raft, cloud, person})
     EXPECT_EQ(originOf(filter, hand, other), Origin::none);
+  for (const std::uint32_t other : {box, crate, room, raft, cloud})
+    EXPECT_EQ(originOf(filter, person, other), Origin::none);
   EXPECT_EQ(originOf(filter, box, crate), Origin::none);
   EXPECT_EQ(originOf(filter, box, room), Origin::none);
   EXPECT_EQ(originOf(filter, box, raft), Origin::none);
@@ -77,7 +80,7 @@ TEST(PairFilter, ByDefaultEveryKindOfPairIsReportedButFixedWithFixed) {
   EXPECT_EQ(originOf(filter, crate, raft), Origin::kind) << "the cells of a moving map show the fixed obstacles too";
   EXPECT_EQ(originOf(filter, crate, shelf), Origin::kind);
   EXPECT_EQ(originOf(filter, crate, room), Origin::kind);
-  for (std::uint32_t i = 0; i < 11; ++i) EXPECT_EQ(originOf(filter, i, i), Origin::self);
+  for (std::uint32_t i = 0; i < 12; ++i) EXPECT_EQ(originOf(filter, i, i), Origin::self);
 }
 
 TEST(PairFilter, EachKindCanBeSwitchedOffAlone) {
@@ -87,9 +90,10 @@ TEST(PairFilter, EachKindCanBeSwitchedOffAlone) {
   };
   const Case cases[] = {{&PairKinds::self, {{base, hand}, {other_base, other_hand}, {base, arm}}},
                         {&PairKinds::robot_robot, {{base, other_base}, {hand, other_hand}}},
-                        {&PairKinds::robot_obstacle, {{hand, box}, {hand, crate}}},
+                        {&PairKinds::robot_obstacle, {{hand, box}, {hand, crate}, {hand, person}}},
                         {&PairKinds::robot_map, {{hand, room}, {base, raft}, {hand, cloud}}},
-                        {&PairKinds::moving_obstacle, {{box, crate}, {box, room}, {box, raft}, {box, cloud}}}};
+                        {&PairKinds::moving_obstacle,
+                         {{box, crate}, {box, room}, {box, raft}, {box, cloud}, {person, crate}, {person, room}}}};
   const PairFilter all(cell(), {}, {});
   for (const Case& one : cases) {
     PairKinds kinds;

@@ -540,6 +540,15 @@ class DoctorChecks(unittest.TestCase):
         self.facts.status.counters = [counter("cloud/front.refused.UNKNOWN_FRAME", 9), counter("maps.refused.LIMIT", 9)]
         self.expect("wrong_input_frame")
 
+    def test_a_tracker_without_publisher_or_of_the_wrong_type(self):
+        tracker = read_settings({"tracks": [{"name": "people", "topic": "/people"}]}, "/proximity").inputs
+        self.add_input("track/people", "NOT_READY tracker 'people'", topic="/people")
+        self.facts.settings.inputs = tracker
+        self.assertIn("topic in ~tracks", self.expect("no_input_publisher").fix)
+        self.facts.graph.publishers["/people"] = ["/legs"]
+        self.facts.topics["/people"] = TopicFacts({"/legs": 1}, {}, {"/legs": "geometry_msgs/PoseArray"}, {"/legs": ""})
+        self.assertIn("visualization_msgs/MarkerArray is needed", self.expect("wrong_input_type").what)
+
     def test_a_map_file(self):
         self.add_input("map/hall", "RESOURCE_MISSING", file="hall.bt")
         self.facts.map_file_errors = {"map/hall": "there is no file /maps/hall.bt"}
@@ -598,13 +607,15 @@ class DoctorChecks(unittest.TestCase):
             "robots": [{"name": "a", "description": "b", "tf_prefix": "/p"}],
             "maps": [{"name": "m"}, {"name": "f", "file": "f.bt"}],
             "clouds": [{"name": "c", "topic": "/t"}],
+            "tracks": [{"name": "p", "topic": "people", "type": "poses"}],
             "map": {"folder": "/x"},
         }
         settings = read_settings(values, "/cell/prox")
         self.assertEqual((settings.world_frame, settings.map_folder), ("map", "/x"))
         self.assertEqual((settings.rate, settings.margin), (100.0, 0.1))
         self.assertEqual(settings.robots[0].frame("l"), "p/l")
-        self.assertEqual([each.topic for each in settings.inputs], ["/cell/octomap_binary", "", "/t"])
+        self.assertEqual([each.topic for each in settings.inputs], ["/cell/octomap_binary", "", "/t", "/cell/people"])
+        self.assertEqual(settings.inputs[3].type, "geometry_msgs/PoseArray")
         for nonsense in (None, 5, {"robots": 5, "maps": [5], "map": 5, "rate": True}):
             self.assertEqual(read_settings(nonsense, "/proximity"), Settings())
 

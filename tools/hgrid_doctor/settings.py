@@ -24,7 +24,7 @@ class RobotSettings:
 
 @dataclass
 class InputSettings:
-    """A map or a cloud of the parameters ~maps and ~clouds."""
+    """A map, a cloud or a tracker of the parameters ~maps, ~clouds and ~tracks."""
 
     source: str  # name of the source, for example map/hall
     topic: str = ""  # absolute name; empty: the map comes from a file
@@ -69,6 +69,7 @@ def read_settings(values: Any, node: str) -> Settings:
     settings.robots = robots or [RobotSettings()]
     settings.inputs = [_map(entry, node) for entry in _list(values, "maps") if isinstance(entry, dict)]
     settings.inputs += [_cloud(entry, node) for entry in _list(values, "clouds") if isinstance(entry, dict)]
+    settings.inputs += [_tracker(entry, node) for entry in _list(values, "tracks") if isinstance(entry, dict)]
     return settings
 
 
@@ -95,6 +96,12 @@ def _map(entry: Dict[str, Any], node: str) -> InputSettings:
 def _cloud(entry: Dict[str, Any], node: str) -> InputSettings:
     topic = absolute(_text(entry, "topic", "cloud"), node)
     return InputSettings("cloud/" + _text(entry, "name", ""), topic, "", "sensor_msgs/PointCloud2")
+
+
+def _tracker(entry: Dict[str, Any], node: str) -> InputSettings:
+    poses = _text(entry, "type", "markers") == "poses"
+    kind = "geometry_msgs/PoseArray" if poses else "visualization_msgs/MarkerArray"
+    return InputSettings("track/" + _text(entry, "name", ""), absolute(_text(entry, "topic", ""), node), "", kind)
 
 
 def _text(values: Dict[str, Any], name: str, default: str) -> str:

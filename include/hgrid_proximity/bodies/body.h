@@ -42,11 +42,15 @@ const char* name(Freshness state);
 enum class Mobility : std::uint8_t { fixed = 0, moving = 1 };
 
 /// The kind of a body. Maps and clouds have occupied cells instead of shapes. The cells of a cloud appear and expire,
-/// and a cloud does not know which space is free.
-enum class BodyKind : std::uint8_t { link, obstacle, map, cloud };
+/// and a cloud does not know which space is free. A track is a person or a vehicle that a tracker reports; it makes the
+/// same pairs as a moving obstacle.
+enum class BodyKind : std::uint8_t { link, obstacle, map, cloud, track };
 
 /// Whether bodies of this kind have occupied cells instead of shapes.
 inline bool hasCells(BodyKind kind) { return kind == BodyKind::map || kind == BodyKind::cloud; }
+
+/// Whether PairKinds treats bodies of this kind as obstacles.
+inline bool countsAsObstacle(BodyKind kind) { return kind == BodyKind::obstacle || kind == BodyKind::track; }
 
 /// Handle of a body in a Scene. The scene stores each body in a slot of an array. It uses the slot of a removed body
 /// again for a new body.
@@ -75,7 +79,7 @@ struct Body {
   std::string name;                         ///< unique name of the form source/local
   std::string frame;                        ///< tf frame that the body follows
   Pose frame_from_body = Pose::Identity();  ///< pose of the body in `frame`; identity for links
-  BodyKind kind = BodyKind::obstacle;       ///< link, obstacle, map or cloud
+  BodyKind kind = BodyKind::obstacle;       ///< link, obstacle, map, cloud or track
   Mobility mobility = Mobility::moving;     ///< whether the body can move in the world
   std::vector<BodyShape> shapes;            ///< may be empty, if no shape could be read
   double margin = 0.0;                      ///< [m] margin of this body; a larger global margin takes precedence

@@ -11,8 +11,12 @@ namespace hgrid {
 
 struct Body;
 
-/// Returns the name of the source of a body: the name of its robot, "obstacle", or the name of the map or cloud.
+/// Returns the name of the source of a body: the name of its robot, "obstacle", the name of the map or cloud, or
+/// trackerOf() its name.
 std::string sourceOf(const Body& body);
+
+/// Returns the source of a track: "track/people" for "track/people/5". `name` may also be a glob over such names.
+std::string trackerOf(const std::string& name);
 
 /// Missing data that makes a source incomplete, such as a robot without a model or a map that never arrived.
 struct SourceGap {

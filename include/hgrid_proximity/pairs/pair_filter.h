@@ -92,7 +92,7 @@ class PairFilter {
 
  private:
   static constexpr std::uint32_t kNoRobot = 0xffffffff;    // stands for "no robot"
-  static constexpr std::size_t kTypes = 8;                 // a type is one of 4 kinds of body, fixed or moving
+  static constexpr std::size_t kTypes = 10;                // a type is one of 5 kinds of body, fixed or moving
   static constexpr std::uint8_t kByName = 1, kByGlob = 2;  // bits of Subject::ruled
   struct Subject {
     const std::uint64_t* allowed = nullptr;  // bit set of LinkMatrix::allowedWith() for this link; null: no model

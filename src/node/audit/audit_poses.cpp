@@ -119,9 +119,11 @@ void auditPoses(const AuditCase& audited, AuditFindings& findings) {
     if (is_new) entry->second = frames.chain(audited.world_frame, body.frame);
     const auto& chain = entry->second;
     const BodyPose& pose = audited.poses[i];
-    bool compared = body.kind != BodyKind::cloud && chain && !chain->doubtful;
+    // A cloud or a track keeps the pose that it had at the stamp of its message. The record has no such messages.
+    const bool follows_frame = body.kind != BodyKind::cloud && body.kind != BodyKind::track;
+    bool compared = follows_frame && chain && !chain->doubtful;
     // A link can have a pose without transforms of its own frame: fixed joints connect it with another link.
-    const bool needs_chain = body.kind != BodyKind::cloud && body.kind != BodyKind::link;
+    const bool needs_chain = follows_frame && body.kind != BodyKind::link;
     if (!chain && audited.all_static && pose.state != Freshness::unplaced && needs_chain &&
         pose.stamp > explained_from) {
       findings.add(unexplained(body, pose));

@@ -44,10 +44,11 @@ bool ExpectedFilter::exists(std::uint32_t first, std::uint32_t second) const {
   if (links == 2) return a.robot == b.robot ? kinds.self : kinds.robot_robot;
   if (links == 1) {
     const Body& other = a.kind == BodyKind::link ? b : a;
-    return other.kind == BodyKind::obstacle ? kinds.robot_obstacle : kinds.robot_map;
+    const bool has_cells = other.kind == BodyKind::map || other.kind == BodyKind::cloud;
+    return has_cells ? kinds.robot_map : kinds.robot_obstacle;
   }
   const auto moves = [](const Body& body) {
-    return body.kind == BodyKind::obstacle && body.mobility == Mobility::moving;
+    return (body.kind == BodyKind::obstacle || body.kind == BodyKind::track) && body.mobility == Mobility::moving;
   };
   return kinds.moving_obstacle && (moves(a) || moves(b));
 }

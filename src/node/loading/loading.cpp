@@ -31,7 +31,8 @@ void Loading::startCloud(const CloudParams& cloud) {
   CloudSource::Sink sink;
   sink.put = [this](const LoadedCloud& loaded) { jobs_.run([loaded](World& world) { world.setCloud(loaded); }); };
   sink.follow = [this, name = cloud.name](const std::string& frame) {
-    jobs_.add("frame of " + name, [name, frame](World& world) { world.setCloudFrame(name, frame); });
+    const SourceId source = SourceId::ofCloud(name);
+    jobs_.add("frames of " + source.name, [source, frame](World& world) { world.setDataFrames(source, {frame}); });
   };
   sink.miss = [this, source = SourceId::ofCloud(cloud.name)](const std::string& sentence) {
     noteMissing(jobs_, source, sentence);

@@ -34,6 +34,7 @@ void addExpected(const Tick& tick, const Params& params, Sources& sources) {
   if (!params.obstacles.empty()) entryOf(sources, "obstacle");
   for (const MapParams& map : params.maps) entryOf(sources, joined("map", map.name));
   for (const CloudParams& cloud : params.clouds) entryOf(sources, joined("cloud", cloud.name));
+  for (const TrackerParams& tracker : params.trackers) entryOf(sources, joined("track", tracker.name));
 }
 
 void addBodies(const Snapshot& snapshot, Sources& sources) {

@@ -149,11 +149,7 @@ void readObstacle(ParamValue& element, const Params& params, ObstacleParams& obs
   if (auto frame = element.get("frame")) frame->string(obstacle.body.frame);
   obstacle.body.frame = withoutSlash(obstacle.body.frame);
   if (auto pose = element.get("pose")) obstacle.body.frame_from_body = readPose(*pose);
-  if (auto shapes = element.require("shapes")) {
-    const std::vector<ParamValue> list = shapes->elements();
-    if (list.empty()) shapes->error("has no shape; it must have at least one");
-    for (const ParamValue& shape : list) readShape(shape, params, obstacle.body.shapes);
-  }
+  if (auto shapes = element.require("shapes")) readShapes(*shapes, params, obstacle.body.shapes);
   if (auto given = element.get("moving")) given->flag(obstacle.moving);
   if (auto given = element.get("margin")) given->number(obstacle.margin, 0.0, 1e3, "m");
   if (auto given = element.get("max_speed")) given->number(obstacle.max_speed, 0.0, 1e6, "m/s");
@@ -182,6 +178,12 @@ void readObstacle(ParamValue& element, const Params& params, ObstacleParams& obs
 }
 
 }  // namespace
+
+void readShapes(ParamValue value, const Params& params, std::vector<BodyShape>& shapes) {
+  const std::vector<ParamValue> list = value.elements();
+  if (list.empty()) value.error("has no shape; it must have at least one");
+  for (const ParamValue& shape : list) readShape(shape, params, shapes);
+}
 
 Pose readPose(ParamValue value) {
   Pose pose = Pose::Identity();

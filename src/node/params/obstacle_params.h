@@ -19,6 +19,9 @@ Pose readPose(ParamValue value);
 /// @param params  limits for the sizes of shapes and the number of triangles
 std::vector<ObstacleParams> readObstacles(ParamValue value, const Params& params);
 
+/// Reads a list of shapes {type, pose, padding, ...}. It must have at least one.
+void readShapes(ParamValue value, const Params& params, std::vector<BodyShape>& shapes);
+
 /// Reads ~allowed_pairs: a list of {first, second, reason, allowed}. Does not check the names.
 std::vector<PairRule> readRules(ParamValue value);
 

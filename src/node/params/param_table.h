@@ -8,6 +8,7 @@ namespace hgrid {
 
 inline constexpr const char* kUnknownSpace[] = {"ignore", "report", "occupied"};
 inline constexpr const char* kEmptyCloud[] = {"unknown", "clear"};
+inline constexpr const char* kTrackerType[] = {"markers", "poses"};
 inline constexpr const char* kKinds[] = {"self", "robot_robot", "robot_obstacle", "robot_map", "moving_obstacle"};
 
 /// Calls the visitor for every parameter with its name, value, unit, range and meaning. There is no other table of
@@ -92,6 +93,27 @@ void visitParams(Visitor& v, Params& p) {
             "largest total size, in bytes, of the messages of moveit/topics that wait to be read. A message counts as "
             "its own size plus 512 bytes. A message that exceeds the limit is dropped (counter moveit.dropped.LIMIT in "
             "~status), and the world is not complete");
+
+  v.section("People and vehicles");
+  v.trackers(
+      "tracks", p.trackers,
+      "list of {name, topic, type, namespaces, shapes, upright, max_speed: [m/s], margin: [m], noise: [m], forget: "
+      "[s], "
+      "max_tracks}: trackers of people or vehicles. Each track is a body track/name/id. type: markers (a "
+      "visualization_msgs/MarkerArray; the id of a track is namespace/id of its marker) or poses (a "
+      "geometry_msgs/PoseArray with the poses of all tracks); required. namespaces: list of globs; markers of other "
+      "namespaces are not tracks; default: all are tracks. shapes: as of an obstacle, in the frame of the reported "
+      "pose; required. upright: whether to ignore reported orientations, so that z of the shapes is z of the world "
+      "frame; default false. max_speed: upper bound of the speed of a track; default: as ~max_speed and "
+      "~default_max_speed say. margin: default as ~margins and ~margin say. noise: a pose belongs to a track if the "
+      "track can have moved there, or up to noise farther; default 0.2; only for type poses. forget: a track ends when "
+      "it has been LOST for this long; default 5. max_tracks: largest number of tracks, default 100. See "
+      "doc/tutorials/8_people_and_vehicles.md");
+  v.integer(
+      "track_queue_bytes", p.track_queue_bytes, 1000, 1 << 30,
+      "largest total size, in bytes, of the messages of one tracker that wait to be read. A message counts as its "
+      "own size plus 256 bytes. When the limit is exceeded, the oldest messages are dropped (counter "
+      "track/<name>.dropped.LIMIT in ~status). A single message that is longer is refused");
 
   v.section("Maps");
   v.maps("maps", p.maps,

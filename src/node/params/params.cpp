@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/params/params.h"
 
-#include <ros/names.h>
-
 #include <algorithm>
 #include <iterator>
 #include <map>
@@ -14,6 +12,8 @@
 #include "node/params/obstacle_params.h"
 #include "node/params/param_table.h"
 #include "node/params/param_value.h"
+#include "node/params/param_words.h"
+#include "node/params/tracker_params.h"
 #include "node/tf/frame_names.h"
 
 namespace hgrid {
@@ -159,7 +159,12 @@ class Reader {
               value.push_back(cloud);
             });
   }
+  void trackers(const char* name, std::vector<TrackerParams>& value, const char*) {
+    trackers_ = get(name);  // finish() reads them, as obstacles
+    trackers_target_ = &value;
+  }
   void finish() {
+    if (trackers_) *trackers_target_ = readTrackers(*trackers_, params_);
     if (obstacles_) *obstacles_target_ = readObstacles(*obstacles_, params_);
     for (auto& group : groups_) {
       if (group.second) group.second->finish("parameter of this node");
@@ -181,26 +186,6 @@ class Reader {
     if (auto given = required ? element.require(key) : element.get(key)) given->string(value);
   }
 
-  /// Reads a word of the list `words`. The index of the word in the list is the value of the enum.
-  template <std::size_t count, class Enum>
-  static void readWord(ParamValue& given, const char* const (&words)[count], const char* rule, Enum& value) {
-    std::string word = words[static_cast<std::size_t>(value)];
-    given.string(word);
-    const auto* const found = std::find(std::begin(words), std::end(words), word);
-    if (found == std::end(words)) {
-      given.error("is '" + printable(word, 48) + "'; it must be " + rule);
-    } else {
-      value = static_cast<Enum>(found - std::begin(words));
-    }
-  }
-
-  static void checkTopic(const ParamValue& element, const std::string& topic) {
-    std::string flaw = "it must not be empty";
-    if (topic.empty() || !ros::names::validate(topic, flaw)) {
-      element.error("has the topic '" + printable(topic) + "': " + printable(flaw, 300));
-    }
-  }
-
   /// Returns the value of a parameter. The name "group/key" means the member `key` of the struct `group`.
   std::optional<ParamValue> get(const std::string& name) {
     const std::size_t slash = name.find('/');
@@ -219,6 +204,8 @@ class Reader {
   std::map<std::string, std::optional<ParamValue>> groups_;
   std::optional<ParamValue> obstacles_;
   std::vector<ObstacleParams>* obstacles_target_ = nullptr;
+  std::optional<ParamValue> trackers_;
+  std::vector<TrackerParams>* trackers_target_ = nullptr;
 };
 
 }  // namespace

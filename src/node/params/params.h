@@ -69,6 +69,27 @@ struct CloudParams {
   double range = 0.0;  ///< [m] the sensor sees no farther than this, so a lost cloud hides nothing beyond; 0: no bound
 };
 
+/// What a tracker publishes.
+enum class TrackerType : std::uint8_t {
+  markers,  ///< visualization_msgs/MarkerArray: each marker is a track; its namespace and id identify it
+  poses,    ///< geometry_msgs/PoseArray: each message has the poses of all tracks, without ids
+};
+
+/// A tracker of people or vehicles from ~tracks.
+struct TrackerParams {
+  std::string name;   ///< name without the source, and without a slash: the bodies are track/name/id
+  std::string topic;  ///< topic of its messages
+  TrackerType type = TrackerType::markers;
+  std::vector<std::string> namespaces;  ///< globs: only markers of these namespaces are tracks; empty: all are
+  std::vector<BodyShape> shapes;        ///< the shape of each track, in the frame of its pose
+  bool upright = false;                 ///< whether a track has the orientation of the world frame, whatever it reports
+  double max_speed = 0.0;               ///< [m/s] 0: as ~max_speed and ~default_max_speed say
+  double margin = 0.0;                  ///< [m] 0: as ~margins and ~margin say
+  double noise = 0.2;                   ///< [m] largest error of a reported position
+  double forget = 5.0;                  ///< [s] how long a track is LOST before it ends
+  int max_tracks = 100;                 ///< largest number of tracks
+};
+
 /// [m] Corner coordinate of a crop box that is larger than any map.
 constexpr double kNoCrop = 1e7;
 
@@ -101,6 +122,8 @@ struct Params {
   int moveit_queue_bytes = 64 << 20;
   std::vector<MapParams> maps;
   std::vector<CloudParams> clouds;
+  std::vector<TrackerParams> trackers;
+  int track_queue_bytes = 4 << 20;
   std::string map_folder;
   double map_occupied_from = 0.5;
   bool map_nan_is_occupied = false, map_allow_empty = false;

@@ -37,8 +37,7 @@ void makeSolids(NarrowPhase& narrow_phase, Body& body) {
   for (BodyShape& shape : body.shapes) shape.solid = narrow_phase.solidOf(shape.shape);
 }
 
-void completeObstacle(const Params& params, double margin, double max_speed, NarrowPhase& narrow_phase,
-                      Body& obstacle) {
+void applyObstacleParams(const Params& params, double margin, double max_speed, Body& obstacle) {
   std::vector<double> paddings;
   for (const BodyShape& shape : obstacle.shapes) paddings.push_back(shape.padding);
   applyMaxSpeed(params, obstacle);
@@ -48,6 +47,11 @@ void completeObstacle(const Params& params, double margin, double max_speed, Nar
   }
   if (margin > 0.0) obstacle.margin = margin;
   if (max_speed > 0.0) obstacle.max_speed = max_speed;
+}
+
+void completeObstacle(const Params& params, double margin, double max_speed, NarrowPhase& narrow_phase,
+                      Body& obstacle) {
+  applyObstacleParams(params, margin, max_speed, obstacle);
   makeSolids(narrow_phase, obstacle);
 }
 

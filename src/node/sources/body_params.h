@@ -24,13 +24,16 @@ void applyPatterns(const Params& params, Body& body);
 /// its speed.
 void applyMaxSpeed(const Params& params, Body& body);
 
-/// Prepares the shapes of a body for exact distances. This may take long if meshes are large.
-void makeSolids(NarrowPhase& narrow_phase, Body& body);
-
-/// Sets the margin, the paddings and the speeds of an obstacle, and prepares its shapes for exact distances.
+/// Sets the margin, the paddings and the speeds of an obstacle or a track.
 /// @param margin     [m] 0: as the parameters say
 /// @param max_speed  [m/s] 0: as the parameters say
 /// @param obstacle   the paddings of its shapes stay if they are larger than what the parameters say
+void applyObstacleParams(const Params& params, double margin, double max_speed, Body& obstacle);
+
+/// Prepares the shapes of a body for exact distances. This may take long if meshes are large.
+void makeSolids(NarrowPhase& narrow_phase, Body& body);
+
+/// Calls applyObstacleParams() and makeSolids().
 void completeObstacle(const Params& params, double margin, double max_speed, NarrowPhase& narrow_phase, Body& obstacle);
 
 }  // namespace hgrid

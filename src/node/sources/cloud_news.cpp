@@ -3,10 +3,10 @@
 #include "node/sources/cloud_news.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "hgrid_proximity/refusal.h"
+#include "node/time/data_time.h"
 
 namespace hgrid {
 
@@ -20,9 +20,11 @@ void CloudNews::noteAccepted(LoadedCloud loaded) noexcept {
 }
 
 double CloudNews::ageOf(const Moment& now) const {
-  // If /clock went back, the stamp may lie in the future. That is as bad as a stamp that is just as far in the past.
-  if (simulated_) return std::abs(seconds(newest_.stamp - now.ros));
-  return newest_.latency + std::chrono::duration<double>(now.steady - newest_.received).count();
+  DataTime newest;
+  newest.stamp = newest_.stamp;
+  newest.latency = newest_.latency;
+  newest.received = newest_.received;
+  return newest.age(now, simulated_);
 }
 
 Freshness CloudNews::judge(const Moment& now, bool clock_frozen, AgeLimits limits) const {

@@ -11,12 +11,12 @@
 namespace hgrid {
 
 /// The kinds of sources, which bring bodies into the world.
-enum class SourceKind { robot, obstacle, map, cloud };
+enum class SourceKind { robot, obstacle, map, cloud, tracker };
 
-/// Identifies a robot, an obstacle, a map or a cloud.
+/// Identifies a robot, an obstacle, a map, a cloud or a tracker.
 struct SourceId {
   SourceKind kind;
-  std::string name;  ///< name of the robot, or full name of the one body of any other source
+  std::string name;  ///< name of the robot, "track/name" for a tracker, or full name of the one body of another source
   /// Which group of obstacles it is; empty: a single source. The obstacle "*" has the name of a group, but no group.
   std::string group{};
 
@@ -29,10 +29,12 @@ struct SourceId {
   static SourceId ofMap(const std::string& local) { return {SourceKind::map, joined("map", local)}; }
   /// @param local  configured name of the cloud, as in CloudParams::name
   static SourceId ofCloud(const std::string& local) { return {SourceKind::cloud, joined("cloud", local)}; }
+  /// @param local  configured name of the tracker, as in TrackerParams::name
+  static SourceId ofTracker(const std::string& local) { return {SourceKind::tracker, joined("track", local)}; }
 };
 
-/// Compares by name and group. No two sources have both in common, because a robot cannot be called "obstacle", "map"
-/// or "cloud".
+/// Compares by name and group. No two sources have both in common, because no robot has one of the reserved names, such
+/// as "map".
 inline bool operator<(const SourceId& a, const SourceId& b) {
   return std::tie(a.name, a.group) < std::tie(b.name, b.group);
 }
@@ -45,6 +47,7 @@ inline bool operator==(const SourceId& a, const SourceId& b) {
 inline SourceGap gapOf(const SourceId& source, const std::string& sentence) {
   switch (source.kind) {
     case SourceKind::robot:
+    case SourceKind::tracker:
       return {source.name, joined(source.name, "*"), sentence};
     case SourceKind::obstacle:
       return {"obstacle", source.name, sentence};

@@ -14,6 +14,12 @@ MissingSources::MissingSources(const Params& params) {
     set(SourceId::ofCloud(cloud.name),
         "NOT_READY cloud '" + cloud.name + "': no message has arrived on " + cloud.topic + " yet");
   }
+  for (const TrackerParams& tracker : params.trackers) {
+    set(SourceId::ofTracker(tracker.name),
+        "NOT_READY tracker '" + tracker.name + "': no " +
+            (tracker.type == TrackerType::markers ? "visualization_msgs/MarkerArray" : "geometry_msgs/PoseArray") +
+            " has arrived on " + tracker.topic + " yet");
+  }
 }
 
 void MissingSources::appendGaps(std::vector<SourceGap>& gaps) const {

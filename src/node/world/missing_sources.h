@@ -14,7 +14,7 @@ namespace hgrid {
 /// Stores the sources that should be in the world but are not, each with a sentence that says why.
 class MissingSources {
  public:
-  /// At first, every configured map and cloud is missing.
+  /// At first, every configured map, cloud and tracker is missing.
   explicit MissingSources(const Params& params);
 
   void set(const SourceId& source, const std::string& sentence) { sentences_.insert_or_assign(source, sentence); }

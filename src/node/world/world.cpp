@@ -134,9 +134,10 @@ World::World(std::shared_ptr<const Settings> settings, bool simulated, std::uint
       movers_(scene_),
       poses_(params_, transforms_, scene_, movers_, ledger),
       robots_(params_, stored.robots),
-      obstacles_(params_, std::move(narrow_phase), stored, ledger),
+      obstacles_(params_, narrow_phase, stored, ledger),
       maps_(simulated),
       clouds_(params_, simulated, scene_, ledger),
+      tracks_(params_, simulated, *narrow_phase, scene_, ledger),
       missing_(params_),
       world_frame_(params_.world_frame),
       epoch_(epoch) {
@@ -279,8 +280,18 @@ void World::setCloud(const LoadedCloud& cloud) {
   missing_.erase(source);
 }
 
-void World::setCloudFrame(const std::string& cloud, const std::string& frame) {
-  cloud_frames_[cloud] = frame;
+void World::setTracks(const std::string& tracker, std::shared_ptr<const TrackSet> set) {
+  const SourceId source = SourceId::ofTracker(tracker);
+  if (!set->heard) {
+    missing_.set(source, "REFUSED '" + source.name + "': no message could be used yet (" + set->refused + ")");
+    return;
+  }
+  tracks_.set(tracker, std::move(set), world_frame_);
+  missing_.erase(source);
+}
+
+void World::setDataFrames(const SourceId& source, const std::vector<std::string>& frames) {
+  data_frames_[source] = frames;
   needed_revision_.reset();
 }
 
@@ -289,7 +300,7 @@ void World::needFrames(const Moment& now) {
   if (needed_revision_ == movers_.revision()) return;
   std::vector<std::string> frames{world_frame_};
   for (const Mover& mover : movers_.all()) frames.push_back(mover.frame);
-  for (const auto& cloud : cloud_frames_) frames.push_back(cloud.second);
+  for (const auto& data : data_frames_) frames.insert(frames.end(), data.second.begin(), data.second.end());
   transforms_.need(frames, now);
   needed_revision_ = movers_.revision();
 }
@@ -453,6 +464,7 @@ std::shared_ptr<Tick> World::tick(const Moment& now) {
   tick->contested_frames = transforms_.claims().sentences(poses_.reading());
   tick->clock_offsets = transforms_.publisherClocks().offsets(poses_.reading());
   clouds_.update(time, now, clock_.frozen(), *tick, gaps);
+  tracks_.update(time, now, clock_.frozen(), *tick, gaps);
   sortWorstFirst(tick->troubles);
   if (!tick->troubles.empty() && tick->troubles.front().state == Freshness::unplaced) {
     tick->unplaced = whyUnplaced(movers_.all(), transforms_.table(), world_frame_, world_frame_ == params_.world_frame);

@@ -31,6 +31,7 @@
 #include "node/world/obstacle_bodies.h"
 #include "node/world/robot_models.h"
 #include "node/world/rules_in_force.h"
+#include "node/world/track_bodies.h"
 
 namespace hgrid {
 
@@ -73,8 +74,11 @@ class World {
   /// Replaces the cells of a cloud. The first call for a cloud adds the body of the cloud.
   /// @throws Refusal limit (~max_bodies)
   void setCloud(const LoadedCloud& cloud);
-  /// Notes which frame the messages of a cloud refer to, so that there is room for its transforms.
-  void setCloudFrame(const std::string& cloud, const std::string& frame);
+  /// Replaces all tracks of a tracker. See TrackBodies::set().
+  /// @param tracker  as TrackerParams::name
+  void setTracks(const std::string& tracker, std::shared_ptr<const TrackSet> set);
+  /// Notes which frames the messages of a cloud or a tracker refer to, so that there is room for their transforms.
+  void setDataFrames(const SourceId& source, const std::vector<std::string>& frames);
   /// Stores why a source is not in the world yet, or why its newest data could not be used. Bodies in the world stay.
   void setMissing(const SourceId& source, const std::string& sentence);
   /// Ends what setMissing() began, because the source needs no newer data any more.
@@ -128,13 +132,14 @@ class World {
   ObstacleBodies obstacles_;
   MapBodies maps_;
   CloudBodies clouds_;
+  TrackBodies tracks_;
   MissingSources missing_;
   RulesInForce rules_;
   MatrixRules matrix_;
   LinkPaddings paddings_;
-  bool paddings_changed_ = false;                    // whether a tick must still apply them
-  std::map<std::string, std::string> cloud_frames_;  // by cloud
-  std::optional<std::uint64_t> needed_revision_;     // of the movers whose frames are needed; nullopt: not up to date
+  bool paddings_changed_ = false;                             // whether a tick must still apply them
+  std::map<SourceId, std::vector<std::string>> data_frames_;  // by cloud or tracker
+  std::optional<std::uint64_t> needed_revision_;  // of the movers whose frames are needed; nullopt: not up to date
   std::string world_frame_;
   std::uint64_t epoch_;
 };

@@ -11,12 +11,15 @@ TEST(SourceId, NamesASourceAsItsBodiesAndGapsDo) {
   EXPECT_EQ(SourceId::ofRobot("arm").name, "arm");
   EXPECT_EQ(SourceId::ofMap("hall").name, "map/hall");
   EXPECT_EQ(SourceId::ofCloud("eye").name, "cloud/eye");
+  EXPECT_EQ(SourceId::ofTracker("people").name, "track/people");
   EXPECT_EQ(SourceId::ofObstacle("obstacle/post").name, "obstacle/post");
 }
 
 TEST(SourceId, LeavesAGapOfAllItsBodies) {
   const SourceGap robot = gapOf(SourceId::ofRobot("arm"), "why"), map = gapOf(SourceId::ofMap("hall"), "why"),
                   obstacle = gapOf(SourceId::ofObstacle("obstacle/post"), "why");
+  EXPECT_EQ(gapOf(SourceId::ofTracker("people"), "why").source, "track/people");
+  EXPECT_EQ(gapOf(SourceId::ofTracker("people"), "why").bodies, "track/people/*");
   EXPECT_EQ(robot.source, "arm");
   EXPECT_EQ(robot.bodies, "arm/*");
   EXPECT_EQ(robot.sentence, "why");

@@ -20,14 +20,16 @@ Params cell() {
   params.maps.emplace_back();
   params.maps.back().name = "hall";
   params.clouds.push_back({"eye"});
+  params.trackers.emplace_back();
+  params.trackers.back().name = "people";
   return params;
 }
 
-TEST(MissingSources, AreAtFirstAllConfiguredMapsAndClouds) {
+TEST(MissingSources, AreAtFirstAllConfiguredMapsCloudsAndTrackers) {
   MissingSources missing(cell());
-  EXPECT_EQ(namesOf(missing), (std::vector<std::string>{"cloud/eye", "map/hall"}));
+  EXPECT_EQ(namesOf(missing), (std::vector<std::string>{"cloud/eye", "map/hall", "track/people"}));
   missing.set(SourceId::ofRobot("arm"), "NOT_READY");
-  EXPECT_EQ(namesOf(missing), (std::vector<std::string>{"arm", "cloud/eye", "map/hall"}));
+  EXPECT_EQ(namesOf(missing), (std::vector<std::string>{"arm", "cloud/eye", "map/hall", "track/people"}));
   EXPECT_TRUE(missing.has(SourceId::ofRobot("arm")));
   EXPECT_FALSE(missing.has(SourceId::ofRobot("hall")));
 }
@@ -37,7 +39,7 @@ TEST(MissingSources, HaveTheNewestSentence) {
   missing.set(SourceId::ofRobot("arm"), "PARSE robot 'arm': broken");
   std::vector<SourceGap> gaps(1);
   missing.appendGaps(gaps);
-  ASSERT_EQ(gaps.size(), 4u) << "appendGaps() keeps earlier elements";
+  ASSERT_EQ(gaps.size(), 5u) << "appendGaps() keeps earlier elements";
   EXPECT_EQ(gaps[1].sentence, "PARSE robot 'arm': broken");
 }
 
@@ -46,9 +48,9 @@ TEST(MissingSources, AreErasedOneByOneOrByKind) {
   for (const SourceId& source : {SourceId::ofMap("yard"), SourceId::ofRobot("arm")}) missing.set(source, "NOT_READY");
   missing.erase(SourceId::ofRobot("arm"));
   missing.erase(SourceId::ofRobot("nobody"));
-  EXPECT_EQ(namesOf(missing), (std::vector<std::string>{"cloud/eye", "map/hall", "map/yard"}));
+  EXPECT_EQ(namesOf(missing), (std::vector<std::string>{"cloud/eye", "map/hall", "map/yard", "track/people"}));
   missing.eraseIf([](const SourceId& source) { return source.kind == SourceKind::map; });
-  EXPECT_EQ(namesOf(missing), (std::vector<std::string>{"cloud/eye"}));
+  EXPECT_EQ(namesOf(missing), (std::vector<std::string>{"cloud/eye", "track/people"}));
 }
 
 }  // namespace

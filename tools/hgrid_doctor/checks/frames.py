@@ -74,8 +74,10 @@ def sources_below(facts: Facts, tree: Tree, frames: Set[str]) -> Set[str]:
     follow: Dict[str, List[bool]] = {}
     for body in facts.status.bodies if facts.status is not None else []:
         if body.state in (LOST, UNPLACED):
-            kind = body.name.partition("/")[0]
+            kind, _, local = body.name.partition("/")
             source = body.name if kind in ("map", "cloud") else kind
+            if kind == "track":
+                source += "/" + local.partition("/")[0]
             follow.setdefault(source, []).append(bool(frames & set(tree.chain(body.frame))))
     return {source for source, each in follow.items() if all(each)}
 

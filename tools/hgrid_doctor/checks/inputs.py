@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Checks the inputs of maps and clouds: files, topics, types and frames."""
+"""Checks the inputs of maps, clouds and trackers: files, topics, types and frames."""
 from __future__ import annotations
 
 from hgrid_doctor.facts import Facts
@@ -80,7 +80,7 @@ def check_silent(facts: Facts, each: InputSettings, findings: Findings):
         WARN if facts.status is None else ERROR,
         f"Nothing came for {each.source} on {each.topic} in {facts.listened:.1f} s{why}, though {listing(publishers)} "
         "publishes it.",
-        f"Look at the sensor or the map server: `rostopic hz {each.topic}`.",
+        f"Look at the sensor, the map server or the tracker: `rostopic hz {each.topic}`.",
         [each.source],
     )
 

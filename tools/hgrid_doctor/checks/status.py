@@ -158,7 +158,7 @@ def is_explained(counter: str, findings: Findings) -> bool:
     if counter.startswith("tf.refused.CLOCK"):
         stamps = findings.has("stamps_early", "stamps_zero", "stamps_of_other_clock")
         return stamps or findings.explain(EVERYTHING)
-    if counter.startswith("cloud/"):
+    if counter.startswith(("cloud/", "track/")):
         return findings.explain(counter.partition(".")[0])
     if counter.startswith("maps."):
         return findings.has("no_map_file", "wrong_input_frame", "source_incomplete")

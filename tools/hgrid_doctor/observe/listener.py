@@ -105,9 +105,11 @@ class Listener:
             raise OSError(f"it sends {header.get('type')} with md5sum {header.get('md5sum')}, not {kind._md5sum}")
 
     def _peek(self, connection, publisher, facts):
-        begin = connection.first_bytes(16 + 256)
+        begin = connection.first_bytes(4 + 16 + 256)
         if begin:
             facts.counts[publisher] = 1
+            if facts.types[publisher] == "visualization_msgs/MarkerArray":
+                begin = begin[4:]  # the number of markers comes before the header of the first one
             facts.frames[publisher] = header_frame(begin).lstrip("/")
 
     def _read_all(self, connection, publisher, facts, kind, take):
