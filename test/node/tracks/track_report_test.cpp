@@ -9,6 +9,7 @@
 
 #include "hgrid_proximity/refusal.h"
 #include "src/node/tf/tf_intake.h"
+#include "test/node/support/transform_views.h"
 #include "test/node/tracks/tracker_messages.h"
 
 namespace hgrid {
@@ -180,7 +181,7 @@ class PlacedReports : public ::testing::Test {
       transform.child_frame_id = "eye";
       transform.transform.translation.x = time;
       transform.transform.rotation.x = transform.transform.rotation.w = std::sqrt(0.5);
-      intake_.take(message, false, "/driver", moment(time, time));
+      intake_.take(viewsOf(message), false, "/driver", moment(time, time));
     }
   }
   Code refused(const TrackReport& report, double limit = 1e6) {

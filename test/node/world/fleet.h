@@ -15,6 +15,8 @@
 
 #include "src/node/sources/obstacle_change.h"
 #include "src/node/world/world.h"
+#include "test/node/support/settings.h"
+#include "test/node/support/transform_views.h"
 #include "test/node/world/obstacle_world.h"
 
 namespace hgrid {
@@ -78,7 +80,7 @@ class Fleet : public ::testing::Test {
 
   Fleet() : Fleet(params()) {}
   explicit Fleet(const Params& params)
-      : params_(params), phase_(makeFclNarrowPhase()), world_(params_, false, 1, ledger_, phase_) {}
+      : params_(params), phase_(makeFclNarrowPhase()), world_(settingsOf(params_), false, 1, ledger_, phase_) {}
 
   static Params params() {
     Params value;
@@ -102,7 +104,7 @@ class Fleet : public ::testing::Test {
       transform.transform.rotation.w = 1.0;
       transform.transform.translation.x = x;
     }
-    if (!message.transforms.empty()) world_.transforms().take(message, false, "/driver", momentAt(time_));
+    if (!message.transforms.empty()) world_.transforms().take(viewsOf(message), false, "/driver", momentAt(time_));
     tick_ = world_.tick(momentAt(time_));
     return *tick_;
   }
