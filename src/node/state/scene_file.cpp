@@ -23,7 +23,7 @@ namespace hgrid {
 namespace {
 
 constexpr std::size_t kLongestScene = 256 << 20;  // [byte]
-constexpr std::size_t kLongestName = 64;          // [byte]
+constexpr std::size_t kLongestSceneName = 64;     // [byte]
 
 /// Returns the shortest text that gives exactly this number. The exponent has a sign and the mantissa a point, because
 /// readers of YAML 1.1 take it for a text otherwise.
@@ -108,7 +108,7 @@ class SceneWriter {
       numbers(dimensions);
     } else if (shape.kind() == ShapeKind::sphere) {
       entry("radius", dimensions[0]);
-    } else {
+    } else if (shape.kind() != ShapeKind::plane) {
       entry("height", dimensions[0]);
       entry("radius", dimensions[1]);
     }
@@ -233,10 +233,10 @@ SavedScene readScene(const std::string& text, const std::string& what, const Par
 SceneFolder::SceneFolder(const std::string& state_folder, const std::string& name)
     : folder_(state_folder + "/scenes"), file_(name + ".yaml"), path_(folder_ + "/" + file_) {
   constexpr const char* kAllowed = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.";
-  if (name.empty() || name.size() > kLongestName || name[0] == '.' ||
+  if (name.empty() || name.size() > kLongestSceneName || name[0] == '.' ||
       name.find_first_not_of(kAllowed) != std::string::npos) {
-    throw Refusal(Code::bad_id, "the name of the scene is '" + printable(name, kLongestName) + "'; it must have 1 to " +
-                                    std::to_string(kLongestName) +
+    throw Refusal(Code::bad_id, "the name of the scene is '" + printable(name, kLongestSceneName) +
+                                    "'; it must have 1 to " + std::to_string(kLongestSceneName) +
                                     " letters, digits, '_', '-' or '.', and must not begin with '.'");
   }
   if (state_folder.empty()) {
