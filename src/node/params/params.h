@@ -124,7 +124,8 @@ struct Params {
   double world_limit = 1e6, min_size = 1e-4, max_size = 1e5;
   bool allow_flat = false;
   int threads = 1;
-  int max_bodies = 100000, max_maps = 100, max_frames = 10000, max_samples = 10000, tf_queue_bytes = 16 << 20;
+  int max_bodies = 100000, max_planes = 64, max_maps = 100, max_frames = 10000, max_samples = 10000,
+      tf_queue_bytes = 16 << 20;
   int max_pairs = 100000, max_events = 10000, event_queue = 100;
   int max_hits = 10000, max_listed = 100, max_reasons = 8, max_rules = 1000;
   int max_description_bytes = 16 << 20, max_description_depth = 256, max_links = 2000;

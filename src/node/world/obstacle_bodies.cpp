@@ -176,6 +176,7 @@ PlacedObstacle ObstacleBodies::changed(const ObstacleChange& change, const Edits
     if (!change.shape_poses.empty()) placeShapes(next, change.shape_poses);
     put(next, change.place, around);
   }
+  checkPlanes(next, around.world_frame);
   next.ends = endOf(*next.what, around.now);
   next.lost = false;
   next.restored = false;

@@ -25,11 +25,11 @@ struct Surroundings {
 struct PlacedObstacle {
   std::shared_ptr<const RequestedObstacle> what;
   std::string owner;
-  ObstaclePlace asked;                           ///< its place as requested
-  std::string frame;                             ///< the frame that it follows
-  Pose frame_from_body = Pose::Identity();       ///< its pose in that frame
-  Time ends = Time::max();                       ///< end of its lifetime [ROS time]; max: never
-  bool lost = false;                             ///< whether its lifetime has ended, but it stays in the world
+  ObstaclePlace asked;                      ///< its place as requested
+  std::string frame;                        ///< the frame that it follows
+  Pose frame_from_body = Pose::Identity();  ///< its pose in that frame
+  Time ends = Time::max();                  ///< end of its lifetime [ROS time]; max: never
+  bool lost = false;                        ///< whether its lifetime has ended, but it stays in the world
   bool restored = false;  ///< whether an earlier run of the node stored it, and nothing has confirmed it since
   std::shared_ptr<const Attachment> attachment;  ///< the link that it is attached to, and its pose there; null: none
   std::vector<std::string> touch;  ///< while it is attached: names and globs of the bodies that may touch it
@@ -63,6 +63,9 @@ void append(PlacedObstacle& obstacle, const RequestedObstacle& added, const Surr
 /// @throws also conflict if the obstacle is not attached
 void detach(PlacedObstacle& obstacle, const Surroundings& around);
 ///@}
+
+/// @throws Refusal unsupported if the obstacle has a plane and is not fixed in the world frame
+void checkPlanes(const PlacedObstacle& obstacle, const std::string& world_frame);
 
 /// Gives all shapes other poses in the frame of the body. @throws Refusal bad_geometry if there are more or fewer poses
 void placeShapes(PlacedObstacle& obstacle, const std::vector<Pose>& poses);
