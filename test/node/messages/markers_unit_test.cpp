@@ -147,7 +147,7 @@ TEST(PairMarkers, OfAPlaneConnectTheLowestCornerWithTheSurface) {
       high = std::max(high, point.z);
     }
   }
-  EXPECT_EQ(points, 4u);
+  EXPECT_EQ(points, 8u) << "a line and its two ends for each of the two pairs";
   EXPECT_NEAR(low, 0.0, 1e-6);
   EXPECT_NEAR(high, 2.0, 1e-6);
 }
