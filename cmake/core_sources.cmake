@@ -29,6 +29,7 @@ set(HGRID_CORE_SOURCES
   src/explain/changed_pairs.cpp
   src/explain/explain.cpp
   src/geometry/aabb.cpp
+  src/geometry/half_space.cpp
   src/geometry/oriented_box.cpp
   src/geometry/pose.cpp
   src/geometry/segment.cpp
@@ -53,6 +54,7 @@ set(HGRID_CORE_SOURCES
   src/narrow/mesh_tree.cpp
   src/narrow/narrow_phase.cpp
   src/narrow/ordered_solid.cpp
+  src/narrow/plane_pair.cpp
   src/narrow/triangle_gap.cpp
   src/narrow/winding_tree.cpp
   src/pairs/pair_choice.cpp
@@ -66,6 +68,7 @@ set(HGRID_CORE_SOURCES
   src/queries/nearest_rounds.cpp
   src/queries/nearest_to_body.cpp
   src/queries/placed_map.cpp
+  src/queries/placed_plane.cpp
   src/queries/query_limits.cpp
   src/queries/query_scope.cpp
   src/queries/segment_question.cpp
@@ -77,6 +80,7 @@ set(HGRID_CORE_SOURCES
   src/world/horizon.cpp
   src/world/map_pairs.cpp
   src/world/pair_events.cpp
+  src/world/plane_pairs.cpp
   src/world/scene.cpp
   src/world/snapshot.cpp
   src/world/structure.cpp

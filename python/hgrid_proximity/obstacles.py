@@ -152,6 +152,16 @@ def mesh(vertices, triangles, **place) -> Shape:
     return _shape(ShapeKind.MESH, [], Mesh(vertices=_points(vertices), triangles=faces), **place)
 
 
+def plane(**place) -> Shape:
+    """A half-space, such as a floor: everything below the plane z = 0 of its pose is solid. The position is a point of the
+    surface, and the z axis of the orientation points out of the solid. Only an obstacle that is fixed in the world frame
+    may have planes.
+
+    @param place  as in sphere(); the padding moves the surface outward
+    """
+    return _shape(ShapeKind.PLANE, [], **place)
+
+
 def file(resource: str, scale=(1.0, 1.0, 1.0), convex: bool = False, **place) -> Shape:
     """A mesh in a file (STL, DAE or OBJ) on the computer of the node.
 

@@ -20,7 +20,7 @@ void collectShapePairs(const Snapshot& snapshot, std::uint32_t first, std::uint3
   shape_pairs.clear();
   for (ProxyId a = begin[first]; a < begin[first + 1]; ++a) {
     for (ProxyId b = begin[second]; b < begin[second + 1]; ++b) {
-      const double gap = distance(snapshot.boxes()[a], snapshot.boxes()[b]);
+      const double gap = snapshot.gapOfProxies(a, b);
       if (gap <= up_to) shape_pairs.push_back({gap, a - begin[first], b - begin[second]});
     }
   }

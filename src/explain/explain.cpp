@@ -60,6 +60,16 @@ class Words {
   }
 
  private:
+  /// Returns whether the gap of two bodies is never computed because all shapes of one are planes, and the other has no
+  /// shape that is not a plane.
+  static bool isUnbounded(const Body& planes, const Body& other) {
+    const auto allPlanes = [](const Body& body) {
+      return std::all_of(body.shapes.begin(), body.shapes.end(),
+                         [](const BodyShape& shape) { return shape.shape.kind() == ShapeKind::plane; });
+    };
+    return !planes.shapes.empty() && allPlanes(planes) && (hasCells(other.kind) || !other.shapes.empty()) &&
+           allPlanes(other);
+  }
   bool hasBoxes() const { return !std::isnan(what_.gap); }
 
   std::string nearness() const {
@@ -158,6 +168,7 @@ class Words {
   std::string without() const {
     if (what_.rule.origin == Origin::self) return {};
     if (hasCells(a_.kind) && hasCells(b_.kind)) return {};  // the gap of two maps is never computed
+    if (isUnbounded(a_, b_) || isUnbounded(b_, a_)) return {};
     if (!hasBoxes()) return " Also, " + missing() + ".";
     return near_ ? " Otherwise they would be reported: " + nearness() + "." : " Also, " + nearness() + ".";
   }
@@ -231,7 +242,7 @@ bool fillGap(const Snapshot& snapshot, Explanation& what) {
   bool near = gap <= what.margin && (s.isMap(what.first) || s.isMap(what.second));
   for (std::uint32_t i = s.first_proxy[what.first]; i < s.first_proxy[what.first + 1]; ++i) {
     for (std::uint32_t j = s.first_proxy[what.second]; j < s.first_proxy[what.second + 1]; ++j) {
-      near = near || withinDistance(snapshot.boxes()[i], snapshot.boxes()[j], what.margin);
+      near = near || snapshot.areWithin(i, j, what.margin);
     }
   }
   if (near) what.gap = std::min(what.gap, what.margin);  // Snapshot::pairs() limits gaps in the same way

@@ -3,6 +3,7 @@
 #include "hgrid_proximity/geometry/shape.h"
 
 #include <cmath>
+#include <limits>
 
 #include "hgrid_proximity/refusal.h"
 
@@ -63,7 +64,8 @@ void checkMesh(const TriangleMesh& mesh, double max_size, const std::string& wha
 }
 
 const char* name(ShapeKind kind) {
-  static constexpr const char* kNames[] = {"none", "sphere", "box", "cylinder", "cone", "capsule", "hull", "mesh"};
+  static constexpr const char* kNames[] = {"none",    "sphere", "box",  "cylinder", "cone",
+                                           "capsule", "hull",   "mesh", "cells",    "plane"};
   return kNames[static_cast<int>(kind)];
 }
 
@@ -87,6 +89,9 @@ Shape::Shape(ShapeKind kind, const Eigen::Vector3d& size, std::shared_ptr<const 
     case ShapeKind::hull:
     case ShapeKind::mesh:
       for (const Eigen::Vector3d& vertex : mesh_->vertices) reach_ = std::max(reach_, vertex.norm());
+      break;
+    case ShapeKind::plane:
+      reach_ = std::numeric_limits<double>::infinity();
       break;
   }
 }
@@ -134,6 +139,8 @@ Shape Shape::mesh(std::shared_ptr<const TriangleMesh> mesh, const ShapeLimits& l
   checkMesh(*mesh, limits.max_size, "mesh");
   return Shape(ShapeKind::mesh, Eigen::Vector3d::Zero(), std::move(mesh));
 }
+
+Shape Shape::plane() { return Shape(ShapeKind::plane, Eigen::Vector3d::Zero(), nullptr); }
 
 Shape Shape::primitive(int kind, const std::vector<double>& dimensions, const ShapeLimits& limits) {
   std::size_t expected = 0;
@@ -189,6 +196,10 @@ std::vector<double> Shape::dimensions() const {
 double Shape::reach() const { return reach_; }
 
 Aabb boxOf(const Shape& shape, const Pose& world_from_shape, double padding, const Eigen::Vector3d& origin) {
+  if (shape.kind() == ShapeKind::plane) {
+    constexpr float kLargest = std::numeric_limits<float>::max();
+    return {Eigen::Vector3f::Constant(-kLargest), Eigen::Vector3f::Constant(kLargest)};
+  }
   const Eigen::Matrix3d rotation = world_from_shape.linear();
   const Eigen::Vector3d center = world_from_shape.translation();
   const Eigen::Vector3d axis = rotation.col(2);
@@ -238,6 +249,8 @@ Aabb boxOf(const Shape& shape, const Pose& world_from_shape, double padding, con
       high += center;
       break;
     }
+    case ShapeKind::plane:  // see above
+      break;
   }
   // The slack is 64 units of rounding of all terms. The formulas above, the composition of poses and the shift by the
   // origin together need about a fifth of that.

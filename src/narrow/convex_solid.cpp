@@ -3,6 +3,7 @@
 #include "narrow/convex_solid.h"
 
 #include <stdexcept>
+#include <string>
 
 namespace hgrid {
 namespace {
@@ -23,9 +24,11 @@ ConvexCore coreOf(const Shape& shape) {
     case ShapeKind::hull:
       return ConvexCore::hull(shape.mesh()->vertices.data(), shape.mesh()->vertices.size());
     case ShapeKind::mesh:
+    case ShapeKind::plane:
       break;
   }
-  throw std::invalid_argument("ConvexSolid: the shape is a mesh; it must be convex, for example the hull of the mesh");
+  throw std::invalid_argument(std::string("ConvexSolid: the shape is a ") + name(shape.kind()) +
+                              "; it must be convex and bounded, for example the hull of a mesh");
 }
 
 /// Returns a tree with one box, that of the core.

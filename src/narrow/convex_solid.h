@@ -13,7 +13,7 @@ namespace hgrid {
 /// A convex shape that is prepared for measuring.
 class ConvexSolid : public OrderedSolid {
  public:
-  /// @param shape  must not be a mesh
+  /// @param shape  must not be a mesh or a plane
   explicit ConvexSolid(const Shape& shape);
   /// Creates a solid for queries: a point, a needle or a block. OrderedSolid::before() compares `size`.
   ConvexSolid(const ConvexCore& core, const std::vector<double>& size);

@@ -7,6 +7,7 @@
 namespace hgrid {
 
 std::shared_ptr<const Solid> CoreNarrowPhase::solidOf(const Shape& shape) {
+  if (shape.kind() == ShapeKind::plane) return plane_;
   if (shape.kind() == ShapeKind::mesh) return std::make_shared<MeshSolid>(shape, meshes_.of(shape.mesh()));
   return convexSolidOf(shape);
 }
@@ -23,12 +24,14 @@ std::shared_ptr<const Solid> CoreNarrowPhase::block(const Eigen::Vector3d& size)
   return std::make_shared<ConvexSolid>(ConvexCore::box(size), std::vector<double>{size.x(), size.y(), size.z()});
 }
 
-// Meshes come first in the order of solids, so only `a` needs to be tested.
+// Planes come first in the order of solids, then meshes. So only `a` needs to be tested.
 Proximity CoreNarrowPhase::measureInOrder(const Side& a, const Side& b, double up_to) const {
+  if (a.solid.kind() == ShapeKind::plane) return measurePlane(a, b, up_to);
   return a.solid.kind() == ShapeKind::mesh ? measureMesh(a, b, up_to) : measureConvex(a, b, up_to, findOverlap_);
 }
 
 std::vector<Contact> CoreNarrowPhase::contactsInOrder(const Side& a, const Side& b, std::size_t most) const {
+  if (a.solid.kind() == ShapeKind::plane) return contactsOfPlane(a, b, most);
   return a.solid.kind() == ShapeKind::mesh ? contactsOfMesh(a, b, most) : contactsOfConvex(a, b, most, findOverlap_);
 }
 

@@ -8,6 +8,7 @@
 #include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "narrow/convex_pair.h"
 #include "narrow/mesh_solid.h"
+#include "narrow/plane_pair.h"
 
 namespace hgrid {
 
@@ -18,6 +19,7 @@ class CoreNarrowPhase : public OrderedNarrowPhase {
 
   std::shared_ptr<const Solid> solidOf(const Shape& shape) final;
   std::shared_ptr<const Solid> point() const final { return point_; }
+  std::shared_ptr<const Solid> plane() const final { return plane_; }
   std::shared_ptr<const Solid> needle(double length) const final;
   std::shared_ptr<const Solid> block(const Eigen::Vector3d& size) const final;
 
@@ -31,6 +33,7 @@ class CoreNarrowPhase : public OrderedNarrowPhase {
 
   const FindOverlap findOverlap_;
   const std::shared_ptr<const Solid> point_ = std::make_shared<ConvexSolid>(ConvexCore::point(), std::vector<double>{});
+  const std::shared_ptr<const Solid> plane_ = std::make_shared<PlaneSolid>();
   PreparedMeshes meshes_;
 };
 

@@ -20,6 +20,8 @@ class MeshTree {
   /// @param mesh  must have at least one triangle
   explicit MeshTree(const TriangleMesh& mesh);
 
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+
   /// Returns the gap between the triangles and the core of a convex solid, with points in the frame of the mesh. It is
   /// infinite if it is larger than `up_to` [m].
   CoreGap gapTo(const ConvexSolid& solid, const Pose& mesh_from_solid, double up_to) const;

@@ -44,7 +44,7 @@ OrderedSolid::OrderedSolid(const Shape& shape)
       radius_(radiusOf(shape)) {}
 
 bool OrderedSolid::before(const OrderedSolid& other) const {
-  if (kind_ != other.kind_) return kind_ > other.kind_;  // ShapeKind::mesh has the largest number
+  if (kind_ != other.kind_) return kind_ > other.kind_;  // planes, then meshes have the largest numbers
   if (size_ != other.size_) return size_ < other.size_;
   if (source_ == other.source_ || !source_ || !other.source_) return false;
   const auto &v = source_->vertices, &w = other.source_->vertices;

@@ -18,9 +18,11 @@ class OrderedSolid : public Solid {
 
   ShapeKind kind() const { return kind_; }
   double radius() const { return radius_; }  ///< [m] radius around the core
-  double reach() const { return reach_; }    ///< [m] upper bound of the distance from the origin to the shape's points
+  /// Returns an upper bound [m] of the distance from the origin to the shape's points; infinite for a plane.
+  double reach() const { return reach_; }
 
-  /// Whether this solid comes before the other. Compares kind, dimensions and vertices. Meshes come first.
+  /// Whether this solid comes before the other. Compares kind, dimensions and vertices. Planes come first,
+  /// then meshes.
   bool before(const OrderedSolid& other) const;
 
  protected:

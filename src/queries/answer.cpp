@@ -35,6 +35,16 @@ void findCells(const Question& question, std::vector<QueryHit>& hits) {
   });
 }
 
+/// Appends a hit for each plane that the question hits. The broad phase does not hold planes, and there are only a few.
+void findPlanes(const Question& question, std::vector<QueryHit>& hits) {
+  const auto step = question.scope.exact == nullptr ? TimeBudget::Step::fast : TimeBudget::Step::slow;
+  forEachPlane(question.snapshot, question.scope, [&](const PlacedPlane& plane) {
+    if (question.time.isOver(step)) return;
+    QueryHit hit;
+    if (question.hitsPlane(plane, hit)) hits.push_back(hit);
+  });
+}
+
 }  // namespace
 
 bool Question::goesBefore(const QueryHit& a, const QueryHit& b) const {
@@ -58,6 +68,7 @@ QueryAnswer answerTo(Question& question) {
   QueryAnswer answer;
   std::vector<QueryHit>& hits = answer.hits;
   findBodies(question, hits);
+  findPlanes(question, hits);
   findCells(question, hits);
   sortOnePerBody(question, hits);
   const std::size_t wanted = question.wanted(), limit = question.scope.limit;

@@ -44,9 +44,10 @@ class NearestToBody final : public Question {
   bool hitsBox(ProxyId proxy, QueryHit& hit) const override;
   bool hitsShape(ProxyId proxy, const NarrowPhase& exact, QueryHit& hit) const override;
   bool hitsMap(const PlacedMap& map, QueryHit& hit) const override;
+  bool hitsPlane(const PlacedPlane& plane, QueryHit& hit) const override;
 
   bool isBoxWithin(ProxyId proxy, double distance) const override {
-    return anyOwnShape([&](ProxyId own) { return hgrid::distance(boxOf(own), boxOf(proxy)) <= limit_ + distance; });
+    return anyOwnShape([&](ProxyId own) { return snapshot.gapOfProxies(own, proxy) <= limit_ + distance; });
   }
   bool isShapeWithin(ProxyId proxy, double distance, const NarrowPhase& exact) const override {
     return anyOwnShape([&](ProxyId own) {
@@ -145,6 +146,29 @@ bool NearestToBody::hitsShape(ProxyId proxy, const NarrowPhase& exact, QueryHit&
   return hit.distance <= limit_;
 }
 
+bool NearestToBody::hitsPlane(const PlacedPlane& plane, QueryHit& hit) const {
+  hit.distance = kInfinity;
+  for (ProxyId own = firstOwn(); own < endOfOwn(); ++own) {
+    Proximity found;
+    if (isExact() && shapeOf(own).solid) {
+      const Probe shape = probe(own, *scope.exact);
+      found =
+          shape.measure(*scope.exact->plane(), plane.world_from_plane, plane.padding, std::min(limit_, hit.distance));
+    } else {
+      const Eigen::Vector3d corner = deepestCorner(plane.half_space, inDouble(boxOf(own)));
+      const double signed_distance = plane.signedDistanceOf(corner);
+      found.distance = std::max(0.0, signed_distance);
+      if (signed_distance <= 0.0) found.depth = 0.0 - signed_distance;
+      found.on_first = origin() + corner;
+      found.on_second = found.on_first - found.distance * plane.half_space.normal;
+    }
+    takeNearer(found, hit);
+  }
+  hit.body = plane.body;
+  hit.shape = plane.shape;
+  return plane.body != from_ && hit.distance <= limit_;
+}
+
 /// Returns the limit [m] of the search for cells that are nearer than `nearest`. kNoFurther ends the search.
 double NearestToBody::farthest(const QueryHit& nearest) const {
   return nearest.distance > 0.0 ? std::min(limit_, nearest.distance) : kNoFurther;
@@ -201,6 +225,9 @@ QueryAnswer nearest(const Snapshot& snapshot, std::uint32_t from, double max_dis
   if (snapshot.poses()[from].state == Freshness::unplaced || body.shapes.empty()) {
     throw Refusal(Code::not_ready, "body '" + body.name + "' has no " + (body.shapes.empty() ? "shapes" : "pose") +
                                        "; distances from it need a pose and a shape");
+  }
+  if (snapshot.structure().hasPlane(from)) {
+    throw Refusal(Code::unsupported, "'" + body.name + "' has a plane, which has no end; ask from another body");
   }
   NearestToBody question(snapshot, scope, from, NearestRounds::limitOf(max_distance), boundsOf(snapshot, from));
   return answerTo(question);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "queries/placed_map.h"
+#include "queries/placed_plane.h"
 #include "queries/probe.h"
 #include "queries/time_budget.h"
 
@@ -80,6 +81,8 @@ class Question {
   virtual bool hitsShape(ProxyId proxy, const NarrowPhase& exact, QueryHit& hit) const = 0;
   /// Returns whether a cell of a map is a hit. Sets `hit` to the nearest cell, or to the first cell along a segment.
   virtual bool hitsMap(const PlacedMap& map, QueryHit& hit) const = 0;
+  /// Returns whether a plane is a hit. Sets all fields of `hit`, with exact values if the query is exact.
+  virtual bool hitsPlane(const PlacedPlane& plane, QueryHit& hit) const = 0;
   /// Returns whether hit `a` comes before hit `b` in the answer. If a body has several hits, only the first is kept.
   virtual bool goesBefore(const QueryHit& a, const QueryHit& b) const;
   /// Largest number of hits that the question asks for; 0: all.

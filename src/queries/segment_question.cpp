@@ -53,6 +53,7 @@ class SegmentQuestion final : public Question {
   bool hitsBox(ProxyId proxy, QueryHit& hit) const override;
   bool hitsShape(ProxyId proxy, const NarrowPhase& exact, QueryHit& hit) const override;
   bool hitsMap(const PlacedMap& map, QueryHit& hit) const override;
+  bool hitsPlane(const PlacedPlane& plane, QueryHit& hit) const override;
   bool goesBefore(const QueryHit& a, const QueryHit& b) const override {
     if (a.along != b.along) return a.along < b.along;
     return a.body != b.body ? a.body < b.body : a.shape < b.shape;
@@ -156,6 +157,20 @@ bool SegmentQuestion::hitsMap(const PlacedMap& map, QueryHit& hit) const {
   if (isExact() && (segment_.radius == 0.0 || hit.normal.hasNaN())) {
     hit.normal = map.world_from_map.linear() * normalWhereEntered(cube, at, step);
   }
+  return true;
+}
+
+/// The signed distance from the plane changes linearly along the segment.
+bool SegmentQuestion::hitsPlane(const PlacedPlane& plane, QueryHit& hit) const {
+  const double from = plane.signedDistanceOf(local_.from), to = plane.signedDistanceOf(local_.to);
+  const double least = std::min(from, to);
+  if (!(least <= segment_.radius + slack_)) return false;
+  const double fraction = from > segment_.radius ? std::min(1.0, (from - segment_.radius) / (from - to)) : 0.0;
+  hit = plane.hitOf(local_.from + fraction * (local_.to - local_.from), origin(), isExact());
+  hit.along = fraction * length_;
+  hit.center_distance = std::max(0.0, least);
+  if (isExact()) hit.status = least > 0.0 ? Measure::apart : Measure::contact;
+  setDistance(hit, least - segment_.radius);
   return true;
 }
 

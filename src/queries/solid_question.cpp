@@ -40,6 +40,7 @@ class SolidQuestion final : public Question {
   bool hitsBox(ProxyId proxy, QueryHit& hit) const override;
   bool hitsShape(ProxyId proxy, const NarrowPhase& exact, QueryHit& hit) const override;
   bool hitsMap(const PlacedMap& map, QueryHit& hit) const override;
+  bool hitsPlane(const PlacedPlane& plane, QueryHit& hit) const override;
 
   bool isBoxWithin(ProxyId proxy, double distance) const override {
     return measureBox(worldBoxOf(proxy), slack_ + distance).distance <= slack_ + distance;
@@ -146,6 +147,16 @@ bool SolidQuestion::hitsMap(const PlacedMap& map, QueryHit& hit) const {
   return true;
 }
 
+bool SolidQuestion::hitsPlane(const PlacedPlane& plane, QueryHit& hit) const {
+  const Proximity found =
+      probe(narrow_phase_).measure(*narrow_phase_.plane(), plane.world_from_plane, plane.padding, slack_);
+  if (!(found.distance <= slack_)) return false;
+  hit = plane.hitOf(center_ - origin(), origin(), isExact());
+  setDistance(hit, found);
+  if (isExact()) hit.status = found.status;
+  return true;
+}
+
 /// Returns whether one of `cells` is at most `distance` [m] from the solid. The cells are in the frame of the map.
 bool SolidQuestion::meetsCell(const PlacedMap& map, const StaticGrid& cells, double distance) const {
   const double limit = slack_ + distance;
@@ -186,6 +197,10 @@ QueryAnswer query(const Snapshot& snapshot, const QueryShape& shape, NarrowPhase
   const DefaultFloatEnvironment environment;
   checkQueryPoint(shape.world_from_shape.translation(), "the query's center");
   checkQueryLength(shape.padding, "the padding of the query's shape");
+  if (shape.shape.kind() == ShapeKind::plane) {
+    throw Refusal(Code::unsupported,
+                  "the query's shape is a plane; it must be a bounded shape, for example a large box");
+  }
   const std::shared_ptr<const Solid> solid = narrow_phase.solidOf(shape.shape);
   SolidQuestion question(snapshot, scope, narrow_phase, solid, shape.shape, shape.world_from_shape, shape.padding);
   return answerTo(question);

@@ -59,6 +59,14 @@ class AroundPoint : public Question {
     setDistance(hit, signedDistance(map.cubeOf(voxel), Eigen::AlignedBox3d(in_map), hit.center_distance) - radius);
     return true;
   }
+  /// Returns whether a plane is at most `limit` [m] from the center. If so, sets `hit`.
+  bool hitsNearPlane(const PlacedPlane& plane, double limit, double radius, QueryHit& hit) const {
+    const double distance = plane.signedDistanceOf(local_.center);
+    if (!(distance <= limit)) return false;
+    hit = plane.hitOf(local_.center, origin(), isExact());
+    setDistance(hit, distance - radius);
+    return true;
+  }
   void measureBox(ProxyId proxy, double radius, QueryHit& hit) const {
     const Eigen::AlignedBox3d box = inDouble(boxOf(proxy)), point(local_.center);
     hit.center_distance = distance(boxOf(proxy), local_.center);
@@ -99,6 +107,9 @@ class SphereQuestion final : public AroundPoint {
   bool hitsMap(const PlacedMap& map, QueryHit& hit) const override {
     return hitsNearestCell(map, radius_, region_.radius, hit);
   }
+  bool hitsPlane(const PlacedPlane& plane, QueryHit& hit) const override {
+    return hitsNearPlane(plane, radius_, region_.radius, hit);
+  }
 };
 
 class NearestToPoint final : public AroundPoint {
@@ -122,6 +133,9 @@ class NearestToPoint final : public AroundPoint {
   }
   bool hitsMap(const PlacedMap& map, QueryHit& hit) const override {
     return hitsNearestCell(map, rounds_.limit(), 0.0, hit);
+  }
+  bool hitsPlane(const PlacedPlane& plane, QueryHit& hit) const override {
+    return hitsNearPlane(plane, rounds_.limit(), 0.0, hit);
   }
 
  private:

@@ -89,6 +89,7 @@ void Scene::State::rebuildStructure() {
     known_bodies.push_back(known);
     for (std::size_t i = 0; i < body.shapes.size(); ++i) {
       const BodyShape& shape = body.shapes[i];
+      if (shape.shape.kind() == ShapeKind::plane) next->planes.push_back(static_cast<ProxyId>(next_shapes.size()));
       next_shapes.push_back({shape.shape, shape.body_from_shape, shape.padding});
       const bool has_size = known != Structure::kNone && !sizes_changed;
       next_sizes.push_back(has_size ? sizes[structure->first_proxy[known] + i] : sizeOf(shape, options.margin));
@@ -100,7 +101,8 @@ void Scene::State::rebuildStructure() {
   next->silenced = silencesAll(next->bodies, options.pair_kinds, next->filter);
   std::vector<ProxyId> next_fixed;
   for (ProxyId proxy = 0; proxy < next->body_of_proxy.size(); ++proxy) {
-    if (next->bodies[next->body_of_proxy[proxy]].mobility == Mobility::fixed) next_fixed.push_back(proxy);
+    const bool fixed = next->bodies[next->body_of_proxy[proxy]].mobility == Mobility::fixed;
+    if (fixed && !next->isPlane(proxy)) next_fixed.push_back(proxy);
   }
   fillSources(*next);
   std::vector<bool> next_is_watched(next->bodies.size());
@@ -113,7 +115,7 @@ void Scene::State::rebuildStructure() {
   watched.clear();
   is_watched.swap(next_is_watched);
   structure = std::move(next);
-  scale = GridScale::fitting(sizes);
+  scale = GridScale::fitting(sizes);  // the smallest box counts, so the huge boxes of planes do not matter
   if (options.finest_edge > 0.0) scale.finest_edge = options.finest_edge;
   structure_changed = bodies_changed = rules_changed = sizes_changed = false;
   prepared.reset();
@@ -233,6 +235,16 @@ void Scene::State::summarizePoses(Snapshot& snapshot) {
   snapshot.watched_ = next_watched;
 }
 
+void Scene::State::fillHalfSpaces(Snapshot& snapshot) const {
+  snapshot.half_spaces_.clear();
+  for (const ProxyId plane : structure->planes) {
+    const ShapeInBody& shape = shapes[plane];
+    const Pose& world_from_body = snapshot.poses_[structure->body_of_proxy[plane]].world_from_body;
+    snapshot.half_spaces_.push_back(
+        halfSpaceOf(world_from_body * shape.body_from_shape, shape.padding, options.origin));
+  }
+}
+
 /// Fills poses and boxes. If this snapshot object was used a few commits ago and few bodies changed since, writes only
 /// those.
 void Scene::State::fillBodies(Snapshot& snapshot) {
@@ -254,6 +266,7 @@ void Scene::State::fillBodies(Snapshot& snapshot) {
   for (const std::uint32_t map : structure->maps) {
     snapshot.cells_.push_back(cells[structure->ids[map].slot]);
   }
+  fillHalfSpaces(snapshot);
   horizon.step(structure, snapshot.poses_, snapshot.boxes_, snapshot.stamp_);
 }
 
@@ -282,6 +295,7 @@ void Scene::State::growBoxes(const Snapshot& snapshot) {
       if (body == Structure::kNone) continue;  // it was removed, and then a commit failed
       if (snapshot.poses_[body].state == Freshness::unplaced) continue;
       for (ProxyId proxy = structure->first_proxy[body]; proxy < structure->first_proxy[body + 1]; ++proxy) {
+        if (structure->isPlane(proxy)) continue;
         growBox(snapshot, proxy, position_of[proxy]);
       }
     }
@@ -297,6 +311,7 @@ void Scene::State::growBoxes(const Snapshot& snapshot) {
   std::size_t count = 0;
   for (ProxyId proxy = 0; proxy < most; ++proxy) {
     if (snapshot.poses_[structure->body_of_proxy[proxy]].state == Freshness::unplaced) continue;
+    if (structure->isPlane(proxy)) continue;
     position_of[proxy] = static_cast<std::uint32_t>(count);
     growBox(snapshot, proxy, count);
     ids[count++] = proxy;
@@ -318,7 +333,7 @@ bool Scene::State::moveInGrid(HGrid& grid) {
     const std::uint32_t body = body_of_slot[slot];
     if (slots[slot].pose.state == Freshness::unplaced) return;
     for (ProxyId proxy = structure->first_proxy[body]; proxy < structure->first_proxy[body + 1]; ++proxy) {
-      if (grown_in[position_of[proxy]] > since) regrown.push_back(proxy);
+      if (!structure->isPlane(proxy) && grown_in[position_of[proxy]] > since) regrown.push_back(proxy);
     }
   };
   changes.visitSince(since, add);
@@ -360,15 +375,26 @@ bool Scene::State::isCandidate(const Snapshot& snapshot, std::uint32_t first, st
   if (a.state == Freshness::unplaced || b.state == Freshness::unplaced) return false;
   if (structure->filter.allowed(first, second)) return false;
   if (structure->isMap(first) || structure->isMap(second)) return map_pairs.isNear(snapshot, horizon, first, second);
+  if (plane_pairs.isNear(snapshot, horizon, first, second)) return true;
   const double margin = pairMargin(*structure, first, stalenessOf(a), second, stalenessOf(b));
   for (ProxyId i = structure->first_proxy[first]; i < structure->first_proxy[first + 1]; ++i) {
     for (ProxyId j = structure->first_proxy[second]; j < structure->first_proxy[second + 1]; ++j) {
+      if (structure->isPlane(i) || structure->isPlane(j)) continue;
       const Aabb &one = snapshot.boxes_[i], &other = snapshot.boxes_[j];
       if (withinDistance(one, other, margin)) return true;
       if (horizon.on() && horizon.canMeet(*structure, i, j, distance(one, other), margin)) return true;
     }
   }
   return false;
+}
+
+/// Returns the bodies whose poses or states changed since the last commit.
+const std::vector<std::uint32_t>& Scene::State::changedBodies() {
+  changed_bodies.clear();
+  for (const std::uint32_t slot : changes.now()) {
+    if (body_of_slot[slot] != Structure::kNone) changed_bodies.push_back(body_of_slot[slot]);
+  }
+  return changed_bodies;
 }
 
 void Scene::State::fillPairs(Snapshot& snapshot) {
@@ -386,10 +412,12 @@ void Scene::State::fillPairs(Snapshot& snapshot) {
     if (!near && !horizon.canMeet(*structure, proxies.first, proxies.second, gap, margin)) continue;
     addPair(first, second, gap, margin, near);
   }
-  const bool all_with_maps = map_pairs.find(snapshot, horizon, limits.collected,
-                                            [&](std::uint32_t first, std::uint32_t second, double gap, double margin,
-                                                bool near) { addPair(first, second, gap, margin, near); });
-  snapshot.search_cut_ = snapshot.search_cut_ || !all_with_maps;
+  const auto add = [&](std::uint32_t first, std::uint32_t second, double gap, double margin, bool near) {
+    addPair(first, second, gap, margin, near);
+  };
+  const bool all_with_maps = map_pairs.find(snapshot, horizon, limits.collected, add);
+  const bool all_with_planes = plane_pairs.find(snapshot, horizon, changedBodies(), limits.collected, add);
+  snapshot.search_cut_ = snapshot.search_cut_ || !all_with_maps || !all_with_planes;
   snapshot.pairs_found_ = choice.list(structure->bodies.size(), limits.listed, snapshot.pairs_);
   IsCut is_cut;
   if (snapshot.truncated()) {
@@ -409,6 +437,7 @@ void Scene::State::accept(const std::shared_ptr<PooledSnapshot>& accepted) {
   PooledSnapshot& pooled = *accepted;
   horizon.accept();
   map_pairs.accept();
+  plane_pairs.accept();
   tracker.accept();
   pair_events.accept();
   for (const std::uint32_t slot : boxed) slots[slot].moved = false;

@@ -26,18 +26,20 @@ bool anyBoxes(const PairsNow& now, std::uint32_t first, std::uint32_t second, Lo
   return false;
 }
 
-bool isWithMap(const PairsNow& now, std::uint32_t first, std::uint32_t second) {
-  return now.structure->isMap(first) || now.structure->isMap(second);
+/// Returns whether boxes alone do not determine the gap of two bodies, because one of them is a map or has a plane.
+bool isSpecial(const PairsNow& now, std::uint32_t first, std::uint32_t second) {
+  const Structure& structure = *now.structure;
+  return structure.isMap(first) || structure.isMap(second) || structure.hasPlane(first) || structure.hasPlane(second);
 }
 
 bool within(const PairsNow& now, std::uint32_t first, std::uint32_t second, double reach) {
-  if (isWithMap(now, first, second)) return now.gap_to_map(first, second, reach) <= reach;
+  if (isSpecial(now, first, second)) return now.special_gap(first, second, reach) <= reach;
   return anyBoxes(now, first, second, [&](const Aabb& a, const Aabb& b) { return withinDistance(a, b, reach); });
 }
 
 double gapOf(const PairsNow& now, std::uint32_t first, std::uint32_t second) {
   double gap = std::numeric_limits<double>::infinity();
-  if (isWithMap(now, first, second)) return now.gap_to_map(first, second, gap);
+  if (isSpecial(now, first, second)) return now.special_gap(first, second, gap);
   anyBoxes(now, first, second, [&](const Aabb& a, const Aabb& b) {
     gap = std::min(gap, distance(a, b));
     return false;

@@ -21,8 +21,8 @@ struct PairsNow {
   Freshness worst_state;
   double max_growth;  ///< [m] largest growth of any body
   Time stamp;
-  /// Returns the gap [m] of a map and another body; infinite if it exceeds `up_to`. Called only for pairs with a map.
-  std::function<double(std::uint32_t first, std::uint32_t second, double up_to)> gap_to_map = nullptr;
+  /// Returns the gap [m] of two bodies; infinite if it exceeds `up_to`. Called only for pairs with a map or a plane.
+  std::function<double(std::uint32_t first, std::uint32_t second, double up_to)> special_gap = nullptr;
   IsCut is_cut = nullptr;  ///< called for pairs that are on (see PairEvents) but not in `pairs`
 };
 

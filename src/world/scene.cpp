@@ -22,6 +22,12 @@ void checkLength(double value, double limit, const std::string& what) {
   }
 }
 
+std::size_t planesOf(const Body& body) {
+  return static_cast<std::size_t>(std::count_if(body.shapes.begin(), body.shapes.end(), [](const BodyShape& shape) {
+    return shape.shape.kind() == ShapeKind::plane;
+  }));
+}
+
 void checkBody(const Body& body) {
   const std::size_t slash = body.name.find('/');
   if (slash == std::string::npos) {
@@ -38,6 +44,11 @@ void checkBody(const Body& body) {
     throw Refusal(Code::out_of_range, "link index of body '" + body.name + "' is " + std::to_string(body.link) +
                                           "; it must be smaller than the number of links of the robot, " +
                                           std::to_string(body.links->size()));
+  }
+  if (planesOf(body) > 0 && (body.kind != BodyKind::obstacle || body.mobility != Mobility::fixed)) {
+    throw Refusal(Code::unsupported, "body '" + body.name +
+                                         "' has a plane and can move; only an obstacle that is fixed "
+                                         "in the world may have planes, because no speed bounds the motion of a plane");
   }
   for (const BodyShape& shape : body.shapes) {
     const std::string what = "pose of a shape of body '" + body.name + "'";
@@ -129,7 +140,8 @@ std::vector<std::uint32_t> Scene::State::checkedSlots(const std::vector<BodyId>&
 
 /// Checks the bodies to be added, their names, and whether there is room for them.
 void Scene::State::checkIn(const std::vector<std::uint32_t>& leaving, const std::vector<Body>& in) const {
-  std::size_t count = slot_of_name.size() - leaving.size();
+  std::size_t count = slot_of_name.size() - leaving.size(), planes = plane_count;
+  for (const std::uint32_t slot : leaving) planes -= planesOf(*bodies[slot]);
   std::set<std::string> names;
   for (const Body& body : in) {
     checkBody(body);
@@ -142,6 +154,13 @@ void Scene::State::checkIn(const std::vector<std::uint32_t>& leaving, const std:
     if (count++ >= options.max_bodies) {
       throw Refusal(Code::limit, "there is no room for body '" + body.name + "'; the world may have at most " +
                                      std::to_string(options.max_bodies) + " bodies (max_bodies)");
+    }
+    planes += planesOf(body);
+    if (planes > options.max_planes) {
+      throw Refusal(Code::limit, "there is no room for the planes of body '" + body.name +
+                                     "'; the world may have at "
+                                     "most " +
+                                     std::to_string(options.max_planes) + " planes (max_planes)");
     }
   }
 }
@@ -173,6 +192,7 @@ void Scene::State::reserveSlots(std::size_t count) {
 
 void Scene::State::takeOut(std::uint32_t slot) {
   slot_of_name.erase(bodies[slot]->name);
+  plane_count -= planesOf(*bodies[slot]);
   bodies[slot].reset();
   cells[slot].reset();
   slots[slot].used = slots[slot].moved = false;
@@ -188,6 +208,7 @@ void Scene::State::putIn(std::uint32_t slot, std::shared_ptr<const Body>&& body)
     bodies.emplace_back();
     cells.emplace_back();
   }
+  plane_count += planesOf(*body);
   slots[slot].used = true;
   slots[slot].fixed = body->mobility == Mobility::fixed;
   slots[slot].pose = BodyPose{};

@@ -16,6 +16,7 @@
 #include "world/horizon.h"
 #include "world/map_pairs.h"
 #include "world/pair_events.h"
+#include "world/plane_pairs.h"
 #include "world/recent_changes.h"
 #include "world/snapshot_pool.h"
 
@@ -63,6 +64,7 @@ struct Scene::State {
   std::vector<Slot> slots;
   std::vector<std::shared_ptr<const Body>> bodies;     // the body in each slot; null: the slot is not used
   std::vector<std::shared_ptr<const MapCells>> cells;  // the cells of the body in each slot; null: it has no cells
+  std::size_t plane_count = 0;                         // number of planes of all bodies
   std::vector<std::uint32_t> free_slots;               // indices of the unused slots; has capacity for all slots
   std::map<std::string, std::uint32_t> slot_of_name;   // sorted by name, like Structure::bodies
   bool structure_changed = true;                       // whether bodies or rules changed since the last commit
@@ -94,11 +96,13 @@ struct Scene::State {
   void fillChangedBodies(Snapshot& snapshot);
   void fillPose(std::uint32_t body, Snapshot& snapshot) const;
   bool fillBoxes(std::uint32_t body, Snapshot& snapshot);
+  void fillHalfSpaces(Snapshot& snapshot) const;
   void summarizePoses(Snapshot& snapshot);
   void growBoxes(const Snapshot& snapshot);
   void growBox(const Snapshot& snapshot, ProxyId proxy, std::size_t position);
   void fillGrid(PooledSnapshot& pooled);
   bool moveInGrid(HGrid& grid);
+  const std::vector<std::uint32_t>& changedBodies();
   void fillPairs(Snapshot& snapshot);
   void addPair(std::uint32_t first, std::uint32_t second, double gap, double margin, bool near);
   bool isCandidate(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second);
@@ -119,6 +123,7 @@ struct Scene::State {
   std::vector<ProxyId> fixed_proxies;
   Horizon horizon;
   MapPairs map_pairs;
+  PlanePairs plane_pairs;
   PairTracker tracker;
   PairEvents pair_events;
   RecentChanges changes;
@@ -145,6 +150,7 @@ struct Scene::State {
   std::vector<ProxyId>
       regrown;  // proxies whose grown boxes differ from those in the grid; the next is in the same order
   std::vector<Aabb> regrown_boxes;
+  std::vector<std::uint32_t> changed_bodies;  // see changedBodies()
   std::vector<ProxyPair> proxy_pairs;
   PairChoice choice;
 };

@@ -17,6 +17,25 @@ std::shared_ptr<const MapCells> Snapshot::cellsOf(std::uint32_t body) const {
   return found != maps.end() && *found == body ? cells_[static_cast<std::size_t>(found - maps.begin())] : nullptr;
 }
 
+const HalfSpace& Snapshot::halfSpaceOf(std::uint32_t plane) const {
+  const std::vector<std::uint32_t>& planes = structure_->planes;
+  const auto found = std::lower_bound(planes.begin(), planes.end(), plane);
+  return half_spaces_[static_cast<std::size_t>(found - planes.begin())];
+}
+
+double Snapshot::gapOfProxies(std::uint32_t first, std::uint32_t second) const {
+  const bool plane_first = structure_->isPlane(first), plane_second = structure_->isPlane(second);
+  if (plane_first && plane_second) return std::numeric_limits<double>::infinity();
+  if (plane_first) return distance(halfSpaceOf(first), boxes_[second]);
+  if (plane_second) return distance(halfSpaceOf(second), boxes_[first]);
+  return distance(boxes_[first], boxes_[second]);
+}
+
+bool Snapshot::areWithin(std::uint32_t first, std::uint32_t second, double margin) const {
+  if (structure_->isPlane(first) || structure_->isPlane(second)) return gapOfProxies(first, second) <= margin;
+  return withinDistance(boxes_[first], boxes_[second], margin);
+}
+
 double Snapshot::gapOf(std::uint32_t first, std::uint32_t second, double up_to) const {
   double gap = std::numeric_limits<double>::infinity();
   for (const std::uint32_t body : {first, second}) {
@@ -26,11 +45,11 @@ double Snapshot::gapOf(std::uint32_t first, std::uint32_t second, double up_to) 
   const auto cells = cellsOf(second);
   const Pose map_from_world = poses_[second].world_from_body.inverse();
   for (ProxyId a = structure_->first_proxy[first]; a < structure_->first_proxy[first + 1]; ++a) {
-    if (cells) {
+    if (cells && !structure_->isPlane(a)) {
       gap = std::min(gap, gapTo(*cells->grid, boxInMap(map_from_world, boxes_[a], origin_), std::min(gap, up_to)));
     }
     for (ProxyId b = structure_->first_proxy[second]; b < structure_->first_proxy[second + 1]; ++b) {
-      gap = std::min(gap, distance(boxes_[a], boxes_[b]));
+      gap = std::min(gap, gapOfProxies(a, b));
     }
   }
   return gap <= up_to ? gap : std::numeric_limits<double>::infinity();

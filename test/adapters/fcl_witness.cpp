@@ -48,6 +48,7 @@ std::shared_ptr<fcl::CollisionGeometryd> fclGeometry(const Shape& shape) {
     case ShapeKind::mesh:
       return meshGeometry(*shape.mesh());
     case ShapeKind::hull:
+    case ShapeKind::plane:
       break;
   }
   throw std::invalid_argument("FCL has no geometry for a hull");

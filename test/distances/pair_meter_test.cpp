@@ -30,6 +30,7 @@ class BallPhase final : public NarrowPhase {
   std::shared_ptr<const Solid> solidOf(const Shape& shape) override {
     return std::make_shared<Ball>(shape.dimensions()[0]);
   }
+  std::shared_ptr<const Solid> plane() const override { return std::make_shared<Ball>(0.0); }
   std::shared_ptr<const Solid> point() const override { return std::make_shared<Ball>(0.0); }
   std::shared_ptr<const Solid> needle(double) const override { return nullptr; }
   std::shared_ptr<const Solid> block(const Eigen::Vector3d&) const override { return nullptr; }

@@ -11,7 +11,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 COPY = ROOT / "build" / "mutants"
 PROGRAMS = COPY / "programs"  # one folder with test programs for each mutant that is being tested
 TESTS = ["geometry_test", "broadphase_test", "maps_test", "bodies_test", "pairs_test", "world_test", "history_test", "queries_test",
-         "distances_test", "explain_test"]
+         "distances_test", "explain_test", "planes_test"]
 
 
 def prepare():

@@ -24,6 +24,7 @@ EVENTS = "world/pair_events.cpp"
 BRICKS = "maps/static_grid_bricks.h"
 LINE = "maps/static_grid_line.h"
 MAPS = "world/map_pairs.cpp"
+PLANES = "world/plane_pairs.cpp"
 SPHERE = "queries/sphere_question.cpp"
 CLOUD = "maps/cloud_cells.cpp"
 PAST = "history/history.cpp"
@@ -225,6 +226,15 @@ CORE = [
     ("a search along a segment ends after the first hit", LINE, "frame.left &= alongMain(frame);",
      "frame.left = 0;"),
     ("a falling segment enters its slices at the wrong end", LINE, "slices + std::min(slope, 0.0f)", "slices"),
+    ("the gap to a plane is rounded upward", "geometry/half_space.cpp",
+     "sum - half_space.offset - half_space.rounding", "sum - half_space.offset + half_space.rounding"),
+    ("a box at the margin of a plane does not count", PLANES,
+     "result.near = result.gap <= result.margin", "result.near = result.gap < result.margin"),
+    ("a box that moved near a plane is not listed", PLANES,
+     "compared_.begin(), compared_.end(), std::back_inserter(plane.near)",
+     "compared_.begin(), compared_.begin(), std::back_inserter(plane.near)"),
+    ("the boxes near a plane are kept although the plane moved", PLANES,
+     "*plane.near_of == plane.now && !horizon.on()", "!horizon.on()"),
     ("a gap to a map is reused although the map moved", MAPS,
      "map.cells == cells && map.world_from_map.matrix() == pose.matrix()", "map.cells == cells"),
     ("a gap to a map is reused although the body moved", MAPS,

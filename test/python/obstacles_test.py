@@ -17,7 +17,7 @@ from geometry_msgs.msg import Point, Quaternion
 from hgrid_proximity import obstacles
 from hgrid_proximity.client import Proximity
 from hgrid_proximity.errors import Refused
-from hgrid_proximity.msg import Bodies, Poses, Shape, ShapeKind, Status
+from hgrid_proximity.msg import Bodies, Poses, Status
 from hgrid_proximity.poses import PosesPublisher, _Bytes
 from hgrid_proximity.srv import ExplainPair
 from moving_ball import Ball
@@ -107,7 +107,7 @@ class Obstacles(unittest.TestCase):
             "OUT_OF_RANGE": obstacles.add("far", sphere, (1e7, 0, 0)),
             "BAD_ROTATION": obstacles.add("turned", sphere, orientation=(1, 1, 1, 1)),
             "UNKNOWN_FRAME": obstacles.add("placed", sphere, frame="nowhere", stamp=rospy.Time(0)),
-            "UNSUPPORTED": obstacles.add("plane", Shape(kind=ShapeKind.PLANE)),
+            "UNSUPPORTED": obstacles.add("plane", obstacles.plane(), moving=True),
         }
         for code, change in wrong.items():
             text = self.assert_refused(code, 2, *good, change)
@@ -149,6 +149,14 @@ class Obstacles(unittest.TestCase):
             self.assertEqual(self.at(x + inside[0], *inside[1:], exact=True), ["obstacle/" + name])
             self.assertEqual(self.at(x + outside[0], *outside[1:], exact=True), [], name)
             self.assertEqual(self.at(x + outside[0], *outside[1:]), ["obstacle/" + name])
+
+    def test_a_plane_is_a_half_space(self):
+        """Claim: everything below a plane touches it, however far it is; what is above does not."""
+        self.apply(obstacles.add("floor", obstacles.plane(position=(0, 0, -3), padding=0.5), (500, 0, 0)))
+        self.assertEqual(self.at(-900, 70, -2.6), ["obstacle/floor"])
+        self.assertEqual(self.at(-900, 70, -800, exact=True), ["obstacle/floor"])
+        self.assertEqual(self.at(-900, 70, -2.3, exact=True), [])
+        self.assert_refused("UNSUPPORTED", 0, obstacles.attach("floor", "robot/ball", (0, 0, 0)))
 
     def test_padding_and_margin_reach_the_node(self):
         self.apply(obstacles.add("part", obstacles.sphere(0.1, padding=0.2), (1, 0, 0)))

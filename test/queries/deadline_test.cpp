@@ -84,6 +84,7 @@ class SlowNarrowPhase final : public NarrowPhase {
  public:
   SlowNarrowPhase(int fast, Clock::time_point deadline) : fast_(fast), deadline_(deadline) {}
   std::shared_ptr<const Solid> solidOf(const Shape&) override { return std::make_shared<Solid>(); }
+  std::shared_ptr<const Solid> plane() const override { return std::make_shared<Solid>(); }
   std::shared_ptr<const Solid> point() const override { return std::make_shared<Solid>(); }
   std::shared_ptr<const Solid> needle(double) const override { return std::make_shared<Solid>(); }
   std::shared_ptr<const Solid> block(const Eigen::Vector3d&) const override { return std::make_shared<Solid>(); }

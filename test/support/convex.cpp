@@ -40,7 +40,8 @@ Convex::Convex(const Shape& shape, const Pose& world_from_shape, double padding)
       for (const Eigen::Vector3d& vertex : shape.mesh()->vertices) add(world_from_shape, vertex.cast<Real>());
       break;
     case ShapeKind::mesh:
-      throw std::invalid_argument("a mesh is not convex");
+    case ShapeKind::plane:
+      throw std::invalid_argument("a mesh is not convex, and a plane has no center");
   }
   findBall();
 }

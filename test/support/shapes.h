@@ -22,7 +22,8 @@ inline std::shared_ptr<const TriangleMesh> randomMesh(Random& random, double siz
   return mesh;
 }
 
-/// Returns a random shape of this kind. Its dimensions [m] lie between a hundredth of `size` and `size`.
+/// Returns a random shape of this kind. Its dimensions [m] lie between a hundredth of `size` and `size`; a plane has
+/// none.
 inline Shape randomShape(Random& random, ShapeKind kind, double size) {
   const auto measure = [&] { return random.logUniform(0.01 * size, size); };
   switch (kind) {
@@ -40,10 +41,13 @@ inline Shape randomShape(Random& random, ShapeKind kind, double size) {
       return Shape::hull(randomMesh(random, size));
     case ShapeKind::mesh:
       return Shape::mesh(randomMesh(random, size));
+    case ShapeKind::plane:
+      return Shape::plane();
   }
   return Shape::sphere(size);
 }
 
+/// Returns a random shape that is not a plane.
 inline Shape randomShape(Random& random, double size) {
   return randomShape(random, static_cast<ShapeKind>(random.between(1, 7)), size);
 }

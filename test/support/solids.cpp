@@ -114,6 +114,7 @@ Shape randomSolid(Random& random, ShapeKind kind, const Proportions& proportions
     case ShapeKind::hull:
       return Shape::hull(std::make_shared<TriangleMesh>(points(random, size, random.between(4, 30))));
     case ShapeKind::mesh:
+    case ShapeKind::plane:
       break;
   }
   TriangleMesh mesh = random.chance(0.3) ? boxMesh(size) : lumpMesh(random, size);

@@ -14,7 +14,17 @@
 namespace hgrid {
 
 /// Kinds of collision shape. The numbers are part of the interface: do not change them.
-enum class ShapeKind : std::uint8_t { sphere = 1, box = 2, cylinder = 3, cone = 4, capsule = 5, hull = 6, mesh = 7 };
+/// 8 stands for the cells of a map in messages, so no shape has it.
+enum class ShapeKind : std::uint8_t {
+  sphere = 1,
+  box = 2,
+  cylinder = 3,
+  cone = 4,
+  capsule = 5,
+  hull = 6,
+  mesh = 7,
+  plane = 9,
+};
 
 /// Returns the kind as a word, such as "cylinder".
 const char* name(ShapeKind kind);
@@ -42,7 +52,7 @@ struct ShapeLimits {
 /// One collision shape in its own frame. It is immutable and cheap to copy, because copies share the vertices.
 ///
 /// Sphere, box, cylinder, cone and capsule are centered at the origin. The axis of cylinder, cone and capsule is z. The
-/// tip of a cone is at +z.
+/// tip of a cone is at +z. A plane is the half-space z <= 0.
 class Shape {
  public:
   ///@{
@@ -59,6 +69,8 @@ class Shape {
   static Shape hull(std::shared_ptr<const TriangleMesh> vertices, const ShapeLimits& limits = {});
   static Shape mesh(std::shared_ptr<const TriangleMesh> mesh, const ShapeLimits& limits = {});
   ///@}
+  /// Creates a plane: the half-space z <= 0.
+  static Shape plane();
 
   /// Creates a sphere, box, cylinder, cone or capsule.
   /// @param kind        a ShapeKind as a number, 1 .. 5
@@ -69,11 +81,11 @@ class Shape {
 
   /// Returns the kind of the shape.
   ShapeKind kind() const { return kind_; }
-  /// Returns the dimensions [m] in the order that primitive() expects; empty for hull and mesh.
+  /// Returns the dimensions [m] in the order that primitive() expects; empty for hull, mesh and plane.
   std::vector<double> dimensions() const;
   /// Returns the vertices and triangles of a hull or a mesh; null for other kinds.
   const std::shared_ptr<const TriangleMesh>& mesh() const { return mesh_; }
-  /// Returns the distance [m] from the origin of the shape to its farthest point.
+  /// Returns the distance [m] from the origin of the shape to its farthest point; infinite for a plane.
   double reach() const;
 
  private:
@@ -90,7 +102,8 @@ class Shape {
 ///
 /// The result always contains the exact box of the shape. The box is computed in double, enlarged by 64 units of
 /// rounding of its terms, and then rounded outward to float. The formulas need only a part of these 64 units. They
-/// follow Ericson, Real-Time Collision Detection, 2005, section 4.2.
+/// follow Ericson, Real-Time Collision Detection, 2005, section 4.2. No box is around a plane: the result is the
+/// largest box of floats. Use halfSpaceOf() for planes.
 Aabb boxOf(const Shape& shape, const Pose& world_from_shape, double padding, const Eigen::Vector3d& origin);
 
 }  // namespace hgrid

@@ -18,7 +18,9 @@ namespace hgrid {
 ///   Padding is added to the radius, so round shapes are measured exactly.
 /// - Two solids are always measured in the same order, in the frame of one of them. So the result does not depend on
 ///   the order of the arguments, and no precision is lost far from the origin.
-/// - Depth, normal and points of a contact are known if the cores are apart or only touch. If the cores overlap, these
+/// - The distance from a plane is that of the deepest point of the other shape. Depth and normal are always known.
+/// - Otherwise, depth, normal and points of a contact are known if the cores are apart or only touch. If the cores
+/// overlap, these
 ///   values are NaN. makeFclNarrowPhase() finds these values in more cases.
 std::shared_ptr<NarrowPhase> makeCoreNarrowPhase();
 

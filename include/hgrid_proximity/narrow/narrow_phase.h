@@ -77,7 +77,8 @@ struct PlacedSolid {
 
 /// Measures the exact distance of two shapes.
 ///
-/// Shapes are solid. A closed mesh consists of its surface and the space inside; an open mesh is only its surface.
+/// Shapes are solid. A closed mesh consists of its surface and the space inside; an open mesh is only its surface. A
+/// plane is a half-space. Two planes always count as in contact.
 /// Several threads may call measure() at the same time.
 class NarrowPhase {
  public:
@@ -90,6 +91,8 @@ class NarrowPhase {
   virtual std::shared_ptr<const Solid> solidOf(const Shape& shape) = 0;
 
   // Solids for queries. The padding of a PlacedSolid gives them a radius.
+  /// Returns the half-space z <= 0.
+  virtual std::shared_ptr<const Solid> plane() const = 0;
   /// Returns a point at the origin.
   virtual std::shared_ptr<const Solid> point() const = 0;
   /// Creates a segment along z, centered at the origin. @param length [m] > 0

@@ -21,6 +21,7 @@ struct SceneOptions {
   double growth_cap = 1.0;     ///< [m] largest growth of the margins of a stale body, 0 .. 1e3
   double growth_after = 0.25;  ///< [s] if the pose of a body is older than this, its margins grow in every state
   std::size_t max_bodies = 100000;  ///< largest number of bodies in the scene
+  std::size_t max_planes = 64;      ///< largest number of planes; a tick compares each with all bodies that can move
   /// Maximum number of pairs that a snapshot lists; 0: no limit. It also bounds the work and the memory of a tick: the
   /// search collects at most 4 times as many pairs of boxes, or 65536 if that is more. Snapshot::truncated() tells
   /// whether a limit was reached.
@@ -83,7 +84,8 @@ class Scene {
 
   /// Adds a body. It is unplaced until place() is called.
   /// @throws Refusal dup_id or bad_id for the name
-  /// @throws Refusal limit if there are too many bodies
+  /// @throws Refusal limit if there are too many bodies or planes
+  /// @throws Refusal unsupported if a body with a plane is not a fixed obstacle
   /// @throws Refusal out_of_range or nonfinite for a pose, padding, margin or speed
   BodyId add(Body body);
   /// Removes a body. @throws Refusal unknown_id if the handle is not valid (any more)

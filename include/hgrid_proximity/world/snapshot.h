@@ -9,6 +9,7 @@
 
 #include "hgrid_proximity/bodies/source.h"
 #include "hgrid_proximity/broadphase/broad_phase_reader.h"
+#include "hgrid_proximity/geometry/half_space.h"
 #include "hgrid_proximity/maps/map_cells.h"
 #include "hgrid_proximity/pairs/near_pair.h"
 #include "hgrid_proximity/pairs/pair_event.h"
@@ -32,17 +33,28 @@ class Snapshot {
   std::uint64_t epoch() const { return epoch_; }
   /// Pose of each body, in the order of structure().bodies.
   const std::vector<BodyPose>& poses() const { return poses_; }
-  /// Box of each proxy [m], relative to origin(); meaningless for the proxies of unplaced bodies.
+  /// Box of each proxy [m], relative to origin(); meaningless for planes and for the proxies of unplaced bodies.
   const std::vector<Aabb>& boxes() const { return boxes_; }
   /// Point [m, world] that boxes() are relative to.
   const Eigen::Vector3d& origin() const { return origin_; }
+  /// The half-space of each of structure().planes, padding included, relative to origin(); meaningless for the planes
+  /// of unplaced bodies.
+  const std::vector<HalfSpace>& halfSpaces() const { return half_spaces_; }
+  /// Returns the half-space of a proxy that is a plane.
+  const HalfSpace& halfSpaceOf(std::uint32_t plane) const;
+  /// Returns the distance [m] of the boxes of two proxies of placed bodies. For a plane, the half-space takes the place
+  /// of the box. The distance of two planes is infinite, because they make no pair.
+  double gapOfProxies(std::uint32_t first, std::uint32_t second) const;
+  /// Returns whether gapOfProxies() is at most `margin` [m]. For two boxes the decision is exact.
+  bool areWithin(std::uint32_t first, std::uint32_t second, double margin) const;
   /// The occupied cells of each of structure().maps; null while they are not known.
   const std::vector<std::shared_ptr<const MapCells>>& cells() const { return cells_; }
   /// The occupied cells of a body; null if the body is no map or cloud, or while its cells are not known.
   std::shared_ptr<const MapCells> cellsOf(std::uint32_t body) const;
   /// Returns the gap [m] of two bodies: the least distance of their boxes. It is infinite if it exceeds `up_to` or a
   /// body has no boxes. The boxes of a map are its occupied cells. For a pair with a map, each box of the other body is
-  /// replaced by a box around it whose sides are parallel to the axes of the map.
+  /// replaced by a box around it whose sides are parallel to the axes of the map. For planes, see gapOfProxies(); the
+  /// gap of a plane and a map is infinite, because they make no pair.
   double gapOf(std::uint32_t first, std::uint32_t second, double up_to = std::numeric_limits<double>::infinity()) const;
   /// The pairs, sorted by (first, second). If truncated(), some pairs are missing. Then this lists the pairs with the
   /// smallest gaps among the pairs that the search collected. Among equal gaps, the names decide.
@@ -96,7 +108,8 @@ class Snapshot {
   Freshness worstState() const { return worst_state_; }
   /// Age [s] of the oldest pose of a moving body.
   double maxAge() const { return max_age_; }
-  /// The broad phase. It stores the boxes of the placed proxies, each grown by its share of the margins.
+  /// The broad phase. It stores the boxes of the placed proxies, each grown by its share of the margins. It does not
+  /// hold planes.
   const BroadPhaseReader& broadPhase() const { return *broad_phase_; }
 
   /// Returns for how long [s] after stamp() two bodies surely do not meet if they are at least `distance` [m] apart at
@@ -117,6 +130,7 @@ class Snapshot {
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   std::vector<BodyPose> poses_;
   std::vector<Aabb> boxes_;
+  std::vector<HalfSpace> half_spaces_;                  // in the order of structure_->planes
   std::vector<std::shared_ptr<const MapCells>> cells_;  // in the order of structure_->maps
   std::vector<NearPair> pairs_;
   std::uint64_t pairs_found_ = 0;

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct Structure {
   std::vector<BodyId> ids;                   ///< handle of each body
   std::vector<std::uint32_t> first_proxy;    ///< body i has the proxies first_proxy[i] .. first_proxy[i + 1] - 1
   std::vector<std::uint32_t> body_of_proxy;  ///< for each proxy: index of its body
+  std::vector<std::uint32_t> planes;         ///< the proxies whose shapes are planes, ascending
   std::vector<std::uint32_t> maps;           ///< indices of the bodies that are maps or clouds, ascending
   std::vector<std::string> sources;          ///< names of the sources of the bodies (see sourceOf()), sorted
   std::vector<std::uint32_t> source_of;      ///< for each body: index of its source in `sources`
@@ -34,6 +36,15 @@ struct Structure {
 
   /// Returns whether the body is a map or a cloud, which has cells instead of shapes.
   bool isMap(std::uint32_t body) const { return hasCells(bodies[body].kind); }
+  /// Returns whether the shape of a proxy is a plane. Such a proxy has no box.
+  bool isPlane(std::uint32_t proxy) const {
+    return !planes.empty() && std::binary_search(planes.begin(), planes.end(), proxy);
+  }
+  /// Returns whether at least one shape of the body is a plane.
+  bool hasPlane(std::uint32_t body) const {
+    const auto next = std::lower_bound(planes.begin(), planes.end(), first_proxy[body]);
+    return next != planes.end() && *next < first_proxy[body + 1];
+  }
   /// Returns the index of a proxy's shape among the shapes of its body.
   std::uint32_t shapeOf(std::uint32_t proxy) const { return proxy - first_proxy[body_of_proxy[proxy]]; }
   /// Returns the index of the body with this name, or kNone.

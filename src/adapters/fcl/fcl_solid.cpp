@@ -33,6 +33,7 @@ std::unique_ptr<const fcl::CollisionGeometryd> geometryOf(const Shape& shape) {
       return std::make_unique<fcl::Convexd>(std::make_shared<const std::vector<Vector>>(shape.mesh()->vertices), 0,
                                             std::make_shared<const std::vector<int>>());
     case ShapeKind::mesh:
+    case ShapeKind::plane:
       break;
   }
   return nullptr;

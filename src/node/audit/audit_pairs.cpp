@@ -23,7 +23,9 @@ class PairAudit {
   void compare(std::uint32_t first, std::uint32_t second) {
     ++findings_.pairs;
     const RealBoxes &a = boxes_[first], &b = boxes_[second];
-    if (a.shapes.empty() || b.shapes.empty() || a.all.exteriorDistance(b.all) > 2.0 * most_) return;
+    if (a.empty() || b.empty()) return;
+    const bool no_planes = a.planes.empty() && b.planes.empty();
+    if (no_planes && a.all.exteriorDistance(b.all) > 2.0 * most_) return;
     const double gap = a.gapTo(b), margin = filter_.marginOf(first, second);
     if (gap > margin - kPoseSlack || listed_.find(first, second) != nullptr) return;
     if (audited_.truncated || !filter_.reports(first, second)) return;
@@ -44,7 +46,7 @@ class PairAudit {
       findings_.add(subject + " has the margin " + text(pair.margin) + " m; it should be " + text(margin) + " m");
     }
     const RealBoxes &a = boxes_[pair.first], &b = boxes_[pair.second];
-    if (a.shapes.empty() || b.shapes.empty()) return;  // auditCells() checks pairs with maps and clouds
+    if (a.empty() || b.empty()) return;  // auditCells() checks pairs with maps and clouds
     const double gap = a.gapTo(b), slack = std::max(roundingOf(audited_, a), roundingOf(audited_, b));
     if (std::abs(pair.gap - gap) > slack) {
       findings_.add(subject + " has the gap " + text(pair.gap) + " m; it should be " + text(gap) + " m");

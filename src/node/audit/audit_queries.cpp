@@ -80,7 +80,7 @@ class QueryAudit {
 
  private:
   void checkHit(const RecordedQuery::Hit& hit) {
-    if (boxes_[hit.body].shapes.empty()) return;  // a map or a cloud
+    if (boxes_[hit.body].empty()) return;  // a map or a cloud
     const Range range = rangeOf(query_, boxes_[hit.body]);
     const double slack = roundingOf(audited_, boxes_[hit.body]);
     if (hit.distance < range.low - slack || hit.distance > range.high + slack) {
@@ -93,20 +93,21 @@ class QueryAudit {
   }
 
   void checkMissing(std::uint32_t body) {
-    if (boxes_[body].shapes.empty() || isHit(body)) return;
+    if (boxes_[body].empty() || isHit(body)) return;
     const Range range = rangeOf(query_, boxes_[body]);
     if (range.high > 0.0) return;
     if (isInside(body)) add("'" + nameOfBody(body) + "' is no hit, but the query touches its box");
   }
 
-  /// Whether the query also touches the body if its boxes are made smaller by kPoseSlack on each side. If not, an
-  /// accepted error of the pose explains why the body is no hit.
+  /// Whether the query also touches the body if its boxes and planes are made smaller by kPoseSlack on each side. If
+  /// not, an accepted error of the pose explains why the body is no hit.
   bool isInside(std::uint32_t body) const {
     RealBoxes smaller = boxes_[body];
     for (Eigen::AlignedBox3d& box : smaller.shapes) {
       box.min().array() += kPoseSlack;
       box.max().array() -= kPoseSlack;
     }
+    for (auto& plane : smaller.planes) plane.offset() += kPoseSlack;
     const auto is_empty = [](const Eigen::AlignedBox3d& box) { return box.isEmpty(); };
     smaller.shapes.erase(std::remove_if(smaller.shapes.begin(), smaller.shapes.end(), is_empty), smaller.shapes.end());
     return rangeOf(query_, smaller).high <= 0.0;

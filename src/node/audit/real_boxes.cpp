@@ -29,6 +29,7 @@ double reachAlong(const Shape& shape, const Eigen::Vector3d& direction) {
       return 0.5 * d[0] * std::abs(direction.z()) + d[1];
     case ShapeKind::hull:
     case ShapeKind::mesh:
+    case ShapeKind::plane:  // realBoxesOf() does not ask
       break;
   }
   double reach = -std::numeric_limits<double>::infinity();
@@ -48,12 +49,28 @@ double distanceOf(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& from, c
   return std::min({at(low), at(0.0), at(1.0)});
 }
 
+using Plane = Eigen::Hyperplane<double, 3, Eigen::DontAlign>;
+
+/// Returns the distance of a box from the solid side of a plane: that of its lowest corner.
+double distanceOf(const Plane& plane, const Eigen::AlignedBox3d& box) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int corner = 0; corner < 8; ++corner) {
+    least = std::min(least, plane.signedDistance(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner))));
+  }
+  return std::max(0.0, least);
+}
+
 }  // namespace
 
 RealBoxes realBoxesOf(const Body& body, const Pose& world_from_body) {
   RealBoxes result;
   for (const BodyShape& shape : body.shapes) {
     const Pose world_from_shape = world_from_body * shape.body_from_shape;
+    if (shape.shape.kind() == ShapeKind::plane) {
+      const Eigen::Vector3d out = world_from_shape.linear() * Eigen::Vector3d::UnitZ();
+      result.planes.emplace_back(out, Eigen::Vector3d(world_from_shape.translation() + shape.padding * out));
+      continue;
+    }
     Eigen::AlignedBox3d box;
     for (int axis = 0; axis < 3; ++axis) {
       const Eigen::Vector3d direction = world_from_shape.linear().row(axis).transpose();
@@ -71,6 +88,10 @@ double RealBoxes::gapTo(const RealBoxes& other) const {
   double least = std::numeric_limits<double>::infinity();
   for (const Eigen::AlignedBox3d& mine : shapes) {
     for (const Eigen::AlignedBox3d& theirs : other.shapes) least = std::min(least, mine.exteriorDistance(theirs));
+    for (const Plane& plane : other.planes) least = std::min(least, distanceOf(plane, mine));
+  }
+  for (const Plane& plane : planes) {
+    for (const Eigen::AlignedBox3d& theirs : other.shapes) least = std::min(least, distanceOf(plane, theirs));
   }
   return least;
 }
@@ -78,12 +99,18 @@ double RealBoxes::gapTo(const RealBoxes& other) const {
 double RealBoxes::distanceTo(const Eigen::Vector3d& point) const {
   double least = std::numeric_limits<double>::infinity();
   for (const Eigen::AlignedBox3d& box : shapes) least = std::min(least, box.exteriorDistance(point));
+  for (const Plane& plane : planes) least = std::min(least, std::max(0.0, plane.signedDistance(point)));
   return least;
 }
 
 double RealBoxes::distanceTo(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
   double least = std::numeric_limits<double>::infinity();
   for (const Eigen::AlignedBox3d& box : shapes) least = std::min(least, distanceOf(box, from, to));
+  for (const Plane& plane : planes) {
+    for (const Eigen::Vector3d& end : {from, to}) {
+      least = std::min(least, std::max(0.0, plane.signedDistance(end)));
+    }
+  }
   return least;
 }
 

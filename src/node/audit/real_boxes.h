@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "node/audit/audit_case.h"
@@ -13,12 +14,18 @@ namespace hgrid {
 struct RealBoxes {
   std::vector<Eigen::AlignedBox3d> shapes;  // [m, world frame] for each shape: its AABB, padding included
   Eigen::AlignedBox3d all;                  // box around all boxes in `shapes`; empty if there are none
+  /// The surfaces of its planes, padding included. A plane has no box in `shapes`.
+  std::vector<Eigen::Hyperplane<double, 3, Eigen::DontAlign>> planes;
 
-  /// Returns the least distance [m] of the boxes of two bodies; infinite if one body has no boxes.
+  /// Whether the body has neither boxes nor planes, as maps and clouds.
+  bool empty() const { return shapes.empty() && planes.empty(); }
+
+  /// Returns the least distance [m] of the boxes of two bodies, or of a plane of one and a box of the other; infinite
+  /// if there are none.
   double gapTo(const RealBoxes& other) const;
-  /// Returns the least distance [m] of the boxes from a point; infinite if there are no boxes.
+  /// Returns the least distance [m] of the boxes and planes from a point; infinite if there are none.
   double distanceTo(const Eigen::Vector3d& point) const;
-  /// Returns the least distance [m] of the boxes from a line segment; infinite if there are no boxes.
+  /// Returns the least distance [m] of the boxes and planes from a line segment; infinite if there are none.
   double distanceTo(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
 };
 

@@ -42,10 +42,16 @@ Pose fromPose(const geometry_msgs::Pose& pose, const std::string& what) {
 Shape fromShape(const msg::Shape& shape, const ShapeLimits& limits, std::size_t max_triangles) {
   if (shape.kind == msg::ShapeKind::HULL) return Shape::hull(fromMesh(shape.mesh, max_triangles), limits);
   if (shape.kind == msg::ShapeKind::MESH) return Shape::mesh(fromMesh(shape.mesh, max_triangles), limits);
-  if (shape.kind == msg::ShapeKind::CELLS || shape.kind == msg::ShapeKind::PLANE) {
-    throw Refusal(Code::unsupported, std::string("the shape's kind is ") +
-                                         (shape.kind == msg::ShapeKind::CELLS ? "CELLS" : "PLANE") +
-                                         "; it must be SPHERE, BOX, CYLINDER, CONE, CAPSULE, HULL or MESH");
+  if (shape.kind == msg::ShapeKind::PLANE) {
+    if (!shape.dimensions.empty()) {
+      throw Refusal(Code::bad_geometry, "plane: it has " + std::to_string(shape.dimensions.size()) +
+                                            " dimensions; it must have 0, because its pose says where it is");
+    }
+    return Shape::plane();
+  }
+  if (shape.kind == msg::ShapeKind::CELLS) {
+    throw Refusal(Code::unsupported,
+                  "the shape's kind is CELLS; it must be SPHERE, BOX, CYLINDER, CONE, CAPSULE, HULL, MESH or PLANE");
   }
   return Shape::primitive(shape.kind, shape.dimensions, limits);
 }

@@ -22,6 +22,7 @@ std::vector<Voxel> voxelsNearBodies(const Snapshot& snapshot, std::uint32_t map,
   std::vector<Voxel> all, found;
   for (ProxyId proxy = 0; proxy < snapshot.boxes().size() && all.size() < most; ++proxy) {
     if (snapshot.poses()[snapshot.structure().body_of_proxy[proxy]].state == Freshness::unplaced) continue;
+    if (snapshot.structure().isPlane(proxy)) continue;  // it has no box
     const Aabb& box = snapshot.boxes()[proxy];
     const Eigen::Vector3d low = box.min.cast<double>(), high = box.max.cast<double>();
     const Eigen::Vector3d center = map_from_world * (snapshot.origin() + 0.5 * (low + high));

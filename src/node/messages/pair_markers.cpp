@@ -31,6 +31,17 @@ struct DrawnPair {
   std::string note;       // text in place of the distance; empty: the distance is shown
 };
 
+/// Returns a nearest point on each of two boxes, or on a plane and a box [m], relative to the origin of the snapshot.
+BoxPoints pointsOf(const Snapshot& snapshot, ProxyId first, ProxyId second) {
+  const bool plane_first = snapshot.structure().isPlane(first), plane_second = snapshot.structure().isPlane(second);
+  const Eigen::AlignedBox3d a = inDouble(snapshot.boxes()[first]), b = inDouble(snapshot.boxes()[second]);
+  if (!plane_first && !plane_second) return nearestPoints(a, b);
+  const HalfSpace& plane = snapshot.halfSpaceOf(plane_first ? first : second);
+  const Eigen::Vector3d corner = deepestCorner(plane, plane_first ? b : a);
+  const Eigen::Vector3d on_plane = corner - signedDistance(plane, corner) * plane.normal;
+  return plane_first ? BoxPoints{on_plane, corner} : BoxPoints{corner, on_plane};
+}
+
 /// Returns the pair with the nearest points of its boxes. nullopt if one of the bodies is a map.
 std::optional<DrawnPair> byBoxes(const Snapshot& snapshot, const NearPair& pair) {
   const Structure& structure = snapshot.structure();
@@ -38,12 +49,12 @@ std::optional<DrawnPair> byBoxes(const Snapshot& snapshot, const NearPair& pair)
   ProxyId first = 0, second = 0;
   for (ProxyId i = structure.first_proxy[pair.first]; i < structure.first_proxy[pair.first + 1]; ++i) {
     for (ProxyId j = structure.first_proxy[pair.second]; j < structure.first_proxy[pair.second + 1]; ++j) {
-      const double gap = distance(snapshot.boxes()[i], snapshot.boxes()[j]);
+      const double gap = snapshot.gapOfProxies(i, j);
       if (gap < least) least = gap, first = i, second = j;
     }
   }
   if (std::isinf(least)) return std::nullopt;
-  const BoxPoints points = nearestPoints(inDouble(snapshot.boxes()[first]), inDouble(snapshot.boxes()[second]));
+  const BoxPoints points = pointsOf(snapshot, first, second);
   DrawnPair drawn;
   drawn.on_first = points.on_first + snapshot.origin();
   drawn.on_second = points.on_second + snapshot.origin();

@@ -3,6 +3,7 @@
 #include "node/messages/shape_markers.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "node/messages/marker_parts.h"
 #include "node/messages/to_messages.h"
@@ -14,6 +15,7 @@ using visualization_msgs::Marker;
 
 constexpr int kMostParts = 3;  // most markers that draw one shape: a capsule is a cylinder and two spheres
 constexpr std::size_t kMostTriangles = 20000;
+constexpr double kPlaneSide = 10.0, kPlaneThickness = 0.002;  // [m] of the square that stands for a plane
 constexpr int kMostStates = 20;
 constexpr double kStateTextHeight = 0.05;  // [m]
 
@@ -69,6 +71,19 @@ void addTriangles(Marker& marker, const TriangleMesh& mesh) {
   }
 }
 
+/// Returns the center [m, world] of the box around all placed bodies that can move; nullopt if there are none.
+std::optional<Eigen::Vector3d> centerOfMoving(const Snapshot& snapshot) {
+  const Structure& structure = snapshot.structure();
+  Eigen::AlignedBox3d all;
+  for (ProxyId proxy = 0; proxy < snapshot.boxes().size(); ++proxy) {
+    const std::uint32_t body = structure.body_of_proxy[proxy];
+    const bool moves = structure.bodies[body].mobility == Mobility::moving;
+    if (moves && snapshot.poses()[body].state != Freshness::unplaced) all.extend(inDouble(snapshot.boxes()[proxy]));
+  }
+  if (all.isEmpty()) return std::nullopt;
+  return snapshot.origin() + all.center();
+}
+
 /// Draws the markers of one shape.
 class ShapeDrawing {
  public:
@@ -102,6 +117,8 @@ class ShapeDrawing {
       case ShapeKind::hull:
       case ShapeKind::mesh:
         return mesh(shape, world_from_shape);
+      case ShapeKind::plane:
+        return plane(world_from_shape, padding);
     }
   }
 
@@ -137,6 +154,15 @@ class ShapeDrawing {
     center.translation() = inDouble(box).center() + tick_.snapshot->origin();
     const Eigen::Vector3d size = inDouble(box).sizes();
     setScale(add(Marker::CUBE, center), size.x(), size.y(), size.z());
+  }
+
+  /// Draws a thin square below the surface. It shows the part of the plane that is nearest to what moves.
+  void plane(const Pose& pose, double padding) {
+    Eigen::Vector3d center = pose.inverse() * centerOfMoving(*tick_.snapshot).value_or(pose.translation());
+    center.z() = padding - 0.5 * kPlaneThickness;
+    Marker& square = add(Marker::CUBE, pose * Eigen::Translation3d(center));
+    square.color.a = 0.3f;
+    setScale(square, kPlaneSide, kPlaneSide, kPlaneThickness);
   }
 
   const Tick& tick_;
@@ -186,6 +212,7 @@ Marker boxMarker(const Tick& tick) {
   const Snapshot& snapshot = *tick.snapshot;
   for (ProxyId proxy = 0; proxy < snapshot.boxes().size(); ++proxy) {
     if (snapshot.poses()[snapshot.structure().body_of_proxy[proxy]].state == Freshness::unplaced) continue;
+    if (snapshot.structure().isPlane(proxy)) continue;  // it has no box
     addEdges(boxes, snapshot.boxes()[proxy], snapshot.origin(), levelColor(snapshot.broadPhase().levelOf(proxy)));
   }
   return boxes;

@@ -15,6 +15,7 @@
 #include "node/messages/from_messages.h"
 #include "node/messages/obstacle_messages.h"
 #include "node/moveit/scene_matrix.h"
+#include "node/moveit/scene_plane.h"
 #include "node/tf/frame_names.h"
 
 namespace hgrid {
@@ -88,10 +89,13 @@ msg::Shape fromMesh(const shape_msgs::Mesh& mesh) {
   return shape;
 }
 
+msg::Shape planeShape() {
+  msg::Shape shape;
+  shape.kind = msg::ShapeKind::PLANE;
+  return shape;
+}
+
 std::vector<msg::Shape> shapesOf(const CollisionObjectFields& object) {
-  if (!object.planes.empty()) {
-    throw Refusal(Code::unsupported, whatOf(object) + " has planes; this version of the node does not support them");
-  }
   std::vector<msg::Shape> shapes;
   appendShapes(
       object.primitives, object.primitive_poses, "primitives", object,
@@ -99,14 +103,29 @@ std::vector<msg::Shape> shapesOf(const CollisionObjectFields& object) {
   appendShapes(
       object.meshes, object.mesh_poses, "meshes", object, [](const shape_msgs::Mesh& mesh) { return fromMesh(mesh); },
       shapes);
+  const std::size_t first = shapes.size();
+  appendShapes(
+      object.planes, object.plane_poses, "planes", object, [](const shape_msgs::Plane&) { return planeShape(); },
+      shapes);
+  for (std::size_t i = first; i < shapes.size(); ++i) {
+    shapes[i].pose = poseOf(object.planes[i - first], shapes[i].pose, whatOf(object));
+  }
   return shapes;
 }
 
 /// Returns the poses of all shapes that the message gives.
+/// @throws Refusal bad_geometry if it gives poses of planes without the planes, whose coefficients are needed
 std::vector<geometry_msgs::Pose> posesOf(const CollisionObjectFields& object) {
   std::vector<geometry_msgs::Pose> poses = object.primitive_poses;
   poses.insert(poses.end(), object.mesh_poses.begin(), object.mesh_poses.end());
-  poses.insert(poses.end(), object.plane_poses.begin(), object.plane_poses.end());
+  if (object.plane_poses.size() != object.planes.size()) {
+    throw Refusal(Code::bad_geometry, whatOf(object) + " has " + std::to_string(object.planes.size()) + " planes but " +
+                                          std::to_string(object.plane_poses.size()) +
+                                          " poses of them; to move planes, give the coefficients of each");
+  }
+  for (std::size_t i = 0; i < object.planes.size(); ++i) {
+    poses.push_back(poseOf(object.planes[i], object.plane_poses[i], whatOf(object)));
+  }
   return poses;
 }
 

@@ -45,7 +45,7 @@ LinkPaddings paddingsAfter(const SceneExtras& extras, const LinkPaddings& before
 /// placed where its frame is at present, and stays there in the world. doc/moveit.md lists what is different.
 ///
 /// All functions prepare the shapes for exact distances, which may take long. Nothing is compared with the world.
-/// @throws ChangeRefusal or Refusal if the message is not valid; unsupported if an object has planes
+/// @throws ChangeRefusal or Refusal if the message is not valid; unsupported if an attached object has planes
 class SceneReader {
  public:
   /// Both parameters must outlive this object.

@@ -9,6 +9,7 @@
 
 #include "node/messages/to_messages.h"
 #include "node/moveit/scene_matrix.h"
+#include "node/moveit/scene_plane.h"
 
 namespace hgrid {
 namespace {
@@ -69,7 +70,10 @@ void appendShape(const BodyShape& part, NoeticObject& object) {
       return appendCapsule(dimensions[0], dimensions[1], part.body_from_shape, object);
     case ShapeKind::hull:
     case ShapeKind::mesh:
-      appendMesh(*part.shape.mesh(), part.body_from_shape, object);
+      return appendMesh(*part.shape.mesh(), part.body_from_shape, object);
+    case ShapeKind::plane:
+      object.planes.push_back(horizontalPlane());
+      object.plane_poses.push_back(toPose(part.body_from_shape));
   }
 }
 

@@ -69,11 +69,12 @@ Shape makeShape(ParamValue& value, const std::string& type, const Params& params
     readLength(value, "radius", radius);
     return Shape::sphere(radius, limits);
   }
+  if (type == "plane") return Shape::plane();
   if (type == "hull") return Shape::hull(readMesh(value, false, params), limits);
   if (type == "mesh") return Shape::mesh(readMesh(value, true, params), limits);
   if (type != "cylinder" && type != "cone" && type != "capsule") {
     throw Refusal(Code::unsupported, "has type '" + printable(type, 48) +
-                                         "'; it must be box, sphere, cylinder, cone, capsule, hull or mesh");
+                                         "'; it must be box, sphere, cylinder, cone, capsule, hull, mesh or plane");
   }
   readLength(value, "height", height);
   readLength(value, "radius", radius);

@@ -70,7 +70,9 @@ void visitParams(Visitor& v, Params& p) {
       "list of {name, frame, pose: {xyz: [m], rpy: [rad]}, shapes: [{type, pose, padding, ...}]}. Types and their "
       "sizes "
       "in m: box (size: [x, y, z]), sphere (radius), cylinder, cone, capsule (height, radius), hull (vertices: "
-      "[[x, y, z], ...]), mesh (vertices, triangles: lists of 3 indices of vertices). A pose may have quaternion: "
+      "[[x, y, z], ...]), mesh (vertices, triangles: lists of 3 indices of vertices), plane (no size: the half-space z "
+      "<= 0 "
+      "of its pose; only of obstacles that are fixed in the world frame). A pose may have quaternion: "
       "[x, y, z, w] instead of rpy. frame: tf frame that the obstacle follows; empty: it is fixed in the world frame; "
       "~poses: messages of the topic ~poses move it. An obstacle may also have moving, margin, max_speed, lifetime "
       "[s], "
@@ -245,6 +247,8 @@ void visitParams(Visitor& v, Params& p) {
   v.integer("max_bodies", p.max_bodies, 1, 1000000, "largest number of bodies");
   v.integer("max_robots", p.max_robots, 1, 10000,
             "largest number of robots, configured and added with ~apply_robots, present or absent");
+  v.integer("max_planes", p.max_planes, 0, 10000,
+            "largest number of planes of all obstacles. A tick compares each plane with every shape that can move");
   v.integer("max_maps", p.max_maps, 1, 10000, "largest number of maps, configured and loaded with ~load_octomap");
   v.integer(
       "max_frames", p.max_frames, 1, 1000000,

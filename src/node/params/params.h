@@ -148,7 +148,7 @@ struct Params {
   double world_limit = 1e6, min_size = 1e-4, max_size = 1e5;
   bool allow_flat = false;
   int threads = 1;
-  int max_bodies = 100000, max_robots = 1000, max_maps = 100, max_frames = 10000, max_samples = 10000,
+  int max_bodies = 100000, max_planes = 64, max_robots = 1000, max_maps = 100, max_frames = 10000, max_samples = 10000,
       tf_queue_bytes = 16 << 20;
   int history_bytes = 64 << 20;
   int max_pairs = 100000, max_events = 10000, event_queue = 100;

@@ -109,7 +109,7 @@ class SceneWriter {
       numbers(dimensions);
     } else if (shape.kind() == ShapeKind::sphere) {
       entry("radius", dimensions[0]);
-    } else {
+    } else if (shape.kind() != ShapeKind::plane) {
       entry("height", dimensions[0]);
       entry("radius", dimensions[1]);
     }

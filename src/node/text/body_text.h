@@ -51,6 +51,7 @@ inline Shape shapeOfText(ShapeKind kind, const std::vector<double>& dimensions, 
   const auto shared = std::make_shared<const TriangleMesh>(mesh);
   if (kind == ShapeKind::hull) return Shape::hull(shared, limits);
   if (kind == ShapeKind::mesh) return Shape::mesh(shared, limits);
+  if (kind == ShapeKind::plane) return Shape::plane();
   return Shape::primitive(static_cast<int>(kind), dimensions, limits);
 }
 

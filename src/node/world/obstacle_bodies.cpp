@@ -224,6 +224,7 @@ PlacedObstacle ObstacleBodies::changed(const ObstacleChange& change, const Edits
     if (!change.shape_poses.empty()) placeShapes(next, change.shape_poses);
     put(next, change.place, around);
   }
+  checkPlanes(next, around.world_frame);
   renew(next, around.now);
   return next;
 }
@@ -356,6 +357,7 @@ void ObstacleBodies::carryGroup(const PlacedObstacle& before, const PlacedObstac
     }
     PlacedObstacle next = *find(edits, name);
     carry(next, before, after, around);
+    checkPlanes(next, around.world_frame);
     renew(next, around.now);
     edits.set.insert_or_assign(name, std::move(next));
   }

@@ -178,6 +178,21 @@ void append(PlacedObstacle& obstacle, const RequestedObstacle& added, const Surr
   obstacle.what = std::move(what);
 }
 
+void checkPlanes(const PlacedObstacle& obstacle, const std::string& world_frame) {
+  const Body body = bodyOf(obstacle, world_frame);
+  const bool has_plane = std::any_of(body.shapes.begin(), body.shapes.end(),
+                                     [](const BodyShape& shape) { return shape.shape.kind() == ShapeKind::plane; });
+  if (!has_plane || body.mobility == Mobility::fixed) return;
+  throw Refusal(Code::unsupported,
+                "'" + printable(body.name) + "' has a plane, so it must be fixed in the world frame '" +
+                    printable(world_frame) + "'; it " +
+                    (obstacle.attachment ? "is attached to a link"
+                     : obstacle.frame != world_frame
+                         ? "follows the frame '" + printable(obstacle.frame) + "': give a stamp to place it once"
+                     : obstacle.what->moving ? std::string("is declared moving")
+                                             : "would become LOST at the end of its lifetime"));
+}
+
 void placeShapes(PlacedObstacle& obstacle, const std::vector<Pose>& poses) {
   const std::vector<BodyShape>& shapes = obstacle.what->body.shapes;
   if (poses.size() != shapes.size()) {

@@ -74,6 +74,9 @@ bool moveTogether(const PlacedObstacle& a, const PlacedObstacle& b);
 void carry(PlacedObstacle& obstacle, const PlacedObstacle& before, const PlacedObstacle& after,
            const Surroundings& around);
 
+/// @throws Refusal unsupported if the obstacle has a plane and is not fixed in the world frame
+void checkPlanes(const PlacedObstacle& obstacle, const std::string& world_frame);
+
 /// Gives all shapes other poses in the frame of the body. @throws Refusal bad_geometry if there are more or fewer poses
 void placeShapes(PlacedObstacle& obstacle, const std::vector<Pose>& poses);
 

@@ -24,6 +24,7 @@ SceneOptions optionsOf(const Params& params, const std::vector<PairRule>& stored
   options.growth_cap = params.growth_cap;
   options.growth_after = params.stale_after;
   options.max_bodies = static_cast<std::size_t>(params.max_bodies);
+  options.max_planes = static_cast<std::size_t>(params.max_planes);
   options.max_pairs = static_cast<std::size_t>(params.max_pairs);
   options.max_reasons = static_cast<std::size_t>(params.max_reasons);
   options.required = params.required;

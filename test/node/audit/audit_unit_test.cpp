@@ -166,6 +166,73 @@ TEST(Audit, FindsAPairThatTheGridMissed) {
   expectTells(found, "is missing: the gap of its boxes is");
 }
 
+/// Returns a world with a tilted plane among its bodies.
+AuditedWorld worldWithPlane(unsigned seed) {
+  Params params = AuditedWorld::defaults();
+  ObstacleParams floor;
+  floor.body.name = "obstacle/floor";
+  floor.body.frame = "base";
+  floor.body.shapes.push_back({Shape::plane(), Pose::Identity(), 0.01, {}, Eigen::Vector3d::Ones()});
+  floor.body.shapes[0].body_from_shape.linear() =
+      Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, 2, 0).normalized()).toRotationMatrix();
+  params.obstacles.push_back(floor);
+  return AuditedWorld(seed, params);
+}
+
+std::uint32_t numberOf(const AuditCase& audited, const std::string& name) {
+  std::uint32_t body = 0;
+  while (std::string(audited.bodies[body].name) != name) ++body;
+  return body;
+}
+
+TEST(Audit, KnowsPlanes) {
+  AuditedWorld world = worldWithPlane(20);
+  begin(world);
+  EXPECT_EQ(foundWithinTen(world), "");
+  const AuditCase audited = world.audited();
+  const std::uint32_t floor = numberOf(audited, "obstacle/floor");
+  const auto has_floor = [&](const NearPair& pair) { return pair.first == floor || pair.second == floor; };
+  EXPECT_TRUE(std::any_of(audited.pairs.begin(), audited.pairs.end(), has_floor)) << "the world is too easy";
+  EXPECT_FALSE(std::all_of(audited.pairs.begin(), audited.pairs.end(), has_floor)) << "the world is too easy";
+}
+
+TEST(Audit, FindsAPairWithAPlaneThatIsMissingOrHasAWrongGap) {
+  AuditedWorld world = worldWithPlane(21);
+  begin(world);
+  const auto each_with_floor = [](AuditCase& audited, const auto& act) {
+    const std::uint32_t floor = numberOf(audited, "obstacle/floor");
+    for (std::size_t i = audited.pairs.size(); i-- > 0;) {
+      if (audited.pairs[i].first == floor || audited.pairs[i].second == floor) act(i);
+    }
+  };
+  expectTells(foundWithinTen(world,
+                             [&](AuditCase& audited) {
+                               each_with_floor(audited, [&](std::size_t i) {
+                                 audited.pairs.erase(audited.pairs.begin() + std::ptrdiff_t(i));
+                               });
+                             }),
+              "'obstacle/floor'");
+  expectTells(foundWithinTen(world,
+                             [&](AuditCase& audited) {
+                               each_with_floor(audited, [&](std::size_t i) { audited.pairs[i].gap += 1e-4; });
+                             }),
+              "it should be");
+}
+
+TEST(Audit, FindsAQueryThatMissesAPlane) {
+  AuditedWorld world = worldWithPlane(22);
+  begin(world);
+  const std::string found = foundWithinTen(world, [](AuditCase& audited) {
+    const std::uint32_t floor = numberOf(audited, "obstacle/floor");
+    for (RecordedQuery& query : audited.queries) {
+      const auto is_floor = [&](const RecordedQuery::Hit& hit) { return hit.body == floor; };
+      query.hits.erase(std::remove_if(query.hits.begin(), query.hits.end(), is_floor), query.hits.end());
+      query.verdict = query.hits.empty() ? Verdict::clear : Verdict::hit;
+    }
+  });
+  expectTells(found, "'obstacle/floor' is no hit, but the query touches its box");
+}
+
 TEST(Audit, FindsAMarginThatIsTooSmall) {
   AuditedWorld world(7);
   begin(world);

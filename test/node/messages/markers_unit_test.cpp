@@ -103,6 +103,55 @@ TEST(ShapeMarkers, OfAConeAreClosedAndPointOutward) {
       << "of a pyramid with 32 sides, counter-clockwise from outside";
 }
 
+TEST(ShapeMarkers, OfAPlaneAreAThinSquareBelowItsSurfaceNearWhatMoves) {
+  Scene scene{SceneOptions()};
+  Body floor = obstacle("floor", Mobility::fixed);
+  floor.shapes.push_back(shapeOf(Shape::plane()));
+  floor.shapes.back().padding = 0.02;
+  const Pose pose = turnedAt(1.0, 0.7);
+  const Eigen::Vector3d center(100.0, -20.0, 4.0);
+  put(scene, floor, pose);
+  put(scene, ball("ball"), at(center.x(), center.y(), center.z()));
+  const Tick tick = tickWith(scene.commit(Time{1}, {}));
+  const std::vector<Marker> markers = shapeMarkers(tick);
+  ASSERT_EQ(markers.size(), 2u);
+  const Marker& square = markers[1];
+  EXPECT_EQ(square.type, Marker::CUBE);
+  EXPECT_GE(scaleOf(square).x(), 1.0);
+  EXPECT_EQ(scaleOf(square).x(), scaleOf(square).y());
+  EXPECT_LT(scaleOf(square).z(), 0.01);
+  EXPECT_LT(square.color.a, 0.5f);
+  const Eigen::Vector3d surface = poseOf(square) * Eigen::Vector3d(0, 0, 0.5 * square.scale.z),
+                        in_plane = pose.inverse() * surface;
+  EXPECT_NEAR(in_plane.z(), 0.02, 1e-9);
+  EXPECT_NEAR((in_plane - pose.inverse() * center).head<2>().norm(), 0.0, 1e-4);
+  EXPECT_EQ(boxMarker(tick).points.size(), 24u) << "the plane has no box";
+}
+
+TEST(PairMarkers, OfAPlaneConnectTheLowestCornerWithTheSurface) {
+  SceneOptions options;
+  options.margin = 3.0;
+  Scene scene(options);
+  Body floor = obstacle("floor", Mobility::fixed);
+  floor.shapes.push_back(shapeOf(Shape::plane()));
+  put(scene, floor, at(0.0));
+  put(scene, ball("ball", 0.5), at(7.0, 0.0, 2.5));
+  put(scene, ball("z_ball", 0.5), at(-7.0, 0.0, 2.5));
+  const std::vector<Marker> markers = pairMarkers(tickWith(scene.commit(Time{1}, {})), nullptr);
+  double low = 9.0, high = -9.0;
+  std::size_t points = 0;
+  for (const Marker& marker : markers) {
+    for (const geometry_msgs::Point& point : marker.points) {
+      ++points;
+      low = std::min(low, point.z);
+      high = std::max(high, point.z);
+    }
+  }
+  EXPECT_EQ(points, 8u) << "a line and its two ends for each of the two pairs";
+  EXPECT_NEAR(low, 0.0, 1e-6);
+  EXPECT_NEAR(high, 2.0, 1e-6);
+}
+
 TEST(ShapeMarkers, OfAMeshFileNameTheFile) {
   auto triangles = std::make_shared<TriangleMesh>();
   triangles->vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};

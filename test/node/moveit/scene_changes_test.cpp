@@ -287,13 +287,65 @@ TEST_F(SceneWorld, ARepeatedSceneKeepsItsBodies) {
   }
 }
 
+/// Returns a message that adds the plane a x + b y + c z + d = 0.
+NoeticObject scenePlane(const std::string& id, const boost::array<double, 4>& coefficients) {
+  NoeticObject object = sceneObject(Object::ADD, id);
+  object.planes.resize(1);
+  object.planes[0].coef = coefficients;
+  return object;
+}
+
+/// Returns the signed distance [m] of the origin of the world from the plane of a body, and its normal.
+std::pair<double, Eigen::Vector3d> planeOf(const Snapshot& snapshot, const std::string& name) {
+  const std::uint32_t body = snapshot.structure().find(name);
+  const HalfSpace& half_space = snapshot.halfSpaceOf(snapshot.structure().first_proxy[body]);
+  return {signedDistance(half_space, -snapshot.origin()), half_space.normal};
+}
+
+// Claim: the solid side of a plane is where a x + b y + c z + d is negative, whatever the length of (a, b, c).
+TEST_F(SceneWorld, PlanesAreSolidWhereTheirEquationIsNegative) {
+  take(scenePlane("floor", {{0.0, 0.0, 2.0, 3.0}}));     // z <= -1.5
+  take(scenePlane("ceiling", {{0.0, 0.0, -1.0, 2.5}}));  // z >= 2.5
+  take(scenePlane("wall", {{3.0, 0.0, -4.0, -50.0}}));   // 0.6 x - 0.8 z <= 10
+  const Snapshot& snapshot = tick();
+  const auto [floor, up] = planeOf(snapshot, "obstacle/floor");
+  EXPECT_NEAR(floor, 1.5, 1e-12);
+  EXPECT_TRUE(up.isApprox(Eigen::Vector3d(0, 0, 1), 1e-12));
+  const auto [ceiling, down] = planeOf(snapshot, "obstacle/ceiling");
+  EXPECT_NEAR(ceiling, 2.5, 1e-12);
+  EXPECT_TRUE(down.isApprox(Eigen::Vector3d(0, 0, -1), 1e-12));
+  const auto [wall, out] = planeOf(snapshot, "obstacle/wall");
+  EXPECT_NEAR(wall, -10.0, 1e-12);
+  EXPECT_TRUE(out.isApprox(Eigen::Vector3d(0.6, 0, -0.8), 1e-12));
+  EXPECT_EQ(snapshot.pairs().size(), 2u) << "the links base and hand are inside the wall";
+}
+
+TEST_F(SceneWorld, PlanesMoveWithTheirCoefficients) {
+  take(scenePlane("floor", {{0.0, 0.0, 1.0, 1.0}}));
+  NoeticObject move = scenePlane("floor", {{0.0, 0.0, 1.0, 1.0}});
+  move.operation = Object::MOVE;
+  move.plane_poses.resize(1);
+  move.plane_poses[0].position.z = 0.5;
+  take(move);
+  EXPECT_NEAR(planeOf(tick(), "obstacle/floor").first, 0.5, 1e-12);
+  move.planes.clear();
+  EXPECT_EQ(refusedScene(move), Code::bad_geometry);
+  NoeticObject both = sceneSphere(Object::ADD, "both", 1);
+  both.planes = scenePlane("", {{0.0, 0.0, 1.0, 1.0}}).planes;
+  EXPECT_EQ(refusedScene(attachedTo("tool", both)), Code::unsupported);
+  take(both);
+  tick();
+  EXPECT_EQ(bodyOf(*tick_->snapshot, "obstacle/both").shapes.size(), 2u);
+}
+
 TEST_F(SceneWorld, WrongMessagesAreRefusedAsAWhole) {
   take(sceneSphere(Object::ADD, "part", 1));
   const NoeticObject good = sceneSphere(Object::ADD, "good", 2);
   NoeticObject poses = good, plane = good, type = good, flat = good, operation = good, nan = good, far = good,
-               turned = good, frame = good, none = good, name = good, lost = sceneMove("lost", 1);
+               turned = good, endless = good, frame = good, none = good, name = good, lost = sceneMove("lost", 1);
   poses.primitive_poses.resize(2);
   plane.planes.resize(1);
+  endless = scenePlane("endless", {{0.0, 0.0, 1.0, std::numeric_limits<double>::infinity()}});
   type.primitives[0].type = 9;
   flat.primitives[0].dimensions = {0.0};
   operation.operation = 4;
@@ -304,14 +356,21 @@ TEST_F(SceneWorld, WrongMessagesAreRefusedAsAWhole) {
   none.primitives.clear();
   none.primitive_poses.clear();
   name.id = "a\nb";
-  const std::vector<std::pair<Code, NoeticObject>> wrong = {
-      {Code::bad_geometry, poses},    {Code::unsupported, plane},
-      {Code::unsupported, type},      {Code::bad_geometry, flat},
-      {Code::unsupported, operation}, {Code::nonfinite, nan},
-      {Code::out_of_range, far},      {Code::bad_rotation, turned},
-      {Code::unknown_frame, frame},   {Code::bad_geometry, none},
-      {Code::bad_id, name},           {Code::bad_id, sceneObject(Object::ADD, "")},
-      {Code::unknown_id, lost},       {Code::unknown_id, sceneObject(Object::REMOVE, "lost")}};
+  const std::vector<std::pair<Code, NoeticObject>> wrong = {{Code::bad_geometry, poses},
+                                                            {Code::bad_geometry, plane},
+                                                            {Code::unsupported, type},
+                                                            {Code::bad_geometry, flat},
+                                                            {Code::unsupported, operation},
+                                                            {Code::nonfinite, nan},
+                                                            {Code::out_of_range, far},
+                                                            {Code::bad_rotation, turned},
+                                                            {Code::unknown_frame, frame},
+                                                            {Code::bad_geometry, none},
+                                                            {Code::nonfinite, endless},
+                                                            {Code::bad_id, name},
+                                                            {Code::bad_id, sceneObject(Object::ADD, "")},
+                                                            {Code::unknown_id, lost},
+                                                            {Code::unknown_id, sceneObject(Object::REMOVE, "lost")}};
   for (std::size_t i = 0; i < wrong.size(); ++i) {
     SCOPED_TRACE(i);
     EXPECT_EQ(refusedScene(wrong[i].second), wrong[i].first);

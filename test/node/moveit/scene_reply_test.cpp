@@ -87,6 +87,28 @@ TEST_F(SceneReply, GivesTheSameWorldIfItIsSentBack) {
   }
 }
 
+TEST_F(SceneReply, GivesPlanesThatAreTheSameIfTheyAreSentBack) {
+  NoeticObject wall = sceneObject(CollisionObjectFields::ADD, "wall");
+  wall.pose = poseAt(1);
+  wall.planes.resize(1);
+  wall.planes[0].coef = {{3.0, 0.0, -4.0, 10.0}};
+  appendSphere(wall, 2.0);
+  take(wall);
+  const auto planeOfWall = [this] {
+    const Structure& structure = tick_->snapshot->structure();
+    return tick_->snapshot->halfSpaceOf(structure.planes.at(0));
+  };
+  tick();
+  const HalfSpace before = planeOfWall();
+  const NoeticScene scene = sceneOf(kAll);
+  apply({removing("wall")});
+  EXPECT_TRUE(tick().structure().planes.empty());
+  take(scene);
+  tick();
+  EXPECT_TRUE(planeOfWall().normal.isApprox(before.normal, 1e-12));
+  EXPECT_NEAR(planeOfWall().offset, before.offset, 1e-12);
+}
+
 }  // namespace
 }  // namespace test
 }  // namespace hgrid

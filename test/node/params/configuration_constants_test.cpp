@@ -97,6 +97,7 @@ TEST(Constants, ShapesAreThoseOfTheLibrary) {
   EXPECT_EQ(msg::ShapeKind::CAPSULE, number(ShapeKind::capsule));
   EXPECT_EQ(msg::ShapeKind::HULL, number(ShapeKind::hull));
   EXPECT_EQ(msg::ShapeKind::MESH, number(ShapeKind::mesh));
+  EXPECT_EQ(msg::ShapeKind::PLANE, number(ShapeKind::plane));
 }
 
 TEST(Constants, VerdictsAndMobilitiesAreThoseOfTheLibrary) {

@@ -156,7 +156,7 @@ TEST(ParamErrors, ShapesNeedTheirOwnDimensions) {
                    "/height is not a field of a shape"));
   EXPECT_TRUE(says(refusalOfShape(dict({{"type", "cylinder"}, {"radius", 1.0}})), "has no 'height'"));
   EXPECT_TRUE(says(refusalOfShape(dict({{"type", "teapot"}})),
-                   "has type 'teapot'; it must be box, sphere, cylinder, cone, capsule, hull or mesh"));
+                   "has type 'teapot'; it must be box, sphere, cylinder, cone, capsule, hull, mesh or plane"));
   EXPECT_TRUE(says(refusalOf(dict({{"obstacles", list({dict({{"name", "o"}, {"shapes", list()}})})}})),
                    "has no shape; it must have at least one"));
   EXPECT_TRUE(says(refusalOf(dict({{"obstacles", list({dict({{"name", "o"}})})}})), "has no 'shapes'"));

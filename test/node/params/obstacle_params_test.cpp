@@ -173,6 +173,18 @@ TEST(ObstacleParams, AQuaternionGivesTheSamePoseAsAngles) {
   EXPECT_TRUE(angles.isApprox(numbers_given, 1e-12));
 }
 
+TEST(ObstacleParams, APlaneHasOnlyAPoseAndPadding) {
+  const Value plane = dict({{"type", "plane"}, {"pose", dict({{"xyz", xyz(0, 0, -0.5)}})}, {"padding", 0.1}});
+  const Params params = paramsWith(list({dict({{"name", "floor"}, {"shapes", list({plane})}})}));
+  ASSERT_EQ(params.obstacles.size(), 1u);
+  const BodyShape& shape = params.obstacles[0].body.shapes.at(0);
+  EXPECT_EQ(shape.shape.kind(), ShapeKind::plane);
+  EXPECT_EQ(shape.padding, 0.1);
+  EXPECT_EQ(shape.body_from_shape.translation().z(), -0.5);
+  const Value sized = dict({{"type", "plane"}, {"size", xyz(1, 1, 1)}});
+  EXPECT_TRUE(says(refusalOf(dict({{"name", "o"}, {"shapes", list({sized})}})), "~obstacles[0]/shapes[0]/size is not a field"));
+}
+
 TEST(ObstacleParams, WhatIsWrongIsNamed) {
   const auto shaped = [](const Value& shape) { return refusalOf(dict({{"name", "o"}, {"shapes", list({shape})}})); };
   const Value sphere = ball("o", 0, 0, 0, 1);

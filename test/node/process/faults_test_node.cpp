@@ -70,6 +70,7 @@ class FaultyPhase final : public NarrowPhase {
     throwIf("solidOf");
     return sound_->solidOf(shape);
   }
+  std::shared_ptr<const Solid> plane() const override { return sound_->plane(); }
   std::shared_ptr<const Solid> point() const override { return sound_->point(); }
   std::shared_ptr<const Solid> needle(double length) const override { return sound_->needle(length); }
   std::shared_ptr<const Solid> block(const Eigen::Vector3d& size) const override {

@@ -191,6 +191,24 @@ TEST_F(SceneFile, GivesTheSameObstaclesAgain) {
   }
 }
 
+TEST_F(SceneFile, GivesTheSamePlanesAgain) {
+  Numbers random(7);
+  msg::Obstacle floor = adding("floor", 1);
+  floor.pose = pose(random);
+  floor.shapes[0].kind = msg::ShapeKind::PLANE;
+  floor.shapes[0].dimensions.clear();
+  floor.shapes[0].pose = pose(random);
+  floor.shapes[0].padding = 0.25;
+  apply({floor});
+  const PlacedObstacle before = world_.obstacles().all().at("obstacle/floor");
+  load(readScene(text(), "scene", params()));
+  const BodyShape &a = before.what->body.shapes[0],
+                  &b = world_.obstacles().all().at("obstacle/floor").what->body.shapes[0];
+  EXPECT_EQ(b.shape.kind(), ShapeKind::plane);
+  EXPECT_EQ(b.padding, 0.25);
+  EXPECT_TRUE(a.body_from_shape.isApprox(b.body_from_shape, 1e-12));
+}
+
 TEST_F(SceneFile, KeepsRulesThatNeverEnd) {
   PairRule kept{"arm/*", "obstacle/a: b", "it must"}, strict{"arm/hand", "obstacle/*", ""}, brief = kept, fixed = kept;
   kept.origin = strict.origin = brief.origin = Origin::service;

@@ -28,7 +28,7 @@ Shape randomShape(Random& random) {
   const auto mesh = std::make_shared<TriangleMesh>();
   mesh->vertices = {{0, 0, 0}, {length(), 0, 0}, {0, length(), 0}, {0, 0, length()}};
   mesh->triangles = {{{0, 2, 1}}, {{0, 1, 3}}, {{0, 3, 2}}, {{1, 2, 3}}};
-  switch (random.between(1, 7)) {
+  switch (random.between(1, 8)) {
     case 1:
       return Shape::sphere(length());
     case 2:
@@ -41,6 +41,8 @@ Shape randomShape(Random& random) {
       return Shape::capsule(length(), length());
     case 6:
       return Shape::hull(mesh);
+    case 7:
+      return Shape::plane();
     default:
       return Shape::mesh(mesh);
   }

@@ -200,6 +200,61 @@ TEST_F(Obstacles, BecomeLostAtTheEndOfTheirLifetimeIfThatWasRequested) {
   EXPECT_EQ(placesIn(*tick_->snapshot).at("held"), cart(time_) + 0.25);
 }
 
+/// Returns a change that adds a plane at this height.
+msg::Obstacle addingPlane(const std::string& name, double height) {
+  msg::Obstacle change = adding(name, 0);
+  change.pose.position.z = height;
+  change.shapes[0].kind = msg::ShapeKind::PLANE;
+  change.shapes[0].dimensions.clear();
+  return change;
+}
+
+TEST_F(Obstacles, WithPlanesArePairedWithWhatIsNear) {
+  apply({addingPlane("floor", -0.1), addingPlane("deep", -1.0)});
+  const Snapshot& snapshot = tick();
+  ASSERT_EQ(snapshot.pairs().size(), 2u) << "the links base and hand are spheres of 0.05 m at the height 0";
+  const NearPair& pair = snapshot.pairs()[1];
+  EXPECT_EQ(snapshot.structure().bodies[pair.first].name, "arm/hand");
+  EXPECT_EQ(snapshot.structure().bodies[pair.second].name, "obstacle/floor");
+  EXPECT_NEAR(pair.gap, 0.05, 1e-6);
+  msg::Obstacle move = moving("floor", 0);
+  move.pose.position.z = -0.5;
+  apply({move});
+  EXPECT_TRUE(tick().pairs().empty());
+}
+
+TEST_F(Obstacles, WithPlanesMustBeFixedInTheWorld) {
+  msg::Obstacle follows = addingPlane("x", 0), declared = addingPlane("x", 0), lost = addingPlane("x", 0),
+                long_plane = addingPlane("x", 0), placed = addingPlane("placed", 0);
+  follows.header.frame_id = placed.header.frame_id = "cart";
+  placed.at_stamp = true;  // placed once, so it is fixed
+  declared.moving = true;
+  lost.lifetime_end = msg::LifetimeEnd::LOST;
+  long_plane.shapes[0].dimensions = {1.0};
+  apply({placed});
+  EXPECT_EQ(bodyOf(tick(), "obstacle/placed").mobility, Mobility::fixed);
+  const std::vector<std::pair<msg::Obstacle, Code>> wrong{{follows, Code::unsupported},
+                                                          {declared, Code::unsupported},
+                                                          {lost, Code::unsupported},
+                                                          {attaching("placed", "arm/tool", 0.5), Code::unsupported},
+                                                          {moving("placed", 1, "cart"), Code::unsupported},
+                                                          {long_plane, Code::bad_geometry}};
+  for (const auto& [change, code] : wrong) {
+    SCOPED_TRACE(change.name + " " + std::to_string(change.operation));
+    EXPECT_EQ(refused({adding("new", 5), change}), Refused(code, 1));
+  }
+  EXPECT_EQ(placesIn(tick()).size(), 2u);
+}
+
+TEST_F(Obstacles, WithMorePlanesThanMaxPlanesAreRefused) {
+  msg::Obstacle many = addingPlane("many", 0);
+  many.shapes.resize(65, many.shapes[0]);
+  EXPECT_THROW(apply({many}), Refusal);
+  many.shapes.resize(64);
+  apply({many});
+  EXPECT_THROW(apply({addingPlane("one_more", 0)}), Refusal);
+}
+
 TEST_F(Obstacles, BeyondMaxBodiesAreRefused) {
   std::vector<msg::Obstacle> many;
   for (int i = 0; i < 19; ++i) many.push_back(adding("part" + std::to_string(i), i));

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "narrow/plane_pair.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "narrow/convex_pair.h"
+#include "narrow/mesh_solid.h"
+
+namespace hgrid {
+namespace {
+
+using Vector = Eigen::Vector3d;
+
+/// Returns the corner of a triangle with the smallest z in the frame of the plane.
+Vector lowest(const Triangle& triangle, const Pose& plane_from_mesh) {
+  Vector result = plane_from_mesh * triangle[0];
+  for (const std::size_t i : {1, 2}) {
+    const Vector corner = plane_from_mesh * triangle[i];
+    if (corner.z() < result.z()) result = corner;
+  }
+  return result;
+}
+
+/// Returns the point of the core of a convex solid or of a mesh with the smallest z in the frame of the plane.
+Vector lowestPoint(const OrderedSolid& other, const Pose& plane_from_other) {
+  if (other.kind() != ShapeKind::mesh) {
+    const Vector down = -plane_from_other.linear().row(2).transpose();
+    return plane_from_other * static_cast<const ConvexSolid&>(other).core().support(down);
+  }
+  Vector result = Vector::Constant(std::numeric_limits<double>::infinity());
+  for (const Triangle& triangle : static_cast<const MeshSolid&>(other).tree().triangles()) {
+    const Vector corner = lowest(triangle, plane_from_other);
+    if (corner.z() < result.z()) result = corner;
+  }
+  return result;
+}
+
+/// Returns the contact of the padded plane with a part of the other solid whose core has this lowest point.
+Contact contactAt(const Side& plane, const Side& other, const Vector& point) {
+  const double depth = std::max(0.0, plane.around + other.around - point.z());
+  Contact contact;
+  contact.normal = Vector::UnitZ();
+  contact.depth = depth;
+  contact.point = {point.x(), point.y(), plane.around - 0.5 * depth};
+  return contact;
+}
+
+}  // namespace
+
+Proximity measurePlane(const Side& plane, const Side& other, double up_to) {
+  const Pose plane_from_other = plane.world_from_shape.inverse() * other.world_from_shape;
+  const double around = plane.around + other.around;
+  if (!plane_from_other.matrix().allFinite() || !(around >= 0.0)) return answerOf(Measure::failed, 0.0);
+  if (other.solid.kind() == ShapeKind::plane) return answerOf(Measure::contact, 0.0);
+  if (plane_from_other.translation().z() - other.solid.reach() - around > up_to) {
+    return answerOf(Measure::apart, std::numeric_limits<double>::infinity());
+  }
+  const Vector point = lowestPoint(other.solid, plane_from_other);
+  const double distance = point.z() - around;
+  if (distance > up_to) return answerOf(Measure::apart, std::numeric_limits<double>::infinity());
+  Proximity result = answerOf(distance > 0.0 ? Measure::apart : Measure::contact, std::max(0.0, distance));
+  result.normal = Vector::UnitZ();
+  result.on_first = {point.x(), point.y(), plane.around};
+  result.on_second = {point.x(), point.y(), point.z() - other.around};
+  if (!(distance > 0.0)) result.depth = 0.0 - distance;
+  return result;
+}
+
+std::vector<Contact> contactsOfPlane(const Side& plane, const Side& other, std::size_t most) {
+  const Proximity found = most > 0 ? measurePlane(plane, other, kTouchingGap) : Proximity{};
+  if (found.status == Measure::failed) hasContacts(found.status);  // throws
+  if (!(found.distance <= kTouchingGap)) return {};
+  if (other.solid.kind() == ShapeKind::plane) return {Contact{}};
+  const Pose plane_from_other = plane.world_from_shape.inverse() * other.world_from_shape;
+  if (other.solid.kind() != ShapeKind::mesh) {
+    return {contactAt(plane, other, lowestPoint(other.solid, plane_from_other))};
+  }
+  std::vector<Contact> contacts;
+  for (const Triangle& triangle : static_cast<const MeshSolid&>(other.solid).tree().triangles()) {
+    const Vector corner = lowest(triangle, plane_from_other);
+    if (corner.z() > plane.around + other.around + kTouchingGap) continue;
+    contacts.push_back(contactAt(plane, other, corner));
+    if (contacts.size() == most) break;
+  }
+  return contacts;
+}
+
+}  // namespace hgrid
