@@ -97,7 +97,7 @@ struct Scene::State {
   void growBoxes(const Snapshot& snapshot);
   void growBox(const Snapshot& snapshot, ProxyId proxy, std::size_t position);
   void fillGrid(PooledSnapshot& pooled);
-  bool moveInGrid(HGrid& grid);
+  bool moveInGrid(BroadPhase& grid);
   void fillPairs(Snapshot& snapshot);
   void addPair(std::uint32_t first, std::uint32_t second, double gap, double margin, bool near);
   bool isCandidate(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second);

@@ -34,8 +34,11 @@ void visitParams(Visitor& v, Params& p) {
       "real-time priority (SCHED_FIFO) of the thread that makes the ticks; the memory of the process is then locked in "
       "RAM. 0: usual priority");
   v.number("margin", p.margin, "m", 0.0, 1000.0, "bodies whose boxes are at most this far apart are pairs");
+  v.broadPhase("broadphase/type", p.broad_phase,
+               "kind of broad phase; the results are the same with each of them. hgrid is the fastest in nearly all "
+               "worlds; doc/partitions.md compares them");
   v.number("finest_edge", p.finest_edge, "m", 0.0, 1000.0,
-           "longest side of the boxes on the finest level of the grid, at least 0.001; 0: chosen from the bodies");
+           "longest side of the boxes on the finest level of hgrid, at least 0.001; 0: chosen from the bodies");
 
   v.string(
       "state_folder", p.state_folder,
