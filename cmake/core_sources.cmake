@@ -20,6 +20,7 @@ set(HGRID_CORE_SOURCES
   src/broadphase/book/mirtich_grid.cpp
   src/broadphase/book/partition.cpp
   src/broadphase/book/query_shape.cpp
+  src/broadphase/book/rooms.cpp
   src/broadphase/book/sweep_array.cpp
   src/broadphase/book/sweep_lists.cpp
   src/broadphase/book/tree_grid.cpp
