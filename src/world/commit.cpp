@@ -4,7 +4,6 @@
 // Scene::commit(): makes a snapshot of the bodies and poses in a scene.
 #include <algorithm>
 
-#include "hgrid_proximity/broadphase/hgrid.h"
 #include "hgrid_proximity/broadphase/partitions.h"
 #include "hgrid_proximity/geometry/float_environment.h"
 #include "hgrid_proximity/refusal.h"

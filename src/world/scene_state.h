@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "hgrid_proximity/broadphase/hgrid.h"
 #include "hgrid_proximity/world/scene.h"
 #include "pairs/pair_choice.h"
 #include "pairs/pair_limits.h"

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "test/support/scenes.h"
+#include "test/support/worlds.h"
 
 namespace hgrid {
 namespace {

@@ -146,5 +146,18 @@ std::size_t BucketGrid::structureBytes() const {
   return bytes;
 }
 
+/// The cells that have boxes. Which of them share a bucket does not show.
+void BucketGrid::drawing(std::vector<Aabb>& regions) const {
+  checkInvariants();
+  regions.clear();
+  const auto edge = static_cast<float>(scale_.edge());
+  for (const ProxyId id : storedIds()) {
+    scale_.of(box(id)).visit([&](const Cell& cell) {
+      const Eigen::Vector3f low = edge * Eigen::Vector3f(float(cell.x), float(cell.y), float(cell.z));
+      regions.push_back({low, low + Eigen::Vector3f::Constant(edge)});
+    });
+  }
+}
+
 }  // namespace book
 }  // namespace hgrid

@@ -20,6 +20,8 @@ class BucketGrid final : public Partition {
  public:
   explicit BucketGrid(CellRule rule = CellRule::objects) : Partition("BucketGrid"), rule_(rule) {}
 
+  void drawing(std::vector<Aabb>& regions) const override;
+
  private:
   static constexpr double kMostCells = 512;
 

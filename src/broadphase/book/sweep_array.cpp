@@ -122,5 +122,21 @@ std::size_t SweepArray::structureBytes() const {
          end_so_far_.capacity() * sizeof(float);
 }
 
+/// The boxes as intervals on the sorted axis, in their order, one above the other.
+void SweepArray::drawing(std::vector<Aabb>& regions) const {
+  checkInvariants();
+  regions.clear();
+  const int across = axis_ == 0 ? 1 : 0;
+  const float height = (world().max[across] - world().min[across]) / static_cast<float>(entries_.size() + 1);
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    Aabb interval = world();
+    interval.min[axis_] = entries_[i].min;
+    interval.max[axis_] = entries_[i].max;
+    interval.min[across] = world().min[across] + height * static_cast<float>(i);
+    interval.max[across] = interval.min[across] + 0.6f * height;
+    regions.push_back(interval);
+  }
+}
+
 }  // namespace book
 }  // namespace hgrid

@@ -24,6 +24,8 @@ class SweepArray final : public Partition {
  public:
   SweepArray() : Partition("SweepArray") {}
 
+  void drawing(std::vector<Aabb>& regions) const override;
+
  private:
   struct Entry {
     float min, max;  // [m] on the sorted axis

@@ -231,5 +231,19 @@ void SweepLists::checkStructure() const {
 
 std::size_t SweepLists::structureBytes() const { return elements_.capacity() * sizeof(Element) + pairs_.bytes(); }
 
+/// A line through each element of the lists of x and y.
+void SweepLists::drawing(std::vector<Aabb>& regions) const {
+  checkInvariants();
+  regions.clear();
+  for (int axis = 0; axis < 2; ++axis) {
+    const auto k = static_cast<std::size_t>(axis);
+    for (Link element = elements_[kHead].next[k]; element != kTail; element = elements_[element].next[k]) {
+      Aabb line = world();
+      line.min[axis] = line.max[axis] = valueOf(element, axis);
+      regions.push_back(line);
+    }
+  }
+}
+
 }  // namespace book
 }  // namespace hgrid

@@ -30,6 +30,8 @@ class SweepLists final : public Partition {
  public:
   SweepLists() : Partition("SweepLists") {}
 
+  void drawing(std::vector<Aabb>& regions) const override;
+
  private:
   using Link = std::uint32_t;  // index of an element: kHead, kTail, or elementOf(id, is_max)
   static constexpr Link kHead = 0, kTail = 1;
