@@ -38,7 +38,7 @@ bool find(const std::string& name, BroadPhaseType& type);
 
 /// The settings that makeBroadPhase() needs.
 struct BroadPhaseOptions {
-  BroadPhaseType type = BroadPhaseType::hgrid;
+  BroadPhaseType type = BroadPhaseType::hgrid;  ///< the kind
   double finest_edge = 0.0625;  ///< [m] GridScale::finest_edge, for `hgrid`; the others compute their cells themselves
   int threads = 1;              ///< HGrid::setThreads(), for `hgrid`; the others use one thread
 };

@@ -19,7 +19,7 @@ struct HalfSpace {
 
 /// A convex room: the common part of half-spaces.
 struct Room {
-  std::string name;
+  std::string name;              ///< different from the names of all other rooms
   std::vector<HalfSpace> walls;  ///< at least one
 
   /// Returns a room in the form of a box.
@@ -42,13 +42,15 @@ struct Portal {
 /// box is never left out of a room that it overlaps.
 class Building {
  public:
-  static constexpr std::size_t kMostRooms = 4096;
+  static constexpr std::size_t kMostRooms = 4096;  ///< largest number of rooms
 
   /// @throws std::invalid_argument for a room without walls, a wall that is not finite or has no normal, a repeated
   ///   name, a portal to itself or to a room that does not exist, an empty opening, or too many rooms
   Building(std::vector<Room> rooms, std::vector<Portal> portals);
 
+  /// Returns the rooms. Their indices are those of the constructor.
   const std::vector<Room>& rooms() const { return rooms_; }
+  /// Returns the portals, in the order of the constructor.
   const std::vector<Portal>& portals() const { return portals_; }
   /// Replaces `found` with the indices of the rooms that a box is in, ascending.
   void roomsOf(const Aabb& box, std::vector<std::uint32_t>& found) const;
@@ -68,6 +70,7 @@ class RoomLayer final : public BroadPhase {
 
   /// Returns the rooms of a stored box, ascending. @throws std::invalid_argument if `id` is not stored
   const std::vector<std::uint32_t>& roomsOf(ProxyId id) const;
+  /// Returns the rooms and portals.
   const Building& building() const { return building_; }
 
   void insert(ProxyId id, const Aabb& box) override;
