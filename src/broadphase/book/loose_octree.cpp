@@ -38,14 +38,14 @@ LooseOctree::Place LooseOctree::placeOf(const Aabb& box) const {
 }
 
 Aabb LooseOctree::regionOf(const Place& place) const {
-  const double width = std::ldexp(width_, -place.depth);
+  const double width = width_ / static_cast<double>(std::uint64_t{1} << place.depth);
   const Eigen::Vector3d index(static_cast<double>(place.x), static_cast<double>(place.y), static_cast<double>(place.z));
   Aabb region;
   for (int axis = 0; axis < 3; ++axis) {
     const double low = low_[axis] + (index[axis] - 0.5) * width, high = low + 2.0 * width;
-    const double rounding = 1e-12 * (std::abs(low_[axis]) + width_);
-    region.min[axis] = roundedDown(low - rounding);
-    region.max[axis] = roundedUp(high + rounding);
+    const double rounding = 2e-7 * (std::abs(low) + std::abs(high)) + 1e-37;  // also of the conversions to float
+    region.min[axis] = static_cast<float>(low - rounding);
+    region.max[axis] = static_cast<float>(high + rounding);
   }
   return region;
 }
