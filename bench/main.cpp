@@ -41,6 +41,7 @@ int run(const Options& options) {
   if (options.part("ageing")) runAgeing(options, records);
   if (options.part("threads") && options.peer("hgrid")) runThreads(options, records);
   if (options.part("queries")) runQueries(options, records);
+  if (options.part("book") && !options.parts.empty()) runBook(options, records);  // only if it is named
   if (options.part("maps") && !(options.quick && options.parts.empty())) runMaps(options, records);
   if (options.part("meshes")) runMeshes(options, records);
   if (options.part("history")) runHistory(options, records);

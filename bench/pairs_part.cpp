@@ -125,6 +125,18 @@ void play(const Options& options, const Setting& setting, const std::vector<Run>
 
 }  // namespace
 
+void runPairsOf(const std::vector<PeerKind>& kinds, const Options& options, std::vector<Record>& records) {
+  for (const Setting& setting : pairsSettings(options)) {
+    std::vector<Run> runs;
+    if (options.peer("hgrid")) runs.push_back(hgridRun(1, hgridInstructions().back()));
+    for (const PeerKind& kind : kinds) {
+      const std::size_t most = options.quick ? kind.quick_most : kind.most;
+      if (options.peer(kind.name) && most >= setting.n) runs.push_back(runOf(kind));
+    }
+    play(options, setting, runs, records);
+  }
+}
+
 void runPairs(const Options& options, std::vector<Record>& records) {
   for (const Setting& setting : pairsSettings(options)) play(options, setting, runsOf(options, setting), records);
 }

@@ -6,6 +6,8 @@
 
 #include "bench/measure/record.h"
 #include "bench/options.h"
+#include "bench/peers/peer.h"
+#include "bench/queries/query_peer.h"
 
 namespace hgrid {
 namespace bench {
@@ -14,6 +16,8 @@ namespace bench {
 
 /// Measures how long it takes to find all overlapping pairs, for each workload, number of boxes and moving fraction.
 void runPairs(const Options& options, std::vector<Record>& records);
+/// As above, with HGrid and these peers only.
+void runPairsOf(const std::vector<PeerKind>& kinds, const Options& options, std::vector<Record>& records);
 
 /// Measures whether HGrid and FCL's tree get slower after many frames.
 void runAgeing(const Options& options, std::vector<Record>& records);
@@ -24,6 +28,13 @@ void runThreads(const Options& options, std::vector<Record>& records);
 
 /// Measures queries of each kind. The boxes do not move. Asks the queries one by one and batched.
 void runQueries(const Options& options, std::vector<Record>& records);
+/// As above, with these peers only, and with this number of boxes.
+void runQueriesOf(const std::vector<QueryPeerKind>& kinds, std::size_t n, const Options& options,
+                  std::vector<Record>& records);
+
+/// Compares the partitions of the book (doc/partitions.md) with HGrid: pairs, queries, loading and memory. It does not
+/// use the libraries of other projects.
+void runBook(const Options& options, std::vector<Record>& records);
 
 /// Compares maps of hgrid, OctoMap and FCL: loading, memory, and questions about the leaves. Also measures point
 /// clouds.

@@ -23,9 +23,9 @@ struct Setting {
   QueryKind kind;
 };
 
-std::vector<Run> runsOf(const Options& options, QueryKind kind) {
+std::vector<Run> runsOf(const std::vector<QueryPeerKind>& kinds, const Options& options, QueryKind kind) {
   std::vector<Run> runs;
-  for (const QueryPeerKind& peer : queryPeers()) {
+  for (const QueryPeerKind& peer : kinds) {
     for (const bool batched : {false, true}) {
       if (options.peer(peer.name) && peer.make()->answers(kind, batched)) runs.push_back({&peer, batched});
     }
@@ -39,11 +39,11 @@ Record recordOf(const Setting& setting, std::size_t n, const Run& run) {
   return record.text("workload", setting.workload).text("placed", name(setting.placed)).number("n", double(n));
 }
 
-void play(const Options& options, const Setting& setting, const World& world, const QuerySet& queries,
-          std::vector<Record>& records) {
+void play(const std::vector<QueryPeerKind>& kinds, const Options& options, const Setting& setting, const World& world,
+          const QuerySet& queries, std::vector<Record>& records) {
   const QueryKind kind = setting.kind;
   const Judge judge(kind, queries, world.boxes());
-  const std::vector<Run> runs = runsOf(options, kind);
+  const std::vector<Run> runs = runsOf(kinds, options, kind);
   Match match;
   match.decide(0, judge.count(), judge.checksum());
   for (const Run& run : runs) {
@@ -83,9 +83,8 @@ void play(const Options& options, const Setting& setting, const World& world, co
 
 }  // namespace
 
-void runQueries(const Options& options, std::vector<Record>& records) {
-  std::size_t n = options.quick ? 10000 : 100000;
-  if (options.sizes.size() == 1) n = options.sizes.front();
+void runQueriesOf(const std::vector<QueryPeerKind>& kinds, std::size_t n, const Options& options,
+                  std::vector<Record>& records) {
   std::vector<std::string> usual = evenWorkloads();
   if (options.quick) {
     usual.push_back("fleet");
@@ -96,11 +95,17 @@ void runQueries(const Options& options, std::vector<Record>& records) {
     const World world(workload, n, 1.0);
     const QuerySet anywhere = queriesAnywhere(world, options.questions);
     for (const QueryKind kind : {QueryKind::sphere, QueryKind::segment, QueryKind::box})
-      play(options, {workload, Placed::anywhere, kind}, world, anywhere, records);
+      play(kinds, options, {workload, Placed::anywhere, kind}, world, anywhere, records);
     if (!isEven(workload)) continue;
     const QuerySet near = queriesNear(workload, world, options.questions);
-    for (const QueryKind kind : kQueryKinds) play(options, {workload, Placed::near, kind}, world, near, records);
+    for (const QueryKind kind : kQueryKinds) play(kinds, options, {workload, Placed::near, kind}, world, near, records);
   }
+}
+
+void runQueries(const Options& options, std::vector<Record>& records) {
+  std::size_t n = options.quick ? 10000 : 100000;
+  if (options.sizes.size() == 1) n = options.sizes.front();
+  runQueriesOf(queryPeers(), n, options, records);
 }
 
 }  // namespace bench

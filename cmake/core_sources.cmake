@@ -9,6 +9,21 @@ set(HGRID_CORE_SOURCES
   src/bodies/robot_model.cpp
   src/bodies/self_pairs.cpp
   src/bodies/source.cpp
+  src/broadphase/book/array_grid.cpp
+  src/broadphase/book/bit_grid.cpp
+  src/broadphase/book/bucket_grid.cpp
+  src/broadphase/book/cell_scale.cpp
+  src/broadphase/book/hashed_grid.cpp
+  src/broadphase/book/kd_nodes.cpp
+  src/broadphase/book/kd_tree.cpp
+  src/broadphase/book/loose_octree.cpp
+  src/broadphase/book/mirtich_grid.cpp
+  src/broadphase/book/partition.cpp
+  src/broadphase/book/query_shape.cpp
+  src/broadphase/book/rooms.cpp
+  src/broadphase/book/sweep_array.cpp
+  src/broadphase/book/sweep_lists.cpp
+  src/broadphase/book/tree_grid.cpp
   src/broadphase/broad_phase_reader.cpp
   src/broadphase/hgrid/cell_plan.cpp
   src/broadphase/hgrid/engine.cpp
@@ -21,6 +36,7 @@ set(HGRID_CORE_SOURCES
   src/broadphase/hgrid/queries.cpp
   src/broadphase/hgrid/region_tree.cpp
   src/broadphase/isa.cpp
+  src/broadphase/partitions.cpp
   src/broadphase/workers.cpp
   src/distances/map_meter.cpp
   src/distances/pair_distance.cpp

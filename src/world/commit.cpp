@@ -4,6 +4,7 @@
 // Scene::commit(): makes a snapshot of the bodies and poses in a scene.
 #include <algorithm>
 
+#include "hgrid_proximity/broadphase/partitions.h"
 #include "hgrid_proximity/geometry/float_environment.h"
 #include "hgrid_proximity/refusal.h"
 #include "world/pair_margin.h"
@@ -326,7 +327,7 @@ void Scene::State::growBoxes(const Snapshot& snapshot) {
 
 /// Moves only the boxes in the grid that changed since the grid was used. @returns false if that is not possible, or if
 /// most boxes changed; then the grid is as it was
-bool Scene::State::moveInGrid(HGrid& grid) {
+bool Scene::State::moveInGrid(BroadPhase& grid) {
   if (since == 0 || horizon.on() || grid.size() != ids.size()) return false;
   regrown.clear();
   const auto add = [&](std::uint32_t slot) {
@@ -349,16 +350,17 @@ bool Scene::State::moveInGrid(HGrid& grid) {
 
 /// Stores the grown boxes in the grid. Finds the overlapping pairs that the filter keeps, up to the limit.
 void Scene::State::fillGrid(PooledSnapshot& pooled) {
-  HGrid& grid = pooled.grid;
   if (pooled.grid_revision != structure->revision) {
-    grid = HGrid(scale);
-    grid.setThreads(options.threads);
+    pooled.setBroadPhase(makeBroadPhase({options.broad_phase, scale.finest_edge, options.threads}));
+    BroadPhase& grid = *pooled.broad_phase;
     grid.setFixed(fixed_proxies);
     grid.setOverlapFilter(OverlapFilter::of<isReported>(structure.get()));  // the snapshot keeps the structure alive
     grid.setPairBound(limits.boundOf(structure->body_of_proxy.size()));
     pooled.grid_revision = structure->revision;
   }
-  threads = grid.threads();
+  BroadPhase& grid = *pooled.broad_phase;
+  const auto* hgrid = dynamic_cast<const HGrid*>(&grid);
+  threads = hgrid != nullptr ? hgrid->threads() : 1;
   if (!moveInGrid(grid)) grid.update(ids, grown_boxes);
   pooled.snapshot.search_cut_ = !grid.boundedPairs(proxy_pairs);
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "hgrid_proximity/broadphase/hgrid.h"
 #include "hgrid_proximity/world/scene.h"
 #include "pairs/pair_choice.h"
 #include "pairs/pair_limits.h"
@@ -101,7 +102,7 @@ struct Scene::State {
   void growBoxes(const Snapshot& snapshot);
   void growBox(const Snapshot& snapshot, ProxyId proxy, std::size_t position);
   void fillGrid(PooledSnapshot& pooled);
-  bool moveInGrid(HGrid& grid);
+  bool moveInGrid(BroadPhase& grid);
   const std::vector<std::uint32_t>& changedBodies();
   void fillPairs(Snapshot& snapshot);
   void addPair(std::uint32_t first, std::uint32_t second, double gap, double margin, bool near);

@@ -10,18 +10,23 @@
 #include <utility>
 #include <vector>
 
-#include "hgrid_proximity/broadphase/hgrid.h"
+#include "hgrid_proximity/broadphase/broad_phase.h"
 #include "hgrid_proximity/world/snapshot.h"
 
 namespace hgrid {
 
-/// A snapshot together with the grid that it refers to. Only Scene writes them, before it hands out the snapshot.
+/// A snapshot together with the broad phase that it refers to. Only Scene writes them, before it hands out the
+/// snapshot.
 struct PooledSnapshot {
-  PooledSnapshot() { snapshot.broad_phase_ = &grid; }
+  /// Replaces the broad phase, also in the snapshot.
+  void setBroadPhase(std::unique_ptr<BroadPhase> next) {
+    snapshot.broad_phase_ = next.get();
+    broad_phase = std::move(next);
+  }
 
   Snapshot snapshot;
-  HGrid grid;
-  std::uint64_t grid_revision = 0;  ///< revision of the structure that `grid` was set up for
+  std::unique_ptr<BroadPhase> broad_phase;  ///< null until the first commit that fills this object
+  std::uint64_t grid_revision = 0;          ///< revision of the structure that `broad_phase` was set up for
   bool finished = false;  ///< whether a commit has filled the snapshot; if the commit failed, it is not used again
 
   /// Releases what the next commit does not need: the cells of maps, and the structure before the last change.

@@ -16,7 +16,7 @@ using test::Random;
 using test::Task;
 
 /// Whether to run fewer cases. HGRID_TEST_WORLDS asks for this with a sanitizer, which makes everything slow.
-const bool kTakesItsTime = test::countFromEnvironment("HGRID_TEST_WORLDS", 10000) < 10000;
+const bool kTakesItsTime = test::worldsToTest() < 10000;
 
 template <class Tested>
 class BroadPhaseBound : public ::testing::Test {};

@@ -100,7 +100,7 @@ TYPED_TEST(BroadPhaseOperations, AgreeWithBruteForceThrough100000Operations) {
     Random random(unsigned(1e3 / edge));
     const std::unique_ptr<BroadPhase> tested = test::Maker<TypeParam>::withCells(edge);
     BruteForce model;
-    const int operations = edge == 0.0625 ? 100000 : 20000;
+    const int operations = test::operationsToTest(edge == 0.0625 ? 100000 : 20000);
     for (int i = 1; i <= operations; ++i) {
       SCOPED_TRACE("operation " + std::to_string(i));
       step(*tested, model, random);

@@ -146,7 +146,7 @@ void expectBatchesAsSingles(const BroadPhaseReader& tested, const std::vector<Aa
 /// boxes. Sphere and segment queries find all boxes, and extra boxes only within the rounding error.
 template <class Tested>
 void expectAnswersOfAScan(Family family) {
-  const int worlds = std::max(1, test::countFromEnvironment("HGRID_TEST_WORLDS", 10000) / test::kFamilies);
+  const int worlds = std::max(1, test::worldsToTest() / test::kFamilies);
   std::size_t true_pairs = 0;
   for (int world = 0; world < worlds; ++world) {
     const auto seed = unsigned(world * test::kFamilies + int(family));

@@ -13,13 +13,43 @@
 
 #include "test/support/brute_force.h"
 #include "test/support/grids.h"
+#ifdef HGRID_TEST_PARTITIONS
+#include "src/broadphase/book/array_grid.h"
+#include "src/broadphase/book/bit_grid.h"
+#include "src/broadphase/book/bucket_grid.h"
+#include "src/broadphase/book/hashed_grid.h"
+#include "src/broadphase/book/kd_tree.h"
+#include "src/broadphase/book/loose_octree.h"
+#include "src/broadphase/book/mirtich_grid.h"
+#include "src/broadphase/book/sweep_array.h"
+#include "src/broadphase/book/sweep_lists.h"
+#include "src/broadphase/book/tree_grid.h"
+#endif
 
 namespace hgrid {
 namespace test {
 
 /// The broad phases that the tests broad_phase_*_test.cpp test. To test a new broad phase, add its type here. If it has
 /// no default constructor or has additional settings, also specialize Maker for it.
+///
+/// The tests are compiled twice, to keep the time of one compilation short: for these types in broadphase_test, and
+/// with HGRID_TEST_PARTITIONS for the partitions of the book in partitions_test.
+#ifdef HGRID_TEST_PARTITIONS
+using AllBroadPhases =
+    ::testing::Types<book::HashedGrid, book::BucketGrid, book::ArrayGrid, book::BitGrid, book::MirtichGrid,
+                     book::LooseOctree, book::KdTree, book::TreeGrid, book::SweepLists, book::SweepArray>;
+/// Returns how many random worlds each type is tested with. By default the partitions get a tenth of what HGrid gets.
+inline int worldsToTest() {
+  return std::min(countFromEnvironment("HGRID_TEST_WORLDS", 10000),
+                  countFromEnvironment("HGRID_TEST_PARTITION_WORLDS", 1000));
+}
+/// Returns how many random operations each type is tested with.
+inline int operationsToTest(int) { return countFromEnvironment("HGRID_TEST_PARTITION_OPERATIONS", 10000); }
+#else
 using AllBroadPhases = ::testing::Types<HGrid, BruteForce>;
+inline int worldsToTest() { return countFromEnvironment("HGRID_TEST_WORLDS", 10000); }
+inline int operationsToTest(int usual) { return usual; }
+#endif
 
 /// Returns the type names that googletest uses in the names of tests.
 struct BroadPhaseNames {
@@ -59,6 +89,35 @@ struct Maker<HGrid> {
     return grid;
   }
 };
+
+#ifdef HGRID_TEST_PARTITIONS
+inline book::CellRule anyRule(Random& random) {
+  return random.chance(0.5) ? book::CellRule::objects : book::CellRule::density;
+}
+
+template <>
+struct Maker<book::HashedGrid> {
+  static std::unique_ptr<BroadPhase> withCells(double) { return std::make_unique<book::HashedGrid>(); }
+  static std::vector<double> cells(const std::vector<double>&) { return {1.0}; }
+  static std::unique_ptr<BroadPhase> withAny(const std::vector<Aabb>&, Random& random) {
+    const book::CellRule rule = anyRule(random);
+    return std::make_unique<book::HashedGrid>(rule, random.chance(0.5));
+  }
+};
+
+template <class Grid>
+struct MakerWithRule {
+  static std::unique_ptr<BroadPhase> withCells(double) { return std::make_unique<Grid>(); }
+  static std::vector<double> cells(const std::vector<double>&) { return {1.0}; }
+  static std::unique_ptr<BroadPhase> withAny(const std::vector<Aabb>&, Random& random) {
+    return std::make_unique<Grid>(anyRule(random));
+  }
+};
+template <>
+struct Maker<book::BucketGrid> : MakerWithRule<book::BucketGrid> {};
+template <>
+struct Maker<book::ArrayGrid> : MakerWithRule<book::ArrayGrid> {};
+#endif
 
 }  // namespace test
 }  // namespace hgrid

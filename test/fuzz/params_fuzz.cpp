@@ -27,6 +27,9 @@ class RangeCheck {
   void unknownSpace(const char* name, UnknownSpace value, const char*) {
     within(name, static_cast<double>(value), 0.0, 2.0);
   }
+  void broadPhase(const char* name, BroadPhaseType value, const char*) {
+    within(name, static_cast<double>(value), 0.0, static_cast<double>(broadPhaseTypes().size() - 1));
+  }
   void vector(const char* name, const Eigen::Vector3d& value, const char*, double limit, const char*) {
     for (int axis = 0; axis < 3; ++axis) within(name, value[axis], -limit, limit);
   }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "hgrid_proximity/broadphase/partitions.h"
 #include "hgrid_proximity/world/snapshot.h"
 
 namespace hgrid {
@@ -16,6 +17,8 @@ struct SceneOptions {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m, world] boxes are stored relative to this point
   double margin = 0.10;            ///< [m] bodies whose boxes are this close or closer are candidate pairs, 0 .. 1e3
   double event_hysteresis = 0.02;  ///< [m] a pair ends when its gap exceeds its margin by more than this, 0 .. 1e3
+  /// The kind of broad phase. It changes the time and the memory of a tick, but never its results.
+  BroadPhaseType broad_phase = BroadPhaseType::hgrid;
   double finest_edge = 0.0;    ///< [m] GridScale::finest_edge, 1e-6 .. 1e3; 0: computed from the sizes of the bodies
   double world_limit = 1e6;    ///< [m] poses with a larger coordinate on any axis are refused; at most 1e6
   double growth_cap = 1.0;     ///< [m] largest growth of the margins of a stale body, 0 .. 1e3

@@ -26,6 +26,7 @@ class ChangeableCollector {
   void vector(const char*, const Eigen::Vector3d&, const char*, double, const char*) {}
   void kinds(const char*, const PairKinds&, const char*) {}
   void unknownSpace(const char*, UnknownSpace, const char*) {}
+  void broadPhase(const char*, BroadPhaseType, const char*) {}
   void strings(const char*, const std::vector<std::string>&, const char*) {}
   void robots(const char*, const std::vector<RobotParams>&, const char*) {}
   void waivers(const char*, const std::vector<Waiver>&, const char*) {}

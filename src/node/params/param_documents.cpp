@@ -51,6 +51,12 @@ class RowCollector {
   void unknownSpace(const char* name, UnknownSpace value, const char* meaning) {
     addChoice(name, "string", kUnknownSpace[static_cast<std::size_t>(value)], words(kUnknownSpace), meaning);
   }
+  void broadPhase(const char* name, BroadPhaseType value, const char* meaning) {
+    std::string all;
+    for (const BroadPhaseType type : broadPhaseTypes())
+      all += (all.empty() ? "" : ", ") + std::string(hgrid::name(type));
+    addChoice(name, "string", hgrid::name(value), all, meaning);
+  }
   void strings(const char* name, const std::vector<std::string>&, const char* meaning) {
     add(name, "list of strings", "", "[]", "", meaning);
   }

@@ -37,8 +37,11 @@ void visitParams(Visitor& v, Params& p) {
       "RAM. 0: usual priority");
   v.changeable();
   v.number("margin", p.margin, "m", 0.0, 1000.0, "bodies whose boxes are at most this far apart are pairs");
+  v.broadPhase("broadphase/type", p.broad_phase,
+               "kind of broad phase; the results are the same with each of them. hgrid was the fastest in all "
+               "measured worlds; doc/partitions.md compares them");
   v.number("finest_edge", p.finest_edge, "m", 0.0, 1000.0,
-           "longest side of the boxes on the finest level of the grid, at least 0.001; 0: chosen from the bodies");
+           "longest side of the boxes on the finest level of hgrid, at least 0.001; 0: chosen from the bodies");
 
   v.string("state_folder", p.state_folder,
            "folder in which obstacles, robots, rules and maps that services changed are stored, so that a restart "

@@ -46,6 +46,17 @@ class Reader {
   void unknownSpace(const char* name, UnknownSpace& value, const char*) {
     if (auto given = get(name)) readWord(*given, kUnknownSpace, "ignore, report or occupied", value);
   }
+  void broadPhase(const char* name, BroadPhaseType& value, const char*) {
+    auto given = get(name);
+    if (!given) return;
+    std::string word = hgrid::name(value);
+    given->string(word);
+    if (find(word, value)) return;
+    std::string known;
+    for (const BroadPhaseType type : broadPhaseTypes())
+      known += (known.empty() ? "" : ", ") + std::string(hgrid::name(type));
+    given->error("is '" + printable(word, 48) + "'; it must be one of " + known);
+  }
   void strings(const char* name, std::vector<std::string>& value, const char*) {
     if (auto given = get(name)) given->strings(value);
   }

@@ -10,6 +10,7 @@
 
 #include "hgrid_proximity/adapters/octomap.h"
 #include "hgrid_proximity/bodies/body.h"
+#include "hgrid_proximity/broadphase/partitions.h"
 #include "hgrid_proximity/pairs/pair_filter.h"
 #include "hgrid_proximity/pairs/pair_margins.h"
 
@@ -113,6 +114,7 @@ struct Params {
   bool follow_data = true;
   int realtime = 0;
   double margin = 0.10;
+  BroadPhaseType broad_phase = BroadPhaseType::hgrid;
   double finest_edge = 0.0;
 
   std::vector<RobotParams> robots;

@@ -18,6 +18,7 @@ SceneOptions optionsOf(const Params& params, const std::vector<PairRule>& stored
   options.origin = params.origin;
   options.margin = params.margin;
   options.event_hysteresis = params.event_hysteresis;
+  options.broad_phase = params.broad_phase;
   options.finest_edge = params.finest_edge;
   options.threads = params.threads;
   options.world_limit = params.world_limit;

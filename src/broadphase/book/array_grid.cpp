@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "broadphase/book/array_grid.h"
+
+#include "broadphase/book/pair_bits.h"
+#include "broadphase/book/stamps.h"
+
+namespace hgrid {
+namespace book {
+namespace {
+
+thread_local Stamps seen;
+
+}  // namespace
+
+std::size_t ArrayGrid::indexOf(const Cell& cell) const {
+  const std::int64_t across_x = cells_.high.x - cells_.low.x + 1, across_y = cells_.high.y - cells_.low.y + 1;
+  return static_cast<std::size_t>(((cell.z - cells_.low.z) * across_y + cell.y - cells_.low.y) * across_x + cell.x -
+                                  cells_.low.x);
+}
+
+void ArrayGrid::build() {
+  const std::vector<ProxyId> ids = storedIds();
+  double edge = cellEdgeFor(storedBoxes(), rule_);
+  for (;; edge *= 2.0) {  // an array needs a bounded number of cells, also in an uneven world
+    scale_ = CellScale(edge);
+    cells_ = scale_.of(world());
+    if (cells_.count() <= 8.0 * double(ids.size()) + 64.0) break;
+  }
+  large_.clear();
+  begin_.assign(static_cast<std::size_t>(cells_.count()) + 1, 0);
+  for (const ProxyId id : ids) {  // the first pass counts
+    if (isLarge(id)) {
+      large_.push_back(id);
+    } else {
+      scale_.of(box(id)).visit([&](const Cell& cell) { ++begin_[indexOf(cell) + 1]; });
+    }
+  }
+  for (std::size_t cell = 1; cell < begin_.size(); ++cell) begin_[cell] += begin_[cell - 1];
+  entries_.resize(begin_.back());
+  std::vector<std::uint32_t> next = begin_;
+  for (const ProxyId id : ids) {  // the second pass fills
+    if (!isLarge(id)) scale_.of(box(id)).visit([&](const Cell& cell) { entries_[next[indexOf(cell)]++] = id; });
+  }
+}
+
+void ArrayGrid::findPairs(PairSink& sink) const {
+  const bool by_bits = idEnd() <= kMostBits;
+  PairBits bits;
+  if (by_bits) bits.reset(idEnd());
+  std::vector<ProxyId> here;
+  std::size_t index = 0;  // visit() goes through the cells in the order of their indices
+  cells_.visit([&](const Cell& cell) {
+    const std::uint32_t begin = begin_[index], end = begin_[index + 1];
+    ++index;
+    if (end - begin < 2 || sink.isFull()) return;
+    here.assign(entries_.begin() + begin, entries_.begin() + end);
+    sink.among(here, [&](ProxyId a, ProxyId b) {
+      if (!sink.isPair(a, b)) return;
+      if (by_bits ? bits.mark(a, b) : scale_.meeting(box(a), box(b)) == cell) sink.add(a, b);
+    });
+  });
+  for (const ProxyId large : large_) {
+    if (sink.isFull()) return;
+    here.clear();
+    candidates(QueryShape(box(large)), here);
+    for (const ProxyId other : here) {
+      if (other != large && (!isLarge(other) || other > large)) sink.tryPair(large, other);
+    }
+  }
+}
+
+void ArrayGrid::candidates(const QueryShape& shape, std::vector<ProxyId>& found) const {
+  seen.begin(idEnd());
+  const Aabb& around = shape.bounds();
+  const auto add = [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t entry = begin; entry != end; ++entry) {
+      const ProxyId id = entries_[entry];
+      if (overlap(around, box(id)) && seen.mark(id)) found.push_back(id);
+    }
+  };
+  const bool all = scale_.visitRanges(shape, cells_, double(begin_.size()), [&](const CellRange& range) {
+    CellRange rows = range;  // the cells of a row follow each other, and so do their entries
+    rows.high.x = rows.low.x;
+    rows.visit([&](const Cell& cell) {
+      const std::size_t first = indexOf(cell);
+      add(begin_[first], begin_[first + static_cast<std::size_t>(range.high.x - range.low.x) + 1]);
+    });
+  });
+  if (!all) add(0, begin_.back());
+  for (const ProxyId id : large_) {
+    if (overlap(around, box(id))) found.push_back(id);
+  }
+}
+
+void ArrayGrid::checkStructure() const {
+  require(begin_.size() == static_cast<std::size_t>(cells_.count()) + 1, "there is one offset per cell");
+  require(std::is_sorted(begin_.begin(), begin_.end()), "the offsets ascend");
+  std::size_t index = 0, expected = 0;
+  cells_.visit([&](const Cell& cell) {
+    for (std::uint32_t entry = begin_[index]; entry != begin_[index + 1]; ++entry) {
+      require(isStored(entries_[entry]), "each box in a cell is stored");
+      require(scale_.of(box(entries_[entry])).contains(cell), "a box overlaps the cell that holds it");
+    }
+    ++index;
+  });
+  for (const ProxyId id : storedIds()) {
+    if (!isLarge(id)) expected += static_cast<std::size_t>(scale_.of(box(id)).count());
+  }
+  require(entries_.size() == expected, "each box is in all cells that it overlaps, once");
+}
+
+std::size_t ArrayGrid::structureBytes() const {
+  return (begin_.capacity() + entries_.capacity() + large_.capacity()) * sizeof(std::uint32_t);
+}
+
+void ArrayGrid::drawing(std::vector<Aabb>& regions) const {
+  checkInvariants();
+  regions.clear();
+  const auto edge = static_cast<float>(scale_.edge());
+  cells_.visit([&](const Cell& cell) {
+    const Eigen::Vector3f low = edge * Eigen::Vector3f(float(cell.x), float(cell.y), float(cell.z));
+    regions.push_back({low, low + Eigen::Vector3f::Constant(edge)});
+  });
+}
+
+}  // namespace book
+}  // namespace hgrid

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "broadphase/book/bit_grid.h"
+
+#include <cmath>
+
+#include "broadphase/book/cell_scale.h"
+
+namespace hgrid {
+namespace book {
+namespace {
+
+/// Four words, on which the compiler works with vector instructions.
+using FourWords = std::uint64_t __attribute__((vector_size(32), aligned(8), may_alias));
+
+const FourWords& four(const std::uint64_t* words) { return *reinterpret_cast<const FourWords*>(words); }
+FourWords& four(std::uint64_t* words) { return *reinterpret_cast<FourWords*>(words); }
+
+/// Calls visit(index) for each bit that is set, in ascending order.
+template <class Visit>
+void visitBits(const std::uint64_t* words, std::size_t count, std::size_t first_word, Visit&& visit) {
+  for (std::size_t word = 0; word < count; ++word) {
+    for (std::uint64_t bits = words[word]; bits != 0; bits &= bits - 1)  // clears the lowest bit
+      visit(static_cast<ProxyId>((first_word + word) * 64 + static_cast<std::size_t>(__builtin_ctzll(bits))));
+  }
+}
+
+}  // namespace
+
+// ---- slices
+
+std::size_t BitGrid::sliceOf(const Axis& axis, double coordinate) {
+  if (axis.slices == 1) return 0;
+  const double slice = std::floor((coordinate - axis.low) * axis.inverse);  // never decreases
+  return static_cast<std::size_t>(std::clamp(slice, 0.0, static_cast<double>(axis.slices - 1)));
+}
+
+BitGrid::Span BitGrid::spanOf(int axis, const Aabb& box) const {
+  const Axis& here = axes_[static_cast<std::size_t>(axis)];
+  return {sliceOf(here, double(box.min[axis])), sliceOf(here, double(box.max[axis]))};
+}
+
+void BitGrid::setBits(int axis, const Span& span, ProxyId id, bool value) {
+  Axis& here = axes_[static_cast<std::size_t>(axis)];
+  for (std::size_t slice = span.first; slice <= span.last; ++slice) {
+    std::uint64_t& word = here.bits[slice * words_ + id / 64];
+    const std::uint64_t bit = std::uint64_t{1} << (id % 64);
+    word = value ? word | bit : word & ~bit;
+    here.boxes[slice] += value ? 1u : ~0u;
+  }
+}
+
+// ---- changes
+
+void BitGrid::build() {
+  const std::vector<ProxyId> ids = storedIds();
+  const double edge = cellEdgeFor(storedBoxes(), CellRule::objects);
+  words_ = (idEnd() + idEnd() / 2 + 255) / 256 * 4;  // with room for more boxes; a multiple of four
+  for (int k = 0; k < 3; ++k) {
+    Axis& axis = axes_[static_cast<std::size_t>(k)];
+    const double low = double(world().min[k]), length = double(world().max[k]) - low;
+    axis.low = low;
+    axis.slices = static_cast<std::size_t>(std::clamp(std::ceil(length / edge), 1.0, double(kMostSlices)));
+    axis.inverse = length > 0.0 ? std::min(static_cast<double>(axis.slices) / length, 1e300) : 0.0;
+    axis.bits.assign(axis.slices * words_, 0);
+    axis.boxes.assign(axis.slices, 0);
+  }
+  for (const ProxyId id : ids) added(id);
+}
+
+Partition::Followed BitGrid::added(ProxyId id) {
+  if (id / 64 >= words_) return Followed::no;
+  for (int axis = 0; axis < 3; ++axis) setBits(axis, spanOf(axis, box(id)), id, true);
+  return Followed::yes;
+}
+
+Partition::Followed BitGrid::removed(ProxyId id) {
+  for (int axis = 0; axis < 3; ++axis) setBits(axis, spanOf(axis, box(id)), id, false);
+  return Followed::yes;
+}
+
+Partition::Followed BitGrid::moved(ProxyId id, const Aabb& from) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const Span before = spanOf(axis, from), now = spanOf(axis, box(id));
+    if (before.first == now.first && before.last == now.last) continue;
+    setBits(axis, before, id, false);
+    setBits(axis, now, id, true);
+  }
+  return Followed::yes;
+}
+
+// ---- searches
+
+/// Merges the words begin .. begin + count - 1 of a span of slices with OR. `count` is a multiple of four.
+void BitGrid::mergeInto(Words& merged, const Axis& axis, const Span& span, std::size_t begin, std::size_t count) const {
+  std::fill_n(merged.begin(), count, 0);
+  for (std::size_t slice = span.first; slice <= span.last; ++slice) {
+    if (axis.boxes[slice] == 0) continue;
+    const std::uint64_t* words = &axis.bits[slice * words_ + begin];
+    for (std::size_t i = 0; i < count; i += 4) four(&merged[i]) |= four(words + i);
+  }
+}
+
+/// Computes for some words the boxes in the cells that `box` overlaps: ((OR of x) AND (OR of y)) AND (OR of z).
+void BitGrid::intersect(const Aabb& box, std::size_t begin, std::size_t count, Words& cells) const {
+  Words merged;
+  mergeInto(cells, axes_[0], spanOf(0, box), begin, count);
+  for (int axis = 1; axis < 3; ++axis) {
+    mergeInto(merged, axes_[static_cast<std::size_t>(axis)], spanOf(axis, box), begin, count);
+    for (std::size_t i = 0; i < count; i += 4) four(&cells[i]) &= four(&merged[i]);
+  }
+}
+
+void BitGrid::findPairs(PairSink& sink) const {
+  std::vector<std::uint64_t> loose(words_, 0);  // bit per box: whether it is not fixed
+  const std::vector<ProxyId> ids = storedIds();
+  for (const ProxyId id : ids) loose[id / 64] |= std::uint64_t{isFixed(id) ? 0u : 1u} << (id % 64);
+  Words cells;
+  for (const ProxyId id : ids) {
+    if (sink.isFull()) return;
+    for (std::size_t begin = id / 64 / 4 * 4; begin < words_; begin += kWordsAtOnce) {  // only ids that are larger
+      const std::size_t count = std::min(kWordsAtOnce, words_ - begin);
+      intersect(box(id), begin, count, cells);
+      if (isFixed(id)) {  // two fixed boxes are no pair
+        for (std::size_t i = 0; i < count; ++i) cells[i] &= loose[begin + i];
+      }
+      visitBits(cells.data(), count, begin, [&](ProxyId other) {
+        if (other > id) sink.tryPair(id, other);
+      });
+    }
+  }
+}
+
+void BitGrid::candidates(const QueryShape& shape, std::vector<ProxyId>& found) const {
+  Words cells, part;
+  for (std::size_t begin = 0; begin < words_; begin += kWordsAtOnce) {
+    const std::size_t count = std::min(kWordsAtOnce, words_ - begin);
+    if (shape.kind() == QueryShape::Kind::segment) {
+      const int k = shape.longAxis();
+      const Axis& axis = axes_[static_cast<std::size_t>(k)];
+      const Span span = spanOf(k, shape.bounds());
+      cells.fill(0);
+      for (std::size_t slice = span.first; slice <= span.last; ++slice) {
+        const double width = axis.slices > 1 ? 1.0 / axis.inverse : 0.0;  // the slices are grown for rounding
+        const double low = slice == 0 ? -HUGE_VAL : axis.low + width * (static_cast<double>(slice) - 0.001);
+        const double high =
+            slice + 1 == axis.slices ? HUGE_VAL : axis.low + width * (static_cast<double>(slice) + 1.001);
+        const Aabb reach = shape.slice(k, low, high);
+        intersect(reach, begin, count, part);
+        const std::uint64_t* words = &axis.bits[slice * words_ + begin];
+        for (std::size_t i = 0; i < count; i += 4) four(&cells[i]) |= four(&part[i]) & four(words + i);
+      }
+    } else {
+      intersect(shape.bounds(), begin, count, cells);
+    }
+    visitBits(cells.data(), count, begin, [&](ProxyId id) {
+      if (overlap(shape.bounds(), box(id))) found.push_back(id);
+    });
+  }
+}
+
+void BitGrid::checkStructure() const {
+  for (int k = 0; k < 3; ++k) {
+    const Axis& axis = axes_[static_cast<std::size_t>(k)];
+    for (std::size_t slice = 0; slice < axis.slices; ++slice) {
+      std::uint32_t set = 0, expected = 0;
+      visitBits(axis.bits.data() + slice * words_, words_, 0, [&](ProxyId id) {
+        ++set;
+        require(isStored(id), "each set bit belongs to a stored box");
+        const Span span = spanOf(k, box(id));
+        require(span.first <= slice && slice <= span.last, "a box overlaps each slice in which its bit is set");
+      });
+      for (const ProxyId id : storedIds()) {
+        const Span span = spanOf(k, box(id));
+        expected += span.first <= slice && slice <= span.last ? 1 : 0;
+      }
+      require(set == expected && set == axis.boxes[slice], "the bit of a box is set in all slices that it overlaps");
+    }
+  }
+}
+
+std::size_t BitGrid::structureBytes() const {
+  std::size_t bytes = 0;
+  for (const Axis& axis : axes_)
+    bytes += axis.bits.capacity() * sizeof(std::uint64_t) + axis.boxes.capacity() * sizeof(std::uint32_t);
+  return bytes;
+}
+
+void BitGrid::drawing(std::vector<Aabb>& regions) const {
+  checkInvariants();
+  regions.clear();
+  for (int k = 0; k < 2; ++k) {
+    const Axis& axis = axes_[static_cast<std::size_t>(k)];
+    for (std::size_t slice = 0; slice < axis.slices; ++slice) {
+      Aabb region = world();
+      const double width = axis.inverse > 0.0 ? 1.0 / axis.inverse : 0.0;
+      region.min[k] = static_cast<float>(axis.low + width * static_cast<double>(slice));
+      region.max[k] = static_cast<float>(axis.low + width * static_cast<double>(slice + 1));
+      regions.push_back(region);
+    }
+  }
+}
+
+}  // namespace book
+}  // namespace hgrid

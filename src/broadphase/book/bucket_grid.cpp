@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "broadphase/book/bucket_grid.h"
+
+#include "broadphase/book/stamps.h"
+
+namespace hgrid {
+namespace book {
+namespace {
+
+thread_local Stamps seen_boxes, seen_buckets;
+
+}  // namespace
+
+std::uint32_t BucketGrid::bucketOf(const Cell& cell) const {
+  std::uint64_t hash = static_cast<std::uint64_t>(cell.x) * 0x8da6b343u +
+                       static_cast<std::uint64_t>(cell.y) * 0xd8163841u +
+                       static_cast<std::uint64_t>(cell.z) * 0xcb1ab31fu;  // the book's constants, unsigned
+  hash *= 0x9e3779b97f4a7c15u;
+  return static_cast<std::uint32_t>(hash >> 32) & static_cast<std::uint32_t>(buckets_.size() - 1);
+}
+
+/// The buckets of a range of cells, each once.
+void BucketGrid::bucketsOf(const CellRange& cells, std::vector<std::uint32_t>& buckets) const {
+  buckets.clear();
+  cells.visit([&](const Cell& cell) { buckets.push_back(bucketOf(cell)); });
+  if (buckets.size() == 1) return;
+  std::sort(buckets.begin(), buckets.end());
+  buckets.erase(std::unique(buckets.begin(), buckets.end()), buckets.end());
+}
+
+// ---- changes
+
+void BucketGrid::build() {
+  const std::vector<ProxyId> ids = storedIds();
+  scale_ = CellScale(cellEdgeFor(storedBoxes(), rule_));
+  std::size_t buckets = 16;
+  while (buckets < 2 * ids.size()) buckets *= 2;
+  buckets_.assign(buckets, {});
+  large_.clear();
+  for (const ProxyId id : ids) added(id);
+}
+
+Partition::Followed BucketGrid::added(ProxyId id) {
+  const CellRange cells = scale_.of(box(id));
+  if (isLarge(cells)) {
+    large_.add(id);
+    return 8 * large_.size() > size() + 64 ? Followed::no : Followed::yes;  // no: the cells are too small by now
+  }
+  bucketsOf(cells, of_box_);
+  for (const std::uint32_t bucket : of_box_) buckets_[bucket].push_back(id);
+  return size() > 2 * buckets_.size() ? Followed::no : Followed::yes;  // no: the buckets are too full
+}
+
+void BucketGrid::take(ProxyId id, const CellRange& cells) {
+  if (isLarge(cells)) return large_.remove(id);
+  bucketsOf(cells, of_box_);
+  for (const std::uint32_t bucket : of_box_) {
+    std::vector<ProxyId>& list = buckets_[bucket];
+    *std::find(list.begin(), list.end(), id) = list.back();
+    list.pop_back();
+  }
+}
+
+Partition::Followed BucketGrid::removed(ProxyId id) {
+  take(id, scale_.of(box(id)));
+  return Followed::yes;
+}
+
+Partition::Followed BucketGrid::moved(ProxyId id, const Aabb& from) {
+  const CellRange before = scale_.of(from);
+  if (before == scale_.of(box(id))) return Followed::yes;
+  take(id, before);
+  return added(id);
+}
+
+// ---- searches
+
+void BucketGrid::findPairs(PairSink& sink) const {
+  std::vector<ProxyId> here;
+  for (std::uint32_t bucket = 0; bucket < buckets_.size() && !sink.isFull(); ++bucket) {
+    if (buckets_[bucket].size() < 2) continue;
+    here = buckets_[bucket];
+    sink.among(here, [&](ProxyId a, ProxyId b) {
+      if (sink.isPair(a, b) && bucketOf(scale_.meeting(box(a), box(b))) == bucket) sink.add(a, b);
+    });
+  }
+  for (const ProxyId large : large_) {
+    if (sink.isFull()) return;
+    here.clear();
+    candidates(QueryShape(box(large)), here);
+    for (const ProxyId other : here) {
+      if (other != large && (!large_.contains(other) || other > large)) sink.tryPair(large, other);
+    }
+  }
+}
+
+void BucketGrid::candidates(const QueryShape& shape, std::vector<ProxyId>& found) const {
+  seen_boxes.begin(idEnd());
+  seen_buckets.begin(buckets_.size());
+  const Aabb& around = shape.bounds();
+  const auto visit = [&](const std::vector<ProxyId>& bucket) {
+    for (const ProxyId id : bucket) {
+      if (overlap(around, box(id)) && seen_boxes.mark(id)) found.push_back(id);
+    }
+  };
+  const auto limit = static_cast<double>(buckets_.size());
+  const bool all = scale_.visitRanges(shape, CellScale::everywhere(), limit, [&](const CellRange& range) {
+    range.visit([&](const Cell& cell) {
+      const std::uint32_t bucket = bucketOf(cell);
+      if (seen_buckets.mark(bucket)) visit(buckets_[bucket]);
+    });
+  });
+  if (!all) {
+    for (const std::vector<ProxyId>& bucket : buckets_) visit(bucket);
+  }
+  for (const ProxyId id : large_) {
+    if (overlap(around, box(id))) found.push_back(id);
+  }
+}
+
+void BucketGrid::checkStructure() const {
+  std::size_t links = 0, expected = 0;
+  for (const std::vector<ProxyId>& bucket : buckets_) {
+    links += bucket.size();
+    for (const ProxyId id : bucket) require(isStored(id), "each box in a bucket is stored");
+  }
+  std::vector<std::uint32_t> buckets;
+  for (const ProxyId id : storedIds()) {
+    const CellRange cells = scale_.of(box(id));
+    require(large_.contains(id) == isLarge(cells), "a box is large if it covers too many cells");
+    if (isLarge(cells)) continue;
+    bucketsOf(cells, buckets);
+    expected += buckets.size();
+    for (const std::uint32_t bucket : buckets) {
+      const std::vector<ProxyId>& list = buckets_[bucket];
+      require(std::count(list.begin(), list.end(), id) == 1, "a box is once in the bucket of each of its cells");
+    }
+  }
+  require(links == expected, "a box is in no other bucket");
+}
+
+std::size_t BucketGrid::structureBytes() const {
+  std::size_t bytes = buckets_.capacity() * sizeof(std::vector<ProxyId>) + large_.bytes();
+  for (const std::vector<ProxyId>& bucket : buckets_) bytes += bucket.capacity() * sizeof(ProxyId);
+  return bytes;
+}
+
+/// The cells that have boxes. Which of them share a bucket does not show.
+void BucketGrid::drawing(std::vector<Aabb>& regions) const {
+  checkInvariants();
+  regions.clear();
+  const auto edge = static_cast<float>(scale_.edge());
+  for (const ProxyId id : storedIds()) {
+    scale_.of(box(id)).visit([&](const Cell& cell) {
+      const Eigen::Vector3f low = edge * Eigen::Vector3f(float(cell.x), float(cell.y), float(cell.z));
+      regions.push_back({low, low + Eigen::Vector3f::Constant(edge)});
+    });
+  }
+}
+
+}  // namespace book
+}  // namespace hgrid

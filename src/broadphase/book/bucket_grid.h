@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include "broadphase/book/cell_scale.h"
+#include "broadphase/book/id_set.h"
+#include "broadphase/book/partition.h"
+
+namespace hgrid {
+namespace book {
+
+/// A uniform grid in hash buckets without keys (Ericson, Real-Time Collision Detection, 2005, section 7.1.3).
+///
+/// The bucket of a cell is the list of its boxes. Different cells may share a bucket, so a list also holds foreign
+/// boxes: a test of the boxes comes first and drops them. Several cells of one query may share a bucket, so each query
+/// stamps the buckets that it has visited (section 7.7.2). There is nothing to delete but list entries.
+///
+/// Differs from the book: see HashedGrid, which treats large boxes and repeated pairs in the same way.
+class BucketGrid final : public Partition {
+ public:
+  explicit BucketGrid(CellRule rule = CellRule::objects) : Partition("BucketGrid"), rule_(rule) {}
+
+  void drawing(std::vector<Aabb>& regions) const override;
+
+ private:
+  static constexpr double kMostCells = 512;
+
+  void build() override;
+  Followed added(ProxyId id) override;
+  Followed removed(ProxyId id) override;
+  Followed moved(ProxyId id, const Aabb& from) override;
+  void findPairs(PairSink& sink) const override;
+  void candidates(const QueryShape& shape, std::vector<ProxyId>& found) const override;
+  void checkStructure() const override;
+  std::size_t structureBytes() const override;
+
+  bool isLarge(const CellRange& cells) const { return cells.count() > kMostCells; }
+  std::uint32_t bucketOf(const Cell& cell) const;
+  void take(ProxyId id, const CellRange& cells);
+  void bucketsOf(const CellRange& cells, std::vector<std::uint32_t>& buckets) const;
+
+  CellRule rule_;
+  CellScale scale_;
+  std::vector<std::vector<ProxyId>> buckets_;  // their number is a power of two
+  IdSet large_;
+  std::vector<std::uint32_t> of_box_;  // buffer of changes
+};
+
+}  // namespace book
+}  // namespace hgrid

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "broadphase/book/query_shape.h"
+#include "hgrid_proximity/broadphase/broad_phase_reader.h"
+
+namespace hgrid {
+namespace book {
+
+/// The indices of a cell on the three axes.
+struct Cell {
+  std::int64_t x = 0, y = 0, z = 0;
+  bool operator==(const Cell& other) const { return x == other.x && y == other.y && z == other.z; }
+};
+
+/// All cells from `low` to `high` on each axis; none if low > high on an axis.
+struct CellRange {
+  Cell low, high;
+
+  /// Number of cells, as a double because it may be huge.
+  double count() const {
+    const auto along = [](std::int64_t from, std::int64_t to) {
+      return std::max(0.0, double(to) - double(from) + 1.0);
+    };
+    return along(low.x, high.x) * along(low.y, high.y) * along(low.z, high.z);
+  }
+  bool contains(const Cell& cell) const {
+    return low.x <= cell.x && cell.x <= high.x && low.y <= cell.y && cell.y <= high.y && low.z <= cell.z &&
+           cell.z <= high.z;
+  }
+  bool operator==(const CellRange& other) const { return low == other.low && high == other.high; }
+  template <class Visit>
+  void visit(Visit&& visit) const {
+    for (std::int64_t z = low.z; z <= high.z; ++z) {
+      for (std::int64_t y = low.y; y <= high.y; ++y) {
+        for (std::int64_t x = low.x; x <= high.x; ++x) visit(Cell{x, y, z});
+      }
+    }
+  }
+};
+
+/// Maps coordinates to cells of equal size.
+///
+/// The mapping rounds down, clamps at +-2^52 and never decreases. So two boxes that overlap always share the cell of
+/// each common point, whatever is rounded, and the outermost cells hold everything beyond them.
+class CellScale {
+ public:
+  explicit CellScale(double edge = 1.0) : edge_(edge), inverse_(1.0 / edge) {}
+
+  double edge() const { return edge_; }
+  std::int64_t at(double coordinate) const {
+    // Not a plain cast: -0.1 belongs to cell -1. The clamp comes before the conversion, which overflow would make
+    // undefined.
+    return static_cast<std::int64_t>(std::clamp(std::floor(coordinate * inverse_), -kLimit, kLimit));
+  }
+  Cell at(const Eigen::Vector3f& point) const {
+    return {at(double(point.x())), at(double(point.y())), at(double(point.z()))};
+  }
+  CellRange of(const Aabb& box) const { return {at(box.min), at(box.max)}; }
+  /// The cell of the smallest common corner of two boxes that overlap. A pair that shares several cells is reported in
+  /// this cell alone.
+  Cell meeting(const Aabb& a, const Aabb& b) const { return at(a.min.cwiseMax(b.min).eval()); }
+
+  /// Calls visit(range) for ranges of cells that contain all cells that the shape touches within `most`. A segment is
+  /// cut into one range per layer of cells along its longest axis, so that a long diagonal does not cover its whole
+  /// bounds (section 7.4.2 in a form that cannot miss a corner).
+  /// @returns false if there are more than `limit` cells; then the caller should go through the occupied cells instead
+  template <class Visit>
+  bool visitRanges(const QueryShape& shape, const CellRange& most, double limit, Visit&& visit) const {
+    CellRange whole = clipped(of(shape.bounds()), most);
+    if (shape.kind() != QueryShape::Kind::segment) {
+      if (whole.count() > limit) return false;
+      visit(whole);
+      return true;
+    }
+    const int axis = shape.longAxis();
+    const std::int64_t first = axis == 0 ? whole.low.x : axis == 1 ? whole.low.y : whole.low.z;
+    const std::int64_t last = axis == 0 ? whole.high.x : axis == 1 ? whole.high.y : whole.high.z;
+    if (double(last) - double(first) > limit) return false;
+    double cells = 0.0;
+    for (std::int64_t layer = first; layer <= last; ++layer) {
+      CellRange range = clipped(of(shape.slice(axis, lowOf(layer), highOf(layer))), whole);
+      std::int64_t& low = axis == 0 ? range.low.x : axis == 1 ? range.low.y : range.low.z;
+      std::int64_t& high = axis == 0 ? range.high.x : axis == 1 ? range.high.y : range.high.z;
+      low = high = layer;
+      cells += range.count();
+      if (cells > limit) return false;
+      visit(range);
+    }
+    return true;
+  }
+
+  /// All cells.
+  static CellRange everywhere() {
+    constexpr auto kFar = static_cast<std::int64_t>(kLimit);
+    return {{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
+  }
+
+ private:
+  static constexpr double kLimit = 0x1p52;
+
+  static CellRange clipped(const CellRange& range, const CellRange& to) {
+    // Clamps both ends: what is outside is in the outermost cells.
+    const auto within = [](std::int64_t value, std::int64_t low, std::int64_t high) {
+      return std::min(std::max(value, low), high);
+    };
+    return {{within(range.low.x, to.low.x, to.high.x), within(range.low.y, to.low.y, to.high.y),
+             within(range.low.z, to.low.z, to.high.z)},
+            {within(range.high.x, to.low.x, to.high.x), within(range.high.y, to.low.y, to.high.y),
+             within(range.high.z, to.low.z, to.high.z)}};
+  }
+  // Bounds [m] of the coordinates in a layer of cells, rounded outward; infinite for the outermost layers.
+  double lowOf(std::int64_t layer) const {
+    const double low = double(layer) * edge_;
+    return layer <= -static_cast<std::int64_t>(kLimit) ? -HUGE_VAL : low - 1e-12 * (std::abs(low) + edge_);
+  }
+  double highOf(std::int64_t layer) const {
+    const double high = double(layer + 1) * edge_;
+    return layer >= static_cast<std::int64_t>(kLimit) ? HUGE_VAL : high + 1e-12 * (std::abs(high) + edge_);
+  }
+
+  double edge_, inverse_;
+};
+
+/// How the cell size is computed from the boxes (section 7.1.1).
+enum class CellRule {
+  objects,  ///< a cell just encloses nearly all boxes (19 of 20), so that most boxes are in at most 8 cells
+  density,  ///< about as many cells as boxes: n^(1/3) cells per axis if the boxes fill space
+};
+
+/// Length [m] of a box's longest side.
+inline double longestSide(const Aabb& box) { return (box.max.cast<double>() - box.min.cast<double>()).maxCoeff(); }
+
+/// The cell size [m] for these boxes by a rule. If all boxes are points, there is no size to go by, so both rules go by
+/// the density.
+double cellEdgeFor(const std::vector<Aabb>& boxes, CellRule rule);
+
+}  // namespace book
+}  // namespace hgrid

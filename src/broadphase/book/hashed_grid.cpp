@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "broadphase/book/hashed_grid.h"
+
+#include "broadphase/book/stamps.h"
+
+namespace hgrid {
+namespace book {
+namespace {
+
+thread_local Stamps seen;  // boxes that the present query has met; each thread has its own
+
+}  // namespace
+
+// ---- the hash table
+
+std::size_t HashedGrid::homeOf(const Cell& cell) const {
+  // The three constants are the book's. Unsigned numbers wrap without overflow.
+  std::uint64_t hash = static_cast<std::uint64_t>(cell.x) * 0x8da6b343u +
+                       static_cast<std::uint64_t>(cell.y) * 0xd8163841u +
+                       static_cast<std::uint64_t>(cell.z) * 0xcb1ab31fu;
+  hash *= 0x9e3779b97f4a7c15u;
+  return static_cast<std::size_t>(hash >> 32) & (slots_.size() - 1);
+}
+
+/// Index of the slot of a cell, or slots_.size() if the cell is not occupied.
+std::size_t HashedGrid::find(const Cell& cell) const {
+  if (!occupied_.mayBeOccupied(cell)) return slots_.size();
+  for (std::size_t place = homeOf(cell);; place = (place + 1) & (slots_.size() - 1)) {
+    const Slot& slot = slots_[place];
+    if (slot.state == SlotState::empty) return slots_.size();
+    if (slot.state == SlotState::used && slot.cell == cell) return place;
+  }
+}
+
+std::size_t HashedGrid::findOrMake(const Cell& cell) {
+  std::size_t place = find(cell);
+  if (place != slots_.size()) return place;
+  if (2 * (busy_ + 1) > slots_.size()) resize(4 * (used_ + 1));  // also removes the reusable slots
+  for (place = homeOf(cell); slots_[place].state == SlotState::used;) place = (place + 1) & (slots_.size() - 1);
+  if (slots_[place].state == SlotState::empty) ++busy_;
+  ++used_;
+  slots_[place] = {cell, kEnd, SlotState::used};
+  occupied_.set(cell, true);
+  return place;
+}
+
+void HashedGrid::resize(std::size_t slots) {
+  std::size_t size = 16;
+  while (size < slots) size *= 2;
+  std::vector<Slot> old(size);
+  old.swap(slots_);
+  for (const Slot& slot : old) {
+    if (slot.state != SlotState::used) continue;
+    std::size_t place = homeOf(slot.cell);
+    while (slots_[place].state == SlotState::used) place = (place + 1) & (slots_.size() - 1);
+    slots_[place] = slot;
+  }
+  busy_ = used_;
+}
+
+void HashedGrid::link(const Cell& cell, ProxyId id) {
+  std::uint32_t entry = free_;
+  if (entry == kEnd) {
+    entries_.push_back({});
+    entry = static_cast<std::uint32_t>(entries_.size() - 1);
+  } else {
+    free_ = entries_[entry].next;
+  }
+  Slot& slot = slots_[findOrMake(cell)];
+  entries_[entry] = {id, slot.first};
+  slot.first = entry;
+}
+
+void HashedGrid::unlink(const Cell& cell, ProxyId id) {
+  Slot& slot = slots_[find(cell)];
+  std::uint32_t* link = &slot.first;
+  while (entries_[*link].id != id) link = &entries_[*link].next;
+  const std::uint32_t entry = *link;
+  *link = entries_[entry].next;
+  entries_[entry].next = free_;
+  free_ = entry;
+  if (slot.first != kEnd) return;
+  slot.state = SlotState::reusable;
+  --used_;
+  occupied_.set(cell, false);
+}
+
+// ---- changes
+
+void HashedGrid::put(ProxyId id, const CellRange& cells) {
+  if (isLarge(cells)) return large_.add(id);
+  cells.visit([&](const Cell& cell) { link(cell, id); });
+}
+
+void HashedGrid::take(ProxyId id, const CellRange& cells) {
+  if (isLarge(cells)) return large_.remove(id);
+  cells.visit([&](const Cell& cell) { unlink(cell, id); });
+}
+
+void HashedGrid::build() {
+  const std::vector<ProxyId> ids = storedIds();
+  scale_ = CellScale(cellEdgeFor(storedBoxes(), rule_));
+  slots_.clear();
+  entries_.clear();
+  free_ = kEnd;
+  used_ = busy_ = 0;
+  large_.clear();
+  occupied_.cover(scale_.of(world()), pretest_ ? 64.0 * double(ids.size()) : 0.0);
+  resize(4 * ids.size());
+  for (const ProxyId id : ids) put(id, scale_.of(box(id)));
+}
+
+Partition::Followed HashedGrid::added(ProxyId id) {
+  put(id, scale_.of(box(id)));
+  return 8 * large_.size() > size() + 64 ? Followed::no : Followed::yes;  // no: the cells are too small by now
+}
+
+Partition::Followed HashedGrid::removed(ProxyId id) {
+  take(id, scale_.of(box(id)));
+  return Followed::yes;
+}
+
+Partition::Followed HashedGrid::moved(ProxyId id, const Aabb& from) {
+  const CellRange before = scale_.of(from), now = scale_.of(box(id));
+  if (before == now) return Followed::yes;
+  take(id, before);
+  return added(id);
+}
+
+// ---- searches
+
+void HashedGrid::findPairs(PairSink& sink) const {
+  std::vector<ProxyId> here;
+  for (const Slot& slot : slots_) {
+    if (slot.state != SlotState::used || entries_[slot.first].next == kEnd) continue;
+    if (sink.isFull()) return;
+    here.clear();
+    for (std::uint32_t entry = slot.first; entry != kEnd; entry = entries_[entry].next)
+      here.push_back(entries_[entry].id);
+    sink.among(here, [&](ProxyId a, ProxyId b) {
+      if (sink.isPair(a, b) && scale_.meeting(box(a), box(b)) == slot.cell) sink.add(a, b);
+    });
+  }
+  for (const ProxyId large : large_) {
+    if (sink.isFull()) return;
+    here.clear();
+    candidates(QueryShape(box(large)), here);
+    for (const ProxyId other : here) {
+      if (other != large && (!large_.contains(other) || other > large)) sink.tryPair(large, other);
+    }
+  }
+}
+
+void HashedGrid::candidates(const QueryShape& shape, std::vector<ProxyId>& found) const {
+  seen.begin(idEnd());
+  const Aabb& around = shape.bounds();
+  const auto visit = [&](const Slot& slot) {
+    for (std::uint32_t entry = slot.first; entry != kEnd; entry = entries_[entry].next) {
+      const ProxyId id = entries_[entry].id;
+      if (overlap(around, box(id)) && seen.mark(id)) found.push_back(id);
+    }
+  };
+  const bool all = scale_.visitRanges(shape, CellScale::everywhere(), double(used_), [&](const CellRange& range) {
+    range.visit([&](const Cell& cell) {
+      const std::size_t place = find(cell);
+      if (place != slots_.size()) visit(slots_[place]);
+    });
+  });
+  if (!all) {
+    for (const Slot& slot : slots_) {
+      if (slot.state == SlotState::used) visit(slot);
+    }
+  }
+  for (const ProxyId id : large_) {
+    if (overlap(around, box(id))) found.push_back(id);
+  }
+}
+
+void HashedGrid::checkStructure() const {
+  std::size_t links = 0, expected = 0, used = 0, busy = 0;
+  for (const Slot& slot : slots_) {
+    used += slot.state == SlotState::used ? 1 : 0;
+    busy += slot.state != SlotState::empty ? 1 : 0;
+    if (slot.state != SlotState::used) continue;
+    require(slot.first != kEnd, "a used slot has a box");
+    require(&slots_[find(slot.cell)] == &slot, "a search finds each used slot");
+    for (std::uint32_t entry = slot.first; entry != kEnd; entry = entries_[entry].next, ++links) {
+      require(isStored(entries_[entry].id), "each box in a cell is stored");
+      require(scale_.of(box(entries_[entry].id)).contains(slot.cell), "a box overlaps the cell that holds it");
+    }
+  }
+  for (const ProxyId id : storedIds()) {
+    const CellRange cells = scale_.of(box(id));
+    require(large_.contains(id) == isLarge(cells), "a box is large if it covers too many cells");
+    expected += isLarge(cells) ? 0 : static_cast<std::size_t>(cells.count());
+  }
+  require(links == expected, "each box is in all cells that it overlaps, once");
+  require(used == used_ && busy == busy_ && 2 * busy <= slots_.size(), "the table is at most half full");
+}
+
+std::size_t HashedGrid::structureBytes() const {
+  return slots_.capacity() * sizeof(Slot) + entries_.capacity() * sizeof(Entry) + large_.bytes() + occupied_.bytes();
+}
+
+void HashedGrid::drawing(std::vector<Aabb>& regions) const {
+  checkInvariants();
+  regions.clear();
+  const auto edge = static_cast<float>(scale_.edge());
+  for (const Slot& slot : slots_) {
+    if (slot.state != SlotState::used) continue;
+    const Eigen::Vector3f low = edge * Eigen::Vector3f(float(slot.cell.x), float(slot.cell.y), float(slot.cell.z));
+    regions.push_back({low, low + Eigen::Vector3f::Constant(edge)});
+  }
+}
+
+}  // namespace book
+}  // namespace hgrid

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <optional>
+
+#include "broadphase/book/kd_nodes.h"
+#include "broadphase/book/partition.h"
+
+namespace hgrid {
+namespace book {
+
+/// A k-d tree of static boxes (Ericson, Real-Time Collision Detection, 2005, sections 7.3.7 and 7.4.1). KdNodes
+/// describes the tree. Every change of a box makes the next search build the tree again.
+///
+/// - A sphere moves its nearest point along with the visited regions and never computes bounds of nodes.
+/// - A segment visits the leaves from near to far. firstAlong() ends at the first hit.
+/// - A search for the nearest boxes begins with an infinite sphere, which shrinks at each box that it finds.
+class KdTree final : public Partition {
+ public:
+  KdTree() : Partition("KdTree") {}
+
+  /// Finds the box that along() would list first, without looking at boxes behind it; nullopt if the segment touches no
+  /// box. Several threads may call this at the same time.
+  std::optional<SegmentHit> firstAlong(const Segment& segment) const;
+
+  void drawing(std::vector<Aabb>& regions) const override;
+
+ private:
+  void build() override { tree_.build(boxes(), storedIds()); }
+  void findPairs(PairSink& sink) const override { findPairsByQueries(sink); }
+  void candidates(const QueryShape& shape, std::vector<ProxyId>& found) const override;
+  void findNearest(const Eigen::Vector3d& point, std::size_t count, double limit,
+                   std::vector<NearHit>& found) const override;
+  void checkStructure() const override;
+  std::size_t structureBytes() const override { return tree_.bytes(); }
+
+  KdNodes tree_;
+};
+
+}  // namespace book
+}  // namespace hgrid

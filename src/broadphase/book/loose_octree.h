@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <unordered_map>
+
+#include "broadphase/book/id_set.h"
+#include "broadphase/book/partition.h"
+
+namespace hgrid {
+namespace book {
+
+/// Spreads the lowest 21 bits of a number: bit i moves to bit 3 i (section 7.3.5, for 64 bits).
+std::uint64_t spreadBits(std::uint64_t value);
+/// The locational code of a node (section 7.3.4): its three indices interleaved (Morton order), after a leading 1 bit
+/// that encodes the depth. The root is 1; the children of a node are 8 * code .. 8 * code + 7.
+std::uint64_t nodeCode(int depth, std::uint64_t x, std::uint64_t y, std::uint64_t z);
+
+/// A loose, linear octree (Ericson, Real-Time Collision Detection, 2005, sections 7.3.3 to 7.3.6).
+///
+/// Each node is enlarged by half of its width on every side, so it holds any box no longer than its width whose center
+/// is in the node. The size of a box alone gives the depth and its center gives the node, so insertion takes constant
+/// time. No box sticks to a dividing plane. Nodes are in a hash table under their locational codes, without child
+/// pointers. An 8-bit mask tells which children exist and saves lookups that would fail.
+///
+/// Differs from the book:
+/// - Codes have 64 bits, which allows a depth of 20. Smaller boxes are stored at this depth, so points do not descend
+///   without end.
+/// - Boxes outside of the root, and boxes larger than the root, are in a list. If the list becomes long, the next
+/// search
+///   builds the tree again with a larger root.
+/// - An empty node without children is removed, and so are its ancestors if they become empty.
+class LooseOctree final : public Partition {
+ public:
+  LooseOctree() : Partition("LooseOctree") {}
+
+  void drawing(std::vector<Aabb>& regions) const override;
+
+ private:
+  static constexpr int kMostDepth = 20;
+  struct Node {
+    std::vector<ProxyId> ids;
+    std::uint8_t children = 0;  // bit i: child i exists
+  };
+  /// The place of a node: its depth and its indices among the nodes of this depth.
+  struct Place {
+    int depth = -1;  // -1: the box is outside
+    std::uint64_t x = 0, y = 0, z = 0;
+  };
+
+  void build() override;
+  Followed added(ProxyId id) override;
+  Followed removed(ProxyId id) override;
+  Followed moved(ProxyId id, const Aabb& from) override;
+  void findPairs(PairSink& sink) const override { findPairsByQueries(sink); }
+  void candidates(const QueryShape& shape, std::vector<ProxyId>& found) const override;
+  void checkStructure() const override;
+  std::size_t structureBytes() const override;
+
+  Place placeOf(const Aabb& box) const;
+  static std::uint64_t codeOf(const Place& place) { return nodeCode(place.depth, place.x, place.y, place.z); }
+  /// The enlarged region of a node.
+  Aabb regionOf(const Place& place) const;
+  void take(ProxyId id, const Place& place);
+
+  Eigen::Vector3d low_ = Eigen::Vector3d::Zero();  // [m] smallest corner of the root
+  double width_ = 1.0;                             // [m] width of the root
+  std::unordered_map<std::uint64_t, Node> nodes_;
+  IdSet outside_;
+};
+
+}  // namespace book
+}  // namespace hgrid

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "broadphase/book/mirtich_grid.h"
+
+#include <cmath>
+#include <set>
+
+#include "broadphase/book/stamps.h"
+
+namespace hgrid {
+namespace book {
+namespace {
+
+constexpr int kFinest = -20;  // boxes below 1 um and points share the finest level
+thread_local Stamps seen;
+
+void eraseOne(std::vector<ProxyId>& ids, ProxyId id) {
+  *std::find(ids.begin(), ids.end(), id) = ids.back();
+  ids.pop_back();
+}
+
+}  // namespace
+
+/// The exponent of the smallest cell edge that is at least as long as the longest side of the box.
+int MirtichGrid::exponentOf(const Aabb& box) {
+  const double side = longestSide(box);
+  if (!(side > std::ldexp(1.0, kFinest))) return kFinest;
+  int exponent;
+  const double fraction = std::frexp(side, &exponent);  // side = fraction * 2^exponent, 0.5 <= fraction < 1
+  return fraction == 0.5 ? exponent - 1 : exponent;
+}
+
+/// Index of the first level that is at least as coarse as an exponent.
+std::size_t MirtichGrid::firstLevelOf(int exponent) const {
+  std::size_t index = 0;
+  while (index < levels_.size() && levels_[index].exponent < exponent) ++index;
+  return index;
+}
+
+// ---- counters
+
+void MirtichGrid::count(ProxyId a, ProxyId b, bool up) {
+  if (!counts_ || (isFixed(a) && isFixed(b))) return;
+  if (!up) return close_.lower(a, b);
+  close_.raise(a, b);
+  if (close_.size() <= most_) return;
+  counts_ = false;
+  close_.clear();
+}
+
+void MirtichGrid::enter(Level& level, const Cell& cell, ProxyId id, bool resident) {
+  CellBoxes& here = level.cells[cell];
+  (resident ? here.residents : here.visitors).push_back(id);
+  for (const ProxyId other : here.residents) {
+    if (other != id) count(id, other, true);
+  }
+  if (!resident) return;  // two visitors share a cell on a level that is coarser than both of theirs
+  for (const ProxyId other : here.visitors) count(id, other, true);
+}
+
+void MirtichGrid::leave(Level& level, const Cell& cell, ProxyId id, bool resident) {
+  const auto place = level.cells.find(cell);
+  CellBoxes& here = place->second;
+  eraseOne(resident ? here.residents : here.visitors, id);
+  for (const ProxyId other : here.residents) count(id, other, false);
+  if (resident) {
+    for (const ProxyId other : here.visitors) count(id, other, false);
+  }
+  if (here.residents.empty() && here.visitors.empty()) level.cells.erase(place);
+}
+
+// ---- changes
+
+void MirtichGrid::build() {
+  const std::vector<ProxyId> ids = storedIds();
+  std::set<int> exponents;
+  for (const ProxyId id : ids) exponents.insert(exponentOf(box(id)));
+  levels_.clear();
+  for (const int exponent : exponents) levels_.push_back({exponent, CellScale(std::ldexp(1.0, exponent)), {}, {}});
+  close_.clear();
+  counts_ = true;
+  const std::size_t bound = std::min(pairBound().overlaps, pairBound().pairs);
+  most_ = bound < PairBound::kNone / 16 ? 8 * (bound + ids.size()) : PairBound::kNone;
+  for (const ProxyId id : ids) added(id);
+}
+
+Partition::Followed MirtichGrid::added(ProxyId id) {
+  const int exponent = exponentOf(box(id));
+  const std::size_t own = firstLevelOf(exponent);
+  if (own == levels_.size() || levels_[own].exponent != exponent)
+    return Followed::no;  // a new level: all must visit it
+  levels_[own].residents.add(id);
+  for (std::size_t index = own; index < levels_.size(); ++index) {
+    Level& level = levels_[index];
+    level.scale.of(box(id)).visit([&](const Cell& cell) { enter(level, cell, id, index == own); });
+  }
+  return Followed::yes;
+}
+
+Partition::Followed MirtichGrid::removed(ProxyId id) {
+  const std::size_t own = firstLevelOf(exponentOf(box(id)));
+  levels_[own].residents.remove(id);
+  for (std::size_t index = own; index < levels_.size(); ++index) {
+    Level& level = levels_[index];
+    level.scale.of(box(id)).visit([&](const Cell& cell) { leave(level, cell, id, index == own); });
+  }
+  return Followed::yes;
+}
+
+Partition::Followed MirtichGrid::moved(ProxyId id, const Aabb& from) {
+  const int exponent = exponentOf(from), next = exponentOf(box(id));
+  const std::size_t own = firstLevelOf(exponent);
+  const bool same_level = exponent == next;
+  for (std::size_t index = own; index < levels_.size(); ++index) {
+    Level& level = levels_[index];
+    const CellRange before = level.scale.of(from), now = level.scale.of(box(id));
+    if (same_level && before == now) continue;  // most often so on coarse levels, whose cells change rarely
+    before.visit([&](const Cell& cell) {
+      if (!same_level || !now.contains(cell)) leave(level, cell, id, index == own);
+    });
+    if (!same_level) continue;
+    now.visit([&](const Cell& cell) {
+      if (!before.contains(cell)) enter(level, cell, id, index == own);
+    });
+  }
+  if (same_level) return Followed::yes;
+  levels_[own].residents.remove(id);
+  return added(id);
+}
+
+// ---- searches
+
+void MirtichGrid::findPairs(PairSink& sink) const {
+  if (!counts_) return findPairsByQueries(sink);
+  close_.visit([&](ProxyId a, ProxyId b) { sink.tryPair(a, b); });
+}
+
+void MirtichGrid::candidates(const QueryShape& shape, std::vector<ProxyId>& found) const {
+  seen.begin(idEnd());
+  const Aabb& around = shape.bounds();
+  for (const Level& level : levels_) {
+    const auto consider = [&](ProxyId id) {
+      if (overlap(around, box(id)) && seen.mark(id)) found.push_back(id);
+    };
+    const auto limit = static_cast<double>(level.residents.size());
+    const bool all = level.scale.visitRanges(shape, CellScale::everywhere(), limit, [&](const CellRange& range) {
+      range.visit([&](const Cell& cell) {
+        const auto here = level.cells.find(cell);
+        if (here == level.cells.end()) return;
+        for (const ProxyId id : here->second.residents) consider(id);
+      });
+    });
+    if (!all) {
+      for (const ProxyId id : level.residents) consider(id);
+    }
+  }
+}
+
+void MirtichGrid::checkStructure() const {
+  std::size_t residents = 0, entries = 0, expected = 0;
+  PairCounts close;
+  const auto countTogether = [&](ProxyId a, ProxyId b) {
+    if (counts_ && !(isFixed(a) && isFixed(b))) close.raise(a, b);
+  };
+  for (const Level& level : levels_) {
+    residents += level.residents.size();
+    for (const auto& one : level.cells) {
+      const std::vector<ProxyId>&mine = one.second.residents, &others = one.second.visitors;
+      entries += mine.size() + others.size();
+      require(!mine.empty() || !others.empty(), "an empty cell is not stored");
+      for (std::size_t i = 0; i < mine.size(); ++i) {
+        require(level.residents.contains(mine[i]), "a resident of a cell is a resident of the level");
+        require(exponentOf(box(mine[i])) == level.exponent, "the size of a box selects its level");
+        require(level.scale.of(box(mine[i])).contains(one.first), "a box overlaps the cell that holds it");
+        for (std::size_t k = i + 1; k < mine.size(); ++k) countTogether(mine[i], mine[k]);
+        for (const ProxyId other : others) countTogether(mine[i], other);
+      }
+    }
+  }
+  for (const ProxyId id : storedIds()) {
+    for (std::size_t index = firstLevelOf(exponentOf(box(id))); index < levels_.size(); ++index)
+      expected += static_cast<std::size_t>(levels_[index].scale.of(box(id)).count());
+  }
+  require(residents == size(), "each box is a resident of one level");
+  require(entries == expected, "each box is in all cells that it overlaps on its own level and on coarser levels");
+  require(close.size() == close_.size(), "exactly the close pairs have a counter");
+  close_.visit([&](ProxyId a, ProxyId b) {
+    require(close.of(a, b) == close_.of(a, b), "the counter of a pair is the number of cells that it shares");
+  });
+}
+
+std::size_t MirtichGrid::structureBytes() const {
+  std::size_t bytes = close_.bytes();
+  for (const Level& level : levels_) {
+    bytes += level.residents.bytes() + level.cells.bucket_count() * sizeof(void*);
+    for (const auto& cell : level.cells) {
+      bytes += sizeof(cell) + 2 * sizeof(void*);
+      bytes += (cell.second.residents.capacity() + cell.second.visitors.capacity()) * sizeof(ProxyId);
+    }
+  }
+  return bytes;
+}
+
+void MirtichGrid::drawing(std::vector<Aabb>& regions) const {
+  checkInvariants();
+  regions.clear();
+  for (const Level& level : levels_) {
+    const auto edge = static_cast<float>(level.scale.edge());
+    for (const auto& one : level.cells) {
+      if (one.second.residents.empty()) continue;
+      const Eigen::Vector3f low = edge * Eigen::Vector3f(float(one.first.x), float(one.first.y), float(one.first.z));
+      regions.push_back({low, low + Eigen::Vector3f::Constant(edge)});
+    }
+  }
+}
+
+}  // namespace book
+}  // namespace hgrid

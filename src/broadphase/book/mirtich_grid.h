@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <unordered_map>
+
+#include "broadphase/book/cell_scale.h"
+#include "broadphase/book/id_set.h"
+#include "broadphase/book/pair_counts.h"
+#include "broadphase/book/partition.h"
+
+namespace hgrid {
+namespace book {
+
+/// A hierarchical grid after Mirtich (Ericson, Real-Time Collision Detection, 2005, section 7.2.2, second scheme).
+///
+/// The size of a box selects its level; the cell edge doubles from level to level. A box is in all cells that it
+/// overlaps on its own level, where it is a resident, and on all coarser levels, where it is a visitor. Two boxes are
+/// close if they share a cell on the coarser of their two levels. A counter per close pair holds the number of shared
+/// cells. It rises when the boxes come to share a cell and falls when one of them leaves. The pairs come from these
+/// counters, without a search.
+///
+/// Differs from the book:
+/// - A level exists only if it has had a resident since the structure was built, so visitors are on few levels.
+/// - Counters use memory for each close pair. If there are more of them than the pair bound allows, the grid stops
+///   counting, and queries find the pairs, until the grid is built again.
+/// - Pairs of two fixed boxes are not counted.
+class MirtichGrid final : public Partition {
+ public:
+  MirtichGrid() : Partition("MirtichGrid") {}
+
+  void drawing(std::vector<Aabb>& regions) const override;
+
+ private:
+  struct CellBoxes {
+    std::vector<ProxyId> residents, visitors;
+  };
+  struct CellHash {
+    std::size_t operator()(const Cell& cell) const {
+      const std::uint64_t hash = static_cast<std::uint64_t>(cell.x) * 0x8da6b343u +
+                                 static_cast<std::uint64_t>(cell.y) * 0xd8163841u +
+                                 static_cast<std::uint64_t>(cell.z) * 0xcb1ab31fu;
+      return static_cast<std::size_t>(hash * 0x9e3779b97f4a7c15u >> 16);
+    }
+  };
+  struct Level {
+    int exponent;  // the edge of a cell is 2^exponent [m]
+    CellScale scale;
+    IdSet residents;
+    std::unordered_map<Cell, CellBoxes, CellHash> cells;
+  };
+
+  void build() override;
+  Followed added(ProxyId id) override;
+  Followed removed(ProxyId id) override;
+  Followed moved(ProxyId id, const Aabb& from) override;
+  bool dependsOnFixed() const override { return true; }
+  void findPairs(PairSink& sink) const override;
+  void candidates(const QueryShape& shape, std::vector<ProxyId>& found) const override;
+  void checkStructure() const override;
+  std::size_t structureBytes() const override;
+
+  static int exponentOf(const Aabb& box);
+  std::size_t firstLevelOf(int exponent) const;
+  void enter(Level& level, const Cell& cell, ProxyId id, bool resident);
+  void leave(Level& level, const Cell& cell, ProxyId id, bool resident);
+  void count(ProxyId a, ProxyId b, bool up);
+
+  std::vector<Level> levels_;  // from fine to coarse
+  PairCounts close_;
+  bool counts_ = true;    // whether `close_` holds all close pairs
+  std::size_t most_ = 0;  // largest number of close pairs that are counted
+};
+
+}  // namespace book
+}  // namespace hgrid

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <vector>
+
+#include "hgrid_proximity/broadphase/broad_phase_reader.h"
+
+namespace hgrid {
+namespace book {
+
+/// A counter per tracked pair, in a hash table with open addressing and linear probing. A pair whose counter is 0 is
+/// not in the table.
+///
+/// Deletes by moving later entries back, not lazily: pairs come and go all the time, and marks would fill the table.
+class PairCounts {
+ public:
+  PairCounts() { clear(); }
+
+  void clear() {
+    slots_.assign(64, {});
+    size_ = 0;
+  }
+  std::size_t size() const { return size_; }
+  /// Adds 1 to the counter of a pair.
+  void raise(ProxyId a, ProxyId b) {
+    if (2 * (size_ + 1) > slots_.size()) grow();
+    Slot& slot = slots_[find(keyOf(a, b))];
+    if (slot.count == 0) {
+      slot.key = keyOf(a, b);
+      ++size_;
+    }
+    ++slot.count;
+  }
+  /// Subtracts 1 from the counter of a pair, and drops the pair at 0. Does nothing for a pair that is not tracked.
+  void lower(ProxyId a, ProxyId b) {
+    const std::size_t place = find(keyOf(a, b));
+    if (slots_[place].count != 0 && --slots_[place].count == 0) eraseAt(place);
+  }
+  /// The counter of a pair; 0 if it is not tracked.
+  std::uint32_t of(ProxyId a, ProxyId b) const { return slots_[find(keyOf(a, b))].count; }
+  /// Calls visit(a, b), a < b, for each tracked pair.
+  template <class Visit>
+  void visit(Visit&& visit) const {
+    for (const Slot& slot : slots_) {
+      if (slot.count != 0) visit(static_cast<ProxyId>(slot.key >> 32), static_cast<ProxyId>(slot.key));
+    }
+  }
+  std::size_t bytes() const { return slots_.capacity() * sizeof(Slot); }
+
+ private:
+  struct Slot {
+    std::uint64_t key = 0;
+    std::uint32_t count = 0;
+  };
+  static std::uint64_t keyOf(ProxyId a, ProxyId b) {
+    return a < b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
+  }
+  std::size_t homeOf(std::uint64_t key) const {
+    key *= 0x9e3779b97f4a7c15u;  // multiplicative hashing: the upper bits are well mixed
+    return static_cast<std::size_t>(key ^ key >> 32) & (slots_.size() - 1);
+  }
+  /// Index of the slot of a key, or of the empty slot where it belongs.
+  std::size_t find(std::uint64_t key) const {
+    std::size_t place = homeOf(key);
+    while (slots_[place].count != 0 && slots_[place].key != key) place = (place + 1) & (slots_.size() - 1);
+    return place;
+  }
+  void eraseAt(std::size_t hole) {
+    const std::size_t mask = slots_.size() - 1;
+    for (std::size_t next = (hole + 1) & mask; slots_[next].count != 0; next = (next + 1) & mask) {
+      // An entry may move back into the hole if the hole is not before its home.
+      if (((next - homeOf(slots_[next].key)) & mask) < ((next - hole) & mask)) continue;
+      slots_[hole] = slots_[next];
+      hole = next;
+    }
+    slots_[hole].count = 0;
+    --size_;
+  }
+  void grow() {
+    std::vector<Slot> old(2 * slots_.size());
+    old.swap(slots_);
+    for (const Slot& slot : old) {
+      if (slot.count != 0) slots_[find(slot.key)] = slot;
+    }
+  }
+
+  std::vector<Slot> slots_;  // their number is a power of two
+  std::size_t size_ = 0;
+};
+
+}  // namespace book
+}  // namespace hgrid

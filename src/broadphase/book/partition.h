@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <atomic>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "broadphase/book/pair_sink.h"
+#include "broadphase/book/query_shape.h"
+#include "hgrid_proximity/broadphase/broad_phase.h"
+
+namespace hgrid {
+namespace book {
+
+/// The common part of the broad phases of chapter 7 in Ericson, Real-Time Collision Detection, 2005.
+///
+/// It holds the boxes in a table by id, checks what callers pass, and turns the candidates of a partition into exact
+/// answers. A partition (a derived class) holds only its own structure, which it can always build again from the table.
+///
+/// - A change writes the table first, then lets the partition follow. If the partition cannot follow (it is static, it
+///   would become slow, or memory ran out), the next search builds it again. So a change cannot leave it half changed.
+/// - Several threads may search at the same time: a lock makes one of them build the structure, and the others wait.
+class Partition : public BroadPhase {
+ public:
+  void insert(ProxyId id, const Aabb& box) final;
+  void update(ProxyId id, const Aabb& box) final;
+  void remove(ProxyId id) final;
+  void clear() final;
+  void update(const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) final;
+  void move(const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) final;
+  void setFixed(const std::vector<ProxyId>& ids) final;
+  void setOverlapFilter(const OverlapFilter& filter) final { filter_ = filter; }
+  void setPairBound(const PairBound& bound) final;
+
+  std::size_t size() const final { return count_; }
+  void overlappingPairs(std::vector<ProxyPair>& pairs) const final;
+  bool boundedPairs(std::vector<ProxyPair>& pairs) const final;
+  using BroadPhaseReader::along;
+  using BroadPhaseReader::overlapping;
+  void overlapping(const Aabb& box, std::vector<ProxyId>& found) const final;
+  void overlapping(const Sphere& sphere, std::vector<ProxyId>& found) const final;
+  void along(const Segment& segment, std::vector<SegmentHit>& found) const final;
+  void nearest(const Eigen::Vector3d& point, std::size_t count, double limit, std::vector<NearHit>& found) const final;
+  void checkInvariants() const final;
+
+  /// Returns the memory [bytes] of all stored data.
+  std::size_t bytes() const;
+  /// Calls visit for the cells or nodes of the structure, for the drawings in the documentation.
+  virtual void drawing(std::vector<Aabb>& regions) const { regions.clear(); }
+
+ protected:
+  /// What a partition made of a change.
+  enum class Followed {
+    yes,     ///< the structure holds the change
+    settle,  ///< as `yes`, but settle() must run before the next search
+    no,      ///< the structure must be built again
+  };
+
+  /// @param name  name of the class, for error messages
+  explicit Partition(const char* name) : name_(name) {}
+
+  // What each partition implements. Functions without `const` run alone; the others may run at the same time.
+
+  /// Discards the structure and makes it again from the boxes in the table. May throw std::bad_alloc.
+  virtual void build() = 0;
+  /// Follows a change. In added(), the table already holds the box. In removed(), the table still holds it. In moved(),
+  /// the table holds the new box. A partition that throws is built again.
+  virtual Followed added(ProxyId) { return Followed::no; }
+  virtual Followed removed(ProxyId) { return Followed::no; }
+  virtual Followed moved(ProxyId, const Aabb& from) {
+    static_cast<void>(from);
+    return Followed::no;
+  }
+  /// Brings the structure up to date before a search, if a change asked for it.
+  virtual void settle() {}
+  /// Whether a structure whose pairs depend on the fixed flags has to be built again when they change.
+  virtual bool dependsOnFixed() const { return false; }
+  /// Whether to build again if most boxes move in one call.
+  virtual bool rebuildsWhenMostMove() const { return true; }
+
+  /// Adds all pairs to the sink.
+  virtual void findPairs(PairSink& sink) const = 0;
+  /// Appends the ids of all boxes that the shape touches, each once, and perhaps of boxes near it.
+  virtual void candidates(const QueryShape& shape, std::vector<ProxyId>& found) const = 0;
+  /// Finds the nearest boxes; the arguments are checked. The default searches spheres of growing radius.
+  virtual void findNearest(const Eigen::Vector3d& point, std::size_t count, double limit,
+                           std::vector<NearHit>& found) const;
+  /// Checks the structure. Calls require().
+  virtual void checkStructure() const = 0;
+  virtual std::size_t structureBytes() const = 0;
+
+  /// Brings the structure up to date. Every search calls this first; any thread may call it.
+  void prepare() const;
+
+  // The table, for the partitions.
+
+  const std::vector<Aabb>& boxes() const { return boxes_; }
+  const Aabb& box(ProxyId id) const { return boxes_[id]; }
+  bool isStored(ProxyId id) const { return id < stored_.size() && stored_[id] != 0; }
+  bool isFixed(ProxyId id) const { return fixed_[id] != 0; }
+  /// All stored ids are below this number.
+  std::size_t idEnd() const { return stored_.size(); }
+  std::vector<ProxyId> storedIds() const;
+  std::vector<Aabb> storedBoxes() const;
+  const PairBound& pairBound() const { return bound_; }
+  /// A box that contains all stored boxes.
+  const Aabb& world() const { return world_; }
+  /// findPairs() for partitions without a search for all pairs: queries the structure with each box that is not fixed.
+  void findPairsByQueries(PairSink& sink) const;
+  /// @throws std::logic_error that names the invariant, unless it holds
+  void require(bool holds, const char* invariant) const;
+
+  /// The order of the results of nearest().
+  static bool isNearer(const NearHit& a, const NearHit& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.id < b.id;
+  }
+
+ private:
+  void requireValid(const Aabb& box) const;
+  void requireStored(ProxyId id) const;
+  void requireBulk(const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) const;
+  void reserve(ProxyId id);
+  template <class Follow>
+  void follow(Follow&& follow) noexcept;
+  void add(ProxyId id, const Aabb& box) noexcept;
+  void erase(ProxyId id) noexcept;
+  void shift(ProxyId id, const Aabb& box) noexcept;
+  void replaceAll(const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) noexcept;
+  void rebuild();
+  void collectInOrder(std::vector<ProxyPair>& pairs) const;
+
+  const char* name_;
+  std::vector<Aabb> boxes_;   // by id
+  std::vector<char> stored_;  // by id
+  std::vector<char> fixed_;   // by id
+  std::size_t count_ = 0;
+  std::vector<ProxyId> fixed_ids_;
+  OverlapFilter filter_;
+  PairBound bound_;
+  Aabb world_;
+
+  mutable std::mutex building_;
+  std::atomic<bool> stale_{true};       // the structure does not match the table
+  std::atomic<bool> unsettled_{false};  // settle() must run
+  std::size_t changes_ = 0, built_with_ = 0;
+};
+
+}  // namespace book
+}  // namespace hgrid

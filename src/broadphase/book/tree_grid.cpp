@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "broadphase/book/tree_grid.h"
+
+#include <cmath>
+
+namespace hgrid {
+namespace book {
+
+// ---- changes
+
+void TreeGrid::build() {
+  const std::vector<ProxyId> ids = storedIds();
+  const std::vector<Aabb> all = storedBoxes();
+  const double apart = cellEdgeFor(all, CellRule::density) * std::cbrt(kBoxesPerCell);
+  scale_ = CellScale(std::max(cellEdgeFor(all, CellRule::objects), apart));
+  cells_.clear();
+  old_cells_.clear();
+  large_ = Tree{};
+  for (const ProxyId id : ids) added(id);
+  settle();
+}
+
+Partition::Followed TreeGrid::added(ProxyId id) {
+  const bool is_large = isLarge(box(id));
+  const Cell cell = scale_.at(box(id).min);
+  Tree& tree = is_large ? large_ : cells_[cell];
+  tree.ids.push_back(id);
+  if (!is_large && !tree.is_old) old_cells_.push_back(cell);
+  tree.is_old = true;
+  return Followed::settle;
+}
+
+void TreeGrid::take(ProxyId id, const Aabb& box) {
+  const bool is_large = isLarge(box);
+  const Cell cell = scale_.at(box.min);
+  Tree& tree = is_large ? large_ : cells_[cell];
+  *std::find(tree.ids.begin(), tree.ids.end(), id) = tree.ids.back();
+  tree.ids.pop_back();
+  if (!is_large && !tree.is_old) old_cells_.push_back(cell);
+  tree.is_old = true;
+}
+
+Partition::Followed TreeGrid::removed(ProxyId id) {
+  take(id, box(id));
+  return Followed::settle;
+}
+
+Partition::Followed TreeGrid::moved(ProxyId id, const Aabb& from) {
+  take(id, from);
+  return added(id);
+}
+
+void TreeGrid::renew(Tree& tree) {
+  tree.nodes.build(boxes(), tree.ids);
+  for (std::size_t i = 0; i < tree.ids.size(); ++i) {
+    const Aabb& here = box(tree.ids[i]);
+    tree.bounds.min = i == 0 ? here.min : tree.bounds.min.cwiseMin(here.min);
+    tree.bounds.max = i == 0 ? here.max : tree.bounds.max.cwiseMax(here.max);
+  }
+  tree.is_old = false;
+}
+
+/// Builds the trees again whose boxes changed.
+void TreeGrid::settle() {
+  for (const Cell& cell : old_cells_) {
+    const auto place = cells_.find(cell);
+    if (place->second.ids.empty()) {
+      cells_.erase(place);
+    } else {
+      renew(place->second);
+    }
+  }
+  old_cells_.clear();
+  if (large_.is_old) renew(large_);
+}
+
+// ---- searches
+
+void TreeGrid::candidates(const QueryShape& shape, std::vector<ProxyId>& found) const {
+  const std::size_t before = found.size();
+  const auto consider = [&](ProxyId id) {
+    if (overlap(shape.bounds(), box(id))) found.push_back(id);
+  };
+  large_.nodes.visit(shape, consider);
+  const auto visit = [&](const Tree& tree) {
+    if (shape.mayTouch(tree.bounds)) tree.nodes.visit(shape, consider);
+  };
+  // The minimum corner of a box that the shape touches is within one edge below a common point on each axis.
+  const double edge = scale_.edge() * (1.0 + 1e-9);
+  Aabb reach = shape.bounds();
+  for (int axis = 0; axis < 3; ++axis) reach.min[axis] = roundedDown(double(reach.min[axis]) - edge);
+  Segment thick = shape.segment();
+  thick.radius += 1.75 * edge;  // more than the diagonal of a cell
+  const QueryShape near = shape.kind() == QueryShape::Kind::segment ? QueryShape(thick) : QueryShape(reach);
+  const auto limit = static_cast<double>(cells_.size());
+  const bool all = scale_.visitRanges(near, CellScale::everywhere(), 4.0 * limit, [&](const CellRange& range) {
+    range.visit([&](const Cell& cell) {
+      const auto tree = cells_.find(cell);
+      if (tree != cells_.end()) visit(tree->second);
+    });
+  });
+  if (all) return;
+  // There are more cells than trees, so this goes through the trees. Some of their boxes may be found already.
+  found.resize(before);
+  large_.nodes.visit(shape, consider);
+  for (const auto& tree : cells_) visit(tree.second);
+}
+
+void TreeGrid::checkStructure() const {
+  std::size_t held = 0;
+  const auto check = [&](const Tree& tree) {
+    held += tree.ids.size();
+    std::vector<ProxyId> expected = tree.ids, in_tree = tree.nodes.ids();
+    std::sort(expected.begin(), expected.end());
+    std::sort(in_tree.begin(), in_tree.end());
+    require(!tree.is_old && expected == in_tree, "the tree of a cell has the boxes of the cell");
+    for (const ProxyId id : tree.ids) require(isStored(id), "each box in a cell is stored");
+  };
+  check(large_);
+  for (const ProxyId id : large_.ids) require(isLarge(box(id)), "a large box is longer than a cell");
+  for (const auto& one : cells_) {
+    check(one.second);
+    require(!one.second.ids.empty(), "an empty cell is not stored");
+    for (const ProxyId id : one.second.ids)
+      require(!isLarge(box(id)) && scale_.at(box(id).min) == one.first, "a box is in the cell of its minimum corner");
+  }
+  require(held == size(), "each box is in one cell or is large");
+}
+
+std::size_t TreeGrid::structureBytes() const {
+  const auto of = [](const Tree& tree) { return tree.ids.capacity() * sizeof(ProxyId) + tree.nodes.bytes(); };
+  std::size_t bytes = of(large_) + cells_.bucket_count() * sizeof(void*);
+  for (const auto& one : cells_) bytes += sizeof(one) + 2 * sizeof(void*) + of(one.second);
+  return bytes;
+}
+
+void TreeGrid::drawing(std::vector<Aabb>& regions) const {
+  checkInvariants();
+  regions.clear();
+  for (const auto& one : cells_) {
+    one.second.nodes.visitRegions(one.second.bounds, [&](const Aabb& region) { regions.push_back(region); });
+  }
+}
+
+}  // namespace book
+}  // namespace hgrid

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <unordered_map>
+
+#include "broadphase/book/cell_scale.h"
+#include "broadphase/book/kd_nodes.h"
+#include "broadphase/book/partition.h"
+
+namespace hgrid {
+namespace book {
+
+/// A grid of trees (Ericson, Real-Time Collision Detection, 2005, section 7.3.8): each cell of a coarse grid has a k-d
+/// tree of its boxes. The grid skips the top of one large tree.
+///
+/// The minimum corner of a box selects its cell. Cells are loose: a cell keeps the bounds of its boxes, which may reach
+/// into the next cells. A box is no longer than a cell, so a query visits the cells within one edge of its shape. So a
+/// change makes only the trees of two cells out of date; the next search builds these again.
+///
+/// Differs from the book: boxes that are longer than a cell are in one more tree of their own.
+class TreeGrid final : public Partition {
+ public:
+  TreeGrid() : Partition("TreeGrid") {}
+
+  void drawing(std::vector<Aabb>& regions) const override;
+
+ private:
+  static constexpr double kBoxesPerCell = 32;  // about this many boxes are in a cell of an evenly filled world
+  struct CellHash {
+    std::size_t operator()(const Cell& cell) const {
+      const std::uint64_t hash = static_cast<std::uint64_t>(cell.x) * 0x8da6b343u +
+                                 static_cast<std::uint64_t>(cell.y) * 0xd8163841u +
+                                 static_cast<std::uint64_t>(cell.z) * 0xcb1ab31fu;
+      return static_cast<std::size_t>(hash * 0x9e3779b97f4a7c15u >> 16);
+    }
+  };
+  struct Tree {
+    std::vector<ProxyId> ids;
+    Aabb bounds;
+    KdNodes nodes;
+    bool is_old = false;  // whether the nodes have to be built again
+  };
+
+  void build() override;
+  Followed added(ProxyId id) override;
+  Followed removed(ProxyId id) override;
+  Followed moved(ProxyId id, const Aabb& from) override;
+  void settle() override;
+  void findPairs(PairSink& sink) const override { findPairsByQueries(sink); }
+  void candidates(const QueryShape& shape, std::vector<ProxyId>& found) const override;
+  void checkStructure() const override;
+  std::size_t structureBytes() const override;
+
+  bool isLarge(const Aabb& box) const { return longestSide(box) > scale_.edge(); }
+  void take(ProxyId id, const Aabb& box);
+  void renew(Tree& tree);
+
+  CellScale scale_;
+  std::unordered_map<Cell, Tree, CellHash> cells_;
+  Tree large_;
+  std::vector<Cell> old_cells_;  // cells whose trees have to be built again
+};
+
+}  // namespace book
+}  // namespace hgrid
