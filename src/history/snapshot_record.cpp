@@ -179,7 +179,7 @@ std::size_t SnapshotRecord::bytesBeside(const SnapshotRecord* other) const {
   return other != nullptr && other->lacks_ == lacks_ ? bytes : bytes + bytesOf(*lacks_);
 }
 
-/// Computes the boxes of all placed bodies in the same way as Scene, and stores them in the grid.
+/// Computes the boxes and half-spaces of all placed bodies in the same way as Scene, and stores the boxes in the grid.
 void SnapshotRecord::makeBoxes(Restored& made) const {
   Snapshot& snapshot = made.snapshot;
   std::vector<ProxyId> ids;
@@ -187,11 +187,14 @@ void SnapshotRecord::makeBoxes(Restored& made) const {
   for (std::uint32_t body = 0; body < snapshot.poses_.size(); ++body) {
     const BodyPose& pose = snapshot.poses_[body];
     const bool is_placed = pose.state != Freshness::unplaced;
+    if (pose.state != Freshness::fresh || pose.age != 0.0 || pose.reach != 0.0) snapshot.watched_.push_back(body);
     for (const BodyShape& shape : structure_->bodies[body].shapes) {
-      snapshot.boxes_.push_back(
-          is_placed ? boxOf(shape.shape, pose.world_from_body * shape.body_from_shape, shape.padding, origin_)
-                    : Aabb{});
-      if (!is_placed) continue;
+      const Pose world_from_shape = pose.world_from_body * shape.body_from_shape;
+      const bool is_plane = shape.shape.kind() == ShapeKind::plane;
+      if (is_plane) snapshot.half_spaces_.push_back(halfSpaceOf(world_from_shape, shape.padding, origin_));
+      const bool has_box = is_placed && !is_plane;
+      snapshot.boxes_.push_back(has_box ? boxOf(shape.shape, world_from_shape, shape.padding, origin_) : Aabb{});
+      if (!has_box) continue;
       ids.push_back(static_cast<ProxyId>(snapshot.boxes_.size() - 1));
       placed.push_back(snapshot.boxes_.back());
     }

@@ -48,6 +48,11 @@ void addState(const Snapshot& s, Bytes& out) {
     out.add(pose.cohort);
     if (pose.state == Freshness::unplaced) continue;
     for (std::uint32_t proxy = s.structure().first_proxy[body]; proxy < s.structure().first_proxy[body + 1]; ++proxy) {
+      if (s.structure().isPlane(proxy)) {
+        out.add(s.halfSpaceOf(proxy).normal);
+        out.add(s.halfSpaceOf(proxy).offset);
+        continue;
+      }
       for (int axis = 0; axis < 3; ++axis) {
         out.add(s.boxes()[proxy].min[axis]);
         out.add(s.boxes()[proxy].max[axis]);
@@ -154,6 +159,11 @@ void ChangingWorld::change() {
     const std::string name = "o" + std::to_string(random_.below(60));
     if (ids_.count("obstacle/" + name) != 0) return;
     Body body = randomBody(random_, name);
+    if (random_.chance(0.1)) {
+      body.shapes.resize(1);
+      body.shapes[0].shape = Shape::plane();
+      body.mobility = Mobility::fixed;
+    }
     for (BodyShape& shape : body.shapes) shape.solid = narrow_phase_->solidOf(shape.shape);
     ids_[body.name] = scene_.add(body);
     return;
