@@ -182,7 +182,8 @@ TEST(ObstacleParams, APlaneHasOnlyAPoseAndPadding) {
   EXPECT_EQ(shape.padding, 0.1);
   EXPECT_EQ(shape.body_from_shape.translation().z(), -0.5);
   const Value sized = dict({{"type", "plane"}, {"size", xyz(1, 1, 1)}});
-  EXPECT_TRUE(says(refusalOf(dict({{"name", "o"}, {"shapes", list({sized})}})), "~obstacles[0]/shapes[0]/size is not a field"));
+  EXPECT_TRUE(
+      says(refusalOf(dict({{"name", "o"}, {"shapes", list({sized})}})), "~obstacles[0]/shapes[0]/size is not a field"));
 }
 
 TEST(ObstacleParams, WhatIsWrongIsNamed) {
