@@ -107,7 +107,8 @@ void pass(File& file, RobotDescription& text) {
   passOptionalText(file, text.srdf);
 }
 
-/// Returns the key of a description: a hash of its text, because equal texts are stored once.
+}  // namespace
+
 std::string keyOf(const RobotDescription& text) {
   std::uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a
   const auto add = [&](const std::string& bytes) {
@@ -119,6 +120,8 @@ std::string keyOf(const RobotDescription& text) {
   key << kDescriptionKeys << std::hex << hash;
   return key.str();
 }
+
+namespace {
 
 /// @param text_key  key of the description of the robot; empty: parameters hold it
 template <class File>
