@@ -160,7 +160,7 @@ void ChangingWorld::change() {
     if (ids_.count("obstacle/" + name) != 0) return;
     Body body = randomBody(random_, name);
     if (random_.chance(0.1)) {
-      body.shapes.resize(1);
+      body.shapes.erase(body.shapes.begin() + 1, body.shapes.end());
       body.shapes[0].shape = Shape::plane();
       body.mobility = Mobility::fixed;
     }

@@ -11,16 +11,16 @@
 
 namespace hgrid {
 
-/// A half-space [m]: all points p with normal . p <= offset.
-struct HalfSpace {
+/// A wall of a convex room. The room is on the side of the points p with normal . p <= offset.
+struct RoomWall {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  ///< any length but 0
   double offset = 0.0;                                ///< [m] times the length of `normal`
 };
 
-/// A convex room: the common part of half-spaces.
+/// A convex room: the points that are on the inner side of all walls.
 struct Room {
-  std::string name;              ///< different from the names of all other rooms
-  std::vector<HalfSpace> walls;  ///< at least one
+  std::string name;             ///< different from the names of all other rooms
+  std::vector<RoomWall> walls;  ///< at least one
 
   /// Returns a room in the form of a box.
   static Room ofBox(const std::string& name, const Eigen::AlignedBox3d& box);

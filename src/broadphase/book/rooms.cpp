@@ -18,7 +18,7 @@ void require(bool holds, const std::string& what) {
 
 /// Whether a box may have a point in common with a room: it does not lie outside of one of its walls.
 bool mayBeIn(const Room& room, const Aabb& box) {
-  for (const HalfSpace& wall : room.walls) {
+  for (const RoomWall& wall : room.walls) {
     double least = 0.0, rounding = std::abs(wall.offset);  // the smallest value of normal . p over the box
     for (int axis = 0; axis < 3; ++axis) {
       const double corner = wall.normal[axis] > 0.0 ? double(box.min[axis]) : double(box.max[axis]);
@@ -57,7 +57,7 @@ Building::Building(std::vector<Room> rooms, std::vector<Portal> portals)
   for (const Room& room : rooms_) {
     require(names.insert(room.name).second, "two rooms have the name '" + room.name + "'; names must differ");
     require(!room.walls.empty(), "room '" + room.name + "' has no walls; give it at least one");
-    for (const HalfSpace& wall : room.walls) {
+    for (const RoomWall& wall : room.walls) {
       require(wall.normal.allFinite() && std::isfinite(wall.offset) && wall.normal.squaredNorm() > 0.0,
               "a wall of room '" + room.name + "' is not finite or has the normal 0; correct it");
     }
