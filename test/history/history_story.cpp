@@ -123,6 +123,7 @@ std::string toldBy(const Snapshot& s, NarrowPhase& narrow_phase, unsigned seed) 
     if (s.poses().size() == 0) continue;
     const auto body = std::uint32_t(random.below(int(s.poses().size())));
     if (s.poses()[body].state == Freshness::unplaced || s.structure().bodies[body].shapes.empty()) continue;
+    if (s.structure().hasPlane(body)) continue;  // a plane has no end to ask from
     addAnswer(nearest(s, body, 0.0, scope), out);
   }
   return out.text;
