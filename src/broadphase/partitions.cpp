@@ -2,6 +2,9 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "hgrid_proximity/broadphase/partitions.h"
 
+#include <stdexcept>
+#include <string>
+
 #include "broadphase/book/array_grid.h"
 #include "broadphase/book/bit_grid.h"
 #include "broadphase/book/bucket_grid.h"
@@ -25,55 +28,35 @@ std::unique_ptr<BroadPhase> makeHGrid(const BroadPhaseOptions& options) {
   return grid;
 }
 
-template <class Kind>
-std::unique_ptr<BroadPhase> makeOf(const BroadPhaseOptions&) {
-  return std::make_unique<Kind>();
-}
-
-struct KindRow {
-  const char* name;
-  std::unique_ptr<BroadPhase> (*make)(const BroadPhaseOptions&);
-};
-
-/// One row per kind, in the order of the enumeration.
-constexpr KindRow kKinds[] = {
-    {"hgrid", makeHGrid},
-    {"hashed_grid", makeOf<book::HashedGrid>},
-    {"bucket_grid", makeOf<book::BucketGrid>},
-    {"array_grid", makeOf<book::ArrayGrid>},
-    {"bit_grid", makeOf<book::BitGrid>},
-    {"mirtich_grid", makeOf<book::MirtichGrid>},
-    {"loose_octree", makeOf<book::LooseOctree>},
-    {"kd_tree", makeOf<book::KdTree>},
-    {"tree_grid", makeOf<book::TreeGrid>},
-    {"sweep_lists", makeOf<book::SweepLists>},
-    {"sweep_array", makeOf<book::SweepArray>},
-};
-
 }  // namespace
 
-const char* name(BroadPhaseType type) { return kKinds[static_cast<std::size_t>(type)].name; }
-
-const std::vector<BroadPhaseType>& broadPhaseTypes() {
-  static const std::vector<BroadPhaseType> types = [] {
-    std::vector<BroadPhaseType> all;
-    for (std::size_t i = 0; i < std::size(kKinds); ++i) all.push_back(static_cast<BroadPhaseType>(i));
-    return all;
-  }();
-  return types;
-}
-
-bool find(const std::string& name, BroadPhaseType& type) {
-  for (const BroadPhaseType candidate : broadPhaseTypes()) {
-    if (name != hgrid::name(candidate)) continue;
-    type = candidate;
-    return true;
-  }
-  return false;
-}
-
 std::unique_ptr<BroadPhase> makeBroadPhase(const BroadPhaseOptions& options) {
-  return kKinds[static_cast<std::size_t>(options.type)].make(options);
+  switch (options.type) {
+    case BroadPhaseType::hgrid:
+      return makeHGrid(options);
+    case BroadPhaseType::hashed_grid:
+      return std::make_unique<book::HashedGrid>();
+    case BroadPhaseType::bucket_grid:
+      return std::make_unique<book::BucketGrid>();
+    case BroadPhaseType::array_grid:
+      return std::make_unique<book::ArrayGrid>();
+    case BroadPhaseType::bit_grid:
+      return std::make_unique<book::BitGrid>();
+    case BroadPhaseType::mirtich_grid:
+      return std::make_unique<book::MirtichGrid>();
+    case BroadPhaseType::loose_octree:
+      return std::make_unique<book::LooseOctree>();
+    case BroadPhaseType::kd_tree:
+      return std::make_unique<book::KdTree>();
+    case BroadPhaseType::tree_grid:
+      return std::make_unique<book::TreeGrid>();
+    case BroadPhaseType::sweep_lists:
+      return std::make_unique<book::SweepLists>();
+    case BroadPhaseType::sweep_array:
+      return std::make_unique<book::SweepArray>();
+  }
+  throw std::invalid_argument("the type of the broad phase is " + std::to_string(static_cast<int>(options.type)) +
+                              "; it must be one of broadPhaseTypes()");
 }
 
 std::size_t storedBytes(const BroadPhase& broad_phase) {

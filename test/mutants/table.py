@@ -269,7 +269,7 @@ CORE = [
     ("a past snapshot lacks its source gaps", PAST_RECORD,
      "snapshot.gaps_ = lacks_->gaps;", ""),
     ("past boxes are not padded", PAST_RECORD,
-     "shape.padding, origin_)", "0.0, origin_)"),
+     "world_from_shape, shape.padding, origin_) : Aabb{}", "world_from_shape, 0.0, origin_) : Aabb{}"),
     ("a pair that began again shares the old begin", PAST_RECORD,
      "a.since == b.since && a.flags == b.flags", "true"),
 ]

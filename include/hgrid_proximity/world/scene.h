@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "hgrid_proximity/broadphase/partitions.h"
+#include "hgrid_proximity/broadphase/broad_phase_type.h"
 #include "hgrid_proximity/world/snapshot.h"
 
 namespace hgrid {

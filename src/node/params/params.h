@@ -10,7 +10,7 @@
 
 #include "hgrid_proximity/adapters/octomap.h"
 #include "hgrid_proximity/bodies/body.h"
-#include "hgrid_proximity/broadphase/partitions.h"
+#include "hgrid_proximity/broadphase/broad_phase_type.h"
 #include "hgrid_proximity/pairs/pair_filter.h"
 #include "hgrid_proximity/pairs/pair_margins.h"
 
