@@ -179,6 +179,7 @@ TEST_F(DistancesNode, QueryShapeTestsTheShapeAtItsPose) {
   request.shape.dimensions = {0.2};
   EXPECT_EQ(call<msg::QueryShape>("query_shape", request).answer.code.name, "BAD_GEOMETRY");
   request.shape.kind = msg::ShapeKind::PLANE;
+  request.shape.dimensions.clear();
   EXPECT_EQ(call<msg::QueryShape>("query_shape", request).answer.code.name, "UNSUPPORTED");
   request.shape.kind = 200;
   EXPECT_EQ(call<msg::QueryShape>("query_shape", request).answer.code.name, "UNSUPPORTED");
