@@ -94,8 +94,10 @@ set(HGRID_CORE_SOURCES
   src/refusal.cpp
   src/world/commit.cpp
   src/world/completeness.cpp
+  src/world/grown_boxes.cpp
   src/world/horizon.cpp
   src/world/map_pairs.cpp
+  src/world/next_structure.cpp
   src/world/pair_events.cpp
   src/world/plane_pairs.cpp
   src/world/scene.cpp

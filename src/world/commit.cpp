@@ -4,9 +4,7 @@
 // Scene::commit(): makes a snapshot of the bodies and poses in a scene.
 #include <algorithm>
 
-#include "hgrid_proximity/broadphase/partitions.h"
 #include "hgrid_proximity/geometry/float_environment.h"
-#include "hgrid_proximity/refusal.h"
 #include "world/pair_margin.h"
 #include "world/scene_state.h"
 
@@ -21,106 +19,7 @@ double reachOf(const BodyPose& pose, const Body& body, double growth_after) {
   return body.max_speed * pose.age;
 }
 
-/// Returns the box of a shape in its own frame, grown by half of the margin. The grid chooses its cells by these boxes.
-Aabb sizeOf(const BodyShape& shape, double margin) {
-  return grown(boxOf(shape.shape, Pose::Identity(), shape.padding, Eigen::Vector3d::Zero()), 0.5 * margin);
-}
-
-/// Finds the bodies of an earlier structure by their handles.
-class BodiesBefore {
- public:
-  BodiesBefore(const Structure& before, std::size_t slots) : before_(before), of_slot_(slots, Structure::kNone) {
-    for (std::uint32_t body = 0; body < before.ids.size(); ++body) of_slot_[before.ids[body].slot] = body;
-  }
-  /// Returns the index of a body in the earlier structure, or kNone.
-  std::uint32_t find(const BodyId& id) const {
-    const std::uint32_t body = of_slot_[id.slot];
-    return body != Structure::kNone && before_.ids[body] == id ? body : Structure::kNone;
-  }
-
- private:
-  const Structure& before_;
-  std::vector<std::uint32_t> of_slot_;
-};
-
-/// The overlap filter of the grid: keeps the pairs of proxies whose bodies the pair filter reports.
-bool isReported(const void* structure, ProxyId first, ProxyId second) {
-  const Structure& s = *static_cast<const Structure*>(structure);
-  return !s.filter.allowed(s.body_of_proxy[first], s.body_of_proxy[second]);
-}
-
 }  // namespace
-
-/// Returns the filter of the next structure. Uses an earlier filter with the same rules, if there is one.
-/// @param next   the bodies of the next structure
-/// @param known  for each of them: its index in the present structure, or Structure::kNone
-PairFilter Scene::State::filterFor(const BodyList& next, const std::vector<std::uint32_t>& known) const {
-  static_assert(PairFilter::kUnknown == Structure::kNone);
-  const PairFilter* earlier = nullptr;
-  if (!rules_changed) earlier = &structure->filter;
-  if (prepared && prepared->revision == structure->revision) earlier = &prepared->filter;
-  if (earlier == nullptr) return PairFilter(next, options.pair_kinds, options.allowed_pairs);
-  return bodies_changed ? earlier->forBodies(next, known) : *earlier;
-}
-
-void Scene::State::rebuildStructure() {
-  auto next = std::make_shared<Structure>();
-  next->revision = structure->revision + 1;
-  next->least_margin = options.margin;
-  const BodiesBefore before(*structure, slots.size());
-  std::vector<Aabb> next_sizes;
-  std::vector<std::uint32_t> next_uncovered, known_bodies;
-  std::vector<ShapeInBody> next_shapes;
-  std::vector<std::uint32_t> next_body_of_slot(slots.size(), Structure::kNone);
-  next->bodies.reserve(slot_of_name.size());
-  next_shapes.reserve(slot_of_name.size());
-  next_sizes.reserve(slot_of_name.size());
-  for (const auto& named : slot_of_name) {
-    const Body& body = *bodies[named.second];
-    if (!body.covered && !body.waived) next_uncovered.push_back(static_cast<std::uint32_t>(next->bodies.size()));
-    next->first_proxy.push_back(static_cast<std::uint32_t>(next->body_of_proxy.size()));
-    next->body_of_proxy.insert(next->body_of_proxy.end(), body.shapes.size(),
-                               static_cast<std::uint32_t>(next->bodies.size()));
-    if (hasCells(body.kind)) next->maps.push_back(static_cast<std::uint32_t>(next->bodies.size()));
-    next_body_of_slot[named.second] = static_cast<std::uint32_t>(next->bodies.size());
-    next->bodies.push_back(bodies[named.second]);
-    next->ids.push_back({named.second, slots[named.second].generation});
-    next->margin.push_back(std::max(options.margin, body.margin));
-    const std::uint32_t known = before.find(next->ids.back());
-    known_bodies.push_back(known);
-    for (std::size_t i = 0; i < body.shapes.size(); ++i) {
-      const BodyShape& shape = body.shapes[i];
-      if (shape.shape.kind() == ShapeKind::plane) next->planes.push_back(static_cast<ProxyId>(next_shapes.size()));
-      next_shapes.push_back({shape.shape, shape.body_from_shape, shape.padding});
-      const bool has_size = known != Structure::kNone && !sizes_changed;
-      next_sizes.push_back(has_size ? sizes[structure->first_proxy[known] + i] : sizeOf(shape, options.margin));
-    }
-  }
-  next->first_proxy.push_back(static_cast<std::uint32_t>(next->body_of_proxy.size()));
-  next->pair_margins = PairMargins(next->bodies, options.pair_margins);
-  next->filter = filterFor(next->bodies, known_bodies);
-  next->silenced = silencesAll(next->bodies, options.pair_kinds, next->filter);
-  std::vector<ProxyId> next_fixed;
-  for (ProxyId proxy = 0; proxy < next->body_of_proxy.size(); ++proxy) {
-    const bool fixed = next->bodies[next->body_of_proxy[proxy]].mobility == Mobility::fixed;
-    if (fixed && !next->isPlane(proxy)) next_fixed.push_back(proxy);
-  }
-  fillSources(*next);
-  std::vector<bool> next_is_watched(next->bodies.size());
-  // The code below allocates no memory, so it cannot fail.
-  uncovered.swap(next_uncovered);
-  shapes.swap(next_shapes);
-  sizes.swap(next_sizes);
-  fixed_proxies.swap(next_fixed);
-  body_of_slot.swap(next_body_of_slot);
-  watched.clear();
-  is_watched.swap(next_is_watched);
-  structure = std::move(next);
-  scale = GridScale::fitting(sizes);  // the smallest box counts, so the huge boxes of planes do not matter
-  if (options.finest_edge > 0.0) scale.finest_edge = options.finest_edge;
-  structure_changed = bodies_changed = rules_changed = sizes_changed = false;
-  prepared.reset();
-}
 
 std::shared_ptr<PooledSnapshot> Scene::State::freshSnapshot() const {
   std::unique_ptr<PooledSnapshot> pooled = pool->take();
@@ -138,18 +37,6 @@ void Scene::State::makeBoxes(std::size_t body, const Pose& world_from_body, Snap
   for (std::uint32_t proxy = structure->first_proxy[body]; proxy < structure->first_proxy[body + 1]; ++proxy) {
     const ShapeInBody& shape = shapes[proxy];
     snapshot.boxes_[proxy] = boxOf(shape.shape, world_from_body * shape.body_from_shape, shape.padding, options.origin);
-  }
-}
-
-/// Copies the boxes of the bodies that were in the last snapshot, whose structure was another one.
-void Scene::State::keepBoxes(Snapshot& snapshot) const {
-  const Structure& earlier = *last->structure_;
-  const BodiesBefore before(earlier, slots.size());
-  for (std::size_t body = 0; body < structure->ids.size(); ++body) {
-    const std::uint32_t known = before.find(structure->ids[body]);
-    if (known == Structure::kNone) continue;
-    std::copy(last->boxes_.begin() + earlier.first_proxy[known], last->boxes_.begin() + earlier.first_proxy[known + 1],
-              snapshot.boxes_.begin() + structure->first_proxy[body]);
   }
 }
 
@@ -269,100 +156,6 @@ void Scene::State::fillBodies(Snapshot& snapshot) {
   }
   fillHalfSpaces(snapshot);
   horizon.step(structure, snapshot.poses_, snapshot.boxes_, snapshot.stamp_);
-}
-
-/// Grows the box of a proxy of a placed body by its share of the margins. Keeps the grown box of an earlier commit if
-/// it was computed from the same box and the same length.
-void Scene::State::growBox(const Snapshot& snapshot, ProxyId proxy, std::size_t position) {
-  const std::uint32_t body = structure->body_of_proxy[proxy];
-  const double own = std::max(structure->margin[body], structure->pair_margins.largestOf(body));
-  const double can_go = horizon.reachOf(body);
-  const double by = 0.5 * options.margin + (own - options.margin) + snapshot.poses_[body].growth + can_go;
-  const Aabb& box = horizon.on() ? horizon.swept(proxy) : snapshot.boxes_[proxy];
-  GrownFrom& from = grown_from[position];
-  if (from.by == by && from.box == box) return;
-  from = {box, by};
-  grown_boxes[position] = grown(box, by);
-  grown_in[position] = commits + 1;
-}
-
-/// Grows the boxes of placed bodies by their shares of the margins. Then two boxes overlap if their gap is at most the
-/// margin of their pair plus the growth of both bodies. The share of a body is half of the global margin. If the margin
-/// of the body or of one of its pairs is larger than the global margin, the whole difference is added.
-void Scene::State::growBoxes(const Snapshot& snapshot) {
-  if (grown_revision == structure->revision && grown_unplaced == unplaced && !horizon.on()) {
-    for (const std::uint32_t slot : changes.now()) {
-      const std::uint32_t body = body_of_slot[slot];
-      if (body == Structure::kNone) continue;  // it was removed, and then a commit failed
-      if (snapshot.poses_[body].state == Freshness::unplaced) continue;
-      for (ProxyId proxy = structure->first_proxy[body]; proxy < structure->first_proxy[body + 1]; ++proxy) {
-        if (structure->isPlane(proxy)) continue;
-        growBox(snapshot, proxy, position_of[proxy]);
-      }
-    }
-    return;
-  }
-  grown_revision = 0;
-  const std::size_t most = snapshot.boxes_.size();
-  ids.resize(most);
-  grown_from.resize(most);
-  grown_boxes.resize(most);
-  grown_in.resize(most);
-  position_of.resize(most);
-  std::size_t count = 0;
-  for (ProxyId proxy = 0; proxy < most; ++proxy) {
-    if (snapshot.poses_[structure->body_of_proxy[proxy]].state == Freshness::unplaced) continue;
-    if (structure->isPlane(proxy)) continue;
-    position_of[proxy] = static_cast<std::uint32_t>(count);
-    growBox(snapshot, proxy, count);
-    ids[count++] = proxy;
-  }
-  ids.resize(count);
-  grown_from.resize(count);
-  grown_boxes.resize(count);
-  grown_in.resize(count);
-  grown_revision = structure->revision;
-  grown_unplaced = unplaced;
-}
-
-/// Moves only the boxes in the grid that changed since the grid was used. @returns false if that is not possible, or if
-/// most boxes changed; then the grid is as it was
-bool Scene::State::moveInGrid(BroadPhase& grid) {
-  if (since == 0 || horizon.on() || grid.size() != ids.size()) return false;
-  regrown.clear();
-  const auto add = [&](std::uint32_t slot) {
-    const std::uint32_t body = body_of_slot[slot];
-    if (slots[slot].pose.state == Freshness::unplaced) return;
-    for (ProxyId proxy = structure->first_proxy[body]; proxy < structure->first_proxy[body + 1]; ++proxy) {
-      if (!structure->isPlane(proxy) && grown_in[position_of[proxy]] > since) regrown.push_back(proxy);
-    }
-  };
-  changes.visitSince(since, add);
-  for (const std::uint32_t slot : changes.now()) add(slot);
-  if (regrown.size() > ids.size() / 4) return false;
-  std::sort(regrown.begin(), regrown.end());
-  regrown.erase(std::unique(regrown.begin(), regrown.end()), regrown.end());
-  regrown_boxes.clear();
-  for (const ProxyId proxy : regrown) regrown_boxes.push_back(grown_boxes[position_of[proxy]]);
-  grid.move(regrown, regrown_boxes);
-  return true;
-}
-
-/// Stores the grown boxes in the grid. Finds the overlapping pairs that the filter keeps, up to the limit.
-void Scene::State::fillGrid(PooledSnapshot& pooled) {
-  if (pooled.grid_revision != structure->revision) {
-    pooled.setBroadPhase(makeBroadPhase({options.broad_phase, scale.finest_edge, options.threads}));
-    BroadPhase& grid = *pooled.broad_phase;
-    grid.setFixed(fixed_proxies);
-    grid.setOverlapFilter(OverlapFilter::of<isReported>(structure.get()));  // the snapshot keeps the structure alive
-    grid.setPairBound(limits.boundOf(structure->body_of_proxy.size()));
-    pooled.grid_revision = structure->revision;
-  }
-  BroadPhase& grid = *pooled.broad_phase;
-  const auto* hgrid = dynamic_cast<const HGrid*>(&grid);
-  threads = hgrid != nullptr ? hgrid->threads() : 1;
-  if (!moveInGrid(grid)) grid.update(ids, grown_boxes);
-  pooled.snapshot.search_cut_ = !grid.boundedPairs(proxy_pairs);
 }
 
 void Scene::State::addPair(std::uint32_t first, std::uint32_t second, double gap, double margin, bool near) {

@@ -86,12 +86,9 @@ struct Scene::State {
   // not overwrite results of the last commit. They write to separate members, or they write what the next commit would
   // write as well. So a commit that throws has no effect on the next commit.
 
-  void rebuildStructure();
-  PairFilter filterFor(const BodyList& next, const std::vector<std::uint32_t>& known) const;
   void accept(const std::shared_ptr<PooledSnapshot>& accepted);
   std::shared_ptr<PooledSnapshot> freshSnapshot() const;
   void makeBoxes(std::size_t body, const Pose& world_from_body, Snapshot& snapshot) const;
-  void keepBoxes(Snapshot& snapshot) const;
   void fillBodies(Snapshot& snapshot);
   void fillAllBodies(Snapshot& snapshot);
   void fillChangedBodies(Snapshot& snapshot);
@@ -99,14 +96,23 @@ struct Scene::State {
   bool fillBoxes(std::uint32_t body, Snapshot& snapshot);
   void fillHalfSpaces(Snapshot& snapshot) const;
   void summarizePoses(Snapshot& snapshot);
-  void growBoxes(const Snapshot& snapshot);
-  void growBox(const Snapshot& snapshot, ProxyId proxy, std::size_t position);
-  void fillGrid(PooledSnapshot& pooled);
-  bool moveInGrid(BroadPhase& grid);
   const std::vector<std::uint32_t>& changedBodies();
   void fillPairs(Snapshot& snapshot);
   void addPair(std::uint32_t first, std::uint32_t second, double gap, double margin, bool near);
   bool isCandidate(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second);
+
+  // next_structure.cpp: makes a new structure after bodies, rules or margins changed.
+
+  void rebuildStructure();
+  PairFilter filterFor(const BodyList& next, const std::vector<std::uint32_t>& known) const;
+  void keepBoxes(Snapshot& snapshot) const;
+
+  // grown_boxes.cpp: grows the boxes by their margins and stores them in the broad phase.
+
+  void growBoxes(const Snapshot& snapshot);
+  void growBox(const Snapshot& snapshot, ProxyId proxy, std::size_t position);
+  void fillGrid(PooledSnapshot& pooled);
+  bool moveInGrid(BroadPhase& grid);
 
   // completeness.cpp: decides which sources are complete.
 
@@ -118,7 +124,7 @@ struct Scene::State {
   std::vector<std::uint32_t> uncovered;     // bodies of the structure that are neither covered nor waived, ascending
   std::vector<ShapeInBody> shapes;          // indexed by the proxies of the structure
   std::vector<std::uint32_t> body_of_slot;  // index of the body in the structure; kNone: the slot is not used
-  std::vector<Aabb> sizes;                  // [m] the same; boxes of the shapes in their own frames, see sizeOf()
+  std::vector<Aabb> sizes;                  // [m] for each proxy: the box of its shape in its own frame, see sizeOf()
   std::shared_ptr<const Snapshot> last;     // snapshot of the last commit; null before the first one
   GridScale scale;
   std::vector<ProxyId> fixed_proxies;
@@ -148,9 +154,8 @@ struct Scene::State {
   std::vector<std::uint32_t> position_of;  // for each proxy of a placed body: its position in these arrays
   std::uint64_t grown_revision = 0;
   std::size_t grown_unplaced = 0;
-  std::vector<ProxyId>
-      regrown;  // proxies whose grown boxes differ from those in the grid; the next is in the same order
-  std::vector<Aabb> regrown_boxes;
+  std::vector<ProxyId> regrown;               // proxies whose grown boxes differ from those in the grid
+  std::vector<Aabb> regrown_boxes;            // these boxes, in the same order
   std::vector<std::uint32_t> changed_bodies;  // see changedBodies()
   std::vector<ProxyPair> proxy_pairs;
   PairChoice choice;

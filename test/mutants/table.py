@@ -20,6 +20,7 @@ HGRID = "broadphase/hgrid/hgrid.cpp"
 QUERIES = "broadphase/hgrid/queries.cpp"
 SCENE = "world/scene.cpp"
 COMMIT = "world/commit.cpp"
+GROWN = "world/grown_boxes.cpp"
 EVENTS = "world/pair_events.cpp"
 BRICKS = "maps/static_grid_bricks.h"
 LINE = "maps/static_grid_line.h"
@@ -184,14 +185,14 @@ CORE = [
      "slot.pose.world_from_body.matrix().isApprox(world_from_body.matrix(), 1e-6)"),
     ("an old body id is valid for a new body in the same slot", SCENE,
      "++slots[slot].generation;", ""),
-    ("the margin is halved", COMMIT,
+    ("the margin is halved", GROWN,
      "0.5 * options.margin + (", "0.25 * options.margin + ("),
-    ("the boxes of stale bodies do not grow in the grid", COMMIT,
+    ("the boxes of stale bodies do not grow in the grid", GROWN,
      " + snapshot.poses_[body].growth", ""),
     ("the gap of a pair is that of its farthest shapes", "pairs/pair_choice.cpp",
      ": a.gap < b.gap", ": a.gap > b.gap"),
     ("a snapshot object lacks the changes of earlier commits", COMMIT, "changes.visitSince(since, fill);", ""),
-    ("a grid lacks the boxes that changed in earlier commits", COMMIT,
+    ("a grid lacks the boxes that changed in earlier commits", GROWN,
      "grown_in[position_of[proxy]] > since", "grown_in[position_of[proxy]] > commits"),
     ("a stale body that does not change is forgotten", COMMIT,
      "for (const std::uint32_t body : watched) add(body);", ""),
