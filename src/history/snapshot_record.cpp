@@ -118,10 +118,6 @@ SnapshotRecord::SnapshotRecord(const Snapshot& snapshot, const SnapshotRecord* p
       pairs_found_(snapshot.pairs_found_),
       last_event_(snapshot.events_.last),
       origin_(snapshot.origin_),
-      max_age_(snapshot.max_age_),
-      max_growth_(snapshot.max_growth_),
-      max_reach_(snapshot.max_reach_),
-      worst_state_(snapshot.worst_state_),
       search_cut_(snapshot.search_cut_),
       report_unmapped_(snapshot.report_unmapped_) {
   storePoses(snapshot, previous);
@@ -179,7 +175,7 @@ std::size_t SnapshotRecord::bytesBeside(const SnapshotRecord* other) const {
   return other != nullptr && other->lacks_ == lacks_ ? bytes : bytes + bytesOf(*lacks_);
 }
 
-/// Computes the boxes and half-spaces of all placed bodies in the same way as Scene, and stores the boxes in the grid.
+/// Computes the boxes of all placed bodies in the same way as Scene, and stores them in the grid.
 void SnapshotRecord::makeBoxes(Restored& made) const {
   Snapshot& snapshot = made.snapshot;
   std::vector<ProxyId> ids;
@@ -187,12 +183,9 @@ void SnapshotRecord::makeBoxes(Restored& made) const {
   for (std::uint32_t body = 0; body < snapshot.poses_.size(); ++body) {
     const BodyPose& pose = snapshot.poses_[body];
     const bool is_placed = pose.state != Freshness::unplaced;
-    if (pose.state != Freshness::fresh || pose.age != 0.0 || pose.reach != 0.0) snapshot.watched_.push_back(body);
     for (const BodyShape& shape : structure_->bodies[body].shapes) {
       const Pose world_from_shape = pose.world_from_body * shape.body_from_shape;
-      const bool is_plane = shape.shape.kind() == ShapeKind::plane;
-      if (is_plane) snapshot.half_spaces_.push_back(halfSpaceOf(world_from_shape, shape.padding, origin_));
-      const bool has_box = is_placed && !is_plane;
+      const bool has_box = is_placed && shape.shape.kind() != ShapeKind::plane;
       snapshot.boxes_.push_back(has_box ? boxOf(shape.shape, world_from_shape, shape.padding, origin_) : Aabb{});
       if (!has_box) continue;
       ids.push_back(static_cast<ProxyId>(snapshot.boxes_.size() - 1));
@@ -219,6 +212,8 @@ std::shared_ptr<const Snapshot> SnapshotRecord::restore(std::size_t& bytes) cons
   }
   snapshot.boxes_.reserve(structure_->body_of_proxy.size());
   makeBoxes(*made);
+  snapshot.fillHalfSpaces();
+  for (std::uint32_t body = 0; body < snapshot.poses_.size(); ++body) snapshot.addToSummary(body);
   snapshot.cells_ = cells_;
   for (const PairBlock& block : pairs_) {
     if (block) snapshot.pairs_.insert(snapshot.pairs_.end(), block->begin(), block->end());
@@ -231,10 +226,6 @@ std::shared_ptr<const Snapshot> SnapshotRecord::restore(std::size_t& bytes) cons
   snapshot.incomplete_ = lacks_->incomplete;
   snapshot.reasons_ = lacks_->reasons;
   snapshot.reasons_total_ = lacks_->reasons_total;
-  snapshot.worst_state_ = worst_state_;
-  snapshot.max_age_ = max_age_;
-  snapshot.max_growth_ = max_growth_;
-  snapshot.max_reach_ = max_reach_;
   snapshot.report_unmapped_ = report_unmapped_;
   bytes = sizeof(Restored) + snapshot.poses_.capacity() * sizeof(BodyPose) + snapshot.boxes_.capacity() * sizeof(Aabb) +
           snapshot.pairs_.capacity() * sizeof(NearPair) + made->grid.bytes() + bytesOf(*lacks_);

@@ -71,8 +71,6 @@ class SnapshotRecord {
   Time stamp_;
   std::uint64_t sequence_, epoch_, commit_, pairs_found_, last_event_;
   Eigen::Vector3d origin_;
-  double max_age_, max_growth_, max_reach_;
-  Freshness worst_state_;
   bool search_cut_, report_unmapped_;
 };
 

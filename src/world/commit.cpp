@@ -92,45 +92,20 @@ void Scene::State::fillChangedBodies(Snapshot& snapshot) {
   }
 }
 
-/// Computes the values of the snapshot that depend on the states and ages of all bodies. A fresh body whose pose has no
-/// age has no influence on them.
+/// Computes the values of the snapshot that depend on the states and ages of all bodies. Looks only at the bodies that
+/// were watched in the last commit and at those that changed, if the snapshot object is known.
 void Scene::State::summarizePoses(Snapshot& snapshot) {
-  snapshot.worst_state_ = Freshness::fresh;
-  snapshot.max_age_ = snapshot.max_growth_ = snapshot.max_reach_ = 0.0;
-  next_watched.clear();
-  unplaced = 0;
-  const auto add = [&](std::uint32_t body) {
-    const BodyPose& pose = snapshot.poses_[body];
-    if (pose.state == Freshness::fresh && pose.age == 0.0 && pose.reach == 0.0) return;
-    next_watched.push_back(body);
-    snapshot.worst_state_ = std::max(snapshot.worst_state_, pose.state);
-    snapshot.max_growth_ = std::max(snapshot.max_growth_, pose.growth);
-    snapshot.max_reach_ = std::max(snapshot.max_reach_, pose.reach);
-    if (pose.state == Freshness::unplaced) {
-      ++unplaced;
-    } else {
-      snapshot.max_age_ = std::max(snapshot.max_age_, pose.age);
-    }
-  };
+  snapshot.clearSummary();
   if (since == 0) {
-    for (std::uint32_t body = 0; body < snapshot.poses_.size(); ++body) add(body);
+    for (std::uint32_t body = 0; body < snapshot.poses_.size(); ++body) snapshot.addToSummary(body);
   } else {
-    for (const std::uint32_t body : watched) add(body);
+    for (const std::uint32_t body : last->watched_) snapshot.addToSummary(body);
     for (const std::uint32_t slot : changes.now()) {
-      if (!is_watched[body_of_slot[slot]]) add(body_of_slot[slot]);
+      if (!is_watched[body_of_slot[slot]]) snapshot.addToSummary(body_of_slot[slot]);
     }
   }
-  snapshot.watched_ = next_watched;
-}
-
-void Scene::State::fillHalfSpaces(Snapshot& snapshot) const {
-  snapshot.half_spaces_.clear();
-  for (const ProxyId plane : structure->planes) {
-    const ShapeInBody& shape = shapes[plane];
-    const Pose& world_from_body = snapshot.poses_[structure->body_of_proxy[plane]].world_from_body;
-    snapshot.half_spaces_.push_back(
-        halfSpaceOf(world_from_body * shape.body_from_shape, shape.padding, options.origin));
-  }
+  const auto is_unplaced = [&](std::uint32_t body) { return snapshot.poses_[body].state == Freshness::unplaced; };
+  unplaced = static_cast<std::size_t>(std::count_if(snapshot.watched_.begin(), snapshot.watched_.end(), is_unplaced));
 }
 
 /// Fills poses and boxes. If this snapshot object was used a few commits ago and few bodies changed since, writes only
@@ -154,7 +129,7 @@ void Scene::State::fillBodies(Snapshot& snapshot) {
   for (const std::uint32_t map : structure->maps) {
     snapshot.cells_.push_back(cells[structure->ids[map].slot]);
   }
-  fillHalfSpaces(snapshot);
+  snapshot.fillHalfSpaces();
   horizon.step(structure, snapshot.poses_, snapshot.boxes_, snapshot.stamp_);
 }
 
@@ -237,9 +212,10 @@ void Scene::State::accept(const std::shared_ptr<PooledSnapshot>& accepted) {
   pair_events.accept();
   for (const std::uint32_t slot : boxed) slots[slot].moved = false;
   changes.accept();
-  for (const std::uint32_t body : watched) is_watched[body] = false;
-  watched.swap(next_watched);
-  for (const std::uint32_t body : watched) is_watched[body] = true;
+  if (last && last->structure_ == structure) {
+    for (const std::uint32_t body : last->watched_) is_watched[body] = false;
+  }
+  for (const std::uint32_t body : pooled.snapshot.watched_) is_watched[body] = true;
   commits = pooled.snapshot.commit_;
   sequence = pooled.snapshot.sequence_;
   pooled.finished = true;

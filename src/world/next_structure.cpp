@@ -95,7 +95,6 @@ void Scene::State::rebuildStructure() {
   sizes.swap(next_sizes);
   fixed_proxies.swap(next_fixed);
   body_of_slot.swap(next_body_of_slot);
-  watched.clear();
   is_watched.swap(next_is_watched);
   structure = std::move(next);
   scale = GridScale::fitting(sizes);  // the smallest box counts, so the huge boxes of planes do not matter

@@ -94,7 +94,6 @@ struct Scene::State {
   void fillChangedBodies(Snapshot& snapshot);
   void fillPose(std::uint32_t body, Snapshot& snapshot) const;
   bool fillBoxes(std::uint32_t body, Snapshot& snapshot);
-  void fillHalfSpaces(Snapshot& snapshot) const;
   void summarizePoses(Snapshot& snapshot);
   const std::vector<std::uint32_t>& changedBodies();
   void fillPairs(Snapshot& snapshot);
@@ -134,17 +133,15 @@ struct Scene::State {
   PairTracker tracker;
   PairEvents pair_events;
   RecentChanges changes;
-  std::vector<std::uint32_t> watched;  // bodies whose state or age differs from that of a fixed fresh body
-  std::vector<bool> is_watched;        // for each body: whether it is in `watched`
+  std::vector<bool> is_watched;  // for each body of the structure: whether the last commit watched it
   TickTimes times;
   int threads = 1;
   std::shared_ptr<SnapshotPool> pool = std::make_shared<SnapshotPool>();
 
   // Buffers of a commit. They are members so that the next commit need not allocate them again.
-  std::vector<std::uint32_t> boxed;         // slots whose boxes were computed in this commit
-  std::uint64_t since = 0;                  // the commit that the snapshot object held before; 0: all bodies are filled
-  std::vector<std::uint32_t> next_watched;  // `watched` of this commit
-  std::size_t unplaced = 0;                 // number of bodies without a pose
+  std::vector<std::uint32_t> boxed;  // slots whose boxes were computed in this commit
+  std::uint64_t since = 0;           // the commit that the snapshot object held before; 0: all bodies are filled
+  std::size_t unplaced = 0;          // number of bodies without a pose
   // The grown boxes of an earlier commit stay valid for bodies that did not change since, if the structure is that of
   // `grown_revision` and the number of unplaced bodies is `grown_unplaced`.
   std::vector<ProxyId> ids;                // proxies of placed bodies; the next three arrays are in the same order

@@ -11,6 +11,33 @@
 
 namespace hgrid {
 
+void Snapshot::fillHalfSpaces() {
+  half_spaces_.clear();
+  for (const std::uint32_t plane : structure_->planes) {
+    const std::uint32_t body = structure_->body_of_proxy[plane];
+    const Body& of_plane = structure_->bodies[body];
+    const BodyShape& shape = of_plane.shapes[structure_->shapeOf(plane)];
+    half_spaces_.push_back(
+        hgrid::halfSpaceOf(poses_[body].world_from_body * shape.body_from_shape, shape.padding, origin_));
+  }
+}
+
+void Snapshot::clearSummary() {
+  watched_.clear();
+  worst_state_ = Freshness::fresh;
+  max_age_ = max_growth_ = max_reach_ = 0.0;
+}
+
+void Snapshot::addToSummary(std::uint32_t body) {
+  const BodyPose& pose = poses_[body];
+  if (pose.state == Freshness::fresh && pose.age == 0.0 && pose.reach == 0.0) return;
+  watched_.push_back(body);
+  worst_state_ = std::max(worst_state_, pose.state);
+  max_growth_ = std::max(max_growth_, pose.growth);
+  max_reach_ = std::max(max_reach_, pose.reach);
+  if (pose.state != Freshness::unplaced) max_age_ = std::max(max_age_, pose.age);
+}
+
 std::shared_ptr<const MapCells> Snapshot::cellsOf(std::uint32_t body) const {
   const std::vector<std::uint32_t>& maps = structure_->maps;
   const auto found = std::lower_bound(maps.begin(), maps.end(), body);

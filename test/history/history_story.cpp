@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "test/history/history_story.h"
 
+#include <set>
+
 #include "hgrid_proximity/explain/explain.h"
 #include "hgrid_proximity/queries/query.h"
 #include "test/support/maps.h"
@@ -38,6 +40,7 @@ void addState(const Snapshot& s, Bytes& out) {
   for (const std::string& reason : s.reasons()) out.add(reason);
   for (const std::string& source : s.incompleteSources()) out.add(source + s.reasonOf(source));
   for (const std::uint32_t body : s.doubtful()) out.add(body);
+  for (const std::uint32_t body : std::set<std::uint32_t>(s.watched().begin(), s.watched().end())) out.add(body);
   for (std::uint32_t body = 0; body < s.poses().size(); ++body) {
     const BodyPose& pose = s.poses()[body];
     out.add(s.structure().bodies[body].name);

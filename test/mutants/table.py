@@ -195,7 +195,7 @@ CORE = [
     ("a grid lacks the boxes that changed in earlier commits", GROWN,
      "grown_in[position_of[proxy]] > since", "grown_in[position_of[proxy]] > commits"),
     ("a stale body that does not change is forgotten", COMMIT,
-     "for (const std::uint32_t body : watched) add(body);", ""),
+     "for (const std::uint32_t body : last->watched_) snapshot.addToSummary(body);", ""),
     ("a tick uses the rounding mode of its caller", COMMIT,
      "const DefaultFloatEnvironment environment;\n  using Clock", "using Clock"),
     ("a pair ends without hysteresis", EVENTS,

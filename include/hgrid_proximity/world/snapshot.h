@@ -123,6 +123,15 @@ class Snapshot {
   friend class SnapshotRecord;  // History makes past snapshots again
   Snapshot() = default;
 
+  // Scene and SnapshotRecord call these functions, so that a past snapshot has the same values as the live one.
+
+  /// Computes half_spaces_ from structure_, poses_ and origin_.
+  void fillHalfSpaces();
+  /// Sets watched_, worst_state_, max_age_, max_growth_ and max_reach_ as if there were no bodies.
+  void clearSummary();
+  /// Adds a body to these values. Does nothing if the body is like a fixed body, see watched().
+  void addToSummary(std::uint32_t body);
+
   std::shared_ptr<const Structure> structure_;
   Time stamp_{0};
   // commit_ is the number of the commit. Unlike sequence_, it does not start again from 1 in a new epoch.
