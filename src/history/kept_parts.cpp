@@ -18,7 +18,7 @@ std::size_t bytesOf(const LinkMatrix& links) { return links.size() * links.size(
 
 std::size_t bytesOf(const Body& body) {
   std::size_t bytes = sizeof(Body) + kPerPart + body.name.capacity() + body.frame.capacity() + body.note.capacity() +
-                      body.robot.capacity();
+                      body.robot.capacity() + body.group.capacity();
   for (const BodyShape& shape : body.shapes) bytes += sizeof(BodyShape) + 2 * kPerPart + shape.resource.capacity();
   return bytes;
 }
@@ -27,8 +27,9 @@ std::size_t bytesOf(const Body& body) {
 std::size_t bytesOf(const Structure& structure) {
   std::size_t bytes = sizeof(Structure) + kPerPart + structure.filter.bytes() + structure.pair_margins.bytes();
   bytes += structure.bodies.size() * (sizeof(std::shared_ptr<const Body>) + sizeof(BodyId) + sizeof(double));
-  bytes += sizeof(std::uint32_t) * (structure.first_proxy.capacity() + structure.body_of_proxy.capacity() +
-                                    structure.maps.capacity() + structure.source_of.capacity());
+  bytes += sizeof(std::uint32_t) *
+           (structure.first_proxy.capacity() + structure.body_of_proxy.capacity() + structure.planes.capacity() +
+            structure.maps.capacity() + structure.source_of.capacity());
   for (const auto* names : {&structure.sources, &structure.absent}) {
     for (const std::string& name : *names) bytes += sizeof(std::string) + name.capacity();
   }

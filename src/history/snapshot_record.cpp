@@ -228,6 +228,7 @@ std::shared_ptr<const Snapshot> SnapshotRecord::restore(std::size_t& bytes) cons
   snapshot.reasons_total_ = lacks_->reasons_total;
   snapshot.report_unmapped_ = report_unmapped_;
   bytes = sizeof(Restored) + snapshot.poses_.capacity() * sizeof(BodyPose) + snapshot.boxes_.capacity() * sizeof(Aabb) +
+          snapshot.half_spaces_.capacity() * sizeof(HalfSpace) + snapshot.watched_.capacity() * sizeof(std::uint32_t) +
           snapshot.pairs_.capacity() * sizeof(NearPair) + made->grid.bytes() + bytesOf(*lacks_);
   return {made, &snapshot};
 }
