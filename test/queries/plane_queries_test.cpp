@@ -24,18 +24,17 @@ using Wide = Eigen::Matrix<long double, 3, 1>;
 /// A world with planes and balls around a point that may be far from the origin.
 class PlaneWorld {
  public:
-  explicit PlaneWorld(unsigned seed, bool with_balls = true) : random(seed), narrow_phase(makeCoreNarrowPhase()) {
+  explicit PlaneWorld(unsigned seed) : random(seed), narrow_phase(makeCoreNarrowPhase()) {
     if (random.chance(0.3)) center = test::randomVector(random, -9e5, 9e5);
     if (random.chance(0.5)) options.origin = center + test::randomVector(random, -5, 5);
     Scene scene(options);
     for (int i = random.between(1, 5); i > 0; --i) {
-      Body body = test::obstacle("plane" + std::to_string(i), Mobility::fixed);
-      body.shapes.push_back(test::shapeOf(Shape::plane()));
+      Body body = test::planeBody("plane" + std::to_string(i));
       body.shapes.back().solid = narrow_phase->plane();
       if (random.chance(0.5)) body.shapes.back().padding = random.uniform(0, 0.5);
       test::put(scene, body, randomPose());
     }
-    for (int i = with_balls ? 6 : 0; i > 0; --i) {
+    for (int i = 6; i > 0; --i) {
       Body body = test::ball("ball" + std::to_string(i), random.uniform(0.1, 0.5));
       body.shapes.back().solid = narrow_phase->solidOf(body.shapes.back().shape);
       test::put(scene, body, randomPose());
@@ -237,9 +236,7 @@ TEST(PlaneQueries, NearestToAPointOrBodyFindsThePlaneIfItIsNearest) {
 
 TEST(PlaneQueries, NearestWithALimitLeavesOutFartherPlanes) {
   Scene scene(SceneOptions{});
-  Body floor = test::obstacle("floor", Mobility::fixed);
-  floor.shapes.push_back(test::shapeOf(Shape::plane()));
-  test::put(scene, floor, at(0));
+  test::put(scene, test::planeBody("floor"), at(0));
   test::put(scene, test::ball("ball"), at(0, 0, 3));
   const auto snapshot = scene.commit(Time{1}, {});
   EXPECT_EQ(nearest(*snapshot, Eigen::Vector3d(9, 9, 2), 1.9, {}).verdict, Verdict::clear);
@@ -252,8 +249,7 @@ TEST(PlaneQueries, NearestWithALimitLeavesOutFartherPlanes) {
 TEST(PlaneQueries, StaleAskingBodyCountsAPlaneOnlyIfItCanReachIt) {
   const auto phase = makeCoreNarrowPhase();
   Scene scene(SceneOptions{});
-  Body floor = test::obstacle("floor", Mobility::fixed);
-  floor.shapes.push_back(test::shapeOf(Shape::plane()));
+  Body floor = test::planeBody("floor");
   floor.shapes.back().solid = phase->plane();
   test::put(scene, floor, at(0));
   Body ball = test::ball("ball");
@@ -328,8 +324,7 @@ TEST(PlaneDistances, LowerBoundFollowsAMovingBody) {
   SceneOptions options;
   options.margin = 1.0;
   Scene scene(options);
-  Body floor = test::obstacle("floor", Mobility::fixed);
-  floor.shapes.push_back(test::shapeOf(Shape::plane()));
+  Body floor = test::planeBody("floor");
   floor.shapes.back().solid = phase->plane();
   test::put(scene, floor, at(0));
   for (const char* name : {"a_ball", "z_ball"}) {  // before and after the floor
@@ -354,12 +349,8 @@ TEST(PlaneExplanations, SayWhyAPairIsReportedOrNot) {
   SceneOptions options;
   options.margin = 0.1;
   Scene scene(options);
-  Body floor = test::obstacle("floor", Mobility::fixed);
-  floor.shapes.push_back(test::shapeOf(Shape::plane()));
-  Body wall = floor;
-  wall.name = "obstacle/wall";
-  test::put(scene, floor, at(0));
-  test::put(scene, wall, at(1));
+  test::put(scene, test::planeBody("floor"), at(0));
+  test::put(scene, test::planeBody("wall"), at(1));
   test::put(scene, test::ball("near"), at(0, 0, 0.55));
   test::put(scene, test::ball("far"), at(0, 0, 2.5));
   const auto snapshot = scene.commit(Time{1}, {});
@@ -374,7 +365,7 @@ TEST(PlaneExplanations, SayWhyAPairIsReportedOrNot) {
   EXPECT_FALSE(planes.reported);
   EXPECT_TRUE(std::isnan(planes.gap));
   EXPECT_TRUE(test::says(planes.text, "both are fixed in the world"));
-  EXPECT_FALSE(planes.text.find("has no") != std::string::npos) << planes.text;
+  EXPECT_EQ(planes.text.find("has no"), std::string::npos) << planes.text;
 }
 
 }  // namespace

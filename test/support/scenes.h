@@ -37,6 +37,14 @@ inline Body ball(const std::string& name, double radius = 0.5, Mobility mobility
   return body;
 }
 
+/// Returns a fixed obstacle that is a plane.
+inline Body planeBody(const std::string& name, double padding = 0.0) {
+  Body body = obstacle(name, Mobility::fixed);
+  body.shapes.push_back(shapeOf(Shape::plane()));
+  body.shapes.back().padding = padding;
+  return body;
+}
+
 inline Pose at(double x, double y = 0, double z = 0) {
   Pose pose = Pose::Identity();
   pose.translation() << x, y, z;
