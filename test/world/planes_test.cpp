@@ -253,6 +253,24 @@ TEST(Planes, MovedPlaneEndsAndBeginsPairs) {
   EXPECT_NEAR(lowered->events()[0].gap, 0.5, 1e-6);
 }
 
+TEST(Planes, PlaneThatMovesAlongItselfIsComparedAgainBecauseItsRoundingGrows) {
+  SceneOptions options;
+  options.margin = 0.0;
+  Scene scene(options);
+  for (int i = 0; i < 20; ++i) test::put(scene, test::ball("far" + std::to_string(i)), at(0, 0, 50 + 3 * i));
+  test::put(scene, test::ball("near"), at(0.5 + 7e-9, 0, 0.5 + 7e-9));
+  const double s = std::sqrt(0.5);
+  Pose tilted = Pose::Identity();
+  tilted.linear() << s, 0, s, 0, 1, 0, -s, 0, s;
+  const BodyId slope = test::put(scene, planeBody("slope"), tilted);
+  EXPECT_TRUE(scene.commit(Time{1}, {})->pairs().empty()) << "the gap is 1e-8 m";
+  tilted.translation() << 9e5, 0, -9e5;
+  scene.place(slope, tilted, Time{2});
+  const auto moved = scene.commit(Time{2}, {});
+  ASSERT_EQ(moved->halfSpaces()[0].offset, 0.0) << "the half-space is the same, but less exactly known";
+  EXPECT_EQ(moved->pairs().size(), 1u);
+}
+
 TEST(Planes, PairStaysOnWithinTheHysteresis) {
   SceneOptions options;
   options.margin = 0.1;

@@ -13,8 +13,10 @@ struct HalfSpace {
   double offset = 0.0;                                ///< [m] signed distance of the surface from the origin
   double rounding = 0.0;                              ///< [m] bound of the rounding error of `offset`
 
-  /// Whether both are the same half-space.
-  bool operator==(const HalfSpace& other) const { return normal == other.normal && offset == other.offset; }
+  /// Returns whether all values are equal. Then distance() gives equal results for both half-spaces.
+  bool operator==(const HalfSpace& other) const {
+    return normal == other.normal && offset == other.offset && rounding == other.rounding;
+  }
 };
 
 /// Returns the half-space of a plane: the points that are not above the plane z = 0 of its frame, grown by `padding`.
