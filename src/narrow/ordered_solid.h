@@ -21,8 +21,7 @@ class OrderedSolid : public Solid {
   /// Returns an upper bound [m] of the distance from the origin to the shape's points; infinite for a plane.
   double reach() const { return reach_; }
 
-  /// Whether this solid comes before the other. Compares kind, dimensions and vertices. Planes come first,
-  /// then meshes.
+  /// Whether this solid comes before the other. Compares kind, dimensions and vertices. Planes come first, then meshes.
   bool before(const OrderedSolid& other) const;
 
  protected:

@@ -166,7 +166,7 @@ bool NearestToBody::hitsPlane(const PlacedPlane& plane, QueryHit& hit) const {
   }
   hit.body = plane.body;
   hit.shape = plane.shape;
-  return plane.body != from_ && hit.distance <= limit_;
+  return hit.distance <= limit_;
 }
 
 /// Returns the limit [m] of the search for cells that are nearer than `nearest`. kNoFurther ends the search.

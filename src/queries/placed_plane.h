@@ -18,9 +18,9 @@ struct PlacedPlane {
   /// Returns the signed distance [m] of a point from the surface. It is negative inside the half-space.
   /// @param point  [m] relative to the origin of the snapshot
   double signedDistanceOf(const Eigen::Vector3d& point) const { return signedDistance(half_space, point); }
-  /// Returns a hit for a point of a query. Its distances are those of the point. QueryHit::point is the point of the
-  /// half-space that is nearest to `point`; if the query is exact, it is always on the surface.
-  /// @param point   [m] relative to the origin of the snapshot
+  /// Returns a hit with the distance of the half-space from `point`. QueryHit::point is the point of the half-space
+  /// nearest to `point`. If `point` is inside and the query is exact, it is the nearest point of the surface instead.
+  /// @param point   [m] point of the query, relative to the origin of the snapshot
   /// @param origin  [m, world] origin of the snapshot
   QueryHit hitOf(const Eigen::Vector3d& point, const Eigen::Vector3d& origin, bool exact) const;
 };

@@ -10,12 +10,11 @@
 namespace hgrid {
 namespace {
 
-/// Returns a bound [m] of the distance at which the pairs of a body can be reported, without the growth of its partner
-/// and without the margins of its partner.
-double rangeOf(std::uint32_t body, const Snapshot& snapshot, const Horizon& horizon) {
+/// Returns the range [m] of a body. A pair of bodies is reported only if its gap is at most the sum of their ranges,
+/// unless the horizon is on.
+double rangeOf(std::uint32_t body, const Snapshot& snapshot) {
   const Structure& structure = snapshot.structure();
-  const double margin = std::max(structure.margin[body], structure.pair_margins.largestOf(body));
-  return margin + snapshot.poses()[body].growth + horizon.reachOf(body) + horizon.driftOf(body);
+  return std::max(structure.margin[body], structure.pair_margins.largestOf(body)) + snapshot.poses()[body].growth;
 }
 
 }  // namespace
@@ -72,14 +71,15 @@ PlanePairs::Meeting PlanePairs::meetingOf(const OfPlane& plane, std::uint32_t bo
   return result;
 }
 
-/// Returns false only if a box is too far from a placed plane for a pair, with any other body.
+/// Returns whether a plane and a box may be near enough to be reported. If this returns false, they are too far apart,
+/// or the body of the box is unplaced.
+/// @param body  index of the body of the plane; it must be placed
 bool PlanePairs::isNearby(const OfPlane& plane, std::uint32_t body, ProxyId box, const Snapshot& snapshot,
                           const Horizon& horizon) {
   const std::uint32_t other = snapshot.structure().body_of_proxy[box];
   if (snapshot.poses()[other].state == Freshness::unplaced) return false;
   if (horizon.on()) return true;
-  const double range = rangeOf(body, snapshot, horizon) + rangeOf(other, snapshot, horizon);
-  return distance(plane.now, snapshot.boxes()[box]) <= range;
+  return distance(plane.now, snapshot.boxes()[box]) <= rangeOf(body, snapshot) + rangeOf(other, snapshot);
 }
 
 /// Brings OfPlane::near up to date.

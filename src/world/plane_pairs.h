@@ -41,9 +41,8 @@ class PlanePairs {
     HalfSpace now, before;    // in the tick of the last find(), and in the last accepted tick
     bool is_placed = false, was_placed = false;
     std::vector<ProxyId> partners;  // the boxes that the filter pairs with the plane, ascending
-    // The partners that are near enough to be reported, and perhaps a few others, ascending. Only valid for this plane.
-    std::vector<ProxyId> near;
-    std::optional<HalfSpace> near_of;
+    std::vector<ProxyId> near;  // the partners that are near enough to be reported, and maybe a few others, ascending
+    std::optional<HalfSpace> near_of;  // the half-space that `near` was listed for; empty: `near` is not valid
   };
   /// What find() and isNear() know about a plane and a box.
   struct Meeting {

@@ -20,8 +20,7 @@ namespace hgrid {
 ///   the order of the arguments, and no precision is lost far from the origin.
 /// - The distance from a plane is that of the deepest point of the other shape. Depth and normal are always known.
 /// - Otherwise, depth, normal and points of a contact are known if the cores are apart or only touch. If the cores
-/// overlap, these
-///   values are NaN. makeFclNarrowPhase() finds these values in more cases.
+///   overlap, these values are NaN. makeFclNarrowPhase() finds these values in more cases.
 std::shared_ptr<NarrowPhase> makeCoreNarrowPhase();
 
 }  // namespace hgrid
