@@ -60,15 +60,11 @@ class Words {
   }
 
  private:
-  /// Returns whether the gap of two bodies is never computed because all shapes of one are planes, and the other has no
-  /// shape that is not a plane.
-  static bool isUnbounded(const Body& planes, const Body& other) {
-    const auto allPlanes = [](const Body& body) {
-      return std::all_of(body.shapes.begin(), body.shapes.end(),
-                         [](const BodyShape& shape) { return shape.shape.kind() == ShapeKind::plane; });
-    };
-    return !planes.shapes.empty() && allPlanes(planes) && (hasCells(other.kind) || !other.shapes.empty()) &&
-           allPlanes(other);
+  /// Returns whether a body consists of cells only, or of planes only. The gap of two such bodies is never computed.
+  static bool hasOnlyCellsOrPlanes(const Body& body) {
+    const auto is_plane = [](const BodyShape& shape) { return shape.shape.kind() == ShapeKind::plane; };
+    return hasCells(body.kind) ||
+           (!body.shapes.empty() && std::all_of(body.shapes.begin(), body.shapes.end(), is_plane));
   }
   bool hasBoxes() const { return !std::isnan(what_.gap); }
 
@@ -167,8 +163,7 @@ class Words {
   /// Returns a sentence that says whether the pair would be reported if no rule switched it off.
   std::string without() const {
     if (what_.rule.origin == Origin::self) return {};
-    if (hasCells(a_.kind) && hasCells(b_.kind)) return {};  // the gap of two maps is never computed
-    if (isUnbounded(a_, b_) || isUnbounded(b_, a_)) return {};
+    if (hasOnlyCellsOrPlanes(a_) && hasOnlyCellsOrPlanes(b_)) return {};
     if (!hasBoxes()) return " Also, " + missing() + ".";
     return near_ ? " Otherwise they would be reported: " + nearness() + "." : " Also, " + nearness() + ".";
   }
