@@ -47,8 +47,8 @@ void checkBody(const Body& body) {
   }
   if (planesOf(body) > 0 && (body.kind != BodyKind::obstacle || body.mobility != Mobility::fixed)) {
     throw Refusal(Code::unsupported, "body '" + body.name +
-                                         "' has a plane and can move; only an obstacle that is fixed "
-                                         "in the world may have planes, because no speed bounds the motion of a plane");
+                                         "' has a plane; only an obstacle that is fixed in the world " +
+                                         "may have planes, because no speed bounds the motion of a plane");
   }
   for (const BodyShape& shape : body.shapes) {
     const std::string what = "pose of a shape of body '" + body.name + "'";
@@ -158,9 +158,8 @@ void Scene::State::checkIn(const std::vector<std::uint32_t>& leaving, const std:
     planes += planesOf(body);
     if (planes > options.max_planes) {
       throw Refusal(Code::limit, "there is no room for the planes of body '" + body.name +
-                                     "'; the world may have at "
-                                     "most " +
-                                     std::to_string(options.max_planes) + " planes (max_planes)");
+                                     "'; the world may have at most " + std::to_string(options.max_planes) +
+                                     " planes (max_planes)");
     }
   }
 }
