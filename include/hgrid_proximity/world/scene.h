@@ -24,7 +24,7 @@ struct SceneOptions {
   double growth_cap = 1.0;     ///< [m] largest growth of the margins of a stale body, 0 .. 1e3
   double growth_after = 0.25;  ///< [s] if the pose of a body is older than this, its margins grow in every state
   std::size_t max_bodies = 100000;  ///< largest number of bodies in the scene
-  std::size_t max_planes = 64;      ///< largest number of planes; a tick compares each with all bodies that can move
+  std::size_t max_planes = 64;      ///< largest number of planes; a tick compares each with bodies that can move
   /// Maximum number of pairs that a snapshot lists; 0: no limit. It also bounds the work and the memory of a tick: the
   /// search collects at most 4 times as many pairs of boxes, or 65536 if that is more. Snapshot::truncated() tells
   /// whether a limit was reached.
