@@ -25,6 +25,7 @@ struct Said {
 Said saidBy(const Snapshot& snapshot) {
   Said said;
   for (const NearPair& pair : snapshot.pairs()) said.pairs.emplace_back(pair.first, pair.second, pair.gap, pair.margin);
+  said.found = snapshot.pairsFound();
   said.events = snapshot.events().size();
   said.truncated = snapshot.truncated();
   std::vector<NearHit> near;
