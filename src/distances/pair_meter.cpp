@@ -121,7 +121,7 @@ double PairMeter::State::motionSince(const Snapshot& snapshot, const Known& know
              &second = snapshot.poses()[known.second].world_from_body;
   if (first.matrix() == known.world_from_first.matrix() && second.matrix() == known.world_from_second.matrix())
     return 0.0;
-  // The second body in the next call must be bounded.
+  // relativeMotion() needs the reach of the second body. A body with a plane has none.
   if (map_first || (!map && !structure.hasPlane(known.second))) {
     return relativeMotion(known.world_from_first, known.world_from_second, first, second,
                           reachOf(structure.bodies[known.second]));

@@ -20,9 +20,9 @@ class KeptParts {
  public:
   using Cells = std::vector<std::shared_ptr<const MapCells>>;
 
-  /// Call this when a past tick with these parts begins to be kept. The tick must keep the parts alive.
+  /// Call this for each tick that is kept from now on, with its parts. The tick must keep the parts alive.
   void use(const std::shared_ptr<const Structure>& structure, const Cells& cells);
-  /// Call this when a past tick with these parts ends to be kept, before the parts are destroyed.
+  /// Call this for each kept tick that is dropped, with its parts, before the parts are destroyed.
   void release(const std::shared_ptr<const Structure>& structure, const Cells& cells);
   /// Sets the parts of the newest tick.
   void setNewest(const std::shared_ptr<const Structure>& structure, const Cells& cells);

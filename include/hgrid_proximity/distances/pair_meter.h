@@ -45,7 +45,7 @@ class PairMeter {
   PairMeter(std::shared_ptr<const NarrowPhase> narrow_phase, const MeterOptions& options);
   ~PairMeter();
 
-  /// Sets two of the options, from the next call of measure() on. Results of earlier calls stay of use.
+  /// Sets two of the options, from the next call of measure() on. Keeps the results of earlier calls.
   /// @param report_distance  [m] MeterOptions::report_distance
   /// @param budget           [s] MeterOptions::budget
   void tune(double report_distance, double budget);
