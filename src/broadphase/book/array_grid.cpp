@@ -117,11 +117,7 @@ std::size_t ArrayGrid::structureBytes() const {
 void ArrayGrid::drawing(std::vector<Aabb>& regions) const {
   checkInvariants();
   regions.clear();
-  const auto edge = static_cast<float>(scale_.edge());
-  cells_.visit([&](const Cell& cell) {
-    const Eigen::Vector3f low = edge * Eigen::Vector3f(float(cell.x), float(cell.y), float(cell.z));
-    regions.push_back({low, low + Eigen::Vector3f::Constant(edge)});
-  });
+  cells_.visit([&](const Cell& cell) { regions.push_back(scale_.regionOf(cell)); });
 }
 
 }  // namespace book

@@ -13,11 +13,7 @@ thread_local Stamps seen_boxes, seen_buckets;
 }  // namespace
 
 std::uint32_t BucketGrid::bucketOf(const Cell& cell) const {
-  std::uint64_t hash = static_cast<std::uint64_t>(cell.x) * 0x8da6b343u +
-                       static_cast<std::uint64_t>(cell.y) * 0xd8163841u +
-                       static_cast<std::uint64_t>(cell.z) * 0xcb1ab31fu;  // the book's constants, unsigned
-  hash *= 0x9e3779b97f4a7c15u;
-  return static_cast<std::uint32_t>(hash >> 32) & static_cast<std::uint32_t>(buckets_.size() - 1);
+  return static_cast<std::uint32_t>(CellHash()(cell) & (buckets_.size() - 1));
 }
 
 /// The buckets of a range of cells, each once.
@@ -55,11 +51,7 @@ Partition::Followed BucketGrid::added(ProxyId id) {
 void BucketGrid::take(ProxyId id, const CellRange& cells) {
   if (isLarge(cells)) return large_.remove(id);
   bucketsOf(cells, of_box_);
-  for (const std::uint32_t bucket : of_box_) {
-    std::vector<ProxyId>& list = buckets_[bucket];
-    *std::find(list.begin(), list.end(), id) = list.back();
-    list.pop_back();
-  }
+  for (const std::uint32_t bucket : of_box_) eraseUnordered(buckets_[bucket], id);
 }
 
 Partition::Followed BucketGrid::removed(ProxyId id) {
@@ -150,13 +142,8 @@ std::size_t BucketGrid::structureBytes() const {
 void BucketGrid::drawing(std::vector<Aabb>& regions) const {
   checkInvariants();
   regions.clear();
-  const auto edge = static_cast<float>(scale_.edge());
-  for (const ProxyId id : storedIds()) {
-    scale_.of(box(id)).visit([&](const Cell& cell) {
-      const Eigen::Vector3f low = edge * Eigen::Vector3f(float(cell.x), float(cell.y), float(cell.z));
-      regions.push_back({low, low + Eigen::Vector3f::Constant(edge)});
-    });
-  }
+  for (const ProxyId id : storedIds())
+    scale_.of(box(id)).visit([&](const Cell& cell) { regions.push_back(scale_.regionOf(cell)); });
 }
 
 }  // namespace book

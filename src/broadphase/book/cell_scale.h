@@ -19,6 +19,18 @@ struct Cell {
   bool operator==(const Cell& other) const { return x == other.x && y == other.y && z == other.z; }
 };
 
+/// Hashes a cell (section 7.1.3), also as the hash function of a std::unordered_map.
+struct CellHash {
+  std::size_t operator()(const Cell& cell) const {
+    // The three constants are the book's. Unsigned numbers wrap without overflow. The last product mixes the bits once
+    // more, because the size of some tables is a power of two; its upper half is mixed best.
+    const std::uint64_t hash = static_cast<std::uint64_t>(cell.x) * 0x8da6b343u +
+                               static_cast<std::uint64_t>(cell.y) * 0xd8163841u +
+                               static_cast<std::uint64_t>(cell.z) * 0xcb1ab31fu;
+    return static_cast<std::size_t>(hash * 0x9e3779b97f4a7c15u >> 32);
+  }
+};
+
 /// All cells from `low` to `high` on each axis; none if low > high on an axis.
 struct CellRange {
   Cell low, high;
@@ -63,6 +75,12 @@ class CellScale {
     return {at(double(point.x())), at(double(point.y())), at(double(point.z()))};
   }
   CellRange of(const Aabb& box) const { return {at(box.min), at(box.max)}; }
+  /// The region of a cell [m], for drawings.
+  Aabb regionOf(const Cell& cell) const {
+    const auto edge = static_cast<float>(edge_);
+    const Eigen::Vector3f low = edge * Eigen::Vector3f(float(cell.x), float(cell.y), float(cell.z));
+    return {low, low + Eigen::Vector3f::Constant(edge)};
+  }
   /// The cell of the smallest common corner of two boxes that overlap. A pair that shares several cells is reported in
   /// this cell alone.
   Cell meeting(const Aabb& a, const Aabb& b) const { return at(a.min.cwiseMax(b.min).eval()); }

@@ -14,15 +14,6 @@ thread_local Stamps seen;  // boxes that the present query has met; each thread 
 
 // ---- the hash table
 
-std::size_t HashedGrid::homeOf(const Cell& cell) const {
-  // The three constants are the book's. Unsigned numbers wrap without overflow.
-  std::uint64_t hash = static_cast<std::uint64_t>(cell.x) * 0x8da6b343u +
-                       static_cast<std::uint64_t>(cell.y) * 0xd8163841u +
-                       static_cast<std::uint64_t>(cell.z) * 0xcb1ab31fu;
-  hash *= 0x9e3779b97f4a7c15u;
-  return static_cast<std::size_t>(hash >> 32) & (slots_.size() - 1);
-}
-
 /// Index of the slot of a cell, or slots_.size() if the cell is not occupied.
 std::size_t HashedGrid::find(const Cell& cell) const {
   if (!occupied_.mayBeOccupied(cell)) return slots_.size();
@@ -206,11 +197,8 @@ std::size_t HashedGrid::structureBytes() const {
 void HashedGrid::drawing(std::vector<Aabb>& regions) const {
   checkInvariants();
   regions.clear();
-  const auto edge = static_cast<float>(scale_.edge());
   for (const Slot& slot : slots_) {
-    if (slot.state != SlotState::used) continue;
-    const Eigen::Vector3f low = edge * Eigen::Vector3f(float(slot.cell.x), float(slot.cell.y), float(slot.cell.z));
-    regions.push_back({low, low + Eigen::Vector3f::Constant(edge)});
+    if (slot.state == SlotState::used) regions.push_back(scale_.regionOf(slot.cell));
   }
 }
 

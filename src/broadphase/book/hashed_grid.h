@@ -55,7 +55,7 @@ class HashedGrid final : public Partition {
   std::size_t structureBytes() const override;
 
   bool isLarge(const CellRange& cells) const { return cells.count() > kMostCells; }
-  std::size_t homeOf(const Cell& cell) const;
+  std::size_t homeOf(const Cell& cell) const { return CellHash()(cell) & (slots_.size() - 1); }
   std::size_t find(const Cell& cell) const;
   std::size_t findOrMake(const Cell& cell);
   void resize(std::size_t slots);

@@ -2,12 +2,19 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "hgrid_proximity/broadphase/broad_phase_reader.h"
 
 namespace hgrid {
 namespace book {
+
+/// Removes an id from a list that contains it. The last id takes its place.
+inline void eraseUnordered(std::vector<ProxyId>& ids, ProxyId id) {
+  *std::find(ids.begin(), ids.end(), id) = ids.back();
+  ids.pop_back();
+}
 
 /// A set of ids as a dense array, with the place of each id. Adding and removing take constant time.
 class IdSet {

@@ -83,9 +83,7 @@ void LooseOctree::take(ProxyId id, const Place& place) {
   if (place.depth < 0) return outside_.remove(id);
   std::uint64_t code = codeOf(place);
   auto node = nodes_.find(code);
-  std::vector<ProxyId>& ids = node->second.ids;
-  *std::find(ids.begin(), ids.end(), id) = ids.back();
-  ids.pop_back();
+  eraseUnordered(node->second.ids, id);
   while (node->second.ids.empty() && node->second.children == 0) {  // drops nodes that became empty
     nodes_.erase(node);
     if (code == 1) return;

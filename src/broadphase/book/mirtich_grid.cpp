@@ -14,11 +14,6 @@ namespace {
 constexpr int kFinest = -20;  // boxes below 1 um and points share the finest level
 thread_local Stamps seen;
 
-void eraseOne(std::vector<ProxyId>& ids, ProxyId id) {
-  *std::find(ids.begin(), ids.end(), id) = ids.back();
-  ids.pop_back();
-}
-
 }  // namespace
 
 /// The exponent of the smallest cell edge that is at least as long as the longest side of the box.
@@ -61,7 +56,7 @@ void MirtichGrid::enter(Level& level, const Cell& cell, ProxyId id, bool residen
 void MirtichGrid::leave(Level& level, const Cell& cell, ProxyId id, bool resident) {
   const auto place = level.cells.find(cell);
   CellBoxes& here = place->second;
-  eraseOne(resident ? here.residents : here.visitors, id);
+  eraseUnordered(resident ? here.residents : here.visitors, id);
   for (const ProxyId other : here.residents) count(id, other, false);
   if (resident) {
     for (const ProxyId other : here.visitors) count(id, other, false);
@@ -205,11 +200,8 @@ void MirtichGrid::drawing(std::vector<Aabb>& regions) const {
   checkInvariants();
   regions.clear();
   for (const Level& level : levels_) {
-    const auto edge = static_cast<float>(level.scale.edge());
     for (const auto& one : level.cells) {
-      if (one.second.residents.empty()) continue;
-      const Eigen::Vector3f low = edge * Eigen::Vector3f(float(one.first.x), float(one.first.y), float(one.first.z));
-      regions.push_back({low, low + Eigen::Vector3f::Constant(edge)});
+      if (!one.second.residents.empty()) regions.push_back(level.scale.regionOf(one.first));
     }
   }
 }

@@ -35,14 +35,6 @@ class MirtichGrid final : public Partition {
   struct CellBoxes {
     std::vector<ProxyId> residents, visitors;
   };
-  struct CellHash {
-    std::size_t operator()(const Cell& cell) const {
-      const std::uint64_t hash = static_cast<std::uint64_t>(cell.x) * 0x8da6b343u +
-                                 static_cast<std::uint64_t>(cell.y) * 0xd8163841u +
-                                 static_cast<std::uint64_t>(cell.z) * 0xcb1ab31fu;
-      return static_cast<std::size_t>(hash * 0x9e3779b97f4a7c15u >> 16);
-    }
-  };
   struct Level {
     int exponent;  // the edge of a cell is 2^exponent [m]
     CellScale scale;

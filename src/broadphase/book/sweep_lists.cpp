@@ -160,8 +160,7 @@ void SweepLists::sweep(Visit&& visit) const {
     const ProxyId id = boxOf(element);
     std::vector<ProxyId>& mine = isFixed(id) ? fixed : loose;
     if (isMax(element)) {
-      *std::find(mine.begin(), mine.end(), id) = mine.back();
-      mine.pop_back();
+      eraseUnordered(mine, id);
       continue;
     }
     for (const std::vector<ProxyId>* others : {&loose, &fixed}) {

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "broadphase/book/id_set.h"
 #include "broadphase/book/pair_counts.h"
 #include "broadphase/book/partition.h"
 

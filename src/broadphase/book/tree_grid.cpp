@@ -35,8 +35,7 @@ void TreeGrid::take(ProxyId id, const Aabb& box) {
   const bool is_large = isLarge(box);
   const Cell cell = scale_.at(box.min);
   Tree& tree = is_large ? large_ : cells_[cell];
-  *std::find(tree.ids.begin(), tree.ids.end(), id) = tree.ids.back();
-  tree.ids.pop_back();
+  eraseUnordered(tree.ids, id);
   if (!is_large && !tree.is_old) old_cells_.push_back(cell);
   tree.is_old = true;
 }

@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "broadphase/book/cell_scale.h"
+#include "broadphase/book/id_set.h"
 #include "broadphase/book/kd_nodes.h"
 #include "broadphase/book/partition.h"
 
@@ -27,14 +28,6 @@ class TreeGrid final : public Partition {
 
  private:
   static constexpr double kBoxesPerCell = 32;  // about this many boxes are in a cell of an evenly filled world
-  struct CellHash {
-    std::size_t operator()(const Cell& cell) const {
-      const std::uint64_t hash = static_cast<std::uint64_t>(cell.x) * 0x8da6b343u +
-                                 static_cast<std::uint64_t>(cell.y) * 0xd8163841u +
-                                 static_cast<std::uint64_t>(cell.z) * 0xcb1ab31fu;
-      return static_cast<std::size_t>(hash * 0x9e3779b97f4a7c15u >> 16);
-    }
-  };
   struct Tree {
     std::vector<ProxyId> ids;
     Aabb bounds;
