@@ -77,11 +77,9 @@ void drawPartition(BroadPhaseType type, const std::vector<Aabb>& boxes, const st
   const auto* partition = dynamic_cast<const book::Partition*>(made.get());
   if (partition == nullptr) return;  // how_it_works.md has a picture of HGrid
   for (ProxyId id = 0; id < boxes.size(); ++id) made->insert(id, boxes[id]);
-  std::vector<Aabb> regions;
-  partition->drawing(regions);
   Picture picture(folder + "/" + name(type) + ".svg");
   std::set<std::array<float, 4>> drawn;  // regions that differ only in z are drawn once
-  for (const Aabb& region : regions) {
+  for (const Aabb& region : partition->drawing()) {
     if (drawn.insert({region.min.x(), region.min.y(), region.max.x(), region.max.y()}).second)
       picture.rectangle(region, kRegion);
   }

@@ -114,9 +114,7 @@ std::size_t ArrayGrid::structureBytes() const {
   return (begin_.capacity() + entries_.capacity() + large_.capacity()) * sizeof(std::uint32_t);
 }
 
-void ArrayGrid::drawing(std::vector<Aabb>& regions) const {
-  checkInvariants();
-  regions.clear();
+void ArrayGrid::draw(std::vector<Aabb>& regions) const {
   cells_.visit([&](const Cell& cell) { regions.push_back(scale_.regionOf(cell)); });
 }
 

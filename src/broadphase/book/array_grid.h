@@ -27,8 +27,6 @@ class ArrayGrid final : public Partition {
   /// pair is reported. doc/partitions.md has the figures.
   static constexpr std::size_t kMostBits = 362;
 
-  void drawing(std::vector<Aabb>& regions) const override;
-
  private:
   static constexpr double kMostCells = 512;  // of a box that is not large
 
@@ -37,6 +35,7 @@ class ArrayGrid final : public Partition {
   void candidates(const QueryShape& shape, std::vector<ProxyId>& found) const override;
   void checkStructure() const override;
   std::size_t structureBytes() const override;
+  void draw(std::vector<Aabb>& regions) const override;
 
   bool isLarge(ProxyId id) const { return scale_.of(box(id)).count() > kMostCells; }
   std::size_t indexOf(const Cell& cell) const;

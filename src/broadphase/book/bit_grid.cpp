@@ -74,8 +74,8 @@ Partition::Followed BitGrid::added(ProxyId id) {
   return Followed::yes;
 }
 
-Partition::Followed BitGrid::removed(ProxyId id) {
-  for (int axis = 0; axis < 3; ++axis) setBits(axis, spanOf(axis, box(id)), id, false);
+Partition::Followed BitGrid::removed(ProxyId id, const Aabb& from) {
+  for (int axis = 0; axis < 3; ++axis) setBits(axis, spanOf(axis, from), id, false);
   return Followed::yes;
 }
 
@@ -186,9 +186,7 @@ std::size_t BitGrid::structureBytes() const {
   return bytes;
 }
 
-void BitGrid::drawing(std::vector<Aabb>& regions) const {
-  checkInvariants();
-  regions.clear();
+void BitGrid::draw(std::vector<Aabb>& regions) const {
   for (int k = 0; k < 2; ++k) {
     const Axis& axis = axes_[static_cast<std::size_t>(k)];
     for (std::size_t slice = 0; slice < axis.slices; ++slice) {

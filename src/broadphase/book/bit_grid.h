@@ -24,8 +24,6 @@ class BitGrid final : public Partition {
  public:
   BitGrid() : Partition("BitGrid") {}
 
-  void drawing(std::vector<Aabb>& regions) const override;
-
  private:
   static constexpr std::size_t kMostSlices = 128;  // per axis
   static constexpr std::size_t kWordsAtOnce = 64;  // words of one pass; they stay in the first-level cache
@@ -42,12 +40,13 @@ class BitGrid final : public Partition {
 
   void build() override;
   Followed added(ProxyId id) override;
-  Followed removed(ProxyId id) override;
+  Followed removed(ProxyId id, const Aabb& from) override;
   Followed moved(ProxyId id, const Aabb& from) override;
   void findPairs(PairSink& sink) const override;
   void candidates(const QueryShape& shape, std::vector<ProxyId>& found) const override;
   void checkStructure() const override;
   std::size_t structureBytes() const override;
+  void draw(std::vector<Aabb>& regions) const override;
 
   static std::size_t sliceOf(const Axis& axis, double coordinate);
   Span spanOf(int axis, const Aabb& box) const;

@@ -48,22 +48,19 @@ Partition::Followed BucketGrid::added(ProxyId id) {
   return size() > 2 * buckets_.size() ? Followed::no : Followed::yes;  // no: the buckets are too full
 }
 
-void BucketGrid::take(ProxyId id, const CellRange& cells) {
-  if (isLarge(cells)) return large_.remove(id);
+Partition::Followed BucketGrid::removed(ProxyId id, const Aabb& from) {
+  const CellRange cells = scale_.of(from);
+  if (isLarge(cells)) {
+    large_.remove(id);
+    return Followed::yes;
+  }
   bucketsOf(cells, of_box_);
   for (const std::uint32_t bucket : of_box_) eraseUnordered(buckets_[bucket], id);
-}
-
-Partition::Followed BucketGrid::removed(ProxyId id) {
-  take(id, scale_.of(box(id)));
   return Followed::yes;
 }
 
 Partition::Followed BucketGrid::moved(ProxyId id, const Aabb& from) {
-  const CellRange before = scale_.of(from);
-  if (before == scale_.of(box(id))) return Followed::yes;
-  take(id, before);
-  return added(id);
+  return scale_.of(from) == scale_.of(box(id)) ? Followed::yes : Partition::moved(id, from);
 }
 
 // ---- searches
@@ -139,9 +136,7 @@ std::size_t BucketGrid::structureBytes() const {
 }
 
 /// The cells that have boxes. Which of them share a bucket does not show.
-void BucketGrid::drawing(std::vector<Aabb>& regions) const {
-  checkInvariants();
-  regions.clear();
+void BucketGrid::draw(std::vector<Aabb>& regions) const {
   for (const ProxyId id : storedIds())
     scale_.of(box(id)).visit([&](const Cell& cell) { regions.push_back(scale_.regionOf(cell)); });
 }

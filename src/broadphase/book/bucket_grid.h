@@ -20,23 +20,21 @@ class BucketGrid final : public Partition {
  public:
   explicit BucketGrid(CellRule rule = CellRule::objects) : Partition("BucketGrid"), rule_(rule) {}
 
-  void drawing(std::vector<Aabb>& regions) const override;
-
  private:
   static constexpr double kMostCells = 512;
 
   void build() override;
   Followed added(ProxyId id) override;
-  Followed removed(ProxyId id) override;
+  Followed removed(ProxyId id, const Aabb& from) override;
   Followed moved(ProxyId id, const Aabb& from) override;
   void findPairs(PairSink& sink) const override;
   void candidates(const QueryShape& shape, std::vector<ProxyId>& found) const override;
   void checkStructure() const override;
   std::size_t structureBytes() const override;
+  void draw(std::vector<Aabb>& regions) const override;
 
   bool isLarge(const CellRange& cells) const { return cells.count() > kMostCells; }
   std::uint32_t bucketOf(const Cell& cell) const;
-  void take(ProxyId id, const CellRange& cells);
   void bucketsOf(const CellRange& cells, std::vector<std::uint32_t>& buckets) const;
 
   CellRule rule_;

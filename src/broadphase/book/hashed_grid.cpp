@@ -79,16 +79,6 @@ void HashedGrid::unlink(const Cell& cell, ProxyId id) {
 
 // ---- changes
 
-void HashedGrid::put(ProxyId id, const CellRange& cells) {
-  if (isLarge(cells)) return large_.add(id);
-  cells.visit([&](const Cell& cell) { link(cell, id); });
-}
-
-void HashedGrid::take(ProxyId id, const CellRange& cells) {
-  if (isLarge(cells)) return large_.remove(id);
-  cells.visit([&](const Cell& cell) { unlink(cell, id); });
-}
-
 void HashedGrid::build() {
   const std::vector<ProxyId> ids = storedIds();
   scale_ = CellScale(cellEdgeFor(storedBoxes(), rule_));
@@ -99,24 +89,31 @@ void HashedGrid::build() {
   large_.clear();
   occupied_.cover(scale_.of(world()), pretest_ ? 64.0 * double(ids.size()) : 0.0);
   resize(4 * ids.size());
-  for (const ProxyId id : ids) put(id, scale_.of(box(id)));
+  for (const ProxyId id : ids) added(id);
 }
 
 Partition::Followed HashedGrid::added(ProxyId id) {
-  put(id, scale_.of(box(id)));
+  const CellRange cells = scale_.of(box(id));
+  if (isLarge(cells)) {
+    large_.add(id);
+  } else {
+    cells.visit([&](const Cell& cell) { link(cell, id); });
+  }
   return 8 * large_.size() > size() + 64 ? Followed::no : Followed::yes;  // no: the cells are too small by now
 }
 
-Partition::Followed HashedGrid::removed(ProxyId id) {
-  take(id, scale_.of(box(id)));
+Partition::Followed HashedGrid::removed(ProxyId id, const Aabb& from) {
+  const CellRange cells = scale_.of(from);
+  if (isLarge(cells)) {
+    large_.remove(id);
+  } else {
+    cells.visit([&](const Cell& cell) { unlink(cell, id); });
+  }
   return Followed::yes;
 }
 
 Partition::Followed HashedGrid::moved(ProxyId id, const Aabb& from) {
-  const CellRange before = scale_.of(from), now = scale_.of(box(id));
-  if (before == now) return Followed::yes;
-  take(id, before);
-  return added(id);
+  return scale_.of(from) == scale_.of(box(id)) ? Followed::yes : Partition::moved(id, from);
 }
 
 // ---- searches
@@ -194,9 +191,7 @@ std::size_t HashedGrid::structureBytes() const {
   return slots_.capacity() * sizeof(Slot) + entries_.capacity() * sizeof(Entry) + large_.bytes() + occupied_.bytes();
 }
 
-void HashedGrid::drawing(std::vector<Aabb>& regions) const {
-  checkInvariants();
-  regions.clear();
+void HashedGrid::draw(std::vector<Aabb>& regions) const {
   for (const Slot& slot : slots_) {
     if (slot.state == SlotState::used) regions.push_back(scale_.regionOf(slot.cell));
   }

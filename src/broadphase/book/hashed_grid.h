@@ -28,8 +28,6 @@ class HashedGrid final : public Partition {
   explicit HashedGrid(CellRule rule = CellRule::objects, bool pretest = true)
       : Partition("HashedGrid"), rule_(rule), pretest_(pretest) {}
 
-  void drawing(std::vector<Aabb>& regions) const override;
-
  private:
   static constexpr double kMostCells = 512;
   static constexpr std::uint32_t kEnd = 0xffffffffu;
@@ -47,12 +45,13 @@ class HashedGrid final : public Partition {
 
   void build() override;
   Followed added(ProxyId id) override;
-  Followed removed(ProxyId id) override;
+  Followed removed(ProxyId id, const Aabb& from) override;
   Followed moved(ProxyId id, const Aabb& from) override;
   void findPairs(PairSink& sink) const override;
   void candidates(const QueryShape& shape, std::vector<ProxyId>& found) const override;
   void checkStructure() const override;
   std::size_t structureBytes() const override;
+  void draw(std::vector<Aabb>& regions) const override;
 
   bool isLarge(const CellRange& cells) const { return cells.count() > kMostCells; }
   std::size_t homeOf(const Cell& cell) const { return CellHash()(cell) & (slots_.size() - 1); }
@@ -61,8 +60,6 @@ class HashedGrid final : public Partition {
   void resize(std::size_t slots);
   void link(const Cell& cell, ProxyId id);
   void unlink(const Cell& cell, ProxyId id);
-  void put(ProxyId id, const CellRange& cells);
-  void take(ProxyId id, const CellRange& cells);
 
   CellRule rule_;
   bool pretest_;

@@ -57,9 +57,7 @@ void KdTree::checkStructure() const {
   }
 }
 
-void KdTree::drawing(std::vector<Aabb>& regions) const {
-  checkInvariants();
-  regions.clear();
+void KdTree::draw(std::vector<Aabb>& regions) const {
   tree_.visitRegions(world(), [&](const Aabb& region) { regions.push_back(region); });
 }
 

@@ -24,8 +24,6 @@ class KdTree final : public Partition {
   /// box. Several threads may call this at the same time.
   std::optional<SegmentHit> firstAlong(const Segment& segment) const;
 
-  void drawing(std::vector<Aabb>& regions) const override;
-
  private:
   void build() override { tree_.build(boxes(), storedIds()); }
   void findPairs(PairSink& sink) const override { findPairsByQueries(sink); }
@@ -34,6 +32,7 @@ class KdTree final : public Partition {
                    std::vector<NearHit>& found) const override;
   void checkStructure() const override;
   std::size_t structureBytes() const override { return tree_.bytes(); }
+  void draw(std::vector<Aabb>& regions) const override;
 
   KdNodes tree_;
 };

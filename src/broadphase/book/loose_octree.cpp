@@ -79,30 +79,29 @@ Partition::Followed LooseOctree::added(ProxyId id) {
   return Followed::yes;
 }
 
-void LooseOctree::take(ProxyId id, const Place& place) {
-  if (place.depth < 0) return outside_.remove(id);
+Partition::Followed LooseOctree::removed(ProxyId id, const Aabb& from) {
+  const Place place = placeOf(from);
+  if (place.depth < 0) {
+    outside_.remove(id);
+    return Followed::yes;
+  }
   std::uint64_t code = codeOf(place);
   auto node = nodes_.find(code);
   eraseUnordered(node->second.ids, id);
   while (node->second.ids.empty() && node->second.children == 0) {  // drops nodes that became empty
     nodes_.erase(node);
-    if (code == 1) return;
+    if (code == 1) break;
     node = nodes_.find(code >> 3);
     node->second.children = static_cast<std::uint8_t>(node->second.children & ~(1u << (code & 7)));
     code >>= 3;
   }
-}
-
-Partition::Followed LooseOctree::removed(ProxyId id) {
-  take(id, placeOf(box(id)));
   return Followed::yes;
 }
 
 Partition::Followed LooseOctree::moved(ProxyId id, const Aabb& from) {
   const Place before = placeOf(from), now = placeOf(box(id));
-  if (before.depth == now.depth && before.x == now.x && before.y == now.y && before.z == now.z) return Followed::yes;
-  take(id, before);
-  return added(id);
+  const bool rests = before.depth == now.depth && before.x == now.x && before.y == now.y && before.z == now.z;
+  return rests ? Followed::yes : Partition::moved(id, from);
 }
 
 // ---- searches
@@ -161,9 +160,7 @@ std::size_t LooseOctree::structureBytes() const {
   return bytes;
 }
 
-void LooseOctree::drawing(std::vector<Aabb>& regions) const {
-  checkInvariants();
-  regions.clear();
+void LooseOctree::draw(std::vector<Aabb>& regions) const {
   for (const auto& one : nodes_) {
     if (one.second.ids.empty()) continue;
     Aabb region = regionOf(placeOf(box(one.second.ids.front())));

@@ -34,8 +34,6 @@ class LooseOctree final : public Partition {
  public:
   LooseOctree() : Partition("LooseOctree") {}
 
-  void drawing(std::vector<Aabb>& regions) const override;
-
  private:
   static constexpr int kMostDepth = 20;
   struct Node {
@@ -50,18 +48,18 @@ class LooseOctree final : public Partition {
 
   void build() override;
   Followed added(ProxyId id) override;
-  Followed removed(ProxyId id) override;
+  Followed removed(ProxyId id, const Aabb& from) override;
   Followed moved(ProxyId id, const Aabb& from) override;
   void findPairs(PairSink& sink) const override { findPairsByQueries(sink); }
   void candidates(const QueryShape& shape, std::vector<ProxyId>& found) const override;
   void checkStructure() const override;
   std::size_t structureBytes() const override;
+  void draw(std::vector<Aabb>& regions) const override;
 
   Place placeOf(const Aabb& box) const;
   static std::uint64_t codeOf(const Place& place) { return nodeCode(place.depth, place.x, place.y, place.z); }
   /// The enlarged region of a node.
   Aabb regionOf(const Place& place) const;
-  void take(ProxyId id, const Place& place);
 
   Eigen::Vector3d low_ = Eigen::Vector3d::Zero();  // [m] smallest corner of the root
   double width_ = 1.0;                             // [m] width of the root

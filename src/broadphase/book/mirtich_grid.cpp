@@ -92,35 +92,32 @@ Partition::Followed MirtichGrid::added(ProxyId id) {
   return Followed::yes;
 }
 
-Partition::Followed MirtichGrid::removed(ProxyId id) {
-  const std::size_t own = firstLevelOf(exponentOf(box(id)));
+Partition::Followed MirtichGrid::removed(ProxyId id, const Aabb& from) {
+  const std::size_t own = firstLevelOf(exponentOf(from));
   levels_[own].residents.remove(id);
   for (std::size_t index = own; index < levels_.size(); ++index) {
     Level& level = levels_[index];
-    level.scale.of(box(id)).visit([&](const Cell& cell) { leave(level, cell, id, index == own); });
+    level.scale.of(from).visit([&](const Cell& cell) { leave(level, cell, id, index == own); });
   }
   return Followed::yes;
 }
 
 Partition::Followed MirtichGrid::moved(ProxyId id, const Aabb& from) {
-  const int exponent = exponentOf(from), next = exponentOf(box(id));
+  const int exponent = exponentOf(from);
+  if (exponent != exponentOf(box(id))) return Partition::moved(id, from);
   const std::size_t own = firstLevelOf(exponent);
-  const bool same_level = exponent == next;
   for (std::size_t index = own; index < levels_.size(); ++index) {
     Level& level = levels_[index];
     const CellRange before = level.scale.of(from), now = level.scale.of(box(id));
-    if (same_level && before == now) continue;  // most often so on coarse levels, whose cells change rarely
+    if (before == now) continue;  // most often so on coarse levels, whose cells change rarely
     before.visit([&](const Cell& cell) {
-      if (!same_level || !now.contains(cell)) leave(level, cell, id, index == own);
+      if (!now.contains(cell)) leave(level, cell, id, index == own);
     });
-    if (!same_level) continue;
     now.visit([&](const Cell& cell) {
       if (!before.contains(cell)) enter(level, cell, id, index == own);
     });
   }
-  if (same_level) return Followed::yes;
-  levels_[own].residents.remove(id);
-  return added(id);
+  return Followed::yes;
 }
 
 // ---- searches
@@ -196,9 +193,7 @@ std::size_t MirtichGrid::structureBytes() const {
   return bytes;
 }
 
-void MirtichGrid::drawing(std::vector<Aabb>& regions) const {
-  checkInvariants();
-  regions.clear();
+void MirtichGrid::draw(std::vector<Aabb>& regions) const {
   for (const Level& level : levels_) {
     for (const auto& one : level.cells) {
       if (!one.second.residents.empty()) regions.push_back(level.scale.regionOf(one.first));

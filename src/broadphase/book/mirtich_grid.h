@@ -29,8 +29,6 @@ class MirtichGrid final : public Partition {
  public:
   MirtichGrid() : Partition("MirtichGrid") {}
 
-  void drawing(std::vector<Aabb>& regions) const override;
-
  private:
   struct CellBoxes {
     std::vector<ProxyId> residents, visitors;
@@ -44,13 +42,14 @@ class MirtichGrid final : public Partition {
 
   void build() override;
   Followed added(ProxyId id) override;
-  Followed removed(ProxyId id) override;
+  Followed removed(ProxyId id, const Aabb& from) override;
   Followed moved(ProxyId id, const Aabb& from) override;
   bool dependsOnFixed() const override { return true; }
   void findPairs(PairSink& sink) const override;
   void candidates(const QueryShape& shape, std::vector<ProxyId>& found) const override;
   void checkStructure() const override;
   std::size_t structureBytes() const override;
+  void draw(std::vector<Aabb>& regions) const override;
 
   static int exponentOf(const Aabb& box);
   std::size_t firstLevelOf(int exponent) const;

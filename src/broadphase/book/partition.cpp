@@ -96,7 +96,7 @@ void Partition::add(ProxyId id, const Aabb& box) noexcept {
 }
 
 void Partition::erase(ProxyId id) noexcept {
-  follow([&] { return removed(id); });
+  follow([&] { return removed(id, boxes_[id]); });
   stored_[id] = 0;
   --count_;
 }
@@ -374,6 +374,13 @@ std::size_t Partition::bytes() const {
   prepare();
   return boxes_.capacity() * sizeof(Aabb) + stored_.capacity() + fixed_.capacity() +
          fixed_ids_.capacity() * sizeof(ProxyId) + structureBytes();
+}
+
+std::vector<Aabb> Partition::drawing() const {
+  checkInvariants();
+  std::vector<Aabb> regions;
+  draw(regions);
+  return regions;
 }
 
 void Partition::checkInvariants() const {

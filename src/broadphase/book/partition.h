@@ -47,11 +47,11 @@ class Partition : public BroadPhase {
 
   /// Returns the memory [bytes] of all stored data.
   std::size_t bytes() const;
-  /// Calls visit for the cells or nodes of the structure, for the drawings in the documentation.
-  virtual void drawing(std::vector<Aabb>& regions) const { regions.clear(); }
+  /// Returns the regions of the cells or nodes of the structure, for the drawings in the documentation.
+  std::vector<Aabb> drawing() const;
 
  protected:
-  /// What a partition made of a change.
+  /// What a partition made of a change. A later value asks for more work before the next search.
   enum class Followed {
     yes,     ///< the structure holds the change
     settle,  ///< as `yes`, but settle() must run before the next search
@@ -65,13 +65,19 @@ class Partition : public BroadPhase {
 
   /// Discards the structure and makes it again from the boxes in the table. May throw std::bad_alloc.
   virtual void build() = 0;
-  /// Follows a change. In added(), the table already holds the box. In removed(), the table still holds it. In moved(),
-  /// the table holds the new box. A partition that throws is built again.
+  // The next three functions let the structure follow a change. A partition that throws is built again.
+  /// Follows a new box, which the table already holds.
   virtual Followed added(ProxyId) { return Followed::no; }
-  virtual Followed removed(ProxyId) { return Followed::no; }
-  virtual Followed moved(ProxyId, const Aabb& from) {
+  /// Follows the removal of a box. `from` is the box that the structure holds; moved() calls this when the table already
+  /// holds another one.
+  virtual Followed removed(ProxyId, const Aabb& from) {
     static_cast<void>(from);
     return Followed::no;
+  }
+  /// Follows the move of a box from `from` to the box in the table. By default it removes the box and adds it again.
+  virtual Followed moved(ProxyId id, const Aabb& from) {
+    const Followed gone = removed(id, from);
+    return gone == Followed::no ? gone : std::max(gone, added(id));
   }
   /// Brings the structure up to date before a search, if a change asked for it.
   virtual void settle() {}
@@ -89,7 +95,10 @@ class Partition : public BroadPhase {
                            std::vector<NearHit>& found) const;
   /// Checks the structure. Calls require().
   virtual void checkStructure() const = 0;
+  /// Returns the memory [bytes] of the structure.
   virtual std::size_t structureBytes() const = 0;
+  /// Appends the regions of the cells or nodes that drawing() returns.
+  virtual void draw(std::vector<Aabb>& regions) const = 0;
 
   /// Brings the structure up to date. Every search calls this first; any thread may call it.
   void prepare() const;

@@ -38,7 +38,7 @@ Partition::Followed SweepArray::added(ProxyId id) {
   return Followed::settle;
 }
 
-Partition::Followed SweepArray::removed(ProxyId id) {
+Partition::Followed SweepArray::removed(ProxyId id, const Aabb&) {
   const std::uint32_t gap = place_[id];
   entries_[gap] = entries_.back();
   place_[entries_[gap].id] = gap;
@@ -123,9 +123,7 @@ std::size_t SweepArray::structureBytes() const {
 }
 
 /// The boxes as intervals on the sorted axis, in their order, one above the other.
-void SweepArray::drawing(std::vector<Aabb>& regions) const {
-  checkInvariants();
-  regions.clear();
+void SweepArray::draw(std::vector<Aabb>& regions) const {
   const int across = axis_ == 0 ? 1 : 0;
   const float height = (world().max[across] - world().min[across]) / static_cast<float>(entries_.size() + 1);
   for (std::size_t i = 0; i < entries_.size(); ++i) {

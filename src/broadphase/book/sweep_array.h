@@ -24,8 +24,6 @@ class SweepArray final : public Partition {
  public:
   SweepArray() : Partition("SweepArray") {}
 
-  void drawing(std::vector<Aabb>& regions) const override;
-
  private:
   struct Entry {
     float min, max;  // [m] on the sorted axis
@@ -34,7 +32,7 @@ class SweepArray final : public Partition {
 
   void build() override;
   Followed added(ProxyId id) override;
-  Followed removed(ProxyId id) override;
+  Followed removed(ProxyId id, const Aabb& from) override;
   Followed moved(ProxyId, const Aabb&) override { return Followed::settle; }
   bool rebuildsWhenMostMove() const override { return false; }
   void settle() override;
@@ -42,6 +40,7 @@ class SweepArray final : public Partition {
   void candidates(const QueryShape& shape, std::vector<ProxyId>& found) const override;
   void checkStructure() const override;
   std::size_t structureBytes() const override;
+  void draw(std::vector<Aabb>& regions) const override;
 
   int axisOfLargestVariance() const;
   void sort();

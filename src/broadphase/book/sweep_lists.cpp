@@ -132,10 +132,10 @@ Partition::Followed SweepLists::added(ProxyId id) {
   return moved(id, box(id));
 }
 
-Partition::Followed SweepLists::removed(ProxyId id) {
+Partition::Followed SweepLists::removed(ProxyId id, const Aabb& from) {
   if (tracks_) {
     std::vector<ProxyId> others;
-    candidates(QueryShape(box(id)), others);
+    candidates(QueryShape(from), others);
     for (const ProxyId other : others) pairs_.lower(id, other);
   }
   for (int axis = 0; axis < 3; ++axis) {
@@ -231,9 +231,7 @@ void SweepLists::checkStructure() const {
 std::size_t SweepLists::structureBytes() const { return elements_.capacity() * sizeof(Element) + pairs_.bytes(); }
 
 /// A line through each element of the lists of x and y.
-void SweepLists::drawing(std::vector<Aabb>& regions) const {
-  checkInvariants();
-  regions.clear();
+void SweepLists::draw(std::vector<Aabb>& regions) const {
   for (int axis = 0; axis < 2; ++axis) {
     const auto k = static_cast<std::size_t>(axis);
     for (Link element = elements_[kHead].next[k]; element != kTail; element = elements_[element].next[k]) {

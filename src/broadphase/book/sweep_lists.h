@@ -31,8 +31,6 @@ class SweepLists final : public Partition {
  public:
   SweepLists() : Partition("SweepLists") {}
 
-  void drawing(std::vector<Aabb>& regions) const override;
-
  private:
   using Link = std::uint32_t;  // index of an element: kHead, kTail, or elementOf(id, is_max)
   static constexpr Link kHead = 0, kTail = 1;
@@ -42,7 +40,7 @@ class SweepLists final : public Partition {
 
   void build() override;
   Followed added(ProxyId id) override;
-  Followed removed(ProxyId id) override;
+  Followed removed(ProxyId id, const Aabb& from) override;
   Followed moved(ProxyId id, const Aabb& from) override;
   bool rebuildsWhenMostMove() const override { return false; }
   bool dependsOnFixed() const override { return true; }
@@ -51,6 +49,7 @@ class SweepLists final : public Partition {
   void candidates(const QueryShape& shape, std::vector<ProxyId>& found) const override;
   void checkStructure() const override;
   std::size_t structureBytes() const override;
+  void draw(std::vector<Aabb>& regions) const override;
 
   static Link elementOf(ProxyId id, bool is_max) { return 2 + 2 * id + (is_max ? 1 : 0); }
   static ProxyId boxOf(Link element) { return (element - 2) / 2; }

@@ -31,23 +31,14 @@ Partition::Followed TreeGrid::added(ProxyId id) {
   return Followed::settle;
 }
 
-void TreeGrid::take(ProxyId id, const Aabb& box) {
-  const bool is_large = isLarge(box);
-  const Cell cell = scale_.at(box.min);
+Partition::Followed TreeGrid::removed(ProxyId id, const Aabb& from) {
+  const bool is_large = isLarge(from);
+  const Cell cell = scale_.at(from.min);
   Tree& tree = is_large ? large_ : cells_[cell];
   eraseUnordered(tree.ids, id);
   if (!is_large && !tree.is_old) old_cells_.push_back(cell);
   tree.is_old = true;
-}
-
-Partition::Followed TreeGrid::removed(ProxyId id) {
-  take(id, box(id));
   return Followed::settle;
-}
-
-Partition::Followed TreeGrid::moved(ProxyId id, const Aabb& from) {
-  take(id, from);
-  return added(id);
 }
 
 void TreeGrid::renew(Tree& tree) {
@@ -81,7 +72,6 @@ void TreeGrid::candidates(const QueryShape& shape, std::vector<ProxyId>& found) 
   const auto consider = [&](ProxyId id) {
     if (overlap(shape.bounds(), box(id))) found.push_back(id);
   };
-  large_.nodes.visit(shape, consider);
   const auto visit = [&](const Tree& tree) {
     if (shape.mayTouch(tree.bounds)) tree.nodes.visit(shape, consider);
   };
@@ -99,11 +89,11 @@ void TreeGrid::candidates(const QueryShape& shape, std::vector<ProxyId>& found) 
       if (tree != cells_.end()) visit(tree->second);
     });
   });
-  if (all) return;
-  // There are more cells than trees, so this goes through the trees. Some of their boxes may be found already.
-  found.resize(before);
+  if (!all) {  // There are more cells than trees, so this goes through the trees.
+    found.resize(before);  // drops what visitRanges() found before it gave up
+    for (const auto& tree : cells_) visit(tree.second);
+  }
   large_.nodes.visit(shape, consider);
-  for (const auto& tree : cells_) visit(tree.second);
 }
 
 void TreeGrid::checkStructure() const {
@@ -134,9 +124,7 @@ std::size_t TreeGrid::structureBytes() const {
   return bytes;
 }
 
-void TreeGrid::drawing(std::vector<Aabb>& regions) const {
-  checkInvariants();
-  regions.clear();
+void TreeGrid::draw(std::vector<Aabb>& regions) const {
   for (const auto& one : cells_) {
     one.second.nodes.visitRegions(one.second.bounds, [&](const Aabb& region) { regions.push_back(region); });
   }

@@ -24,8 +24,6 @@ class TreeGrid final : public Partition {
  public:
   TreeGrid() : Partition("TreeGrid") {}
 
-  void drawing(std::vector<Aabb>& regions) const override;
-
  private:
   static constexpr double kBoxesPerCell = 32;  // about this many boxes are in a cell of an evenly filled world
   struct Tree {
@@ -37,16 +35,15 @@ class TreeGrid final : public Partition {
 
   void build() override;
   Followed added(ProxyId id) override;
-  Followed removed(ProxyId id) override;
-  Followed moved(ProxyId id, const Aabb& from) override;
+  Followed removed(ProxyId id, const Aabb& from) override;
   void settle() override;
   void findPairs(PairSink& sink) const override { findPairsByQueries(sink); }
   void candidates(const QueryShape& shape, std::vector<ProxyId>& found) const override;
   void checkStructure() const override;
   std::size_t structureBytes() const override;
+  void draw(std::vector<Aabb>& regions) const override;
 
   bool isLarge(const Aabb& box) const { return longestSide(box) > scale_.edge(); }
-  void take(ProxyId id, const Aabb& box);
   void renew(Tree& tree);
 
   CellScale scale_;
