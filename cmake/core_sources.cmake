@@ -24,6 +24,7 @@ set(HGRID_CORE_SOURCES
   src/broadphase/book/sweep_array.cpp
   src/broadphase/book/sweep_lists.cpp
   src/broadphase/book/tree_grid.cpp
+  src/broadphase/book/uniform_grid.cpp
   src/broadphase/broad_phase_reader.cpp
   src/broadphase/broad_phase_type.cpp
   src/broadphase/hgrid/cell_plan.cpp

@@ -30,21 +30,23 @@ void ArrayGrid::build() {
   large_.clear();
   begin_.assign(static_cast<std::size_t>(cells_.count()) + 1, 0);
   for (const ProxyId id : ids) {  // the first pass counts
-    if (isLarge(id)) {
-      large_.push_back(id);
+    const CellRange cells = scale_.of(box(id));
+    if (isLarge(cells)) {
+      large_.add(id);
     } else {
-      scale_.of(box(id)).visit([&](const Cell& cell) { ++begin_[indexOf(cell) + 1]; });
+      cells.visit([&](const Cell& cell) { ++begin_[indexOf(cell) + 1]; });
     }
   }
   for (std::size_t cell = 1; cell < begin_.size(); ++cell) begin_[cell] += begin_[cell - 1];
   entries_.resize(begin_.back());
   std::vector<std::uint32_t> next = begin_;
   for (const ProxyId id : ids) {  // the second pass fills
-    if (!isLarge(id)) scale_.of(box(id)).visit([&](const Cell& cell) { entries_[next[indexOf(cell)]++] = id; });
+    if (large_.contains(id)) continue;
+    scale_.of(box(id)).visit([&](const Cell& cell) { entries_[next[indexOf(cell)]++] = id; });
   }
 }
 
-void ArrayGrid::findPairs(PairSink& sink) const {
+void ArrayGrid::findPairsInCells(PairSink& sink) const {
   const bool by_bits = idEnd() <= kMostBits;
   PairBits bits;
   if (by_bits) bits.reset(idEnd());
@@ -60,17 +62,9 @@ void ArrayGrid::findPairs(PairSink& sink) const {
       if (by_bits ? bits.mark(a, b) : scale_.meeting(box(a), box(b)) == cell) sink.add(a, b);
     });
   });
-  for (const ProxyId large : large_) {
-    if (sink.isFull()) return;
-    here.clear();
-    candidates(QueryShape(box(large)), here);
-    for (const ProxyId other : here) {
-      if (other != large && (!isLarge(other) || other > large)) sink.tryPair(large, other);
-    }
-  }
 }
 
-void ArrayGrid::candidates(const QueryShape& shape, std::vector<ProxyId>& found) const {
+void ArrayGrid::candidatesInCells(const QueryShape& shape, std::vector<ProxyId>& found) const {
   seen.begin(idEnd());
   const Aabb& around = shape.bounds();
   const auto add = [&](std::uint32_t begin, std::uint32_t end) {
@@ -88,9 +82,6 @@ void ArrayGrid::candidates(const QueryShape& shape, std::vector<ProxyId>& found)
     });
   });
   if (!all) add(0, begin_.back());
-  for (const ProxyId id : large_) {
-    if (overlap(around, box(id))) found.push_back(id);
-  }
 }
 
 void ArrayGrid::checkStructure() const {
@@ -105,13 +96,15 @@ void ArrayGrid::checkStructure() const {
     ++index;
   });
   for (const ProxyId id : storedIds()) {
-    if (!isLarge(id)) expected += static_cast<std::size_t>(scale_.of(box(id)).count());
+    const CellRange cells = scale_.of(box(id));
+    require(large_.contains(id) == isLarge(cells), "a box is large if it covers too many cells");
+    expected += isLarge(cells) ? 0 : static_cast<std::size_t>(cells.count());
   }
   require(entries_.size() == expected, "each box is in all cells that it overlaps, once");
 }
 
 std::size_t ArrayGrid::structureBytes() const {
-  return (begin_.capacity() + entries_.capacity() + large_.capacity()) * sizeof(std::uint32_t);
+  return (begin_.capacity() + entries_.capacity()) * sizeof(std::uint32_t) + large_.bytes();
 }
 
 void ArrayGrid::draw(std::vector<Aabb>& regions) const {

@@ -2,8 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
-#include "broadphase/book/cell_scale.h"
-#include "broadphase/book/partition.h"
+#include "broadphase/book/uniform_grid.h"
 
 namespace hgrid {
 namespace book {
@@ -17,35 +16,29 @@ namespace book {
 /// one cell, and they sort boxes that move apart from boxes that rest.
 ///
 /// Differs from the book: both passes use the same monotone mapping of coordinates to cells, so they cannot disagree.
-/// The second pass has a write position for each cell. Large boxes, see HashedGrid, are in an array of their own. In a
-/// small world, a pair that shares several cells is noticed by its bit (section 7.7.1).
-class ArrayGrid final : public Partition {
+/// The second pass has a write position for each cell. Large boxes are in a list of their own, see UniformGrid. In a
+/// small world, one bit per pair (section 7.7.1) tells whether a pair that shares several cells was already found.
+class ArrayGrid final : public UniformGrid {
  public:
-  explicit ArrayGrid(CellRule rule = CellRule::objects) : Partition("ArrayGrid"), rule_(rule) {}
+  explicit ArrayGrid(CellRule rule = CellRule::objects) : UniformGrid("ArrayGrid", rule) {}
 
   /// With at most this many boxes, findPairs() uses one bit per pair (8 kB); otherwise, it computes the cell in which a
   /// pair is reported. doc/partitions.md has the figures.
   static constexpr std::size_t kMostBits = 362;
 
  private:
-  static constexpr double kMostCells = 512;  // of a box that is not large
-
   void build() override;
-  void findPairs(PairSink& sink) const override;
-  void candidates(const QueryShape& shape, std::vector<ProxyId>& found) const override;
+  void findPairsInCells(PairSink& sink) const override;
+  void candidatesInCells(const QueryShape& shape, std::vector<ProxyId>& found) const override;
   void checkStructure() const override;
   std::size_t structureBytes() const override;
   void draw(std::vector<Aabb>& regions) const override;
 
-  bool isLarge(ProxyId id) const { return scale_.of(box(id)).count() > kMostCells; }
   std::size_t indexOf(const Cell& cell) const;
 
-  CellRule rule_;
-  CellScale scale_;
   CellRange cells_;                   // the cells of the grid
   std::vector<std::uint32_t> begin_;  // for each cell: index of its first entry; and the number of all entries
   std::vector<ProxyId> entries_;
-  std::vector<ProxyId> large_;  // ascending
 };
 
 }  // namespace book

@@ -41,7 +41,7 @@ Partition::Followed BucketGrid::added(ProxyId id) {
   const CellRange cells = scale_.of(box(id));
   if (isLarge(cells)) {
     large_.add(id);
-    return 8 * large_.size() > size() + 64 ? Followed::no : Followed::yes;  // no: the cells are too small by now
+    return hasManyLargeBoxes() ? Followed::no : Followed::yes;
   }
   bucketsOf(cells, of_box_);
   for (const std::uint32_t bucket : of_box_) buckets_[bucket].push_back(id);
@@ -65,7 +65,7 @@ Partition::Followed BucketGrid::moved(ProxyId id, const Aabb& from) {
 
 // ---- searches
 
-void BucketGrid::findPairs(PairSink& sink) const {
+void BucketGrid::findPairsInCells(PairSink& sink) const {
   std::vector<ProxyId> here;
   for (std::uint32_t bucket = 0; bucket < buckets_.size() && !sink.isFull(); ++bucket) {
     if (buckets_[bucket].size() < 2) continue;
@@ -74,17 +74,9 @@ void BucketGrid::findPairs(PairSink& sink) const {
       if (sink.isPair(a, b) && bucketOf(scale_.meeting(box(a), box(b))) == bucket) sink.add(a, b);
     });
   }
-  for (const ProxyId large : large_) {
-    if (sink.isFull()) return;
-    here.clear();
-    candidates(QueryShape(box(large)), here);
-    for (const ProxyId other : here) {
-      if (other != large && (!large_.contains(other) || other > large)) sink.tryPair(large, other);
-    }
-  }
 }
 
-void BucketGrid::candidates(const QueryShape& shape, std::vector<ProxyId>& found) const {
+void BucketGrid::candidatesInCells(const QueryShape& shape, std::vector<ProxyId>& found) const {
   seen_boxes.begin(idEnd());
   seen_buckets.begin(buckets_.size());
   const Aabb& around = shape.bounds();
@@ -102,9 +94,6 @@ void BucketGrid::candidates(const QueryShape& shape, std::vector<ProxyId>& found
   });
   if (!all) {
     for (const std::vector<ProxyId>& bucket : buckets_) visit(bucket);
-  }
-  for (const ProxyId id : large_) {
-    if (overlap(around, box(id))) found.push_back(id);
   }
 }
 

@@ -2,9 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
-#include "broadphase/book/cell_scale.h"
-#include "broadphase/book/id_set.h"
-#include "broadphase/book/partition.h"
+#include "broadphase/book/uniform_grid.h"
 
 namespace hgrid {
 namespace book {
@@ -16,31 +14,25 @@ namespace book {
 /// stamps the buckets that it has visited (section 7.7.2). There is nothing to delete but list entries.
 ///
 /// Differs from the book: see HashedGrid, which treats large boxes and repeated pairs in the same way.
-class BucketGrid final : public Partition {
+class BucketGrid final : public UniformGrid {
  public:
-  explicit BucketGrid(CellRule rule = CellRule::objects) : Partition("BucketGrid"), rule_(rule) {}
+  explicit BucketGrid(CellRule rule = CellRule::objects) : UniformGrid("BucketGrid", rule) {}
 
  private:
-  static constexpr double kMostCells = 512;
-
   void build() override;
   Followed added(ProxyId id) override;
   Followed removed(ProxyId id, const Aabb& from) override;
   Followed moved(ProxyId id, const Aabb& from) override;
-  void findPairs(PairSink& sink) const override;
-  void candidates(const QueryShape& shape, std::vector<ProxyId>& found) const override;
+  void findPairsInCells(PairSink& sink) const override;
+  void candidatesInCells(const QueryShape& shape, std::vector<ProxyId>& found) const override;
   void checkStructure() const override;
   std::size_t structureBytes() const override;
   void draw(std::vector<Aabb>& regions) const override;
 
-  bool isLarge(const CellRange& cells) const { return cells.count() > kMostCells; }
   std::uint32_t bucketOf(const Cell& cell) const;
   void bucketsOf(const CellRange& cells, std::vector<std::uint32_t>& buckets) const;
 
-  CellRule rule_;
-  CellScale scale_;
   std::vector<std::vector<ProxyId>> buckets_;  // their number is a power of two
-  IdSet large_;
   std::vector<std::uint32_t> of_box_;  // buffer of changes
 };
 

@@ -99,7 +99,7 @@ Partition::Followed HashedGrid::added(ProxyId id) {
   } else {
     cells.visit([&](const Cell& cell) { link(cell, id); });
   }
-  return 8 * large_.size() > size() + 64 ? Followed::no : Followed::yes;  // no: the cells are too small by now
+  return hasManyLargeBoxes() ? Followed::no : Followed::yes;
 }
 
 Partition::Followed HashedGrid::removed(ProxyId id, const Aabb& from) {
@@ -118,7 +118,7 @@ Partition::Followed HashedGrid::moved(ProxyId id, const Aabb& from) {
 
 // ---- searches
 
-void HashedGrid::findPairs(PairSink& sink) const {
+void HashedGrid::findPairsInCells(PairSink& sink) const {
   std::vector<ProxyId> here;
   for (const Slot& slot : slots_) {
     if (slot.state != SlotState::used || entries_[slot.first].next == kEnd) continue;
@@ -130,17 +130,9 @@ void HashedGrid::findPairs(PairSink& sink) const {
       if (sink.isPair(a, b) && scale_.meeting(box(a), box(b)) == slot.cell) sink.add(a, b);
     });
   }
-  for (const ProxyId large : large_) {
-    if (sink.isFull()) return;
-    here.clear();
-    candidates(QueryShape(box(large)), here);
-    for (const ProxyId other : here) {
-      if (other != large && (!large_.contains(other) || other > large)) sink.tryPair(large, other);
-    }
-  }
 }
 
-void HashedGrid::candidates(const QueryShape& shape, std::vector<ProxyId>& found) const {
+void HashedGrid::candidatesInCells(const QueryShape& shape, std::vector<ProxyId>& found) const {
   seen.begin(idEnd());
   const Aabb& around = shape.bounds();
   const auto visit = [&](const Slot& slot) {
@@ -159,9 +151,6 @@ void HashedGrid::candidates(const QueryShape& shape, std::vector<ProxyId>& found
     for (const Slot& slot : slots_) {
       if (slot.state == SlotState::used) visit(slot);
     }
-  }
-  for (const ProxyId id : large_) {
-    if (overlap(around, box(id))) found.push_back(id);
   }
 }
 

@@ -3,9 +3,7 @@
 #pragma once
 
 #include "broadphase/book/cell_bits.h"
-#include "broadphase/book/cell_scale.h"
-#include "broadphase/book/id_set.h"
-#include "broadphase/book/partition.h"
+#include "broadphase/book/uniform_grid.h"
 
 namespace hgrid {
 namespace book {
@@ -18,18 +16,17 @@ namespace book {
 ///
 /// Differs from the book:
 /// - The hash works on unsigned numbers, and its bits are mixed once more, because the table size is a power of two.
-/// - Boxes that would cover more than kMostCells cells are in a list of large boxes. A query tests all of them.
+/// - Large boxes are in a list of their own, see UniformGrid.
 /// - A pair that shares several cells is reported in one of them only: the cell of the smallest common corner.
 /// - A query that covers more cells than are occupied goes through the occupied cells instead.
-class HashedGrid final : public Partition {
+class HashedGrid final : public UniformGrid {
  public:
   /// @param rule     how the cell size is computed from the boxes
   /// @param pretest  whether a bit per cell tells that a cell is empty, if the world is small enough for it
   explicit HashedGrid(CellRule rule = CellRule::objects, bool pretest = true)
-      : Partition("HashedGrid"), rule_(rule), pretest_(pretest) {}
+      : UniformGrid("HashedGrid", rule), pretest_(pretest) {}
 
  private:
-  static constexpr double kMostCells = 512;
   static constexpr std::uint32_t kEnd = 0xffffffffu;
   enum class SlotState : std::uint8_t { empty, used, reusable };
   struct Slot {
@@ -47,13 +44,12 @@ class HashedGrid final : public Partition {
   Followed added(ProxyId id) override;
   Followed removed(ProxyId id, const Aabb& from) override;
   Followed moved(ProxyId id, const Aabb& from) override;
-  void findPairs(PairSink& sink) const override;
-  void candidates(const QueryShape& shape, std::vector<ProxyId>& found) const override;
+  void findPairsInCells(PairSink& sink) const override;
+  void candidatesInCells(const QueryShape& shape, std::vector<ProxyId>& found) const override;
   void checkStructure() const override;
   std::size_t structureBytes() const override;
   void draw(std::vector<Aabb>& regions) const override;
 
-  bool isLarge(const CellRange& cells) const { return cells.count() > kMostCells; }
   std::size_t homeOf(const Cell& cell) const { return CellHash()(cell) & (slots_.size() - 1); }
   std::size_t find(const Cell& cell) const;
   std::size_t findOrMake(const Cell& cell);
@@ -61,14 +57,11 @@ class HashedGrid final : public Partition {
   void link(const Cell& cell, ProxyId id);
   void unlink(const Cell& cell, ProxyId id);
 
-  CellRule rule_;
-  bool pretest_;
-  CellScale scale_;
+  const bool pretest_;
   std::vector<Slot> slots_;          // their number is a power of two
   std::size_t used_ = 0, busy_ = 0;  // slots that are used; slots that are used or reusable
   std::vector<Entry> entries_;
   std::uint32_t free_ = kEnd;  // list of unused entries
-  IdSet large_;
   CellBits occupied_;
 };
 
