@@ -23,13 +23,8 @@ namespace book {
 /// neither sticks to the node nor is split. Comparisons include touching boxes, which the printed sphere visit drops.
 class KdNodes {
  public:
-  void clear() {
-    nodes_.clear();
-    ids_.clear();
-  }
   /// Builds the tree over these boxes; `boxes` is indexed by id.
   void build(const std::vector<Aabb>& boxes, const std::vector<ProxyId>& ids);
-  bool isEmpty() const { return ids_.empty(); }
   const std::vector<ProxyId>& ids() const { return ids_; }
   std::size_t bytes() const { return nodes_.capacity() * sizeof(Node) + ids_.capacity() * sizeof(ProxyId); }
 

@@ -74,8 +74,7 @@ void MirtichGrid::build() {
   for (const int exponent : exponents) levels_.push_back({exponent, CellScale(std::ldexp(1.0, exponent)), {}, {}});
   close_.clear();
   counts_ = true;
-  const std::size_t bound = std::min(pairBound().overlaps, pairBound().pairs);
-  most_ = bound < PairBound::kNone / 16 ? 8 * (bound + ids.size()) : PairBound::kNone;
+  most_ = mostTrackedPairs();
   for (const ProxyId id : ids) added(id);
 }
 

@@ -22,7 +22,6 @@ class PairSink {
   }
 
   bool isFixed(ProxyId id) const { return fixed_[id] != 0; }
-  const Aabb& box(ProxyId id) const { return boxes_[id]; }
   /// Whether the bound is reached. The search may then end; what it still adds is dropped.
   bool isFull() const { return full_; }
   /// Whether two different boxes overlap and are not both fixed.

@@ -2,22 +2,10 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "broadphase/book/partition.h"
 
-#include <cmath>
-#include <limits>
 #include <stdexcept>
 
 namespace hgrid {
 namespace book {
-namespace {
-
-/// Keeps the candidates that pass a test, in ascending order.
-template <class Test>
-void keep(std::vector<ProxyId>& found, Test&& test) {
-  found.erase(std::remove_if(found.begin(), found.end(), [&](ProxyId id) { return !test(id); }), found.end());
-  std::sort(found.begin(), found.end());
-}
-
-}  // namespace
 
 // ---- the checks of what callers pass
 
@@ -34,16 +22,17 @@ void Partition::requireStored(ProxyId id) const {
   }
 }
 
+void Partition::requireAscending(const std::vector<ProxyId>& ids) const {
+  if (std::adjacent_find(ids.begin(), ids.end(), [](ProxyId a, ProxyId b) { return a >= b; }) != ids.end())
+    throw std::invalid_argument(std::string(name_) + ": the ids do not ascend; sort them, and use each id once");
+}
+
 void Partition::requireBulk(const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) const {
   if (ids.size() != boxes.size()) {
     throw std::invalid_argument(std::string(name_) + ": " + std::to_string(ids.size()) + " ids but " +
                                 std::to_string(boxes.size()) + " boxes were given; each box needs one id");
   }
-  for (std::size_t i = 1; i < ids.size(); ++i) {
-    if (ids[i - 1] >= ids[i]) {
-      throw std::invalid_argument(std::string(name_) + ": the ids do not ascend; sort them, and use each id once");
-    }
-  }
+  requireAscending(ids);
   for (const Aabb& box : boxes) requireValid(box);
 }
 
@@ -174,9 +163,7 @@ void Partition::move(const std::vector<ProxyId>& ids, const std::vector<Aabb>& b
 }
 
 void Partition::setFixed(const std::vector<ProxyId>& ids) {
-  if (std::adjacent_find(ids.begin(), ids.end(), [](ProxyId a, ProxyId b) { return a >= b; }) != ids.end()) {
-    throw std::invalid_argument(std::string(name_) + ": the ids do not ascend; sort them, and use each id once");
-  }
+  requireAscending(ids);
   if (ids == fixed_ids_) return;
   std::vector<ProxyId> next = ids;
   std::fill(fixed_.begin(), fixed_.end(), char{0});
@@ -192,7 +179,7 @@ void Partition::setPairBound(const PairBound& bound) {
   if (dependsOnFixed()) stale_ = true;  // a partition that tracks pairs tracks no more than the bound needs
 }
 
-// ---- searches: build or settle the structure first, then let it name candidates
+// ---- the structure, before a search
 
 void Partition::prepare() const {
   if (!stale_ && !unsettled_) return;
@@ -226,131 +213,12 @@ void Partition::rebuild() {
   built_with_ = count_;
 }
 
-void Partition::overlappingPairs(std::vector<ProxyPair>& pairs) const {
-  prepare();
-  const PairBound none;
-  PairSink sink(boxes_, fixed_, filter_, none, pairs);
-  findPairs(sink);
-  sink.finish();
-}
+// ---- the table, for the partitions
 
-bool Partition::boundedPairs(std::vector<ProxyPair>& pairs) const {
-  prepare();
-  PairSink sink(boxes_, fixed_, filter_, bound_, pairs);
-  findPairs(sink);
-  if (sink.finish()) return true;
-  collectInOrder(pairs);
-  return false;
+std::size_t Partition::mostTrackedPairs() const {
+  const std::size_t bound = std::min(bound_.overlaps, bound_.pairs);
+  return bound < PairBound::kNone / 16 ? 8 * (bound + count_) : PairBound::kNone;
 }
-
-/// Collects pairs in the order that PairBound specifies, up to the bound.
-void Partition::collectInOrder(std::vector<ProxyPair>& pairs) const {
-  pairs.clear();
-  std::size_t overlaps = 0;
-  std::vector<ProxyId> found;
-  std::vector<ProxyPair> mine;
-  for (ProxyId id = 0; id < stored_.size(); ++id) {
-    if (stored_[id] == 0 || fixed_[id] != 0) continue;
-    found.clear();
-    candidates(QueryShape(boxes_[id]), found);
-    mine.clear();
-    for (const ProxyId other : found) {
-      const bool counts = other != id && (other > id || fixed_[other] != 0) && overlap(boxes_[id], boxes_[other]);
-      if (counts) mine.push_back({std::min(id, other), std::max(id, other)});
-    }
-    std::sort(mine.begin(), mine.end());
-    const bool cut = mine.size() > bound_.overlaps - overlaps;
-    if (cut) mine.resize(bound_.overlaps - overlaps);
-    overlaps += mine.size();
-    for (ProxyPair *pair = mine.data(), *end = filter_(pair, pair + mine.size()); pair != end; ++pair) {
-      if (pairs.size() == bound_.pairs) return;
-      pairs.push_back(*pair);
-    }
-    if (cut) return;
-  }
-}
-
-void Partition::findPairsByQueries(PairSink& sink) const {
-  std::vector<ProxyId> found;
-  for (ProxyId id = 0; id < stored_.size() && !sink.isFull(); ++id) {
-    if (stored_[id] == 0 || fixed_[id] != 0) continue;
-    found.clear();
-    candidates(QueryShape(boxes_[id]), found);
-    for (const ProxyId other : found) {
-      if (other > id || (fixed_[other] != 0 && other != id)) sink.tryPair(id, other);
-    }
-  }
-}
-
-void Partition::overlapping(const Aabb& query, std::vector<ProxyId>& found) const {
-  found.clear();
-  if (!(query.min.array() <= query.max.array()).all()) return;  // also if a coordinate is NaN
-  prepare();
-  candidates(QueryShape(query), found);
-  keep(found, [&](ProxyId id) { return overlap(query, boxes_[id]); });
-}
-
-void Partition::overlapping(const Sphere& sphere, std::vector<ProxyId>& found) const {
-  found.clear();
-  if (!sphere.center.allFinite() || !(sphere.radius >= 0.0)) return;
-  prepare();
-  candidates(QueryShape(sphere), found);
-  keep(found, [&](ProxyId id) { return touches(sphere, boxes_[id]); });
-}
-
-void Partition::along(const Segment& segment, std::vector<SegmentHit>& found) const {
-  found.clear();
-  if (!segment.from.allFinite() || !segment.to.allFinite() || !(segment.radius >= 0.0)) return;
-  prepare();
-  std::vector<ProxyId> near;
-  candidates(QueryShape(segment), near);
-  const FirstTouch firstTouch(segment);
-  for (const ProxyId id : near) {
-    if (const auto along = firstTouch(boxes_[id])) found.push_back({id, *along});
-  }
-  std::sort(found.begin(), found.end(), [](const SegmentHit& a, const SegmentHit& b) {
-    return a.along != b.along ? a.along < b.along : a.id < b.id;
-  });
-}
-
-void Partition::nearest(const Eigen::Vector3d& point, std::size_t count, double limit,
-                        std::vector<NearHit>& found) const {
-  found.clear();
-  count = std::min(count, count_);
-  if (count == 0 || !(limit >= 0.0) || !point.allFinite()) return;
-  prepare();
-  findNearest(point, count, limit, found);
-}
-
-void Partition::findNearest(const Eigen::Vector3d& point, std::size_t count, double limit,
-                            std::vector<NearHit>& found) const {
-  // The first sphere reaches into the world by the distance at which `count` evenly spread boxes are expected.
-  const double size = (world_.max.cast<double>() - world_.min.cast<double>()).maxCoeff();
-  double step = 0.5 * size * std::cbrt(static_cast<double>(count) / static_cast<double>(count_)) + 1e-30;
-  double radius = std::min(distance(world_, point) + step, limit);
-  std::vector<ProxyId> near;
-  for (;;) {
-    const bool all = !(radius < 1e30);  // the bounds of a larger sphere may exceed the range of float
-    near.clear();
-    found.clear();
-    constexpr float kFar = std::numeric_limits<float>::max();
-    const Aabb everything{{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
-    candidates(all ? QueryShape(everything) : QueryShape(Sphere{point, radius}), near);
-    for (const ProxyId id : near) {
-      const double away = distance(boxes_[id], point);
-      if (away <= limit) found.push_back({id, away});
-    }
-    const std::size_t kept = std::min(count, found.size());
-    std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(kept), found.end(), isNearer);
-    const bool enough = kept == count;
-    if (all || radius >= limit || (enough && found[kept - 1].distance <= radius)) return found.resize(kept);
-    // Candidates beyond the radius are not all that there are. The next sphere reaches the last one that was kept.
-    step *= 2.0;
-    radius = std::min(enough ? found[kept - 1].distance : radius + step, limit);
-  }
-}
-
-// ---- the rest
 
 std::vector<ProxyId> Partition::storedIds() const {
   std::vector<ProxyId> ids;

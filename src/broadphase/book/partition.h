@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <mutex>
 #include <string>
@@ -68,8 +69,8 @@ class Partition : public BroadPhase {
   // The next three functions let the structure follow a change. A partition that throws is built again.
   /// Follows a new box, which the table already holds.
   virtual Followed added(ProxyId) { return Followed::no; }
-  /// Follows the removal of a box. `from` is the box that the structure holds; moved() calls this when the table already
-  /// holds another one.
+  /// Follows the removal of a box. `from` is the box that the structure holds; moved() calls this when the table
+  /// already holds another one.
   virtual Followed removed(ProxyId, const Aabb& from) {
     static_cast<void>(from);
     return Followed::no;
@@ -113,7 +114,8 @@ class Partition : public BroadPhase {
   std::size_t idEnd() const { return stored_.size(); }
   std::vector<ProxyId> storedIds() const;
   std::vector<Aabb> storedBoxes() const;
-  const PairBound& pairBound() const { return bound_; }
+  /// The largest number of pairs that a partition should track: some more than a search may return, or no bound.
+  std::size_t mostTrackedPairs() const;
   /// A box that contains all stored boxes.
   const Aabb& world() const { return world_; }
   /// findPairs() for partitions without a search for all pairs: queries the structure with each box that is not fixed.
@@ -129,6 +131,7 @@ class Partition : public BroadPhase {
  private:
   void requireValid(const Aabb& box) const;
   void requireStored(ProxyId id) const;
+  void requireAscending(const std::vector<ProxyId>& ids) const;
   void requireBulk(const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) const;
   void reserve(ProxyId id);
   template <class Follow>

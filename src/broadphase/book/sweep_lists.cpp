@@ -114,8 +114,7 @@ void SweepLists::build() {
   steps_ = 0;
   pairs_.clear();
   tracks_ = true;
-  const std::size_t bound = std::min(pairBound().overlaps, pairBound().pairs);
-  most_ = bound < PairBound::kNone / 16 ? 8 * (bound + ids.size()) : PairBound::kNone;
+  most_ = mostTrackedPairs();
   sweep([&](ProxyId a, ProxyId b) {
     begins(a, b);
     return tracks_;

@@ -89,7 +89,7 @@ void TreeGrid::candidates(const QueryShape& shape, std::vector<ProxyId>& found) 
       if (tree != cells_.end()) visit(tree->second);
     });
   });
-  if (!all) {  // There are more cells than trees, so this goes through the trees.
+  if (!all) {              // There are more cells than trees, so this goes through the trees.
     found.resize(before);  // drops what visitRanges() found before it gave up
     for (const auto& tree : cells_) visit(tree.second);
   }
