@@ -9,9 +9,9 @@ namespace hgrid {
 
 /// The kinds of broad phase. All of them give the same answers; they differ in time and memory.
 ///
-/// `hgrid` is HGrid, which was the fastest in all measured worlds. The others follow chapter 7 of Ericson, Real-Time
-/// Collision Detection, 2005, and each name is the name of a file in src/broadphase/book. doc/partitions.md describes
-/// and compares them.
+/// `hgrid` is HGrid, which found the pairs fastest in all measured worlds. The others follow chapter 7 of Ericson,
+/// Real-Time Collision Detection, 2005, and each name is the name of a file in src/broadphase/book. doc/partitions.md
+/// describes and compares them.
 enum class BroadPhaseType {
   hgrid,         ///< HGrid: hierarchical grid with SIMD instructions and threads
   hashed_grid,   ///< uniform grid in a hash table with open addressing (section 7.1.3)

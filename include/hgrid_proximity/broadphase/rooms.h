@@ -38,8 +38,8 @@ struct Portal {
 /// pair only if they have a room in common. A box that is in no room can form a pair with any box: nothing is known
 /// about its surroundings. So walls must be solid: two objects that meet inside a wall are not a pair.
 ///
-/// Rooms are tested by their half-spaces, which may take a box that is near a corner of a room for one inside it. So a
-/// box is never left out of a room that it overlaps.
+/// A box counts as in a room unless it is entirely on the outer side of one wall. So a box that overlaps the room
+/// always counts. A box outside of the room, near one of its corners, may also count.
 class Building {
  public:
   static constexpr std::size_t kMostRooms = 4096;  ///< largest number of rooms

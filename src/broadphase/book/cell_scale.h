@@ -148,15 +148,14 @@ class CellScale {
 
 /// How the cell size is computed from the boxes (section 7.1.1).
 enum class CellRule {
-  objects,  ///< a cell just encloses nearly all boxes (19 of 20), so that most boxes are in at most 8 cells
-  density,  ///< about as many cells as boxes: n^(1/3) cells per axis if the boxes fill space
+  objects,  ///< 19 of 20 boxes are no longer than a cell, so they are in at most 8 cells each
+  density,  ///< there are about as many cells as boxes: n^(1/3) cells per axis if the boxes fill space
 };
 
 /// Length [m] of a box's longest side.
 inline double longestSide(const Aabb& box) { return (box.max.cast<double>() - box.min.cast<double>()).maxCoeff(); }
 
-/// The cell size [m] for these boxes by a rule. If all boxes are points, there is no size to go by, so both rules go by
-/// the density.
+/// Returns the edge of a cell [m] for these boxes. If 19 of 20 boxes are points, both rules use the density.
 double cellEdgeFor(const std::vector<Aabb>& boxes, CellRule rule);
 
 }  // namespace book

@@ -24,11 +24,10 @@ std::uint64_t nodeCode(int depth, std::uint64_t x, std::uint64_t y, std::uint64_
 /// pointers. An 8-bit mask tells which children exist and saves lookups that would fail.
 ///
 /// Differs from the book:
-/// - Codes have 64 bits, which allows a depth of 20. Smaller boxes are stored at this depth, so points do not descend
-///   without end.
+/// - Codes have 64 bits, and the largest depth is 20. All boxes that are too small for this depth are stored at it, so
+///   also a box that is a point has a node.
 /// - Boxes outside of the root, and boxes larger than the root, are in a list. If the list becomes long, the next
-/// search
-///   builds the tree again with a larger root.
+///   search builds the tree again with a larger root.
 /// - An empty node without children is removed, and so are its ancestors if they become empty.
 class LooseOctree final : public Partition {
  public:

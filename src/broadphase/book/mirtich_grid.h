@@ -21,9 +21,10 @@ namespace book {
 /// counters, without a search.
 ///
 /// Differs from the book:
-/// - A level exists only if it has had a resident since the structure was built, so visitors are on few levels.
-/// - Counters use memory for each close pair. If there are more of them than the pair bound allows, the grid stops
-///   counting, and queries find the pairs, until the grid is built again.
+/// - Only the levels that have a resident when the structure is built exist, so each box visits few levels. A box that
+///   needs another level makes the next search build the structure again.
+/// - Counters use memory for each close pair. If there are far more of them than the pair bound allows, the grid drops
+///   all counters. Until the grid is built again, queries then find the pairs.
 /// - Pairs of two fixed boxes are not counted.
 class MirtichGrid final : public Partition {
  public:

@@ -3,24 +3,27 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace hgrid {
 namespace book {
 
-/// One bit per unordered pair of `count` objects (Ericson, Real-Time Collision Detection, 2005, section 7.7.1). It
-/// tells whether a pair was tested already, if two objects meet in several cells.
+/// One bit per unordered pair of objects (Ericson, Real-Time Collision Detection, 2005, section 7.7.1). If two objects
+/// share several cells, the bit tells whether this pair was already found in an earlier cell.
 ///
 /// The bits form a triangle: the pair a < b has the index a (2 n - a - 3) / 2 + b - 1. Differs from the listing:
 /// indices have 64 bits, because 65,537 objects have more than 2^31 pairs.
 class PairBits {
  public:
-  /// Clears all bits: n (n - 1) / 2 of them, so this is for small worlds.
+  /// Prepares for `count` objects and clears all bits. There are count (count - 1) / 2 bits, so use it for small
+  /// worlds.
   void reset(std::size_t count) {
     count_ = count;
     bits_.assign((count * (count - (count > 0 ? 1 : 0)) / 2 + 63) / 64, 0);
   }
-  /// Index of the bit of a pair of different objects.
+  /// Returns the position of the bit that stands for the pair {a, b}. Both orders give the same bit. `a` and `b` must
+  /// differ.
   std::uint64_t indexOf(std::uint64_t a, std::uint64_t b) const {
     if (a > b) std::swap(a, b);
     return a * (2 * count_ - a - 3) / 2 + b - 1;

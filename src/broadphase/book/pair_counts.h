@@ -60,7 +60,8 @@ class PairCounts {
     key *= 0x9e3779b97f4a7c15u;  // multiplicative hashing: the upper bits are well mixed
     return static_cast<std::size_t>(key ^ key >> 32) & (slots_.size() - 1);
   }
-  /// Index of the slot of a key, or of the empty slot where it belongs.
+  /// Returns the index of the slot that holds `key`. If no slot holds it, returns the index of the empty slot in which
+  /// raise() has to store it.
   std::size_t find(std::uint64_t key) const {
     std::size_t place = homeOf(key);
     while (slots_[place].count != 0 && slots_[place].key != key) place = (place + 1) & (slots_.size() - 1);

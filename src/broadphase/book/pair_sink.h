@@ -43,8 +43,8 @@ class PairSink {
   void tryPair(ProxyId a, ProxyId b) {
     if (isPair(a, b)) add(a, b);
   }
-  /// Calls visit(a, b) for each two of the ids of which at least one is not fixed. Reorders the ids. If nearly all of
-  /// them are fixed, takes time proportional to the number of calls.
+  /// Calls visit(a, b) for each two of the ids of which at least one is not fixed. Reorders the ids. Takes time
+  /// proportional to the number of ids plus the number of calls.
   template <class Visit>
   void among(std::vector<ProxyId>& ids, Visit&& visit) {
     const auto fixed = std::partition(ids.begin(), ids.end(), [&](ProxyId id) { return !isFixed(id); });

@@ -38,7 +38,7 @@ void SweepLists::linkAfter(Link place, Link element, int axis) {
   elements_[next].previous[k] = element;
 }
 
-/// Two boxes may begin to overlap: on one axis they do now.
+/// Adds a pair to the table if its boxes overlap. The caller calls this when they begin to overlap on one axis.
 void SweepLists::begins(ProxyId a, ProxyId b) {
   if (!tracks_ || a == b || (isFixed(a) && isFixed(b)) || !overlap(box(a), box(b)) || pairs_.of(a, b) != 0) return;
   pairs_.raise(a, b);

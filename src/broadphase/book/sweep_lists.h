@@ -13,20 +13,22 @@ namespace book {
 
 /// Sort and sweep with linked lists (Ericson, Real-Time Collision Detection, 2005, section 7.5.1).
 ///
-/// Each box has two elements, its smallest and its largest corner. Each element is in three sorted lists, one per axis.
-/// A box that moves takes its elements along by insertion sort, and the overlapping pairs change only where elements
-/// pass each other: if a minimum passes a maximum to the left, the boxes may begin to overlap; if it passes to the
-/// right, they end. The pairs are tracked in a table, so the search for pairs only reads it.
+/// Each box has two elements: its smallest corner (a minimum) and its largest corner (a maximum). There is a list per
+/// axis. It contains all elements, sorted by their coordinate on this axis. When a box moves, insertion sort moves its
+/// elements to their new places. Pairs begin or end only where a minimum and a maximum pass each other:
+/// - If the minimum moves to the left of the maximum, the two boxes may begin to overlap.
+/// - If the minimum moves to the right of the maximum, the two boxes stop overlapping.
+///
+/// A table holds all overlapping pairs. Each change of the lists updates it, so findPairs() only reads the table.
 ///
 /// Differs from the book:
 /// - Equal coordinates have an order: minima come before maxima. So boxes that touch overlap, whatever their history.
 /// - A new box enters at the right end of each list and moves to its place. This finds all its pairs, also with boxes
 ///   that enclose it. (The printed scan never advances, and looks only between the ends of the box.)
-/// - A removed box takes its pairs along.
+/// - The removal of a box also removes its pairs from the table.
 /// - If the order changes too much, as when boxes jump far, the next search sorts all lists again.
-/// - Pairs of two fixed boxes are not tracked. If there are more pairs than the pair bound allows, tracking stops, and
-/// a
-///   sweep along one list finds the pairs, until the lists are built again.
+/// - The table does not hold pairs of two fixed boxes. If there are far more pairs than the pair bound allows, the
+///   table is dropped. Until the lists are built again, a sweep along one list then finds the pairs.
 class SweepLists final : public Partition {
  public:
   SweepLists() : Partition("SweepLists") {}

@@ -16,8 +16,8 @@ namespace book {
 /// tree of its boxes. The grid skips the top of one large tree.
 ///
 /// The minimum corner of a box selects its cell. Cells are loose: a cell keeps the bounds of its boxes, which may reach
-/// into the next cells. A box is no longer than a cell, so a query visits the cells within one edge of its shape. So a
-/// change makes only the trees of two cells out of date; the next search builds these again.
+/// into the next cells. A box is no longer than a cell, so a query visits the cells within one edge of its shape. Each
+/// box is in one tree. The move of a box makes at most two trees out of date, and the next search builds these again.
 ///
 /// Differs from the book: boxes that are longer than a cell are in one more tree of their own.
 class TreeGrid final : public Partition {
