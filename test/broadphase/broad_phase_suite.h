@@ -62,10 +62,9 @@ struct BroadPhaseNames {
   }
 };
 
-/// Creates broad phases of one type. Specialize it for a type with settings. The tests then check that the answers do
-/// not depend on the settings.
+/// Creates broad phases of a type without settings.
 template <class Tested>
-struct Maker {
+struct PlainMaker {
   /// Creates a broad phase whose smallest cells have this edge [m]. Types without cells ignore the parameter.
   static std::unique_ptr<BroadPhase> withCells(double) { return std::make_unique<Tested>(); }
   /// Returns the cell edges [m] with which to test. For a type without cells, returns any single value.
@@ -73,6 +72,11 @@ struct Maker {
   /// Creates a broad phase with random settings. The first parameter contains the boxes that it will store.
   static std::unique_ptr<BroadPhase> withAny(const std::vector<Aabb>&, Random&) { return std::make_unique<Tested>(); }
 };
+
+/// Creates broad phases of one type. Specialize it for a type with settings. The tests then check that the answers do
+/// not depend on the settings.
+template <class Tested>
+struct Maker : PlainMaker<Tested> {};
 
 template <>
 struct Maker<HGrid> {
@@ -96,9 +100,7 @@ inline book::CellRule anyRule(Random& random) {
 }
 
 template <>
-struct Maker<book::HashedGrid> {
-  static std::unique_ptr<BroadPhase> withCells(double) { return std::make_unique<book::HashedGrid>(); }
-  static std::vector<double> cells(const std::vector<double>&) { return {1.0}; }
+struct Maker<book::HashedGrid> : PlainMaker<book::HashedGrid> {
   static std::unique_ptr<BroadPhase> withAny(const std::vector<Aabb>&, Random& random) {
     const book::CellRule rule = anyRule(random);
     return std::make_unique<book::HashedGrid>(rule, random.chance(0.5));
@@ -106,9 +108,7 @@ struct Maker<book::HashedGrid> {
 };
 
 template <class Grid>
-struct MakerWithRule {
-  static std::unique_ptr<BroadPhase> withCells(double) { return std::make_unique<Grid>(); }
-  static std::vector<double> cells(const std::vector<double>&) { return {1.0}; }
+struct MakerWithRule : PlainMaker<Grid> {
   static std::unique_ptr<BroadPhase> withAny(const std::vector<Aabb>&, Random& random) {
     return std::make_unique<Grid>(anyRule(random));
   }
