@@ -14,17 +14,17 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-void runLoading(const Options& options, const std::vector<std::size_t>& sizes, std::vector<Record>& records) {
+void runLoading(const Options& options, std::vector<Record>& records) {
   for (const std::string& workload : options.boxWorkloads(evenWorkloads())) {
-    for (const std::size_t n : sizes) {
+    for (const std::size_t n : options.sizes) {
       const World world(workload, n, 1.0);
       std::printf("\n%s, n = %zu, loading\n", workload.c_str(), n);
-      for (const QueryPeerKind& kind : bookQueryPeers()) {
-        if (!options.peer(kind.name)) continue;
-        const Loading loading = loadingOf(kind.name, world.boxes());
-        std::printf("  %-28s %10.3f ms  %6.0f bytes per box\n", kind.name.c_str(), loading.ms, loading.bytes);
+      for (const BroadPhaseType type : broadPhaseTypes()) {
+        if (!options.peer(name(type))) continue;
+        const Loading loading = loadingOf(type, world.boxes());
+        std::printf("  %-28s %10.3f ms  %6.0f bytes per box\n", name(type), loading.ms, loading.bytes);
         records.push_back(Record("load")
-                              .text("peer", kind.name)
+                              .text("peer", name(type))
                               .text("workload", workload)
                               .number("n", double(n))
                               .number("median_ms", loading.ms)
@@ -93,7 +93,7 @@ void runBook(const Options& options, std::vector<Record>& records) {
   if (chosen.sizes.empty()) chosen.sizes = {1000, 10000, 100000};
   if (chosen.quick && options.sizes.empty()) chosen.sizes.pop_back();
   runPairsOf(bookPeers(), chosen, records);
-  runLoading(chosen, chosen.sizes, records);
+  runLoading(chosen, records);
   runBookkeeping({300, 1000, 10000, 100000}, records);
   for (const std::size_t n : chosen.sizes) runQueriesOf(bookQueryPeers(), n, chosen, records);
 }

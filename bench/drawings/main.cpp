@@ -8,6 +8,7 @@
 #include <fstream>
 #include <set>
 
+#include "bench/workload/random.h"
 #include "broadphase/book/partition.h"
 #include "hgrid_proximity/broadphase/partitions.h"
 #include "hgrid_proximity/broadphase/rooms.h"
@@ -17,26 +18,14 @@ namespace {
 
 constexpr double kScale = 40.0, kSide = 10.0, kBorder = 8.0;  // [pixel/m], [m], [pixel]
 
-/// The same numbers on every machine.
-class Numbers {
- public:
-  double between(double low, double high) {
-    state_ = state_ * 6364136223846793005u + 1442695040888963407u;
-    return low + (high - low) * double(state_ >> 33) / double(1u << 31);
-  }
-
- private:
-  std::uint64_t state_ = 7;
-};
-
 /// Forty flat boxes of three sizes; half of the small ones are in one corner.
 std::vector<Aabb> smallWorld() {
-  Numbers numbers;
+  bench::Random random(5);
   std::vector<Aabb> boxes;
   for (int i = 0; i < 40; ++i) {
-    const double side = i < 2 ? 2.2 : i < 10 ? 0.9 : 0.3, wide = side * numbers.between(0.5, 1.0);
-    const double far = i >= 25 ? 2.5 : kSide - wide, x = numbers.between(0.1, far), y = numbers.between(0.1, far);
-    const double high = side * numbers.between(0.5, 1.0);
+    const double side = i < 2 ? 2.2 : i < 10 ? 0.9 : 0.3, wide = side * random.uniform(0.5, 1.0);
+    const double far = i >= 25 ? 2.5 : kSide - wide, x = random.uniform(0.1, far), y = random.uniform(0.1, far);
+    const double high = side * random.uniform(0.5, 1.0);
     boxes.push_back({{float(x), float(y), 0.0f}, {float(x + wide), float(std::min(y + high, kSide)), 0.05f}});
   }
   return boxes;

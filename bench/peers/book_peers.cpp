@@ -89,9 +89,7 @@ std::vector<QueryPeerKind> bookQueryPeers() {
   return kinds;
 }
 
-Loading loadingOf(const std::string& name, const std::vector<Aabb>& boxes) {
-  BroadPhaseType type = BroadPhaseType::hgrid;
-  find(name, type);
+Loading loadingOf(BroadPhaseType type, const std::vector<Aabb>& boxes) {
   constexpr std::size_t kRuns = 5;
   std::vector<double> times;
   Loading loading;

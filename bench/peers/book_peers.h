@@ -6,6 +6,7 @@
 
 #include "bench/peers/peer.h"
 #include "bench/queries/query_peer.h"
+#include "hgrid_proximity/broadphase/broad_phase_type.h"
 
 namespace hgrid {
 namespace bench {
@@ -20,8 +21,8 @@ struct Loading {
   double ms = 0.0;     ///< [ms] to store all boxes with one call and to be ready for queries
   double bytes = 0.0;  ///< [byte] per box
 };
-/// Measures the loading of a partition of the book or of HGrid. `name` is that of name(). The median of some runs.
-Loading loadingOf(const std::string& name, const std::vector<Aabb>& boxes);
+/// Measures the loading of a partition of the book or of HGrid. The time is the median of some runs.
+Loading loadingOf(BroadPhaseType type, const std::vector<Aabb>& boxes);
 
 }  // namespace bench
 }  // namespace hgrid
