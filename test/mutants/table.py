@@ -60,6 +60,7 @@ YAML_VALUE = "node/params/yaml_value.cpp"
 STORED_ITEMS = "node/state/stored_items.cpp"
 MOVERS = "node/world/mover_poses.cpp"
 OBSTACLES = "node/world/obstacle_bodies.cpp"
+OBSTACLE_EDITS = "node/world/obstacle_edits.cpp"
 POSES_MESSAGE = "node/wire/poses_message.cpp"
 SCENE_CHANGES = "node/moveit/scene_changes.cpp"
 SCENE_GAPS = "node/moveit/scene_gaps.cpp"
@@ -405,7 +406,7 @@ NODE = [
      "std::min(std::chrono::nanoseconds(remaining), by_wall)", "std::chrono::nanoseconds(remaining)"),
     ("a wall clock that was set back prolongs a rule", STORED_ITEMS,
      "std::min(std::chrono::nanoseconds(remaining), by_wall)", "by_wall"),
-    ("a change does not confirm a restored obstacle", OBSTACLES, "  obstacle.restored = false;", ""),
+    ("a change does not confirm a restored obstacle", OBSTACLE_EDITS, "  obstacle.restored = false;", ""),
     ("changes of obstacles are not stored", OBSTACLES, "  unsaved_.names.merge(unsaved);  // does not throw", ""),
     ("an obstacle that ended is there again after a restart", OBSTACLES,
      "  unsaved_.names.merge(unsaved);\n  movers.giveUp(lost);", "  movers.giveUp(lost);"),
@@ -455,12 +456,12 @@ NODE = [
     ("an obstacle of a group does not turn with the group", PLACED,
      "  obstacle.frame_from_body = after.frame_from_body * other_from_body;",
      "  obstacle.frame_from_body.translation() += after.frame_from_body.translation() - before.frame_from_body.translation();"),
-    ("obstacles of one group may follow different frames", OBSTACLES,
-     "      checkGroup(next, edits);\n    } else {", "    } else {"),
-    ("MoveIt removes an object that a robot carries", OBSTACLES,
+    ("obstacles of one group may follow different frames", OBSTACLE_EDITS,
+     "      checkGroup(next);\n    } else {", "    } else {"),
+    ("MoveIt removes an object that a robot carries", OBSTACLE_EDITS,
      "if (change.free_only && old != nullptr && old->attachment) {", "if (false) {"),
-    ("a complete scene drops what a robot carries", OBSTACLES,
-     "if (changes.spare_attached && next != nullptr && next->attachment) continue;", ""),
+    ("a complete scene drops what a robot carries", OBSTACLE_EDITS,
+     "if (spare_attached && next != nullptr && next->attachment) continue;", ""),
     ("an attached object that is sent again ends its pairs", OBSTACLES,
      "(old->second.what == next.what || isSame(*old->second.what, *next.what))", "old->second.what == next.what"),
     ("a complete scene appends to shapes of an older scene", SCENE_CHANGES,

@@ -4,11 +4,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
-#include <map>
 #include <memory>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -19,7 +16,7 @@
 #include "node/sources/obstacle_change.h"
 #include "node/world/missing_sources.h"
 #include "node/world/movers.h"
-#include "node/world/placed_obstacle.h"
+#include "node/world/obstacle_edits.h"
 #include "node/world/robot_models.h"
 #include "node/world/rules_in_force.h"
 #include "node/world/stored_world.h"
@@ -42,8 +39,7 @@ class ObstacleBodies {
   void startAgain() noexcept;
 
   /// Applies changes, all of them or none.
-  /// @throws ChangeRefusal dup_id, unknown_id, conflict, or for a frame that is not known at the requested time
-  /// @throws Refusal limit (~max_rules), or as Scene::exchange()
+  /// @throws ChangeRefusal or Refusal as editsOf(); Refusal limit (~max_rules), or as Scene::exchange()
   void apply(const ObstacleChanges& changes, const Surroundings& around, Movers& movers);
   /// Finds the places of attached obstacles again if the model of a robot was replaced since the last call.
   void followRobots(const RobotModels& robots, const std::string& world_frame, Movers& movers);
@@ -54,7 +50,7 @@ class ObstacleBodies {
   /// Returns the rules for what may touch the attached obstacles.
   const DerivedRules& touchRules() const { return touch_; }
   /// Returns the obstacles, by full name.
-  const std::map<std::string, PlacedObstacle>& all() const { return present_; }
+  const PlacedObstacles& all() const { return present_; }
 
   /// What changed since the last forgetUnsaved(), if ~state_folder is set.
   struct Unsaved {
@@ -65,44 +61,19 @@ class ObstacleBodies {
   void forgetUnsaved() noexcept;
 
  private:
-  using Obstacles = std::map<std::string, PlacedObstacle>;  // by full name
-
-  using Groups = std::map<std::string, std::set<std::string>>;  // full names of the obstacles of each group
-
-  /// What changes: the obstacles that are added, replaced or moved, and the names of those that are removed.
-  struct Edits {
-    Obstacles set;
-    std::set<std::string> removed;
-    std::optional<Groups> groups = {};  // all groups after the edits; nullopt: no change needed them yet
-    bool without_groups = false;        // ObstacleChanges::without_groups
-    std::size_t carried = 0;            // number of obstacles that moved with another one of their group
-  };
-
-  const PlacedObstacle* find(const Edits& edits, const std::string& name) const;
-  const PlacedObstacle& known(const std::string& name, const Edits& edits) const;
-  PlacedObstacle added(const ObstacleChange& change, const Edits& edits, const Surroundings& around) const;
-  PlacedObstacle changed(const ObstacleChange& change, const Edits& edits, const Surroundings& around) const;
-  void edit(const ObstacleChange& change, const Surroundings& around, Edits& edits) const;
-  const std::set<std::string>& groupOf(const PlacedObstacle& obstacle, Edits& edits) const;
-  void checkGroup(const PlacedObstacle& added, Edits& edits) const;
-  void carryGroup(const PlacedObstacle& before, const PlacedObstacle& after, const Surroundings& around,
-                  Edits& edits) const;
-  static void regroup(const PlacedObstacle* before, const PlacedObstacle* after, Edits& edits);
-  std::vector<std::string> chosen(const Edits& edits,
-                                  const std::function<bool(const PlacedObstacle&)>& is_chosen) const;
-  std::vector<PairRule> touchRulesAfter(const Edits& edits) const;
+  std::vector<PairRule> touchRulesAfter(const ObstacleEdits& edits) const;
   void addConfigured(const ObstacleParams& configured, const std::string& world_frame, Time now, Movers& movers);
   void addStored(const std::string& world_frame, Time now, Movers& movers, MissingSources& missing);
-  std::set<std::string> unsavedAfter(const Edits& edits) const;
-  void carryOut(Edits edits, const std::string& world_frame, Movers& movers);
+  std::set<std::string> unsavedAfter(const ObstacleEdits& edits) const;
+  void carryOut(ObstacleEdits edits, const std::string& world_frame, Movers& movers);
 
   const Params& params_;
   std::shared_ptr<NarrowPhase> narrow_phase_;
   Ledger& ledger_;
-  Obstacles present_;
+  PlacedObstacles present_;
   DerivedRules touch_;
   std::size_t done_ = 0;           // number of configured obstacles that were added or refused
-  Obstacles stored_;               // by an earlier run, and not added yet
+  PlacedObstacles stored_;         // by an earlier run, and not added yet
   std::set<std::string> removed_;  // configured obstacles that an earlier run removed
   Unsaved unsaved_;
   static constexpr std::uint64_t kNoRevision = std::numeric_limits<std::uint64_t>::max();

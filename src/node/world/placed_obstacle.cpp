@@ -69,6 +69,11 @@ std::string linkOf(const Attachment& attachment, const std::string& what, const 
                                     printable(links[1]) + "'; give the name of the robot, too");
 }
 
+bool moveTogether(const PlacedObstacle& a, const PlacedObstacle& b) {
+  if (!a.attachment != !b.attachment) return false;
+  return a.attachment ? a.attachment->link == b.attachment->link : a.frame == b.frame;
+}
+
 void checkNoGlob(const std::string& name) {
   if (!isGlob(name)) return;
   throw Refusal(Code::bad_id, "'" + printable(name) +
@@ -81,6 +86,11 @@ void checkNoGlob(const std::string& name) {
 std::string followedFrame(const std::string& frame, const std::string& obstacle, const std::string& world_frame) {
   if (frame.empty()) return world_frame;
   return frame == kPosesFrame ? posesFrameOf(obstacle) : frame;
+}
+
+Time endOf(const RequestedObstacle& obstacle, Time now) {
+  if (obstacle.lifetime == std::chrono::nanoseconds(0)) return Time::max();
+  return obstacle.lifetime > Time::max() - now ? Time::max() : now + obstacle.lifetime;
 }
 
 Body bodyOf(const PlacedObstacle& obstacle, const std::string& world_frame) {
@@ -220,9 +230,14 @@ void detach(PlacedObstacle& obstacle, const Surroundings& around) {
   put(obstacle, place, around);
 }
 
-bool moveTogether(const PlacedObstacle& a, const PlacedObstacle& b) {
-  if (!a.attachment != !b.attachment) return false;
-  return a.attachment ? a.attachment->link == b.attachment->link : a.frame == b.frame;
+void checkMoveTogether(const PlacedObstacle& added, const PlacedObstacle& other) {
+  if (moveTogether(added, other)) return;
+  const std::string where = other.attachment ? "is attached to '" + printable(other.attachment->link) + "'"
+                                             : "follows the frame '" + printable(other.frame) + "'";
+  throw Refusal(Code::conflict, "'" + printable(added.what->body.name) + "' cannot be in the group '" +
+                                    printable(added.what->body.group) + "', because '" +
+                                    printable(other.what->body.name) + "' " + where +
+                                    "; obstacles of one group must follow the same frame or link");
 }
 
 void carry(PlacedObstacle& obstacle, const PlacedObstacle& before, const PlacedObstacle& after,

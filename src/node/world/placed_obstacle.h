@@ -39,6 +39,9 @@ struct PlacedObstacle {
 /// Returns the tf frame that an obstacle follows. @param frame  as requested; empty: the world frame; see kPosesFrame
 std::string followedFrame(const std::string& frame, const std::string& obstacle, const std::string& world_frame);
 
+/// Returns the end of a lifetime that begins at `now` [ROS time]; Time::max(): never.
+Time endOf(const RequestedObstacle& obstacle, Time now);
+
 /// Returns the obstacle as a body of the scene.
 Body bodyOf(const PlacedObstacle& obstacle, const std::string& world_frame);
 
@@ -64,8 +67,8 @@ void append(PlacedObstacle& obstacle, const RequestedObstacle& added, const Surr
 void detach(PlacedObstacle& obstacle, const Surroundings& around);
 ///@}
 
-/// Returns whether two obstacles follow the same frame, or are attached to the same link, so that both move together.
-bool moveTogether(const PlacedObstacle& a, const PlacedObstacle& b);
+/// @throws Refusal conflict unless both obstacles of a group follow the same frame, or are attached to the same link
+void checkMoveTogether(const PlacedObstacle& added, const PlacedObstacle& other);
 
 /// Moves an obstacle as one rigid body with another one of its group: to another place, or to or from a link.
 /// @param before  the other obstacle before its change; it moves together with `obstacle`
