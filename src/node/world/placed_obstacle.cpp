@@ -69,6 +69,11 @@ std::string linkOf(const Attachment& attachment, const std::string& what, const 
                                     printable(links[1]) + "'; give the name of the robot, too");
 }
 
+bool isFixed(const PlacedObstacle& obstacle, const std::string& world_frame) {
+  // Nobody knows where an obstacle is after it was lost. It must then have pairs with fixed bodies, so it is not fixed.
+  return obstacle.frame == world_frame && !obstacle.what->moving && !obstacle.what->lost_at_end;
+}
+
 bool moveTogether(const PlacedObstacle& a, const PlacedObstacle& b) {
   if (!a.attachment != !b.attachment) return false;
   return a.attachment ? a.attachment->link == b.attachment->link : a.frame == b.frame;
@@ -97,9 +102,7 @@ Body bodyOf(const PlacedObstacle& obstacle, const std::string& world_frame) {
   Body body = obstacle.what->body;
   body.frame = obstacle.frame;
   body.frame_from_body = obstacle.frame_from_body;
-  // Nobody knows where an obstacle is after it was lost. It must then have pairs with fixed bodies, so it is not fixed.
-  const bool fixed = obstacle.frame == world_frame && !obstacle.what->moving && !obstacle.what->lost_at_end;
-  body.mobility = fixed ? Mobility::fixed : Mobility::moving;
+  body.mobility = isFixed(obstacle, world_frame) ? Mobility::fixed : Mobility::moving;
   if (obstacle.restored) {
     body.note = "RESTORED: stored by an earlier run of the node; add it again unchanged, or change it, to confirm it";
   }
@@ -189,10 +192,11 @@ void append(PlacedObstacle& obstacle, const RequestedObstacle& added, const Surr
 }
 
 void checkPlanes(const PlacedObstacle& obstacle, const std::string& world_frame) {
-  const Body body = bodyOf(obstacle, world_frame);
+  if (isFixed(obstacle, world_frame)) return;
+  const Body& body = obstacle.what->body;
   const bool has_plane = std::any_of(body.shapes.begin(), body.shapes.end(),
                                      [](const BodyShape& shape) { return shape.shape.kind() == ShapeKind::plane; });
-  if (!has_plane || body.mobility == Mobility::fixed) return;
+  if (!has_plane) return;
   throw Refusal(Code::unsupported,
                 "'" + printable(body.name) + "' has a plane, so it must be fixed in the world frame '" +
                     printable(world_frame) + "'; it " +
