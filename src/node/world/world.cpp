@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "hgrid_proximity/refusal.h"
-#include "node/world/robot_edits.h"
 #include "node/world/unplaced_robots.h"
 
 namespace hgrid {
@@ -38,84 +37,6 @@ SceneOptions optionsOf(const Params& params, const std::vector<PairRule>& stored
   return options;
 }
 
-/// Returns the robots of `next` that must enter the scene, because it does not have them or has another model of them.
-std::vector<std::shared_ptr<const LoadedRobot>> entering(const RobotEntries& present, const RobotEntries& next) {
-  std::vector<std::shared_ptr<const LoadedRobot>> robots;
-  for (const auto& [name, robot] : next) {
-    const auto old = present.find(name);
-    const bool stays = old != present.end() && old->second.inWorld() && old->second.model == robot.model;
-    if (robot.inWorld() && !stays) robots.push_back(robot.model);
-  }
-  return robots;
-}
-
-/// Returns how many bodies of `present` leave the scene if the robots become `next`.
-std::size_t leavingBodies(const RobotEntries& present, const RobotEntries& next) {
-  std::size_t bodies = 0;
-  for (const std::shared_ptr<const LoadedRobot>& robot : entering(next, present)) bodies += robot->bodies.size();
-  return bodies;
-}
-
-/// Returns the first robot whose bodies do not fit into ~max_bodies; null: all fit.
-/// @param others  number of bodies in the world that belong to no robot of `robots`
-const LoadedRobot* findTooLarge(const std::vector<std::shared_ptr<const LoadedRobot>>& robots, std::size_t others,
-                                const Params& params) {
-  for (const std::shared_ptr<const LoadedRobot>& robot : robots) {
-    others += robot->bodies.size();
-    if (others > static_cast<std::size_t>(params.max_bodies)) return robot.get();
-  }
-  return nullptr;
-}
-
-Refusal tooLarge(const LoadedRobot& robot, const Params& params) {
-  return {Code::limit, "robot '" + robot.name + "' has " + std::to_string(robot.bodies.size()) +
-                           " bodies; with them, the world would have more than ~max_bodies, " +
-                           std::to_string(params.max_bodies)};
-}
-
-/// Returns what a robot lacks; empty: nothing, or it is not expected to be in the world.
-std::string lackOf(const std::string& name, const RobotEntry& robot) {
-  if (robot.absent) return {};
-  if (!robot.model) return "NOT_READY robot '" + name + "': its description has not been read yet";
-  if (!robot.refused.empty()) {
-    return "REFUSED '" + name + "': its newest description could not be used (" + robot.refused +
-           "), so its model may be out of date";
-  }
-  return robot.model->gap.empty() ? "" : "UNCOVERED " + robot.model->gap;
-}
-
-bool isSameEntry(const RobotEntry& a, const RobotEntry& b) {
-  return a.spec == b.spec && a.model == b.model && a.absent == b.absent && a.refused == b.refused;
-}
-
-/// Updates what the robots lack. What is known of a robot that does not change stays.
-void updateMissing(const RobotEntries& present, const RobotEntries& next, MissingSources& missing) {
-  for (const auto& robot : present) {
-    if (next.count(robot.first) == 0) missing.erase(SourceId::ofRobot(robot.first));
-  }
-  for (const auto& [name, robot] : next) {
-    const auto old = present.find(name);
-    if (old != present.end() && isSameEntry(old->second, robot)) continue;
-    const std::string lack = lackOf(name, robot);
-    lack.empty() ? missing.erase(SourceId::ofRobot(name)) : missing.set(SourceId::ofRobot(name), lack);
-  }
-}
-
-/// Adds a mover for each group of links that move together.
-void addMovers(const LoadedRobot& robot, const LinkPaddings& paddings, Movers::Change& change) {
-  const SourceId source = SourceId::ofRobot(robot.name);
-  for (const LoadedRobot::Group& group : robot.groups) {
-    bool first = true;
-    for (const auto& [body, frame_from_body] : group.members) {
-      if (std::exchange(first, false)) {
-        change.add(group.frame, source, padded(robot.bodies[body], paddings), frame_from_body);
-      } else {
-        change.join(padded(robot.bodies[body], paddings), frame_from_body);
-      }
-    }
-  }
-}
-
 void sortUnique(std::vector<std::string>& names) {
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
@@ -135,16 +56,15 @@ World::World(std::shared_ptr<const Settings> settings, bool simulated, std::uint
       clock_(simulated, params_.clock_jump, params_.stale_after),
       movers_(scene_),
       poses_(params_, transforms_, scene_, movers_, ledger),
-      robots_(params_, stored.robots),
+      missing_(params_),
+      robots_(params_, stored.robots, scene_, movers_, missing_),
       obstacles_(params_, narrow_phase, stored, ledger),
       maps_(simulated),
       clouds_(params_, simulated, scene_, ledger),
       tracks_(params_, simulated, *narrow_phase, scene_, ledger),
-      missing_(params_),
       world_frame_(params_.world_frame),
       epoch_(epoch) {
   scene_.beginEpoch(epoch_);
-  updateMissing({}, robots_.all(), missing_);
   for (const auto& [name, map] : stored.maps) {
     if (map) missing_.set(SourceId::ofMap(name), "NOT_READY map '" + name + "': its file has not been read yet");
   }
@@ -164,67 +84,9 @@ void World::beginEpoch() {
   poses_.beginEpoch();
 }
 
-void World::setRobot(LoadedRobot loaded) {
-  const auto robot = std::make_shared<const LoadedRobot>(std::move(loaded));
-  RobotEntries next = robots_.all();
-  RobotEntry& entry = next[robot->name];
-  if (!entry.spec) {
-    RobotSpec spec;
-    spec.params.name = robot->name;
-    entry.spec = std::make_shared<const RobotSpec>(std::move(spec));
-  }
-  entry.model = robot;
-  entry.refused.clear();
-  exchangeRobots(std::move(next), nullptr);
-}
-
 void World::applyRobots(const RobotChanges& changes) {
-  RobotEntries next = robots_.all();
-  std::map<std::string, std::size_t> bringing;  // index of the last change that brings a robot into the world, by name
   findWorldFrame();
-  for (const RobotChange& change : changes) {
-    try {
-      edit(change, params_, next);
-      if (change.operation == RobotOperation::add && params_.world_frame.empty())
-        checkSharesRoot(*change.model, world_frame_);
-    } catch (const Refusal& refusal) {
-      throw ChangeRefusal(change.index, refusal);
-    }
-    if (next.count(change.name) != 0) bringing[change.name] = change.index;
-  }
-  const std::size_t others = scene_.size() - leavingBodies(robots_.all(), next);
-  if (const LoadedRobot* robot = findTooLarge(entering(robots_.all(), next), others, params_))
-    throw ChangeRefusal(bringing[robot->name], tooLarge(*robot, params_));
-  exchangeRobots(std::move(next), nullptr);
-}
-
-/// Replaces the robots, all of them or none. @param leaves_too  which other sources leave the world; may be empty
-void World::exchangeRobots(RobotEntries next, const std::function<bool(const SourceId&)>& leaves_too) {
-  const RobotEntries& present = robots_.all();
-  std::set<std::string> leaving;
-  for (const std::shared_ptr<const LoadedRobot>& robot : entering(next, present)) leaving.insert(robot->name);
-  const std::vector<std::shared_ptr<const LoadedRobot>> coming = entering(present, next);
-  if (!leaves_too) {
-    const std::size_t others = scene_.size() - leavingBodies(present, next);
-    if (const LoadedRobot* robot = findTooLarge(coming, others, params_)) throw tooLarge(*robot, params_);
-  }
-  MissingSources missing = missing_;
-  updateMissing(present, next, missing);
-  const bool changes_bodies = leaves_too || !leaving.empty() || !coming.empty();
-  std::optional<Movers::Change> change;
-  if (changes_bodies) {
-    change = movers_.changeWithout([&](const SourceId& source) {
-      return (source.kind == SourceKind::robot && leaving.count(source.name) != 0) ||
-             (leaves_too && leaves_too(source));
-    });
-    for (const std::shared_ptr<const LoadedRobot>& robot : coming) addMovers(*robot, paddings_, *change);
-  }
-  RobotModels robots = robots_;
-  robots.set(std::move(next));
-  if (change) movers_.exchange(std::move(*change));
-  // The code below does not throw.
-  robots_.swap(robots);
-  missing_.swap(missing);
+  robots_.apply(changes, world_frame_);
 }
 
 void World::setMap(const LoadedMap& map) {
@@ -309,15 +171,8 @@ void World::needFrames(const Moment& now) {
 
 void World::setMissing(const SourceId& source, const std::string& sentence) {
   if (clouds_.noteRefused(source, sentence) || maps_.noteRefused(source, sentence)) return;
-  const RobotEntry* known = source.kind == SourceKind::robot ? robots_.entry(source.name) : nullptr;
-  if (source.kind == SourceKind::robot && known == nullptr) return;  // it was removed
-  if (known == nullptr || (!known->model && !known->absent)) {
-    missing_.set(source, sentence);
-  } else if (known->model && known->refused != sentence) {
-    RobotEntries next = robots_.all();
-    next.at(source.name).refused = sentence;
-    exchangeRobots(std::move(next), nullptr);
-  }
+  if (source.kind == SourceKind::robot) return robots_.noteRefused(source.name, sentence);
+  missing_.set(source, sentence);
 }
 
 void World::applyObstacles(const ObstacleChanges& changes, Time now) {
@@ -331,43 +186,12 @@ void World::applyObstacles(const ObstacleChanges& changes, Time now) {
   std::set<SourceId> named;
   for (const ObstacleChange& change : changes.changes) named.insert(SourceId::ofObstacle(change.name));
   obstacles_.addAll(world_frame_, now, movers_, missing_);  // so that a change can be about a configured obstacle
-  obstacles_.apply(changes, {params_, world_frame_, transforms_.lookup(), robots_, now}, movers_);
+  obstacles_.apply(changes, {params_, world_frame_, transforms_.lookup(), robots_.models(), now}, movers_);
   // The code below does not throw. A configured obstacle that was refused is no longer missing if it was changed.
   missing_.eraseIf([&](const SourceId& source) { return named.count(source) != 0; });
 }
 
 void World::setRules(PreparedRules rules) { rules_.set(std::move(rules)); }
-
-void World::setLinkPaddings(LinkPaddings paddings) noexcept {
-  paddings_changed_ = paddings_changed_ || paddings != paddings_;
-  paddings_.swap(paddings);
-}
-
-/// Replaces the robots of which a link has another padding now.
-void World::padLinks() {
-  const auto differs = [&](const Body& link) {
-    BodyId id;
-    if (!scene_.find(link.name, id)) return false;
-    const std::vector<BodyShape>& now = scene_.body(id).shapes;
-    const std::vector<BodyShape> next = padded(link, paddings_).shapes;
-    return !std::equal(now.begin(), now.end(), next.begin(), next.end(),
-                       [](const BodyShape& a, const BodyShape& b) { return a.padding == b.padding; });
-  };
-  std::vector<const LoadedRobot*> others;
-  for (const auto& entry : robots_.all()) {
-    const LoadedRobot* robot = robots_.find(entry.first);
-    if (robot != nullptr && std::any_of(robot->bodies.begin(), robot->bodies.end(), differs)) others.push_back(robot);
-  }
-  if (!others.empty()) {
-    Movers::Change change = movers_.changeWithout([&](const SourceId& source) {
-      return std::any_of(others.begin(), others.end(),
-                         [&](const LoadedRobot* robot) { return source == SourceId::ofRobot(robot->name); });
-    });
-    for (const LoadedRobot* robot : others) addMovers(*robot, paddings_, change);
-    movers_.exchange(std::move(change));
-  }
-  paddings_changed_ = false;
-}
 
 void World::setSettings(std::shared_ptr<const Settings> settings) {
   const Params& params = settings->params;
@@ -377,10 +201,10 @@ void World::setSettings(std::shared_ptr<const Settings> settings) {
 
 void World::reset() {
   const auto is_obstacle = [](const SourceId& source) { return source.kind == SourceKind::obstacle; };
-  exchangeRobots(robots_.configured(), is_obstacle);
+  robots_.reset(is_obstacle);
   // The code below does not throw.
   obstacles_.startAgain();
-  setLinkPaddings({});
+  robots_.setPaddings({});
   setMatrix({});
   missing_.eraseIf(is_obstacle);
   ledger_.clear();
@@ -391,7 +215,7 @@ void World::reset() {
 /// @returns whether the world frame is known
 bool World::findWorldFrame() {
   if (world_frame_.empty()) {
-    world_frame_ = robots_.firstRoot();
+    world_frame_ = robots_.models().firstRoot();
     needed_revision_.reset();
   }
   return !world_frame_.empty();
@@ -446,13 +270,13 @@ std::shared_ptr<Tick> World::tick(const Moment& now) {
   const bool can_begin = findWorldFrame() && clock_.running();
   // This comes before listMissing(), because obstacles that are refused become missing sources.
   if (can_begin) obstacles_.addAll(world_frame_, now.ros, movers_, missing_);
-  if (can_begin) obstacles_.followRobots(robots_, world_frame_, movers_);
+  if (can_begin) obstacles_.followRobots(robots_.models(), world_frame_, movers_);
   if (can_begin) obstacles_.expire(now.ros, movers_);
-  if (paddings_changed_) padLinks();
-  rules_.apply(now, obstacles_.touchRules(), matrix_.rules(robots_), scene_);
+  robots_.padLinks();
+  rules_.apply(now, obstacles_.touchRules(), matrix_.rules(robots_.models()), scene_);
   needFrames(now);
   tick->world_frame = world_frame_;
-  tick->models = robots_.report();
+  tick->models = robots_.models().report();
   tick->frames = transforms_.table().placed();
   std::vector<SourceGap> gaps = listMissing(now, *tick);
   if (!can_begin) {

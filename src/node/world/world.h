@@ -2,11 +2,11 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hgrid_proximity/narrow/narrow_phase.h"
@@ -29,7 +29,7 @@
 #include "node/world/mover_poses.h"
 #include "node/world/movers.h"
 #include "node/world/obstacle_bodies.h"
-#include "node/world/robot_models.h"
+#include "node/world/robot_bodies.h"
 #include "node/world/rules_in_force.h"
 #include "node/world/track_bodies.h"
 
@@ -56,14 +56,12 @@ class World {
   TfIntake& transforms() { return transforms_; }
   const TfIntake& transforms() const { return transforms_; }
 
-  /// Replaces the model of the robot of the same name, or adds a robot. An absent robot stays absent.
-  /// @throws Refusal limit (~max_bodies), or as Scene::exchange()
-  void setRobot(LoadedRobot robot);
-  /// Applies changes of robots, all of them or none.
-  /// @throws ChangeRefusal as edit() and checkSharesRoot(), or limit (~max_bodies); Refusal as Scene::exchange()
+  /// Replaces the model of a robot, or adds a robot. See RobotBodies::set().
+  void setRobot(LoadedRobot robot) { robots_.set(std::move(robot)); }
+  /// Applies changes of robots, all of them or none. See RobotBodies::apply().
   void applyRobots(const RobotChanges& changes);
   /// Returns the robots, also those that are absent or not loaded.
-  const RobotModels& robots() const { return robots_; }
+  const RobotModels& robots() const { return robots_.models(); }
   /// Replaces the map of the same name, if there is one.
   /// @throws Refusal not_ready (no world frame yet), limit, bad_geometry (no cells), or unknown_frame (the map would
   /// move to a frame that is not connected to the world frame)
@@ -94,8 +92,8 @@ class World {
   void applyObstacles(const ObstacleChanges& changes, Time now);
   /// Replaces the paddings of links that were set at run time, from the next tick on. They hold for robots that are
   /// loaded later, too. The larger one of this padding and that of ~padding counts.
-  void setLinkPaddings(LinkPaddings paddings) noexcept;
-  const LinkPaddings& linkPaddings() const { return paddings_; }
+  void setLinkPaddings(LinkPaddings paddings) noexcept { robots_.setPaddings(std::move(paddings)); }
+  const LinkPaddings& linkPaddings() const { return robots_.paddings(); }
   /// Replaces the allowed collision matrix of MoveIt, from the next tick on. No rules: there is none.
   void setMatrix(std::vector<MatrixRule> matrix) noexcept { matrix_.set(std::move(matrix)); }
   const std::vector<MatrixRule>& matrix() const { return matrix_.matrix(); }
@@ -114,8 +112,6 @@ class World {
   void handleClock(const Moment& now);
   void beginEpoch();
   bool findWorldFrame();
-  void padLinks();
-  void exchangeRobots(RobotEntries next, const std::function<bool(const SourceId&)>& leaves_too);
   void needFrames(const Moment& now);
   std::vector<SourceGap> listMissing(const Moment& now, Tick& tick) const;
 
@@ -128,16 +124,14 @@ class World {
   ClockWatch clock_;
   Movers movers_;
   MoverPoses poses_;
-  RobotModels robots_;
+  MissingSources missing_;
+  RobotBodies robots_;
   ObstacleBodies obstacles_;
   MapBodies maps_;
   CloudBodies clouds_;
   TrackBodies tracks_;
-  MissingSources missing_;
   RulesInForce rules_;
   MatrixRules matrix_;
-  LinkPaddings paddings_;
-  bool paddings_changed_ = false;                             // whether a tick must still apply them
   std::map<SourceId, std::vector<std::string>> data_frames_;  // by cloud or tracker
   std::optional<std::uint64_t> needed_revision_;  // of the movers whose frames are needed; nullopt: not up to date
   std::string world_frame_;
