@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <functional>
 #include <set>
 
 namespace hgrid {
@@ -14,12 +13,6 @@ using WatchClock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kWatchPause{1000};  // shortest pause between two looks at the same description
 constexpr int kWatchShare = 50;  // the pause after a look is at least this many times as long as the look
-
-/// Returns a hash of a description. Two descriptions that differ have the same hash with a probability of 2^-64.
-std::size_t hashOf(const RobotDescription& description) {
-  const std::hash<std::string> hash;
-  return hash(description.urdf) + (description.srdf ? 31 * hash(*description.srdf) + 1 : 0);
-}
 
 /// Returns the names of the parameters that hold the description of a robot.
 std::string keyOf(const RobotSpec& robot) { return robot.params.description + " " + robot.params.semantic; }
@@ -56,8 +49,7 @@ void DescriptionWatch::setRobots(Robots robots) {
   distinct_.swap(distinct);
 }
 
-void DescriptionWatch::noteRead(const std::string& robot, const RobotDescription& description) {
-  const std::size_t hash = hashOf(description);
+void DescriptionWatch::noteRead(const std::string& robot, std::uint64_t hash) {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++reads_;
   read_[robot] = hash;
@@ -112,7 +104,7 @@ void DescriptionWatch::look(const RobotSpec& robot) {
     reads_before = reads_;
   }
   try {
-    const std::size_t hash = hashOf(source_.describe(robot));
+    const std::uint64_t hash = source_.describe(robot).hash();
     const std::lock_guard<std::mutex> lock(mutex_);
     if (reads_ == reads_before) seen_[keyOf(robot)] = hash;
   } catch (const std::exception&) {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <condition_variable>
-#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -35,7 +34,8 @@ class DescriptionWatch {
   /// Replaces the list of robots to watch. Robots whose description came with a request never change.
   void setRobots(Robots robots);
   /// Call this before a robot is loaded from a description. From then on, a different description is a change.
-  void noteRead(const std::string& robot, const RobotDescription& description);
+  /// @param hash  RobotDescription::hash()
+  void noteRead(const std::string& robot, std::uint64_t hash);
   /// Call this if a robot was added that is equal to another one, so that both change at the same time.
   void noteLike(const std::string& robot, const std::string& other);
   /// Returns the robots whose newest description differs from that of the last noteRead(). Never waits for the ROS
@@ -50,11 +50,11 @@ class DescriptionWatch {
   mutable std::mutex mutex_;
   std::condition_variable wake_;
   // mutex_ guards the members from here to ends_.
-  Robots robots_;                            // those to watch
-  Robots distinct_;                          // one of them for each description
-  std::map<std::string, std::size_t> read_;  // by robot: hash of the description of the last noteRead()
-  std::map<std::string, std::size_t> seen_;  // by the names of its parameters: hash of the description as last read
-  std::uint64_t reads_ = 0;                  // number of calls that changed the members above
+  Robots robots_;                              // those to watch
+  Robots distinct_;                            // one of them for each description
+  std::map<std::string, std::uint64_t> read_;  // by robot: hash of the description of the last noteRead()
+  std::map<std::string, std::uint64_t> seen_;  // by the names of its parameters: hash of the description as last read
+  std::uint64_t reads_ = 0;                    // number of calls that changed the members above
   bool ends_ = false;
   std::thread thread_;  // declared last, because it uses the members above
 };

@@ -61,7 +61,7 @@ class Preparation {
   std::shared_ptr<const LoadedRobot> loaded(const RobotSpec& spec) {
     const RobotDescription description = source_.describe(spec);
     auto robot = std::make_shared<const LoadedRobot>(reader_.load(spec, description));
-    prepared_.read[spec.params.name] = description;
+    prepared_.read[spec.params.name] = description.hash();
     prepared_.like.erase(spec.params.name);
     return robot;
   }

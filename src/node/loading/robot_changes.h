@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
-#include <functional>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -33,8 +33,8 @@ class SharedReader {
 /// What a request of ~apply_robots changes, with everything that it needs read.
 struct PreparedRobots {
   RobotChanges changes;
-  std::map<std::string, RobotDescription> read;  ///< by robot: the descriptions that were read
-  std::map<std::string, std::string> like;       ///< by robot: the robot that it shares its model with
+  std::map<std::string, std::uint64_t> read;  ///< by robot: hash of the description that was read
+  std::map<std::string, std::string> like;    ///< by robot: the robot that it shares its model with
 };
 
 /// Prepares a request: reads the descriptions of robots that are added, and of absent robots that were never loaded.

@@ -82,7 +82,7 @@ Refusal RobotLoader::load(const Robot& robot, SharedReader& reader) {
   const std::string& name = robot->params.name;
   try {
     const RobotDescription description = source_.describe(*robot);
-    watch_.noteRead(name, description);
+    watch_.noteRead(name, description.hash());
     const auto loaded = std::make_shared<LoadedRobot>(reader.load(*robot, description));
     const SelfPairs self_pairs = loaded->self_pairs;
     const auto after = std::make_shared<std::optional<RobotModels>>();
@@ -120,7 +120,7 @@ std::shared_ptr<const Tick> RobotLoader::change(const ChangeWorld& change_world,
     if (!*after) return;
     adopt(**after);
     if (prepared == nullptr) return;
-    for (const auto& [robot, description] : prepared->read) watch_.noteRead(robot, description);
+    for (const auto& [robot, hash] : prepared->read) watch_.noteRead(robot, hash);
     for (const auto& [robot, other] : prepared->like) watch_.noteLike(robot, other);
   };
   std::shared_ptr<const Tick> tick;

@@ -6,6 +6,7 @@
 #include <ros/names.h>
 
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -108,10 +109,8 @@ std::shared_ptr<const RobotDescription> textOf(const msg::RobotChange& change, c
                                    std::to_string(params.max_description_bytes) +
                                    " are allowed (~max_description_bytes)");
   }
-  auto text = std::make_shared<RobotDescription>();
-  text->urdf = change.urdf;
-  if (!change.srdf.empty()) text->srdf = change.srdf;
-  return text;
+  const std::optional<std::string> srdf = change.srdf.empty() ? std::nullopt : std::optional(change.srdf);
+  return std::make_shared<const RobotDescription>(change.urdf, srdf);
 }
 
 /// Appends one request for each name of a change.

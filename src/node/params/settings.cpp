@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hgrid_proximity/refusal.h"
+#include "node/text/text_hash.h"
 
 namespace hgrid {
 namespace {
@@ -19,13 +20,6 @@ XmlRpc::XmlRpcValue valuesOf(const ros::NodeHandle& node) {
     values.begin();  // turns the value into an empty struct: no parameter is set
   }
   return values;
-}
-
-/// Returns the 64-bit hash of a text by the hash function FNV-1a.
-std::uint64_t fnv1a(const std::string& text) {
-  std::uint64_t hash = 0xcbf29ce484222325ull;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
-  return hash;
 }
 
 /// Writes a value to its place in a struct of parameters. The name "group/key" means the member `key` of the struct

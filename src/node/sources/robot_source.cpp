@@ -100,11 +100,12 @@ std::string RobotSource::parameter(const std::string& name) const {
 
 RobotDescription RobotSource::describe(const RobotSpec& robot) const {
   if (robot.text) return *robot.text;
-  RobotDescription description{parameter(robot.params.description), std::nullopt};
+  std::string urdf = parameter(robot.params.description);
+  std::optional<std::string> srdf;
   const std::string& semantic = robot.params.semantic;
   std::string key;
-  if (!semantic.empty() && node_.searchParam(semantic, key)) description.srdf = parameter(semantic);
-  return description;
+  if (!semantic.empty() && node_.searchParam(semantic, key)) srdf = parameter(semantic);
+  return RobotDescription(std::move(urdf), std::move(srdf));
 }
 
 std::shared_ptr<const ReadDescription> RobotSource::read(const RobotSpec& robot,
@@ -117,13 +118,13 @@ std::shared_ptr<const ReadDescription> RobotSource::read(const RobotSpec& robot,
   MeshLoader meshes(meshPolicy(params_, cancelled_));
   const auto read = std::make_shared<ReadDescription>();
   read->model = readUrdf(
-      description.urdf, [&](const std::string& uri, const Eigen::Vector3d& scale) { return meshes.load(uri, scale); },
+      description.urdf(), [&](const std::string& uri, const Eigen::Vector3d& scale) { return meshes.load(uri, scale); },
       limits, params_.shapeLimits(),
       [&](const std::string& link) { return matchesAny(params_.use_visual, joined(name, link)); });
   read->warnings = read->model.warnings;
   LinkRules rules;
-  if (description.srdf) {
-    rules = readSrdf(*description.srdf, limits);
+  if (description.srdf()) {
+    rules = readSrdf(*description.srdf(), limits);
   } else if (!robot.text && !semantic.empty() && semantic != RobotParams{}.semantic) {
     read->warnings.push_back("parameter '" + printable(semantic) + "' is not set; it should hold the robot's SRDF");
   }

@@ -5,6 +5,7 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "node/services/guarded.h"
@@ -38,13 +39,14 @@ std::vector<PairRule> serviceRules(const std::vector<PairRule>& all) {
   return rules;
 }
 
-using Descriptions = std::set<std::shared_ptr<const RobotDescription>>;
+using Descriptions = std::map<std::string, std::shared_ptr<const RobotDescription>>;  // by keyOf()
 
 /// Returns the descriptions that came with requests.
 Descriptions textsOf(const RobotEntries& robots) {
   Descriptions texts;
   for (const auto& robot : robots) {
-    if (robot.second.spec->text) texts.insert(robot.second.spec->text);
+    const std::shared_ptr<const RobotDescription>& text = robot.second.spec->text;
+    if (text) texts.emplace(keyOf(*text), text);
   }
   return texts;
 }
@@ -141,15 +143,14 @@ StateKeeper::Changes StateKeeper::changesOf(const ObstacleBodies& obstacles) con
 
 /// Collects how the robots differ from those that were collected last.
 void StateKeeper::collectRobots(const RobotModels& robots, Changes& changes) const {
-  const RobotEntries configured = RobotModels(commons_.settings.params).all();
+  const RobotEntries configured = robots.configured();
   const RobotEntries &before = seen_robots_->all(), &after = robots.all();
-  Descriptions old = textsOf(before), present = textsOf(after);
-  for (const auto& text : old) {
-    if (present.count(text) == 0) changes.push_back({keyOf(*text), [text] { return removalOf(*text); }});
+  const Descriptions old = textsOf(before), present = textsOf(after);
+  for (const auto& [key, text] : old) {
+    if (present.count(key) == 0) changes.push_back({key, [text = text] { return removalOf(*text); }});
   }
-  // A text that was removed may be equal to one that is still in use, so all texts are stored again.
-  if (old != present) {
-    for (const auto& text : present) changes.push_back({keyOf(*text), [text] { return editOf(*text); }});
+  for (const auto& [key, text] : present) {
+    if (old.count(key) == 0) changes.push_back({key, [text = text] { return editOf(*text); }});
   }
   for (const auto& [name, robot] : after) {
     const auto known = before.find(name);

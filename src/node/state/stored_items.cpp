@@ -24,6 +24,11 @@ void passNames(File& file, const char* word, std::vector<std::string>& names) {
   });
 }
 
+template <class File>
+void pass(File& file, std::string& text) {
+  file.value(text);
+}
+
 /// Writes or reads a value that may be absent.
 template <class File, class Value>
 void passOptional(File& file, std::optional<Value>& value, const Value& blank) {
@@ -31,14 +36,6 @@ void passOptional(File& file, std::optional<Value>& value, const Value& blank) {
   file.value(exists);
   if (File::kReads) value = exists ? std::optional<Value>(blank) : std::nullopt;
   if (value) pass(file, *value);
-}
-
-template <class File>
-void passOptionalText(File& file, std::optional<std::string>& text) {
-  bool exists = text.has_value();
-  file.value(exists);
-  if (File::kReads) text = exists ? std::optional<std::string>("") : std::nullopt;
-  if (text) file.value(*text);
 }
 
 template <class File>
@@ -101,23 +98,20 @@ void pass(File& file, MapParams& map) {
 
 template <class File>
 void pass(File& file, RobotDescription& text) {
+  std::string urdf = text.urdf();
+  std::optional<std::string> srdf = text.srdf();
   file.line("urdf");
-  file.value(text.urdf);
+  file.value(urdf);
   file.line("srdf");
-  passOptionalText(file, text.srdf);
+  passOptional(file, srdf, std::string());
+  if (File::kReads) text = RobotDescription(std::move(urdf), std::move(srdf));
 }
 
 }  // namespace
 
 std::string keyOf(const RobotDescription& text) {
-  std::uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a
-  const auto add = [&](const std::string& bytes) {
-    for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  };
-  add(text.urdf);
-  if (text.srdf) add("\n" + *text.srdf);
   std::ostringstream key;
-  key << kDescriptionKeys << std::hex << hash;
+  key << kDescriptionKeys << std::hex << text.hash();
   return key.str();
 }
 

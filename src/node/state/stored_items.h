@@ -29,7 +29,7 @@ inline constexpr const char* kRobotKeys = "robot ";
 inline constexpr const char* kDescriptionKeys = "description ";
 inline constexpr const char* kRulesKey = "rules";
 
-/// Returns the key of a description: a hash of its text, because equal texts are stored once.
+/// Returns the key of a description. Equal texts have the same key, so they are stored once.
 std::string keyOf(const RobotDescription& text);
 
 ///@{

@@ -10,7 +10,9 @@
 namespace hgrid {
 namespace {
 
-std::size_t sizeOf(const RobotDescription& text) { return text.urdf.size() + (text.srdf ? text.srdf->size() : 0); }
+std::size_t sizeOf(const RobotDescription& text) {
+  return text.urdf().size() + (text.srdf() ? text.srdf()->size() : 0);
+}
 
 /// Checks that there is room for one more robot. @throws Refusal limit
 void checkRoom(const std::string& name, const RobotSpec& spec, const RobotEntries& robots, const Params& params) {

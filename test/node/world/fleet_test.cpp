@@ -138,9 +138,9 @@ TEST_F(Fleet, LimitsCountRobotsBodiesAndTexts) {
   RobotChange told = joins("told", 0), twice = joins("twice", 1);
   for (RobotChange* change : {&told, &twice}) {
     RobotSpec spec = *change->spec;
-    auto text = std::make_shared<RobotDescription>();
-    text->urdf = std::string(std::size_t(params_.max_description_bytes) / 2 + 1, ' ');
-    spec.text = change == &twice ? text : (text->urdf += "!", text);
+    std::string urdf(std::size_t(params_.max_description_bytes) / 2 + 1, ' ');
+    if (change == &told) urdf += "!";
+    spec.text = std::make_shared<const RobotDescription>(urdf);
     change->spec = std::make_shared<const RobotSpec>(spec);
   }
   EXPECT_EQ(refused({leaves("amr2"), leaves("amr3"), told, twice}), Refused(Code::limit, 1));
