@@ -3,6 +3,7 @@
 #include "node/tracks/track_list.h"
 
 #include <algorithm>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -41,9 +42,9 @@ std::vector<std::string> TrackList::assigned(const TrackReport& report, const st
     const std::string &id_a = std::get<1>(a)->first, &id_b = std::get<1>(b)->first;
     return id_a != id_b ? id_a < id_b : std::get<2>(a) < std::get<2>(b);
   });
-  std::map<std::string, bool> taken;
+  std::set<std::string> taken;
   for (const auto& [distance, track, pose] : near) {
-    if (ids[pose].empty() && taken.emplace(track->first, true).second) ids[pose] = track->first;
+    if (ids[pose].empty() && taken.insert(track->first).second) ids[pose] = track->first;
   }
   for (std::string& id : ids) {
     if (id.empty()) id = std::to_string(++last_id);

@@ -3,9 +3,11 @@
 #include "node/world/track_bodies.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "hgrid_proximity/bodies/name.h"
+#include "hgrid_proximity/refusal.h"
 #include "node/sources/body_params.h"
 #include "node/sources/source_id.h"
 
@@ -108,24 +110,23 @@ void TrackBodies::update(Time time, const Moment& now, bool clock_frozen, Tick& 
 /// @returns whether the body has the pose and the stamp of the track; false: place it again in the next tick
 bool TrackBodies::updateOne(const Track& track, BodyId body, Time time, const Moment& now, bool clock_frozen,
                             bool place, Tick& tick) {
-  BodyTrouble trouble{
-      scene_.body(body).name, tick.world_frame, Freshness::fresh, 0.0, track.time.stamp, Code::tf_timeout, {}};
-  trouble.age = track.time.age(now, simulated_);
-  trouble.state = clock_frozen ? Freshness::frozen : freshnessOf(trouble.age, track.period, limits_);
+  const double age = track.time.age(now, simulated_);
+  Freshness state = clock_frozen ? Freshness::frozen : freshnessOf(age, track.period, limits_);
+  std::optional<Refusal> refused;
   try {
     if (place) scene_.place(body, track.world_from_track, std::min(time, track.time.stamp));
   } catch (const Refusal& refusal) {
     ledger_.refuse("pose.refused", refusal);
-    trouble.state = Freshness::invalid;
-    trouble.code = refusal.code();
-    trouble.sentence = refusal.what();
+    state = Freshness::invalid;
+    refused = refusal;
   }
-  scene_.setState(body, trouble.state, trouble.age);
-  const bool placed = trouble.state != Freshness::invalid && track.time.stamp <= time;
-  if (trouble.state == Freshness::fresh) return placed;
-  if (trouble.sentence.empty()) trouble.sentence = "its tracker reported it " + secondsText(trouble.age) + " ago";
-  tick.troubles.push_back(std::move(trouble));
-  return placed;
+  scene_.setState(body, state, age);
+  if (state != Freshness::fresh) {
+    tick.troubles.push_back({scene_.body(body).name, tick.world_frame, state, age, track.time.stamp,
+                             refused ? refused->code() : Code::tf_timeout,
+                             refused ? refused->what() : "its tracker reported it " + secondsText(age) + " ago"});
+  }
+  return !refused && track.time.stamp <= time;
 }
 
 /// Appends a gap if persons or vehicles may be there that the tracker does not report. A tracker of which no message
