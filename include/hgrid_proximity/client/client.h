@@ -47,8 +47,8 @@ inline bool isUsable(const WorldState& world) {
 ///
 /// Call ros::init() first. Answers need no spinner. Each kind of query has its own connection, which stays open, and
 /// its own thread. Several threads may share an object; their requests of the same kind are answered one after the
-/// other. `rossrv show -r hgrid_proximity/QuerySphere` explains the fields of a request. A `header.stamp` other than 0 asks
-/// about a time of the last ~history seconds.
+/// other. `rossrv show -r hgrid_proximity/QuerySphere` explains the fields of a request. A `header.stamp` other than 0
+/// asks about a time of the last ~history seconds.
 class Client {
  public:
   /// @param node     name of the proximity node, resolved as usual

@@ -23,11 +23,11 @@ struct ModelReport {
   std::size_t robots = 0;             ///< number of robots that are in the world
 };
 
-/// Adds what the descriptions of a robot lack.
+/// Appends to `report` what is missing in the description of a robot, and which pairs its model switches off.
 void addToReport(const LoadedRobot& robot, ModelReport& report);
 
-/// Returns the report on these robots. Once all expected robots are loaded, it also warns about patterns that match no
-/// name.
+/// Returns the report on these robots. Once all of them are loaded, also the absent ones, it also warns about patterns
+/// that match no name.
 std::shared_ptr<const ModelReport> makeModelReport(const RobotEntries& robots, const Params& params);
 
 }  // namespace hgrid
