@@ -30,6 +30,7 @@ struct ServiceCall {
 
   /// Makes the response from this tick, and writes that into the response.
   void answerFrom(std::shared_ptr<const Tick> chosen) {
+    if (chosen == written) return;
     tick = AnswerTick(std::move(chosen));
     written = tick.get();
     writeTick(tick, response);
