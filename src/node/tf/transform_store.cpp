@@ -20,9 +20,6 @@ std::uint32_t TransformStore::numberOfParent(std::uint32_t frame, std::string_vi
 }
 
 std::uint32_t TransformStore::admit(std::string_view parent, std::string_view child) {
-  // Most transforms are of known frames. They change nothing that a Reading can see, so they need no lock.
-  const std::uint32_t known = table_.again(parent, child);
-  if (known != FrameTable::kNone) return known;
   const Writing writing(*this);
   makeRoom();
   return table_.admit(parent, child);

@@ -41,7 +41,7 @@ class TransformStore {
   const FrameHistory& history(std::uint32_t frame) const { return histories_[frame]; }
   /// Does the same as FrameTable::admit().
   std::uint32_t admit(std::string_view parent, std::string_view child);
-  /// Does the same as FrameTable::again().
+  /// Does the same as FrameTable::again(). That changes nothing that a Reading can see, so it needs no lock.
   std::uint32_t again(std::string_view parent, std::string_view child) { return table_.again(parent, child); }
   /// Does the same as FrameTable::need().
   void need(const std::vector<std::string>& names);
