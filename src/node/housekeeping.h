@@ -49,10 +49,10 @@ class ChorePace {
   explicit ChorePace(double rate) { setRate(rate); }
   void setRate(double rate);
 
-  /// Returns the time [s] that must pass between two calls of takeDue(): at most 0.25 s, and a fraction of the time
-  /// between two runs of the chore.
+  /// Returns the time [s] between two calls of takeDue() with which the chore runs at its rate. It is at most 0.25 s,
+  /// and a whole number of these times is the time between two runs of the chore.
   double period() const { return period_; }
-  /// Returns whether the chore is due. If it is, plans its next run.
+  /// Returns whether the chore is due. If it is, the caller must run it now.
   bool takeDue(Time now);
 
  private:

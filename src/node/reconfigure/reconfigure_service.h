@@ -30,9 +30,11 @@ class ReconfigureService {
   /// the old ones if the world then refuses the change. It may throw, and must then leave everything as before.
   using TakeOver = std::function<void(const Params&)>;
 
-  /// @param private_node  node handle whose namespace contains the topics and the service. The threads of its queue
-  ///                      must be one thread.
+  /// @param private_node  node handle whose namespace contains the topics and the service. Only one thread may run the
+  ///                      callbacks of its queue.
   /// @param settings      the settings in force
+  /// @param change_world  passes new settings to the world
+  /// @param take_over     see TakeOver
   /// @param ledger        must outlive this object
   ReconfigureService(ros::NodeHandle private_node, const Settings& settings, ChangeWorld change_world,
                      TakeOver take_over, Ledger& ledger);

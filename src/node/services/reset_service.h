@@ -12,9 +12,9 @@ namespace hgrid {
 /// begins a new epoch.
 class ResetService {
  public:
-  /// @param envelope   must outlive this object
-  /// @param change_world  also notices that robots must be loaded again
-  /// @param stopwatch  the stopwatch of the tick thread; must outlive this object
+  /// @param envelope      must outlive this object
+  /// @param change_world  changes the world, and has configured robots that were removed loaded again
+  /// @param stopwatch     the stopwatch of the tick thread; must outlive this object
   ResetService(ServiceEnvelope& envelope, ChangeWorld change_world, Stopwatch& stopwatch);
 
  private:

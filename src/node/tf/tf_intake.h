@@ -144,7 +144,7 @@ class TfIntake {
   /// A static transform that found no room, and its publisher.
   struct Late {
     std::string parent, publisher;
-    TransformView transform;  // its names are not valid
+    TransformView transform;  // its names refer to a message that is gone
   };
 
   double max_future_;
@@ -158,8 +158,8 @@ class TfIntake {
   TfNews news_;
   PublisherClocks publisher_clocks_;
   std::vector<std::string> conflicts_;
-  std::map<std::string, Late, std::less<>>
-      late_;  // by child; they are sent only once, and somebody may need them later
+  // By child. Static transforms are sent only once, and a body may need them later.
+  std::map<std::string, Late, std::less<>> late_;
   std::uint64_t static_revision_ = 0;
   std::uint64_t accepted_ = 0;  // number of accepted transforms of the current message
   Time newest_stamp_{0};        // newest stamp of the accepted transforms of the current message on /tf; 0: none

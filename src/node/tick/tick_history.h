@@ -25,7 +25,8 @@ class TickHistory {
 
   /// Returns what is kept now. Any thread may call this.
   HistoryExtent extent() const { return history_.extent(); }
-  /// Keeps a tick. Only the tick thread may call this.
+  /// Stores a tick that has a snapshot. If a new epoch began, first drops all ticks of the earlier one. Only the tick
+  /// thread may call this.
   void see(const Tick& tick);
   /// Returns the tick that a question is about: the newest one for the stamp 0, otherwise the last one that is not
   /// later than the stamp. Any thread may call this.
@@ -44,8 +45,8 @@ class TickHistory {
   std::unique_ptr<NewestOnly<bool>> worker_;  // null: nothing is kept. Declared last: its thread uses the other members
 };
 
-/// Returns whether a question with this stamp is about the past, although it may be answered from the newest tick. Then
-/// the age of the tick says nothing about the answer.
+/// Returns whether a question names the time that it is about. If so, the age of the tick that answers it does not
+/// matter, even if it is the newest tick.
 inline bool namesItsTime(const ros::Time& stamp) { return !stamp.isZero(); }
 
 /// Returns a clause that says how old the tick of an answer is: "at the tick of 12.5 s, 0.84 s before the newest tick".

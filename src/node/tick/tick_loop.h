@@ -42,7 +42,7 @@ class TickLoop {
   /// Between ticks, the thread that receives transforms uses the transforms of `world`, too (see TfReader).
   /// @param node      its callback queue must be that of the tick thread
   /// @param private_node  node handle whose namespace contains the topic "poses"
-  /// @param history   each tick says what it keeps
+  /// @param history   the past ticks; each new tick says which of them queries can ask about
   /// @param listener  learns which messages of /tf and ~poses were read; may be null
   TickLoop(ros::NodeHandle node, const ros::NodeHandle& private_node, const Params& params, World& world,
            TickJobs& jobs, const TickHistory& history, Stopwatch& stopwatch, NodeHealth& health, TfListener* listener,
