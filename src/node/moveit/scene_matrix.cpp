@@ -2,8 +2,10 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/moveit/scene_matrix.h"
 
+#include <iterator>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "hgrid_proximity/bodies/name.h"
 #include "hgrid_proximity/pairs/pair_rule.h"

@@ -48,7 +48,7 @@ void DistancesPublisher::measure(const Request& request) {
   const Params& params = request.tick->settings->params;
   meter_.tune(params.reportDistance(), params.distances_budget);
   if (request.tick->snapshot) measured->distances = meter_.measure(*request.tick->snapshot);
-  commons_.health.noteThreads("~distances/threads", commons_.settings.params.distances_threads, meter_.threads());
+  commons_.health.noteThreads("~distances/threads", params.distances_threads, meter_.threads());
   measured->time = std::chrono::steady_clock::now() - begin;
   std::atomic_store(&measured_, std::shared_ptr<const MeasuredTick>(measured));
   const PairDistances* distances = measured->distances.get();
