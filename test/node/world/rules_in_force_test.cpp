@@ -59,17 +59,31 @@ PairRule touching(const std::string& first, const std::string& second) {
   return rule;
 }
 
-TEST(RulesInForce, RulesOfAttachedObstaclesComeBetweenTheConfiguredAndTheAddedOnes) {
+/// A scene with one configured rule. Nothing depends on the time.
+class RulesBesideAConfiguredOne : public ::testing::Test {
+ protected:
   using Lines = std::vector<std::string>;
+
+  static PairRule configuredRule() {
+    PairRule rule = allow("configured", "*");
+    rule.origin = Origin::parameter;
+    return rule;
+  }
+  static SceneOptions options() {
+    SceneOptions options;
+    options.allowed_pairs = {configuredRule()};
+    return options;
+  }
+
   const Moment now{Time{0}, PairRule::Clock::time_point{std::chrono::hours(1)}};
-  SceneOptions options;
-  options.allowed_pairs = {allow("configured", "*")};
-  options.allowed_pairs[0].origin = Origin::parameter;
-  Scene scene{options};
+  Scene scene{options()};
   RulesInForce rules;
+};
+
+TEST_F(RulesBesideAConfiguredOne, ThoseOfAttachedObstaclesComeBetweenItAndTheAddedOnes) {
   rules.apply(now, {{touching("part", "hand")}, 1}, {}, scene);
   EXPECT_EQ(rulesOf(scene), Lines({"configured *", "part hand"}));
-  const PairFilter added({}, {}, {options.allowed_pairs[0], touching("part", "hand"), allow("a", "b")});
+  const PairFilter added({}, {}, {configuredRule(), touching("part", "hand"), allow("a", "b")});
   rules.set({added, 0});
   rules.apply(now, {{touching("part", "hand")}, 1}, {}, scene);
   EXPECT_EQ(rulesOf(scene), Lines({"configured *", "part hand", "a b"}));
@@ -85,19 +99,12 @@ TEST(RulesInForce, RulesOfAttachedObstaclesComeBetweenTheConfiguredAndTheAddedOn
   EXPECT_EQ(rulesOf(scene), Lines({"configured *", "a b"}));
 }
 
-TEST(RulesInForce, RulesOfMoveItComeFirstAndAreReplacedAsAWhole) {
-  using Lines = std::vector<std::string>;
-  const Moment now{Time{0}, PairRule::Clock::time_point{std::chrono::hours(1)}};
-  SceneOptions options;
-  options.allowed_pairs = {allow("configured", "*")};
-  options.allowed_pairs[0].origin = Origin::parameter;
-  Scene scene{options};
-  RulesInForce rules;
+TEST_F(RulesBesideAConfiguredOne, ThoseOfMoveItComeFirstAndAreReplacedAsAWhole) {
   PairRule one = allow("hand", "part"), other = allow("hand", "lid");
   one.origin = other.origin = Origin::moveit;
   rules.apply(now, {{touching("part", "hand")}, 1}, {{one, other}, 1}, scene);
   EXPECT_EQ(rulesOf(scene), Lines({"hand part", "hand lid", "configured *", "part hand"}));
-  rules.set({PairFilter({}, {}, {options.allowed_pairs[0], allow("a", "b")}), 0});  // prepared before the matrix came
+  rules.set({PairFilter({}, {}, {configuredRule(), allow("a", "b")}), 0});  // prepared before the matrix came
   rules.apply(now, {{touching("part", "hand")}, 1}, {{one, other}, 1}, scene);
   EXPECT_EQ(rulesOf(scene), Lines({"hand part", "hand lid", "configured *", "part hand", "a b"}));
   one.allowed = false;
