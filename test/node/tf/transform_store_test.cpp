@@ -5,6 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <string>
 #include <thread>
 
 #include "src/node/tf/transform_lookup.h"
@@ -68,35 +72,46 @@ TEST(TransformStore, SetsTheParentOfASample) {
   EXPECT_FALSE(store.history(arm).moves());
 }
 
+/// Calls `look` again and again in one thread, and `write` with the numbers 0, 1, 2, ... in the calling thread, until
+/// both were called often enough. Returns the largest absolute value that `look` returned.
+/// @param look  returns nullopt if there is nothing to see yet
+double largestSeen(const std::function<std::optional<double>()>& look, const std::function<void(int)>& write) {
+  std::atomic<bool> stop{false};
+  std::atomic<int> looks{0};
+  double largest = 0.0;
+  std::thread reader([&] {
+    while (!stop) {
+      const std::optional<double> seen = look();
+      if (!seen) continue;
+      largest = std::max(largest, std::abs(*seen));
+      ++looks;
+    }
+  });
+  for (int written = 0; written < 2000 || (looks < 1000 && written < 20000000); ++written) write(written);
+  stop = true;
+  reader.join();
+  EXPECT_GE(looks, 1000);
+  return largest;
+}
+
 // A thread writes two transforms of one chain. They always have opposite x, so their sum is 0. Another thread that
 // reads meanwhile must never get a pose that mixes two times. ThreadSanitizer reports a missing lock.
 TEST(TransformStore, IsReadByOtherThreadsWhileItIsWritten) {
   TransformStore store(s(1), 1000);
   const TransformLookup lookup(store);
-  std::atomic<bool> stop{false};
-  std::atomic<int> looks{0};
-  std::atomic<double> largest{0.0};
-  std::thread reader([&] {
-    while (!stop) {
-      const auto pose = lookup.newest("base", "tool");
-      lookup.at("base", "tool", s(5));
-      if (!pose) continue;
-      largest = std::max(largest.load(), std::abs(pose->translation.x()));
-      ++looks;
-    }
-  });
-  int written = 0;
-  for (; written < 2000 || (looks < 1000 && written < 20000000); ++written) {
-    const double time = 1.0 + 0.01 * written, x = written % 7;
+  const auto look = [&] {
+    const auto pose = lookup.newest("base", "tool");
+    lookup.at("base", "tool", s(5));
+    return pose ? std::optional<double>(pose->translation.x()) : std::nullopt;
+  };
+  const auto write = [&](int number) {
+    const double time = 1.0 + 0.01 * number, x = number % 7;
     store.advance(store.admit("base", "arm"), "base", stored(time, x), s(time));
     store.advance(store.admit("arm", "tool"), "arm", stored(time, -x), s(time));
-    const std::string other = "other" + std::to_string(written % 500);
+    const std::string other = "other" + std::to_string(number % 500);
     store.fix(store.admit("base", other), "base", {});
-  }
-  stop = true;
-  reader.join();
-  EXPECT_GE(looks, 1000);
-  EXPECT_EQ(largest, 0.0);
+  };
+  EXPECT_EQ(largestSeen(look, write), 0.0);
 }
 
 // A thread changes two frames during one Writing. They always have opposite x. Another thread must never see only one
@@ -104,28 +119,18 @@ TEST(TransformStore, IsReadByOtherThreadsWhileItIsWritten) {
 TEST(TransformStore, ShowsTheChangesOfOneWritingTogether) {
   TransformStore store(s(1), 1000);
   const std::uint32_t arm = store.admit("base", "arm"), tool = store.admit("arm", "tool");
-  std::atomic<bool> stop{false};
-  std::atomic<int> looks{0};
-  std::atomic<double> largest{0.0};
-  std::thread reader([&] {
-    while (!stop) {
-      const TransformStore::Reading reading(store);
-      const double sum = reading.history(arm).newest().parent_from_frame.translation.x() +
-                         reading.history(tool).newest().parent_from_frame.translation.x();
-      largest = std::max(largest.load(), std::abs(sum));
-      ++looks;
-    }
-  });
-  for (int written = 0; written < 2000 || (looks < 1000 && written < 20000000); ++written) {
-    const double time = 1.0 + 0.01 * written, x = written % 7;
+  const auto look = [&]() -> std::optional<double> {
+    const TransformStore::Reading reading(store);
+    return reading.history(arm).newest().parent_from_frame.translation.x() +
+           reading.history(tool).newest().parent_from_frame.translation.x();
+  };
+  const auto write = [&](int number) {
+    const double time = 1.0 + 0.01 * number, x = number % 7;
     const TransformStore::Writing writing(store);
     store.advance(arm, "base", stored(time, x), s(time));
     store.advance(tool, "arm", stored(time, -x), s(time));
-  }
-  stop = true;
-  reader.join();
-  EXPECT_GE(looks, 1000);
-  EXPECT_EQ(largest, 0.0);
+  };
+  EXPECT_EQ(largestSeen(look, write), 0.0);
 }
 
 TEST(TransformStore, IsReadByOtherThreadsDuringAPause) {
