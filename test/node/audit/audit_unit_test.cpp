@@ -75,7 +75,7 @@ TEST(Audit, FollowsParametersThatChange) {
     settings = std::make_shared<const Settings>(changedSettings(*settings, values));
     world.world().world().setSettings(settings);
     EXPECT_EQ(sentences(audit(before, 1)), "");
-    EXPECT_EQ(before.margin != settings->params.margin, true);
+    EXPECT_NE(before.margin, settings->params.margin);
     for (int i = 0; i < 3; ++i) {
       world.step();
       const AuditCase after = world.audited();

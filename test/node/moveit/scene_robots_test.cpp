@@ -241,7 +241,6 @@ bool mayTouch(const AllowedCollisionMatrix& matrix, const std::string& a, const 
 
 TEST(MatrixRulesOf, MeanWhatTheMatrixMeans) {
   const std::vector<std::string> names{"a", "b", "c", "d", "e"};
-  std::vector<std::shared_ptr<const Body>> shared;
   BodyList bodies;
   for (const std::string& name : names) {
     Body body;
