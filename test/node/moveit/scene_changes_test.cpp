@@ -3,7 +3,6 @@
 //
 // Messages of MoveIt, from the message to the snapshot of the next tick. The tests need no ROS master.
 #include <limits>
-#include <random>
 
 #include "test/node/moveit/scene_messages.h"
 
@@ -287,65 +286,14 @@ TEST_F(SceneWorld, ARepeatedSceneKeepsItsBodies) {
   }
 }
 
-/// Returns a message that adds the plane a x + b y + c z + d = 0.
-NoeticObject scenePlane(const std::string& id, const boost::array<double, 4>& coefficients) {
-  NoeticObject object = sceneObject(Object::ADD, id);
-  object.planes.resize(1);
-  object.planes[0].coef = coefficients;
-  return object;
-}
-
-/// Returns the signed distance [m] of the origin of the world from the plane of a body, and its normal.
-std::pair<double, Eigen::Vector3d> planeOf(const Snapshot& snapshot, const std::string& name) {
-  const std::uint32_t body = snapshot.structure().find(name);
-  const HalfSpace& half_space = snapshot.halfSpaceOf(snapshot.structure().first_proxy[body]);
-  return {signedDistance(half_space, -snapshot.origin()), half_space.normal};
-}
-
-// Claim: the solid side of a plane is where a x + b y + c z + d is negative, whatever the length of (a, b, c).
-TEST_F(SceneWorld, PlanesAreSolidWhereTheirEquationIsNegative) {
-  take(scenePlane("floor", {{0.0, 0.0, 2.0, 3.0}}));     // z <= -1.5
-  take(scenePlane("ceiling", {{0.0, 0.0, -1.0, 2.5}}));  // z >= 2.5
-  take(scenePlane("wall", {{3.0, 0.0, -4.0, -50.0}}));   // 0.6 x - 0.8 z <= 10
-  const Snapshot& snapshot = tick();
-  const auto [floor, up] = planeOf(snapshot, "obstacle/floor");
-  EXPECT_NEAR(floor, 1.5, 1e-12);
-  EXPECT_TRUE(up.isApprox(Eigen::Vector3d(0, 0, 1), 1e-12));
-  const auto [ceiling, down] = planeOf(snapshot, "obstacle/ceiling");
-  EXPECT_NEAR(ceiling, 2.5, 1e-12);
-  EXPECT_TRUE(down.isApprox(Eigen::Vector3d(0, 0, -1), 1e-12));
-  const auto [wall, out] = planeOf(snapshot, "obstacle/wall");
-  EXPECT_NEAR(wall, -10.0, 1e-12);
-  EXPECT_TRUE(out.isApprox(Eigen::Vector3d(0.6, 0, -0.8), 1e-12));
-  EXPECT_EQ(snapshot.pairs().size(), 2u) << "the links base and hand are inside the wall";
-}
-
-TEST_F(SceneWorld, PlanesMoveWithTheirCoefficients) {
-  take(scenePlane("floor", {{0.0, 0.0, 1.0, 1.0}}));
-  NoeticObject move = scenePlane("floor", {{0.0, 0.0, 1.0, 1.0}});
-  move.operation = Object::MOVE;
-  move.plane_poses.resize(1);
-  move.plane_poses[0].position.z = 0.5;
-  take(move);
-  EXPECT_NEAR(planeOf(tick(), "obstacle/floor").first, 0.5, 1e-12);
-  move.planes.clear();
-  EXPECT_EQ(refusedScene(move), Code::bad_geometry);
-  NoeticObject both = sceneSphere(Object::ADD, "both", 1);
-  both.planes = scenePlane("", {{0.0, 0.0, 1.0, 1.0}}).planes;
-  EXPECT_EQ(refusedScene(attachedTo("tool", both)), Code::unsupported);
-  take(both);
-  tick();
-  EXPECT_EQ(bodyOf(*tick_->snapshot, "obstacle/both").shapes.size(), 2u);
-}
-
 TEST_F(SceneWorld, WrongMessagesAreRefusedAsAWhole) {
   take(sceneSphere(Object::ADD, "part", 1));
   const NoeticObject good = sceneSphere(Object::ADD, "good", 2);
   NoeticObject poses = good, plane = good, type = good, flat = good, operation = good, nan = good, far = good,
-               turned = good, endless = good, frame = good, none = good, name = good, lost = sceneMove("lost", 1);
+               turned = good, frame = good, none = good, name = good, lost = sceneMove("lost", 1),
+               endless = scenePlane("endless", {{0.0, 0.0, 1.0, std::numeric_limits<double>::infinity()}});
   poses.primitive_poses.resize(2);
   plane.planes.resize(1);
-  endless = scenePlane("endless", {{0.0, 0.0, 1.0, std::numeric_limits<double>::infinity()}});
   type.primitives[0].type = 9;
   flat.primitives[0].dimensions = {0.0};
   operation.operation = 4;
@@ -386,93 +334,6 @@ TEST_F(SceneWorld, WrongMessagesAreRefusedAsAWhole) {
   full.collision_objects.resize(23);
   EXPECT_EQ(refusedScene(full), Code::limit) << "~max_bodies is 22";
   EXPECT_EQ(placesIn(tick()), (Places{{"part", 1}, {"post", 3}}));
-}
-
-// Claim: after any sequence of messages, the world is what a simple model of MoveIt's planning scene says.
-TEST_F(SceneWorld, RandomMessagesGiveWhatASimpleModelSays) {
-  struct Modeled {
-    double x = 0.0;  // [m] in the world, or relative to the cart if it is attached
-    bool attached = false, of_moveit = true;
-    std::size_t shapes = 1;
-  };
-  std::map<std::string, Modeled> model = {{"post", {3, false, false, 1}}};
-  std::mt19937 random(7);
-  const std::vector<std::string> ids = {"a", "b", "c", "post"};
-  std::size_t refused = 0;
-  for (int step = 0; step < 10000; ++step) {
-    SCOPED_TRACE("step " + std::to_string(step));
-    const std::string id = ids[random() % ids.size()];
-    const double x = double(random() % 64) / 8;
-    const bool on_cart = random() % 2 == 0;
-    const std::string frame = on_cart ? "cart" : "world";
-    const double at = on_cart ? cart(time_) + x : x;
-    const auto known = model.find(id);
-    const bool exists = known != model.end(), attached = exists && known->second.attached;
-    bool allowed = true, applied = true;
-    const auto send = [&](const auto& message) { applied = !refusedScene(message); };
-    switch (random() % 8) {
-      case 0:
-        send(sceneSphere(Object::ADD, id, x, frame));
-        allowed = !attached;
-        if (allowed) model[id] = {at, false, true, 1};
-        break;
-      case 1:
-        if (exists && known->second.shapes > 20) break;
-        send(sceneSphere(Object::APPEND, id, x, frame));
-        allowed = !attached;
-        if (attached) break;
-        if (exists) {
-          ++known->second.shapes;
-        } else {
-          model[id] = {at, false, true, 1};
-        }
-        break;
-      case 2:
-        send(sceneMove(id, x, frame));
-        allowed = exists && !attached;
-        if (allowed) known->second.x = at;
-        break;
-      case 3:
-        send(sceneObject(Object::REMOVE, id));
-        allowed = exists && !attached;
-        if (allowed) model.erase(known);
-        break;
-      case 4:
-        if (random() % 4 != 0) break;
-        send(sceneObject(Object::REMOVE, ""));
-        for (auto one = model.begin(); one != model.end();) {
-          one = one->second.of_moveit && !one->second.attached ? model.erase(one) : std::next(one);
-        }
-        break;
-      case 5:
-        send(attachedTo("hand", sceneObject(Object::ADD, id)));
-        allowed = exists;
-        if (allowed && !attached) known->second.x -= cart(time_);
-        if (allowed) known->second.attached = true;
-        break;
-      case 6:
-        send(attachedTo("tool", sceneSphere(Object::ADD, id, x, "tool")));
-        model[id] = {0.25 + x, true, true, 1};
-        break;
-      case 7:
-        send(attachedTo("hand", sceneObject(Object::REMOVE, id)));
-        allowed = attached;
-        if (allowed) known->second.x += cart(time_);
-        if (allowed) known->second.attached = false;
-    }
-    ASSERT_EQ(applied, allowed);
-    refused += allowed ? 0 : 1;
-    if (step % 4 != 0) continue;
-    tick();
-    Places expected;
-    for (const auto& [name, modeled] : model) {
-      expected[name] = std::round(1e6 * (modeled.x + (modeled.attached ? cart(time_) : 0.0))) / 1e6;
-      ASSERT_EQ(bodyOf(*tick_->snapshot, "obstacle/" + name).shapes.size(), modeled.shapes) << name;
-    }
-    ASSERT_EQ(placesIn(*tick_->snapshot), expected);
-  }
-  EXPECT_GT(refused, 1000u);
-  EXPECT_LT(refused, 7000u);
 }
 
 }  // namespace

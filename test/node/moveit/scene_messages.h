@@ -59,6 +59,14 @@ inline NoeticObject sceneMove(const std::string& id, double x, const std::string
   return object;
 }
 
+/// Returns a message that adds the plane a x + b y + c z + d = 0.
+inline NoeticObject scenePlane(const std::string& id, const boost::array<double, 4>& coefficients) {
+  NoeticObject object = sceneObject(CollisionObjectFields::ADD, id);
+  object.planes.resize(1);
+  object.planes[0].coef = coefficients;
+  return object;
+}
+
 inline NoeticAttached attachedTo(const std::string& link, const NoeticObject& object) {
   NoeticAttached attached;
   attached.link_name = link;

@@ -88,10 +88,8 @@ TEST_F(SceneReply, GivesTheSameWorldIfItIsSentBack) {
 }
 
 TEST_F(SceneReply, GivesPlanesThatAreTheSameIfTheyAreSentBack) {
-  NoeticObject wall = sceneObject(CollisionObjectFields::ADD, "wall");
+  NoeticObject wall = scenePlane("wall", {{3.0, 0.0, -4.0, 10.0}});
   wall.pose = poseAt(1);
-  wall.planes.resize(1);
-  wall.planes[0].coef = {{3.0, 0.0, -4.0, 10.0}};
   appendSphere(wall, 2.0);
   take(wall);
   const auto planeOfWall = [this] {
