@@ -77,16 +77,17 @@ TYPED_TEST(BroadPhaseBound, DoesNotApplyToTheSearchForAllPairs) {
 
 /// Claim: pairs of two fixed boxes are not counted by the bound.
 TYPED_TEST(BroadPhaseBound, FixedPilesAreNotCut) {
-  const std::vector<Aabb> boxes(20000, test::boxAround(Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()));
+  const std::size_t count = kTakesItsTime ? 2000 : 20000;  // some broad phases compare all of them with each other
+  const std::vector<Aabb> boxes(count, test::boxAround(Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()));
   std::vector<ProxyId> fixed = allIds(boxes.size());
   fixed.pop_back();
   TypeParam tested;
   tested.setFixed(fixed);
-  tested.setPairBound({20000, 20000});
+  tested.setPairBound({count, count});
   tested.update(allIds(boxes.size()), boxes);
   const Found found = boundedPairsOf(tested);
   EXPECT_TRUE(found.all);
-  EXPECT_EQ(found.pairs.size(), 19999u);
+  EXPECT_EQ(found.pairs.size(), count - 1);
 }
 
 /// Claim: when the pile of boxes is gone, the search finds all pairs again. It counts only boxes that overlap now.
