@@ -64,11 +64,11 @@ Settings changedSettings(const Settings& settings, const ParamChange& change) {
   std::vector<std::string> errors;
   result.params = readParams(result.values, errors);
   if (!errors.empty()) {
-    throw Refusal(Code::out_of_range,
-                  errors.front() + (errors.size() == 1 ? ""
-                                                       : "; " + std::to_string(errors.size() - 1) +
-                                                             (errors.size() == 2 ? " other rule is broken, too"
-                                                                                 : " other rules are broken, too")));
+    std::string sentence = errors.front();
+    const std::size_t others = errors.size() - 1;
+    if (others == 1) sentence += "; 1 other rule is broken, too";
+    if (others > 1) sentence += "; " + std::to_string(others) + " other rules are broken, too";
+    throw Refusal(Code::out_of_range, sentence);
   }
   result.config_hash = fnv1a(result.values.toXml());
   return result;
