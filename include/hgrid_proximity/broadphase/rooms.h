@@ -109,7 +109,7 @@ class RoomLayer final : public BroadPhase {
   };
   static std::size_t keep(const void* layer, ProxyPair* pairs, std::size_t count);
   Located located(const Aabb& box) const;
-  std::vector<Located> locatedAll(const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) const;
+  std::vector<Located> locatedMoved(const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) const;
   void reserve(ProxyId id);
 
   Building building_;

@@ -117,13 +117,13 @@ RoomLayer::Located RoomLayer::located(const Aabb& box) const {
   return result;
 }
 
-/// The rooms of many boxes. A box that did not move is not located again.
-std::vector<RoomLayer::Located> RoomLayer::locatedAll(const std::vector<ProxyId>& ids,
-                                                      const std::vector<Aabb>& boxes) const {
+/// The rooms of the boxes that moved. The entries of all other boxes are not stored (Located::stored).
+std::vector<RoomLayer::Located> RoomLayer::locatedMoved(const std::vector<ProxyId>& ids,
+                                                        const std::vector<Aabb>& boxes) const {
   std::vector<Located> all(std::min(ids.size(), boxes.size()));
   for (std::size_t i = 0; i < all.size(); ++i) {
     const bool rests = ids[i] < boxes_.size() && boxes_[ids[i]].stored && boxes_[ids[i]].box == boxes[i];
-    all[i] = rests ? boxes_[ids[i]] : located(boxes[i]);
+    if (!rests) all[i] = located(boxes[i]);
   }
   return all;
 }
@@ -159,17 +159,26 @@ void RoomLayer::clear() {
 }
 
 void RoomLayer::update(const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) {
-  std::vector<Located> next = locatedAll(ids, boxes);
+  std::vector<Located> next = locatedMoved(ids, boxes);
   if (std::is_sorted(ids.begin(), ids.end()) && !ids.empty()) reserve(ids.back());
   below_->update(ids, boxes);
-  for (Located& box : boxes_) box = {};
-  for (std::size_t i = 0; i < ids.size(); ++i) boxes_[ids[i]] = std::move(next[i]);
+  std::size_t i = 0;  // the ids ascend
+  for (ProxyId id = 0; id < boxes_.size(); ++id) {
+    if (i == ids.size() || ids[i] != id) {
+      boxes_[id] = {};
+      continue;
+    }
+    if (next[i].stored) boxes_[id] = std::move(next[i]);
+    ++i;
+  }
 }
 
 void RoomLayer::move(const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes) {
-  std::vector<Located> next = locatedAll(ids, boxes);
+  std::vector<Located> next = locatedMoved(ids, boxes);
   below_->move(ids, boxes);
-  for (std::size_t i = 0; i < ids.size(); ++i) boxes_[ids[i]] = std::move(next[i]);
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (next[i].stored) boxes_[ids[i]] = std::move(next[i]);
+  }
 }
 
 const std::vector<std::uint32_t>& RoomLayer::roomsOf(ProxyId id) const {

@@ -76,7 +76,7 @@ TEST(Rooms, BoxesWithoutACommonRoomAreNoPair) {
 }
 
 /// Claim: above each type, the layer finds the pairs of a scan that have a common room, also with a filter of the
-/// caller and after failed calls.
+/// caller, after failed calls, and if some boxes rest or are removed.
 TEST(Rooms, TheLayerLeavesOutExactlyTheOtherPairs) {
   const Building rooms = building();
   std::size_t left_out = 0, kept = 0;
@@ -87,6 +87,7 @@ TEST(Rooms, TheLayerLeavesOutExactlyTheOtherPairs) {
     std::vector<Aabb> boxes(80);
     for (int frame = 0; frame < 5; ++frame) {
       for (Aabb& box : boxes) {
+        if (frame > 0 && random.chance(0.5)) continue;  // this box rests
         const double size = random.uniform(0.1, 0.9);
         double x = random.uniform(-1, 9);
         if (random.chance(0.5)) {  // one side ends inside the wall, where boxes of both rooms can meet
@@ -112,6 +113,9 @@ TEST(Rooms, TheLayerLeavesOutExactlyTheOtherPairs) {
         if (counts && (!odd || (pair.first + pair.second) % 2 == 0)) expected.push_back(pair);
       }
       ASSERT_EQ(test::pairsOf(*layer), expected);
+      ASSERT_NO_THROW(layer->checkInvariants());
+      if (frame % 2 == 0) continue;
+      layer->update({3, 70}, {boxes[3], boxes[0]});  // removes all boxes but two, of which one rests
       ASSERT_NO_THROW(layer->checkInvariants());
     }
   }
