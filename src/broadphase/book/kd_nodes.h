@@ -125,8 +125,9 @@ void KdNodes::sphereFrom(std::uint32_t index, const Eigen::Vector3d& center, Eig
   const bool low_first = std::abs(in_low - center[node.axis]) <= std::abs(in_high - center[node.axis]);
   for (const bool low : {low_first, !low_first}) {
     nearest[node.axis] = low ? in_low : in_high;
-    // `radius` may have shrunk since the first side. The factor allows for rounding.
-    if ((nearest - center).norm() * (1.0 - 1e-12) <= radius)
+    // `radius` may have shrunk since the first side. The factor allows for rounding. Squares, because these are also
+    // comparable if both overflow.
+    if ((nearest - center).squaredNorm() * (1.0 - 4e-12) <= radius * radius)
       sphereFrom(low ? index + 1 : node.high, center, nearest, radius, visit);
   }
   nearest[node.axis] = before;

@@ -3,11 +3,17 @@
 #include "broadphase/book/loose_octree.h"
 
 #include <cmath>
+#include <limits>
 
 #include "broadphase/book/cell_scale.h"
 
 namespace hgrid {
 namespace book {
+namespace {
+
+constexpr double kLargestFloat = std::numeric_limits<float>::max();
+
+}  // namespace
 
 std::uint64_t spreadBits(std::uint64_t value) {
   value &= 0x1fffff;
@@ -44,8 +50,9 @@ Aabb LooseOctree::regionOf(const Place& place) const {
   for (int axis = 0; axis < 3; ++axis) {
     const double low = low_[axis] + (index[axis] - 0.5) * width, high = low + 2.0 * width;
     const double rounding = 2e-7 * (std::abs(low) + std::abs(high)) + 1e-37;  // also of the conversions to float
-    region.min[axis] = static_cast<float>(low - rounding);
-    region.max[axis] = static_cast<float>(high + rounding);
+    // Boxes are finite, so a finite region is large enough. An infinite one would make its distance from a sphere NaN.
+    region.min[axis] = static_cast<float>(std::max(low - rounding, -kLargestFloat));
+    region.max[axis] = static_cast<float>(std::min(high + rounding, kLargestFloat));
   }
   return region;
 }

@@ -227,6 +227,26 @@ TEST(Partitions, AgreeWithEachOther) {
   }
 }
 
+/// Claim: a sphere finds the boxes that it touches also where the square of a coordinate, or the region of a node, is
+/// out of range.
+TEST(Partitions, MissNoBoxAmongTheLargestNumbers) {
+  const Eigen::Vector3f far = Eigen::Vector3f::Constant(2e38f);
+  const std::vector<Aabb> boxes = {{-far, -far}, {far, far}, {{0, 0, 0}, {1, 1, 1}}};
+  std::vector<Aabb> row;
+  for (int i = 0; i < 20; ++i) row.push_back({{float(i), 0, 0}, {float(i) + 0.5f, 1, 1}});
+  for (const BroadPhaseType type : broadPhaseTypes()) {
+    SCOPED_TRACE(name(type));
+    BroadPhaseOptions options;
+    options.type = type;
+    const std::unique_ptr<BroadPhase> made = makeBroadPhase(options);
+    made->update(test::allIds(boxes.size()), boxes);
+    EXPECT_EQ(test::foundBy(*made, Sphere{{0, 0, 0}, 1.0}), std::vector<ProxyId>({2}));
+    EXPECT_EQ(test::foundBy(*made, Sphere{far.cast<double>(), 1.0}), std::vector<ProxyId>({1}));
+    made->update(test::allIds(row.size()), row);
+    EXPECT_EQ(test::foundBy(*made, Sphere{{1e200, 0, 0}, 1e200}).size(), row.size());
+  }
+}
+
 /// Claim: several threads may make the first search after a change, which builds the structure again.
 TEST(Partitions, AreBuiltOnceByOneOfManyThreads) {
   Random random(5);
