@@ -62,11 +62,14 @@ class Building {
 
 /// A layer above any broad phase: it leaves out pairs of boxes without a common room. Queries are not affected.
 ///
-/// The boxes of the broad phase below and the building must be relative to the same frame.
+/// The boxes of the broad phase below and the building must be relative to the same frame. A layer cannot be copied or
+/// moved, because the overlap filter of the broad phase below refers to it.
 class RoomLayer final : public BroadPhase {
  public:
   /// @param below  an empty broad phase
   RoomLayer(Building building, std::unique_ptr<BroadPhase> below);
+  RoomLayer(const RoomLayer&) = delete;
+  RoomLayer& operator=(const RoomLayer&) = delete;
 
   /// Returns the rooms of a stored box, ascending. @throws std::invalid_argument if `id` is not stored
   const std::vector<std::uint32_t>& roomsOf(ProxyId id) const;

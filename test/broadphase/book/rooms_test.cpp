@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <type_traits>
 
 #include "hgrid_proximity/broadphase/partitions.h"
 #include "test/support/expectations.h"
@@ -55,6 +56,10 @@ TEST(Rooms, ABoxIsInTheRoomsAndPortalsThatItOverlaps) {
   EXPECT_EQ(of(cube(21, 1)), std::vector<std::uint32_t>({2}));
   EXPECT_EQ(of(cube(23.5f, 3.5f)), std::vector<std::uint32_t>()) << "the oblique wall cuts this corner off";
 }
+
+// The broad phase below calls its filter with the address of the layer, so a moved layer would leave a wrong address.
+static_assert(!std::is_copy_constructible_v<RoomLayer> && !std::is_move_constructible_v<RoomLayer> &&
+              !std::is_move_assignable_v<RoomLayer>);
 
 TEST(Rooms, BoxesWithoutACommonRoomAreNoPair) {
   for (const BroadPhaseType type : broadPhaseTypes()) {
