@@ -126,8 +126,10 @@ std::size_t BucketGrid::structureBytes() const {
 
 /// The cells that have boxes. Which of them share a bucket does not show.
 void BucketGrid::draw(std::vector<Aabb>& regions) const {
-  for (const ProxyId id : storedIds())
+  for (const ProxyId id : storedIds()) {
+    if (large_.contains(id)) continue;
     scale_.of(box(id)).visit([&](const Cell& cell) { regions.push_back(scale_.regionOf(cell)); });
+  }
 }
 
 }  // namespace book

@@ -10,7 +10,9 @@
 #include <set>
 #include <thread>
 
+#include "src/broadphase/book/bucket_grid.h"
 #include "src/broadphase/book/cell_bits.h"
+#include "src/broadphase/book/hashed_grid.h"
 #include "src/broadphase/book/kd_tree.h"
 #include "src/broadphase/book/loose_octree.h"
 #include "src/broadphase/book/pair_bits.h"
@@ -244,6 +246,18 @@ TEST(Partitions, MissNoBoxAmongTheLargestNumbers) {
     EXPECT_EQ(test::foundBy(*made, Sphere{far.cast<double>(), 1.0}), std::vector<ProxyId>({1}));
     made->update(test::allIds(row.size()), row);
     EXPECT_EQ(test::foundBy(*made, Sphere{{1e200, 0, 0}, 1e200}).size(), row.size());
+  }
+}
+
+/// Claim: a box much larger than the cells takes no cells of a drawing. Here, it covers 10^6 cells.
+TEST(Partitions, DrawNoCellsOfLargeBoxes) {
+  std::vector<Aabb> boxes = {{{0, 0, 0}, {10, 10, 10}}};
+  for (int i = 0; i < 100; ++i) boxes.push_back({{float(i), 0, 0}, {float(i) + 0.1f, 0.1f, 0.1f}});
+  for (const bool with_buckets : {false, true}) {
+    std::unique_ptr<Partition> grid;
+    with_buckets ? grid = std::make_unique<BucketGrid>() : grid = std::make_unique<HashedGrid>();
+    grid->update(test::allIds(boxes.size()), boxes);
+    EXPECT_LE(grid->drawing().size(), 800u);
   }
 }
 
