@@ -78,7 +78,7 @@ void runBookkeeping(const std::vector<std::size_t>& sizes, std::vector<Record>& 
     const book::CellScale scale(1.0);
     note("frame with the cell of a pair", timeOf(20, [&](std::size_t) {
            for (std::size_t i = 0; i < kCandidates * n; ++i) {
-             const book::Cell cell = scale.meeting(world.boxes()[place(i)], world.boxes()[place(i + n / 2 + 1)]);
+             const book::Cell cell = scale.reportingCell(world.boxes()[place(i)], world.boxes()[place(i + n / 2 + 1)]);
              sum += cell.x == 0 ? 1 : 0;
            }
          }));

@@ -24,13 +24,13 @@ void ArrayGrid::build() {
   double edge = cellEdgeFor(storedBoxes(), rule_);
   for (;; edge *= 2.0) {  // an array needs a bounded number of cells, also in an uneven world
     scale_ = CellScale(edge);
-    cells_ = scale_.of(world());
+    cells_ = scale_.cellsOf(world());
     if (cells_.count() <= 8.0 * double(ids.size()) + 64.0) break;
   }
   large_.clear();
   begin_.assign(static_cast<std::size_t>(cells_.count()) + 1, 0);
   for (const ProxyId id : ids) {  // the first pass counts
-    const CellRange cells = scale_.of(box(id));
+    const CellRange cells = scale_.cellsOf(box(id));
     if (isLarge(cells)) {
       large_.add(id);
     } else {
@@ -42,12 +42,12 @@ void ArrayGrid::build() {
   std::vector<std::uint32_t> next = begin_;
   for (const ProxyId id : ids) {  // the second pass fills
     if (large_.contains(id)) continue;
-    scale_.of(box(id)).visit([&](const Cell& cell) { entries_[next[indexOf(cell)]++] = id; });
+    scale_.cellsOf(box(id)).visit([&](const Cell& cell) { entries_[next[indexOf(cell)]++] = id; });
   }
 }
 
 void ArrayGrid::findPairsInCells(PairSink& sink) const {
-  const bool by_bits = idEnd() <= kMostBits;
+  const bool by_bits = idEnd() <= kMostIdsForBits;
   PairBits bits;
   if (by_bits) bits.reset(idEnd());
   std::vector<ProxyId> here;
@@ -57,9 +57,9 @@ void ArrayGrid::findPairsInCells(PairSink& sink) const {
     ++index;
     if (end - begin < 2 || sink.isFull()) return;
     here.assign(entries_.begin() + begin, entries_.begin() + end);
-    sink.among(here, [&](ProxyId a, ProxyId b) {
+    sink.visitPairs(here, [&](ProxyId a, ProxyId b) {
       if (!sink.isPair(a, b)) return;
-      if (by_bits ? bits.mark(a, b) : scale_.meeting(box(a), box(b)) == cell) sink.add(a, b);
+      if (by_bits ? bits.mark(a, b) : scale_.reportingCell(box(a), box(b)) == cell) sink.add(a, b);
     });
   });
 }
@@ -91,12 +91,12 @@ void ArrayGrid::checkStructure() const {
   cells_.visit([&](const Cell& cell) {
     for (std::uint32_t entry = begin_[index]; entry != begin_[index + 1]; ++entry) {
       require(isStored(entries_[entry]), "each box in a cell is stored");
-      require(scale_.of(box(entries_[entry])).contains(cell), "a box overlaps the cell that holds it");
+      require(scale_.cellsOf(box(entries_[entry])).contains(cell), "a box overlaps the cell that holds it");
     }
     ++index;
   });
   for (const ProxyId id : storedIds()) {
-    const CellRange cells = scale_.of(box(id));
+    const CellRange cells = scale_.cellsOf(box(id));
     require(large_.contains(id) == isLarge(cells), "a box is large if it covers too many cells");
     expected += isLarge(cells) ? 0 : static_cast<std::size_t>(cells.count());
   }

@@ -24,7 +24,7 @@ class ArrayGrid final : public UniformGrid {
 
   /// With at most this many boxes, findPairs() uses one bit per pair (8 kB); otherwise, it computes the cell in which a
   /// pair is reported. doc/partitions.md has the figures.
-  static constexpr std::size_t kMostBits = 362;
+  static constexpr std::size_t kMostIdsForBits = 362;
 
  private:
   void build() override;

@@ -46,7 +46,7 @@ void BitGrid::setBits(int axis, const Span& span, ProxyId id, bool value) {
     std::uint64_t& word = here.bits[slice * words_ + id / 64];
     const std::uint64_t bit = std::uint64_t{1} << (id % 64);
     word = value ? word | bit : word & ~bit;
-    here.boxes[slice] += value ? 1u : ~0u;
+    value ? ++here.counts[slice] : --here.counts[slice];
   }
 }
 
@@ -63,7 +63,7 @@ void BitGrid::build() {
     axis.slices = static_cast<std::size_t>(std::clamp(std::ceil(length / edge), 1.0, double(kMostSlices)));
     axis.inverse = length > 0.0 ? std::min(static_cast<double>(axis.slices) / length, 1e300) : 0.0;
     axis.bits.assign(axis.slices * words_, 0);
-    axis.boxes.assign(axis.slices, 0);
+    axis.counts.assign(axis.slices, 0);
   }
   for (const ProxyId id : ids) added(id);
 }
@@ -95,7 +95,7 @@ Partition::Followed BitGrid::moved(ProxyId id, const Aabb& from) {
 void BitGrid::mergeInto(Words& merged, const Axis& axis, const Span& span, std::size_t begin, std::size_t count) const {
   std::fill_n(merged.begin(), count, 0);
   for (std::size_t slice = span.first; slice <= span.last; ++slice) {
-    if (axis.boxes[slice] == 0) continue;
+    if (axis.counts[slice] == 0) continue;
     const std::uint64_t* words = &axis.bits[slice * words_ + begin];
     for (std::size_t i = 0; i < count; i += 4) four(&merged[i]) |= four(words + i);
   }
@@ -112,9 +112,9 @@ void BitGrid::intersect(const Aabb& box, std::size_t begin, std::size_t count, W
 }
 
 void BitGrid::findPairs(PairSink& sink) const {
-  std::vector<std::uint64_t> loose(words_, 0);  // bit per box: whether it is not fixed
+  std::vector<std::uint64_t> movable(words_, 0);  // bit per box: whether it is not fixed
   const std::vector<ProxyId> ids = storedIds();
-  for (const ProxyId id : ids) loose[id / 64] |= std::uint64_t{isFixed(id) ? 0u : 1u} << (id % 64);
+  for (const ProxyId id : ids) movable[id / 64] |= std::uint64_t{isFixed(id) ? 0u : 1u} << (id % 64);
   Words cells;
   for (const ProxyId id : ids) {
     if (sink.isFull()) return;
@@ -122,7 +122,7 @@ void BitGrid::findPairs(PairSink& sink) const {
       const std::size_t count = std::min(kWordsAtOnce, words_ - begin);
       intersect(box(id), begin, count, cells);
       if (isFixed(id)) {  // two fixed boxes are no pair
-        for (std::size_t i = 0; i < count; ++i) cells[i] &= loose[begin + i];
+        for (std::size_t i = 0; i < count; ++i) cells[i] &= movable[begin + i];
       }
       visitBits(cells.data(), count, begin, [&](ProxyId other) {
         if (other > id) sink.tryPair(id, other);
@@ -174,7 +174,7 @@ void BitGrid::checkStructure() const {
         const Span span = spanOf(k, box(id));
         expected += span.first <= slice && slice <= span.last ? 1 : 0;
       }
-      require(set == expected && set == axis.boxes[slice], "the bit of a box is set in all slices that it overlaps");
+      require(set == expected && set == axis.counts[slice], "the bit of a box is set in all slices that it overlaps");
     }
   }
 }
@@ -182,7 +182,7 @@ void BitGrid::checkStructure() const {
 std::size_t BitGrid::structureBytes() const {
   std::size_t bytes = 0;
   for (const Axis& axis : axes_)
-    bytes += axis.bits.capacity() * sizeof(std::uint64_t) + axis.boxes.capacity() * sizeof(std::uint32_t);
+    bytes += axis.bits.capacity() * sizeof(std::uint64_t) + axis.counts.capacity() * sizeof(std::uint32_t);
   return bytes;
 }
 

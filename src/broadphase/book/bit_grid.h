@@ -34,8 +34,8 @@ class BitGrid final : public Partition {
   struct Axis {
     double low = 0.0, inverse = 0.0;  // [m], [1/m] coordinate of the first slice; slices per meter
     std::size_t slices = 1;
-    std::vector<std::uint64_t> bits;   // words of the first slice, then of the second one, ...
-    std::vector<std::uint32_t> boxes;  // for each slice: the number of its boxes (the summary form)
+    std::vector<std::uint64_t> bits;    // words of the first slice, then of the second one, ...
+    std::vector<std::uint32_t> counts;  // for each slice: the number of its boxes (the summary form)
   };
 
   void build() override;

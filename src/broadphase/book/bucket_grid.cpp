@@ -38,29 +38,29 @@ void BucketGrid::build() {
 }
 
 Partition::Followed BucketGrid::added(ProxyId id) {
-  const CellRange cells = scale_.of(box(id));
+  const CellRange cells = scale_.cellsOf(box(id));
   if (isLarge(cells)) {
     large_.add(id);
     return hasManyLargeBoxes() ? Followed::no : Followed::yes;
   }
-  bucketsOf(cells, of_box_);
-  for (const std::uint32_t bucket : of_box_) buckets_[bucket].push_back(id);
+  bucketsOf(cells, buckets_of_box_);
+  for (const std::uint32_t bucket : buckets_of_box_) buckets_[bucket].push_back(id);
   return size() > 2 * buckets_.size() ? Followed::no : Followed::yes;  // no: the buckets are too full
 }
 
 Partition::Followed BucketGrid::removed(ProxyId id, const Aabb& from) {
-  const CellRange cells = scale_.of(from);
+  const CellRange cells = scale_.cellsOf(from);
   if (isLarge(cells)) {
     large_.remove(id);
     return Followed::yes;
   }
-  bucketsOf(cells, of_box_);
-  for (const std::uint32_t bucket : of_box_) eraseUnordered(buckets_[bucket], id);
+  bucketsOf(cells, buckets_of_box_);
+  for (const std::uint32_t bucket : buckets_of_box_) eraseUnordered(buckets_[bucket], id);
   return Followed::yes;
 }
 
 Partition::Followed BucketGrid::moved(ProxyId id, const Aabb& from) {
-  return scale_.of(from) == scale_.of(box(id)) ? Followed::yes : Partition::moved(id, from);
+  return scale_.cellsOf(from) == scale_.cellsOf(box(id)) ? Followed::yes : Partition::moved(id, from);
 }
 
 // ---- searches
@@ -70,8 +70,8 @@ void BucketGrid::findPairsInCells(PairSink& sink) const {
   for (std::uint32_t bucket = 0; bucket < buckets_.size() && !sink.isFull(); ++bucket) {
     if (buckets_[bucket].size() < 2) continue;
     here = buckets_[bucket];
-    sink.among(here, [&](ProxyId a, ProxyId b) {
-      if (sink.isPair(a, b) && bucketOf(scale_.meeting(box(a), box(b))) == bucket) sink.add(a, b);
+    sink.visitPairs(here, [&](ProxyId a, ProxyId b) {
+      if (sink.isPair(a, b) && bucketOf(scale_.reportingCell(box(a), box(b))) == bucket) sink.add(a, b);
     });
   }
 }
@@ -105,7 +105,7 @@ void BucketGrid::checkStructure() const {
   }
   std::vector<std::uint32_t> buckets;
   for (const ProxyId id : storedIds()) {
-    const CellRange cells = scale_.of(box(id));
+    const CellRange cells = scale_.cellsOf(box(id));
     require(large_.contains(id) == isLarge(cells), "a box is large if it covers too many cells");
     if (isLarge(cells)) continue;
     bucketsOf(cells, buckets);
@@ -128,7 +128,7 @@ std::size_t BucketGrid::structureBytes() const {
 void BucketGrid::draw(std::vector<Aabb>& regions) const {
   for (const ProxyId id : storedIds()) {
     if (large_.contains(id)) continue;
-    scale_.of(box(id)).visit([&](const Cell& cell) { regions.push_back(scale_.regionOf(cell)); });
+    scale_.cellsOf(box(id)).visit([&](const Cell& cell) { regions.push_back(scale_.regionOf(cell)); });
   }
 }
 

@@ -33,7 +33,7 @@ class BucketGrid final : public UniformGrid {
   void bucketsOf(const CellRange& cells, std::vector<std::uint32_t>& buckets) const;
 
   std::vector<std::vector<ProxyId>> buckets_;  // their number is a power of two
-  std::vector<std::uint32_t> of_box_;          // buffer of changes
+  std::vector<std::uint32_t> buckets_of_box_;  // buffer of changes
 };
 
 }  // namespace book

@@ -66,15 +66,15 @@ class CellScale {
   explicit CellScale(double edge = 1.0) : edge_(edge), inverse_(1.0 / edge) {}
 
   double edge() const { return edge_; }
-  std::int64_t at(double coordinate) const {
+  std::int64_t indexOf(double coordinate) const {
     // Not a plain cast: -0.1 belongs to cell -1. The clamp comes before the conversion, which overflow would make
     // undefined.
     return static_cast<std::int64_t>(std::clamp(std::floor(coordinate * inverse_), -kLimit, kLimit));
   }
-  Cell at(const Eigen::Vector3f& point) const {
-    return {at(double(point.x())), at(double(point.y())), at(double(point.z()))};
+  Cell cellOf(const Eigen::Vector3f& point) const {
+    return {indexOf(double(point.x())), indexOf(double(point.y())), indexOf(double(point.z()))};
   }
-  CellRange of(const Aabb& box) const { return {at(box.min), at(box.max)}; }
+  CellRange cellsOf(const Aabb& box) const { return {cellOf(box.min), cellOf(box.max)}; }
   /// The region of a cell [m], for drawings.
   Aabb regionOf(const Cell& cell) const {
     const auto edge = static_cast<float>(edge_);
@@ -83,7 +83,7 @@ class CellScale {
   }
   /// The cell of the smallest common corner of two boxes that overlap. A pair that shares several cells is reported in
   /// this cell alone.
-  Cell meeting(const Aabb& a, const Aabb& b) const { return at(a.min.cwiseMax(b.min).eval()); }
+  Cell reportingCell(const Aabb& a, const Aabb& b) const { return cellOf(a.min.cwiseMax(b.min).eval()); }
 
   /// Calls visit(range) for ranges of cells that contain all cells that the shape touches within `most`. A segment is
   /// cut into one range per layer of cells along its longest axis, so that a long diagonal does not cover its whole
@@ -91,7 +91,7 @@ class CellScale {
   /// @returns false if there are more than `limit` cells; then the caller should go through the occupied cells instead
   template <class Visit>
   bool visitRanges(const QueryShape& shape, const CellRange& most, double limit, Visit&& visit) const {
-    CellRange whole = clipped(of(shape.bounds()), most);
+    CellRange whole = clamped(cellsOf(shape.bounds()), most);
     if (shape.kind() != QueryShape::Kind::segment) {
       if (whole.count() > limit) return false;
       visit(whole);
@@ -103,7 +103,7 @@ class CellScale {
     if (double(last) - double(first) > limit) return false;
     double cells = 0.0;
     for (std::int64_t layer = first; layer <= last; ++layer) {
-      CellRange range = clipped(of(shape.slice(axis, lowOf(layer), highOf(layer))), whole);
+      CellRange range = clamped(cellsOf(shape.slice(axis, lowOf(layer), highOf(layer))), whole);
       std::int64_t& low = axis == 0 ? range.low.x : axis == 1 ? range.low.y : range.low.z;
       std::int64_t& high = axis == 0 ? range.high.x : axis == 1 ? range.high.y : range.high.z;
       low = high = layer;
@@ -123,7 +123,7 @@ class CellScale {
  private:
   static constexpr double kLimit = 0x1p52;
 
-  static CellRange clipped(const CellRange& range, const CellRange& to) {
+  static CellRange clamped(const CellRange& range, const CellRange& to) {
     // Clamps both ends: what is outside is in the outermost cells.
     const auto within = [](std::int64_t value, std::int64_t low, std::int64_t high) {
       return std::min(std::max(value, low), high);

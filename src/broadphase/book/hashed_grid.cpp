@@ -87,13 +87,13 @@ void HashedGrid::build() {
   free_ = kEnd;
   used_ = busy_ = 0;
   large_.clear();
-  occupied_.cover(scale_.of(world()), pretest_ ? 64.0 * double(ids.size()) : 0.0);
+  occupied_.cover(scale_.cellsOf(world()), pretest_ ? 64.0 * double(ids.size()) : 0.0);
   resize(4 * ids.size());
   for (const ProxyId id : ids) added(id);
 }
 
 Partition::Followed HashedGrid::added(ProxyId id) {
-  const CellRange cells = scale_.of(box(id));
+  const CellRange cells = scale_.cellsOf(box(id));
   if (isLarge(cells)) {
     large_.add(id);
   } else {
@@ -103,7 +103,7 @@ Partition::Followed HashedGrid::added(ProxyId id) {
 }
 
 Partition::Followed HashedGrid::removed(ProxyId id, const Aabb& from) {
-  const CellRange cells = scale_.of(from);
+  const CellRange cells = scale_.cellsOf(from);
   if (isLarge(cells)) {
     large_.remove(id);
   } else {
@@ -113,7 +113,7 @@ Partition::Followed HashedGrid::removed(ProxyId id, const Aabb& from) {
 }
 
 Partition::Followed HashedGrid::moved(ProxyId id, const Aabb& from) {
-  return scale_.of(from) == scale_.of(box(id)) ? Followed::yes : Partition::moved(id, from);
+  return scale_.cellsOf(from) == scale_.cellsOf(box(id)) ? Followed::yes : Partition::moved(id, from);
 }
 
 // ---- searches
@@ -126,8 +126,8 @@ void HashedGrid::findPairsInCells(PairSink& sink) const {
     here.clear();
     for (std::uint32_t entry = slot.first; entry != kEnd; entry = entries_[entry].next)
       here.push_back(entries_[entry].id);
-    sink.among(here, [&](ProxyId a, ProxyId b) {
-      if (sink.isPair(a, b) && scale_.meeting(box(a), box(b)) == slot.cell) sink.add(a, b);
+    sink.visitPairs(here, [&](ProxyId a, ProxyId b) {
+      if (sink.isPair(a, b) && scale_.reportingCell(box(a), box(b)) == slot.cell) sink.add(a, b);
     });
   }
 }
@@ -164,11 +164,11 @@ void HashedGrid::checkStructure() const {
     require(&slots_[find(slot.cell)] == &slot, "a search finds each used slot");
     for (std::uint32_t entry = slot.first; entry != kEnd; entry = entries_[entry].next, ++links) {
       require(isStored(entries_[entry].id), "each box in a cell is stored");
-      require(scale_.of(box(entries_[entry].id)).contains(slot.cell), "a box overlaps the cell that holds it");
+      require(scale_.cellsOf(box(entries_[entry].id)).contains(slot.cell), "a box overlaps the cell that holds it");
     }
   }
   for (const ProxyId id : storedIds()) {
-    const CellRange cells = scale_.of(box(id));
+    const CellRange cells = scale_.cellsOf(box(id));
     require(large_.contains(id) == isLarge(cells), "a box is large if it covers too many cells");
     expected += isLarge(cells) ? 0 : static_cast<std::size_t>(cells.count());
   }

@@ -81,9 +81,9 @@ void KdNodes::visit(const QueryShape& shape, Visit&& visit) const {
       return 1.0;
     });
   }
-  visitNear(shape.sphere().center, shape.around(), [&](ProxyId id) {
+  visitNear(shape.sphere().center, shape.radiusWithSlack(), [&](ProxyId id) {
     visit(id);
-    return shape.around();
+    return shape.radiusWithSlack();
   });
 }
 
@@ -144,8 +144,10 @@ void KdNodes::segmentFrom(std::uint32_t index, const QueryShape& shape, double e
     return;
   }
   const double from = shape.segment().from[node.axis], step = shape.segment().to[node.axis] - from;
-  const double low_plane = double(node.low_end) + shape.around() - from;  // the segment is in the low side up to here
-  const double high_plane = double(node.high_begin) - shape.around() - from;  // and in the high side from here on
+  const double low_plane =
+      double(node.low_end) + shape.radiusWithSlack() - from;  // the segment is in the low side up to here
+  const double high_plane =
+      double(node.high_begin) - shape.radiusWithSlack() - from;  // and in the high side from here on
   const bool parallel = std::abs(step) <= 1e-100;
   for (const bool low : {!(step < 0.0), step < 0.0}) {  // the sign of the step decides which side is nearer
     const double plane = low ? low_plane : high_plane;

@@ -60,10 +60,10 @@ Aabb LooseOctree::regionOf(const Place& place) const {
 // ---- changes
 
 void LooseOctree::build() {
-  const Eigen::Vector3d least = world().min.cast<double>(), most = world().max.cast<double>();
-  const double side = (most - least).maxCoeff();
+  const Eigen::Vector3d low = world().min.cast<double>(), high = world().max.cast<double>();
+  const double side = (high - low).maxCoeff();
   width_ = side > 0.0 ? 1.5 * side : 1.0;  // with room for motion
-  low_ = 0.5 * (least + most) - Eigen::Vector3d::Constant(0.5 * width_);
+  low_ = 0.5 * (low + high) - Eigen::Vector3d::Constant(0.5 * width_);
   nodes_.clear();
   outside_.clear();
   for (const ProxyId id : storedIds()) added(id);

@@ -38,7 +38,7 @@ void MirtichGrid::count(ProxyId a, ProxyId b, bool up) {
   if (!counts_ || (isFixed(a) && isFixed(b))) return;
   if (!up) return close_.lower(a, b);
   close_.raise(a, b);
-  if (close_.size() <= most_) return;
+  if (close_.size() <= most_close_) return;
   counts_ = false;
   close_.clear();
 }
@@ -74,7 +74,7 @@ void MirtichGrid::build() {
   for (const int exponent : exponents) levels_.push_back({exponent, CellScale(std::ldexp(1.0, exponent)), {}, {}});
   close_.clear();
   counts_ = true;
-  most_ = mostTrackedPairs();
+  most_close_ = mostTrackedPairs();
   for (const ProxyId id : ids) added(id);
 }
 
@@ -86,7 +86,7 @@ Partition::Followed MirtichGrid::added(ProxyId id) {
   levels_[own].residents.add(id);
   for (std::size_t index = own; index < levels_.size(); ++index) {
     Level& level = levels_[index];
-    level.scale.of(box(id)).visit([&](const Cell& cell) { enter(level, cell, id, index == own); });
+    level.scale.cellsOf(box(id)).visit([&](const Cell& cell) { enter(level, cell, id, index == own); });
   }
   return Followed::yes;
 }
@@ -96,7 +96,7 @@ Partition::Followed MirtichGrid::removed(ProxyId id, const Aabb& from) {
   levels_[own].residents.remove(id);
   for (std::size_t index = own; index < levels_.size(); ++index) {
     Level& level = levels_[index];
-    level.scale.of(from).visit([&](const Cell& cell) { leave(level, cell, id, index == own); });
+    level.scale.cellsOf(from).visit([&](const Cell& cell) { leave(level, cell, id, index == own); });
   }
   return Followed::yes;
 }
@@ -107,7 +107,7 @@ Partition::Followed MirtichGrid::moved(ProxyId id, const Aabb& from) {
   const std::size_t own = firstLevelOf(exponent);
   for (std::size_t index = own; index < levels_.size(); ++index) {
     Level& level = levels_[index];
-    const CellRange before = level.scale.of(from), now = level.scale.of(box(id));
+    const CellRange before = level.scale.cellsOf(from), now = level.scale.cellsOf(box(id));
     if (before == now) continue;  // most often so on coarse levels, whose cells change rarely
     before.visit([&](const Cell& cell) {
       if (!now.contains(cell)) leave(level, cell, id, index == own);
@@ -162,7 +162,7 @@ void MirtichGrid::checkStructure() const {
       for (std::size_t i = 0; i < mine.size(); ++i) {
         require(level.residents.contains(mine[i]), "a resident of a cell is a resident of the level");
         require(exponentOf(box(mine[i])) == level.exponent, "the size of a box selects its level");
-        require(level.scale.of(box(mine[i])).contains(one.first), "a box overlaps the cell that holds it");
+        require(level.scale.cellsOf(box(mine[i])).contains(one.first), "a box overlaps the cell that holds it");
         for (std::size_t k = i + 1; k < mine.size(); ++k) countTogether(mine[i], mine[k]);
         for (const ProxyId other : others) countTogether(mine[i], other);
       }
@@ -170,7 +170,7 @@ void MirtichGrid::checkStructure() const {
   }
   for (const ProxyId id : storedIds()) {
     for (std::size_t index = firstLevelOf(exponentOf(box(id))); index < levels_.size(); ++index)
-      expected += static_cast<std::size_t>(levels_[index].scale.of(box(id)).count());
+      expected += static_cast<std::size_t>(levels_[index].scale.cellsOf(box(id)).count());
   }
   require(residents == size(), "each box is a resident of one level");
   require(entries == expected, "each box is in all cells that it overlaps on its own level and on coarser levels");

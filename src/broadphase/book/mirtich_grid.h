@@ -45,7 +45,7 @@ class MirtichGrid final : public Partition {
   Followed added(ProxyId id) override;
   Followed removed(ProxyId id, const Aabb& from) override;
   Followed moved(ProxyId id, const Aabb& from) override;
-  bool dependsOnFixed() const override { return true; }
+  bool tracksPairs() const override { return true; }
   void findPairs(PairSink& sink) const override;
   void candidates(const QueryShape& shape, std::vector<ProxyId>& found) const override;
   void checkStructure() const override;
@@ -60,8 +60,8 @@ class MirtichGrid final : public Partition {
 
   std::vector<Level> levels_;  // from fine to coarse
   PairCounts close_;
-  bool counts_ = true;    // whether `close_` holds all close pairs
-  std::size_t most_ = 0;  // largest number of close pairs that are counted
+  bool counts_ = true;          // whether `close_` holds all close pairs
+  std::size_t most_close_ = 0;  // largest number of close pairs that are counted
 };
 
 }  // namespace book

@@ -46,7 +46,7 @@ class PairSink {
   /// Calls visit(a, b) for each two of the ids of which at least one is not fixed. Reorders the ids. Takes time
   /// proportional to the number of ids plus the number of calls.
   template <class Visit>
-  void among(std::vector<ProxyId>& ids, Visit&& visit) {
+  void visitPairs(std::vector<ProxyId>& ids, Visit&& visit) {
     const auto fixed = std::partition(ids.begin(), ids.end(), [&](ProxyId id) { return !isFixed(id); });
     for (auto a = ids.begin(); a != fixed && !full_; ++a) {
       for (auto b = a + 1; b != ids.end(); ++b) visit(*a, *b);

@@ -171,12 +171,12 @@ void Partition::setFixed(const std::vector<ProxyId>& ids) {
     if (id < fixed_.size()) fixed_[id] = 1;
   }
   fixed_ids_.swap(next);
-  if (dependsOnFixed()) stale_ = true;
+  if (tracksPairs()) stale_ = true;
 }
 
 void Partition::setPairBound(const PairBound& bound) {
   bound_ = bound;
-  if (dependsOnFixed()) stale_ = true;  // a partition that tracks pairs tracks no more than the bound needs
+  if (tracksPairs()) stale_ = true;  // a partition that tracks pairs tracks no more than the bound needs
 }
 
 // ---- the structure, before a search

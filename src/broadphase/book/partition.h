@@ -83,7 +83,7 @@ class Partition : public BroadPhase {
   /// Brings the structure up to date before a search, if a change asked for it.
   virtual void settle() {}
   /// Whether a structure whose pairs depend on the fixed flags has to be built again when they change.
-  virtual bool dependsOnFixed() const { return false; }
+  virtual bool tracksPairs() const { return false; }
   /// Whether to build again if most boxes move in one call.
   virtual bool rebuildsWhenMostMove() const { return true; }
 

@@ -28,13 +28,13 @@ double largestCoordinate(const Segment& segment) {
 QueryShape::QueryShape(const Aabb& box) : kind_(Kind::box), bounds_(box) {}
 
 QueryShape::QueryShape(const Sphere& sphere) : kind_(Kind::sphere), sphere_(sphere) {
-  around_ = sphere.radius + 4.0 * roundingSlack(sphere.center.cwiseAbs().maxCoeff() + sphere.radius);
-  bounds_ = boxAround(sphere.center, sphere.center, around_);
+  radius_with_slack_ = sphere.radius + 4.0 * roundingSlack(sphere.center.cwiseAbs().maxCoeff() + sphere.radius);
+  bounds_ = boxAround(sphere.center, sphere.center, radius_with_slack_);
 }
 
 QueryShape::QueryShape(const Segment& segment) : kind_(Kind::segment), segment_(segment) {
-  around_ = segment.radius + 8.0 * roundingSlack(largestCoordinate(segment));
-  bounds_ = boxAround(segment.from, segment.to, around_);
+  radius_with_slack_ = segment.radius + 8.0 * roundingSlack(largestCoordinate(segment));
+  bounds_ = boxAround(segment.from, segment.to, radius_with_slack_);
   step_ = segment.to - segment.from;
 }
 
@@ -46,14 +46,14 @@ int QueryShape::longAxis() const {
 
 Aabb QueryShape::slice(int axis, double low, double high) const {
   if (kind_ == Kind::segment && std::abs(step_[axis]) > 1e-100) {
-    // The centers whose sphere reaches into the slice are within `around_` of it. The allowance for rounding in
-    // `around_` is far above the rounding errors of these fractions.
-    double first = (low - around_ - segment_.from[axis]) / step_[axis];
-    double last = (high + around_ - segment_.from[axis]) / step_[axis];
+    // The centers whose sphere reaches into the slice are within `radius_with_slack_` of it. The allowance for rounding
+    // in `radius_with_slack_` is far above the rounding errors of these fractions.
+    double first = (low - radius_with_slack_ - segment_.from[axis]) / step_[axis];
+    double last = (high + radius_with_slack_ - segment_.from[axis]) / step_[axis];
     if (first > last) std::swap(first, last);
     first = std::clamp(first, 0.0, 1.0);
     last = std::clamp(last, 0.0, 1.0);
-    return boxAround(segment_.from + first * step_, segment_.from + last * step_, around_);
+    return boxAround(segment_.from + first * step_, segment_.from + last * step_, radius_with_slack_);
   }
   Aabb part = bounds_;
   part.min[axis] = std::max(part.min[axis], roundedDown(low));
@@ -64,12 +64,13 @@ Aabb QueryShape::slice(int axis, double low, double high) const {
 bool QueryShape::mayTouch(const Aabb& region) const {
   if (!overlap(bounds_, region)) return false;
   if (kind_ == Kind::box) return true;
-  if (kind_ == Kind::sphere) return squaredDistance(region, sphere_.center) <= around_ * around_ * (1.0 + 1e-12);
+  if (kind_ == Kind::sphere)
+    return squaredDistance(region, sphere_.center) <= radius_with_slack_ * radius_with_slack_ * (1.0 + 1e-12);
   // The line from + t * step is clipped by the slabs of the region, which are grown by the thickness of the segment.
   double enter = 0.0, leave = 1.0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double low = region.min[axis] - around_ - segment_.from[axis];
-    const double high = region.max[axis] + around_ - segment_.from[axis];
+    const double low = region.min[axis] - radius_with_slack_ - segment_.from[axis];
+    const double high = region.max[axis] + radius_with_slack_ - segment_.from[axis];
     if (std::abs(step_[axis]) <= 1e-100) continue;  // `bounds_` has decided this axis
     const double a = low / step_[axis], b = high / step_[axis];
     enter = std::max(enter, std::min(a, b));

@@ -24,7 +24,7 @@ class QueryShape {
   /// A box around the shape [m]. Its coordinates may be infinite.
   const Aabb& bounds() const { return bounds_; }
   /// Half of the thickness of a swept segment [m], with an allowance for rounding.
-  double around() const { return around_; }
+  double radiusWithSlack() const { return radius_with_slack_; }
   const Segment& segment() const { return segment_; }
   const Sphere& sphere() const { return sphere_; }
 
@@ -41,7 +41,7 @@ class QueryShape {
   Aabb bounds_;
   Sphere sphere_;
   Segment segment_;
-  double around_ = 0.0;
+  double radius_with_slack_ = 0.0;
   Eigen::Vector3d step_ = Eigen::Vector3d::Zero();
 };
 

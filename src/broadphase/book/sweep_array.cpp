@@ -77,22 +77,23 @@ void SweepArray::sort() {
 // ---- searches
 
 void SweepArray::findPairs(PairSink& sink) const {
-  std::vector<Entry> loose, fixed;
-  for (const Entry& entry : entries_) (isFixed(entry.id) ? fixed : loose).push_back(entry);
-  std::size_t next_fixed = 0, next_loose = 0;
-  for (std::size_t i = 0; i < loose.size(); ++i) {
+  std::vector<Entry> movable, fixed;
+  for (const Entry& entry : entries_) (isFixed(entry.id) ? fixed : movable).push_back(entry);
+  std::size_t next_fixed = 0, next_movable = 0;
+  for (std::size_t i = 0; i < movable.size(); ++i) {
     if (sink.isFull()) return;
-    const Entry& one = loose[i];
-    for (std::size_t k = i + 1; k < loose.size() && loose[k].min <= one.max; ++k) sink.tryPair(one.id, loose[k].id);
+    const Entry& one = movable[i];
+    for (std::size_t k = i + 1; k < movable.size() && movable[k].min <= one.max; ++k)
+      sink.tryPair(one.id, movable[k].id);
     while (next_fixed < fixed.size() && fixed[next_fixed].min < one.min) ++next_fixed;
     for (std::size_t k = next_fixed; k < fixed.size() && fixed[k].min <= one.max; ++k)
       sink.tryPair(one.id, fixed[k].id);
   }
   for (const Entry& one : fixed) {  // the boxes that begin behind the beginning of a fixed box
     if (sink.isFull()) return;
-    while (next_loose < loose.size() && loose[next_loose].min <= one.min) ++next_loose;
-    for (std::size_t k = next_loose; k < loose.size() && loose[k].min <= one.max; ++k)
-      sink.tryPair(one.id, loose[k].id);
+    while (next_movable < movable.size() && movable[next_movable].min <= one.min) ++next_movable;
+    for (std::size_t k = next_movable; k < movable.size() && movable[k].min <= one.max; ++k)
+      sink.tryPair(one.id, movable[k].id);
   }
 }
 

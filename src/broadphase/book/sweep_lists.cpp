@@ -39,10 +39,10 @@ void SweepLists::linkAfter(Link place, Link element, int axis) {
 }
 
 /// Adds a pair to the table if its boxes overlap. The caller calls this when they begin to overlap on one axis.
-void SweepLists::begins(ProxyId a, ProxyId b) {
+void SweepLists::tryToTrack(ProxyId a, ProxyId b) {
   if (!tracks_ || a == b || (isFixed(a) && isFixed(b)) || !overlap(box(a), box(b)) || pairs_.of(a, b) != 0) return;
   pairs_.raise(a, b);
-  if (pairs_.size() <= most_) return;
+  if (pairs_.size() <= most_tracked_) return;
   tracks_ = false;
   pairs_.clear();
 }
@@ -53,7 +53,7 @@ void SweepLists::moveLeft(Link element, int axis) {
   for (; isBefore(element, place, axis); place = elements_[place].previous[k], ++steps_) {
     if (isMax(place) == isMax(element)) continue;
     if (isMax(place)) {
-      begins(boxOf(element), boxOf(place));  // a minimum passes a maximum
+      tryToTrack(boxOf(element), boxOf(place));  // a minimum passes a maximum
     } else {
       pairs_.lower(boxOf(element), boxOf(place));  // a maximum passes a minimum
     }
@@ -70,7 +70,7 @@ void SweepLists::moveRight(Link element, int axis) {
     if (isMax(place)) {
       pairs_.lower(boxOf(element), boxOf(place));  // a minimum passes a maximum
     } else {
-      begins(boxOf(element), boxOf(place));  // a maximum passes a minimum
+      tryToTrack(boxOf(element), boxOf(place));  // a maximum passes a minimum
     }
   }
   unlink(element, axis);
@@ -114,9 +114,9 @@ void SweepLists::build() {
   steps_ = 0;
   pairs_.clear();
   tracks_ = true;
-  most_ = mostTrackedPairs();
+  most_tracked_ = mostTrackedPairs();
   sweep([&](ProxyId a, ProxyId b) {
-    begins(a, b);
+    tryToTrack(a, b);
     return tracks_;
   });
 }
@@ -154,15 +154,15 @@ Partition::Followed SweepLists::moved(ProxyId id, const Aabb&) {
 /// Calls visit(a, b) for all pairs, by a sweep along the list of one axis, until it returns false.
 template <class Visit>
 void SweepLists::sweep(Visit&& visit) const {
-  std::vector<ProxyId> loose, fixed;  // the boxes that the sweep has entered and not left
+  std::vector<ProxyId> movable, fixed;  // the boxes that the sweep has entered and not left
   for (Link element = elements_[kHead].next[0]; element != kTail; element = elements_[element].next[0]) {
     const ProxyId id = boxOf(element);
-    std::vector<ProxyId>& mine = isFixed(id) ? fixed : loose;
+    std::vector<ProxyId>& mine = isFixed(id) ? fixed : movable;
     if (isMax(element)) {
       eraseUnordered(mine, id);
       continue;
     }
-    for (const std::vector<ProxyId>* others : {&loose, &fixed}) {
+    for (const std::vector<ProxyId>* others : {&movable, &fixed}) {
       if (isFixed(id) && others == &fixed) continue;
       for (const ProxyId other : *others) {
         if (overlap(box(id), box(other)) && !visit(id, other)) return;

@@ -45,7 +45,7 @@ class SweepLists final : public Partition {
   Followed removed(ProxyId id, const Aabb& from) override;
   Followed moved(ProxyId id, const Aabb& from) override;
   bool rebuildsWhenMostMove() const override { return false; }
-  bool dependsOnFixed() const override { return true; }
+  bool tracksPairs() const override { return true; }
   void settle() override { steps_ = 0; }
   void findPairs(PairSink& sink) const override;
   void candidates(const QueryShape& shape, std::vector<ProxyId>& found) const override;
@@ -63,15 +63,15 @@ class SweepLists final : public Partition {
   void moveLeft(Link element, int axis);
   void moveRight(Link element, int axis);
   void sortIn(ProxyId id);
-  void begins(ProxyId a, ProxyId b);
+  void tryToTrack(ProxyId a, ProxyId b);
   template <class Visit>
   void sweep(Visit&& visit) const;
 
   std::vector<Element> elements_;
-  PairCounts pairs_;       // the counter of each overlapping pair is 1
-  bool tracks_ = true;     // whether `pairs_` holds all pairs
-  std::size_t most_ = 0;   // largest number of tracked pairs
-  std::size_t steps_ = 0;  // elements that were passed since the last search
+  PairCounts pairs_;              // the counter of each overlapping pair is 1
+  bool tracks_ = true;            // whether `pairs_` holds all pairs
+  std::size_t most_tracked_ = 0;  // largest number of tracked pairs
+  std::size_t steps_ = 0;         // elements that were passed since the last search
 };
 
 }  // namespace book

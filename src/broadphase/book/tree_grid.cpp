@@ -15,7 +15,7 @@ void TreeGrid::build() {
   const double apart = cellEdgeFor(all, CellRule::density) * std::cbrt(kBoxesPerCell);
   scale_ = CellScale(std::max(cellEdgeFor(all, CellRule::objects), apart));
   cells_.clear();
-  old_cells_.clear();
+  outdated_cells_.clear();
   large_ = Tree{};
   for (const ProxyId id : ids) added(id);
   settle();
@@ -23,46 +23,46 @@ void TreeGrid::build() {
 
 Partition::Followed TreeGrid::added(ProxyId id) {
   const bool is_large = isLarge(box(id));
-  const Cell cell = scale_.at(box(id).min);
+  const Cell cell = scale_.cellOf(box(id).min);
   Tree& tree = is_large ? large_ : cells_[cell];
   tree.ids.push_back(id);
-  if (!is_large && !tree.is_old) old_cells_.push_back(cell);
-  tree.is_old = true;
+  if (!is_large && !tree.is_outdated) outdated_cells_.push_back(cell);
+  tree.is_outdated = true;
   return Followed::settle;
 }
 
 Partition::Followed TreeGrid::removed(ProxyId id, const Aabb& from) {
   const bool is_large = isLarge(from);
-  const Cell cell = scale_.at(from.min);
+  const Cell cell = scale_.cellOf(from.min);
   Tree& tree = is_large ? large_ : cells_[cell];
   eraseUnordered(tree.ids, id);
-  if (!is_large && !tree.is_old) old_cells_.push_back(cell);
-  tree.is_old = true;
+  if (!is_large && !tree.is_outdated) outdated_cells_.push_back(cell);
+  tree.is_outdated = true;
   return Followed::settle;
 }
 
-void TreeGrid::renew(Tree& tree) {
+void TreeGrid::buildTree(Tree& tree) {
   tree.nodes.build(boxes(), tree.ids);
   for (std::size_t i = 0; i < tree.ids.size(); ++i) {
     const Aabb& here = box(tree.ids[i]);
     tree.bounds.min = i == 0 ? here.min : tree.bounds.min.cwiseMin(here.min);
     tree.bounds.max = i == 0 ? here.max : tree.bounds.max.cwiseMax(here.max);
   }
-  tree.is_old = false;
+  tree.is_outdated = false;
 }
 
 /// Builds the trees again whose boxes changed.
 void TreeGrid::settle() {
-  for (const Cell& cell : old_cells_) {
+  for (const Cell& cell : outdated_cells_) {
     const auto place = cells_.find(cell);
     if (place->second.ids.empty()) {
       cells_.erase(place);
     } else {
-      renew(place->second);
+      buildTree(place->second);
     }
   }
-  old_cells_.clear();
-  if (large_.is_old) renew(large_);
+  outdated_cells_.clear();
+  if (large_.is_outdated) buildTree(large_);
 }
 
 // ---- searches
@@ -103,7 +103,7 @@ void TreeGrid::checkStructure() const {
     std::vector<ProxyId> expected = tree.ids, in_tree = tree.nodes.ids();
     std::sort(expected.begin(), expected.end());
     std::sort(in_tree.begin(), in_tree.end());
-    require(!tree.is_old && expected == in_tree, "the tree of a cell has the boxes of the cell");
+    require(!tree.is_outdated && expected == in_tree, "the tree of a cell has the boxes of the cell");
     for (const ProxyId id : tree.ids) require(isStored(id), "each box in a cell is stored");
   };
   check(large_);
@@ -112,7 +112,8 @@ void TreeGrid::checkStructure() const {
     check(one.second);
     require(!one.second.ids.empty(), "an empty cell is not stored");
     for (const ProxyId id : one.second.ids)
-      require(!isLarge(box(id)) && scale_.at(box(id).min) == one.first, "a box is in the cell of its minimum corner");
+      require(!isLarge(box(id)) && scale_.cellOf(box(id).min) == one.first,
+              "a box is in the cell of its minimum corner");
   }
   require(held == size(), "each box is in one cell or is large");
 }

@@ -30,7 +30,7 @@ class TreeGrid final : public Partition {
     std::vector<ProxyId> ids;
     Aabb bounds;
     KdNodes nodes;
-    bool is_old = false;  // whether the nodes have to be built again
+    bool is_outdated = false;  // whether the nodes have to be built again
   };
 
   void build() override;
@@ -44,12 +44,12 @@ class TreeGrid final : public Partition {
   void draw(std::vector<Aabb>& regions) const override;
 
   bool isLarge(const Aabb& box) const { return longestSide(box) > scale_.edge(); }
-  void renew(Tree& tree);
+  void buildTree(Tree& tree);
 
   CellScale scale_;
   std::unordered_map<Cell, Tree, CellHash> cells_;
   Tree large_;
-  std::vector<Cell> old_cells_;  // cells whose trees have to be built again
+  std::vector<Cell> outdated_cells_;  // cells whose trees have to be built again
 };
 
 }  // namespace book
