@@ -19,6 +19,7 @@ set(HGRID_CORE_SOURCES
   src/broadphase/book/loose_octree.cpp
   src/broadphase/book/mirtich_grid.cpp
   src/broadphase/book/partition.cpp
+  src/broadphase/book/partition_changes.cpp
   src/broadphase/book/partition_searches.cpp
   src/broadphase/book/query_shape.cpp
   src/broadphase/book/rooms.cpp

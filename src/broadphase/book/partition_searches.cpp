@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// The searches of Partition: each one prepares the structure, lets it name candidates, and tests their boxes.
+// The searches of Partition. Each one brings the structure up to date, asks it for candidates, and tests their boxes.
 #include <cmath>
 #include <limits>
 
@@ -37,7 +37,8 @@ bool Partition::boundedPairs(std::vector<ProxyPair>& pairs) const {
   return false;
 }
 
-/// Collects pairs in the order that PairBound specifies, up to the bound.
+/// Collects pairs in the order that PairBound specifies, up to the bound. A search that would exceed the bound needs
+/// this, because the partitions find pairs in an order of their own.
 void Partition::collectInOrder(std::vector<ProxyPair>& pairs) const {
   pairs.clear();
   std::size_t overlaps = 0;
@@ -52,8 +53,8 @@ void Partition::collectInOrder(std::vector<ProxyPair>& pairs) const {
       const bool counts = other != id && (other > id || fixed_[other] != 0) && overlap(boxes_[id], boxes_[other]);
       if (counts) mine.push_back({std::min(id, other), std::max(id, other)});
     }
-    std::sort(mine.begin(), mine.end());
-    const bool cut = mine.size() > bound_.overlaps - overlaps;
+    std::sort(mine.begin(), mine.end());  // all of them contain `id`, so they are now sorted by the other id
+    const bool cut = mine.size() > bound_.overlaps - overlaps;  // the bound allows only some of these pairs
     if (cut) mine.resize(bound_.overlaps - overlaps);
     overlaps += mine.size();
     for (ProxyPair *pair = mine.data(), *end = filter_(pair, pair + mine.size()); pair != end; ++pair) {
@@ -118,13 +119,14 @@ void Partition::nearest(const Eigen::Vector3d& point, std::size_t count, double 
 
 void Partition::findNearest(const Eigen::Vector3d& point, std::size_t count, double limit,
                             std::vector<NearHit>& found) const {
-  // The first sphere reaches into the world by the distance at which `count` evenly spread boxes are expected.
+  // Searches spheres of growing radius. The first one reaches into the world by the distance at which `count` boxes are
+  // expected, if the boxes are spread evenly.
   const double size = (world_.max.cast<double>() - world_.min.cast<double>()).maxCoeff();
   double step = 0.5 * size * std::cbrt(static_cast<double>(count) / static_cast<double>(count_)) + 1e-30;
   double radius = std::min(distance(world_, point) + step, limit);
   std::vector<ProxyId> near;
   for (;;) {
-    const bool all = !(radius < 1e30);  // the bounds of a larger sphere may exceed the range of float
+    const bool all = !(radius < 1e30);  // looks at all boxes: the bounds of such a sphere may exceed the range of float
     near.clear();
     found.clear();
     constexpr float kFar = std::numeric_limits<float>::max();
@@ -138,7 +140,8 @@ void Partition::findNearest(const Eigen::Vector3d& point, std::size_t count, dou
     std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(kept), found.end(), isNearer);
     const bool enough = kept == count;
     if (all || radius >= limit || (enough && found[kept - 1].distance <= radius)) return found.resize(kept);
-    // Candidates beyond the radius are not all that there are. The next sphere reaches the last one that was kept.
+    // A candidate beyond the radius may be farther away than a box that was not found. If there are enough candidates,
+    // a sphere that reaches the farthest one that was kept decides. Otherwise the sphere grows.
     step *= 2.0;
     radius = std::min(enough ? found[kept - 1].distance : radius + step, limit);
   }
