@@ -9,11 +9,15 @@
 namespace hgrid {
 namespace book {
 
-/// One bit per cell of a bounded world: whether the cell is occupied (the pretest of section 7.1.3). A clear bit
-/// answers without a look into the hash table. Cells beyond the bounds are not covered; they always "may be occupied".
+/// One bit per cell of a bounded range: whether the cell is occupied (the pretest of section 7.1.3). If the bit is 0, a
+/// search need not look into the hash table.
+///
+/// Differs from the book: the grid need not have a fixed size. A cell beyond the range has no bit, so mayBeOccupied()
+/// is always true for it.
 class CellBits {
  public:
-  /// Covers a range of cells, or nothing if it has more than `most` cells. No cell is occupied.
+  /// Starts anew for a range of cells, none of them occupied. If the range has more than `most` cells, no cell has a
+  /// bit.
   void cover(const CellRange& range, double most) {
     covered_ = range.count() <= most;
     range_ = range;

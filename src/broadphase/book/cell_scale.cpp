@@ -8,10 +8,10 @@ namespace hgrid {
 namespace book {
 namespace {
 
-constexpr double kSmallest = 0x1p-60, kLargest = 0x1p100;  // [m] keep reciprocals and products finite
+constexpr double kSmallest = 0x1p-60, kLargest = 0x1p100;  // [m] reciprocals and products of such edges are finite
 
-/// The edge [m] of about as many cubes as there are boxes, over the bounds of all boxes. An axis along which the world
-/// is thinner than a cell does not count, so n boxes on a floor get sqrt(n) cells per axis.
+/// Returns the edge [m] of n equal cubes that together fill the bounds of the n boxes. An axis on which the world is
+/// thinner than such a cube does not count. So n boxes on a floor get sqrt(n) cells per axis.
 double edgeByDensity(const std::vector<Aabb>& boxes) {
   Aabb bounds = boxes.front();
   for (const Aabb& box : boxes) {
@@ -37,9 +37,9 @@ double cellEdgeFor(const std::vector<Aabb>& boxes, CellRule rule) {
     std::vector<double> sides;
     sides.reserve(boxes.size());
     for (const Aabb& box : boxes) sides.push_back(longestSide(box));
-    const auto nearly_all = sides.begin() + static_cast<std::ptrdiff_t>((sides.size() - 1) * 19 / 20);
-    std::nth_element(sides.begin(), nearly_all, sides.end());
-    edge = *nearly_all;
+    const auto longest_of_most = sides.begin() + static_cast<std::ptrdiff_t>((sides.size() - 1) * 19 / 20);
+    std::nth_element(sides.begin(), longest_of_most, sides.end());
+    edge = *longest_of_most;
   }
   if (!(edge > 0.0)) edge = edgeByDensity(boxes);
   return edge > 0.0 ? std::clamp(edge, kSmallest, kLargest) : 1.0;

@@ -19,11 +19,13 @@ struct Cell {
   bool operator==(const Cell& other) const { return x == other.x && y == other.y && z == other.z; }
 };
 
-/// Hashes a cell (section 7.1.3), also as the hash function of a std::unordered_map.
+/// Hashes a cell (section 7.1.3). It also serves as the hash function of a std::unordered_map.
+///
+/// Differs from the book: the numbers are unsigned, because the overflow of signed numbers is undefined. The table size
+/// is a power of two, which uses only the lowest bits. So one more product mixes the bits.
 struct CellHash {
   std::size_t operator()(const Cell& cell) const {
-    // The three constants are the book's. Unsigned numbers wrap without overflow. The last product mixes the bits once
-    // more, because the size of some tables is a power of two; its upper half is mixed best.
+    // The first three constants are the book's. The upper half of the last product is mixed best.
     const std::uint64_t hash = static_cast<std::uint64_t>(cell.x) * 0x8da6b343u +
                                static_cast<std::uint64_t>(cell.y) * 0xd8163841u +
                                static_cast<std::uint64_t>(cell.z) * 0xcb1ab31fu;
@@ -31,11 +33,11 @@ struct CellHash {
   }
 };
 
-/// All cells from `low` to `high` on each axis; none if low > high on an axis.
+/// The cells from `low` to `high` on each axis, both included. There are none if low > high on an axis.
 struct CellRange {
   Cell low, high;
 
-  /// Number of cells, as a double because it may be huge.
+  /// Number of cells. It is a double, because it may exceed every integer type.
   double count() const {
     const auto along = [](std::int64_t from, std::int64_t to) {
       return std::max(0.0, double(to) - double(from) + 1.0);
@@ -47,6 +49,7 @@ struct CellRange {
            cell.z <= high.z;
   }
   bool operator==(const CellRange& other) const { return low == other.low && high == other.high; }
+  /// Calls visit(cell) for each cell. The x coordinate changes fastest.
   template <class Visit>
   void visit(Visit&& visit) const {
     for (std::int64_t z = low.z; z <= high.z; ++z) {
@@ -57,23 +60,27 @@ struct CellRange {
   }
 };
 
-/// Maps coordinates to cells of equal size.
+/// Maps coordinates to cells of equal size (section 7.1).
 ///
-/// The mapping rounds down, clamps at +-2^52 and never decreases. So two boxes that overlap always share the cell of
-/// each common point, whatever is rounded, and the outermost cells hold everything beyond them.
+/// The index of a cell rounds down and is clamped to -2^52 .. 2^52. So the outermost cells extend to infinity. The
+/// index never decreases if the coordinate increases. Therefore two boxes that overlap share the cell of each common
+/// point, no matter how the index is rounded.
 class CellScale {
  public:
   explicit CellScale(double edge = 1.0) : edge_(edge), inverse_(1.0 / edge) {}
 
   double edge() const { return edge_; }
+  /// The index of a coordinate [m] on its axis.
   std::int64_t indexOf(double coordinate) const {
-    // Not a plain cast: -0.1 belongs to cell -1. The clamp comes before the conversion, which overflow would make
-    // undefined.
+    // Not a plain cast: -0.1 belongs to cell -1. The clamp comes first, because the conversion of a number that is out
+    // of range is undefined.
     return static_cast<std::int64_t>(std::clamp(std::floor(coordinate * inverse_), -kLimit, kLimit));
   }
+  /// The cell that contains a point.
   Cell cellOf(const Eigen::Vector3f& point) const {
     return {indexOf(double(point.x())), indexOf(double(point.y())), indexOf(double(point.z()))};
   }
+  /// The cells that a box overlaps.
   CellRange cellsOf(const Aabb& box) const { return {cellOf(box.min), cellOf(box.max)}; }
   /// The region of a cell [m], for drawings.
   Aabb regionOf(const Cell& cell) const {
@@ -81,17 +88,21 @@ class CellScale {
     const Eigen::Vector3f low = edge * Eigen::Vector3f(float(cell.x), float(cell.y), float(cell.z));
     return {low, low + Eigen::Vector3f::Constant(edge)};
   }
-  /// The cell of the smallest common corner of two boxes that overlap. A pair that shares several cells is reported in
-  /// this cell alone.
+  /// The cell in which a pair is reported if two overlapping boxes share several cells. It contains the minimum corner
+  /// of their common volume. So it is one of the shared cells, and finding it needs no memory of earlier pairs.
   Cell reportingCell(const Aabb& a, const Aabb& b) const { return cellOf(a.min.cwiseMax(b.min).eval()); }
 
-  /// Calls visit(range) for ranges of cells that contain all cells that the shape touches within `most`. A segment is
-  /// cut into one range per layer of cells along its longest axis, so that a long diagonal does not cover its whole
-  /// bounds (section 7.4.2 in a form that cannot miss a corner).
-  /// @returns false if there are more than `limit` cells; then the caller should go through the occupied cells instead
+  /// Calls visit(range) for ranges of cells. Together they contain every cell of `grid` that the shape touches. No cell
+  /// is in two ranges. A part of the shape beyond `grid` counts as in the outermost cells of `grid`.
+  ///
+  /// A segment gets one range per layer of cells along its longest axis. So a long diagonal does not visit all cells
+  /// within its bounds. Differs from section 7.4.2: there is no walk from cell to cell. Rounding could
+  /// make such a walk miss a cell at a corner, and the segment may be thick.
+  /// @returns false if there are more than `limit` cells. The search is then incomplete: some ranges were visited,
+  ///   and the caller has to go through all occupied cells instead.
   template <class Visit>
-  bool visitRanges(const QueryShape& shape, const CellRange& most, double limit, Visit&& visit) const {
-    CellRange whole = clamped(cellsOf(shape.bounds()), most);
+  bool visitRanges(const QueryShape& shape, const CellRange& grid, double limit, Visit&& visit) const {
+    CellRange whole = clamped(cellsOf(shape.bounds()), grid);
     if (shape.kind() != QueryShape::Kind::segment) {
       if (whole.count() > limit) return false;
       visit(whole);
@@ -114,7 +125,7 @@ class CellScale {
     return true;
   }
 
-  /// All cells.
+  /// All cells of an unbounded grid, for visitRanges().
   static CellRange everywhere() {
     constexpr auto kFar = static_cast<std::int64_t>(kLimit);
     return {{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
@@ -124,7 +135,6 @@ class CellScale {
   static constexpr double kLimit = 0x1p52;
 
   static CellRange clamped(const CellRange& range, const CellRange& to) {
-    // Clamps both ends: what is outside is in the outermost cells.
     const auto within = [](std::int64_t value, std::int64_t low, std::int64_t high) {
       return std::min(std::max(value, low), high);
     };
@@ -133,7 +143,7 @@ class CellScale {
             {within(range.high.x, to.low.x, to.high.x), within(range.high.y, to.low.y, to.high.y),
              within(range.high.z, to.low.z, to.high.z)}};
   }
-  // Bounds [m] of the coordinates in a layer of cells, rounded outward; infinite for the outermost layers.
+  // The bounds [m] of the coordinates in a layer of cells, rounded outward. The outermost layers extend to infinity.
   double lowOf(std::int64_t layer) const {
     const double low = double(layer) * edge_;
     return layer <= -static_cast<std::int64_t>(kLimit) ? -HUGE_VAL : low - 1e-12 * (std::abs(low) + edge_);
@@ -147,15 +157,20 @@ class CellScale {
 };
 
 /// How the cell size is computed from the boxes (section 7.1.1).
+///
+/// Differs from the book: the book's cell encloses the largest object in any orientation. Here one very large box must
+/// not determine the size of all cells, so 1 of 20 boxes may be longer than a cell. The boxes are axis-aligned, so
+/// their longest sides count and not their diagonals.
 enum class CellRule {
   objects,  ///< 19 of 20 boxes are no longer than a cell, so they are in at most 8 cells each
-  density,  ///< there are about as many cells as boxes: n^(1/3) cells per axis if the boxes fill space
+  density,  ///< the rule for ray tracing: about as many cells as boxes, n^(1/3) per axis if the boxes fill space
 };
 
 /// Length [m] of a box's longest side.
 inline double longestSide(const Aabb& box) { return (box.max.cast<double>() - box.min.cast<double>()).maxCoeff(); }
 
-/// Returns the edge of a cell [m] for these boxes. If 19 of 20 boxes are points, both rules use the density.
+/// Returns the edge of a cell [m] for these boxes, 1 if there are none. If 19 of 20 boxes are points, both rules use
+/// the density.
 double cellEdgeFor(const std::vector<Aabb>& boxes, CellRule rule);
 
 }  // namespace book

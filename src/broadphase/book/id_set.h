@@ -10,13 +10,15 @@
 namespace hgrid {
 namespace book {
 
-/// Removes an id from a list that contains it. The last id takes its place.
+/// Removes an id from a list that contains it once. The last id takes its place. Searches the list from its beginning.
 inline void eraseUnordered(std::vector<ProxyId>& ids, ProxyId id) {
   *std::find(ids.begin(), ids.end(), id) = ids.back();
   ids.pop_back();
 }
 
-/// A set of ids as a dense array, with the place of each id. Adding and removing take constant time.
+/// A set of ids in a dense array. A second array holds the index of each id, so adding and removing take constant time.
+///
+/// The grids use it for lists of special boxes, such as boxes that are too large for the cells.
 class IdSet {
  public:
   void clear() {
@@ -24,6 +26,7 @@ class IdSet {
     place_.clear();
   }
   bool contains(ProxyId id) const { return id < place_.size() && place_[id] != kNone; }
+  /// Adds an id, which must not be in the set.
   void add(ProxyId id) {
     if (id >= place_.size()) place_.resize(id + std::size_t{1}, kNone);
     ids_.push_back(id);

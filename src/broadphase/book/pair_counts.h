@@ -9,10 +9,14 @@
 namespace hgrid {
 namespace book {
 
-/// A counter per tracked pair, in a hash table with open addressing and linear probing. A pair whose counter is 0 is
-/// not in the table.
+/// A counter per tracked pair of boxes. A pair whose counter is 0 is not stored.
 ///
-/// Deletes by moving later entries back, not lazily: pairs come and go all the time, and marks would fill the table.
+/// MirtichGrid counts the cells that two boxes share (Ericson, Real-Time Collision Detection, 2005, section 7.2.2).
+/// SweepLists uses it as a set of pairs: each counter is 1 (section 7.5.1). The book leaves the kind of the table open.
+///
+/// It is a hash table with linear probing (closed hashing in section 7.1.3) at a load of at most 1/2. Differs from that
+/// section: a deletion moves later entries back. Lazy deletion would fill the table with marks, because pairs come and
+/// go all the time.
 class PairCounts {
  public:
   PairCounts() { clear(); }
@@ -70,7 +74,8 @@ class PairCounts {
   void eraseAt(std::size_t hole) {
     const std::size_t mask = slots_.size() - 1;
     for (std::size_t next = (hole + 1) & mask; slots_[next].count != 0; next = (next + 1) & mask) {
-      // An entry may move back into the hole if the hole is not before its home.
+      // An entry may move into the hole unless its home slot is behind the hole. A search begins at the home slot, so
+      // it would not find the entry in front of that slot.
       if (((next - homeOf(slots_[next].key)) & mask) < ((next - hole) & mask)) continue;
       slots_[hole] = slots_[next];
       hole = next;

@@ -10,8 +10,11 @@
 namespace hgrid {
 namespace book {
 
-/// Collects the pairs of a search: tests the boxes, leaves out pairs of two fixed boxes, applies the overlap filter and
-/// notices when the bound is reached.
+/// Collects the pairs of one search.
+///
+/// A partition passes each candidate pair to tryPair(), or to isPair() and then to add(). The sink tests whether the
+/// boxes overlap and leaves out pairs of two fixed boxes. It applies the overlap filter to blocks of pairs. It notices
+/// when a search exceeds the bound.
 class PairSink {
  public:
   /// All parameters must outlive the sink. `boxes` and `fixed` are indexed by id.
@@ -22,14 +25,14 @@ class PairSink {
   }
 
   bool isFixed(ProxyId id) const { return fixed_[id] != 0; }
-  /// Whether the bound is reached. The search may then end; what it still adds is dropped.
+  /// Whether the bound is exceeded. The search should then end. The sink ignores pairs that are still added.
   bool isFull() const { return full_; }
-  /// Whether two different boxes overlap and are not both fixed.
+  /// Whether two boxes overlap and are not both fixed. The ids must differ.
   bool isPair(ProxyId a, ProxyId b) const {
     return overlap(boxes_[a], boxes_[b]) && !(fixed_[a] != 0 && fixed_[b] != 0);
   }
 
-  /// Adds a pair that isPair() accepts. Each pair must be added once.
+  /// Adds a pair that isPair() accepts. No pair may be added twice.
   void add(ProxyId a, ProxyId b) {
     if (full_) return;
     if (overlaps_++ >= bound_.overlaps) {
@@ -39,12 +42,12 @@ class PairSink {
     pairs_.push_back(a < b ? ProxyPair{a, b} : ProxyPair{b, a});
     if (pairs_.size() - filtered_ >= kChunk) filter();
   }
-  /// Adds two boxes if they are a pair. Each two boxes must be tried at most once.
+  /// Adds two boxes if isPair() accepts them. A partition must not try the same two boxes twice.
   void tryPair(ProxyId a, ProxyId b) {
     if (isPair(a, b)) add(a, b);
   }
-  /// Calls visit(a, b) for each two of the ids of which at least one is not fixed. Reorders the ids. Takes time
-  /// proportional to the number of ids plus the number of calls.
+  /// Calls visit(a, b) for each combination of two of the ids, unless both boxes are fixed. Changes the order of the
+  /// ids. Many fixed boxes in one cell cost little: the time is proportional to the ids plus the calls.
   template <class Visit>
   void visitPairs(std::vector<ProxyId>& ids, Visit&& visit) {
     const auto fixed = std::partition(ids.begin(), ids.end(), [&](ProxyId id) { return !isFixed(id); });
@@ -59,7 +62,7 @@ class PairSink {
   }
 
  private:
-  static constexpr std::size_t kChunk = 4096;
+  static constexpr std::size_t kChunk = 4096;  // pairs per call of the filter; they stay in the cache
 
   void filter() {
     ProxyPair* const first = pairs_.data();
@@ -73,7 +76,8 @@ class PairSink {
   const OverlapFilter& filter_;
   PairBound bound_;
   std::vector<ProxyPair>& pairs_;
-  std::size_t overlaps_ = 0, filtered_ = 0;
+  std::size_t overlaps_ = 0;  // pairs that were added, before the filter
+  std::size_t filtered_ = 0;  // the filter has already been applied to this many pairs
   bool full_ = false;
 };
 

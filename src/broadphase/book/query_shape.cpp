@@ -46,8 +46,8 @@ int QueryShape::longAxis() const {
 
 Aabb QueryShape::slice(int axis, double low, double high) const {
   if (kind_ == Kind::segment && std::abs(step_[axis]) > 1e-100) {
-    // The centers whose sphere reaches into the slice are within `radius_with_slack_` of it. The allowance for rounding
-    // in `radius_with_slack_` is far above the rounding errors of these fractions.
+    // A sphere that moves along the segment reaches into the slice only while its center is within
+    // `radius_with_slack_` of the slice. The slack is far above the rounding errors of these fractions.
     double first = (low - radius_with_slack_ - segment_.from[axis]) / step_[axis];
     double last = (high + radius_with_slack_ - segment_.from[axis]) / step_[axis];
     if (first > last) std::swap(first, last);
@@ -71,7 +71,7 @@ bool QueryShape::mayTouch(const Aabb& region) const {
   for (int axis = 0; axis < 3; ++axis) {
     const double low = region.min[axis] - radius_with_slack_ - segment_.from[axis];
     const double high = region.max[axis] + radius_with_slack_ - segment_.from[axis];
-    if (std::abs(step_[axis]) <= 1e-100) continue;  // `bounds_` has decided this axis
+    if (std::abs(step_[axis]) <= 1e-100) continue;  // the test of `bounds_` above has decided this axis
     const double a = low / step_[axis], b = high / step_[axis];
     enter = std::max(enter, std::min(a, b));
     leave = std::min(leave, std::max(a, b));

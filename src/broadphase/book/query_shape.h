@@ -11,7 +11,8 @@ namespace book {
 
 /// The shape of a query: a box, a sphere or a swept segment. A partition asks it which cells and nodes to visit.
 ///
-/// All answers about regions err on one side only: a region that the shape touches is never left out.
+/// The answers about regions are approximate in one direction only. They may include a region that the shape misses by
+/// a little, but they never leave out a region that the shape touches.
 class QueryShape {
  public:
   enum class Kind { box, sphere, segment };
@@ -21,17 +22,17 @@ class QueryShape {
   explicit QueryShape(const Segment& segment);
 
   Kind kind() const { return kind_; }
-  /// A box around the shape [m]. Its coordinates may be infinite.
+  /// A box around the shape [m]. Its coordinates are infinite where the shape exceeds the range of float.
   const Aabb& bounds() const { return bounds_; }
-  /// Half of the thickness of a swept segment [m], with an allowance for rounding.
+  /// Radius of a sphere or of a swept segment [m], plus an allowance for rounding. 0 for a box.
   double radiusWithSlack() const { return radius_with_slack_; }
   const Segment& segment() const { return segment_; }
   const Sphere& sphere() const { return sphere_; }
 
-  /// The axis along which a segment is longest; the shape should be cut into slices along this axis.
+  /// The axis along which a segment is longest. A grid cuts a segment into slices along this axis.
   int longAxis() const;
-  /// A box around the part of the shape whose coordinate on the axis is within low .. high [m]. It is empty (min > max)
-  /// if there is no such part.
+  /// Returns a box around the part of the shape whose coordinate on the axis is within low .. high [m]. The box may be
+  /// larger than needed. If there is no such part, the box may also be empty (min > max).
   Aabb slice(int axis, double low, double high) const;
   /// Whether the shape may touch the region. Never false if it does touch.
   bool mayTouch(const Aabb& region) const;
@@ -42,7 +43,7 @@ class QueryShape {
   Sphere sphere_;
   Segment segment_;
   double radius_with_slack_ = 0.0;
-  Eigen::Vector3d step_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d step_ = Eigen::Vector3d::Zero();  // [m] from the start of a segment to its end
 };
 
 }  // namespace book

@@ -12,8 +12,9 @@ namespace book {
 /// Visit stamps (Ericson, Real-Time Collision Detection, 2005, section 7.7.2): each query takes a new number, and each
 /// visited object or bucket stores it. An equal number means "already visited", so nothing has to be cleared.
 ///
-/// 64-bit numbers do not wrap in practice, so the amortized clearing of section 7.7.3 is not needed: see SmallStamps.
-/// Stamps belong to one thread, because several threads may query a partition at the same time.
+/// Differs from the book: the stamps are not in the objects. Several threads may query a partition at the same time, so
+/// each thread has its own stamps. Numbers have 64 bits and do not wrap in practice. So the amortized clearing of
+/// section 7.7.3 is not needed; SmallStamps shows it.
 class Stamps {
  public:
   /// Begins a query over the objects 0 .. count - 1. No object is marked.
@@ -39,12 +40,13 @@ class Stamps {
 /// Differs from the listing: there are 255 numbers and 255 blocks. The listing has 255 blocks and only the numbers 1 ..
 /// 254, so an object could hold the current number when a query begins.
 ///
-/// No partition uses this class. It saves 7 bytes per object, but each query writes count / 255 bytes:
-/// doc/partitions.md has the measured times.
+/// No partition uses this class. It is here for comparison: doc/partitions.md has the measured times. It saves 7 bytes
+/// per object, but each query writes count / 255 bytes.
 class SmallStamps {
  public:
   explicit SmallStamps(std::size_t count) : stamps_(count, 0) {}
 
+  /// Begins a query. No object is marked.
   void begin() {
     now_ = now_ == kNumbers ? 1 : static_cast<std::uint8_t>(now_ + 1);
     const std::size_t block = (stamps_.size() + kNumbers - 1) / kNumbers;
@@ -54,6 +56,7 @@ class SmallStamps {
     std::fill(stamps_.begin() + static_cast<std::ptrdiff_t>(first), stamps_.begin() + static_cast<std::ptrdiff_t>(last),
               std::uint8_t{0});
   }
+  /// Marks an object. @returns whether it was not marked before
   bool mark(std::size_t object) {
     if (stamps_[object] == now_) return false;
     stamps_[object] = now_;
