@@ -9,7 +9,7 @@ namespace hgrid {
 namespace book {
 namespace {
 
-thread_local Stamps seen;
+thread_local Stamps seen;  // the boxes that the present query has met
 
 }  // namespace
 
@@ -22,7 +22,7 @@ std::size_t ArrayGrid::indexOf(const Cell& cell) const {
 void ArrayGrid::build() {
   const std::vector<ProxyId> ids = storedIds();
   double edge = cellEdgeFor(storedBoxes(), rule_);
-  for (;; edge *= 2.0) {  // an array needs a bounded number of cells, also in an uneven world
+  for (;; edge *= 2.0) {  // the size of the array must be bounded, also in an uneven world
     scale_ = CellScale(edge);
     cells_ = scale_.cellsOf(world());
     if (cells_.count() <= 8.0 * double(ids.size()) + 64.0) break;
@@ -74,7 +74,7 @@ void ArrayGrid::candidatesInCells(const QueryShape& shape, std::vector<ProxyId>&
     }
   };
   const bool all = scale_.visitRanges(shape, cells_, double(begin_.size()), [&](const CellRange& range) {
-    CellRange rows = range;  // the cells of a row follow each other, and so do their entries
+    CellRange rows = range;  // the first cell of each row: the entries of a whole row are adjacent in the array
     rows.high.x = rows.low.x;
     rows.visit([&](const Cell& cell) {
       const std::size_t first = indexOf(cell);

@@ -9,21 +9,25 @@ namespace book {
 
 /// A uniform grid of static boxes in one array (Ericson, Real-Time Collision Detection, 2005, section 7.1.4).
 ///
-/// A first pass counts the boxes that overlap each cell. One array holds the entries of all cells, each cell from its
-/// offset on. A second pass fills them. Every change of a box makes the next search build the grid again.
+/// A first pass counts the boxes that overlap each cell. The sums of these counts are the offsets of the cells in one
+/// array of entries. A second pass fills the array. Every change of a box makes the next search build the grid again.
 ///
-/// The layers of HGrid are the modern form of this grid: they are also sorted by counting, but they store each box in
+/// Differs from the book, apart from what UniformGrid describes:
+/// - Both passes map coordinates to cells with CellScale, so their rounding cannot differ.
+/// - The second pass uses a copy of the offsets as write positions, one per cell.
+/// - The cells are enlarged until there are at most 8 n + 64 of them. Otherwise a few distant boxes would need a huge
+///   array of empty cells.
+/// - In a small world, one bit per pair (section 7.7.1) tells whether a pair that shares several cells was already
+///   found. In larger worlds, the pair is reported in its reporting cell.
+///
+/// The layers of HGrid are the modern form of this grid. They are also sorted by counting. But they store each box in
 /// one cell, and they sort boxes that move apart from boxes that rest.
-///
-/// Differs from the book: both passes use the same monotone mapping of coordinates to cells, so they cannot disagree.
-/// The second pass has a write position for each cell. Large boxes are in a list of their own, see UniformGrid. In a
-/// small world, one bit per pair (section 7.7.1) tells whether a pair that shares several cells was already found.
 class ArrayGrid final : public UniformGrid {
  public:
   explicit ArrayGrid(CellRule rule = CellRule::objects) : UniformGrid("ArrayGrid", rule) {}
 
-  /// With at most this many boxes, findPairs() uses one bit per pair (8 kB); otherwise, it computes the cell in which a
-  /// pair is reported. doc/partitions.md has the figures.
+  /// findPairs() uses one bit per pair if all ids are below this number: these bits then take at most 8 kB.
+  /// doc/partitions.md has the figures.
   static constexpr std::size_t kMostIdsForBits = 362;
 
  private:
@@ -34,11 +38,12 @@ class ArrayGrid final : public UniformGrid {
   std::size_t structureBytes() const override;
   void draw(std::vector<Aabb>& regions) const override;
 
+  /// Index of a cell in `begin_`. The x coordinate changes fastest.
   std::size_t indexOf(const Cell& cell) const;
 
-  CellRange cells_;                   // the cells of the grid
-  std::vector<std::uint32_t> begin_;  // for each cell: index of its first entry; and the number of all entries
-  std::vector<ProxyId> entries_;
+  CellRange cells_;                   // all cells of the grid
+  std::vector<std::uint32_t> begin_;  // for each cell: index of its first entry; at the end: the number of entries
+  std::vector<ProxyId> entries_;      // the boxes of the first cell, then those of the second one, ...
 };
 
 }  // namespace book

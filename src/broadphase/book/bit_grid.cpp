@@ -10,17 +10,17 @@ namespace hgrid {
 namespace book {
 namespace {
 
-/// Four words, on which the compiler works with vector instructions.
+/// Four words, which the compiler processes with vector instructions.
 using FourWords = std::uint64_t __attribute__((vector_size(32), aligned(8), may_alias));
 
 const FourWords& four(const std::uint64_t* words) { return *reinterpret_cast<const FourWords*>(words); }
 FourWords& four(std::uint64_t* words) { return *reinterpret_cast<FourWords*>(words); }
 
-/// Calls visit(index) for each bit that is set, in ascending order.
+/// Calls visit(id) for each bit that is set, in ascending order. `words` begins with the word `first_word` of a slice.
 template <class Visit>
 void visitBits(const std::uint64_t* words, std::size_t count, std::size_t first_word, Visit&& visit) {
   for (std::size_t word = 0; word < count; ++word) {
-    for (std::uint64_t bits = words[word]; bits != 0; bits &= bits - 1)  // clears the lowest bit
+    for (std::uint64_t bits = words[word]; bits != 0; bits &= bits - 1)  // clears the lowest bit that is set
       visit(static_cast<ProxyId>((first_word + word) * 64 + static_cast<std::size_t>(__builtin_ctzll(bits))));
   }
 }
@@ -31,7 +31,7 @@ void visitBits(const std::uint64_t* words, std::size_t count, std::size_t first_
 
 std::size_t BitGrid::sliceOf(const Axis& axis, double coordinate) {
   if (axis.slices == 1) return 0;
-  const double slice = std::floor((coordinate - axis.low) * axis.inverse);  // never decreases
+  const double slice = std::floor((coordinate - axis.low) * axis.inverse);  // does not decrease, as in CellScale
   return static_cast<std::size_t>(std::clamp(slice, 0.0, static_cast<double>(axis.slices - 1)));
 }
 
@@ -55,7 +55,7 @@ void BitGrid::setBits(int axis, const Span& span, ProxyId id, bool value) {
 void BitGrid::build() {
   const std::vector<ProxyId> ids = storedIds();
   const double edge = cellEdgeFor(storedBoxes(), CellRule::objects);
-  words_ = (idEnd() + idEnd() / 2 + 255) / 256 * 4;  // with room for more boxes; a multiple of four
+  words_ = (idEnd() + idEnd() / 2 + 255) / 256 * 4;  // with room for half as many ids again
   for (int k = 0; k < 3; ++k) {
     Axis& axis = axes_[static_cast<std::size_t>(k)];
     const double low = double(world().min[k]), length = double(world().max[k]) - low;
@@ -91,7 +91,7 @@ Partition::Followed BitGrid::moved(ProxyId id, const Aabb& from) {
 
 // ---- searches
 
-/// Merges the words begin .. begin + count - 1 of a span of slices with OR. `count` is a multiple of four.
+/// Combines the words begin .. begin + count - 1 of a span of slices with OR. `count` is a multiple of four.
 void BitGrid::mergeInto(Words& merged, const Axis& axis, const Span& span, std::size_t begin, std::size_t count) const {
   std::fill_n(merged.begin(), count, 0);
   for (std::size_t slice = span.first; slice <= span.last; ++slice) {
@@ -101,7 +101,8 @@ void BitGrid::mergeInto(Words& merged, const Axis& axis, const Span& span, std::
   }
 }
 
-/// Computes for some words the boxes in the cells that `box` overlaps: ((OR of x) AND (OR of y)) AND (OR of z).
+/// Computes the bits of the boxes that share a cell with `box`, for the words begin .. begin + count - 1:
+/// (OR of the slices on x) AND (OR of those on y) AND (OR of those on z).
 void BitGrid::intersect(const Aabb& box, std::size_t begin, std::size_t count, Words& cells) const {
   Words merged;
   mergeInto(cells, axes_[0], spanOf(0, box), begin, count);
@@ -118,7 +119,8 @@ void BitGrid::findPairs(PairSink& sink) const {
   Words cells;
   for (const ProxyId id : ids) {
     if (sink.isFull()) return;
-    for (std::size_t begin = id / 64 / 4 * 4; begin < words_; begin += kWordsAtOnce) {  // only ids that are larger
+    // Smaller ids have found this pair already, so the words before the word of `id` are not needed.
+    for (std::size_t begin = id / 64 / 4 * 4; begin < words_; begin += kWordsAtOnce) {
       const std::size_t count = std::min(kWordsAtOnce, words_ - begin);
       intersect(box(id), begin, count, cells);
       if (isFixed(id)) {  // two fixed boxes are no pair
@@ -141,7 +143,8 @@ void BitGrid::candidates(const QueryShape& shape, std::vector<ProxyId>& found) c
       const Span span = spanOf(k, shape.bounds());
       cells.fill(0);
       for (std::size_t slice = span.first; slice <= span.last; ++slice) {
-        const double width = axis.slices > 1 ? 1.0 / axis.inverse : 0.0;  // the slices are grown for rounding
+        const double width = axis.slices > 1 ? 1.0 / axis.inverse : 0.0;
+        // The bounds of the slice, grown by a thousandth against rounding.
         const double low = slice == 0 ? -HUGE_VAL : axis.low + width * (static_cast<double>(slice) - 0.001);
         const double high =
             slice + 1 == axis.slices ? HUGE_VAL : axis.low + width * (static_cast<double>(slice) + 1.001);

@@ -9,17 +9,20 @@
 namespace hgrid {
 namespace book {
 
-/// An implicit grid (Ericson, Real-Time Collision Detection, 2005, section 7.1.5), in three dimensions.
+/// An implicit grid (Ericson, Real-Time Collision Detection, 2005, section 7.1.5), in the bit form.
 ///
-/// Each axis is divided into slices, and each slice has one bit per box. A cell is only the intersection of three
-/// slices. A query merges the slices that it overlaps with OR, one axis at a time, and intersects the three results
-/// with AND. The work is done on vectors of 64-bit words.
+/// Each axis is divided into slices: the rows and columns of the book, and layers in the third dimension. Each slice
+/// has one bit per box, whose index is the id. A cell is only the intersection of three slices. A query combines the
+/// slices that it overlaps on one axis with OR, and the results of the three axes with AND.
 ///
 /// Differs from the book:
-/// - The loop over the set bits counts trailing zeros. The printed one clears the lowest bit where it should isolate
-///   it, and does not end.
-/// - The outermost slices reach to infinity, so the world has no border.
-/// - For a segment, each slice of its longest axis is intersected with what the segment can reach in this slice.
+/// - There are at most kMostSlices slices per axis, because each of them takes memory for all ids.
+/// - The outermost slices extend to infinity, so the world has no border.
+/// - The summary form of the book is one bit per slice. Here it is a count of boxes, so removals can keep it exact.
+/// - The loop over the set bits counts trailing zeros. The printed loop clears the lowest bit where it should isolate
+///   it, and never ends.
+/// - For a segment, each slice of its longest axis is combined with AND with what the segment can reach in this slice.
+/// - The words are processed four at a time, in blocks that stay in the cache.
 class BitGrid final : public Partition {
  public:
   BitGrid() : Partition("BitGrid") {}
@@ -29,13 +32,14 @@ class BitGrid final : public Partition {
   static constexpr std::size_t kWordsAtOnce = 64;  // words of one pass; they stay in the first-level cache
   using Words = std::array<std::uint64_t, kWordsAtOnce>;
   struct Span {
-    std::size_t first, last;
+    std::size_t first, last;  // slices, both included
   };
   struct Axis {
-    double low = 0.0, inverse = 0.0;  // [m], [1/m] coordinate of the first slice; slices per meter
+    double low = 0.0;      // [m] where the first slice begins
+    double inverse = 0.0;  // [1/m] slices per meter
     std::size_t slices = 1;
-    std::vector<std::uint64_t> bits;    // words of the first slice, then of the second one, ...
-    std::vector<std::uint32_t> counts;  // for each slice: the number of its boxes (the summary form)
+    std::vector<std::uint64_t> bits;    // the words of the first slice, then of the second one, ...
+    std::vector<std::uint32_t> counts;  // for each slice: the number of its boxes
   };
 
   void build() override;
@@ -55,7 +59,7 @@ class BitGrid final : public Partition {
   void intersect(const Aabb& box, std::size_t begin, std::size_t count, Words& cells) const;
 
   std::array<Axis, 3> axes_;
-  std::size_t words_ = 0;  // per slice
+  std::size_t words_ = 0;  // number of words per slice, a multiple of four
 };
 
 }  // namespace book

@@ -8,7 +8,7 @@ namespace hgrid {
 namespace book {
 namespace {
 
-thread_local Stamps seen_boxes, seen_buckets;
+thread_local Stamps seen_boxes, seen_buckets;  // what the present query has met
 
 }  // namespace
 
@@ -16,7 +16,7 @@ std::uint32_t BucketGrid::bucketOf(const Cell& cell) const {
   return static_cast<std::uint32_t>(CellHash()(cell) & (buckets_.size() - 1));
 }
 
-/// The buckets of a range of cells, each once.
+/// Replaces `buckets` with the buckets of a range of cells, each once.
 void BucketGrid::bucketsOf(const CellRange& cells, std::vector<std::uint32_t>& buckets) const {
   buckets.clear();
   cells.visit([&](const Cell& cell) { buckets.push_back(bucketOf(cell)); });
@@ -124,7 +124,7 @@ std::size_t BucketGrid::structureBytes() const {
   return bytes;
 }
 
-/// The cells that have boxes. Which of them share a bucket does not show.
+/// Draws the cells of each box. The drawing does not show which of these cells share a bucket.
 void BucketGrid::draw(std::vector<Aabb>& regions) const {
   for (const ProxyId id : storedIds()) {
     if (large_.contains(id)) continue;

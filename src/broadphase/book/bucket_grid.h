@@ -9,11 +9,15 @@ namespace book {
 
 /// A uniform grid in hash buckets without keys (Ericson, Real-Time Collision Detection, 2005, section 7.1.3).
 ///
-/// The bucket of a cell is the list of its boxes. Different cells may share a bucket, so a list also holds foreign
-/// boxes: a test of the boxes comes first and drops them. Several cells of one query may share a bucket, so each query
-/// stamps the buckets that it has visited (section 7.7.2). There is nothing to delete but list entries.
+/// A bucket is a list of the boxes of all cells that the hash maps to it. So a list may also hold boxes of other cells,
+/// which the first test of the bounds drops. Several cells of one query may share a bucket, so each query stamps the
+/// buckets that it has visited (section 7.7.2). No key has to be compared, and no slot has to be marked as reusable.
 ///
-/// Differs from the book: see HashedGrid, which treats large boxes and repeated pairs in the same way.
+/// Differs from the book, apart from what UniformGrid and CellHash describe:
+/// - A box is in a bucket only once, also if several of its cells share this bucket.
+/// - A pair is reported in the bucket of its reporting cell.
+/// - If the boxes become many more than the buckets, the grid is built again with more buckets.
+/// - A query that covers more cells than there are buckets goes through all buckets instead.
 class BucketGrid final : public UniformGrid {
  public:
   explicit BucketGrid(CellRule rule = CellRule::objects) : UniformGrid("BucketGrid", rule) {}
@@ -33,7 +37,7 @@ class BucketGrid final : public UniformGrid {
   void bucketsOf(const CellRange& cells, std::vector<std::uint32_t>& buckets) const;
 
   std::vector<std::vector<ProxyId>> buckets_;  // their number is a power of two
-  std::vector<std::uint32_t> buckets_of_box_;  // buffer of changes
+  std::vector<std::uint32_t> buckets_of_box_;  // buffer of added() and removed()
 };
 
 }  // namespace book

@@ -8,7 +8,7 @@ namespace hgrid {
 namespace book {
 namespace {
 
-thread_local Stamps seen;  // boxes that the present query has met; each thread has its own
+thread_local Stamps seen;  // the boxes that the present query has met
 
 }  // namespace
 
@@ -24,10 +24,11 @@ std::size_t HashedGrid::find(const Cell& cell) const {
   }
 }
 
+/// Index of the slot of a cell. If the cell is not occupied, a slot without boxes is made for it.
 std::size_t HashedGrid::findOrMake(const Cell& cell) {
   std::size_t place = find(cell);
   if (place != slots_.size()) return place;
-  if (2 * (busy_ + 1) > slots_.size()) resize(4 * (used_ + 1));  // also removes the reusable slots
+  if (2 * (busy_ + 1) > slots_.size()) resize(4 * (used_ + 1));
   for (place = homeOf(cell); slots_[place].state == SlotState::used;) place = (place + 1) & (slots_.size() - 1);
   if (slots_[place].state == SlotState::empty) ++busy_;
   ++used_;
@@ -36,6 +37,7 @@ std::size_t HashedGrid::findOrMake(const Cell& cell) {
   return place;
 }
 
+/// Moves the used slots into a table of at least this size. No slot of the new table is reusable.
 void HashedGrid::resize(std::size_t slots) {
   std::size_t size = 16;
   while (size < slots) size *= 2;
@@ -50,6 +52,7 @@ void HashedGrid::resize(std::size_t slots) {
   busy_ = used_;
 }
 
+/// Adds a box to the list of a cell.
 void HashedGrid::link(const Cell& cell, ProxyId id) {
   std::uint32_t entry = free_;
   if (entry == kEnd) {
@@ -63,6 +66,7 @@ void HashedGrid::link(const Cell& cell, ProxyId id) {
   slot.first = entry;
 }
 
+/// Removes a box from the list of a cell, which contains it.
 void HashedGrid::unlink(const Cell& cell, ProxyId id) {
   Slot& slot = slots_[find(cell)];
   std::uint32_t* link = &slot.first;

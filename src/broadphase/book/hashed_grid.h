@@ -8,21 +8,22 @@
 namespace hgrid {
 namespace book {
 
-/// A uniform grid in a hash table with open addressing (Ericson, Real-Time Collision Detection, 2005, section 7.1.3).
+/// A uniform grid in a hash table with a record per occupied cell (Ericson, Real-Time Collision Detection, 2005,
+/// section 7.1.3). The book calls this closed hashing; it is also called open addressing.
 ///
-/// Each box is in all cells that it overlaps. The table holds one slot per occupied cell, with the exact key of the
-/// cell, so the world is unbounded and storage follows the boxes. Slots are probed linearly at a load of at most 1/2.
-/// An emptied slot is only marked as reusable (lazy deletion), because a search for another key may have to pass it.
+/// Each box is in all cells that it overlaps. A slot of the table holds the exact key of its cell and the head of a
+/// linked list of the boxes in the cell. So the world is unbounded, and storage follows the boxes. Slots are probed
+/// linearly at a load of at most 1/2. An emptied slot is only marked as reusable (lazy deletion), because a search for
+/// another key may have to pass it.
 ///
-/// Differs from the book:
-/// - The hash works on unsigned numbers, and its bits are mixed once more, because the table size is a power of two.
-/// - Large boxes are in a list of their own, see UniformGrid.
-/// - A pair that shares several cells is reported in one of them only: the cell of the smallest common corner.
-/// - A query that covers more cells than are occupied goes through the occupied cells instead.
+/// Differs from the book, apart from what UniformGrid and CellHash describe:
+/// - The reusable slots count in the load. If the load is too high, a larger table replaces this one without them.
+/// - The pretest covers the cells of the world as it was when the grid was built, unless these are too many.
+/// - A query that covers more cells than are occupied goes through all occupied cells instead.
 class HashedGrid final : public UniformGrid {
  public:
   /// @param rule     how the cell size is computed from the boxes
-  /// @param pretest  whether a bit per cell tells that a cell is empty, if the world is small enough for it
+  /// @param pretest  whether to keep one bit per cell, see CellBits; a world with too many cells has none anyway
   explicit HashedGrid(CellRule rule = CellRule::objects, bool pretest = true)
       : UniformGrid("HashedGrid", rule), pretest_(pretest) {}
 
@@ -31,13 +32,13 @@ class HashedGrid final : public UniformGrid {
   enum class SlotState : std::uint8_t { empty, used, reusable };
   struct Slot {
     Cell cell;
-    std::uint32_t first = kEnd;  // first entry of the cell
+    std::uint32_t first = kEnd;  // index of the first entry of the cell; kEnd if the slot is not used
     SlotState state = SlotState::empty;
   };
   /// An entry of the list of boxes in a cell.
   struct Entry {
     ProxyId id;
-    std::uint32_t next;
+    std::uint32_t next;  // index of the next entry; kEnd for the last one
   };
 
   void build() override;
@@ -59,10 +60,10 @@ class HashedGrid final : public UniformGrid {
 
   const bool pretest_;
   std::vector<Slot> slots_;          // their number is a power of two
-  std::size_t used_ = 0, busy_ = 0;  // slots that are used; slots that are used or reusable
-  std::vector<Entry> entries_;
-  std::uint32_t free_ = kEnd;  // list of unused entries
-  CellBits occupied_;
+  std::size_t used_ = 0, busy_ = 0;  // number of slots that are used; number of slots that are used or reusable
+  std::vector<Entry> entries_;       // of all cells
+  std::uint32_t free_ = kEnd;        // first entry of the list of unused entries
+  CellBits occupied_;                // the pretest
 };
 
 }  // namespace book
