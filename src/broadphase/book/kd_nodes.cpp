@@ -6,18 +6,19 @@ namespace hgrid {
 namespace book {
 namespace {
 
-/// Twice the center of a box on an axis [m].
+// Centers are only compared with each other, so twice the center serves as well and needs no division.
+
+/// Twice the center of a box [m].
+Eigen::Vector3d twiceCenter(const Aabb& box) { return box.min.cast<double>() + box.max.cast<double>(); }
+/// Twice the center of a box on one axis [m].
 double twiceCenter(const Aabb& box, int axis) { return double(box.min[axis]) + double(box.max[axis]); }
 
-/// The axis on which the centers of boxes are spread most.
+/// The axis on which the centers of the boxes are spread most.
 int widestAxis(const std::vector<Aabb>& boxes, const ProxyId* begin, const ProxyId* end) {
-  const auto centerOf = [&](ProxyId id) {  // twice the center, which serves as well
-    return Eigen::Vector3d(boxes[id].min.cast<double>() + boxes[id].max.cast<double>());
-  };
-  Eigen::Vector3d low = centerOf(*begin), high = low;
+  Eigen::Vector3d low = twiceCenter(boxes[*begin]), high = low;
   for (const ProxyId* id = begin; id != end; ++id) {
-    low = low.cwiseMin(centerOf(*id)).eval();
-    high = high.cwiseMax(centerOf(*id)).eval();
+    low = low.cwiseMin(twiceCenter(boxes[*id])).eval();
+    high = high.cwiseMax(twiceCenter(boxes[*id])).eval();
   }
   int axis;
   (high - low).maxCoeff(&axis);
@@ -33,10 +34,11 @@ void KdNodes::build(const std::vector<Aabb>& boxes, const std::vector<ProxyId>& 
   if (!ids_.empty()) divide(boxes, 0, static_cast<std::uint32_t>(ids_.size()));
 }
 
-/// Appends the node of a range of boxes and the nodes below it. The depth is at most log2 of the number of boxes.
+/// Appends the node of a range of `ids_` and the nodes below it. Each step halves the range, so the depth is at most
+/// log2 of the number of boxes.
 void KdNodes::divide(const std::vector<Aabb>& boxes, std::uint32_t begin, std::uint32_t end) {
   const auto index = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.push_back({0.0f, 0.0f, kIsLeaf, begin, end, 0});
+  nodes_.push_back({0.0f, 0.0f, kIsLeaf, begin, end, 0});  // the last line replaces it if the node is no leaf
   if (end - begin <= kLeaf) return;
   const int axis = widestAxis(boxes, &ids_[begin], ids_.data() + end);
   const std::uint32_t middle = begin + (end - begin) / 2;

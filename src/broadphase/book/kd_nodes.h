@@ -15,12 +15,17 @@ namespace book {
 
 /// The nodes of a k-d tree over boxes (Ericson, Real-Time Collision Detection, 2005, section 7.3.7).
 ///
-/// A node divides its boxes by their centers at the median along one axis, the one on which the centers are spread
-/// most.
+/// A node divides its boxes at the median of their centers, along the axis on which the centers are spread most. Boxes
+/// are only in leaves.
 ///
-/// Differs from the book: a node has two planes instead of one, the largest coordinate of the low side's boxes and the
-/// smallest coordinate of the high side's boxes. So each box is in one leaf only, and a box on the dividing line
-/// neither sticks to the node nor is split. Comparisons include touching boxes, which the printed sphere visit drops.
+/// Differs from the book:
+/// - A node has two planes instead of one: where the boxes of the low side end, and where those of the high side begin.
+///   So each box is in one leaf, also if it crosses the median. The two sides may overlap, and there may be a gap
+///   between them.
+/// - The sphere visit includes touching boxes, which the strict comparison of the listing drops.
+/// - The segment visit (section 7.4.1) does not move the origin of the segment. It passes down two fractions of the
+///   whole segment, so rounding does not add up. A thick segment widens the two sides by its radius. The sign of the
+///   direction decides which side is nearer, so an origin on a plane is no special case.
 class KdNodes {
  public:
   /// Builds the tree over these boxes; `boxes` is indexed by id.
@@ -28,15 +33,16 @@ class KdNodes {
   const std::vector<ProxyId>& ids() const { return ids_; }
   std::size_t bytes() const { return nodes_.capacity() * sizeof(Node) + ids_.capacity() * sizeof(ProxyId); }
 
-  /// Calls visit(id) for all boxes in the leaves that the shape touches.
+  /// Calls visit(id) for the boxes in all leaves that the shape touches. Some of these boxes may miss the shape.
   template <class Visit>
   void visit(const QueryShape& shape, Visit&& visit) const;
-  /// Visits the leaves along a segment from near to far. visit(id) returns the fraction of the segment up to which the
-  /// search goes on, so a search for the first hit ends early.
+  /// Visits the leaves along a segment, the nearer side of each node first. visit(id) returns the fraction of the
+  /// segment that is still of interest: the search leaves out what begins behind it. So a search for the first hit ends
+  /// early.
   template <class Visit>
   void visitAlong(const QueryShape& shape, Visit&& visit) const;
-  /// Visits the leaves near a point, the nearer side first. visit(id) returns the radius [m] of the sphere that is
-  /// still of interest, so the sphere shrinks with each box that is found.
+  /// Visits the leaves near a point, the nearer side of each node first. visit(id) returns the radius [m] of the sphere
+  /// that is still of interest. So a search for the nearest boxes can shrink the sphere.
   template <class Visit>
   void visitNear(const Eigen::Vector3d& point, double radius, Visit&& visit) const;
   /// Calls visit(region) for the region of each leaf within `world`.
@@ -49,13 +55,14 @@ class KdNodes {
   static constexpr std::size_t kLeaf = 8;  // largest number of boxes in a leaf
   static constexpr int kIsLeaf = 3;        // Node::axis of a leaf
   struct Node {
-    float low_end, high_begin;  // the low side ends here, the high side begins here
-    int axis;
-    std::uint32_t begin, end;  // range in ids_ of the boxes below the node
-    std::uint32_t high;        // index of the high child; the low child follows its parent
+    float low_end, high_begin;  // [m] largest end of a box of the low side, smallest begin of a box of the high side
+    int axis;                   // of the planes; kIsLeaf for a leaf
+    std::uint32_t begin, end;   // range in ids_ of the boxes below the node
+    std::uint32_t high;         // index of the high child; the low child is the next node after its parent
   };
 
   void divide(const std::vector<Aabb>& boxes, std::uint32_t begin, std::uint32_t end);
+  // Each of the functions ...From() visits the node with the given index and the nodes below it.
   template <class Visit>
   void boxFrom(std::uint32_t index, const Aabb& query, Visit&& visit) const;
   template <class Visit>
@@ -110,8 +117,9 @@ void KdNodes::boxFrom(std::uint32_t index, const Aabb& query, Visit&& visit) con
   if (query.max[node.axis] >= node.high_begin) boxFrom(node.high, query, visit);
 }
 
-/// `nearest` is the point of the node's region that is nearest to the center. On the way down, only its coordinate on
-/// the dividing axis moves; it is restored on the way up.
+/// `nearest` is the point of the node's region that is nearest to the center of the sphere. Before a child is visited,
+/// only the coordinate on the dividing axis changes; afterwards, the old coordinate is restored. So the bounds of the
+/// nodes are never computed.
 template <class Visit>
 void KdNodes::sphereFrom(std::uint32_t index, const Eigen::Vector3d& center, Eigen::Vector3d& nearest, double& radius,
                          Visit&& visit) const {
@@ -133,8 +141,8 @@ void KdNodes::sphereFrom(std::uint32_t index, const Eigen::Vector3d& center, Eig
   nearest[node.axis] = before;
 }
 
-/// `enter` and `leave` are the fractions of the segment between which it is inside the node's region. Fractions of the
-/// whole segment replace the moved origin of the book, so rounding does not add up.
+/// `enter` and `leave` are the fractions of the segment between which it is in the node's region. `until` is the
+/// fraction up to which the search is still of interest.
 template <class Visit>
 void KdNodes::segmentFrom(std::uint32_t index, const QueryShape& shape, double enter, double leave, double& until,
                           Visit&& visit) const {
@@ -144,12 +152,12 @@ void KdNodes::segmentFrom(std::uint32_t index, const QueryShape& shape, double e
     return;
   }
   const double from = shape.segment().from[node.axis], step = shape.segment().to[node.axis] - from;
-  const double low_plane =
-      double(node.low_end) + shape.radiusWithSlack() - from;  // the segment is in the low side up to here
-  const double high_plane =
-      double(node.high_begin) - shape.radiusWithSlack() - from;  // and in the high side from here on
+  // The planes [m] relative to the start of the segment, moved by its radius. The segment is in the low side where it
+  // is below `low_plane`, and in the high side where it is above `high_plane`.
+  const double low_plane = double(node.low_end) + shape.radiusWithSlack() - from;
+  const double high_plane = double(node.high_begin) - shape.radiusWithSlack() - from;
   const bool parallel = std::abs(step) <= 1e-100;
-  for (const bool low : {!(step < 0.0), step < 0.0}) {  // the sign of the step decides which side is nearer
+  for (const bool low : {!(step < 0.0), step < 0.0}) {  // the nearer side first
     const double plane = low ? low_plane : high_plane;
     double first = enter, last = leave;
     if (parallel) {

@@ -28,7 +28,7 @@ std::optional<SegmentHit> KdTree::firstAlong(const Segment& segment) const {
 
 void KdTree::findNearest(const Eigen::Vector3d& point, std::size_t count, double limit,
                          std::vector<NearHit>& found) const {
-  // `found` is a heap with the farthest hit in front. It is full when the sphere begins to shrink.
+  // `found` is a heap with the farthest hit in front. The sphere begins to shrink when the heap has `count` hits.
   tree_.visitNear(point, limit, [&](ProxyId id) {
     const NearHit hit{id, distance(box(id), point)};
     const bool is_full = found.size() == count;

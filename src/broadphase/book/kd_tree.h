@@ -10,12 +10,15 @@
 namespace hgrid {
 namespace book {
 
-/// A k-d tree of static boxes (Ericson, Real-Time Collision Detection, 2005, sections 7.3.7 and 7.4.1). KdNodes
-/// describes the tree. Every change of a box makes the next search build the tree again.
+/// A k-d tree of static boxes (Ericson, Real-Time Collision Detection, 2005, sections 7.3.7 and 7.4.1).
 ///
-/// - A sphere moves its nearest point along with the visited regions and never computes bounds of nodes.
-/// - A segment visits the leaves from near to far. firstAlong() ends at the first hit.
-/// - A search for the nearest boxes begins with an infinite sphere, which shrinks at each box that it finds.
+/// KdNodes describes the tree, its visits, and how they differ from the book. Every change of a box makes the next
+/// search build the whole tree again.
+///
+/// - A segment visits near nodes first. firstAlong() stops where nothing nearer than the best hit can follow.
+/// - A search for the nearest boxes begins with a sphere as large as the limit allows, often infinite. Once it has
+///   `count` boxes, each nearer box shrinks the sphere.
+/// - The search for all pairs queries the tree with each box. The book does not describe one.
 class KdTree final : public Partition {
  public:
   KdTree() : Partition("KdTree") {}

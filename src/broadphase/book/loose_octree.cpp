@@ -32,12 +32,13 @@ LooseOctree::Place LooseOctree::placeOf(const Aabb& box) const {
   const double side = longestSide(box);
   const Eigen::Vector3d offset = 0.5 * (box.min.cast<double>() + box.max.cast<double>()) - low_;
   if (side > width_ || !(offset.array() >= 0.0).all() || !(offset.array() < width_).all()) return {};
-  // The depth at which a node is still at least as wide as the box is long.
+  // The largest depth at which a node is still at least as wide as the box is long. The quotient is not computed for
+  // tiny boxes, because it could overflow.
   Place place;
-  place.depth = side * 0x1p20 > width_ ? std::min(std::ilogb(width_ / side), kMostDepth) : kMostDepth;
+  place.depth = side * (1 << kMostDepth) > width_ ? std::min(std::ilogb(width_ / side), kMostDepth) : kMostDepth;
   const double nodes = std::ldexp(1.0, place.depth);
   const auto index = [&](double along) {
-    return static_cast<std::uint64_t>(std::min(along / width_ * nodes, nodes - 1.0));  // a fraction of 1 is clamped
+    return static_cast<std::uint64_t>(std::min(along / width_ * nodes, nodes - 1.0));  // clamps a fraction of 1
   };
   place.x = index(offset.x()), place.y = index(offset.y()), place.z = index(offset.z());
   return place;
@@ -49,7 +50,7 @@ Aabb LooseOctree::regionOf(const Place& place) const {
   Aabb region;
   for (int axis = 0; axis < 3; ++axis) {
     const double low = low_[axis] + (index[axis] - 0.5) * width, high = low + 2.0 * width;
-    const double rounding = 2e-7 * (std::abs(low) + std::abs(high)) + 1e-37;  // also of the conversions to float
+    const double rounding = 2e-7 * (std::abs(low) + std::abs(high)) + 1e-37;  // includes the conversions to float
     // Boxes are finite, so a finite region is large enough. An infinite one would make its distance from a sphere NaN.
     region.min[axis] = static_cast<float>(std::max(low - rounding, -kLargestFloat));
     region.max[axis] = static_cast<float>(std::min(high + rounding, kLargestFloat));
@@ -62,7 +63,7 @@ Aabb LooseOctree::regionOf(const Place& place) const {
 void LooseOctree::build() {
   const Eigen::Vector3d low = world().min.cast<double>(), high = world().max.cast<double>();
   const double side = (high - low).maxCoeff();
-  width_ = side > 0.0 ? 1.5 * side : 1.0;  // with room for motion
+  width_ = side > 0.0 ? 1.5 * side : 1.0;  // larger than the world, so boxes may move outward
   low_ = 0.5 * (low + high) - Eigen::Vector3d::Constant(0.5 * width_);
   nodes_.clear();
   outside_.clear();
@@ -73,10 +74,10 @@ Partition::Followed LooseOctree::added(ProxyId id) {
   const Place place = placeOf(box(id));
   if (place.depth < 0) {
     outside_.add(id);
-    return 8 * outside_.size() > size() + 64 ? Followed::no : Followed::yes;  // no: the root is too small by now
+    return 8 * outside_.size() > size() + 64 ? Followed::no : Followed::yes;  // no: the root is too small
   }
   std::uint64_t code = codeOf(place);
-  bool is_new = nodes_.find(code) == nodes_.end();
+  bool is_new = nodes_.find(code) == nodes_.end();  // whether the node `code` has no bit in its parent yet
   nodes_[code].ids.push_back(id);
   for (; is_new && code > 1; code >>= 3) {  // makes the missing ancestors
     is_new = nodes_.find(code >> 3) == nodes_.end();

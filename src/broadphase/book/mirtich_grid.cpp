@@ -11,8 +11,8 @@ namespace hgrid {
 namespace book {
 namespace {
 
-constexpr int kFinest = -20;  // boxes below 1 um and points share the finest level
-thread_local Stamps seen;
+constexpr int kFinest = -20;  // exponent of the finest level: all boxes below 1 um are on it, and also points
+thread_local Stamps seen;     // the boxes that the present query has met
 
 }  // namespace
 
@@ -34,6 +34,7 @@ std::size_t MirtichGrid::firstLevelOf(int exponent) const {
 
 // ---- counters
 
+/// Changes the counter of a pair by 1, because one of the boxes enters (`up`) or leaves a cell that holds the other.
 void MirtichGrid::count(ProxyId a, ProxyId b, bool up) {
   if (!counts_ || (isFixed(a) && isFixed(b))) return;
   if (!up) return close_.lower(a, b);
@@ -43,16 +44,21 @@ void MirtichGrid::count(ProxyId a, ProxyId b, bool up) {
   close_.clear();
 }
 
+/// Adds a box to a cell and counts its close pairs there.
+///
+/// Two visitors of a cell are not counted: the level is coarser than both of theirs. They are counted on the coarser of
+/// their own levels, where one of them is a resident.
 void MirtichGrid::enter(Level& level, const Cell& cell, ProxyId id, bool resident) {
   CellBoxes& here = level.cells[cell];
   (resident ? here.residents : here.visitors).push_back(id);
   for (const ProxyId other : here.residents) {
     if (other != id) count(id, other, true);
   }
-  if (!resident) return;  // two visitors share a cell on a level that is coarser than both of theirs
+  if (!resident) return;
   for (const ProxyId other : here.visitors) count(id, other, true);
 }
 
+/// Removes a box from a cell and undoes what enter() counted. Drops the cell if it becomes empty.
 void MirtichGrid::leave(Level& level, const Cell& cell, ProxyId id, bool resident) {
   const auto place = level.cells.find(cell);
   CellBoxes& here = place->second;
@@ -82,7 +88,7 @@ Partition::Followed MirtichGrid::added(ProxyId id) {
   const int exponent = exponentOf(box(id));
   const std::size_t own = firstLevelOf(exponent);
   if (own == levels_.size() || levels_[own].exponent != exponent)
-    return Followed::no;  // a new level: all must visit it
+    return Followed::no;  // there is no such level; all boxes of finer levels would have to visit it
   levels_[own].residents.add(id);
   for (std::size_t index = own; index < levels_.size(); ++index) {
     Level& level = levels_[index];
@@ -108,7 +114,7 @@ Partition::Followed MirtichGrid::moved(ProxyId id, const Aabb& from) {
   for (std::size_t index = own; index < levels_.size(); ++index) {
     Level& level = levels_[index];
     const CellRange before = level.scale.cellsOf(from), now = level.scale.cellsOf(box(id));
-    if (before == now) continue;  // most often so on coarse levels, whose cells change rarely
+    if (before == now) continue;  // as in most moves on a coarse level
     before.visit([&](const Cell& cell) {
       if (!now.contains(cell)) leave(level, cell, id, index == own);
     });

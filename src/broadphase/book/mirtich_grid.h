@@ -14,18 +14,20 @@ namespace book {
 
 /// A hierarchical grid after Mirtich (Ericson, Real-Time Collision Detection, 2005, section 7.2.2, second scheme).
 ///
-/// The size of a box selects its level; the cell edge doubles from level to level. A box is in all cells that it
-/// overlaps on its own level, where it is a resident, and on all coarser levels, where it is a visitor. Two boxes are
-/// close if they share a cell on the coarser of their two levels. A counter per close pair holds the number of shared
-/// cells. It rises when the boxes come to share a cell and falls when one of them leaves. The pairs come from these
-/// counters, without a search.
+/// The longest side of a box selects its level. The cell edge doubles from level to level. A box is in all cells that
+/// it overlaps on its own level and on all coarser levels. It is a *resident* of cells of its own level and a *visitor*
+/// of cells of coarser levels. Two boxes are close if they share a cell on the coarser of their two levels. Each close
+/// pair has a counter: the number of cells that the two boxes share on that level. A move changes the counters only
+/// where a box enters or leaves a cell. The search for all pairs reads the counters.
 ///
 /// Differs from the book:
-/// - Only the levels that have a resident when the structure is built exist, so each box visits few levels. A box that
-///   needs another level makes the next search build the structure again.
-/// - Counters use memory for each close pair. If there are far more of them than the pair bound allows, the grid drops
-///   all counters. Until the grid is built again, queries then find the pairs.
+/// - A level exists only if it had a resident when the grid was built. So each box visits few levels. A box that needs
+///   another level makes the next search build the grid again.
+/// - A close pair becomes a pair only if its boxes overlap; the book passes all close pairs to the narrow phase.
 /// - Pairs of two fixed boxes are not counted.
+/// - If there are far more close pairs than the pair bound allows, the grid drops all counters to save memory. Until
+///   the grid is built again, a query with each box then finds the pairs.
+/// - Queries look at the residents of each level. The book describes only the search for all pairs.
 class MirtichGrid final : public Partition {
  public:
   MirtichGrid() : Partition("MirtichGrid") {}
@@ -37,7 +39,7 @@ class MirtichGrid final : public Partition {
   struct Level {
     int exponent;  // the edge of a cell is 2^exponent [m]
     CellScale scale;
-    IdSet residents;
+    IdSet residents;  // of all cells of the level
     std::unordered_map<Cell, CellBoxes, CellHash> cells;
   };
 
@@ -58,10 +60,10 @@ class MirtichGrid final : public Partition {
   void leave(Level& level, const Cell& cell, ProxyId id, bool resident);
   void count(ProxyId a, ProxyId b, bool up);
 
-  std::vector<Level> levels_;  // from fine to coarse
-  PairCounts close_;
-  bool counts_ = true;          // whether `close_` holds all close pairs
-  std::size_t most_close_ = 0;  // largest number of close pairs that are counted
+  std::vector<Level> levels_;   // from fine to coarse
+  PairCounts close_;            // for each close pair: the number of cells that the two boxes share
+  bool counts_ = true;          // whether `close_` holds all close pairs; false: the counters were dropped
+  std::size_t most_close_ = 0;  // if there are more close pairs than this, the counters are dropped
 };
 
 }  // namespace book

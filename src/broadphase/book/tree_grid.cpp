@@ -21,6 +21,8 @@ void TreeGrid::build() {
   settle();
 }
 
+// The functions added() and removed() change only the list of a tree. settle() builds the outdated trees.
+
 Partition::Followed TreeGrid::added(ProxyId id) {
   const bool is_large = isLarge(box(id));
   const Cell cell = scale_.cellOf(box(id).min);
@@ -51,7 +53,7 @@ void TreeGrid::buildTree(Tree& tree) {
   tree.is_outdated = false;
 }
 
-/// Builds the trees again whose boxes changed.
+/// Builds the outdated trees again, and drops cells that have no box.
 void TreeGrid::settle() {
   for (const Cell& cell : outdated_cells_) {
     const auto place = cells_.find(cell);
@@ -75,7 +77,8 @@ void TreeGrid::candidates(const QueryShape& shape, std::vector<ProxyId>& found) 
   const auto visit = [&](const Tree& tree) {
     if (shape.mayTouch(tree.bounds)) tree.nodes.visit(shape, consider);
   };
-  // The minimum corner of a box that the shape touches is within one edge below a common point on each axis.
+  // If the shape touches a box in a point p, the minimum corner of the box is at most one edge below p on each axis. So
+  // a shape that is grown by one edge touches the cell of this corner. Only a segment is grown on all sides.
   const double edge = scale_.edge() * (1.0 + 1e-9);
   Aabb reach = shape.bounds();
   for (int axis = 0; axis < 3; ++axis) reach.min[axis] = roundedDown(double(reach.min[axis]) - edge);
@@ -89,8 +92,8 @@ void TreeGrid::candidates(const QueryShape& shape, std::vector<ProxyId>& found) 
       if (tree != cells_.end()) visit(tree->second);
     });
   });
-  if (!all) {              // There are more cells than trees, so this goes through the trees.
-    found.resize(before);  // drops what visitRanges() found before it gave up
+  if (!all) {              // The shape covers many more cells than there are trees, so this goes through the trees.
+    found.resize(before);  // drops the boxes of the ranges that visitRanges() has visited
     for (const auto& tree : cells_) visit(tree.second);
   }
   large_.nodes.visit(shape, consider);

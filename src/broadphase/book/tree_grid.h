@@ -12,25 +12,29 @@
 namespace hgrid {
 namespace book {
 
-/// A grid of trees (Ericson, Real-Time Collision Detection, 2005, section 7.3.8): each cell of a coarse grid has a k-d
-/// tree of its boxes. The grid skips the top of one large tree.
+/// A grid of trees (Ericson, Real-Time Collision Detection, 2005, section 7.3.8): each occupied cell of a coarse grid
+/// has a k-d tree of its boxes.
 ///
-/// The minimum corner of a box selects its cell. Cells are loose: a cell keeps the bounds of its boxes, which may reach
-/// into the next cells. A box is no longer than a cell, so a query visits the cells within one edge of its shape. Each
-/// box is in one tree. The move of a box makes at most two trees out of date, and the next search builds these again.
+/// The minimum corner of a box selects its cell, so each box is in one tree. A cell is loose: its boxes may extend into
+/// the next cells, and it keeps their bounds. A box is no longer than a cell. So a query visits the cells that its
+/// shape touches and those within one edge below. A change makes at most two trees outdated. The next search builds
+/// only these again, where a KdTree would be built again as a whole.
 ///
-/// Differs from the book: boxes that are longer than a cell are in one more tree of their own.
+/// Differs from the book:
+/// - Boxes that are longer than a cell are in one more tree, `large_`. The book does not say where they go.
+/// - Cells are in a hash table, so the world is unbounded.
+/// - The search for all pairs queries the grid with each box. The book does not describe one.
 class TreeGrid final : public Partition {
  public:
   TreeGrid() : Partition("TreeGrid") {}
 
  private:
-  static constexpr double kBoxesPerCell = 32;  // about this many boxes are in a cell of an evenly filled world
+  static constexpr double kBoxesPerCell = 32;  // a cell has about this many boxes if the world is evenly filled
   struct Tree {
     std::vector<ProxyId> ids;
-    Aabb bounds;
+    Aabb bounds;  // of the boxes
     KdNodes nodes;
-    bool is_outdated = false;  // whether the nodes have to be built again
+    bool is_outdated = false;  // whether `bounds` and `nodes` do not match `ids`
   };
 
   void build() override;
@@ -43,6 +47,7 @@ class TreeGrid final : public Partition {
   std::size_t structureBytes() const override;
   void draw(std::vector<Aabb>& regions) const override;
 
+  /// Whether a box belongs to the tree `large_`.
   bool isLarge(const Aabb& box) const { return longestSide(box) > scale_.edge(); }
   void buildTree(Tree& tree);
 
