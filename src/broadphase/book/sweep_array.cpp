@@ -5,6 +5,7 @@
 namespace hgrid {
 namespace book {
 
+/// The axis on which the centers have the largest variance. If it is equal on two axes, the present one stays.
 int SweepArray::axisOfLargestVariance() const {
   const Eigen::Vector3d middle = 0.5 * (world().min.cast<double>() + world().max.cast<double>());
   Eigen::Vector3d sum = Eigen::Vector3d::Zero(), sum_of_squares = sum;
@@ -46,7 +47,7 @@ Partition::Followed SweepArray::removed(ProxyId id, const Aabb&) {
   return Followed::settle;
 }
 
-/// Chooses the axis and sorts the entries.
+/// Chooses the axis, sorts the entries, and computes what depends on their order.
 void SweepArray::settle() {
   axis_ = axisOfLargestVariance();
   for (Entry& entry : entries_) {
@@ -62,6 +63,7 @@ void SweepArray::settle() {
   }
 }
 
+/// Sorts the entries by insertion. After too many steps, std::sort takes over.
 void SweepArray::sort() {
   const auto less = [](const Entry& a, const Entry& b) { return a.min != b.min ? a.min < b.min : a.id < b.id; };
   std::size_t steps = 0;
@@ -85,11 +87,12 @@ void SweepArray::findPairs(PairSink& sink) const {
     const Entry& one = movable[i];
     for (std::size_t k = i + 1; k < movable.size() && movable[k].min <= one.max; ++k)
       sink.tryPair(one.id, movable[k].id);
+    // The fixed boxes that begin at the beginning of this box or behind it.
     while (next_fixed < fixed.size() && fixed[next_fixed].min < one.min) ++next_fixed;
     for (std::size_t k = next_fixed; k < fixed.size() && fixed[k].min <= one.max; ++k)
       sink.tryPair(one.id, fixed[k].id);
   }
-  for (const Entry& one : fixed) {  // the boxes that begin behind the beginning of a fixed box
+  for (const Entry& one : fixed) {  // the movable boxes that begin behind the beginning of a fixed box
     if (sink.isFull()) return;
     while (next_movable < movable.size() && movable[next_movable].min <= one.min) ++next_movable;
     for (std::size_t k = next_movable; k < movable.size() && movable[k].min <= one.max; ++k)
@@ -123,7 +126,7 @@ std::size_t SweepArray::structureBytes() const {
          end_so_far_.capacity() * sizeof(float);
 }
 
-/// The boxes as intervals on the sorted axis, in their order, one above the other.
+/// Draws the boxes as intervals on the sorted axis, in their order, one above the other.
 void SweepArray::draw(std::vector<Aabb>& regions) const {
   const int across = axis_ == 0 ? 1 : 0;
   const float height = (world().max[across] - world().min[across]) / static_cast<float>(entries_.size() + 1);

@@ -14,7 +14,7 @@ float SweepLists::valueOf(Link element, int axis) const {
   return isMax(element) ? here.max[axis] : here.min[axis];
 }
 
-/// The order of the elements in a list. The head comes first, the tail last.
+/// Whether an element comes before another one in a list. The head comes first, the tail last.
 bool SweepLists::isBefore(Link a, Link b, int axis) const {
   if (a <= kTail || b <= kTail) return a == kHead || b == kTail;
   const float here = valueOf(a, axis), there = valueOf(b, axis);
@@ -38,7 +38,7 @@ void SweepLists::linkAfter(Link place, Link element, int axis) {
   elements_[next].previous[k] = element;
 }
 
-/// Adds a pair to the table if its boxes overlap. The caller calls this when they begin to overlap on one axis.
+/// Adds a pair to the table if its boxes overlap on all axes. They have just begun to overlap on one axis.
 void SweepLists::tryToTrack(ProxyId a, ProxyId b) {
   if (!tracks_ || a == b || (isFixed(a) && isFixed(b)) || !overlap(box(a), box(b)) || pairs_.of(a, b) != 0) return;
   pairs_.raise(a, b);
@@ -47,6 +47,7 @@ void SweepLists::tryToTrack(ProxyId a, ProxyId b) {
   pairs_.clear();
 }
 
+/// Moves an element to the left until its list is sorted there, and updates the table at each element that it passes.
 void SweepLists::moveLeft(Link element, int axis) {
   const auto k = static_cast<std::size_t>(axis);
   Link place = elements_[element].previous[k];
@@ -62,6 +63,7 @@ void SweepLists::moveLeft(Link element, int axis) {
   linkAfter(place, element, axis);
 }
 
+/// As moveLeft(), to the right.
 void SweepLists::moveRight(Link element, int axis) {
   const auto k = static_cast<std::size_t>(axis);
   Link place = elements_[element].next[k];
@@ -77,8 +79,8 @@ void SweepLists::moveRight(Link element, int axis) {
   linkAfter(elements_[place].previous[k], element, axis);
 }
 
-/// Moves the elements of a box to their places. Growing steps come before shrinking ones, so the minimum of a box stays
-/// before its maximum.
+/// Moves the elements of a box to their places. On each axis, the box first grows at both ends and then shrinks. So its
+/// minimum never passes its own maximum.
 void SweepLists::sortIn(ProxyId id) {
   const Link min = elementOf(id, false), max = elementOf(id, true);
   for (int axis = 0; axis < 3; ++axis) {
@@ -131,6 +133,7 @@ Partition::Followed SweepLists::added(ProxyId id) {
   return moved(id, box(id));
 }
 
+/// Unlinks a box. The boxes near it are looked up, because the table cannot list the pairs of one box.
 Partition::Followed SweepLists::removed(ProxyId id, const Aabb& from) {
   if (tracks_) {
     std::vector<ProxyId> others;
@@ -151,10 +154,11 @@ Partition::Followed SweepLists::moved(ProxyId id, const Aabb&) {
 
 // ---- searches
 
-/// Calls visit(a, b) for all pairs, by a sweep along the list of one axis, until it returns false.
+/// Calls visit(a, b) for each overlapping pair, unless both boxes are fixed, until `visit` returns false. It goes along
+/// the list of the first axis and does not use the table.
 template <class Visit>
 void SweepLists::sweep(Visit&& visit) const {
-  std::vector<ProxyId> movable, fixed;  // the boxes that the sweep has entered and not left
+  std::vector<ProxyId> movable, fixed;  // the boxes whose minimum was passed and whose maximum was not
   for (Link element = elements_[kHead].next[0]; element != kTail; element = elements_[element].next[0]) {
     const ProxyId id = boxOf(element);
     std::vector<ProxyId>& mine = isFixed(id) ? fixed : movable;
@@ -181,7 +185,8 @@ void SweepLists::findPairs(PairSink& sink) const {
 }
 
 void SweepLists::candidates(const QueryShape& shape, std::vector<ProxyId>& found) const {
-  // A list has no entry in its middle, so a query scans a list from one of its ends. It takes the shortest of six ways.
+  // A search can enter a list only at its ends. So it scans one of three lists from one of two ends, up to the far side
+  // of the query. It takes the way that covers the smallest share of the world.
   const Aabb& around = shape.bounds();
   const Eigen::Vector3d size = world().max.cast<double>() - world().min.cast<double>();
   int axis = 0;
@@ -229,7 +234,7 @@ void SweepLists::checkStructure() const {
 
 std::size_t SweepLists::structureBytes() const { return elements_.capacity() * sizeof(Element) + pairs_.bytes(); }
 
-/// A line through each element of the lists of x and y.
+/// Draws a line through each element of the lists of x and y.
 void SweepLists::draw(std::vector<Aabb>& regions) const {
   for (int axis = 0; axis < 2; ++axis) {
     const auto k = static_cast<std::size_t>(axis);

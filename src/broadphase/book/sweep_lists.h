@@ -13,22 +13,26 @@ namespace book {
 
 /// Sort and sweep with linked lists (Ericson, Real-Time Collision Detection, 2005, section 7.5.1).
 ///
-/// Each box has two elements: its smallest corner (a minimum) and its largest corner (a maximum). There is a list per
-/// axis. It contains all elements, sorted by their coordinate on this axis. When a box moves, insertion sort moves its
-/// elements to their new places. Pairs begin or end only where a minimum and a maximum pass each other:
-/// - If the minimum moves to the left of the maximum, the two boxes may begin to overlap.
-/// - If the minimum moves to the right of the maximum, the two boxes stop overlapping.
+/// Each box has two elements: its minimum corner and its maximum corner. Each element has links for three lists, one
+/// per axis. A list contains all elements, sorted by their coordinate on its axis. When a box moves, insertion sort
+/// moves its elements to their new places. The overlap of two boxes on an axis changes only where a minimum of one box
+/// and a maximum of the other pass each other:
+/// - A minimum moves to the left of a maximum, or a maximum to the right of a minimum: the overlap begins.
+/// - A minimum moves to the right of a maximum, or a maximum to the left of a minimum: the overlap ends.
 ///
-/// A table holds all overlapping pairs. Each change of the lists updates it, so findPairs() only reads the table.
+/// A table holds all overlapping pairs. Each move updates it, so the search for all pairs only reads it.
 ///
 /// Differs from the book:
 /// - Equal coordinates have an order: minima come before maxima. So boxes that touch overlap, whatever their history.
-/// - A new box enters at the right end of each list and moves to its place. This finds all its pairs, also with boxes
-///   that enclose it. (The printed scan never advances, and looks only between the ends of the box.)
+/// - Elements are in an array and links are indices, so an id leads to its elements. The sentinels have no coordinates;
+///   isBefore() knows them.
+/// - A new box enters at the right end of each list and moves to its place. So it meets all its pairs, also boxes that
+///   enclose it. The printed scan never advances, and a look only between the two ends would miss such boxes.
 /// - The removal of a box also removes its pairs from the table.
-/// - If the order changes too much, as when boxes jump far, the next search sorts all lists again.
-/// - The table does not hold pairs of two fixed boxes. If there are far more pairs than the pair bound allows, the
-///   table is dropped. Until the lists are built again, a sweep along one list then finds the pairs.
+/// - If elements pass too many others, as when boxes jump far, the next search sorts all lists again.
+/// - The table does not hold pairs of two fixed boxes.
+/// - If there are far more pairs than the pair bound allows, the table is dropped to save memory. Until the lists are
+///   built again, each search for pairs sweeps along the list of the first axis.
 class SweepLists final : public Partition {
  public:
   SweepLists() : Partition("SweepLists") {}
@@ -68,9 +72,9 @@ class SweepLists final : public Partition {
   void sweep(Visit&& visit) const;
 
   std::vector<Element> elements_;
-  PairCounts pairs_;              // the counter of each overlapping pair is 1
-  bool tracks_ = true;            // whether `pairs_` holds all pairs
-  std::size_t most_tracked_ = 0;  // largest number of tracked pairs
+  PairCounts pairs_;              // the overlapping pairs; each counter is 1
+  bool tracks_ = true;            // whether `pairs_` holds all pairs; false: the table was dropped
+  std::size_t most_tracked_ = 0;  // if there are more pairs than this, the table is dropped
   std::size_t steps_ = 0;         // elements that were passed since the last search
 };
 
