@@ -40,6 +40,13 @@ struct Portal {
 ///
 /// A box counts as in a room unless it is entirely on the outer side of one wall. So a box that overlaps the room
 /// always counts. A box outside of the room, near one of its corners, may also count.
+///
+/// Differs from the book, whose section is about rendering and adds collisions in a remark:
+/// - A portal is a box and not a polygon. It contains the whole thickness of the wall, so an object inside the opening
+///   is in both rooms.
+/// - There is no traversal from room to room. To locate a box, roomsOf() tests all rooms and all portals.
+/// - The book tests an object against the objects of its cells. Here a broad phase below finds all overlapping pairs,
+///   and RoomLayer leaves out those without a common room.
 class Building {
  public:
   static constexpr std::size_t kMostRooms = 4096;  ///< largest number of rooms
@@ -106,9 +113,9 @@ class RoomLayer final : public BroadPhase {
 
  private:
   struct Located {
-    bool stored = false;
+    bool stored = false;  // whether the entry belongs to a stored box
     Aabb box;
-    std::vector<std::uint32_t> rooms;
+    std::vector<std::uint32_t> rooms;  // ascending
   };
   static std::size_t keep(const void* layer, ProxyPair* pairs, std::size_t count);
   Located located(const Aabb& box) const;

@@ -16,10 +16,11 @@ void require(bool holds, const std::string& what) {
   if (!holds) throw std::invalid_argument("Building: " + what);
 }
 
-/// Whether a box may have a point in common with a room: it does not lie outside of one of its walls.
+/// Whether a box may overlap a room: for no wall of the room is the whole box on the outer side.
 bool mayBeIn(const Room& room, const Aabb& box) {
   for (const RoomWall& wall : room.walls) {
-    double least = 0.0, rounding = std::abs(wall.offset);  // the smallest value of normal . p over the box
+    // `least` is the smallest value of normal . p over all points p of the box; `rounding` bounds its terms.
+    double least = 0.0, rounding = std::abs(wall.offset);
     for (int axis = 0; axis < 3; ++axis) {
       const double corner = wall.normal[axis] > 0.0 ? double(box.min[axis]) : double(box.max[axis]);
       least += wall.normal[axis] * corner;
@@ -30,6 +31,7 @@ bool mayBeIn(const Room& room, const Aabb& box) {
   return true;
 }
 
+/// Whether two ascending lists have a common number.
 bool haveCommon(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
   for (std::size_t i = 0, k = 0; i < a.size() && k < b.size();) {
     if (a[i] == b[k]) return true;
@@ -117,7 +119,8 @@ RoomLayer::Located RoomLayer::located(const Aabb& box) const {
   return result;
 }
 
-/// The rooms of the boxes that moved. The entries of all other boxes are not stored (Located::stored).
+/// Returns one entry per given box. Only boxes that are new or moved are located. For the others, Located::stored is
+/// false, and the caller keeps what it has.
 std::vector<RoomLayer::Located> RoomLayer::locatedMoved(const std::vector<ProxyId>& ids,
                                                         const std::vector<Aabb>& boxes) const {
   std::vector<Located> all(std::min(ids.size(), boxes.size()));
@@ -128,12 +131,13 @@ std::vector<RoomLayer::Located> RoomLayer::locatedMoved(const std::vector<ProxyI
   return all;
 }
 
+/// Makes room for a box with this id.
 void RoomLayer::reserve(ProxyId id) {
   if (id >= boxes_.size()) boxes_.resize(id + std::size_t{1});
 }
 
-// Each change first computes the rooms, then changes the broad phase below, which may throw, and then stores the rooms,
-// which cannot fail.
+// Each change has three steps, so a change that throws leaves all as it was. It computes the rooms; it changes the
+// broad phase below, which may throw; it stores the rooms, which cannot fail.
 
 void RoomLayer::insert(ProxyId id, const Aabb& box) {
   Located next = located(box);
