@@ -12,7 +12,13 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "test/node/support/built.h"
 #include "test/node/support/claims.h"
@@ -153,11 +159,38 @@ TEST(Shutdown, DuringAReloadOfASlowMeshUnregisters) {
 }
 
 /// A node that uses its own ROS master.
-struct NodeOfMaster {
+class NodeOfMaster {
+ public:
   static constexpr const char* kName = "/proximity";
-  explicit NodeOfMaster(const std::string& uri)
-      : process({built(HGRID_NODE), "_world_frame:=world"}, "/dev/null", {{"ROS_MASTER_URI", uri}}) {}
-  ChildProcess process;
+  /// @param before  program and arguments that start the node, such as `nohup`
+  explicit NodeOfMaster(const std::string& uri, std::vector<std::string> before = {}) {
+    fs::remove(output_);
+    before.insert(before.end(), {built(HGRID_NODE), "_world_frame:=world"});
+    process_ = std::make_unique<ChildProcess>(
+        before, output_,
+        std::map<std::string, std::string>{{"ROS_MASTER_URI", uri}, {"ROSCONSOLE_STDOUT_LINE_BUFFERED", "1"}});
+  }
+  ~NodeOfMaster() {
+    process_.reset();
+    fs::remove(output_);
+  }
+  ChildProcess& process() { return *process_; }
+  std::string output() const {
+    std::ifstream file(output_);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  /// Succeeds if the node ends with exit code 0.
+  ::testing::AssertionResult ends() {
+    const std::optional<int> code = process_->waitForEnd(20.0);
+    if (code == 0) return ::testing::AssertionSuccess();
+    return ::testing::AssertionFailure() << (code ? "exit code " + std::to_string(*code) : "the node still runs")
+                                         << "\n"
+                                         << output();
+  }
+
+ private:
+  const std::string output_ = (fs::temp_directory_path() / "node_of_master.log").string();
+  std::unique_ptr<ChildProcess> process_;
 };
 
 TEST(Shutdown, NeedsNoMaster) {
@@ -166,8 +199,8 @@ TEST(Shutdown, NeedsNoMaster) {
   master.waitForRegistration(node.kName, "serves /proximity/reload_robot");
   master.process().signal(SIGKILL);
   master.process().waitForEnd(20.0);
-  node.process.signal(SIGTERM);
-  EXPECT_EQ(node.process.waitForEnd(20.0).value_or(-1), 0);
+  node.process().signal(SIGTERM);
+  EXPECT_TRUE(node.ends());
 }
 
 TEST(Shutdown, NeedsNoAnswerOfTheMaster) {
@@ -175,29 +208,21 @@ TEST(Shutdown, NeedsNoAnswerOfTheMaster) {
   NodeOfMaster node(master.uri());
   master.waitForRegistration(node.kName, "serves /proximity/reload_robot");
   master.process().signal(SIGSTOP);
-  node.process.signal(SIGTERM);
-  EXPECT_EQ(node.process.waitForEnd(20.0).value_or(-1), 0);
+  node.process().signal(SIGTERM);
+  EXPECT_TRUE(node.ends());
   master.process().signal(SIGCONT);
 }
 
 TEST(Shutdown, EndsANodeThatWaitsForTheMaster) {
   for (const int number : kEndSignals) {
-    const std::string output = (fs::temp_directory_path() / "waits_for_master.log").string();
-    fs::remove(output);
-    ChildProcess node({built(HGRID_NODE), "_world_frame:=world"}, output,
-                      {{"ROS_MASTER_URI", "http://127.0.0.1:" + std::to_string(freePort())},
-                       {"ROSCONSOLE_STDOUT_LINE_BUFFERED", "1"}});
+    NodeOfMaster node("http://127.0.0.1:" + std::to_string(freePort()));
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-    std::string said;
-    while (said.find("Failed to contact master") == std::string::npos && std::chrono::steady_clock::now() < deadline) {
+    while (!says(node.output(), "Failed to contact master") && std::chrono::steady_clock::now() < deadline) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));  // polls, because the output is a file
-      std::ifstream file(output);
-      said.assign(std::istreambuf_iterator<char>(file), {});
     }
-    ASSERT_TRUE(says(said, "Failed to contact master"));
-    node.signal(number);
-    EXPECT_EQ(node.waitForEnd(20.0).value_or(-1), 0) << "signal " << number;
-    fs::remove(output);
+    ASSERT_TRUE(says(node.output(), "Failed to contact master"));
+    node.process().signal(number);
+    EXPECT_TRUE(node.ends()) << "signal " << number;
   }
 }
 
@@ -212,13 +237,12 @@ bool ignores(pid_t process, int number) {
 
 TEST(Shutdown, KeepsIgnoringHangupsUnderNohup) {
   OwnMaster master;
-  ChildProcess node({"nohup", built(HGRID_NODE), "_world_frame:=world"}, "/dev/null",
-                    {{"ROS_MASTER_URI", master.uri()}});
-  master.waitForRegistration("/proximity", "serves /proximity/reload_robot");
-  EXPECT_TRUE(ignores(node.pid(), SIGHUP));
-  EXPECT_FALSE(ignores(node.pid(), SIGTERM));
-  node.signal(SIGTERM);
-  EXPECT_EQ(node.waitForEnd(20.0).value_or(-1), 0);
+  NodeOfMaster node(master.uri(), {"nohup"});
+  master.waitForRegistration(node.kName, "serves /proximity/reload_robot");
+  EXPECT_TRUE(ignores(node.process().pid(), SIGHUP));
+  EXPECT_FALSE(ignores(node.process().pid(), SIGTERM));
+  node.process().signal(SIGTERM);
+  EXPECT_TRUE(node.ends());
 }
 
 TEST(Shutdown, IsLoggedAndHasExitCode3IfAnotherNodeTakesTheName) {
