@@ -3,19 +3,21 @@
 #pragma once
 
 #include <ros/callback_queue.h>
+#include <ros/common.h>
 #include <ros/node_handle.h>
-#include <ros/spinner.h>
 
+#include <algorithm>
 #include <atomic>
 #include <boost/make_shared.hpp>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <functional>
-#include <memory>
 #include <mutex>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace hgrid {
 
@@ -32,22 +34,23 @@ class CallbackThreads {
   const ros::NodeHandle& node() const { return node_; }
   const ros::NodeHandle& privateNode() const { return private_node_; }
 
-  void start(std::uint32_t threads) {
-    const std::lock_guard<std::mutex> lock(spinner_mutex_);
-    spinner_ = std::make_unique<ros::AsyncSpinner>(threads, &queue_);
-    spinner_->start();
-    threads_ = threads;
-  }
-  /// Replaces the threads of start() by new ones. Waits until the callbacks that the old threads run are done.
-  /// Meanwhile the new threads run the other callbacks. Any thread except those of this object may call this.
-  /// @throws std::exception if the system cannot create the threads; the old ones then stay
-  void resize(std::uint32_t threads) {
-    const std::lock_guard<std::mutex> lock(spinner_mutex_);
-    if (!spinner_ || stopping_ || threads == threads_) return;
-    auto spinner = std::make_unique<ros::AsyncSpinner>(threads, &queue_);
-    spinner->start();
-    spinner_.swap(spinner);
-    threads_ = threads;
+  /// Sets the number of threads that run the callbacks; it begins with 0. If it falls, waits until the surplus threads
+  /// have ended their callbacks, and up to kLongestWait more. Any thread except those of this object may call this.
+  /// @throws std::exception if the system cannot create the threads; their number then stays
+  void setThreads(std::uint32_t threads) {
+    const std::lock_guard<std::mutex> lock(servers_mutex_);
+    if (stopping_) return;
+    const std::size_t before = servers_.size();
+    try {
+      wanted_ = std::max(wanted_.load(), threads);
+      while (servers_.size() < threads) {
+        servers_.emplace_back([this, number = static_cast<std::uint32_t>(servers_.size())] { serve(number); });
+      }
+    } catch (...) {
+      endServers(before);
+      throw;
+    }
+    endServers(threads);
   }
   /// Starts one thread that runs the callbacks, and calls `work` after each round of them.
   /// @param begin  the thread calls it first; it must not throw
@@ -56,7 +59,7 @@ class CallbackThreads {
     loop_ = std::thread([this, begin = std::move(begin), work = std::move(work)] {
       begin();
       std::chrono::nanoseconds wait{0};
-      while (!stopping_ && node_.ok()) {
+      while (mayRun()) {
         queue_.callAvailable(ros::WallDuration(std::chrono::duration<double>(wait).count()));
         wait = work();
       }
@@ -75,16 +78,19 @@ class CallbackThreads {
   /// Starts no further callbacks, and waits for those that are running.
   void stop() {
     stopping_ = true;
+    queue_.disable();  // ends all waits
     {
-      const std::lock_guard<std::mutex> lock(spinner_mutex_);
-      if (spinner_) spinner_->stop();
+      const std::lock_guard<std::mutex> lock(servers_mutex_);
+      endServers(0);
     }
-    if (!loop_.joinable()) return;
-    wake();
-    loop_.join();
+    if (loop_.joinable()) loop_.join();
   }
 
  private:
+  /// [s] A thread that has no callback to run waits for this long before it looks whether it must end. Threads of
+  /// ros::AsyncSpinner wait for 0.1 s, which costs an idle node more than all the rest of its work.
+  static constexpr double kLongestWait = 1.0;
+
   /// A callback that only ends a wait.
   struct Wake : ros::CallbackInterface {
     explicit Wake(std::atomic<bool>& flag) : woken(flag) {}
@@ -95,12 +101,24 @@ class CallbackThreads {
     std::atomic<bool>& woken;
   };
 
+  bool mayRun() const { return !stopping_ && node_.ok(); }
+  /// Runs callbacks until there must be at most `number` threads.
+  void serve(std::uint32_t number) {
+    ros::disableAllSignalsInThisThread();
+    while (mayRun() && number < wanted_) queue_.callOne(ros::WallDuration(kLongestWait));
+  }
+  /// Ends all threads but the first `left`. The calling thread must have locked servers_mutex_.
+  void endServers(std::size_t left) {
+    wanted_ = static_cast<std::uint32_t>(left);
+    for (; servers_.size() > left; servers_.pop_back()) servers_.back().join();
+  }
+
   std::atomic<bool> stopping_{false}, woken_{false};
+  std::atomic<std::uint32_t> wanted_{0};  // number of threads that run callbacks
   ros::CallbackQueue queue_;
   ros::NodeHandle node_, private_node_;
-  std::mutex spinner_mutex_;
-  std::unique_ptr<ros::AsyncSpinner> spinner_;  // guarded by spinner_mutex_
-  std::uint32_t threads_ = 0;                   // guarded by spinner_mutex_
+  std::mutex servers_mutex_;
+  std::vector<std::thread> servers_;  // guarded by servers_mutex_
   std::thread loop_;
 };
 

@@ -67,8 +67,8 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
           [this](const Params& params) { takeOver(params); }, commons_.ledger) {
   tick_loop_.setSteps(tickSteps());
   housekeeping_.start();
-  query_threads_.start(static_cast<std::uint32_t>(commons_.settings.params.query_threads));
-  admin_thread_.start(1);
+  query_threads_.setThreads(static_cast<std::uint32_t>(commons_.settings.params.query_threads));
+  admin_thread_.setThreads(1);
   // Later than the threads above: if threads are few, the first tick must not take all of them for ~threads.
   tick_thread_.startLoop([this] { beginTicks(); }, [this] { return tick_loop_.work(); });
   loading_.startClouds();
@@ -90,7 +90,7 @@ void ProximityNode::stop() {
 
 /// Takes over those parameters that may change while the node runs and that no tick uses. The admin thread calls this.
 void ProximityNode::takeOver(const Params& params) {
-  query_threads_.resize(static_cast<std::uint32_t>(params.query_threads));
+  query_threads_.setThreads(static_cast<std::uint32_t>(params.query_threads));
   marker_pace_.setRate(params.marker_rate);
   housekeeping_.setPeriod(marker_pace_.period());
 }
