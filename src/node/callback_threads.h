@@ -4,6 +4,7 @@
 
 #include <ros/callback_queue.h>
 #include <ros/common.h>
+#include <ros/init.h>
 #include <ros/node_handle.h>
 
 #include <algorithm>
@@ -101,7 +102,9 @@ class CallbackThreads {
     std::atomic<bool>& woken;
   };
 
-  bool mayRun() const { return !stopping_ && node_.ok(); }
+  /// False from the beginning of the shutdown. A publisher that was advertised after that is invalid, and without
+  /// NDEBUG roscpp ends a process that publishes with it.
+  bool mayRun() const { return !stopping_ && node_.ok() && !ros::isShuttingDown(); }
   /// Runs callbacks until there must be at most `number` threads.
   void serve(std::uint32_t number) {
     ros::disableAllSignalsInThisThread();

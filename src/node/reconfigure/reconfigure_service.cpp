@@ -42,8 +42,8 @@ ReconfigureService::ReconfigureService(ros::NodeHandle private_node, const Setti
       ledger_(ledger),
       descriptions_(node_.advertise<dynamic_reconfigure::ConfigDescription>("parameter_descriptions", 1, true)),
       updates_(node_.advertise<dynamic_reconfigure::Config>("parameter_updates", 1, true)) {
-  descriptions_.publish(descriptionMessage());
-  updates_.publish(configMessage(settings_->params));
+  if (descriptions_) descriptions_.publish(descriptionMessage());  // invalid if the node already ends
+  if (updates_) updates_.publish(configMessage(settings_->params));
   const boost::function<bool(Event&)> callback = [this](Event& event) { return answer(event); };
   server_ = node_.advertiseService<Event>("set_parameters", callback);
 }
