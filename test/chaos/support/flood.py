@@ -3,7 +3,7 @@
 # SPDX-FileCopyrightText: the hgrid_proximity authors
 """Floods one input of the node with messages. Some of them are invalid. Prints how many messages it has sent.
 
-usage: flood.py KIND RATE SECONDS SEED, where KIND is tf, tf_static, poses, cloud, map or collision_object
+usage: flood.py KIND RATE SECONDS SEED, where KIND is tf, tf_static, poses, tracks, cloud, map or collision_object
 
 If SEED is negative, all messages are valid.
 
@@ -17,6 +17,7 @@ import sys
 import time
 
 import rospy
+from geometry_msgs.msg import PoseArray
 from hgrid_proximity.msg import Poses
 from sensor_msgs.msg import PointCloud2
 from tf2_msgs.msg import TFMessage
@@ -53,6 +54,15 @@ def poses(rng, stamp):
     place = struct.pack("<II3d", 0, 1, x, 0, 0) + struct.pack("<I4d", 1, 0, 0, 0, 1)
     data = header(stamp, "world") + names + place + struct.pack("<III", 0, 0, 0)
     return data[:-20] if kind == "short" else data
+
+
+def tracks(rng, stamp):
+    """Returns a message of a tracker that reports one person. Some are not valid, as those of transform()."""
+    kind = rng.choice(("valid",) * 6 + ("nan", "old", "future", "short"))
+    stamp += {"old": -100.0, "future": 100.0}.get(kind, 0.0)
+    x = float("nan") if kind == "nan" else 400.0
+    data = header(stamp, "world") + struct.pack("<I7d", 1, x, 0, 0, 0, 0, 0, 1)
+    return data[:-8] if kind == "short" else data
 
 
 def collision_object(rng, stamp):
@@ -103,6 +113,7 @@ def kinds():
         "tf": ("/tf",) + tf + (lambda rng, stamp: transform(rng, stamp, "hand"),),
         "tf_static": ("/tf_static",) + tf + (lambda rng, stamp: transform(rng, stamp, "room"),),
         "poses": ("/proximity/poses", Poses._type, Poses._md5sum, poses),
+        "tracks": ("/people", PoseArray._type, PoseArray._md5sum, tracks),
         "collision_object": ("/collision_object", "moveit_msgs/CollisionObject", COLLISION_OBJECT, collision_object),
         "cloud": ("/cloud", PointCloud2._type, PointCloud2._md5sum, cloud),
         "map": ("/octomap_binary", "octomap_msgs/Octomap", "9a45536b45c5e409cd49f04bb2d9999f",
