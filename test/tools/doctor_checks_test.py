@@ -560,6 +560,12 @@ class DoctorChecks(unittest.TestCase):
         self.break_source("obstacle", "UNPLACED obstacle/crate: it never had a pose (frame 'cart')")
         self.assertIn("tf_echo base", self.expect("source_incomplete").fix)
 
+    def test_an_obstacle_that_messages_on_poses_no_longer_move(self):
+        self.break_source("obstacle", "LOST obstacle/cart: its pose is 3 s old (frame '~poses/cart')")
+        self.assertIn("rostopic hz /proximity/poses", self.expect("source_incomplete").fix)
+        self.break_source("obstacle", "LOST obstacle/cart: its pose is 3 s old (frame 'cart')")
+        self.assertIn("rostopic hz /tf", self.expect("source_incomplete").fix)
+
     def test_stale_poses(self):
         self.facts.status.sources[0].state = STALE
         self.expect("source_stale", code=EXIT_WARN)

@@ -10,14 +10,16 @@ from hgrid_doctor.finding import ERROR, EVERYTHING, WARN, Findings, counted
 
 LATE_SHARE = 0.1  # fraction of the ticks that may be late
 
+POSES_FRAME = "~poses/"  # beginning of the frames of obstacles that messages on ~poses move
+
 HINTS = {  # fix by the first word of the reason
     "UNPLACED": "See whether tf connects its frame with the world: `rosrun tf tf_echo {world} <frame>`.",
     "UNCOVERED": "Correct the shape, or waive it with ~accept_uncovered and a reason.",
-    "LOST": "See why its publisher stopped: `rostopic hz /tf`, `rosnode list`.",
+    "LOST": "See why its publisher stopped: `rostopic hz {topic}`, `rosnode list`.",
     "FROZEN": "Let the clock run on, or wait for the first data after the jump of the clock.",
     "INVALID": "See what the publisher of its frame sends: `rostopic echo /tf`.",
     "REQUIRED": "Add what ~required names, or do not require it.",
-    "REFUSED": "Correct the newest description, map or message; the node reads it again by itself.",
+    "REFUSED": "Correct the newest description, map or message. The node reads a description again by itself; send a map or a message again.",
     "PARSE": "Correct the description, then `rosservice call {node}/reload_robot {source}`.",
 }
 OTHER_HINT = "Correct the cause; the status of the node says more: `rostopic echo -n 1 {node}/status`."
@@ -42,7 +44,8 @@ def check_sources(facts: Facts, findings: Findings):
                 continue
             reason = source.reason or "; ".join(facts.status.not_ready) or "it says no reason"
             hint = HINTS.get(reason.split(" ", 1)[0], OTHER_HINT)
-            fix = hint.format(world=facts.world_frame(), node=facts.node, source=source.name)
+            topic = f"{facts.node}/poses" if f"'{POSES_FRAME}" in reason else "/tf"
+            fix = hint.format(world=facts.world_frame(), node=facts.node, source=source.name, topic=topic)
             findings.add("source_incomplete", ERROR, f"{source.name} is not complete: {reason}.", fix, [source.name])
         elif source.state == STALE and not findings.explain(source.name):
             findings.add(
