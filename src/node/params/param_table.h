@@ -46,7 +46,8 @@ void visitParams(Visitor& v, Params& p) {
   v.string("state_folder", p.state_folder,
            "folder in which obstacles, robots, rules and maps that services changed are stored, so that a restart "
            "keeps them; the "
-           "node creates it if its parent exists, and each node needs its own. Empty: nothing is stored");
+           "node creates it if its parent exists, and each node needs its own. A relative path begins at the working "
+           "folder of the node, which is ROS_HOME under roslaunch. Empty: nothing is stored");
 
   v.section("Robots");
   v.robots("robots", p.robots,

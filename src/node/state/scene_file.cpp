@@ -8,6 +8,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <cerrno>
+#include <filesystem>
 #include <limits>
 #include <locale>
 #include <sstream>
@@ -235,7 +236,9 @@ SavedScene readScene(const std::string& text, const std::string& what, const Par
 }
 
 SceneFolder::SceneFolder(const std::string& state_folder, const std::string& name)
-    : folder_(state_folder + "/scenes"), file_(name + ".yaml"), path_(folder_ + "/" + file_) {
+    : folder_((state_folder.empty() ? "" : std::filesystem::absolute(state_folder).string()) + "/scenes"),
+      file_(name + ".yaml"),
+      path_(folder_ + "/" + file_) {
   constexpr const char* kAllowed = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.";
   if (name.empty() || name.size() > kLongestSceneName || name[0] == '.' ||
       name.find_first_not_of(kAllowed) != std::string::npos) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <random>
 
 #include "src/node/params/obstacle_params.h"
@@ -286,6 +287,12 @@ TEST(YamlValues, WhatIsWrongIsNamedWithItsLine) {
   EXPECT_TRUE(says(said(""), "night.yaml is empty"));
   EXPECT_TRUE(says(said("a: 1\n---\nb: 2\n"), "PARSE night.yaml has more than one document"));
   EXPECT_EQ(said("---\na: 1\n...\n"), "");
+}
+
+/// Claim: the path in the answer of ~save_scene is a full one, also if ~state_folder is not.
+TEST(SceneFolders, HaveFullPaths) {
+  EXPECT_EQ(SceneFolder("/tmp", "x").path(), "/tmp/scenes/x.yaml");
+  EXPECT_EQ(SceneFolder("state", "x").path(), (std::filesystem::current_path() / "state/scenes/x.yaml").string());
 }
 
 TEST(SceneFolders, TakeOnlyPlainNames) {
