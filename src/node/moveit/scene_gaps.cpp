@@ -93,7 +93,7 @@ std::optional<std::string> SceneGaps::sentence() const {
   if (lacks_.empty() && !others_) return std::nullopt;
   const std::string count = others_ ? "" : std::to_string(lacks_.size()) + " ";
   const std::string of = lacks_.empty() ? "" : ", among them '" + printable(lacks_.begin()->first) + "',";
-  return "REFUSED " + count + "objects of MoveIt" + of +
+  return "REFUSED " + count + (lacks_.size() == 1 && !others_ ? "object" : "objects") + " of MoveIt" + of +
          " may be missing or at a wrong place, because messages about them could not be used (the newest: " + why_ +
          "); send each of them again, or a complete planning scene (is_diff: false)";
 }

@@ -37,7 +37,7 @@ std::string sentenceOf(const std::string& robot, const UnplacedLinks& links, con
          (published ? "is not connected to the world frame '" + printable(world_frame) +
                           "'; publish a transform that connects them"
                     : "was never published; start robot_state_publisher and what publishes joint_states, or correct "
-                      "tf_prefix in ~robots");
+                      "the tf_prefix of the robot");
 }
 
 }  // namespace

@@ -95,7 +95,7 @@ TEST(SceneGapsTest, OfAttachedObjectsStayIfACompleteSceneSparesThem) {
   SceneGaps gaps;
   gaps.noteRefused({{"obstacle/held", Lack::place}, {"obstacle/free", Lack::shapes}}, "why");
   gaps.noteApplied(completeScene(true));
-  EXPECT_TRUE(says(gaps, "REFUSED 1 objects"));
+  EXPECT_TRUE(says(gaps, "REFUSED 1 object of"));
   gaps.noteApplied(completeScene());
   EXPECT_FALSE(gaps.sentence());
 }
