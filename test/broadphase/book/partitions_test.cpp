@@ -25,6 +25,13 @@ namespace hgrid {
 namespace book {
 namespace {
 
+/// Returns an empty broad phase of this type with the default options.
+std::unique_ptr<BroadPhase> madeOf(BroadPhaseType type) {
+  BroadPhaseOptions options;
+  options.type = type;
+  return makeBroadPhase(options);
+}
+
 using test::Random;
 
 TEST(PairBits, EachPairHasOneBitOfATriangle) {
@@ -175,9 +182,7 @@ TEST(Partitions, AreMadeByName) {
     EXPECT_TRUE(find(name(type), found));
     EXPECT_EQ(found, type);
     names.insert(name(type));
-    BroadPhaseOptions options;
-    options.type = type;
-    const std::unique_ptr<BroadPhase> made = makeBroadPhase(options);
+    const std::unique_ptr<BroadPhase> made = madeOf(type);
     made->insert(3, {{0, 0, 0}, {1, 1, 1}});
     EXPECT_EQ(made->size(), 1u);
     EXPECT_GT(storedBytes(*made), sizeof(Aabb));
@@ -238,9 +243,7 @@ TEST(Partitions, MissNoBoxAmongTheLargestNumbers) {
   for (int i = 0; i < 20; ++i) row.push_back({{float(i), 0, 0}, {float(i) + 0.5f, 1, 1}});
   for (const BroadPhaseType type : broadPhaseTypes()) {
     SCOPED_TRACE(name(type));
-    BroadPhaseOptions options;
-    options.type = type;
-    const std::unique_ptr<BroadPhase> made = makeBroadPhase(options);
+    const std::unique_ptr<BroadPhase> made = madeOf(type);
     made->update(test::allIds(boxes.size()), boxes);
     EXPECT_EQ(test::foundBy(*made, Sphere{{0, 0, 0}, 1.0}), std::vector<ProxyId>({2}));
     EXPECT_EQ(test::foundBy(*made, Sphere{far.cast<double>(), 1.0}), std::vector<ProxyId>({1}));
@@ -269,9 +272,7 @@ TEST(Partitions, AreBuiltOnceByOneOfManyThreads) {
     boxes.push_back(test::boxAround(test::randomVector(random, -6, 6), test::randomVector(random, 0.1, 1)));
   for (const BroadPhaseType type : broadPhaseTypes()) {
     SCOPED_TRACE(name(type));
-    BroadPhaseOptions options;
-    options.type = type;
-    const std::unique_ptr<BroadPhase> made = makeBroadPhase(options);
+    const std::unique_ptr<BroadPhase> made = madeOf(type);
     made->update(test::allIds(boxes.size()), boxes);
     std::vector<std::vector<ProxyId>> found(4);
     std::vector<std::thread> threads;
