@@ -35,6 +35,7 @@ set(HGRID_CORE_SOURCES
   src/broadphase/hgrid/layer.cpp
   src/broadphase/hgrid/layer_plan.cpp
   src/broadphase/hgrid/level_bounds.cpp
+  src/broadphase/hgrid/occupancy.cpp
   src/broadphase/hgrid/pair_collection.cpp
   src/broadphase/hgrid/pair_search.cpp
   src/broadphase/hgrid/queries.cpp

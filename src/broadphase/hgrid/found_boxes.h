@@ -21,7 +21,6 @@ class PositionWriter {
   const std::uint32_t* begin() const { return buffer_.data(); }
   const std::uint32_t* end() const { return sink_.next; }
   std::size_t size() const { return static_cast<std::size_t>(end() - begin()); }
-  void clear() { sink_.next = buffer_.data(); }
 
  private:
   void restart(std::size_t used) {
@@ -56,28 +55,39 @@ inline bool overlap(const kernels::Box& a, const kernels::Box& b) {
 }
 
 /// Searches each layer. Calls visit(layer, positions) for each layer in which `search` finds boxes.
+/// @param may_have  called as bool may_have(const Occupancy&); says whether a layer needs a search
 /// @param search  called as void search(const kernels::LevelSet&, kernels::PositionSink*); writes the positions of the
 ///                boxes that it finds
-template <class Engine, class Search, class Visit>
-void visitFound(const Engine& engine, Search&& search, Visit&& visit) {
-  PositionWriter writer(bufferOfThread());
+template <class Engine, class MayHave, class Search, class Visit>
+void visitFound(const Engine& engine, MayHave&& may_have, Search&& search, Visit&& visit) {
   for (const Layer& layer : engine.layers) {
-    if (layer.size() == 0) continue;
+    if (layer.size() == 0 || !may_have(layer.occupancy())) continue;
+    PositionWriter writer(bufferOfThread());
     search(layer.levelSet(), writer.sink());
     if (writer.size() == 0) continue;
     visit(layer, writer);
-    writer.clear();
   }
+}
+
+/// Calls visit(layer, positions) for each layer in which boxes overlap a box.
+/// @param make_box  returns the box; called only for layers that need a search
+/// @param may_have  says whether a layer needs a search, see visitFound()
+template <class Engine, class MakeBox, class MayHave, class Visit>
+void visitOverlapping(const Engine& engine, MakeBox&& make_box, MayHave&& may_have, Visit&& visit) {
+  visitFound(
+      engine, may_have,
+      [&](const kernels::LevelSet& levels, kernels::PositionSink* sink) {
+        const kernels::Box box = make_box();
+        kernels::of(engine.isa).overlapping(&levels, &box, sink);
+      },
+      visit);
 }
 
 /// Calls visit(layer, positions) for each layer in which boxes overlap `box`.
 template <class Engine, class Visit>
 void visitOverlapping(const Engine& engine, const kernels::Box& box, Visit&& visit) {
-  const kernels::Kernels& kernels = kernels::of(engine.isa);
-  visitFound(
-      engine,
-      [&](const kernels::LevelSet& levels, kernels::PositionSink* sink) { kernels.overlapping(&levels, &box, sink); },
-      visit);
+  visitOverlapping(
+      engine, [&] { return box; }, [&](const Occupancy& occupancy) { return occupancy.mayOverlap(box); }, visit);
 }
 
 }  // namespace hgrid

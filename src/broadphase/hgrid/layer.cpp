@@ -104,6 +104,7 @@ void Layer::sort(const std::vector<Aabb>& boxes, double finest_edge, const Machi
   if (count_ == 0) {
     plan_.clear();
     levels_.clear();
+    occupancy_.clear();
     return level_bounds_.set(levels_);
   }
   SortScratch& scratch = *machine.scratch;
@@ -149,6 +150,7 @@ bool Layer::divide(const std::vector<Aabb>& boxes, double finest_edge, const Mac
     growTo(scratch.counts, (threads - 1) * plan_.cells());
     levels_.reserve(plan_.levels());
     level_bounds_.reserve(plan_.levels());
+    occupancy_.reserve();
     growTo(start_, plan_.cells() + std::size_t{1});
   } catch (const std::bad_alloc&) {
     return false;
@@ -304,6 +306,11 @@ void Layer::describe(const SortScratch& scratch) {
   }
   point();
   level_bounds_.set(levels_);
+  if (plan_.isDivided()) {
+    occupancy_.set(levels_);
+  } else {
+    occupancy_.clear();  // the only region has no large empty parts
+  }
 }
 
 /// Sets the pointers of the levels to the arrays.
@@ -326,7 +333,7 @@ void Layer::withdraw(std::uint32_t position) {
 std::size_t Layer::bytes() const {
   return (ids_.capacity() + other_ids_.capacity() + start_.capacity()) * sizeof(std::uint32_t) +
          bounds_.capacity() * sizeof(float) + levels_.capacity() * sizeof(kernels::Level) + level_bounds_.bytes() +
-         plan_.bytes();
+         occupancy_.bytes() + plan_.bytes();
 }
 
 void Layer::checkInvariants(const std::vector<Aabb>& boxes) const {

@@ -7,6 +7,7 @@
 
 #include "broadphase/hgrid/layer_plan.h"
 #include "broadphase/hgrid/level_bounds.h"
+#include "broadphase/hgrid/occupancy.h"
 #include "broadphase/kernels/kernels.h"
 #include "broadphase/workers.h"
 
@@ -74,6 +75,8 @@ class Layer {
   bool isDivided() const { return plan_.isDivided(); }
   const RegionTree& regions() const { return plan_.tree(); }
   const LevelBounds& bounds() const { return level_bounds_; }
+  /// Says where the layer certainly has no boxes.
+  const Occupancy& occupancy() const { return occupancy_; }
   kernels::LevelSet levelSet() const { return level_bounds_.over(levels_); }
   /// Returns the allocated memory [bytes].
   std::size_t bytes() const;
@@ -101,6 +104,7 @@ class Layer {
   std::vector<std::uint32_t> start_;  // position of the first box of each cell; at last, the end of the last cell
   std::vector<kernels::Level> levels_;
   LevelBounds level_bounds_;
+  Occupancy occupancy_;
 };
 
 }  // namespace hgrid

@@ -68,10 +68,13 @@ kernels::Line lineOf(const Segment& segment) {
 }
 
 /// Appends the ids of the boxes that overlap a box and pass a test, in ascending order.
-template <class Engine, class Test>
-void appendOverlapping(const Engine& engine, const kernels::Box& box, std::vector<ProxyId>& found, Test&& test) {
+/// @param make_box  returns the box [m]; called only if it is needed
+/// @param may_have  called as bool may_have(const Occupancy&); says whether a layer needs a search
+template <class Engine, class MakeBox, class MayHave, class Test>
+void appendOverlapping(const Engine& engine, MakeBox&& make_box, MayHave&& may_have, std::vector<ProxyId>& found,
+                       Test&& test) {
   const std::size_t before = found.size();
-  visitOverlapping(engine, box, [&](const Layer& layer, const PositionWriter& positions) {
+  visitOverlapping(engine, make_box, may_have, [&](const Layer& layer, const PositionWriter& positions) {
     std::size_t count = found.size();
     found.resize(count + positions.size());
     for (const std::uint32_t position : positions) {  // Store unconditionally and advance by 0 or 1: no misprediction
@@ -80,20 +83,25 @@ void appendOverlapping(const Engine& engine, const kernels::Box& box, std::vecto
     }
     found.resize(count);
   });
-  sortIds(found.data() + before, found.size() - before);
+  if (found.size() > before + 1) sortIds(found.data() + before, found.size() - before);
 }
 
 // Each answer() appends the answer of one query to `found`. Several threads may call it at the same time.
 template <class Engine>
 void answer(const Engine& engine, const Aabb& query, std::vector<ProxyId>& found) {
-  appendOverlapping(engine, boxOf(query), found, [](const Aabb&) { return true; });
+  const kernels::Box box = boxOf(query);
+  appendOverlapping(
+      engine, [&] { return box; }, [&](const Occupancy& occupancy) { return occupancy.mayOverlap(box); }, found,
+      [](const Aabb&) { return true; });
 }
 
 template <class Engine>
 void answer(const Engine& engine, const Sphere& query, std::vector<ProxyId>& found) {
   const double near = touchingDistance(query);
-  appendOverlapping(engine, boxOf(query), found,
-                    [&](const Aabb& box) { return squaredDistance(box, query.center) <= near * near; });
+  appendOverlapping(
+      engine, [&] { return boxOf(query); },
+      [&](const Occupancy& occupancy) { return occupancy.mayBeNear(query.center.data(), near); }, found,
+      [&](const Aabb& box) { return squaredDistance(box, query.center) <= near * near; });
 }
 
 template <class Engine>
@@ -102,7 +110,7 @@ void answer(const Engine& engine, const Segment& query, std::vector<SegmentHit>&
   const kernels::Line line = lineOf(query);
   const std::size_t before = found.size();
   visitFound(
-      engine,
+      engine, [&](const Occupancy& occupancy) { return occupancy.mayTouch(line); },
       [&](const kernels::LevelSet& levels, kernels::PositionSink* sink) { kernels.along(&levels, &line, sink); },
       [&](const Layer& layer, const PositionWriter& positions) {
         const FirstTouch firstTouch(query);

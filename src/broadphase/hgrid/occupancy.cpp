@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "broadphase/hgrid/occupancy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hgrid {
+namespace {
+
+/// A coordinate in coarse cells, as a fixed-point number with 16 binary digits after the point.
+using Fixed = std::int32_t;
+constexpr double kOne = 65536.0;
+
+}  // namespace
+
+void Occupancy::set(const std::vector<kernels::Level>& levels) {
+  constexpr std::size_t kMostMarks = kRows * kAcross / 2;  // if more cells are occupied, the bits are of no use
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  kernels::Box all = {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+  for (const kernels::Level& level : levels) {
+    for (int axis = 0; axis < 3; ++axis) {
+      all.min[axis] = std::min(all.min[axis], level.around.min[axis]);
+      all.max[axis] = std::max(all.max[axis], level.around.max[axis]);
+    }
+  }
+  slack_ = 1e-6;
+  widest_inverse_ = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = static_cast<double>(all.min[axis]), length = static_cast<double>(all.max[axis]) - low;
+    inverse_[axis] = length > 1e-30 && length < 1e30 ? (kLast + 1.0) / length : 0.0;
+    origin_[axis] = inverse_[axis] > 0.0 ? low * inverse_[axis] : 0.0;
+    widest_inverse_ = std::max(widest_inverse_, inverse_[axis]);
+    slack_ += 1e-12 * std::abs(origin_[axis]);
+  }
+  rows_.assign(kRows, 0);
+  std::size_t marks = 0;
+  for (const kernels::Level& level : levels) {
+    if (level.begin == level.end) continue;
+    std::uint32_t low[3], high[3];
+    std::size_t cells_of_level = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = cellAt(cells(static_cast<double>(level.around.min[axis]), axis));
+      high[axis] = cellAt(cells(static_cast<double>(level.around.max[axis]), axis));
+      cells_of_level *= high[axis] - low[axis] + 1;
+    }
+    marks += cells_of_level;
+    if (marks > kMostMarks) return clear();
+    const std::uint32_t bits = (~std::uint32_t{0} << low[0]) & (~std::uint32_t{0} >> (31 - high[0]));
+    for (std::uint32_t z = low[2]; z <= high[2]; ++z) {
+      for (std::uint32_t y = low[1]; y <= high[1]; ++y) rows_[z * kAcross + y] |= bits;
+    }
+  }
+}
+
+// Divides the line into pieces that are so short that the bounds of a piece, grown by the radius, cover at most two
+// cells per axis. From one piece to the next, the bounds move by the same step. The loop has no branches, because they
+// would be mispredicted. Outside the bounds of all boxes, the indices of the cells wrap around. There the search may
+// only find too much.
+bool Occupancy::isOnLine(const kernels::Line& line) const {
+  constexpr double kFarthest = 16384.0;  // [cells] largest coordinate of a fixed-point number
+  constexpr double kMostPieces = 64.0;
+  constexpr double kMargin = 1.0 / 256.0;  // [cells] allows for the rounding to Fixed
+  const double widest = line.around * widest_inverse_ + slack_ + kMargin;
+  const double per_piece = 1.0 / (1.0 - 2.0 * kMargin - 2.0 * widest);  // reciprocal of the longest piece [cells]
+  double from[3], step[3], longest = 0.0, farthest = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    from[axis] = cells(line.from[axis], axis);
+    step[axis] = line.step[axis] * inverse_[axis];
+    const double length = std::abs(step[axis]);
+    longest = longest < length ? length : longest;
+    farthest += std::abs(from[axis]) + length;
+  }
+  const double wanted = longest * per_piece;
+  // False if a value is NaN.
+  const bool fits = (farthest < kFarthest) & (widest < 0.4) & (wanted < kMostPieces);
+  if (!fits) return true;
+  // The number of pieces is a power of two, so that it rarely changes from one query to the next.
+  constexpr double kHalfOfPiece[] = {0.5, 0.5 / 2, 0.5 / 4, 0.5 / 8, 0.5 / 16, 0.5 / 32, 0.5 / 64};
+  const int doublings = wanted < 1.0 ? 0 : 32 - __builtin_clz(static_cast<std::uint32_t>(wanted));
+  const double part = kHalfOfPiece[doublings];
+  const std::int32_t pieces = 1 << doublings;
+  Fixed low[3], high[3], move[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    const double half = step[axis] * part, middle = from[axis] + half;
+    const double reach = std::abs(half) + line.around * inverse_[axis] + (slack_ + kMargin);
+    move[axis] = static_cast<Fixed>(half * (2.0 * kOne));
+    low[axis] = static_cast<Fixed>((middle - reach) * kOne);
+    high[axis] = static_cast<Fixed>((middle + reach) * kOne);
+  }
+  const std::uint32_t* const rows = rows_.data();
+  std::uint32_t found = 0;
+  for (std::int32_t i = 0; i < pieces; ++i) {
+    const auto low_y = static_cast<std::uint32_t>(low[1] >> 16) & 31u,
+               high_y = static_cast<std::uint32_t>(high[1] >> 16) & 31u;
+    const auto low_z = static_cast<std::uint32_t>(low[2] >> 11) & 992u,
+               high_z = static_cast<std::uint32_t>(high[2] >> 11) & 992u;
+    const std::uint32_t bits = 1u << (static_cast<std::uint32_t>(low[0] >> 16) & 31u) |
+                               1u << (static_cast<std::uint32_t>(high[0] >> 16) & 31u);
+    found |= bits & (rows[low_z | low_y] | rows[low_z | high_y] | rows[high_z | low_y] | rows[high_z | high_y]);
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] += move[axis];
+      high[axis] += move[axis];
+    }
+  }
+  return found != 0;
+}
+
+}  // namespace hgrid
