@@ -127,8 +127,12 @@ Window windowOf(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t 
     for (std::size_t i = 0; i < count && sampled < kSample; i += stride) {
       values[sampled++] = boxes[ids[i]].min[static_cast<Eigen::Index>(axis)];
     }
-    std::sort(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(sampled));
-    const double low = values[sampled / 100], high = values[sampled - 1 - sampled / 100];
+    const std::size_t least = sampled / 100, most = sampled - 1 - least;
+    const auto first = values.begin(), end = first + static_cast<std::ptrdiff_t>(sampled);
+    std::nth_element(first, first + static_cast<std::ptrdiff_t>(least), end);
+    const double low = values[least];
+    std::nth_element(first, first + static_cast<std::ptrdiff_t>(most), end);
+    const double high = values[most];
     const double beyond = 0.5 * (high - low);
     window.low[axis] = std::max(lower[axis], low - beyond);
     window.high[axis] = std::min(upper[axis], high + beyond);
