@@ -18,6 +18,8 @@ constexpr std::size_t kShareOfMoving = 4;
 // If less than half of the moving layer still moves, and the layer holds more than a seventh of all boxes, it is
 // cheaper to sort all boxes.
 constexpr std::size_t kShareOfIdle = 7;
+// If other boxes move each time, and more than one in 16, it is cheaper to sort all boxes each time.
+constexpr std::size_t kShareOfOthers = 16;
 
 /// Reserves memory for `count` ids. Like push_back(), it at least doubles the capacity.
 void makeRoom(std::vector<ProxyId>& ids, std::size_t count) {
@@ -193,8 +195,22 @@ void HGrid::Engine::sortAll(bool others) {
   waste = 0.0;
   fixed_astray = false;
   moving_changed = false;
-  kept_valid = kept_dirty = false;
+  dropKept();
+}
+
+void HGrid::Engine::dropKept() {
+  kept_valid = kept_dirty = keep_found = buffers.found_valid = false;
   kept.clear();
+}
+
+bool HGrid::Engine::movesOthers() {
+  const auto moves = [this](ProxyId id) { return std::binary_search(moved.begin(), moved.end(), id); };
+  const auto sample = moved_before.begin();
+  const auto still = std::count_if(sample, sample + static_cast<std::ptrdiff_t>(moved_before_count), moves);
+  const bool others = 2 * static_cast<std::size_t>(still) < moved_before_count;
+  moved_before_count = std::min(moved.size(), moved_before.size());
+  for (std::size_t i = 0; i < moved_before_count; ++i) moved_before[i] = moved[i * moved.size() / moved_before_count];
+  return others;
 }
 
 void HGrid::Engine::sortMoved() {
@@ -204,16 +220,23 @@ void HGrid::Engine::sortMoved() {
     if (layer_of[id] == kFixed) return sortAll();  // rare: fixed boxes should not move
     started += layer_of[id] == kResting;
   }
+  if (movesOthers() && started > stored / kShareOfOthers) return sortAll();
   std::vector<ProxyId>& moving = members[kMoving];
   const bool regroup = started > 0 || moving_changed || !members[kLoose].empty();
   const std::size_t count = regroup ? movingWithLoose() + started : moving.size();
   const double wasted = waste + static_cast<double>(count - moved.size());
   if (count > stored / kShareOfMoving || withdrawn + started > stored || wasted > 2.0 * static_cast<double>(stored)) {
-    return sortAll();
+    sortAll();
+    keep_found = true;
+    return;
   }
   // If few boxes move at a time, but other boxes each time, most boxes of the moving layer do not move anymore.
   const bool others = 2 * started > moved.size() && moved.size() < count / 2;
-  if (others && count > stored / kShareOfIdle) return sortAll();
+  if (others && count > stored / kShareOfIdle) {
+    sortAll();
+    keep_found = true;
+    return;
+  }
   if (regroup) makeRoom(moving, count);
   reserveLayer(kMoving, count);
   if (started > 0) locate(kResting);
@@ -235,10 +258,21 @@ void HGrid::Engine::sortMoved() {
   keepPairs();
 }
 
+bool HGrid::Engine::keepFound() {
+  if (!buffers.found_valid || buffers.found.size() > bound.pairs || buffers.found_overlaps > bound.overlaps)
+    return false;
+  kept.swap(buffers.found);
+  kept_overlaps = buffers.found_overlaps;
+  kept_valid = true;
+  buffers.found_valid = keep_found = false;
+  return true;
+}
+
 void HGrid::Engine::keepPairs() {
   if (!pairs_wanted.load(std::memory_order_relaxed)) return;
   // kept_overlaps still counts the overlaps of boxes that have left their layer. If kept_overlaps is large, a new
   // search corrects its value.
+  if (!kept_valid && keepFound()) kept_dirty = true;
   if (!kept_valid || (kept_dirty && kept_overlaps > bound.overlaps / 2)) {
     kept_valid = false;
     try {

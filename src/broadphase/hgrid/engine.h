@@ -45,6 +45,9 @@ struct SearchBuffers {
   std::vector<std::vector<ProxyPair>> parts;  // pairs per thread; each has room for all pairs: one may do all tasks
   std::vector<std::size_t> used;              // number of pairs in each part
   std::vector<GatheredBoxes> gathered;        // per thread: the copied boxes
+  std::vector<ProxyPair> found;               // the pairs of a whole search, if Engine::keep_found asked for them
+  std::size_t found_overlaps = 0;             // overlapping pairs that this search looked at
+  bool found_valid = false;                   // whether `found` has the pairs of all boxes of the layers
 };
 
 /// The implementation of HGrid. Each box is in one of four layers, which are sorted separately:
@@ -98,6 +101,14 @@ struct HGrid::Engine {
   std::vector<std::uint32_t>& positions() { return layers[kResting].spare(); }
   /// Updates `kept`, so that the next search need not find the pairs of resting boxes again.
   void keepPairs();
+  /// Takes `kept` from the last search, if that search kept its pairs and they do not exceed the bound.
+  /// @returns whether it did
+  bool keepFound();
+  /// Forgets all pairs that were kept.
+  void dropKept();
+  /// Returns whether most boxes that moved the last time do not move now. Samples the boxes in `moved` for the next
+  /// call.
+  bool movesOthers();
 
   /// Returns the number of moving and loose boxes.
   std::size_t movingWithLoose() const;
@@ -122,6 +133,8 @@ struct HGrid::Engine {
   std::size_t withdrawn = 0;                          // number of withdrawn boxes in all layers
   double waste = 0.0;          // how many boxes were sorted although they did not move, summed since the last sortAll()
   std::vector<ProxyId> moved;  // ids of the boxes that sortMoved() sorts
+  std::array<ProxyId, 64> moved_before{};  // some of the boxes that sortMoved() sorted the last time
+  std::size_t moved_before_count = 0;      // number of them
   SortScratch scratch;
   std::unique_ptr<Workers> workers = std::make_unique<Workers>(1);
 
@@ -129,6 +142,7 @@ struct HGrid::Engine {
   std::size_t kept_overlaps = 0;  // overlapping pairs that the search for `kept` looked at
   bool kept_valid = false;        // whether `kept` can be used
   bool kept_dirty = false;        // whether some boxes of `kept` are not in the resting or fixed layer anymore
+  bool keep_found = false;        // whether a search for all pairs copies them, because they will be needed as `kept`
   mutable std::atomic<bool> pairs_wanted{false};  // whether there was a search for pairs; if not, `kept` is not needed
 
   // Search for pairs (pair_search.cpp, pair_collection.cpp). Only one search at a time uses the threads and the shared

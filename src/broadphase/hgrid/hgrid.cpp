@@ -116,7 +116,7 @@ void HGrid::setFixed(const std::vector<ProxyId>& ids) {
 
 void HGrid::setOverlapFilter(const OverlapFilter& filter) {
   engine_->filter = filter;
-  engine_->kept_valid = false;
+  engine_->dropKept();
 }
 
 void HGrid::insert(ProxyId id, const Aabb& box) {

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include <algorithm>
 #include <atomic>
+#include <new>
 
 #include "broadphase/hgrid/engine.h"
 #include "broadphase/hgrid/found_boxes.h"
@@ -410,13 +411,25 @@ bool HGrid::Engine::findPairs(std::vector<ProxyPair>& pairs, const PairBound& up
       addAcross(tasks, layers[mobile], layers[static_cast<std::size_t>(other)]);
   }
   Tally tally(up_to, used, kept_valid ? kept_overlaps : 0);
-  return performAll(used_buffers, kernels::of(isa), {filter, fixed_astray ? &fixed : nullptr}, tally,
-                    lock.owns_lock() ? workers.get() : nullptr, pairs, used);
+  const bool complete = performAll(used_buffers, kernels::of(isa), {filter, fixed_astray ? &fixed : nullptr}, tally,
+                                   lock.owns_lock() ? workers.get() : nullptr, pairs, used);
+  const bool all_rest = layers[kMoving].size() == 0 && layers[kLoose].size() == 0;
+  if (complete && keep_found && all_rest && lock.owns_lock() && !buffers.found_valid) {
+    try {
+      // Like the caller's buffer, this one needs room for a few more pairs next time.
+      if (buffers.found.capacity() < pairs.size()) buffers.found.reserve(pairs.size() + pairs.size() / 8);
+      buffers.found.assign(pairs.begin(), pairs.end());
+      buffers.found_overlaps = tally.overlaps();
+      buffers.found_valid = true;
+    } catch (const std::bad_alloc&) {  // then these pairs will be searched again
+    }
+  }
+  return complete;
 }
 
 void HGrid::setPairBound(const PairBound& bound) {
   engine_->bound = bound;
-  engine_->kept_valid = false;
+  engine_->dropKept();
 }
 
 void HGrid::overlappingPairs(std::vector<ProxyPair>& pairs) const { engine_->findPairs(pairs, PairBound{}); }
