@@ -96,10 +96,10 @@ bool HGrid::Engine::settlesAll(std::size_t moving, std::size_t withdrawn_then, s
 
 void HGrid::Engine::reserveLoose(ProxyId id) {
   const bool comes = !isStored(id), leaves_layer = !comes && layer_of[id] != kLoose;
-  if (leaves_layer) locate(layer_of[id]);
+  if (leaves_layer || (!comes && members[kLoose].size() > kMostLoose)) locate(layer_of[id]);
   const std::size_t stored_then = stored + (comes ? 1 : 0), withdrawn_then = withdrawn + (leaves_layer ? 1 : 0);
   const std::size_t loose = members[kLoose].size() + (comes || leaves_layer ? 1 : 0);
-  members[kLoose].reserve(kMostLoose + 1);
+  members[kLoose].reserve(std::max(kMostLoose + 1, loose));
   reserveLayer(kLoose, loose);
   if (!settlesLoose(loose, withdrawn_then, stored_then)) return;
   const std::size_t moving = members[kMoving].size() + loose;  // upper limit: some boxes may have been taken out
@@ -114,25 +114,25 @@ void HGrid::Engine::reserveLoose(ProxyId id) {
 
 void HGrid::Engine::takeOut(ProxyId id) {
   const LayerNumber from = layer_of[id];
-  if (from == kLoose) {
-    members[kLoose].erase(std::find(members[kLoose].begin(), members[kLoose].end(), id));
+  const bool sorts = from == kLoose && members[kLoose].size() <= kMostLoose;  // a larger layer takes too long to sort
+  if (!sorts) locate(from);
+  buffers.found_valid = false;
+  if (from == kLoose) members[kLoose].erase(std::find(members[kLoose].begin(), members[kLoose].end(), id));
+  if (sorts) {
     layers[kLoose].setIds(members[kLoose]);
     sortLayer(kLoose);
   } else {
-    locate(from);
     layers[from].withdraw(positions()[id]);
     ++withdrawn;
-    if (from == kMoving) {
-      moving_changed = true;
-    } else {
-      kept_dirty = true;
-    }
+    moving_changed = moving_changed || from == kMoving;
+    kept_dirty = kept_dirty || from <= kResting;
   }
   layer_of[id] = kAbsent;
   --stored;
 }
 
 void HGrid::Engine::putLoose(ProxyId id) {
+  buffers.found_valid = false;
   layer_of[id] = kLoose;
   fixed_astray = fixed_astray || isFixed(id);
   ++stored;
@@ -145,6 +145,7 @@ void HGrid::Engine::putLoose(ProxyId id) {
 /// Turns the loose boxes into moving boxes. From the list of moving boxes, removes the boxes that were taken out of the
 /// moving layer.
 void HGrid::Engine::joinLoose() {
+  kept_moving = false;  // kept_dirty is true, so searches leave out the pairs of the moving boxes
   std::vector<ProxyId>& moving = members[kMoving];
   moving.erase(std::remove_if(moving.begin(), moving.end(), [this](ProxyId id) { return layer_of[id] != kMoving; }),
                moving.end());
@@ -199,7 +200,7 @@ void HGrid::Engine::sortAll(bool others) {
 }
 
 void HGrid::Engine::dropKept() {
-  kept_valid = kept_dirty = keep_found = buffers.found_valid = false;
+  kept_valid = kept_dirty = kept_moving = keep_found = buffers.found_valid = false;
   kept.clear();
 }
 
@@ -220,7 +221,9 @@ void HGrid::Engine::sortMoved() {
     if (layer_of[id] == kFixed) return sortAll();  // rare: fixed boxes should not move
     started += layer_of[id] == kResting;
   }
-  if (movesOthers() && started > stored / kShareOfOthers) return sortAll();
+  keep_found = started > 0 && movesOthers();
+  if (keep_found && started > stored / kShareOfOthers) return sortAll();
+  if (keep_found && sortOthers(started)) return;
   std::vector<ProxyId>& moving = members[kMoving];
   const bool regroup = started > 0 || moving_changed || !members[kLoose].empty();
   const std::size_t count = regroup ? movingWithLoose() + started : moving.size();
@@ -241,6 +244,7 @@ void HGrid::Engine::sortMoved() {
   reserveLayer(kMoving, count);
   if (started > 0) locate(kResting);
   // Nothing below allocates, except keepPairs().
+  kept_moving = false;
   if (regroup) {
     joinLoose();
     for (const ProxyId id : moved) {
@@ -256,6 +260,58 @@ void HGrid::Engine::sortMoved() {
   waste = wasted;
   sortLayer(kMoving);
   keepPairs();
+  buffers.found_valid = false;
+}
+
+bool HGrid::Engine::sortOthers(std::size_t started) {
+  // As in keepPairs(), if too many overlaps are counted, only a new search corrects their number.
+  if (!buffers.found_valid || buffers.found.size() > bound.pairs || buffers.found_overlaps > bound.overlaps / 2)
+    return false;
+  std::vector<ProxyId>&moving = members[kMoving], &loose = members[kLoose];
+  const std::size_t count = moving.size() + loose.size();  // upper limit: some of them move now
+  // A search for pairs does not visit the boxes that only have to be sorted. So they count less than in sortMoved().
+  const double wasted = waste + 0.25 * static_cast<double>(count);
+  if (count > stored / kShareOfMoving || withdrawn + started > stored || wasted > 2.0 * static_cast<double>(stored)) {
+    sortAll();
+    keep_found = true;
+    return true;
+  }
+  makeRoom(moving, count);
+  makeRoom(loose, moved.size());
+  reserveLayer(kMoving, count);
+  reserveLayer(kLoose, moved.size());
+  locate(kResting);
+  // Nothing below allocates.
+  // Takes the ids in the order of the layers, because boxes that are near each other are sorted faster one after
+  // another.
+  moving.clear();
+  for (const LayerNumber number : {kMoving, kLoose}) {
+    const Layer& layer = layers[number];
+    for (std::uint32_t i = 0; i < layer.size(); ++i) {
+      if (layer.isWithdrawn(i)) continue;
+      moving.push_back(layer.ids()[i]);
+      layer_of[layer.ids()[i]] = kMoving;
+    }
+  }
+  for (const ProxyId id : moved) {
+    if (layer_of[id] == kResting) {
+      layers[kResting].withdraw(positions()[id]);
+      ++withdrawn;
+    }
+    layer_of[id] = kLoose;
+  }
+  moving.erase(std::remove_if(moving.begin(), moving.end(), [this](ProxyId id) { return layer_of[id] != kMoving; }),
+               moving.end());
+  loose.assign(moved.begin(), moved.end());
+  for (const LayerNumber layer : {kMoving, kLoose}) {
+    layers[layer].setIds(members[layer]);
+    sortLayer(layer);
+  }
+  waste = wasted;
+  moving_changed = false;
+  keepFound();
+  kept_moving = kept_dirty = true;
+  return true;
 }
 
 bool HGrid::Engine::keepFound() {
@@ -264,7 +320,7 @@ bool HGrid::Engine::keepFound() {
   kept.swap(buffers.found);
   kept_overlaps = buffers.found_overlaps;
   kept_valid = true;
-  buffers.found_valid = keep_found = false;
+  kept_moving = buffers.found_valid = false;
   return true;
 }
 
@@ -281,10 +337,7 @@ void HGrid::Engine::keepPairs() {
       return;  // without the kept pairs, each search finds these pairs itself
     }
   } else if (kept_dirty) {
-    kept.erase(std::remove_if(kept.begin(), kept.end(),
-                              [this](const ProxyPair& pair) {
-                                return layer_of[pair.first] > kResting || layer_of[pair.second] > kResting;
-                              }),
+    kept.erase(std::remove_if(kept.begin(), kept.end(), [this](const ProxyPair& pair) { return !isKept(pair); }),
                kept.end());
   }
   kept_dirty = false;

@@ -55,7 +55,8 @@ struct SearchBuffers {
 ///   fixed    boxes that setFixed() names; two fixed boxes never form a pair
 ///   resting  boxes that did not move for a while; the grid keeps their pairs with resting and fixed boxes
 ///   moving   boxes that moved recently; all of them are sorted again when one of them moves
-///   loose    boxes that were inserted or moved one at a time; they are few, because they soon join the moving boxes
+///   loose    boxes that were inserted or moved one at a time; they are few, because they soon join the moving boxes.
+///            If other boxes move each time, these are the boxes that moved the last time
 ///
 /// "Withdrawn" boxes are still in the arrays of a layer, but searches no longer find them.
 ///
@@ -89,6 +90,11 @@ struct HGrid::Engine {
   /// Sorts the boxes whose ids are in `moved`, together with the boxes that moved recently. The caller has already
   /// written the new coordinates to `boxes`. If an allocation fails, the layers are unchanged.
   void sortMoved();
+  /// Works like sortMoved() if other boxes move each time: sorts the boxes in `moved` into the loose layer. The boxes
+  /// that were there join the moving layer. Then the next search only looks for the pairs of the loose boxes, because
+  /// the last search has found all others.
+  /// @returns false if the last search did not keep its pairs; then nothing has changed
+  bool sortOthers(std::size_t started);
   /// Restores `boxes`, `layer_of` and `stored` from the layers, which still hold the boxes from before the change.
   void restoreFromLayers();
   void reserveLayer(LayerNumber layer, std::size_t count);
@@ -106,6 +112,11 @@ struct HGrid::Engine {
   bool keepFound();
   /// Forgets all pairs that were kept.
   void dropKept();
+  /// Returns whether both boxes of a pair are in the layers of `kept`.
+  bool isKept(const ProxyPair& pair) const {
+    const LayerNumber last = kept_moving ? kMoving : kResting;
+    return (layer_of[pair.first] <= last) & (layer_of[pair.second] <= last);
+  }
   /// Returns whether most boxes that moved the last time do not move now. Samples the boxes in `moved` for the next
   /// call.
   bool movesOthers();
@@ -133,15 +144,17 @@ struct HGrid::Engine {
   std::size_t withdrawn = 0;                          // number of withdrawn boxes in all layers
   double waste = 0.0;          // how many boxes were sorted although they did not move, summed since the last sortAll()
   std::vector<ProxyId> moved;  // ids of the boxes that sortMoved() sorts
-  std::array<ProxyId, 64> moved_before{};  // some of the boxes that sortMoved() sorted the last time
+  std::array<ProxyId, 32> moved_before{};  // some of the boxes that sortMoved() sorted the last time
   std::size_t moved_before_count = 0;      // number of them
   SortScratch scratch;
   std::unique_ptr<Workers> workers = std::make_unique<Workers>(1);
 
-  std::vector<ProxyPair> kept;    // pairs of resting boxes with resting and fixed boxes
+  std::vector<ProxyPair> kept;    // pairs of resting boxes with resting and fixed boxes; see kept_moving
+  bool kept_moving = false;       // whether `kept` also has the pairs of moving boxes with all but loose boxes; only
+                                  // true if kept_dirty is
   std::size_t kept_overlaps = 0;  // overlapping pairs that the search for `kept` looked at
   bool kept_valid = false;        // whether `kept` can be used
-  bool kept_dirty = false;        // whether some boxes of `kept` are not in the resting or fixed layer anymore
+  bool kept_dirty = false;        // whether some boxes of `kept` are not in its layers anymore
   bool keep_found = false;        // whether a search for all pairs copies them, because they will be needed as `kept`
   mutable std::atomic<bool> pairs_wanted{false};  // whether there was a search for pairs; if not, `kept` is not needed
 

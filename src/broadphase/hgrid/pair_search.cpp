@@ -373,7 +373,7 @@ bool performAll(SearchBuffers& buffers, const kernels::Kernels& kernels, const C
 }  // namespace
 
 void HGrid::Engine::findKept() {
-  kept_valid = false;
+  kept_valid = kept_moving = false;
   buffers.tasks.clear();
   addWithin(buffers.tasks, layers[kResting]);
   addAcross(buffers.tasks, layers[kResting], layers[kFixed]);
@@ -398,7 +398,7 @@ bool HGrid::Engine::findPairs(std::vector<ProxyPair>& pairs, const PairBound& up
     } else {
       for (const ProxyPair& pair : kept) {
         pairs[used] = pair;
-        used += layer_of[pair.first] <= kResting && layer_of[pair.second] <= kResting;
+        used += isKept(pair) ? 1 : 0;
       }
     }
   } else {
@@ -406,6 +406,7 @@ bool HGrid::Engine::findPairs(std::vector<ProxyPair>& pairs, const PairBound& up
     addAcross(tasks, layers[kResting], layers[kFixed]);
   }
   for (const LayerNumber mobile : {kMoving, kLoose}) {
+    if (mobile == kMoving && kept_valid && kept_moving) continue;
     addWithin(tasks, layers[mobile]);
     for (int other = kFixed; other < mobile; ++other)
       addAcross(tasks, layers[mobile], layers[static_cast<std::size_t>(other)]);
@@ -413,8 +414,7 @@ bool HGrid::Engine::findPairs(std::vector<ProxyPair>& pairs, const PairBound& up
   Tally tally(up_to, used, kept_valid ? kept_overlaps : 0);
   const bool complete = performAll(used_buffers, kernels::of(isa), {filter, fixed_astray ? &fixed : nullptr}, tally,
                                    lock.owns_lock() ? workers.get() : nullptr, pairs, used);
-  const bool all_rest = layers[kMoving].size() == 0 && layers[kLoose].size() == 0;
-  if (complete && keep_found && all_rest && lock.owns_lock() && !buffers.found_valid) {
+  if (complete && keep_found && lock.owns_lock() && !buffers.found_valid) {
     try {
       // Like the caller's buffer, this one needs room for a few more pairs next time.
       if (buffers.found.capacity() < pairs.size()) buffers.found.reserve(pairs.size() + pairs.size() / 8);
