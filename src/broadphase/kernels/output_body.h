@@ -5,6 +5,8 @@
 // This is a part of kernels_body.h, which explains the type Simd.
 #pragma once
 
+#include <cstdint>
+
 #include "broadphase/kernels/kernels.h"
 
 namespace hgrid {
@@ -26,6 +28,8 @@ class Output {
   }
   /// Records that results were written up to `end`.
   void wrote(Found* end) { next_ = end; }
+  /// Returns the address of the end of the results, as a number.
+  std::uintptr_t address() const { return reinterpret_cast<std::uintptr_t>(next_); }
   bool full() const { return full_; }
   /// Copies the end of the results back to the sink.
   void close() { sink_->next = next_; }
