@@ -99,6 +99,19 @@ class RegionTree::Division {
     return group.count * std::log(group.count / volume);
   }
 
+  /// Returns the cost of a split of a group.
+  static double cost(const Group& group) { return kGainPerSample * group.count + kGain; }
+
+  /// Returns an upper bound of the gain that any number of splits of a group can have: no volume is below that of a
+  /// mean box.
+  double mostGain(const Group& group) const {
+    double ratio = 1.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      ratio *= (static_cast<double>(group.high[i]) - group.low[i] + side_[i]) / side_[i];
+    }
+    return group.count * std::log(ratio);
+  }
+
   /// Adds a part with the samples begin .. end - 1. Splits the part if the gain is more than the cost of the split.
   /// @returns the index of the part
   std::size_t divide(std::size_t begin, std::size_t end, int depth) {
@@ -108,7 +121,7 @@ class RegionTree::Division {
     for (std::size_t i = begin; i < end; ++i) group.add(samples_[i]);
     const double alone = likelihood(group);
     parts_[number].likelihood = alone;
-    if (end - begin < 2 * kLeast || depth >= kMostDepth) return number;
+    if (end - begin < 2 * kLeast || depth >= kMostDepth || mostGain(group) <= cost(group)) return number;
     const Split split = bestSplit(group, begin, end);
     if (!split.exists) return number;
     const auto middle = std::partition(samples_.begin() + static_cast<std::ptrdiff_t>(begin),
@@ -116,7 +129,7 @@ class RegionTree::Division {
                                        [&split](const Corner& corner) { return corner[split.axis] < split.at; });
     const auto cut = static_cast<std::size_t>(middle - samples_.begin());
     const std::size_t below = divide(begin, cut, depth + 1), above = divide(cut, end, depth + 1);
-    const double divided = parts_[below].likelihood + parts_[above].likelihood - kGainPerSample * group.count - kGain;
+    const double divided = parts_[below].likelihood + parts_[above].likelihood - cost(group);
     if (divided <= alone) {
       parts_.resize(number + 1);
       return number;
@@ -155,6 +168,7 @@ class RegionTree::Division {
     double most = -std::numeric_limits<double>::infinity();
     Group below;
     for (std::size_t i = 1; i < kBins; ++i) {
+      if (bins[i - 1].count == 0.0) continue;  // the same two groups as for the split before
       below.add(bins[i - 1]);
       if (below.count < kLeast || above[i].count < kLeast) continue;
       const double gain = likelihood(below) + likelihood(above[i]);
