@@ -26,12 +26,14 @@ void Occupancy::set(const std::vector<kernels::Level>& levels) {
     }
   }
   slack_ = 1e-6;
-  widest_inverse_ = 0.0;
+  double longest = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double low = static_cast<double>(all.min[axis]), length = static_cast<double>(all.max[axis]) - low;
-    inverse_[axis] = length > 1e-30 && length < 1e30 ? (kLast + 1.0) / length : 0.0;
-    origin_[axis] = inverse_[axis] > 0.0 ? low * inverse_[axis] : 0.0;
-    widest_inverse_ = std::max(widest_inverse_, inverse_[axis]);
+    longest = std::max(longest, static_cast<double>(all.max[axis]) - static_cast<double>(all.min[axis]));
+  }
+  // The cells are cubes. If they were as flat as the bounds, a line would pass many of them.
+  inverse_ = longest > 1e-30 && longest < 1e30 ? (kLast + 1.0) / longest : 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    origin_[axis] = inverse_ > 0.0 ? static_cast<double>(all.min[axis]) * inverse_ : 0.0;
     slack_ += 1e-12 * std::abs(origin_[axis]);
   }
   rows_.assign(kRows, 0);
@@ -59,15 +61,15 @@ void Occupancy::set(const std::vector<kernels::Level>& levels) {
 // would be mispredicted. Outside the bounds of all boxes, the indices of the cells wrap around. There the search may
 // only find too much.
 bool Occupancy::isOnLine(const kernels::Line& line) const {
-  constexpr double kFarthest = 16384.0;  // [cells] largest coordinate of a fixed-point number
-  constexpr double kMostPieces = 64.0;
+  constexpr double kFarthest = 16384.0;    // [cells] largest coordinate of a fixed-point number
+  constexpr double kMostPieces = 16.0;     // of a longer line, a part may be beyond the bounds of all boxes
   constexpr double kMargin = 1.0 / 256.0;  // [cells] allows for the rounding to Fixed
-  const double widest = line.around * widest_inverse_ + slack_ + kMargin;
+  const double widest = line.around * inverse_ + slack_ + kMargin;
   const double per_piece = 1.0 / (1.0 - 2.0 * kMargin - 2.0 * widest);  // reciprocal of the longest piece [cells]
   double from[3], step[3], longest = 0.0, farthest = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     from[axis] = cells(line.from[axis], axis);
-    step[axis] = line.step[axis] * inverse_[axis];
+    step[axis] = line.step[axis] * inverse_;
     const double length = std::abs(step[axis]);
     longest = longest < length ? length : longest;
     farthest += std::abs(from[axis]) + length;
@@ -77,14 +79,14 @@ bool Occupancy::isOnLine(const kernels::Line& line) const {
   const bool fits = (farthest < kFarthest) & (widest < 0.4) & (wanted < kMostPieces);
   if (!fits) return true;
   // The number of pieces is a power of two, so that it rarely changes from one query to the next.
-  constexpr double kHalfOfPiece[] = {0.5, 0.5 / 2, 0.5 / 4, 0.5 / 8, 0.5 / 16, 0.5 / 32, 0.5 / 64};
+  constexpr double kHalfOfPiece[] = {0.5, 0.5 / 2, 0.5 / 4, 0.5 / 8, 0.5 / 16};
   const int doublings = wanted < 1.0 ? 0 : 32 - __builtin_clz(static_cast<std::uint32_t>(wanted));
   const double part = kHalfOfPiece[doublings];
   const std::int32_t pieces = 1 << doublings;
   Fixed low[3], high[3], move[3];
   for (int axis = 0; axis < 3; ++axis) {
     const double half = step[axis] * part, middle = from[axis] + half;
-    const double reach = std::abs(half) + line.around * inverse_[axis] + (slack_ + kMargin);
+    const double reach = std::abs(half) + widest;
     move[axis] = static_cast<Fixed>(half * (2.0 * kOne));
     low[axis] = static_cast<Fixed>((middle - reach) * kOne);
     high[axis] = static_cast<Fixed>((middle + reach) * kOne);

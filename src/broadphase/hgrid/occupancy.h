@@ -12,9 +12,9 @@ namespace hgrid {
 
 /// Says where in space a layer certainly has no boxes.
 ///
-/// The bounds of all levels are divided into 32 x 32 x 32 coarse cells, with one bit for each cell. The bit is 1 if the
-/// bounds of a level overlap the cell (a bit array of occupied cells, Ericson 2005, 7.1.5). In a layer with several
-/// regions, most of space may be empty. Then a few bits answer a query.
+/// A cube around the bounds of all levels is divided into 32 x 32 x 32 coarse cells, with one bit for each cell. The
+/// bit is 1 if the bounds of a level overlap the cell (a bit array of occupied cells, Ericson 2005, 7.1.5). In a layer
+/// with several regions, most of space may be empty. Then a few bits answer a query.
 ///
 /// The coarse cell of coordinate v is trunc(clamp(v * inverse - origin, 0, 31)), computed in double. Each step is
 /// monotone in v. So two boxes that overlap have a common coarse cell.
@@ -43,7 +43,7 @@ class Occupancy {
     if (rows_.empty()) return true;
     std::uint32_t low[3], high[3];
     for (int axis = 0; axis < 3; ++axis) {
-      const double cell = cells(point[axis], axis), reach = distance * inverse_[axis] + slack_;
+      const double cell = cells(point[axis], axis), reach = distance * inverse_ + slack_;
       low[axis] = cellAt(cell - reach);
       high[axis] = cellAt(cell + reach);
     }
@@ -63,7 +63,7 @@ class Occupancy {
     cell = cell > 0.0 ? cell : 0.0;  // 0 if `cell` is NaN
     return static_cast<std::uint32_t>(static_cast<std::int32_t>(cell < kLast ? cell : kLast));
   }
-  double cells(double value, int axis) const { return value * inverse_[axis] - origin_[axis]; }
+  double cells(double value, int axis) const { return value * inverse_ - origin_[axis]; }
   /// Returns whether one of the cells low .. high is occupied.
   bool isOccupied(const std::uint32_t* low, const std::uint32_t* high) const {
     std::uint32_t found = 0;
@@ -74,9 +74,8 @@ class Occupancy {
   }
   bool isOnLine(const kernels::Line& line) const;
 
-  double inverse_[3] = {}, origin_[3] = {};  // [1/m] and [cells], as in kernels::Grid
-  double widest_inverse_ = 0.0;              // [1/m] the largest of inverse_
-  double slack_ = 0.0;                       // [cells] allows for the rounding of cells
+  double inverse_ = 0.0, origin_[3] = {};  // [1/m] and [cells], as in kernels::Grid
+  double slack_ = 0.0;                     // [cells] allows for the rounding of cells
   // Each number holds the bits of one row of cells along x. Rows follow each other along y, then z. If there are none,
   // all space may have boxes.
   std::vector<std::uint32_t> rows_;
