@@ -96,8 +96,10 @@ set(HGRID_CORE_SOURCES
   src/queries/solid_question.cpp
   src/queries/sphere_question.cpp
   src/refusal.cpp
+  src/world/body_rooms.cpp
   src/world/commit.cpp
   src/world/completeness.cpp
+  src/world/find_rooms.cpp
   src/world/grown_boxes.cpp
   src/world/horizon.cpp
   src/world/map_pairs.cpp

@@ -15,6 +15,7 @@ namespace hgrid {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kMostRooms = 4;  // most rooms of a body that a text names
 
 /// Returns a length as text, rounded to a micrometer, because the coordinates of boxes are not more precise.
 std::string meters(double length) { return text(std::round(length * 1e6) / 1e6) + " m"; }
@@ -29,10 +30,11 @@ std::uint32_t known(const Structure& structure, const std::string& name) {
 class Words {
  public:
   /// @param near  whether the boxes of the two bodies are within the margin
-  Words(const Structure& structure, const Explanation& what, bool near, const OptionNames& options)
+  Words(const Snapshot& snapshot, const Explanation& what, bool near, const OptionNames& options)
       : what_(what),
-        a_(structure.bodies[what.first]),
-        b_(structure.bodies[what.second]),
+        a_(snapshot.structure().bodies[what.first]),
+        b_(snapshot.structure().bodies[what.second]),
+        rooms_(snapshot.rooms()),
         near_(near),
         options_(options) {}
 
@@ -43,7 +45,9 @@ class Words {
     if (what_.reported) {
       result = pair + " are reported: " + nearness() + "." + enabled();
     } else if (off) {
-      result = pair + " are not reported: " + switchedOff() + "." + without();
+      result = pair + " are not reported: " + switchedOff() + "." + (what_.separate ? alsoSeparate() : without());
+    } else if (what_.separate) {
+      result = pair + " are not reported: " + noCommonRoom() + "." + without() + enabled();
     } else if (what_.cut) {
       result = pair + " are not reported, although " + nearness() + ": there are more pairs than " +
                options_.max_pairs + " allows. " +
@@ -147,6 +151,22 @@ class Words {
            ", and no rule can change that";
   }
 
+  /// Returns a text that names the rooms of a body: "a is in 'hall', 'cell'".
+  std::string roomsOf(const Body& body, std::uint32_t number) const {
+    const std::vector<std::uint32_t> rooms = rooms_->roomsOf(number);
+    std::string words = body.name + " is in ";
+    for (std::size_t i = 0; i < std::min(rooms.size(), kMostRooms); ++i) {
+      words += (i > 0 ? ", '" : "'") + printable(rooms_->building().rooms()[rooms[i]].name, 48) + "'";
+    }
+    return rooms.size() > kMostRooms ? words + " and " + std::to_string(rooms.size() - kMostRooms) + " more" : words;
+  }
+
+  std::string noCommonRoom() const {
+    return "they have no room of " + std::string(options_.rooms) +
+           " in common, so they are never a pair: " + roomsOf(a_, what_.first) + ", and " + roomsOf(b_, what_.second);
+  }
+  std::string alsoSeparate() const { return " Also, " + noCommonRoom() + "."; }
+
   std::string theRule(const std::string& begin) const {
     const PairRule& rule = what_.rule;
     std::string words = begin + " '" + printable(rule.first) + "', '" + printable(rule.second) + "' of ";
@@ -160,7 +180,7 @@ class Words {
     return words;
   }
 
-  /// Returns a sentence that says whether the pair would be reported if no rule switched it off.
+  /// Returns a sentence that says whether the pair would be reported if no rule and no wall prevented it.
   std::string without() const {
     if (what_.rule.origin == Origin::self) return {};
     if (hasOnlyCellsOrPlanes(a_) && hasOnlyCellsOrPlanes(b_)) return {};
@@ -208,6 +228,7 @@ class Words {
 
   const Explanation& what_;
   const Body &a_, &b_;
+  const BodyRooms* rooms_;  // null: there are no rooms
   bool near_;
   const OptionNames& options_;
 };
@@ -270,8 +291,9 @@ Explanation explain(const Snapshot& snapshot, const std::string& first, const st
     what.distance = exact->proximity.distance;
   }
   const bool near = fillGap(snapshot, what);
-  what.cut = near && !what.reported && !what.rule.allowed && snapshot.truncated();
-  what.text = Words(structure, what, near, options).all();
+  what.separate = what.first != what.second && snapshot.areSeparate(what.first, what.second);
+  what.cut = near && !what.reported && !what.rule.allowed && !what.separate && snapshot.truncated();
+  what.text = Words(snapshot, what, near, options).all();
   return what;
 }
 

@@ -111,6 +111,7 @@ std::size_t SnapshotRecord::bytesOf(const Lacks& lacks) {
 SnapshotRecord::SnapshotRecord(const Snapshot& snapshot, const SnapshotRecord* previous)
     : structure_(snapshot.structure_),
       cells_(snapshot.cells_),
+      rooms_(snapshot.rooms_),
       stamp_(snapshot.stamp_),
       sequence_(snapshot.sequence_),
       epoch_(snapshot.epoch_),
@@ -172,6 +173,7 @@ std::size_t SnapshotRecord::bytesBeside(const SnapshotRecord* other) const {
   std::size_t bytes = sizeof(*this) + kAllocation + cells_.capacity() * sizeof(cells_[0]);
   bytes += hgrid::bytesBeside(poses_, other != nullptr ? &other->poses_ : nullptr);
   bytes += hgrid::bytesBeside(pairs_, other != nullptr ? &other->pairs_ : nullptr);
+  if (rooms_ && !(other != nullptr && other->rooms_ == rooms_)) bytes += rooms_->bytes() + kAllocation;
   return other != nullptr && other->lacks_ == lacks_ ? bytes : bytes + bytesOf(*lacks_);
 }
 
@@ -215,6 +217,7 @@ std::shared_ptr<const Snapshot> SnapshotRecord::restore(std::size_t& bytes) cons
   snapshot.fillHalfSpaces();
   for (std::uint32_t body = 0; body < snapshot.poses_.size(); ++body) snapshot.addToSummary(body);
   snapshot.cells_ = cells_;
+  snapshot.rooms_ = rooms_;
   for (const PairBlock& block : pairs_) {
     if (block) snapshot.pairs_.insert(snapshot.pairs_.end(), block->begin(), block->end());
   }

@@ -68,6 +68,7 @@ class SnapshotRecord {
   std::vector<PoseBlock> poses_;
   std::vector<PairBlock> pairs_;  // by the block of the first body of the pair
   std::shared_ptr<const Lacks> lacks_;
+  std::shared_ptr<const BodyRooms> rooms_;  // null: there are no rooms
   Time stamp_;
   std::uint64_t sequence_, epoch_, commit_, pairs_found_, last_event_;
   Eigen::Vector3d origin_;

@@ -143,7 +143,7 @@ void Scene::State::addPair(std::uint32_t first, std::uint32_t second, double gap
 bool Scene::State::isCandidate(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second) {
   const BodyPose &a = snapshot.poses_[first], &b = snapshot.poses_[second];
   if (a.state == Freshness::unplaced || b.state == Freshness::unplaced) return false;
-  if (structure->filter.allowed(first, second)) return false;
+  if (structure->filter.allowed(first, second) || snapshot.areSeparate(first, second)) return false;
   if (structure->isMap(first) || structure->isMap(second)) return map_pairs.isNear(snapshot, horizon, first, second);
   if (plane_pairs.isNear(snapshot, horizon, first, second)) return true;
   const double margin = pairMargin(*structure, first, stalenessOf(a), second, stalenessOf(b));
@@ -173,6 +173,7 @@ void Scene::State::fillPairs(Snapshot& snapshot) {
     // The ids of proxies are in the order of their bodies, so `first` is never larger than `second`.
     const std::uint32_t first = structure->body_of_proxy[proxies.first],
                         second = structure->body_of_proxy[proxies.second];
+    if (snapshot.areSeparate(first, second)) continue;
     const Aabb &a = snapshot.boxes_[proxies.first], &b = snapshot.boxes_[proxies.second];
     const double margin = pairMargin(*structure, first, stalenessOf(snapshot.poses_[first]), second,
                                      stalenessOf(snapshot.poses_[second]));
@@ -198,7 +199,7 @@ void Scene::State::fillPairs(Snapshot& snapshot) {
       {structure, snapshot.poses_, snapshot.boxes_, snapshot.pairs_, snapshot.worst_state_, snapshot.max_growth_,
        snapshot.stamp_,
        [&](std::uint32_t first, std::uint32_t second, double up_to) { return snapshot.gapOf(first, second, up_to); },
-       is_cut},
+       is_cut, snapshot.rooms()},
       snapshot.events_);
 }
 
@@ -236,6 +237,7 @@ std::shared_ptr<const Snapshot> Scene::commit(Time stamp, const std::vector<Sour
   snapshot.report_unmapped_ = s.options.report_unmapped;
   s.fillBodies(snapshot);
   s.growBoxes(snapshot);
+  s.findRooms(snapshot);
   const auto boxes_done = Clock::now();
   s.fillGrid(*pooled);
   const auto grid_done = Clock::now();

@@ -121,7 +121,9 @@ void PairEvents::judge(const On& on, const PairsNow& now, PairEventList& list) {
   const Structure& structure = *now.structure;
   const double margin =
       pairMargin(structure, on.first, stalenessOf(now.poses[on.first]), on.second, stalenessOf(now.poses[on.second]));
-  if (within(now, on.first, on.second, margin + hysteresis_) && !structure.filter.allowed(on.first, on.second)) {
+  const bool counts = !structure.filter.allowed(on.first, on.second) &&
+                      !(now.rooms != nullptr && now.rooms->areSeparate(on.first, on.second));
+  if (counts && within(now, on.first, on.second, margin + hysteresis_)) {
     next_.push_back(on);
     return;
   }

@@ -23,14 +23,15 @@ struct PairsNow {
   Time stamp;
   /// Returns the gap [m] of two bodies; infinite if it exceeds `up_to`. Called only for pairs with a map or a plane.
   std::function<double(std::uint32_t first, std::uint32_t second, double up_to)> special_gap = nullptr;
-  IsCut is_cut = nullptr;  ///< called for pairs that are on (see PairEvents) but not in `pairs`
+  IsCut is_cut = nullptr;            ///< called for pairs that are on (see PairEvents) but not in `pairs`
+  const BodyRooms* rooms = nullptr;  ///< Snapshot::rooms(); bodies without a common room make no pair
 };
 
 /// Finds the pairs that began or ended since the previous tick, and the cause of each event.
 ///
 /// A pair is "on" from its BEGIN event to its END event. It ends when its gap exceeds its margin by more than the
-/// hysteresis. The broad phase does not know the hysteresis. So this class computes the gaps of pairs that are on but
-/// not listed.
+/// hysteresis, or when its bodies have no room in common. The broad phase does not know the hysteresis. So this class
+/// computes the gaps of pairs that are on but not listed.
 ///
 /// If only truncation removed a pair from the list, the pair stays on. So more pairs may be on than are listed. While
 /// the maximum number of pairs is on, listed pairs do not begin. They begin in the first tick that has room for them.

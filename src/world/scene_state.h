@@ -23,6 +23,11 @@
 
 namespace hgrid {
 
+/// Returns a building whose walls and openings are relative to `origin`; null if there are no rooms.
+/// @param world  [m, world] may be null
+std::shared_ptr<const Building> buildingFrom(const std::shared_ptr<const Building>& world,
+                                             const Eigen::Vector3d& origin);
+
 /// The data of a Scene: the bodies, and the data that commits keep from tick to tick.
 struct Scene::State {
   /// The part of a body that every tick reads and writes. The rest of the body is in State::bodies, so that a tick
@@ -50,6 +55,7 @@ struct Scene::State {
   explicit State(const SceneOptions& scene_options)
       : options(scene_options),
         limits(PairLimits::of(scene_options.max_pairs)),
+        building(buildingFrom(scene_options.building, scene_options.origin)),
         horizon(scene_options.horizon, scene_options.growth_cap),
         tracker(limits.remembered),
         pair_events(scene_options.event_hysteresis, limits.remembered) {}
@@ -62,6 +68,7 @@ struct Scene::State {
 
   SceneOptions options;
   PairLimits limits;
+  const std::shared_ptr<const Building> building;  // relative to options.origin; null: there are no rooms
   std::vector<Slot> slots;
   std::vector<std::shared_ptr<const Body>> bodies;     // the body in each slot; null: the slot is not used
   std::vector<std::shared_ptr<const MapCells>> cells;  // the cells of the body in each slot; null: it has no cells
@@ -113,6 +120,12 @@ struct Scene::State {
   void fillGrid(PooledSnapshot& pooled);
   bool moveInGrid(BroadPhase& grid);
 
+  // find_rooms.cpp: finds the rooms of the bodies.
+
+  void findRooms(Snapshot& snapshot);
+  void listRooms(const Snapshot& snapshot, std::uint32_t body);
+  bool isRegrown(const Snapshot& snapshot, std::uint32_t body) const;
+
   // completeness.cpp: decides which sources are complete.
 
   void fillSources(Structure& structure) const;
@@ -151,9 +164,14 @@ struct Scene::State {
   std::vector<std::uint32_t> position_of;  // for each proxy of a placed body: its position in these arrays
   std::uint64_t grown_revision = 0;
   std::size_t grown_unplaced = 0;
-  std::vector<ProxyId> regrown;               // proxies whose grown boxes differ from those in the grid
-  std::vector<Aabb> regrown_boxes;            // these boxes, in the same order
-  std::vector<std::uint32_t> changed_bodies;  // see changedBodies()
+  // The rooms of an earlier commit, which may have failed after it found them. They stay valid like the grown boxes.
+  std::shared_ptr<const BodyRooms> rooms;
+  std::uint64_t rooms_revision = 0;
+  std::size_t rooms_unplaced = 0;
+  std::vector<std::uint32_t> body_rooms, box_rooms;  // see listRooms()
+  std::vector<ProxyId> regrown;                      // proxies whose grown boxes differ from those in the grid
+  std::vector<Aabb> regrown_boxes;                   // these boxes, in the same order
+  std::vector<std::uint32_t> changed_bodies;         // see changedBodies()
   std::vector<ProxyPair> proxy_pairs;
   PairChoice choice;
 };

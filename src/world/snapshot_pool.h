@@ -29,9 +29,11 @@ struct PooledSnapshot {
   std::uint64_t grid_revision = 0;          ///< revision of the structure that `broad_phase` was set up for
   bool finished = false;  ///< whether a commit has filled the snapshot; if the commit failed, it is not used again
 
-  /// Releases what the next commit does not need: the cells of maps, and the structure before the last change.
+  /// Releases what the next commit does not need: the cells of maps, the rooms, and the structure before the last
+  /// change.
   void release() {
     snapshot.cells_.clear();
+    snapshot.rooms_.reset();
     snapshot.events_.before.reset();
   }
 };

@@ -6,6 +6,7 @@
 
 #include "hgrid_proximity/explain/explain.h"
 #include "hgrid_proximity/queries/query.h"
+#include "test/support/buildings.h"
 #include "test/support/maps.h"
 #include "test/support/scenes.h"
 
@@ -99,6 +100,7 @@ void addPairs(const Snapshot& s, Random& random, Bytes& out) {
     for (const double value : {what.gap, what.margin, what.growth, what.age_first, what.age_second}) out.add(value);
     out.add(what.reported);
     out.add(what.cut);
+    out.add(what.separate);
     out.add(what.since.count());
   }
 }
@@ -149,6 +151,7 @@ SceneOptions ChangingWorld::optionsOf(Random& random) {
   if (random.chance(0.5)) options.origin << random.uniform(-10, 10), 1.5, -7;
   if (random.chance(0.3)) options.horizon = 0.5;
   if (random.chance(0.3)) options.max_pairs = 20;
+  if (random.chance(0.5)) options.building = twoRooms();
   return options;
 }
 

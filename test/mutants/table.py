@@ -21,6 +21,7 @@ QUERIES = "broadphase/hgrid/queries.cpp"
 SCENE = "world/scene.cpp"
 COMMIT = "world/commit.cpp"
 GROWN = "world/grown_boxes.cpp"
+ROOMS = "world/find_rooms.cpp"
 EVENTS = "world/pair_events.cpp"
 BRICKS = "maps/static_grid_bricks.h"
 LINE = "maps/static_grid_line.h"
@@ -199,7 +200,19 @@ CORE = [
     ("a tick uses the rounding mode of its caller", COMMIT,
      "const DefaultFloatEnvironment environment;\n  using Clock", "using Clock"),
     ("a pair ends without hysteresis", EVENTS,
-     "margin + hysteresis_) &&", "margin) &&"),
+     "margin + hysteresis_)) {", "margin)) {"),
+    ("a pair does not end when walls separate its bodies", EVENTS,
+     "!(now.rooms != nullptr && now.rooms->areSeparate(on.first, on.second))", "true"),
+    ("margins do not reach through doors", ROOMS,
+     "inDouble(grown_boxes[position])", "inDouble(grown_from[position].box)"),
+    ("a body with an old pose is only in the rooms of this pose", ROOMS, "snapshot.poses_[body].growth + ", ""),
+    ("the horizon ends at walls", ROOMS, " + horizon.reachOf(body)", ""),
+    ("a body that is partly outside of all rooms is in its rooms only", ROOMS,
+     "if (box_rooms.empty()) return body_rooms.clear();", ""),
+    ("the rooms of a body do not follow its motion", ROOMS,
+     "if (body != Structure::kNone && isRegrown(", "if (false && isRegrown("),
+    ("the rooms of other bodies are kept when a body gets its first pose", ROOMS, " && rooms_unplaced == unplaced", ""),
+    ("a plane is in the rooms of the boxes of its body", ROOMS, " || structure->hasPlane(body)", ""),
     ("pairs of removed bodies end without an event", EVENTS,
      "else if (!epoch_began_) {", "else if (false) {"),
     ("a new body with the name of a removed body inherits its pairs", EVENTS,

@@ -39,6 +39,10 @@ inline std::string pairsOf(const Snapshot& s) {
             std::to_string(pair.gap) + " " + std::to_string(pair.margin) + " since " +
             std::to_string(pair.since.count()) + " flags " + std::to_string(pair.flags) + "\n";
   }
+  for (std::uint32_t body = 0; s.rooms() != nullptr && body < s.poses().size(); ++body) {
+    for (const std::uint32_t room : s.rooms()->roomsOf(body)) text += std::to_string(room) + ",";
+    text += s.rooms()->isAnywhere(body) ? "*;" : ";";
+  }
   return text;
 }
 

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <thread>
 
+#include "test/support/buildings.h"
 #include "test/support/failing_allocations.h"
 #include "test/support/maps.h"
 #include "test/support/rules.h"
@@ -107,6 +108,7 @@ class Writer {
     s.options.horizon = seed % 2 == 0 ? 0.0 : 0.5;
     s.options.threads = random_.between(1, 2);
     s.options.event_hysteresis = 0.05;
+    if (seed > 2) s.options.building = test::twoRooms();
     if (random_.chance(0.5)) s.options.pair_margins.push_back({"arm/*", "obstacle/*", 0.5});
     for (const Body& body : test::armBodies("arm")) add(body);
     for (int i = 0; i < 4; ++i) add(test::randomBody(random_, "thing" + std::to_string(i)));

@@ -17,6 +17,7 @@ struct Explanation {
   std::uint32_t second = 0;                      ///< index of the second body in Structure::bodies
   bool reported = false;                         ///< whether Snapshot::pairs() lists the pair
   std::size_t position = 0;                      ///< index in Snapshot::pairs(), if the pair is reported
+  bool separate = false;                         ///< whether the two bodies have no room in common (BodyRooms)
   bool cut = false;                              ///< whether the pair is within its margin, but truncation removed it
   std::string text;                              ///< the explanation in sentences, for users
   PairRule rule;                                 ///< the rule that decides about the pair; Origin::none: no rule
@@ -42,6 +43,7 @@ struct OptionNames {
   const char* pair_kinds = "SceneOptions::pair_kinds";        ///< which kinds of pair exist
   const char* allowed_pairs = "SceneOptions::allowed_pairs";  ///< where rules of Origin::parameter come from
   const char* added_rules = "Scene::setRules()";              ///< where rules of Origin::service come from
+  const char* rooms = "SceneOptions::building";               ///< rooms with solid walls
 };
 
 /// Explains why a pair of bodies is reported or not.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hgrid_proximity/broadphase/broad_phase_type.h"
+#include "hgrid_proximity/broadphase/rooms.h"
 #include "hgrid_proximity/world/snapshot.h"
 
 namespace hgrid {
@@ -19,6 +20,9 @@ struct SceneOptions {
   double event_hysteresis = 0.02;  ///< [m] a pair ends when its gap exceeds its margin by more than this, 0 .. 1e3
   /// The kind of broad phase. It changes the time and the memory of a tick, but never its results.
   BroadPhaseType broad_phase = BroadPhaseType::hgrid;
+  /// [m, world] Rooms with solid walls, and doors: bodies without a common room make no pair, see BodyRooms. Null:
+  /// none.
+  std::shared_ptr<const Building> building;
   double finest_edge = 0.0;    ///< [m] GridScale::finest_edge, 1e-6 .. 1e3; 0: computed from the sizes of the bodies
   double world_limit = 1e6;    ///< [m] poses with a larger coordinate on any axis are refused; at most 1e6
   double growth_cap = 1.0;     ///< [m] largest growth of the margins of a stale body, 0 .. 1e3

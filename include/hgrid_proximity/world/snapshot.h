@@ -14,6 +14,7 @@
 #include "hgrid_proximity/pairs/near_pair.h"
 #include "hgrid_proximity/pairs/pair_event.h"
 #include "hgrid_proximity/world/body_pose.h"
+#include "hgrid_proximity/world/body_rooms.h"
 #include "hgrid_proximity/world/structure.h"
 
 namespace hgrid {
@@ -59,6 +60,13 @@ class Snapshot {
   /// The pairs, sorted by (first, second). If truncated(), some pairs are missing. Then this lists the pairs with the
   /// smallest gaps among the pairs that the search collected. Among equal gaps, the names decide.
   const std::vector<NearPair>& pairs() const { return pairs_; }
+  /// The rooms of the bodies; null if SceneOptions::building is null or has no rooms. The walls and openings of its
+  /// building are relative to origin().
+  const BodyRooms* rooms() const { return rooms_.get(); }
+  /// Whether two bodies make no pair because they have no room in common.
+  bool areSeparate(std::uint32_t first, std::uint32_t second) const {
+    return rooms_ && rooms_->areSeparate(first, second);
+  }
   /// Whether pairs() may lack some pairs, because of SceneOptions::max_pairs. Queries miss nothing in this case.
   bool truncated() const { return searchCut() || pairs_found_ > pairs_.size(); }
   /// Whether the search for pairs stopped at its limit. If not, the search found all pairs.
@@ -141,6 +149,7 @@ class Snapshot {
   std::vector<Aabb> boxes_;
   std::vector<HalfSpace> half_spaces_;                  // in the order of structure_->planes
   std::vector<std::shared_ptr<const MapCells>> cells_;  // in the order of structure_->maps
+  std::shared_ptr<const BodyRooms> rooms_;              // see rooms()
   std::vector<NearPair> pairs_;
   std::uint64_t pairs_found_ = 0;
   bool search_cut_ = false;

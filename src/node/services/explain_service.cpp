@@ -17,7 +17,8 @@
 namespace hgrid {
 namespace {
 
-constexpr OptionNames kOptionNames = {"~max_pairs", "~horizon", "~pair_kinds", "~allowed_pairs", "~set_allowed"};
+constexpr OptionNames kOptionNames = {"~max_pairs",     "~horizon",     "~pair_kinds",
+                                      "~allowed_pairs", "~set_allowed", "~rooms"};
 
 /// Returns the age [s] of the pose of a body when the answer is sent. It is 0 for a fixed body.
 /// @param age       [s] age of the pose when the tick was computed; NaN if the body never had a pose
