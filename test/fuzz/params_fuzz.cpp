@@ -45,6 +45,24 @@ class RangeCheck {
     for (const PatternValue& entry : values) within(name, entry.value, low, high);
   }
   void allowed(const char*, const std::vector<PairRule>&, const char*) {}
+  void rooms(const char* name, const std::vector<Room>& rooms, const char*) {
+    for (const Room& room : rooms) {
+      named(name, room.name);
+      if (room.walls.empty()) flaw = "a room has no walls";
+      for (const RoomWall& wall : room.walls) {
+        within(name, wall.normal.norm(), 1.0 - 1e-9, 1.0 + 1e-9);
+        within(name, wall.offset, -4e6, 4e6);
+      }
+    }
+    rooms_ = rooms.size();
+  }
+  void doors(const char* name, const std::vector<Portal>& doors, const char*) {
+    for (const Portal& door : doors) {
+      for (const std::size_t room : door.rooms) within(name, static_cast<double>(room), 0.0, double(rooms_) - 1.0);
+      if (door.rooms[0] == door.rooms[1]) flaw = "a door leads from a room to itself";
+      for (int axis = 0; axis < 3; ++axis) within(name, door.opening.sizes()[axis], 0.0, 4e6);
+    }
+  }
   void robots(const char* name, const std::vector<RobotParams>& robots, const char*) {
     for (const RobotParams& robot : robots) named(name, robot.name);
   }
@@ -91,6 +109,7 @@ class RangeCheck {
   std::string flaw;
 
  private:
+  std::size_t rooms_ = 0;
   void within(const std::string& name, double value, double low, double high) {
     if (!(value >= low && value <= high)) flaw = "~" + name + " was accepted with " + text(value);
   }

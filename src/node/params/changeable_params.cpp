@@ -30,6 +30,8 @@ class ChangeableCollector {
   void strings(const char*, const std::vector<std::string>&, const char*) {}
   void robots(const char*, const std::vector<RobotParams>&, const char*) {}
   void waivers(const char*, const std::vector<Waiver>&, const char*) {}
+  void rooms(const char*, const std::vector<Room>&, const char*) {}
+  void doors(const char*, const std::vector<Portal>&, const char*) {}
   void allowed(const char*, const std::vector<PairRule>&, const char*) {}
   void obstacles(const char*, const std::vector<ObstacleParams>&, const char*) {}
   void maps(const char*, const std::vector<MapParams>&, const char*) {}

@@ -62,6 +62,8 @@ class RowCollector {
   }
   void robots(const char* name, const std::vector<RobotParams>&, const char* meaning) { list(name, meaning); }
   void waivers(const char* name, const std::vector<Waiver>&, const char* meaning) { list(name, meaning); }
+  void rooms(const char* name, const std::vector<Room>&, const char* meaning) { list(name, meaning); }
+  void doors(const char* name, const std::vector<Portal>&, const char* meaning) { list(name, meaning); }
   void allowed(const char* name, const std::vector<PairRule>&, const char* meaning) { list(name, meaning); }
   void obstacles(const char* name, const std::vector<ObstacleParams>&, const char* meaning) { list(name, meaning); }
   void maps(const char* name, const std::vector<MapParams>&, const char* meaning) { list(name, meaning); }

@@ -179,6 +179,19 @@ void visitParams(Visitor& v, Params& p) {
   v.allowed("allowed_pairs", p.allowed_pairs,
             "list of {first, second, reason, allowed}: globs over body names; pairs that match may touch and are not "
             "reported; allowed: false: they are reported, even if a robot allows them");
+  v.rooms("rooms", p.rooms,
+          "list of {name, pose: {xyz: [m], rpy: [rad]}, size: [x, y, z]} or {name, walls: [{normal: [x, y, z], offset: "
+          "[m]}]}: convex rooms with solid walls, in the world frame. Two bodies without a common room are never a "
+          "pair. pose: of the center of the room; default: no rotation, at the origin. size: lengths of the sides in "
+          "m. walls: each normal points out of the room and may have any length; offset: distance of the wall from the "
+          "origin, along the normal. Planes, maps, clouds and bodies with a shape in no room make pairs with "
+          "everything. At most 1000. See doc/partitions.md");
+  v.doors(
+      "doors", p.doors,
+      "list of {rooms: [name, name], pose: {xyz: [m], rpy: [rad]}, size: [x, y, z]}: openings between two of the "
+      "rooms, such as doors and windows, in the world frame. A body that reaches into the box, its margin included, "
+      "is in both rooms. The box must go through the whole thickness of the wall. If it is rotated, the box around "
+      "it whose sides are parallel to the axes takes its place. At most 4000");
   v.values("margins", p.margins, "margin", "m", 0.0, 1000.0,
            "list of {pattern, margin}: margin of the bodies that match the glob. A pair has the larger margin of its "
            "two bodies. If several globs match, the last one counts");

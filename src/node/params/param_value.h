@@ -35,6 +35,7 @@ class ParamValue {
   /// Returns the elements of a list. If the value is not a list, adds an error and returns nothing.
   std::vector<ParamValue> elements();
   // Members of a struct. finish() adds an error for each member for which neither get() nor require() was called.
+  bool isList() const { return value_.getType() == XmlRpc::XmlRpcValue::TypeArray; }
   bool isStruct() const { return value_.getType() == XmlRpc::XmlRpcValue::TypeStruct; }
   /// As isStruct(), but adds an error if the value is not a struct.
   bool requireStruct();

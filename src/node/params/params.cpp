@@ -13,6 +13,7 @@
 #include "node/params/param_table.h"
 #include "node/params/param_value.h"
 #include "node/params/param_words.h"
+#include "node/params/room_params.h"
 #include "node/params/tracker_params.h"
 #include "node/tf/frame_names.h"
 
@@ -128,6 +129,12 @@ class Reader {
                      "'; allowed kinds are self, robot_robot, robot_obstacle, robot_map, moving_obstacle");
       }
     }
+  }
+  void rooms(const char* name, std::vector<Room>& value, const char*) {
+    if (auto given = get(name)) value = readRooms(*given);
+  }
+  void doors(const char* name, std::vector<Portal>& value, const char*) {
+    if (auto given = get(name)) value = readDoors(*given, params_.rooms);  // the table has rooms before doors
   }
   void obstacles(const char* name, std::vector<ObstacleParams>& value, const char*) {
     obstacles_ = get(name);  // finish() reads them, because the limits of sizes are parameters, too

@@ -11,6 +11,7 @@
 #include "hgrid_proximity/adapters/octomap.h"
 #include "hgrid_proximity/bodies/body.h"
 #include "hgrid_proximity/broadphase/broad_phase_type.h"
+#include "hgrid_proximity/broadphase/rooms.h"
 #include "hgrid_proximity/pairs/pair_filter.h"
 #include "hgrid_proximity/pairs/pair_margins.h"
 
@@ -135,6 +136,8 @@ struct Params {
   double map_shown_within = 1.0;
   std::vector<PairRule> allowed_pairs;
   PairKinds pair_kinds;
+  std::vector<Room> rooms;
+  std::vector<Portal> doors;
   std::vector<Waiver> accept_uncovered;
   std::vector<std::string> required, use_visual;
   std::vector<PairMargin> pair_margins;

@@ -19,6 +19,7 @@ SceneOptions optionsOf(const Params& params, const std::vector<PairRule>& stored
   options.event_hysteresis = params.event_hysteresis;
   options.broad_phase = params.broad_phase;
   options.finest_edge = params.finest_edge;
+  if (!params.rooms.empty()) options.building = std::make_shared<const Building>(params.rooms, params.doors);
   options.threads = params.threads;
   options.world_limit = params.world_limit;
   options.growth_cap = params.growth_cap;
