@@ -133,6 +133,9 @@ void takeSettings(const Params& params, AuditCase& result) {
   result.max_future = params.max_future;
   result.world_limit = params.world_limit;
   result.origin_distance = params.origin.cwiseAbs().maxCoeff();
+  result.horizon = params.horizon;
+  result.rooms = params.rooms;
+  result.doors = params.doors;
   result.pair_kinds = params.pair_kinds;
   result.pair_margins = params.pair_margins;
 }

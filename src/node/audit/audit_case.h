@@ -59,6 +59,9 @@ struct AuditCase {
   // The parameters that poses and pairs depend on. doc/parameters.md explains them. `growth_after` is ~stale_after.
   double margin = 0.0, growth_cap = 0.0, growth_after = 0.0, max_sync_wait = 0.0, max_future = 0.0, world_limit = 0.0;
   double origin_distance = 0.0;  // [m] largest absolute coordinate of ~origin
+  double horizon = 0.0;          // [s]
+  std::vector<Room> rooms;
+  std::vector<Portal> doors;
   PairKinds pair_kinds;
   std::vector<PairMargin> pair_margins;
   std::vector<PairRule> rules;  // all rules of the pair filter

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "node/audit/expected_filter.h"
+#include "node/audit/expected_rooms.h"
 #include "node/audit/listed_pairs.h"
 
 namespace hgrid {
@@ -16,7 +17,12 @@ constexpr std::uint64_t kMostComparisons = 20000000;  // most comparisons of one
 class PairAudit {
  public:
   PairAudit(const AuditCase& audited, const std::vector<RealBoxes>& boxes, AuditFindings& findings)
-      : audited_(audited), boxes_(boxes), findings_(findings), filter_(audited), listed_(audited) {
+      : audited_(audited),
+        boxes_(boxes),
+        findings_(findings),
+        filter_(audited),
+        rooms_(audited, boxes, filter_),
+        listed_(audited) {
     for (std::uint32_t i = 0; i < boxes.size(); ++i) most_ = std::max(most_, filter_.mostOf(i));
   }
 
@@ -28,7 +34,7 @@ class PairAudit {
     if (no_planes && a.all.exteriorDistance(b.all) > 2.0 * most_) return;
     const double gap = a.gapTo(b), margin = filter_.marginOf(first, second);
     if (gap > margin - kPoseSlack || listed_.find(first, second) != nullptr) return;
-    if (audited_.truncated || !filter_.reports(first, second)) return;
+    if (audited_.truncated || !filter_.reports(first, second) || !rooms_.surelyJoined(first, second)) return;
     findings_.add(listed_.nameOf(first, second) + " is missing: the gap of its boxes is " + text(gap) +
                   " m and its margin " + text(margin) + " m");
   }
@@ -41,6 +47,8 @@ class PairAudit {
   void check(const NearPair& pair) {
     const std::string subject = listed_.nameOf(pair.first, pair.second);
     if (!filter_.reports(pair.first, pair.second)) findings_.add(subject + " is listed, but it is switched off");
+    if (rooms_.surelySeparate(pair.first, pair.second))
+      findings_.add(subject + " is listed, but its bodies have no room in common");
     const double margin = filter_.marginOf(pair.first, pair.second);
     if (pair.margin < margin - kPoseSlack) {
       findings_.add(subject + " has the margin " + text(pair.margin) + " m; it should be " + text(margin) + " m");
@@ -60,6 +68,7 @@ class PairAudit {
   const std::vector<RealBoxes>& boxes_;
   AuditFindings& findings_;
   const ExpectedFilter filter_;
+  ExpectedRooms rooms_;
   const ListedPairs listed_;
   double most_ = 0.0;  // [m] the largest mostOf() of all bodies; no margin of a pair is larger than twice this
 };

@@ -12,7 +12,8 @@
 namespace hgrid {
 
 /// Compares each body with each other body to find the near pairs. Compares these with the pairs that the tick lists.
-/// Uses the poses of the node, because auditPoses() checks them. Uses neither the grid nor the pair filter of the node.
+/// Uses the poses of the node, because auditPoses() checks them. Uses neither the grid nor the pair filter nor the
+/// rooms of the node.
 /// @param boxes  for each body: its boxes; none if the body has no pose
 /// @param seed   if the world has too many pairs, selects the bodies that are compared with all others
 void auditPairs(const AuditCase& audited, const std::vector<RealBoxes>& boxes, std::uint64_t seed,

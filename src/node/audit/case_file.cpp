@@ -11,7 +11,7 @@
 namespace hgrid {
 namespace {
 
-constexpr const char* kTitle = "hgrid_proximity_audit_3";  // kind and version of the file
+constexpr const char* kTitle = "hgrid_proximity_audit_4";  // kind and version of the file
 
 // Each pass() function writes a value if the file is a TextWriter. If the file is a TextReader, it reads the value.
 
@@ -78,10 +78,29 @@ void pass(File& file, RecordedQuery& query) {
 }
 
 template <class File>
+void passRooms(File& file, AuditCase& audited) {
+  passAll(file, "rooms", audited.rooms, {}, [&](Room& room) {
+    file.line("room");
+    file.value(room.name);
+    passAll(file, "walls", room.walls, {}, [&](RoomWall& wall) {
+      file.line("wall");
+      pass(file, wall.normal);
+      file.value(wall.offset);
+    });
+  });
+  passAll(file, "doors", audited.doors, {}, [&](Portal& door) {
+    file.line("door");
+    for (std::size_t& room : door.rooms) file.value(room);
+    pass(file, door.opening.min());
+    pass(file, door.opening.max());
+  });
+}
+
+template <class File>
 void passSettings(File& file, AuditCase& audited) {
   file.line("settings");
   for (double* number : {&audited.margin, &audited.growth_cap, &audited.growth_after, &audited.max_sync_wait,
-                         &audited.max_future, &audited.world_limit, &audited.origin_distance}) {
+                         &audited.max_future, &audited.world_limit, &audited.origin_distance, &audited.horizon}) {
     file.value(*number);
   }
   PairKinds& kinds = audited.pair_kinds;
@@ -118,6 +137,7 @@ void passCase(File& file, AuditCase& audited) {
   file.value(audited.truncated);
   file.value(audited.all_static);
   passSettings(file, audited);
+  passRooms(file, audited);
   passAll(file, "names", audited.names, {}, [&](std::string& name) {
     file.line("name");
     file.value(name);
@@ -145,6 +165,9 @@ void checkIndices(const AuditCase& audited) {
     valid = valid && transform.parent < names && transform.child < names && transform.publisher < names;
   }
   for (const NearPair& pair : audited.pairs) valid = valid && pair.first < pair.second && pair.second < bodies;
+  for (const Portal& door : audited.doors) {
+    for (const std::size_t room : door.rooms) valid = valid && room < audited.rooms.size();
+  }
   for (const RecordedCells& cells : audited.cells) valid = valid && cells.body < bodies;
   for (const RecordedQuery& query : audited.queries) {
     valid = valid && query.kind <= RecordedQuery::Kind::nearest;

@@ -67,7 +67,6 @@ bool ExpectedFilter::reports(std::uint32_t first, std::uint32_t second) const {
   return !std::binary_search(audited_.switched_off.begin(), audited_.switched_off.end(), pair);
 }
 
-/// Returns how much [m] the margins of a body grow because its pose is old.
 double ExpectedFilter::growthOf(std::uint32_t body) const {
   const BodyPose& pose = audited_.poses[body];
   const bool old = pose.state >= Freshness::stale || pose.age > audited_.growth_after;
@@ -83,6 +82,15 @@ double ExpectedFilter::marginOf(std::uint32_t first, std::uint32_t second) const
     if (names(*entry, a.name, b.name)) return std::max(audited_.margin, entry->margin) + growth;
   }
   return std::max({audited_.margin, a.margin, b.margin}) + growth;
+}
+
+double ExpectedFilter::shareOf(std::uint32_t body) const {
+  const std::string& name = audited_.bodies[body].name;
+  double own = std::max(audited_.margin, audited_.bodies[body].margin);
+  for (const PairMargin& entry : audited_.pair_margins) {
+    if (fits(entry.first, name) || fits(entry.second, name)) own = std::max(own, entry.margin);
+  }
+  return own - 0.5 * audited_.margin + growthOf(body);
 }
 
 double ExpectedFilter::mostOf(std::uint32_t body) const {

@@ -22,10 +22,13 @@ class ExpectedFilter {
   /// Returns a bound [m] for the margins of a body. The margin of a pair is at most the sum of the bounds of its
   /// bodies.
   double mostOf(std::uint32_t body) const;
+  /// Returns how much [m] the margins of a body grow because its pose is old.
+  double growthOf(std::uint32_t body) const;
+  /// Returns how much [m] the node grows the boxes of a body before it searches, without the horizon.
+  double shareOf(std::uint32_t body) const;
 
  private:
   bool exists(std::uint32_t first, std::uint32_t second) const;
-  double growthOf(std::uint32_t body) const;
   const AuditCase& audited_;
 };
 
