@@ -10,7 +10,9 @@
 #include "node/messages/map_markers.h"
 #include "node/messages/marker_parts.h"
 #include "node/messages/pair_markers.h"
+#include "node/messages/room_markers.h"
 #include "node/messages/shape_markers.h"
+#include "node/messages/to_messages.h"
 
 namespace hgrid {
 
@@ -34,6 +36,9 @@ void MarkersPublisher::publish(const Tick& newest, const std::shared_ptr<const M
   add(pairMarkers(shown, has_distances ? measured->distances.get() : nullptr));
   add(queryMarkers(shown, sketch_));
   add(mapMarkers(shown, shown.settings->params));
+  if (!rooms_) rooms_ = roomMarkers(shown);
+  for (visualization_msgs::Marker& marker : *rooms_) marker.header = headerOf(shown);
+  add(*rooms_);
   publisher_.publish(array);
 }
 

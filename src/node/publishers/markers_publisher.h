@@ -4,10 +4,13 @@
 
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
+#include <visualization_msgs/Marker.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "node/messages/query_markers.h"
 #include "node/tick/tick.h"
@@ -29,6 +32,7 @@ class MarkersPublisher {
 
   const QuerySketch& sketch_;
   ros::Publisher publisher_;
+  std::optional<std::vector<visualization_msgs::Marker>> rooms_;  // roomMarkers(); made at the first publish()
   // Values at the last call of publish(): number of subscribers, revision of the structure, epoch.
   std::size_t viewers_ = 0;
   std::uint64_t revision_ = 0, epoch_ = 0;
