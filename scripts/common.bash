@@ -138,7 +138,7 @@ enter_build() {
 # From now on, ROS uses a free port for its master, and the scratch folder for its files, until the script ends.
 begin_session() {
   local port
-  port=$(python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])')
+  port=$("$root/scripts/free_port")
   unset ROS_HOSTNAME ROS_NAMESPACE
   export ROS_MASTER_URI=http://127.0.0.1:$port ROS_IP=127.0.0.1 ROS_HOME=$scratch/home ROS_LOG_DIR=$scratch/log
   mkdir -p "$ROS_HOME" "$ROS_LOG_DIR"

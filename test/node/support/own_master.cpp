@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <random>
 #include <stdexcept>
 #include <thread>
 
@@ -43,16 +45,20 @@ void waitFor(const std::string& what, Condition&& holds) {
 }  // namespace
 
 int freePort() {
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof(address);
-  const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
-  const bool bound = bind(socket, reinterpret_cast<sockaddr*>(&address), size) == 0 &&
-                     getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size) == 0;
-  close(socket);
-  if (!bound) throw std::runtime_error("no free port on 127.0.0.1");
-  return ntohs(address.sin_port);
+  std::random_device random;
+  std::uniform_int_distribution<int> below_those_of_connections(20000, 32767);  // Linux takes ports from 32768 on
+  for (int attempt = 0; attempt < 1000; ++attempt) {
+    const int port = below_those_of_connections(random);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+    const bool is_free = bind(socket, reinterpret_cast<sockaddr*>(&address), sizeof(address)) == 0;
+    close(socket);
+    if (is_free) return port;
+  }
+  throw std::runtime_error("no free port on 127.0.0.1 from 20000 to 32767");
 }
 
 OwnMaster::OwnMaster() : port_(freePort()) {

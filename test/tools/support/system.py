@@ -6,7 +6,6 @@ import os
 import pathlib
 import shutil
 import signal
-import socket
 import subprocess
 import sys
 import tempfile
@@ -39,9 +38,7 @@ class System:
     """A system. Its end stops all processes that it started."""
 
     def __init__(self):
-        with socket.socket() as free:
-            free.bind(("127.0.0.1", 0))
-            self._port = free.getsockname()[1]
+        self._port = int(subprocess.check_output([str(ROOT / "scripts/free_port")]))
         self.uri = "http://127.0.0.1:%d" % self._port
         self.folder = tempfile.mkdtemp(prefix="hgrid_doctor.")
         self.processes = []
