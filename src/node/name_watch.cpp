@@ -29,11 +29,13 @@ NameWatch::NameWatch() {
   const auto on_shutdown = [taken = taken_](XmlRpc::XmlRpcValue& params, XmlRpc::XmlRpcValue& result) {
     const std::string reason = reasonOf(params);
     if (reason.find(kReasonOfMaster) != std::string::npos) {
-      *taken = true;
-      ROS_ERROR(
-          "Another node has registered under the name '%s', so this node ends with exit code %d. A name can belong "
-          "to one node only: end the launch of one of the two nodes, or start one of them with another __name.",
-          ros::this_node::getName().c_str(), kExitCode);
+      if (!taken->exchange(
+              true)) {  // the master may ask twice, because two registrations of the other node may be under way
+        ROS_ERROR(
+            "Another node has registered under the name '%s', so this node ends with exit code %d. A name can belong "
+            "to one node only: end the launch of one of the two nodes, or start one of them with another __name.",
+            ros::this_node::getName().c_str(), kExitCode);
+      }
     } else {
       ROS_WARN("This node ends because another process requested its shutdown. The request gives %s.",
                reason.empty() ? "no reason" : ("the reason '" + printable(reason) + "'").c_str());
