@@ -146,7 +146,7 @@ TEST(Pairs, OfStaleBodiesWidenByTheSpeedThatIsSet) {
       "a is stale", [](const msg::Pairs& p) { return p.world.worst_state == msg::BodyState::STALE && p.total == 3; });
   EXPECT_EQ(namesOf(*pairs), Names({"obstacle/far|robot/a", "obstacle/near|robot/a", "robot/a|robot/b"}));
   EXPECT_DOUBLE_EQ(pairs->margin[0], 0.45);
-  const auto bodies = node.heard().bodies.back();
+  const auto bodies = node.waitForBodies("five bodies", [](const msg::Bodies& b) { return b.bodies.size() == 5; });
   const std::map<std::string, double> speeds = {
       {"robot/a", 50.0}, {"robot/b", 0.0}, {"robot/base", 50.0}, {"obstacle/near", 2.0}, {"obstacle/far", 2.0}};
   for (const msg::Body& body : bodies->bodies) EXPECT_EQ(body.max_speed, speeds.at(body.name)) << body.name;
@@ -221,7 +221,8 @@ TEST(Obstacles, FollowTheirFrame) {
         node.waitForPairs("its pairs", [&](const msg::Pairs& p) { return p.total == (x > 4 ? 1u : 0u); });
     EXPECT_EQ(namesOf(*pairs), x > 4 ? Names({"obstacle/crate|obstacle/post"}) : Names());
   }
-  const msg::Body crate = node.heard().bodies.back()->bodies.at(0);
+  const auto bodies = node.waitForBodies("three bodies", [](const msg::Bodies& b) { return b.bodies.size() == 3; });
+  const msg::Body& crate = bodies->bodies[0];
   EXPECT_EQ(crate.name, "obstacle/crate");
   EXPECT_EQ(crate.mobility, msg::Mobility::MOVING);
   EXPECT_EQ(crate.frame, "cart");

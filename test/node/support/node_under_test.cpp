@@ -59,7 +59,9 @@ NodeUnderTest::NodeUnderTest(const NodeSetup& setup, bool must_serve)
   for (const auto& parameter : setup.beside) setBeside(parameter.first, parameter.second);
   listen();
   process_ = std::make_unique<ChildProcess>(commandOf(setup, space_), output_file_, setup.environment);
-  if (must_serve) waitForStatus("the first message of the node", [](const msg::Status&) { return true; });
+  if (!must_serve) return;
+  waitForStatus("the first ~status of the node", [](const msg::Status&) { return true; });
+  waitForPairs("the first ~pairs of the node", [](const msg::Pairs&) { return true; });
 }
 
 NodeUnderTest::~NodeUnderTest() {
@@ -74,8 +76,7 @@ void NodeUnderTest::setBeside(const std::string& parameter, const Value& value) 
 }
 
 template <class Message>
-void NodeUnderTest::hear(std::vector<boost::shared_ptr<const Message>> Heard::*where,
-                         const boost::shared_ptr<const Message>& message) {
+void NodeUnderTest::hear(Messages<Message> Heard::*where, const boost::shared_ptr<const Message>& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
   (heard_.*where).push_back(message);
   news_.notify_all();
@@ -113,8 +114,7 @@ void NodeUnderTest::waitUntil(const std::string& what, const std::function<bool(
 }
 
 template <class Message>
-boost::shared_ptr<const Message> NodeUnderTest::waitFor(std::vector<boost::shared_ptr<const Message>> Heard::*where,
-                                                        const std::string& what,
+boost::shared_ptr<const Message> NodeUnderTest::waitFor(Messages<Message> Heard::*where, const std::string& what,
                                                         const std::function<bool(const Message&)>& wanted) {
   boost::shared_ptr<const Message> found;
   std::size_t next = (heard().*where).size();

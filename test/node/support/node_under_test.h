@@ -22,6 +22,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -44,12 +45,22 @@ struct NodeSetup {
   std::vector<std::string> command;                ///< program and arguments; empty means proximity_node
 };
 
-/// All messages of a node since it was started, the newest last.
+/// The messages of one topic, the newest last.
+template <class Message>
+struct Messages : std::vector<boost::shared_ptr<const Message>> {
+  /// Returns the newest message. @throws std::runtime_error if none has come yet; the test then fails
+  const boost::shared_ptr<const Message>& back() const {
+    if (this->empty()) throw std::runtime_error("a test reads the newest message of a topic, but none has come yet");
+    return std::vector<boost::shared_ptr<const Message>>::back();
+  }
+};
+
+/// All messages of a node since it was started.
 struct Heard {
-  std::vector<msg::Pairs::ConstPtr> pairs;
-  std::vector<msg::Events::ConstPtr> events;
-  std::vector<msg::Status::ConstPtr> status;
-  std::vector<msg::Bodies::ConstPtr> bodies;
+  Messages<msg::Pairs> pairs;
+  Messages<msg::Events> events;
+  Messages<msg::Status> status;
+  Messages<msg::Bodies> bodies;
   std::map<std::string, diagnostic_msgs::DiagnosticStatus> diagnostics;  ///< newest status by name: world, robots, ...
 };
 
@@ -60,7 +71,7 @@ struct Heard {
 /// std::runtime_error if a message or an answer does not come; the test then fails.
 class NodeUnderTest {
  public:
-  /// Starts the node. Waits for its first ~status if `must_serve` is true.
+  /// Starts the node. Waits for its first ~status and ~pairs if `must_serve` is true.
   explicit NodeUnderTest(const NodeSetup& setup, bool must_serve = true);
   ~NodeUnderTest();
 
@@ -108,11 +119,10 @@ class NodeUnderTest {
  private:
   void listen();
   template <class Message>
-  void hear(std::vector<boost::shared_ptr<const Message>> Heard::*where,
-            const boost::shared_ptr<const Message>& message);
+  void hear(Messages<Message> Heard::*where, const boost::shared_ptr<const Message>& message);
   template <class Message>
-  boost::shared_ptr<const Message> waitFor(std::vector<boost::shared_ptr<const Message>> Heard::*where,
-                                           const std::string& what, const std::function<bool(const Message&)>& wanted);
+  boost::shared_ptr<const Message> waitFor(Messages<Message> Heard::*where, const std::string& what,
+                                           const std::function<bool(const Message&)>& wanted);
   template <class Service>
   typename Service::Response call(ros::ServiceClient& client, const std::string& name,
                                   const typename Service::Request& request);
