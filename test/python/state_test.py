@@ -21,7 +21,7 @@ from hgrid_proximity import obstacles, robots
 from hgrid_proximity.client import Proximity
 from hgrid_proximity.errors import ProximityError, Refused
 from hgrid_proximity.msg import AllowedPair, Bodies, Rules, Status
-from hgrid_proximity.srv import SetAllowed
+from hgrid_proximity.srv import ClearMap, LoadOctomap, SetAllowed
 from moving_ball import Ball
 
 PATIENCE = 120.0  # [s] for a machine that is busy with other tests
@@ -37,6 +37,7 @@ class State(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="state_test_"))
         rospy.set_param("/proximity/state_folder", str(self.folder / "own"))
+        rospy.set_param("/proximity/map/folder", str(pathlib.Path(__file__).resolve().parents[2] / "demo"))
         self.node = None
         self.start()
 
@@ -155,15 +156,32 @@ class State(unittest.TestCase):
     def test_rules_are_there_again(self):
         allow = rospy.ServiceProxy("/proximity/set_allowed", SetAllowed)
         rule = AllowedPair(first="robot/ball", second="obstacle/lamp", allowed=True, reason="for the test")
-        self.assertTrue(allow(rules=[rule]).success)
+        self.assertTrue(allow(rules=[rule]).durable)
         self.restart()
         rules = rospy.wait_for_message("/proximity/rules", Rules, PATIENCE).rules
         stored = [(kept.first, kept.second, kept.reason, kept.set_by) for kept in rules]
         self.assertEqual(stored, [("robot/ball", "obstacle/lamp", "for the test", rospy.get_name())])
         allow = rospy.ServiceProxy("/proximity/set_allowed", SetAllowed)
-        self.assertTrue(allow(rules=[rule], remove=True).success)
+        self.assertTrue(allow(rules=[rule], remove=True).durable)
         self.restart()
         self.assertEqual(rospy.wait_for_message("/proximity/rules", Rules, PATIENCE).rules, [])
+
+    def test_maps_are_there_again(self):
+        self.assertTrue(rospy.ServiceProxy("/proximity/load_octomap", LoadOctomap)(file="room.bt", map="room").durable)
+        self.restart()
+        self.wait_for_bodies_of_maps(["map/room"])
+        self.assertTrue(rospy.ServiceProxy("/proximity/clear_map", ClearMap)("room").durable)
+        self.restart()
+        self.wait_for_bodies_of_maps([])
+
+    def wait_for_bodies_of_maps(self, names):
+        """Waits until the bodies whose names begin with "map/" are these. A map is loaded after the first tick."""
+        deadline = time.monotonic() + PATIENCE
+        found = None
+        while found != names:
+            self.assertLess(time.monotonic(), deadline, "the maps are %s" % found)
+            message = rospy.wait_for_message("/proximity/bodies", Bodies, PATIENCE)
+            found = [body.name for body in message.bodies if body.name.startswith("map/")]
 
     def test_a_saved_scene_can_be_loaded_again(self):
         allow = rospy.ServiceProxy("/proximity/set_allowed", SetAllowed)

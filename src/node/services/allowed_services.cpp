@@ -71,7 +71,7 @@ void AllowedServices::set(ServiceCall<msg::SetAllowed>& call) const {
   // The filter is passed on, because making it of many rules and bodies would delay the tick.
   const PreparedRules rules{filter, structure.revision};
   call.tick = AnswerTick(change_world_([rules](World& world) { world.setRules(rules); }));
-  wait_until_stored_();
+  call.response.durable = wait_until_stored_();
   call.response.pairs_changed = static_cast<std::uint32_t>(std::min<std::uint64_t>(changed, 0xffffffffu));
 }
 

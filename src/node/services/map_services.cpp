@@ -39,7 +39,7 @@ void MapServices::load(ServiceCall<msg::LoadOctomap>& call) const {
   const MapParams map = paramsOf(call.request);
   const LoadedMap loaded = source_.finished(source_.read(map));
   call.tick = AnswerTick(change_world_([loaded](World& world) { world.setMap(loaded); }));
-  decided_(map.name, map);
+  call.response.durable = decided_(map.name, map);
   call.response.occupied_leaves = loaded.cells->grid->size();
   call.response.resolution = loaded.cells->grid->finestEdge();
   call.response.duration = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -48,7 +48,7 @@ void MapServices::load(ServiceCall<msg::LoadOctomap>& call) const {
 void MapServices::clear(ServiceCall<msg::ClearMap>& call) const {
   const std::string map = call.request.map;
   call.tick = AnswerTick(change_world_([map](World& world) { world.clearMap(map); }));
-  decided_(map, std::nullopt);
+  call.response.durable = decided_(map, std::nullopt);
 }
 
 }  // namespace hgrid

@@ -23,7 +23,8 @@ class MapServices {
   /// Called after a map was loaded or removed; an empty name means all maps. The callee must drop older loads of this
   /// map that are still pending.
   /// @param loaded  nullopt: the map was removed
-  using Decided = std::function<void(const std::string& map, const std::optional<MapParams>& loaded)>;
+  /// @returns whether the decision is on disk
+  using Decided = std::function<bool(const std::string& map, const std::optional<MapParams>& loaded)>;
 
   /// `envelope` and `source` must outlive this object.
   MapServices(ServiceEnvelope& envelope, const MapSource& source, ChangeWorld change_world, Decided decided);

@@ -21,7 +21,7 @@ NodeServices::NodeServices(const ros::NodeHandle& query_node, const ros::NodeHan
             [&loading, &state](const std::string& map, const std::optional<MapParams>& loaded) {
               loading.maps().forget(map);
               state.noteMap(map, loaded);
-              state.waitUntilStored();
+              return state.waitUntilStored();
             }),
       obstacles_(changes_, commons.settings.params, commons.narrow_phase,
                  meshPolicy(commons.settings.params, loading.isEnding()), change_world,

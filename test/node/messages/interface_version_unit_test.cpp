@@ -56,7 +56,7 @@ namespace {
 
 namespace msg = ::hgrid_proximity;
 
-constexpr std::uint32_t kPinnedVersion = 4;  // interface version of the MD5 sums below
+constexpr std::uint32_t kPinnedVersion = 5;  // interface version of the MD5 sums below
 
 /// A message or service file, its MD5 sum, and the MD5 sum that it must have in this interface version.
 struct Pin {
@@ -99,10 +99,10 @@ const std::vector<Pin>& pins() {
       message<msg::WorldState>("WorldState", "6e7f0e7ad23b6a55d3f532ba2a769931"),
       service<msg::ApplyObstacles>("ApplyObstacles", "f52ed5b3192f3c3a90fdc43ee3f2801d"),
       service<msg::ApplyRobots>("ApplyRobots", "7c47cace6728675cd273ddc573cd5ece"),
-      service<msg::ClearMap>("ClearMap", "aa94ec5cc4241768d88da962bc4cdb11"),
+      service<msg::ClearMap>("ClearMap", "142d3d4665d9a7e8d3b73696517804d0"),
       service<msg::ExplainPair>("ExplainPair", "7f877c8d05130f963b17495385f7f1f0"),
       service<msg::GetAllowed>("GetAllowed", "a7c3ddc68c8114168a385cee5844a3f2"),
-      service<msg::LoadOctomap>("LoadOctomap", "6b276f4ad18b72b8871dcd37bd5cb324"),
+      service<msg::LoadOctomap>("LoadOctomap", "93e62be52a707156933524d97672cc2d"),
       service<msg::QueryBox>("QueryBox", "8b378a163990ffc39d9443cb21832dd5"),
       service<msg::QueryNearest>("QueryNearest", "1c536a184c73768c2d7173dd305db8f6"),
       service<msg::QuerySegment>("QuerySegment", "83354b4bfa81d8e0a19b2fb48ee25859"),
@@ -111,7 +111,7 @@ const std::vector<Pin>& pins() {
       service<msg::LoadScene>("LoadScene", "0f60ed149b20c1e7f0f9d60b39f74b52"),
       service<msg::ReloadRobot>("ReloadRobot", "c148d85435550cf328927baad9e10cd7"),
       service<msg::SaveScene>("SaveScene", "c79d6e24b5e6e429b7bf1564478b72e1"),
-      service<msg::SetAllowed>("SetAllowed", "0be1f0a89280398f26117a1d50a7b05f"),
+      service<msg::SetAllowed>("SetAllowed", "c60f7338bb2a4f5a788d3f5cf3a66a0c"),
   };
   return all;
 }
