@@ -4,29 +4,11 @@
 
 #include <cmath>
 
+#include "broadphase/book/bit_words.h"
 #include "broadphase/book/cell_scale.h"
 
 namespace hgrid {
 namespace book {
-namespace {
-
-/// Four words, which the compiler processes with vector instructions.
-using FourWords = std::uint64_t __attribute__((vector_size(32), aligned(8), may_alias));
-
-const FourWords& four(const std::uint64_t* words) { return *reinterpret_cast<const FourWords*>(words); }
-FourWords& four(std::uint64_t* words) { return *reinterpret_cast<FourWords*>(words); }
-
-/// Calls visit(id) for each bit that is set, in ascending order. `words` begins with the word `first_word` of a slice.
-template <class Visit>
-void visitBits(const std::uint64_t* words, std::size_t count, std::size_t first_word, Visit&& visit) {
-  for (std::size_t word = 0; word < count; ++word) {
-    for (std::uint64_t bits = words[word]; bits != 0; bits &= bits - 1)  // clears the lowest bit that is set
-      visit(static_cast<ProxyId>((first_word + word) * 64 + static_cast<std::size_t>(__builtin_ctzll(bits))));
-  }
-}
-
-}  // namespace
-
 // ---- slices
 
 std::size_t BitGrid::sliceOf(const Axis& axis, double coordinate) {
