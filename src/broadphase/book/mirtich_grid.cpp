@@ -34,28 +34,25 @@ std::size_t MirtichGrid::firstLevelOf(int exponent) const {
 
 // ---- counters
 
-/// Changes the counter of a pair by 1, because one of the boxes enters (`up`) or leaves a cell that holds the other.
-void MirtichGrid::count(ProxyId a, ProxyId b, bool up) {
-  if (!counts_ || (isFixed(a) && isFixed(b))) return;
-  if (!up) return close_.lower(a, b);
-  close_.raise(a, b);
-  if (close_.size() <= most_close_) return;
-  counts_ = false;
-  close_.clear();
-}
-
-/// Adds a box to a cell and counts its close pairs there.
+/// Changes the counters of a box and the other boxes of a cell by 1, because the box enters (`up`) or leaves the cell.
 ///
 /// Two visitors of a cell are not counted: the level is coarser than both of theirs. They are counted on the coarser of
 /// their own levels, where one of them is a resident.
+void MirtichGrid::count(ProxyId id, const CellBoxes& cell, bool resident, bool up) {
+  const auto count_with = [&](ProxyId other) {
+    if (isFixed(id) && isFixed(other)) return;
+    up ? close_.raise(id, other) : close_.lower(id, other);
+  };
+  for (const ProxyId other : cell.residents) count_with(other);
+  if (!resident) return;
+  for (const ProxyId other : cell.visitors) count_with(other);
+}
+
+/// Adds a box to a cell and counts its close pairs there.
 void MirtichGrid::enter(Level& level, const Cell& cell, ProxyId id, bool resident) {
   CellBoxes& here = level.cells[cell];
+  count(id, here, resident, true);
   (resident ? here.residents : here.visitors).push_back(id);
-  for (const ProxyId other : here.residents) {
-    if (other != id) count(id, other, true);
-  }
-  if (!resident) return;
-  for (const ProxyId other : here.visitors) count(id, other, true);
 }
 
 /// Removes a box from a cell and undoes what enter() counted. Drops the cell if it becomes empty.
@@ -63,10 +60,7 @@ void MirtichGrid::leave(Level& level, const Cell& cell, ProxyId id, bool residen
   const auto place = level.cells.find(cell);
   CellBoxes& here = place->second;
   eraseUnordered(resident ? here.residents : here.visitors, id);
-  for (const ProxyId other : here.residents) count(id, other, false);
-  if (resident) {
-    for (const ProxyId other : here.visitors) count(id, other, false);
-  }
+  count(id, here, resident, false);
   if (here.residents.empty() && here.visitors.empty()) level.cells.erase(place);
 }
 
@@ -78,9 +72,7 @@ void MirtichGrid::build() {
   for (const ProxyId id : ids) exponents.insert(exponentOf(box(id)));
   levels_.clear();
   for (const int exponent : exponents) levels_.push_back({exponent, CellScale(std::ldexp(1.0, exponent)), {}, {}});
-  close_.clear();
-  counts_ = true;
-  most_close_ = mostTrackedPairs();
+  close_.clear(mostTrackedPairs());
   for (const ProxyId id : ids) added(id);
 }
 
@@ -128,17 +120,16 @@ Partition::Followed MirtichGrid::moved(ProxyId id, const Aabb& from) {
 // ---- searches
 
 void MirtichGrid::findPairs(PairSink& sink) const {
-  if (!counts_) return findPairsByQueries(sink);
+  if (!close_.isComplete()) return findPairsByQueries(sink);
   close_.visit([&](ProxyId a, ProxyId b) { sink.tryPair(a, b); });
 }
 
 void MirtichGrid::candidates(const QueryShape& shape, std::vector<ProxyId>& found) const {
   seen.begin(idEnd());
-  const Aabb& around = shape.bounds();
+  const auto consider = [&](ProxyId id) {
+    if (overlap(shape.bounds(), box(id)) && seen.mark(id)) found.push_back(id);
+  };
   for (const Level& level : levels_) {
-    const auto consider = [&](ProxyId id) {
-      if (overlap(around, box(id)) && seen.mark(id)) found.push_back(id);
-    };
     const auto limit = static_cast<double>(level.residents.size());
     const bool all = level.scale.visitRanges(shape, CellScale::everywhere(), limit, [&](const CellRange& range) {
       range.visit([&](const Cell& cell) {
@@ -157,7 +148,7 @@ void MirtichGrid::checkStructure() const {
   std::size_t residents = 0, entries = 0, expected = 0;
   PairCounts close;
   const auto countTogether = [&](ProxyId a, ProxyId b) {
-    if (counts_ && !(isFixed(a) && isFixed(b))) close.raise(a, b);
+    if (close_.isComplete() && !(isFixed(a) && isFixed(b))) close.raise(a, b);
   };
   for (const Level& level : levels_) {
     residents += level.residents.size();

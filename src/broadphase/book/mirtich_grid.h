@@ -25,8 +25,8 @@ namespace book {
 ///   another level makes the next search build the grid again.
 /// - A close pair becomes a pair only if its boxes overlap; the book passes all close pairs to the narrow phase.
 /// - Pairs of two fixed boxes are not counted.
-/// - If there are far more close pairs than the pair bound allows, the grid drops all counters to save memory. Until
-///   the grid is built again, a query with each box then finds the pairs.
+/// - If there are far more close pairs than the pair bound allows, all counters are dropped to save memory. Until the
+///   grid is built again, a query with each box then finds the pairs.
 /// - Queries look at the residents of each level. The book describes only the search for all pairs.
 class MirtichGrid final : public Partition {
  public:
@@ -58,12 +58,10 @@ class MirtichGrid final : public Partition {
   std::size_t firstLevelOf(int exponent) const;
   void enter(Level& level, const Cell& cell, ProxyId id, bool resident);
   void leave(Level& level, const Cell& cell, ProxyId id, bool resident);
-  void count(ProxyId a, ProxyId b, bool up);
+  void count(ProxyId id, const CellBoxes& cell, bool resident, bool up);
 
-  std::vector<Level> levels_;   // from fine to coarse
-  PairCounts close_;            // for each close pair: the number of cells that the two boxes share
-  bool counts_ = true;          // whether `close_` holds all close pairs; false: the counters were dropped
-  std::size_t most_close_ = 0;  // if there are more close pairs than this, the counters are dropped
+  std::vector<Level> levels_;  // from fine to coarse
+  PairCounts close_;           // for each close pair: the number of cells that the two boxes share
 };
 
 }  // namespace book

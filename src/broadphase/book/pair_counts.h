@@ -17,20 +17,28 @@ namespace book {
 /// It is a hash table with linear probing (closed hashing in section 7.1.3) at a load of at most 1/2. Differs from that
 /// section: a deletion moves later entries back. Lazy deletion would fill the table with marks, because pairs come and
 /// go all the time.
+///
+/// The number of pairs has a limit. If a pair exceeds it, the table drops all pairs, releases their memory, and tracks
+/// no more pairs until clear().
 class PairCounts {
  public:
-  PairCounts() { clear(); }
-
-  void clear() {
-    slots_.assign(64, {});
+  /// Drops all pairs, and tracks pairs again. @param most  largest number of pairs
+  void clear(std::size_t most) {
+    slots_.assign(kLeast, {});
     size_ = 0;
+    most_ = most;
+    is_complete_ = true;
   }
+  /// Whether the table holds all pairs that were raised and not lowered: their number has not exceeded the limit.
+  bool isComplete() const { return is_complete_; }
   std::size_t size() const { return size_; }
   /// Adds 1 to the counter of a pair.
   void raise(ProxyId a, ProxyId b) {
+    if (!is_complete_) return;
     if (2 * (size_ + 1) > slots_.size()) grow();
     Slot& slot = slots_[find(keyOf(a, b))];
     if (slot.count == 0) {
+      if (size_ == most_) return drop();
       slot.key = keyOf(a, b);
       ++size_;
     }
@@ -83,6 +91,11 @@ class PairCounts {
     slots_[hole].count = 0;
     --size_;
   }
+  void drop() {
+    std::vector<Slot>(kLeast).swap(slots_);
+    size_ = 0;
+    is_complete_ = false;
+  }
   void grow() {
     std::vector<Slot> old(2 * slots_.size());
     old.swap(slots_);
@@ -91,8 +104,11 @@ class PairCounts {
     }
   }
 
-  std::vector<Slot> slots_;  // their number is a power of two
-  std::size_t size_ = 0;
+  static constexpr std::size_t kLeast = 64;  // smallest number of slots
+
+  std::vector<Slot> slots_{kLeast};  // their number is a power of two
+  std::size_t size_ = 0, most_ = static_cast<std::size_t>(-1);
+  bool is_complete_ = true;
 };
 
 }  // namespace book
