@@ -60,9 +60,7 @@ constexpr const char* kRegion = "fill=\"#2b6cd9\" fill-opacity=\"0.07\" stroke=\
 constexpr const char* kPortal = "fill=\"#2aa84a\" fill-opacity=\"0.6\" stroke=\"none\"";
 
 void drawPartition(BroadPhaseType type, const std::vector<Aabb>& boxes, const std::string& folder) {
-  BroadPhaseOptions options;
-  options.type = type;
-  const std::unique_ptr<BroadPhase> made = makeBroadPhase(options);
+  const std::unique_ptr<BroadPhase> made = makeBroadPhase({type});
   const auto* partition = dynamic_cast<const book::Partition*>(made.get());
   if (partition == nullptr) return;  // how_it_works.md has a picture of HGrid
   for (ProxyId id = 0; id < boxes.size(); ++id) made->insert(id, boxes[id]);

@@ -63,9 +63,7 @@ TEST(PartitionsFailedAllocation, LosesNothing) {
     SCOPED_TRACE(name(type));
     std::size_t failed_searches = 0;
     Random random(4);
-    BroadPhaseOptions options;
-    options.type = type;
-    const std::unique_ptr<BroadPhase> tested = makeBroadPhase(options);
+    const std::unique_ptr<BroadPhase> tested = makeBroadPhase({type});
     BruteForce model;
     for (ProxyId id = 0; id < 50; ++id) {
       const Aabb box = randomBox(random);
@@ -99,9 +97,7 @@ TEST(PartitionsFailedAllocation, LosesNothing) {
 TEST(PartitionsFailedAllocation, OfAnInsertionChangesNothing) {
   for (const BroadPhaseType type : broadPhaseTypes()) {
     SCOPED_TRACE(name(type));
-    BroadPhaseOptions options;
-    options.type = type;
-    const std::unique_ptr<BroadPhase> tested = makeBroadPhase(options);
+    const std::unique_ptr<BroadPhase> tested = makeBroadPhase({type});
     const Aabb box = {{0, 0, 0}, {1, 1, 1}};
     tested->insert(1, box);
     bool failed = true;

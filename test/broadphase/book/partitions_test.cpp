@@ -25,13 +25,6 @@ namespace hgrid {
 namespace book {
 namespace {
 
-/// Returns an empty broad phase of this type with the default options.
-std::unique_ptr<BroadPhase> madeOf(BroadPhaseType type) {
-  BroadPhaseOptions options;
-  options.type = type;
-  return makeBroadPhase(options);
-}
-
 using test::Random;
 
 TEST(PairBits, EachPairHasOneBitOfATriangle) {
@@ -115,6 +108,27 @@ TEST(PairCounts, CountLikeAMap) {
   EXPECT_GT(model.size(), 100u);
 }
 
+/// Claim: the table says that it lacks pairs, and holds none of them. Otherwise a later search would miss some.
+TEST(PairCounts, BeyondTheirLimitAreDroppedUntilTheTableIsCleared) {
+  PairCounts counts;
+  counts.clear(200);
+  const std::size_t least = counts.bytes();
+  for (ProxyId other = 1; other <= 200; ++other) counts.raise(0, other);
+  counts.raise(0, 200);
+  EXPECT_TRUE(counts.isComplete());
+  EXPECT_EQ(counts.size(), 200u);
+  counts.raise(0, 201);
+  counts.raise(0, 1);
+  EXPECT_FALSE(counts.isComplete());
+  EXPECT_EQ(counts.size(), 0u);
+  EXPECT_EQ(counts.of(0, 1), 0u);
+  EXPECT_EQ(counts.bytes(), least) << "the memory of dropped pairs is released";
+  counts.clear(200);
+  counts.raise(0, 1);
+  EXPECT_TRUE(counts.isComplete());
+  EXPECT_EQ(counts.of(0, 1), 1u);
+}
+
 TEST(LooseOctree, CodesInterleaveTheBitsOfTheIndices) {
   EXPECT_EQ(nodeCode(0, 0, 0, 0), 1u);
   EXPECT_EQ(nodeCode(1, 1, 0, 0), 8u + 1u);
@@ -182,7 +196,7 @@ TEST(Partitions, AreMadeByName) {
     EXPECT_TRUE(find(name(type), found));
     EXPECT_EQ(found, type);
     names.insert(name(type));
-    const std::unique_ptr<BroadPhase> made = madeOf(type);
+    const std::unique_ptr<BroadPhase> made = makeBroadPhase({type});
     made->insert(3, {{0, 0, 0}, {1, 1, 1}});
     EXPECT_EQ(made->size(), 1u);
     EXPECT_GT(storedBytes(*made), sizeof(Aabb));
@@ -203,11 +217,7 @@ TEST(Partitions, AgreeWithEachOther) {
                                     random.logUniform(0.05, 3) * test::randomVector(random, 0.2, 1)));
   }
   std::vector<std::unique_ptr<BroadPhase>> all;
-  for (const BroadPhaseType type : broadPhaseTypes()) {
-    BroadPhaseOptions options;
-    options.type = type;
-    all.push_back(makeBroadPhase(options));
-  }
+  for (const BroadPhaseType type : broadPhaseTypes()) all.push_back(makeBroadPhase({type}));
   for (int frame = 0; frame < 12; ++frame) {
     const double share = frame % 3 == 0 ? 1.0 : frame % 3 == 1 ? 0.1 : 0.01;
     for (Aabb& box : boxes) {
@@ -243,7 +253,7 @@ TEST(Partitions, MissNoBoxAmongTheLargestNumbers) {
   for (int i = 0; i < 20; ++i) row.push_back({{float(i), 0, 0}, {float(i) + 0.5f, 1, 1}});
   for (const BroadPhaseType type : broadPhaseTypes()) {
     SCOPED_TRACE(name(type));
-    const std::unique_ptr<BroadPhase> made = madeOf(type);
+    const std::unique_ptr<BroadPhase> made = makeBroadPhase({type});
     made->update(test::allIds(boxes.size()), boxes);
     EXPECT_EQ(test::foundBy(*made, Sphere{{0, 0, 0}, 1.0}), std::vector<ProxyId>({2}));
     EXPECT_EQ(test::foundBy(*made, Sphere{far.cast<double>(), 1.0}), std::vector<ProxyId>({1}));
@@ -272,7 +282,7 @@ TEST(Partitions, AreBuiltOnceByOneOfManyThreads) {
     boxes.push_back(test::boxAround(test::randomVector(random, -6, 6), test::randomVector(random, 0.1, 1)));
   for (const BroadPhaseType type : broadPhaseTypes()) {
     SCOPED_TRACE(name(type));
-    const std::unique_ptr<BroadPhase> made = madeOf(type);
+    const std::unique_ptr<BroadPhase> made = makeBroadPhase({type});
     made->update(test::allIds(boxes.size()), boxes);
     std::vector<std::vector<ProxyId>> found(4);
     std::vector<std::thread> threads;
