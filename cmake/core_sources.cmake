@@ -23,6 +23,7 @@ set(HGRID_CORE_SOURCES
   src/broadphase/book/partition_searches.cpp
   src/broadphase/book/query_shape.cpp
   src/broadphase/book/room_edges.cpp
+  src/broadphase/book/room_layer.cpp
   src/broadphase/book/rooms.cpp
   src/broadphase/book/sweep_array.cpp
   src/broadphase/book/sweep_lists.cpp

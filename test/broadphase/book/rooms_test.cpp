@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "hgrid_proximity/broadphase/rooms.h"
-
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <type_traits>
 
 #include "hgrid_proximity/broadphase/partitions.h"
+#include "hgrid_proximity/broadphase/room_layer.h"
 #include "test/support/expectations.h"
 #include "test/support/grids.h"
 
@@ -36,9 +35,7 @@ Aabb cube(float x, float y, float half = 0.3f) {
 bool isEven(const void*, ProxyId first, ProxyId second) { return (first + second) % 2 == 0; }
 
 std::unique_ptr<RoomLayer> layerOf(BroadPhaseType type) {
-  BroadPhaseOptions options;
-  options.type = type;
-  return std::make_unique<RoomLayer>(building(), makeBroadPhase(options));
+  return std::make_unique<RoomLayer>(building(), makeBroadPhase({type}));
 }
 
 TEST(Rooms, ABoxIsInTheRoomsAndPortalsThatItOverlaps) {
