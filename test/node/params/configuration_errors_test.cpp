@@ -56,13 +56,16 @@ TEST(ParamErrors, AWrongTypeIsNamed) {
 TEST(ParamErrors, AWrongMapOptionIsNamed) {
   expectRefused(dict({{"map", dict({{"unknown", "guess"}})}}),
                 "~map/unknown is 'guess'; it must be ignore, report or occupied");
+  expectRefused(dict({{"map", dict({{"crop_min", list({0.0, 2.0, 0.0})}, {"crop_max", list({1.0, 1.0, 1.0})}})}}),
+                "~map/crop_min is 2 m along y and ~map/crop_max is 1 m; crop_min must be at most crop_max");
+}
+
+TEST(ParamErrors, AnUnknownTypeOfBroadPhaseIsNamed) {
   expectRefused(
       dict({{"broadphase", dict({{"type", "octree"}})}}),
       "~broadphase/type is 'octree'; it must be one of hgrid, hashed_grid, bucket_grid, array_grid, bit_grid, "
       "mirtich_grid, loose_octree, kd_tree, tree_grid, sweep_lists, sweep_array");
   EXPECT_EQ(refusalOf(dict({{"broadphase", dict({{"type", "kd_tree"}})}})), "");
-  expectRefused(dict({{"map", dict({{"crop_min", list({0.0, 2.0, 0.0})}, {"crop_max", list({1.0, 1.0, 1.0})}})}}),
-                "~map/crop_min is 2 m along y and ~map/crop_max is 1 m; crop_min must be at most crop_max");
 }
 
 TEST(ParamErrors, InvalidTopicsAndPatternsAreNamed) {
