@@ -21,4 +21,7 @@ struct RoomEdge {
 /// @param within  [m] not empty; cuts off rooms that are open or larger. Its coordinates are at most 1e7
 std::vector<RoomEdge> edgesOf(const Room& room, const Eigen::AlignedBox3d& within);
 
+/// Returns the box around edgesOf(); empty if there are none. The arguments are those of edgesOf().
+Eigen::AlignedBox3d boundsOf(const Room& room, const Eigen::AlignedBox3d& within);
+
 }  // namespace hgrid

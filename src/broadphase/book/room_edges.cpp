@@ -69,4 +69,10 @@ std::vector<RoomEdge> edgesOf(const Room& room, const Eigen::AlignedBox3d& withi
   return edges;
 }
 
+Eigen::AlignedBox3d boundsOf(const Room& room, const Eigen::AlignedBox3d& within) {
+  Eigen::AlignedBox3d around;
+  for (const RoomEdge& edge : edgesOf(room, within)) around.extend(edge.from).extend(edge.to);
+  return around;
+}
+
 }  // namespace hgrid

@@ -15,31 +15,27 @@ constexpr double kRoomEdgeWidth = 0.02, kRoomTextHeight = 0.2;  // [m]
 constexpr double kFarthestCorner = 2e6;                         // [m] larger than any coordinate of a room
 constexpr double kBeyond = 2.0;                                 // [m] see roomMarkers()
 
-/// Returns the box around all doors and all corners of rooms, apart from the corners where open rooms are cut off.
+/// Returns the box around all corners of rooms and doors, apart from those where open rooms are cut off.
 Eigen::AlignedBox3d extentOf(const Params& params) {
   const Eigen::Vector3d far = Eigen::Vector3d::Constant(kFarthestCorner);
   Eigen::AlignedBox3d extent;
-  for (const Portal& door : params.doors) extent.extend(door.opening);
-  for (const Room& room : params.rooms) {
+  const auto add = [&](const Room& room) {
     for (const RoomEdge& edge : edgesOf(room, {-far, far})) {
       for (const Eigen::Vector3d& corner : {edge.from, edge.to}) {
         if (corner.cwiseAbs().maxCoeff() < 0.99 * kFarthestCorner) extent.extend(corner);
       }
     }
-  }
+  };
+  for (const Room& room : params.rooms) add(room);
+  for (const Portal& door : params.doors) add(Room::ofBox("", door.opening));
   if (extent.isEmpty()) extent.extend(Eigen::Vector3d::Zero().eval());
   return {extent.min() - Eigen::Vector3d::Constant(kBeyond), extent.max() + Eigen::Vector3d::Constant(kBeyond)};
 }
 
-/// Adds lines to a marker. @returns the box around the lines
-Eigen::AlignedBox3d addEdges(const std::vector<RoomEdge>& edges, Marker& lines) {
-  Eigen::AlignedBox3d around;
-  for (const RoomEdge& edge : edges) {
-    addLine(lines, edge.from, edge.to, lines.color);
-    around.extend(edge.from);
-    around.extend(edge.to);
-  }
-  return around;
+/// Adds the edges of a room to a marker. @returns the box around them
+Eigen::AlignedBox3d addEdges(const Room& room, const Eigen::AlignedBox3d& extent, Marker& lines) {
+  for (const RoomEdge& edge : edgesOf(room, extent)) addLine(lines, edge.from, edge.to, lines.color);
+  return boundsOf(room, extent);
 }
 
 Marker linesOf(const Tick& tick, const char* name_space, const std_msgs::ColorRGBA& color) {
@@ -71,14 +67,14 @@ std::vector<Marker> roomMarkers(const Tick& tick) {
          doors = linesOf(tick, "doors", rgba(0.0, 0.62, 0.45, 0.9));
   std::vector<Marker> texts;
   for (std::size_t i = 0; i < params.rooms.size(); ++i) {
-    const Eigen::AlignedBox3d around = addEdges(edgesOf(params.rooms[i], extent), rooms);
+    const Eigen::AlignedBox3d around = addEdges(params.rooms[i], extent, rooms);
     if (!around.isEmpty()) texts.push_back(textAt(tick, rooms, i + 1, around.center(), params.rooms[i].name));
   }
   for (std::size_t i = 0; i < params.doors.size(); ++i) {
     const Portal& door = params.doors[i];
-    addEdges(edgesOf(Room::ofBox("", door.opening), extent), doors);
+    const Eigen::AlignedBox3d around = addEdges(Room::ofBox("", door.opening), extent, doors);
     const std::string sides = params.rooms[door.rooms[0]].name + " - " + params.rooms[door.rooms[1]].name;
-    texts.push_back(textAt(tick, doors, i + 1, door.opening.center(), sides));
+    texts.push_back(textAt(tick, doors, i + 1, around.center(), sides));
   }
   texts.push_back(std::move(rooms));
   texts.push_back(std::move(doors));

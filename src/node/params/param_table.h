@@ -184,8 +184,9 @@ void visitParams(Visitor& v, Params& p) {
           "[m]}]}: convex rooms with solid walls, in the world frame. Two bodies without a common room are never a "
           "pair. pose: of the center of the room; default: no rotation, at the origin. size: lengths of the sides in "
           "m. walls: each normal points out of the room and may have any length; offset: distance of the wall from the "
-          "origin, along the normal. Planes, maps, clouds and bodies with a shape in no room make pairs with "
-          "everything. At most 1000. See doc/partitions.md");
+          "origin, along the normal. Where rooms overlap by more than 1 mm, there is no wall: the box around the "
+          "common space is a door. Planes, maps, clouds and bodies with a shape in no room make pairs with everything. "
+          "At most 1000. See doc/partitions.md");
   v.doors(
       "doors", p.doors,
       "list of {rooms: [name, name], pose: {xyz: [m], rpy: [rad]}, size: [x, y, z]}: openings between two of the "

@@ -13,6 +13,7 @@
 #include "node/params/param_table.h"
 #include "node/params/param_value.h"
 #include "node/params/param_words.h"
+#include "node/params/room_overlaps.h"
 #include "node/params/room_params.h"
 #include "node/params/tracker_params.h"
 #include "node/tf/frame_names.h"
@@ -245,6 +246,7 @@ Params readParams(XmlRpc::XmlRpcValue values, std::vector<std::string>& errors) 
     root.get(robot.semantic);
   }
   root.finish("parameter of this node");
+  if (errors.empty()) addOverlaps(params.rooms, params.doors, errors);
 
   const auto require = [&](bool holds, const std::string& sentence) {
     if (!holds) errors.push_back(sentence);

@@ -62,6 +62,15 @@ TEST(RoomMarkers, CutOpenRoomsOff) {
   EXPECT_TRUE(drawnIn(roomMarkers(tickWithRooms(rooms, {})), "rooms").isApprox(block(0, -2, -2, 3, 3, 3), 1e-5));
 }
 
+/// Claim: a door is cut off like the rooms, if two open rooms overlap without an end.
+TEST(RoomMarkers, CutDoorsOfOpenRoomsOff) {
+  const std::vector<Room> rooms = {{"east", {{-Eigen::Vector3d::UnitX(), 0.0}}},
+                                   {"west", {{Eigen::Vector3d::UnitX(), 1.0}}}};
+  const std::vector<Marker> markers = roomMarkers(tickWithRooms(rooms, {{{0, 1}, block(0, -2e6, -2e6, 1, 2e6, 2e6)}}));
+  EXPECT_LT(drawnIn(markers, "doors").sizes().maxCoeff(), 10.0);
+  for (const Marker& marker : markers) EXPECT_LT(std::abs(marker.pose.position.y), 10.0);
+}
+
 TEST(RoomMarkers, AreNoneWithoutRooms) { EXPECT_TRUE(roomMarkers(tickWithRooms({}, {})).empty()); }
 
 }  // namespace

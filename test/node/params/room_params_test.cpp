@@ -89,6 +89,31 @@ TEST(RoomParams, OfARotatedDoorAreTheBoxAroundIt) {
   EXPECT_TRUE(params.doors[0].opening.isApprox({Eigen::Vector3d(4, 1.5, 0), Eigen::Vector3d(4.2, 2.5, 2)}, 1e-5));
 }
 
+Value boxRoom(const std::string& name, double x0, double x1, double y0, double y1, double turn = 0.0) {
+  const Value pose = dict({{"xyz", xyz((x0 + x1) / 2, (y0 + y1) / 2, 1.5)}, {"rpy", xyz(0, 0, turn)}});
+  return dict({{"name", name}, {"pose", pose}, {"size", xyz(x1 - x0, y1 - y0, 3)}});
+}
+
+/// Claim: two bodies in the two arms of an L, near its inner corner, are a pair: no wall is between them. The node
+/// pairs bodies of different rooms only through doors, so the overlap of the rooms must be one.
+TEST(RoomParams, ThatOverlapHaveADoorAroundTheirCommonSpace) {
+  const Params params = readParams(dict({{"rooms", list({boxRoom("a", 1, 5, 1, 2), boxRoom("b", 1, 2, 1, 5)})}}));
+  ASSERT_EQ(params.doors.size(), 1u);
+  EXPECT_EQ(params.doors[0].rooms, (std::array<std::size_t, 2>{0, 1}));
+  EXPECT_TRUE(params.doors[0].opening.isApprox({Eigen::Vector3d(1, 1, 0), Eigen::Vector3d(2, 2, 3)}, 1e-5));
+  EXPECT_TRUE(params.doors[0].opening.contains(Eigen::Vector3d(2, 2, 3))) << "it is not rounded inward";
+}
+
+/// Claim: walls without thickness separate, also oblique ones, for which the boxes around the rooms overlap.
+TEST(RoomParams, ThatOnlyTouchHaveNoDoor) {
+  const double half = std::sqrt(0.5);  // b begins where a ends, both turned by 45 degrees
+  for (const Value& rooms : {list({boxRoom("a", 0, 4, 0, 1), boxRoom("b", 4, 5, 0, 4)}),
+                             list({boxRoom("a", -1, 1, -1, 1, M_PI / 4),
+                                   boxRoom("b", 2 * half - 1, 2 * half + 1, 2 * half - 1, 2 * half + 1, M_PI / 4)})}) {
+    EXPECT_TRUE(readParams(dict({{"rooms", rooms}})).doors.empty());
+  }
+}
+
 TEST(RoomParams, OfAWrongRoomAreRefusedByName) {
   expectRoomRefused("hall", "~rooms[0] is a string ('hall'); it must be a dictionary");
   expectRoomRefused(dict({{"size", xyz(1, 1, 1)}}), "~rooms[0] has no 'name'; it must have one");
@@ -150,6 +175,15 @@ TEST(RoomParams, BeyondTheLimitsAreRefused) {
   EXPECT_EQ(errors,
             "2 parameters are wrong:\n  ~rooms has 1001 rooms; at most 1000 are allowed\n  ~doors has 4001 doors; at "
             "most 4000 are allowed");
+}
+
+TEST(RoomParams, OfTooManyRoomsThatOverlapAreRefused) {
+  Value rooms = list();
+  for (int i = 0; i < 142; ++i) rooms[i] = boxRoom("room" + std::to_string(i), 0, 1, 0, 1 + 0.01 * i);
+  EXPECT_EQ(
+      errorsOfRooms(rooms, list()),
+      "1 parameter is wrong:\n  ~rooms has more than 10000 pairs of rooms whose surrounding boxes overlap; divide "
+      "the space into fewer rooms");
 }
 
 /// Claim: the example is valid, and describes what its comments say.
