@@ -31,6 +31,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kTurns = 10;       // spans of time into which a comparison is divided
 constexpr double kLonger = 3.0;  // a 99th percentile needs many round trips
+constexpr double kCache = 10.0;  // [s] how long the node keeps transforms; this is also the default
 
 double medianOf(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -115,6 +116,7 @@ Workload withFewTicks(Workload workload) {
   workload.params["heartbeat"] = 1.0;
   workload.params["valid_for"] = 3.0;
   workload.params["audit_rate"] = 0.0;
+  workload.params["tf_cache"] = kCache;
   // Otherwise the margins of old poses grow, and a tick finds many more pairs.
   for (const char* limit : {"late_after", "stale_after", "lost_after"}) workload.params[limit] = 3600.0;
   return workload;
@@ -126,6 +128,7 @@ Receiving receiving(const Workload& workload, double duration) {
   const Control control("ignore");
   const Workload calm = withFewTicks(workload);
   const RunningNode node(calm, duration);  // it also waits until the control has started
+  sleepFor(kCache + 1.0);                  // from then on, a new transform takes the memory of one that is dropped
   std::vector<double> node_percent, control_percent;
   for (int turn = 0; turn < kTurns; ++turn) {
     const Share of_node([&] { return node.processorTime(); }), of_control([&] { return control.processorTime(); });
