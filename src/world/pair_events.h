@@ -30,8 +30,8 @@ struct PairsNow {
 /// Finds the pairs that began or ended since the previous tick, and the cause of each event.
 ///
 /// A pair is "on" from its BEGIN event to its END event. It ends when its gap exceeds its margin by more than the
-/// hysteresis, or when its bodies have no room in common. The broad phase does not know the hysteresis. So this class
-/// computes the gaps of pairs that are on but not listed.
+/// hysteresis, or when its bodies have no room in common. The broad phase does not know the hysteresis, so the list of
+/// near pairs may lack a pair that has not ended yet. This class computes the gap of such a pair itself.
 ///
 /// If only truncation removed a pair from the list, the pair stays on. So more pairs may be on than are listed. While
 /// the maximum number of pairs is on, listed pairs do not begin. They begin in the first tick that has room for them.

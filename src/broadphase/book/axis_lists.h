@@ -17,8 +17,9 @@ namespace book {
 /// Each box has two elements: its minimum corner and its maximum corner. Each element has links for all three lists.
 /// Elements are in an array and links are indices, so an id leads to its elements.
 ///
-/// Equal coordinates have an order: minima come before maxima. So boxes that touch overlap, whatever their history. The
-/// sentinels have no coordinates; isBefore() knows them.
+/// Equal coordinates have an order: minima come before maxima. So boxes that touch overlap, whatever their history.
+/// Each list begins with the element kHead and ends with kTail. These two have no coordinates: isBefore() places kHead
+/// before and kTail after all other elements.
 class AxisLists {
  public:
   using Link = std::uint32_t;  // index of an element: kHead, kTail, or elementOf(id, is_max)

@@ -31,8 +31,8 @@ class OwnMaster {
   std::unique_ptr<ChildProcess> process_;
 };
 
-/// Returns a TCP port of 127.0.0.1 on which nobody listens. Linux gives it to no other process in the meantime, unless the
-/// process asks for this port.
+/// Returns a TCP port of 127.0.0.1 on which nobody listens. Linux gives it to no other process in the meantime, unless
+/// that process asks for this port. Does the same as scripts/free_port.
 int freePort();
 
 }  // namespace test
