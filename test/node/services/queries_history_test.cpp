@@ -24,6 +24,10 @@ class QueryHistory : public ::testing::Test {
                          {"lost_after", 3600.0}});
     setup.beside["robot_description"] = balls({"a"});
     node_ = std::make_unique<NodeUnderTest>(setup);
+    // Before the first transform came, each tick had the ROS time at which it was made. If such a tick was made after
+    // the transform was stamped, the next ticks keep its time. A second transform is later than all of them.
+    transforms_.send({stamped("base", "a", at(1.0), transforms_.now())});
+    node_->waitForComplete();
     before_ = moveTo(1.0);
     after_ = moveTo(5.0);
   }
