@@ -82,14 +82,14 @@ class Reader {
     auto* at = static_cast<char*>(buffer);
     while (bytes > 0) {
       if (policy_.cancelled && policy_.cancelled()) throw Refusal(Code::busy, what_ + ": reading it was canceled");
-      const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline_ - Clock::now()).count();
+      const std::int64_t left = std::chrono::ceil<std::chrono::milliseconds>(deadline_ - Clock::now()).count();
       if (left <= 0) {
         throw Refusal(Code::budget, what_ + ": reading it took longer than " +
                                         text(std::chrono::duration<double>(policy_.timeout).count()) +
                                         " s and was stopped");
       }
       pollfd poll_output{output_, POLLIN, 0};
-      const int ready = poll(&poll_output, 1, static_cast<int>(std::min<std::int64_t>(left, kLookAgain)));
+      const int ready = poll(&poll_output, 1, static_cast<int>(std::min(left, kLookAgain)));
       if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
       const ssize_t got = ::read(output_, at, bytes);
       if (got < 0 && errno == EINTR) continue;

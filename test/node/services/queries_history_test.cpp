@@ -24,8 +24,9 @@ class QueryHistory : public ::testing::Test {
                          {"lost_after", 3600.0}});
     setup.beside["robot_description"] = balls({"a"});
     node_ = std::make_unique<NodeUnderTest>(setup);
-    // Before the first transform came, each tick had the ROS time at which it was made. If such a tick was made after
-    // the transform was stamped, the next ticks keep its time. A second transform is later than all of them.
+    // Before the first transform arrives, each tick has the ROS time at which it is made. That can be later than the
+    // stamp of the first transform, and then no tick ever has this stamp. So moveTo() only sends transforms that are
+    // stamped after the world is complete.
     transforms_.send({stamped("base", "a", at(1.0), transforms_.now())});
     node_->waitForComplete();
     before_ = moveTo(1.0);
