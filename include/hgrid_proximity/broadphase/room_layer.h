@@ -10,13 +10,15 @@
 
 namespace hgrid {
 
-/// A layer above any broad phase: it leaves out pairs of boxes without a common room. Queries are not affected.
+/// A layer above any broad phase, for cells and portals (Ericson, Real-Time Collision Detection, 2005, section 7.6). It
+/// leaves out a pair if both boxes are in rooms but have no room in common. A box that is in no room keeps all its
+/// pairs. Queries are not affected. Building explains the rules and how they differ from the book.
 ///
 /// The boxes of the broad phase below and the building must be relative to the same frame. A layer cannot be copied or
 /// moved, because the overlap filter of the broad phase below refers to it.
 class RoomLayer final : public BroadPhase {
  public:
-  /// @param below  an empty broad phase
+  /// @param below  an empty broad phase, not null; this is not checked. Its overlap filter is replaced.
   RoomLayer(Building building, std::unique_ptr<BroadPhase> below);
   RoomLayer(const RoomLayer&) = delete;
   RoomLayer& operator=(const RoomLayer&) = delete;
@@ -56,7 +58,7 @@ class RoomLayer final : public BroadPhase {
 
  private:
   struct Located {
-    bool stored = false;  // whether the entry belongs to a stored box
+    bool stored = false;  // whether the entry belongs to a stored box; in locatedMoved(): whether it was computed
     Aabb box;
     std::vector<std::uint32_t> rooms;  // ascending
   };

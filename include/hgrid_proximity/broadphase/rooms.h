@@ -34,10 +34,12 @@ struct Portal {
 /// The rooms and portals of a building (Ericson, Real-Time Collision Detection, 2005, section 7.6).
 ///
 /// A box is in every room that it overlaps, and in both rooms of every portal that it overlaps. Two boxes can form a
-/// pair only if they have a room in common. A box that is in no room can form a pair with any box: nothing is known
-/// about its surroundings. So walls must be solid: two objects that meet inside a wall are not a pair. Where two rooms
-/// overlap, there is no wall. If objects in different rooms should be pairs although they do not touch, as in
-/// BodyRooms, add a portal around the space that both rooms contain.
+/// pair only if they have a room in common. So walls must be solid: two objects that meet inside a wall are not a pair.
+/// Where two rooms overlap, there is no wall. A box that is in no room can form a pair with any box, because nothing is
+/// known about its surroundings.
+///
+/// BodyRooms also needs pairs of bodies that are only near each other. For these, add a portal around the space where
+/// two rooms overlap.
 ///
 /// A box counts as in a room unless it is entirely on the outer side of one wall. So a box that overlaps the room
 /// always counts. A box outside of the room, near one of its corners, may also count.

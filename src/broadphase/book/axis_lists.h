@@ -17,7 +17,8 @@ namespace book {
 /// Each box has two elements: its minimum corner and its maximum corner. Each element has links for all three lists.
 /// Elements are in an array and links are indices, so an id leads to its elements.
 ///
-/// Equal coordinates have an order: minima come before maxima. So boxes that touch overlap, whatever their history.
+/// Equal coordinates have an order: minima come before maxima, and among equal minima or maxima the smaller id comes
+/// first. So boxes that touch overlap, whatever their history.
 /// Each list begins with the element kHead and ends with kTail. These two have no coordinates: isBefore() places kHead
 /// before and kTail after all other elements.
 class AxisLists {

@@ -13,7 +13,7 @@ namespace book {
 
 std::size_t BitGrid::sliceOf(const Axis& axis, double coordinate) {
   if (axis.slices == 1) return 0;
-  const double slice = std::floor((coordinate - axis.low) * axis.inverse);  // does not decrease, as in CellScale
+  const double slice = std::floor((coordinate - axis.low) * axis.inverse);  // never less for a larger coordinate
   return static_cast<std::size_t>(std::clamp(slice, 0.0, static_cast<double>(axis.slices - 1)));
 }
 
@@ -101,11 +101,12 @@ void BitGrid::findPairs(PairSink& sink) const {
   Words cells;
   for (const ProxyId id : ids) {
     if (sink.isFull()) return;
-    // Smaller ids have found this pair already, so the words before the word of `id` are not needed.
+    // Boxes with smaller ids have found their pairs with this box already. So the search begins at the word of `id`,
+    // rounded down to a multiple of four words.
     for (std::size_t begin = id / 64 / 4 * 4; begin < words_; begin += kWordsAtOnce) {
       const std::size_t count = std::min(kWordsAtOnce, words_ - begin);
       intersect(box(id), begin, count, cells);
-      if (isFixed(id)) {  // two fixed boxes are no pair
+      if (isFixed(id)) {  // tryPair() would leave out pairs of fixed boxes, too, but one by one
         for (std::size_t i = 0; i < count; ++i) cells[i] &= movable[begin + i];
       }
       visitBits(cells.data(), count, begin, [&](ProxyId other) {

@@ -11,17 +11,19 @@ namespace book {
 
 /// An implicit grid (Ericson, Real-Time Collision Detection, 2005, section 7.1.5), in the bit form.
 ///
-/// Each axis is divided into slices: the rows and columns of the book, and layers in the third dimension. Each slice
-/// has one bit per box, whose index is the id. A cell is only the intersection of three slices. A query combines the
+/// Each axis is divided into slices: the rows and columns of the book, and layers in the third dimension. A slice is at
+/// most as wide as a cell of CellRule::objects, unless kMostSlices limits their number. Each slice has one bit per box;
+/// the index of the bit is the id of the box. A cell is only the intersection of three slices. A query combines the
 /// slices that it overlaps on one axis with OR, and the results of the three axes with AND.
 ///
 /// Differs from the book:
 /// - There are at most kMostSlices slices per axis, because each of them takes memory for all ids.
 /// - The outermost slices extend to infinity, so the world has no border.
 /// - The summary form of the book is one bit per slice. Here it is a count of boxes, so removals can keep it exact.
-/// - The loop over the set bits counts trailing zeros. The printed loop clears the lowest bit where it should isolate
-///   it, and never ends.
-/// - For a segment, each slice of its longest axis is combined with AND with what the segment can reach in this slice.
+/// - The loop over the set bits finds a bit by counting trailing zeros. The printed loop uses bits & (bits - 1) to find
+///   it, which clears it instead, so the loop never ends.
+/// - A segment is cut at the slices of its longest axis. In each slice, only the cells that this part can reach count.
+///   The results of the slices are combined with OR.
 /// - The words are processed four at a time, in blocks that stay in the cache.
 class BitGrid final : public Partition {
  public:
@@ -29,7 +31,7 @@ class BitGrid final : public Partition {
 
  private:
   static constexpr std::size_t kMostSlices = 128;  // per axis
-  static constexpr std::size_t kWordsAtOnce = 64;  // words of one pass; they stay in the first-level cache
+  static constexpr std::size_t kWordsAtOnce = 64;  // words of one block; they stay in the first-level cache
   using Words = std::array<std::uint64_t, kWordsAtOnce>;
   struct Span {
     std::size_t first, last;  // slices, both included

@@ -11,7 +11,7 @@ namespace hgrid {
 namespace book {
 namespace {
 
-constexpr int kFinest = -20;  // exponent of the finest level: all boxes below 1 um are on it, and also points
+constexpr int kFinest = -20;  // exponent of the finest level: it has boxes up to 2^-20 m (about 1 um), and points
 thread_local Stamps seen;     // the boxes that the present query has met
 
 }  // namespace
@@ -131,6 +131,7 @@ void MirtichGrid::candidates(const QueryShape& shape, std::vector<ProxyId>& foun
   };
   for (const Level& level : levels_) {
     const auto limit = static_cast<double>(level.residents.size());
+    // If the shape overlaps more cells than the level has residents, looking at all residents is faster.
     const bool all = level.scale.visitRanges(shape, CellScale::everywhere(), limit, [&](const CellRange& range) {
       range.visit([&](const Cell& cell) {
         const auto here = level.cells.find(cell);

@@ -14,13 +14,14 @@ namespace book {
 
 /// A hierarchical grid after Mirtich (Ericson, Real-Time Collision Detection, 2005, section 7.2.2, second scheme).
 ///
-/// The longest side of a box selects its level. The cell edge doubles from level to level. A box is in all cells that
-/// it overlaps on its own level and on all coarser levels. It is a *resident* of cells of its own level and a *visitor*
-/// of cells of coarser levels. Two boxes are close if they share a cell on the coarser of their two levels. Each close
-/// pair has a counter: the number of cells that the two boxes share on that level. A move changes the counters only
-/// where a box enters or leaves a cell. The search for all pairs reads the counters.
+/// Cell edges are powers of two [m]. The level of a box has the smallest edge that is at least as long as its longest
+/// side. A box is in all cells that it overlaps on its own level and on all coarser levels. It is a *resident* of cells
+/// of its own level and a *visitor* of cells of coarser levels. Two boxes are close if they share a cell on the coarser
+/// of their two levels. Each close pair has a counter: the number of cells that the two boxes share on that level. A
+/// move changes the counters only where a box enters or leaves a cell. The search for all pairs reads the counters.
 ///
 /// Differs from the book:
+/// - The edges of the levels are fixed. The book fits the finest level to the smallest object.
 /// - A level exists only if it had a resident when the grid was built. So each box visits few levels. A box that needs
 ///   another level makes the next search build the grid again.
 /// - A close pair becomes a pair only if its boxes overlap; the book passes all close pairs to the narrow phase.
@@ -61,7 +62,7 @@ class MirtichGrid final : public Partition {
   void count(ProxyId id, const CellBoxes& cell, bool resident, bool up);
 
   std::vector<Level> levels_;  // from fine to coarse
-  PairCounts close_;           // for each close pair: the number of cells that the two boxes share
+  PairCounts close_;           // for each close pair: the number of shared cells on the coarser level of the two
 };
 
 }  // namespace book

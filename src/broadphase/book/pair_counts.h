@@ -11,8 +11,9 @@ namespace book {
 
 /// A counter per tracked pair of boxes. A pair whose counter is 0 is not stored.
 ///
-/// MirtichGrid counts the cells that two boxes share (Ericson, Real-Time Collision Detection, 2005, section 7.2.2).
-/// SweepLists uses it as a set of pairs: each counter is 1 (section 7.5.1). The book leaves the kind of the table open.
+/// MirtichGrid counts the cells that two boxes share on the coarser of their levels (Ericson, Real-Time Collision
+/// Detection, 2005, section 7.2.2). SweepLists uses it as a set of pairs: each counter is 1 (section 7.5.1). The book
+/// leaves the kind of the table open.
 ///
 /// It is a hash table with linear probing (closed hashing in section 7.1.3) at a load of at most 1/2. Differs from that
 /// section: a deletion moves later entries back. Lazy deletion would fill the table with marks, because pairs come and
@@ -29,7 +30,7 @@ class PairCounts {
     most_ = most;
     is_complete_ = true;
   }
-  /// Whether the table holds all pairs that were raised and not lowered: their number has not exceeded the limit.
+  /// Whether the limit was never exceeded since clear(). Then the table holds every pair whose counter is above 0.
   bool isComplete() const { return is_complete_; }
   std::size_t size() const { return size_; }
   /// Adds 1 to the counter of a pair.
@@ -82,8 +83,8 @@ class PairCounts {
   void eraseAt(std::size_t hole) {
     const std::size_t mask = slots_.size() - 1;
     for (std::size_t next = (hole + 1) & mask; slots_[next].count != 0; next = (next + 1) & mask) {
-      // An entry may move into the hole unless its home slot is behind the hole. A search begins at the home slot, so
-      // it would not find the entry in front of that slot.
+      // An entry whose home slot comes after the hole stays, because a search begins at the home slot and never
+      // reaches the hole.
       if (((next - homeOf(slots_[next].key)) & mask) < ((next - hole) & mask)) continue;
       slots_[hole] = slots_[next];
       hole = next;

@@ -9,8 +9,9 @@
 namespace hgrid {
 namespace {
 
-constexpr double kParallel = 1e-9;  // length of the cross product of two unit normals that count as parallel
-constexpr double kShortest = 1e-6;  // [m] shorter edges are left out
+constexpr double kParallel = 1e-9;  // sine of the angle below which two walls, or a line and a wall, count as parallel
+// [m] Shorter edges are left out. kRounding lengthens edges, so a corner of more than three walls may add short ones.
+constexpr double kShortest = 1e-6;
 constexpr double kRounding = 1e-6;  // [m] a point this far beyond a wall is still in the room
 
 /// Returns all walls with normals of length 1: first those of the room, then the faces of the box.
@@ -47,6 +48,8 @@ struct LinePart {
 
 }  // namespace
 
+/// The book has no edges of rooms; drawings and checks need them. Each two walls meet in a line. An edge is the part of
+/// the line that no other wall cuts off.
 std::vector<RoomEdge> edgesOf(const Room& room, const Eigen::AlignedBox3d& within) {
   const std::vector<RoomWall> walls = unitWalls(room, within);
   std::vector<RoomEdge> edges;
@@ -56,13 +59,14 @@ std::vector<RoomEdge> edgesOf(const Room& room, const Eigen::AlignedBox3d& withi
       const double length = cross.norm();
       if (length < kParallel) continue;
       LinePart line;
+      // The point of the line that is nearest to the origin.
       line.start =
           (walls[i].offset * walls[j].normal - walls[j].offset * walls[i].normal).cross(cross) / (length * length);
       line.direction = cross / length;
       for (std::size_t k = 0; k < walls.size() && line.low < line.high; ++k) {
         if (k != i && k != j) line.cut(walls[k]);
       }
-      if (!(line.high - line.low >= kShortest)) continue;  // NaN: nothing is left of a line
+      if (!(line.high - line.low >= kShortest)) continue;  // also NaN: nothing is left
       edges.push_back({line.start + line.low * line.direction, line.start + line.high * line.direction});
     }
   }

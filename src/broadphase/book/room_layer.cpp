@@ -51,7 +51,7 @@ RoomLayer::Located RoomLayer::located(const Aabb& box) const {
 }
 
 /// Returns one entry per given box. Only boxes that are new or moved are located. For the others, Located::stored is
-/// false, and the caller keeps what it has.
+/// false, and the caller keeps what it has. The arguments are not checked yet; the broad phase below checks them.
 std::vector<RoomLayer::Located> RoomLayer::locatedMoved(const std::vector<ProxyId>& ids,
                                                         const std::vector<Aabb>& boxes) const {
   std::vector<Located> all(std::min(ids.size(), boxes.size()));
@@ -67,8 +67,8 @@ void RoomLayer::reserve(ProxyId id) {
   if (id >= boxes_.size()) boxes_.resize(id + std::size_t{1});
 }
 
-// Each change has three steps, so a change that throws leaves all as it was. It computes the rooms; it changes the
-// broad phase below, which may throw; it stores the rooms, which cannot fail.
+// Each change first does all that may throw: it computes the rooms, reserves memory and changes the broad phase below.
+// Then it stores the rooms, which cannot fail. So a change that throws leaves all as it was.
 
 void RoomLayer::insert(ProxyId id, const Aabb& box) {
   Located next = located(box);
@@ -130,9 +130,12 @@ void RoomLayer::checkInvariants() const {
     if (!box.stored) continue;
     ++stored;
     building_.roomsOf(box.box, rooms);
-    if (rooms != box.rooms) throw std::logic_error("RoomLayer: this invariant is violated: a box has its rooms");
+    if (rooms != box.rooms)
+      throw std::logic_error(
+          "RoomLayer: this invariant is violated: the stored rooms of a box are those of the building");
   }
-  if (stored != below_->size()) throw std::logic_error("RoomLayer: this invariant is violated: each box has rooms");
+  if (stored != below_->size())
+    throw std::logic_error("RoomLayer: this invariant is violated: each box of the broad phase below has an entry");
 }
 
 }  // namespace hgrid

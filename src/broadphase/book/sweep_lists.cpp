@@ -9,14 +9,14 @@ namespace book {
 
 // ---- the pairs
 
-/// Adds a pair to the table if its boxes overlap on all axes. They have just begun to overlap on one axis.
+/// Adds a pair to the pair table if its boxes overlap on all axes, are not both fixed, and are not in the table yet.
 void SweepLists::tryToTrack(ProxyId a, ProxyId b) {
   if (a == b || (isFixed(a) && isFixed(b)) || !overlap(box(a), box(b)) || pairs_.of(a, b) != 0) return;
   pairs_.raise(a, b);
 }
 
-/// Moves the elements of a box to their places, and updates the table where they pass elements of other boxes. On each
-/// axis, the box first grows at both ends and then shrinks. So its minimum never passes its own maximum.
+/// Moves the elements of a box to their places, and updates the pair table where they pass elements of other boxes. On
+/// each axis, the box first grows at both ends and then shrinks. So its minimum never passes its own maximum.
 void SweepLists::sortIn(ProxyId id) {
   const auto begins_at = [&](bool at_max) {
     return [this, id, at_max](Link passed) {
@@ -56,9 +56,9 @@ Partition::Followed SweepLists::added(ProxyId id) {
   return moved(id, box(id));
 }
 
-/// Unlinks a box, which takes O(1), and removes its pairs from the table. The table cannot list the pairs of one box:
-/// that would need a list per box, which each pair that begins or ends would have to change. So a query finds the boxes
-/// near it, in O(n). To insert a box takes as long, because its elements enter at the ends of the lists.
+/// Unlinks a box, which takes O(1), and removes its pairs from the pair table. That table cannot list the pairs of one
+/// box, and an extra list per box would make each move slower. So a query finds the possible partners, in O(n). To
+/// insert a box takes as long, because its elements enter at the ends of the lists.
 Partition::Followed SweepLists::removed(ProxyId id, const Aabb& from) {
   std::vector<ProxyId> others;
   if (pairs_.size() > 0) candidates(QueryShape(from), others);
@@ -69,13 +69,13 @@ Partition::Followed SweepLists::removed(ProxyId id, const Aabb& from) {
 
 Partition::Followed SweepLists::moved(ProxyId id, const Aabb&) {
   sortIn(id);
-  return steps_ > 64 * (size() + 16) ? Followed::no : Followed::settle;  // no: sorting anew is faster
+  return steps_ > 64 * (size() + 16) ? Followed::no : Followed::settle;  // an estimate of when building is faster
 }
 
 // ---- searches
 
 /// Calls visit(a, b) for each overlapping pair, unless both boxes are fixed, until `visit` returns false. It goes along
-/// the list of the first axis and does not use the table.
+/// the list of the first axis and does not use the pair table.
 template <class Visit>
 void SweepLists::sweep(Visit&& visit) const {
   std::vector<ProxyId> movable, fixed;  // the boxes whose minimum was passed and whose maximum was not

@@ -18,17 +18,18 @@ namespace book {
 /// - A minimum moves to the left of a maximum, or a maximum to the right of a minimum: the overlap begins.
 /// - A minimum moves to the right of a maximum, or a maximum to the left of a minimum: the overlap ends.
 ///
-/// A table holds all overlapping pairs. Each move updates it, so the search for all pairs only reads it.
+/// The pair table holds all overlapping pairs. Each move updates it, so the search for all pairs only reads it.
 ///
 /// Differs from the book:
-/// - AxisLists orders equal coordinates, and its links are indices of an array.
+/// - AxisLists orders equal coordinates, its links are indices of an array, and its sentinels have no coordinates.
 /// - A new box enters at the right end of each list and moves to its place. So it meets all its pairs, also boxes that
-///   enclose it. The printed scan never advances, and a look only between the two ends would miss such boxes.
-/// - The removal of a box also removes its pairs from the table.
+///   enclose it. The book scans one list instead, but its printed loop never advances, and a scan only between the two
+///   ends of the box would miss boxes that enclose it.
+/// - The removal of a box also removes its pairs from the pair table.
 /// - If elements pass too many others, as when boxes jump far, the next search sorts all lists again.
-/// - The table does not hold pairs of two fixed boxes.
-/// - If there are far more pairs than the pair bound allows, the table is dropped to save memory. Until the lists are
-///   built again, each search for pairs sweeps along the list of the first axis.
+/// - The pair table does not hold pairs of two fixed boxes.
+/// - If there are more than mostTrackedPairs(), the pair table is dropped to save memory. Until the lists are built
+///   again, each search for pairs sweeps along the list of the first axis.
 class SweepLists final : public Partition {
  public:
   SweepLists() : Partition("SweepLists") {}
@@ -43,6 +44,7 @@ class SweepLists final : public Partition {
   Followed moved(ProxyId id, const Aabb& from) override;
   bool rebuildsWhenMostMove() const override { return false; }
   bool tracksPairs() const override { return true; }
+  /// The lists are always up to date. This only begins to count the steps anew.
   void settle() override { steps_ = 0; }
   void findPairs(PairSink& sink) const override;
   void candidates(const QueryShape& shape, std::vector<ProxyId>& found) const override;
