@@ -1,6 +1,8 @@
 # The sources of the core, which needs C++17 and Eigen but not ROS. The package and the project in test/ use this list.
 set(HGRID_CORE_SOURCES
+  src/bodies/forward_kinematics.cpp
   src/bodies/group_tree.cpp
+  src/bodies/kinematics.cpp
   src/bodies/link_matrix.cpp
   src/bodies/motion_bound.cpp
   src/bodies/name.cpp
@@ -57,6 +59,7 @@ set(HGRID_CORE_SOURCES
   src/geometry/pose.cpp
   src/geometry/segment.cpp
   src/geometry/shape.cpp
+  src/geometry/sine_cosine.cpp
   src/history/history.cpp
   src/history/kept_parts.cpp
   src/history/snapshot_record.cpp
@@ -88,6 +91,7 @@ set(HGRID_CORE_SOURCES
   src/pairs/rule_book.cpp
   src/queries/answer.cpp
   src/queries/doubt.cpp
+  src/queries/doubtful_body.cpp
   src/queries/nearest_rounds.cpp
   src/queries/nearest_to_body.cpp
   src/queries/placed_map.cpp
@@ -97,6 +101,12 @@ set(HGRID_CORE_SOURCES
   src/queries/segment_question.cpp
   src/queries/solid_question.cpp
   src/queries/sphere_question.cpp
+  src/queries/states/robot_shapes.cpp
+  src/queries/states/state_checker.cpp
+  src/queries/states/state_doubts.cpp
+  src/queries/states/state_search.cpp
+  src/queries/states/state_values.cpp
+  src/queries/states/world_shapes.cpp
   src/refusal.cpp
   src/world/body_rooms.cpp
   src/world/commit.cpp

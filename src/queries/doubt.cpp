@@ -10,32 +10,12 @@
 //
 // The region of a query is the part of space in which a body would be a hit.
 #include "hgrid_proximity/queries/query.h"
-#include "hgrid_proximity/refusal.h"
+#include "queries/doubtful_body.h"
 #include "queries/question.h"
-#include "world/body_gap.h"
 #include "world/pair_margin.h"
 
 namespace hgrid {
 namespace {
-
-/// Returns whether the body can be anywhere, because its position or its size is not bounded.
-bool canBeAnywhere(const Body& body, const BodyPose& pose) {
-  if (!body.covered && !body.waived) return true;
-  // FROZEN: the clock stands still, so the age of the pose is unknown. INVALID: newer data was refused, or several
-  // publishers contradict each other.
-  if (pose.state == Freshness::frozen || pose.state == Freshness::invalid) return true;
-  if (body.kind == BodyKind::cloud && pose.state >= Freshness::lost) return true;  // its cells have expired
-  return pose.state == Freshness::unplaced || !(pose.reach <= kQueryReach);
-}
-
-std::string doubtOf(const Body& body, const BodyPose& pose) {
-  std::string gap = gapLeftBy(body, pose);
-  if (canBeAnywhere(body, pose) && !gap.empty()) return gap;
-  return (gap.empty()
-              ? std::string(name(pose.state)) + " " + body.name + ": its pose is " + secondsText(pose.age) + " old"
-              : gap) +
-         ", so it may have moved here since then";
-}
 
 void note(QueryAnswer& answer, Unknown because, std::string reason) {
   answer.because = because;
@@ -123,17 +103,6 @@ bool noteBodies(const Question& question, QueryAnswer& answer) {
     if (noteBody(question, body, answer)) return true;
   }
   return false;
-}
-
-/// Returns whether a map must know the region to be free. That is not so if the scope of the query leaves out all maps.
-bool asksMaps(const Snapshot& snapshot, const QueryScope& scope) {
-  bool has_maps = false;
-  for (const std::uint32_t map : snapshot.structure().maps) {
-    if (snapshot.structure().bodies[map].kind == BodyKind::cloud) continue;
-    if (inScope(snapshot, scope, map)) return true;
-    has_maps = true;
-  }
-  return !has_maps && scope.include.empty();
 }
 
 /// If the region is not known to be free, sets the reason in `answer` and returns true. A single map must know the

@@ -17,4 +17,14 @@ QueryHit PlacedMap::hitOf(const Voxel& voxel, const Eigen::Vector3d& center, dou
   return hit;
 }
 
+bool asksMaps(const Snapshot& snapshot, const QueryScope& scope) {
+  bool has_maps = false;
+  for (const std::uint32_t map : snapshot.structure().maps) {
+    if (snapshot.structure().bodies[map].kind == BodyKind::cloud) continue;
+    if (inScope(snapshot, scope, map)) return true;
+    has_maps = true;
+  }
+  return !has_maps && scope.include.empty();
+}
+
 }  // namespace hgrid

@@ -41,4 +41,7 @@ void forEachMap(const Snapshot& snapshot, const QueryScope& scope, Look&& look) 
   }
 }
 
+/// Returns whether a map must know the region to be free. That is not so if the scope of the query leaves out all maps.
+bool asksMaps(const Snapshot& snapshot, const QueryScope& scope);
+
 }  // namespace hgrid

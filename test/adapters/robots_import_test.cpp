@@ -179,6 +179,9 @@ TEST_P(RobotImport, JointsEqualThoseOfTheText) {
     EXPECT_EQ(link.joint_kind == JointKind::fixed, type == "fixed");
     EXPECT_EQ(link.joint_kind == JointKind::prismatic, type == "prismatic");
     EXPECT_EQ(link.joint_kind == JointKind::revolute, type == "revolute" || type == "continuous");
+    EXPECT_EQ(link.continuous, type == "continuous");
+    const auto* mimic = joint->FirstChildElement("mimic");
+    EXPECT_EQ(link.mimic, mimic ? mimic->Attribute("joint") : "");
     if (type == "fixed") continue;
     EXPECT_TRUE(link.axis.isApprox(numbers(joint->FirstChildElement("axis"), "xyz").normalized(), 1e-12));
     const auto* limit = joint->FirstChildElement("limit");

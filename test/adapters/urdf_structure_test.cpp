@@ -93,6 +93,19 @@ TEST(UrdfStructure, AnAxisOfLengthZeroIsAWarningByName) {
   EXPECT_TRUE(says(model.warnings[0], "hinge"));
 }
 
+TEST(UrdfStructure, AJointThatMimicsAnotherNamesItWithItsMultiplierAndOffset) {
+  const RobotModel model = read(robot(
+      link("base") + link("left") + link("right") + joint("open", "base", "left", "continuous") +
+      joint("follow", "base", "right", "continuous", "<mimic joint=\"open\" multiplier=\"-2\" offset=\"0.25\"/>")));
+  const RobotLink &left = model.links.at(std::size_t(model.find("left"))),
+                  &right = model.links.at(std::size_t(model.find("right")));
+  EXPECT_TRUE(left.continuous);
+  EXPECT_EQ(left.mimic, "");
+  EXPECT_EQ(right.mimic, "open");
+  EXPECT_EQ(right.mimic_multiplier, -2.0);
+  EXPECT_EQ(right.mimic_offset, 0.25);
+}
+
 TEST(UrdfStructure, ARefusalDoesNotAffectTheNextText) {
   const std::string good = robot(link("base", collision("<sphere radius=\"1\"/>")));
   for (const NoTree& bad : noTrees()) {

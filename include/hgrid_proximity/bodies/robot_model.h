@@ -25,6 +25,10 @@ struct RobotLink {
   double max_velocity = 0.0;                        ///< [rad/s] or [m/s] limit of the joint; 0: the URDF gives none
   double lower = 0.0;                               ///< [rad] or [m] lower joint limit; both limits 0: no limits
   double upper = 0.0;                               ///< [rad] or [m] upper joint limit
+  bool continuous = false;                          ///< whether the joint turns without limits, whatever `lower` says
+  std::string mimic;                                ///< name of the joint that this joint follows; empty: none
+  double mimic_multiplier = 1.0;                    ///< its position is mimic_multiplier * position of `mimic` ...
+  double mimic_offset = 0.0;                        ///< [rad] or [m] ... + mimic_offset
   bool has_collision = false;                       ///< whether the URDF has a `<collision>` for this link
   bool uses_visual = false;                         ///< whether `<visual>` gives the shapes instead of `<collision>`
   std::vector<BodyShape> shapes;                    ///< the shapes that could be read

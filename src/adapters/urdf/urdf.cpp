@@ -211,6 +211,12 @@ RobotLink linkOf(const urdf::Link& source, int parent, const ShapeLimits& limits
   const std::string what = "joint '" + printable(joint.name) + "'";
   link.joint = joint.name;
   link.joint_kind = kindOf(joint);
+  link.continuous = joint.type == urdf::Joint::CONTINUOUS;
+  if (joint.mimic) {
+    link.mimic = joint.mimic->joint_name;
+    link.mimic_multiplier = joint.mimic->multiplier;
+    link.mimic_offset = joint.mimic->offset;
+  }
   link.parent_from_joint = poseOf(joint.parent_to_joint_origin_transform, what + ": origin");
   checkWithin(link.parent_from_joint.translation(), limits.max_size, what + ": origin");
   const Eigen::Vector3d axis = vectorOf(joint.axis);

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hgrid_proximity/bodies/kinematics.h"
+#include "hgrid_proximity/narrow/narrow_phase.h"
+#include "hgrid_proximity/queries/query_answer.h"
+#include "hgrid_proximity/refusal.h"
+#include "hgrid_proximity/world/snapshot.h"
+
+namespace hgrid {
+
+/// States of one robot, as a planner asks about them. Each state is one value for each variable of the robot's joints.
+struct StateBatch {
+  /// Names of the variables that `positions` has, see JointVariable. Empty: all variables, in the order of
+  /// Kinematics::variables().
+  std::vector<std::string> joints;
+  /// [rad] or [m] The values of the first state, in the order of `joints`, then those of the next state, and so on.
+  std::vector<double> positions;
+  /// Values for the variables that `joints` does not name, the same in all states: one value for each of
+  /// Kinematics::variables(). Empty: `joints` must name all variables.
+  std::vector<double> others;
+  /// Pose of the root link of the robot in the world. nullopt: the pose that the snapshot has.
+  std::optional<Pose> world_from_root;
+};
+
+/// What StateChecker::checkStates() looks for.
+struct StateRequest {
+  /// Whether to list all pairs of bodies in contact. If not, only one pair is listed.
+  bool all_pairs = false;
+  /// [m] If it is greater than 0: measure how far a state without contact is from contact, up to this distance.
+  double clearance = 0.0;
+  /// When the search stops. The states that it has not examined get the verdict unknown (Unknown::budget). nullopt: no
+  /// deadline.
+  std::optional<std::chrono::steady_clock::time_point> deadline;
+};
+
+/// Two bodies in a state of the robot, and how they lie relative to each other.
+struct StatePair {
+  std::uint32_t first = 0;   ///< index into Structure::bodies: a link of the robot, or an obstacle attached to a link
+  std::uint32_t second = 0;  ///< index into Structure::bodies: any body
+  std::uint32_t first_shape = 0;   ///< index among the shapes of the first body
+  std::uint32_t second_shape = 0;  ///< index among the shapes of the second body; 0 for a map or cloud
+  /// What the narrow phase found. Points and normal are in the world frame. Measure::not_measured: the boxes of the two
+  /// shapes overlap, and one of the shapes has no solid; this counts as contact.
+  Proximity proximity;
+};
+
+/// The answer for one state.
+struct StateAnswer {
+  /// hit: the robot touches itself or another body. clear: it surely touches nothing. unknown: neither is known.
+  Verdict verdict = Verdict::unknown;
+  Unknown because = Unknown::no;  ///< why the verdict is unknown
+  Code refused = Code::ok;        ///< why the state was refused, if `because` is Unknown::refused
+  bool beyond_limits = false;     ///< whether a joint is beyond its limits; the verdict is given nevertheless
+  std::uint32_t detail = 0;       ///< for StateChecker::sentenceOf()
+  std::uint32_t first_pair = 0;   ///< index of the first pair of this state in StateAnswers::pairs
+  std::uint32_t pairs = 0;        ///< number of pairs of this state
+  /// [m] How far the robot is from contact: 0 in contact, infinite if farther than StateRequest::clearance. NaN if not
+  /// asked for or not known.
+  double clearance = Proximity::kUnknown;
+};
+
+/// The answers to a batch of states.
+struct StateAnswers {
+  std::vector<StateAnswer> states;  ///< one for each state, in the order of the batch
+  /// The pairs of all states. A state in contact has the pair that was found first, or with StateRequest::all_pairs all
+  /// pairs, sorted by their bodies. A state whose clearance was measured has its nearest pair.
+  std::vector<StatePair> pairs;
+};
+
+struct StateMemory;
+
+/// Memory that a thread uses for checking states. Each thread needs its own. It keeps its memory, so that later batches
+/// of the same size allocate nothing.
+class StateScratch {
+ public:
+  StateScratch();
+  ~StateScratch();
+  /// Takes over the memory of another object, which may then only be destroyed.
+  StateScratch(StateScratch&&) noexcept;
+  StateScratch& operator=(StateScratch&&) = delete;
+
+ private:
+  friend class StateChecker;
+  std::unique_ptr<StateMemory> memory_;
+};
+
+/// Settings of a StateChecker.
+struct StateCheckerOptions {
+  std::vector<std::string> ignore;  ///< globs over names of bodies that are left out
+};
+
+/// Answers whether a robot would touch anything if its joints stood at given positions, for many states at once.
+///
+/// All bodies of one snapshot count, with their padding: links of the robot against each other, and against all other
+/// bodies, maps, clouds and planes. The pair filter of the snapshot applies. The links of the robot and the obstacles
+/// that are attached to them are where the joints put them. Everything else stays where the snapshot has it, also other
+/// robots. An obstacle is attached if it can move and follows the frame of a link that can move.
+///
+/// The verdict of a state without contact is `unknown` instead of `clear` if something may be in contact unseen:
+/// - A source of the snapshot lacks something (Snapshot::gaps()) that may be where the robot would be.
+/// - A body has no pose, is FROZEN or INVALID, or has a shape that could not be read. This includes unreadable shapes
+///   of the robot itself. The poses of its links do not matter, because the joints give their poses.
+/// - A body may have moved to the robot since its last pose (BodyPose::reach).
+/// - The pose of the robot is the one of the snapshot, and the robot may have moved since.
+/// - Snapshot::reportsUnmapped(), and no map knows the space around a shape of the robot to be free.
+/// - A deadline passed.
+/// With StateRequest::clearance, it is also `unknown` if something unseen may be nearer than the clearance found. For
+/// bodies that the pair filter switches off with all bodies of the robot, and for ignored bodies, nothing of this
+/// counts.
+///
+/// Immutable. Any number of threads may call checkStates() at the same time, each with a scratch object of its own. The
+/// answer for a state depends neither on the other states of its batch, nor on the thread, nor on the processor.
+class StateChecker {
+ public:
+  /// Prepares the shapes of the robot and of the world. Takes time proportional to the number of shapes.
+  /// @param snapshot    the world; the checker keeps it
+  /// @param kinematics  the joints of the robot; they must be of the model whose links are in the snapshot
+  /// @param robot       name of the robot in the snapshot (Body::robot)
+  /// @param narrow_phase  measures the shapes; the solids of the bodies must come from it
+  /// @throws Refusal unknown_id if the snapshot has no links of this robot
+  /// @throws Refusal conflict if its links are not those of `kinematics`
+  StateChecker(std::shared_ptr<const Snapshot> snapshot, const Kinematics& kinematics, const std::string& robot,
+               std::shared_ptr<const NarrowPhase> narrow_phase, const StateCheckerOptions& options = {});
+  ~StateChecker();
+  /// Takes over the content of another checker, which may then only be destroyed.
+  StateChecker(StateChecker&&) noexcept;
+  StateChecker& operator=(StateChecker&&) = delete;
+
+  /// Answers for each state of a batch. Replaces the content of `answers`.
+  ///
+  /// A state with an invalid value is refused and gets the verdict unknown; all other states are answered. A value is
+  /// invalid if it is not finite, if it is out of range (an angle beyond 1e8 rad, a length beyond 1e6 m), or if the
+  /// norm of a quaternion is not near 1. If the last state is incomplete, it is refused.
+  /// @throws Refusal unknown_id or dup_id for an entry of `joints`
+  /// @throws Refusal not_ready if `joints` and `others` do not give a value for each variable, or if neither the batch
+  /// nor the snapshot has a pose of the robot's root link
+  /// @throws Refusal out_of_range if `others` has the wrong length, or if the clearance is negative or not finite
+  /// @throws Refusal nonfinite if the pose of the root link or a value of `others` is not finite
+  void checkStates(const StateBatch& batch, const StateRequest& request, StateScratch& scratch,
+                   StateAnswers& answers) const;
+
+  /// Returns a sentence that says why a state was refused or why its verdict is unknown; empty for other states.
+  /// @param batch    the batch that `answers` is the answer to
+  /// @param state    index of the state
+  std::string sentenceOf(const StateBatch& batch, const StateAnswers& answers, std::size_t state) const;
+
+  const Snapshot& snapshot() const;      ///< the world
+  const Kinematics& kinematics() const;  ///< the joints
+  /// Returns the number of pairs of shapes of the robot that are tested against each other.
+  std::size_t selfPairs() const;
+
+ private:
+  struct State;
+  std::unique_ptr<const State> state_;
+};
+
+}  // namespace hgrid

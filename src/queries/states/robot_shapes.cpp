@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "queries/states/robot_shapes.h"
+
+#include <algorithm>
+#include <map>
+
+#include "hgrid_proximity/refusal.h"
+
+namespace hgrid {
+namespace {
+
+constexpr float kUnit = 6e-8f;  // relative rounding error of one float operation
+
+/// Returns the part of a frame's name that comes before the name of the link; empty if there is none.
+std::string prefixOf(const std::string& frame, const std::string& link) {
+  if (frame.size() <= link.size() || frame.compare(frame.size() - link.size(), link.size(), link) != 0) return {};
+  return frame.substr(0, frame.size() - link.size());
+}
+
+/// Returns the center of four groups relative to the origin, as floats.
+Four rounded(const FourDoubles& value, double less) {
+  return Four{static_cast<float>(value.low[0] - less), static_cast<float>(value.low[1] - less),
+              static_cast<float>(value.high[0] - less), static_cast<float>(value.high[1] - less)};
+}
+
+/// The pose of a rigid group in four states, in floats.
+struct GroupFloats {
+  GroupFloats(const FourPoses& group, const Eigen::Vector3d& origin) {
+    for (std::size_t i = 0; i < 9; ++i) turn[i] = rounded(group.turn[i], 0.0);
+    for (std::size_t k = 0; k < 3; ++k) shift[k] = rounded(group.shift[k], origin[static_cast<Eigen::Index>(k)]);
+    rounding = (absolute(shift[0]) + absolute(shift[1]) + absolute(shift[2])) * (4.0f * kUnit);
+  }
+  /// Rotates a vector of the group.
+  Four turned(const float (&vector)[3], std::size_t row) const {
+    return turn[3 * row] * allFour(vector[0]) + turn[3 * row + 1] * allFour(vector[1]) +
+           turn[3 * row + 2] * allFour(vector[2]);
+  }
+  Four turn[9], shift[3];
+  Four rounding;  // [m] bound of the rounding errors of a point that is near the origin of the group
+};
+
+}  // namespace
+
+TiltedBox<float> tiltedBoxOf(const BodyShape& shape, const Pose& frame_from_shape, double rounding) {
+  const Eigen::AlignedBox3d local =
+      inDouble(boxOf(shape.shape, Pose::Identity(), shape.padding, Eigen::Vector3d::Zero()));
+  const Eigen::Vector3d center = frame_from_shape * local.center(), half = 0.5 * local.sizes();
+  TiltedBox<float> box;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    for (Eigen::Index k = 0; k < 3; ++k) box.axes[i][k] = static_cast<float>(frame_from_shape.linear()(k, i));
+    box.center[i] = static_cast<float>(center[i]);
+    box.half[i] = roundedUp(half[i] + rounding + 1e-6 * half.sum());
+  }
+  return box;
+}
+
+RobotShapes::RobotShapes(const Snapshot& snapshot, const Kinematics& kinematics, const std::string& robot,
+                         const QueryScope& scope)
+    : is_own_(snapshot.structure().bodies.size()) {
+  addLinks(snapshot, kinematics, robot);
+  addAttached(snapshot, kinematics);
+  addShapes(snapshot, scope);
+  addSelfPairs(snapshot.structure().filter);
+}
+
+void RobotShapes::addLinks(const Snapshot& snapshot, const Kinematics& kinematics, const std::string& robot) {
+  const BodyList& bodies = snapshot.structure().bodies;
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    const Body& body = bodies[i];
+    if (body.kind != BodyKind::link || body.robot != robot) continue;
+    const std::vector<std::string>& links = kinematics.links();
+    if (body.link >= links.size() || body.name != robot + "/" + links[body.link] ||
+        (body.links && body.links->size() != links.size())) {
+      throw Refusal(Code::conflict, "'" + printable(body.name) +
+                                        "' is not the same link in the snapshot and in the model of the joints; use "
+                                        "the model from which the robot of the snapshot was loaded");
+    }
+    bodies_.push_back({i, kinematics.groupOfLink()[body.link], kinematics.groupFromLink()[body.link]});
+    is_own_[i] = true;
+  }
+  if (!bodies_.empty()) return;
+  throw Refusal(Code::unknown_id, "robot '" + printable(robot) +
+                                      "' has no links in the snapshot; it must be loaded before its states "
+                                      "can be checked");
+}
+
+/// Adds the obstacles that follow the frame of a link. An obstacle in the frame of a fixed link rests in the world.
+void RobotShapes::addAttached(const Snapshot& snapshot, const Kinematics& kinematics) {
+  const BodyList& bodies = snapshot.structure().bodies;
+  std::map<std::string, std::uint32_t> link_of_frame;
+  std::vector<bool> is_fixed(kinematics.state().groups.size());
+  const Body& some = bodies[bodies_.front().body];
+  const std::string prefix = prefixOf(some.frame, kinematics.links()[some.link]);
+  for (std::uint32_t link = 0; link < kinematics.links().size(); ++link) {
+    link_of_frame[prefix + kinematics.links()[link]] = link;
+  }
+  for (const RobotBody& own : bodies_) {
+    if (bodies[own.body].mobility == Mobility::fixed) is_fixed[own.group] = true;
+  }
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    const Body& body = bodies[i];
+    if (body.kind != BodyKind::obstacle || body.mobility == Mobility::fixed) continue;
+    const auto found = link_of_frame.find(body.frame);
+    if (found == link_of_frame.end()) continue;
+    const std::uint32_t group = kinematics.groupOfLink()[found->second];
+    if (is_fixed[group]) continue;
+    bodies_.push_back({i, group, kinematics.groupFromLink()[found->second] * body.frame_from_body});
+    is_own_[i] = true;
+  }
+}
+
+void RobotShapes::addShapes(const Snapshot& snapshot, const QueryScope& scope) {
+  for (const RobotBody& own : bodies_) {
+    if (!inScope(snapshot, scope, own.body)) continue;
+    const std::vector<BodyShape>& shapes = snapshot.structure().bodies[own.body].shapes;
+    for (std::uint32_t i = 0; i < shapes.size(); ++i) {
+      const Pose group_from_shape = own.group_from_body * shapes[i].body_from_shape;
+      const double rounding = 1e-6 * group_from_shape.translation().norm();
+      shapes_.push_back(
+          {own.body, i, own.group, group_from_shape, &shapes[i], tiltedBoxOf(shapes[i], group_from_shape, rounding)});
+    }
+  }
+  std::stable_sort(shapes_.begin(), shapes_.end(),
+                   [](const RobotShape& a, const RobotShape& b) { return a.group < b.group; });
+}
+
+void RobotShapes::addSelfPairs(const PairFilter& filter) {
+  for (std::uint32_t i = 0; i < shapes_.size(); ++i) {
+    for (std::uint32_t k = i + 1; k < shapes_.size(); ++k) {
+      if (!filter.allowed(shapes_[i].body, shapes_[k].body)) self_pairs_.push_back({i, k});
+    }
+  }
+}
+
+void RobotShapes::place(const std::vector<FourPoses>& groups, const Eigen::Vector3d& origin,
+                        std::vector<FourShapes>& placed) const {
+  for (std::size_t i = 0; i < shapes_.size();) {
+    const std::uint32_t group = shapes_[i].group;
+    const GroupFloats pose(groups[group], origin);
+    for (; i < shapes_.size() && shapes_[i].group == group; ++i) {
+      const TiltedBox<float>& local = shapes_[i].in_group;
+      FourShapes& result = placed[i];
+      for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t axis = 0; axis < 3; ++axis) result.box.axes[axis][k] = pose.turned(local.axes[axis], k);
+        result.box.center[k] = pose.turned(local.center, k) + pose.shift[k];
+        result.box.half[k] = allFour(local.half[k]) + pose.rounding;
+      }
+      for (std::size_t k = 0; k < 3; ++k) {
+        Four reach = pose.rounding;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          reach += absolute(result.box.axes[axis][k]) * result.box.half[axis];
+        }
+        result.min[k] = result.box.center[k] - reach;
+        result.max[k] = result.box.center[k] + reach;
+      }
+    }
+  }
+}
+
+}  // namespace hgrid

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <vector>
+
+#include "bodies/forward_kinematics.h"
+#include "hgrid_proximity/queries/query_scope.h"
+#include "queries/states/tilted_box.h"
+
+namespace hgrid {
+
+/// A body that the joints of the robot move: one of its links, or an obstacle that is attached to a link.
+struct RobotBody {
+  std::uint32_t body;    ///< index into Structure::bodies
+  std::uint32_t group;   ///< rigid group of the robot
+  Pose group_from_body;  ///< pose of the body in the frame of its group
+};
+
+/// A shape of such a body.
+struct RobotShape {
+  std::uint32_t body, shape;  ///< index of the body, and index of the shape among the shapes of the body
+  std::uint32_t group;        ///< rigid group of the robot
+  Pose group_from_shape;
+  const BodyShape* what;      ///< the shape itself; the snapshot keeps it alive
+  TiltedBox<float> in_group;  ///< box around the padded shape, in the frame of the group
+};
+
+/// A shape in four states of the robot. The boxes are relative to the origin of the snapshot.
+struct FourShapes {
+  TiltedBox<Four> box;
+  Four min[3], max[3];  ///< [m] corners of the axis-aligned box around `box`
+};
+
+/// Two shapes of the robot that must not touch each other. They are indices into RobotShapes::shapes().
+struct SelfPair {
+  std::uint32_t first, second;
+};
+
+/// The shapes that move with the joints of one robot, and their pairs that the pair filter does not switch off.
+class RobotShapes {
+ public:
+  /// @throws Refusal unknown_id if the snapshot has no links of this robot
+  /// @throws Refusal conflict if its links are not those of `kinematics`
+  RobotShapes(const Snapshot& snapshot, const Kinematics& kinematics, const std::string& robot,
+              const QueryScope& scope);
+
+  const std::vector<RobotBody>& bodies() const { return bodies_; }
+  const std::vector<RobotShape>& shapes() const { return shapes_; }
+  const std::vector<SelfPair>& selfPairs() const { return self_pairs_; }
+  /// Returns whether the joints of the robot move this body.
+  bool moves(std::uint32_t body) const { return body < is_own_.size() && is_own_[body]; }
+
+  /// Computes where the shapes are in four states.
+  /// @param groups  poses of the rigid groups
+  /// @param placed  receives one element for each of shapes()
+  void place(const std::vector<FourPoses>& groups, const Eigen::Vector3d& origin,
+             std::vector<FourShapes>& placed) const;
+
+ private:
+  void addLinks(const Snapshot& snapshot, const Kinematics& kinematics, const std::string& robot);
+  void addAttached(const Snapshot& snapshot, const Kinematics& kinematics);
+  void addShapes(const Snapshot& snapshot, const QueryScope& scope);
+  void addSelfPairs(const PairFilter& filter);
+
+  std::vector<RobotBody> bodies_;
+  std::vector<RobotShape> shapes_;  // sorted by group, so that place() reads each group once
+  std::vector<SelfPair> self_pairs_;
+  std::vector<bool> is_own_;  // by index of the body
+};
+
+/// Returns a box around a padded shape at a pose.
+/// @param rounding  [m] how much the box is grown for the rounding of coordinates to float
+TiltedBox<float> tiltedBoxOf(const BodyShape& shape, const Pose& frame_from_shape, double rounding);
+
+}  // namespace hgrid

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "queries/states/state_values.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/sine_cosine.h"
+
+namespace hgrid {
+namespace {
+
+constexpr double kLargestLength = 1e6;             // [m]
+constexpr std::uint32_t kIncomplete = 0xffffffff;  // StateAnswer::detail of a state that lacks values
+
+double largestOf(const JointVariable& variable) { return variable.is_angle ? kLargestAngle : kLargestLength; }
+
+/// Returns the number of values that one state of the batch has.
+std::size_t widthOf(const Kinematics& kinematics, const StateBatch& batch) {
+  return batch.joints.empty() ? kinematics.variables().size() : batch.joints.size();
+}
+
+/// Returns the column of a variable in the batch; -1: it has none.
+std::int64_t columnOf(const Kinematics& kinematics, const StateBatch& batch, std::size_t variable) {
+  if (batch.joints.empty()) return static_cast<std::int64_t>(variable);
+  const auto found = std::find(batch.joints.begin(), batch.joints.end(), kinematics.variables()[variable].name);
+  return found == batch.joints.end() ? -1 : found - batch.joints.begin();
+}
+
+void checkJoints(const Kinematics& kinematics, const StateBatch& batch) {
+  for (std::size_t i = 0; i < batch.joints.size(); ++i) {
+    const std::string& joint = batch.joints[i];
+    if (kinematics.find(joint) < 0) {
+      throw Refusal(Code::unknown_id, "joint '" + printable(joint) + "' of the states is not a variable of robot '" +
+                                          printable(kinematics.name()) +
+                                          "'; fixed joints and joints that mimic others have none");
+    }
+    if (std::find(batch.joints.begin() + static_cast<std::ptrdiff_t>(i) + 1, batch.joints.end(), joint) !=
+        batch.joints.end()) {
+      throw Refusal(Code::dup_id,
+                    "joint '" + printable(joint) + "' occurs twice in the states; each joint must occur once");
+    }
+  }
+}
+
+void checkOthers(const Kinematics& kinematics, const StateBatch& batch) {
+  if (batch.others.empty()) return;
+  const std::vector<JointVariable>& variables = kinematics.variables();
+  if (batch.others.size() != variables.size()) {
+    throw Refusal(Code::out_of_range, "the states have " + std::to_string(batch.others.size()) +
+                                          " values for the other joints; there must be one for each of the " +
+                                          std::to_string(variables.size()) + " variables, or none");
+  }
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    if (std::abs(batch.others[i]) <= largestOf(variables[i])) continue;
+    throw Refusal(Code::nonfinite, "the value of joint '" + printable(variables[i].name) +
+                                       "' among the other joints is " + text(batch.others[i]) +
+                                       "; it must be finite and at most " + text(largestOf(variables[i])));
+  }
+}
+
+}  // namespace
+
+StateValues::StateValues(const Kinematics& kinematics, const StateBatch& batch, StateMemory& scratch)
+    : kinematics_(kinematics),
+      batch_(batch),
+      scratch_(scratch),
+      width_(std::max<std::size_t>(1, widthOf(kinematics, batch))) {
+  checkJoints(kinematics, batch);
+  checkOthers(kinematics, batch);
+  const std::size_t count = kinematics.variables().size();
+  scratch.columns.resize(count);
+  scratch.values.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    scratch.columns[i] = columnOf(kinematics, batch, i);
+    if (scratch.columns[i] >= 0 || !batch.others.empty()) continue;
+    throw Refusal(Code::not_ready, "the states have no value for joint '" + printable(kinematics.variables()[i].name) +
+                                       "'; name all joints, or give values for the other joints");
+  }
+}
+
+double StateValues::value(std::size_t state, std::size_t variable) const {
+  const std::int64_t column = scratch_.columns[variable];
+  return column < 0 ? batch_.others[variable] : batch_.positions[state * width_ + static_cast<std::size_t>(column)];
+}
+
+void StateValues::read(std::size_t state, std::size_t lane, StateAnswer& answer) {
+  const std::vector<JointVariable>& variables = kinematics_.variables();
+  const bool complete = isComplete(state);
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    scratch_.values[i].set(lane, complete ? value(state, i) : 0.0);
+  }
+  if (complete) {
+    check(state, lane, answer);
+  } else {
+    answer.refused = Code::bad_geometry;
+    answer.detail = kIncomplete;
+  }
+  if (answer.refused == Code::ok) return;
+  answer.because = Unknown::refused;
+  for (std::size_t i = 0; i < variables.size(); ++i) scratch_.values[i].set(lane, 0.0);
+}
+
+/// Checks the values of a lane, and sets `refused`, `detail` and `beyond_limits`.
+void StateValues::check(std::size_t state, std::size_t lane, StateAnswer& answer) const {
+  const std::vector<JointVariable>& variables = kinematics_.variables();
+  const auto refuse = [&](Code code, std::size_t variable) {
+    answer.refused = code;
+    answer.detail = static_cast<std::uint32_t>(variable);
+  };
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    const double position = scratch_.values[i][lane];
+    if (!std::isfinite(position)) return refuse(Code::nonfinite, i);
+    if (!(std::abs(position) <= largestOf(variables[i]))) return refuse(Code::out_of_range, i);
+    if (position < variables[i].lower || position > variables[i].upper) answer.beyond_limits = true;
+    if (variables[i].quaternion != static_cast<int>(i)) continue;
+    double squared = 0.0;
+    for (std::size_t k = i; k < i + 4; ++k) squared += value(state, k) * value(state, k);
+    if (!(std::abs(squared - 1.0) <= kQuaternionTolerance)) return refuse(Code::bad_rotation, i);
+  }
+  for (const JointMotion& joint : kinematics_.state().groups) {
+    if (!joint.mimics) continue;
+    const double position = joint.multiplier * scratch_.values[joint.variable][lane] + joint.offset;
+    const double largest = joint.kind == JointKind::revolute ? kLargestAngle : kLargestLength;
+    if (!(std::abs(position) <= largest)) return refuse(Code::out_of_range, joint.variable);
+    if (position < joint.lower || position > joint.upper) answer.beyond_limits = true;
+  }
+}
+
+std::string refusalOf(const Kinematics& kinematics, const StateBatch& batch, std::size_t state,
+                      const StateAnswer& answer) {
+  const std::size_t width = std::max<std::size_t>(1, widthOf(kinematics, batch));
+  const std::string what = "state " + std::to_string(state);
+  if (answer.detail == kIncomplete) {
+    return what + " has " + std::to_string(batch.positions.size() - state * width) + " values; it must have " +
+           std::to_string(width) + ", one for each joint";
+  }
+  const JointVariable& variable = kinematics.variables()[answer.detail];
+  const std::int64_t column = columnOf(kinematics, batch, answer.detail);
+  const double value =
+      column < 0 ? batch.others[answer.detail] : batch.positions[state * width + static_cast<std::size_t>(column)];
+  const std::string joint = what + ": joint '" + printable(variable.joint) + "' ";
+  if (answer.refused == Code::bad_rotation) {
+    return joint + "has a quaternion whose squared norm differs from 1 by more than " + text(kQuaternionTolerance) +
+           "; it must be a unit quaternion";
+  }
+  if (answer.refused == Code::nonfinite) {
+    return joint + "has the value " + text(value) + "; it must be finite";
+  }
+  return joint + "has the value " + text(value) + "; its size, and that of joints that mimic it, must be at most " +
+         text(largestOf(variable));
+}
+
+}  // namespace hgrid

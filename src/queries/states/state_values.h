@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include "hgrid_proximity/queries/state_checker.h"
+#include "queries/states/state_search.h"
+
+namespace hgrid {
+
+/// Reads the values of the joints from a batch of states.
+class StateValues {
+ public:
+  /// Finds the columns of the variables. @throws Refusal as StateChecker::checkStates() says
+  StateValues(const Kinematics& kinematics, const StateBatch& batch, StateMemory& scratch);
+
+  /// Returns the number of states in the batch, including an incomplete last state.
+  std::size_t size() const { return (batch_.positions.size() + width_ - 1) / width_; }
+  /// Reads one state into a lane of the scratch memory. If the state is refused, the lane gets valid values.
+  /// @param answer  receives `refused`, `detail` and `beyond_limits`
+  void read(std::size_t state, std::size_t lane, StateAnswer& answer);
+
+ private:
+  bool isComplete(std::size_t state) const { return (state + 1) * width_ <= batch_.positions.size(); }
+  double value(std::size_t state, std::size_t variable) const;
+  void check(std::size_t state, std::size_t lane, StateAnswer& answer) const;
+
+  const Kinematics& kinematics_;
+  const StateBatch& batch_;
+  StateMemory& scratch_;
+  const std::size_t width_;  // number of values of one state
+};
+
+/// Returns a sentence that says why a state was refused.
+std::string refusalOf(const Kinematics& kinematics, const StateBatch& batch, std::size_t state,
+                      const StateAnswer& answer);
+
+}  // namespace hgrid

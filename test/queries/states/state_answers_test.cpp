@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "test/queries/states/turning_arm.h"
+
+namespace hgrid {
+namespace {
+
+using namespace test;
+
+constexpr double kQuarter = 1.5707963267948966;
+
+/// Expects that two answers are equal, bit by bit, for two states.
+void expectSame(const StateAnswers& a, std::size_t i, const StateAnswers& b, std::size_t k) {
+  const StateAnswer &one = a.states[i], &other = b.states[k];
+  EXPECT_EQ(one.verdict, other.verdict);
+  EXPECT_EQ(one.because, other.because);
+  EXPECT_EQ(one.beyond_limits, other.beyond_limits);
+  EXPECT_TRUE(one.clearance == other.clearance || (std::isnan(one.clearance) && std::isnan(other.clearance)));
+  ASSERT_EQ(one.pairs, other.pairs);
+  for (std::uint32_t n = 0; n < one.pairs; ++n) {
+    const StatePair &p = a.pairs[one.first_pair + n], &q = b.pairs[other.first_pair + n];
+    EXPECT_EQ(std::tie(p.first, p.second, p.first_shape, p.second_shape),
+              std::tie(q.first, q.second, q.first_shape, q.second_shape));
+    EXPECT_EQ(p.proximity.status, q.proximity.status);
+    EXPECT_EQ(p.proximity.distance, q.proximity.distance);
+    if (p.proximity.on_first.allFinite()) {
+      EXPECT_EQ(p.proximity.on_first, q.proximity.on_first);
+    }
+  }
+}
+
+struct Case {
+  explicit Case(unsigned seed) {
+    Random random(seed);
+    WorldPlan plan;
+    plan.obstacles = 40;
+    world = randomStateWorld(random, plan);
+    for (int i = 0; i < 41; ++i) states.push_back(randomState(random, world.kinematics()));
+  }
+  StateAnswers check(const std::vector<std::vector<double>>& some, double clearance) const {
+    StateBatch batch;
+    for (const auto& state : some) append(batch, state);
+    StateRequest request;
+    request.clearance = clearance;
+    StateScratch scratch;
+    StateAnswers answers;
+    world.checker().checkStates(batch, request, scratch, answers);
+    return answers;
+  }
+  StateWorld world;
+  std::vector<std::vector<double>> states;
+};
+
+TEST(StateAnswers, DependNeitherOnTheOtherStatesNorOnTheirOrder) {
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Case one(seed);
+    const double clearance = seed % 2 == 0 ? 0.0 : 0.1;
+    const StateAnswers together = one.check(one.states, clearance);
+    std::vector<std::vector<double>> reversed(one.states.rbegin(), one.states.rend());
+    const StateAnswers backward = one.check(reversed, clearance);
+    for (std::size_t i = 0; i < one.states.size(); ++i) {
+      SCOPED_TRACE("state " + std::to_string(i));
+      expectSame(together, i, one.check({one.states[i]}, clearance), 0);
+      expectSame(together, i, backward, one.states.size() - 1 - i);
+    }
+  }
+}
+
+TEST(StateAnswers, SeveralThreadsGetTheSameAnswersFromOneChecker) {
+  const Case one(3);
+  const StateChecker checker = one.world.checker();
+  StateBatch batch;
+  for (const auto& state : one.states) append(batch, state);
+  std::vector<StateAnswers> answers(4);
+  std::vector<std::thread> threads;
+  for (StateAnswers& mine : answers) {
+    threads.emplace_back([&] {
+      StateScratch scratch;
+      for (int i = 0; i < 20; ++i) checker.checkStates(batch, {}, scratch, mine);
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (const StateAnswers& mine : answers) {
+    for (std::size_t i = 0; i < one.states.size(); ++i) expectSame(answers[0], i, mine, i);
+  }
+}
+
+TEST(StateAnswers, JointsMayBeNamedInAnyOrderAndOthersKeepTheirValues) {
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Case one(seed);
+    const StateAnswers expected = one.check(one.states, 0.05);
+    const std::vector<JointVariable> variables = one.world.kinematics().variables();
+    for (std::size_t i = 0; i < 5; ++i) {
+      StateBatch batch;
+      batch.others = one.states[i];
+      for (std::size_t k = variables.size(); k-- > variables.size() / 2;) {
+        batch.joints.push_back(variables[k].name);
+        batch.positions.push_back(one.states[i][k]);
+        batch.others[k] = 0.0;
+      }
+      for (std::size_t k = 0; k < variables.size(); ++k) {
+        // A quaternion of the others must stay valid.
+        if (variables[k].quaternion >= 0) batch.others[k] = one.states[i][k];
+      }
+      StateRequest request;
+      request.clearance = 0.05;
+      StateScratch scratch;
+      StateAnswers answers;
+      one.world.checker().checkStates(batch, request, scratch, answers);
+      ASSERT_EQ(answers.states.size(), 1u);
+      expectSame(answers, 0, expected, i);
+    }
+  }
+}
+
+TEST(StateAnswers, AnIgnoredBodyIsLeftOut) {
+  ArmWorld world;
+  put(world.scene, ArmWorld::ballBody("ball"), at(0, 0.5));
+  EXPECT_EQ(world.verdictAt(kQuarter), Verdict::hit);
+  EXPECT_EQ(world.verdictAt(kQuarter, {}, {{"*/ball"}}), Verdict::clear);
+}
+
+TEST(StateAnswers, AShapeWithoutASolidIsAHitWhereItsBoxIs) {
+  ArmWorld world;
+  Body ball = ArmWorld::ballBody("ball");
+  ball.shapes[0].solid = nullptr;
+  put(world.scene, ball, at(0, 0.5));
+  EXPECT_EQ(world.verdictAt(0), Verdict::clear);
+  EXPECT_EQ(world.verdictAt(kQuarter), Verdict::hit);
+  EXPECT_EQ(world.answers.pairs.at(0).proximity.status, Measure::not_measured);
+}
+
+TEST(StateAnswers, AnAttachedObstacleMovesWithItsLink) {
+  ArmWorld world;
+  put(world.scene, ArmWorld::ballBody("ball"), at(0, 0.9));
+  Body held = ArmWorld::ballBody("held");
+  held.frame = "arm";
+  held.frame_from_body = at(0.8);
+  put(world.scene, held, at(9));
+  EXPECT_EQ(world.verdictAt(0), Verdict::clear);
+  EXPECT_EQ(world.verdictAt(kQuarter), Verdict::hit);
+  const std::uint32_t index = indexOf(*world.snapshot, "obstacle/held");
+  EXPECT_EQ(world.answers.pairs.at(0).first, index);
+}
+
+TEST(StateAnswers, AnObstacleInTheFrameOfAFixedLinkRestsInTheWorld) {
+  ArmWorld world;
+  Body base = world.scene.body(world.links[0]);
+  base.mobility = Mobility::fixed;
+  const BodyId id = world.scene.exchange({world.links[0]}, {base}).at(0);
+  world.scene.place(id, Pose::Identity(), Time{1});
+  Body ball = ArmWorld::ballBody("ball");
+  ball.frame = "base";
+  put(world.scene, ball, at(0, 0.5));
+  EXPECT_EQ(world.verdictAt(kQuarter), Verdict::hit);
+}
+
+TEST(StateAnswers, TheLinksOfAnotherRobotStayWhereTheyAre) {
+  ArmWorld world;
+  Body other = ArmWorld::ballBody("x");
+  other.name = "second/tool";
+  other.kind = BodyKind::link;
+  other.robot = "second";
+  put(world.scene, other, at(0, 0.5));
+  EXPECT_EQ(world.verdictAt(kQuarter), Verdict::hit);
+  EXPECT_EQ(world.verdictAt(0), Verdict::clear);
+}
+
+TEST(StateAnswers, TheContactHasTheNamesAndShapesOfBothBodies) {
+  ArmWorld world;
+  Body two = ArmWorld::ballBody("two");
+  two.shapes.push_back(solidShape(Shape::sphere(0.1), at(0, 5)));
+  put(world.scene, two, at(0, -4.5));
+  EXPECT_EQ(world.verdictAt(kQuarter), Verdict::hit);
+  const StatePair& pair = world.answers.pairs.at(0);
+  EXPECT_EQ(world.snapshot->structure().bodies[pair.first].name, "robot/arm");
+  EXPECT_EQ(world.snapshot->structure().bodies[pair.second].name, "obstacle/two");
+  EXPECT_EQ(pair.second_shape, 1u);
+}
+
+}  // namespace
+}  // namespace hgrid
