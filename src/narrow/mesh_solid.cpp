@@ -4,7 +4,23 @@
 
 #include <iterator>
 
+#include "narrow/inner_balls.h"
+
 namespace hgrid {
+
+const std::vector<Sphere>& PreparedMesh::innerBalls() const {
+  std::call_once(balls_found_, [this] {
+    Eigen::Vector3d low = source->vertices.front(), high = low;
+    for (const auto& triangle : source->triangles) {
+      for (const std::uint32_t corner : triangle) {
+        low = low.cwiseMin(source->vertices[corner]);
+        high = high.cwiseMax(source->vertices[corner]);
+      }
+    }
+    balls_ = innerBallsOf(tree, enclosure, low, high);
+  });
+  return balls_;
+}
 
 std::shared_ptr<const PreparedMesh> PreparedMeshes::of(const std::shared_ptr<const TriangleMesh>& mesh) {
   {

@@ -6,7 +6,9 @@
 #include <memory>
 #include <mutex>
 #include <utility>
+#include <vector>
 
+#include "hgrid_proximity/geometry/sphere.h"
 #include "narrow/enclosure.h"
 #include "narrow/mesh_tree.h"
 #include "narrow/ordered_solid.h"
@@ -19,8 +21,15 @@ struct PreparedMesh {
       : source(std::move(mesh)), tree(*source), enclosure(*source) {}
 
   std::shared_ptr<const TriangleMesh> source;  // kept, so that no other mesh gets its address
+  /// Returns balls inside the mesh; any thread may call this.
+  const std::vector<Sphere>& innerBalls() const;
+
   MeshTree tree;
   Enclosure enclosure;
+
+ private:
+  mutable std::once_flag balls_found_;
+  mutable std::vector<Sphere> balls_;
 };
 
 /// A mesh as a solid.
@@ -30,6 +39,7 @@ class MeshSolid final : public OrderedSolid {
       : OrderedSolid(shape), mesh_(std::move(mesh)) {}
   const MeshTree& tree() const { return mesh_->tree; }
   const Enclosure& enclosure() const { return mesh_->enclosure; }
+  const std::vector<Sphere>& innerBalls() const { return mesh_->innerBalls(); }
 
  private:
   std::shared_ptr<const PreparedMesh> mesh_;
