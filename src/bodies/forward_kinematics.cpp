@@ -82,10 +82,11 @@ void FourPoses::set(std::size_t lane, const Pose& pose) {
 }
 
 void forwardKinematics(const Kinematics& kinematics, const std::vector<FourDoubles>& values,
-                       const Pose& world_from_root, std::vector<FourPoses>& groups) {
+                       const Pose& world_from_root, const std::uint8_t* changing, std::vector<FourPoses>& groups) {
   const std::vector<JointMotion>& joints = kinematics.state().groups;
-  for (std::size_t lane = 0; lane < 4; ++lane) groups[0].set(lane, world_from_root);
+  for (std::size_t lane = 0; changing == nullptr && lane < 4; ++lane) groups[0].set(lane, world_from_root);
   for (std::size_t i = 1; i < joints.size(); ++i) {
+    if (changing != nullptr && changing[i] == 0) continue;
     const JointMotion& joint = joints[i];
     const FourPoses& parent = groups[joint.parent];
     if (joint.kind == JointKind::planar || joint.kind == JointKind::floating) {

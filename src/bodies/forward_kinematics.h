@@ -26,6 +26,9 @@ struct JointMotion {
   std::array<double, 3> shift{}, slide{};     // the translation is shift + position * slide (only prismatic: slide)
   Pose parent_from_plane = Pose::Identity();  // planar and floating: the frame of x, y and theta
   Pose plane_from_child = Pose::Identity();   // planar: its rotation, inverted
+
+  /// Returns the number of variables of the joint.
+  std::uint32_t variables() const { return kind == JointKind::planar ? 3 : kind == JointKind::floating ? 7 : 1; }
 };
 
 struct Kinematics::State {
@@ -35,6 +38,7 @@ struct Kinematics::State {
   std::vector<std::uint32_t> group_of_link;
   std::vector<Pose> group_from_link;
   std::vector<JointMotion> groups;  // one for each rigid group, parents first
+  bool has_mimics = false;
 };
 
 /// The poses of a rigid group in four states.
@@ -58,8 +62,9 @@ struct FourPoses {
 /// Computes the poses of all rigid groups in four states.
 /// @param values      one value for each variable of `kinematics`
 /// @param world_from_root  pose of the first rigid group
+/// @param changing    for each rigid group: whether to compute its pose; null: compute all
 /// @param groups      receives the poses; it must have one element for each rigid group
 void forwardKinematics(const Kinematics& kinematics, const std::vector<FourDoubles>& values,
-                       const Pose& world_from_root, std::vector<FourPoses>& groups);
+                       const Pose& world_from_root, const std::uint8_t* changing, std::vector<FourPoses>& groups);
 
 }  // namespace hgrid

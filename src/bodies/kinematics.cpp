@@ -141,6 +141,7 @@ Kinematics::Kinematics(const RobotModel& model) {
       const RobotLink& parent = model.links[static_cast<std::size_t>(link.parent)];
       const Master master = masterOf(link, by_joint);
       joint.mimics = master.link != &link;
+      if (joint.mimics) state->has_mimics = true;
       if (joint.mimics && !(hasOneVariable(link) && hasOneVariable(*master.link))) {
         throw Refusal(Code::unsupported, jointText(link) + " mimics " + jointText(*master.link) +
                                              "; both must be revolute, continuous or prismatic");
@@ -178,7 +179,7 @@ std::vector<Pose> Kinematics::rootFromLinks(const std::vector<double>& state) co
   std::vector<FourDoubles> values;
   for (const double value : state) values.push_back(fourDoubles(value));
   std::vector<FourPoses> groups(state_->groups.size());
-  forwardKinematics(*this, values, Pose::Identity(), groups);
+  forwardKinematics(*this, values, Pose::Identity(), nullptr, groups);
   std::vector<Pose> poses;
   for (std::size_t link = 0; link < state_->links.size(); ++link) {
     poses.push_back(groups[state_->group_of_link[link]].of(0) * state_->group_from_link[link]);

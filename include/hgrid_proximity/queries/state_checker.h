@@ -49,7 +49,9 @@ struct StatePair {
   std::uint32_t first_shape = 0;   ///< index among the shapes of the first body
   std::uint32_t second_shape = 0;  ///< index among the shapes of the second body; 0 for a map or cloud
   /// What the narrow phase found. Points and normal are in the world frame. Measure::not_measured: the boxes of the two
-  /// shapes overlap, and one of the shapes has no solid; this counts as contact.
+  /// shapes overlap, and one of the shapes has no solid; this counts as contact. If contact was proved without the
+  /// narrow phase, the status is Measure::contact also if one shape is inside the other, and points, normal and depth
+  /// are NaN. That does not happen with StateRequest::all_pairs or a clearance.
   Proximity proximity;
 };
 
@@ -95,7 +97,11 @@ class StateScratch {
 
 /// Settings of a StateChecker.
 struct StateCheckerOptions {
-  std::vector<std::string> ignore;  ///< globs over names of bodies that are left out
+  std::vector<std::string> ignore = {};  ///< globs over names of bodies that are left out
+  /// Names of the variables that a planner changes. Only bodies of the robot that they move count, against each other
+  /// and against everything else. Bodies of the robot that they do not move are part of the world: their contacts with
+  /// other bodies are not looked for. Empty: all variables.
+  std::vector<std::string> group = {};
 };
 
 /// Answers whether a robot would touch anything if its joints stood at given positions, for many states at once.
@@ -126,7 +132,7 @@ class StateChecker {
   /// @param kinematics  the joints of the robot; they must be of the model whose links are in the snapshot
   /// @param robot       name of the robot in the snapshot (Body::robot)
   /// @param narrow_phase  measures the shapes; the solids of the bodies must come from it
-  /// @throws Refusal unknown_id if the snapshot has no links of this robot
+  /// @throws Refusal unknown_id if the snapshot has no links of this robot, or if it has no variable of the group
   /// @throws Refusal conflict if its links are not those of `kinematics`
   StateChecker(std::shared_ptr<const Snapshot> snapshot, const Kinematics& kinematics, const std::string& robot,
                std::shared_ptr<const NarrowPhase> narrow_phase, const StateCheckerOptions& options = {});
@@ -144,7 +150,8 @@ class StateChecker {
   /// @throws Refusal not_ready if `joints` and `others` do not give a value for each variable, or if neither the batch
   /// nor the snapshot has a pose of the robot's root link
   /// @throws Refusal out_of_range if `others` has the wrong length, or if the clearance is negative or not finite
-  /// @throws Refusal nonfinite if the pose of the root link or a value of `others` is not finite
+  /// @throws Refusal nonfinite if the pose of the root link or a value of `others` is not finite; bad_rotation if a
+  /// quaternion of `others` is not a unit quaternion
   void checkStates(const StateBatch& batch, const StateRequest& request, StateScratch& scratch,
                    StateAnswers& answers) const;
 

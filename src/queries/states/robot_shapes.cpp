@@ -6,6 +6,7 @@
 #include <map>
 
 #include "hgrid_proximity/refusal.h"
+#include "narrow/inner_balls.h"
 
 namespace hgrid {
 namespace {
@@ -55,11 +56,22 @@ TiltedBox<float> tiltedBoxOf(const BodyShape& shape, const Pose& frame_from_shap
   return box;
 }
 
+std::vector<Sphere> ballsInside(const BodyShape& shape, const Pose& frame_from_shape) {
+  if (!shape.solid) return {};
+  std::vector<Sphere> balls = innerBallsOf(shape.shape, *shape.solid);
+  for (Sphere& ball : balls) {
+    ball.center = frame_from_shape * ball.center;
+    ball.radius += shape.padding;
+  }
+  return balls;
+}
+
 RobotShapes::RobotShapes(const Snapshot& snapshot, const Kinematics& kinematics, const std::string& robot,
-                         const QueryScope& scope)
+                         const std::vector<std::string>& group, const QueryScope& scope)
     : is_own_(snapshot.structure().bodies.size()) {
   addLinks(snapshot, kinematics, robot);
   addAttached(snapshot, kinematics);
+  choose(kinematics, group);
   addShapes(snapshot, scope);
   addSelfPairs(snapshot.structure().filter);
 }
@@ -76,7 +88,7 @@ void RobotShapes::addLinks(const Snapshot& snapshot, const Kinematics& kinematic
                                         "' is not the same link in the snapshot and in the model of the joints; use "
                                         "the model from which the robot of the snapshot was loaded");
     }
-    bodies_.push_back({i, kinematics.groupOfLink()[body.link], kinematics.groupFromLink()[body.link]});
+    bodies_.push_back({i, kinematics.groupOfLink()[body.link], true, kinematics.groupFromLink()[body.link]});
     is_own_[i] = true;
   }
   if (!bodies_.empty()) return;
@@ -105,38 +117,76 @@ void RobotShapes::addAttached(const Snapshot& snapshot, const Kinematics& kinema
     if (found == link_of_frame.end()) continue;
     const std::uint32_t group = kinematics.groupOfLink()[found->second];
     if (is_fixed[group]) continue;
-    bodies_.push_back({i, group, kinematics.groupFromLink()[found->second] * body.frame_from_body});
+    bodies_.push_back({i, group, true, kinematics.groupFromLink()[found->second] * body.frame_from_body});
     is_own_[i] = true;
   }
 }
 
+/// Decides which bodies count: those that a variable of the group moves.
+void RobotShapes::choose(const Kinematics& kinematics, const std::vector<std::string>& group) {
+  if (group.empty()) return;
+  std::vector<bool> is_chosen(kinematics.variables().size());
+  for (const std::string& name : group) {
+    const int variable = kinematics.find(name);
+    if (variable < 0) {
+      throw Refusal(Code::unknown_id, "'" + printable(name) + "' of the group is not a variable of robot '" +
+                                          printable(kinematics.name()) +
+                                          "'; fixed joints and joints that mimic others have none");
+    }
+    is_chosen[static_cast<std::size_t>(variable)] = true;
+  }
+  const std::vector<JointMotion>& joints = kinematics.state().groups;
+  std::vector<bool> moves(joints.size());
+  for (std::size_t i = 1; i < joints.size(); ++i) {
+    const std::uint32_t first = joints[i].variable;
+    moves[i] = moves[joints[i].parent];
+    for (std::uint32_t variable = first; variable < first + joints[i].variables(); ++variable) {
+      if (is_chosen[variable]) moves[i] = true;
+    }
+  }
+  for (RobotBody& own : bodies_) own.counts = moves[own.group];
+}
+
 void RobotShapes::addShapes(const Snapshot& snapshot, const QueryScope& scope) {
+  for (const bool counts : {true, false}) {
+    addShapesOf(snapshot, scope, counts);
+    if (counts) counting_ = shapes_.size();
+  }
+}
+
+/// Adds the shapes of the bodies that count, or those of the others, sorted by rigid group.
+void RobotShapes::addShapesOf(const Snapshot& snapshot, const QueryScope& scope, bool counts) {
+  const auto before = static_cast<std::ptrdiff_t>(shapes_.size());
   for (const RobotBody& own : bodies_) {
-    if (!inScope(snapshot, scope, own.body)) continue;
+    if (own.counts != counts || !inScope(snapshot, scope, own.body)) continue;
     const std::vector<BodyShape>& shapes = snapshot.structure().bodies[own.body].shapes;
     for (std::uint32_t i = 0; i < shapes.size(); ++i) {
       const Pose group_from_shape = own.group_from_body * shapes[i].body_from_shape;
       const double rounding = 1e-6 * group_from_shape.translation().norm();
-      shapes_.push_back(
-          {own.body, i, own.group, group_from_shape, &shapes[i], tiltedBoxOf(shapes[i], group_from_shape, rounding)});
+      shapes_.push_back({own.body, i, own.group, group_from_shape, &shapes[i],
+                         tiltedBoxOf(shapes[i], group_from_shape, rounding), ballsInside(shapes[i], group_from_shape)});
     }
   }
-  std::stable_sort(shapes_.begin(), shapes_.end(),
+  std::stable_sort(shapes_.begin() + before, shapes_.end(),
                    [](const RobotShape& a, const RobotShape& b) { return a.group < b.group; });
 }
 
 void RobotShapes::addSelfPairs(const PairFilter& filter) {
-  for (std::uint32_t i = 0; i < shapes_.size(); ++i) {
+  for (std::uint32_t i = 0; i < counting_; ++i) {
     for (std::uint32_t k = i + 1; k < shapes_.size(); ++k) {
       if (!filter.allowed(shapes_[i].body, shapes_[k].body)) self_pairs_.push_back({i, k});
     }
   }
 }
 
-void RobotShapes::place(const std::vector<FourPoses>& groups, const Eigen::Vector3d& origin,
-                        std::vector<FourShapes>& placed) const {
+void RobotShapes::place(const std::vector<FourPoses>& groups, const std::uint8_t* changing,
+                        const Eigen::Vector3d& origin, std::vector<FourShapes>& placed) const {
   for (std::size_t i = 0; i < shapes_.size();) {
     const std::uint32_t group = shapes_[i].group;
+    if (changing != nullptr && changing[group] == 0) {
+      ++i;
+      continue;
+    }
     const GroupFloats pose(groups[group], origin);
     for (; i < shapes_.size() && shapes_[i].group == group; ++i) {
       const TiltedBox<float>& local = shapes_[i].in_group;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bodies/forward_kinematics.h"
+#include "hgrid_proximity/geometry/sphere.h"
 #include "hgrid_proximity/queries/query_scope.h"
 #include "queries/states/tilted_box.h"
 
@@ -14,6 +15,7 @@ namespace hgrid {
 struct RobotBody {
   std::uint32_t body;    ///< index into Structure::bodies
   std::uint32_t group;   ///< rigid group of the robot
+  bool counts;           ///< whether a variable of the group that was asked for moves it
   Pose group_from_body;  ///< pose of the body in the frame of its group
 };
 
@@ -24,6 +26,7 @@ struct RobotShape {
   Pose group_from_shape;
   const BodyShape* what;      ///< the shape itself; the snapshot keeps it alive
   TiltedBox<float> in_group;  ///< box around the padded shape, in the frame of the group
+  std::vector<Sphere> balls;  ///< balls inside the padded shape, in the frame of the group [m]
 };
 
 /// A shape in four states of the robot. The boxes are relative to the origin of the snapshot.
@@ -40,34 +43,45 @@ struct SelfPair {
 /// The shapes that move with the joints of one robot, and their pairs that the pair filter does not switch off.
 class RobotShapes {
  public:
-  /// @throws Refusal unknown_id if the snapshot has no links of this robot
+  /// @param group  StateCheckerOptions::group
+  /// @throws Refusal unknown_id if the snapshot has no links of this robot, or the robot has no variable of the group
   /// @throws Refusal conflict if its links are not those of `kinematics`
   RobotShapes(const Snapshot& snapshot, const Kinematics& kinematics, const std::string& robot,
-              const QueryScope& scope);
+              const std::vector<std::string>& group, const QueryScope& scope);
 
   const std::vector<RobotBody>& bodies() const { return bodies_; }
+  /// Returns the shapes. First come the shapes of the bodies that count.
   const std::vector<RobotShape>& shapes() const { return shapes_; }
+  /// Returns how many shapes are of bodies that count.
+  std::size_t counting() const { return counting_; }
   const std::vector<SelfPair>& selfPairs() const { return self_pairs_; }
   /// Returns whether the joints of the robot move this body.
   bool moves(std::uint32_t body) const { return body < is_own_.size() && is_own_[body]; }
 
   /// Computes where the shapes are in four states.
-  /// @param groups  poses of the rigid groups
-  /// @param placed  receives one element for each of shapes()
-  void place(const std::vector<FourPoses>& groups, const Eigen::Vector3d& origin,
+  /// @param groups    poses of the rigid groups
+  /// @param changing  for each rigid group: whether to compute its shapes; null: compute all
+  /// @param placed    has one element for each of shapes()
+  void place(const std::vector<FourPoses>& groups, const std::uint8_t* changing, const Eigen::Vector3d& origin,
              std::vector<FourShapes>& placed) const;
 
  private:
   void addLinks(const Snapshot& snapshot, const Kinematics& kinematics, const std::string& robot);
   void addAttached(const Snapshot& snapshot, const Kinematics& kinematics);
+  void choose(const Kinematics& kinematics, const std::vector<std::string>& group);
   void addShapes(const Snapshot& snapshot, const QueryScope& scope);
+  void addShapesOf(const Snapshot& snapshot, const QueryScope& scope, bool counts);
   void addSelfPairs(const PairFilter& filter);
 
   std::vector<RobotBody> bodies_;
-  std::vector<RobotShape> shapes_;  // sorted by group, so that place() reads each group once
+  std::vector<RobotShape> shapes_;  // sorted by rigid group, so that place() reads each of them once
+  std::size_t counting_ = 0;
   std::vector<SelfPair> self_pairs_;
   std::vector<bool> is_own_;  // by index of the body
 };
+
+/// Returns balls inside a padded shape at a pose [m]; nothing if none are known.
+std::vector<Sphere> ballsInside(const BodyShape& shape, const Pose& frame_from_shape);
 
 /// Returns a box around a padded shape at a pose.
 /// @param rounding  [m] how much the box is grown for the rounding of coordinates to float

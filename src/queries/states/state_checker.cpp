@@ -38,7 +38,7 @@ struct StateChecker::State {
       : snapshot(std::move(asked)),
         kinematics(joints),
         narrow_phase(std::move(measures)),
-        robot(*snapshot, joints, name, scopeOf(options)),
+        robot(*snapshot, joints, name, options.group, scopeOf(options)),
         world(*snapshot, robot, scopeOf(options)),
         root_body(rootBodyOf(*snapshot, robot)),
         doubts(*snapshot, robot, world, scopeOf(options), root_body) {}
@@ -98,11 +98,14 @@ void StateChecker::checkStates(const StateBatch& batch, const StateRequest& requ
   StateValues values(all.kinematics, batch, memory);
   memory.groups.resize(all.kinematics.state().groups.size());
   memory.placed.resize(all.robot.shapes().size());
+  memory.balls.resize(4 * all.robot.shapes().size());
+  memory.balls_known.resize(all.robot.shapes().size());
   answers.states.assign(values.size(), StateAnswer{});
   answers.pairs.clear();
   StateSearch search(*all.snapshot, *all.narrow_phase, all.robot, all.world, all.doubts, request,
                      !batch.world_from_root, memory);
   for (std::size_t first = 0; first < values.size(); first += 4) {
+    const bool is_first = first == 0;
     const std::size_t count = std::min<std::size_t>(4, values.size() - first);
     unsigned open = 0;
     for (std::size_t lane = 0; lane < 4; ++lane) {
@@ -110,7 +113,7 @@ void StateChecker::checkStates(const StateBatch& batch, const StateRequest& requ
         values.read(first + lane, lane, answers.states[first + lane]);
         if (answers.states[first + lane].refused == Code::ok) open |= 1u << lane;
       } else {
-        for (FourDoubles& value : memory.values) value.set(lane, 0.0);
+        values.clear(lane);
       }
     }
     if (request.deadline && std::chrono::steady_clock::now() >= *request.deadline) {
@@ -119,8 +122,9 @@ void StateChecker::checkStates(const StateBatch& batch, const StateRequest& requ
       }
       continue;
     }
-    forwardKinematics(all.kinematics, memory.values, world_from_root, memory.groups);
-    search.run(open, &answers.states[first], answers.pairs);
+    forwardKinematics(all.kinematics, memory.values, world_from_root, is_first ? nullptr : memory.changing.data(),
+                      memory.groups);
+    search.run(open, is_first, &answers.states[first], answers.pairs);
   }
 }
 

@@ -23,7 +23,7 @@ bool isAllowed(const Snapshot& snapshot, const RobotShapes& robot, std::uint32_t
 /// Returns whether a shape of the robot may touch a sphere [m, world].
 bool touchesSphere(const RobotInState& robot, const Sphere& sphere, double clearance) {
   const Sphere local{sphere.center - robot.snapshot.origin(), sphere.radius + clearance};
-  for (std::size_t i = 0; i < robot.robot.shapes().size(); ++i) {
+  for (std::size_t i = 0; i < robot.robot.counting(); ++i) {
     if (touches(local, robot.boundsOf(i))) return true;
   }
   return false;
@@ -32,7 +32,7 @@ bool touchesSphere(const RobotInState& robot, const Sphere& sphere, double clear
 /// Returns whether a shape of the robot is at most `reach` [m] from a body that has cells.
 bool comesNearCells(const RobotInState& robot, const PlacedMap& map, double reach) {
   const Eigen::Vector3d& origin = robot.snapshot.origin();
-  for (std::size_t i = 0; i < robot.robot.shapes().size(); ++i) {
+  for (std::size_t i = 0; i < robot.robot.counting(); ++i) {
     if (robot.allowed(i, map.body)) continue;
     if (gapTo(*map.cells.grid, boxInMap(map.map_from_world, robot.boundsOf(i), origin), reach) <= reach) return true;
   }
@@ -45,7 +45,7 @@ bool comesNear(const RobotInState& robot, std::uint32_t body, double reach) {
   const Structure& structure = robot.snapshot.structure();
   for (std::uint32_t proxy = structure.first_proxy[body]; proxy < structure.first_proxy[body + 1]; ++proxy) {
     const Aabb grown_box = grown(robot.snapshot.boxes()[proxy], reach);
-    for (std::size_t i = 0; i < robot.robot.shapes().size(); ++i) {
+    for (std::size_t i = 0; i < robot.robot.counting(); ++i) {
       if (robot.allowed(i, body) || !overlap(grown_box, robot.boundsOf(i))) continue;
       const Proximity found = robot.measureBody(i, body, structure.shapeOf(proxy), reach);
       if (found.status == Measure::not_measured || found.distance <= reach) return true;
@@ -137,7 +137,7 @@ std::optional<std::uint32_t> StateDoubts::find(const RobotInState& robot, bool b
 
 /// Returns whether for each shape of the robot, a map knows the space around the shape to be free.
 bool StateDoubts::isFree(const RobotInState& robot, double clearance) const {
-  for (std::size_t i = 0; i < robot.robot.shapes().size(); ++i) {
+  for (std::size_t i = 0; i < robot.robot.counting(); ++i) {
     const bool free = std::any_of(world_.maps().begin(), world_.maps().end(), [&](const PlacedMap& map) {
       if (!map.cells.unmapped) return false;
       const Eigen::AlignedBox3d box = boxInMap(map.map_from_world, robot.boundsOf(i), robot.snapshot.origin());

@@ -11,7 +11,7 @@
 namespace hgrid {
 namespace {
 
-constexpr float kLikely = -0.01f;  // [m] shapes whose boxes overlap by more than this are measured at once
+constexpr float kLikely = -0.01f;  // [m] shapes whose boxes overlap by more than this are measured early
 
 /// Returns one bit for each lane in which all bits of `lanes` are set.
 unsigned bitsOf(const FourCounts& lanes) {
@@ -66,14 +66,16 @@ StateSearch::StateSearch(const Snapshot& snapshot, const NarrowPhase& narrow_pha
                {snapshot, narrow_phase, robot, scratch.groups, scratch.placed, 2},
                {snapshot, narrow_phase, robot, scratch.groups, scratch.placed, 3}}} {}
 
-void StateSearch::run(unsigned open, StateAnswer* answers, std::vector<StatePair>& pairs) {
+void StateSearch::run(unsigned open, bool first, StateAnswer* answers, std::vector<StatePair>& pairs) {
   open_ = open;
   nearest_.fill(request_.clearance);
   for (StatePair& pair : nearest_pair_) pair.first = Structure::kNone;
   for (auto& near : scratch_.near) near.clear();
+  std::fill(scratch_.balls_known.begin(), scratch_.balls_known.end(), std::uint8_t{0});
   for (auto& found : scratch_.pairs) found.clear();
-  robot_.place(scratch_.groups, snapshot_.origin(), scratch_.placed);
+  robot_.place(scratch_.groups, first ? nullptr : scratch_.changing.data(), snapshot_.origin(), scratch_.placed);
   findSelf();
+  measureLikely();
   world_.isSmall() ? findInFewShapes() : findInGrid();
   forEachLane(open, [&](std::size_t lane) {
     std::vector<NearShapes>& near = scratch_.near[lane];
@@ -102,8 +104,10 @@ void StateSearch::findSelf() {
 
 void StateSearch::findInFewShapes() {
   const float reach = roundedUp(request_.clearance);
-  FourShapes all = scratch_.placed.empty() ? FourShapes{} : scratch_.placed[0];  // only its bounds are used
-  for (const FourShapes& placed : scratch_.placed) {
+  if (robot_.counting() == 0) return;
+  FourShapes all = scratch_.placed[0];  // only its bounds are used
+  for (std::size_t i = 1; i < robot_.counting(); ++i) {
+    const FourShapes& placed = scratch_.placed[i];
     for (std::size_t k = 0; k < 3; ++k) {
       all.min[k] = least(all.min[k], placed.min[k]);
       all.max[k] = greatest(all.max[k], placed.max[k]);
@@ -112,7 +116,7 @@ void StateSearch::findInFewShapes() {
   for (std::uint32_t other = 0; other < world_.shapes().size(); ++other) {
     if ((overlapping(all, world_.boundsOf(other), reach) & open_) == 0) continue;
     const WorldShape& shape = world_.shapes()[other];
-    for (std::uint32_t own = 0; own < scratch_.placed.size(); ++own) {
+    for (std::uint32_t own = 0; own < robot_.counting(); ++own) {
       forEachLane(overlapping(scratch_.placed[own], world_.boundsOf(other), reach) & open_, [&](std::size_t lane) {
         const Separation<float> apart = separationOf(in(lane).boxOf(own), shape.box);
         if (apart.along_faces > reach || (reach == 0.0f && apart.along_edges > 0.0f)) return;
@@ -125,7 +129,7 @@ void StateSearch::findInFewShapes() {
 void StateSearch::findInGrid() {
   const float reach = roundedUp(request_.clearance);
   forEachLane(open_, [&](std::size_t lane) {
-    for (std::uint32_t own = static_cast<std::uint32_t>(scratch_.placed.size()); own-- > 0 && isOpen(lane);) {
+    for (std::uint32_t own = static_cast<std::uint32_t>(robot_.counting()); own-- > 0 && isOpen(lane);) {
       Aabb bounds = in(lane).boundsOf(own);
       if (reach > 0.0f) bounds = grown(bounds, reach);
       world_.overlapping(bounds, scratch_.found);
@@ -141,32 +145,75 @@ void StateSearch::findInGrid() {
   });
 }
 
-/// Measures two shapes now if they are probably in contact, otherwise later.
+/// Uses two shapes whose boxes are near each other. If balls inside them meet, they are in contact. Otherwise they are
+/// measured later.
 void StateSearch::consider(std::size_t lane, const NearShapes& near) {
-  if (near.gap < kLikely && !request_.all_pairs) {
-    measure(lane, near);
+  if (!isOpen(lane)) return;
+  if (near.gap < 0.0f && !request_.all_pairs && request_.clearance == 0.0 && haveBallsInCommon(lane, near)) {
+    StatePair pair = pairOf(near);
+    pair.proximity.status = Measure::contact;
+    pair.proximity.distance = 0.0;
+    take(lane, pair, near.gap);
   } else {
     scratch_.near[lane].push_back(near);
   }
 }
 
-void StateSearch::measure(std::size_t lane, const NearShapes& near) {
-  if (!isOpen(lane) || static_cast<double>(near.gap) > nearest_[lane]) return;
+const FourBalls& StateSearch::ballsOf(std::size_t lane, std::size_t own) {
+  FourBalls& balls = scratch_.balls[4 * own + lane];
+  if ((scratch_.balls_known[own] >> lane & 1u) == 0) {
+    in(lane).placeBalls(own, balls);
+    scratch_.balls_known[own] = static_cast<std::uint8_t>(scratch_.balls_known[own] | 1u << lane);
+  }
+  return balls;
+}
+
+bool StateSearch::haveBallsInCommon(std::size_t lane, const NearShapes& near) {
+  if (robot_.shapes()[near.own].balls.empty()) return false;
+  if (!near.is_self) {
+    const SmallBall *const begin = world_.ballsOf(near.other), *const end = world_.ballsOf(near.other + 1);
+    if (begin == end) return false;
+    const FourBalls& own = ballsOf(lane, near.own);
+    return std::any_of(begin, end, [&](const SmallBall& ball) { return own.meet(ball); });
+  }
+  if (robot_.shapes()[near.other].balls.empty()) return false;
+  const FourBalls &own = ballsOf(lane, near.own), &other = ballsOf(lane, near.other);
+  for (std::size_t i = 0; i < other.count; ++i) {
+    if (own.meet(other[i])) return true;
+  }
+  return false;
+}
+
+/// Measures the shapes that are most likely in contact, before the world is searched.
+void StateSearch::measureLikely() {
+  forEachLane(open_, [&](std::size_t lane) {
+    std::vector<NearShapes>& near = scratch_.near[lane];
+    std::sort(near.begin(), near.end(), isNearer);
+    std::size_t count = 0;
+    while (count < near.size() && near[count].gap < kLikely && isOpen(lane)) measure(lane, near[count++]);
+    near.erase(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count));
+  });
+}
+
+StatePair StateSearch::pairOf(const NearShapes& near) const {
   const RobotShape& own = robot_.shapes()[near.own];
   StatePair pair;
   pair.first = own.body;
   pair.first_shape = own.shape;
+  pair.second = near.is_self ? robot_.shapes()[near.other].body : world_.shapes()[near.other].body;
+  pair.second_shape = near.is_self ? robot_.shapes()[near.other].shape : world_.shapes()[near.other].shape;
+  return pair;
+}
+
+void StateSearch::measure(std::size_t lane, const NearShapes& near) {
+  if (!isOpen(lane) || static_cast<double>(near.gap) > nearest_[lane]) return;
+  StatePair pair = pairOf(near);
   if (near.is_self) {
-    const RobotShape& other = robot_.shapes()[near.other];
-    pair.second = other.body;
-    pair.second_shape = other.shape;
-    pair.proximity = in(lane).measure(near.own, other.what->solid.get(), in(lane).worldFromShape(near.other),
-                                      other.what->padding, nearest_[lane]);
+    const BodyShape& other = *robot_.shapes()[near.other].what;
+    pair.proximity = in(lane).measure(near.own, other.solid.get(), in(lane).worldFromShape(near.other), other.padding,
+                                      nearest_[lane]);
   } else {
-    const WorldShape& other = world_.shapes()[near.other];
-    pair.second = other.body;
-    pair.second_shape = other.shape;
-    pair.proximity = in(lane).measureBody(near.own, other.body, other.shape, nearest_[lane]);
+    pair.proximity = in(lane).measureBody(near.own, pair.second, pair.second_shape, nearest_[lane]);
   }
   take(lane, pair, near.gap);
 }
@@ -187,7 +234,7 @@ void StateSearch::take(std::size_t lane, const StatePair& pair, double gap) {
 
 void StateSearch::measureMaps(std::size_t lane) {
   for (const PlacedMap& map : world_.maps()) {
-    for (std::size_t own = 0; own < robot_.shapes().size() && isOpen(lane); ++own) {
+    for (std::size_t own = 0; own < robot_.counting() && isOpen(lane); ++own) {
       if (!in(lane).allowed(own, map.body)) measureMap(lane, own, map);
     }
   }
@@ -243,7 +290,7 @@ void StateSearch::measureMap(std::size_t lane, std::size_t own, const PlacedMap&
 
 void StateSearch::measurePlanes(std::size_t lane) {
   for (const PlacedPlane& plane : world_.planes()) {
-    for (std::size_t own = 0; own < robot_.shapes().size() && isOpen(lane); ++own) {
+    for (std::size_t own = 0; own < robot_.counting() && isOpen(lane); ++own) {
       const double gap = distance(plane.half_space, in(lane).boundsOf(own));
       if (gap > nearest_[lane] || in(lane).allowed(own, plane.body)) continue;
       StatePair pair;

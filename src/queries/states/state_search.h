@@ -22,10 +22,16 @@ struct NearShapes {
 
 /// The content of a StateScratch.
 struct StateMemory {
-  std::vector<std::int64_t> columns;  // for each variable: its column in the batch; -1: it is not there
-  std::vector<FourDoubles> values;    // for each variable: its values in four states
-  std::vector<FourPoses> groups;      // for each rigid group of the robot
-  std::vector<FourShapes> placed;     // for each shape of the robot
+  struct Column {
+    std::uint32_t variable, column;  // index of a variable, and of its column in the batch
+  };
+  std::vector<Column> columns;
+  std::vector<std::uint8_t> changing;     // for each rigid group: whether it is elsewhere in each state
+  std::vector<FourDoubles> values;        // for each variable: its values in four states
+  std::vector<FourPoses> groups;          // for each rigid group of the robot
+  std::vector<FourShapes> placed;         // for each shape of the robot
+  std::vector<FourBalls> balls;           // for each shape of the robot, in each of the four states
+  std::vector<std::uint8_t> balls_known;  // for each shape of the robot: bit i: whether `balls` has those of state i
   std::vector<ProxyId> found;
   std::array<std::vector<NearShapes>, 4> near;  // for each of the four states: what is left to be measured
   std::array<std::vector<StatePair>, 4> pairs;  // for each of the four states: its contacts
@@ -44,15 +50,20 @@ class StateSearch {
 
   /// Examines four states. Their rigid groups are in the scratch memory.
   /// @param open     bit i: whether state i is examined
+  /// @param first    whether these are the first states of a batch
   /// @param answers  receives the verdicts of these states
   /// @param pairs    the pairs of these states are appended
-  void run(unsigned open, StateAnswer* answers, std::vector<StatePair>& pairs);
+  void run(unsigned open, bool first, StateAnswer* answers, std::vector<StatePair>& pairs);
 
  private:
   void findSelf();
   void findInFewShapes();
   void findInGrid();
   void consider(std::size_t lane, const NearShapes& near);
+  const FourBalls& ballsOf(std::size_t lane, std::size_t own);
+  bool haveBallsInCommon(std::size_t lane, const NearShapes& near);
+  void measureLikely();
+  StatePair pairOf(const NearShapes& near) const;
   void measure(std::size_t lane, const NearShapes& near);
   void measureMap(std::size_t lane, std::size_t own, const PlacedMap& map);
   void measureMaps(std::size_t lane);

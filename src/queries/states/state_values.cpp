@@ -59,6 +59,24 @@ void checkOthers(const Kinematics& kinematics, const StateBatch& batch) {
   }
 }
 
+/// Checks the quaternions of which no part is in the batch.
+void checkOtherQuaternions(const Kinematics& kinematics, const StateBatch& batch) {
+  const std::vector<JointVariable>& variables = kinematics.variables();
+  for (std::size_t i = 0; !batch.others.empty() && i + 3 < variables.size(); ++i) {
+    if (variables[i].quaternion != static_cast<int>(i)) continue;
+    double squared = 0.0;
+    bool given = false;
+    for (std::size_t k = i; k < i + 4; ++k) {
+      squared += batch.others[k] * batch.others[k];
+      given = given || columnOf(kinematics, batch, k) >= 0;
+    }
+    if (given || std::abs(squared - 1.0) <= kQuaternionTolerance) continue;
+    throw Refusal(Code::bad_rotation, "the quaternion of joint '" + printable(variables[i].joint) +
+                                          "' among the other joints has the squared norm " + text(squared) +
+                                          "; it must be a unit quaternion");
+  }
+}
+
 }  // namespace
 
 StateValues::StateValues(const Kinematics& kinematics, const StateBatch& batch, StateMemory& scratch)
@@ -68,56 +86,76 @@ StateValues::StateValues(const Kinematics& kinematics, const StateBatch& batch, 
       width_(std::max<std::size_t>(1, widthOf(kinematics, batch))) {
   checkJoints(kinematics, batch);
   checkOthers(kinematics, batch);
-  const std::size_t count = kinematics.variables().size();
-  scratch.columns.resize(count);
-  scratch.values.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    scratch.columns[i] = columnOf(kinematics, batch, i);
-    if (scratch.columns[i] >= 0 || !batch.others.empty()) continue;
-    throw Refusal(Code::not_ready, "the states have no value for joint '" + printable(kinematics.variables()[i].name) +
-                                       "'; name all joints, or give values for the other joints");
+  checkOtherQuaternions(kinematics, batch);
+  const std::vector<JointVariable>& variables = kinematics.variables();
+  scratch.columns.clear();
+  scratch.values.resize(variables.size());
+  for (std::uint32_t i = 0; i < variables.size(); ++i) {
+    const std::int64_t column = columnOf(kinematics, batch, i);
+    if (column >= 0) {
+      scratch.columns.push_back({i, static_cast<std::uint32_t>(column)});
+    } else if (!batch.others.empty()) {
+      scratch.values[i] = fourDoubles(batch.others[i]);
+      if (batch.others[i] < variables[i].lower || batch.others[i] > variables[i].upper) others_beyond_ = true;
+    } else {
+      throw Refusal(Code::not_ready, "the states have no value for joint '" + printable(variables[i].name) +
+                                         "'; name all joints, or give values for the other joints");
+    }
   }
+  findChanging();
 }
 
-double StateValues::value(std::size_t state, std::size_t variable) const {
-  const std::int64_t column = scratch_.columns[variable];
-  return column < 0 ? batch_.others[variable] : batch_.positions[state * width_ + static_cast<std::size_t>(column)];
+/// Finds the rigid groups that move when the variables in the batch change.
+void StateValues::findChanging() {
+  const std::vector<JointMotion>& joints = kinematics_.state().groups;
+  scratch_.changing.assign(joints.size(), 0);
+  for (std::size_t i = 1; i < joints.size(); ++i) {
+    const std::uint32_t first = joints[i].variable, end = first + joints[i].variables();
+    const bool changes = std::any_of(scratch_.columns.begin(), scratch_.columns.end(), [&](const auto& column) {
+      return column.variable >= first && column.variable < end;
+    });
+    scratch_.changing[i] = changes || scratch_.changing[joints[i].parent] != 0 ? 1 : 0;
+  }
 }
 
 void StateValues::read(std::size_t state, std::size_t lane, StateAnswer& answer) {
-  const std::vector<JointVariable>& variables = kinematics_.variables();
-  const bool complete = isComplete(state);
-  for (std::size_t i = 0; i < variables.size(); ++i) {
-    scratch_.values[i].set(lane, complete ? value(state, i) : 0.0);
-  }
-  if (complete) {
-    check(state, lane, answer);
+  if (isComplete(state)) {
+    const double* const positions = batch_.positions.data() + state * width_;
+    for (const auto& [variable, column] : scratch_.columns) scratch_.values[variable].set(lane, positions[column]);
+    check(lane, answer);
   } else {
     answer.refused = Code::bad_geometry;
     answer.detail = kIncomplete;
   }
   if (answer.refused == Code::ok) return;
   answer.because = Unknown::refused;
-  for (std::size_t i = 0; i < variables.size(); ++i) scratch_.values[i].set(lane, 0.0);
+  clear(lane);
+}
+
+void StateValues::clear(std::size_t lane) {
+  for (const auto& [variable, column] : scratch_.columns) scratch_.values[variable].set(lane, 0.0);
 }
 
 /// Checks the values of a lane, and sets `refused`, `detail` and `beyond_limits`.
-void StateValues::check(std::size_t state, std::size_t lane, StateAnswer& answer) const {
+void StateValues::check(std::size_t lane, StateAnswer& answer) const {
   const std::vector<JointVariable>& variables = kinematics_.variables();
   const auto refuse = [&](Code code, std::size_t variable) {
     answer.refused = code;
     answer.detail = static_cast<std::uint32_t>(variable);
   };
-  for (std::size_t i = 0; i < variables.size(); ++i) {
+  answer.beyond_limits = others_beyond_;
+  for (const auto& [i, column] : scratch_.columns) {
     const double position = scratch_.values[i][lane];
     if (!std::isfinite(position)) return refuse(Code::nonfinite, i);
     if (!(std::abs(position) <= largestOf(variables[i]))) return refuse(Code::out_of_range, i);
     if (position < variables[i].lower || position > variables[i].upper) answer.beyond_limits = true;
-    if (variables[i].quaternion != static_cast<int>(i)) continue;
+    if (variables[i].quaternion < 0) continue;
+    const auto first = static_cast<std::size_t>(variables[i].quaternion);
     double squared = 0.0;
-    for (std::size_t k = i; k < i + 4; ++k) squared += value(state, k) * value(state, k);
+    for (std::size_t k = first; k < first + 4; ++k) squared += scratch_.values[k][lane] * scratch_.values[k][lane];
     if (!(std::abs(squared - 1.0) <= kQuaternionTolerance)) return refuse(Code::bad_rotation, i);
   }
+  if (!kinematics_.state().has_mimics) return;
   for (const JointMotion& joint : kinematics_.state().groups) {
     if (!joint.mimics) continue;
     const double position = joint.multiplier * scratch_.values[joint.variable][lane] + joint.offset;

@@ -7,7 +7,8 @@
 
 namespace hgrid {
 
-/// Reads the values of the joints from a batch of states.
+/// Reads the values of the joints from a batch of states. The variables that the batch does not have are the same in
+/// all states; the constructor sets them.
 class StateValues {
  public:
   /// Finds the columns of the variables. @throws Refusal as StateChecker::checkStates() says
@@ -18,16 +19,19 @@ class StateValues {
   /// Reads one state into a lane of the scratch memory. If the state is refused, the lane gets valid values.
   /// @param answer  receives `refused`, `detail` and `beyond_limits`
   void read(std::size_t state, std::size_t lane, StateAnswer& answer);
+  /// Gives a lane valid values.
+  void clear(std::size_t lane);
 
  private:
   bool isComplete(std::size_t state) const { return (state + 1) * width_ <= batch_.positions.size(); }
-  double value(std::size_t state, std::size_t variable) const;
-  void check(std::size_t state, std::size_t lane, StateAnswer& answer) const;
+  void check(std::size_t lane, StateAnswer& answer) const;
+  void findChanging();
 
   const Kinematics& kinematics_;
   const StateBatch& batch_;
   StateMemory& scratch_;
-  const std::size_t width_;  // number of values of one state
+  const std::size_t width_;     // number of values of one state
+  bool others_beyond_ = false;  // whether a value that is the same in all states is beyond its limits
 };
 
 /// Returns a sentence that says why a state was refused.

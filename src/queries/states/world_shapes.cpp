@@ -19,7 +19,9 @@ WorldShapes::WorldShapes(const Snapshot& snapshot, const RobotShapes& robot, con
       Pose local_from_shape = pose.world_from_body * shapes[i].body_from_shape;
       local_from_shape.translation() -= snapshot.origin();
       const double rounding = 4e-7 * local_from_shape.translation().norm();
-      shapes_.push_back({body, i, tiltedBoxOf(shapes[i], local_from_shape, rounding)});
+      addBalls(shapes[i], local_from_shape);
+      shapes_.push_back(
+          {body, i, tiltedBoxOf(shapes[i], local_from_shape, rounding), static_cast<std::uint32_t>(balls_.size())});
       bounds_.push_back(snapshot.boxes()[proxy]);
     }
   }
@@ -32,6 +34,12 @@ WorldShapes::WorldShapes(const Snapshot& snapshot, const RobotShapes& robot, con
   }
   forEachMap(snapshot, scope, [&](const PlacedMap& map) { maps_.push_back(map); });
   forEachPlane(snapshot, scope, [&](const PlacedPlane& plane) { planes_.push_back(plane); });
+}
+
+void WorldShapes::addBalls(const BodyShape& shape, const Pose& local_from_shape) {
+  for (const Sphere& ball : ballsInside(shape, local_from_shape)) {
+    balls_.push_back(smallBall(ball.center, ball.radius));
+  }
 }
 
 }  // namespace hgrid

@@ -136,6 +136,28 @@ TEST(StateAnswers, AShapeWithoutASolidIsAHitWhereItsBoxIs) {
   EXPECT_EQ(world.answers.pairs.at(0).proximity.status, Measure::not_measured);
 }
 
+TEST(StateAnswers, OnlyBodiesThatTheGroupMovesCount) {
+  RobotModel model = turningArm();
+  addLink(model, "other_arm", 0, JointKind::revolute, false);
+  model.links.back().has_collision = true;
+  model.links.back().axis = Eigen::Vector3d::UnitZ();
+  model.links.back().shapes = {solidShape(Shape::sphere(0.1), at(0.5))};
+  findRigidGroups(model);
+  ArmWorld world({}, model);
+  put(world.scene, ArmWorld::ballBody("ball"), at(0, 0.5));
+  StateCheckerOptions options;
+  options.group = {"arm_joint"};
+  world.batch.others = {0, kQuarter};
+  world.batch.joints = {"arm_joint"};
+  EXPECT_EQ(world.verdictAt(0), Verdict::hit) << "the other arm touches the ball";
+  EXPECT_EQ(world.verdictAt(0, {}, options), Verdict::clear);
+  EXPECT_EQ(world.verdictAt(1.3, {}, options), Verdict::hit) << "the two arms touch each other";
+  options.group = {"elbow"};
+  std::string sentence;
+  EXPECT_EQ(refusalOf([&] { world.verdictAt(0, {}, options); }, &sentence), Code::unknown_id);
+  EXPECT_TRUE(says(sentence, "'elbow'"));
+}
+
 TEST(StateAnswers, AnAttachedObstacleMovesWithItsLink) {
   ArmWorld world;
   put(world.scene, ArmWorld::ballBody("ball"), at(0, 0.9));

@@ -72,6 +72,11 @@ TEST(StateRefusals, AQuaternionMustBeNearlyOfLengthOne) {
   EXPECT_EQ(answers.states[1].refused, Code::bad_rotation);
   EXPECT_TRUE(says(world.sentences[1], "drone_joint") && says(world.sentences[1], "unit quaternion"));
   EXPECT_NE(answers.states[2].refused, Code::ok);
+  world.batch.joints = {"arm_joint"};
+  world.batch.others = {0, 3, 0, 0, 0, 0, 0, 0};
+  EXPECT_EQ(refusalOf([&] { world.check({0}); }), Code::bad_rotation);
+  world.batch.others.back() = 1.0;
+  EXPECT_EQ(world.verdictAt(0), Verdict::clear);
 }
 
 TEST(StateRefusals, AMimicJointThatGoesTooFarIsRefusedThroughItsMaster) {
