@@ -45,6 +45,9 @@ int run(const Options& options) {
   if (options.part("maps") && !(options.quick && options.parts.empty())) runMaps(options, records);
   if (options.part("meshes")) runMeshes(options, records);
   if (options.part("history")) runHistory(options, records);
+#ifdef HGRID_BENCH_STATES
+  if (options.part("states")) runStates(options, records);
+#endif
   if (!options.json.empty()) writeRecords(options.json, records);
   return 0;
 }

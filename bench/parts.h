@@ -43,6 +43,9 @@ void runMaps(const Options& options, std::vector<Record>& records);
 /// Measures distances of two meshes beside FCL, and winding numbers.
 void runMeshes(const Options& options, std::vector<Record>& records);
 
+/// Measures how fast states of robots are checked for contacts, beside FCL in the way of MoveIt.
+void runStates(const Options& options, std::vector<Record>& records);
+
 /// Measures the memory of a history of past ticks, what it adds to a tick, and queries about the past.
 void runHistory(const Options& options, std::vector<Record>& records);
 

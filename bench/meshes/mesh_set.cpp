@@ -54,7 +54,8 @@ TriangleMesh terrain() {
   });
 }
 
-/// Reads a binary STL file. Equal corners become one vertex.
+}  // namespace
+
 TriangleMesh stlMesh(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
@@ -78,8 +79,6 @@ TriangleMesh stlMesh(const std::filesystem::path& path) {
   }
   return mesh;
 }
-
-}  // namespace
 
 TriangleMesh sphereOf(std::size_t triangles) {
   const auto rows = static_cast<std::uint32_t>(std::sqrt(0.5 * double(triangles)));

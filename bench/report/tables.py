@@ -17,6 +17,10 @@ MAPS_NOTE = ('Load: read the file and prepare for questions; build: the same fro
              'reports to hold; for FCL, what it has allocated. – = not measured, or too many leaves; ✗ = the '
              'answers differ from those of OctoMap, or there is no other peer to compare with.')
 
+STATES_NOTE = ('Median processor time per state [µs], hgrid / FCL, and the median of the ratios of successive turns. hgrid gets '
+               'batches of 1,000 states. FCL works in the way of MoveIt: a tree of links against a tree of the world, exact '
+               'meshes, one state at a time, forward kinematics included. All verdicts are compared. FCL takes meshes as '
+               'surfaces, so a shape inside a mesh does not count as a difference.')
 MESHES_NOTE = ('Mean µs per distance of two meshes, hgrid / FCL. The second mesh moves in steps of 2 mm and 0.01 rad. '
                'Without a limit: the search knows nothing. With a limit: it ends at the last distance plus the motion '
                'since then, as in the node. Both libraries find the same distances; ✗ = they differ by more than '
@@ -209,6 +213,23 @@ def meshes(figures):
     return text
 
 
+def states(figures):
+    """One row per robot and number of boxes: times for states without contact and in contact."""
+    rows = []
+    found = figures.all('states')
+    for robot, boxes in dict.fromkeys((record['robot'], record['boxes']) for record in found):
+        cells = []
+        for which in ('clear', 'in contact'):
+            record = figures.one('states', robot=robot, boxes=boxes, which=which)
+            if record is None:
+                cells.append('–')
+                continue
+            cells.append('%s / %s: %s times%s' % (short(record['hgrid_us']), short(record['fcl_us']),
+                                                  short(record['ratio']), '' if record['correct'] else ' ✗'))
+        rows.append([robot, count(boxes)] + cells)
+    return table(['robot', 'boxes', 'without contact', 'in contact'], rows)
+
+
 def sections(figures):
     """Returns title and text of each table for which there are figures."""
     cells = PEER_NOTE % 'uniform / mixed / floor / robots'
@@ -236,6 +257,8 @@ def sections(figures):
         found.append(('Maps', MAPS_NOTE + '\n\n' + maps(figures)))
     if figures.all('mesh'):
         found.append(('Meshes', MESHES_NOTE + '\n\n' + meshes(figures)))
+    if figures.all('states'):
+        found.append(('States of robots', STATES_NOTE + '\n\n' + states(figures)))
     if figures.all('node', maps_per_s=None):
         found.append(('The node', node(figures)))
     if figures.all('node', maps_per_s=1):
