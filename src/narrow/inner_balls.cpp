@@ -142,7 +142,8 @@ std::vector<Sphere> innerBallsOf(const MeshTree& tree, const Enclosure& enclosur
   if (!(step > 0.0)) return {};
   const ConvexSolid point(ConvexCore::point(), {});
   Eigen::Array3i count;
-  for (Eigen::Index k = 0; k < 3; ++k) count[k] = static_cast<int>(std::min(40.0, std::ceil(size[k] / step)));
+  // Odd numbers, so that the middle of the box is tried.
+  for (Eigen::Index k = 0; k < 3; ++k) count[k] = static_cast<int>(std::min(40.0, std::ceil(size[k] / step))) | 1;
   std::vector<Sphere> balls;
   for (int x = 0; x < count[0]; ++x) {
     for (int y = 0; y < count[1]; ++y) {
