@@ -181,6 +181,7 @@ TEST(StateAnswers, AnObstacleInTheFrameOfAFixedLinkRestsInTheWorld) {
   ball.frame = "base";
   put(world.scene, ball, at(0, 0.5));
   EXPECT_EQ(world.verdictAt(kQuarter), Verdict::hit);
+  EXPECT_EQ(world.verdictAt(0), Verdict::clear) << "if it moved with the base, it would be at the origin";
 }
 
 TEST(StateAnswers, TheLinksOfAnotherRobotStayWhereTheyAre) {
