@@ -2,6 +2,7 @@
 set(HGRID_CORE_SOURCES
   src/bodies/forward_kinematics.cpp
   src/bodies/group_tree.cpp
+  src/bodies/joint_groups.cpp
   src/bodies/kinematics.cpp
   src/bodies/link_matrix.cpp
   src/bodies/motion_bound.cpp

@@ -15,41 +15,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::string jointText(const RobotLink& link) { return "joint '" + printable(link.joint) + "'"; }
 
-/// Appends the variables of the joint of a link.
-void addVariables(const RobotLink& link, std::vector<JointVariable>& variables) {
-  const auto add = [&](const char* part, bool is_angle) {
-    JointVariable variable;
-    variable.joint = link.joint;
-    variable.name = link.joint + part;
-    variable.lower = -kInfinity;
-    variable.upper = kInfinity;
-    variable.is_angle = is_angle;
-    variables.push_back(variable);
-  };
-  switch (link.joint_kind) {
-    case JointKind::fixed:
-      break;
-    case JointKind::revolute:
-    case JointKind::prismatic:
-      add("", link.joint_kind == JointKind::revolute);
-      if (link.continuous || (link.lower == 0.0 && link.upper == 0.0)) break;
-      variables.back().lower = link.lower;
-      variables.back().upper = link.upper;
-      break;
-    case JointKind::planar:
-      add("/x", false), add("/y", false), add("/theta", true);
-      break;
-    case JointKind::floating:
-      add("/trans_x", false), add("/trans_y", false), add("/trans_z", false);
-      const int first = static_cast<int>(variables.size());
-      for (const char* part : {"/rot_x", "/rot_y", "/rot_z", "/rot_w"}) {
-        add(part, false);
-        variables.back().quaternion = first;
-      }
-      break;
-  }
-}
-
 /// Stores a matrix in the order of rows.
 std::array<double, 9> rowsOf(const Eigen::Matrix3d& matrix) {
   std::array<double, 9> rows{};
@@ -59,6 +24,33 @@ std::array<double, 9> rowsOf(const Eigen::Matrix3d& matrix) {
     }
   }
   return rows;
+}
+
+/// Returns the frame in which a planar joint moves: its z axis is the axis of the joint.
+Pose jointFromPlane(const Eigen::Vector3d& axis) {
+  const Eigen::Vector3d side = Eigen::Vector3d::Unit(std::abs(axis.x()) > 0.9 ? 1 : 0);
+  Pose tilted = Pose::Identity();
+  tilted.linear().col(0) = (side - side.dot(axis) * axis).normalized();
+  tilted.linear().col(1) = axis.cross(tilted.linear().col(0));
+  tilted.linear().col(2) = axis;
+  return tilted;
+}
+
+/// Returns the angle [rad] by which a rotation turns about an axis, in [-pi, pi].
+double angleAbout(const Eigen::Vector3d& axis, const Eigen::Matrix3d& turn) {
+  Eigen::Quaterniond rotation(turn);
+  if (rotation.w() < 0.0) rotation.coeffs() = -rotation.coeffs();
+  return 2.0 * std::atan2(rotation.vec().dot(axis), rotation.w());
+}
+
+/// Returns the angle that turns a link in the same way and is within the limits of its joint, if there is one.
+double withinLimits(const RobotLink& link, double angle) {
+  constexpr double kTurn = 2.0 * M_PI, kSlack = 1e-6;  // [rad]
+  if (link.continuous || (link.lower == 0.0 && link.upper == 0.0)) return angle;
+  for (const double other : {angle, angle - kTurn, angle + kTurn}) {
+    if (other >= link.lower - kSlack && other <= link.upper + kSlack) return other;
+  }
+  return angle;
 }
 
 /// Fills the rotation and translation of a joint. @param parent_from_joint  pose of the joint in its parent group
@@ -74,11 +66,7 @@ void setPoses(const RobotLink& link, const Pose& parent_from_joint, JointMotion&
   }
   joint.parent_from_plane = parent_from_joint;
   if (link.joint_kind != JointKind::planar) return;
-  const Eigen::Vector3d side = Eigen::Vector3d::Unit(std::abs(link.axis.x()) > 0.9 ? 1 : 0);
-  Pose tilted = Pose::Identity();
-  tilted.linear().col(0) = (side - side.dot(link.axis) * link.axis).normalized();
-  tilted.linear().col(1) = link.axis.cross(tilted.linear().col(0));
-  tilted.linear().col(2) = link.axis;
+  const Pose tilted = jointFromPlane(link.axis);
   joint.parent_from_plane = parent_from_joint * tilted;
   joint.plane_from_child = tilted.inverse();
 }
@@ -120,6 +108,40 @@ bool hasOneVariable(const RobotLink& link) {
 
 }  // namespace
 
+void appendVariables(const RobotLink& link, std::vector<JointVariable>& variables) {
+  const auto add = [&](const char* part, bool is_angle) {
+    JointVariable variable;
+    variable.joint = link.joint;
+    variable.name = link.joint + part;
+    variable.lower = -kInfinity;
+    variable.upper = kInfinity;
+    variable.is_angle = is_angle;
+    variables.push_back(variable);
+  };
+  switch (link.joint_kind) {
+    case JointKind::fixed:
+      break;
+    case JointKind::revolute:
+    case JointKind::prismatic:
+      add("", link.joint_kind == JointKind::revolute);
+      if (link.continuous || (link.lower == 0.0 && link.upper == 0.0)) break;
+      variables.back().lower = link.lower;
+      variables.back().upper = link.upper;
+      break;
+    case JointKind::planar:
+      add("/x", false), add("/y", false), add("/theta", true);
+      break;
+    case JointKind::floating:
+      add("/trans_x", false), add("/trans_y", false), add("/trans_z", false);
+      const int first = static_cast<int>(variables.size());
+      for (const char* part : {"/rot_x", "/rot_y", "/rot_z", "/rot_w"}) {
+        add(part, false);
+        variables.back().quaternion = first;
+      }
+      break;
+  }
+}
+
 Kinematics::Kinematics(const RobotModel& model) {
   auto state = std::make_shared<State>();
   state->name = model.name;
@@ -131,7 +153,7 @@ Kinematics::Kinematics(const RobotModel& model) {
     state->group_from_link.push_back(link.group_from_link);
     by_joint[link.joint] = &link;
     first_variable[link.joint] = static_cast<std::uint32_t>(state->variables.size());
-    if (link.mimic.empty()) addVariables(link, state->variables);
+    if (link.mimic.empty()) appendVariables(link, state->variables);
   }
   for (std::uint32_t i = 0; i < model.group_roots.size(); ++i) {
     const RobotLink& link = model.links[model.group_roots[i]];
@@ -160,6 +182,30 @@ Kinematics::Kinematics(const RobotModel& model) {
     state->groups.push_back(joint);
   }
   state_ = std::move(state);
+}
+
+void appendValues(const RobotLink& link, const Pose& parent_from_link, std::vector<double>& values) {
+  const Pose joint_from_link = link.parent_from_joint.inverse() * parent_from_link;
+  const Eigen::Vector3d shift = joint_from_link.translation();
+  switch (link.joint_kind) {
+    case JointKind::fixed:
+      return;
+    case JointKind::revolute:
+      return values.push_back(withinLimits(link, angleAbout(link.axis, joint_from_link.linear())));
+    case JointKind::prismatic:
+      return values.push_back(shift.dot(link.axis));
+    case JointKind::planar: {
+      const Pose plane = jointFromPlane(link.axis);
+      values.insert(values.end(), {shift.dot(plane.linear().col(0)), shift.dot(plane.linear().col(1)),
+                                   angleAbout(link.axis, joint_from_link.linear())});
+      return;
+    }
+    case JointKind::floating: {
+      const Eigen::Quaterniond turn = Eigen::Quaterniond(joint_from_link.linear()).normalized();
+      values.insert(values.end(), {shift.x(), shift.y(), shift.z(), turn.x(), turn.y(), turn.z(), turn.w()});
+      return;
+    }
+  }
 }
 
 const std::string& Kinematics::name() const { return state_->name; }

@@ -32,6 +32,36 @@ TEST(Srdf, AllThreeTagsAreRead) {
   EXPECT_EQ(rules.enabled[0].second, "cart");
 }
 
+TEST(Srdf, GroupsOfJointsAndVirtualJointsAreRead) {
+  const JointGroups read =
+      readJointGroups(srdf("<virtual_joint name='odometry' type='planar' parent_frame='odom' child_link='base'/>"
+                           "<virtual_joint name='stand' type='fixed' parent_frame='floor' child_link='base'/>"
+                           "<group name='arm'><chain base_link='base' tip_link='hand'/><joint name='lift'/></group>"
+                           "<group name='all'><group name='arm'/><link name='cart'/><link name='plate'/></group>"));
+  ASSERT_EQ(read.groups.size(), 2u);
+  EXPECT_EQ(read.groups[0].name, "arm");
+  ASSERT_EQ(read.groups[0].chains.size(), 1u);
+  EXPECT_EQ(read.groups[0].chains[0].base, "base");
+  EXPECT_EQ(read.groups[0].chains[0].tip, "hand");
+  EXPECT_EQ(read.groups[0].joints, std::vector<std::string>({"lift"}));
+  EXPECT_EQ(read.groups[1].groups, std::vector<std::string>({"arm"}));
+  EXPECT_EQ(read.groups[1].links, std::vector<std::string>({"cart", "plate"}));
+  ASSERT_NE(read.findVirtual("odometry"), nullptr);
+  EXPECT_EQ(read.findVirtual("odometry")->kind, JointKind::planar);
+  EXPECT_EQ(read.findVirtual("odometry")->parent_frame, "odom");
+  EXPECT_EQ(read.findVirtual("stand")->kind, JointKind::fixed);
+  EXPECT_EQ(read.findVirtual("lift"), nullptr);
+
+  std::string sentence;
+  const auto code = [&](const std::string& content) {
+    return refusalOf([&] { readJointGroups(srdf(content)); }, &sentence);
+  };
+  EXPECT_EQ(code("<group><joint name='lift'/></group>"), Code::parse);
+  EXPECT_TRUE(says(sentence, "'name'") && says(sentence, "line 2")) << sentence;
+  EXPECT_EQ(code("<virtual_joint name='j' type='loose' parent_frame='odom' child_link='base'/>"), Code::parse);
+  EXPECT_TRUE(says(sentence, "'j'") && says(sentence, "'loose'")) << sentence;
+}
+
 TEST(Srdf, RulesActOnTheModelAndUnknownLinksAreWarnings) {
   MeshLoader loader(meshPolicy());
   const RobotModel model = readWith(loader, fileText(ownData() + "/robots/traits.urdf"));

@@ -65,6 +65,62 @@ TEST(Kinematics, PlacesTheLinksOfRandomMechanismsLikeTheDefinitionsOfTheirJoints
   EXPECT_GT(chains, 0);
 }
 
+TEST(Kinematics, FindsTheValuesWithWhichLinksHaveTheirPoses) {
+  int turned = 0;
+  for (unsigned seed = 1; seed <= 100; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const RobotModel model = test::randomMechanism(random, random.between(1, 12), 0.5);
+    const Kinematics kinematics(model);
+    const std::vector<double> state = test::randomState(random, kinematics);
+    const std::vector<Pose> poses = kinematics.rootFromLinks(state);
+    std::vector<double> values;
+    for (std::size_t i = 0; i < model.links.size(); ++i) {
+      const RobotLink& link = model.links[i];
+      if (link.mimic.empty() && link.parent >= 0) {
+        appendValues(link, poses[std::size_t(link.parent)].inverse() * poses[i], values);
+      }
+    }
+    ASSERT_EQ(values.size(), state.size());
+    const std::vector<Pose> again = kinematics.rootFromLinks(values);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const JointVariable& variable = kinematics.variables()[i];
+      const bool is_within = state[i] >= variable.lower && state[i] <= variable.upper;
+      if (std::isfinite(variable.lower) && is_within) {
+        EXPECT_NEAR(values[i], state[i], 1e-9) << variable.name << ": a joint with limits has the same value again";
+      }
+      turned += variable.is_angle && std::abs(values[i] - state[i]) > 1.0 ? 1 : 0;
+    }
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      bool follows_turns = false;  // a joint that mimics a turned joint by a factor is elsewhere after a full turn
+      for (int at = int(i); at >= 0; at = model.links[std::size_t(at)].parent) {
+        follows_turns |= !model.links[std::size_t(at)].mimic.empty();
+      }
+      if (follows_turns) continue;
+      EXPECT_LT((again[i].matrix() - poses[i].matrix()).norm(), 1e-9) << model.links[i].name;
+    }
+  }
+  EXPECT_GT(turned, 10) << "angles beyond half a turn come back as others";
+}
+
+TEST(Kinematics, FindsAnAngleWithinTheLimitsOfItsJoint) {
+  RobotModel model;
+  test::addLink(model, "base", -1);
+  test::addLink(model, "arm", 0, JointKind::revolute);
+  RobotLink& link = model.links[1];
+  const auto angle = [&](double turn, double lower, double upper) {
+    link.lower = lower;
+    link.upper = upper;
+    std::vector<double> values;
+    appendValues(link, link.parent_from_joint * Pose(Eigen::AngleAxisd(turn, link.axis)), values);
+    return values.at(0);
+  };
+  EXPECT_NEAR(angle(4.0, 0.0, 6.0), 4.0, 1e-12);
+  EXPECT_NEAR(angle(-4.0, -6.0, 0.0), -4.0, 1e-12);
+  EXPECT_NEAR(angle(2.0, 0.0, 1.0), 2.0, 1e-12) << "no other turn is within the limits";
+  EXPECT_NEAR(angle(4.0, 0.0, 0.0), 4.0 - 2.0 * M_PI, 1e-12) << "there are no limits";
+}
+
 RobotModel twoJoints() {
   RobotModel model;
   model.name = "robot";

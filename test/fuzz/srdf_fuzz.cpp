@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "hgrid_proximity/adapters/srdf.h"
+#include "hgrid_proximity/bodies/kinematics.h"
 #include "test/adapters/urdf_texts.h"
 #include "test/fuzz/targets.h"
 #include "test/support/sentences.h"
@@ -52,12 +53,33 @@ std::string flawOf(const LinkRules& rules, const std::string& srdf) {
   return {};
 }
 
+/// Returns what is wrong with the groups of joints; empty if nothing is wrong.
+std::string flawOfGroups(const std::string& srdf) {
+  static const RobotModel model = chain();
+  static const std::size_t joints = Kinematics(model).variables().size();
+  try {
+    const JointGroups groups = readJointGroups(srdf);
+    for (const JointGroup& group : groups.groups) {
+      try {
+        const auto variables = variablesOf(group.name, groups, model);
+        if (variables && (variables->empty() || variables->size() > joints)) return "a group has wrong variables";
+      } catch (const Refusal& refusal) {
+        if (!flawOfRefusal(refusal).empty()) return flawOfRefusal(refusal);
+      }
+    }
+  } catch (const Refusal& refusal) {
+    return flawOfRefusal(refusal);
+  }
+  return {};
+}
+
 }  // namespace
 
 FuzzResult fuzzSrdf(std::string_view input) {
   const std::string text(input);
   try {
-    return {true, flawOf(readSrdf(text), text)};
+    const std::string flaw = flawOf(readSrdf(text), text);
+    return {true, flaw.empty() ? flawOfGroups(text) : flaw};
   } catch (const Refusal& refusal) {
     return {false, flawOfRefusal(refusal)};
   }

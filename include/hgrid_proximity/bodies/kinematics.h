@@ -28,6 +28,14 @@ struct JointVariable {
   int quaternion = -1;
 };
 
+/// Appends the variables that the joint of a link has if it does not mimic another joint.
+void appendVariables(const RobotLink& link, std::vector<JointVariable>& variables);
+
+/// Appends the values of these variables with which a link has a given pose in its parent link. Of a pose that the
+/// joint cannot reach, only the part counts that the joint can follow. An angle is within the limits of its joint if
+/// another full turn brings it there; otherwise it is between -pi and pi.
+void appendValues(const RobotLink& link, const Pose& parent_from_link, std::vector<double>& values);
+
 /// The joints of a robot, prepared for computing the poses of its links. Immutable; copies share memory.
 ///
 /// A joint moves its link in the frame that RobotLink::parent_from_joint describes. A revolute joint turns the link
