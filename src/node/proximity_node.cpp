@@ -52,8 +52,9 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
           [this](const TickJobs::Job& job) { return tick_loop_.tickAfter(job); }, world_.transforms().lookup(),
           history_, loading_, state_, stopwatch_, sketch_),
       moveit_(
-          admin_thread_.node(), commons_, loading_.mapSource(), jobs_,
-          [this](const TickJobs::Job& job) { return tick_loop_.tickAfter(job); }, [this] { return isEnding(); }),
+          admin_thread_.node(), query_threads_.node(), commons_, loading_.mapSource(), jobs_,
+          [this](const TickJobs::Job& job) { return tick_loop_.tickAfter(job); },
+          [this] { return tick_loop_.newest(); }, world_.transforms().lookup(), [this] { return isEnding(); }),
       trackers_(
           admin_thread_.node(), commons_, world_.transforms().lookup(), [this] { return tick_loop_.newest(); }, jobs_),
       diagnostics_(

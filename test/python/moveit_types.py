@@ -68,8 +68,71 @@ FIELDS = {
         uint32 LINK_PADDING_AND_SCALING=256
         uint32 OBJECT_COLORS=512
         uint32 components""",
+    "moveit_msgs/JointConstraint": """string joint_name
+        float64 position
+        float64 tolerance_above
+        float64 tolerance_below
+        float64 weight""",
+    "moveit_msgs/BoundingVolume": """shape_msgs/SolidPrimitive[] primitives
+        geometry_msgs/Pose[] primitive_poses
+        shape_msgs/Mesh[] meshes
+        geometry_msgs/Pose[] mesh_poses""",
+    "moveit_msgs/PositionConstraint": """Header header
+        string link_name
+        geometry_msgs/Vector3 target_point_offset
+        BoundingVolume constraint_region
+        float64 weight""",
+    "moveit_msgs/OrientationConstraint": """Header header
+        geometry_msgs/Quaternion orientation
+        string link_name
+        float64 absolute_x_axis_tolerance
+        float64 absolute_y_axis_tolerance
+        float64 absolute_z_axis_tolerance
+        uint8 parameterization
+        uint8 XYZ_EULER_ANGLES=0
+        uint8 ROTATION_VECTOR=1
+        float64 weight""",
+    "moveit_msgs/VisibilityConstraint": """float64 target_radius
+        geometry_msgs/PoseStamped target_pose
+        int32 cone_sides
+        geometry_msgs/PoseStamped sensor_pose
+        float64 max_view_angle
+        float64 max_range_angle
+        uint8 SENSOR_Z=0
+        uint8 SENSOR_Y=1
+        uint8 SENSOR_X=2
+        uint8 sensor_view_direction
+        float64 weight""",
+    "moveit_msgs/Constraints": """string name
+        JointConstraint[] joint_constraints
+        PositionConstraint[] position_constraints
+        OrientationConstraint[] orientation_constraints
+        VisibilityConstraint[] visibility_constraints""",
+    "moveit_msgs/ContactInformation": """Header header
+        geometry_msgs/Point position
+        geometry_msgs/Vector3 normal
+        float64 depth
+        string contact_body_1
+        uint32 body_type_1
+        string contact_body_2
+        uint32 body_type_2
+        uint32 ROBOT_LINK=0
+        uint32 WORLD_OBJECT=1
+        uint32 ROBOT_ATTACHED=2""",
+    "moveit_msgs/CostSource": """float64 cost_density
+        geometry_msgs/Vector3 aabb_min
+        geometry_msgs/Vector3 aabb_max""",
+    "moveit_msgs/ConstraintEvalResult": "bool result\nfloat64 distance",
 }
 SERVICES = {
+    "moveit_msgs/GetStateValidity": """RobotState robot_state
+        string group_name
+        Constraints constraints
+        ---
+        bool valid
+        ContactInformation[] contacts
+        CostSource[] cost_sources
+        ConstraintEvalResult[] constraint_result""",
     "moveit_msgs/GetPlanningScene": "PlanningSceneComponents components\n---\nPlanningScene scene",
     "moveit_msgs/ApplyPlanningScene": "PlanningScene scene\n---\nbool success",
 }
@@ -100,7 +163,8 @@ class Types:
     def service(self, name):
         """Returns a class for rospy.ServiceProxy and rospy.Service."""
         full = "moveit_msgs/" + name
-        spec = genmsg.msg_loader.load_srv_from_string(self._context, SERVICES[full], full)
+        fields = "\n".join(line.strip() for line in SERVICES[full].split("\n"))
+        spec = genmsg.msg_loader.load_srv_from_string(self._context, fields, full)
         for part in (spec.request, spec.response):
             genmsg.msg_loader.load_depends(self._context, part, self._search)
             self._make(part)

@@ -11,6 +11,7 @@
 #include "node/commons.h"
 #include "node/moveit/scene_services.h"
 #include "node/moveit/scene_topics.h"
+#include "node/moveit/validity_service.h"
 
 namespace hgrid {
 
@@ -18,17 +19,21 @@ namespace hgrid {
 /// ask for them.
 class MoveItInterface {
  public:
-  /// @param node       its thread serves the services
+  /// @param node       its thread serves the services that change or read the scene
+  /// @param query_node  its threads serve the other services
   /// @param is_ending  returns whether the node is shutting down
   /// All other parameters must outlive this object.
-  MoveItInterface(ros::NodeHandle node, Commons& commons, const MapSource& maps, TickJobs& jobs,
-                  const ChangeWorld& change_world, std::function<bool()> is_ending)
+  MoveItInterface(ros::NodeHandle node, const ros::NodeHandle& query_node, Commons& commons, const MapSource& maps,
+                  TickJobs& jobs, const ChangeWorld& change_world, ServiceEnvelope::NewestTick newest,
+                  const TransformLookup& transforms, std::function<bool()> is_ending)
       : node_(std::move(node)),
         commons_(commons),
         octomap_(maps, jobs, commons.ledger),
         jobs_(jobs),
         is_ending_(std::move(is_ending)) {
-    if (commons.settings.params.moveit_services) services_.emplace(node_, commons, octomap_, gaps_, change_world);
+    if (!commons.settings.params.moveit_services) return;
+    services_.emplace(node_, commons, octomap_, gaps_, change_world);
+    validity_.emplace(query_node, commons, std::move(newest), transforms);
   }
 
   void startTopics() {
@@ -45,6 +50,7 @@ class MoveItInterface {
   std::function<bool()> is_ending_;
   std::optional<SceneTopics> topics_;
   std::optional<SceneServices> services_;
+  std::optional<ValidityService> validity_;
 };
 
 }  // namespace hgrid

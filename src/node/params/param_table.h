@@ -89,8 +89,8 @@ void visitParams(Visitor& v, Params& p) {
       "whether to read MoveIt's topics collision_object, attached_collision_object and planning_scene; their objects "
       "are obstacles of the owner 'moveit'. See doc/moveit.md");
   v.flag("moveit/services", p.moveit_services,
-         "whether to offer MoveIt's services get_planning_scene and apply_planning_scene. Set this only where no "
-         "move_group offers them in the same namespace");
+         "whether to offer MoveIt's services get_planning_scene, apply_planning_scene and check_state_validity. Set this "
+         "only where no move_group offers them in the same namespace");
   v.flag("moveit/allowed_collision_matrix", p.moveit_matrix,
          "whether the allowed collision matrix of a planning scene switches off pairs: its names of links and objects "
          "that may touch become rules, at most ~max_rules. The parameter ~allowed_pairs and the service ~set_allowed "

@@ -130,6 +130,11 @@ std::shared_ptr<const ReadDescription> RobotSource::read(const RobotSpec& robot,
   }
   read->links = std::make_shared<const LinkMatrix>(read->model, rules, read->warnings);
   read->self_pairs = countSelfPairs(read->model, *read->links);
+  read->joints =
+      std::make_shared<const RobotJoints>(read->model, description.srdf() ? &*description.srdf() : nullptr, limits);
+  if (!read->joints->flaw.empty()) {
+    read->warnings.push_back("states of robot '" + name + "' cannot be checked: " + read->joints->flaw);
+  }
   for (RobotLink& link : read->model.links) {
     if (cancelled_())
       throw Refusal(Code::busy, "robot '" + name + "' was not loaded, because the node is shutting down");

@@ -15,6 +15,7 @@
 #include "hgrid_proximity/bodies/self_pairs.h"
 #include "hgrid_proximity/narrow/narrow_phase.h"
 #include "node/params/params.h"
+#include "node/sources/robot_joints.h"
 #include "node/sources/robot_spec.h"
 
 namespace hgrid {
@@ -57,6 +58,7 @@ struct ReadDescription {
   SelfPairs self_pairs;
   std::vector<std::string> warnings;
   std::vector<bool> use_visual;  // for each link: whether ~use_visual names it
+  std::shared_ptr<const RobotJoints> joints;
 };
 
 /// Reads robots: their descriptions (URDF and SRDF) from the parameter server, and their meshes.

@@ -16,6 +16,7 @@
 #include "node/time/clock_watch.h"
 #include "node/world/body_trouble.h"
 #include "node/world/model_report.h"
+#include "node/world/robot_entry.h"
 
 namespace hgrid {
 
@@ -36,6 +37,7 @@ struct Tick {
   std::vector<std::string> contested_frames;  ///< one sentence for each contested frame
   std::vector<ClockOffset> clock_offsets;     ///< publishers whose stamps are constantly early or late
   std::shared_ptr<const ModelReport> models;
+  std::shared_ptr<const RobotEntries> robots;  ///< all robots, by name, also those that are absent or not loaded
   HistoryExtent history;  ///< the past ticks that queries could ask for when this tick was made
   TickTimes times;
   int threads = 0;                         ///< number of threads that made the snapshot

@@ -32,6 +32,7 @@ std::shared_ptr<const Tick> withoutSnapshot(const Tick& tick) {
   note->epoch = tick.epoch;
   note->unplaced = tick.unplaced;
   note->models = tick.models;
+  note->robots = tick.robots;
   return note;
 }
 

@@ -31,6 +31,8 @@ class RobotModels {
   void set(RobotEntries robots);
   /// Returns all robots, by name, also those that are absent or not loaded.
   const RobotEntries& all() const { return content_->robots; }
+  /// As all(). The result does not change when this object changes.
+  std::shared_ptr<const RobotEntries> shared() const { return {content_, &content_->robots}; }
   /// Returns the robots as ~robots lists them. Models that are known stay.
   RobotEntries configured() const;
 

@@ -278,6 +278,7 @@ std::shared_ptr<Tick> World::tick(const Moment& now) {
   needFrames(now);
   tick->world_frame = world_frame_;
   tick->models = robots_.models().report();
+  tick->robots = robots_.models().shared();
   tick->frames = transforms_.table().placed();
   std::vector<SourceGap> gaps = listMissing(now, *tick);
   if (!can_begin) {

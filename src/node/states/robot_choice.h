@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "node/tick/tick.h"
+
+namespace hgrid {
+
+/// Returns the name of a joint without the name of the robot before it: "arm/elbow" of the robot "arm" is "elbow".
+std::string jointOf(const std::string& name, const std::string& robot);
+
+/// Returns the robot that a request about joints means: the only one that has all of them, and the group. If the
+/// request names neither, it is the first robot of ~robots, or the only robot in the world.
+/// @param joints  names of variables, joints or virtual joints, with or without the name of the robot before them
+/// @param group   name of a group of its SRDF; may be empty
+/// @throws Refusal not_ready if no robot is in the world, or if the joints of the robot cannot be used
+/// @throws Refusal unknown_id if no robot has all the joints, conflict if several robots have them
+const LoadedRobot& robotWith(const std::vector<std::string>& joints, const std::string& group, const Tick& tick);
+
+}  // namespace hgrid

@@ -1,0 +1,259 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: the hgrid_proximity authors
+"""MoveIt's service check_state_validity, with its type name and MD5, beside a running node.
+
+An arm turns about z. It has a sphere at 0.5 m and a hand, a sphere at 1 m plus the position of the joint 'slide'. The
+obstacle 'post' is at 0.5 m on y, the obstacle 'wall' at 1.5 m on -y."""
+import math
+import random
+import threading
+import time
+import unittest
+
+import rospy
+import rosunit
+from geometry_msgs.msg import Transform, TransformStamped
+from hgrid_proximity.client import Proximity
+from hgrid_proximity.msg import Status
+from moveit_types import Types
+from shape_msgs.msg import SolidPrimitive
+from tf2_msgs.msg import TFMessage
+
+TYPES = Types()
+LINK, OBJECT, ATTACHED = 0, 1, 2
+TO_POST, TO_WALL = math.pi / 2, -math.pi / 2
+
+
+class Arm:
+    """Publishes the poses of the links: the base at x = `base`, the joint 'slide' at 0.25 m, the shoulder at `angle`."""
+
+    def __init__(self):
+        self.base, self.angle = 0.0, 0.0
+        self._publisher = rospy.Publisher("/tf", TFMessage, queue_size=1)
+        threading.Thread(target=self._run, daemon=True).start()
+
+    def _run(self):
+        while not rospy.is_shutdown():
+            turned = (math.sin(self.angle / 2), math.cos(self.angle / 2))
+            poses = [transform("world", "base", self.base), transform("base", "arm", 0.0, turned),
+                     transform("arm", "hand", 1.25), transform("hand", "finger", 0.25)]
+            try:
+                self._publisher.publish(TFMessage(poses))
+            except rospy.ROSException:
+                break  # the test ends
+            time.sleep(0.02)
+
+
+def transform(parent, child, x, turned=(0.0, 1.0)):
+    pose = TransformStamped(child_frame_id=child)
+    pose.header.frame_id, pose.header.stamp = parent, rospy.Time.now()
+    pose.transform.translation.x = x
+    pose.transform.rotation.z, pose.transform.rotation.w = turned
+    return pose
+
+
+def wait(condition, what, seconds=60.0):
+    deadline = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > deadline:
+            raise AssertionError("%s did not come within %s s" % (what, seconds))
+        time.sleep(0.05)
+
+
+class Validity(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("validity_test")
+        cls.arm = Arm()
+        cls.kind = TYPES.service("GetStateValidity")
+        cls.check = rospy.ServiceProxy("check_state_validity", cls.kind)
+        cls.check.wait_for_service(60.0)
+        cls.apply = rospy.ServiceProxy("apply_planning_scene", TYPES.service("ApplyPlanningScene"))
+        cls.proximity = Proximity("/proximity", timeout=60.0)
+        wait(lambda: cls.proximity.pairs().usable, "a complete world", 120.0)
+
+    def request(self, **joints):
+        request = self.kind._request_class()
+        request.robot_state.joint_state.name = list(joints)
+        request.robot_state.joint_state.position = list(joints.values())
+        return request
+
+    def answer(self, group="", **joints):
+        request = self.request(**joints)
+        request.group_name = group
+        return self.check(request)
+
+    def contacts(self, answer):
+        return sorted((each.contact_body_1, each.body_type_1, each.contact_body_2, each.body_type_2)
+                      for each in answer.contacts)
+
+    def assert_refused(self, request):
+        with self.assertRaises(rospy.ServiceException):
+            self.check(request)
+
+    def counters(self):
+        status = rospy.wait_for_message("/proximity/status", Status, 60.0)
+        return {counter.name: counter.value for counter in status.counters}
+
+    def test_the_type_is_that_of_moveit(self):
+        self.assertEqual(self.kind._md5sum, "06ea62db671e4dbf878eaca241db51ad")
+
+    def test_a_state_in_contact_is_not_valid_and_names_all_contacts(self):
+        free = self.answer(shoulder=0.0, slide=0.5)
+        self.assertTrue(free.valid)
+        self.assertEqual((free.contacts, free.cost_sources, free.constraint_result), ([], [], []))
+        post = self.answer(shoulder=TO_POST, slide=0.5)
+        self.assertFalse(post.valid)
+        self.assertEqual(self.contacts(post), [("arm", LINK, "post", OBJECT)])
+        contact = post.contacts[0]
+        self.assertEqual(contact.header.frame_id, "world")
+        self.assertAlmostEqual(contact.position.y, 0.5, delta=0.11)
+        self.assertAlmostEqual(contact.depth, 0.2, delta=0.01)
+        wall = self.answer(shoulder=TO_WALL, slide=0.45)
+        self.assertEqual(self.contacts(wall), [("hand", LINK, "wall", OBJECT)])
+        both = self.answer(shoulder=TO_WALL, slide=0.45, grip=7.0)
+        self.assertEqual(self.contacts(both), self.contacts(wall), "a joint that mimics another does not count")
+
+    # Claim: for random states, the service agrees with the distances of the spheres, computed here.
+    def test_it_agrees_with_spheres_in_random_states(self):
+        generator = random.Random(1)
+        seen = set()
+        for _ in range(300):
+            angle, slide = generator.uniform(-7, 7), generator.uniform(0, 1)
+            expected = []
+            for link, reach in (("arm", 0.5), ("hand", 1 + slide)):
+                for name, y in (("post", 0.5), ("wall", -1.5)):
+                    gap = math.hypot(reach * math.cos(angle), reach * math.sin(angle) - y) - 0.2
+                    if abs(gap) < 1e-5:
+                        break
+                    if gap < 0:
+                        expected.append((link, LINK, name, OBJECT))
+            answer = self.answer(shoulder=angle, slide=slide)
+            self.assertEqual((answer.valid, self.contacts(answer)), (not expected, sorted(expected)), (angle, slide))
+            seen.add(tuple(expected))
+        self.assertGreaterEqual(len(seen), 3)
+
+    def test_joints_that_the_request_leaves_out_are_where_they_are(self):
+        self.arm.angle = TO_WALL
+        try:
+            wait(lambda: not self.proximity.query_sphere((0, -0.5, 0), 0.01).clear, "the arm at the wall")
+            self.assertFalse(self.answer(slide=0.5).valid)
+            self.assertTrue(self.answer(slide=0.0).valid)
+            self.assertTrue(self.answer().valid, "the slide is at 0.25 m")
+            self.assertTrue(self.answer(shoulder=0.0, slide=0.5).valid)
+        finally:
+            self.arm.angle = 0.0
+            wait(lambda: not self.proximity.query_sphere((0.5, 0, 0), 0.01).clear, "the arm at its place")
+
+    def test_of_a_group_only_the_links_that_it_moves_count(self):
+        self.assertFalse(self.answer("all", shoulder=TO_POST).valid)
+        self.assertTrue(self.answer("gripper", shoulder=TO_POST).valid, "the arm touches the post, but not the hand")
+        self.assertFalse(self.answer("gripper", shoulder=TO_WALL, slide=0.5).valid)
+        self.assert_refused(self.kind._request_class(group_name="leg"))
+
+    def test_a_virtual_joint_puts_the_whole_robot_elsewhere(self):
+        request = self.request(shoulder=TO_POST, slide=0.5)
+        moves = request.robot_state.multi_dof_joint_state
+        moves.joint_names, place = ["odometry"], Transform()
+        place.translation.x, place.rotation.w = 3.0, 1.0
+        moves.transforms = [place]
+        self.assertTrue(self.check(request).valid)
+        place.translation.x, place.translation.y = 0.0, -2.0
+        answer = self.check(request)
+        self.assertEqual(self.contacts(answer), [("arm", LINK, "wall", OBJECT)])
+        moves.header.frame_id = "nowhere"
+        self.assert_refused(request)
+        moves.header.frame_id, moves.joint_names = "world", ["wheels"]
+        self.assert_refused(request)
+
+    def test_an_attached_object_moves_with_the_arm(self):
+        scene = TYPES["PlanningScene"](is_diff=True)
+        held = TYPES["AttachedCollisionObject"](link_name="hand", touch_links=["hand", "finger"])
+        held.object.id, held.object.header.frame_id = "bottle", "hand"
+        held.object.primitives = [SolidPrimitive(type=SolidPrimitive.SPHERE, dimensions=[0.05])]
+        pose = TYPES["CollisionObject"]().pose
+        pose.position.x, pose.orientation.w = 0.5, 1.0
+        held.object.primitive_poses = [pose]
+        scene.robot_state.attached_collision_objects = [held]
+        self.assertTrue(self.apply(scene=scene).success)
+        try:
+            answer = self.answer(shoulder=TO_WALL, slide=0.0)
+            self.assertEqual(self.contacts(answer), [("bottle", ATTACHED, "wall", OBJECT)])
+            request = self.request(shoulder=0.0)
+            request.robot_state.attached_collision_objects = [held]
+            self.assert_refused(request)
+        finally:
+            held.object.operation = 1
+            scene.world.collision_objects = [TYPES["CollisionObject"](id="bottle", operation=1)]
+            self.assertTrue(self.apply(scene=scene).success)
+
+    def test_joint_constraints_are_evaluated(self):
+        def constrained(position, above, below, **joints):
+            request = self.request(**joints)
+            request.constraints.joint_constraints = [TYPES["JointConstraint"](
+                joint_name="shoulder", position=position, tolerance_above=above, tolerance_below=below, weight=2.0)]
+            return self.check(request)
+
+        inside = constrained(0.5, 0.3, 0.1, shoulder=0.75)
+        self.assertTrue(inside.valid)
+        self.assertTrue(inside.constraint_result[0].result)
+        self.assertAlmostEqual(inside.constraint_result[0].distance, 0.5)
+        for angle in (0.85, 0.35):
+            outside = constrained(0.5, 0.3, 0.1, shoulder=angle)
+            self.assertFalse(outside.valid)
+            self.assertFalse(outside.constraint_result[0].result)
+            self.assertEqual(outside.contacts, [])
+        self.assertTrue(constrained(3.1, 0.2, 0.2, shoulder=-3.1).valid, "the joint turns without limits")
+
+    def test_a_request_that_the_node_cannot_answer_fails(self):
+        before = self.counters()
+        self.assert_refused(self.request(elbow=0.0))
+        self.assert_refused(self.request(shoulder=math.nan))
+        self.assert_refused(self.request(odometry=1.0))
+        uneven = self.request(shoulder=0.0)
+        uneven.robot_state.joint_state.position = []
+        self.assert_refused(uneven)
+        twice = self.request(shoulder=0.0)
+        twice.robot_state.joint_state.name, twice.robot_state.joint_state.position = ["shoulder"] * 2, [0.0, 1.0]
+        self.assert_refused(twice)
+        for part in ("Position", "Orientation", "Visibility"):
+            request = self.request(shoulder=0.0)
+            setattr(request.constraints, part.lower() + "_constraints", [TYPES[part + "Constraint"]()])
+            self.assert_refused(request)
+        unknown = self.request()
+        unknown.constraints.joint_constraints = [TYPES["JointConstraint"](joint_name="elbow")]
+        self.assert_refused(unknown)
+
+        def refused():
+            after = self.counters()
+            return sum(after[name] - before.get(name, 0) for name in after if name.startswith("moveit.validity_failed."))
+
+        wait(lambda: refused() == 9, "nine refusals in ~status")
+
+    # Claim: while something is missing in the world, no state is valid, because the robot may touch it.
+    def test_an_unknown_state_is_not_valid(self):
+        publisher = rospy.Publisher("/collision_object", TYPES["CollisionObject"], queue_size=10)
+        wait(lambda: publisher.get_num_connections() > 0, "a connection")
+        flat = TYPES["CollisionObject"](id="flat")
+        flat.header.frame_id = "world"
+        flat.primitives = [SolidPrimitive(type=SolidPrimitive.SPHERE, dimensions=[0.0])]
+        flat.primitive_poses = [flat.pose]
+        publisher.publish(flat)
+        wait(lambda: not self.proximity.query_sphere((9, 9, 9), 0.01).response.world.complete, "the gap")
+        answer = self.answer(shoulder=0.0, slide=0.5)
+        self.assertFalse(answer.valid)
+        self.assertEqual(answer.contacts, [])
+        wait(lambda: self.counters().get("moveit.validity_unknown.NOT_READY", 0) >= 1, "the counter")
+        flat.operation = 1
+        publisher.publish(flat)
+        wait(lambda: self.proximity.query_sphere((9, 9, 9), 0.01).response.world.complete, "the end of the gap")
+        self.assertTrue(self.answer(shoulder=0.0, slide=0.5).valid)
+
+    def test_it_is_not_offered_unless_it_is_configured(self):
+        with self.assertRaises(rospy.ROSException):
+            rospy.wait_for_service("/without/check_state_validity", 0.2)
+
+
+if __name__ == "__main__":
+    rosunit.unitrun("hgrid_proximity", "validity", Validity)
