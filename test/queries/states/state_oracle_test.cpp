@@ -93,7 +93,7 @@ void play(Random& random, const StateWorld& world, const Pose& world_from_root, 
 }
 
 TEST(StateOracle, VerdictsPairsAndClearancesEqualThoseOfAllShapes) {
-  const int count = countFromEnvironment("HGRID_STATES", 10000);
+  const int count = countFromEnvironment("HGRID_TEST_CHECKED_STATES", 10000);
   constexpr int kPerWorld = 50;
   Seen seen;
   for (unsigned seed = 1; seen.states < count; ++seed) {
