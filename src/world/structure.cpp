@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "hgrid_proximity/world/structure.h"
 
-#include <algorithm>
-
 namespace hgrid {
 
 std::uint32_t Structure::find(const std::string& name) const {
@@ -17,13 +15,6 @@ std::uint32_t Structure::find(const std::string& name) const {
     }
   }
   return begin < bodies.size() && bodies[begin].name == name ? begin : kNone;
-}
-
-bool Structure::isCarried(std::uint32_t body) const {
-  const std::vector<PairRule>& rules = filter.rules();
-  return std::any_of(rules.begin(), rules.end(), [&](const PairRule& rule) {
-    return rule.origin == Origin::attached && rule.first == bodies[body].name;
-  });
 }
 
 }  // namespace hgrid

@@ -49,6 +49,7 @@ TEST(Srdf, GroupsOfJointsAndVirtualJointsAreRead) {
   ASSERT_NE(read.findVirtual("odometry"), nullptr);
   EXPECT_EQ(read.findVirtual("odometry")->kind, JointKind::planar);
   EXPECT_EQ(read.findVirtual("odometry")->parent_frame, "odom");
+  EXPECT_EQ(read.findVirtual("odometry")->child_link, "base");
   EXPECT_EQ(read.findVirtual("stand")->kind, JointKind::fixed);
   EXPECT_EQ(read.findVirtual("lift"), nullptr);
 

@@ -35,7 +35,7 @@ RobotModel twoArms() {
 }
 
 JointGroups groupsOf(const std::vector<JointGroup>& groups, JointKind kind = JointKind::floating) {
-  return {groups, {{"world_joint", kind, "odom"}}};
+  return {groups, {{"world_joint", kind, "odom", "base"}}};
 }
 
 /// Returns the variables of the first group.

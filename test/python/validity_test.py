@@ -14,6 +14,7 @@ import unittest
 import rospy
 import rosunit
 from geometry_msgs.msg import Transform, TransformStamped
+from hgrid_proximity import obstacles
 from hgrid_proximity.client import Proximity
 from hgrid_proximity.msg import Status
 from moveit_types import Types
@@ -26,20 +27,24 @@ TO_POST, TO_WALL = math.pi / 2, -math.pi / 2
 
 
 class Arm:
-    """Publishes the poses of the links: the base at x = `base`, the joint 'slide' at 0.25 m, the shoulder at `angle`."""
+    """Publishes the poses of the links while `publishes` is true: the base at the origin, the shoulder at `angle`, and the
+    joint 'slide' at 0.25 m. The frame 'tcp' is at the hand."""
 
     def __init__(self):
-        self.base, self.angle = 0.0, 0.0
-        self._publisher = rospy.Publisher("/tf", TFMessage, queue_size=1)
+        self.angle, self.publishes = 0.0, True
+        self._static = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
+        self._static.publish(TFMessage([transform("world", "base", 0.0), transform("hand", "tcp", 0.0)]))
+        self._moving = rospy.Publisher("/tf", TFMessage, queue_size=1)
         threading.Thread(target=self._run, daemon=True).start()
 
     def _run(self):
         while not rospy.is_shutdown():
             turned = (math.sin(self.angle / 2), math.cos(self.angle / 2))
-            poses = [transform("world", "base", self.base), transform("base", "arm", 0.0, turned),
-                     transform("arm", "hand", 1.25), transform("hand", "finger", 0.25)]
+            poses = [transform("base", "arm", 0.0, turned), transform("arm", "hand", 1.25),
+                     transform("hand", "finger", 0.25)]
             try:
-                self._publisher.publish(TFMessage(poses))
+                if self.publishes:
+                    self._moving.publish(TFMessage(poses))
             except rospy.ROSException:
                 break  # the test ends
             time.sleep(0.02)
@@ -152,20 +157,54 @@ class Validity(unittest.TestCase):
         self.assertFalse(self.answer("gripper", shoulder=TO_WALL, slide=0.5).valid)
         self.assert_refused(self.kind._request_class(group_name="leg"))
 
+    def moved(self, joint, x, y, z=0.0, **joints):
+        """Returns a request that gives a joint a pose."""
+        request = self.request(**joints)
+        place = Transform()
+        place.translation.x, place.translation.y, place.translation.z, place.rotation.w = x, y, z, 1.0
+        request.robot_state.multi_dof_joint_state.joint_names = [joint]
+        request.robot_state.multi_dof_joint_state.transforms = [place]
+        return request
+
     def test_a_virtual_joint_puts_the_whole_robot_elsewhere(self):
-        request = self.request(shoulder=TO_POST, slide=0.5)
-        moves = request.robot_state.multi_dof_joint_state
-        moves.joint_names, place = ["odometry"], Transform()
-        place.translation.x, place.rotation.w = 3.0, 1.0
-        moves.transforms = [place]
-        self.assertTrue(self.check(request).valid)
-        place.translation.x, place.translation.y = 0.0, -2.0
-        answer = self.check(request)
+        at_post = {"shoulder": TO_POST, "slide": 0.5}
+        self.assertTrue(self.check(self.moved("odometry", 3.0, 0.0, **at_post)).valid)
+        answer = self.check(self.moved("odometry", 0.0, -2.0, **at_post))
         self.assertEqual(self.contacts(answer), [("arm", LINK, "wall", OBJECT)])
-        moves.header.frame_id = "nowhere"
-        self.assert_refused(request)
-        moves.header.frame_id, moves.joint_names = "world", ["wheels"]
-        self.assert_refused(request)
+        self.assertFalse(self.check(self.moved("stand", 3.0, 0.0, **at_post)).valid, "a fixed joint moves nothing")
+        self.assert_refused(self.moved("rail", 3.0, 0.0, **at_post))
+        self.assert_refused(self.moved("wheels", 3.0, 0.0, **at_post))
+        elsewhere = self.moved("odometry", 3.0, 0.0, **at_post)
+        elsewhere.robot_state.multi_dof_joint_state.header.frame_id = "nowhere"
+        self.assert_refused(elsewhere)
+
+    def test_a_planar_joint_stays_in_its_plane(self):
+        self.assertTrue(self.check(self.moved("plane", 0.5, 0.5, shoulder=0.0, slide=0.5)).valid)
+        self.assert_refused(self.moved("plane", 0.5, 0.5, 0.1, shoulder=0.0, slide=0.5))
+
+    # Claim: if the links have no pose any more, only a state that gives all joints is valid.
+    def test_joints_of_which_nobody_knows_where_they_stand_are_unknown(self):
+        self.assertTrue(self.answer().valid)
+        self.arm.publishes = False
+        try:
+            wait(lambda: not self.answer().valid, "the end of the knowledge")
+            self.assertEqual(self.answer().contacts, [])
+            self.assertFalse(self.answer(slide=0.5).valid)
+            self.assertTrue(self.answer(shoulder=0.0, slide=0.5).valid, "no pose of a link is needed")
+        finally:
+            self.arm.publishes = True
+            wait(lambda: self.answer().valid, "the poses of the links")
+
+    # Claim: an obstacle in a frame below a link moves with the link, but nobody knows how, because the model lacks it.
+    def test_what_follows_the_robot_over_other_frames_is_unknown(self):
+        self.proximity.apply_obstacles(obstacles.add("cup", obstacles.sphere(0.05), position=(0.5, 0, 0), frame="tcp"))
+        try:
+            self.assertTrue(self.answer().valid, "the cup is where it is")
+            self.assertFalse(self.answer(shoulder=0.1).valid)
+            self.assertEqual(self.answer(shoulder=0.1).contacts, [])
+        finally:
+            self.proximity.apply_obstacles(obstacles.remove("cup"))
+        self.assertTrue(self.answer(shoulder=0.1).valid)
 
     def test_an_attached_object_moves_with_the_arm(self):
         scene = TYPES["PlanningScene"](is_diff=True)
@@ -205,6 +244,8 @@ class Validity(unittest.TestCase):
             self.assertFalse(outside.constraint_result[0].result)
             self.assertEqual(outside.contacts, [])
         self.assertTrue(constrained(3.1, 0.2, 0.2, shoulder=-3.1).valid, "the joint turns without limits")
+        with self.assertRaises(rospy.ServiceException):
+            constrained(0.5, -0.3, 0.1, shoulder=0.5)
 
     def test_a_request_that_the_node_cannot_answer_fails(self):
         before = self.counters()

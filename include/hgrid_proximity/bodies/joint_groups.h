@@ -28,7 +28,8 @@ struct JointGroup {
 struct VirtualJoint {
   std::string name;                   ///< name of the joint
   JointKind kind = JointKind::fixed;  ///< fixed, planar or floating
-  std::string parent_frame;           ///< the frame in which the root link moves
+  std::string parent_frame;           ///< the frame in which the link moves
+  std::string child_link;             ///< name of the link that it moves: the root link
 };
 
 /// What an SRDF says about the joints of a robot.

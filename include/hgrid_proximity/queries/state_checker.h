@@ -102,6 +102,9 @@ struct StateCheckerOptions {
   /// and against everything else. Bodies of the robot that they do not move are part of the world: their contacts with
   /// other bodies are not looked for. Empty: all variables.
   std::vector<std::string> group = {};
+  /// Name of the world frame. Obstacles that follow it are not attached to the robot, even if one of its links has this
+  /// name. Empty: no link has the name of the world frame.
+  std::string world_frame = {};
 };
 
 /// Answers whether a robot would touch anything if its joints stood at given positions, for many states at once.
@@ -109,12 +112,14 @@ struct StateCheckerOptions {
 /// All bodies of one snapshot count, with their padding: links of the robot against each other, and against all other
 /// bodies, maps, clouds and planes. The pair filter of the snapshot applies. The links of the robot and the obstacles
 /// that are attached to them are where the joints put them. Everything else stays where the snapshot has it, also other
-/// robots. An obstacle is attached if it can move and follows the frame of a link that can move.
+/// robots. An obstacle is attached if it can move and follows the frame of a link that can move, but not the world
+/// frame (StateCheckerOptions::world_frame).
 ///
 /// The verdict of a state without contact is `unknown` instead of `clear` if something may be in contact unseen:
 /// - A source of the snapshot lacks something (Snapshot::gaps()) that may be where the robot would be.
 /// - A body has no pose, is FROZEN or INVALID, or has a shape that could not be read. This includes unreadable shapes
 ///   of the robot itself. The poses of its links do not matter, because the joints give their poses.
+/// - An attached obstacle is in a worse state than the link, for example LOST at the end of its lifetime.
 /// - A body may have moved to the robot since its last pose (BodyPose::reach).
 /// - The pose of the robot is the one of the snapshot, and the robot may have moved since.
 /// - Snapshot::reportsUnmapped(), and no map knows the space around a shape of the robot to be free.
@@ -162,6 +167,9 @@ class StateChecker {
 
   const Snapshot& snapshot() const;      ///< the world
   const Kinematics& kinematics() const;  ///< the joints
+  /// Returns whether the joints of the robot move this body: one of its links, or an attached obstacle.
+  /// @param body  index into Structure::bodies
+  bool moves(std::uint32_t body) const;
   /// Returns the number of pairs of shapes of the robot that are tested against each other.
   std::size_t selfPairs() const;
 

@@ -45,8 +45,6 @@ struct Structure {
     const auto next = std::lower_bound(planes.begin(), planes.end(), first_proxy[body]);
     return next != planes.end() && *next < first_proxy[body + 1];
   }
-  /// Returns whether the body is an obstacle that is attached to a link.
-  bool isCarried(std::uint32_t body) const;
   /// Returns the index of a proxy's shape among the shapes of its body.
   std::uint32_t shapeOf(std::uint32_t proxy) const { return proxy - first_proxy[body_of_proxy[proxy]]; }
   /// Returns the index of the body with this name, or kNone.

@@ -50,6 +50,7 @@ VirtualJoint virtualJointOf(const tinyxml2::XMLElement& element) {
   VirtualJoint joint;
   joint.name = attribute(element, "name");
   joint.parent_frame = attribute(element, "parent_frame");
+  joint.child_link = attribute(element, "child_link");
   const std::string type = attribute(element, "type");
   if (type == "planar") {
     joint.kind = JointKind::planar;

@@ -3,9 +3,12 @@
 #include "node/moveit/asked_state.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <utility>
 
 #include "node/messages/from_messages.h"
+#include "node/states/followers.h"
 #include "node/states/present_joints.h"
 #include "node/states/robot_choice.h"
 #include "node/tf/frame_names.h"
@@ -41,6 +44,16 @@ geometry_msgs::Pose poseAfter(const geometry_msgs::Transform& transform) {
   return pose;
 }
 
+/// Checks that a planar joint can have a pose. @throws Refusal conflict
+void checkPlanar(const std::string& joint, const Eigen::Vector3d& axis, const Pose& pose) {
+  constexpr double kMost = 1e-3;  // [m] and [rad]
+  const double out = std::abs(axis.dot(pose.translation())), tilt = (pose.linear() * axis - axis).norm();
+  if (out <= kMost && tilt <= kMost) return;
+  throw Refusal(Code::conflict, "the transform of joint '" + printable(joint) + "' is " + text(out) +
+                                    " m out of the plane of the joint and tilts it by " + text(tilt) +
+                                    " rad; the axis of a planar joint must stay perpendicular to its plane");
+}
+
 /// Collects values of variables. Joints that mimic others are left out: the joint that they follow decides.
 class GivenValues {
  public:
@@ -60,6 +73,7 @@ class GivenValues {
     std::vector<double> values;
     appendVariables(link, variables);
     appendValues(link, link.parent_from_joint * pose, values);
+    if (link.joint_kind == JointKind::planar) checkPlanar(joint, link.axis, pose);
     for (std::size_t i = 0; i < variables.size(); ++i) add(variables[i].name, values[i]);
   }
   /// Returns the values, by name of the variable.
@@ -84,14 +98,22 @@ class GivenValues {
   std::map<std::string, double> values_;
 };
 
-/// Returns the pose of the root link in the world, if a virtual joint has a given pose in a frame.
-Pose worldFromRoot(const VirtualJoint& joint, const std::string& frame_of_message, const Pose& pose, const Tick& tick,
-                   const TransformLookup& transforms) {
+/// Sets the pose of the root link that a virtual joint has in a message. As in MoveIt, a fixed one cannot move it.
+void moveRoot(const VirtualJoint& joint, const std::string& frame_of_message, const Pose& pose, const Tick& tick,
+              const TransformLookup& transforms, AskedState& asked) {
+  if (joint.kind == JointKind::fixed) return;
+  const std::string& root = asked.robot.read->model.links.front().name;
+  if (joint.child_link != root) {
+    throw Refusal(Code::unsupported, "the virtual joint '" + printable(joint.name) + "' moves the link '" +
+                                         printable(joint.child_link) + "'; it must move the root link '" +
+                                         printable(root) + "'");
+  }
+  if (joint.kind == JointKind::planar) checkPlanar(joint.name, Eigen::Vector3d::UnitZ(), pose);
   const std::string frame = withoutSlash(frame_of_message.empty() ? joint.parent_frame : frame_of_message);
-  if (frame == tick.world_frame) return pose;
-  return transforms.atOrNewest(tick.world_frame, frame, tick.snapshot->stamp(), tick.settings->params.stale_after,
-                               "the frame '" + printable(frame) + "' of multi_dof_joint_state") *
-         pose;
+  const std::string what = "the frame '" + printable(frame) + "' of multi_dof_joint_state";
+  const PresentPose found = presentPose(asked.robot, frame, what, tick, transforms);
+  asked.batch.world_from_root = found.world_from_frame * pose;
+  asked.doubt = found.doubt;
 }
 
 }  // namespace
@@ -102,8 +124,7 @@ AskedState askedState(const State& state, const std::string& group, const Tick& 
   const std::vector<std::string>& poses_joints = state.multi_dof_joint_state.joint_names;
   std::vector<std::string> names = state.joint_state.name;
   names.insert(names.end(), poses_joints.begin(), poses_joints.end());
-  AskedState asked{robotWith(names, group, tick), {}};
-  const RobotJoints& joints = *asked.robot.read->joints;
+  AskedState asked{robotWith(names, group, tick), {}, {}};
   GivenValues given(asked.robot);
   for (std::size_t i = 0; i < state.joint_state.name.size(); ++i) {
     given.addJoint(state.joint_state.name[i], state.joint_state.position[i]);
@@ -112,18 +133,24 @@ AskedState askedState(const State& state, const std::string& group, const Tick& 
     const std::string name = jointOf(poses_joints[i], asked.robot.name);
     const Pose pose = fromPose(poseAfter(state.multi_dof_joint_state.transforms[i]),
                                "the transform of joint '" + printable(name) + "'");
-    if (const VirtualJoint* joint = joints.groups.findVirtual(name)) {
-      const std::string& frame = state.multi_dof_joint_state.header.frame_id;
-      asked.batch.world_from_root = worldFromRoot(*joint, frame, pose, tick, transforms);
+    if (const VirtualJoint* joint = asked.robot.read->joints->groups.findVirtual(name)) {
+      moveRoot(*joint, state.multi_dof_joint_state.header.frame_id, pose, tick, transforms, asked);
     } else {
       given.addPose(name, pose);
     }
   }
-  const Time time = tick.snapshot->stamp();
-  const double max_apart = tick.settings->params.stale_after;
-  asked.batch.positions = presentJoints(asked.robot, given.all(), transforms, time, max_apart);
-  if (!asked.batch.world_from_root) {
-    asked.batch.world_from_root = rootWithoutBody(asked.robot, tick.world_frame, transforms, time, max_apart);
+  const bool moves_root = asked.batch.world_from_root.has_value();
+  PresentJoints joints = presentJoints(asked.robot, given.all(), tick, transforms);
+  asked.batch.positions = std::move(joints.values);
+  if (asked.doubt.empty()) asked.doubt = std::move(joints.doubt);
+  if (asked.doubt.empty()) asked.doubt = followerOf(asked.robot, given.all(), moves_root, tick, transforms);
+  // The checker takes the pose of the root link from a body that is rigidly connected to it, if there is one.
+  if (!moves_root && asked.robot.groups.front().members.empty()) {
+    const std::string& frame = asked.robot.root_frame;
+    const PresentPose root =
+        presentPose(asked.robot, frame, "the root frame '" + printable(frame) + "'", tick, transforms);
+    asked.batch.world_from_root = root.world_from_frame;
+    if (asked.doubt.empty()) asked.doubt = root.doubt;
   }
   return asked;
 }

@@ -18,12 +18,16 @@ struct AskedState {
   /// One state with a value for each variable. The variables that the message does not name are where they are at
   /// present.
   StateBatch batch;
+  /// Why nobody knows where the robot or something that moves with it would be; empty: it is known.
+  std::string doubt;
 };
 
 /// Reads a RobotState of MoveIt: its joints, and where a virtual joint puts the robot.
 /// @param group  name of a group of the SRDF; may be empty. It can decide which robot is meant.
-/// @throws Refusal what robotWith() and presentJoints() throw; out_of_range if lists have different lengths;
-/// unsupported if the message attaches objects; what fromPose() and TransformLookup::atOrNewest() throw
+/// @throws Refusal what robotWith(), presentJoints(), presentPose() and fromPose() throw
+/// @throws Refusal out_of_range if lists have different lengths, dup_id for a joint that occurs twice
+/// @throws Refusal conflict for a pose that its joint cannot have
+/// @throws Refusal unsupported if the message attaches objects, or for a virtual joint of another link than the root
 AskedState askedState(const moveit::RobotState<moveit::Release::noetic>& state, const std::string& group,
                       const Tick& tick, const TransformLookup& transforms);
 

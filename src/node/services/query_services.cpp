@@ -10,6 +10,7 @@
 
 #include "bodies/nearest_names.h"
 #include "hgrid_proximity/bodies/name.h"
+#include "hgrid_proximity/pairs/pair_rule.h"
 #include "hgrid_proximity/queries/query.h"
 #include "node/messages/from_messages.h"
 #include "node/tf/frame_names.h"
@@ -18,6 +19,13 @@ namespace hgrid {
 namespace {
 
 constexpr std::size_t kMostPatterns = 256, kLongestPattern = 512;  // patterns in a request; bytes in a pattern
+
+/// Whether a body is an obstacle that is attached to a link.
+bool isCarried(const Structure& structure, const std::string& body) {
+  const std::vector<PairRule>& rules = structure.filter.rules();
+  return std::any_of(rules.begin(), rules.end(),
+                     [&](const PairRule& rule) { return rule.origin == Origin::attached && rule.first == body; });
+}
 
 msg::Hit toMsg(const QueryHit& source, const Snapshot& snapshot, const Pose& frame_from_world, double age_since) {
   msg::Hit hit;
@@ -37,7 +45,7 @@ msg::Hit toMsg(const QueryHit& source, const Snapshot& snapshot, const Pose& fra
   hit.state = static_cast<std::uint8_t>(pose.state);
   const bool fixed = snapshot.structure().bodies[source.body].mobility == Mobility::fixed;
   hit.age = fixed ? 0.0 : pose.age + age_since;
-  hit.carried = snapshot.structure().isCarried(source.body);
+  hit.carried = isCarried(snapshot.structure(), hit.name);
   return hit;
 }
 

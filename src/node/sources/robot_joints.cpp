@@ -8,10 +8,14 @@ namespace hgrid {
 
 RobotJoints::RobotJoints(const RobotModel& model, const std::string* srdf, const DescriptionLimits& limits) {
   try {
-    if (srdf != nullptr) groups = readJointGroups(*srdf, limits);
     kinematics.emplace(model);
   } catch (const Refusal& refusal) {
     flaw = refusal.what();
+  }
+  try {
+    if (srdf != nullptr) groups = readJointGroups(*srdf, limits);
+  } catch (const Refusal& refusal) {
+    group_flaw = refusal.what();
   }
 }
 

@@ -14,8 +14,9 @@ namespace hgrid {
 /// The joints of a robot, as its URDF and SRDF describe them.
 struct RobotJoints {
   std::optional<Kinematics> kinematics;  ///< nullopt: `flaw` says why nobody can ask about states of the robot
-  JointGroups groups;
-  std::string flaw;  ///< empty if there is none
+  std::string flaw;
+  JointGroups groups;      ///< empty if the SRDF has none, or if they cannot be used
+  std::string group_flaw;  ///< why they cannot be used; empty: they can
 
   /// @param srdf  null: the robot has none
   RobotJoints(const RobotModel& model, const std::string* srdf, const DescriptionLimits& limits);

@@ -135,6 +135,9 @@ std::shared_ptr<const ReadDescription> RobotSource::read(const RobotSpec& robot,
   if (!read->joints->flaw.empty()) {
     read->warnings.push_back("states of robot '" + name + "' cannot be checked: " + read->joints->flaw);
   }
+  if (!read->joints->group_flaw.empty()) {
+    read->warnings.push_back("the groups of robot '" + name + "' cannot be used: " + read->joints->group_flaw);
+  }
   for (RobotLink& link : read->model.links) {
     if (cancelled_())
       throw Refusal(Code::busy, "robot '" + name + "' was not loaded, because the node is shutting down");

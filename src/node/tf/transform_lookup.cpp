@@ -197,4 +197,17 @@ Pose TransformLookup::atOrNewest(const std::string& target, const std::string& f
   return checkedPose(pose->translation, pose->rotation.coeffs(), what);
 }
 
+std::string TransformLookup::nearestAbove(const std::string& frame,
+                                          const std::map<std::string, std::uint32_t>& frames) const {
+  const TransformStore::Reading reading(store_);
+  std::uint32_t next = reading.table().find(frame);
+  for (std::size_t steps = 0; next != FrameTable::kNone && steps < FrameTable::kLongestChain; ++steps) {
+    next = reading.table().parent(next);
+    if (next == FrameTable::kNone) break;
+    const std::string& name = reading.table().name(next);
+    if (frames.count(name) > 0) return name;
+  }
+  return {};
+}
+
 }  // namespace hgrid

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -30,6 +32,8 @@ class TransformLookup {
                               std::string* why_not = nullptr) const;
   /// Returns the newest known pose of `frame` in `target`. Empty: no pose is known.
   std::optional<FramePose> newest(const std::string& target, const std::string& frame) const;
+  /// Returns the nearest frame above `frame` now that is a key of `frames`; empty: there is none.
+  std::string nearestAbove(const std::string& frame, const std::map<std::string, std::uint32_t>& frames) const;
   /// Returns the pose at exactly this time. If it is not known, returns the newest known pose.
   /// @param max_apart  [s] how much the time of the newest pose may differ from `time`
   /// @param what       names the frame in error sentences, for example "the query's frame 'gripper'"

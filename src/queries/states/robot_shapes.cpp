@@ -43,10 +43,11 @@ struct GroupFloats {
 
 }  // namespace
 
-TiltedBox<float> tiltedBoxOf(const BodyShape& shape, const Pose& frame_from_shape, double rounding) {
+TiltedBox<float> tiltedBoxOf(const BodyShape& shape, const Pose& frame_from_shape, double relative_rounding) {
   const Eigen::AlignedBox3d local =
       inDouble(boxOf(shape.shape, Pose::Identity(), shape.padding, Eigen::Vector3d::Zero()));
   const Eigen::Vector3d center = frame_from_shape * local.center(), half = 0.5 * local.sizes();
+  const double rounding = relative_rounding * center.norm();
   TiltedBox<float> box;
   for (Eigen::Index i = 0; i < 3; ++i) {
     for (Eigen::Index k = 0; k < 3; ++k) box.axes[i][k] = static_cast<float>(frame_from_shape.linear()(k, i));
@@ -67,10 +68,10 @@ std::vector<Sphere> ballsInside(const BodyShape& shape, const Pose& frame_from_s
 }
 
 RobotShapes::RobotShapes(const Snapshot& snapshot, const Kinematics& kinematics, const std::string& robot,
-                         const std::vector<std::string>& group, const QueryScope& scope)
+                         const std::vector<std::string>& group, const std::string& world_frame, const QueryScope& scope)
     : is_own_(snapshot.structure().bodies.size()) {
   addLinks(snapshot, kinematics, robot);
-  addAttached(snapshot, kinematics);
+  addAttached(snapshot, kinematics, world_frame);
   choose(kinematics, group);
   addShapes(snapshot, scope);
   addSelfPairs(snapshot.structure().filter);
@@ -98,7 +99,7 @@ void RobotShapes::addLinks(const Snapshot& snapshot, const Kinematics& kinematic
 }
 
 /// Adds the obstacles that follow the frame of a link. An obstacle in the frame of a fixed link rests in the world.
-void RobotShapes::addAttached(const Snapshot& snapshot, const Kinematics& kinematics) {
+void RobotShapes::addAttached(const Snapshot& snapshot, const Kinematics& kinematics, const std::string& world_frame) {
   const BodyList& bodies = snapshot.structure().bodies;
   std::map<std::string, std::uint32_t> link_of_frame;
   std::vector<bool> is_fixed(kinematics.state().groups.size());
@@ -112,7 +113,7 @@ void RobotShapes::addAttached(const Snapshot& snapshot, const Kinematics& kinema
   }
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
     const Body& body = bodies[i];
-    if (body.kind != BodyKind::obstacle || body.mobility == Mobility::fixed) continue;
+    if (body.kind != BodyKind::obstacle || body.mobility == Mobility::fixed || body.frame == world_frame) continue;
     const auto found = link_of_frame.find(body.frame);
     if (found == link_of_frame.end()) continue;
     const std::uint32_t group = kinematics.groupOfLink()[found->second];
@@ -162,9 +163,8 @@ void RobotShapes::addShapesOf(const Snapshot& snapshot, const QueryScope& scope,
     const std::vector<BodyShape>& shapes = snapshot.structure().bodies[own.body].shapes;
     for (std::uint32_t i = 0; i < shapes.size(); ++i) {
       const Pose group_from_shape = own.group_from_body * shapes[i].body_from_shape;
-      const double rounding = 1e-6 * group_from_shape.translation().norm();
       shapes_.push_back({own.body, i, own.group, group_from_shape, &shapes[i],
-                         tiltedBoxOf(shapes[i], group_from_shape, rounding), ballsInside(shapes[i], group_from_shape)});
+                         tiltedBoxOf(shapes[i], group_from_shape, 1e-6), ballsInside(shapes[i], group_from_shape)});
     }
   }
   std::stable_sort(shapes_.begin() + before, shapes_.end(),

@@ -43,11 +43,12 @@ struct SelfPair {
 /// The shapes that move with the joints of one robot, and their pairs that the pair filter does not switch off.
 class RobotShapes {
  public:
-  /// @param group  StateCheckerOptions::group
+  /// @param group        StateCheckerOptions::group
+  /// @param world_frame  StateCheckerOptions::world_frame
   /// @throws Refusal unknown_id if the snapshot has no links of this robot, or the robot has no variable of the group
   /// @throws Refusal conflict if its links are not those of `kinematics`
   RobotShapes(const Snapshot& snapshot, const Kinematics& kinematics, const std::string& robot,
-              const std::vector<std::string>& group, const QueryScope& scope);
+              const std::vector<std::string>& group, const std::string& world_frame, const QueryScope& scope);
 
   const std::vector<RobotBody>& bodies() const { return bodies_; }
   /// Returns the shapes. First come the shapes of the bodies that count.
@@ -67,7 +68,7 @@ class RobotShapes {
 
  private:
   void addLinks(const Snapshot& snapshot, const Kinematics& kinematics, const std::string& robot);
-  void addAttached(const Snapshot& snapshot, const Kinematics& kinematics);
+  void addAttached(const Snapshot& snapshot, const Kinematics& kinematics, const std::string& world_frame);
   void choose(const Kinematics& kinematics, const std::vector<std::string>& group);
   void addShapes(const Snapshot& snapshot, const QueryScope& scope);
   void addShapesOf(const Snapshot& snapshot, const QueryScope& scope, bool counts);
@@ -84,7 +85,8 @@ class RobotShapes {
 std::vector<Sphere> ballsInside(const BodyShape& shape, const Pose& frame_from_shape);
 
 /// Returns a box around a padded shape at a pose.
-/// @param rounding  [m] how much the box is grown for the rounding of coordinates to float
-TiltedBox<float> tiltedBoxOf(const BodyShape& shape, const Pose& frame_from_shape, double rounding);
+/// @param relative_rounding  how much the box is grown for the rounding of coordinates to float, as a part of the
+/// distance of its center from the origin of the frame
+TiltedBox<float> tiltedBoxOf(const BodyShape& shape, const Pose& frame_from_shape, double relative_rounding);
 
 }  // namespace hgrid

@@ -38,7 +38,7 @@ struct StateChecker::State {
       : snapshot(std::move(asked)),
         kinematics(joints),
         narrow_phase(std::move(measures)),
-        robot(*snapshot, joints, name, options.group, scopeOf(options)),
+        robot(*snapshot, joints, name, options.group, options.world_frame, scopeOf(options)),
         world(*snapshot, robot, scopeOf(options)),
         root_body(rootBodyOf(*snapshot, robot)),
         doubts(*snapshot, robot, world, scopeOf(options), root_body) {}
@@ -84,6 +84,7 @@ StateChecker::StateChecker(StateChecker&&) noexcept = default;
 
 const Snapshot& StateChecker::snapshot() const { return *state_->snapshot; }
 const Kinematics& StateChecker::kinematics() const { return state_->kinematics; }
+bool StateChecker::moves(std::uint32_t body) const { return state_->robot.moves(body); }
 std::size_t StateChecker::selfPairs() const { return state_->robot.selfPairs().size(); }
 
 void StateChecker::checkStates(const StateBatch& batch, const StateRequest& request, StateScratch& scratch,

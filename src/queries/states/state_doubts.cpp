@@ -54,6 +54,18 @@ bool comesNear(const RobotInState& robot, std::uint32_t body, double reach) {
   return false;
 }
 
+/// Returns the worst state of the links that move together with an attached obstacle; late, if no link has shapes.
+Freshness worstOfLinks(const Snapshot& snapshot, const RobotShapes& robot, std::uint32_t attached) {
+  Freshness worst = Freshness::late;
+  const auto own = std::find_if(robot.bodies().begin(), robot.bodies().end(),
+                                [&](const RobotBody& one) { return one.body == attached; });
+  for (const RobotBody& other : robot.bodies()) {
+    const bool is_link = snapshot.structure().bodies[other.body].kind == BodyKind::link;
+    if (is_link && other.group == own->group) worst = std::max(worst, snapshot.poses()[other.body].state);
+  }
+  return worst;
+}
+
 }  // namespace
 
 StateDoubts::StateDoubts(const Snapshot& snapshot, const RobotShapes& robot, const WorldShapes& world,
@@ -97,8 +109,11 @@ void StateDoubts::addBodies(const Snapshot& snapshot, const RobotShapes& robot, 
     const BodyPose& pose = snapshot.poses()[i];
     if (!inScope(snapshot, scope, i)) continue;
     if (robot.moves(i)) {
-      if (body.covered || body.waived) continue;
-      doubts_.push_back({Unknown::incomplete, "UNCOVERED " + body.name + ": " + body.note});
+      if (!body.covered && !body.waived) {
+        doubts_.push_back({Unknown::incomplete, "UNCOVERED " + body.name + ": " + body.note});
+      } else if (body.kind != BodyKind::link && pose.state > worstOfLinks(snapshot, robot, i)) {
+        doubts_.push_back({Unknown::stale_body, doubtOf(body, pose)});
+      }
       continue;
     }
     if (isAllowed(snapshot, robot, i)) continue;

@@ -51,8 +51,9 @@ class StateDoubts {
 
   const WorldShapes& world_;
   std::vector<StateDoubt> doubts_;
-  std::size_t by_snapshot_ = 0;  // number of doubts at the begin that count only if the pose is that of the snapshot
-  bool asks_maps_ = false;       // whether the last doubt is that no map knows the space to be free
+  std::size_t by_snapshot_ =
+      0;                    // number of doubts at the beginning that count only if the pose is that of the snapshot
+  bool asks_maps_ = false;  // whether the last doubt is that no map knows the space to be free
 };
 
 }  // namespace hgrid

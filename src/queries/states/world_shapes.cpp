@@ -18,10 +18,9 @@ WorldShapes::WorldShapes(const Snapshot& snapshot, const RobotShapes& robot, con
       if (structure.isPlane(proxy)) continue;
       Pose local_from_shape = pose.world_from_body * shapes[i].body_from_shape;
       local_from_shape.translation() -= snapshot.origin();
-      const double rounding = 4e-7 * local_from_shape.translation().norm();
       addBalls(shapes[i], local_from_shape);
       shapes_.push_back(
-          {body, i, tiltedBoxOf(shapes[i], local_from_shape, rounding), static_cast<std::uint32_t>(balls_.size())});
+          {body, i, tiltedBoxOf(shapes[i], local_from_shape, 4e-7), static_cast<std::uint32_t>(balls_.size())});
       bounds_.push_back(snapshot.boxes()[proxy]);
     }
   }

@@ -184,6 +184,38 @@ TEST(StateAnswers, AnObstacleInTheFrameOfAFixedLinkRestsInTheWorld) {
   EXPECT_EQ(world.verdictAt(0), Verdict::clear) << "if it moved with the base, it would be at the origin";
 }
 
+TEST(StateAnswers, AnObstacleInTheWorldFrameRestsEvenIfALinkHasTheNameOfTheFrame) {
+  ArmWorld world;
+  Body cart = ArmWorld::ballBody("cart");
+  cart.frame = "arm";
+  cart.frame_from_body = at(0, 0.5);
+  put(world.scene, cart, at(0, 0.5));
+  StateCheckerOptions options;
+  options.world_frame = "arm";
+  EXPECT_EQ(world.verdictAt(kQuarter, {}, options), Verdict::hit);
+  EXPECT_EQ(world.verdictAt(kQuarter), Verdict::clear) << "it moves with the arm if the frame is that of the link";
+}
+
+/// Claim: rounding never hides a contact, also of a mesh that is far from the origin of its link.
+TEST(StateAnswers, AMeshFarFromTheOriginOfItsLinkTouchesWhatItTouches) {
+  Random random(1);
+  TriangleMesh cube;
+  for (int i = 0; i < 8; ++i) cube.vertices.emplace_back(10.0 + 0.005 * (i & 1), 0.005 * (i >> 1 & 1), 0.005 * (i >> 2));
+  cube.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  RobotModel model = turningArm();
+  model.links[1].shapes = {solidShape(Shape::mesh(std::make_shared<TriangleMesh>(cube)))};
+  for (int i = 0; i < 100; ++i) {
+    const double angle = random.uniform(-3, 3);
+    ArmWorld world({}, model);
+    const Pose turned(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()));
+    Body plate = obstacle("plate");
+    plate.shapes.push_back(solidShape(Shape::box({0.01, 0.01, 0.01})));
+    put(world.scene, plate, turned * at(10.005 + 0.005 - 5e-8, 0.0025, 0.0025));  // 50 nm inside the mesh
+    EXPECT_EQ(world.verdictAt(angle), Verdict::hit) << angle;
+  }
+}
+
 TEST(StateAnswers, TheLinksOfAnotherRobotStayWhereTheyAre) {
   ArmWorld world;
   Body other = ArmWorld::ballBody("x");

@@ -55,6 +55,19 @@ TEST_F(StateDoubts, ABodyWithoutAPoseCanBeAnywhere) {
   EXPECT_EQ(world.verdictAt(0, {}, {{"obstacle/lost"}}), Verdict::clear);
 }
 
+TEST_F(StateDoubts, AnAttachedObstacleIsInDoubtIfItsStateIsWorseThanThatOfTheLink) {
+  Body held = ArmWorld::ballBody("held", 0.05);
+  held.frame = "arm";
+  held.frame_from_body = at(0.7);
+  const BodyId id = put(world.scene, held, at(0.7));
+  EXPECT_EQ(world.verdictAt(0), Verdict::clear);
+  world.scene.setState(id, Freshness::lost, 5.0);
+  EXPECT_EQ(world.verdictAt(0), Verdict::unknown);
+  EXPECT_TRUE(says(world.sentence(), "obstacle/held"));
+  world.scene.setState(world.links[1], Freshness::lost, 5.0);
+  EXPECT_EQ(world.verdictAt(0), Verdict::clear) << "the joint gives the pose of both";
+}
+
 TEST_F(StateDoubts, ABodyWithAnUnreadableShapeCanBeAnywhereUnlessItIsWaived) {
   Body body = ArmWorld::ballBody("odd");
   body.covered = false;

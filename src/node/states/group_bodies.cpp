@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/states/group_bodies.h"
+
+#include "queries/doubtful_body.h"
+
+namespace hgrid {
+
+std::uint32_t groupAbove(const LoadedRobot& robot, std::uint32_t group) {
+  const RobotModel& model = robot.read->model;
+  const int parent = model.links[model.group_roots[group]].parent;
+  return parent < 0 ? group : model.links[static_cast<std::size_t>(parent)].rigid_group;
+}
+
+GroupBodies::GroupBodies(const LoadedRobot& robot)
+    : robot_(robot), below_(robot.groups.size()), has_bodies_(robot.groups.size()) {
+  for (auto group = static_cast<std::uint32_t>(robot.groups.size()); group-- > 0;) {  // a parent has a smaller index
+    const std::uint32_t above = groupAbove(robot, group);
+    if (!robot.groups[group].members.empty()) has_bodies_[group] = true;
+    if (above == group) continue;
+    below_[above].push_back(group);
+    if (has_bodies_[group]) has_bodies_[above] = true;
+  }
+}
+
+std::string GroupBodies::doubtAbout(std::uint32_t group, const Snapshot& snapshot) const {
+  std::vector<std::uint32_t> open{group};
+  while (!open.empty()) {
+    const std::uint32_t next = open.back();
+    open.pop_back();
+    for (const auto& member : robot_.groups[next].members) {
+      const std::uint32_t body = snapshot.structure().find(robot_.bodies[member.first].name);
+      if (body == Structure::kNone) return robot_.bodies[member.first].name + " is not in the world yet";
+      if (snapshot.poses()[body].state < Freshness::stale) continue;
+      return doubtOf(snapshot.structure().bodies[body], snapshot.poses()[body]);
+    }
+    if (robot_.groups[next].members.empty()) open.insert(open.end(), below_[next].begin(), below_[next].end());
+  }
+  return {};
+}
+
+}  // namespace hgrid

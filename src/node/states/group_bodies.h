@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hgrid_proximity/world/snapshot.h"
+#include "node/sources/robot_source.h"
+
+namespace hgrid {
+
+/// Returns the index of the rigid group above a rigid group; the root group is above itself.
+std::uint32_t groupAbove(const LoadedRobot& robot, std::uint32_t group);
+
+/// The bodies of a robot whose poses depend on where a rigid group is.
+class GroupBodies {
+ public:
+  /// @param robot  must outlive this object
+  explicit GroupBodies(const LoadedRobot& robot);
+
+  /// Returns whether the group, or a group below it, has a body.
+  bool hasBodies(std::uint32_t group) const { return has_bodies_[group]; }
+  /// Returns a sentence that names a body because of which nobody knows where the group is, such as one that is STALE
+  /// or worse. Looks at the bodies of the group, or of the groups below it if it has none. Empty: no body is in doubt.
+  std::string doubtAbout(std::uint32_t group, const Snapshot& snapshot) const;
+
+ private:
+  const LoadedRobot& robot_;
+  std::vector<std::vector<std::uint32_t>> below_;  // for each group: the groups whose joints are on it
+  std::vector<bool> has_bodies_;
+};
+
+}  // namespace hgrid
