@@ -76,7 +76,7 @@ set(HGRID_CORE_SOURCES
   src/narrow/core_narrow_phase.cpp
   src/narrow/enclosure.cpp
   src/narrow/gjk.cpp
-  src/narrow/inner_balls.cpp
+  src/narrow/inner_spheres.cpp
   src/narrow/mesh_pair.cpp
   src/narrow/mesh_solid.cpp
   src/narrow/mesh_tree.cpp

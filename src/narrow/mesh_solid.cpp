@@ -4,12 +4,12 @@
 
 #include <iterator>
 
-#include "narrow/inner_balls.h"
+#include "narrow/inner_spheres.h"
 
 namespace hgrid {
 
-const std::vector<Sphere>& PreparedMesh::innerBalls() const {
-  std::call_once(balls_found_, [this] {
+const std::vector<Sphere>& PreparedMesh::innerSpheres() const {
+  std::call_once(spheres_found_, [this] {
     Eigen::Vector3d low = source->vertices.front(), high = low;
     for (const auto& triangle : source->triangles) {
       for (const std::uint32_t corner : triangle) {
@@ -17,9 +17,9 @@ const std::vector<Sphere>& PreparedMesh::innerBalls() const {
         high = high.cwiseMax(source->vertices[corner]);
       }
     }
-    balls_ = innerBallsOf(tree, enclosure, low, high);
+    spheres_ = innerSpheresOf(tree, enclosure, low, high);
   });
-  return balls_;
+  return spheres_;
 }
 
 std::shared_ptr<const PreparedMesh> PreparedMeshes::of(const std::shared_ptr<const TriangleMesh>& mesh) {

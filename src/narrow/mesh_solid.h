@@ -21,15 +21,15 @@ struct PreparedMesh {
       : source(std::move(mesh)), tree(*source), enclosure(*source) {}
 
   std::shared_ptr<const TriangleMesh> source;  // kept, so that no other mesh gets its address
-  /// Returns balls inside the mesh; any thread may call this.
-  const std::vector<Sphere>& innerBalls() const;
+  /// Returns spheres inside the mesh; any thread may call this.
+  const std::vector<Sphere>& innerSpheres() const;
 
   MeshTree tree;
   Enclosure enclosure;
 
  private:
-  mutable std::once_flag balls_found_;
-  mutable std::vector<Sphere> balls_;
+  mutable std::once_flag spheres_found_;
+  mutable std::vector<Sphere> spheres_;
 };
 
 /// A mesh as a solid.
@@ -39,7 +39,7 @@ class MeshSolid final : public OrderedSolid {
       : OrderedSolid(shape), mesh_(std::move(mesh)) {}
   const MeshTree& tree() const { return mesh_->tree; }
   const Enclosure& enclosure() const { return mesh_->enclosure; }
-  const std::vector<Sphere>& innerBalls() const { return mesh_->innerBalls(); }
+  const std::vector<Sphere>& innerSpheres() const { return mesh_->innerSpheres(); }
 
  private:
   std::shared_ptr<const PreparedMesh> mesh_;

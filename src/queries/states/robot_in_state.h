@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "hgrid_proximity/narrow/narrow_phase.h"
-#include "queries/states/four_balls.h"
+#include "queries/states/four_spheres.h"
 #include "queries/states/robot_shapes.h"
 
 namespace hgrid {
@@ -55,12 +55,12 @@ class RobotInState {
     return measure(shape, other.solid.get(), snapshot.poses()[body].world_from_body * other.body_from_shape,
                    other.padding, up_to);
   }
-  /// Computes where the balls inside a shape are, relative to the origin of the snapshot.
-  void placeBalls(std::size_t shape, FourBalls& placed) const {
+  /// Computes where the spheres inside a shape are, relative to the origin of the snapshot.
+  void placeSpheres(std::size_t shape, FourSpheres& placed) const {
     const RobotShape& own = robot.shapes()[shape];
     Pose local_from_group = groups_[own.group].of(lane_);
     local_from_group.translation() -= snapshot.origin();
-    placed.fill(own.balls, local_from_group);
+    placed.fill(own.spheres, local_from_group);
   }
   /// Returns whether the pair filter switches off a shape of the robot and a body.
   bool allowed(std::size_t shape, std::uint32_t body) const {

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "hgrid_proximity/refusal.h"
-#include "narrow/inner_balls.h"
+#include "narrow/inner_spheres.h"
 
 namespace hgrid {
 namespace {
@@ -57,14 +57,14 @@ TiltedBox<float> tiltedBoxOf(const BodyShape& shape, const Pose& frame_from_shap
   return box;
 }
 
-std::vector<Sphere> ballsInside(const BodyShape& shape, const Pose& frame_from_shape) {
+std::vector<Sphere> spheresInside(const BodyShape& shape, const Pose& frame_from_shape) {
   if (!shape.solid) return {};
-  std::vector<Sphere> balls = innerBallsOf(shape.shape, *shape.solid);
-  for (Sphere& ball : balls) {
-    ball.center = frame_from_shape * ball.center;
-    ball.radius += shape.padding;
+  std::vector<Sphere> spheres = innerSpheresOf(shape.shape, *shape.solid);
+  for (Sphere& sphere : spheres) {
+    sphere.center = frame_from_shape * sphere.center;
+    sphere.radius += shape.padding;
   }
-  return balls;
+  return spheres;
 }
 
 RobotShapes::RobotShapes(const Snapshot& snapshot, const Kinematics& kinematics, const std::string& robot,
@@ -164,7 +164,7 @@ void RobotShapes::addShapesOf(const Snapshot& snapshot, const QueryScope& scope,
     for (std::uint32_t i = 0; i < shapes.size(); ++i) {
       const Pose group_from_shape = own.group_from_body * shapes[i].body_from_shape;
       shapes_.push_back({own.body, i, own.group, group_from_shape, &shapes[i],
-                         tiltedBoxOf(shapes[i], group_from_shape, 1e-6), ballsInside(shapes[i], group_from_shape)});
+                         tiltedBoxOf(shapes[i], group_from_shape, 1e-6), spheresInside(shapes[i], group_from_shape)});
     }
   }
   std::stable_sort(shapes_.begin() + before, shapes_.end(),

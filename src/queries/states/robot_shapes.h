@@ -24,9 +24,9 @@ struct RobotShape {
   std::uint32_t body, shape;  ///< index of the body, and index of the shape among the shapes of the body
   std::uint32_t group;        ///< rigid group of the robot
   Pose group_from_shape;
-  const BodyShape* what;      ///< the shape itself; the snapshot keeps it alive
-  TiltedBox<float> in_group;  ///< box around the padded shape, in the frame of the group
-  std::vector<Sphere> balls;  ///< balls inside the padded shape, in the frame of the group [m]
+  const BodyShape* what;        ///< the shape itself; the snapshot keeps it alive
+  TiltedBox<float> in_group;    ///< box around the padded shape, in the frame of the group
+  std::vector<Sphere> spheres;  ///< spheres inside the padded shape, in the frame of the group [m]
 };
 
 /// A shape in four states of the robot. The boxes are relative to the origin of the snapshot.
@@ -81,8 +81,8 @@ class RobotShapes {
   std::vector<bool> is_own_;  // by index of the body
 };
 
-/// Returns balls inside a padded shape at a pose [m]; nothing if none are known.
-std::vector<Sphere> ballsInside(const BodyShape& shape, const Pose& frame_from_shape);
+/// Returns spheres inside a padded shape at a pose [m]; nothing if none are known.
+std::vector<Sphere> spheresInside(const BodyShape& shape, const Pose& frame_from_shape);
 
 /// Returns a box around a padded shape at a pose.
 /// @param relative_rounding  how much the box is grown for the rounding of coordinates to float, as a part of the

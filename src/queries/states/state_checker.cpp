@@ -99,8 +99,8 @@ void StateChecker::checkStates(const StateBatch& batch, const StateRequest& requ
   StateValues values(all.kinematics, batch, memory);
   memory.groups.resize(all.kinematics.state().groups.size());
   memory.placed.resize(all.robot.shapes().size());
-  memory.balls.resize(4 * all.robot.shapes().size());
-  memory.balls_known.resize(all.robot.shapes().size());
+  memory.spheres.resize(4 * all.robot.shapes().size());
+  memory.spheres_known.resize(all.robot.shapes().size());
   answers.states.assign(values.size(), StateAnswer{});
   answers.pairs.clear();
   StateSearch search(*all.snapshot, *all.narrow_phase, all.robot, all.world, all.doubts, request,

@@ -71,7 +71,7 @@ void StateSearch::run(unsigned open, bool first, StateAnswer* answers, std::vect
   nearest_.fill(request_.clearance);
   for (StatePair& pair : nearest_pair_) pair.first = Structure::kNone;
   for (auto& near : scratch_.near) near.clear();
-  std::fill(scratch_.balls_known.begin(), scratch_.balls_known.end(), std::uint8_t{0});
+  std::fill(scratch_.spheres_known.begin(), scratch_.spheres_known.end(), std::uint8_t{0});
   for (auto& found : scratch_.pairs) found.clear();
   robot_.place(scratch_.groups, first ? nullptr : scratch_.changing.data(), snapshot_.origin(), scratch_.placed);
   findSelf();
@@ -145,11 +145,11 @@ void StateSearch::findInGrid() {
   });
 }
 
-/// Uses two shapes whose boxes are near each other. If balls inside them meet, they are in contact. Otherwise they are
-/// measured later.
+/// Uses two shapes whose boxes are near each other. If spheres inside them meet, they are in contact. Otherwise they
+/// are measured later.
 void StateSearch::consider(std::size_t lane, const NearShapes& near) {
   if (!isOpen(lane)) return;
-  if (near.gap < 0.0f && !request_.all_pairs && request_.clearance == 0.0 && haveBallsInCommon(lane, near)) {
+  if (near.gap < 0.0f && !request_.all_pairs && request_.clearance == 0.0 && haveSpheresInCommon(lane, near)) {
     StatePair pair = pairOf(near);
     pair.proximity.status = Measure::contact;
     pair.proximity.distance = 0.0;
@@ -159,25 +159,25 @@ void StateSearch::consider(std::size_t lane, const NearShapes& near) {
   }
 }
 
-const FourBalls& StateSearch::ballsOf(std::size_t lane, std::size_t own) {
-  FourBalls& balls = scratch_.balls[4 * own + lane];
-  if ((scratch_.balls_known[own] >> lane & 1u) == 0) {
-    in(lane).placeBalls(own, balls);
-    scratch_.balls_known[own] = static_cast<std::uint8_t>(scratch_.balls_known[own] | 1u << lane);
+const FourSpheres& StateSearch::spheresOf(std::size_t lane, std::size_t own) {
+  FourSpheres& spheres = scratch_.spheres[4 * own + lane];
+  if ((scratch_.spheres_known[own] >> lane & 1u) == 0) {
+    in(lane).placeSpheres(own, spheres);
+    scratch_.spheres_known[own] = static_cast<std::uint8_t>(scratch_.spheres_known[own] | 1u << lane);
   }
-  return balls;
+  return spheres;
 }
 
-bool StateSearch::haveBallsInCommon(std::size_t lane, const NearShapes& near) {
-  if (robot_.shapes()[near.own].balls.empty()) return false;
+bool StateSearch::haveSpheresInCommon(std::size_t lane, const NearShapes& near) {
+  if (robot_.shapes()[near.own].spheres.empty()) return false;
   if (!near.is_self) {
-    const SmallBall *const begin = world_.ballsOf(near.other), *const end = world_.ballsOf(near.other + 1);
+    const SmallSphere *const begin = world_.spheresOf(near.other), *const end = world_.spheresOf(near.other + 1);
     if (begin == end) return false;
-    const FourBalls& own = ballsOf(lane, near.own);
-    return std::any_of(begin, end, [&](const SmallBall& ball) { return own.meet(ball); });
+    const FourSpheres& own = spheresOf(lane, near.own);
+    return std::any_of(begin, end, [&](const SmallSphere& sphere) { return own.meet(sphere); });
   }
-  if (robot_.shapes()[near.other].balls.empty()) return false;
-  const FourBalls &own = ballsOf(lane, near.own), &other = ballsOf(lane, near.other);
+  if (robot_.shapes()[near.other].spheres.empty()) return false;
+  const FourSpheres &own = spheresOf(lane, near.own), &other = spheresOf(lane, near.other);
   for (std::size_t i = 0; i < other.count; ++i) {
     if (own.meet(other[i])) return true;
   }

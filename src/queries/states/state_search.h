@@ -26,12 +26,13 @@ struct StateMemory {
     std::uint32_t variable, column;  // index of a variable, and of its column in the batch
   };
   std::vector<Column> columns;
-  std::vector<std::uint8_t> changing;     // for each rigid group: whether it is elsewhere in each state
-  std::vector<FourDoubles> values;        // for each variable: its values in four states
-  std::vector<FourPoses> groups;          // for each rigid group of the robot
-  std::vector<FourShapes> placed;         // for each shape of the robot
-  std::vector<FourBalls> balls;           // for each shape of the robot, in each of the four states
-  std::vector<std::uint8_t> balls_known;  // for each shape of the robot: bit i: whether `balls` has those of state i
+  std::vector<std::uint8_t> changing;  // for each rigid group: whether it is elsewhere in each state
+  std::vector<FourDoubles> values;     // for each variable: its values in four states
+  std::vector<FourPoses> groups;       // for each rigid group of the robot
+  std::vector<FourShapes> placed;      // for each shape of the robot
+  std::vector<FourSpheres> spheres;    // for each shape of the robot, in each of the four states
+  std::vector<std::uint8_t>
+      spheres_known;  // for each shape of the robot: bit i: whether `spheres` has those of state i
   std::vector<ProxyId> found;
   std::array<std::vector<NearShapes>, 4> near;  // for each of the four states: what is left to be measured
   std::array<std::vector<StatePair>, 4> pairs;  // for each of the four states: its contacts
@@ -60,8 +61,8 @@ class StateSearch {
   void findInFewShapes();
   void findInGrid();
   void consider(std::size_t lane, const NearShapes& near);
-  const FourBalls& ballsOf(std::size_t lane, std::size_t own);
-  bool haveBallsInCommon(std::size_t lane, const NearShapes& near);
+  const FourSpheres& spheresOf(std::size_t lane, std::size_t own);
+  bool haveSpheresInCommon(std::size_t lane, const NearShapes& near);
   void measureLikely();
   StatePair pairOf(const NearShapes& near) const;
   void measure(std::size_t lane, const NearShapes& near);

@@ -18,9 +18,9 @@ WorldShapes::WorldShapes(const Snapshot& snapshot, const RobotShapes& robot, con
       if (structure.isPlane(proxy)) continue;
       Pose local_from_shape = pose.world_from_body * shapes[i].body_from_shape;
       local_from_shape.translation() -= snapshot.origin();
-      addBalls(shapes[i], local_from_shape);
+      addSpheres(shapes[i], local_from_shape);
       shapes_.push_back(
-          {body, i, tiltedBoxOf(shapes[i], local_from_shape, 4e-7), static_cast<std::uint32_t>(balls_.size())});
+          {body, i, tiltedBoxOf(shapes[i], local_from_shape, 4e-7), static_cast<std::uint32_t>(spheres_.size())});
       bounds_.push_back(snapshot.boxes()[proxy]);
     }
   }
@@ -35,9 +35,9 @@ WorldShapes::WorldShapes(const Snapshot& snapshot, const RobotShapes& robot, con
   forEachPlane(snapshot, scope, [&](const PlacedPlane& plane) { planes_.push_back(plane); });
 }
 
-void WorldShapes::addBalls(const BodyShape& shape, const Pose& local_from_shape) {
-  for (const Sphere& ball : ballsInside(shape, local_from_shape)) {
-    balls_.push_back(smallBall(ball.center, ball.radius));
+void WorldShapes::addSpheres(const BodyShape& shape, const Pose& local_from_shape) {
+  for (const Sphere& sphere : spheresInside(shape, local_from_shape)) {
+    spheres_.push_back(smallSphere(sphere.center, sphere.radius));
   }
 }
 

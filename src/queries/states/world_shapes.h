@@ -8,7 +8,7 @@
 #include "hgrid_proximity/broadphase/hgrid.h"
 #include "queries/placed_map.h"
 #include "queries/placed_plane.h"
-#include "queries/states/four_balls.h"
+#include "queries/states/four_spheres.h"
 #include "queries/states/robot_shapes.h"
 
 namespace hgrid {
@@ -17,7 +17,7 @@ namespace hgrid {
 struct WorldShape {
   std::uint32_t body, shape;  ///< index of the body, and index of the shape among the shapes of the body
   TiltedBox<float> box;       ///< box around the padded shape, relative to the origin of the snapshot
-  std::uint32_t balls = 0;    ///< number of balls of this and all former shapes
+  std::uint32_t spheres = 0;  ///< number of spheres of this and all former shapes
 };
 
 /// The shapes, maps and planes around a robot, as one snapshot has them. Bodies without a pose are left out.
@@ -26,10 +26,10 @@ class WorldShapes {
   WorldShapes(const Snapshot& snapshot, const RobotShapes& robot, const QueryScope& scope);
 
   const std::vector<WorldShape>& shapes() const { return shapes_; }
-  /// Returns the first of the balls inside a shape, relative to the origin of the snapshot. @param shape  index of the
-  /// shape, or the number of shapes for the end
-  const SmallBall* ballsOf(std::size_t shape) const {
-    return balls_.data() + (shape == 0 ? 0 : shapes_[shape - 1].balls);
+  /// Returns the first of the spheres inside a shape, relative to the origin of the snapshot. @param shape  index of
+  /// the shape, or the number of shapes for the end
+  const SmallSphere* spheresOf(std::size_t shape) const {
+    return spheres_.data() + (shape == 0 ? 0 : shapes_[shape - 1].spheres);
   }
   const std::deque<PlacedMap>& maps() const { return maps_; }
   const std::vector<PlacedPlane>& planes() const { return planes_; }
@@ -43,11 +43,11 @@ class WorldShapes {
 
  private:
   static constexpr std::size_t kFew = 24;
-  void addBalls(const BodyShape& shape, const Pose& local_from_shape);
+  void addSpheres(const BodyShape& shape, const Pose& local_from_shape);
 
   std::vector<WorldShape> shapes_;
-  std::vector<Aabb> bounds_;      // for each shape
-  std::vector<SmallBall> balls_;  // of all shapes
+  std::vector<Aabb> bounds_;          // for each shape
+  std::vector<SmallSphere> spheres_;  // of all shapes
   // The grid of the snapshot has the boxes grown by their margins, and those of the robot. This one has neither, which
   // makes a search several times faster.
   HGrid grid_;

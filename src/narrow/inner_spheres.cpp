@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "narrow/inner_balls.h"
+#include "narrow/inner_spheres.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,13 +14,13 @@ namespace {
 using Vector = Eigen::Vector3d;
 
 constexpr double kInside = 0.5;          // least winding number of a point inside a closed mesh
-constexpr std::size_t kMostOfMesh = 12;  // largest number of balls in a closed mesh
+constexpr std::size_t kMostOfMesh = 12;  // largest number of spheres in a closed mesh
 constexpr double kPoints = 700.0;        // about this many points of a mesh are tried as centers
-constexpr double kLeast = 0.25;          // no ball of a mesh is smaller than this share of its largest ball
-constexpr double kSpread = 0.7;          // no ball is centered within this share of the radius of another ball
-constexpr double kSafe = 1 - 1e-6;       // balls are this much smaller than computed, because of rounding
+constexpr double kLeast = 0.25;          // no sphere of a mesh is smaller than this share of its largest sphere
+constexpr double kSpread = 0.7;          // no sphere is centered within this share of the radius of another sphere
+constexpr double kSafe = 1 - 1e-6;       // spheres are this much smaller than computed, because of rounding
 
-/// Returns how many balls of a radius [m] cover a length [m] well; at most `most`.
+/// Returns how many spheres of a radius [m] cover a length [m] well; at most `most`.
 int countAlong(double length, double radius, int most) {
   return 1 + static_cast<int>(std::min(most - 1.0, std::ceil(length / radius)));
 }
@@ -28,64 +28,64 @@ int countAlong(double length, double radius, int most) {
 /// Returns a coordinate [m] that runs from -0.5 * length to 0.5 * length while `i` runs from 0 to count - 1.
 double along(double length, int i, int count) { return count < 2 ? 0.0 : length * (i / (count - 1.0) - 0.5); }
 
-/// Fills a row of balls along z. The centers are up to `length` [m] apart.
+/// Fills a row of spheres along z. The centers are up to `length` [m] apart.
 std::vector<Sphere> rowOf(double radius, double length) {
-  std::vector<Sphere> balls;
+  std::vector<Sphere> spheres;
   const int count = countAlong(length, radius, 6);
-  for (int i = 0; i < count; ++i) balls.push_back({{0.0, 0.0, along(length, i, count)}, radius});
-  return balls;
+  for (int i = 0; i < count; ++i) spheres.push_back({{0.0, 0.0, along(length, i, count)}, radius});
+  return spheres;
 }
 
-std::vector<Sphere> ballsOfBox(const Vector& size) {
+std::vector<Sphere> spheresOfBox(const Vector& size) {
   Eigen::Index thin = 0;
   const double radius = 0.5 * size.minCoeff(&thin);
   const Eigen::Index second = (thin + 1) % 3, third = (thin + 2) % 3;
   const Vector length = size.array() - 2.0 * radius;
   const int rows = countAlong(length[second], radius, 3), columns = countAlong(length[third], radius, 4);
-  std::vector<Sphere> balls;
+  std::vector<Sphere> spheres;
   for (int i = 0; i < rows; ++i) {
     for (int k = 0; k < columns; ++k) {
-      Sphere ball{Vector::Zero(), radius};
-      ball.center[second] = along(length[second], i, rows);
-      ball.center[third] = along(length[third], k, columns);
-      balls.push_back(ball);
+      Sphere sphere{Vector::Zero(), radius};
+      sphere.center[second] = along(length[second], i, rows);
+      sphere.center[third] = along(length[third], k, columns);
+      spheres.push_back(sphere);
     }
   }
-  return balls;
+  return spheres;
 }
 
-std::vector<Sphere> ballsOfCylinder(double height, double radius) {
+std::vector<Sphere> spheresOfCylinder(double height, double radius) {
   if (height >= 2.0 * radius) return rowOf(radius, height - 2.0 * radius);
   const double flat = 0.5 * height;
-  std::vector<Sphere> balls{{Vector::Zero(), flat}};
+  std::vector<Sphere> spheres{{Vector::Zero(), flat}};
   for (int i = 0; i < 6; ++i) {
     const double x = std::cos(i * M_PI / 3.0), y = std::sin(i * M_PI / 3.0);
-    balls.push_back({(radius - flat) * Vector(x, y, 0.0), flat});
+    spheres.push_back({(radius - flat) * Vector(x, y, 0.0), flat});
   }
-  return balls;
+  return spheres;
 }
 
-/// Returns the largest ball in a cone.
-Sphere ballOfCone(double height, double radius) {
+/// Returns the largest sphere in a cone.
+Sphere sphereOfCone(double height, double radius) {
   const double inner = radius * height / (radius + std::hypot(radius, height));
   return {{0.0, 0.0, inner - 0.5 * height}, inner};
 }
 
-std::vector<Sphere> ballsOf(const Shape& shape, const Solid& solid) {
+std::vector<Sphere> spheresOf(const Shape& shape, const Solid& solid) {
   const std::vector<double> size = shape.dimensions();
   switch (shape.kind()) {
     case ShapeKind::sphere:
       return {{Vector::Zero(), size[0]}};
     case ShapeKind::box:
-      return ballsOfBox({size[0], size[1], size[2]});
+      return spheresOfBox({size[0], size[1], size[2]});
     case ShapeKind::cylinder:
-      return ballsOfCylinder(size[0], size[1]);
+      return spheresOfCylinder(size[0], size[1]);
     case ShapeKind::cone:
-      return {ballOfCone(size[0], size[1])};
+      return {sphereOfCone(size[0], size[1])};
     case ShapeKind::capsule:
       return rowOf(size[1], size[0]);
     case ShapeKind::mesh:
-      if (const auto* mesh = dynamic_cast<const MeshSolid*>(&solid)) return mesh->innerBalls();
+      if (const auto* mesh = dynamic_cast<const MeshSolid*>(&solid)) return mesh->innerSpheres();
       break;
     case ShapeKind::hull:
     case ShapeKind::plane:
@@ -94,48 +94,49 @@ std::vector<Sphere> ballsOf(const Shape& shape, const Solid& solid) {
   return {};
 }
 
-/// Selects large balls that are spread over the mesh. @param balls  all balls that were found
-std::vector<Sphere> chosen(std::vector<Sphere> balls) {
-  std::stable_sort(balls.begin(), balls.end(), [](const Sphere& a, const Sphere& b) { return a.radius > b.radius; });
+/// Selects large spheres that are spread over the mesh. @param spheres  all spheres that were found
+std::vector<Sphere> chosen(std::vector<Sphere> spheres) {
+  std::stable_sort(spheres.begin(), spheres.end(),
+                   [](const Sphere& a, const Sphere& b) { return a.radius > b.radius; });
   std::vector<Sphere> result;
-  for (const Sphere& ball : balls) {
-    if (result.size() == kMostOfMesh || ball.radius < kLeast * balls.front().radius) break;
+  for (const Sphere& sphere : spheres) {
+    if (result.size() == kMostOfMesh || sphere.radius < kLeast * spheres.front().radius) break;
     const bool apart = std::all_of(result.begin(), result.end(), [&](const Sphere& other) {
-      return (ball.center - other.center).norm() > kSpread * other.radius;
+      return (sphere.center - other.center).norm() > kSpread * other.radius;
     });
-    if (apart) result.push_back(ball);
+    if (apart) result.push_back(sphere);
   }
   return result;
 }
 
-/// Returns corners of triangles that are far from each other, as balls of radius 0. Each is the corner that is farthest
-/// from the corners before it.
+/// Returns corners of triangles that are far from each other, as spheres of radius 0. Each is the corner that is
+/// farthest from the corners before it.
 std::vector<Sphere> spreadCorners(const std::vector<Triangle>& triangles) {
   std::vector<Vector> corners;
   for (const Triangle& triangle : triangles) corners.insert(corners.end(), triangle.begin(), triangle.end());
   std::vector<double> squared(corners.size(), std::numeric_limits<double>::infinity());
-  std::vector<Sphere> balls;
+  std::vector<Sphere> spheres;
   std::size_t next = 0;
-  while (balls.size() < kMostInnerBalls && squared[next] > 0.0) {
-    balls.push_back({corners[next], 0.0});
+  while (spheres.size() < kMostInnerSpheres && squared[next] > 0.0) {
+    spheres.push_back({corners[next], 0.0});
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      squared[i] = std::min(squared[i], (corners[i] - balls.back().center).squaredNorm());
+      squared[i] = std::min(squared[i], (corners[i] - spheres.back().center).squaredNorm());
     }
     next = static_cast<std::size_t>(std::max_element(squared.begin(), squared.end()) - squared.begin());
   }
-  return balls;
+  return spheres;
 }
 
 }  // namespace
 
-std::vector<Sphere> innerBallsOf(const Shape& shape, const Solid& solid) {
-  std::vector<Sphere> balls = ballsOf(shape, solid);
-  for (Sphere& ball : balls) ball.radius *= kSafe;
-  return balls;
+std::vector<Sphere> innerSpheresOf(const Shape& shape, const Solid& solid) {
+  std::vector<Sphere> spheres = spheresOf(shape, solid);
+  for (Sphere& sphere : spheres) sphere.radius *= kSafe;
+  return spheres;
 }
 
-std::vector<Sphere> innerBallsOf(const MeshTree& tree, const Enclosure& enclosure, const Vector& low,
-                                 const Vector& high) {
+std::vector<Sphere> innerSpheresOf(const MeshTree& tree, const Enclosure& enclosure, const Vector& low,
+                                   const Vector& high) {
   if (!enclosure.closed()) return spreadCorners(tree.triangles());
   const Vector size = high - low;
   const double step = std::cbrt(size.prod() / kPoints);
@@ -144,7 +145,7 @@ std::vector<Sphere> innerBallsOf(const MeshTree& tree, const Enclosure& enclosur
   Eigen::Array3i count;
   // Odd numbers, so that the middle of the box is tried.
   for (Eigen::Index k = 0; k < 3; ++k) count[k] = static_cast<int>(std::min(40.0, std::ceil(size[k] / step))) | 1;
-  std::vector<Sphere> balls;
+  std::vector<Sphere> spheres;
   for (int x = 0; x < count[0]; ++x) {
     for (int y = 0; y < count[1]; ++y) {
       for (int z = 0; z < count[2]; ++z) {
@@ -152,11 +153,11 @@ std::vector<Sphere> innerBallsOf(const MeshTree& tree, const Enclosure& enclosur
         const Vector center = low + share.cwiseProduct(size);
         if (std::abs(enclosure.windingNumber(center)) < kInside) continue;
         const CoreGap gap = tree.gapTo(point, Pose(Eigen::Translation3d(center)), size.norm());
-        if (gap.lower > 0.0) balls.push_back({center, gap.lower});
+        if (gap.lower > 0.0) spheres.push_back({center, gap.lower});
       }
     }
   }
-  return chosen(std::move(balls));
+  return chosen(std::move(spheres));
 }
 
 }  // namespace hgrid
