@@ -35,6 +35,11 @@ void expectOnlyThePostServes(NodeUnderTest& node) {
   EXPECT_EQ(node.sphere(0, 0, 0, 0.05).answer.verdict, msg::Verdict::UNKNOWN) << "the robot may be there";
 }
 
+/// Waits until the log has exactly one line with this text. The line may come after the first tick with the robot.
+void waitForLine(NodeUnderTest& node, const std::string& text) {
+  node.waitUntil("the log says " + text, [&](const Heard&) { return node.lines(text) == 1; });
+}
+
 TEST(Description, ThatIsAbsentOrEmptyOrNoTextIsWaitedForAndObstaclesServe) {
   const std::vector<std::pair<Value, std::string>> cases = {
       {Value(), "NOT_READY robot 'robot': parameter 'robot_description' is not set; it must hold a robot's URDF"},
@@ -323,7 +328,7 @@ TEST(VisualGeometry, IsUsedWhereAPatternMatchesAndIsListed) {
       return entry.key == "uses visual geometry 1" && entry.value == "robot/shell";
     });
   });
-  EXPECT_EQ(node.lines("~use_visual: 'robot/none' matches no body"), 1u) << "the log has each warning once";
+  waitForLine(node, "~use_visual: 'robot/none' matches no body");
 }
 
 TEST(VisualGeometry, ThatCannotBeReadIsUncovered) {
@@ -364,11 +369,6 @@ TEST(SelfPairs, HandsWhoseArmsHaveNoGeometryAreReportedWhenTheyAreNear) {
   EXPECT_EQ(counts[0].links, 3u);
   EXPECT_EQ(counts[0].pairs, 3u);
   EXPECT_EQ(counts[0].rigid + counts[0].adjacent + counts[0].srdf, 0u);
-}
-
-/// Waits until the log has exactly one line with this text. The line may come after the first tick with the robot.
-void waitForLine(NodeUnderTest& node, const std::string& text) {
-  node.waitUntil("the log says " + text, [&](const Heard&) { return node.lines(text) == 1; });
 }
 
 TEST(SelfPairs, ARobotWhosePairsAreAllOffIsAWarning) {
