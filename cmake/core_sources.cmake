@@ -103,6 +103,10 @@ set(HGRID_CORE_SOURCES
   src/queries/segment_question.cpp
   src/queries/solid_question.cpp
   src/queries/sphere_question.cpp
+  src/queries/states/checker_parts.cpp
+  src/queries/states/edge_checker.cpp
+  src/queries/states/edge_search.cpp
+  src/queries/states/motion_bounds.cpp
   src/queries/states/robot_shapes.cpp
   src/queries/states/state_checker.cpp
   src/queries/states/state_doubts.cpp

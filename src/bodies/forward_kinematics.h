@@ -26,6 +26,7 @@ struct JointMotion {
   std::array<double, 3> shift{}, slide{};     // the translation is shift + position * slide (only prismatic: slide)
   Pose parent_from_plane = Pose::Identity();  // planar and floating: the frame of x, y and theta
   Pose plane_from_child = Pose::Identity();   // planar: its rotation, inverted
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();  // revolute and planar: unit vector of the axis of rotation
 
   /// Returns the number of variables of the joint.
   std::uint32_t variables() const { return kind == JointKind::planar ? 3 : kind == JointKind::floating ? 7 : 1; }

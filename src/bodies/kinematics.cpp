@@ -64,6 +64,7 @@ void setPoses(const RobotLink& link, const Pose& parent_from_joint, JointMotion&
     joint.shift[i] = parent_from_joint.translation()[static_cast<Eigen::Index>(i)];
     if (link.joint_kind == JointKind::prismatic) joint.slide[i] = slide[static_cast<Eigen::Index>(i)];
   }
+  joint.axis = link.axis;
   joint.parent_from_plane = parent_from_joint;
   if (link.joint_kind != JointKind::planar) return;
   const Pose tilted = jointFromPlane(link.axis);

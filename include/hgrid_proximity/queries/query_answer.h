@@ -24,6 +24,7 @@ enum class Unknown : std::uint8_t {
   outdated = 4,    ///< the snapshot is too old; the library never returns this, but callers that check the age set it
   unmapped = 5,    ///< no map knows the space to be free, and SceneOptions::report_unmapped is set
   budget = 6,      ///< QueryScope::deadline passed before the query had examined everything
+  tolerance = 7,   ///< edges only: two shapes come nearer to each other than the edge was examined
 };
 
 /// One body that a query hit. Points and normals are in the world frame. NaN: unknown or not applicable.

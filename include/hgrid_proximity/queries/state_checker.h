@@ -11,7 +11,8 @@
 
 #include "hgrid_proximity/bodies/kinematics.h"
 #include "hgrid_proximity/narrow/narrow_phase.h"
-#include "hgrid_proximity/queries/query_answer.h"
+#include "hgrid_proximity/queries/state_edges.h"
+#include "hgrid_proximity/queries/state_pair.h"
 #include "hgrid_proximity/refusal.h"
 #include "hgrid_proximity/world/snapshot.h"
 
@@ -42,19 +43,6 @@ struct StateRequest {
   std::optional<std::chrono::steady_clock::time_point> deadline;
 };
 
-/// Two bodies in a state of the robot, and how they lie relative to each other.
-struct StatePair {
-  std::uint32_t first = 0;   ///< index into Structure::bodies: a link of the robot, or an obstacle attached to a link
-  std::uint32_t second = 0;  ///< index into Structure::bodies: any body
-  std::uint32_t first_shape = 0;   ///< index among the shapes of the first body
-  std::uint32_t second_shape = 0;  ///< index among the shapes of the second body; 0 for a map or cloud
-  /// What the narrow phase found. Points and normal are in the world frame. Measure::not_measured: the boxes of the two
-  /// shapes overlap, and one of the shapes has no solid; this counts as contact. If contact was proved without the
-  /// narrow phase, the status is Measure::contact also if one shape is inside the other, and points, normal and depth
-  /// are NaN. That does not happen with StateRequest::all_pairs or a clearance.
-  Proximity proximity;
-};
-
 /// The answer for one state.
 struct StateAnswer {
   /// hit: the robot touches itself or another body. clear: it surely touches nothing. unknown: neither is known.
@@ -79,6 +67,7 @@ struct StateAnswers {
 };
 
 struct StateMemory;
+struct CheckerParts;
 
 /// Memory that a thread uses for checking states. Each thread needs its own. It keeps its memory, so that later batches
 /// of the same size allocate nothing.
@@ -107,7 +96,8 @@ struct StateCheckerOptions {
   std::string world_frame = {};
 };
 
-/// Answers whether a robot would touch anything if its joints stood at given positions, for many states at once.
+/// Answers whether a robot would touch anything if its joints stood at given positions, for many states at once, or if
+/// they moved from one state to another.
 ///
 /// All bodies of one snapshot count, with their padding: links of the robot against each other, and against all other
 /// bodies, maps, clouds and planes. The pair filter of the snapshot applies. The links of the robot and the obstacles
@@ -128,7 +118,7 @@ struct StateCheckerOptions {
 /// bodies that the pair filter switches off with all bodies of the robot, and for ignored bodies, nothing of this
 /// counts.
 ///
-/// Immutable. Any number of threads may call checkStates() at the same time, each with a scratch object of its own. The
+/// Immutable. Any number of threads may ask at the same time, each with a scratch object of its own. The
 /// answer for a state depends neither on the other states of its batch, nor on the thread, nor on the processor.
 class StateChecker {
  public:
@@ -165,6 +155,25 @@ class StateChecker {
   /// @param state    index of the state
   std::string sentenceOf(const StateBatch& batch, const StateAnswers& answers, std::size_t state) const;
 
+  /// Answers for each edge whether the robot touches anything on the way. Replaces the content of `answers`.
+  ///
+  /// The verdict clear is certain for every configuration of the edge, not only for some of them: the search divides
+  /// the edge into parts. In the middle of a part, it measures whether everything is farther away than the robot can
+  /// travel on the part. An open mesh is only its surface; whether a shape that does not touch the surface may be
+  /// inside is examined in the middle of the parts only. The verdict unknown has the reasons that it has for states,
+  /// and one more: two shapes come so near to each other that parts of the length EdgeRequest::tolerance do not prove
+  /// that they stay apart.
+  ///
+  /// An edge with a refused state is refused, and all other edges are answered. The answer for an edge does not depend
+  /// on the other edges.
+  /// @param batch  has the states where edges begin and end; the root link of the robot does not move
+  /// @throws Refusal as checkStates(), and out_of_range for a tolerance that is not between 1e-6 and 1 m
+  void checkEdges(const StateBatch& batch, const std::vector<StateEdge>& edges, const EdgeRequest& request,
+                  StateScratch& scratch, EdgeAnswers& answers) const;
+
+  /// Returns a sentence that says why an edge was refused or why its verdict is unknown; empty for other edges.
+  std::string sentenceOf(const StateBatch& batch, const EdgeAnswers& answers, std::size_t edge) const;
+
   const Snapshot& snapshot() const;      ///< the world
   const Kinematics& kinematics() const;  ///< the joints
   /// Returns whether the joints of the robot move this body: one of its links, or an attached obstacle.
@@ -174,8 +183,7 @@ class StateChecker {
   std::size_t selfPairs() const;
 
  private:
-  struct State;
-  std::unique_ptr<const State> state_;
+  std::unique_ptr<const CheckerParts> state_;
 };
 
 }  // namespace hgrid

@@ -4,70 +4,55 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "hgrid_proximity/geometry/float_environment.h"
 #include "hgrid_proximity/queries/query.h"
 #include "queries/question.h"
+#include "queries/states/checker_parts.h"
 #include "queries/states/state_search.h"
 #include "queries/states/state_values.h"
 
 namespace hgrid {
 namespace {
 
-QueryScope scopeOf(const StateCheckerOptions& options) {
-  QueryScope scope;
-  scope.exclude = options.ignore;
-  return scope;
+bool sameBodies(const StatePair& a, const StatePair& b) { return a.first == b.first && a.second == b.second; }
+
+SearchGoal goalOf(const StateRequest& request) {
+  if (request.all_pairs) return SearchGoal::all_contacts;
+  return request.clearance > 0.0 ? SearchGoal::nearest : SearchGoal::contact;
 }
 
-/// Returns the body of the robot from which the pose of its root link follows: a link that is rigidly connected to the
-/// root link. Structure::kNone if the snapshot has no pose of such a link.
-std::uint32_t rootBodyOf(const Snapshot& snapshot, const RobotShapes& robot) {
-  for (const RobotBody& own : robot.bodies()) {
-    const bool is_link = snapshot.structure().bodies[own.body].kind == BodyKind::link;
-    if (is_link && own.group == 0 && snapshot.poses()[own.body].state != Freshness::unplaced) return own.body;
+/// Writes the answer for a state that was searched.
+void write(const StateSearch& search, const StateDoubts& doubts, std::size_t lane, const StateRequest& request,
+           bool by_snapshot, StateAnswer& answer, std::vector<StatePair>& pairs) {
+  const std::vector<StatePair>& found = search.contacts(lane);
+  const bool measured = request.clearance > 0.0;
+  answer.first_pair = static_cast<std::uint32_t>(pairs.size());
+  if (!found.empty()) {
+    answer.verdict = Verdict::hit;
+    if (measured) answer.clearance = 0.0;
+    pairs.insert(pairs.end(), found.begin(), found.end());
+    pairs.erase(std::unique(pairs.begin() + answer.first_pair, pairs.end(), sameBodies), pairs.end());
+    answer.pairs = static_cast<std::uint32_t>(pairs.size()) - answer.first_pair;
+    return;
   }
-  return Structure::kNone;
+  const double nearest = search.hasNear(lane) ? search.nearDistance(lane) : request.clearance;
+  auto doubt = doubts.findAnywhere(by_snapshot);
+  if (!doubt) doubt = doubts.findNear(search.robotIn(lane), nearest);
+  answer.verdict = doubt ? Verdict::unknown : Verdict::clear;
+  if (doubt) {
+    answer.because = doubts[*doubt].because;
+    answer.detail = *doubt;
+  }
+  if (!measured) return;
+  answer.clearance = search.hasNear(lane) ? nearest : std::numeric_limits<double>::infinity();
+  if (!search.hasNear(lane)) return;
+  pairs.push_back(search.nearPair(lane));
+  answer.pairs = 1;
 }
 
 }  // namespace
-
-struct StateChecker::State {
-  State(std::shared_ptr<const Snapshot> asked, const Kinematics& joints, const std::string& name,
-        std::shared_ptr<const NarrowPhase> measures, const StateCheckerOptions& options)
-      : snapshot(std::move(asked)),
-        kinematics(joints),
-        narrow_phase(std::move(measures)),
-        robot(*snapshot, joints, name, options.group, options.world_frame, scopeOf(options)),
-        world(*snapshot, robot, scopeOf(options)),
-        root_body(rootBodyOf(*snapshot, robot)),
-        doubts(*snapshot, robot, world, scopeOf(options), root_body) {}
-
-  /// Returns the pose of the root link for a batch. @throws Refusal not_ready, nonfinite, out_of_range
-  Pose worldFromRoot(const StateBatch& batch) const {
-    if (batch.world_from_root) {
-      if (!batch.world_from_root->matrix().allFinite()) {
-        throw Refusal(Code::nonfinite, "the pose of the robot's root link is not finite; every number must be finite");
-      }
-      checkQueryPoint(batch.world_from_root->translation(), "the position of the robot's root link");
-      return *batch.world_from_root;
-    }
-    if (root_body == Structure::kNone) {
-      throw Refusal(Code::not_ready, "the snapshot has no pose of the root link of robot '" +
-                                         printable(kinematics.name()) + "'; give its pose with the states");
-    }
-    const std::uint32_t link = snapshot->structure().bodies[root_body].link;
-    return snapshot->poses()[root_body].world_from_body * kinematics.groupFromLink()[link].inverse();
-  }
-
-  const std::shared_ptr<const Snapshot> snapshot;
-  const Kinematics kinematics;
-  const std::shared_ptr<const NarrowPhase> narrow_phase;
-  const RobotShapes robot;
-  const WorldShapes world;
-  const std::uint32_t root_body;
-  const StateDoubts doubts;
-};
 
 StateScratch::StateScratch() : memory_(std::make_unique<StateMemory>()) {}
 StateScratch::~StateScratch() = default;
@@ -77,7 +62,8 @@ StateChecker::StateChecker(std::shared_ptr<const Snapshot> snapshot, const Kinem
                            const std::string& robot, std::shared_ptr<const NarrowPhase> narrow_phase,
                            const StateCheckerOptions& options) {
   const DefaultFloatEnvironment environment;
-  state_ = std::make_unique<const State>(std::move(snapshot), kinematics, robot, std::move(narrow_phase), options);
+  state_ =
+      std::make_unique<const CheckerParts>(std::move(snapshot), kinematics, robot, std::move(narrow_phase), options);
 }
 StateChecker::~StateChecker() = default;
 StateChecker::StateChecker(StateChecker&&) noexcept = default;
@@ -93,18 +79,17 @@ void StateChecker::checkStates(const StateBatch& batch, const StateRequest& requ
   if (!(request.clearance >= 0.0 && request.clearance <= kQueryReach)) {
     checkQueryLength(request.clearance, "the clearance of the states");  // its text would allocate in each call
   }
-  const State& all = *state_;
+  const CheckerParts& all = *state_;
   StateMemory& memory = *scratch.memory_;
   const Pose world_from_root = all.worldFromRoot(batch);
   StateValues values(all.kinematics, batch, memory);
-  memory.groups.resize(all.kinematics.state().groups.size());
-  memory.placed.resize(all.robot.shapes().size());
-  memory.spheres.resize(4 * all.robot.shapes().size());
-  memory.spheres_known.resize(all.robot.shapes().size());
+  memory.prepare(all.kinematics, all.robot);
+  std::fill(memory.shape_reach.begin(), memory.shape_reach.end(), allFour(roundedUp(request.clearance)));
+  std::fill(memory.pair_reach.begin(), memory.pair_reach.end(), allFour(roundedUp(request.clearance)));
   answers.states.assign(values.size(), StateAnswer{});
   answers.pairs.clear();
-  StateSearch search(*all.snapshot, *all.narrow_phase, all.robot, all.world, all.doubts, request,
-                     !batch.world_from_root, memory);
+  StateSearch search(*all.snapshot, *all.narrow_phase, all.robot, all.world, goalOf(request), request.clearance,
+                     memory);
   for (std::size_t first = 0; first < values.size(); first += 4) {
     const bool is_first = first == 0;
     const std::size_t count = std::min<std::size_t>(4, values.size() - first);
@@ -125,7 +110,12 @@ void StateChecker::checkStates(const StateBatch& batch, const StateRequest& requ
     }
     forwardKinematics(all.kinematics, memory.values, world_from_root, is_first ? nullptr : memory.changing.data(),
                       memory.groups);
-    search.run(open, is_first, &answers.states[first], answers.pairs);
+    search.place(open, is_first);
+    search.findAll(open);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      if ((open >> lane & 1u) == 0) continue;
+      write(search, all.doubts, lane, request, !batch.world_from_root, answers.states[first + lane], answers.pairs);
+    }
   }
 }
 

@@ -130,10 +130,17 @@ void StateDoubts::addBodies(const Snapshot& snapshot, const RobotShapes& robot, 
   }
 }
 
-std::optional<std::uint32_t> StateDoubts::find(const RobotInState& robot, bool by_snapshot, double clearance) const {
+std::optional<std::uint32_t> StateDoubts::findAnywhere(bool by_snapshot) const {
   for (std::size_t i = by_snapshot ? 0 : by_snapshot_; i < doubts_.size(); ++i) {
+    if (isAnywhere(doubts_[i])) return static_cast<std::uint32_t>(i);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::uint32_t> StateDoubts::findNear(const RobotInState& robot, double clearance) const {
+  for (std::size_t i = by_snapshot_; i < doubts_.size(); ++i) {
     const StateDoubt& doubt = doubts_[i];
-    bool applies = true;
+    bool applies = false;
     if (doubt.because == Unknown::unmapped) {
       applies = !isFree(robot, clearance);
     } else if (doubt.where == StateDoubt::Where::sphere) {

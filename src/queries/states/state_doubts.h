@@ -35,10 +35,12 @@ class StateDoubts {
   StateDoubts(const Snapshot& snapshot, const RobotShapes& robot, const WorldShapes& world, const QueryScope& scope,
               std::uint32_t root_body);
 
-  /// Returns the number of the first doubt that applies to a state, or nullopt.
+  /// Returns the number of the first doubt that applies to all states, or nullopt.
   /// @param by_snapshot  whether the pose of the root link is that of the snapshot
+  std::optional<std::uint32_t> findAnywhere(bool by_snapshot) const;
+  /// Returns the number of the first other doubt that applies to a state, or nullopt.
   /// @param clearance    [m] everything that may be this near counts
-  std::optional<std::uint32_t> find(const RobotInState& robot, bool by_snapshot, double clearance) const;
+  std::optional<std::uint32_t> findNear(const RobotInState& robot, double clearance) const;
   /// Returns a doubt.
   const StateDoubt& operator[](std::uint32_t number) const { return doubts_[number]; }
   /// Returns whether there are no doubts at all.
@@ -48,6 +50,9 @@ class StateDoubts {
   void addGaps(const Snapshot& snapshot, const RobotShapes& robot, const QueryScope& scope);
   void addBodies(const Snapshot& snapshot, const RobotShapes& robot, const QueryScope& scope);
   bool isFree(const RobotInState& robot, double clearance) const;
+  bool isAnywhere(const StateDoubt& doubt) const {
+    return doubt.where == StateDoubt::Where::anywhere && doubt.because != Unknown::unmapped;
+  }
 
   const WorldShapes& world_;
   std::vector<StateDoubt> doubts_;

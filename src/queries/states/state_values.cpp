@@ -105,6 +105,11 @@ StateValues::StateValues(const Kinematics& kinematics, const StateBatch& batch, 
   findChanging();
 }
 
+std::size_t StateValues::sizeOf(const Kinematics& kinematics, const StateBatch& batch) {
+  const std::size_t width = std::max<std::size_t>(1, widthOf(kinematics, batch));
+  return (batch.positions.size() + width - 1) / width;
+}
+
 /// Finds the rigid groups that move when the variables in the batch change.
 void StateValues::findChanging() {
   const std::vector<JointMotion>& joints = kinematics_.state().groups;

@@ -16,6 +16,7 @@ class StateValues {
 
   /// Returns the number of states in the batch, including an incomplete last state.
   std::size_t size() const { return (batch_.positions.size() + width_ - 1) / width_; }
+  static std::size_t sizeOf(const Kinematics& kinematics, const StateBatch& batch);
   /// Reads one state into a lane of the scratch memory. If the state is refused, the lane gets valid values.
   /// @param answer  receives `refused`, `detail` and `beyond_limits`
   void read(std::size_t state, std::size_t lane, StateAnswer& answer);

@@ -200,7 +200,8 @@ TEST(StateAnswers, AnObstacleInTheWorldFrameRestsEvenIfALinkHasTheNameOfTheFrame
 TEST(StateAnswers, AMeshFarFromTheOriginOfItsLinkTouchesWhatItTouches) {
   Random random(1);
   TriangleMesh cube;
-  for (int i = 0; i < 8; ++i) cube.vertices.emplace_back(10.0 + 0.005 * (i & 1), 0.005 * (i >> 1 & 1), 0.005 * (i >> 2));
+  for (int i = 0; i < 8; ++i)
+    cube.vertices.emplace_back(10.0 + 0.005 * (i & 1), 0.005 * (i >> 1 & 1), 0.005 * (i >> 2));
   cube.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
   RobotModel model = turningArm();

@@ -33,6 +33,13 @@ TEST(StateMemory, LaterBatchesAllocateNothing) {
     const std::size_t before = allocatedBytes();
     for (const StateRequest& request : requests) checker.checkStates(batch, request, scratch, answers);
     EXPECT_EQ(allocatedBytes() - before, 0u);
+    std::vector<StateEdge> edges;
+    for (std::uint32_t i = 0; i + 1 < 50; ++i) edges.push_back({i, i + 1});
+    EdgeAnswers edge_answers;
+    checker.checkEdges(batch, edges, {}, scratch, edge_answers);
+    const std::size_t before_edges = allocatedBytes();
+    checker.checkEdges(batch, edges, {}, scratch, edge_answers);
+    EXPECT_EQ(allocatedBytes() - before_edges, 0u) << "edges";
     for (const StateAnswer& answer : answers.states) hits += answer.verdict == Verdict::hit ? 1 : 0;
   }
   EXPECT_GT(hits, 100);

@@ -124,6 +124,8 @@ class StateOracle {
  public:
   explicit StateOracle(const StateWorld& world) : world_(world), snapshot_(*world.snapshot) {}
 
+  bool surfaces_only = false;  ///< whether a shape that may be inside an open mesh does not count
+
   /// @param ignored  index of a body that does not count
   Truth of(const std::vector<double>& state, const Pose& world_from_root,
            std::uint32_t ignored = Structure::kNone) const {
@@ -159,6 +161,7 @@ class StateOracle {
       const Pose world_from_a = world_from_i * a.body_from_shape;
       const Proximity found =
           narrowPhase()->measure({*a.solid, world_from_a, a.padding}, {solid, world_from_solid, padding}, 1.0);
+      if (surfaces_only && found.status == Measure::containment_unknown) return;
       least = std::min(least, found.distance);
     };
     const BodyList& bodies = snapshot_.structure().bodies;

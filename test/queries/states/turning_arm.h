@@ -59,6 +59,15 @@ class ArmWorld {
   Verdict verdictAt(double position, const StateRequest& request = {}, const StateCheckerOptions& options = {}) {
     return check({position}, request, options).states.at(0).verdict;
   }
+  /// Checks edges between positions of the joint. Replaces `edge_answers` and `batch`.
+  const EdgeAnswer& checkEdge(double from, double to, const EdgeRequest& request = {}) {
+    snapshot = scene.commit(Time{2}, gaps);
+    batch.positions = {from, to};
+    const StateChecker checker(snapshot, Kinematics(model), "robot", narrowPhase());
+    checker.checkEdges(batch, {{0, 1}}, request, scratch, edge_answers);
+    edge_sentence = checker.sentenceOf(batch, edge_answers, 0);
+    return edge_answers.edges[0];
+  }
   Unknown reason() const { return answers.states.at(0).because; }
   const std::string& sentence() const { return sentences.at(0); }
 
@@ -69,6 +78,8 @@ class ArmWorld {
   StateBatch batch;
   StateScratch scratch;
   StateAnswers answers;
+  EdgeAnswers edge_answers;
+  std::string edge_sentence;
   std::vector<std::string> sentences;
   std::shared_ptr<const Snapshot> snapshot;
 };

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "queries/states/checker_parts.h"
+
+#include <cmath>
+
+#include "hgrid_proximity/queries/query.h"
+#include "queries/question.h"
+
+namespace hgrid {
+namespace {
+
+QueryScope scopeOf(const StateCheckerOptions& options) {
+  QueryScope scope;
+  scope.exclude = options.ignore;
+  return scope;
+}
+
+/// Returns the body of the robot from which the pose of its root link follows: a link that is rigidly connected to the
+/// root link. Structure::kNone if the snapshot has no pose of such a link.
+std::uint32_t rootBodyOf(const Snapshot& snapshot, const RobotShapes& robot) {
+  for (const RobotBody& own : robot.bodies()) {
+    const bool is_link = snapshot.structure().bodies[own.body].kind == BodyKind::link;
+    if (is_link && own.group == 0 && snapshot.poses()[own.body].state != Freshness::unplaced) return own.body;
+  }
+  return Structure::kNone;
+}
+
+/// Returns for each variable whether adding a full turn to its value does not change where the links are. This is so
+/// for an angle without limits that no joint mimics.
+std::vector<bool> wrapsOf(const Kinematics& kinematics) {
+  std::vector<bool> wraps;
+  for (const JointVariable& variable : kinematics.variables()) {
+    wraps.push_back(variable.is_angle && std::isinf(variable.lower) && std::isinf(variable.upper));
+  }
+  for (const JointMotion& joint : kinematics.state().groups) {
+    if (joint.mimics) wraps[joint.variable] = false;
+  }
+  return wraps;
+}
+
+}  // namespace
+
+CheckerParts::CheckerParts(std::shared_ptr<const Snapshot> asked, const Kinematics& joints, const std::string& name,
+                           std::shared_ptr<const NarrowPhase> measures, const StateCheckerOptions& options)
+    : snapshot(std::move(asked)),
+      kinematics(joints),
+      narrow_phase(std::move(measures)),
+      robot(*snapshot, joints, name, options.group, options.world_frame, scopeOf(options)),
+      world(*snapshot, robot, scopeOf(options)),
+      root_body(rootBodyOf(*snapshot, robot)),
+      doubts(*snapshot, robot, world, scopeOf(options), root_body),
+      motion(kinematics, robot),
+      wraps(wrapsOf(kinematics)) {}
+
+Pose CheckerParts::worldFromRoot(const StateBatch& batch) const {
+  if (batch.world_from_root) {
+    if (!batch.world_from_root->matrix().allFinite()) {
+      throw Refusal(Code::nonfinite, "the pose of the robot's root link is not finite; every number must be finite");
+    }
+    checkQueryPoint(batch.world_from_root->translation(), "the position of the robot's root link");
+    return *batch.world_from_root;
+  }
+  if (root_body == Structure::kNone) {
+    throw Refusal(Code::not_ready, "the snapshot has no pose of the root link of robot '" +
+                                       printable(kinematics.name()) + "'; give its pose with the states");
+  }
+  const std::uint32_t link = snapshot->structure().bodies[root_body].link;
+  return snapshot->poses()[root_body].world_from_body * kinematics.groupFromLink()[link].inverse();
+}
+
+}  // namespace hgrid

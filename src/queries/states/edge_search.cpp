@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "queries/states/edge_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hgrid {
+namespace {
+
+constexpr double kSlack = 1e-6;     // [m] more than the errors of measured distances and of computed poses
+constexpr double kFirstPart = 0.1;  // [m] no point of the robot travels farther on the first part of an edge
+constexpr double kProbe = 0.1;  // [m] with EdgeRequest::any_contact, one configuration is tested for each such length
+constexpr double kMostProbes = 64;   // at most this many
+constexpr float kCoarse = 0.02f;     // [m] shapes are not measured while they can travel farther than this
+constexpr std::size_t kFewNear = 8;  // if more shapes are near in the middle of a part, the next parts are shorter
+constexpr double kNowhere = 2.0;     // a place behind the end of an edge
+constexpr double kShortest = 1e-12;  // parts of an edge that are this short are not divided
+
+/// Interpolates between two unit quaternions at constant speed, along the way on which `difference` leads.
+Eigen::Vector4d turned(const Eigen::Vector4d& from, const Eigen::Vector4d& difference, double at) {
+  const Eigen::Vector4d begin = from.normalized(), end = (from + difference).normalized();
+  const double angle = 2.0 * std::asin(std::min(1.0, 0.5 * (end - begin).norm()));
+  if (angle < 1e-9) return begin + at * (end - begin);
+  return (std::sin((1.0 - at) * angle) * begin + std::sin(at * angle) * end) / std::sin(angle);
+}
+
+/// Returns the place on the edge of a configuration that is tested for contact. They are spread evenly: 1, 1/2, 1/4,
+/// 3/4, 1/8 and so on (the van der Corput sequence). @param number  1, 2 ...
+double probedPlace(std::uint32_t number) {
+  if (number == 1) return 1.0;
+  double place = 0.0, digit = 0.5;
+  for (std::uint32_t rest = number - 1; rest > 0; rest /= 2, digit *= 0.5) place += rest % 2 * digit;
+  return place;
+}
+
+}  // namespace
+
+EdgeSearch::EdgeSearch(const CheckerParts& all, const StateBatch& batch, const std::vector<StateEdge>& edges,
+                       const EdgeRequest& request, StateMemory& memory, EdgeAnswers& answers)
+    : all_(all),
+      batch_(batch),
+      edges_(edges),
+      request_(request),
+      memory_(memory),
+      answers_(answers),
+      values_(all.kinematics, batch, memory),
+      search_(*all.snapshot, *all.narrow_phase, all.robot, all.world, SearchGoal::all_near,
+              std::numeric_limits<double>::infinity(), memory),
+      doubt_(all.doubts.findAnywhere(!batch.world_from_root)) {
+  memory.prepare(all.kinematics, all.robot);
+}
+
+void EdgeSearch::run() {
+  const Pose world_from_root = all_.worldFromRoot(batch_);
+  for (std::size_t lane = 0; lane < 4; ++lane) {
+    values_.clear(lane);
+    begin(lane);
+  }
+  for (bool is_first = true;; is_first = false) {
+    const bool in_time = !request_.deadline || std::chrono::steady_clock::now() < *request_.deadline;
+    unsigned open = 0, all = 0;
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      while (!in_time && memory_.edges[lane].active) {
+        finish(lane, false);
+        begin(lane);
+      }
+      if (!memory_.edges[lane].active) continue;
+      place(lane);
+      open |= 1u << lane;
+      if (memory_.edges[lane].searches_all) all |= 1u << lane;
+    }
+    if (open == 0) return;
+    forwardKinematics(all_.kinematics, memory_.values, world_from_root, is_first ? nullptr : memory_.changing.data(),
+                      memory_.groups);
+    search_.place(open, is_first);
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      if ((open >> lane & 1u) != 0) findReaches(lane);
+    }
+    search_.findAll(all);
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      if ((open >> lane & 1u) == 0) continue;
+      const EdgeInWork& work = memory_.edges[lane];
+      const NearShapes* const candidates = work.candidates.data() + work.part.first;
+      if (!work.searches_all) search_.findAmong(lane, candidates, candidates + work.part.count);
+      use(lane);
+    }
+  }
+}
+
+/// Gives a lane the next edge that is not refused. Returns whether there is one.
+bool EdgeSearch::begin(std::size_t lane) {
+  EdgeInWork& work = memory_.edges[lane];
+  work.active = false;
+  while (next_ < edges_.size()) {
+    const std::size_t edge = next_++;
+    if (!read(edge, lane)) continue;
+    work.edge = edge;
+    work.active = true;
+    work.begin = 0.0;
+    work.end = 1.0;
+    work.uncertain_from = kNowhere;
+    work.probed = 0;
+    work.contact.reset();
+    work.near.reset();
+    work.doubt.reset();
+    work.parts.clear();
+    work.path = all_.motion.find(memory_.from, memory_.difference, lane, work.motion);
+    work.probes = request_.any_contact ? static_cast<std::uint32_t>(std::min(work.path / kProbe, kMostProbes)) : 0;
+    work.step = work.path > kFirstPart ? kFirstPart / work.path : 1.0;
+    return true;
+  }
+  return false;
+}
+
+/// Reads both ends of an edge. Returns false if the edge is refused.
+bool EdgeSearch::read(std::size_t edge, std::size_t lane) {
+  if (!readEnd(edge, edges_[edge].from, lane)) return false;
+  for (std::size_t i = 0; i < memory_.values.size(); ++i) memory_.from[i].set(lane, memory_.values[i][lane]);
+  if (!readEnd(edge, edges_[edge].to, lane)) return false;
+  const std::vector<JointVariable>& variables = all_.kinematics.variables();
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    const double from = memory_.from[i][lane], to = memory_.values[i][lane];
+    memory_.difference[i].set(lane, all_.wraps[i] ? std::remainder(to - from, 2.0 * M_PI) : to - from);
+    if (variables[i].quaternion < 0 || variables[i].quaternion + 3 != static_cast<int>(i)) continue;
+    double cosine = 0.0;
+    for (std::size_t k = i - 3; k <= i; ++k) cosine += memory_.from[k][lane] * memory_.values[k][lane];
+    if (cosine >= 0.0) continue;  // otherwise the way to the opposite quaternion is shorter; it is the same rotation
+    for (std::size_t k = i - 3; k <= i; ++k) {
+      memory_.difference[k].set(lane, -memory_.values[k][lane] - memory_.from[k][lane]);
+    }
+  }
+  return true;
+}
+
+/// Reads the state at one end of an edge. Returns false if the edge is refused because of it.
+bool EdgeSearch::readEnd(std::size_t edge, std::uint32_t state, std::size_t lane) {
+  EdgeAnswer& answer = answers_.edges[edge];
+  StateAnswer read;
+  if (state >= values_.size()) {
+    answer.refused = Code::out_of_range;
+  } else {
+    values_.read(state, lane, read);
+    answer.refused = read.refused;
+    answer.beyond_limits = answer.beyond_limits || read.beyond_limits;
+  }
+  if (answer.refused == Code::ok) return true;
+  answer.because = Unknown::refused;
+  answer.detail = read.detail;
+  answer.refused_state = state;
+  return false;
+}
+
+/// Chooses the part that is examined next.
+void EdgeSearch::choosePart(EdgeInWork& work) const {
+  work.searches_all = work.parts.empty();
+  if (work.probed < work.probes) {
+    const double at = probedPlace(work.probed + 1);
+    work.part = {at, at};
+  } else if (work.searches_all) {
+    work.part = {work.begin, std::min(work.end, work.begin + work.step)};
+    work.candidates.clear();
+  } else {
+    work.part = work.parts.back();
+    work.parts.pop_back();
+    work.part.tip = std::min(work.part.tip, work.end);
+    work.candidates.resize(work.part.first + work.part.count);  // those behind belong to parts that are finished
+  }
+}
+
+/// Places the robot in the middle of the next part.
+void EdgeSearch::place(std::size_t lane) {
+  EdgeInWork& work = memory_.edges[lane];
+  choosePart(work);
+  const double at = 0.5 * (work.part.begin + work.part.tip), half = 0.5 * (work.part.tip - work.part.begin);
+  memory_.coarse[lane] = isShort(work, 2.0 * half) ? std::numeric_limits<float>::infinity() : kCoarse;
+  const std::vector<JointVariable>& variables = all_.kinematics.variables();
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    if (variables[i].quaternion == static_cast<int>(i)) {
+      Eigen::Vector4d from, difference;
+      for (std::size_t k = 0; k < 4; ++k) {
+        from[static_cast<Eigen::Index>(k)] = memory_.from[i + k][lane];
+        difference[static_cast<Eigen::Index>(k)] = memory_.difference[i + k][lane];
+      }
+      const Eigen::Vector4d turn = turned(from, difference, at);
+      for (std::size_t k = 0; k < 4; ++k) memory_.values[i + k].set(lane, turn[static_cast<Eigen::Index>(k)]);
+    } else if (variables[i].quaternion < 0) {
+      memory_.values[i].set(lane, memory_.from[i][lane] + at * memory_.difference[i][lane]);
+    }
+  }
+}
+
+/// Finds how near to each other shapes must be in the middle of a part to matter.
+void EdgeSearch::findReaches(std::size_t lane) {
+  EdgeInWork& work = memory_.edges[lane];
+  const MotionBounds::HalfPart half{memory_.groups, memory_.placed, all_.snapshot->origin(), lane,
+                                    0.5 * (work.part.tip - work.part.begin) * (1.0 + 1e-6)};
+  const float slack = roundedUp(kSlack);
+  if (work.searches_all) {
+    for (std::size_t i = 0; i < memory_.shape_reach.size(); ++i) {
+      all_.motion.findPart(i, half, work.motion);
+      memory_.shape_reach[i][lane] = all_.motion.reachOf(i, work.motion) + slack;
+    }
+    for (std::size_t i = 0; i < memory_.pair_reach.size(); ++i) {
+      memory_.pair_reach[i][lane] = all_.motion.reachOfPair(i, work.motion) + slack;
+    }
+    return;
+  }
+  for (std::size_t i = work.part.first; i < work.part.first + work.part.count; ++i) {
+    const NearShapes& near = work.candidates[i];
+    all_.motion.findPart(near.own, half, work.motion);
+    if (near.with == With::self) {
+      all_.motion.findPart(near.other, half, work.motion);
+      memory_.pair_reach[near.pair][lane] = all_.motion.reachOfPair(near.pair, work.motion) + slack;
+    } else {
+      memory_.shape_reach[near.own][lane] = all_.motion.reachOf(near.own, work.motion) + slack;
+    }
+  }
+}
+
+/// Returns whether a part of this length is not divided any more.
+bool EdgeSearch::isShort(const EdgeInWork& work, double length) const {
+  return length * work.path <= 0.5 * request_.tolerance || length <= kShortest;
+}
+
+/// Uses what the search found in the middle of a part.
+void EdgeSearch::use(std::size_t lane) {
+  EdgeInWork& work = memory_.edges[lane];
+  const double length = work.part.tip - work.part.begin;
+  if (!search_.contacts(lane).empty()) {
+    useContact(work, search_.contacts(lane).front());
+  } else if (work.probed < work.probes) {
+    ++work.probed;
+  } else {
+    std::optional<std::uint32_t> doubt;
+    if (!all_.doubts.none() && (work.searches_all || work.part.in_doubt)) {
+      doubt = all_.doubts.findNear(search_.robotIn(lane), 0.5 * length * work.path + kSlack);
+    }
+    if (search_.kept(lane).empty() && !doubt) {
+      work.begin = work.part.tip;
+      if (work.searches_all) work.step = 2.0 * length;
+    } else {
+      divide(work, lane, doubt);
+    }
+  }
+  if (!isDone(work)) return;
+  finish(lane, true);
+  begin(lane);
+}
+
+/// Returns whether nothing of an edge is left to be examined. Drops the parts behind a contact.
+bool EdgeSearch::isDone(EdgeInWork& work) const {
+  if (work.contact && request_.any_contact) return true;
+  while (!work.parts.empty() && work.parts.back().begin >= work.end) work.parts.pop_back();
+  const double rest = work.end - work.begin;
+  return rest <= 0.0 || (work.contact && isShort(work, rest));
+}
+
+/// Uses a contact in the middle of a part. What comes before it is examined next.
+void EdgeSearch::useContact(EdgeInWork& work, const StatePair& contact) const {
+  EdgePart& part = work.part;
+  work.contact = contact;
+  work.end = 0.5 * (part.begin + part.tip);
+  if (work.searches_all) {
+    work.step = 0.5 * (work.end - work.begin);
+  } else {
+    work.parts.push_back({part.begin, work.end, part.first, part.count, part.in_doubt});
+  }
+}
+
+/// Divides a part that may have a contact, or leaves it if it is already short.
+void EdgeSearch::divide(EdgeInWork& work, std::size_t lane, std::optional<std::uint32_t> doubt) const {
+  const EdgePart part = work.part;
+  const double length = part.tip - part.begin;
+  if (isShort(work, length)) {
+    if (work.uncertain_from == kNowhere) {
+      work.uncertain_from = part.begin;
+      work.doubt = doubt;
+      if (!doubt) work.near = search_.nearPair(lane);
+    }
+    work.begin = part.tip;
+    if (work.searches_all) work.step = 2.0 * length;
+    return;
+  }
+  const std::vector<NearShapes>& kept = search_.kept(lane);
+  const std::size_t first = work.candidates.size();
+  const double middle = 0.5 * (part.begin + part.tip);
+  work.candidates.insert(work.candidates.end(), kept.begin(), kept.end());
+  work.parts.push_back({middle, part.tip, first, kept.size(), doubt.has_value()});
+  work.parts.push_back({part.begin, middle, first, kept.size(), doubt.has_value()});
+  if (!work.searches_all) return;
+  work.step = kept.size() <= kFewNear ? length : 0.5 * length;
+}
+
+/// Writes the answer for the edge of a lane.
+void EdgeSearch::finish(std::size_t lane, bool in_time) {
+  EdgeInWork& work = memory_.edges[lane];
+  EdgeAnswer& answer = answers_.edges[work.edge];
+  work.active = false;
+  answer.first_pair = static_cast<std::uint32_t>(answers_.pairs.size());
+  answer.free_until = doubt_ ? 0.0 : std::min(work.begin, work.uncertain_from);
+  if (work.contact) {
+    answer.verdict = Verdict::hit;
+    answer.at = work.end;
+    answers_.pairs.push_back(*work.contact);
+  } else if (!in_time) {
+    answer.because = Unknown::budget;
+  } else if (doubt_ || work.doubt) {
+    answer.detail = doubt_ ? *doubt_ : *work.doubt;
+    answer.because = all_.doubts[answer.detail].because;
+  } else if (work.near) {
+    answer.because = Unknown::tolerance;
+    answers_.pairs.push_back(*work.near);
+  } else {
+    answer.verdict = Verdict::clear;
+  }
+  answer.pairs = static_cast<std::uint32_t>(answers_.pairs.size()) - answer.first_pair;
+}
+
+}  // namespace hgrid

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+//
+// Edges of the turning arm, see turning_arm.h. Its sphere moves on a circle of radius 0.5 m.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "test/queries/states/turning_arm.h"
+
+namespace hgrid {
+namespace {
+
+using namespace test;
+
+constexpr double kQuarter = 1.5707963267948966;
+
+/// Returns the angle at which the sphere of the arm begins to touch a ball of the same size, at `angle` on its circle.
+double touchingAngle(double angle) { return angle - 2.0 * std::asin(0.1 / 0.5); }
+
+TEST(EdgeAnswers, AHitHasTheFirstContactAndThePair) {
+  ArmWorld world;
+  put(world.scene, ArmWorld::ballBody("ball"), at(0, 0.5));
+  const EdgeAnswer& answer = world.checkEdge(0, kQuarter + 1.0);
+  ASSERT_EQ(answer.verdict, Verdict::hit);
+  const double first = touchingAngle(kQuarter) / (kQuarter + 1.0), tolerance = 1e-3 / 0.6;
+  EXPECT_NEAR(answer.at, first, tolerance);
+  EXPECT_GE(answer.at, first);
+  EXPECT_LE(answer.free_until, first);
+  EXPECT_GT(answer.free_until, first - 2 * tolerance);
+  ASSERT_EQ(answer.pairs, 1u);
+  const StatePair& pair = world.edge_answers.pairs[0];
+  const BodyList& bodies = world.snapshot->structure().bodies;
+  EXPECT_EQ(bodies[pair.first].name, "robot/arm");
+  EXPECT_EQ(bodies[pair.second].name, "obstacle/ball");
+  EXPECT_TRUE(isContact(pair.proximity.status));
+  EXPECT_EQ(world.edge_sentence, "");
+}
+
+TEST(EdgeAnswers, ASmallerToleranceLocatesTheContactBetter) {
+  ArmWorld world;
+  put(world.scene, ArmWorld::ballBody("ball"), at(0, 0.5));
+  EdgeRequest request;
+  request.tolerance = 1e-5;
+  const EdgeAnswer& answer = world.checkEdge(0, kQuarter, request);
+  EXPECT_NEAR(answer.at * kQuarter, touchingAngle(kQuarter), 1e-5 / 0.5);
+}
+
+TEST(EdgeAnswers, AnEdgeThatEndsBeforeTheBallIsClear) {
+  ArmWorld world;
+  put(world.scene, ArmWorld::ballBody("ball"), at(0, 0.5));
+  const EdgeAnswer& answer = world.checkEdge(0, touchingAngle(kQuarter) - 0.01);
+  EXPECT_EQ(answer.verdict, Verdict::clear);
+  EXPECT_EQ(answer.free_until, 1.0);
+  EXPECT_EQ(answer.pairs, 0u);
+  EXPECT_TRUE(std::isnan(answer.at));
+}
+
+TEST(EdgeAnswers, AnEdgeWithoutMotionIsTheStateItself) {
+  ArmWorld world;
+  put(world.scene, ArmWorld::ballBody("ball"), at(0, 0.5));
+  EXPECT_EQ(world.checkEdge(0, 0).verdict, Verdict::clear);
+  EXPECT_EQ(world.checkEdge(kQuarter, kQuarter).verdict, Verdict::hit);
+}
+
+TEST(EdgeAnswers, ShapesThatPassEachOtherWithinTheToleranceAreUnknownUntilItIsSmaller) {
+  ArmWorld world;
+  put(world.scene, ArmWorld::ballBody("ball"), at(0, 0.5 + 0.2 + 1e-4));  // the arm passes it at 0.1 mm
+  const EdgeAnswer& near = world.checkEdge(0, 2 * kQuarter);
+  EXPECT_EQ(near.verdict, Verdict::unknown);
+  EXPECT_EQ(near.because, Unknown::tolerance);
+  EXPECT_NEAR(near.free_until, 0.5, 0.02);
+  EXPECT_TRUE(says(world.edge_sentence, "robot/arm and obstacle/ball come within"));
+  EdgeRequest request;
+  request.tolerance = 2e-5;
+  EXPECT_EQ(world.checkEdge(0, 2 * kQuarter, request).verdict, Verdict::clear);
+}
+
+TEST(EdgeAnswers, AContactAfterANearPassIsStillFound) {
+  ArmWorld world;
+  put(world.scene, ArmWorld::ballBody("ball"), at(0, 0.5 + 0.2 + 1e-4));
+  put(world.scene, ArmWorld::ballBody("wall"), at(-0.5));
+  const EdgeAnswer& answer = world.checkEdge(0, 2 * kQuarter);
+  EXPECT_EQ(answer.verdict, Verdict::hit);
+  EXPECT_NEAR(answer.free_until, 0.5, 0.02);
+  EXPECT_NEAR(answer.at * 2 * kQuarter, touchingAngle(2 * kQuarter), 3e-3);
+}
+
+/// Claim: the parts into which an edge is divided leave nothing out. A wire meets the fastest point of a cube on the
+/// arm.
+TEST(EdgeAnswers, NoConfigurationBeforeFreeUntilIsInContact) {
+  Random random(1);
+  RobotModel model = turningArm();
+  model.links[1].shapes = {solidShape(Shape::box({0.2, 0.2, 0.2}), at(0.5))};
+  for (int i = 0; i < 300; ++i) {
+    ArmWorld world({}, model);
+    Body wire = obstacle("wire", Mobility::fixed);
+    wire.shapes = {solidShape(Shape::box({1e-4, 1e-4, 0.3}))};
+    put(world.scene, wire, at(0.6));
+    const double from = random.uniform(-1.4, -0.3), to = random.uniform(-0.1, 0.1);
+    const EdgeAnswer answer = world.checkEdge(from, to);
+    ASSERT_EQ(answer.verdict, Verdict::hit);
+    EXPECT_EQ(world.verdictAt(from + answer.at * (to - from)), Verdict::hit);
+    EXPECT_EQ(world.verdictAt(from + answer.free_until * (to - from)), Verdict::clear);
+    double low = -0.3, high = -0.1;  // the first contact is between them
+    while (high - low > 1e-9) {
+      const double middle = 0.5 * (low + high);
+      (world.verdictAt(middle) == Verdict::clear ? low : high) = middle;
+    }
+    EXPECT_LE(from + answer.free_until * (to - from), high);
+    EXPECT_LE(from + answer.at * (to - from), high + 1e-3 / 0.6);
+  }
+}
+
+TEST(EdgeAnswers, AJointWithoutLimitsTakesTheShorterWay) {
+  RobotModel model = turningArm();
+  model.links[1].continuous = true;
+  ArmWorld free({}, model), limited;
+  for (ArmWorld* world : {&free, &limited}) put(world->scene, ArmWorld::ballBody("ball"), at(0.5));
+  const double from = kQuarter, to = -2 * kQuarter;  // through 0, or through half a turn
+  EXPECT_EQ(free.checkEdge(from, to).verdict, Verdict::clear);
+  EXPECT_EQ(limited.checkEdge(from, to).verdict, Verdict::hit);
+  EXPECT_TRUE(limited.edge_answers.edges[0].beyond_limits);
+}
+
+TEST(EdgeAnswers, AnInvalidEdgeIsRefusedByNameAndTheOthersAreAnswered) {
+  ArmWorld world;
+  world.check({0, std::nan(""), 1});
+  const StateChecker checker(world.snapshot, Kinematics(world.model), "robot", narrowPhase());
+  EdgeAnswers answers;
+  checker.checkEdges(world.batch, {{0, 2}, {0, 1}, {1, 2}, {3, 0}, {2, 0}}, {}, world.scratch, answers);
+  const std::vector<Code> codes{Code::ok, Code::nonfinite, Code::nonfinite, Code::out_of_range, Code::ok};
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    SCOPED_TRACE(i);
+    EXPECT_EQ(answers.edges[i].refused, codes[i]);
+    EXPECT_EQ(answers.edges[i].verdict, codes[i] == Code::ok ? Verdict::clear : Verdict::unknown);
+  }
+  EXPECT_TRUE(says(checker.sentenceOf(world.batch, answers, 2), "edge 2, state 1: joint 'arm_joint'"));
+  EXPECT_TRUE(says(checker.sentenceOf(world.batch, answers, 3), "edge 3 has the state 3"));
+  EXPECT_TRUE(says(checker.sentenceOf(world.batch, answers, 3), "number of states, 3"));
+}
+
+TEST(EdgeAnswers, TheToleranceMustBeReasonable) {
+  ArmWorld world;
+  for (const double tolerance : {0.0, 1e-7, 2.0, std::nan("")}) {
+    std::string sentence;
+    EdgeRequest request;
+    request.tolerance = tolerance;
+    EXPECT_EQ(refusalOf([&] { world.checkEdge(0, 1, request); }, &sentence), Code::out_of_range);
+    EXPECT_TRUE(says(sentence, text(tolerance)) && says(sentence, "between 1e-6 and 1"));
+  }
+}
+
+TEST(EdgeAnswers, AfterTheDeadlineEdgesAreUnknown) {
+  ArmWorld world;
+  EdgeRequest request;
+  request.deadline = std::chrono::steady_clock::now();
+  const EdgeAnswer& answer = world.checkEdge(0, 1, request);
+  EXPECT_EQ(answer.verdict, Verdict::unknown);
+  EXPECT_EQ(answer.because, Unknown::budget);
+  EXPECT_EQ(answer.free_until, 0.0);
+  EXPECT_TRUE(says(world.edge_sentence, "deadline"));
+}
+
+TEST(EdgeAnswers, AnUnseenBodyMakesOnlyTheEdgesUnknownThatPassIt) {
+  ArmWorld world;
+  SourceGap gap;
+  gap.source = "sensor";
+  gap.sentence = "it lost a cloud";
+  gap.within = Sphere{Eigen::Vector3d(0, 0.5, 0), 0.05};
+  world.gaps.push_back(gap);
+  EXPECT_EQ(world.checkEdge(0, -1).verdict, Verdict::clear);
+  const EdgeAnswer& answer = world.checkEdge(0, kQuarter);
+  EXPECT_EQ(answer.verdict, Verdict::unknown);
+  EXPECT_EQ(answer.because, Unknown::incomplete);
+  EXPECT_GT(answer.free_until, 0.5);
+  EXPECT_LT(answer.free_until, 1.0);
+  EXPECT_TRUE(says(world.edge_sentence, "it lost a cloud"));
+  world.gaps[0].within.reset();  // now it can be anywhere
+  EXPECT_EQ(world.checkEdge(0, -1).verdict, Verdict::unknown);
+  EXPECT_EQ(world.edge_answers.edges[0].free_until, 0.0);
+}
+
+}  // namespace
+}  // namespace hgrid
