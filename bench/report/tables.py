@@ -26,6 +26,12 @@ MESHES_NOTE = ('Mean µs per distance of two meshes, hgrid / FCL. The second mes
                'since then, as in the node. Both libraries find the same distances; ✗ = they differ by more than '
                '1e-9, or FCL was not found.')
 
+EDGES_NOTE = ('Median processor time per edge [µs], hgrid / FCL, and the median of the ratios of successive turns. An edge '
+              'goes straight from one state without contact to another, at most 1 rad or at most 4 rad far. hgrid '
+              'examines all configurations; FCL tests one configuration for each 1 cm of motion, in the way of MoveIt, '
+              'and stops at the first contact. In contact: hgrid looks for any contact; first: hgrid looks for the first '
+              'one, to 1 mm. Missed: contacts that the samples miss. All verdicts are compared.')
+
 NODE_MAPS_NOTE = ('Every second, a message (binary, like octomap_binary of octomap_server) brings a map in which 1 % '
                   'of the leaves have changed. Spans of time with the map at rest and with such messages take turns. '
                   'query_sphere and query_segment: round trips over persistent connections, 200 per second together. '
@@ -230,6 +236,26 @@ def states(figures):
     return table(['robot', 'boxes', 'without contact', 'in contact'], rows)
 
 
+def edges(figures):
+    """One row per robot and number of boxes: times for edges without contact and in contact."""
+    rows = []
+    found = figures.all('edges')
+    for robot, boxes in dict.fromkeys((record['robot'], record['boxes']) for record in found):
+        clear = figures.one('edges', robot=robot, boxes=boxes, which='clear')
+        hit = figures.one('edges', robot=robot, boxes=boxes, which='in contact')
+        cells = []
+        for record, ours, ratio in ((clear, 'hgrid_us', 'ratio'), (clear, None, 'ratio_1mm'), (hit, 'any_us', 'any_ratio'),
+                                    (hit, 'hgrid_us', 'ratio')):
+            if record is None:
+                cells.append('–')
+                continue
+            times = '' if ours is None else '%s / %s: ' % (short(record[ours]), short(record['fcl_us']))
+            cells.append('%s%s times%s' % (times, short(record[ratio]), '' if record['correct'] else ' ✗'))
+        any_record = clear or hit
+        rows.append([robot, count(boxes)] + cells + ['%d of %d' % (any_record['missed'], any_record['edges'])])
+    return table(['robot', 'boxes', 'clear', 'clear, each 1 mm', 'in contact', 'in contact, first', 'missed'], rows)
+
+
 def sections(figures):
     """Returns title and text of each table for which there are figures."""
     cells = PEER_NOTE % 'uniform / mixed / floor / robots'
@@ -259,6 +285,8 @@ def sections(figures):
         found.append(('Meshes', MESHES_NOTE + '\n\n' + meshes(figures)))
     if figures.all('states'):
         found.append(('States of robots', STATES_NOTE + '\n\n' + states(figures)))
+    if figures.all('edges'):
+        found.append(('Edges of robots', EDGES_NOTE + '\n\n' + edges(figures)))
     if figures.all('node', maps_per_s=None):
         found.append(('The node', node(figures)))
     if figures.all('node', maps_per_s=1):
