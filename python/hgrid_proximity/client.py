@@ -19,6 +19,7 @@ from __future__ import annotations
 
 from typing import Iterable, Optional, Union
 
+import numpy
 import rospy
 from geometry_msgs.msg import Vector3
 
@@ -27,6 +28,7 @@ from hgrid_proximity.errors import NoAnswer, Refused
 from hgrid_proximity.events import Events
 from hgrid_proximity.msg import Obstacle, RobotChange, Shape, Verdict
 from hgrid_proximity.service import LONGEST, Service
+from hgrid_proximity.states import Edges, States
 from hgrid_proximity.streams import DistanceArrays, PairArrays, as_arrays
 from hgrid_proximity.values import UPRIGHT, as_point, as_pose, globs, numbers
 
@@ -100,6 +102,8 @@ class Proximity:
                 ("query_shape", srv.QueryShape),
                 ("query_nearest", srv.QueryNearest),
                 ("explain_pair", srv.ExplainPair),
+                ("check_states", srv.CheckStates),
+                ("check_edges", srv.CheckEdges),
             )
         }
         self._changes = {
@@ -174,6 +178,40 @@ class Proximity:
         if not response.success:
             raise Refused(response.code.name, response.code.text)
         return response
+
+    def check_states(self, joint_names: Iterable[str], positions, max_clearance: float = 0.0, **options) -> States:
+        """Would the robot touch anything if its joints stood at these positions?
+
+        @param positions  [rad or m] array of n rows, one for each state, with one number for each joint
+        @param max_clearance  [m] also measure how far the robot is from contact, up to this distance; 0: only verdicts
+
+        Options of check_states() and check_edges():
+            robot: name of the robot; otherwise the robot that has these joints
+            group: name of a group of the SRDF: only contacts of what its joints move count
+            base: geometry_msgs/Pose of the root link in the world frame; otherwise it is where tf says
+            ignore: globs over the names of bodies that are not checked
+            lease: `response.lease` of an earlier answer, to ask the same state of the world
+            keep: [s] how long the node should keep this state of the world for further requests
+            max_time: [s] time limit, at most 10
+        """
+        request = srv.CheckStatesRequest(positions=_rows("positions", positions), max_clearance=max_clearance)
+        return States(self._check(srv.CheckStates, request, joint_names, **options))
+
+    def check_edges(
+        self, joint_names: Iterable[str], start, end, tolerance: float = 0.0, any_contact: bool = False, **options
+    ) -> Edges:
+        """Would the robot touch anything on the straight ways from these joint positions to those?
+
+        Clear is proved for all positions on the way, not only for samples.
+
+        @param start, end  [rad or m] arrays of n rows, one for each edge, with one number for each joint
+        @param tolerance  [m] contacts are found to this accuracy; 0: 1 mm
+        @param any_contact  True: any contact ends the search, which is faster; False: look for the first one
+        @param options  see check_states()
+        """
+        request = srv.CheckEdgesRequest(tolerance=tolerance, any_contact=any_contact)
+        request.start, request.end = _rows("start", start), _rows("end", end)
+        return Edges(self._check(srv.CheckEdges, request, joint_names, **options))
 
     def apply_obstacles(self, *changes: Obstacle, complete_set: bool = False, owner: str = "", max_time: float = 0.0):
         """Makes all changes in their order, or none of them. `hgrid_proximity.obstacles` has functions that make changes.
@@ -268,10 +306,40 @@ class Proximity:
             text = f"{topic}: no message within {self._timeout:g} s. Check the node: `rosnode ping {self._node}`"
             raise NoAnswer(text) from error
 
+    def _check(
+        self,
+        kind,
+        request,
+        joint_names: Iterable[str],
+        robot: str = "",
+        group: str = "",
+        base=None,
+        ignore: Union[str, Iterable[str]] = (),
+        lease=None,
+        keep: float = 0.0,
+        max_time: float = 0.0,
+    ):
+        request.robot, request.group, request.joint_names = robot, group, list(joint_names)
+        request.ignore, request.max_time, request.use_base = globs(ignore), max_time, base is not None
+        if base is not None:
+            request.base = base
+        if lease is not None:
+            request.lease.epoch, request.lease.sequence = lease.epoch, lease.sequence
+        request.lease.lasts = rospy.Duration.from_sec(keep)
+        return self._services[kind](request, 10.0)  # the longest time limit of these services
+
     def _query(self, kind, request, options) -> Answer:
         _apply(request, **options)
         extra = min(request.max_time, LONGEST) if request.max_time > 0.0 else 0.0  # [s] max_time may be infinite
         return Answer(self._services[kind](request, extra))
+
+
+def _rows(name: str, values):
+    """Returns an array of rows as a flat list. @throws ValueError if it does not have two dimensions"""
+    rows = numpy.asarray(values, numpy.float64)
+    if rows.ndim != 2:
+        raise ValueError(f"{name} has {rows.ndim} dimensions; it must be rows with one number for each joint")
+    return rows.ravel()
 
 
 def _apply(

@@ -18,7 +18,8 @@ namespace hgrid {
 /// An angle without limits takes the shorter way around the circle; this includes the angle of a planar joint. The
 /// quaternion of a floating joint turns at constant speed along the shorter way.
 struct StateEdge {
-  std::uint32_t from = 0, to = 0;  ///< indices of states in the batch
+  std::uint32_t from = 0;  ///< index of the state where the edge begins
+  std::uint32_t to = 0;    ///< index of the state where it ends
 };
 
 /// What StateChecker::checkEdges() looks for.

@@ -88,9 +88,10 @@ void visitParams(Visitor& v, Params& p) {
       "moveit/topics", p.moveit_topics,
       "whether to read MoveIt's topics collision_object, attached_collision_object and planning_scene; their objects "
       "are obstacles of the owner 'moveit'. See doc/moveit.md");
-  v.flag("moveit/services", p.moveit_services,
-         "whether to offer MoveIt's services get_planning_scene, apply_planning_scene and check_state_validity. Set this "
-         "only where no move_group offers them in the same namespace");
+  v.flag(
+      "moveit/services", p.moveit_services,
+      "whether to offer MoveIt's services get_planning_scene, apply_planning_scene and check_state_validity. Set this "
+      "only where no move_group offers them in the same namespace");
   v.flag("moveit/allowed_collision_matrix", p.moveit_matrix,
          "whether the allowed collision matrix of a planning scene switches off pairs: its names of links and objects "
          "that may touch become rules, at most ~max_rules. The parameter ~allowed_pairs and the service ~set_allowed "
@@ -296,6 +297,9 @@ void visitParams(Visitor& v, Params& p) {
             "message is dropped");
   v.integer("max_hits", p.max_hits, 1, 1000000,
             "largest number of hits in one answer; if there are more, the answer is truncated");
+  v.integer("max_batch", p.max_batch, 1, 10000000,
+            "largest number of states or edges in a request of ~check_states or ~check_edges; a request with more is "
+            "refused");
   v.integer(
       "max_listed", p.max_listed, 1, 100000,
       "largest number of bodies, and of sources, that a message lists as not complete or not fresh, and of entries of "
@@ -322,6 +326,10 @@ void visitParams(Visitor& v, Params& p) {
   v.changeable();
   v.integer("query_threads", p.query_threads, 1, 64,
             "number of threads that answer queries; a query waits only while all of them are busy");
+  v.number(
+      "lease_max", p.lease_max, "s", 0.0, 3600.0,
+      "longest time for which a request can make the node keep a tick (a lease), so that later requests are answered "
+      "from the same tick; the node keeps at most 16 ticks");
   v.number("audit_rate", p.audit_rate, "Hz", 0.0, 10.0,
            "how many ticks per second are audited: a thread of low priority computes the poses, the pairs and some "
            "queries of the tick again, by brute force from the transforms as they were received; 0: none");

@@ -157,12 +157,13 @@ struct Params {
       tf_queue_bytes = 16 << 20;
   int history_bytes = 64 << 20;
   int max_pairs = 100000, max_events = 10000, event_queue = 100;
-  int max_hits = 10000, max_listed = 100, max_reasons = 8, max_rules = 1000;
+  int max_hits = 10000, max_batch = 100000, max_listed = 100, max_reasons = 8, max_rules = 1000;
   int max_description_bytes = 16 << 20, max_description_depth = 256, max_links = 2000;
   std::vector<std::string> mesh_roots;
   int max_mesh_bytes = 64 << 20, max_mesh_triangles = 1000000, mesh_memory = 512 << 20;
   double mesh_timeout = 5.0;
   int query_threads = 8;
+  double lease_max = 10.0;
   double marker_rate = 5.0;
   double audit_rate = 0.2;
   std::string audit_folder;

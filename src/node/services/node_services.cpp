@@ -15,6 +15,7 @@ NodeServices::NodeServices(const ros::NodeHandle& query_node, const ros::NodeHan
     : questions_(query_node, newest, commons.ledger),
       changes_(admin_node, newest, commons.ledger),
       query_(questions_, commons.settings.params, transforms, history, commons.narrow_phase, sketch),
+      states_(questions_, commons.settings.params, transforms, commons.narrow_phase),
       explain_(questions_, commons.settings.params, history, commons.narrow_phase),
       allowed_(changes_, commons.settings.params, change_world, [&state] { return state.waitUntilStored(); }),
       maps_(changes_, loading.mapSource(), change_world,

@@ -15,6 +15,7 @@
 #include "node/services/reset_service.h"
 #include "node/services/robot_service.h"
 #include "node/services/scene_file_services.h"
+#include "node/services/state_services.h"
 #include "node/state/state_keeper.h"
 #include "node/tf/transform_lookup.h"
 #include "node/tick/tick_history.h"
@@ -33,9 +34,13 @@ class NodeServices {
                const TickHistory& history, Loading& loading, StateKeeper& state, Stopwatch& stopwatch,
                QuerySketch& sketch);
 
+  /// Forgets the ticks of leases that have ended. Any thread may call this.
+  void dropEndedLeases() { states_.dropEndedLeases(); }
+
  private:
   ServiceEnvelope questions_, changes_;
   QueryServices query_;
+  StateServices states_;
   ExplainService explain_;
   AllowedServices allowed_;
   MapServices maps_;

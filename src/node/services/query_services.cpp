@@ -3,7 +3,6 @@
 #include "node/services/query_services.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -13,12 +12,11 @@
 #include "hgrid_proximity/pairs/pair_rule.h"
 #include "hgrid_proximity/queries/query.h"
 #include "node/messages/from_messages.h"
+#include "node/services/request_checks.h"
 #include "node/tf/frame_names.h"
 
 namespace hgrid {
 namespace {
-
-constexpr std::size_t kMostPatterns = 256, kLongestPattern = 512;  // patterns in a request; bytes in a pattern
 
 /// Whether a body is an obstacle that is attached to a link.
 bool isCarried(const Structure& structure, const std::string& body) {
@@ -73,18 +71,6 @@ std::string summaryOf(const QueryAnswer& found, const Snapshot& snapshot, std::o
   return "HIT: " + std::to_string(found.total) + (found.total == 1 ? " body" : " bodies") + first;
 }
 
-void checkPatterns(const std::vector<std::string>& patterns) {
-  if (patterns.size() > kMostPatterns) {
-    throw Refusal(Code::limit, "the query has " + std::to_string(patterns.size()) + " name patterns; at most " +
-                                   std::to_string(kMostPatterns) + " are allowed");
-  }
-  for (const std::string& pattern : patterns) {
-    if (pattern.size() <= kLongestPattern) continue;
-    throw Refusal(Code::bad_id, "name pattern '" + printable(pattern, 48) + "' has " + std::to_string(pattern.size()) +
-                                    " bytes; at most " + std::to_string(kLongestPattern) + " are allowed");
-  }
-}
-
 /// Returns the index of the body of this name. @throws Refusal unknown_id
 std::uint32_t indexOf(const Snapshot& snapshot, const std::string& name) {
   const std::uint32_t body = snapshot.structure().find(name);
@@ -100,18 +86,6 @@ std::string asBody(const Request& request) {
 }
 std::string asBody(const msg::QueryNearest::Request& request) {
   return request.as_body.empty() ? request.body : request.as_body;
-}
-
-/// Returns when the time of a query is over; nullopt: there is no limit.
-/// @throws Refusal out_of_range unless max_time [s] is 0 or positive
-std::optional<std::chrono::steady_clock::time_point> deadlineOf(double max_time) {
-  constexpr double kLongest = 1e6;  // [s] a longer time counts as no limit
-  if (!(max_time >= 0.0)) {
-    throw Refusal(Code::out_of_range, "max_time is " + text(max_time) + " s; it must be 0 (no limit) or positive");
-  }
-  if (max_time == 0.0 || max_time > kLongest) return std::nullopt;
-  using Clock = std::chrono::steady_clock;
-  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(max_time));
 }
 
 /// Returns the number of bodies that a query asks about.

@@ -120,4 +120,20 @@ const LoadedRobot& robotWith(const std::vector<std::string>& joints, const std::
                                     ") have the joints of the request; write their names as robot/joint");
 }
 
+const LoadedRobot& robotNamed(const std::string& name, const Tick& tick) {
+  const auto found = tick.robots->find(name);
+  if (found == tick.robots->end()) {
+    std::string known;
+    std::size_t count = 0;
+    for (const auto& [other, entry] : *tick.robots) {
+      if (++count <= kMostListed) known += (known.empty() ? "" : ", ") + other;
+    }
+    if (count > kMostListed) known += " and " + std::to_string(count - kMostListed) + " more";
+    throw Refusal(Code::unknown_id, "there is no robot '" + printable(name) + "'; " +
+                                        (known.empty() ? "there are no robots" : "the robots are " + known));
+  }
+  if (!found->second.inWorld()) throw Refusal(Code::not_ready, "robot '" + name + "' is not in the world");
+  return usable(*found->second.model);
+}
+
 }  // namespace hgrid

@@ -21,4 +21,7 @@ std::string jointOf(const std::string& name, const std::string& robot);
 /// @throws Refusal limit if the request names more joints than any robot can have
 const LoadedRobot& robotWith(const std::vector<std::string>& joints, const std::string& group, const Tick& tick);
 
+/// Returns the robot of this name. @throws Refusal unknown_id; not_ready as robotWith()
+const LoadedRobot& robotNamed(const std::string& name, const Tick& tick);
+
 }  // namespace hgrid

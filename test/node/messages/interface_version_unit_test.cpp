@@ -10,6 +10,8 @@
 #include <hgrid_proximity/Bodies.h>
 #include <hgrid_proximity/Body.h>
 #include <hgrid_proximity/BodyStatus.h>
+#include <hgrid_proximity/CheckEdges.h>
+#include <hgrid_proximity/CheckStates.h>
 #include <hgrid_proximity/ClearMap.h>
 #include <hgrid_proximity/ClockOffset.h>
 #include <hgrid_proximity/Code.h>
@@ -20,6 +22,7 @@
 #include <hgrid_proximity/Gauge.h>
 #include <hgrid_proximity/GetAllowed.h>
 #include <hgrid_proximity/Hit.h>
+#include <hgrid_proximity/Lease.h>
 #include <hgrid_proximity/LoadOctomap.h>
 #include <hgrid_proximity/LoadScene.h>
 #include <hgrid_proximity/Obstacle.h>
@@ -56,7 +59,7 @@ namespace {
 
 namespace msg = ::hgrid_proximity;
 
-constexpr std::uint32_t kPinnedVersion = 5;  // interface version of the MD5 sums below
+constexpr std::uint32_t kPinnedVersion = 6;  // interface version of the MD5 sums below
 
 /// A message or service file, its MD5 sum, and the MD5 sum that it must have in this interface version.
 struct Pin {
@@ -96,6 +99,7 @@ const std::vector<Pin>& pins() {
       message<msg::SourceStatus>("SourceStatus", "5d4419b44e109dac842346aa9930398a"),
       message<msg::Status>("Status", "51359a8c0fc26c3cdf24786276194ced"),
       message<msg::Timing>("Timing", "ffa7e14ed99c15133b8734e32bdf8366"),
+      message<msg::Lease>("Lease", "f42ec0bd4d9e2aedc5b12b61edaec0ca"),
       message<msg::WorldState>("WorldState", "6e7f0e7ad23b6a55d3f532ba2a769931"),
       service<msg::ApplyObstacles>("ApplyObstacles", "f52ed5b3192f3c3a90fdc43ee3f2801d"),
       service<msg::ApplyRobots>("ApplyRobots", "7c47cace6728675cd273ddc573cd5ece"),
@@ -104,6 +108,8 @@ const std::vector<Pin>& pins() {
       service<msg::GetAllowed>("GetAllowed", "a7c3ddc68c8114168a385cee5844a3f2"),
       service<msg::LoadOctomap>("LoadOctomap", "93e62be52a707156933524d97672cc2d"),
       service<msg::QueryBox>("QueryBox", "8b378a163990ffc39d9443cb21832dd5"),
+      service<msg::CheckEdges>("CheckEdges", "14428008caf993d36d81ba116eb1ec7f"),
+      service<msg::CheckStates>("CheckStates", "7660636224732c3331cc6872338b676f"),
       service<msg::QueryNearest>("QueryNearest", "1c536a184c73768c2d7173dd305db8f6"),
       service<msg::QuerySegment>("QuerySegment", "83354b4bfa81d8e0a19b2fb48ee25859"),
       service<msg::QueryShape>("QueryShape", "76efaeb6fe39032be58a9723037afe87"),

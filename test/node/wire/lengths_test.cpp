@@ -3,6 +3,8 @@
 //
 // Sends messages and requests to a running node that declare more data than they contain, or more transforms than the
 // node can store.
+#include <hgrid_proximity/CheckEdges.h>
+#include <hgrid_proximity/CheckStates.h>
 #include <hgrid_proximity/ClearMap.h>
 #include <hgrid_proximity/LoadOctomap.h>
 #include <hgrid_proximity/QueryBox.h>
@@ -140,6 +142,8 @@ TEST_F(Lengths, OfRequestsThatTheirBytesDoNotHoldAreRefused) {
   expectChecked<msg::QueryBox>("query_box");
   expectChecked<msg::QueryNearest>("query_nearest");
   expectChecked<msg::QueryShape>("query_shape");
+  expectChecked<msg::CheckStates>("check_states");
+  expectChecked<msg::CheckEdges>("check_edges");
   expectChecked<msg::ExplainPair>("explain_pair");
   expectChecked<msg::SetAllowed>("set_allowed");
   expectChecked<msg::GetAllowed>("get_allowed");

@@ -1,0 +1,86 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: the hgrid_proximity authors
+"""Plans a way between two joint positions with RRT-Connect (Kuffner and LaValle, 2000). The node proves each edge.
+
+Start it beside one_arm.launch: rosrun hgrid_proximity plan.py START... : GOAL...
+"""
+import sys
+
+import numpy
+import rospy
+from hgrid_proximity.client import Proximity
+from hgrid_proximity.errors import ProximityError
+
+JOINTS = ["joint_1", "joint_2", "joint_3", "joint_4", "joint_5", "joint_6"]
+STEP = 1.0  # [rad] largest distance of the ends of an edge, in joint space
+MOST = 3000  # number of tries
+
+
+class Planner:
+    """Plans for one state of the world: the first request gets a lease, and all other requests use it."""
+
+    def __init__(self, proximity, start, goal):
+        self._proximity = proximity
+        ends = proximity.check_states(JOINTS, [start, goal], keep=10.0)
+        if not ends.clear.all():
+            end = int(numpy.argmin(ends.clear))
+            why = ends.text(end) or " touches ".join(ends.pair(end))
+            sys.exit(f"the {('start', 'goal')[end]} is not free: {why}")
+        self._lease, self.edges = ends.response.lease, 0
+
+    def extend(self, tree, target):
+        """Goes from the nearest node of a tree toward the target, as far as it is free. Returns whether it got there."""
+        states = numpy.array([state for state, _ in tree])
+        nearest = int(numpy.argmin(numpy.linalg.norm(states - target, axis=1)))
+        way = target - states[nearest]
+        length = numpy.linalg.norm(way)
+        end = states[nearest] + way * min(1.0, STEP / max(length, STEP))
+        found = self._proximity.check_edges(JOINTS, [states[nearest]], [end], any_contact=True, lease=self._lease)
+        self.edges += 1
+        if not found.clear[0] or found.beyond_limits[0]:
+            return False
+        tree.append((end, nearest))
+        return length <= STEP or self.extend(tree, target)
+
+    def plan(self, start, goal, seed=1):
+        """Returns the states of a free way, or None."""
+        random = numpy.random.RandomState(seed)
+        trees = [[(numpy.array(start), None)], [(numpy.array(goal), None)]]
+        for turn in range(MOST):
+            one, other = trees[turn % 2], trees[1 - turn % 2]
+            self.extend(one, random.uniform(-3, 3, len(JOINTS)))
+            if self.extend(other, one[-1][0]):
+                ways = [to_root(tree, len(tree) - 1) for tree in trees]
+                return ways[0][::-1] + ways[1][1:]
+        return None
+
+
+def to_root(tree, node):
+    """Returns the states from a node of a tree to its root."""
+    way = []
+    while node is not None:
+        state, node = tree[node]
+        way.append(state)
+    return way
+
+
+def main():
+    rospy.init_node("plan", anonymous=True)
+    numbers = " ".join(rospy.myargv(sys.argv)[1:]).split(":")
+    if len(numbers) != 2 or any(len(end.split()) != len(JOINTS) for end in numbers):
+        sys.exit(__doc__)
+    start, goal = ([float(number) for number in end.split()] for end in numbers)
+    try:
+        planner = Planner(Proximity(), start, goal)
+        way = planner.plan(start, goal)
+    except ProximityError as error:
+        sys.exit(f"no answer; that is not CLEAR: {error}")
+    if way is None:
+        sys.exit(f"no free way was found; {planner.edges} edges were checked")
+    print(f"a free way of {len(way)} states; {planner.edges} edges were checked")
+    print("\n".join(" ".join(f"{value:7.3f}" for value in state) for state in way))
+
+
+if __name__ == "__main__":
+    main()

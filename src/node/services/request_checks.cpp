@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/services/request_checks.h"
+
+#include "hgrid_proximity/refusal.h"
+
+namespace hgrid {
+namespace {
+
+constexpr std::size_t kMostPatterns = 256, kLongestPattern = 512;  // patterns in a request; bytes in a pattern
+
+}  // namespace
+
+void checkPatterns(const std::vector<std::string>& patterns) {
+  if (patterns.size() > kMostPatterns) {
+    throw Refusal(Code::limit, "the query has " + std::to_string(patterns.size()) + " name patterns; at most " +
+                                   std::to_string(kMostPatterns) + " are allowed");
+  }
+  for (const std::string& pattern : patterns) {
+    if (pattern.size() <= kLongestPattern) continue;
+    throw Refusal(Code::bad_id, "name pattern '" + printable(pattern, 48) + "' has " + std::to_string(pattern.size()) +
+                                    " bytes; at most " + std::to_string(kLongestPattern) + " are allowed");
+  }
+}
+
+std::optional<std::chrono::steady_clock::time_point> deadlineOf(double max_time) {
+  constexpr double kLongest = 1e6;  // [s] a longer time counts as no limit
+  if (!(max_time >= 0.0)) {
+    throw Refusal(Code::out_of_range, "max_time is " + text(max_time) + " s; it must be 0 (no limit) or positive");
+  }
+  if (max_time == 0.0 || max_time > kLongest) return std::nullopt;
+  using Clock = std::chrono::steady_clock;
+  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(max_time));
+}
+
+}  // namespace hgrid

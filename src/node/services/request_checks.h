@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hgrid {
+
+// Checks of fields that several kinds of requests have.
+
+/// Checks globs over names of bodies. @throws Refusal limit if there are too many, bad_id if one is too long
+void checkPatterns(const std::vector<std::string>& patterns);
+
+/// Returns when the time of a request is over; nullopt: there is no limit.
+/// @throws Refusal out_of_range unless max_time [s] is 0 or positive
+std::optional<std::chrono::steady_clock::time_point> deadlineOf(double max_time);
+
+}  // namespace hgrid

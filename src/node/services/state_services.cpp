@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/services/state_services.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "node/messages/to_messages.h"
+#include "node/services/request_checks.h"
+#include "node/states/state_question.h"
+
+namespace hgrid {
+namespace {
+
+constexpr double kLongest = 10.0;               // [s] time limit of a request
+constexpr std::uint32_t kNoPair = 4294967295u;  // stands for "no such pair" in the messages
+
+/// Returns when the time of a request is over.
+std::chrono::steady_clock::time_point endOf(double max_time) {
+  return *deadlineOf(max_time == 0.0 || max_time > kLongest ? kLongest : max_time);
+}
+
+template <class Request>
+AskedStates askedOf(const Request& request) {
+  AskedStates asked{request.robot, request.group, request.joint_names, request.ignore, {}};
+  if (request.use_base) asked.base = request.base;
+  return asked;
+}
+
+/// Why no answer from a tick can be CLEAR.
+struct TickDoubt {
+  Unknown because = Unknown::no;
+  std::string sentence;
+
+  /// @param doubt        why nobody knows where the robot would be; may be empty
+  /// @param names_tick  whether the request names its tick, so that the age does not matter
+  TickDoubt(const std::string& doubt, const AnswerTick& tick, bool names_tick) {
+    const double valid_for = tick.get()->settings->params.valid_for;
+    if (!doubt.empty()) {
+      because = Unknown::stale_body;
+      sentence = doubt;
+    } else if (!names_tick && tick.age() > valid_for) {
+      because = Unknown::outdated;
+      sentence = "the newest tick is " + secondsText(tick.age()) + " old; ticks are valid for " + text(valid_for) +
+                 " s (~valid_for)";
+    }
+  }
+};
+
+/// Writes the parts of a response that states and edges have in common.
+template <class Response>
+class AnswerWriter {
+ public:
+  AnswerWriter(const StateChecker& checker, const TickDoubt& doubt, std::size_t count, Response& response)
+      : checker_(checker), doubt_(doubt), response_(response) {
+    response.codes.reserve(count);
+    response.verdicts.reserve(count);
+  }
+  /// Adds an answer. @param sentence  of the answer; empty: it needs none
+  void add(Verdict verdict, Unknown because, Code refused, bool beyond_limits, std::string sentence) {
+    if (verdict == Verdict::clear && doubt_.because != Unknown::no) {
+      verdict = Verdict::unknown;
+      because = doubt_.because;
+      sentence = doubt_.sentence;
+    }
+    response_.codes.push_back(static_cast<std::uint16_t>(refused));
+    response_.verdicts.push_back(static_cast<std::uint8_t>(verdict));
+    response_.unknown_because.push_back(static_cast<std::uint8_t>(because));
+    response_.beyond_limits.push_back(beyond_limits);
+    if (sentence.empty() && response_.texts.empty()) return;
+    response_.texts.resize(response_.codes.size());
+    response_.texts.back() = std::move(sentence);
+  }
+  /// Adds the pair of an answer. @param pair  null: it has none
+  void addPair(const StatePair* pair) {
+    response_.first.push_back(pair == nullptr ? kNoPair : pair->first);
+    response_.second.push_back(pair == nullptr ? kNoPair : pair->second);
+  }
+  /// Replaces the indices of bodies by indices into `names`.
+  void finish() {
+    if (!response_.texts.empty()) response_.texts.resize(response_.codes.size());
+    const BodyList& bodies = checker_.snapshot().structure().bodies;
+    std::vector<std::uint32_t> used(response_.first);
+    used.insert(used.end(), response_.second.begin(), response_.second.end());
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    if (!used.empty() && used.back() == kNoPair) used.pop_back();
+    std::sort(used.begin(), used.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return bodies[a].name < bodies[b].name; });
+    std::vector<std::uint32_t> index(bodies.size(), kNoPair);
+    for (std::uint32_t i = 0; i < used.size(); ++i) {
+      index[used[i]] = i;
+      response_.names.push_back(bodies[used[i]].name);
+    }
+    for (auto* list : {&response_.first, &response_.second}) {
+      for (std::uint32_t& body : *list) body = body == kNoPair ? kNoPair : index[body];
+    }
+  }
+
+ private:
+  const StateChecker& checker_;
+  const TickDoubt& doubt_;
+  Response& response_;
+};
+
+/// Returns where two shapes meet; NaN if that is not known.
+geometry_msgs::Point placeOf(const StatePair* pair) {
+  Eigen::Vector3d place = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  if (pair != nullptr) place = 0.5 * (pair->proximity.on_first + pair->proximity.on_second);
+  return toPoint(place);
+}
+
+}  // namespace
+
+StateServices::StateServices(ServiceEnvelope& envelope, const Params& params, const TransformLookup& transforms,
+                             std::shared_ptr<const NarrowPhase> narrow_phase)
+    : params_(params), transforms_(transforms), narrow_phase_(std::move(narrow_phase)) {
+  servers_.push_back(envelope.serve<msg::CheckStates>("check_states", [this](auto& call) { answer(call); }));
+  servers_.push_back(envelope.serve<msg::CheckEdges>("check_edges", [this](auto& call) { answer(call); }));
+}
+
+/// Makes the response from the tick that the request asks for.
+template <class Service>
+void StateServices::chooseTick(ServiceCall<Service>& call) {
+  call.tick.snapshot();  // throws while there is no world
+  call.answerFrom(leases_.take(call.request.lease, call.tick.get(), call.response.lease));
+}
+
+void StateServices::checkCount(const char* what, std::size_t values, std::size_t joints) const {
+  const std::size_t count = (values + std::max<std::size_t>(1, joints) - 1) / std::max<std::size_t>(1, joints);
+  if (count <= static_cast<std::size_t>(params_.max_batch)) return;
+  throw Refusal(Code::limit, "the request has " + std::to_string(count) + " " + what + "; at most " +
+                                 std::to_string(params_.max_batch) + " are allowed (~max_batch)");
+}
+
+void StateServices::answer(ServiceCall<msg::CheckStates>& call) {
+  const auto& request = call.request;
+  auto& response = call.response;
+  const auto end = endOf(request.max_time);
+  chooseTick(call);
+  checkCount("states", request.positions.size(), request.joint_names.size());
+  const StateQuestion question =
+      stateQuestion(askedOf(request), request.positions, *call.tick.get(), transforms_, narrow_phase_);
+  StateRequest asked;
+  asked.clearance = request.max_clearance;
+  asked.deadline = end;
+  StateScratch scratch;
+  StateAnswers answers;
+  question.checker.checkStates(question.batch, asked, scratch, answers);
+  const TickDoubt doubt(question.doubt, call.tick, request.lease.sequence != 0);
+  AnswerWriter<msg::CheckStates::Response> writer(question.checker, doubt, answers.states.size(), response);
+  for (std::size_t i = 0; i < answers.states.size(); ++i) {
+    const StateAnswer& state = answers.states[i];
+    writer.add(state.verdict, state.because, state.refused, state.beyond_limits,
+               state.because == Unknown::no ? "" : question.checker.sentenceOf(question.batch, answers, i));
+    writer.addPair(state.pairs == 0 ? nullptr : &answers.pairs[state.first_pair]);
+    if (asked.clearance > 0.0) response.clearance.push_back(state.clearance);
+  }
+  writer.finish();
+}
+
+void StateServices::answer(ServiceCall<msg::CheckEdges>& call) {
+  const auto& request = call.request;
+  auto& response = call.response;
+  const auto end = endOf(request.max_time);
+  chooseTick(call);
+  const std::size_t width = request.joint_names.size();
+  if (request.start.size() != request.end.size() || (width > 0 && request.start.size() % width != 0)) {
+    throw Refusal(Code::out_of_range, "start has " + std::to_string(request.start.size()) + " values and end has " +
+                                          std::to_string(request.end.size()) +
+                                          "; both must have one row of joint_names.size() = " + std::to_string(width) +
+                                          " values for each edge");
+  }
+  checkCount("edges", request.start.size(), width);
+  std::vector<double> positions = request.start;
+  positions.insert(positions.end(), request.end.begin(), request.end.end());
+  const auto count = static_cast<std::uint32_t>(width == 0 ? 0 : request.start.size() / width);
+  const StateQuestion question =
+      stateQuestion(askedOf(request), std::move(positions), *call.tick.get(), transforms_, narrow_phase_);
+  std::vector<StateEdge> edges;
+  for (std::uint32_t i = 0; i < count; ++i) edges.push_back({i, count + i});
+  EdgeRequest asked;
+  if (request.tolerance != 0.0) asked.tolerance = request.tolerance;
+  asked.any_contact = request.any_contact;
+  asked.deadline = end;
+  StateScratch scratch;
+  EdgeAnswers answers;
+  question.checker.checkEdges(question.batch, edges, asked, scratch, answers);
+  const TickDoubt doubt(question.doubt, call.tick, request.lease.sequence != 0);
+  AnswerWriter<msg::CheckEdges::Response> writer(question.checker, doubt, answers.edges.size(), response);
+  for (std::size_t i = 0; i < answers.edges.size(); ++i) {
+    const EdgeAnswer& edge = answers.edges[i];
+    const StatePair* const pair = edge.pairs == 0 ? nullptr : &answers.pairs[edge.first_pair];
+    writer.add(edge.verdict, edge.because, edge.refused, edge.beyond_limits,
+               edge.because == Unknown::no ? "" : question.checker.sentenceOf(question.batch, answers, i));
+    writer.addPair(pair);
+    response.free_until.push_back(doubt.because == Unknown::no ? edge.free_until : 0.0);
+    response.at.push_back(edge.at);
+    response.point.push_back(placeOf(pair));
+  }
+  writer.finish();
+}
+
+}  // namespace hgrid

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <geometry_msgs/Pose.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hgrid_proximity/queries/state_checker.h"
+#include "node/tf/transform_lookup.h"
+#include "node/tick/tick.h"
+
+namespace hgrid {
+
+/// What requests about states and edges have in common.
+struct AskedStates {
+  const std::string& robot;                     ///< name of the robot; empty: the one that has these joints
+  const std::string& group;                     ///< name of a group of its SRDF; empty: all joints
+  const std::vector<std::string>& joint_names;  ///< names of variables, with or without the name of the robot
+  const std::vector<std::string>& ignore;       ///< globs over the names of bodies that do not count
+  std::optional<geometry_msgs::Pose> base;      ///< [m, world frame] pose of the root link; nullopt: where tf says
+};
+
+/// A request about states of a robot, prepared for StateChecker.
+struct StateQuestion {
+  StateChecker checker;
+  StateBatch batch;
+  /// Why nobody knows where the robot or something that moves with it would be; empty: it is known.
+  std::string doubt;
+};
+
+/// Prepares a request.
+/// @param positions  rows of values of joint_names
+/// @throws Refusal what robotNamed() or robotWith(), presentJoints(), presentPose(), fromPose() and StateChecker throw;
+/// out_of_range if there are positions but no names of joints
+StateQuestion stateQuestion(const AskedStates& asked, std::vector<double> positions, const Tick& tick,
+                            const TransformLookup& transforms, std::shared_ptr<const NarrowPhase> narrow_phase);
+
+}  // namespace hgrid

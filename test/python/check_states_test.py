@@ -1,0 +1,209 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: the hgrid_proximity authors
+"""The services ~check_states and ~check_edges beside a running node. See turning_arm.py for the robot."""
+import math
+import time
+import unittest
+
+import numpy
+import rospy
+import rosunit
+from geometry_msgs.msg import Pose
+from hgrid_proximity import obstacles
+from hgrid_proximity.client import Proximity
+from hgrid_proximity.errors import Refused
+from hgrid_proximity.msg import CodeNames, Lease, UnknownReason
+from turning_arm import TO_POST, TO_WALL, Arm, wait
+
+JOINTS = ["shoulder", "slide"]
+
+
+class CheckStates(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("check_states_test")
+        cls.arm = Arm()
+        cls.proximity = Proximity("/proximity", timeout=60.0)
+        wait(lambda: cls.proximity.pairs().usable, "a complete world", 120.0)
+
+    def states(self, rows, **options):
+        return self.proximity.check_states(JOINTS, rows, **options)
+
+    def edges(self, start, end, **options):
+        return self.proximity.check_edges(JOINTS, start, end, **options)
+
+    def assert_refused(self, code, act, *words):
+        with self.assertRaises(Refused) as caught:
+            act()
+        self.assertEqual(caught.exception.code, code)
+        for word in words:
+            self.assertIn(word, str(caught.exception))
+
+    def test_each_state_has_a_verdict_and_its_pair(self):
+        found = self.states([[0, 0.5], [TO_POST, 0.5], [TO_WALL, 0.45]])
+        self.assertEqual(found.clear.tolist(), [True, False, False])
+        self.assertEqual(found.hit.tolist(), [False, True, True])
+        self.assertEqual([found.pair(i) for i in range(3)],
+                         [None, ("robot/arm", "obstacle/post"), ("robot/hand", "obstacle/wall")])
+        self.assertEqual(found.response.names, ["obstacle/post", "obstacle/wall", "robot/arm", "robot/hand"])
+        self.assertEqual((found.response.texts, len(found.clearance)), ([], 0))
+
+    # Claim: for random states, verdicts and clearances are those of the spheres, computed here.
+    def test_verdicts_and_clearances_are_those_of_spheres(self):
+        generator = numpy.random.RandomState(1)
+        rows = numpy.column_stack([generator.uniform(-7, 7, 1000), generator.uniform(0, 1, 1000)])
+        found = self.states(rows, max_clearance=0.4)
+        gaps = []
+        for angle, slide in rows:
+            gaps.append(min(math.hypot(reach * math.cos(angle), reach * math.sin(angle) - y) - 0.2
+                            for reach in (0.5, 1 + slide) for y in (0.5, -1.5)))
+        gaps = numpy.array(gaps)
+        self.assertEqual(found.hit.tolist(), (gaps <= 0).tolist())
+        self.assertEqual(found.clear.tolist(), (gaps > 0).tolist())
+        near = (gaps > 0) & (gaps <= 0.4)
+        self.assertGreater(near.sum(), 100)
+        self.assertLess(abs(found.clearance[near] - gaps[near]).max(), 1e-6)
+        self.assertTrue(numpy.isinf(found.clearance[gaps > 0.4]).all())
+        self.assertTrue((found.clearance[gaps <= 0] == 0).all())
+
+    def test_joints_that_are_not_named_are_where_tf_says(self):
+        self.assertTrue(self.proximity.check_states(["shoulder"], [[TO_WALL]]).clear[0], "the slide is at 0.25 m")
+        self.assertTrue(self.proximity.check_states(["robot/shoulder"], [[TO_POST]]).hit[0])
+
+    def test_a_base_puts_the_robot_elsewhere_and_ignored_bodies_do_not_count(self):
+        base = Pose()
+        base.position.x, base.orientation.w = 3.0, 1.0
+        self.assertTrue(self.states([[TO_POST, 0.5]], base=base).clear[0])
+        self.assertTrue(self.states([[TO_POST, 0.5]], ignore="obstacle/post").clear[0])
+        self.assertTrue(self.states([[TO_POST, 0.5]], group="gripper").clear[0], "the arm touches the post, not the hand")
+
+    def test_an_invalid_state_is_refused_and_the_others_are_answered(self):
+        found = self.states([[0, 0.5], [math.nan, 0.5], [TO_POST, 0.5], [0, 2.0]])
+        self.assertEqual(list(found.response.codes), [CodeNames.OK, CodeNames.NONFINITE, CodeNames.OK, CodeNames.OK])
+        self.assertEqual(found.unknown.tolist(), [False, True, False, False])
+        self.assertEqual(found.response.unknown_because[1], UnknownReason.REFUSED)
+        self.assertIn("state 1: joint 'shoulder'", found.text(1))
+        self.assertEqual((found.text(0), found.text(3)), ("", ""))
+        self.assertEqual(found.beyond_limits.tolist(), [False, False, False, True])
+
+    def test_an_empty_batch_is_answered(self):
+        self.assertEqual(len(self.states(numpy.empty((0, 2)))), 0)
+        self.assertEqual(len(self.edges(numpy.empty((0, 2)), numpy.empty((0, 2)))), 0)
+
+    def test_an_invalid_request_is_refused_by_name(self):
+        check = self.proximity.check_states
+        self.assert_refused("UNKNOWN_ID", lambda: check(["elbow"], [[0]]), "elbow")
+        self.assert_refused("UNKNOWN_ID", lambda: check(["elbow"], [[0]], robot="robot"), "elbow")
+        self.assert_refused("UNKNOWN_ID", lambda: self.states([[0, 0]], robot="other"), "other", "robot")
+        self.assert_refused("UNKNOWN_ID", lambda: self.states([[0, 0]], group="leg"), "leg")
+        self.assert_refused("UNKNOWN_ID", lambda: self.states([[0, 0]], group="leg", robot="robot"), "leg")
+        self.assert_refused("DUP_ID", lambda: check(["slide", "slide"], [[0, 0]]), "slide")
+        self.assert_refused("OUT_OF_RANGE", lambda: check([], [[0, 0]]), "joint_names")
+        self.assert_refused("BAD_GEOMETRY", lambda: self.states([[0, 0]], max_clearance=-1.0), "clearance")
+        self.assert_refused("OUT_OF_RANGE", lambda: self.states([[0, 0]], max_time=-1.0), "max_time")
+        self.assert_refused("LIMIT", lambda: check(["slide"], numpy.zeros((1001, 1))), "1001", "1000", "~max_batch")
+        self.assert_refused("OUT_OF_RANGE", lambda: self.edges([[0, 0]], [[0, 0]], tolerance=2.0), "tolerance")
+        self.assert_refused("OUT_OF_RANGE", lambda: self.edges([[0, 0]], [[0, 0], [0, 1]]), "start has 2 values")
+        self.assert_refused("LIMIT", lambda: self.edges(numpy.zeros((1001, 2)), numpy.zeros((1001, 2))), "~max_batch")
+
+    def test_edges_have_the_first_contact(self):
+        found = self.edges([[0, 0.5], [0, 0.5], [TO_WALL, 0.0]], [[1, 0.5], [3, 0.5], [TO_WALL, 0.5]])
+        self.assertEqual(found.clear.tolist(), [True, False, False])
+        self.assertEqual(found.hit.tolist(), [False, True, True])
+        touch = (TO_POST - 2 * math.asin(0.2)) / 3
+        self.assertAlmostEqual(found.at[1], touch, delta=1e-3)
+        self.assertLessEqual(found.free_until[1], touch)
+        self.assertAlmostEqual(found.free_until[1], touch, delta=2e-3)
+        self.assertAlmostEqual(found.at[2], 0.6, delta=2e-3)
+        self.assertEqual((found.free_until[0], found.pair(0)), (1.0, None))
+        self.assertTrue(math.isnan(found.at[0]))
+        self.assertEqual(found.pair(2), ("robot/hand", "obstacle/wall"))
+        self.assertAlmostEqual(found.response.point[2].y, -1.4, delta=0.01)
+        hit = self.edges([[0, 0.5]], [[3, 0.5]], any_contact=True)
+        self.assertTrue(hit.hit[0])
+
+    def test_an_edge_that_passes_too_near_is_unknown(self):
+        thin = obstacles.add("thin", obstacles.sphere(0.1), position=(0.0, -0.70001, 0.0))  # the arm passes it at 10 um
+        self.proximity.apply_obstacles(thin)
+        try:
+            found = self.edges([[-1, 0.9]], [[-2.2, 0.9]], ignore="obstacle/wall")
+            self.assertTrue(found.unknown[0])
+            self.assertEqual(found.response.unknown_because[0], UnknownReason.TOLERANCE)
+            self.assertEqual(found.pair(0), ("robot/arm", "obstacle/thin"))
+            self.assertIn("come within", found.text(0))
+            self.assertTrue(self.edges([[-1, 0.9]], [[-2.2, 0.9]], ignore="obstacle/wall", tolerance=1e-5).clear[0])
+        finally:
+            self.proximity.apply_obstacles(obstacles.remove("thin"))
+
+    # Claim: requests with a lease are answered from the same world, whatever changes in between.
+    def test_a_lease_keeps_the_world(self):
+        row = [[1.0, 0.5]]
+        first = self.states(row, keep=20.0)
+        self.assertTrue(first.clear[0])
+        lease = first.response.lease
+        self.assertGreater(lease.lasts.to_sec(), 4.0)
+        self.assertLessEqual(lease.lasts.to_sec(), 5.0, "~lease_max")
+        where = (0.5 * math.cos(1.0), 0.5 * math.sin(1.0), 0.0)
+        self.proximity.apply_obstacles(obstacles.add("new", obstacles.sphere(0.1), position=where))
+        try:
+            self.assertTrue(self.states(row).hit[0])
+            again = self.states(row, lease=lease)
+            self.assertTrue(again.clear[0])
+            self.assertEqual(again.response.world.sequence, lease.sequence)
+            self.assertTrue(self.edges(row, row, lease=lease).clear[0])
+            self.assertTrue(self.edges(row, row).hit[0])
+        finally:
+            self.proximity.apply_obstacles(obstacles.remove("new"))
+
+        def is_over():
+            try:
+                self.states(row, lease=lease)
+                return False
+            except Refused as refused:
+                self.assertEqual(refused.code, "EXTRAPOLATION")
+                self.assertIn("tick %d" % lease.sequence, str(refused))
+                return True
+
+        wait(is_over, "the end of the lease")
+
+    def test_a_lease_of_another_world_is_refused(self):
+        other = Lease(epoch=1, sequence=5)
+        self.assert_refused("CONFLICT", lambda: self.states([[0, 0]], lease=other), "epoch 1")
+        self.assert_refused("OUT_OF_RANGE", lambda: self.states([[0, 0]], keep=-1.0), "lasts")
+
+    def test_only_so_many_leases_are_kept(self):
+        codes = set()
+        for _ in range(40):
+            try:
+                self.states([[0, 0]], keep=1.0)
+            except Refused as refused:
+                codes.add(refused.code)
+            time.sleep(0.02)  # until the next tick
+        self.assertEqual(codes, {"LIMIT"})
+
+        def has_room():
+            try:
+                self.states([[0, 0]], keep=0.01)
+                return True
+            except Refused:
+                return False
+
+        wait(has_room, "the end of a lease")
+
+    # Claim: if nobody knows where a joint stands, only requests that give it can be CLEAR.
+    def test_a_joint_whose_position_is_old_makes_states_unknown(self):
+        self.assertTrue(self.proximity.check_states(["slide"], [[0.5]]).clear[0])
+        self.arm.publishes = False
+        try:
+            wait(lambda: self.proximity.check_states(["slide"], [[0.5]]).unknown[0], "the end of the knowledge")
+            self.assertTrue(self.states([[0, 0.5]]).clear[0])
+            edge = self.proximity.check_edges(["slide"], [[0.1]], [[0.5]])
+            self.assertEqual((edge.unknown[0], edge.free_until[0]), (True, 0.0))
+        finally:
+            self.arm.publishes = True
+            wait(lambda: self.proximity.check_states(["slide"], [[0.5]]).clear[0], "the poses of the links")
+
+
+if __name__ == "__main__":
+    rosunit.unitrun("hgrid_proximity", "check_states", CheckStates)
