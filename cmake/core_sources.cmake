@@ -104,6 +104,7 @@ set(HGRID_CORE_SOURCES
   src/queries/solid_question.cpp
   src/queries/sphere_question.cpp
   src/queries/states/checker_parts.cpp
+  src/queries/states/clearance_gradient.cpp
   src/queries/states/edge_checker.cpp
   src/queries/states/edge_search.cpp
   src/queries/states/motion_bounds.cpp

@@ -38,6 +38,8 @@ struct StateRequest {
   bool all_pairs = false;
   /// [m] If it is greater than 0: measure how far a state without contact is from contact, up to this distance.
   double clearance = 0.0;
+  /// Whether to compute how the measured clearance changes with each variable of the batch.
+  bool gradients = false;
   /// When the search stops. The states that it has not examined get the verdict unknown (Unknown::budget). nullopt: no
   /// deadline.
   std::optional<std::chrono::steady_clock::time_point> deadline;
@@ -64,6 +66,10 @@ struct StateAnswers {
   /// The pairs of all states. A state in contact has the pair that was found first, or with StateRequest::all_pairs all
   /// pairs, sorted by their bodies. A state whose clearance was measured has its nearest pair.
   std::vector<StatePair> pairs;
+  /// Empty unless StateRequest::gradients. [m/rad, or 1 for lengths] For each state one row: how its clearance changes
+  /// with each variable of StateBatch::joints, in their order; all NaN if the state has no clearance between 0 and
+  /// StateRequest::clearance. Where the nearest points jump, it is the gradient of one of the sides.
+  std::vector<double> gradients;
 };
 
 struct StateMemory;

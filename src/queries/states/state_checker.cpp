@@ -10,6 +10,7 @@
 #include "hgrid_proximity/queries/query.h"
 #include "queries/question.h"
 #include "queries/states/checker_parts.h"
+#include "queries/states/clearance_gradient.h"
 #include "queries/states/state_search.h"
 #include "queries/states/state_values.h"
 
@@ -88,6 +89,7 @@ void StateChecker::checkStates(const StateBatch& batch, const StateRequest& requ
   std::fill(memory.pair_reach.begin(), memory.pair_reach.end(), allFour(roundedUp(request.clearance)));
   answers.states.assign(values.size(), StateAnswer{});
   answers.pairs.clear();
+  answers.gradients.assign(request.gradients ? values.size() * memory.columns.size() : 0, Proximity::kUnknown);
   StateSearch search(*all.snapshot, *all.narrow_phase, all.robot, all.world, goalOf(request), request.clearance,
                      memory);
   for (std::size_t first = 0; first < values.size(); first += 4) {
@@ -115,6 +117,11 @@ void StateChecker::checkStates(const StateBatch& batch, const StateRequest& requ
     for (std::size_t lane = 0; lane < count; ++lane) {
       if ((open >> lane & 1u) == 0) continue;
       write(search, all.doubts, lane, request, !batch.world_from_root, answers.states[first + lane], answers.pairs);
+      if (!request.gradients || !search.hasNear(lane)) continue;
+      clearanceGradient(all.kinematics, all.robot, memory.groups, memory.values, lane, search.nearPair(lane),
+                        memory.gradient);
+      double* const row = &answers.gradients[(first + lane) * memory.columns.size()];
+      for (const auto& [variable, column] : memory.columns) row[column] = memory.gradient[variable];
     }
   }
 }

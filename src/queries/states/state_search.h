@@ -74,6 +74,7 @@ struct StateMemory {
   std::vector<Four> pair_reach;   // [m] for each pair of RobotShapes::selfPairs(): how near its shapes matter
   std::vector<FourDoubles> from, difference;  // for each variable: value at the beginning of an edge, and its change
   std::array<EdgeInWork, 4> edges;
+  std::vector<double> gradient;  // for each variable
   std::vector<ProxyId> found;
   std::array<std::vector<NearShapes>, 4> near;  // for each of the four states: what is left to be measured
   std::array<std::vector<NearShapes>, 4> kept;  // SearchGoal::all_near: for each of the four states: what is near
