@@ -179,11 +179,14 @@ class Proximity:
             raise Refused(response.code.name, response.code.text)
         return response
 
-    def check_states(self, joint_names: Iterable[str], positions, max_clearance: float = 0.0, **options) -> States:
+    def check_states(
+        self, joint_names: Iterable[str], positions, max_clearance: float = 0.0, gradients: bool = False, **options
+    ) -> States:
         """Would the robot touch anything if its joints stood at these positions?
 
         @param positions  [rad or m] array of n rows, one for each state, with one number for each joint
         @param max_clearance  [m] also measure how far the robot is from contact, up to this distance; 0: only verdicts
+        @param gradients  True: also compute how each clearance changes with each joint
 
         Options of check_states() and check_edges():
             robot: name of the robot; otherwise the robot that has these joints
@@ -194,7 +197,8 @@ class Proximity:
             keep: [s] how long the node should keep this state of the world for further requests
             max_time: [s] time limit, at most 10
         """
-        request = srv.CheckStatesRequest(positions=_rows("positions", positions), max_clearance=max_clearance)
+        rows = _rows("positions", positions)
+        request = srv.CheckStatesRequest(positions=rows, max_clearance=max_clearance, gradients=gradients)
         return States(self._check(srv.CheckStates, request, joint_names, **options))
 
     def check_edges(

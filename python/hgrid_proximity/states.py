@@ -46,11 +46,14 @@ class States(_Verdicts):
 
     clearance: [m] array of n distances from contact; empty unless max_clearance was given. 0: in contact; infinite: more
         than max_clearance; NaN: not known
+    gradient: [m/rad, or 1 for lengths] array of n rows: how the clearance changes with each joint; NaN: it has none; empty
+        unless gradients was given
     """
 
     def __init__(self, response):
         super().__init__(response)
-        self.clearance = numpy.array(response.clearance)
+        self.clearance, gradient = numpy.array(response.clearance), numpy.array(response.gradient)
+        self.gradient = gradient.reshape(len(self), -1) if len(gradient) else gradient
 
 
 class Edges(_Verdicts):

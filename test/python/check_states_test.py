@@ -67,6 +67,13 @@ class CheckStates(unittest.TestCase):
         self.assertTrue(numpy.isinf(found.clearance[gaps > 0.4]).all())
         self.assertTrue((found.clearance[gaps <= 0] == 0).all())
 
+    def test_gradients_are_those_of_spheres(self):
+        found = self.states([[0.9, 0.5], [TO_POST, 0.5], [3, 0.5]], max_clearance=0.4, gradients=True)
+        gap = lambda angle: math.hypot(0.5 * math.cos(angle), 0.5 * math.sin(angle) - 0.5) - 0.2
+        self.assertAlmostEqual(found.gradient[0][0], (gap(0.9001) - gap(0.8999)) / 0.0002, delta=1e-4)
+        self.assertAlmostEqual(found.gradient[0][1], 0.0, delta=1e-9)
+        self.assertTrue(numpy.isnan(found.gradient[1:]).all(), "in contact, and too far")
+
     def test_joints_that_are_not_named_are_where_tf_says(self):
         self.assertTrue(self.proximity.check_states(["shoulder"], [[TO_WALL]]).clear[0], "the slide is at 0.25 m")
         self.assertTrue(self.proximity.check_states(["robot/shoulder"], [[TO_POST]]).hit[0])

@@ -146,6 +146,7 @@ void StateServices::answer(ServiceCall<msg::CheckStates>& call) {
       stateQuestion(askedOf(request), request.positions, *call.tick.get(), transforms_, narrow_phase_);
   StateRequest asked;
   asked.clearance = request.max_clearance;
+  asked.gradients = request.gradients;
   asked.deadline = end;
   StateScratch scratch;
   StateAnswers answers;
@@ -160,6 +161,7 @@ void StateServices::answer(ServiceCall<msg::CheckStates>& call) {
     if (asked.clearance > 0.0) response.clearance.push_back(state.clearance);
   }
   writer.finish();
+  response.gradient = std::move(answers.gradients);
 }
 
 void StateServices::answer(ServiceCall<msg::CheckEdges>& call) {
