@@ -24,7 +24,9 @@ enum class Unknown : std::uint8_t {
   outdated = 4,    ///< the snapshot is too old; the library never returns this, but callers that check the age set it
   unmapped = 5,    ///< no map knows the space to be free, and SceneOptions::report_unmapped is set
   budget = 6,      ///< QueryScope::deadline passed before the query had examined everything
-  tolerance = 7,   ///< edges only: two shapes come nearer to each other than the edge was examined
+  /// Edges only: two shapes come so near to each other that EdgeRequest::tolerance does not suffice to prove that they
+  /// stay apart.
+  tolerance = 7,
 };
 
 /// One body that a query hit. Points and normals are in the world frame. NaN: unknown or not applicable.

@@ -124,8 +124,9 @@ struct StateCheckerOptions {
 /// bodies that the pair filter switches off with all bodies of the robot, and for ignored bodies, nothing of this
 /// counts.
 ///
-/// Immutable. Any number of threads may ask at the same time, each with a scratch object of its own. The
-/// answer for a state depends neither on the other states of its batch, nor on the thread, nor on the processor.
+/// Immutable. Any number of threads may call checkStates() and checkEdges() at the same time, each with a scratch
+/// object of its own. The answer for a state depends neither on the other states of its batch, nor on the thread, nor
+/// on the processor.
 class StateChecker {
  public:
   /// Prepares the shapes of the robot and of the world. Takes time proportional to the number of shapes.
@@ -165,15 +166,17 @@ class StateChecker {
   ///
   /// The verdict clear is certain for every configuration of the edge, not only for some of them: the search divides
   /// the edge into parts. In the middle of a part, it measures whether everything is farther away than the robot can
-  /// travel on the part. An open mesh is only its surface; whether a shape that does not touch the surface may be
-  /// inside is examined in the middle of the parts only. The verdict unknown has the reasons that it has for states,
-  /// and one more: two shapes come so near to each other that parts of the length EdgeRequest::tolerance do not prove
-  /// that they stay apart.
+  /// travel on half of the part. There is one exception: an open mesh is only its surface. Whether a shape may be
+  /// inside it, without touching the surface, is examined in the middle of the parts only.
+  ///
+  /// The verdict unknown has the reasons that it has for states, and one more: two shapes come so near to each other
+  /// that parts on which no point travels farther than half of EdgeRequest::tolerance do not prove that they stay
+  /// apart. The time grows with the length of the way of the robot divided by the tolerance, if shapes stay this near.
   ///
   /// An edge with a refused state is refused, and all other edges are answered. The answer for an edge does not depend
   /// on the other edges.
   /// @param batch  has the states where edges begin and end; the root link of the robot does not move
-  /// @throws Refusal as checkStates(), and out_of_range for a tolerance that is not between 1e-6 and 1 m
+  /// @throws Refusal as checkStates() for the batch, and out_of_range for a tolerance that is not between 1e-6 and 1 m
   void checkEdges(const StateBatch& batch, const std::vector<StateEdge>& edges, const EdgeRequest& request,
                   StateScratch& scratch, EdgeAnswers& answers) const;
 

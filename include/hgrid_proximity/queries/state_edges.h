@@ -15,8 +15,9 @@ namespace hgrid {
 
 /// A motion of a robot from one state of a StateBatch to another. All variables change linearly and at the same time.
 ///
-/// An angle without limits takes the shorter way around the circle; this includes the angle of a planar joint. The
-/// quaternion of a floating joint turns at constant speed along the shorter way.
+/// An angle without limits takes the shorter way around the circle, unless another joint mimics its joint; this
+/// includes the angle of a planar joint. The quaternion of a floating joint turns at constant speed along the shorter
+/// way.
 struct StateEdge {
   std::uint32_t from = 0;  ///< index of the state where the edge begins
   std::uint32_t to = 0;    ///< index of the state where it ends
@@ -24,11 +25,13 @@ struct StateEdge {
 
 /// What StateChecker::checkEdges() looks for.
 struct EdgeRequest {
-  /// [m] How exactly the first contact is located: between EdgeAnswer::free_until and EdgeAnswer::at, no point of the
-  /// robot travels farther, except while shapes pass each other at about this distance before. If the verdict would be
-  /// clear otherwise, such a pass makes it unknown (Unknown::tolerance). Between 1e-6 and 1.
+  /// [m] Between EdgeAnswer::free_until and EdgeAnswer::at, no point of the robot travels farther than this.
+  /// Exceptions: any_contact, a deadline, and shapes that came too near to each other earlier; then `free_until` is
+  /// where that began. Without a later contact, such an edge is unknown (Unknown::tolerance). Smaller values take
+  /// longer. Between 1e-6 and 1.
   double tolerance = 1e-3;
-  /// Whether any contact ends the search of an edge. It is faster than looking for the first contact.
+  /// Whether the search of an edge ends at any contact. This is faster than finding the first contact. `free_until` may
+  /// then be 0.
   bool any_contact = false;
   /// When the search stops. The edges that are not finished get the verdict unknown (Unknown::budget), or hit if a
   /// contact was found. nullopt: no deadline.
@@ -37,8 +40,8 @@ struct EdgeRequest {
 
 /// The answer for one edge.
 struct EdgeAnswer {
-  /// hit: the robot touches something on the way. clear: it surely touches nothing at any configuration of the edge.
-  /// unknown: neither is known.
+  /// hit: the robot touches something on the way. clear: it surely touches nothing at any configuration of the edge
+  /// (for open meshes see StateChecker::checkEdges()). unknown: neither is known.
   Verdict verdict = Verdict::unknown;
   Unknown because = Unknown::no;    ///< why the verdict is unknown
   Code refused = Code::ok;          ///< why the edge was refused, if `because` is Unknown::refused

@@ -59,6 +59,11 @@ Pose CheckerParts::worldFromRoot(const StateBatch& batch) const {
       throw Refusal(Code::nonfinite, "the pose of the robot's root link is not finite; every number must be finite");
     }
     checkQueryPoint(batch.world_from_root->translation(), "the position of the robot's root link");
+    const Eigen::Matrix3d turn = batch.world_from_root->linear();
+    if (!((turn.transpose() * turn).isIdentity(1e-6) && turn.determinant() > 0.0)) {
+      throw Refusal(Code::bad_rotation,
+                    "the pose of the robot's root link has no rotation; its matrix must be orthonormal");
+    }
     return *batch.world_from_root;
   }
   if (root_body == Structure::kNone) {

@@ -17,7 +17,10 @@ struct CheckerParts {
   CheckerParts(std::shared_ptr<const Snapshot> asked, const Kinematics& joints, const std::string& name,
                std::shared_ptr<const NarrowPhase> measures, const StateCheckerOptions& options);
 
-  /// Returns the pose of the root link for a batch. @throws Refusal not_ready, nonfinite, out_of_range
+  CheckerParts(const CheckerParts&) = delete;  // the parts refer to each other
+  CheckerParts& operator=(const CheckerParts&) = delete;
+
+  /// Returns the pose of the root link for a batch. @throws Refusal not_ready, nonfinite, out_of_range, bad_rotation
   Pose worldFromRoot(const StateBatch& batch) const;
 
   const std::shared_ptr<const Snapshot> snapshot;

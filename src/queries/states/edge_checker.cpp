@@ -16,8 +16,6 @@ void StateChecker::checkEdges(const StateBatch& batch, const std::vector<StateEd
     throw Refusal(Code::out_of_range,
                   "the tolerance of the edges is " + text(request.tolerance) + " m; it must be between 1e-6 and 1 m");
   }
-  answers.edges.assign(edges.size(), EdgeAnswer{});
-  answers.pairs.clear();
   EdgeSearch(*state_, batch, edges, request, *scratch.memory_, answers).run();
 }
 
@@ -43,8 +41,10 @@ std::string StateChecker::sentenceOf(const StateBatch& batch, const EdgeAnswers&
     case Unknown::tolerance: {
       const StatePair& pair = answers.pairs[answer.first_pair];
       const BodyList& bodies = state_->snapshot->structure().bodies;
-      return what + ": " + bodies[pair.first].name + " and " + bodies[pair.second].name + " come within " +
-             text(pair.proximity.distance) + " m of each other, at about " + text(answer.free_until) +
+      const double distance = pair.proximity.distance;
+      return what + ": " + bodies[pair.first].name + " and " + bodies[pair.second].name + " come " +
+             (std::isfinite(distance) ? "within " + text(distance) + " m of each other" : "near each other") +
+             ", at about " + text(answer.free_until) +
              " of the edge; a smaller tolerance may prove that they stay apart";
     }
     default:

@@ -8,10 +8,11 @@
 namespace hgrid {
 namespace {
 
-constexpr double kSlack = 1e-6;     // [m] more than the errors of measured distances and of computed poses
+constexpr float kSlack = 1e-6f;     // [m] more than the errors of measured distances and of computed poses
 constexpr double kFirstPart = 0.1;  // [m] no point of the robot travels farther on the first part of an edge
-constexpr double kProbe = 0.1;  // [m] with EdgeRequest::any_contact, one configuration is tested for each such length
-constexpr double kMostProbes = 64;   // at most this many
+constexpr double kProbe =
+    0.1;  // [m] with EdgeRequest::any_contact, one configuration is tested per this length of path
+constexpr double kMostProbes = 64;   // upper limit of the number of tested configurations
 constexpr float kCoarse = 0.02f;     // [m] shapes are not measured while they can travel farther than this
 constexpr std::size_t kFewNear = 8;  // if more shapes are near in the middle of a part, the next parts are shorter
 constexpr double kNowhere = 2.0;     // a place behind the end of an edge
@@ -24,6 +25,9 @@ Eigen::Vector4d turned(const Eigen::Vector4d& from, const Eigen::Vector4d& diffe
   if (angle < 1e-9) return begin + at * (end - begin);
   return (std::sin((1.0 - at) * angle) * begin + std::sin(at * angle) * end) / std::sin(angle);
 }
+
+/// Adds the slack to a reach [m]. Shapes that do not move against each other have none: one state decides.
+float withSlack(float reach) { return reach > 0.0f ? reach + kSlack : 0.0f; }
 
 /// Returns the place on the edge of a configuration that is tested for contact. They are spread evenly: 1, 1/2, 1/4,
 /// 3/4, 1/8 and so on (the van der Corput sequence). @param number  1, 2 ...
@@ -53,18 +57,17 @@ EdgeSearch::EdgeSearch(const CheckerParts& all, const StateBatch& batch, const s
 
 void EdgeSearch::run() {
   const Pose world_from_root = all_.worldFromRoot(batch_);
+  answers_.edges.assign(edges_.size(), EdgeAnswer{});
+  answers_.pairs.clear();
   for (std::size_t lane = 0; lane < 4; ++lane) {
     values_.clear(lane);
     begin(lane);
   }
   for (bool is_first = true;; is_first = false) {
     const bool in_time = !request_.deadline || std::chrono::steady_clock::now() < *request_.deadline;
+    if (!in_time) return finishAll();
     unsigned open = 0, all = 0;
     for (std::size_t lane = 0; lane < 4; ++lane) {
-      while (!in_time && memory_.edges[lane].active) {
-        finish(lane, false);
-        begin(lane);
-      }
       if (!memory_.edges[lane].active) continue;
       place(lane);
       open |= 1u << lane;
@@ -85,6 +88,16 @@ void EdgeSearch::run() {
       if (!work.searches_all) search_.findAmong(lane, candidates, candidates + work.part.count);
       use(lane);
     }
+  }
+}
+
+/// Ends the search, because the deadline has passed.
+void EdgeSearch::finishAll() {
+  for (std::size_t lane = 0; lane < 4; ++lane) {
+    if (memory_.edges[lane].active) finish(lane, false);
+  }
+  for (; next_ < edges_.size(); ++next_) {
+    if (read(next_, 0)) answers_.edges[next_].because = Unknown::budget;
   }
 }
 
@@ -115,6 +128,7 @@ bool EdgeSearch::begin(std::size_t lane) {
 
 /// Reads both ends of an edge. Returns false if the edge is refused.
 bool EdgeSearch::read(std::size_t edge, std::size_t lane) {
+  values_.restoreOthers(lane);  // place() writes all variables, also the rest of a quaternion of which a part is given
   if (!readEnd(edge, edges_[edge].from, lane)) return false;
   for (std::size_t i = 0; i < memory_.values.size(); ++i) memory_.from[i].set(lane, memory_.values[i][lane]);
   if (!readEnd(edge, edges_[edge].to, lane)) return false;
@@ -195,14 +209,13 @@ void EdgeSearch::findReaches(std::size_t lane) {
   EdgeInWork& work = memory_.edges[lane];
   const MotionBounds::HalfPart half{memory_.groups, memory_.placed, all_.snapshot->origin(), lane,
                                     0.5 * (work.part.tip - work.part.begin) * (1.0 + 1e-6)};
-  const float slack = roundedUp(kSlack);
   if (work.searches_all) {
     for (std::size_t i = 0; i < memory_.shape_reach.size(); ++i) {
       all_.motion.findPart(i, half, work.motion);
-      memory_.shape_reach[i][lane] = all_.motion.reachOf(i, work.motion) + slack;
+      memory_.shape_reach[i][lane] = withSlack(all_.motion.reachOf(i, work.motion));
     }
     for (std::size_t i = 0; i < memory_.pair_reach.size(); ++i) {
-      memory_.pair_reach[i][lane] = all_.motion.reachOfPair(i, work.motion) + slack;
+      memory_.pair_reach[i][lane] = withSlack(all_.motion.reachOfPair(i, work.motion));
     }
     return;
   }
@@ -211,9 +224,9 @@ void EdgeSearch::findReaches(std::size_t lane) {
     all_.motion.findPart(near.own, half, work.motion);
     if (near.with == With::self) {
       all_.motion.findPart(near.other, half, work.motion);
-      memory_.pair_reach[near.pair][lane] = all_.motion.reachOfPair(near.pair, work.motion) + slack;
+      memory_.pair_reach[near.pair][lane] = withSlack(all_.motion.reachOfPair(near.pair, work.motion));
     } else {
-      memory_.shape_reach[near.own][lane] = all_.motion.reachOf(near.own, work.motion) + slack;
+      memory_.shape_reach[near.own][lane] = withSlack(all_.motion.reachOf(near.own, work.motion));
     }
   }
 }
@@ -233,7 +246,8 @@ void EdgeSearch::use(std::size_t lane) {
     ++work.probed;
   } else {
     std::optional<std::uint32_t> doubt;
-    if (!all_.doubts.none() && (work.searches_all || work.part.in_doubt)) {
+    const bool matters = !doubt_ && work.uncertain_from == kNowhere;  // otherwise the edge cannot become clear
+    if (matters && !all_.doubts.none() && (work.searches_all || work.part.in_doubt)) {
       doubt = all_.doubts.findNear(search_.robotIn(lane), 0.5 * length * work.path + kSlack);
     }
     if (search_.kept(lane).empty() && !doubt) {
@@ -251,21 +265,29 @@ void EdgeSearch::use(std::size_t lane) {
 /// Returns whether nothing of an edge is left to be examined. Drops the parts behind a contact.
 bool EdgeSearch::isDone(EdgeInWork& work) const {
   if (work.contact && request_.any_contact) return true;
-  while (!work.parts.empty() && work.parts.back().begin >= work.end) work.parts.pop_back();
+  while (work.contact && !work.parts.empty() && work.parts.back().begin >= work.end) work.parts.pop_back();
   const double rest = work.end - work.begin;
-  return rest <= 0.0 || (work.contact && isShort(work, rest));
+  return (rest <= 0.0 && work.parts.empty()) || (work.contact && isShort(work, rest));
 }
 
 /// Uses a contact in the middle of a part. What comes before it is examined next.
 void EdgeSearch::useContact(EdgeInWork& work, const StatePair& contact) const {
   EdgePart& part = work.part;
   work.contact = contact;
-  work.end = 0.5 * (part.begin + part.tip);
+  work.end = work.path > 0.0 ? 0.5 * (part.begin + part.tip) : part.begin;
   if (work.searches_all) {
     work.step = 0.5 * (work.end - work.begin);
   } else {
     work.parts.push_back({part.begin, work.end, part.first, part.count, part.in_doubt});
   }
+}
+
+/// Stores what the search found near, as candidates of further parts.
+EdgePart EdgeSearch::keep(EdgeInWork& work, std::size_t lane, bool in_doubt) const {
+  const std::vector<NearShapes>& kept = search_.kept(lane);
+  const EdgePart part{0.0, 0.0, work.candidates.size(), kept.size(), in_doubt};
+  work.candidates.insert(work.candidates.end(), kept.begin(), kept.end());
+  return part;
 }
 
 /// Divides a part that may have a contact, or leaves it if it is already short.
@@ -280,14 +302,17 @@ void EdgeSearch::divide(EdgeInWork& work, std::size_t lane, std::optional<std::u
     }
     work.begin = part.tip;
     if (work.searches_all) work.step = 2.0 * length;
+    if (length == 0.0) return;
+    const EdgePart rest = keep(work, lane, false);  // an end of the edge may be in contact
+    if (part.tip == 1.0) work.parts.push_back({1.0, 1.0, rest.first, rest.count, false});
+    if (part.begin == 0.0) work.parts.push_back({0.0, 0.0, rest.first, rest.count, false});
     return;
   }
   const std::vector<NearShapes>& kept = search_.kept(lane);
-  const std::size_t first = work.candidates.size();
   const double middle = 0.5 * (part.begin + part.tip);
-  work.candidates.insert(work.candidates.end(), kept.begin(), kept.end());
-  work.parts.push_back({middle, part.tip, first, kept.size(), doubt.has_value()});
-  work.parts.push_back({part.begin, middle, first, kept.size(), doubt.has_value()});
+  const EdgePart half = keep(work, lane, doubt.has_value());
+  work.parts.push_back({middle, part.tip, half.first, half.count, half.in_doubt});
+  work.parts.push_back({part.begin, middle, half.first, half.count, half.in_doubt});
   if (!work.searches_all) return;
   work.step = kept.size() <= kFewNear ? length : 0.5 * length;
 }

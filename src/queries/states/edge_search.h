@@ -23,6 +23,7 @@ class EdgeSearch {
   void run();
 
  private:
+  void finishAll();
   bool begin(std::size_t lane);
   bool read(std::size_t edge, std::size_t lane);
   bool readEnd(std::size_t edge, std::uint32_t state, std::size_t lane);
@@ -32,6 +33,7 @@ class EdgeSearch {
   void findReaches(std::size_t lane);
   void use(std::size_t lane);
   void useContact(EdgeInWork& work, const StatePair& contact) const;
+  EdgePart keep(EdgeInWork& work, std::size_t lane, bool in_doubt) const;
   void divide(EdgeInWork& work, std::size_t lane, std::optional<std::uint32_t> doubt) const;
   bool isShort(const EdgeInWork& work, double length) const;
   void finish(std::size_t lane, bool in_time);

@@ -8,7 +8,7 @@
 
 namespace hgrid {
 
-/// How a joint moves on an edge, that is, while all variables go straight from one state to another.
+/// How a joint moves on an edge, that is, while all variables change linearly from one state to another.
 struct JointTravel {
   double turn = 0.0;   ///< [rad] by how much it turns its group
   double slide = 0.0;  ///< [m] how far it shifts its group
@@ -46,9 +46,10 @@ class MotionBounds {
   float find(const std::vector<FourDoubles>& from, const std::vector<FourDoubles>& difference, std::size_t lane,
              Memory& memory) const;
   /// Computes how far a point of a shape can be from where it is in the middle of a part, in the frames of all groups
-  /// above the shape. This is less than a share of find(), because it uses how far the axes of the joints are in the
-  /// middle. That is enough: if the joints below have moved a point by d, a turn of this joint keeps the length d, and
-  /// adds at most the way that the turn moves the point in the middle.
+  /// above the shape. The bound is smaller than the same share of find(), because it uses how far the axes of the
+  /// joints are in the middle. Why this suffices: let T be the motion of a joint and x the way of a point in the frame
+  /// of the joint. Then |T(t) x(t) - T(m) x(m)| <= |x(t) - x(m)| + |T(t) x(m) - T(m) x(m)|, and the last term is about
+  /// x(m).
   /// @param memory  has the result of find() for this edge
   void findPart(std::size_t shape, const HalfPart& part, Memory& memory) const;
   /// Returns the result of findPart() for the world [m].

@@ -90,6 +90,7 @@ void StateSearch::place(unsigned open, bool first) {
 }
 
 void StateSearch::findAll(unsigned lanes) {
+  if (lanes == 0) return;
   const unsigned others = open_ & ~lanes;
   open_ &= lanes;
   findSelf();

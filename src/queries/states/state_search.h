@@ -38,18 +38,19 @@ struct EdgePart {
 struct EdgeInWork {
   std::size_t edge = 0;  // index of the edge
   bool active = false;
-  double path = 0.0;                     // [m] bound of the path of any point of the robot on the whole edge
-  double begin = 0.0;                    // everything before it has been examined
-  double end = 1.0;                      // where the first known contact is; 1: none is known
-  double step = 1.0;                     // length of the next part that is searched for everything
-  double uncertain_from = 2.0;           // beginning of the first part that could not be proved free; 2: there is none
-  std::optional<StatePair> contact;      // the pair in contact at `end`
-  std::optional<StatePair> near;         // the pair at `uncertain_from`
-  std::optional<std::uint32_t> doubt;    // or the doubt that applies there
-  EdgePart part{};                       // what is being examined
-  std::uint32_t probes = 0, probed = 0;  // how many configurations are tested for contact before the parts, and were
-  bool searches_all = true;              // whether everything is searched in it, or only its candidates
-  std::vector<EdgePart> parts;           // what is examined next; the last one is the first
+  double path = 0.0;                   // [m] bound of the path of any point of the robot on the whole edge
+  double begin = 0.0;                  // everything before it has been examined
+  double end = 1.0;                    // where the first known contact is; 1: none is known
+  double step = 1.0;                   // length of the next part that is searched for everything
+  double uncertain_from = 2.0;         // beginning of the first part that could not be proved free; 2: there is none
+  std::optional<StatePair> contact;    // the pair in contact at `end`
+  std::optional<StatePair> near;       // the pair at `uncertain_from`
+  std::optional<std::uint32_t> doubt;  // or the doubt that applies there
+  EdgePart part{};                     // what is being examined
+  std::uint32_t probes = 0;            // how many configurations are tested for contact before the parts are examined
+  std::uint32_t probed = 0;            // how many of them have been tested
+  bool searches_all = true;            // whether everything is searched in it, or only its candidates
+  std::vector<EdgePart> parts;         // parts still to be examined; the last element is examined first
   std::vector<NearShapes> candidates;
   MotionBounds::Memory motion;
 };

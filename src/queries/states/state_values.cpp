@@ -137,6 +137,14 @@ void StateValues::read(std::size_t state, std::size_t lane, StateAnswer& answer)
   clear(lane);
 }
 
+void StateValues::restoreOthers(std::size_t lane) {
+  for (std::size_t i = 0; i < batch_.others.size(); ++i) {
+    const bool is_given = std::any_of(scratch_.columns.begin(), scratch_.columns.end(),
+                                      [&](const auto& column) { return column.variable == i; });
+    if (!is_given) scratch_.values[i].set(lane, batch_.others[i]);
+  }
+}
+
 void StateValues::clear(std::size_t lane) {
   for (const auto& [variable, column] : scratch_.columns) scratch_.values[variable].set(lane, 0.0);
 }

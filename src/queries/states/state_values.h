@@ -15,11 +15,14 @@ class StateValues {
   StateValues(const Kinematics& kinematics, const StateBatch& batch, StateMemory& scratch);
 
   /// Returns the number of states in the batch, including an incomplete last state.
-  std::size_t size() const { return (batch_.positions.size() + width_ - 1) / width_; }
+  std::size_t size() const { return sizeOf(kinematics_, batch_); }
+  /// Returns the number of states in a batch, including an incomplete last state.
   static std::size_t sizeOf(const Kinematics& kinematics, const StateBatch& batch);
   /// Reads one state into a lane of the scratch memory. If the state is refused, the lane gets valid values.
   /// @param answer  receives `refused`, `detail` and `beyond_limits`
   void read(std::size_t state, std::size_t lane, StateAnswer& answer);
+  /// Sets the variables that the batch does not have, if something else has changed them in this lane.
+  void restoreOthers(std::size_t lane);
   /// Gives a lane valid values.
   void clear(std::size_t lane);
 

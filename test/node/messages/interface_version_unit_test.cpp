@@ -109,7 +109,7 @@ const std::vector<Pin>& pins() {
       service<msg::LoadOctomap>("LoadOctomap", "93e62be52a707156933524d97672cc2d"),
       service<msg::QueryBox>("QueryBox", "8b378a163990ffc39d9443cb21832dd5"),
       service<msg::CheckEdges>("CheckEdges", "14428008caf993d36d81ba116eb1ec7f"),
-      service<msg::CheckStates>("CheckStates", "7660636224732c3331cc6872338b676f"),
+      service<msg::CheckStates>("CheckStates", "9e4cabad4d221bbc6fa6959f85c28f6d"),
       service<msg::QueryNearest>("QueryNearest", "1c536a184c73768c2d7173dd305db8f6"),
       service<msg::QuerySegment>("QuerySegment", "83354b4bfa81d8e0a19b2fb48ee25859"),
       service<msg::QueryShape>("QueryShape", "76efaeb6fe39032be58a9723037afe87"),

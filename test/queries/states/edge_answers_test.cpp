@@ -64,6 +64,55 @@ TEST(EdgeAnswers, AnEdgeWithoutMotionIsTheStateItself) {
   EXPECT_EQ(world.checkEdge(kQuarter, kQuarter).verdict, Verdict::hit);
 }
 
+TEST(EdgeAnswers, AnEndThatTouchesIsAHit) {
+  ArmWorld world;
+  put(world.scene, ArmWorld::ballBody("ball"), at(0, 0.5));
+  const double touching = touchingAngle(kQuarter) + 1e-6;
+  const EdgeAnswer last = world.checkEdge(0, touching);
+  EXPECT_EQ(last.verdict, Verdict::hit);
+  EXPECT_EQ(last.at, 1.0);
+  const EdgeAnswer first = world.checkEdge(touching, 0);
+  EXPECT_EQ(first.verdict, Verdict::hit);
+  EXPECT_EQ(first.at, 0.0);
+  EXPECT_EQ(world.checkEdge(kQuarter, kQuarter).at, 0.0);
+}
+
+/// Claim: what stays at the same distance does not make an edge unknown, however near it is.
+TEST(EdgeAnswers, ShapesThatDoNotMoveAgainstEachOtherMayBeNear) {
+  ArmWorld world;
+  put(world.scene, ArmWorld::ballBody("ball"), at(0.5, 0.2 + 1e-7));
+  EXPECT_EQ(world.checkEdge(0, 0).verdict, Verdict::clear);
+}
+
+/// Claim: the rest of a quaternion of which a part is in the batch is the same for all edges.
+TEST(EdgeAnswers, APartOfAQuaternionInTheBatchDoesNotLeakIntoOtherEdges) {
+  RobotModel model = turningArm();
+  model.links[1].joint_kind = JointKind::floating;
+  ArmWorld world({}, model);
+  put(world.scene, ArmWorld::ballBody("ball"), at(0, 0.5));
+  world.snapshot = world.scene.commit(Time{2}, {});
+  const StateChecker checker(world.snapshot, Kinematics(model), "robot", narrowPhase());
+  StateBatch batch;
+  batch.joints = {"arm_joint/rot_z", "arm_joint/rot_w"};
+  batch.others = {0, 0, 0, 0.1, 0, 0, 1};  // rot_x is 0.1
+  const double rest = std::sqrt(1.0 - 0.01);
+  Random random(1);
+  std::vector<StateEdge> edges;
+  for (std::uint32_t i = 0; i < 40; ++i) {
+    const double angle = random.uniform(-3, 3);
+    batch.positions.insert(batch.positions.end(), {rest * std::sin(angle), rest * std::cos(angle)});
+    if (i > 0) edges.push_back({i - 1, i});
+  }
+  EdgeAnswers together, alone;
+  checker.checkEdges(batch, edges, {}, world.scratch, together);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    StateScratch fresh;
+    checker.checkEdges(batch, {edges[i]}, {}, fresh, alone);
+    EXPECT_EQ(together.edges[i].verdict, alone.edges[0].verdict) << i;
+    EXPECT_EQ(together.edges[i].free_until, alone.edges[0].free_until) << i;
+  }
+}
+
 TEST(EdgeAnswers, ShapesThatPassEachOtherWithinTheToleranceAreUnknownUntilItIsSmaller) {
   ArmWorld world;
   put(world.scene, ArmWorld::ballBody("ball"), at(0, 0.5 + 0.2 + 1e-4));  // the arm passes it at 0.1 mm

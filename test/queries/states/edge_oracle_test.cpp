@@ -98,7 +98,10 @@ TEST(EdgeOracle, NoClearEdgeHasAContactAndEachHitIsOne) {
       EXPECT_EQ(alone.edges[0].verdict, answers.edges[i].verdict) << "an answer does not depend on other edges";
       EXPECT_EQ(alone.edges[0].free_until, answers.edges[i].free_until);
       EXPECT_TRUE(alone.edges[0].at == answers.edges[i].at || std::isnan(alone.edges[0].at));
-      EXPECT_EQ(others.edges[i].verdict, answers.edges[i].verdict) << "with any contact instead of the first one";
+      // A tested configuration may be in a contact that is shorter than the tolerance.
+      EXPECT_TRUE(others.edges[i].verdict == answers.edges[i].verdict ||
+                  (others.edges[i].verdict == Verdict::hit && answers.edges[i].verdict == Verdict::unknown))
+          << "with any contact instead of the first one";
       if (others.edges[i].verdict == Verdict::hit) {
         oracle.surfaces_only = false;
         const StatePair& pair = others.pairs[others.edges[i].first_pair];
