@@ -14,7 +14,7 @@ from hgrid_proximity.errors import ProximityError
 
 JOINTS = ["joint_1", "joint_2", "joint_3", "joint_4", "joint_5", "joint_6"]
 STEP = 1.0  # [rad] largest distance of the ends of an edge, in joint space
-MOST = 3000  # number of tries
+MAX_TRIES = 3000  # number of tries
 
 
 class Planner:
@@ -36,7 +36,7 @@ class Planner:
         way = target - states[nearest]
         length = numpy.linalg.norm(way)
         end = states[nearest] + way * min(1.0, STEP / max(length, STEP))
-        found = self._proximity.check_edges(JOINTS, [states[nearest]], [end], any_contact=True, lease=self._lease)
+        found = self._proximity.check_edges(JOINTS, [states[nearest]], [end], any_contact=True, lease=self._lease, keep=10.0)
         self.edges += 1
         if not found.clear[0] or found.beyond_limits[0]:
             return False
@@ -47,7 +47,7 @@ class Planner:
         """Returns the states of a free way, or None."""
         random = numpy.random.RandomState(seed)
         trees = [[(numpy.array(start), None)], [(numpy.array(goal), None)]]
-        for turn in range(MOST):
+        for turn in range(MAX_TRIES):
             one, other = trees[turn % 2], trees[1 - turn % 2]
             self.extend(one, random.uniform(-3, 3, len(JOINTS)))
             if self.extend(other, one[-1][0]):

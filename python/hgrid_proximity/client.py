@@ -194,10 +194,11 @@ class Proximity:
             base: geometry_msgs/Pose of the root link in the world frame; otherwise it is where tf says
             ignore: globs over the names of bodies that are not checked
             lease: `response.lease` of an earlier answer, to ask the same state of the world
-            keep: [s] how long the node should keep this state of the world for further requests
+            keep: [s] how long the node should keep this state of the world for further requests, counted from this one
             max_time: [s] time limit, at most 10
         """
-        rows = _rows("positions", positions)
+        joint_names = list(joint_names)
+        rows = _rows("positions", positions, joint_names)
         request = srv.CheckStatesRequest(positions=rows, max_clearance=max_clearance, gradients=gradients)
         return States(self._check(srv.CheckStates, request, joint_names, **options))
 
@@ -213,8 +214,9 @@ class Proximity:
         @param any_contact  True: any contact ends the search, which is faster; False: look for the first one
         @param options  see check_states()
         """
+        joint_names = list(joint_names)
         request = srv.CheckEdgesRequest(tolerance=tolerance, any_contact=any_contact)
-        request.start, request.end = _rows("start", start), _rows("end", end)
+        request.start, request.end = _rows("start", start, joint_names), _rows("end", end, joint_names)
         return Edges(self._check(srv.CheckEdges, request, joint_names, **options))
 
     def apply_obstacles(self, *changes: Obstacle, complete_set: bool = False, owner: str = "", max_time: float = 0.0):
@@ -323,7 +325,7 @@ class Proximity:
         keep: float = 0.0,
         max_time: float = 0.0,
     ):
-        request.robot, request.group, request.joint_names = robot, group, list(joint_names)
+        request.robot, request.group, request.joint_names = robot, group, joint_names
         request.ignore, request.max_time, request.use_base = globs(ignore), max_time, base is not None
         if base is not None:
             request.base = base
@@ -338,12 +340,13 @@ class Proximity:
         return Answer(self._services[kind](request, extra))
 
 
-def _rows(name: str, values):
-    """Returns an array of rows as a flat list. @throws ValueError if it does not have two dimensions"""
+def _rows(name: str, values, joint_names):
+    """Returns an array of rows as a flat list. @throws ValueError if a row does not have one number for each joint"""
     rows = numpy.asarray(values, numpy.float64)
-    if rows.ndim != 2:
-        raise ValueError(f"{name} has {rows.ndim} dimensions; it must be rows with one number for each joint")
-    return rows.ravel()
+    if rows.ndim != 2 or rows.shape[1] != len(joint_names):
+        shape = " x ".join(str(length) for length in rows.shape)
+        raise ValueError(f"{name} has {shape} numbers; it must be rows with one number for each of {len(joint_names)} joints")
+    return rows.ravel().tolist()
 
 
 def _apply(

@@ -31,6 +31,9 @@ class _Verdicts:
     def __len__(self):
         return len(self.clear)
 
+    def __bool__(self):
+        raise TypeError("an answer is neither true nor false; read .clear, .hit or .unknown")
+
     def text(self, index: int) -> str:
         """Says why a state or edge is unknown or was refused; empty for others."""
         return self.response.texts[index] if self.response.texts else ""

@@ -106,12 +106,17 @@ class CheckStates(unittest.TestCase):
         self.assert_refused("UNKNOWN_ID", lambda: self.states([[0, 0]], group="leg"), "leg")
         self.assert_refused("UNKNOWN_ID", lambda: self.states([[0, 0]], group="leg", robot="robot"), "leg")
         self.assert_refused("DUP_ID", lambda: check(["slide", "slide"], [[0, 0]]), "slide")
-        self.assert_refused("OUT_OF_RANGE", lambda: check([], [[0, 0]]), "joint_names")
+        self.assert_refused("UNKNOWN_ID", lambda: self.states([[0, 0]], ignore="robot/*"), "ignore")
+        self.assert_refused("UNSUPPORTED", lambda: self.states([[0, 0]], group="carriage"), "carriage", "geometry")
         self.assert_refused("BAD_GEOMETRY", lambda: self.states([[0, 0]], max_clearance=-1.0), "clearance")
         self.assert_refused("OUT_OF_RANGE", lambda: self.states([[0, 0]], max_time=-1.0), "max_time")
         self.assert_refused("LIMIT", lambda: check(["slide"], numpy.zeros((1001, 1))), "1001", "1000", "~max_batch")
         self.assert_refused("OUT_OF_RANGE", lambda: self.edges([[0, 0]], [[0, 0]], tolerance=2.0), "tolerance")
         self.assert_refused("OUT_OF_RANGE", lambda: self.edges([[0, 0]], [[0, 0], [0, 1]]), "start has 2 values")
+        self.assert_refused("OUT_OF_RANGE", lambda: self.states([[0, 0]], max_clearance=11.0), "max_clearance")
+        for rows in ([[0]], [[0, 0, 0]], [0, 0]):
+            with self.assertRaises(ValueError):
+                self.states(rows)
         self.assert_refused("LIMIT", lambda: self.edges(numpy.zeros((1001, 2)), numpy.zeros((1001, 2))), "~max_batch")
 
     def test_edges_have_the_first_contact(self):
@@ -180,23 +185,17 @@ class CheckStates(unittest.TestCase):
         self.assert_refused("OUT_OF_RANGE", lambda: self.states([[0, 0]], keep=-1.0), "lasts")
 
     def test_only_so_many_leases_are_kept(self):
-        codes = set()
-        for _ in range(40):
-            try:
-                self.states([[0, 0]], keep=1.0)
-            except Refused as refused:
-                codes.add(refused.code)
+        leases = []
+        for _ in range(60):
+            leases.append(self.states([[0, 0]], keep=5.0).response.lease)
             time.sleep(0.02)  # until the next tick
-        self.assertEqual(codes, {"LIMIT"})
+        kept = [lease for lease in leases if lease.lasts.to_sec() > 0]
+        self.assertEqual(len({lease.sequence for lease in kept}), 16)
+        self.assertEqual(leases[-1].lasts.to_sec(), 0.0, "there is no room for more")
+        wait(lambda: self.states([[0, 0]], keep=0.1).response.lease.lasts.to_sec() > 0, "the end of a lease")
 
-        def has_room():
-            try:
-                self.states([[0, 0]], keep=0.01)
-                return True
-            except Refused:
-                return False
-
-        wait(has_room, "the end of a lease")
+    def test_a_group_with_a_virtual_joint_is_the_whole_robot(self):
+        self.assertTrue(self.states([[TO_POST, 0.5]], group="whole").hit[0])
 
     # Claim: if nobody knows where a joint stands, only requests that give it can be CLEAR.
     def test_a_joint_whose_position_is_old_makes_states_unknown(self):
@@ -204,6 +203,7 @@ class CheckStates(unittest.TestCase):
         self.arm.publishes = False
         try:
             wait(lambda: self.proximity.check_states(["slide"], [[0.5]]).unknown[0], "the end of the knowledge")
+            self.assertTrue(math.isnan(self.proximity.check_states(["slide"], [[0.5]], max_clearance=0.4).clearance[0]))
             self.assertTrue(self.states([[0, 0.5]]).clear[0])
             edge = self.proximity.check_edges(["slide"], [[0.1]], [[0.5]])
             self.assertEqual((edge.unknown[0], edge.free_until[0]), (True, 0.0))

@@ -188,6 +188,8 @@ class StateChecker {
   /// Returns whether the joints of the robot move this body: one of its links, or an attached obstacle.
   /// @param body  index into Structure::bodies
   bool moves(std::uint32_t body) const;
+  /// Returns the number of shapes of the robot that count, see StateCheckerOptions. If it is 0, every state is clear.
+  std::size_t countingShapes() const;
   /// Returns the number of pairs of shapes of the robot that are tested against each other.
   std::size_t selfPairs() const;
 

@@ -297,7 +297,7 @@ void visitParams(Visitor& v, Params& p) {
             "message is dropped");
   v.integer("max_hits", p.max_hits, 1, 1000000,
             "largest number of hits in one answer; if there are more, the answer is truncated");
-  v.integer("max_batch", p.max_batch, 1, 10000000,
+  v.integer("max_batch", p.max_batch, 1, 1000000,
             "largest number of states or edges in a request of ~check_states or ~check_edges; a request with more is "
             "refused");
   v.integer(

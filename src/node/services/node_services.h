@@ -34,8 +34,8 @@ class NodeServices {
                const TickHistory& history, Loading& loading, StateKeeper& state, Stopwatch& stopwatch,
                QuerySketch& sketch);
 
-  /// Forgets the ticks of leases that have ended. Any thread may call this.
-  void dropEndedLeases() { states_.dropEndedLeases(); }
+  /// Forgets the ticks of leases that have ended. Any thread may call this. @param epoch  the present epoch
+  void dropEndedLeases(std::uint64_t epoch) { states_.dropEndedLeases(epoch); }
 
  private:
   ServiceEnvelope questions_, changes_;

@@ -16,6 +16,7 @@ namespace hgrid {
 namespace {
 
 constexpr double kLongest = 10.0;               // [s] time limit of a request
+constexpr double kFarthest = 10.0;              // [m] upper limit of max_clearance
 constexpr std::uint32_t kNoPair = 4294967295u;  // stands for "no such pair" in the messages
 
 /// Returns when the time of a request is over.
@@ -126,7 +127,7 @@ StateServices::StateServices(ServiceEnvelope& envelope, const Params& params, co
 template <class Service>
 void StateServices::chooseTick(ServiceCall<Service>& call) {
   call.tick.snapshot();  // throws while there is no world
-  call.answerFrom(leases_.take(call.request.lease, call.tick.get(), call.response.lease));
+  call.answerFrom(leases_.find(call.request.lease, call.tick.get()));
 }
 
 void StateServices::checkCount(const char* what, std::size_t values, std::size_t joints) const {
@@ -144,6 +145,10 @@ void StateServices::answer(ServiceCall<msg::CheckStates>& call) {
   checkCount("states", request.positions.size(), request.joint_names.size());
   const StateQuestion question =
       stateQuestion(askedOf(request), request.positions, *call.tick.get(), transforms_, narrow_phase_);
+  if (request.max_clearance > kFarthest) {
+    throw Refusal(Code::out_of_range, "max_clearance is " + text(request.max_clearance) + " m; it must be at most " +
+                                          text(kFarthest) + " m");
+  }
   StateRequest asked;
   asked.clearance = request.max_clearance;
   asked.gradients = request.gradients;
@@ -159,9 +164,15 @@ void StateServices::answer(ServiceCall<msg::CheckStates>& call) {
                state.because == Unknown::no ? "" : question.checker.sentenceOf(question.batch, answers, i));
     writer.addPair(state.pairs == 0 ? nullptr : &answers.pairs[state.first_pair]);
     if (asked.clearance > 0.0) response.clearance.push_back(state.clearance);
+    if (response.verdicts.back() != static_cast<std::uint8_t>(Verdict::unknown)) continue;
+    // What nobody sees may be nearer than what was measured.
+    if (asked.clearance > 0.0) response.clearance.back() = Proximity::kUnknown;
+    const std::size_t width = answers.gradients.size() / answers.states.size();
+    std::fill_n(answers.gradients.begin() + static_cast<std::ptrdiff_t>(i * width), width, Proximity::kUnknown);
   }
   writer.finish();
   response.gradient = std::move(answers.gradients);
+  response.lease = leases_.keep(request.lease, call.tick.get());
 }
 
 void StateServices::answer(ServiceCall<msg::CheckEdges>& call) {
@@ -204,6 +215,7 @@ void StateServices::answer(ServiceCall<msg::CheckEdges>& call) {
     response.point.push_back(placeOf(pair));
   }
   writer.finish();
+  response.lease = leases_.keep(request.lease, call.tick.get());
 }
 
 }  // namespace hgrid

@@ -23,8 +23,8 @@ class StateServices {
   StateServices(ServiceEnvelope& envelope, const Params& params, const TransformLookup& transforms,
                 std::shared_ptr<const NarrowPhase> narrow_phase);
 
-  /// Forgets the ticks of leases that have ended. Any thread may call this.
-  void dropEndedLeases() { leases_.dropEnded(); }
+  /// Forgets the ticks of leases that have ended. Any thread may call this. @param epoch  the present epoch
+  void dropEndedLeases(std::uint64_t epoch) { leases_.dropEnded(epoch); }
 
  private:
   void answer(ServiceCall<msg::CheckStates>& call);

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/states/state_question.h"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -20,13 +21,39 @@ StateCheckerOptions optionsOf(const AskedStates& asked, const LoadedRobot& robot
   options.ignore = asked.ignore;
   if (asked.group.empty()) return options;
   const JointGroups& groups = robot.read->joints->groups;
-  if (const auto group = variablesOf(asked.group, groups, robot.read->model)) {
-    options.group = *group;
-    return options;
+  const bool is_known = std::any_of(groups.groups.begin(), groups.groups.end(),
+                                    [&](const JointGroup& group) { return group.name == asked.group; });
+  if (!is_known) {
+    const std::string& flaw = robot.read->joints->group_flaw;
+    throw Refusal(Code::unknown_id, "the SRDF of robot '" + robot.name + "' has no group '" + printable(asked.group) +
+                                        "'" + (flaw.empty() ? "" : "; its groups cannot be used: " + flaw));
   }
-  const std::string& flaw = robot.read->joints->group_flaw;
-  throw Refusal(Code::unknown_id, "the SRDF of robot '" + robot.name + "' has no group '" + printable(asked.group) +
-                                      "' with joints" + (flaw.empty() ? "" : "; its groups cannot be used: " + flaw));
+  // A group with a virtual joint moves the whole robot.
+  if (const auto group = variablesOf(asked.group, groups, robot.read->model)) options.group = *group;
+  return options;
+}
+
+/// Checks the names of the columns. @throws Refusal limit, unknown_id
+void checkJoints(const std::vector<std::string>& joints, const Kinematics& kinematics, const std::string& robot) {
+  const std::size_t most = kinematics.variables().size();
+  for (const std::string& joint : joints) {
+    if (kinematics.find(joint) >= 0) continue;
+    throw Refusal(Code::unknown_id, "joint '" + printable(joint) + "' of the request is not a joint value of robot '" +
+                                        robot + "'; fixed joints and joints that mimic others have none");
+  }
+  if (joints.size() <= most) return;
+  throw Refusal(Code::dup_id, "the request names " + std::to_string(joints.size()) + " joints, but robot '" + robot +
+                                  "' has only " + std::to_string(most) + " joint values; each must occur once");
+}
+
+/// Checks that something of the robot is left to be checked. Otherwise every state would be CLEAR.
+void checkCounting(const StateChecker& checker, const AskedStates& asked) {
+  if (checker.countingShapes() > 0) return;
+  if (!asked.group.empty() && asked.ignore.empty()) {
+    throw Refusal(Code::unsupported, "no link that group '" + printable(asked.group) +
+                                         "' moves has geometry, so there is nothing to check");
+  }
+  throw Refusal(Code::unknown_id, "ignore leaves out all bodies of the robot that count; at least one must remain");
 }
 
 }  // namespace
@@ -47,6 +74,7 @@ StateQuestion stateQuestion(const AskedStates& asked, std::vector<double> positi
     batch.joints.push_back(jointOf(name, robot.name));
     given[batch.joints.back()] = 0.0;
   }
+  checkJoints(batch.joints, kinematics, robot.name);
   batch.positions = std::move(positions);
   PresentJoints present = presentJoints(robot, given, tick, transforms);
   batch.others = std::move(present.values);
@@ -60,8 +88,9 @@ StateQuestion stateQuestion(const AskedStates& asked, std::vector<double> positi
     batch.world_from_root = root.world_from_frame;
     if (doubt.empty()) doubt = root.doubt;
   }
-  return {StateChecker(tick.snapshot, kinematics, robot.name, std::move(narrow_phase), optionsOf(asked, robot, tick)),
-          std::move(batch), std::move(doubt)};
+  StateChecker checker(tick.snapshot, kinematics, robot.name, std::move(narrow_phase), optionsOf(asked, robot, tick));
+  checkCounting(checker, asked);
+  return {std::move(checker), std::move(batch), std::move(doubt)};
 }
 
 }  // namespace hgrid

@@ -19,15 +19,16 @@ class Leases {
  public:
   static constexpr std::size_t kMost = 16;  ///< number of ticks that are kept at the same time
 
-  /// Returns the tick that a request asks for, and keeps it as long as the request wants.
+  /// Returns the tick that a request asks for.
   /// @param newest  the newest tick; it has a snapshot
-  /// @param granted  receives how the response names the tick, and how long it is kept
   /// @throws Refusal conflict for a lease of another epoch, extrapolation if the tick is not kept any more,
-  /// out_of_range for a negative duration, limit if too many ticks are kept
-  std::shared_ptr<const Tick> take(const ::hgrid_proximity::Lease& asked, const std::shared_ptr<const Tick>& newest,
-                                   ::hgrid_proximity::Lease& granted);
-  /// Forgets the ticks whose time is over.
-  void dropEnded();
+  /// out_of_range for a negative duration
+  std::shared_ptr<const Tick> find(const ::hgrid_proximity::Lease& asked, const std::shared_ptr<const Tick>& newest);
+  /// Keeps a tick that find() returned as long as the request wants, or longer if another request wants that.
+  /// @returns how responses name the tick, and how long it is kept: 0 if there is no room for it
+  ::hgrid_proximity::Lease keep(const ::hgrid_proximity::Lease& asked, const std::shared_ptr<const Tick>& tick);
+  /// Forgets the ticks whose time is over, and those of other epochs. @param epoch  the present epoch
+  void dropEnded(std::uint64_t epoch);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -35,7 +36,7 @@ class Leases {
     std::shared_ptr<const Tick> tick;
     Clock::time_point end;
   };
-  void drop(Clock::time_point now);
+  std::vector<Kept> takeEnded(Clock::time_point now, std::uint64_t epoch);
 
   std::mutex mutex_;
   std::vector<Kept> kept_;

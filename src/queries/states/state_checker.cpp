@@ -72,6 +72,7 @@ StateChecker::StateChecker(StateChecker&&) noexcept = default;
 const Snapshot& StateChecker::snapshot() const { return *state_->snapshot; }
 const Kinematics& StateChecker::kinematics() const { return state_->kinematics; }
 bool StateChecker::moves(std::uint32_t body) const { return state_->robot.moves(body); }
+std::size_t StateChecker::countingShapes() const { return state_->robot.counting(); }
 std::size_t StateChecker::selfPairs() const { return state_->robot.selfPairs().size(); }
 
 void StateChecker::checkStates(const StateBatch& batch, const StateRequest& request, StateScratch& scratch,
