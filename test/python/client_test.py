@@ -212,12 +212,12 @@ class Client(unittest.TestCase):
         try:
             wrong = []
             for delay in [0.0002 * step for step in range(1, 40)]:
-                signal.setitimer(signal.ITIMER_REAL, delay)
                 try:
+                    signal.setitimer(signal.ITIMER_REAL, delay)
                     self.proximity.query_sphere((0, 0, 0))
+                    signal.setitimer(signal.ITIMER_REAL, 0.0)
                 except Interrupted:
                     pass
-                signal.setitimer(signal.ITIMER_REAL, 0.0)
                 names = self.proximity.query_sphere((0, 0, 2)).names
                 if names != ["obstacle/lamp"]:
                     wrong.append(names)
