@@ -137,7 +137,10 @@ std::vector<Chore> ProximityNode::chores() {
            [this](Time now) {
              if (marker_pace_.takeDue(now)) publishers_.publishMarkers(tick_loop_.newest());
            }},
-          {"leases.failed", kAlways, [this](Time) { services_.dropEndedLeases(tick_loop_.newest()->epoch); }},
+          {"leases.failed", kAlways,
+           [this](Time) {
+             if (const auto newest = tick_loop_.newest()) services_.dropEndedLeases(newest->epoch);
+           }},
           {"diagnostics.failed", kDiagnosticsPause, [this](Time) { diagnostics_.update(); }}};
 }
 
