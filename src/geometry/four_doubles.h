@@ -17,7 +17,14 @@ struct FourDoubles {
   TwoDoubles low, high;  // lanes 0, 1 and lanes 2, 3
 
   double operator[](std::size_t lane) const { return lane < 2 ? low[lane] : high[lane - 2]; }
-  void set(std::size_t lane, double value) { (lane < 2 ? low : high)[lane % 2] = value; }
+  // Not `(lane < 2 ? low : high)[lane % 2] = value`: with -fsanitize=undefined, GCC 12 sets the wrong lane.
+  void set(std::size_t lane, double value) {
+    if (lane < 2) {
+      low[lane] = value;
+    } else {
+      high[lane - 2] = value;
+    }
+  }
 };
 
 /// Returns four equal numbers.
