@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Reads ROS messages into numpy arrays.
+"""Reads ROS messages into numpy arrays, and writes them from numpy arrays.
 
 Arrays of numbers become read-only numpy views of the received bytes. The numbers are not copied, so a message with
-thousands of pairs is cheap to read. Such a message cannot be published.
+thousands of pairs is cheap to read.
 
     type of the field                    value
     numbers, such as float64[]           array of n numbers
     geometry_msgs/Point[] and other
-      types with k float64 fields        array of n rows with k numbers: x, y, z
+      types that only have k float64     array of n rows with k numbers: x, y, z
     time[], duration[]                   array of n int64 [ns], a copy
     everything else                      as rospy reads it
+
+All fields except time[] and duration[] can also be written like this. Lists, as rospy has them, can always be written.
 """
 from __future__ import annotations
 
@@ -21,18 +23,25 @@ import genpy
 import numpy
 
 _NUMBERS = {
-    "bool": "?", "int8": "i1", "uint8": "u1", "byte": "i1", "char": "u1", "int16": "<i2", "uint16": "<u2",
-    "int32": "<i4", "uint32": "<u4", "int64": "<i8", "uint64": "<u8", "float32": "<f4", "float64": "<f8",
-}  # fmt: skip
-_TIMES = {"time": (genpy.Time, "<u4"), "duration": (genpy.Duration, "<i4")}
+    "bool": "<?", "int8": "<b", "uint8": "<B", "byte": "<b", "char": "<B", "int16": "<h", "uint16": "<H", "int32": "<i",
+    "uint32": "<I", "int64": "<q", "uint64": "<Q", "float32": "<f", "float64": "<d",
+}  # struct and numpy understand these; fmt: skip
+_TIMES = {"time": (genpy.Time, "<I"), "duration": (genpy.Duration, "<i")}
 
 
 def with_arrays(kind):
     """Returns a message class with the same fields as the class `kind`, whose arrays are numpy arrays.
 
     Use it to subscribe: `rospy.Subscriber(topic, with_arrays(Pairs), callback)`. Reading throws
-    genpy.DeserializationError if the bytes end too early or contain more than the message.
+    genpy.DeserializationError if the bytes end too early or contain more than the message. Writing throws
+    genpy.SerializationError if a value does not fit its field.
     """
+
+    def serialize(self, buff):
+        try:
+            _write_message(kind, buff, self)
+        except (AttributeError, TypeError, ValueError, struct.error) as error:
+            raise genpy.SerializationError(f"{kind._type}: {error}") from error
 
     def deserialize(self, data):
         source = _Bytes(data)
@@ -43,7 +52,8 @@ def with_arrays(kind):
             raise genpy.DeserializationError(f"{kind._type}: {error}") from error
         return self
 
-    members = {"__doc__": kind.__doc__, "__slots__": kind.__slots__, "deserialize": deserialize}  # genpy reads __slots__
+    members = {"__doc__": kind.__doc__, "__slots__": kind.__slots__}  # genpy reads __slots__
+    members.update(serialize=serialize, deserialize=deserialize)
     return type(kind.__name__, (kind,), members)
 
 
@@ -59,7 +69,7 @@ class _Bytes:
         return numpy.frombuffer(self._data, dtype, count, begin)
 
     def text(self) -> str:
-        length = self.number("<u4")
+        length = self.number("<I")
         begin = self._at
         self._step(length)
         return self._data[begin : self._at].decode("utf-8", "replace")
@@ -113,7 +123,7 @@ def _array_reader(element: str, length):
     """Returns a function that reads an array of this element type. @param length  None: the message gives the length"""
 
     def count(source):
-        return source.number("<u4") if length is None else length
+        return source.number("<I") if length is None else length
 
     if element in _NUMBERS:
         return lambda source: source.array(_NUMBERS[element], count(source))
@@ -121,7 +131,7 @@ def _array_reader(element: str, length):
         return lambda source: _nanoseconds(source.array(_TIMES[element][1], 2 * count(source)))
     columns = _columns(element)
     if columns:
-        return lambda source: source.array("<f8", columns * count(source)).reshape(-1, columns)
+        return lambda source: source.array("<d", columns * count(source)).reshape(-1, columns)
     read = _reader(element)
     return lambda source: [read(source) for _ in range(count(source))]
 
@@ -130,7 +140,66 @@ def _nanoseconds(pairs: numpy.ndarray) -> numpy.ndarray:
     return pairs[0::2].astype(numpy.int64) * 1_000_000_000 + pairs[1::2]
 
 
-def _columns(element: str) -> int:
-    """Returns the number of fields of a message type, if all of them are float64; otherwise 0."""
-    kind = None if element == "string" else genpy.message.get_message_class(element)
-    return len(kind._slot_types) if kind and set(kind._slot_types) == {"float64"} else 0
+@functools.lru_cache(maxsize=None)
+def _columns(of: str) -> int:
+    """Returns how many numbers a message type has if all its fields, or the fields of these, are float64; otherwise 0."""
+    if of == "float64":
+        return 1
+    if of in _NUMBERS or of in _TIMES or of == "string" or of.endswith("]"):
+        return 0
+    columns = [_columns(field) for field in genpy.message.get_message_class(of)._slot_types]
+    return sum(columns) if all(columns) else 0
+
+
+@functools.lru_cache(maxsize=None)
+def _writer(of: str):
+    """Returns a function that writes a value of this ROS type into a buffer."""
+    if of.endswith("]"):
+        element, _, length = of[:-1].rpartition("[")
+        return _array_writer(element, int(length) if length else None)
+    if of in _NUMBERS:
+        return lambda buff, value: buff.write(struct.pack(_NUMBERS[of], value))
+    if of == "string":
+        return _write_text
+    if of in _TIMES:
+        return lambda buff, value: buff.write(struct.pack(_TIMES[of][1].replace("<", "<2"), value.secs, value.nsecs))
+    return functools.partial(_write_message, genpy.message.get_message_class(of))
+
+
+def _write_message(kind, buff, message):
+    for name, of in zip(kind.__slots__, kind._slot_types):
+        try:
+            _writer(of)(buff, getattr(message, name))
+        except (AttributeError, TypeError, ValueError, struct.error) as error:
+            raise ValueError(f"{name}: {error}") from error
+
+
+def _write_text(buff, value):
+    data = value if isinstance(value, bytes) else value.encode("utf-8")
+    buff.write(struct.pack("<I", len(data)) + data)
+
+
+def _array_writer(element: str, length):
+    """Returns a function that writes an array or a list. @param length  None: the length is written as well"""
+    dtype = _NUMBERS.get(element)
+    columns = 0 if dtype or element in _TIMES else _columns(element)
+    write = _writer(element)
+
+    def write_list(buff, value):
+        if length not in (None, len(value)):
+            raise ValueError(f"it has {len(value)} elements; it must have {length}")
+        if length is None:
+            buff.write(struct.pack("<I", len(value)))
+        if isinstance(value, numpy.ndarray) and (dtype or columns):
+            if value.shape[1:] != ((columns,) if columns else ()):
+                raise ValueError(f"its shape is {value.shape}; it must have {columns or 'no'} columns")
+            if not numpy.can_cast(value.dtype, dtype or "<d", "same_kind"):
+                raise ValueError(f"it is an array of {value.dtype}; it must be of {element}")
+            buff.write(numpy.ascontiguousarray(value, dtype or "<d").tobytes())
+        elif dtype:
+            buff.write(struct.pack(f"<{len(value)}{dtype[1]}", *value))
+        else:
+            for one in value:
+                write(buff, one)
+
+    return write_list

@@ -24,6 +24,7 @@ import rospy
 from geometry_msgs.msg import Vector3
 
 from hgrid_proximity import srv
+from hgrid_proximity.batches import Batch, QueryBatchArrays, write_geometry
 from hgrid_proximity.errors import NoAnswer, Refused
 from hgrid_proximity.events import Events
 from hgrid_proximity.msg import Obstacle, RobotChange, Shape, Verdict
@@ -102,6 +103,7 @@ class Proximity:
                 ("query_shape", srv.QueryShape),
                 ("query_nearest", srv.QueryNearest),
                 ("explain_pair", srv.ExplainPair),
+                ("query_batch", QueryBatchArrays),
                 ("check_states", srv.CheckStates),
                 ("check_edges", srv.CheckEdges),
             )
@@ -178,6 +180,42 @@ class Proximity:
         if not response.success:
             raise Refused(response.code.name, response.code.text)
         return response
+
+    def query_batch(
+        self,
+        spheres=None,
+        segments=None,
+        boxes=None,
+        shapes: Iterable[Shape] = (),
+        points=None,
+        bodies: Iterable[str] = (),
+        max_distance: float = 0.0,
+        lease=None,
+        keep: float = 0.0,
+        **options,
+    ) -> Batch:
+        """Asks thousands of questions about one state of the world. They are numbered in the order of the arguments.
+
+        @param spheres  centers, radii: which bodies does each sphere touch?
+        @param segments  starts, ends, radii: which bodies does each segment touch?
+        @param boxes  centers, sizes, or centers, sizes, orientations: which bodies does each box touch?
+        @param shapes  which bodies does each shape touch?
+        @param points  which bodies are nearest to each point?
+        @param bodies  names; which bodies are nearest to each body?
+        @param max_distance  [m] for points and bodies: what is farther away cannot be hit; 0: no limit
+        @param lease  `response.lease` of an earlier answer, to ask the same state of the world
+        @param keep  [s] how long the node should keep this state of the world for further requests
+        @param options  as for all queries, but `limit` is 1 unless given, and `max_time` is at most 10 s
+
+        Centers, starts, ends, sizes and points are arrays of n rows with three numbers, orientations have four (x, y, z,
+        w). Radii are arrays of n numbers, or one number for all.
+        """
+        request = QueryBatchArrays._request_class(shape=list(shapes), nearest_to_body=list(bodies))
+        write_geometry(request, spheres, segments, boxes, points)
+        request.max_distance = max_distance
+        _apply(request, **options)
+        _ask_same_world(request, lease, keep)
+        return Batch(self._services[QueryBatchArrays](request, 10.0))  # the longest time limit of this service
 
     def check_states(
         self, joint_names: Iterable[str], positions, max_clearance: float = 0.0, gradients: bool = False, **options
@@ -329,15 +367,20 @@ class Proximity:
         request.ignore, request.max_time, request.use_base = globs(ignore), max_time, base is not None
         if base is not None:
             request.base = base
-        if lease is not None:
-            request.lease.epoch, request.lease.sequence = lease.epoch, lease.sequence
-        request.lease.lasts = rospy.Duration.from_sec(keep)
+        _ask_same_world(request, lease, keep)
         return self._services[kind](request, 10.0)  # the longest time limit of these services
 
     def _query(self, kind, request, options) -> Answer:
         _apply(request, **options)
         extra = min(request.max_time, LONGEST) if request.max_time > 0.0 else 0.0  # [s] max_time may be infinite
         return Answer(self._services[kind](request, extra))
+
+
+def _ask_same_world(request, lease, keep: float):
+    """Writes which state of the world a request asks about, and how long [s] the node should keep it."""
+    if lease is not None:
+        request.lease.epoch, request.lease.sequence = lease.epoch, lease.sequence
+    request.lease.lasts = rospy.Duration.from_sec(keep)
 
 
 def _rows(name: str, values, joint_names):

@@ -14,7 +14,6 @@
 """
 from __future__ import annotations
 
-import struct
 import time
 import zlib
 from typing import Iterable, Optional
@@ -22,21 +21,12 @@ from typing import Iterable, Optional
 import numpy as np
 import rospy
 
+from hgrid_proximity.arrays import with_arrays
 from hgrid_proximity.msg import Poses
 
 
-class _Bytes(Poses):
-    """A message whose lists of poses are numpy arrays. It is written as bytes, because a list of 10,000 messages takes
-    longer than the time between two messages."""
-
-    def serialize(self, buff):
-        head = Poses(header=self.header, names_version=self.names_version, names=self.names, index=self.index)
-        head.serialize(buff)
-        buff.seek(-20, 1)  # the five empty lists after index
-        for array in (self.position, self.orientation):
-            buff.write(struct.pack("<I", len(array)))
-            buff.write(array.tobytes())
-        buff.write(bytes(12))
+# To write a list of 10,000 messages takes longer than the time between two messages.
+_Poses = with_arrays(Poses)
 
 
 class PosesPublisher:
@@ -63,7 +53,7 @@ class PosesPublisher:
         @throws ValueError if an array has another shape
         """
         count = len(self._names)
-        message = _Bytes(names_version=self._version)
+        message = _Poses(names_version=self._version)
         message.position = _array("positions", positions, (count, 3))
         if orientations is None:
             orientations = np.broadcast_to((0.0, 0.0, 0.0, 1.0), (count, 4))

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Reads random messages as arrays, and compares them with what genpy reads. Needs no master."""
+"""Reads and writes random messages as arrays, and compares them with what genpy reads. Needs no master."""
 import io
 import random
 import unittest
@@ -9,11 +9,12 @@ import unittest
 import genpy
 import numpy
 import rospy
-from hgrid_proximity import msg
+from hgrid_proximity import msg, srv
 from hgrid_proximity.arrays import with_arrays
 from hgrid_proximity.streams import DistanceArrays, EventArrays, PairArrays
 
 KINDS = [kind for kind in vars(msg).values() if isinstance(kind, type) and issubclass(kind, genpy.Message)]
+REQUESTS = [kind for name, kind in vars(srv).items() if name.endswith("Request")]
 RANGES = {"int8": 7, "uint8": 8, "int16": 15, "uint16": 16, "int32": 31, "uint32": 32, "int64": 63, "uint64": 64}
 
 
@@ -51,6 +52,19 @@ def written(message):
     return buffer.getvalue()
 
 
+def filled(message, source):
+    """Gives a message the fields of another."""
+    for name in source.__slots__:
+        setattr(message, name, getattr(source, name))
+    return message
+
+
+def has_times(of):
+    """Returns whether a message type, or a type in it, has an array of times."""
+    return any(field in ("time[]", "duration[]") or "/" in field and has_times(
+        genpy.message.get_message_class(field.rpartition("[")[0] or field)) for field in of._slot_types)
+
+
 def plain(value):
     """Returns a value without numpy, with messages as lists of their fields and times as nanoseconds."""
     if isinstance(value, numpy.ndarray):
@@ -83,6 +97,25 @@ class Arrays(unittest.TestCase):
             self.assertTrue(numpy.shares_memory(array, whole))
             with self.assertRaises(ValueError):
                 array[0] = 1
+
+    # Claim: a message that was read as arrays is written as the same bytes, if it has no arrays of times.
+    def test_are_written_as_the_same_bytes(self):
+        rng = random.Random(4)
+        kinds = [kind for kind in KINDS + REQUESTS if not has_times(kind)]
+        self.assertGreater(len(kinds), 30)
+        for kind in kinds:
+            for _ in range(20):
+                data = written(random_message(rng, kind))
+                self.assertEqual(written(with_arrays(kind)().deserialize(data)), data, kind._type)
+                self.assertEqual(written(filled(with_arrays(kind)(), kind().deserialize(data))), data, kind._type)
+
+    def test_that_do_not_fit_are_not_written(self):
+        kind = with_arrays(srv.QueryBatchRequest)
+        for field, value in (("sphere_center", numpy.zeros((2, 4))), ("sphere_center", numpy.zeros(3)),
+                             ("sphere_radius", numpy.zeros((2, 1))), ("sphere_radius", ["a"]), ("limit", -1),
+                             ("sphere_radius", numpy.zeros(2, complex)), ("include", [1]), ("as_body", 1)):
+            with self.assertRaisesRegex(genpy.SerializationError, "QueryBatchRequest: " + field):
+                written(kind(**{field: value}))
 
     def test_have_a_row_for_each_point(self):
         message = random_message(random.Random(2), msg.Distances)

@@ -132,9 +132,8 @@ StateValidity stateValidity(const GetStateValidity::Request& request, const Answ
     result.unknown = checker.sentenceOf(asked.batch, answers, 0);
   } else if (answer.verdict == Verdict::clear && !asked.doubt.empty()) {
     result.unknown = asked.doubt;
-  } else if (answer.verdict == Verdict::clear && tick.age() > params.valid_for) {
-    result.unknown = "the newest tick is " + secondsText(tick.age()) + " old; ticks are valid for " +
-                     text(params.valid_for) + " s (~valid_for)";
+  } else if (answer.verdict == Verdict::clear) {
+    result.unknown = tick.whyOutdated();
   }
   result.response.valid = satisfied && answer.verdict == Verdict::clear && result.unknown.empty();
   return result;

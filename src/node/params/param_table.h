@@ -298,8 +298,8 @@ void visitParams(Visitor& v, Params& p) {
   v.integer("max_hits", p.max_hits, 1, 1000000,
             "largest number of hits in one answer; if there are more, the answer is truncated");
   v.integer("max_batch", p.max_batch, 1, 1000000,
-            "largest number of states or edges in a request of ~check_states or ~check_edges; a request with more is "
-            "refused");
+            "largest number of questions, states or edges in a request of ~query_batch, ~check_states or ~check_edges; a "
+            "request with more is refused");
   v.integer(
       "max_listed", p.max_listed, 1, 100000,
       "largest number of bodies, and of sources, that a message lists as not complete or not fresh, and of entries of "

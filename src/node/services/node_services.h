@@ -7,6 +7,7 @@
 #include "node/commons.h"
 #include "node/loading/loading.h"
 #include "node/services/allowed_services.h"
+#include "node/services/batch_service.h"
 #include "node/services/explain_service.h"
 #include "node/services/map_services.h"
 #include "node/services/obstacle_service.h"
@@ -18,6 +19,7 @@
 #include "node/services/state_services.h"
 #include "node/state/state_keeper.h"
 #include "node/tf/transform_lookup.h"
+#include "node/tick/leases.h"
 #include "node/tick/tick_history.h"
 
 namespace hgrid {
@@ -35,11 +37,13 @@ class NodeServices {
                QuerySketch& sketch);
 
   /// Forgets the ticks of leases that have ended. Any thread may call this. @param epoch  the present epoch
-  void dropEndedLeases(std::uint64_t epoch) { states_.dropEndedLeases(epoch); }
+  void dropEndedLeases(std::uint64_t epoch) { leases_.dropEnded(epoch); }
 
  private:
   ServiceEnvelope questions_, changes_;
+  Leases leases_;
   QueryServices query_;
+  BatchService batches_;
   StateServices states_;
   ExplainService explain_;
   AllowedServices allowed_;

@@ -9,11 +9,10 @@
 #include <hgrid_proximity/QuerySphere.h>
 
 #include <memory>
-#include <string>
 #include <vector>
 
-#include "hgrid_proximity/queries/query.h"
 #include "node/messages/query_markers.h"
+#include "node/queries/query_request.h"
 #include "node/services/envelope/service_envelope.h"
 #include "node/tf/transform_lookup.h"
 #include "node/tick/tick_history.h"
@@ -31,28 +30,13 @@ class QueryServices {
                 const TickHistory& history, std::shared_ptr<NarrowPhase> narrow_phase, QuerySketch& sketch);
 
  private:
-  /// What all kinds of query have: the snapshot that answers it, the frame of its geometry, and the bodies that it asks
-  /// about.
-  struct Question {
-    const Snapshot& snapshot;
-    Pose world_from_frame;
-    QueryScope scope;
-  };
-
-  /// Serves one kind of query. @param ask  function (const Request&, const Question&) that returns the QueryAnswer
+  /// Serves one kind of query. @param ask  function (const Request&, const PreparedQuery&) that returns the QueryAnswer
   template <class Service, class Ask>
   void serve(ServiceEnvelope& envelope, const char* name, Ask ask);
   template <class Service, class Ask>
   void answer(ServiceCall<Service>& call, const Ask& ask) const;
 
-  template <class Request>
-  QueryScope scopeOf(const Request& request, const Snapshot& snapshot) const;
-  Pose worldFromFrame(const Tick& tick, const std::string& frame) const;
-  static void outdate(QueryAnswer& found, const AnswerTick& tick);
-
-  QueryAnswer askBox(const msg::QueryBox::Request& request, const Question& question) const;
-  QueryAnswer askShape(const msg::QueryShape::Request& request, const Question& question) const;
-  QueryAnswer askNearest(const msg::QueryNearest::Request& request, const Question& question) const;
+  QueryAnswer askNearest(const msg::QueryNearest::Request& request, const PreparedQuery& question) const;
 
   const Params& params_;
   const TransformLookup& transforms_;

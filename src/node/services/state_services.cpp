@@ -8,21 +8,15 @@
 #include <string>
 #include <utility>
 
+#include "node/messages/body_names.h"
 #include "node/messages/to_messages.h"
-#include "node/services/request_checks.h"
+#include "node/queries/request_checks.h"
 #include "node/states/state_question.h"
 
 namespace hgrid {
 namespace {
 
-constexpr double kLongest = 10.0;               // [s] time limit of a request
-constexpr double kFarthest = 10.0;              // [m] upper limit of max_clearance
-constexpr std::uint32_t kNoPair = 4294967295u;  // stands for "no such pair" in the messages
-
-/// Returns when the time of a request is over.
-std::chrono::steady_clock::time_point endOf(double max_time) {
-  return *deadlineOf(max_time == 0.0 || max_time > kLongest ? kLongest : max_time);
-}
+constexpr double kFarthest = 10.0;  // [m] upper limit of max_clearance
 
 template <class Request>
 AskedStates askedOf(const Request& request) {
@@ -39,14 +33,12 @@ struct TickDoubt {
   /// @param doubt        why nobody knows where the robot would be; may be empty
   /// @param names_tick  whether the request names its tick, so that the age does not matter
   TickDoubt(const std::string& doubt, const AnswerTick& tick, bool names_tick) {
-    const double valid_for = tick.get()->settings->params.valid_for;
     if (!doubt.empty()) {
       because = Unknown::stale_body;
       sentence = doubt;
-    } else if (!names_tick && tick.age() > valid_for) {
-      because = Unknown::outdated;
-      sentence = "the newest tick is " + secondsText(tick.age()) + " old; ticks are valid for " + text(valid_for) +
-                 " s (~valid_for)";
+    } else if (!names_tick) {
+      sentence = tick.whyOutdated();
+      if (!sentence.empty()) because = Unknown::outdated;
     }
   }
 };
@@ -77,28 +69,13 @@ class AnswerWriter {
   }
   /// Adds the pair of an answer. @param pair  null: it has none
   void addPair(const StatePair* pair) {
-    response_.first.push_back(pair == nullptr ? kNoPair : pair->first);
-    response_.second.push_back(pair == nullptr ? kNoPair : pair->second);
+    response_.first.push_back(pair == nullptr ? kNoBody : pair->first);
+    response_.second.push_back(pair == nullptr ? kNoBody : pair->second);
   }
   /// Replaces the indices of bodies by indices into `names`.
   void finish() {
     if (!response_.texts.empty()) response_.texts.resize(response_.codes.size());
-    const BodyList& bodies = checker_.snapshot().structure().bodies;
-    std::vector<std::uint32_t> used(response_.first);
-    used.insert(used.end(), response_.second.begin(), response_.second.end());
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    if (!used.empty() && used.back() == kNoPair) used.pop_back();
-    std::sort(used.begin(), used.end(),
-              [&](std::uint32_t a, std::uint32_t b) { return bodies[a].name < bodies[b].name; });
-    std::vector<std::uint32_t> index(bodies.size(), kNoPair);
-    for (std::uint32_t i = 0; i < used.size(); ++i) {
-      index[used[i]] = i;
-      response_.names.push_back(bodies[used[i]].name);
-    }
-    for (auto* list : {&response_.first, &response_.second}) {
-      for (std::uint32_t& body : *list) body = body == kNoPair ? kNoPair : index[body];
-    }
+    nameBodies(checker_.snapshot().structure().bodies, {&response_.first, &response_.second}, response_.names);
   }
 
  private:
@@ -117,8 +94,8 @@ geometry_msgs::Point placeOf(const StatePair* pair) {
 }  // namespace
 
 StateServices::StateServices(ServiceEnvelope& envelope, const Params& params, const TransformLookup& transforms,
-                             std::shared_ptr<const NarrowPhase> narrow_phase)
-    : params_(params), transforms_(transforms), narrow_phase_(std::move(narrow_phase)) {
+                             Leases& leases, std::shared_ptr<const NarrowPhase> narrow_phase)
+    : params_(params), transforms_(transforms), leases_(leases), narrow_phase_(std::move(narrow_phase)) {
   servers_.push_back(envelope.serve<msg::CheckStates>("check_states", [this](auto& call) { answer(call); }));
   servers_.push_back(envelope.serve<msg::CheckEdges>("check_edges", [this](auto& call) { answer(call); }));
 }
@@ -131,16 +108,13 @@ void StateServices::chooseTick(ServiceCall<Service>& call) {
 }
 
 void StateServices::checkCount(const char* what, std::size_t values, std::size_t joints) const {
-  const std::size_t count = (values + std::max<std::size_t>(1, joints) - 1) / std::max<std::size_t>(1, joints);
-  if (count <= static_cast<std::size_t>(params_.max_batch)) return;
-  throw Refusal(Code::limit, "the request has " + std::to_string(count) + " " + what + "; at most " +
-                                 std::to_string(params_.max_batch) + " are allowed (~max_batch)");
+  checkBatch(what, (values + std::max<std::size_t>(1, joints) - 1) / std::max<std::size_t>(1, joints), params_);
 }
 
 void StateServices::answer(ServiceCall<msg::CheckStates>& call) {
   const auto& request = call.request;
   auto& response = call.response;
-  const auto end = endOf(request.max_time);
+  const auto end = batchDeadlineOf(request.max_time);
   chooseTick(call);
   checkCount("states", request.positions.size(), request.joint_names.size());
   const StateQuestion question =
@@ -178,7 +152,7 @@ void StateServices::answer(ServiceCall<msg::CheckStates>& call) {
 void StateServices::answer(ServiceCall<msg::CheckEdges>& call) {
   const auto& request = call.request;
   auto& response = call.response;
-  const auto end = endOf(request.max_time);
+  const auto end = batchDeadlineOf(request.max_time);
   chooseTick(call);
   const std::size_t width = request.joint_names.size();
   if (request.start.size() != request.end.size() || (width > 0 && request.start.size() % width != 0)) {

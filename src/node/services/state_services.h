@@ -20,11 +20,8 @@ namespace hgrid {
 class StateServices {
  public:
   /// All objects that are passed by reference must outlive this object.
-  StateServices(ServiceEnvelope& envelope, const Params& params, const TransformLookup& transforms,
+  StateServices(ServiceEnvelope& envelope, const Params& params, const TransformLookup& transforms, Leases& leases,
                 std::shared_ptr<const NarrowPhase> narrow_phase);
-
-  /// Forgets the ticks of leases that have ended. Any thread may call this. @param epoch  the present epoch
-  void dropEndedLeases(std::uint64_t epoch) { leases_.dropEnded(epoch); }
 
  private:
   void answer(ServiceCall<msg::CheckStates>& call);
@@ -35,8 +32,8 @@ class StateServices {
 
   const Params& params_;
   const TransformLookup& transforms_;
+  Leases& leases_;
   const std::shared_ptr<const NarrowPhase> narrow_phase_;
-  Leases leases_;
   std::vector<ros::ServiceServer> servers_;
 };
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "node/messages/from_messages.h"
-#include "node/services/request_checks.h"
+#include "node/queries/request_checks.h"
 #include "node/states/followers.h"
 #include "node/states/present_joints.h"
 #include "node/states/robot_choice.h"

@@ -28,6 +28,7 @@
 #include <hgrid_proximity/Obstacle.h>
 #include <hgrid_proximity/Pairs.h>
 #include <hgrid_proximity/Poses.h>
+#include <hgrid_proximity/QueryBatch.h>
 #include <hgrid_proximity/QueryBox.h>
 #include <hgrid_proximity/QueryNearest.h>
 #include <hgrid_proximity/QuerySegment.h>
@@ -59,7 +60,7 @@ namespace {
 
 namespace msg = ::hgrid_proximity;
 
-constexpr std::uint32_t kPinnedVersion = 6;  // interface version of the MD5 sums below
+constexpr std::uint32_t kPinnedVersion = 7;  // interface version of the MD5 sums below
 
 /// A message or service file, its MD5 sum, and the MD5 sum that it must have in this interface version.
 struct Pin {
@@ -107,6 +108,7 @@ const std::vector<Pin>& pins() {
       service<msg::ExplainPair>("ExplainPair", "7f877c8d05130f963b17495385f7f1f0"),
       service<msg::GetAllowed>("GetAllowed", "a7c3ddc68c8114168a385cee5844a3f2"),
       service<msg::LoadOctomap>("LoadOctomap", "93e62be52a707156933524d97672cc2d"),
+      service<msg::QueryBatch>("QueryBatch", "7d59c04f9a167fdf1698108ee85346c5"),
       service<msg::QueryBox>("QueryBox", "8b378a163990ffc39d9443cb21832dd5"),
       service<msg::CheckEdges>("CheckEdges", "14428008caf993d36d81ba116eb1ec7f"),
       service<msg::CheckStates>("CheckStates", "9e4cabad4d221bbc6fa6959f85c28f6d"),

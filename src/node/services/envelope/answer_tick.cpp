@@ -20,4 +20,10 @@ const Snapshot& AnswerTick::snapshot() const {
   return *tick_->snapshot;
 }
 
+std::string AnswerTick::whyOutdated() const {
+  const double valid_for = tick_->settings->params.valid_for;
+  if (age_ <= valid_for) return "";
+  return "the newest tick is " + secondsText(age_) + " old; ticks are valid for " + text(valid_for) + " s (~valid_for)";
+}
+
 }  // namespace hgrid

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "node/tick/tick.h"
 
@@ -21,6 +22,9 @@ class AnswerTick {
   double age() const { return age_; }
   /// Returns the snapshot of the tick. @throws Refusal not_ready before the first tick and while there is no world
   const Snapshot& snapshot() const;
+  /// Returns why an answer about the present cannot be CLEAR: the tick is older than ~valid_for. Empty: it is not.
+  /// There must be a tick.
+  std::string whyOutdated() const;
 
  private:
   std::shared_ptr<const Tick> tick_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "node/services/request_checks.h"
+#include "node/queries/request_checks.h"
 
 #include "hgrid_proximity/refusal.h"
 
@@ -31,6 +31,17 @@ std::optional<std::chrono::steady_clock::time_point> deadlineOf(double max_time)
   if (max_time == 0.0 || max_time > kLongest) return std::nullopt;
   using Clock = std::chrono::steady_clock;
   return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(max_time));
+}
+
+std::chrono::steady_clock::time_point batchDeadlineOf(double max_time) {
+  constexpr double kLongest = 10.0;  // [s]
+  return *deadlineOf(max_time == 0.0 || max_time > kLongest ? kLongest : max_time);
+}
+
+void checkBatch(const char* what, std::size_t count, const Params& params) {
+  if (count <= static_cast<std::size_t>(params.max_batch)) return;
+  throw Refusal(Code::limit, "the request has " + std::to_string(count) + " " + what + "; at most " +
+                                 std::to_string(params.max_batch) + " are allowed (~max_batch)");
 }
 
 }  // namespace hgrid

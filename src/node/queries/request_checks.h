@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "node/params/params.h"
+
 namespace hgrid {
 
 // Checks of fields that several kinds of requests have.
@@ -17,5 +19,14 @@ void checkPatterns(const std::vector<std::string>& patterns);
 /// Returns when the time of a request is over; nullopt: there is no limit.
 /// @throws Refusal out_of_range unless max_time [s] is 0 or positive
 std::optional<std::chrono::steady_clock::time_point> deadlineOf(double max_time);
+
+/// Returns when the time of a request with many questions is over.
+/// @param max_time  [s] 0: the longest time, which is 10 s
+/// @throws Refusal out_of_range unless max_time is 0 or positive
+std::chrono::steady_clock::time_point batchDeadlineOf(double max_time);
+
+/// Checks the number of questions of a request. @param what  names the questions in the error sentence
+/// @throws Refusal limit if there are more than ~max_batch
+void checkBatch(const char* what, std::size_t count, const Params& params);
 
 }  // namespace hgrid
