@@ -56,6 +56,7 @@ set(HGRID_CORE_SOURCES
   src/explain/explain.cpp
   src/geometry/aabb.cpp
   src/geometry/half_space.cpp
+  src/geometry/inner_depth.cpp
   src/geometry/oriented_box.cpp
   src/geometry/pose.cpp
   src/geometry/segment.cpp
@@ -92,6 +93,7 @@ set(HGRID_CORE_SOURCES
   src/pairs/pair_tracker.cpp
   src/pairs/rule_book.cpp
   src/queries/answer.cpp
+  src/queries/distance_field.cpp
   src/queries/doubt.cpp
   src/queries/doubtful_body.cpp
   src/queries/nearest_rounds.cpp

@@ -72,6 +72,15 @@ Enclosed enclosed(const Side& a, const Side& b, const Pose& a_from_b) {
   return first;
 }
 
+bool isPoint(const Side& side) { return !isMesh(side) && side.around == 0.0 && side.solid.reach() == 0.0; }
+
+/// Sets depth and normal of a point inside a mesh, if its surface was found within `up_to` [m].
+void describeDepth(const Side& mesh, const CoreGap& gap, double up_to, Proximity& result) {
+  if (!(gap.upper <= up_to)) return;
+  result.depth = gap.upper + mesh.around;
+  result.normal = (gap.on_first - gap.on_second) / gap.upper;
+}
+
 }  // namespace
 
 Proximity measureMesh(const Side& mesh, const Side& other, double up_to) {
@@ -83,9 +92,13 @@ Proximity measureMesh(const Side& mesh, const Side& other, double up_to) {
   if (gap.lower <= 0.0) return answerOf(Measure::contact, 0.0);
   const Enclosed inside = enclosed(mesh, other, mesh_from_other);
   if (inside.status != Measure::apart) {
-    return answerOf(gap.lower > inside.crossing ? inside.status : Measure::contact, 0.0);
+    Proximity result = answerOf(gap.lower > inside.crossing ? inside.status : Measure::contact, 0.0);
+    if (result.status == Measure::contained && isPoint(other)) describeDepth(mesh, gap, up_to, result);
+    return result;
   }
-  return answerByGap(mesh, other, mesh_from_other, gap, up_to);
+  Proximity result = answerByGap(mesh, other, mesh_from_other, gap, up_to);
+  if (result.status == Measure::contact && isPoint(other)) result.depth = std::max(0.0, mesh.around - gap.upper);
+  return result;
 }
 
 std::vector<Contact> contactsOfMesh(const Side& mesh, const Side& other, std::size_t most) {
