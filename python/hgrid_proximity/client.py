@@ -27,6 +27,7 @@ from hgrid_proximity import srv
 from hgrid_proximity.batches import Batch, QueryBatchArrays, write_geometry
 from hgrid_proximity.errors import NoAnswer, Refused
 from hgrid_proximity.events import Events
+from hgrid_proximity.fields import Field, FieldArrays
 from hgrid_proximity.msg import Obstacle, RobotChange, Shape, Verdict
 from hgrid_proximity.service import LONGEST, Service
 from hgrid_proximity.states import Edges, States
@@ -104,6 +105,7 @@ class Proximity:
                 ("query_nearest", srv.QueryNearest),
                 ("explain_pair", srv.ExplainPair),
                 ("query_batch", QueryBatchArrays),
+                ("distance_field", FieldArrays),
                 ("check_states", srv.CheckStates),
                 ("check_edges", srv.CheckEdges),
             )
@@ -216,6 +218,43 @@ class Proximity:
         _apply(request, **options)
         _ask_same_world(request, lease, keep)
         return Batch(self._services[QueryBatchArrays](request, 10.0))  # the longest time limit of this service
+
+    def distance_field(
+        self,
+        corner,
+        size,
+        resolution: float,
+        max_distance: float,
+        orientation=UPRIGHT,
+        gradients: bool = False,
+        lease=None,
+        keep: float = 0.0,
+        frame: str = "",
+        stamp: Optional[rospy.Time] = None,
+        include: Union[str, Iterable[str]] = (),
+        exclude: Union[str, Iterable[str]] = (),
+        max_time: float = 0.0,
+    ) -> Field:
+        """How far is the nearest body from each point of a lattice?
+
+        @param corner  [m] first point of the lattice
+        @param size  [m] lengths of its sides
+        @param resolution  [m] distance of neighboring points; there may be 1,000,000 points
+        @param max_distance  [m] a larger distance is returned as this value
+        @param orientation  quaternion x, y, z, w: how the lattice is turned
+        @param gradients  True: also compute the gradient of the distance at each point
+        @param lease, keep  as for query_batch()
+        @param max_time  [s] time limit, at most 10
+        """
+        request = FieldArrays._request_class(resolution=resolution, max_distance=max_distance, gradients=gradients)
+        request.pose = as_pose(as_point("corner", corner), orientation)
+        request.size = Vector3(*numbers("size", size, "xyz"))
+        request.header.frame_id, request.max_time = frame, max_time
+        request.include, request.exclude = globs(include), globs(exclude)
+        if stamp is not None:
+            request.header.stamp = stamp
+        _ask_same_world(request, lease, keep)
+        return Field(self._services[FieldArrays](request, 10.0))  # the longest time limit of this service
 
     def check_states(
         self, joint_names: Iterable[str], positions, max_clearance: float = 0.0, gradients: bool = False, **options

@@ -40,7 +40,14 @@ class Batches(unittest.TestCase):
                  lambda: obstacles.box(cls.rng.uniform(0.05, 0.4, 3)))
         changes = [obstacles.add("part%d" % i, kinds[i % 2](), position=cls.rng.uniform(-1, 1, 3)) for i in range(60)]
         cls.proximity.apply_obstacles(*changes)
-        wait(lambda: cls.proximity.query_sphere((0, 0, 0), 5.0).hit, "the obstacles")
+        wait(lambda: cls.sees_all(), "the frame 'tool'")
+
+    @classmethod
+    def sees_all(cls):
+        try:
+            return cls.proximity.query_sphere((0, 0, 0), 5.0, frame="tool").hit
+        except Refused:
+            return False
 
     def points(self, count):
         return self.rng.uniform(-1.2, 1.2, (count, 3))
@@ -168,6 +175,52 @@ class Batches(unittest.TestCase):
         self.assertTrue(batch.unknown[late].all())
         self.assertIn("max_time", batch.text(2999))
         self.assertEqual(len(batch.response.texts), 3000)
+
+    # Claim: each point has the distance of a single exact query; its gradient is a unit vector, or 0 where it is cut.
+    def test_a_distance_field_has_the_distances_of_single_queries(self):
+        for options in ({}, {"frame": "tool", "exclude": "obstacle/part1*"}):
+            field = self.proximity.distance_field((-1, -0.9, -0.8), (1.9, 1.5, 1.0), 0.25, 0.6, gradients=True, **options)
+            self.assertEqual((field.distance.shape, field.gradient.shape), ((8, 7, 5), (8, 7, 5, 3)))
+            self.assertEqual((field.unknown, field.text), (0, ""))
+            self.assertEqual(field.response.header.frame_id, options.get("frame", "world"))
+            inside = 0
+            for index in numpy.ndindex(*field.distance.shape):
+                answer = self.proximity.query_nearest(numpy.array((-1, -0.9, -0.8)) + 0.25 * numpy.array(index),
+                                                      max_distance=0.6, exact=True, **options)
+                truth, found = answer.hits[0].distance if answer.hit else 0.6, field.distance[index]
+                self.assertAlmostEqual(max(0.0, found), truth, delta=1e-9)
+                length = numpy.linalg.norm(field.gradient[index])
+                self.assertAlmostEqual(length, 0.0 if found == 0.6 else 1.0, delta=1e-6)
+                inside += found < 0.0
+            self.assertGreater(inside, 5)
+
+    def test_a_distance_field_of_one_ball_is_that_of_a_ball(self):
+        ask = lambda **options: self.proximity.distance_field((20, 0, 0), (2, 0, 0), 0.5, 5.0, include="obstacle/lone",
+                                                              **options)
+        before = self.proximity.query_batch(keep=30.0).response.lease
+        self.proximity.apply_obstacles(obstacles.add("lone", obstacles.sphere(0.6), position=(20, 0, 0)))
+        field = ask(gradients=True)
+        self.assertTrue(numpy.allclose(field.distance[:, 0, 0], [-0.6, -0.1, 0.4, 0.9, 1.4], atol=1e-9))
+        self.assertTrue(numpy.allclose(field.gradient[1:, 0, 0], [[1, 0, 0]] * 4, atol=1e-9))
+        self.assertIsNone(ask().gradient)
+        self.assert_refused("UNKNOWN_ID", lambda: ask(lease=before), "obstacle/lone")
+
+    def test_an_invalid_distance_field_is_refused_by_name(self):
+        ask = self.proximity.distance_field
+        for code, arguments, words in (("OUT_OF_RANGE", ((1, 1, 1), 0.0, 1.0), "resolution"),
+                                       ("OUT_OF_RANGE", ((1, -1, 1), 0.1, 1.0), "size.y"),
+                                       ("OUT_OF_RANGE", ((1, 1, 1), 0.1, 0.0), "max_distance"),
+                                       ("LIMIT", ((1, 1, 1e9), 0.1, 1.0), "size.z"),
+                                       ("LIMIT", ((10, 10, 10), 0.1, 1.0), "101 x 101 x 101"),
+                                       ("LIMIT", ((9e4, 9e4, 9e4), 0.1, 1.0), "1000000")):
+            self.assert_refused(code, lambda: ask((0, 0, 0), *arguments), words)
+        self.assert_refused("BAD_ROTATION", lambda: ask((0, 0, 0), (1, 1, 1), 0.5, 1.0, orientation=(0, 0, 0.5, 0.5)))
+        self.assert_refused("UNKNOWN_FRAME", lambda: ask((0, 0, 0), (1, 1, 1), 0.5, 1.0, frame="moon"), "moon")
+        late = ask((-2, -2, -2), (4, 4, 4), 0.05, 1.0, max_time=1e-4)
+        self.assertGreater(late.unknown, 1000)
+        self.assertEqual(late.response.unknown_because, UnknownReason.BUDGET)
+        self.assertEqual(numpy.isnan(late.distance).sum(), late.unknown)
+        self.assertTrue(late.text)
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "hgrid_proximity/bodies/body.h"
+#include "hgrid_proximity/bodies/body_list.h"
 
 namespace hgrid {
 

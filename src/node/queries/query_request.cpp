@@ -76,7 +76,7 @@ QueryBox PreparedQuery::boxOf(const geometry_msgs::Pose& frame_from_box, const g
   return {world_from_frame * fromPose(frame_from_box, "the query's box"), {size.x, size.y, size.z}};
 }
 
-QueryShape PreparedQuery::shapeOf(const msg::Shape& shape, const Params& params) const {
+QueryShape PreparedQuery::shapeOf(const ::hgrid_proximity::Shape& shape, const Params& params) const {
   const Pose frame_from_shape = fromPose(shape.pose, "the query's shape");
   return {fromShape(shape, params.shapeLimits(), static_cast<std::size_t>(params.max_mesh_triangles)),
           world_from_frame * frame_from_shape, shape.padding};

@@ -42,7 +42,7 @@ struct PreparedQuery {
   /// Reads a box. @throws Refusal what fromPose() throws
   QueryBox boxOf(const geometry_msgs::Pose& frame_from_box, const geometry_msgs::Vector3& size) const;
   /// Reads a shape. @throws Refusal what fromPose() and fromShape() throw
-  QueryShape shapeOf(const msg::Shape& shape, const Params& params) const;
+  QueryShape shapeOf(const ::hgrid_proximity::Shape& shape, const Params& params) const;
 };
 
 /// Prepares a request. @param tick  it has a snapshot, and must outlive the result

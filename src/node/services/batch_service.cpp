@@ -11,6 +11,7 @@
 #include "node/messages/from_messages.h"
 #include "node/queries/batch_answers.h"
 #include "node/queries/request_checks.h"
+#include "node/services/asked_tick.h"
 
 namespace hgrid {
 namespace {
@@ -81,21 +82,6 @@ BatchService::BatchService(ServiceEnvelope& envelope, const Params& params, cons
       narrow_phase_(std::move(narrow_phase)),
       server_(envelope.serve<msg::QueryBatch>("query_batch", [this](auto& call) { answer(call); })) {}
 
-/// Makes the response from the tick that the request asks for.
-void BatchService::chooseTick(ServiceCall<msg::QueryBatch>& call) const {
-  const auto& request = call.request;
-  call.tick.snapshot();  // throws while there is no world
-  std::shared_ptr<const Tick> tick = leases_.find(request.lease, call.tick.get());
-  if (namesItsTime(request.header.stamp)) {
-    if (request.lease.sequence != 0) {
-      throw Refusal(Code::conflict, "the request names tick " + std::to_string(request.lease.sequence) +
-                                        " in its lease and a time in header.stamp; set one of them to 0");
-    }
-    tick = history_.at(request.header.stamp, tick);
-  }
-  call.answerFrom(std::move(tick));
-}
-
 /// Reads the options that all questions of the request have in common.
 PreparedQuery BatchService::questionOf(const ServiceCall<msg::QueryBatch>& call) const {
   const auto& request = call.request;
@@ -109,7 +95,7 @@ PreparedQuery BatchService::questionOf(const ServiceCall<msg::QueryBatch>& call)
 void BatchService::answer(ServiceCall<msg::QueryBatch>& call) {
   const auto& request = call.request;
   auto& response = call.response;
-  chooseTick(call);
+  answerFromAskedTick(call, leases_, history_);
   const std::size_t count = countOf(request, params_);
   const PreparedQuery question = questionOf(call);
   const QueryScope& scope = question.scope;
@@ -120,8 +106,7 @@ void BatchService::answer(ServiceCall<msg::QueryBatch>& call) {
   }
   const Snapshot& snapshot = question.snapshot;
   const Pose& world_from_frame = question.world_from_frame;
-  const bool names_tick = request.lease.sequence != 0 || namesItsTime(request.header.stamp);
-  BatchAnswers answers(question, names_tick ? "" : call.tick.whyOutdated(), call.tick.age(), response);
+  BatchAnswers answers(question, namesItsTick(request) ? "" : call.tick.whyOutdated(), call.tick.age(), response);
   answers.expect(count, !request.segment_start.empty(), !request.nearest_to_body.empty());
   Questions questions(question, answers);
   questions.ask("sphere", request.sphere_center.size(), [&](std::size_t i) {

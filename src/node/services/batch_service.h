@@ -25,7 +25,6 @@ class BatchService {
 
  private:
   void answer(ServiceCall<msg::QueryBatch>& call);
-  void chooseTick(ServiceCall<msg::QueryBatch>& call) const;
   PreparedQuery questionOf(const ServiceCall<msg::QueryBatch>& call) const;
 
   const Params& params_;

@@ -16,6 +16,7 @@ NodeServices::NodeServices(const ros::NodeHandle& query_node, const ros::NodeHan
       changes_(admin_node, newest, commons.ledger),
       query_(questions_, commons.settings.params, transforms, history, commons.narrow_phase, sketch),
       batches_(questions_, commons.settings.params, transforms, history, leases_, commons.narrow_phase),
+      fields_(questions_, commons.settings.params, transforms, history, leases_, commons.narrow_phase),
       states_(questions_, commons.settings.params, transforms, leases_, commons.narrow_phase),
       explain_(questions_, commons.settings.params, history, commons.narrow_phase),
       allowed_(changes_, commons.settings.params, change_world, [&state] { return state.waitUntilStored(); }),

@@ -9,6 +9,7 @@
 #include "node/services/allowed_services.h"
 #include "node/services/batch_service.h"
 #include "node/services/explain_service.h"
+#include "node/services/field_service.h"
 #include "node/services/map_services.h"
 #include "node/services/obstacle_service.h"
 #include "node/services/query_services.h"
@@ -44,6 +45,7 @@ class NodeServices {
   Leases leases_;
   QueryServices query_;
   BatchService batches_;
+  FieldService fields_;
   StateServices states_;
   ExplainService explain_;
   AllowedServices allowed_;

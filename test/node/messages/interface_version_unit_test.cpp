@@ -18,6 +18,7 @@
 #include <hgrid_proximity/Counter.h>
 #include <hgrid_proximity/Distances.h>
 #include <hgrid_proximity/Events.h>
+#include <hgrid_proximity/DistanceField.h>
 #include <hgrid_proximity/ExplainPair.h>
 #include <hgrid_proximity/Gauge.h>
 #include <hgrid_proximity/GetAllowed.h>
@@ -105,6 +106,7 @@ const std::vector<Pin>& pins() {
       service<msg::ApplyObstacles>("ApplyObstacles", "f52ed5b3192f3c3a90fdc43ee3f2801d"),
       service<msg::ApplyRobots>("ApplyRobots", "7c47cace6728675cd273ddc573cd5ece"),
       service<msg::ClearMap>("ClearMap", "142d3d4665d9a7e8d3b73696517804d0"),
+      service<msg::DistanceField>("DistanceField", "fdf9c3c3da1699bc85c0867411243ca8"),
       service<msg::ExplainPair>("ExplainPair", "7f877c8d05130f963b17495385f7f1f0"),
       service<msg::GetAllowed>("GetAllowed", "a7c3ddc68c8114168a385cee5844a3f2"),
       service<msg::LoadOctomap>("LoadOctomap", "93e62be52a707156933524d97672cc2d"),
