@@ -3,7 +3,9 @@
 # SPDX-FileCopyrightText: the hgrid_proximity authors
 """Plans a way between two joint positions with RRT-Connect (Kuffner and LaValle, 2000). The node proves each edge.
 
-Start it beside one_arm.launch: rosrun hgrid_proximity plan.py START... : GOAL...
+Start it beside one_arm.launch: rosrun hgrid_proximity plan.py [--joints NAME,NAME,...] START... : GOAL...
+
+START and GOAL have one value [rad or m] for each joint. Without --joints, these are joint_1 to joint_6.
 """
 import sys
 
@@ -20,9 +22,9 @@ MAX_TRIES = 3000  # number of tries
 class Planner:
     """Plans for one state of the world: the first request gets a lease, and all other requests use it."""
 
-    def __init__(self, proximity, start, goal):
-        self._proximity = proximity
-        ends = proximity.check_states(JOINTS, [start, goal], keep=10.0)
+    def __init__(self, proximity, joints, start, goal):
+        self._proximity, self._joints, self._ends = proximity, joints, (start, goal)
+        ends = proximity.check_states(joints, [start, goal], keep=10.0)
         if not ends.clear.all():
             end = int(numpy.argmin(ends.clear))
             why = ends.text(end) or " touches ".join(ends.pair(end))
@@ -36,20 +38,21 @@ class Planner:
         way = target - states[nearest]
         length = numpy.linalg.norm(way)
         end = states[nearest] + way * min(1.0, STEP / max(length, STEP))
-        found = self._proximity.check_edges(JOINTS, [states[nearest]], [end], any_contact=True, lease=self._lease, keep=10.0)
+        found = self._proximity.check_edges(self._joints, [states[nearest]], [end], any_contact=True, lease=self._lease,
+                                            keep=10.0)
         self.edges += 1
         if not found.clear[0] or found.beyond_limits[0]:
             return False
         tree.append((end, nearest))
         return length <= STEP or self.extend(tree, target)
 
-    def plan(self, start, goal, seed=1):
+    def plan(self, seed=1):
         """Returns the states of a free way, or None."""
         random = numpy.random.RandomState(seed)
-        trees = [[(numpy.array(start), None)], [(numpy.array(goal), None)]]
+        trees = [[(numpy.array(end), None)] for end in self._ends]
         for turn in range(MAX_TRIES):
             one, other = trees[turn % 2], trees[1 - turn % 2]
-            self.extend(one, random.uniform(-3, 3, len(JOINTS)))
+            self.extend(one, random.uniform(-3, 3, len(self._joints)))
             if self.extend(other, one[-1][0]):
                 ways = [to_root(tree, len(tree) - 1) for tree in trees]
                 return ways[0][::-1] + ways[1][1:]
@@ -67,13 +70,16 @@ def to_root(tree, node):
 
 def main():
     rospy.init_node("plan", anonymous=True)
-    numbers = " ".join(rospy.myargv(sys.argv)[1:]).split(":")
-    if len(numbers) != 2 or any(len(end.split()) != len(JOINTS) for end in numbers):
+    words, joints = rospy.myargv(sys.argv)[1:], JOINTS
+    if words[:1] == ["--joints"] and len(words) > 1:
+        joints, words = words[1].split(","), words[2:]
+    numbers = " ".join(words).split(":")
+    if len(numbers) != 2 or any(len(end.split()) != len(joints) for end in numbers):
         sys.exit(__doc__)
     start, goal = ([float(number) for number in end.split()] for end in numbers)
     try:
-        planner = Planner(Proximity(), start, goal)
-        way = planner.plan(start, goal)
+        planner = Planner(Proximity(), joints, start, goal)
+        way = planner.plan()
     except ProximityError as error:
         sys.exit(f"no answer; that is not CLEAR: {error}")
     if way is None:

@@ -1,0 +1,119 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+# SPDX-FileCopyrightText: the hgrid_proximity authors
+"""Plans with examples/plan.py for a Panda in the map of a building, beside a running node, and plays the plan past the
+node. Skipped without the data."""
+import os
+import subprocess
+import sys
+import unittest
+
+import numpy
+import rospy
+import rosunit
+from geometry_msgs.msg import TransformStamped
+from hgrid_proximity.client import Proximity
+from hgrid_proximity.msg import MeasureStatus
+from sensor_msgs.msg import JointState
+from tf2_msgs.msg import TFMessage
+from turning_arm import wait
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
+DATA = os.environ.get("HGRID_TEST_DATA") or os.path.join(os.path.dirname(ROOT), "shared", "data")
+sys.path.insert(0, os.path.join(ROOT, "examples"))
+from plan import Planner
+
+JOINTS = ["panda_joint%d" % i for i in range(1, 8)] + ["panda_finger_joint1"]
+START = [0.0, -0.3, 0.0, -2.0, 0.0, 1.8, 0.8, 0.02]
+GOAL = [2.6] + START[1:]  # the straight way leads through furniture
+
+
+def contacts_of(distances):
+    """Returns the pairs in contact, each as two names in alphabetical order."""
+    touching = distances.status >= MeasureStatus.CONTACT
+    pairs = zip(distances.first_names[touching], distances.second_names[touching])
+    return [tuple(sorted(pair)) for pair in pairs]
+
+
+class Drivers:
+    """Publishes joint states, as the drivers of the robot would. Holds the newest state until the next one is set."""
+
+    def __init__(self, state):
+        self.state = state
+        self._publisher = rospy.Publisher("joint_states", JointState, queue_size=1)
+        self._timer = rospy.Timer(rospy.Duration(0.02), self._publish)
+
+    def _publish(self, _):
+        state = JointState(name=JOINTS, position=list(self.state))
+        state.header.stamp = rospy.Time.now()
+        self._publisher.publish(state)
+
+
+@unittest.skipUnless(os.path.exists(os.path.join(DATA, "octomap", "geb079.bt")), "the data of the robots do not exist")
+class Planning(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("planning_test")
+        folder = os.path.join(DATA, "example-robot-data", "robots", "panda_description")
+        for name, file in (("robot_description", "urdf/panda.urdf"), ("robot_description_semantic", "srdf/panda.srdf")):
+            with open(os.path.join(folder, file), encoding="utf-8") as text:
+                rospy.set_param(name, text.read())
+        rospy.set_param("proximity", {
+            "world_frame": "world", "margin": 0.2, "valid_for": 10.0, "late_after": 2.0, "stale_after": 3.0,
+            "lost_after": 6.0, "map": {"folder": os.path.join(DATA, "octomap")},
+            "maps": [{"name": "building", "file": "geb079.bt"}]})
+        environment = dict(os.environ)
+        environment["ROS_PACKAGE_PATH"] = DATA + ":" + environment.get("ROS_PACKAGE_PATH", "")
+        base = TransformStamped(child_frame_id="panda_link0")
+        base.header.frame_id, base.transform.rotation.w = "world", 1.0
+        base.transform.translation.y, base.transform.translation.z = -2.0, 0.1
+        cls.base = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
+        cls.base.publish(TFMessage([base]))
+        cls.drivers = Drivers(START)
+        commands = (["rosrun", "robot_state_publisher", "robot_state_publisher"],
+                    ["rosrun", "hgrid_proximity", "proximity_node", "__name:=proximity"])
+        cls.processes = [subprocess.Popen(command, env=environment) for command in commands]
+        cls.proximity = Proximity("/proximity", timeout=60.0)
+        wait(lambda: cls.proximity.pairs().usable, "a complete world", 120.0)
+
+    @classmethod
+    def tearDownClass(cls):
+        for process in cls.processes:
+            process.terminate()
+        for process in cls.processes:
+            process.wait()
+
+    # Claim: the way that the planner finds has no contact when the robot goes it.
+    def test_a_way_that_was_planned_has_no_contact_when_it_is_played(self):
+        straight = self.proximity.check_edges(JOINTS, [START], [GOAL])
+        self.assertTrue(straight.hit[0], "the straight way is free, so there is nothing to plan")
+        planner = Planner(self.proximity, JOINTS, START, GOAL)
+        way = planner.plan()
+        self.assertIsNotNone(way)
+        self.assertGreater(len(way), 2)
+        seen = 0
+        for begin, end in zip(way, way[1:]):
+            steps = int(numpy.ceil(numpy.linalg.norm(end - begin) / 0.1))
+            for step in range(steps):
+                self.drivers.state = begin + (end - begin) * (step + 1) / steps
+                distances = self.next_distances()
+                self.assertTrue(distances.usable)
+                self.assertEqual(distances.longest_wait, 0)
+                self.assertNotIn(MeasureStatus.NOT_MEASURED, distances.status)
+                self.assertEqual(contacts_of(distances), [])
+                seen += len(distances.status)
+        self.assertGreater(seen, 100)
+        self.drivers.state = START + straight.at[0] * (numpy.array(GOAL) - START)
+        self.assertIn(tuple(sorted(straight.pair(0))), contacts_of(self.next_distances()))
+
+    def next_distances(self):
+        """Returns a message of ~distances about the present joint state."""
+        since = rospy.Time.now() + rospy.Duration(0.05)
+        while True:
+            distances = self.proximity.distances()
+            if distances.header.stamp > since:
+                return distances
+
+
+if __name__ == "__main__":
+    rosunit.unitrun("hgrid_proximity", "planning", Planning)
