@@ -15,6 +15,8 @@ using Vector = Eigen::Vector3d;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // [m] Largest accepted difference between the gap and the distance of the two nearest points, besides rounding.
 constexpr double kDisagreement = 1e-6;
+// [m] Bounds of a gap that differ by less count as equal, besides rounding.
+constexpr double kUnsettled = 1e-9;
 // [m] To verify a depth, the solids are moved apart by the depth plus this length. Then they must be apart.
 constexpr double kHair = 1e-6;
 
@@ -88,11 +90,13 @@ std::optional<Proximity> answerByReach(const Side& a, const Side& b, const Pose&
 
 Proximity answerByGap(const Side& a, const Side& b, const Pose& a_from_b, const CoreGap& gap, double up_to) {
   const double around = a.around + b.around;
-  Proximity result = answerOf(Measure::apart, std::max(0.0, gap.upper - around));
+  const double rounding = 1e-12 * (a.solid.reach() + b.solid.reach() + a_from_b.translation().norm());
+  // If the search ended before its bounds met, only the lower bound is proved.
+  const double proved = gap.upper - gap.lower > kUnsettled + rounding ? gap.lower : gap.upper;
+  Proximity result = answerOf(Measure::apart, std::max(0.0, proved - around));
   if (result.distance > up_to) return answerOf(Measure::apart, kInfinity);
   const Vector between = gap.on_second - gap.on_first;
   const double length = between.norm();
-  const double rounding = 1e-12 * (a.solid.reach() + b.solid.reach() + a_from_b.translation().norm());
   if (!(std::abs(length - gap.upper) <= kDisagreement + rounding)) return answerOf(Measure::failed, 0.0);
   if (!(std::min(gap.lower, gap.upper) > around)) {  // rounding can make lower greater than upper
     result.status = Measure::contact;

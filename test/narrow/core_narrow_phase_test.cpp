@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "narrow/convex_pair.h"
 #include "narrow/core_narrow_phase.h"
 
 namespace hgrid {
@@ -73,6 +74,25 @@ TEST(CoreNarrowPhase, AMeasurementThatFailsHasNoListOfContacts) {
     EXPECT_EQ(narrow_phase->measure({*solid, here, 0.0}, {*box, nowhere, 0.0}, 1.0).status, Measure::failed);
     EXPECT_THROW(narrow_phase->contacts({*solid, here, 0.0}, {*box, nowhere, 0.0}, 5), std::runtime_error);
   }
+}
+
+// Claim: if the search for the gap ended before its bounds met, a distance is what was proved, not what was found.
+TEST(ConvexPair, HasTheProvedDistanceIfTheSearchEndedEarly) {
+  const ConvexSolid ball(Shape::sphere(0.1));
+  const Pose here = Pose::Identity(), there(Eigen::Translation3d(1.0, 0.0, 0.0));
+  const Side a({ball, here, 0.0}), b({ball, there, 0.0});
+  CoreGap gap;
+  gap.lower = 0.5;
+  gap.upper = 1.0;
+  gap.on_second = there.translation();
+  const Proximity early = answerByGap(a, b, there, gap, 0.6);
+  EXPECT_EQ(early.status, Measure::apart);
+  EXPECT_DOUBLE_EQ(early.distance, 0.3);
+  EXPECT_TRUE(std::isinf(answerByGap(a, b, there, gap, 0.2).distance));
+  gap.lower = gap.upper;
+  EXPECT_DOUBLE_EQ(answerByGap(a, b, there, gap, 1.0).distance, 0.8);
+  gap.lower = 0.1;
+  EXPECT_EQ(answerByGap(a, b, there, gap, 1.0).status, Measure::contact);
 }
 
 }  // namespace
