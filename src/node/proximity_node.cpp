@@ -31,6 +31,7 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
                              std::shared_ptr<NarrowPhase> narrow_phase)
     : tick_thread_(node, private_node),
       query_threads_(node, private_node),
+      batch_threads_(node, private_node),
       admin_thread_(node, private_node),
       commons_{readSettings(private_node), std::move(narrow_phase), {}, {}},
       state_(commons_),
@@ -48,7 +49,8 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
           [this] { return tick_loop_.newest(); }, jobs_, world_.robots(), state_.restored().maps,
           [this] { return isEnding(); }),
       services_(
-          query_threads_.privateNode(), admin_thread_.privateNode(), commons_, [this] { return tick_loop_.newest(); },
+          query_threads_.privateNode(), batch_threads_.privateNode(), admin_thread_.privateNode(), commons_,
+          [this] { return tick_loop_.newest(); },
           [this](const TickJobs::Job& job) { return tick_loop_.tickAfter(job); }, world_.transforms().lookup(),
           history_, loading_, state_, stopwatch_, sketch_),
       moveit_(
@@ -69,6 +71,7 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
   tick_loop_.setSteps(tickSteps());
   housekeeping_.start();
   query_threads_.setThreads(static_cast<std::uint32_t>(commons_.settings.params.query_threads));
+  batch_threads_.setThreads(static_cast<std::uint32_t>(commons_.settings.params.batch_threads));
   admin_thread_.setThreads(1);
   // Later than the threads above: if threads are few, the first tick must not take all of them for ~threads.
   tick_thread_.startLoop([this] { beginTicks(); }, [this] { return tick_loop_.work(); });
@@ -86,6 +89,7 @@ void ProximityNode::stop() {
   trackers_.stop();
   tick_thread_.stop();
   query_threads_.stop();
+  batch_threads_.stop();
   admin_thread_.stop();
 }
 

@@ -27,11 +27,13 @@
 
 namespace hgrid {
 
-/// The node. It creates its parts, connects them, and starts and stops them. Its callbacks run on three groups of
+/// The node. It creates its parts, connects them, and starts and stops them. Its callbacks run on four groups of
 /// threads, which do not wait for each other:
 ///
 /// - the tick thread reads transforms, computes the ticks and publishes them;
 /// - the query threads, as many as ~query_threads says, answer queries from the newest tick;
+/// - the batch threads, as many as ~batch_threads says, answer requests with thousands of questions, which may take
+///   seconds;
 /// - the admin thread loads robots and maps, serves requests that change the world, publishes diagnostics and markers.
 class ProximityNode {
  public:
@@ -52,7 +54,7 @@ class ProximityNode {
 
   // Each part uses only the parts that are declared above it.
   std::atomic<bool> stopping_{false};
-  CallbackThreads tick_thread_, query_threads_, admin_thread_;
+  CallbackThreads tick_thread_, query_threads_, batch_threads_, admin_thread_;
   Commons commons_;
   QuerySketch sketch_;
   StateKeeper state_;

@@ -4,6 +4,7 @@
 """The service ~query_batch beside a running node. The services for single queries, which have tests of their own, say what
 the answers must be."""
 import math
+import threading
 import unittest
 
 import numpy
@@ -13,7 +14,7 @@ from geometry_msgs.msg import TransformStamped
 from hgrid_proximity import obstacles
 from hgrid_proximity.client import Proximity
 from hgrid_proximity.errors import Refused
-from hgrid_proximity.msg import CodeNames, Lease, Shape, ShapeKind, UnknownReason
+from hgrid_proximity.msg import CodeNames, Lease, Shape, ShapeKind, Status, UnknownReason
 from tf2_msgs.msg import TFMessage
 from turning_arm import wait
 
@@ -221,6 +222,30 @@ class Batches(unittest.TestCase):
         self.assertEqual(late.response.unknown_because, UnknownReason.BUDGET)
         self.assertEqual(numpy.isnan(late.distance).sum(), late.unknown)
         self.assertTrue(late.text)
+
+    # Claim: a query does not wait for long requests, although the node has only one thread for each of the two here.
+    def test_queries_do_not_wait_for_long_requests(self):
+        done = []
+
+        def ask():
+            with Proximity("/proximity", timeout=60.0) as other:
+                done.append(other.distance_field((-2, -2, -2), (3.9, 3.9, 3.9), 0.04, 5.0, gradients=True, max_time=10.0))
+
+        counter = lambda: self.counters().get("distance_field.asked", 0)
+        before = counter()
+        requests = [threading.Thread(target=ask) for _ in range(4)]
+        for request in requests:
+            request.start()
+        wait(lambda: counter() > before, "the first long request")
+        self.assertTrue(self.proximity.query_sphere((0, 0, 0), 5.0).hit)
+        self.assertLess(len(done), 4, "the long requests were too short to show anything")
+        for request in requests:
+            request.join()
+        self.assertEqual([field.distance.size for field in done], [98**3] * 4)
+
+    def counters(self):
+        status = rospy.wait_for_message("/proximity/status", Status, 60.0)
+        return {counter.name: counter.value for counter in status.counters}
 
 
 if __name__ == "__main__":

@@ -297,9 +297,10 @@ void visitParams(Visitor& v, Params& p) {
             "message is dropped");
   v.integer("max_hits", p.max_hits, 1, 1000000,
             "largest number of hits in one answer; if there are more, the answer is truncated");
-  v.integer("max_batch", p.max_batch, 1, 1000000,
-            "largest number of questions, states or edges in a request of ~query_batch, ~check_states or ~check_edges; a "
-            "request with more is refused");
+  v.integer(
+      "max_batch", p.max_batch, 1, 1000000,
+      "largest number of questions, states or edges in a request of ~query_batch, ~check_states or ~check_edges; a "
+      "request with more is refused");
   v.integer(
       "max_listed", p.max_listed, 1, 100000,
       "largest number of bodies, and of sources, that a message lists as not complete or not fresh, and of entries of "
@@ -326,6 +327,9 @@ void visitParams(Visitor& v, Params& p) {
   v.changeable();
   v.integer("query_threads", p.query_threads, 1, 64,
             "number of threads that answer queries; a query waits only while all of them are busy");
+  v.integer("batch_threads", p.batch_threads, 1, 64,
+            "number of threads that answer requests with many questions (query_batch, distance_field, check_states, "
+            "check_edges), which may take seconds; queries do not wait for them");
   v.number(
       "lease_max", p.lease_max, "s", 0.0, 3600.0,
       "longest time for which a request can make the node keep a tick (a lease), so that later requests are answered "

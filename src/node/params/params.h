@@ -162,7 +162,7 @@ struct Params {
   std::vector<std::string> mesh_roots;
   int max_mesh_bytes = 64 << 20, max_mesh_triangles = 1000000, mesh_memory = 512 << 20;
   double mesh_timeout = 5.0;
-  int query_threads = 8;
+  int query_threads = 8, batch_threads = 2;
   double lease_max = 10.0;
   double marker_rate = 5.0;
   double audit_rate = 0.2;

@@ -25,23 +25,24 @@
 
 namespace hgrid {
 
-/// Owns the services of the node. Any number of threads may serve queries. One thread serves requests that change the
-/// world or read and change the rules.
+/// Owns the services of the node. Any number of threads may serve queries and batches. One thread serves requests that
+/// change the world or read and change the rules.
 class NodeServices {
  public:
   /// @param query_node  private node handle of the threads that serve queries
+  /// @param batch_node  private node handle of the threads that serve requests with thousands of questions
   /// @param admin_node  private node handle of the thread that serves requests that change the world
   /// All other parameters must outlive this object.
-  NodeServices(const ros::NodeHandle& query_node, const ros::NodeHandle& admin_node, Commons& commons,
-               ServiceEnvelope::NewestTick newest, ChangeWorld change_world, const TransformLookup& transforms,
-               const TickHistory& history, Loading& loading, StateKeeper& state, Stopwatch& stopwatch,
-               QuerySketch& sketch);
+  NodeServices(const ros::NodeHandle& query_node, const ros::NodeHandle& batch_node, const ros::NodeHandle& admin_node,
+               Commons& commons, ServiceEnvelope::NewestTick newest, ChangeWorld change_world,
+               const TransformLookup& transforms, const TickHistory& history, Loading& loading, StateKeeper& state,
+               Stopwatch& stopwatch, QuerySketch& sketch);
 
   /// Forgets the ticks of leases that have ended. Any thread may call this. @param epoch  the present epoch
   void dropEndedLeases(std::uint64_t epoch) { leases_.dropEnded(epoch); }
 
  private:
-  ServiceEnvelope questions_, changes_;
+  ServiceEnvelope questions_, batch_questions_, changes_;
   Leases leases_;
   QueryServices query_;
   BatchService batches_;

@@ -38,7 +38,7 @@ TEST(ParamsFile, LoadingItGivesTheDefaults) {
               &P::allow_flat, &P::max_bodies, &P::max_frames, &P::max_pairs, &P::event_hysteresis, &P::max_events,
               &P::event_queue, &P::max_hits, &P::max_listed, &P::max_reasons, &P::max_rules, &P::max_description_bytes,
               &P::max_description_depth, &P::max_links, &P::mesh_roots, &P::use_visual, &P::max_mesh_bytes,
-              &P::max_mesh_triangles, &P::mesh_memory, &P::mesh_timeout, &P::query_threads, &P::marker_rate,
+              &P::max_mesh_triangles, &P::mesh_memory, &P::mesh_timeout, &P::query_threads, &P::batch_threads, &P::marker_rate,
               &P::distances_max, &P::distances_budget, &P::distances_threads);
   ASSERT_EQ(read.robots.size(), 1u);
   using R = RobotParams;
