@@ -5,6 +5,7 @@
 the answers must be."""
 import math
 import threading
+import time
 import unittest
 
 import numpy
@@ -14,7 +15,7 @@ from geometry_msgs.msg import TransformStamped
 from hgrid_proximity import obstacles
 from hgrid_proximity.client import Proximity
 from hgrid_proximity.errors import Refused
-from hgrid_proximity.msg import CodeNames, Lease, Shape, ShapeKind, Status, UnknownReason
+from hgrid_proximity.msg import CodeNames, Lease, Shape, ShapeKind, UnknownReason
 from tf2_msgs.msg import TFMessage
 from turning_arm import wait
 
@@ -223,29 +224,27 @@ class Batches(unittest.TestCase):
         self.assertEqual(numpy.isnan(late.distance).sum(), late.unknown)
         self.assertTrue(late.text)
 
-    # Claim: a query does not wait for long requests, although the node has only one thread for each of the two here.
+    # Claim: a query is answered before four long requests that came earlier, although the node has only one thread for
+    # each of the two kinds here. A busy machine may start the query so late that it shows nothing; then once more.
     def test_queries_do_not_wait_for_long_requests(self):
-        done = []
+        for _ in range(5):
+            done = []
+            requests = [threading.Thread(target=self.ask_for_long, args=(done,)) for _ in range(4)]
+            for request in requests:
+                request.start()
+            time.sleep(0.2)
+            self.assertTrue(self.proximity.query_sphere((0, 0, 0), 5.0).hit)
+            before = len(done)
+            for request in requests:
+                request.join()
+            self.assertEqual([field.distance.size for field in done], [98**3] * 4)
+            if before == 0:
+                return
+        self.fail("the query was never answered before the long requests")
 
-        def ask():
-            with Proximity("/proximity", timeout=60.0) as other:
-                done.append(other.distance_field((-2, -2, -2), (3.9, 3.9, 3.9), 0.04, 5.0, gradients=True, max_time=10.0))
-
-        counter = lambda: self.counters().get("distance_field.asked", 0)
-        before = counter()
-        requests = [threading.Thread(target=ask) for _ in range(4)]
-        for request in requests:
-            request.start()
-        wait(lambda: counter() > before, "the first long request")
-        self.assertTrue(self.proximity.query_sphere((0, 0, 0), 5.0).hit)
-        self.assertLess(len(done), 4, "the long requests were too short to show anything")
-        for request in requests:
-            request.join()
-        self.assertEqual([field.distance.size for field in done], [98**3] * 4)
-
-    def counters(self):
-        status = rospy.wait_for_message("/proximity/status", Status, 60.0)
-        return {counter.name: counter.value for counter in status.counters}
+    def ask_for_long(self, done):
+        with Proximity("/proximity", timeout=60.0) as other:
+            done.append(other.distance_field((-2, -2, -2), (3.9, 3.9, 3.9), 0.04, 5.0, gradients=True, max_time=10.0))
 
 
 if __name__ == "__main__":
